@@ -10,7 +10,7 @@
 #include "plot/gnuplot.h"
 #include "base/memory.h"
 
-enum { BARS = 3 };     /* ways that have a colour */
+enum { BARS = 5 };     /* ways that have a colour */
 enum {
     CASES = EFFICIENCY_CASES,
     REPETITIONS = 3,

@@ -19,15 +19,16 @@ struct scene_case {
     struct mark mark[2];
 };
 
-enum { EFFICIENCY_CASES = 18 };
+enum { EFFICIENCY_CASES = 21 };
 extern const struct scene_case efficiency_case[EFFICIENCY_CASES];
 
 /* Full peridynamics first, then adaptive runs by what they may save with. */
 struct way {
-    const char *method, *levers, *frame, *rest, *back;
+    const char *method, *levers, *frame, *rest, *back, *notch;
+    bool coarse;                         /* levels of coarse cells: one, two in finer scenes */
     const char *colour;                  /* of its bars; NULL: it has none */
 };
-enum { WAY_PD = 0, WAY_FRAME = 2, WAYS = 6, EFFICIENCY_SAMPLES = 100 };
+enum { WAY_PD = 0, WAY_FRAME = 2, WAY_SLITS = 3, WAY_LEVELS = 4, WAYS = 8, EFFICIENCY_SAMPLES = 100 };
 extern const struct way efficiency_way[WAYS];
 
 /* Scene and engine of a method; time step 0: its own. The correction of surfaces is for bonds alone: state-based

@@ -26,16 +26,20 @@ const struct scene_case efficiency_case[EFFICIENCY_CASES] = {
     {KALTHOFF_3D, "ospd", "1", NO_PAPER}, {KALTHOFF_3D, "mospd", "1", NO_PAPER},
     {PLATE_CRACK, "bond", "0", FINER("0.25 mm")},      {PLATE_HOLE, "bond", "0", FINER("0.25 mm")},
     {KALTHOFF, "bond", "3", FINER("0.5 mm")},          {KALTHOFF_3D, "bond", "1", FINER("1 mm")},
-    {KALTHOFF_3D, "ospd", "1", FINER("1 mm")},         {KALTHOFF_3D, "mospd", "1", FINER("1 mm")},
+    {PLATE_CRACK, "bond", "0", FINER("0.125 mm")},     {PLATE_HOLE, "bond", "0", FINER("0.125 mm")},
+    {KALTHOFF, "bond", "3", FINER("0.25 mm")},         {KALTHOFF_3D, "ospd", "1", FINER("1 mm")},
+    {KALTHOFF_3D, "mospd", "1", FINER("1 mm")},
 };
 
 const struct way efficiency_way[WAYS] = {
-    {"pd", "-", "current", "true", "false", NULL},
-    {"adaptive", "none", "current", "false", "false", "#b0b0b0"},
-    {"adaptive", "frame", "reference", "false", "false", "#2a6fbb"},
-    {"adaptive", "active_set", "current", "true", "false", NULL},
-    {"adaptive", "reversion", "current", "false", "true", NULL},
-    {"adaptive", "all", "reference", "true", "true", "#d1603d"},
+    {"pd", "-", "current", "true", "false", "bonds", false, NULL},
+    {"adaptive", "none", "current", "false", "false", "bonds", false, "#b0b0b0"},
+    {"adaptive", "frame", "reference", "false", "false", "bonds", false, "#2a6fbb"},
+    {"adaptive", "slits", "reference", "false", "false", "auto", false, "#3f9f6f"},
+    {"adaptive", "levels", "reference", "false", "false", "auto", true, "#7b4fa3"},
+    {"adaptive", "active_set", "current", "true", "false", "bonds", false, NULL},
+    {"adaptive", "reversion", "current", "false", "true", "bonds", false, NULL},
+    {"adaptive", "all", "reference", "true", "true", "auto", true, "#d1603d"},
 };
 
 bool efficiency_of_bonds(const struct scene_case *c) { return strcmp(c->model, "bond") == 0; }
@@ -44,7 +48,7 @@ status efficiency_make(struct engine *e, struct scene *s, const struct scene_cas
 {
     char step[32], samples[16];
     const struct way *w = &efficiency_way[way];
-    struct scene_override override[11] = {{"method", w->method},
+    struct scene_override override[13] = {{"method", w->method},
                                           {"output.samples", samples},
                                           {"model", c->model},
                                           {"mpm.frame", w->frame},
@@ -55,6 +59,8 @@ status efficiency_make(struct engine *e, struct scene *s, const struct scene_cas
     snprintf(samples, sizeof samples, "%d", EFFICIENCY_SAMPLES);
     if (way > 0) override[n++] = (struct scene_override){"conversion.reversion", w->back};
     if (way > 0) override[n++] = (struct scene_override){"conversion.tips", c->tips};
+    if (way > 0) override[n++] = (struct scene_override){"conversion.notch", w->notch};
+    override[n++] = (struct scene_override){"mpm.levels", !w->coarse ? "0" : c->spacing ? "2" : "1"};
     /* chosen for another surface */
     if (strstr(c->path, "plate_hole")) override[n++] = (struct scene_override){"mpm.origin", ""};
     if (c->spacing) override[n++] = (struct scene_override){"particles.spacing", c->spacing};
@@ -62,7 +68,10 @@ status efficiency_make(struct engine *e, struct scene *s, const struct scene_cas
     return bench_engine_make(e, s, c->path, NULL, override, n);
 }
 
-bool efficiency_is_run(const struct scene_case *c, int way) { return !c->spacing || way == WAY_PD || way == WAY_FRAME; }
+bool efficiency_is_run(const struct scene_case *c, int way)
+{
+    return !c->spacing || way == WAY_PD || (way >= WAY_FRAME && way <= WAY_LEVELS);
+}
 
 status efficiency_step(const struct scene_case *c, double *dt)
 {

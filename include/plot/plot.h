@@ -4,6 +4,7 @@
 #ifndef CLEAVE_PLOT
 #define CLEAVE_PLOT
 
+#include "data/region.h"
 #include "plot/gnuplot.h"
 #include "output/history.h"
 #include "output/output.h"
@@ -55,6 +56,8 @@ struct colour fragment_colour(int32_t fragment);
 struct view {
     double from[2], to[2];
     double top;                          /* damage at the upper end of the colours */
+    int notches;
+    const struct crack *notch;           /* pre-cracks of a plane scene, drawn as lines where damage is shown; borrowed */
 };
 
 /* Paints the particles, each over its own square (or disc where the lattice has turned), the nearest on top, into

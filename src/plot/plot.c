@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "output/output_files.h"
 #include "output/pictures.h"
@@ -184,9 +185,11 @@ static status draw_every(const struct request *r, const struct run_frames *frame
     return OK;
 }
 
-static status draw_maps(const struct request *r, const struct run_frames *frames, const struct cloud *cloud)
+static status draw_views(const struct request *r, const struct run_frames *frames, const struct cloud *cloud,
+                         const struct scene *scene)
 {
     struct view view = view_of(cloud, frames->shown);
+    if (scene && scene->dim == 2) view.notches = scene->cracks, view.notch = scene->crack;
     if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
         return status_set(FAILED, "%s: the frames hold no particles, or places that are not numbers", r->folder);
     TRY(draw_map(r, picture_path(r->folder, DRAWN_DAMAGE).text, MAP_DAMAGE, &view, cloud, frames->shown));
@@ -196,6 +199,16 @@ static status draw_maps(const struct request *r, const struct run_frames *frames
         TRY(draw_map(r, picture_path(r->folder, DRAWN_FRAGMENTS).text, MAP_FRAGMENT, &view, &cloud[frames->shown - 1],
                      1));
     return r->every ? draw_every(r, frames, &view) : OK;
+}
+
+/* The scene, as run, has the pre-cracks; pictures of a folder without one go without. */
+static status draw_maps(const struct request *r, const struct run_frames *frames, const struct cloud *cloud)
+{
+    struct scene scene;
+    const bool known = scene_read(&scene, path_join(r->folder, "scene.yaml").text, NULL, 0) == OK;
+    const status s = draw_views(r, frames, cloud, known ? &scene : NULL);
+    if (known) scene_free(&scene);
+    return s;
 }
 
 /* Draws the profiles of a bar beside its closed form, without the frame of t = 0. */

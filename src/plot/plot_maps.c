@@ -81,6 +81,18 @@ static void send_image(FILE *to, const struct colour *pixel, int width, int heig
 }
 
 /* Draws the panel at a place of the grid of panels; `second`: unit of time of all panels; `lowest`: no panel below. */
+/* Pre-cracks as thin lines over the next panel: slits of a mesh have no damage that would show them. */
+static void draw_notches(FILE *to, const struct view *view, double metre)
+{
+    fputs("unset arrow\n", to);
+    for (int k = 0; k < view->notches; k++) {
+        const struct crack *c = &view->notch[k];
+        if (c->n != 2) continue;
+        fprintf(to, "set arrow from %.9g,%.9g to %.9g,%.9g nohead front lw 1.2 lc rgb '#7a1020'\n",
+                c->corner[0][0] / metre, c->corner[0][1] / metre, c->corner[1][0] / metre, c->corner[1][1] / metre);
+    }
+}
+
 static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
                                  enum map map, const struct unit *second, int place, bool lowest)
 {
@@ -104,6 +116,7 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
         fputs("'\n", to);
     }
     fprintf(to, "set title 't = %.3g %s' font ',13' offset 0,-0.5\n", c->t / second->factor, second->name);
+    if (map == MAP_DAMAGE) draw_notches(to, view, metre.factor);
     struct colour *pixel = NEW("plot.pixel", (int64_t)size[0] * size[1], struct colour);
     raster_paint(pixel, size[0], size[1], view, c, map);
     send_image(to, pixel, size[0], size[1], from, step);
@@ -120,7 +133,7 @@ static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct vi
         pixel[k] = map_colour(map, KIND_PD, (k / BAR_COLUMNS + 0.5) * step[1], view->top);
     int shown = height < 360 ? height : 360;
     set_box(to, l, l->width - RIGHT + BAR_FROM, ABOVE, BAR_WIDTH, shown);
-    fprintf(to, "unset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\nset border 15\nunset grid\n"
+    fprintf(to, "unset arrow\nunset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\nset border 15\nunset grid\n"
                 "set xrange [0:1]\nset yrange [0:%.9g]\nset y2range [0:%.9g]\nset y2tics out %.9g format '%%.1f'\n"
                 "set y2label '%s' offset -1,0\n",
             view->top, view->top, view->top > 0.6 ? 0.2 : 0.1, map == MAP_KIND ? "peridynamic damage" : "damage");

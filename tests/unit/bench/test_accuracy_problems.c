@@ -102,7 +102,7 @@ static const struct cheap {
              {&accuracy_beam, 0, "pd bond", 5, 0.0063},
              {&accuracy_rod, 1, "pd bond", 5, 0.0562},
              {&accuracy_fracture, 0, "pd bond", 60, 0.177},
-             {&accuracy_fracture, 1, "adaptive reference", 100, 0.0954}};
+             {&accuracy_fracture, 1, "adaptive reference", 100, 0.0428}};
 
 static void points_are_as_far_off_as_measured(void **state)
 {
