@@ -57,7 +57,7 @@ struct view {
     double from[2], to[2];
     double top;                          /* damage at the upper end of the colours */
     int notches;
-    const struct crack *notch;           /* pre-cracks of a plane scene, drawn as lines where damage is shown; borrowed */
+    const struct crack *notch;           /* pre-cracks of a plane scene, lines where damage is shown; borrowed */
 };
 
 /* Paints the particles, each over its own square (or disc where the lattice has turned), the nearest on top, into

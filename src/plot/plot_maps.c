@@ -133,7 +133,8 @@ static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct vi
         pixel[k] = map_colour(map, KIND_PD, (k / BAR_COLUMNS + 0.5) * step[1], view->top);
     int shown = height < 360 ? height : 360;
     set_box(to, l, l->width - RIGHT + BAR_FROM, ABOVE, BAR_WIDTH, shown);
-    fprintf(to, "unset arrow\nunset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\nset border 15\nunset grid\n"
+    fprintf(to, "unset arrow\nunset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\nset border 15\n"
+                "unset grid\n"
                 "set xrange [0:1]\nset yrange [0:%.9g]\nset y2range [0:%.9g]\nset y2tics out %.9g format '%%.1f'\n"
                 "set y2label '%s' offset -1,0\n",
             view->top, view->top, view->top > 0.6 ? 0.2 : 0.1, map == MAP_KIND ? "peridynamic damage" : "damage");
