@@ -150,6 +150,19 @@ real levels_power(const struct mesh_levels *l)
 
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */
 
+/* Which runs of a level may have a point beyond the stress at which they split, as its last forces found. */
+static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
+{
+    char name[48];
+    uint8_t *stressed = NEW("levels.stressed", mesh->runs, uint8_t);
+    for (int64_t r = 0; r < mesh->runs; r++) stressed[r] = mesh->run[r].stressed;
+    snprintf(name, sizeof name, "levels/%d_stressed", level);
+    const status s = mesh->runs > 0 ? a->exchange(a, name, stressed, (size_t)mesh->runs) : OK;
+    for (int64_t r = 0; r < mesh->runs; r++) mesh->run[r].stressed = stressed[r] != 0;
+    memory_free(stressed);
+    return s;
+}
+
 /* The fields of the nodes of a level. */
 static status level_archive(struct mesh *mesh, int level, struct archive *a)
 {
@@ -160,7 +173,7 @@ static status level_archive(struct mesh *mesh, int level, struct archive *a)
             snprintf(name, sizeof name, "levels/%d_%zu_%d", level, f, d);
             TRY(a->exchange(a, name, field[f][d], (size_t)mesh->grid.n * sizeof(real)));
         }
-    return OK;
+    return stressed_archive(mesh, level, a);
 }
 
 status levels_archive(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
@@ -180,6 +193,7 @@ status levels_archive(struct mesh_levels *l, const struct particles *p, const st
         levels_link(l);
         levels_fold(l, false);
         levels_runs_make(l);
+        levels_find_safe(l);
     }
     for (int level = 1; level <= l->n; level++) TRY(level_archive(&l->at[level].mesh, level, a));
     return OK;
