@@ -153,6 +153,15 @@ static inline int mesh_modes(int dim) { return symmetric_count(dim) + mesh_bends
 /* Groups of partial cells side by side. */
 static inline int64_t mesh_groups(const struct mesh *mesh) { return (mesh->partial_cells + LANES - 1) / LANES; }
 
+/* May a point of any cell be past its trigger, as the last forces found? */
+static inline bool mesh_stressed(const struct mesh *mesh)
+{
+    bool any = false;
+    for (int64_t r = 0; r < mesh->runs; r++) any |= mesh->run[r].stressed;
+    for (int64_t k = 0; k < mesh_groups(mesh) * LANES; k++) any |= mesh->partial_stressed[k];
+    return any;
+}
+
 /* Block of a node. */
 static inline int64_t mesh_block(const struct mesh *mesh, int64_t I)
 {

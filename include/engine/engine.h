@@ -245,7 +245,7 @@ status engine_mesh_make(struct engine *e);
  * pre-crack, in words. */
 status engine_notch_convert(struct engine *e);
 void engine_notch_tips(struct engine *e);
-void engine_notch_approach(struct engine *e);
+bool engine_notch_approach(struct engine *e);          /* has it looked, and may have marked points? */
 void engine_notch_text(const struct engine *e, int crack, char *text, size_t room);
 real engine_mesh_critical_step(const struct engine *e);
 void engine_mesh_move(struct engine *e, real middle, real dt_velocity);

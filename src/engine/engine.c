@@ -268,14 +268,26 @@ static void approach(struct engine *e)
     approach_mark(&e->part, e->scene->bodies, e->rigid, e->scene->rigids, APPROACH_REACH * e->scene->spacing);
 }
 
+/* May a point have been marked for conversion in this step, or a bond have changed? Points on the grid say nothing of
+ * it; of the mesh its cells say that their points may be. */
+static bool may_convert(const struct engine *e, const struct step *now)
+{
+    return now->broken > 0 || e->coupling.approaches || e->part.n_free > 0 || e->part.n_grid_coupled > 0 ||
+           e->scene->growths > 0 || e->part.low_since || mesh_stressed(&e->reference.mesh);
+}
+
 /* Material points that become peridynamic, and what follows from them and from broken bonds: the active set, partial
  * stresses, the interface zone, partial cells. */
 static void convert_points(struct engine *e, struct step *now)
 {
     if (e->scene->active_set) active_rows_update(&e->bonds, &e->part, &e->loads);
     if (e->coupling.approaches && e->clock.step % APPROACH_STEPS == 0) approach(e);
-    engine_notch_approach(e);
+    const bool looked = engine_notch_approach(e);
     engine_breaks(e, now->broken);
+    if (!looked && !may_convert(e, now)) {
+        lap(&e->report.laps, LAP_CONVERT);
+        return;
+    }
     const struct conversion_sync sync = {engine_mesh_sync_points, e};
     engine_levels_guard(e);
     now->converted = convert(&e->coupling.conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,

@@ -79,10 +79,11 @@ void engine_notch_tips(struct engine *e)
     if (e->coupling.notches.lost) tips_before(&e->fracture.tips, e->coupling.notches.lost);
 }
 
-void engine_notch_approach(struct engine *e)
+bool engine_notch_approach(struct engine *e)
 {
     const struct notches *n = &e->coupling.notches;
-    if (n->faces == 0 || e->scene->contact_between != CONTACT_ALL || e->clock.step % APPROACH_STEPS != 0) return;
+    if (n->faces == 0 || e->scene->contact_between != CONTACT_ALL || e->clock.step % APPROACH_STEPS != 0) return false;
     engine_mesh_sync_points(e, n->face, n->faces);
     notches_approach(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);
+    return true;
 }

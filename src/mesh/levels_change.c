@@ -2,6 +2,7 @@
  * what a merged cell had more or less of momentum goes to its corners in equal parts, which is nothing where
  * velocities are linear. A split loses kinetic energy, as velocities inside a coarse cell are bilinear; a merged cell
  * has that of its corners, which levels_rough.c keeps near that of its parts. */
+#include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -9,25 +10,25 @@
 
 /* ---- from coarse cells to nodes of level 0 ----------------------------------------------------------------------- */
 
-/* A coarse cell round a node of level 0 that no cell of level 0 has, and the place in it: level 0 if there is none. */
+/* A coarse cell round a node I of level 0, with indices k, that no cell of level 0 has, and the place in it: level 0 if there is none. */
 struct cell_around { int level; int64_t cell; real t[DIM_MAX]; };
 
-static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I)
+static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, const int64_t *k)
 {
     const struct mesh *fine = l->fine;
     const int dim = fine->grid.dim;
     struct cell_around a = {0};
-    int64_t k[DIM_MAX], own[DIM_MAX], q[DIM_MAX], cell = -1;
+    int64_t own[DIM_MAX], q[DIM_MAX];
+    int corner = -1;
     for (int c = (1 << dim) - 1; c >= 0; c--) {              /* at last the cell that the node is the lowest of */
         const int64_t J = I - fine->corner[c];
         if (J < 0 || fine->kind[J] == CELL_EMPTY) continue;
         if (fine->kind[J] != CELL_COARSE) return (struct cell_around){0};
-        cell = J;
+        corner = c;
     }
-    if (cell < 0) return a;
-    a.level = l->level[cell];
-    walk_at(&fine->grid, I, k);
-    walk_at(&fine->grid, cell, own);
+    if (corner < 0) return a;
+    a.level = l->level[I - fine->corner[corner]];
+    for (int d = 0; d < dim; d++) own[d] = k[d] - (corner >> d & 1);
     a.cell = coarse_cell(l, a.level, own, q);
     for (int d = 0; d < dim; d++)
         a.t[d] = (real)(k[d] - l->offset[0][d] - ((q[d] - l->offset[a.level][d]) << a.level)) / (real)(1 << a.level);
@@ -46,12 +47,14 @@ static real field_at(const struct mesh *mesh, const struct cell_around *a, const
     return value;
 }
 
-void levels_interpolate(struct mesh_levels *l)
+static void row_interpolate(struct mesh_levels *l, int64_t row)
 {
     struct mesh *fine = l->fine;
-#pragma omp parallel for schedule(static)
-    for (int64_t I = 0; I < fine->grid.n; I++) {
-        const struct cell_around a = coarse_around(l, I);
+    const int64_t first = row * fine->grid.count[0];
+    int64_t k[DIM_MAX];
+    walk_at(&fine->grid, first, k);
+    for (int64_t I = first; I < first + fine->grid.count[0]; I++, k[0]++) {
+        const struct cell_around a = coarse_around(l, I, k);
         if (a.level == 0) continue;
         const struct mesh *mesh = &l->at[a.level].mesh;
         for (int d = 0; d < fine->grid.dim; d++) {
@@ -59,6 +62,13 @@ void levels_interpolate(struct mesh_levels *l)
             fine->grid.velocity[d][I] = field_at(mesh, &a, mesh->grid.velocity[d]);
         }
     }
+}
+
+void levels_interpolate(struct mesh_levels *l)
+{
+    struct mesh *fine = l->fine;
+#pragma omp parallel for schedule(static)
+    for (int64_t row = 0; row < fine->rows; row++) row_interpolate(l, row);
 }
 
 /* ---- to the nodes of new cells ----------------------------------------------------------------------------------- */
@@ -142,9 +152,11 @@ static void velocities_make(struct mesh_levels *l)
     levels_momenta_find(l);
 }
 
-/* B w = v (kernels/mesh/mesh_inertia.h) by w <- w + v - B w: eigenvalues of B - 1 are below 0.48, as match is at most
- * 1/2 and those of consistent mass over lumped mass are at least 1/27. */
+/* B w = v (kernels/mesh/mesh_inertia.h) by w <- w + v - B w, to round-off: eigenvalues of B - 1 are below 0.48, as
+ * match is at most 1/2 and those of consistent mass over lumped mass are at least 1/27; for long waves they are much
+ * smaller. */
 enum { MOMENTA_ROUNDS = 52 };
+#define MOMENTA_TOLERANCE 3e-16          /* of the largest velocity */
 
 void levels_momenta_find(struct mesh_levels *l)
 {
@@ -155,11 +167,18 @@ void levels_momenta_find(struct mesh_levels *l)
             memcpy(g->momentum[d], g->velocity[d], (size_t)g->n * sizeof(real));
             now[d] = g->force[d];
         }
-        for (int round = 0; round < MOMENTA_ROUNDS; round++) {
+        real left = INFINITY, most = 0;
+        for (int d = 0; d < g->dim; d++)
+            for (int64_t J = 0; J < g->n; J++) most = real_max(most, fabs(g->velocity[d][J]));
+        for (int round = 0; round < MOMENTA_ROUNDS && left > MOMENTA_TOLERANCE * most; round++) {
             mesh_velocity(&l->at[level].mesh, g->momentum, now);
+            left = 0;
             for (int d = 0; d < g->dim; d++)
-                for (int64_t J = 0; J < g->n; J++)
-                    if (g->mass[J] > 0) g->momentum[d][J] += g->velocity[d][J] - now[d][J];
+                for (int64_t J = 0; J < g->n; J++) {
+                    const real missing = g->mass[J] > 0 ? g->velocity[d][J] - now[d][J] : 0;
+                    g->momentum[d][J] += missing;
+                    left = real_max(left, fabs(missing));
+                }
         }
         mesh_velocity(&l->at[level].mesh, g->momentum, g->velocity);
         for (int d = 0; d < g->dim; d++) memset(now[d], 0, (size_t)g->n * sizeof(real));
