@@ -7,7 +7,7 @@
 
 /* Cells of level 0 round peridynamic particles: beyond LEVELS_ROOMY, so that cracks run some way between two changes.
  * Cells merge later than they split. */
-enum { ZONE = 10, ZONE_LATE = 13, AROUND_STRESS = 4 };
+enum { ZONE = 12, ZONE_LATE = 16, AROUND_STRESS = 10 };
 #define SPLITS 0.5                       /* of the stress at which points convert */
 #define MERGES 0.25
 #define ROUGH 0.01                       /* of the mean energy per mass: motion that a coarser cell would lose */
