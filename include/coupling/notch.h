@@ -10,7 +10,7 @@
 #define NOTCH_ZONE_LEAST 6.0
 #define NOTCH_ZONE 8.0
 /* Faces of a slit become peridynamic before they are so much nearer than at the start [spacings]. */
-#define NOTCH_GAP 0.01
+#define NOTCH_GAP 1e-4
 
 struct notch { bool slit; const char *reason; };      /* reason: why it is none; NULL of slits */
 

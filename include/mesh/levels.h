@@ -48,18 +48,18 @@ struct mesh_levels {
     int64_t offset[LEVELS_MAX + 1][DIM_MAX];     /* of a level: index of the node at the lower corner of the body */
     uint8_t *level;                      /* [fine->grid.n] of the cells of level 0: that of the cell they are part of */
     uint8_t *calm;                       /* [fine->grid.n] looks in a row in which a cell could have been coarser */
-    uint8_t *wanted;                     /* [fine->grid.n] 1: cells around must be of level 0 at the next change */
+    uint8_t *wanted;                     /* [fine->grid.n] enum levels_wanted: cells around must be of level 0 next */
     uint8_t *safe;                       /* [fine->grid.n] enum levels_distance of cells of level 0 */
     bool any_wanted;
+    bool returned;                       /* points that waited are marked again in this step */
     real wave_speed;                     /* [m/s] */
+    int safe_cells, roomy_cells;         /* of level 0 between a point that converts and a coarse cell */
     int64_t changes;                     /* of levels, since the start */
     struct mesh_level at[LEVELS_MAX + 1];
 };
 
-/* Cells of level 0 between a point that converts, with the points around it, and a coarse cell: 3 spacings of
- * neighbours, 3 of bonds, 3 of partial stress, and one cell; where points beside bonds that break convert next, 4 more
- * spacings. */
-enum { LEVELS_SAFE = 5, LEVELS_ROOMY = 7 };
+/* Because a point may convert, or has lost a bond and waits for it. */
+enum levels_wanted { WANTED_NOT, WANTED_STRESS, WANTED_LOST_BOND };
 enum levels_distance { DISTANCE_UNSAFE, DISTANCE_SAFE, DISTANCE_ROOMY };
 
 /* Cells of a level; of level 0 those that hold any point and are in no coarse cell. */
@@ -79,9 +79,13 @@ static inline const struct mesh *level_mesh_of(const struct mesh_levels *l, int 
 static inline int levels_stride(const struct mesh_levels *l) { return 1 << l->n; }
 
 /* n coarse levels over the mesh `fine`, all of whose cells are of level 0 at first. density [materials] [kg/m^3]. */
-status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct mesh_source *source,
-                   const real *density);
+status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct particles *p,
+                   const struct mesh_source *source, const real *density);
 void levels_free(struct mesh_levels *l);
+
+/* Cells of level 0 that must be between a point that converts and a coarse cell, as forces then reach so far; and those
+ * at which finer cells are wanted, as points near bonds that break convert next. */
+void levels_distances(struct mesh_levels *l, int safe, int roomy);
 
 /* Inertia of coarse cells (kernels/mesh/mesh_inertia.h) such that they disperse waves as bonds do whose dispersion is
  * that of lumped cells of edge `edge` [m], in steps dt [s] at this wave speed [m/s]. */

@@ -5,9 +5,9 @@
 #include "base/memory.h"
 #include "engine/engine.h"
 
-/* Cells of level 0 round peridynamic particles: beyond LEVELS_ROOMY, so that cracks run some way between two changes.
- * Cells merge later than they split. */
-enum { ZONE = 12, ZONE_LATE = 16, AROUND_STRESS = 10 };
+/* Cells of level 0 round peridynamic particles, beyond those that let points convert: cracks run some way between two
+ * changes. Cells merge later than they split. */
+enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10 };
 #define SPLITS 0.5                       /* of the stress at which points convert */
 #define MERGES 0.25
 #define ROUGH 0.01                       /* of the mean energy per mass: motion that a coarser cell would lose */
@@ -132,17 +132,18 @@ static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t 
     for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
 }
 
-/* Cells of level 0 that must stay so: within `zone` cells of peridynamic particles and where something is wanted, and
+/* Cells of level 0 that must stay so: within `more` cells beyond the roomy ones of
+ * peridynamic particles and where something is wanted, and
  * within one of what loads act on, of mirrors and of slits. The caller frees them. */
-static uint8_t *demand_make(const struct engine *e, int zone)
+static uint8_t *demand_make(const struct engine *e, int more)
 {
     const struct mesh_levels *l = &e->reference.levels;
     const struct particles *p = &e->part;
     const int64_t n = l->fine->grid.n;
     uint8_t *demand = NEW("levels.demand", n, uint8_t), *fixed = NEW("levels.fixed", n, uint8_t);
-    memcpy(demand, l->wanted, (size_t)n);
+    for (int64_t I = 0; I < n; I++) demand[I] = l->wanted[I] != WANTED_NOT;
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) demand[cell_of(l->fine, p, p->list[KIND_PD][k])] = 1;
-    levels_dilate(l, demand, zone);
+    levels_dilate(l, demand, l->roomy_cells + more);
     for (int b = 0; b < e->loads.n; b++)
         for (int64_t k = 0; k < e->loads.load[b].n; k++) fixed[cell_of(l->fine, p, e->loads.load[b].particle[k])] = 1;
     demand_mirrors(e, fixed);
@@ -232,7 +233,7 @@ status engine_levels_make(struct engine *e, bool restored)
     const struct scene *s = e->scene;
     real density[UINT8_MAX], fastest = 0;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
-    TRY(levels_make(&r->levels, engine_levels_number(e), &r->mesh, &r->source, density));
+    TRY(levels_make(&r->levels, engine_levels_number(e), &r->mesh, &e->part, &r->source, density));
     memory_free(r->coarse);
     r->coarse = NEW("engine.coarse_elastic", s->materials, struct elastic);
     for (int m = 0; m < s->materials; m++) {
@@ -242,10 +243,14 @@ status engine_levels_make(struct engine *e, bool restored)
     }
     if (r->levels.n == 0) return OK;
     levels_match(&r->levels, alike_edge(s), fastest, e->clock.dt);
+    /* a point takes its neighbours along, they have bonds, and families at the ends of those reach one horizon more */
+    const real reach = (s->model == MODEL_BOND ? 1.0 : 1.5) * s->horizon;
+    const int safe = (int)ceil(reach) + 1;
+    levels_distances(&r->levels, safe, safe + (int)ceil(0.5 * s->horizon));
     for (int k = 1; k <= r->levels.n; k++)
         loads_level_find(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
     if (restored) return OK;
-    uint8_t *demand = demand_make(e, ZONE), *level = NEW("levels.next", r->mesh.grid.n, uint8_t);
+    uint8_t *demand = demand_make(e, ZONE_MORE), *level = NEW("levels.next", r->mesh.grid.n, uint8_t);
     uint8_t *stressed = stressed_cells(e, SPLITS, true);
     marks_add(&r->levels, stressed, demand);
     uint8_t *limit = NEW("levels.limit", r->mesh.grid.n, uint8_t);
@@ -278,7 +283,7 @@ static void limits_find(struct engine *e, bool looks, uint8_t *limit)
     const int64_t n = l->fine->grid.n;
     memcpy(limit, l->level, (size_t)n);
     if (!looks) return;
-    uint8_t *late = demand_make(e, ZONE_LATE), *stressed = stressed_cells(e, MERGES, true);
+    uint8_t *late = demand_make(e, ZONE_MORE + ZONE_LATE), *stressed = stressed_cells(e, MERGES, true);
     marks_add(l, stressed, late);
     for (int64_t I = 0; I < n; I++) {
         l->calm[I] = late[I] ? 0 : l->calm[I] < CALM_LOOKS ? l->calm[I] + 1 : CALM_LOOKS;
@@ -286,6 +291,19 @@ static void limits_find(struct engine *e, bool looks, uint8_t *limit)
     }
     memory_free(late);
     memory_free(stressed);
+}
+
+/* Points that lost a bond near coarse cells convert now that these are finer: all material points in their cells. */
+static void lost_bonds_return(struct engine *e)
+{
+    struct mesh_levels *l = &e->reference.levels;
+    struct particles *p = &e->part;
+    if (!l->any_wanted) return;
+    for (int64_t k = 0; k < p->n_of[KIND_MPM]; k++) {
+        const int32_t i = p->list[KIND_MPM][k];
+        if (l->wanted[cell_of(l->fine, p, i)] == WANTED_LOST_BOND) p->flag[i] |= FLAG_LOST_BOND, l->returned = true;
+    }
+    memset(l->wanted, WANTED_NOT, (size_t)l->fine->grid.n);
 }
 
 void engine_levels_follow(struct engine *e)
@@ -297,33 +315,39 @@ void engine_levels_follow(struct engine *e)
     uint8_t *stressed = any_stressed(l) ? stressed_cells(e, SPLITS, false) : NULL;
     if (!looks && !stressed && !l->any_wanted) return;
     const int64_t n = l->fine->grid.n;
-    uint8_t *demand = demand_make(e, ZONE), *limit = NEW("levels.limit", 2 * n, uint8_t), *level = limit + n;
+    uint8_t *demand = demand_make(e, ZONE_MORE), *limit = NEW("levels.limit", 2 * n, uint8_t), *level = limit + n;
     marks_add(l, stressed, demand);
     limits_find(e, looks, limit);
     next_levels(e, demand, limit, level);
     if (memcmp(level, l->level, (size_t)n) != 0) change(e, level);
-    if (l->any_wanted) memset(l->wanted, 0, (size_t)n);
+    lost_bonds_return(e);
     l->any_wanted = false;
     memory_free(demand);
     memory_free(limit);
     memory_free(stressed);
 }
 
+/* A marked point near a coarse cell wants finer ones at the next change, and if it is too near it waits for them. */
+static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
+{
+    const unsigned marks = FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND;
+    const int64_t cell = cell_of(l->fine, p, i);
+    if (!(p->flag[i] & marks) || l->safe[cell] == DISTANCE_ROOMY) return;
+    const bool waits = l->safe[cell] == DISTANCE_UNSAFE && p->kind[i] == KIND_MPM;
+    const uint8_t wanted = waits && p->flag[i] & FLAG_LOST_BOND ? WANTED_LOST_BOND : WANTED_STRESS;
+    if (l->wanted[cell] < wanted) l->wanted[cell] = wanted;
+    l->any_wanted = true;
+    if (waits) p->flag[i] &= (uint8_t)~marks;
+}
+
 void engine_levels_guard(struct engine *e)
 {
-    struct mesh_levels *l = &e->reference.levels;
     struct particles *p = &e->part;
-    const unsigned waits = FLAG_STRESSED | FLAG_NEAR;
-    if (l->n == 0 || !convert_due(p)) return;
+    e->reference.levels.returned = false;
+    if (e->reference.levels.n == 0 || !convert_due(p)) return;
     for (int64_t first = 0; first < p->n; first += LANES) {
-        if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(waits | FLAG_LOST_BOND))) continue;
-        for (int64_t i = first; i < first + LANES && i < p->n; i++) {
-            if (!(p->flag[i] & (waits | FLAG_LOST_BOND))) continue;
-            const int64_t cell = cell_of(l->fine, p, i);
-            if (l->safe[cell] == DISTANCE_ROOMY) continue;
-            l->wanted[cell] = 1, l->any_wanted = true;
-            if (l->safe[cell] == DISTANCE_UNSAFE) p->flag[i] &= (uint8_t)~waits;     /* until the next change */
-        }
+        if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND))) continue;
+        for (int64_t i = first; i < first + LANES && i < p->n; i++) point_guard(&e->reference.levels, p, i);
     }
 }
 

@@ -9,17 +9,14 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Lower corner of the body: the lowest indices of a cell with points, along each axis. */
-static void corner_find(struct mesh_levels *l)
+/* Lower corner of the body: the cell of its lowest particles, whatever their kind is now. */
+static void corner_find(struct mesh_levels *l, const struct particles *p)
 {
-    const struct mesh *fine = l->fine;
-    int64_t k[DIM_MAX];
-    for (int d = 0; d < DIM_MAX; d++) l->offset[0][d] = INT64_MAX;
-    for (int64_t I = 0; I < fine->grid.n; I++) {
-        if (fine->kind[I] == CELL_EMPTY) continue;
-        walk_at(&fine->grid, I, k);
-        for (int d = 0; d < fine->grid.dim; d++)
-            if (k[d] < l->offset[0][d]) l->offset[0][d] = k[d];
+    const struct grid *g = &l->fine->grid;
+    real low, high;
+    for (int d = 0; d < g->dim; d++) {
+        particles_extent(p, p->n, d, &low, &high);
+        l->offset[0][d] = grid_cell(g, d, low) - g->first[d];
     }
 }
 
@@ -45,13 +42,13 @@ static status level_make(struct mesh_levels *l, int level, const struct mesh_sou
     return OK;
 }
 
-status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct mesh_source *source,
-                   const real *density)
+status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct particles *p,
+                   const struct mesh_source *source, const real *density)
 {
     memset(l, 0, sizeof *l);
     if (n == 0 || fine->points == 0) return OK;
     l->n = n, l->fine = fine;
-    corner_find(l);
+    corner_find(l, p);
     l->level = NEW("levels.level", fine->grid.n + LANES, uint8_t);     /* also marks: mesh_cells_again */
     l->calm = NEW("levels.calm", fine->grid.n, uint8_t);
     l->wanted = NEW("levels.wanted", fine->grid.n, uint8_t);
@@ -187,7 +184,7 @@ status levels_archive(struct mesh_levels *l, const struct particles *p, const st
     ARCHIVE_VALUE(a, "levels/any_wanted", l->any_wanted);
     ARCHIVE_VALUE(a, "levels/changes", l->changes);
     if (!a->saving) {
-        if (!levels_sound(l, p)) return status_set(FAILED, "cannot resume: the levels of the checkpoint are no mesh");
+        if (!levels_sound(l)) return status_set(FAILED, "cannot resume: the levels of the checkpoint are no mesh");
         mesh_cells_again(l->fine, p, source, l->level);
         levels_cells_make(l, p);
         levels_link(l);

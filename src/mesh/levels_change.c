@@ -10,7 +10,8 @@
 
 /* ---- from coarse cells to nodes of level 0 ----------------------------------------------------------------------- */
 
-/* A coarse cell round a node I of level 0, with indices k, that no cell of level 0 has, and the place in it: level 0 if there is none. */
+/* A coarse cell round a node I of level 0, with indices k, that no cell of level 0 has, and the place in it: level 0 if
+ * there is none. */
 struct cell_around { int level; int64_t cell; real t[DIM_MAX]; };
 
 static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, const int64_t *k)

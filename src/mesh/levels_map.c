@@ -133,15 +133,22 @@ void levels_map(const struct mesh_levels *l, const struct particles *p, const ui
     for (int level = 0; level <= l->n; level++) memory_free(map[level].ok);
 }
 
-bool levels_sound(const struct mesh_levels *l, const struct particles *p)
+bool levels_sound(const struct mesh_levels *l)
 {
-    const size_t cells = (size_t)l->fine->grid.n;
-    uint8_t *demand = NEW("levels.demand", 2 * l->fine->grid.n, uint8_t), *to = demand + cells;
-    for (size_t I = 0; I < cells; I++) demand[I] = l->level[I] == 0;
-    levels_map(l, p, demand, l->level, to);
-    const bool sound = memcmp(to, l->level, cells) == 0;
-    memory_free(demand);
-    return sound;
+    const struct grid *g = &l->fine->grid;
+    int64_t k[DIM_MAX] = {0}, covered = 0, coarse = 0;
+    bool sound = true;
+    for (int64_t I = 0; I < g->n && sound; I++, walk_on(g, k)) {
+        const int level = l->level[I];
+        coarse += level > 0;
+        sound = level <= l->n;
+        if (level == 0 || !sound || !is_lowest(l, level, k)) continue;
+        for (int part = 0; part < parts_of(l, level) && sound; part++, covered++) {
+            const int64_t J = part_at(l, level, I, part);
+            sound = J < g->n && l->level[J] == level && l->fine->kind[J] == CELL_WHOLE;
+        }
+    }
+    return sound && covered == coarse;
 }
 
 /* Marks what is within `reach` of a mark along a line of n cells, `stride` apart. */
@@ -168,13 +175,19 @@ void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach)
                 line_dilate(mark + I, g->count[d], g->stride[d], reach);
 }
 
+void levels_distances(struct mesh_levels *l, int safe, int roomy)
+{
+    l->safe_cells = safe, l->roomy_cells = roomy;
+    levels_find_safe(l);
+}
+
 void levels_find_safe(struct mesh_levels *l)
 {
     const int64_t n = l->fine->grid.n;
     uint8_t *near = NEW("levels.near", n, uint8_t);
     for (int64_t I = 0; I < n; I++) l->safe[I] = near[I] = l->level[I] > 0;
-    levels_dilate(l, l->safe, LEVELS_SAFE);
-    levels_dilate(l, near, LEVELS_ROOMY);
+    levels_dilate(l, l->safe, l->safe_cells);
+    levels_dilate(l, near, l->roomy_cells);
     for (int64_t I = 0; I < n; I++)
         l->safe[I] = l->safe[I] ? DISTANCE_UNSAFE : near[I] ? DISTANCE_SAFE : DISTANCE_ROOMY;
     memory_free(near);

@@ -86,8 +86,8 @@ void levels_runs_make(struct mesh_levels *l);
 void levels_interpolate(struct mesh_levels *l);
 /* Momenta of the nodes of coarse cells, over mass, that belong to their velocities, which then differ by round-off. */
 void levels_momenta_find(struct mesh_levels *l);
-/* Are the levels those of cells that levels_map allows? */
-bool levels_sound(const struct mesh_levels *l, const struct particles *p);
+/* Are coarse cells whole, and their levels those of all their parts? */
+bool levels_sound(const struct mesh_levels *l);
 /* Marks the cells of level 0 that are far from coarse ones. */
 void levels_find_safe(struct mesh_levels *l);
 

@@ -23,6 +23,8 @@ for threads in 1 2; do
         case $result in
             0) pass ;;
             1) is "$megabytes MB, $threads threads: lines: $(cat "$work/err")" "$(wc -l <"$work/err")" 1; failed=$((failed + 1)) ;;
+            2) is "$megabytes MB, $threads threads: refused: $(cat "$work/err")" "$(grep -c 'can be had (ulimit -v)' "$work/err")" "$(wc -l <"$work/err")"
+               failed=$((failed + 1)) ;;
             *) fail "$megabytes MB, $threads threads: status $result: $(cat "$work/err")" ;;
         esac
         megabytes=$((megabytes + 1 + megabytes / 16))

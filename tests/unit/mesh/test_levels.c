@@ -70,7 +70,7 @@ static void plate_make(struct plate *b, enum space space, int levels, int length
     b->source = (struct mesh_source){.elastic = b->elastic, .isotropic = b->elastic, .materials = CLOUD_MATERIALS};
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = KIND_MPM, p->flag[i] |= FLAG_MESHED;
     assert_ok(mesh_make(&b->mesh, p, &like, &b->source));
-    assert_ok(levels_make(&b->levels, levels, &b->mesh, &b->source, density));
+    assert_ok(levels_make(&b->levels, levels, &b->mesh, &b->c.p, &b->source, density));
     b->dt = CLOUD_SPACING / b->c.material[0].wave_speed;
     levels_match(&b->levels, 2 * CLOUD_SPACING, b->c.material[0].wave_speed, b->dt);
 }
