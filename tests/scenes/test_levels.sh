@@ -87,9 +87,11 @@ for levels in 2 3 4; do
     calm "$work/crush$levels" "$work/crush.yaml" -s mpm.levels=$levels
     sound crush$levels 0.03
 done
-interrupted "$work/crushed" 60 "$work/crush.yaml" -s mpm.levels=3
-calm "$work/crushed" --resume "$work/crush.yaml" -s mpm.levels=3
-same "crushed, interrupted after 60 lines" "$work/crush3" "$work/crushed"
+finer="$work/crush.yaml -s mpm.levels=3 -s particles.spacing=0.5mm -s time.step=0.03us"
+calm "$work/whole" $finer
+interrupted "$work/crushed" 60 $finer
+calm "$work/crushed" --resume $finer
+same "crushed, interrupted after 60 lines" "$work/whole" "$work/crushed"
 
 # ---- refusals ----------------------------------------------------------------------------------------------------------
 
