@@ -307,17 +307,24 @@ static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct parti
     return false;
 }
 
+/* That bound for eight cells of a run, from its k-th on [Pa]. */
+static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
+                                       int64_t k, const int dim, const bool finite)
+{
+    struct mesh_cell s;
+    lanes u[CORNERS_MAX][3];
+    mesh_run_load(mesh, run, k, u, dim);
+    cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
+    return cells_tension(m, &s, NULL, dim);
+}
+
 /* Marks the points past their trigger in a run; cells are tested point by point where the bound exceeds the trigger. */
 static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                    const struct mesh_run *run, const int dim, const bool finite)
 {
     const struct elastic *own = &m[run->material];
     for (int64_t k = 0; k < run->cells; k += LANES) {
-        struct mesh_cell s;
-        lanes u[CORNERS_MAX][3];
-        mesh_run_load(mesh, run, k, u, dim);
-        cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
-        const lanes tension = cells_tension(own, &s, NULL, dim);
+        const lanes tension = run_tension(mesh, own, run, k, dim, finite);
         for (int64_t l = 0; l < LANES && l < run->cells - k; l++)
             if (tension[l] > own->trigger) cell_mark(mesh, p, m, run->cell + k + l, dim, finite);
     }
@@ -329,11 +336,7 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
 {
     const struct elastic *own = &m[run->material];
     for (int64_t k = 0; k < run->cells; k += LANES) {
-        struct mesh_cell s;
-        lanes u[CORNERS_MAX][3];
-        mesh_run_load(mesh, run, k, u, dim);
-        cell_strain(&s, mesh->grid.h, u, dim, finite && dim > 1);
-        const lanes tension = cells_tension(own, &s, NULL, dim);
+        const lanes tension = run_tension(mesh, own, run, k, dim, finite);
         for (int64_t l = 0; l < LANES && l < run->cells - k; l++)
             if (tension[l] > share * own->trigger) mark[run->cell + k + l] = 1;
     }

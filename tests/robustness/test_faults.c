@@ -301,7 +301,7 @@ static void stopped_runs_resume(void **state)
 /* A resumed run couples once when it starts, and once more where it was killed. */
 static void kill_share(int worker)
 {
-    if (worker == 0) disturb(&converting_scene, AT_CONVERSION, 7, DO_KILL, 10);
+    if (worker == 0) disturb(&converting_scene, AT_CONVERSION, 0, DO_KILL, 10);
     else disturb(&passing_scene, AT_COUPLING, 3, DO_KILL, 10);
 }
 
