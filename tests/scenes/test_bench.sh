@@ -31,9 +31,9 @@ cd results/bench
 [ "$(head -1 efficiency.csv)" = \
     scene,model,t_adaptive,t_pd,t_r,tip_distance,angle_difference_deg,start_difference,levers ] ||
     fail "columns of efficiency.csv"
-[ "$(wc -l <efficiency.csv)" -eq 6 ] || fail "one scene gives a line for each lever, of bonds where time is short"
+[ "$(wc -l <efficiency.csv)" -eq 8 ] || fail "one scene gives a line for each lever, of bonds where time is short"
 awk -F, 'NR > 1 { exit $2 != "bond" }' efficiency.csv || fail "the model"
-[ "$(awk -F, 'NR > 1 { printf "%s ", $9 }' efficiency.csv)" = "none frame active_set reversion all " ] || fail "the levers"
+[ "$(awk -F, 'NR > 1 { printf "%s ", $9 }' efficiency.csv)" = "none frame slits levels active_set reversion all " ] || fail "the levers"
 [ "$(head -1 efficiency_runs.csv)" = \
     scene,model,levers,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,angle_adaptive_deg,t_r_stepping,t_r_bound,rest_share ] ||
     fail "columns of efficiency_runs.csv"
@@ -43,7 +43,7 @@ awk -F, 'NR > 1 { d = $5 - (1 - $3 / $4); if (!($3 > 0 && $4 > 0 && d < 1e-6 && 
 paste -d, efficiency.csv efficiency_runs.csv | awk -F, 'NR > 1 && !($22 > $5 && $22 < 1) { bad = 1 } END { exit bad }' ||
     fail "the bound of t_r"
 for file in efficiency.json efficiency.png efficiency.svg efficiency_share.csv; do [ -s $file ] || fail "$file is missing"; done
-[ "$(wc -l <efficiency_share.csv)" -eq 506 ] || fail "the share is noted at 100 samples and at the start"
+[ "$(wc -l <efficiency_share.csv)" -eq 708 ] || fail "the share is noted at 100 samples and at the start"
 cd ../..
 
 # Three runs of each method at other steps: means and scatter are what the runs say, to the nine digits written.
