@@ -71,6 +71,8 @@ struct mesh {
     uint8_t *kind;                       /* [grid.n] of cells: empty, whole, partial, or part of a coarser cell */
     const uint8_t *level;                /* [grid.n] of cells: 0, or the level of the coarser cell that they are part
                                             of (mesh/levels.h); NULL: there are none */
+    uint8_t *absent;                     /* [grid.n] 1: a whole cell without its particles (hollow.h), part of a coarser
+                                            one; NULL: there are none */
     int32_t *place;                      /* [particles] (cell << dim) + c, -1: not in the mesh */
     real volume;                         /* of a point in the reference frame [m^3] */
 

@@ -33,6 +33,8 @@ enum particle_flag {
 
 struct particles {
     int64_t n, n_all;                    /* body; body and images */
+    int64_t n_body;                      /* of the body with those that are not made (hollow.h) */
+    real low[DIM_MAX], high[DIM_MAX];    /* of their reference positions, where some are not made [m] */
     int dim;
     const struct material *plane_strain; /* the materials of a body in plane strain, borrowed; in other spaces NULL */
     int64_t n_of[KINDS];                 /* of the body */
@@ -157,7 +159,8 @@ void particles_free(struct particles *p);
 /* Sorts the body row by row: z, then y, then x, in rows of thickness `spacing`; ties by id. At set-up. */
 void particles_sort(struct particles *p, real spacing, int optional);
 
-/* Least and largest reference position along d of the first n particles [m]; INFINITY, -INFINITY of none. */
+/* Least and largest reference position along d of the first n particles [m]; INFINITY, -INFINITY of none. Of the body:
+ * those that are not made count. */
 void particles_extent(const struct particles *p, int64_t n, int d, real *low, real *high);
 /* Longest edge of the box round the body's particles [m]. */
 real particles_longest(const struct particles *p);

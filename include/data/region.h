@@ -78,6 +78,9 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim);
  * away. */
 bool crack_near(const struct crack *c, const real *X, real reach, int dim);
 
+/* Distance of X from the segment from..to [m]. */
+real segment_distance(const real *from, const real *to, const real *X, int dim);
+
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
 /* A plane wave: at t = 0 v = velocity exp(-(xi/r)^2) along `polarisation`, xi = (X - at) . direction, r a quarter of

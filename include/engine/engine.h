@@ -87,6 +87,8 @@ struct reference_frame {
     struct mesh_source source;
     struct elastic *elastic;             /* [materials] constants of its cells */
     struct mesh_levels levels;           /* coarse cells */
+    struct hollow hollow;                /* cells whose particles are not made */
+    bool lacks;                          /* particles that the start needs are not made: it must be made again */
     struct elastic *coarse;              /* [materials] of coarse cells, which split at less than the trigger */
     real speed;                          /* largest component of a nodal velocity [m/s] */
 };
@@ -192,6 +194,16 @@ struct engine {
 
 /* Everything up to step 0: particles, cells, loads, bonds, grid, time step. `out` may be NULL. */
 status engine_make(struct engine *e, const struct scene *s, struct output *out);
+/* The same, with these cells hollow and, where `before` is not NULL, in the middle of a run: levels of cells, and all
+ * that steps change, are left to the caller. */
+status engine_make_again(struct engine *e, const struct scene *s, struct output *out, struct hollow hollow,
+                         const struct engine *before);
+/* Particles only where they are needed (engine_hollow.c): the plan of the start; after the levels of the next step are
+ * known, those that lack particles are given them, and others lose theirs; their cells in checkpoints. */
+status engine_hollow_plan(struct engine *e);
+bool engine_hollow_start(struct engine *e, const uint8_t *level);
+status engine_hollow_follow(struct engine *e, const uint8_t *level);
+status engine_hollow_archive(struct engine *e, struct archive *a);
 /* What a run of its lattice bodies takes at the most, about, before anything of it is made but materials and family
  * [byte]. */
 real engine_memory(const struct engine *e);
@@ -239,6 +251,11 @@ bool engine_has_mesh(const struct engine *e);
 bool engine_frame_allowed(const struct engine *e, int body);
 /* Sets origin and node distance of the grid, by the frames. */
 void engine_grid_make(struct engine *e);
+/* Places of a node [m] where the body begins at `from`, in a mesh midway between particles of a lattice with a place at
+ * `site`. */
+void engine_grid_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor);
+/* Number of the body that comes k-th, those that are joined counted as one; -1: there is none. */
+int engine_body_apart(const struct scene *s, int k);
 status engine_mesh_make(struct engine *e);
 /* Pre-cracks as slits of the mesh (engine_notch.c): the choice, REFUSED where the scene wants what cannot be, and the
  * peridynamic particles of the start; before the first sample of tips; in a step, faces that meet; what stands for a
@@ -258,7 +275,7 @@ void engine_mesh_insert(struct engine *e, const int32_t *list, int64_t n);
  * wait. Energy of all nodes of the mesh [J]. */
 int engine_levels_number(const struct engine *e);
 status engine_levels_make(struct engine *e, bool restored);
-void engine_levels_follow(struct engine *e);
+status engine_levels_follow(struct engine *e);
 void engine_levels_guard(struct engine *e);
 real engine_mesh_kinetic(const struct reference_frame *reference);
 real engine_mesh_strain(struct engine *e);

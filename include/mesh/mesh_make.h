@@ -9,6 +9,7 @@
 #include "bonds/bonds.h"
 #include "kernels/kernels.h"
 #include "loads/loads.h"
+#include "data/hollow.h"
 #include "data/mesh.h"
 #include "data/particles.h"
 
@@ -18,6 +19,7 @@ struct mesh_source {
     const struct elastic *isotropic;     /* [materials] those that partial stress rests on */
     int materials;
     const struct partial_stress *partial; /* NULL, or what points leave to bonds */
+    const struct hollow *hollow;         /* cells whose particles are not made, borrowed; NULL: none */
     const struct crack *slit;            /* [slits] free surfaces between cells, borrowed */
     int slits;
 };
@@ -29,7 +31,7 @@ status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like
 void mesh_free(struct mesh *mesh);
 /* Number of disconnected pieces of such a mesh, which share no node; 0: particles do not lie two a cell and direction.
  */
-int64_t mesh_pieces(const struct particles *p, const struct grid *like);
+int64_t mesh_pieces(const struct particles *p, const struct grid *like, const struct hollow *hollow);
 
 /* Takes particles out that are no material points any more, and makes cells anew where `changed` [n] (NULL:
  * everywhere) have converted or leave another part of their stress to bonds. Nodal velocities stay: each particle
@@ -46,6 +48,9 @@ bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mes
  * fitted anew, by least squares over all points that they move. Returns the kinetic energy that ends with that [J].
  * mesh_follow, with those points among the changed, makes their cells; until then the mesh must not be moved. */
 real mesh_insert(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
+
+/* Is any of the body in cell I? */
+bool mesh_cell_holds(const struct mesh *mesh, int64_t I);
 
 /* Points that something outside the mesh needs the motion of in every step: beside bonds, loaded, or with an image. */
 void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l);

@@ -72,6 +72,8 @@ status output_frame(struct output *o, const struct particles *p, real t, int64_t
  * output_close wait for it. A fault is returned by the call that waits. extra: NULL, nothing; copied likewise. */
 status output_frame_begin(struct output *o, const struct particles *p, const struct frame_extra *extra, real t,
                           int64_t step, const char *scene_text);
+/* The next frame has other particles than the last one, which must be written. */
+void output_particles_changed(struct output *o);
 /* Until no frame is on its way; OK without one. */
 status output_wait(struct output *o);
 

@@ -118,6 +118,8 @@ struct probes {
 /* Binds requests to particles. Refuses a point outside the body, an unknown boundary name, or a bar that is not that of
  * the closed form. */
 status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed *o);
+/* What these probes of the same requests remember is that of others. */
+void probes_take(struct probes *s, const struct probes *old);
 void probes_free(struct probes *s);
 /* Fills value[]. */
 void probes_sample(struct probes *s, const struct observed *o);

@@ -20,6 +20,7 @@
 
 /* METHOD_AUTO, FRAME_AUTO and SOLVER_STATIC are requests: reading a scene resolves them. */
 enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE, METHOD_AUTO };
+enum { FILL_AUTO, FILL_ALL, FILL_NEEDED };   /* mpm.fill */
 enum { LEVELS_AUTO = 5 };                /* mpm.levels: auto */
 enum grid_frame { FRAME_CURRENT, FRAME_REFERENCE, FRAME_AUTO };
 enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
@@ -125,6 +126,7 @@ struct scene {
     enum grid_frame frame;               /* of the grid, of bodies that do not say theirs */
     bool small_strain;                   /* of a mesh in the reference frame */
     int levels;                          /* of its coarse cells; LEVELS_AUTO: as many as pay */
+    int fill;                            /* which particles are made: FILL_AUTO .. */
     bool lattice_constants;              /* its elastic constants are those of the bonds' lattice */
     bool has_grid_origin; real grid_origin[DIM_MAX]; /* a node of the grid [m] */
 

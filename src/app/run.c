@@ -47,7 +47,7 @@ static void print_summary(const struct engine *e, const char *folder, double wal
 {
     const struct shown_name shown = shown_name(folder);
     const struct tip *tip = tips_longest(&e->fracture.tips);
-    printf("%s: %lld particles, %lld steps of %.4g s, %.1f s\n", e->scene->name, (long long)e->part.n,
+    printf("%s: %lld particles, %lld steps of %.4g s, %.1f s\n", e->scene->name, (long long)e->part.n_body,
            (long long)e->clock.step, e->clock.dt, wall);
     bool broke = !isnan(e->diagnostics.break_time);
     if (broke) printf("  first bond broken at %.4g s", e->diagnostics.break_time);
@@ -56,8 +56,8 @@ static void print_summary(const struct engine *e, const char *folder, double wal
                tip_angle(tip, e->part.dim));
     if (broke || tip) printf("\n");
     printf("  peridynamic share %.2f %% at the start, %.2f %% at the end\n",
-           100.0 * (double)e->coupling.conversion.start / (double)e->part.n,
-           100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n);
+           100.0 * (double)e->coupling.conversion.start / (double)e->part.n_body,
+           100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n_body);
     printf("  energy balance %.2g, momentum %.2g\n", e->diagnostics.now.balance_error,
            e->diagnostics.now.momentum_error);
     printf("  results in %s; open %s/frames.hdf.series in ParaView, or draw them with: cleave plot %s\n", shown.text,

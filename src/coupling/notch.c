@@ -42,16 +42,6 @@ static bool edge_inside(const struct crack *c, int e, const struct particles *p,
     return false;
 }
 
-/* Distance of X from the segment from..to [m]. */
-static real distance_from(const real *from, const real *to, const real *X, int dim)
-{
-    real along = 0, length2 = 0, r2 = 0;
-    for (int d = 0; d < dim; d++) along += (X[d] - from[d]) * (to[d] - from[d]), length2 += square(to[d] - from[d]);
-    along = length2 > 0 ? real_max(0, real_min(1, along / length2)) : 0;
-    for (int d = 0; d < dim; d++) r2 += square(X[d] - from[d] - along * (to[d] - from[d]));
-    return sqrt(r2);
-}
-
 /* A crack, and which of its edges lie in the body, one bit each. */
 struct look { const struct crack *crack; uint64_t edges; real radius; };
 
@@ -72,7 +62,7 @@ static bool in_zone(const struct look *look, const struct particles *p, int64_t 
     for (int e = 0; e < look->crack->n && e < EDGES_MAX; e++) {
         const real *from, *to;
         crack_end_of(look->crack, e, p->dim, &from, &to);
-        if (look->edges >> e & 1 && distance_from(from, to, X, p->dim) <= look->radius) return true;
+        if (look->edges >> e & 1 && segment_distance(from, to, X, p->dim) <= look->radius) return true;
     }
     return false;
 }

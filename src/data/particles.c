@@ -79,7 +79,7 @@ void *particle_array(const struct particles *p, const struct particle_field *f, 
 void particles_make(struct particles *p, int dim, int64_t n, int optional)
 {
     assert(dim >= 1 && dim <= DIM_MAX && n >= 0 && n <= INT32_MAX - LANES);
-    *p = (struct particles){.n = n, .n_all = n, .dim = dim};
+    *p = (struct particles){.n = n, .n_all = n, .n_body = n, .dim = dim};
     p->n_of[KIND_MPM] = n;
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
         for (int k = 0; k < f->count(dim, optional); k++)
@@ -130,6 +130,10 @@ static int compare_places(const void *left, const void *right)
 void particles_extent(const struct particles *p, int64_t n, int d, real *low, real *high)
 {
     real least = INFINITY, most = -INFINITY;
+    if (n == p->n && p->n_body > p->n) {
+        *low = p->low[d], *high = p->high[d];
+        return;
+    }
     const real *X = p->X[d];
 #pragma omp parallel for schedule(static) reduction(min : least) reduction(max : most)
     for (int64_t i = 0; i < n; i++) least = real_min(least, X[i]), most = real_max(most, X[i]);

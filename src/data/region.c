@@ -309,3 +309,12 @@ struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real 
     const real velocity = w->velocity * exp(-xi * xi);
     return (struct wave_state){velocity, w->velocity / c * radius * 0.5 * root_of_pi * erfc(xi), -velocity / c};
 }
+
+real segment_distance(const real *from, const real *to, const real *X, int dim)
+{
+    real along = 0, length2 = 0, r2 = 0;
+    for (int d = 0; d < dim; d++) along += (X[d] - from[d]) * (to[d] - from[d]), length2 += square(to[d] - from[d]);
+    along = length2 > 0 ? real_max(0, real_min(1, along / length2)) : 0;
+    for (int d = 0; d < dim; d++) r2 += square(X[d] - from[d] - along * (to[d] - from[d]));
+    return sqrt(r2);
+}

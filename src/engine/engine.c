@@ -303,7 +303,7 @@ static void convert_points(struct engine *e, struct step *now)
  * damping. */
 static status prepare(struct engine *e, struct step *now)
 {
-    engine_levels_follow(e);
+    TRY(engine_levels_follow(e));
     now->middle = e->clock.t + 0.5 * e->clock.dt;
     now->dt_velocity = e->clock.step == 0 ? 0.5 * e->clock.dt : e->clock.dt;
     e->mpm.transfer.dt_velocity = now->dt_velocity;

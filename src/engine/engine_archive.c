@@ -31,7 +31,7 @@ static status particles_check(const struct scene *s, const struct particles *p)
         real sum = 0;
         bool good = p->kind[i] < KINDS && p->material[i] < s->materials && p->body[i] < s->bodies && p->mass[i] > 0 &&
                     isfinite(p->mass[i]);
-        good = good && (i >= p->n || (p->id[i] >= 0 && p->id[i] < p->n));
+        good = good && (i >= p->n || (p->id[i] >= 0 && p->id[i] < p->n_body));
         for (int d = 0; d < p->dim; d++) {
             good = good && (i >= p->n || fabs(p->X[d][i]) <= FAR_AWAY * s->spacing || !(s->spacing > 0));
             sum += 0 * (p->X[d][i] + p->x[d][i] + p->v[d][i]);
@@ -77,6 +77,7 @@ status engine_archive(void *engine, struct archive *a)
 {
     struct engine *e = engine;
     TRY(kernels_archive(e, a));
+    TRY(engine_hollow_archive(e, a));
     TRY(particles_archive(&e->part, a, e->optional));
     if (!a->saving) TRY(particles_check(e->scene, &e->part));
     if (!a->saving) engine_archive_rebuild(e);

@@ -67,7 +67,7 @@ int engine_levels_number(const struct engine *e)
     int levels = 0;
     if (e->reference.mesh.points == 0 || s->solver != SOLVER_EXPLICIT) return 0;
     if (s->levels != LEVELS_AUTO) return s->levels;
-    if (e->part.n < PAYS || s->time_step > LEVELS_STEP_MOST * e->clock.dt_critical) return 0;
+    if (e->part.n_body < PAYS || s->time_step > LEVELS_STEP_MOST * e->clock.dt_critical) return 0;
     const real most = largest_edge(e);
     while (levels < LEVELS_MAX && (real)(4 << levels) * s->spacing <= most) levels++;
     return levels;
@@ -241,7 +241,10 @@ status engine_levels_make(struct engine *e, bool restored)
         r->coarse[m].trigger *= SPLITS;
         fastest = real_max(fastest, s->material[m].wave_speed);
     }
-    if (r->levels.n == 0) return OK;
+    if (r->levels.n == 0) {
+        engine_hollow_start(e, NULL);
+        return OK;
+    }
     levels_match(&r->levels, alike_edge(s), fastest, e->clock.dt);
     /* a point takes its neighbours along, they have bonds, and families at the ends of those reach one horizon more */
     const real reach = (s->model == MODEL_BOND ? 1.0 : 1.5) * s->horizon;
@@ -256,7 +259,7 @@ status engine_levels_make(struct engine *e, bool restored)
     uint8_t *limit = NEW("levels.limit", r->mesh.grid.n, uint8_t);
     memset(limit, r->levels.n, (size_t)r->mesh.grid.n);
     next_levels(e, demand, limit, level);
-    change(e, level);
+    if (engine_hollow_start(e, level)) change(e, level);
     memory_free(limit);
     e->coupling.damped = 0;                      /* the run begins with what the coarse cells have */
     memory_free(demand);
@@ -306,25 +309,27 @@ static void lost_bonds_return(struct engine *e)
     memset(l->wanted, WANTED_NOT, (size_t)l->fine->grid.n);
 }
 
-void engine_levels_follow(struct engine *e)
+status engine_levels_follow(struct engine *e)
 {
     struct mesh_levels *l = &e->reference.levels;
-    if (l->n == 0 || e->clock.step == 0 || e->clock.step % levels_stride(l) != 0) return;
+    if (l->n == 0 || e->clock.step == 0 || e->clock.step % levels_stride(l) != 0) return OK;
     const bool looks = e->clock.step % LOOK_STEPS == 0;
     levels_sync(l);
     uint8_t *stressed = any_stressed(l) ? stressed_cells(e, SPLITS, false) : NULL;
-    if (!looks && !stressed && !l->any_wanted) return;
+    if (!looks && !stressed && !l->any_wanted) return OK;
     const int64_t n = l->fine->grid.n;
     uint8_t *demand = demand_make(e, ZONE_MORE), *limit = NEW("levels.limit", 2 * n, uint8_t), *level = limit + n;
     marks_add(l, stressed, demand);
     limits_find(e, looks, limit);
     next_levels(e, demand, limit, level);
-    if (memcmp(level, l->level, (size_t)n) != 0) change(e, level);
-    lost_bonds_return(e);
+    const status s = engine_hollow_follow(e, level);
+    if (s == OK && memcmp(level, l->level, (size_t)n) != 0) change(e, level);
+    if (s == OK) lost_bonds_return(e);
     l->any_wanted = false;
     memory_free(demand);
     memory_free(limit);
     memory_free(stressed);
+    return s;
 }
 
 /* A marked point near a coarse cell wants finer ones at the next change, and if it is too near it waits for them. */

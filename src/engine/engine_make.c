@@ -155,92 +155,6 @@ static void make_interface_damping_share(struct engine *e)
                  DAMPING_SHARE_MOST);
 }
 
-/* ---- grid -------------------------------------------------------------------------------------------------------- */
-
-/* Coordinate of a node [m]: mpm.origin, else the first mirror across this axis, else the lower corner of the body.
- * Nodes beyond a mirror move as exact images only if the mirror is on a node or half-way between two. */
-static real node_place(const struct scene *s, int axis, real corner)
-{
-    if (s->has_grid_origin) return s->grid_origin[axis];
-    for (int b = 0; b < s->boundaries; b++)
-        if (s->boundary[b].kind == BOUNDARY_MIRROR && s->boundary[b].axis == axis) return s->boundary[b].at;
-    return corner;
-}
-
-/* The anchor, moved by at most half a spacing to lie midway between particles of a lattice [m]. */
-static real between_particles(const struct scene *s, const struct particles *p, const struct grid_method *mpm, int axis)
-{
-    const real steps = (p->X[axis][0] - mpm->field[0].grid.anchor[axis]) / s->spacing - 0.5;
-    return mpm->field[0].grid.anchor[axis] + (steps - nearbyint(steps)) * s->spacing;
-}
-
-/* Number of the body that comes k-th, those that are joined counted as one; -1: there is none. */
-static int body_apart(const struct scene *s, int k)
-{
-    for (int b = 0; b < s->bodies; b++)
-        if (s->body[b].joined == b && k-- == 0) return b;
-    return -1;
-}
-
-/* A grid for each body where material points of several meet, else one. */
-static void make_fields(struct engine *e)
-{
-    const struct scene *s = e->scene;
-    const bool meet = s->solver == SOLVER_EXPLICIT && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
-                      !coupling_moves_by_grid(s->coupling);
-    e->mpm.fields = 1;
-    while (meet && body_apart(s, e->mpm.fields) >= 0) e->mpm.fields++;
-    e->mpm.field = NEW("engine.fields", e->mpm.fields, struct grid_field);
-}
-
-/* How far shapes reach beyond the neighbours of their cell [m]. */
-static real shape_reach(const struct scene *s)
-{
-    const real cell = s->cell * s->spacing;
-    return s->shape == SHAPE_LINEAR ? 0 : s->shape == SHAPE_CUBIC ? cell : s->shape == SHAPE_QUADRATIC ? 0.5 * cell
-                                                                                                : 0.5 * s->spacing;
-}
-
-/* The lower corner of the body is that of the first shape, or of the particles of a list. */
-void engine_grid_make(struct engine *e)
-{
-    const struct scene *s = e->scene;
-    real from[DIM_MAX], to[DIM_MAX];
-    if (!e->mpm.field) make_fields(e);
-    struct grid *g = &e->mpm.field[0].grid;
-    g->dim = s->dim;
-    g->h = s->cell * s->spacing;
-    bool bounded = s->body[0].shape.n > 0 && region_bounds(&s->body[0].shape, s->dim, from, to);
-    for (int d = 0; d < s->dim; d++) {
-        if (!bounded) {
-            particles_extent(&e->part, e->part.n, d, &from[d], &to[d]);
-            from[d] -= 0.5 * s->spacing;
-        }
-        g->anchor[d] = node_place(s, d, from[d]);
-        if (engine_has_mesh(e) && g->anchor[d] == from[d])
-            g->anchor[d] = between_particles(e->scene, &e->part, &e->mpm, d);
-    }
-    real section = scene_section(s), lightest = INFINITY;
-    for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
-    const real smallest = s->solver == SOLVER_EXPLICIT ? GRID_MASS_SMALLEST : GRID_MASS_STATIC;
-    const real full = lightest * pow(g->h, s->dim) * section;
-    e->mpm.smallest_mass = smallest * full;
-    g->light_mass = s->transfer == TRANSFER_APIC && s->solver == SOLVER_EXPLICIT ? GRID_MASS_LIGHT * full : 0;
-    for (int k = 0; k < e->mpm.fields && e->mpm.fields > 1; k++) {
-        e->mpm.field[k].grid = *g;
-        e->mpm.field[k].grid.body = 1 + body_apart(s, k);
-    }
-    grid_contact_free(&e->mpm.contact);
-    e->mpm.contact = (struct grid_contact){.friction = s->contact_friction,
-                                           .spacing = s->spacing,
-                                           .half_width = shape_reach(s),
-                                           .smallest_mass = e->mpm.smallest_mass,
-                                           .began = NAN,
-                                           .ended = NAN};
-    grid_contact_make(&e->mpm.contact, e->mpm.fields);
-    e->mpm.sort_needed = true;
-}
-
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
 
 /* As measured on blocks of 10^6 particles: */
@@ -386,20 +300,59 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
     return source->yield.stretch ? PD_BOND_PLASTIC : PD_BOND;
 }
 
-status engine_make(struct engine *e, const struct scene *s, struct output *out)
+/* Critical step and time step, or those of the run that goes on. */
+static status make_time(struct engine *e, const struct engine *before)
 {
-    memset(e, 0, sizeof *e);
-    e->scene = s;
-    e->report.out = out;
-    e->report.began = team_clock();
+    if (!before) return named(e->scene, engine_time_make(e));
+    e->clock = before->clock;
+    e->source.limit.dt = before->source.limit.dt;
+    e->source.core = e->bonds.core = before->source.core;
+    return OK;
+}
+
+static void make_contact(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    const struct contact_law law = {
+        .form = s->contact_form, .distance = s->contact_distance, .friction = s->contact_friction};
+    contact_make(&e->contact, s->solver == SOLVER_EXPLICIT && has_peridynamics(s) ? s->contact_between : CONTACT_NONE,
+                 law, s->contact_stiffness, &e->source, e->shape, e->rigid, s->rigids);
+}
+
+/* Materials, kernels, and the particles that are made. */
+static status make_particles(struct engine *e)
+{
+    const struct scene *s = e->scene;
     e->optional = optional_arrays(s);
-    make_materials(e->scene, &e->tables, &e->source);
-    make_family(e->scene, &e->source);
-    kernels_choose(&e->kernels, s->dim, law_of(e->scene, &e->source), s->shape, s->transfer);
-    TRY(named(s, make_affordable(e)));
-    TRY(fill_particles(&e->part, s, e->optional));
-    TRY(named(s, make_affordable(e)));       /* with the actual number of particles */
-    TRY(named(s, engine_reversion_check(e->scene)));
+    make_materials(s, &e->tables, &e->source);
+    make_family(s, &e->source);
+    kernels_choose(&e->kernels, s->dim, law_of(s, &e->source), s->shape, s->transfer);
+    TRY(named(s, engine_hollow_plan(e)));
+    if (!e->reference.hollow.absent) TRY(named(s, make_affordable(e)));
+    TRY(fill_particles(&e->part, s, &e->reference.hollow, e->optional));
+    return named(s, make_affordable(e));     /* with the actual number of particles */
+}
+
+/* What looks at the run: tips, growing cracks, probes. */
+static status make_probes(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    e->probing.strain_stress = largest_stress(&e->part);
+    tips_make(&e->fracture.tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
+    engine_notch_tips(e);
+    e->fracture.growth = NEW("engine.growth", s->growths, struct growth);
+    for (int k = 0; k < s->growths; k++) growth_make(&e->fracture.growth[k], &s->growth[k]);
+    if (s->solver != SOLVER_EXPLICIT) TRY(named(s, engine_solver_make(e)));
+    diagnostics_make(&e->diagnostics);
+    make_pulses(e->scene, &e->probing);
+    struct observed o = engine_observed(e);
+    return named(s, probes_make(&e->probing.probes, s->probe, s->probes, &o));
+}
+
+/* Loads, bonds, mesh: from the particles to the time step. */
+static status make_forces(struct engine *e, const struct engine *before)
+{
+    const struct scene *s = e->scene;
     TRY(named(s, engine_frames(e)));
     if (s->solver != SOLVER_EXPLICIT) {
         e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
@@ -414,33 +367,47 @@ status engine_make(struct engine *e, const struct scene *s, struct output *out)
     TRY(engine_rigid_make(e));
     TRY(engine_rigid_check(e));
     TRY(named(s, engine_joined_check(e)));
-    const struct contact_law law = {
-        .form = s->contact_form, .distance = s->contact_distance, .friction = s->contact_friction};
-    contact_make(&e->contact, s->solver == SOLVER_EXPLICIT && has_peridynamics(s) ? s->contact_between : CONTACT_NONE,
-                 law, s->contact_stiffness, &e->source, e->shape, e->rigid, s->rigids);
+    make_contact(e);
     engine_partial_make(e);
     TRY(named(s, engine_mesh_make(e)));
     engine_ends_update(e);
     engine_stability_check_make(e);
-    TRY(named(s, engine_time_make(e)));
+    return make_time(e, before);
+}
+
+status engine_make_again(struct engine *e, const struct scene *s, struct output *out, struct hollow hollow,
+                         const struct engine *before)
+{
+    memset(e, 0, sizeof *e);
+    e->scene = s;
+    e->report.out = out;
+    e->report.began = team_clock();
+    e->reference.hollow = hollow;
+    TRY(make_particles(e));
+    TRY(named(s, engine_reversion_check(e->scene)));
+    TRY(make_forces(e, before));
     for (int64_t i = 0; i < e->part.n; i++) e->stability.mass += e->part.mass[i];
-    TRY(named(s, engine_levels_make(e, false)));
+    e->stability.mass += (real)(e->part.n_body - e->part.n) * e->part.mass[0];
+    if (!before) TRY(named(s, engine_levels_make(e, false)));
     make_interface_damping_share(e);
     e->coupling.approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE && s->contact_convert &&
-                             body_apart(s, 1) + s->rigids >= 0 && !coupling_unified(s->coupling);
+                             engine_body_apart(s, 1) + s->rigids >= 0 && !coupling_unified(s->coupling);
     e->mpm.transfer = (struct transfer_data){
         &e->mpm.field[0].order, &e->coupling.partial, e->tables.elastic, 0.5 * s->spacing, e->clock.dt, e->clock.dt,
         false, NULL};
-    e->probing.strain_stress = largest_stress(&e->part);
-    tips_make(&e->fracture.tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
-    engine_notch_tips(e);
-    e->fracture.growth = NEW("engine.growth", s->growths, struct growth);
-    for (int k = 0; k < s->growths; k++) growth_make(&e->fracture.growth[k], &s->growth[k]);
-    if (s->solver != SOLVER_EXPLICIT) TRY(named(s, engine_solver_make(e)));
-    diagnostics_make(&e->diagnostics);
-    make_pulses(e->scene, &e->probing);
-    struct observed o = engine_observed(e);
-    return named(s, probes_make(&e->probing.probes, s->probe, s->probes, &o));
+    return make_probes(e);
+}
+
+status engine_make(struct engine *e, const struct scene *s, struct output *out)
+{
+    struct hollow hollow = {0};
+    for (;;) {
+        TRY(engine_make_again(e, s, out, hollow, NULL));
+        if (!e->reference.lacks) return OK;
+        hollow = e->reference.hollow;
+        e->reference.hollow = (struct hollow){0};
+        engine_free(e);
+    }
 }
 
 void engine_free(struct engine *e)
@@ -490,6 +457,7 @@ void engine_free(struct engine *e)
     memory_free(e->reference.choice);
     levels_free(&e->reference.levels);
     mesh_free(&e->reference.mesh);
+    hollow_free(&e->reference.hollow);
     memory_free(e->report.record);
     memory_free(e->probing.pulse);
     warnings_free(&e->report.warnings);

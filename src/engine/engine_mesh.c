@@ -12,9 +12,9 @@
 
 /* Obstacle to the reference frame of a body at auto whose scene allows it; NULL: none. The body must be one piece on
  * one lattice, with particles midway in the halves of cells. */
-static const char *doubt(const struct particles *p, const struct grid_method *mpm)
+static const char *doubt(const struct particles *p, const struct grid_method *mpm, const struct hollow *hollow)
 {
-    const int64_t pieces = mesh_pieces(p, &mpm->field[0].grid);
+    const int64_t pieces = mesh_pieces(p, &mpm->field[0].grid, hollow);
     if (pieces == 0)
         return "its particles do not lie two a cell and direction; mpm.origin or a mirror puts the nodes elsewhere";
     return pieces > 1 ? "it is in pieces, which meet on the grid of frame current only" : NULL;
@@ -45,7 +45,7 @@ status engine_frames(struct engine *e)
     }
     engine_grid_make(e);
     if (s->bodies == 1 && s->body[0].frame == FRAME_AUTO && s->method != METHOD_PD) {
-        const char *why = doubt(&e->part, &e->mpm);
+        const char *why = doubt(&e->part, &e->mpm, &e->reference.hollow);
         take_frame(&e->reference.choice[0], !why, why ? why : "it keeps its neighbours and meets no other body");
         if (why) engine_grid_make(e);
     }
@@ -55,7 +55,8 @@ status engine_frames(struct engine *e)
 
 bool engine_frame_allowed(const struct engine *e, int body)
 {
-    return !scene_frame_not_default(e->scene, body) && mesh_pieces(&e->part, &e->mpm.field[0].grid) == 1;
+    return !scene_frame_not_default(e->scene, body) &&
+           mesh_pieces(&e->part, &e->mpm.field[0].grid, &e->reference.hollow) == 1;
 }
 
 bool engine_has_mesh(const struct engine *e)
@@ -88,6 +89,7 @@ static void make_constants(struct engine *e)
                                           .isotropic = e->tables.elastic,
                                           .materials = s->materials,
                                           .partial = e->coupling.uses_partial ? &e->coupling.partial : NULL,
+                                          .hollow = &e->reference.hollow,
                                           .slit = e->coupling.notches.slit,
                                           .slits = e->coupling.notches.slits};
 }

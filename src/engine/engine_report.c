@@ -160,7 +160,7 @@ static void progress(struct engine *e, bool last)
     const struct tip *tip = tips_longest(&e->fracture.tips);
     fprintf(stderr, "%sstep %lld/%lld  t = %.4g s  %.0f steps/s  %s left  PD %.1f %%  crack %.3g mm%s",
             terminal ? "\r" : "", (long long)e->clock.step, (long long)e->clock.steps, e->clock.t, rate, left,
-            100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n,
+            100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n_body,
             tip ? 1e3 * tip->growth : 0.0, terminal && !last ? "\033[K" : "\n");
     fflush(stderr);
 }

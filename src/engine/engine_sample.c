@@ -35,12 +35,12 @@ static void fill_record(struct engine *e)
     real *r = e->report.record;
     const real *place = tip ? tip->place : (const real[DIM_MAX]){NAN, NAN, NAN};
     const int dim = e->part.dim;
-    const real n = (real)e->part.n, pd = (real)e->part.n_of[KIND_PD];
+    const real n = (real)e->part.n_body, pd = (real)e->part.n_of[KIND_PD];
     const real fixed[RECORD_FIXED] = {
         l->time, (real)e->clock.step, u->kinetic, u->strain, u->plastic, u->fracture, l->external_work,
         l->balance_error, l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, pd, pd / n,
         (real)e->bonds.n, tip ? tip->growth : 0, place[0], dim > 1 ? place[1] : NAN, dim > 2 ? place[2] : NAN,
-        u->damped, (real)e->part.n_of[KIND_MPM] / n, inactive_since_sample(&e->clock, &e->report),
+        u->damped, 1 - pd / n, inactive_since_sample(&e->clock, &e->report),
         u->contact, u->absorbed};
     memcpy(r, fixed, sizeof fixed);
     for (int c = 0; c < e->probing.probes.columns; c++) r[RECORD_FIXED + c] = e->probing.probes.value[c];

@@ -99,7 +99,8 @@ static void put_run(struct json *j, const struct engine *e, status s, const char
     json_real(j, "time_step", e->clock.dt);
     json_real(j, "time_step_critical", e->clock.dt_critical);
     json_real(j, "time_end", e->clock.t);
-    json_count(j, "particles", e->part.n);
+    json_count(j, "particles", e->part.n_body);
+    json_count(j, "particles_made", e->part.n);
     json_count(j, "particles_pd_start", e->coupling.conversion.start);
     json_count(j, "particles_pd_end", e->part.n_of[KIND_PD]);
     json_count(j, "bonds_peak", e->coupling.conversion.peak_bonds);
@@ -325,7 +326,7 @@ static void put_notches(struct json *j, const struct engine *e)
 static void put_conversion(struct json *j, const struct engine *e)
 {
     const struct conversion *c = &e->coupling.conversion;
-    real n = (real)e->part.n, start = (real)c->start / n, end = (real)e->part.n_of[KIND_PD] / n;
+    real n = (real)e->part.n_body, start = (real)c->start / n, end = (real)e->part.n_of[KIND_PD] / n;
     json_open(j, "conversion", '{');
     if (isfinite(c->first_time) && c->events > 0) {
         json_real(j, "first_time", c->first_time);

@@ -97,9 +97,17 @@ int64_t levels_inverted(const struct mesh_levels *l, const struct particles *p)
             if (mesh->kind[I] != CELL_WHOLE || !mesh_cell_inverted(mesh, I)) continue;
             walk_at(&mesh->grid, I, k);
             first = l->fine->point[fine_node(l, level, k) << mesh->grid.dim];
+            if (first < 0) first = 0;
         }
     }
     return first;
+}
+
+bool levels_lowest(const struct mesh_levels *l, int level, int64_t I)
+{
+    int64_t k[DIM_MAX];
+    walk_at(&l->fine->grid, I, k);
+    return is_lowest(l, level, k);
 }
 
 int64_t levels_cells(const struct mesh_levels *l, int level)
@@ -160,6 +168,35 @@ static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
     return s;
 }
 
+/* All that follows from the levels of cells. */
+static void cells_from_levels(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
+{
+    mesh_cells_again(l->fine, p, source, l->level);
+    levels_cells_make(l, p);
+    levels_link(l);
+    levels_fold(l, false);
+    levels_runs_make(l);
+    levels_find_safe(l);
+}
+
+void levels_follow_fine(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
+{
+    uint8_t *stressed[LEVELS_MAX + 1];
+    l->fine->level = l->level;
+    for (int level = 1; level <= l->n; level++) {
+        const struct mesh *mesh = &l->at[level].mesh;
+        stressed[level] = NEW("levels.stressed", mesh->runs, uint8_t);
+        for (int64_t r = 0; r < mesh->runs; r++) stressed[level][r] = mesh->run[r].stressed;
+    }
+    cells_from_levels(l, p, source);
+    for (int level = 1; level <= l->n; level++) {
+        const struct mesh *mesh = &l->at[level].mesh;
+        for (int64_t r = 0; r < mesh->runs; r++) mesh->run[r].stressed = stressed[level][r];
+        memory_free(stressed[level]);
+    }
+    levels_prolong(l);
+}
+
 /* The fields of the nodes of a level. */
 static status level_archive(struct mesh *mesh, int level, struct archive *a)
 {
@@ -185,12 +222,7 @@ status levels_archive(struct mesh_levels *l, const struct particles *p, const st
     ARCHIVE_VALUE(a, "levels/changes", l->changes);
     if (!a->saving) {
         if (!levels_sound(l)) return status_set(FAILED, "cannot resume: the levels of the checkpoint are no mesh");
-        mesh_cells_again(l->fine, p, source, l->level);
-        levels_cells_make(l, p);
-        levels_link(l);
-        levels_fold(l, false);
-        levels_runs_make(l);
-        levels_find_safe(l);
+        cells_from_levels(l, p, source);
     }
     for (int level = 1; level <= l->n; level++) TRY(level_archive(&l->at[level].mesh, level, a));
     return OK;

@@ -23,7 +23,7 @@ void levels_cells_make(struct mesh_levels *l, const struct particles *p)
         struct mesh *mesh = &l->at[level].mesh;
         const int64_t J = coarse_cell(l, level, k, NULL);
         mesh->kind[J] = CELL_WHOLE;
-        mesh->material[J] = p->material[fine->point[I * corners]];
+        mesh->material[J] = cell_material(fine, p, I);
         for (int c = 0; c < corners; c++)
             mesh->grid.mass[J + mesh->corner[c]] += mesh->cell_mass[mesh->material[J]] / corners;
         l->at[level].cells++;

@@ -27,7 +27,7 @@ static void base_map(struct level_map *to, const struct mesh_levels *l, const st
         to->some[I] = fine->kind[I] != CELL_EMPTY;
         to->ok[I] = whole && !demand[I];
         to->limit[I] = limit ? limit[I] : (uint8_t)l->n;
-        to->material[I] = whole ? p->material[fine->point[I << fine->grid.dim]] : 0;
+        to->material[I] = whole ? cell_material(fine, p, I) : 0;
     }
 }
 
@@ -145,7 +145,8 @@ bool levels_sound(const struct mesh_levels *l)
         if (level == 0 || !sound || !is_lowest(l, level, k)) continue;
         for (int part = 0; part < parts_of(l, level) && sound; part++, covered++) {
             const int64_t J = part_at(l, level, I, part);
-            sound = J < g->n && l->level[J] == level && l->fine->kind[J] == CELL_WHOLE;
+            sound = J < g->n && l->level[J] == level &&
+                    (l->fine->kind[J] == CELL_WHOLE || (l->fine->absent && l->fine->absent[J]));
         }
     }
     return sound && covered == coarse;

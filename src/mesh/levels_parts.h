@@ -65,6 +65,13 @@ static inline bool any_below(const struct mesh_levels *l, int level, int64_t fir
     return any;
 }
 
+/* Material of cell I of level 0, which is whole; cells whose particles are not made are in a body of one material. */
+static inline uint8_t cell_material(const struct mesh *fine, const struct particles *p, int64_t I)
+{
+    const int32_t i = fine->point[I << fine->grid.dim];
+    return p->material[i >= 0 ? i : 0];
+}
+
 /* Does the mesh have a cell I that computes forces? */
 static inline bool cell_acts(const struct mesh *mesh, int64_t I)
 {

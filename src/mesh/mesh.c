@@ -248,6 +248,20 @@ status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *fro
     return OK;
 }
 
+/* Marks the cells whose particles are not made. */
+static void mesh_absent_make(struct mesh *mesh, const struct hollow *h)
+{
+    const struct grid *g = &mesh->grid;
+    mesh->absent = NEW("mesh.absent", g->n, uint8_t);
+    for (int64_t I = 0; I < h->n; I++) {
+        int64_t J = 0;
+        if (!h->absent[I]) continue;
+        for (int d = 0; d < h->dim; d++)
+            J += (I / h->stride[d] % h->count[d] + h->first[d] - g->first[d]) * g->stride[d];
+        mesh->absent[J] = 1;
+    }
+}
+
 /* Makes the nodes of the mesh, and the places of its points. */
 static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like,
                          const struct mesh_source *source)
@@ -260,6 +274,7 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     mesh->point = NEW("mesh.point", mesh->grid.n << p->dim, int32_t);
     for (int64_t k = 0; k < mesh->grid.n << p->dim; k++) mesh->point[k] = -1;
     mesh->place = NEW("mesh.place", p->n, int32_t);
+    if (source->hollow && source->hollow->absent) mesh_absent_make(mesh, source->hollow);
     return OK;
 }
 
@@ -304,6 +319,7 @@ void mesh_free(struct mesh *mesh)
     memory_free(mesh->point);
     memory_free(mesh->kind);
     memory_free(mesh->place);
+    memory_free(mesh->absent);
     memory_free(mesh->band);
     memory_free(mesh->run);
     mesh_partial_free(mesh);

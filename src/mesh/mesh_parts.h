@@ -59,7 +59,10 @@ bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell);
 status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *from, const real *to,
                      const struct particles *p, const struct mesh_source *source);
 /* Is cell I part of a coarser one? */
-static inline bool cell_is_coarse(const struct mesh *mesh, int64_t I) { return mesh->level && mesh->level[I] > 0; }
+static inline bool cell_is_coarse(const struct mesh *mesh, int64_t I)
+{
+    return (mesh->level && mesh->level[I] > 0) || (mesh->absent && mesh->absent[I]);
+}
 
 /* The next of n marks that is set, from `first` on; n: there is none. Most are not, and eight are skipped at a time:
  * behind the last mark there are LANES more, not set. */

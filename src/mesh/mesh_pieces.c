@@ -5,6 +5,8 @@
 #include "base/memory.h"
 #include "mesh_parts.h"
 
+bool mesh_cell_holds(const struct mesh *mesh, int64_t I) { return mesh->kind[I] != CELL_EMPTY; }
+
 /* Box of nodes around the particles, aligned with the nodes of `like`, without nodal arrays. False: more nodes than can
  * be numbered. */
 static bool box_make(struct mesh *box, const struct particles *p, const struct grid *like)
@@ -48,7 +50,19 @@ static void join(int32_t *above, int32_t I, int32_t J)
     above[a > b ? a : b] = (a > b ? b : a) + 1;
 }
 
-int64_t mesh_pieces(const struct particles *p, const struct grid *like)
+/* Joins the nodes of cells whose particles are not made. */
+static void hollow_join(int32_t *above, const struct mesh *box, const struct hollow *h)
+{
+    for (int64_t I = 0; h && h->absent && I < h->n; I++) {
+        int64_t cell = 0;
+        if (!h->absent[I]) continue;
+        for (int d = 0; d < h->dim; d++)
+            cell += (I / h->stride[d] % h->count[d] + h->first[d] - box->grid.first[d]) * box->grid.stride[d];
+        for (int c = 0; c < 1 << h->dim; c++) join(above, (int32_t)cell, (int32_t)cell + box->corner[c]);
+    }
+}
+
+int64_t mesh_pieces(const struct particles *p, const struct grid *like, const struct hollow *hollow)
 {
     struct mesh box;
     int64_t pieces = 0, last = -1;
@@ -62,6 +76,7 @@ int64_t mesh_pieces(const struct particles *p, const struct grid *like)
             join(above, (int32_t)cell, (int32_t)cell + box.corner[c]);
         last = cell;
     }
+    if (fits) hollow_join(above, &box, hollow);
     for (int64_t I = 0; I < box.grid.n && fits; I++) pieces += above[I] == I + 1;
     memory_free(above);
     return pieces;

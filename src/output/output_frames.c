@@ -154,6 +154,13 @@ static bool kept_make(struct output *o, const struct particles *p)
     return made;
 }
 
+void output_particles_changed(struct output *o)
+{
+    free(o->frame_kept.order), free(o->frame_kept.room);
+    o->frame_kept.order = NULL, o->frame_kept.room = NULL;
+    o->frame_kept.n = 0;
+}
+
 /* Writes PATH.tmp and publishes it as PATH. */
 static status frame_write(struct frame_job *job)
 {

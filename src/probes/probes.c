@@ -331,6 +331,14 @@ void probes_sample_end(struct probes *s, const struct observed *o, real t_veloci
     }
 }
 
+/* ---- other particles --------------------------------------------------------------------------------------------- */
+
+void probes_take(struct probes *s, const struct probes *old)
+{
+    for (int k = 0; k < s->n; k++) s->probe[k].memory = old->probe[k].memory;
+    if (s->columns > 0) memcpy(s->value, old->value, (size_t)s->columns * sizeof *s->value);
+}
+
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
 status probes_archive(struct probes *s, struct archive *a)

@@ -25,9 +25,13 @@ enum { PARTICLES_MAX = INT32_MAX - 64 };
 /* Particles in the order in which the scene makes them, collected before their number is known. */
 struct draft {
     const struct scene *scene;
+    const struct hollow *hollow;         /* cells whose particles are not made; NULL: none */
     int64_t n, room;
+    int64_t skipped;                     /* that are not made */
+    real low[DIM_MAX], high[DIM_MAX];    /* of those [m] */
     real *X[DIM_MAX], *volume;           /* [m], [m^3] */
     uint8_t *material, *body;
+    int32_t *id;
 };
 
 static void draft_free(struct draft *d)
@@ -36,6 +40,7 @@ static void draft_free(struct draft *d)
     memory_free(d->volume);
     memory_free(d->material);
     memory_free(d->body);
+    memory_free(d->id);
 }
 
 static status draft_refuse(const struct draft *d, int body, const char *why)
@@ -52,18 +57,21 @@ static void draft_grow(struct draft *d)
     d->volume = memory_resize("fill.volume", d->volume, d->room, room, sizeof(real));
     d->material = memory_resize("fill.material", d->material, d->room, room, sizeof(uint8_t));
     d->body = memory_resize("fill.body", d->body, d->room, room, sizeof(uint8_t));
+    d->id = memory_resize("fill.id", d->id, d->room, room, sizeof(int32_t));
     d->room = room;
 }
 
 /* Appends a particle at X [m], [dim]; volume [m^3]. REFUSED beyond PARTICLES_MAX particles. */
 static status draft_add(struct draft *d, const real *X, real volume, int material, int body)
 {
-    if (d->n >= PARTICLES_MAX) return draft_refuse(d, body, "more than 2147483583 particles; use a larger spacing");
+    if (d->n + d->skipped >= PARTICLES_MAX)
+        return draft_refuse(d, body, "more than 2147483583 particles; use a larger spacing");
     if (d->n == d->room) draft_grow(d);
     for (int a = 0; a < d->scene->dim; a++) d->X[a][d->n] = X[a];
     d->volume[d->n] = volume;
     d->material[d->n] = (uint8_t)material;
     d->body[d->n] = (uint8_t)body;
+    d->id[d->n] = (int32_t)(d->n + d->skipped);
     d->n++;
     return OK;
 }
@@ -147,11 +155,23 @@ static status lattice_axes(const struct draft *d, int body, struct axis axis[DIM
     return OK;
 }
 
+/* Counts a particle at a place [m] that is not made. */
+static status place_skip(struct draft *d, const real *place)
+{
+    for (int a = 0; a < d->scene->dim; a++) {
+        d->low[a] = d->skipped > 0 ? real_min(d->low[a], place[a]) : place[a];
+        d->high[a] = d->skipped > 0 ? real_max(d->high[a], place[a]) : place[a];
+    }
+    d->skipped++;
+    return OK;
+}
+
 /* Adds a particle at a place of the lattice [m], shifted at random by the irregularity, if the place is in the body. */
 static status lattice_point(struct draft *d, int body, const real *place, real volume)
 {
     const struct scene *s = d->scene;
     real X[DIM_MAX] = {0};
+    if (hollow_absent(d->hollow, place)) return place_skip(d, place);
     if (!region_contains(&s->body[body].shape, place, s->dim, ON_SURFACE * s->spacing)) return OK;
     for (int a = 0; a < s->dim; a++)
         X[a] = place[a] + s->spacing * s->irregularity * scatter(s->seed, d->n, a);   /* Imachi et al. 2019, eq. 49 */
@@ -172,6 +192,17 @@ static status fill_lattice(struct draft *d, int body)
                 for (int a = 0; a < DIM_MAX; a++) place[a] = axis_place(&axis[a], at[a]);
                 TRY(lattice_point(d, body, place, volume));
             }
+    return OK;
+}
+
+status fill_place(const struct scene *s, int body, real *X)
+{
+    const struct draft d = {.scene = s};
+    struct axis axis[DIM_MAX] = {{0}};
+    if (!(s->spacing > 0))
+        return draft_refuse(&d, body, "a shape is filled with particles.spacing, which is not given");
+    TRY(lattice_axes(&d, body, axis));
+    for (int a = 0; a < s->dim; a++) X[a] = axis_place(&axis[a], axis[a].first);
     return OK;
 }
 
@@ -227,7 +258,7 @@ static status draft_make(struct draft *d)
         const bool listed = d->scene->body[body].file != NULL;
         int64_t before = d->n;
         TRY(listed ? fill_list(d, body) : fill_lattice(d, body));
-        if (d->n == before)
+        if (d->n == before && d->skipped == 0)
             return draft_refuse(d, body, listed ? "its list holds no particle of it"
                                                 : "holds no particle; is it thinner than the spacing?");
     }
@@ -266,8 +297,18 @@ static void take_draft(struct particles *p, const struct draft *d, int optional)
         p->body[i] = d->body[i];
         p->mass[i] = s->material[p->material[i]].density * p->volume0[i];
         p->kind[i] = s->method == METHOD_PD ? KIND_PD : KIND_MPM;
-        p->id[i] = (int32_t)i;
+        p->id[i] = d->id[i];
     }
+}
+
+/* Number and extent of the body, with particles that are not made. */
+static void take_skipped(struct particles *p, const struct draft *d)
+{
+    for (int a = 0; a < p->dim && d->skipped > 0; a++) {
+        particles_extent(p, p->n, a, &p->low[a], &p->high[a]);
+        p->low[a] = real_min(p->low[a], d->low[a]), p->high[a] = real_max(p->high[a], d->high[a]);
+    }
+    p->n_body = p->n + d->skipped;
 }
 
 /* REFUSED if a particle is farther than FILL_FARTHEST from the origin or its mass is not a positive finite number. */
@@ -432,6 +473,7 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     real spacing = spacing_of(d);
     for (int k = 0; k < s->initials; k++) TRY(check_initial(s, &s->initial[k]));
     take_draft(p, d, optional);
+    take_skipped(p, d);
     TRY(check_values(p, d, spacing));
     TRY(fill_check_lists(p, s));
 #pragma omp parallel for schedule(static)
@@ -443,9 +485,9 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     return OK;
 }
 
-status fill_particles(struct particles *p, const struct scene *s, int optional)
+status fill_particles(struct particles *p, const struct scene *s, const struct hollow *hollow, int optional)
 {
-    struct draft draft = {.scene = s};
+    struct draft draft = {.scene = s, .hollow = hollow};
     *p = (struct particles){0};
     status result = s->bodies > 0 ? draft_make(&draft) : status_set(REFUSED, "%s: no bodies", s->name);
     if (result == OK) result = fill_made(p, &draft, optional);

@@ -214,14 +214,16 @@ const struct key keys[] = {
         .words = "finite|small"),
     KEY("mpm.constants", KEY_CHOICE, UNIT_NONE, AT(scene, lattice_constants), ANY, "isotropic",
         "frame reference: elastic constants of the material, or of its bonds on the lattice (model bond), which are "
-        "not "
-        "quite isotropic",
+        "not quite isotropic",
         .words = "isotropic|lattice"),
     KEY("mpm.levels", KEY_CHOICE, UNIT_NONE, AT(scene, levels), ANY, "auto",
         "frame reference: levels of coarse cells, of 4, 8, 16, 32 spacings, away from bonds, loads and high stress, "
         "each with twice the time step of the one before; 0: cells of 2 spacings everywhere; auto: as many as the size "
         "of the body and the rise of the loads allow",
         .words = "0|1|2|3|4|auto"),
+    KEY("mpm.fill", KEY_CHOICE, UNIT_NONE, AT(scene, fill), ANY, "auto",
+        "frame reference: particles that are made; needed: none in coarse cells; auto: so where these are many",
+        .words = "auto|all|needed"),
     KEY("mpm.origin", KEY_POINT, UNIT_LENGTH, AT(scene, grid_origin), ANY,
         "(on the first mirror across each axis, else at the first body's lower corner)", "a node of the grid",
         .has = FLAG(scene, has_grid_origin)),

@@ -25,7 +25,7 @@ static void boxes_are_filled_in_every_space(void **state)
         if (dim == 3) s.scene.section = s.scene.thickness = 77;
         s.body[0].material = 1;
         s.body[0].velocity[dim - 1] = 3;
-        assert_ok(fill_particles(&p, &s.scene, EVERYTHING));
+        assert_ok(fill_particles(&p, &s.scene, NULL, EVERYTHING));
         assert_int_equal(p.n, count[dim]);
         assert_int_equal(p.n_of[KIND_MPM], count[dim]);
         for (int i = 0; i < p.n; i++) {
@@ -55,7 +55,7 @@ static void method_decides_the_kind(void **state)
         struct particles p;
         setting_make(&s, SPACE_PLANE_STRESS, (real[]){2, 2});
         s.scene.method = method[k];
-        assert_ok(fill_particles(&p, &s.scene, 0));
+        assert_ok(fill_particles(&p, &s.scene, NULL, 0));
         assert_int_equal(p.n_of[method[k] == METHOD_PD ? KIND_PD : KIND_MPM], 16);
         assert_null(p.stretch[0]);
         particles_free(&p);
@@ -81,7 +81,7 @@ static void symmetric_bodies_are_filled_symmetrically(void **state)
         s.solid[0][0] = (struct solid){.kind = SOLID_BALL, .radius = 1};
         s.solid[0][1] = (struct solid){.kind = SOLID_BALL, .subtract = true, .radius = 0.35};
         s.body[0].shape.n = 2;
-        assert_ok(fill_particles(&p, &s.scene, 0));
+        assert_ok(fill_particles(&p, &s.scene, NULL, 0));
         int count = 0;
         for (int i = -40; i < 40; i++)
             for (int j = -40; j < 40; j++) {
@@ -107,7 +107,7 @@ static void added_solids_continue_the_lattice(void **state)
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){2.1, 1});          /* 4 columns, centred in 2.1 */
     s.solid[0][1] = (struct solid){.kind = SOLID_BOX, .from = {0, -1}, .to = {2.1, 0}};
     s.body[0].shape.n = 2;
-    assert_ok(fill_particles(&p, &s.scene, 0));
+    assert_ok(fill_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 16);
     for (int i = 0; i < 16; i++) {
         assert_near(p.X[0][i], 0.3 + 0.5 * (i % 4), 1e-15);
@@ -119,9 +119,9 @@ static void added_solids_continue_the_lattice(void **state)
     s.body[0].shape.n = 1;
     s.solid[1][0] = (struct solid){.kind = SOLID_BOX, .from = {-INFINITY, -1}, .to = {INFINITY, 0}};
     s.body[1].shape.n = 1;
-    assert_refused(fill_particles(&p, &s.scene, 0), "body layer: its shape has no end");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body layer: its shape has no end");
     s.solid[1][0].from[0] = 0, s.solid[1][0].to[0] = 2.1;
-    assert_ok(fill_particles(&p, &s.scene, 0));
+    assert_ok(fill_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 16);
     for (int i = 0; i < 16; i++) assert_int_equal(p.body[i], i < 8);
     for (int i = 0; i < 16; i++) assert_int_equal(p.id[i], (i + 8) % 16);    /* the layer is made second, lies first */
@@ -139,7 +139,7 @@ static void particles_on_surfaces_are_kept(void **state)
     s.solid[0][1] = (struct solid){.kind = SOLID_BOX, .from = {-0.05, 0}, .to = {1.05, 0.3}};
     s.solid[0][2] = (struct solid){.kind = SOLID_BOX, .subtract = true, .from = {0.35, -1}, .to = {0.65, 1}};
     s.body[0].shape.n = 3;
-    assert_ok(fill_particles(&p, &s.scene, 0));
+    assert_ok(fill_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 30);                   /* 12 columns but for 0.45 and 0.55 */
     for (int i = 0; i < 10; i++) assert_near(p.X[0][i], -0.05 + 0.1 * (i < 5 ? i : i + 2), 1e-15);
     particles_free(&p);
@@ -151,12 +151,12 @@ static void irregularity_is_seeded_and_bounded(void **state)
     struct setting s;
     struct particles regular, one, again, other;
     setting_make(&s, SPACE_SOLID, (real[]){5, 5, 5});
-    assert_ok(fill_particles(&regular, &s.scene, 0));
+    assert_ok(fill_particles(&regular, &s.scene, NULL, 0));
     s.scene.irregularity = 0.4, s.scene.seed = 7;
-    assert_ok(fill_particles(&one, &s.scene, 0));
-    assert_ok(fill_particles(&again, &s.scene, 0));
+    assert_ok(fill_particles(&one, &s.scene, NULL, 0));
+    assert_ok(fill_particles(&again, &s.scene, NULL, 0));
     s.scene.seed = 8;
-    assert_ok(fill_particles(&other, &s.scene, 0));
+    assert_ok(fill_particles(&other, &s.scene, NULL, 0));
     int64_t n = regular.n, same = 0;
     assert_int_equal(n, 1000);
     for (int d = 0; d < 3; d++) {
@@ -217,7 +217,7 @@ static void later_initial_entries_overwrite(void **state)
     s.initial[2].body = 1;                       /* none   */
     s.initial[2].velocity[0] = 99;
     s.body[0].velocity[1] = 5;
-    assert_ok(fill_particles(&p, &s.scene, WITH_GRADIENT));
+    assert_ok(fill_particles(&p, &s.scene, NULL, WITH_GRADIENT));
     for (int i = 0; i < p.n; i++) {
         real x = p.X[0][i], y = p.X[1][i];
         assert_near(p.v[0][i], x > 1 ? 0.5 * (x - 1) - 3 * y : 1, 1e-15);
@@ -247,7 +247,7 @@ static void initial_strain_is_hooke(void **state)
             trace += H[a][a];
             for (int b = 0; b < dim; b++) s.initial[0].displacement_gradient[a * dim + b] = H[a][b];
         }
-        assert_ok(fill_particles(&p, &s.scene, WITH_STRETCH));
+        assert_ok(fill_particles(&p, &s.scene, NULL, WITH_STRETCH));
         const struct material *m = &s.material[0];
         const int pair[SYM_MAX][2] = {{0, 1}, {1, 2}, {2, 0}};
         for (int i = 0; i < p.n; i++) {
@@ -278,30 +278,30 @@ static void bad_bodies_are_refused(void **state)
     struct setting s;
     struct particles p;
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 0.2});          /* 0.4 of a spacing thick */
-    assert_refused(fill_particles(&p, &s.scene, 0), "body plate: holds no particle");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body plate: holds no particle");
     s.solid[0][0].to[1] = 1e300;
-    assert_refused(fill_particles(&p, &s.scene, 0), "body plate: too large for the spacing");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body plate: too large for the spacing");
     s.solid[0][0].to[0] = s.solid[0][0].to[1] = 2e8;             /* 1.6e17 places */
-    assert_refused(fill_particles(&p, &s.scene, 0), "body plate: too large for the spacing");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body plate: too large for the spacing");
     s.solid[0][0].to[0] = s.solid[0][0].to[1] = 1;
     s.body[0].shape.n = 0;
-    assert_refused(fill_particles(&p, &s.scene, 0), "body plate: its shape has no end");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body plate: its shape has no end");
     s.body[0].shape.n = 1;
     s.scene.spacing = 0;
-    assert_refused(fill_particles(&p, &s.scene, 0), "particles.spacing, which is not given");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "particles.spacing, which is not given");
     s.scene.spacing = 0.5;
     s.scene.bodies = 2;
     s.solid[1][0] = s.solid[0][0];               /* the same place twice */
-    assert_refused(fill_particles(&p, &s.scene, 0), "particles in one place");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "particles in one place");
     s.scene.bodies = 1;
     s.scene.initials = 1;
     s.initial[0].sets_strain = true;
     s.initial[0].displacement_gradient[0] = -1.5;
-    assert_refused(fill_particles(&p, &s.scene, 0), "inside out");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "inside out");
     s.initial[0].displacement_gradient[s.scene.dim + 1] = 3;     /* stretched across as much as that and more */
-    assert_refused(fill_particles(&p, &s.scene, 0), "inside out");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "inside out");
     s.scene.bodies = 0;
-    assert_refused(fill_particles(&p, &s.scene, 0), "no bodies");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "no bodies");
 }
 
 int main(void)

@@ -1,0 +1,36 @@
+/* What load has broken, from rows of the same body with other particles made (data/hollow.h). */
+#include <math.h>
+
+#include "bonds_parts.h"
+
+/* Bond of a row to a particle that is broken as one of another set of rows is. */
+static void bond_take(struct bonds *b, int64_t row, int32_t nbr)
+{
+    const int lane = (int)(row % LANES);
+    for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
+        const struct bond bond = bond_read(b, row / LANES, k, lane);
+        if (bond.inverse_length == 0 || bond.nbr != nbr) continue;
+        if (bond.w == 0 && bond.inverse_length < 0) return;
+        const int64_t q = bond_to_write(b, row / LANES, k, lane);
+        b->w[q] = 0;
+        b->inverse_length[q] = -fabs(b->inverse_length[q]);
+        bonds_changed(b, row, q);
+        return;
+    }
+}
+
+void bonds_take(struct bonds *b, const struct bonds *old, const int32_t *now)
+{
+    for (int64_t from = 0; from < old->rows; from++) {
+        const int32_t i = now[old->particle[from]], row = i < 0 ? -1 : b->row_of[i];
+        if (row < 0) continue;
+        b->broken_volume[row] = old->broken_volume[from];
+        b->fracture_energy[row] = old->fracture_energy[from];
+        b->plastic_work[row] = old->plastic_work[from];
+        b->broken[row] = old->broken[from];
+        if (!old->changed[from / LANES]) continue;
+        for (struct bond_iterator it = bonds_of_row(old, from); bond_next(&it);)
+            if (it.bond.w == 0 && it.bond.inverse_length < 0) bond_take(b, row, now[it.bond.nbr]);
+    }
+    b->clamped.stale = true;
+}
