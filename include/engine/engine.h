@@ -161,6 +161,8 @@ struct run_report {
     double checkpoint_seconds;           /* of the longest checkpoint so far */
     int64_t step_started;                /* first step of this process */
     struct warnings warnings;            /* what engine_warn and the run found */
+    struct particles more;               /* points of coarse cells in the last frame, and their spacings [m] */
+    real *more_spacing;
     bool quiet;
     const volatile sig_atomic_t *stop;   /* set by a signal: checkpoint and leave; NULL: never */
 };
@@ -204,6 +206,8 @@ status engine_hollow_plan(struct engine *e);
 bool engine_hollow_start(struct engine *e, const uint8_t *level);
 status engine_hollow_follow(struct engine *e, const uint8_t *level);
 status engine_hollow_archive(struct engine *e, struct archive *a);
+/* Points of hollow coarse cells for a frame, into e->report (engine_hollow_points.c); false: there are none. */
+bool engine_hollow_points(struct engine *e);
 /* What a run of its lattice bodies takes at the most, about, before anything of it is made but materials and family
  * [byte]. */
 real engine_memory(const struct engine *e);

@@ -133,6 +133,8 @@ real levels_strain(struct mesh_levels *l, const struct particles *p, const struc
 real levels_kick(const struct mesh_levels *l, real dt);
 real levels_power(const struct mesh_levels *l);
 
+/* Coarse cells of `level` whose particles are not made; with `cell` [their number] which. */
+int64_t levels_hollow(const struct mesh_levels *l, int level, int64_t *cell);
 /* A particle of a coarse cell that is squeezed through itself; p->n: none. */
 int64_t levels_inverted(const struct mesh_levels *l, const struct particles *p);
 

@@ -62,6 +62,9 @@ status output_frames_check(struct output *o, int *lost, char *text, size_t room)
 struct frame_extra {
     real *const *push;                   /* [dim] force of contact [N] */
     const int32_t *fragment;             /* number of the fragment, 0: the heaviest; -1: none */
+    const struct particles *more;        /* points of coarse cells, shown behind the particles; until output_wait */
+    real spacing;                        /* of the particles; [more->n] of those points [m] */
+    const real *more_spacing;
 };
 
 /* Frame number o->frames at time t [s]: frames/NNNNNN.hdf, then frames.hdf.series and frames.xdmf. Particles are

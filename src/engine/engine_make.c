@@ -458,6 +458,8 @@ void engine_free(struct engine *e)
     levels_free(&e->reference.levels);
     mesh_free(&e->reference.mesh);
     hollow_free(&e->reference.hollow);
+    particles_free(&e->report.more);
+    memory_free(e->report.more_spacing);
     memory_free(e->report.record);
     memory_free(e->probing.pulse);
     warnings_free(&e->report.warnings);

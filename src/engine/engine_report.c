@@ -86,7 +86,12 @@ static status write_frame(struct engine *e)
     engine_sync(e);
     TRY(frame_sound(&e->clock, &e->part));
     if (parts) fragments_find(&fragments, &e->bonds, &e->part);
-    const struct frame_extra extra = {e->contact.push[0] ? e->contact.push : NULL, fragments.of};
+    struct frame_extra extra = {.push = e->contact.push[0] ? e->contact.push : NULL, .fragment = fragments.of};
+    TRY(output_wait(e->report.out));             /* the frame before may show such points */
+    if (engine_hollow_points(e)) {
+        extra.more = &e->report.more, extra.more_spacing = e->report.more_spacing;
+        extra.spacing = e->scene->spacing;
+    }
     const status s = output_frame_begin(e->report.out, &e->part, &extra, e->clock.t, e->clock.step, e->scene->text);
     fragments_free(&fragments);
     return s == OK ? engine_profiles_write(e) : s;

@@ -103,6 +103,21 @@ int64_t levels_inverted(const struct mesh_levels *l, const struct particles *p)
     return first;
 }
 
+int64_t levels_hollow(const struct mesh_levels *l, int level, int64_t *cell)
+{
+    const struct mesh *mesh = &l->at[level].mesh;
+    int64_t n = 0, k[DIM_MAX] = {0};
+    for (int64_t I = 0; I < mesh->grid.n && l->fine->absent; I++, walk_on(&mesh->grid, k)) {
+        bool absent = false;
+        if (mesh->kind[I] != CELL_WHOLE) continue;
+        for (int part = 0; part < parts_of(l, level) && !absent; part++)
+            absent = l->fine->absent[part_at(l, level, fine_node(l, level, k), part)];
+        if (absent && cell) cell[n] = I;
+        n += absent;
+    }
+    return n;
+}
+
 bool levels_lowest(const struct mesh_levels *l, int level, int64_t I)
 {
     int64_t k[DIM_MAX];

@@ -71,6 +71,12 @@ static void copy_fragment(const struct frame_source *s, int64_t first, int64_t e
     memcpy((int32_t *)rows + first, s->extra.fragment + first, (size_t)(end - first) * sizeof(int32_t));
 }
 
+static void copy_spacing(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+{
+    for (int64_t i = first; i < end; i++)
+        ((float *)rows)[i] = (float)(s->p == s->extra.more ? s->extra.more_spacing[i] : s->extra.spacing);
+}
+
 static void fill_reference(const struct particles *p, int64_t i, void *row)
 {
     for (int d = 0; d < p->dim; d++) ((double *)row)[d] = p->X[d][i];
@@ -90,6 +96,7 @@ const struct frame_field frame_fields[FRAME_FIELDS] = {
     {POINT_DATA "plastic_strain", HDF_F32, 1, NULL, copy_plastic_strain},
     {POINT_DATA "contact_force", HDF_F32, 3, NULL, copy_push},
     {POINT_DATA "fragment", HDF_I32, 1, NULL, copy_fragment},
+    {POINT_DATA "spacing", HDF_F32, 1, NULL, copy_spacing},
     {POINT_DATA "kind", HDF_U8, 1, NULL, copy_kind},
     {POINT_DATA "material", HDF_U8, 1, fill_material, NULL},
     {POINT_DATA "body", HDF_U8, 1, fill_body, NULL},
@@ -102,6 +109,7 @@ static bool field_exists(const struct frame_field *field, const struct frame_sou
     if (field->copy == copy_plastic_strain) return s->p->plastic_strain != NULL;
     if (field->copy == copy_push) return s->extra.push != NULL;
     if (field->copy == copy_fragment) return s->extra.fragment != NULL;
+    if (field->copy == copy_spacing) return s->extra.spacing > 0;
     return true;
 }
 
@@ -116,4 +124,14 @@ unsigned frame_fields_of(const struct frame_source *s)
 size_t frame_field_row(const struct frame_field *field, int dim)
 {
     return hdf_size(field->type) * (size_t)(field->columns ? field->columns : dim);
+}
+
+void frame_field_copy_more(const struct frame_field *field, const struct frame_source *source, void *rows)
+{
+    const struct frame_source more = {source->extra.more,
+                                      {.more = source->extra.more,
+                                       .spacing = source->extra.spacing,
+                                       .more_spacing = source->extra.more_spacing}};
+    if (field_exists(field, &more)) field->copy(&more, 0, more.p->n, rows);
+    else memset(rows, 0, (size_t)more.p->n * frame_field_row(field, more.p->dim));
 }

@@ -19,12 +19,14 @@ struct frame_field {
     void (*copy)(const struct frame_source *s, int64_t first, int64_t end, void *rows);
 };
 
-enum { FIELD_POINTS, FRAME_FIELDS = 13 };    /* place of the positions in the table; its length */
+enum { FIELD_POINTS, FRAME_FIELDS = 14 };    /* place of the positions in the table; its length */
 extern const struct frame_field frame_fields[FRAME_FIELDS];
 
 /* Bits of the fields that there are: plastic strain where a material yields, the force of contact where there is
  * contact, fragments where bodies can break. */
 unsigned frame_fields_of(const struct frame_source *s);
+/* Rows of the points of coarse cells (extra.more), of a field that is copied. */
+void frame_field_copy_more(const struct frame_field *field, const struct frame_source *source, void *rows);
 /* Bytes of a particle. */
 size_t frame_field_row(const struct frame_field *field, int dim);
 

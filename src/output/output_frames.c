@@ -26,6 +26,7 @@ enum { COPIED = 4096 };                  /* particles whose rows a thread copies
 struct frame_job {
     struct path path;
     const struct particles *p;           /* borrowed; constant fields only */
+    const struct particles *more;        /* points of coarse cells, as well; NULL: none */
     struct output *o;                    /* borrowed; holds the room kept for the writer */
     int64_t n, step;
     int dim;
@@ -51,12 +52,14 @@ static struct frame_job *job_make(struct output *o, const struct frame_source *s
     const struct particles *p = source->p;
     struct frame_job *job = NEW("output.job", 1, struct frame_job);
     size_t offset[FRAME_FIELDS], length = 0;
-    job->p = p, job->o = o, job->n = p->n, job->step = step, job->dim = p->dim, job->t = t;
+    job->p = p, job->more = source->extra.more, job->o = o;
+    job->n = p->n + (job->more ? job->more->n : 0);
+    job->step = step, job->dim = p->dim, job->t = t;
     job->compress = o->compress, job->fields = frame_fields_of(source), job->scene_text = scene_text;
     for (int k = 0; k < FRAME_FIELDS; k++) {
         offset[k] = length;
         if (job->fields >> k & 1 && frame_fields[k].copy)
-            length += (size_t)p->n * frame_field_row(&frame_fields[k], p->dim);
+            length += (size_t)job->n * frame_field_row(&frame_fields[k], p->dim);
     }
     if (o->frame_copy_bytes < (int64_t)length) {
         memory_free(o->frame_copy);
@@ -70,6 +73,8 @@ static struct frame_job *job_make(struct output *o, const struct frame_source *s
 #pragma omp parallel for schedule(static)
         for (int64_t first = 0; first < p->n; first += COPIED)
             field->copy(source, first, first + COPIED < p->n ? first + COPIED : p->n, job->field[k]);
+        if (job->more)
+            frame_field_copy_more(field, source, job->field[k] + (size_t)p->n * frame_field_row(field, p->dim));
     }
     return job;
 }
@@ -82,11 +87,21 @@ static void job_free(struct frame_job *job)
 
 /* ---- writing thread: no teams, hence no arrays of memory_new ----------------------------------------------------- */
 
+static int32_t *ascending_order(int64_t n)
+{
+    int32_t *order = calloc((size_t)n + 1, sizeof *order);
+    for (int64_t i = 0; i < n && order; i++) order[i] = (int32_t)i;
+    return order;
+}
+
 /* Indices of the particles in the order of their ids, [n]; ids are unique but may have gaps. NULL: no memory. Free with
  * free. */
 static int32_t *order_by_id(const struct particles *p)
 {
     int64_t room = 0, k = 0;
+    bool ascending = true;
+    for (int64_t i = 1; i < p->n && ascending; i++) ascending = p->id[i - 1] < p->id[i];
+    if (ascending) return ascending_order(p->n);
     for (int64_t i = 0; i < p->n; i++) room = p->id[i] >= room ? (int64_t)p->id[i] + 1 : room;
     int32_t *order = calloc((size_t)room + 1, sizeof *order);
     if (!order) return NULL;
@@ -104,9 +119,13 @@ static void write_field(struct hdf *f, const struct frame_job *job, int k, const
     const struct frame_field *field = &frame_fields[k];
     const size_t row = frame_field_row(field, job->dim);
     assert(row <= ROW_MOST);
-    for (int64_t i = 0; i < job->n; i++)
+    const int64_t own = job->p->n;
+    for (int64_t i = 0; i < own; i++)
         if (field->fill) field->fill(job->p, order[i], room + (size_t)i * row);
         else memcpy(room + (size_t)i * row, job->field[k] + (size_t)order[i] * row, row);
+    for (int64_t i = own; i < job->n; i++)
+        if (field->fill) field->fill(job->more, i - own, room + (size_t)i * row);
+        else memcpy(room + (size_t)i * row, job->field[k] + (size_t)i * row, row);
     hdf_rows(f, field->path, field->type, job->n, field->columns ? field->columns : job->dim, room);
 }
 
@@ -141,16 +160,16 @@ static void write_marks(struct hdf *f, int dim, real t, int64_t step, const char
     hdf_text(f, "/Cleave/scene", scene_text);
 }
 
-/* Order and room for all frames of a run, made by the first frame: neither the particles nor their ids change. False:
- * no memory. */
-static bool kept_make(struct output *o, const struct particles *p)
+/* Order and room for frames of `n` rows, kept while neither the particles nor their ids change
+ * (output_particles_changed). False: no memory. */
+static bool kept_make(struct output *o, const struct particles *p, int64_t n)
 {
-    if (o->frame_kept.n == p->n) return true;
+    if (o->frame_kept.n == n) return true;
     free(o->frame_kept.order), free(o->frame_kept.room);
     o->frame_kept.order = order_by_id(p);
-    o->frame_kept.room = malloc((size_t)(p->n + 1) * ROW_MOST);
+    o->frame_kept.room = malloc((size_t)(n + 1) * ROW_MOST);
     const bool made = o->frame_kept.order && o->frame_kept.room;
-    o->frame_kept.n = made ? p->n : 0;
+    o->frame_kept.n = made ? n : 0;
     return made;
 }
 
@@ -165,7 +184,7 @@ void output_particles_changed(struct output *o)
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;
-    if (!kept_make(job->o, job->p)) return file_fault(job->path.text, ENOMEM);
+    if (!kept_make(job->o, job->p, job->n)) return file_fault(job->path.text, ENOMEM);
     const int32_t *order = job->o->frame_kept.order;
     char *room = job->o->frame_kept.room;
     hdf_create(&f, path_aside(job->path.text).text, job->compress);
