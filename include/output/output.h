@@ -96,6 +96,7 @@ struct frame {
     uint8_t *kind, *material, *body;
     int32_t *id;
     int32_t *fragment;                   /* NULL: frames of this run do not have it */
+    float *spacing;                      /* [m] likewise: all have the same */
 };
 static inline int frame_stresses(int dim) { return symmetric_count(dim) + (dim == 2); }
 status frame_read(struct frame *f, const char *path);

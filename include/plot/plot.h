@@ -36,7 +36,8 @@ struct cloud {
     int axis[2], normal;                 /* 0..2: x y z; normal -1 in 2D */
     double layer;                        /* where the layer is along the normal [m] */
     double t;                            /* [s] */
-    double spacing;                      /* [m] */
+    double spacing;                      /* of the particles [m] */
+    float *size;                         /* [n] of particles and points of coarse cells; NULL: all that spacing [m] */
     bool aligned;                        /* neighbours still lie along the axes */
 };
 void cloud_make(struct cloud *c, const struct frame *f);

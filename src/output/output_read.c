@@ -52,6 +52,8 @@ static void read_fields(struct frame *f, struct hdf *h)
     f->id = read_list(h, "/VTKHDF/PointData/id", HDF_I32, f->n);
     if (hdf_count(h, "/VTKHDF/PointData/fragment") >= 0)
         f->fragment = read_list(h, "/VTKHDF/PointData/fragment", HDF_I32, f->n);
+    if (hdf_count(h, "/VTKHDF/PointData/spacing") >= 0)
+        f->spacing = read_list(h, "/VTKHDF/PointData/spacing", HDF_F32, f->n);
 }
 
 /* Reads dimension, time, step and number of particles; a value out of range is a fault of the file. */
@@ -103,6 +105,7 @@ void frame_free(struct frame *f)
     memory_free(f->body);
     memory_free(f->id);
     memory_free(f->fragment);
+    memory_free(f->spacing);
     *f = (struct frame){0};
 }
 

@@ -44,10 +44,18 @@ static double near_distance(const struct frame *f, int64_t i)
     return sum / f->dim;
 }
 
+static double least_spacing(const struct frame *f)
+{
+    double least = INFINITY;
+    for (int64_t i = 0; i < f->n; i++) least = fmin(least, f->spacing[i]);
+    return least;
+}
+
 double frame_spacing(const struct frame *f)
 {
     double distance[SAMPLES];
     int64_t samples = sample_count(f->n), known = 0;
+    if (f->spacing && f->n > 0) return least_spacing(f);
     for (int64_t k = 0; k < samples; k++) {
         double r = near_distance(f, k * f->n / samples);
         if (isfinite(r)) distance[known++] = r;
@@ -111,8 +119,11 @@ void cloud_make(struct cloud *c, const struct frame *f)
     c->damage = NEW("plot.damage", f->n, float);
     c->kind = NEW("plot.kind", f->n, uint8_t);
     if (f->fragment) c->fragment = NEW("plot.fragment", f->n, int32_t);
+    if (f->spacing) c->size = NEW("plot.size", f->n, float);
     for (int64_t i = 0; i < f->n; i++) {
-        if (c->normal >= 0 && fabs(f->X[c->normal][i] - c->layer) > 0.49 * c->spacing) continue;
+        const double size = f->spacing ? f->spacing[i] : c->spacing;
+        if (c->normal >= 0 && fabs(f->X[c->normal][i] - c->layer) > 0.5 * size - 0.01 * c->spacing) continue;
+        if (f->spacing) c->size[c->n] = (float)size;
         for (int k = 0; k < 2; k++) c->place[k][c->n] = f->X[c->axis[k]][i] + f->u[c->axis[k]][i];
         c->damage[c->n] = f->damage[i];
         if (f->fragment) c->fragment[c->n] = f->fragment[i];
@@ -128,6 +139,7 @@ void cloud_free(struct cloud *c)
     memory_free(c->damage);
     memory_free(c->kind);
     memory_free(c->fragment);
+    memory_free(c->size);
     *c = (struct cloud){0};
 }
 
@@ -190,10 +202,12 @@ static void paint_particle(struct canvas *v, const struct view *view, const stru
 {
     double at[2], reach[2];
     int from[2], to[2], size[2] = {v->width, v->height};
+    const double wide = c->size ? c->size[i] - c->spacing : 0;       /* of a coarse cell's point beyond a particle */
+    const double half = c->aligned ? SQUARE * c->spacing + 0.5 * wide : DISC * (c->spacing + wide);
     bool fine = c->spacing * v->per_metre[0] < 1.5;  /* several particles a pixel: show the most damaged */
     for (int k = 0; k < 2; k++) {
         at[k] = (c->place[k][i] - view->from[k]) * v->per_metre[k];
-        reach[k] = fmax((c->aligned ? SQUARE : DISC) * c->spacing * v->per_metre[k], 0.5);
+        reach[k] = fmax(half * v->per_metre[k], 0.5);
         if (!(at[k] > -reach[k] && at[k] < size[k] + reach[k])) return;      /* outside, or not a number */
         from[k] = (int)fmax(ceil(at[k] - reach[k] - 0.5), 0);
         to[k] = (int)fmin(floor(at[k] + reach[k] - 0.5), size[k] - 1);
