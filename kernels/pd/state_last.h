@@ -86,13 +86,20 @@ static inline void state_last(struct bonds *b, const struct particles *p, const 
 
 /* ---- force of a bond that ends ----------------------------------------------------------------------------------- */
 
-/* State c of the family of particle i before it lost bonds; of an image what its source's bonds read. */
-static inline real state_before(const struct bonds *b, const struct particles *p, int c, int32_t i)
+/* State c of the family of particle i before it lost bonds; of an image that of its source, as state_of_images has it:
+ * the bond from the source to an image of the other end, which breaks with this one, reads the same. */
+static inline real state_before(const struct bonds *b, const struct particles *p, int c, int64_t i)
 {
     const struct state *t = &b->state;
-    const int64_t row = i < p->n ? b->row_of[i] : -1;
-    if (row >= 0 && t->past[row / LANES]) return t->before[c][i];
-    return c == 0 ? t->pressure[i] : c == 1 ? t->spring[i] : t->rotation[c - 2][i];
+    real sign = 1;
+    for (; i >= p->n; i = t->image[i - p->n].source) {
+        const int axis = t->image[i - p->n].axis;
+        if (axis < 0) return 0;
+        if (c >= 2 && rotation_antisymmetric(c - 2, axis, p->dim)) sign = -sign;
+    }
+    const int64_t row = b->row_of[i];
+    if (row >= 0 && t->past[row / LANES]) return sign * t->before[c][i];
+    return sign * (c == 0 ? t->pressure[i] : c == 1 ? t->spring[i] : t->rotation[c - 2][i]);
 }
 
 /* Force of a bond between i and j on i [N] by the states of both ends, `now` or as they were before bonds ended. */

@@ -93,6 +93,28 @@ interrupted "$work/crushed" 60 $finer
 calm "$work/crushed" --resume $finer
 same "crushed, interrupted after 60 lines" "$work/whole" "$work/crushed"
 
+# State-based plates torn apart, 80 to 100 % of which convert, beside a mirror that bonds break across: momentum along it is exact.
+for model in ospd mospd; do
+    cat >"$work/tear.yaml" <<EOF
+space: plane strain
+thickness: 1 mm
+duration: 20 us
+method: adaptive
+model: $model
+material: {young: 72 GPa, poisson: 0.2, density: 2440, energy_release_rate: 135}
+body: {box: {from: [0, 0], to: [42 mm, 51 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {traction: [0, 135.85 MPa], face: y+, time: {ramp: {until: 20 us}}}
+  - {mirror: {axis: y, at: 0}}
+mpm: {levels: 2}
+time: {step: 0.06 us}
+output: {frames: 1, samples: 100}
+EOF
+    calm "$work/tear_$model" "$work/tear.yaml"
+    sound tear_$model 0.001
+done
+
 # ---- refusals ----------------------------------------------------------------------------------------------------------
 
 refused "five levels" "$work/not" "levels: 5 is unknown; 0, 1, 2, 3, 4 or auto is expected" "$work/ring.yaml" -s mpm.levels=5
