@@ -22,7 +22,7 @@ struct output {
     char *folder;                        /* DIR */
     int frames, frames_room;             /* frames written */
     real *frame_time;                    /* [s] */
-    int64_t frame_particles;
+    int64_t *frame_rows;                 /* of each frame: particles, and points of coarse cells */
     unsigned frame_fields;               /* bits of the fields that frames have (output_fields.c) */
     bool compress;
     FILE *history;

@@ -11,7 +11,9 @@ static void say_particles(const struct engine *e)
 {
     int64_t driven = 0;
     for (int64_t i = 0; i < e->part.n; i++) driven += (e->part.flag[i] & FLAG_DRIVEN) != 0;
-    printf("particles      %lld: %lld peridynamic, %lld material points", (long long)e->part.n,
+    printf("particles      %lld", (long long)e->part.n_body);
+    if (e->part.n < e->part.n_body) printf(", of which %lld are made", (long long)e->part.n);
+    printf(": %lld peridynamic, %lld material points",
            (long long)e->part.n_of[KIND_PD], (long long)e->part.n_of[KIND_MPM]);
     if (driven) printf("; %lld driven", (long long)driven);
     if (e->loads.images) printf("; %lld mirror images", (long long)e->loads.images);

@@ -192,14 +192,14 @@ static void blocks_complete(const struct reference_frame *r, const uint8_t *leve
     }
 }
 
-/* The cells that need no particles with these levels [h->n]. */
-static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level)
+/* The cells that need no particles with these levels [h->n]; those within `ahead` cells of level 0 do. */
+static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level, int ahead)
 {
     const struct hollow *h = &r->hollow;
     const struct grid *g = &r->mesh.grid;
     uint8_t *absent = NEW("hollow.absent", h->n, uint8_t), *keep = NEW("hollow.keep", g->n, uint8_t);
     for (int64_t I = 0; I < g->n; I++) keep[I] = level[I] == 0 && mesh_cell_holds(&r->mesh, I);
-    levels_dilate(&r->levels, keep, AHEAD);
+    levels_dilate(&r->levels, keep, ahead);
     for (int64_t I = 0; I < g->n; I++) {
         const int64_t J = hollow_of(h, g, I);
         if (J >= 0) absent[J] = h->whole[J] && level[I] > 0 && !keep[I];
@@ -221,7 +221,7 @@ bool engine_hollow_start(struct engine *e, const uint8_t *level)
     }
     r->lacks = any_lacks(&r->mesh, level);
     if (!r->lacks) return true;
-    uint8_t *absent = absent_with(r, level);
+    uint8_t *absent = absent_with(r, level, 0);
     for (int64_t J = 0; J < r->hollow.n; J++) r->hollow.absent[J] &= absent[J];
     memory_free(absent);
     return false;
@@ -380,7 +380,7 @@ status engine_hollow_follow(struct engine *e, const uint8_t *level)
 {
     if (!any_lacks(&e->reference.mesh, level)) return OK;
     struct hollow hollow = e->reference.hollow;
-    uint8_t *absent = absent_with(&e->reference, level);
+    uint8_t *absent = absent_with(&e->reference, level, AHEAD);
     struct engine *old = NEW("hollow.old", 1, struct engine);
     if (e->report.out) {
         TRY(output_wait(e->report.out));

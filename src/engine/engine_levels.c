@@ -69,7 +69,7 @@ int engine_levels_number(const struct engine *e)
     if (s->levels != LEVELS_AUTO) return s->levels;
     if (e->part.n_body < PAYS || s->time_step > LEVELS_STEP_MOST * e->clock.dt_critical) return 0;
     const real most = largest_edge(e);
-    while (levels < LEVELS_MAX && (real)(4 << levels) * s->spacing <= most) levels++;
+    while (levels < LEVELS_MAX && (real)(4 << levels) * s->spacing <= most * (1 + 1e-6)) levels++;
     return levels;
 }
 

@@ -278,6 +278,7 @@ void output_close(struct output *o)
     if (o->folder) folder_unlock(&o->lock, o->folder);
     memory_free(o->folder);
     memory_free(o->frame_time);
+    memory_free(o->frame_rows);
     memory_free(o->frame_copy);
     free(o->frame_kept.order);
     free(o->frame_kept.room);
@@ -301,10 +302,12 @@ status output_archive(struct output *o, struct archive *a)
             return status_set(FAILED, "the checkpoint's list of frames does not fit their number");
         memory_free(o->frame_time);
         o->frame_time = NEW("output.frame_time", frames, real);
+        memory_free(o->frame_rows);
+        o->frame_rows = NEW("output.frame_rows", frames, int64_t);
         o->frames = o->frames_room = frames;
     }
     TRY(a->exchange(a, "output/frame_time", o->frame_time, (size_t)frames * sizeof(real)));
-    ARCHIVE_VALUE(a, "output/frame_particles", o->frame_particles);
+    TRY(a->exchange(a, "output/frame_rows", o->frame_rows, (size_t)frames * sizeof(int64_t)));
     ARCHIVE_VALUE(a, "output/history_bytes", o->history_bytes);
     ARCHIVE_VALUE(a, "output/history_hash", o->history_hash);
     return OK;

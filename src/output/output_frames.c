@@ -269,7 +269,7 @@ static void xdmf_print(FILE *out, const struct output *o)
         char name[PATH_NAME_ROOM];
         if (isnan(o->frame_time[k])) continue;
         frame_name(name, sizeof name, k);
-        xdmf_grid(out, name, o->frame_time[k], o->frame_particles, o->frame_fields);
+        xdmf_grid(out, name, o->frame_time[k], o->frame_rows[k], o->frame_fields);
     }
     fprintf(out, "</Grid>\n</Domain>\n</Xdmf>\n");
 }
@@ -335,10 +335,12 @@ static void frame_count(struct output *o, const struct frame_job *job)
     if (o->frames == o->frames_room) {
         int room = 2 * o->frames_room + 16;
         o->frame_time = memory_resize("output.frame_time", o->frame_time, o->frames_room, room, sizeof(real));
+        o->frame_rows = memory_resize("output.frame_rows", o->frame_rows, o->frames_room, room, sizeof(int64_t));
         o->frames_room = room;
     }
+    o->frame_rows[o->frames] = job->n;
     o->frame_time[o->frames++] = job->t;
-    o->frame_particles = job->n, o->frame_fields = job->fields;
+    o->frame_fields = job->fields;
 }
 
 /* Starts the writing thread. It blocks all signals, which the stepping thread receives, but those of its own faults. */
