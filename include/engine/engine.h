@@ -260,7 +260,7 @@ void engine_grid_make(struct engine *e);
 void engine_grid_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor);
 /* Number of the body that comes k-th, those that are joined counted as one; -1: there is none. */
 int engine_body_apart(const struct scene *s, int k);
-status engine_mesh_make(struct engine *e);
+status engine_mesh_make(struct engine *e, bool still);   /* still: the caller sets the motion of its nodes */
 /* Pre-cracks as slits of the mesh (engine_notch.c): the choice, REFUSED where the scene wants what cannot be, and the
  * peridynamic particles of the start; before the first sample of tips; in a step, faces that meet; what stands for a
  * pre-crack, in words. */

@@ -19,6 +19,7 @@ struct mesh_source {
     const struct elastic *isotropic;     /* [materials] those that partial stress rests on */
     int materials;
     const struct partial_stress *partial; /* NULL, or what points leave to bonds */
+    bool still;                          /* the caller sets the motion of the nodes */
     const struct hollow *hollow;         /* cells whose particles are not made, borrowed; NULL: none */
     const struct crack *slit;            /* [slits] free surfaces between cells, borrowed */
     int slits;

@@ -88,7 +88,7 @@ status engine_archive(void *engine, struct archive *a)
         levels_free(&e->reference.levels);
         mesh_free(&e->reference.mesh);
         memory_free(e->reference.elastic);
-        TRY(engine_mesh_make(e));
+        TRY(engine_mesh_make(e, true));
         TRY(engine_levels_make(e, true));
     }
     TRY(mesh_archive(&e->reference.mesh, a));

@@ -306,7 +306,7 @@ static status mesh_take(struct engine *e, struct engine *old)
     struct reference_frame *r = &e->reference, *was = &old->reference;
     mesh_free(&r->mesh);
     memory_free(r->elastic);
-    TRY(engine_mesh_make(e));
+    TRY(engine_mesh_make(e, true));
     assert(r->mesh.grid.n == was->mesh.grid.n);
     swap_arrays(r->mesh.displacement, was->mesh.displacement, e->part.dim);
     swap_arrays(r->mesh.grid.velocity, was->mesh.grid.velocity, e->part.dim);

@@ -369,7 +369,7 @@ static status make_forces(struct engine *e, const struct engine *before)
     TRY(named(s, engine_joined_check(e)));
     make_contact(e);
     engine_partial_make(e);
-    TRY(named(s, engine_mesh_make(e)));
+    TRY(named(s, engine_mesh_make(e, before != NULL)));
     engine_ends_update(e);
     engine_stability_check_make(e);
     return make_time(e, before);

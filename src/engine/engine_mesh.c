@@ -102,9 +102,10 @@ static void engine_mesh_follow_points(struct engine *e)
     e->coupling.partial.touches = 0;
 }
 
-status engine_mesh_make(struct engine *e)
+status engine_mesh_make(struct engine *e, bool still)
 {
     make_constants(e);
+    e->reference.source.still = still;
     TRY(mesh_make(&e->reference.mesh, &e->part, &e->mpm.field[0].grid, &e->reference.source));
     /* a mesh made anew after a restart has no mirrors, though its box is unchanged */
     e->loads.constrained_mesh.count[0] = 0;

@@ -307,7 +307,7 @@ status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < mesh->grid.n; I++) mesh_node_weigh(mesh, p, I);
     cells_sort_out(mesh, p, source, NULL);
-    mesh_nodes_start(mesh, p);
+    if (!source->still) mesh_nodes_start(mesh, p);
     return OK;
 }
 
