@@ -222,7 +222,7 @@ static void particles_start_in_a_transverse_wave(void **state)
     struct scene s;
     struct particles p;
     assert_int_equal(scene_read_text(&s, text, strlen(text), "test", NULL, 0), OK);
-    assert_int_equal(fill_particles(&p, &s, 0), OK);
+    assert_int_equal(fill_particles(&p, &s, NULL, 0), OK);
     const struct wave_pulse *w = &s.initial[0].pulse;
     const real speed = sqrt(2 / (2 * 1.2) / 1.3), *n = w->direction;
     for (int64_t i = 0; i < p.n; i++) {

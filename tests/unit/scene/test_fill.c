@@ -191,7 +191,7 @@ static void threads_change_no_bit(void **state)
     s.initial[0].displacement_gradient[1] = 0.01;
     for (int k = 0; k < 2; k++) {
         omp_set_num_threads(k + 1);
-        assert_ok(fill_particles(&p[k], &s.scene, EVERYTHING));
+        assert_ok(fill_particles(&p[k], &s.scene, NULL, EVERYTHING));
     }
     assert_int_equal(p[0].n, 4800);
     assert_same_particles(&p[0], &p[1], EVERYTHING);
