@@ -388,7 +388,7 @@ static void summary_has_the_figures(void **state)
     size_t length;
     open_fresh(&o, "summary", false);
     e->scene = &s, e->report.out = &o, e->clock.step = 7, e->clock.t = 0.1, e->report.loop_seconds = 1e-3;
-    e->part.n = 4, e->part.dim = 2, e->part.n_of[KIND_PD] = 3;
+    e->part.n = e->part.n_body = 4, e->part.dim = 2, e->part.n_of[KIND_PD] = 3;
     e->report.particle_steps[KIND_PD] = 1000;
     e->diagnostics.break_time = NAN;
     e->coupling.conversion = (struct conversion){.first_time = 0.05, .events = 1, .start = 1, .first_place = {1, 2}};
