@@ -153,7 +153,8 @@ static void hdf5_lists_are_read(void **state)
         if (part == 3) write_table(file, "material", 1, (hsize_t[]){3}, H5T_NATIVE_INT, material);
         H5Fclose(file);
         if (part == 0) assert_refused(fill_particles(&p, &s.scene, NULL, 0), "list.h5: volumes is not a dataset");
-        if (part == 1) assert_refused(fill_particles(&p, &s.scene, NULL, 0), "volumes has 2 x 1 numbers; 3 x 1 are wanted");
+        if (part == 1) assert_refused(fill_particles(&p, &s.scene, NULL, 0),
+                                      "volumes has 2 x 1 numbers; 3 x 1 are wanted");
         if (part < 2) continue;
         assert_ok(fill_particles(&p, &s.scene, NULL, 0));
         for (int i = 0; i < 3; i++) {
@@ -330,7 +331,8 @@ static void other_bodies_are_neighbours_of_points(void **state)
     assert_ok(fill_particles(&p, &s.scene, NULL, 0));
     particles_free(&p);
     s.scene.method = METHOD_PD;
-    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "strewn.csv: body layer: 100 % of its particles have no neighbour");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0),
+                   "strewn.csv: body layer: 100 % of its particles have no neighbour");
     remove(name);
 }
 
