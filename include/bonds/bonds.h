@@ -60,8 +60,9 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 real bonds_critical_step_made(const struct bonds *b, const struct particles *p);
 
 /* Takes what load has broken from rows `old` of a set of particles whose numbers are `now` [all of it, images included]
- * in this one, -1: not in it. Both sets have all neighbours of peridynamic particles. Damage of particles stays. */
-void bonds_take(struct bonds *b, const struct bonds *old, const int32_t *now);
+ * in this one, -1: not in it. Both sets have all neighbours of peridynamic particles. */
+void bonds_take(struct bonds *b, struct particles *p, const struct bonds *old, const struct particles *was,
+                const int32_t *now);
 /* Archives what load has broken; all else is made anew. */
 status bonds_archive(struct bonds *b, struct particles *p, struct archive *a);
 

@@ -107,4 +107,26 @@ static ALWAYS_INLINE int64_t grid_cell(const struct grid *g, int d, real x)
     return k - (place < (real)k);
 }
 
+/* Place along d of the particle next to corner c of cell I, of 2^dim particles at quarters of its edges [m]. */
+static inline real grid_quarter(const struct grid *g, int64_t I, int corner, int d)
+{
+    return grid_position(g, d, I / g->stride[d] % g->count[d]) + (corner >> d & 1 ? 0.75 : 0.25) * g->h;
+}
+
+/* Number in the box `to` of cell I of the box `from` with nodes at the same places; -1: it is not in that box. */
+static inline int64_t grid_same_cell(const struct grid *from, int64_t I, const struct grid *to)
+{
+    int64_t J = 0;
+    for (int d = 0; d < from->dim; d++) {
+        const int64_t k = I / from->stride[d] % from->count[d] + from->first[d] - to->first[d];
+        if (k < 0 || k >= to->count[d]) return -1;
+        J += k * to->stride[d];
+    }
+    return J;
+}
+
+/* The box of cells round from..to [m], and a node more, for dim, h and anchor as they are; no nodal arrays. False: more
+ * than `most` nodes. */
+bool grid_box(struct grid *g, const real *from, const real *to, int64_t most);
+
 #endif

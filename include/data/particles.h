@@ -156,6 +156,9 @@ void particles_make(struct particles *p, int dim, int64_t n, int optional);
 void particles_add_images(struct particles *p, int64_t images, int optional);
 void particles_free(struct particles *p);
 
+/* Takes all fields of the particles of `old` whose numbers here are `now`, -1: none. */
+void particles_take(struct particles *p, const struct particles *old, const int32_t *now, int optional);
+
 /* Sorts the body row by row: z, then y, then x, in rows of thickness `spacing`; ties by id. At set-up. */
 void particles_sort(struct particles *p, real spacing, int optional);
 

@@ -196,12 +196,24 @@ struct engine {
 
 /* Everything up to step 0: particles, cells, loads, bonds, grid, time step. `out` may be NULL. */
 status engine_make(struct engine *e, const struct scene *s, struct output *out);
-/* The same, with these cells hollow and, where `before` is not NULL, in the middle of a run: levels of cells, and all
- * that steps change, are left to the caller. */
+/* A run whose place another takes that has other particles. */
+struct predecessor {
+    struct engine *run;
+    int32_t *now;                        /* [its particles and images] their numbers in the other, -1: not there */
+};
+/* The same, with these cells hollow. `before` not NULL: with its particles, bonds and time; the rest that its steps
+ * have changed, and levels of cells, are left to the caller. */
 status engine_make_again(struct engine *e, const struct scene *s, struct output *out, struct hollow hollow,
-                         const struct engine *before);
+                         struct predecessor *before);
+/* Makes a run again with the cells hollow that it has now, and goes on where it was (engine_replace.c); what of its
+ * predecessor it takes while it is made: particles, once it has images; what load has broken. */
+status engine_replace(struct engine *e);
+void engine_take_particles(struct engine *e, struct predecessor *before);
+void engine_take_bonds(struct engine *e, const struct predecessor *before);
 /* Particles only where they are needed (engine_hollow.c): the plan of the start; after the levels of the next step are
- * known, those that lack particles are given them, and others lose theirs; their cells in checkpoints. */
+ * known, those that lack particles are given them, and others lose theirs; their cells in checkpoints. `obstacle`: why
+ * all particles are made, NULL: some need not be. */
+const char *engine_hollow_obstacle(const struct scene *s);
 status engine_hollow_plan(struct engine *e);
 bool engine_hollow_start(struct engine *e, const uint8_t *level);
 status engine_hollow_follow(struct engine *e, const uint8_t *level);
@@ -281,6 +293,9 @@ int engine_levels_number(const struct engine *e);
 status engine_levels_make(struct engine *e, bool restored);
 status engine_levels_follow(struct engine *e);
 void engine_levels_guard(struct engine *e);
+/* Walls of coarse cells, exposed points and loads, after levels or points have changed. */
+void engine_levels_found(struct engine *e);
+void engine_mesh_follow_points(struct engine *e);
 real engine_mesh_kinetic(const struct reference_frame *reference);
 real engine_mesh_strain(struct engine *e);
 /* Reversion to material points (engine_reversion.c): refuses scenes that do not allow it; reverts what is due before a

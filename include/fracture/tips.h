@@ -61,6 +61,8 @@ real tips_speed(const struct tips *t, int k);
 /* The tip that grew longest, NULL if none has grown. */
 const struct tip *tips_longest(const struct tips *t);
 void tips_free(struct tips *t);
+/* Takes what `old` knows of other particles of the same body, whose numbers here are `now`, -1: none. */
+void tips_take(struct tips *t, struct tips *old, const int32_t *now);
 status tips_archive(struct tips *t, struct archive *a);
 
 #endif

@@ -100,8 +100,8 @@ void levels_map(const struct mesh_levels *l, const struct particles *p, const ui
  * from the motion of its corners by an energy of more than `most` [J/kg]. Returns whether there are any. The motion of
  * level 0 must be there (levels_prolong). */
 bool levels_limit_rough(const struct mesh_levels *l, const uint8_t *level, real most, uint8_t *limit);
-/* Is cell I of level 0 the lowest in its cell of `level`? */
-bool levels_lowest(const struct mesh_levels *l, int level, int64_t I);
+/* Marks all of the coarse cells of which a part is marked, with these levels [fine->grid.n]. */
+void levels_mark_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark);
 /* Marks all cells within `reach` cells of a marked one. */
 void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach);
 
@@ -135,8 +135,8 @@ real levels_power(const struct mesh_levels *l);
 
 /* Coarse cells of `level` whose particles are not made; with `cell` [their number] which. */
 int64_t levels_hollow(const struct mesh_levels *l, int level, int64_t *cell);
-/* A particle of a coarse cell that is squeezed through itself; p->n: none. */
-int64_t levels_inverted(const struct mesh_levels *l, const struct particles *p);
+/* Is a coarse cell squeezed through itself? The place of its first point [m]. */
+bool levels_inverted(const struct mesh_levels *l, real *X);
 
 /* The mesh of level 0 has been made anew with other particles: coarse cells stay as they are. */
 void levels_follow_fine(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source);

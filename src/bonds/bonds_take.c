@@ -19,7 +19,8 @@ static void bond_take(struct bonds *b, int64_t row, int32_t nbr)
     }
 }
 
-void bonds_take(struct bonds *b, const struct bonds *old, const int32_t *now)
+void bonds_take(struct bonds *b, struct particles *p, const struct bonds *old, const struct particles *was,
+                const int32_t *now)
 {
     for (int64_t from = 0; from < old->rows; from++) {
         const int32_t i = now[old->particle[from]], row = i < 0 ? -1 : b->row_of[i];
@@ -32,5 +33,7 @@ void bonds_take(struct bonds *b, const struct bonds *old, const int32_t *now)
         for (struct bond_iterator it = bonds_of_row(old, from); bond_next(&it);)
             if (it.bond.w == 0 && it.bond.inverse_length < 0) bond_take(b, row, now[it.bond.nbr]);
     }
+    for (int64_t j = 0; j < was->n; j++)
+        if (now[j] >= 0) p->damage[now[j]] = was->damage[j];
     b->clamped.stale = true;
 }

@@ -195,6 +195,21 @@ real contact_energy(const struct contact *c, const struct particles *p)
     return pairs + contact_rigid_energy(c, p) + contact_friction_stored(c);
 }
 
+/* ---- other particles --------------------------------------------------------------------------------------------- */
+
+void contact_take(struct contact *c, struct contact *old, const int32_t *now, int64_t n)
+{
+    const struct contact fresh = *c;
+    const struct contact_law theirs = old->law;
+    *c = *old, *old = fresh, old->law = theirs;
+    c->law = fresh.law;
+    for (int64_t k = 0; k < c->n && c->made; k++) c->particle[k] = now[c->particle[k]];
+    for (int d = 0; d < DIM_MAX && c->push[d]; d++) {
+        memory_free(c->push[d]);
+        c->push[d] = NEW("contact.push", n, real);       /* the step of a frame records it anew */
+    }
+}
+
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
 status contact_stored(struct archive *a, const char *name, void **array, int64_t count, size_t size)

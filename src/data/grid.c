@@ -79,6 +79,21 @@ status grid_cover(struct grid *g, const real *from, const real *to, int64_t most
     return OK;
 }
 
+bool grid_box(struct grid *g, const real *from, const real *to, int64_t most)
+{
+    real n = 1;
+    g->n = 1;
+    for (int d = 0; d < g->dim; d++) {
+        g->first[d] = (int64_t)floor((from[d] - g->anchor[d]) / g->h);
+        g->count[d] = (int64_t)floor((to[d] - g->anchor[d]) / g->h) - g->first[d] + 2;
+        n *= (real)g->count[d];
+        if (n > (real)most) return false;
+        g->stride[d] = g->n;
+        g->n *= g->count[d];
+    }
+    return true;
+}
+
 void grid_add_wall(struct grid *g, int64_t node, int component, real velocity, real change, int load)
 {
     if (g->walls == g->walls_room) {

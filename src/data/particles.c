@@ -108,6 +108,17 @@ void particles_free(struct particles *p)
     *p = (struct particles){0};
 }
 
+void particles_take(struct particles *p, const struct particles *old, const int32_t *now, int optional)
+{
+    for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
+        for (int k = 0; k < f->count(p->dim, optional); k++) {
+            char *to = get(p, f, k);
+            const char *from = get(old, f, k);
+            for (int64_t j = 0; j < old->n; j++)
+                if (now[j] >= 0) memcpy(to + (size_t)now[j] * f->size, from + (size_t)j * f->size, f->size);
+        }
+}
+
 /* ---- sorting ----------------------------------------------------------------------------------------------------- */
 
 /* Where a particle stands: layer (z) and row (y) in steps of the spacing, place along x, and what breaks ties. */

@@ -13,7 +13,7 @@ static void cell_points(struct particles *p, const struct mesh *mesh, const stru
         const int64_t i = first + c;
         point[c] = (int32_t)i;
         for (int d = 0; d < g->dim; d++)
-            p->X[d][i] = grid_position(g, d, cell / g->stride[d] % g->count[d]) + (c >> d & 1 ? 0.75 : 0.25) * g->h;
+            p->X[d][i] = grid_quarter(g, cell, c, d);
         p->volume0[i] = p->volume[i] = mesh->volume;
         p->material[i] = mesh->material[cell];
         p->mass[i] = s->material[p->material[i]].density * mesh->volume;

@@ -210,6 +210,13 @@ static void next_levels(struct engine *e, const uint8_t *demand, uint8_t *limit,
     while (levels_limit_rough(l, level, most, limit)) levels_map(l, &e->part, demand, limit, level);
 }
 
+void engine_levels_found(struct engine *e)
+{
+    struct mesh_levels *l = &e->reference.levels;
+    for (int k = 1; k <= l->n; k++) loads_level_find(&e->loads, &l->at[k].held, &l->at[k].mesh.grid, &e->part);
+    engine_mesh_follow_points(e);
+}
+
 /* Changes the levels; what that does to the energy is booked as damped. */
 static void change(struct engine *e, const uint8_t *level)
 {
@@ -219,10 +226,7 @@ static void change(struct engine *e, const uint8_t *level)
     levels_half_kick(&r->levels, &e->part, r->elastic, finite, dt);
     const real before = engine_mesh_kinetic(r) + engine_mesh_strain(e);
     levels_change(&r->levels, &e->part, &r->source, level);
-    for (int k = 1; k <= r->levels.n; k++)
-        loads_level_find(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
-    mesh_find_exposed(&r->mesh, &e->part, &e->bonds, &e->loads);
-    loads_mesh_find(&e->loads, &r->mesh, &e->part);
+    engine_levels_found(e);
     e->coupling.damped += before - engine_mesh_kinetic(r) - engine_mesh_strain(e);
     levels_half_kick(&r->levels, &e->part, r->elastic, finite, -dt);
 }

@@ -114,11 +114,12 @@ static void make_mirrors(const struct scene *s, struct material_tables *tables, 
 }
 
 /* Converts the initial peridynamic particles and makes the bonds. */
-static status make_bonds(struct engine *e)
+static status make_bonds(struct engine *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
     make_mirrors(e->scene, &e->tables, &e->source);
     e->source.image = e->loads.image;
+    if (before) engine_take_particles(e, before);
     e->source.room = bonds_room(&e->source);
     if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {
         e->tables.neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
@@ -131,6 +132,7 @@ static status make_bonds(struct engine *e)
     }
     if (s->method == METHOD_ADAPTIVE) TRY(engine_notch_convert(e));
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
+    if (before) engine_take_bonds(e, before);
     e->coupling.conversion.first_time = NAN;
     e->coupling.conversion.start = e->coupling.conversion.peak = e->part.n_of[KIND_PD];
     e->coupling.conversion.peak_bonds = e->bonds.n;
@@ -301,12 +303,12 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
 }
 
 /* Critical step and time step, or those of the run that goes on. */
-static status make_time(struct engine *e, const struct engine *before)
+static status make_time(struct engine *e, const struct predecessor *before)
 {
     if (!before) return named(e->scene, engine_time_make(e));
-    e->clock = before->clock;
-    e->source.limit.dt = before->source.limit.dt;
-    e->source.core = e->bonds.core = before->source.core;
+    e->clock = before->run->clock;
+    e->source.limit.dt = before->run->source.limit.dt;
+    e->source.core = e->bonds.core = before->run->source.core;
     return OK;
 }
 
@@ -350,7 +352,7 @@ static status make_probes(struct engine *e)
 }
 
 /* Loads, bonds, mesh: from the particles to the time step. */
-static status make_forces(struct engine *e, const struct engine *before)
+static status make_forces(struct engine *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
     TRY(named(s, engine_frames(e)));
@@ -363,7 +365,7 @@ static status make_forces(struct engine *e, const struct engine *before)
     engine_absorbing_make(e);
     cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;
-    TRY(make_bonds(e));
+    TRY(make_bonds(e, before));
     TRY(engine_rigid_make(e));
     TRY(engine_rigid_check(e));
     TRY(named(s, engine_joined_check(e)));
@@ -376,7 +378,7 @@ static status make_forces(struct engine *e, const struct engine *before)
 }
 
 status engine_make_again(struct engine *e, const struct scene *s, struct output *out, struct hollow hollow,
-                         const struct engine *before)
+                         struct predecessor *before)
 {
     memset(e, 0, sizeof *e);
     e->scene = s;

@@ -94,8 +94,7 @@ static void make_constants(struct engine *e)
                                           .slits = e->coupling.notches.slits};
 }
 
-/* Updates exposed points and loads after the points of the mesh have changed. */
-static void engine_mesh_follow_points(struct engine *e)
+void engine_mesh_follow_points(struct engine *e)
 {
     mesh_find_exposed(&e->reference.mesh, &e->part, &e->bonds, &e->loads);
     loads_mesh_find(&e->loads, &e->reference.mesh, &e->part);

@@ -83,11 +83,11 @@ static status write_frame(struct engine *e)
 {
     const bool parts = e->scene->method == METHOD_PD && scene_cracks(e->scene);
     struct fragments fragments = {0};
+    if (e->report.more.n > 0) TRY(output_wait(e->report.out));     /* which still reads them */
     engine_sync(e);
     TRY(frame_sound(&e->clock, &e->part));
     if (parts) fragments_find(&fragments, &e->bonds, &e->part);
     struct frame_extra extra = {.push = e->contact.push[0] ? e->contact.push : NULL, .fragment = fragments.of};
-    TRY(output_wait(e->report.out));             /* the frame before may show such points */
     if (engine_hollow_points(e)) {
         extra.more = &e->report.more, extra.more_spacing = e->report.more_spacing;
         extra.spacing = e->scene->spacing;

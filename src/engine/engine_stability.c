@@ -253,17 +253,21 @@ static status inversion_check(const struct run_clock *clock, const struct partic
 {
     if (reference->mesh.points == 0 || (clock->step % INVERSION_STEPS != 0 && clock->step < clock->steps))
         return OK;
-    int64_t i = mesh_inverted(&reference->mesh, p);
-    if (i == p->n) i = levels_inverted(&reference->levels, p);
-    if (i == p->n) return OK;
+    char what[48] = "a coarse cell";
+    real X[DIM_MAX] = {0};
+    const int64_t i = mesh_inverted(&reference->mesh, p);
+    if (i == p->n && !levels_inverted(&reference->levels, X)) return OK;
+    if (i < p->n) {
+        particle_place(p, i, X);
+        snprintf(what, sizeof what, "particle %d", (int)p->id[i]);
+    }
     return status_set(FAILED,
-                      "inverted at step %lld, t = %.3g s: at particle %d, from (%.6g, %.6g, %.6g) m, the mesh of the "
+                      "inverted at step %lld, t = %.3g s: at %s, from (%.6g, %.6g, %.6g) m, the mesh of the "
                       "reference frame is squeezed "
                       "through itself; choose mpm.frame: current, whose points keep their order on the grid, or see "
                       "whether loads and "
                       "supports are meant",
-                      (long long)clock->step, clock->t, (int)p->id[i], p->X[0][i], p->dim > 1 ? p->X[1][i] : 0,
-                      p->dim > 2 ? p->X[2][i] : 0);
+                      (long long)clock->step, clock->t, what, X[0], X[1], X[2]);
 }
 
 #define OVERLAP_DOUBTFUL 0.3             /* [spacings] */

@@ -426,6 +426,16 @@ const struct tip *tips_longest(const struct tips *t)
     return longest;
 }
 
+void tips_take(struct tips *t, struct tips *old, const int32_t *now)
+{
+    const struct tips fresh = *t;
+    *t = *old;
+    t->label = fresh.label, t->count = fresh.count;
+    for (int64_t j = 0; j < old->count; j++)
+        if (now[j] >= 0) t->label[now[j]] = old->label[j];
+    old->time = fresh.time, old->growth = fresh.growth;
+}
+
 status tips_archive(struct tips *t, struct archive *a)
 {
     int64_t samples = t->samples;

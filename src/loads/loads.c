@@ -199,6 +199,17 @@ void loads_hold(struct loads *l, struct particles *p, real t, real dt)
     loads_push_work(l, p, t, dt);
 }
 
+void loads_take(struct loads *l, const struct loads *old)
+{
+    memcpy(l->impulse, old->impulse, sizeof l->impulse);
+    l->work = old->work, l->constraint_work = old->constraint_work;
+    l->absorbing.energy = old->absorbing.energy;
+    for (int b = 0; b < l->n; b++) {
+        memcpy(l->load[b].displacement, old->load[b].displacement, sizeof l->load[b].displacement);
+        memcpy(l->load[b].reaction, old->load[b].reaction, sizeof l->load[b].reaction);
+    }
+}
+
 status loads_archive(struct loads *l, struct archive *a)
 {
     ARCHIVE_VALUE(a, "loads/impulse", l->impulse);

@@ -88,19 +88,17 @@ void levels_prolong(struct mesh_levels *l)
     if (l->n > 0) levels_interpolate(l);
 }
 
-int64_t levels_inverted(const struct mesh_levels *l, const struct particles *p)
+bool levels_inverted(const struct mesh_levels *l, real *X)
 {
-    int64_t first = p->n, k[DIM_MAX];
     for (int level = 1; level <= l->n; level++) {
         const struct mesh *mesh = &l->at[level].mesh;
-        for (int64_t I = 0; I < mesh->grid.n && first == p->n; I++) {
+        for (int64_t I = 0; I < mesh->grid.n; I++) {
             if (mesh->kind[I] != CELL_WHOLE || !mesh_cell_inverted(mesh, I)) continue;
-            walk_at(&mesh->grid, I, k);
-            first = l->fine->point[fine_node(l, level, k) << mesh->grid.dim];
-            if (first < 0) first = 0;
+            for (int d = 0; d < mesh->grid.dim; d++) X[d] = grid_quarter(&mesh->grid, I, 0, d);
+            return true;
         }
     }
-    return first;
+    return false;
 }
 
 int64_t levels_hollow(const struct mesh_levels *l, int level, int64_t *cell)
@@ -116,13 +114,6 @@ int64_t levels_hollow(const struct mesh_levels *l, int level, int64_t *cell)
         n += absent;
     }
     return n;
-}
-
-bool levels_lowest(const struct mesh_levels *l, int level, int64_t I)
-{
-    int64_t k[DIM_MAX];
-    walk_at(&l->fine->grid, I, k);
-    return is_lowest(l, level, k);
 }
 
 int64_t levels_cells(const struct mesh_levels *l, int level)
@@ -170,15 +161,25 @@ real levels_power(const struct mesh_levels *l)
 
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */
 
-/* Which runs of a level may have a point beyond the stress at which they split, as its last forces found. */
+/* Which runs of a mesh may have a point beyond the stress at which they split, as its last forces found, to `marks`
+ * [runs]; and back. */
+static void stressed_get(const struct mesh *mesh, uint8_t *marks)
+{
+    for (int64_t r = 0; r < mesh->runs; r++) marks[r] = mesh->run[r].stressed;
+}
+static void stressed_put(struct mesh *mesh, const uint8_t *marks)
+{
+    for (int64_t r = 0; r < mesh->runs; r++) mesh->run[r].stressed = marks[r] != 0;
+}
+
 static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
 {
     char name[48];
     uint8_t *stressed = NEW("levels.stressed", mesh->runs, uint8_t);
-    for (int64_t r = 0; r < mesh->runs; r++) stressed[r] = mesh->run[r].stressed;
+    stressed_get(mesh, stressed);
     snprintf(name, sizeof name, "levels/%d_stressed", level);
     const status s = mesh->runs > 0 ? a->exchange(a, name, stressed, (size_t)mesh->runs) : OK;
-    for (int64_t r = 0; r < mesh->runs; r++) mesh->run[r].stressed = stressed[r] != 0;
+    stressed_put(mesh, stressed);
     memory_free(stressed);
     return s;
 }
@@ -199,17 +200,14 @@ void levels_follow_fine(struct mesh_levels *l, const struct particles *p, const 
     uint8_t *stressed[LEVELS_MAX + 1];
     l->fine->level = l->level;
     for (int level = 1; level <= l->n; level++) {
-        const struct mesh *mesh = &l->at[level].mesh;
-        stressed[level] = NEW("levels.stressed", mesh->runs, uint8_t);
-        for (int64_t r = 0; r < mesh->runs; r++) stressed[level][r] = mesh->run[r].stressed;
+        stressed[level] = NEW("levels.stressed", l->at[level].mesh.runs, uint8_t);
+        stressed_get(&l->at[level].mesh, stressed[level]);
     }
     cells_from_levels(l, p, source);
     for (int level = 1; level <= l->n; level++) {
-        const struct mesh *mesh = &l->at[level].mesh;
-        for (int64_t r = 0; r < mesh->runs; r++) mesh->run[r].stressed = stressed[level][r];
+        stressed_put(&l->at[level].mesh, stressed[level]);
         memory_free(stressed[level]);
     }
-    levels_prolong(l);
 }
 
 /* The fields of the nodes of a level. */

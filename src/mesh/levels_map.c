@@ -141,7 +141,7 @@ bool levels_sound(const struct mesh_levels *l)
     for (int64_t I = 0; I < g->n && sound; I++, walk_on(g, k)) {
         const int level = l->level[I];
         coarse += level > 0;
-        sound = level <= l->n;
+        sound = level <= l->n && (level > 0 || !l->fine->absent || !l->fine->absent[I]);
         if (level == 0 || !sound || !is_lowest(l, level, k)) continue;
         for (int part = 0; part < parts_of(l, level) && sound; part++, covered++) {
             const int64_t J = part_at(l, level, I, part);
@@ -174,6 +174,18 @@ void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach)
         for (int64_t first = 0; first < g->n; first += g->stride[d] * g->count[d])
             for (int64_t I = first; I < first + g->stride[d]; I++)
                 line_dilate(mark + I, g->count[d], g->stride[d], reach);
+}
+
+void levels_mark_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark)
+{
+    const struct grid *g = &l->fine->grid;
+    int64_t k[DIM_MAX] = {0};
+    for (int64_t I = 0; I < g->n; I++, walk_on(g, k)) {
+        const int parts = level[I] > 0 && is_lowest(l, level[I], k) ? parts_of(l, level[I]) : 0;
+        bool any = false;
+        for (int part = 0; part < parts && !any; part++) any = mark[part_at(l, level[I], I, part)] != 0;
+        for (int part = 0; part < parts && any; part++) mark[part_at(l, level[I], I, part)] = 1;
+    }
 }
 
 void levels_distances(struct mesh_levels *l, int safe, int roomy)

@@ -251,15 +251,9 @@ status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *fro
 /* Marks the cells whose particles are not made. */
 static void mesh_absent_make(struct mesh *mesh, const struct hollow *h)
 {
-    const struct grid *g = &mesh->grid;
-    mesh->absent = NEW("mesh.absent", g->n, uint8_t);
-    for (int64_t I = 0; I < h->n; I++) {
-        int64_t J = 0;
-        if (!h->absent[I]) continue;
-        for (int d = 0; d < h->dim; d++)
-            J += (I / h->stride[d] % h->count[d] + h->first[d] - g->first[d]) * g->stride[d];
-        mesh->absent[J] = 1;
-    }
+    mesh->absent = NEW("mesh.absent", mesh->grid.n, uint8_t);
+    for (int64_t I = 0; I < h->box.n; I++)
+        if (h->absent[I]) mesh->absent[grid_same_cell(&h->box, I, &mesh->grid)] = 1;
 }
 
 /* Makes the nodes of the mesh, and the places of its points. */

@@ -12,19 +12,14 @@ bool mesh_cell_holds(const struct mesh *mesh, int64_t I) { return mesh->kind[I] 
 static bool box_make(struct mesh *box, const struct particles *p, const struct grid *like)
 {
     struct grid *g = &box->grid;
-    real from, to, n = 1;
+    real from[DIM_MAX], to[DIM_MAX];
     memset(box, 0, sizeof *box);
-    g->dim = p->dim, g->h = like->h, g->n = 1;
+    g->dim = p->dim, g->h = like->h;
     for (int d = 0; d < p->dim; d++) {
-        particles_extent(p, p->n, d, &from, &to);
+        particles_extent(p, p->n, d, &from[d], &to[d]);
         g->anchor[d] = like->anchor[d];
-        g->first[d] = (int64_t)floor((from - g->anchor[d]) / g->h);
-        g->count[d] = (int64_t)floor((to - g->anchor[d]) / g->h) - g->first[d] + 2;
-        n *= (real)g->count[d];
-        if (n > INT32_MAX >> p->dim) return false;
-        g->stride[d] = g->n;
-        g->n *= g->count[d];
     }
+    if (!grid_box(g, from, to, INT32_MAX >> p->dim)) return false;
     for (int c = 0; c < 1 << p->dim; c++)
         for (int d = 0; d < p->dim; d++) box->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
     return true;
@@ -53,12 +48,10 @@ static void join(int32_t *above, int32_t I, int32_t J)
 /* Joins the nodes of cells whose particles are not made. */
 static void hollow_join(int32_t *above, const struct mesh *box, const struct hollow *h)
 {
-    for (int64_t I = 0; h && h->absent && I < h->n; I++) {
-        int64_t cell = 0;
+    for (int64_t I = 0; h && h->absent && I < h->box.n; I++) {
         if (!h->absent[I]) continue;
-        for (int d = 0; d < h->dim; d++)
-            cell += (I / h->stride[d] % h->count[d] + h->first[d] - box->grid.first[d]) * box->grid.stride[d];
-        for (int c = 0; c < 1 << h->dim; c++) join(above, (int32_t)cell, (int32_t)cell + box->corner[c]);
+        const int64_t cell = grid_same_cell(&h->box, I, &box->grid);
+        for (int c = 0; c < 1 << h->box.dim; c++) join(above, (int32_t)cell, (int32_t)cell + box->corner[c]);
     }
 }
 

@@ -1,0 +1,109 @@
+/* A run is made again in its middle with other particles of the same body (engine_hollow.c), and takes over all that
+ * its steps have changed. */
+#include <string.h>
+
+#include "base/memory.h"
+#include "engine/engine.h"
+
+/* Numbers of the particles and images of `old` in e, -1: not there. Both are in the order of their ids. The caller
+ * frees them. */
+static int32_t *numbers_now(const struct engine *e, const struct engine *old)
+{
+    const struct particles *p = &e->part, *q = &old->part;
+    int32_t *now = NEW("replace.now", q->n_all, int32_t);
+    int64_t i = 0, k = 0;
+    for (int64_t j = 0; j < q->n; j++) {
+        while (i < p->n && p->id[i] < q->id[j]) i++;
+        now[j] = i < p->n && p->id[i] == q->id[j] ? (int32_t)i : -1;
+    }
+    for (int64_t j = 0; j < old->loads.images; j++) {
+        const struct image *was = &old->loads.image[j];
+        const int32_t source = now[was->source];
+        int64_t next = k;
+        while (source >= 0 && next < e->loads.images &&
+               (e->loads.image[next].source != source || e->loads.image[next].load != was->load))
+            next++;
+        const bool found = source >= 0 && next < e->loads.images;
+        now[q->n + j] = found ? (int32_t)(p->n + next) : -1;
+        if (found) k = next + 1;
+    }
+    return now;
+}
+
+void engine_take_particles(struct engine *e, struct predecessor *before)
+{
+    before->now = numbers_now(e, before->run);
+    particles_take(&e->part, &before->run->part, before->now, e->optional);
+    particles_list(&e->part);
+    bonds_images_follow(&e->part, &e->source);
+}
+
+void engine_take_bonds(struct engine *e, const struct predecessor *before)
+{
+    bonds_take(&e->bonds, &e->part, &before->run->bonds, &before->run->part, before->now);
+    state_weigh(&e->bonds, &e->part, &e->source);
+}
+
+static void swap_arrays(real **a, real **b, int dim)
+{
+    for (int d = 0; d < dim; d++) {
+        real *kept = a[d];
+        a[d] = b[d], b[d] = kept;
+    }
+}
+
+/* The motion of all nodes, and the coarse cells. */
+static void nodes_take(struct engine *e, struct engine *old)
+{
+    struct reference_frame *r = &e->reference, *was = &old->reference;
+    assert(r->mesh.grid.n == was->mesh.grid.n);
+    swap_arrays(r->mesh.displacement, was->mesh.displacement, e->part.dim);
+    swap_arrays(r->mesh.grid.velocity, was->mesh.grid.velocity, e->part.dim);
+    r->speed = was->speed;
+    r->levels = was->levels;
+    r->levels.fine = &r->mesh;
+    was->levels = (struct mesh_levels){0};
+    r->coarse = was->coarse, was->coarse = NULL;
+    levels_follow_fine(&r->levels, &e->part, &r->source);
+    engine_levels_found(e);
+    engine_mesh_sync_points(e, NULL, 0);
+    engine_ends_update(e);
+}
+
+/* Accounts and figures that do not depend on which particles are made. */
+static void accounts_take(struct engine *e, struct engine *old)
+{
+    loads_take(&e->loads, &old->loads);
+    probes_take(&e->probing.probes, &old->probing.probes);
+    e->coupling.damped = old->coupling.damped;
+    e->coupling.conversion = old->coupling.conversion;
+    e->diagnostics = old->diagnostics;
+    const real mass = e->stability.mass;         /* as a restart would sum it, over the particles that are made */
+    e->stability = old->stability;
+    e->stability.mass = mass;
+    e->probing.residual_step0 = old->probing.residual_step0;
+    e->report = old->report;
+    old->report = (struct run_report){.out = NULL};
+}
+
+status engine_replace(struct engine *e)
+{
+    struct engine *old = NEW("replace.old", 1, struct engine);
+    struct predecessor before = {.run = old};
+    *old = *e;
+    old->reference.hollow = (struct hollow){0};
+    old->reference.levels.fine = &old->reference.mesh;
+    status s = engine_make_again(e, old->scene, NULL, e->reference.hollow, &before);
+    if (s == OK) {
+        nodes_take(e, old);
+        contact_take(&e->contact, &old->contact, before.now, e->part.n);
+        if (e->contact.made) contact_follow(&e->contact, &e->part, &e->bonds, &e->loads);
+        tips_take(&e->fracture.tips, &old->fracture.tips, before.now);
+        accounts_take(e, old);
+    }
+    memory_free(before.now);
+    engine_free(old);
+    memory_free(old);
+    memory_reuse(true);
+    return s;
+}
