@@ -104,7 +104,9 @@ struct contact {
     struct rigid_body *rigid;            /* borrowed */
     struct contact_near *near;           /* [rigids]; NULL before the first search */
     real way;                            /* the farthest that a particle has come since the search [m] */
-    int64_t searched, broken, changed;   /* at the last search: step; directed bonds broken; changes of kind */
+    int64_t searched, broken;            /* at the last search: step; directed bonds broken */
+    int64_t changed;                     /* changes of kind that the marks of rows know */
+    bool due;                            /* a search is due, whatever has moved */
     int64_t pairs_most;                  /* pairs in contact at once, most so far */
     real overlap;                        /* largest (d - r) of the last step that looked [m] */
     real overlap_most;                   /* of all [m] */
@@ -130,10 +132,13 @@ void contact_take(struct contact *c, struct contact *old, const int32_t *now, in
 real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *m, real bonds);
 
 /* Before a step: searches anew if particles have come too far since the last search, if bonds have broken a while ago,
- * or if particles have changed their kind; what a pair can push counts as loaded and its row blocks are active.
- * broken: directed bonds broken so far; changed: changes of kind so far. */
+ * or if one is due; what a pair can push counts as loaded and its row blocks are active. broken: directed bonds broken
+ * so far; changed: changes of kind so far. */
 void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
                     const struct family *family, int64_t step, int64_t broken, int64_t changed);
+/* These have become peridynamic: a search is due if one of them is at a face. */
+void contact_add(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *family,
+                 const int32_t *list, int64_t n);
 /* Marks the particles that something may push as loaded and their row blocks as active; also after a restart. */
 void contact_follow(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
 

@@ -48,11 +48,13 @@ struct conversion {
     real reversion_energy;               /* all energy less that before, of these passes [J] */
 };
 
-/* Updates particles whose motion is stored on the nodes of a mesh (mesh.h), before bonds to them are made. The list
- * names each particle once. */
+/* What a pass asks of others. sync: updates particles whose motion is stored on the nodes of a mesh (mesh.h), before
+ * bonds to them are made; the list names each particle once. converted (may be NULL): these have become peridynamic, and
+ * their bonds are made. */
 struct conversion_sync {
     void (*sync)(void *context, const int32_t *list, int64_t n);
     void *context;
+    void (*converted)(void *context, const int32_t *list, int64_t n);
 };
 
 /* Converts every material point flagged FLAG_STRESSED or FLAG_LOST_BOND (as the criteria say), both ends of a bond that

@@ -235,7 +235,7 @@ static status contact_check(const struct contact *c, const struct particles *p)
 status contact_archive(struct contact *c, const struct particles *p, struct archive *a)
 {
     int64_t numbers[] = {c->made, c->n, c->rows, c->pairs, c->searched, c->broken, c->changed, c->pairs_most,
-                         c->overlap_said};
+                         c->overlap_said, c->due};
     if (!contact_works(c)) return OK;
     ARCHIVE_VALUE(a, "contact/numbers", numbers);
     ARCHIVE_VALUE(a, "contact/overlap_most", c->overlap_most);
@@ -243,7 +243,7 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
     ARCHIVE_VALUE(a, "contact/ended", c->ended);
     c->made = numbers[0] != 0, c->n = numbers[1], c->rows = numbers[2], c->pairs = numbers[3];
     c->searched = numbers[4], c->broken = numbers[5], c->changed = numbers[6], c->pairs_most = numbers[7];
-    c->overlap_said = numbers[8] != 0;
+    c->overlap_said = numbers[8] != 0, c->due = numbers[9] != 0;
     if (!c->made) return OK;
     if (c->n < 0 || c->rows < 0 || c->pairs < 0 || c->n > p->n_all || c->rows > c->n || c->pairs > INT32_MAX)
         return status_set(FAILED, "cannot resume: the checkpoint has an impossible number of pairs in contact");

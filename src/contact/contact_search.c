@@ -277,18 +277,34 @@ static bool has_come_far(const struct contact *c)
     return !(c->way < far) || contact_rigid_has_come(c, far);
 }
 
+/* A lost bond or two make no face: what has them comes to the list with the next search. */
+void contact_add(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *family,
+                 const int32_t *list, int64_t n)
+{
+    const real least_volume = first_layer_share(family) * family->full;
+    if (!contact_works(c)) return;
+    for (int64_t k = 0; k < n && !c->due; k++) {
+        const int64_t row = b->row_of[list[k]];
+        c->due = c->law.distance == DISTANCE_LAMMPS || row < 0 || p->kind[list[k]] != KIND_PD ||
+                 b->family_volume[row] - b->broken_volume[row] < least_volume;
+    }
+}
+
 void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
                     const struct family *family, int64_t step, int64_t broken, int64_t changed)
 {
     if (!contact_works(c)) return;
     const bool new_faces = broken != c->broken && step - c->searched >= BREAKS_WAIT;
     if (c->made) c->way = farthest_way(c, p);
-    if (c->made && changed == c->changed && !new_faces && !has_come_far(c)) {
+    if (!c->made || c->due || new_faces || has_come_far(c)) {
+        search_pairs(c, p, b, family);
+        c->made = true, c->due = false, c->way = 0;
+        c->searched = step, c->broken = broken;
+    }
+    else if (changed == c->changed) {
         contact_follow_more(c, p, b, l);
         return;
     }
-    search_pairs(c, p, b, family);
-    c->made = true, c->way = 0;
-    c->searched = step, c->broken = broken, c->changed = changed;
-    contact_follow(c, p, b, l);
+    c->changed = changed;
+    contact_follow(c, p, b, l);              /* also after changes of kind, which make row blocks anew */
 }

@@ -177,6 +177,7 @@ int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct
     if (changed.n > 0) {
         sync_near(sync, p, source, &changed);
         bonds_renew(b, p, source);
+        if (sync && sync->converted) sync->converted(sync->context, changed.at, changed.n);
     }
     for (int64_t k = 0; k < changed.n; k++) list_add(&touched, changed.at[k]);
     if (partial && touched.n > 0) partial_stress_make(partial, p, b, source, touched.at, touched.n);

@@ -277,6 +277,12 @@ static bool may_convert(const struct engine *e, const struct step *now)
            mesh_stressed(&e->reference.mesh);
 }
 
+static void meet_others(void *context, const int32_t *list, int64_t n)
+{
+    struct engine *e = context;
+    contact_add(&e->contact, &e->part, &e->bonds, &e->source.family, list, n);
+}
+
 /* Material points that become peridynamic, and what follows from them and from broken bonds: the active set, partial
  * stresses, the interface zone, partial cells. */
 static void convert_points(struct engine *e, struct step *now)
@@ -289,7 +295,7 @@ static void convert_points(struct engine *e, struct step *now)
         lap(&e->report.laps, LAP_CONVERT);
         return;
     }
-    const struct conversion_sync sync = {engine_mesh_sync_points, e};
+    const struct conversion_sync sync = {engine_mesh_sync_points, e, meet_others};
     engine_levels_guard(e);
     now->converted = convert(&e->coupling.conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
                              e->coupling.uses_partial ? &e->coupling.partial : NULL, &sync, e->clock.t);

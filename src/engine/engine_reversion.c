@@ -71,7 +71,7 @@ static void revert_listed(struct engine *e, const int32_t *list, int64_t n)
                     e->coupling.uses_partial ? &e->coupling.partial : NULL, list, n);
     engine_mesh_insert(e, list, n);
     engine_interface_make(e);
-    e->mpm.sort_needed = true;
+    e->mpm.sort_needed = e->contact.due = true;
     e->coupling.conversion.reversion_energy += energy_now(e) - before;
 }
 
