@@ -15,6 +15,9 @@ void *memory_bare(const char *label, int64_t count, size_t size);
 /* The same for what is mostly never written: small pages, and only those that are written take memory. */
 void *memory_sparse(const char *label, int64_t count, size_t size);
 
+/* Zeros, of which most stay so: pages take memory when they are first written. */
+void *memory_blank(const char *label, int64_t count, size_t size);
+
 /* Grows or shrinks an array of memory_new; the first min(old, new) elements are kept, new ones are zero.
  * `pointer` may be NULL. */
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
@@ -38,6 +41,7 @@ struct memory_limit { int64_t bytes; const char *name; };
 struct memory_limit memory_limit(void);
 
 #define NEW(label, count, type) ((type *)memory_new(label, count, sizeof(type)))
+#define BLANK(label, count, type) ((type *)memory_blank(label, count, sizeof(type)))
 #define BARE(label, count, type) ((type *)memory_bare(label, count, sizeof(type)))
 
 #endif

@@ -127,15 +127,16 @@ static void keep_none(void)
 }
 #endif
 
-/* `length` bytes from an alignment on; `whole` NULL: there are none. `fresh`: they are zero. */
-static char *memory_block_make(struct block *block, size_t length, size_t alignment, bool *fresh)
+/* `length` bytes from an alignment on; `whole` NULL: there are none. `fresh`: they are zero, which `anew` wants where
+ * pages are given. */
+static char *memory_block_make(struct block *block, size_t length, size_t alignment, bool anew, bool *fresh)
 {
     *block = (struct block){NULL, 0}, *fresh = false;
 #ifdef MAP_ANONYMOUS
     if (!HEAP_ALONE && length >= (size_t)(reusing ? KEPT_LEAST : OWN_PAGES)) {
         const size_t beside = alignment > PAGE ? alignment : 0,
                      room = room_of(reusing ? length + length / 2 : length) + beside;
-        *block = take_kept(length + beside);
+        if (!anew) *block = take_kept(length + beside);
         if (!block->whole) {
             void *pages = mmap(NULL, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
             if (pages == MAP_FAILED) return NULL;
@@ -148,7 +149,7 @@ static char *memory_block_make(struct block *block, size_t length, size_t alignm
     return block->whole;
 }
 
-enum content { ZEROED, WRITTEN_SOON, MOSTLY_UNWRITTEN };
+enum content { ZEROED, WRITTEN_SOON, MOSTLY_UNWRITTEN, MOSTLY_ZERO };
 
 static void *array_make(const char *label, int64_t count, size_t size, enum content content)
 {
@@ -158,16 +159,18 @@ static void *array_make(const char *label, int64_t count, size_t size, enum cont
         out_of_memory(label, count, size);
     /* also for count 0 */
     const size_t ahead = ALIGNMENT + offset(length), rounded = (length / ALIGNMENT + 1) * ALIGNMENT;
-    const bool large = rounded >= LARGE_ARRAY && content != MOSTLY_UNWRITTEN;
+    const bool sparse = content == MOSTLY_UNWRITTEN || content == MOSTLY_ZERO, large = rounded >= LARGE_ARRAY && !sparse;
     bool fresh;
-    char *from = memory_block_make(&block, ahead + rounded, large ? LARGE_PAGE : ALIGNMENT, &fresh);
+    char *from = memory_block_make(&block, ahead + rounded, large ? LARGE_PAGE : ALIGNMENT, content == MOSTLY_ZERO,
+                                   &fresh);
     if (!block.whole) out_of_memory(label, count, size);
 #ifdef MADV_HUGEPAGE
     if (large) madvise(from, ahead + rounded, MADV_HUGEPAGE);   /* a wish: fewer faults and misses of the page table */
-    if (content == MOSTLY_UNWRITTEN && block.mapped > 0) madvise(block.whole, block.mapped, MADV_NOHUGEPAGE);
+    if (sparse && block.mapped > 0) madvise(block.whole, block.mapped, MADV_NOHUGEPAGE);
 #endif
     char *pointer = from + ahead;
     if (content == ZEROED) zero(pointer, rounded, fresh);
+    if (content == MOSTLY_ZERO && !fresh) memset(pointer, 0, rounded);
     memcpy(pointer - sizeof block, &block, sizeof block);
     return pointer;
 }
@@ -181,6 +184,8 @@ void *memory_sparse(const char *label, int64_t count, size_t size)
 {
     return array_make(label, count, size, MOSTLY_UNWRITTEN);
 }
+
+void *memory_blank(const char *label, int64_t count, size_t size) { return array_make(label, count, size, MOSTLY_ZERO); }
 
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size)
 {

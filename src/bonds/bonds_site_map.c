@@ -13,6 +13,8 @@
  * round-off then decides nothing, and horizons of whole spacings (tolerance 1e-7) still pass. */
 #define BAND (4 * LATTICE_NEAR)
 enum { HALF_MOST = 16 };
+/* Sites for each particle at the most: where few particles of a body are made, few pages of the map are written. */
+#define SPARSE_MOST 256.0
 
 /* ---- the map of sites -------------------------------------------------------------------------------------------- */
 
@@ -36,7 +38,7 @@ static int64_t box_sites(struct site_map *l, const struct particles *p)
         particles_extent(p, p->n_all, d, &l->low[d], &high);
         l->stride[d] = (int64_t)site_map;
         site_map *= nearbyint((high - l->low[d]) / l->spacing) + 1 + 2 * l->reach;
-        if (!(site_map <= 4.0 * (real)p->n_all + 4096)) return 0;
+        if (!(site_map <= SPARSE_MOST * (real)p->n_all + 4096)) return 0;
     }
     return (int64_t)site_map;
 }
@@ -117,7 +119,7 @@ bool site_map_make(struct site_map *l, const struct bond_source *s, const struct
     if (p->n < LANES || l->reach > HALF_MOST || l->reach < 1 || s->yield.stretch) return false;
     const int64_t site_map = box_sites(l, p);
     if (site_map > 0 && site_offsets_make(l, f, p->dim)) {
-        l->at = NEW("site_map.at", site_map, int32_t);
+        l->at = BLANK("site_map.at", site_map, int32_t);
         if (sites_fill(l, p)) {
             l->uniform = is_uniform(l, p);
             return true;
