@@ -40,8 +40,27 @@ void engine_take_particles(struct engine *e, struct predecessor *before)
 
 void engine_take_bonds(struct engine *e, const struct predecessor *before)
 {
-    bonds_take(&e->bonds, &e->part, &before->run->bonds, &before->run->part, before->now);
+    struct engine *old = before->run;
+    bonds_take(&e->bonds, &e->part, &old->bonds, &old->part, before->now);
     state_weigh(&e->bonds, &e->part, &e->source);
+    bonds_free(&old->bonds);
+    particles_free(&old->part);
+}
+
+/* Frees what is made anew from particles and scene: large bodies have no room for two of it. Of the mesh the motion of
+ * its nodes is left. */
+static void leave_derived(struct engine *e)
+{
+    struct mesh *mesh = &e->reference.mesh, moved = {.grid.n = mesh->grid.n};
+    for (int d = 0; d < e->part.dim; d++) {
+        moved.displacement[d] = mesh->displacement[d], moved.grid.velocity[d] = mesh->grid.velocity[d];
+        mesh->displacement[d] = mesh->grid.velocity[d] = NULL;
+    }
+    mesh_free(mesh);
+    *mesh = moved;
+    partial_stress_free(&e->coupling.partial);
+    interface_zone_free(&e->coupling.zone);
+    cells_free(&e->cells);
 }
 
 static void swap_arrays(real **a, real **b, int dim)
@@ -93,6 +112,8 @@ status engine_replace(struct engine *e)
     *old = *e;
     old->reference.hollow = (struct hollow){0};
     old->reference.levels.fine = &old->reference.mesh;
+    memory_reuse(false);
+    leave_derived(old);
     status s = engine_make_again(e, old->scene, NULL, e->reference.hollow, &before);
     if (s == OK) {
         nodes_take(e, old);
