@@ -51,7 +51,7 @@ void engine_take_bonds(struct engine *e, const struct predecessor *before)
  * its nodes is left. */
 static void leave_derived(struct engine *e)
 {
-    struct mesh *mesh = &e->reference.mesh, moved = {.grid.n = mesh->grid.n};
+    struct mesh *mesh = &e->reference.mesh, moved = {.grid = {.n = mesh->grid.n, .dim = mesh->grid.dim}};
     for (int d = 0; d < e->part.dim; d++) {
         moved.displacement[d] = mesh->displacement[d], moved.grid.velocity[d] = mesh->grid.velocity[d];
         mesh->displacement[d] = mesh->grid.velocity[d] = NULL;
