@@ -87,6 +87,16 @@ static inline uint64_t eight_bytes(const uint8_t *from)
 #define EIGHT_TIMES(byte) ((uint64_t)(byte) * 0x0101010101010101)
 static inline bool eight_same(const uint8_t *from) { return eight_bytes(from) == EIGHT_TIMES(from[0]); }
 
+/* The next of n marks that is set, from `first` on; n: there is none. Most are not, and eight are skipped at a time:
+ * behind the last mark there are LANES more, not set. */
+static inline int64_t next_marked(const uint8_t *mark, int64_t first, int64_t n)
+{
+    while (first < n && !mark[first])
+        if (eight_bytes(mark + first)) first++;
+        else first += LANES;
+    return first < n ? first : n;
+}
+
 /* Marks of one bit a particle. */
 static inline void bit_set(uint64_t *marks, int64_t i) { marks[i / 64] |= (uint64_t)1 << i % 64; }
 static inline void bit_clear(uint64_t *marks, int64_t i) { marks[i / 64] &= ~((uint64_t)1 << i % 64); }

@@ -159,7 +159,8 @@ static void *array_make(const char *label, int64_t count, size_t size, enum cont
         out_of_memory(label, count, size);
     /* also for count 0 */
     const size_t ahead = ALIGNMENT + offset(length), rounded = (length / ALIGNMENT + 1) * ALIGNMENT;
-    const bool sparse = content == MOSTLY_UNWRITTEN || content == MOSTLY_ZERO, large = rounded >= LARGE_ARRAY && !sparse;
+    const bool sparse = content == MOSTLY_UNWRITTEN || content == MOSTLY_ZERO;
+    const bool large = rounded >= LARGE_ARRAY && !sparse;
     bool fresh;
     char *from = memory_block_make(&block, ahead + rounded, large ? LARGE_PAGE : ALIGNMENT, content == MOSTLY_ZERO,
                                    &fresh);
@@ -185,7 +186,10 @@ void *memory_sparse(const char *label, int64_t count, size_t size)
     return array_make(label, count, size, MOSTLY_UNWRITTEN);
 }
 
-void *memory_blank(const char *label, int64_t count, size_t size) { return array_make(label, count, size, MOSTLY_ZERO); }
+void *memory_blank(const char *label, int64_t count, size_t size)
+{
+    return array_make(label, count, size, MOSTLY_ZERO);
+}
 
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size)
 {

@@ -20,9 +20,18 @@ static void list_add(struct index_list *l, int64_t i)
     l->at[l->n++] = (int32_t)i;
 }
 
-/* Particles and images within the cutoff of particle i. */
-static void family_find(struct near *near, const struct bond_source *s, const struct particles *p, int64_t i)
+/* Particles and images within the cutoff of particle i; map: of the bonds, NULL: there is none yet. */
+static void family_find(struct near *near, const struct bond_source *s, const struct site_map *map,
+                        const struct particles *p, int64_t i)
 {
+    if (map && map->at) {
+        if (near->room < map->most) {
+            memory_free(near->at);
+            *near = (struct near){BARE("convert.near", map->most, int32_t), 0, map->most};
+        }
+        near->n = site_map_family(map, p, (int32_t)i, near->at);
+        if (near->n >= 0) return;
+    }
     near_find(near, s->cells, p, i, s->family.cutoff, false);
 }
 
@@ -47,7 +56,7 @@ void convert_start(struct particles *p, const struct bond_source *source, const 
             particle_place(p, i, X);
             if (region && region_contains(region, X, p->dim, ON_SURFACE * source->family.spacing)) p->kind[i] = KIND_PD;
             if (!cracks_near(source, p, i)) continue;
-            family_find(&near, source, p, i);
+            family_find(&near, source, NULL, p, i);
             if (loses_bond(source, p, i, &near)) p->kind[i] = KIND_PD;
         }
         memory_free(near.at);
@@ -111,7 +120,8 @@ static void become_peridynamic(struct particles *p, struct index_list *changed, 
 /* Converts the particles that trigger and, with rule->block, their neighbours within the cutoff; adds them to `changed`
  * and clears the flags of the step. */
 static void convert_marked(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
-                           const struct bond_source *source, struct index_list *changed, real t)
+                           const struct bond_source *source, const struct site_map *map, struct index_list *changed,
+                           real t)
 {
     struct index_list triggered = {0};
     struct near near = {0};
@@ -130,7 +140,7 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
         }
         become_peridynamic(p, changed, i);
         if (!rule->block) continue;
-        family_find(&near, source, p, i);
+        family_find(&near, source, map, p, i);
         for (int m = 0; m < near.n; m++) {
             const int64_t j = image_root(p, source->image, near.at[m]);
             if (p->body[j] == p->body[i]) become_peridynamic(p, changed, j);
@@ -150,13 +160,13 @@ static void list_once(struct index_list *l, struct particles *p, int64_t i)
 /* Updates position and velocity of all particles within the cutoff of those just converted, since bonds to them are
  * made next. Each particle is listed once: threads that share the list then write different particles. */
 static void sync_near(const struct conversion_sync *sync, struct particles *p, const struct bond_source *source,
-                      const struct index_list *changed)
+                      const struct site_map *map, const struct index_list *changed)
 {
     struct index_list exposed = {0};
     struct near near = {0};
     if (!sync) return;
     for (int64_t k = 0; k < changed->n; k++) {
-        family_find(&near, source, p, changed->at[k]);
+        family_find(&near, source, map, p, changed->at[k]);
         list_once(&exposed, p, changed->at[k]);
         for (int m = 0; m < near.n; m++) list_once(&exposed, p, image_root(p, source->image, near.at[m]));
     }
@@ -173,9 +183,9 @@ int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct
     if (!convert_due(p)) return 0;
     struct index_list changed = {0}, touched = {0};
     list_stiffened(&touched, source, p, b);
-    convert_marked(c, rule, p, source, &changed, t);
+    convert_marked(c, rule, p, source, b->site_map, &changed, t);
     if (changed.n > 0) {
-        sync_near(sync, p, source, &changed);
+        sync_near(sync, p, source, b->site_map, &changed);
         bonds_renew(b, p, source);
         if (sync && sync->converted) sync->converted(sync->context, changed.at, changed.n);
     }

@@ -141,27 +141,38 @@ static bool near_slit(const struct notches *n, const struct particles *p, const 
     return false;
 }
 
+/* What slits part particle i from: the share of its family; does it face a particle across one? */
+static bool face_find(struct notches *n, const struct particles *p, const struct bond_source *source, struct near *near,
+                      int64_t i)
+{
+    real all = 0, lost = 0;
+    bool faces = false;
+    near_find(near, source->cells, p, i, source->family.cutoff, false);
+    for (int q = 0; q < near->n; q++) {
+        const int32_t j = near->at[q];
+        if (p->body[j] != p->body[i]) continue;
+        const bool cut = cracks_part(n->slit, n->slits, p, i, j);
+        all += p->volume0[j], lost += cut ? p->volume0[j] : 0;
+        faces |= cut && apart(p, i, j) < FACE_REACH * source->family.spacing;
+    }
+    n->lost[i] = all > 0 ? lost / all : 0;
+    return faces;
+}
+
 /* Particles that slits part from some of their family: by what share; and those beside a slit. */
 static void faces_find(struct notches *n, const struct particles *p, const struct bond_source *source)
 {
     uint8_t *faces = NEW("notch.faces", p->n, uint8_t);
-    struct near near = {0};
     n->lost = NEW("notch.lost", p->n, real);
-    for (int64_t i = 0; i < p->n; i++) {
-        real all = 0, lost = 0;
-        if (!near_slit(n, p, source, i)) continue;
-        near_find(&near, source->cells, p, i, source->family.cutoff, false);
-        for (int q = 0; q < near.n; q++) {
-            const int32_t j = near.at[q];
-            if (p->body[j] != p->body[i]) continue;
-            const bool cut = cracks_part(n->slit, n->slits, p, i, j);
-            all += p->volume0[j], lost += cut ? p->volume0[j] : 0;
-            faces[i] |= cut && apart(p, i, j) < FACE_REACH * source->family.spacing;
-        }
-        n->lost[i] = all > 0 ? lost / all : 0;
-        n->faces += faces[i];
+#pragma omp parallel
+    {
+        struct near near = {0};
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < p->n; i++)
+            faces[i] = near_slit(n, p, source, i) && face_find(n, p, source, &near, i);
+        memory_free(near.at);
     }
-    memory_free(near.at);
+    for (int64_t i = 0; i < p->n; i++) n->faces += faces[i];
     n->face = NEW("notch.face", n->faces, int32_t);
     n->faces = 0;
     for (int64_t i = 0; i < p->n; i++)

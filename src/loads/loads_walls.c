@@ -221,23 +221,35 @@ void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, 
 
 /* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
 
+/* Mass that points of a load give to nodes, [grid.n]; marks the nodes that have any. */
+static void driven_masses(const struct load *load, const struct mesh *mesh, const struct particles *p, real *share,
+                          uint8_t *mark)
+{
+    for (int64_t k = 0; k < load->n; k++) {
+        const int32_t i = load->particle[k];
+        for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++) {
+            const int64_t I = mesh_node(mesh, mesh->place[i] >> p->dim, c);
+            share[I] += p->mass[i] * mesh_weight(p->dim, c, mesh->place[i] & ((1 << p->dim) - 1));
+            mark[I] = 1;
+        }
+    }
+}
+
 /* Constrains the nodes of the mesh that have at least half of their mass from points that a load drives. */
 static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, const struct particles *p)
 {
     const struct load *load = &l->load[which];
-    real *share = NEW("loads.mesh_share", mesh->grid.n, real);
-    for (int64_t k = 0; k < load->n; k++) {
-        const int32_t i = load->particle[k];
-        for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++)
-            share[mesh_node(mesh, mesh->place[i] >> p->dim, c)] +=
-                p->mass[i] * mesh_weight(p->dim, c, mesh->place[i] & ((1 << p->dim) - 1));
-    }
-    for (int64_t I = 0; I < mesh->grid.n; I++)
+    const int64_t n = mesh->grid.n;
+    real *share = BLANK("loads.mesh_share", n, real);
+    uint8_t *mark = NEW("loads.mesh_mark", n + LANES, uint8_t);
+    driven_masses(load, mesh, p, share, mark);
+    for (int64_t I = next_marked(mark, 0, n); I < n; I = next_marked(mark, I + 1, n))
         for (int d = 0; d < p->dim; d++)
             if (share[I] > 0 && share[I] >= 0.5 * (1 - 1e-9) * mesh->grid.mass[I] &&
                 load->boundary->components >> d & 1 && !constrained_by_region(l, load, mesh, I, d))
                 constrained_add(&l->constrained_mesh, I, d, which);
     memory_free(share);
+    memory_free(mark);
 }
 
 void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles *p)

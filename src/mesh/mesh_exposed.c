@@ -6,10 +6,14 @@
 /* Points that bonds or loads reach, and the cells that hold such. */
 struct exposure { uint8_t *point, *cell; };
 
+/* Threads may mark the same one. */
 static void point_expose(struct exposure *e, const struct mesh *mesh, int64_t i)
 {
+#pragma omp atomic write
     e->point[i] = 1;
-    if (mesh->place[i] >= 0) e->cell[mesh->place[i] >> mesh->grid.dim] = 1;
+    if (mesh->place[i] < 0) return;
+#pragma omp atomic write
+    e->cell[mesh->place[i] >> mesh->grid.dim] = 1;
 }
 
 /* The particles whose images are among the neighbours nbr [LANES] of a column of bonds: images move as their sources.
@@ -67,6 +71,7 @@ void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struc
 {
     if (!mesh->place) return;
     struct exposure e = {NEW("mesh.exposed_points", p->n, uint8_t), cells_mark("mesh.exposed_cells", mesh)};
+#pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < b->row_blocks; g++) row_block_expose(&e, mesh, p, b, l, g);
     for (int k = 0; k < l->n; k++) {             /* driven points and absorbing faces act on nodes */
         const enum boundary_kind kind = l->load[k].boundary->kind;

@@ -64,16 +64,6 @@ static inline bool cell_is_coarse(const struct mesh *mesh, int64_t I)
     return (mesh->level && mesh->level[I] > 0) || (mesh->absent && mesh->absent[I]);
 }
 
-/* The next of n marks that is set, from `first` on; n: there is none. Most are not, and eight are skipped at a time:
- * behind the last mark there are LANES more, not set. */
-static inline int64_t next_marked(const uint8_t *mark, int64_t first, int64_t n)
-{
-    while (first < n && !mark[first])
-        if (eight_bytes(mark + first)) first++;
-        else first += LANES;
-    return first < n ? first : n;
-}
-
 /* Marks of cells, none set. */
 static inline uint8_t *cells_mark(const char *label, const struct mesh *mesh)
 {
