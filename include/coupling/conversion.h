@@ -49,8 +49,8 @@ struct conversion {
 };
 
 /* What a pass asks of others. sync: updates particles whose motion is stored on the nodes of a mesh (mesh.h), before
- * bonds to them are made; the list names each particle once. converted (may be NULL): these have become peridynamic, and
- * their bonds are made. */
+ * bonds to them are made; the list names each particle once. converted (may be NULL): these have become peridynamic,
+ * and their bonds are made. */
 struct conversion_sync {
     void (*sync)(void *context, const int32_t *list, int64_t n);
     void *context;
