@@ -18,12 +18,17 @@ enum {
     SHOWN = WAY_FRAME /* whose shares are drawn */
 };
 
+/* Parts of a loop. */
+enum part { PART_BONDS, PART_POINTS, PART_CONVERSION, PART_SAMPLES, PARTS };
+static const char *const part_name[PARTS] = {"bonds", "points", "conversion", "samples"};
+
 /* One run of one method. Figures of the fracture are the same in every repetition. */
 struct run {
     double seconds[REPETITIONS];
     double stepping[REPETITIONS]; /* of them without samples: the step's own work */
     /* of them without conversion: what kernels alone take, as if rows and partial cells came for nothing */
     double steady[REPETITIONS];
+    double part[PARTS][REPETITIONS]; /* of them, time of each part [s] */
     double rest[REPETITIONS]; /* share of them that is neither bonds nor material points: conversion, samples [1] */
     struct crack_ends ends;
     double time[SAMPLES + 1], share[SAMPLES + 1];
@@ -38,6 +43,7 @@ struct result {
     double t_r_stepping[WAYS];                                                    /* the same of the steps alone [1] */
     double t_r_bound[WAYS];                                                   /* the same if conversion were free [1] */
     double rest_share[WAYS];                                                  /* neither bonds nor points [1] */
+    double part[WAYS][PARTS];                                                 /* time of a part over t_PD [1] */
     double tip_distance[WAYS], angle_difference[WAYS], start_difference[WAYS];    /* [m] [degree] [s] */
     double angle[WAYS];                                                           /* of the longest crack [degree] */
 };
@@ -68,6 +74,15 @@ static status run_pieces(struct run *r, struct engine *e)
     return OK;
 }
 
+/* Time of each part of a loop, from its laps. */
+static void parts_keep(struct run *r, const double *spent, int repetition)
+{
+    r->part[PART_BONDS][repetition] = spent[LAP_BONDS];
+    r->part[PART_POINTS][repetition] = spent[LAP_SCATTER] + spent[LAP_GRID] + spent[LAP_GATHER];
+    r->part[PART_CONVERSION][repetition] = spent[LAP_CONVERT];
+    r->part[PART_SAMPLES][repetition] = spent[LAP_SAMPLE];
+}
+
 static status efficiency_run_once(struct result *x, int way, int repetition)
 {
     struct scene s;
@@ -76,6 +91,7 @@ static status efficiency_run_once(struct result *x, int way, int repetition)
     struct run *r = &x->run[way];
     status ran = bench_engine_run(&e, e.clock.steps, NULL);
     r->seconds[repetition] = e.report.loop_seconds;
+    parts_keep(r, e.report.laps.spent, repetition);
     r->stepping[repetition] = e.report.loop_seconds - e.report.laps.spent[LAP_SAMPLE];
     r->steady[repetition] = e.report.loop_seconds - e.report.laps.spent[LAP_CONVERT];
     r->rest[repetition] =
@@ -134,6 +150,7 @@ static status scene_measure(struct result *x, int repetitions)
             1 - median_of(x->run[way].stepping, repetitions) / median_of(x->run[0].stepping, repetitions);
         x->t_r_bound[way] = 1 - median_of(x->run[way].steady, repetitions) / x->t[0];
         x->rest_share[way] = median_of(x->run[way].rest, repetitions);
+        for (int k = 0; k < PARTS; k++) x->part[way][k] = median_of(x->run[way].part[k], repetitions) / x->t[0];
         compare_tips(x, way, dim);
     }
     return OK;
@@ -145,23 +162,35 @@ static void efficiency_print_header(int repetitions)
 {
     printf("  same spacing, same time step, %d samples a run; loop time, %s; no files\n", SAMPLES,
            repetitions > 1 ? "median of 3, taking turns" : "one run each (--quick)");
-    printf("  %-30s %-6s %-10s %9s %6s %10s %10s %7s %8s %7s %7s %8s %15s %17s %14s %10s\n", "", "model", "levers",
-           "particles", "steps", "t_PD [s]", "t_ad [s]", "t_r", "stepping", "bound", "paper", "tips", "angles",
-           "starts", "PD share", "rest_share");
+    printf("  %-30s %-6s %-10s %9s %6s %10s %10s %7s %8s %7s %7s %8s %15s %17s %14s %10s %6s  %s\n", "", "model",
+           "levers", "particles", "steps", "t_PD [s]", "t_ad [s]", "t_r", "stepping", "bound", "paper", "tips", "angles",
+           "starts", "PD share", "rest_share", "aim", "in the way");
+}
+
+/* The largest part of an adaptive loop that falls short of its aim, and its time over that of peridynamics. */
+static const char *way_obstacle(const struct result *x, int way, char *text, size_t room)
+{
+    int most = 0;
+    for (int k = 1; k < PARTS; k++)
+        if (x->part[way][k] > x->part[way][most]) most = k;
+    if (x->t_r[way] >= x->scene->aim || isnan(x->scene->aim)) return "";
+    snprintf(text, room, "%s %.2f", part_name[most], x->part[way][most]);
+    return text;
 }
 
 static void print_way(const struct result *x, int way)
 {
-    char paper[16] = "-", title[48];
+    char paper[16] = "-", aim[16] = "-", title[48], obstacle[32];
+    if (isfinite(x->scene->aim)) snprintf(aim, sizeof aim, "%.2f", x->scene->aim);
     if (isfinite(x->scene->paper_t_r)) snprintf(paper, sizeof paper, "%.3f", x->scene->paper_t_r);
     printf("  %-30s %-6s %-10s %9lld %6lld %10.4f %10.4f %7.3f %8.3f %7.3f %7s %5.2f mm",
            efficiency_title(x->scene, title, sizeof title), x->scene->model, efficiency_way[way].levers,
            (long long)x->particles, (long long)x->steps, x->t[0], x->t[way], x->t_r[way], x->t_r_stepping[way],
            x->t_r_bound[way], paper, 1e3 * x->tip_distance[way]);
-    printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %% %8.1f %%\n", x->angle[0], x->angle[way],
+    printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %% %8.1f %% %6s  %s\n", x->angle[0], x->angle[way],
            1e6 * x->run[0].ends.start, 1e6 * x->run[way].ends.start, 100 * x->run[way].share[0],
            100 * x->run[way].share[SAMPLES],
-           100 * x->rest_share[way]);
+           100 * x->rest_share[way], aim, way_obstacle(x, way, obstacle, sizeof obstacle));
     fflush(stdout);
 }
 
@@ -187,7 +216,7 @@ static void print_marks(const struct efficiency *all)
         "  t_r below 0: the adaptive run took longer than full peridynamics; stepping: the same without the samples;\n"
         "  bound: if rows, partial stress and partial cells of a conversion came for nothing, what kernels alone "
         "allow;\n  rest_share: part of the loop that is neither bonds nor material points, but conversion, contact "
-        "searches and samples\n");
+        "searches and samples;\n  in the way, of rows below their aim: the largest part of the loop, over t_PD\n");
 }
 
 /* Rows of one adaptive run in the tables of figures, shares and runs. */
@@ -197,7 +226,9 @@ static void add_way(struct bench_table *table, const struct result *x, int way)
                            x->start_difference[way]};
     const double run[] = {(double)x->particles, (double)x->steps,       x->dt,       x->scene->paper_t_r,
                           x->run[0].ends.start, x->run[way].ends.start, x->angle[0], x->angle[way],
-                          x->t_r_stepping[way], x->t_r_bound[way],    x->rest_share[way]};
+                          x->t_r_stepping[way], x->t_r_bound[way],    x->rest_share[way],
+                          x->scene->aim,        x->part[way][PART_BONDS],   x->part[way][PART_POINTS],
+                          x->part[way][PART_CONVERSION], x->part[way][PART_SAMPLES]};
     char title[48];
     efficiency_title(x->scene, title, sizeof title);
     bench_text(&table[0], title), bench_text(&table[0], x->scene->model);
@@ -221,7 +252,7 @@ static status efficiency_write_tables(const struct efficiency *all)
     bench_table_make(&table[1], "share", "scene,model,levers,time,pd_share");
     bench_table_make(&table[2], "runs",
                      "scene,model,levers,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,"
-                     "angle_adaptive_deg,t_r_stepping,t_r_bound,rest_share");
+                     "angle_adaptive_deg,t_r_stepping,t_r_bound,rest_share,aim,bonds,points,conversion,samples");
     for (int k = 0; k < all->n; k++)
         for (int way = 1; way < WAYS; way++)
             if (efficiency_is_run(all->result[k].scene, way)) add_way(table, &all->result[k], way);

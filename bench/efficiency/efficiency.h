@@ -13,13 +13,14 @@ struct scene_case {
     const char *name, *path, *model;
     const char *tips;                    /* conversion.tips of adaptive runs: horizons */
     const char *spacing;                 /* finer than the scene's own; NULL: that */
+    double aim;                          /* t_r with all levers; NAN: none */
     bool quick;                          /* short enough for --quick, and the paper's model */
     double paper_t_r;                    /* NAN: none */
     int marks;
     struct mark mark[2];
 };
 
-enum { EFFICIENCY_CASES = 21 };
+enum { EFFICIENCY_CASES = 22 };
 extern const struct scene_case efficiency_case[EFFICIENCY_CASES];
 
 /* Full peridynamics first, then adaptive runs by what they may save with. */

@@ -12,23 +12,23 @@
 #define PLATE_HOLE "plate_hole", "inputs/plate_hole.yaml"
 #define KALTHOFF "kalthoff_winkler", "inputs/kalthoff_winkler.yaml"
 #define KALTHOFF_3D "kalthoff_winkler_3d", "inputs/kalthoff_winkler_3d.yaml"
-#define NO_PAPER NULL, false, NAN, 0, {{0, 0}}
-#define FINER(spacing) spacing, false, NAN, 0, {{0, 0}}
+#define NO_PAPER NULL, NAN, false, NAN, 0, {{0, 0}}
+#define FINER(spacing, aim) spacing, aim, false, NAN, 0, {{0, 0}}
 
 const struct scene_case efficiency_case[EFFICIENCY_CASES] = {
-    {PLATE_CRACK, "bond", "0", NULL, true, 0.371, 2, {{10e-6, 0.025}, {15e-6, 0.035}}},
-    {PLATE_HOLE, "bond", "0", NULL, true, 0.342, 0, {{0, 0}}},
-    {KALTHOFF, "bond", "3", NULL, true, 0.323, 2, {{0, 0.03}, {42e-6, 0.05}}},
-    {KALTHOFF_3D, "bond", "1", NULL, true, NAN, 0, {{0, 0}}},
+    {PLATE_CRACK, "bond", "0", NULL, 0.85, true, 0.371, 2, {{10e-6, 0.025}, {15e-6, 0.035}}},
+    {PLATE_HOLE, "bond", "0", NULL, 0.88, true, 0.342, 0, {{0, 0}}},
+    {KALTHOFF, "bond", "3", NULL, 0.80, true, 0.323, 2, {{0, 0.03}, {42e-6, 0.05}}},
+    {KALTHOFF_3D, "bond", "1", NULL, NAN, true, NAN, 0, {{0, 0}}},
     {PLATE_CRACK, "ospd", "0", NO_PAPER}, {PLATE_CRACK, "mospd", "0", NO_PAPER},
     {PLATE_HOLE, "ospd", "0", NO_PAPER},  {PLATE_HOLE, "mospd", "0", NO_PAPER},
     {KALTHOFF, "ospd", "3", NO_PAPER},    {KALTHOFF, "mospd", "3", NO_PAPER},
     {KALTHOFF_3D, "ospd", "1", NO_PAPER}, {KALTHOFF_3D, "mospd", "1", NO_PAPER},
-    {PLATE_CRACK, "bond", "0", FINER("0.25 mm")},      {PLATE_HOLE, "bond", "0", FINER("0.25 mm")},
-    {KALTHOFF, "bond", "3", FINER("0.5 mm")},          {KALTHOFF_3D, "bond", "1", FINER("1 mm")},
-    {PLATE_CRACK, "bond", "0", FINER("0.125 mm")},     {PLATE_HOLE, "bond", "0", FINER("0.125 mm")},
-    {KALTHOFF, "bond", "3", FINER("0.25 mm")},         {KALTHOFF_3D, "ospd", "1", FINER("1 mm")},
-    {KALTHOFF_3D, "mospd", "1", FINER("1 mm")},
+    {PLATE_CRACK, "bond", "0", FINER("0.25 mm", 0.90)},  {PLATE_HOLE, "bond", "0", FINER("0.25 mm", 0.90)},
+    {KALTHOFF, "bond", "3", FINER("0.5 mm", 0.90)},      {KALTHOFF_3D, "bond", "1", FINER("1 mm", 0.85)},
+    {PLATE_CRACK, "bond", "0", FINER("0.125 mm", 0.95)}, {PLATE_HOLE, "bond", "0", FINER("0.125 mm", 0.95)},
+    {KALTHOFF, "bond", "3", FINER("0.25 mm", 0.95)},     {KALTHOFF_3D, "bond", "1", FINER("0.5 mm", 0.93)},
+    {KALTHOFF_3D, "ospd", "1", FINER("1 mm", 0.85)},     {KALTHOFF_3D, "mospd", "1", FINER("1 mm", 0.85)},
 };
 
 const struct way efficiency_way[WAYS] = {

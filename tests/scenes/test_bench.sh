@@ -35,7 +35,7 @@ cd results/bench
 awk -F, 'NR > 1 { exit $2 != "bond" }' efficiency.csv || fail "the model"
 [ "$(awk -F, 'NR > 1 { printf "%s ", $9 }' efficiency.csv)" = "none frame slits levels active_set reversion all " ] || fail "the levers"
 [ "$(head -1 efficiency_runs.csv)" = \
-    scene,model,levers,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,angle_adaptive_deg,t_r_stepping,t_r_bound,rest_share ] ||
+    scene,model,levers,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,angle_adaptive_deg,t_r_stepping,t_r_bound,rest_share,aim,bonds,points,conversion,samples ] ||
     fail "columns of efficiency_runs.csv"
 # t_r is what the two times before it say, to the nine digits written
 awk -F, 'NR > 1 { d = $5 - (1 - $3 / $4); if (!($3 > 0 && $4 > 0 && d < 1e-6 && d > -1e-6)) bad = 1 } END { exit bad }' efficiency.csv || fail "t_r"
