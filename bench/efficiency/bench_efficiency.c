@@ -163,8 +163,8 @@ static void efficiency_print_header(int repetitions)
     printf("  same spacing, same time step, %d samples a run; loop time, %s; no files\n", SAMPLES,
            repetitions > 1 ? "median of 3, taking turns" : "one run each (--quick)");
     printf("  %-30s %-6s %-10s %9s %6s %10s %10s %7s %8s %7s %7s %8s %15s %17s %14s %10s %6s  %s\n", "", "model",
-           "levers", "particles", "steps", "t_PD [s]", "t_ad [s]", "t_r", "stepping", "bound", "paper", "tips", "angles",
-           "starts", "PD share", "rest_share", "aim", "in the way");
+           "levers", "particles", "steps", "t_PD [s]", "t_ad [s]", "t_r", "stepping", "bound", "paper", "tips",
+           "angles", "starts", "PD share", "rest_share", "aim", "in the way");
 }
 
 /* The largest part of an adaptive loop that falls short of its aim, and its time over that of peridynamics. */
