@@ -50,9 +50,25 @@ static void rotate(real *M, real *Z, int n, int p, int q)
     }
 }
 
+/* Has the symmetric M a Cholesky factor, so that no eigenvalue is negative? Most have, at a twentieth of the cost of
+ * their eigenvalues. */
+static bool is_positive(const real *M, int n)
+{
+    real F[SYM_MAX * SYM_MAX];
+    for (int a = 0; a < n; a++)
+        for (int b = 0; b <= a; b++) {
+            real rest = M[a * n + b];
+            for (int k = 0; k < b; k++) rest -= F[a * n + k] * F[b * n + k];
+            if (a == b && !(rest > 0)) return false;
+            F[a * n + b] = a == b ? sqrt(rest) : rest / F[b * n + b];
+        }
+    return true;
+}
+
 /* Sets the negative eigenvalues of the symmetric M to 0. */
 static void make_positive(real *M, int n)
 {
+    if (is_positive(M, n)) return;
     enum { SWEEPS = 12 };                /* six unknowns: quadratic convergence ends far earlier */
     real D[SYM_MAX * SYM_MAX], Z[SYM_MAX * SYM_MAX] = {0};
     memcpy(D, M, sizeof *M * (size_t)(n * n));
