@@ -170,10 +170,12 @@ static void line_dilate(uint8_t *mark, int64_t n, int64_t stride, int reach)
 void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach)
 {
     const struct grid *g = &l->fine->grid;
-    for (int d = 0; d < g->dim; d++)             /* lines begin in blocks of one stride, a line's length apart */
-        for (int64_t first = 0; first < g->n; first += g->stride[d] * g->count[d])
-            for (int64_t I = first; I < first + g->stride[d]; I++)
-                line_dilate(mark + I, g->count[d], g->stride[d], reach);
+    for (int d = 0; d < g->dim; d++) {           /* lines begin in blocks of one stride, a line's length apart */
+        const int64_t stride = g->stride[d], lines = g->n / g->count[d];
+#pragma omp parallel for schedule(static)
+        for (int64_t k = 0; k < lines; k++)
+            line_dilate(mark + k / stride * stride * g->count[d] + k % stride, g->count[d], stride, reach);
+    }
 }
 
 void levels_mark_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark)
