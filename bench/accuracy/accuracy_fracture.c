@@ -146,6 +146,7 @@ const struct accuracy_problem accuracy_fracture = {
     .cases = {"Kalthoff", "pulled plate"},
     .counts = "particles across the plate",
     .families = ACCURACY_PD | ACCURACY_ADAPTIVE,
+    .levels = true,
     .dim = 2,
     .resolution = {40, 60, 100, 200, 300},
     .quick_resolutions = 3,

@@ -86,6 +86,7 @@ const struct accuracy_problem accuracy_sudden = {
     .cases = {"at rest", "at 1000 m/s"},
     .counts = "particles per 20 mm",
     .families = ACCURACY_PD | ACCURACY_MPM | ACCURACY_ADAPTIVE,
+    .levels = true,
     .dim = 2,
     .resolution = {20, 40, 80, 160},
     .quick_resolutions = 2,
