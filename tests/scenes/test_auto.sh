@@ -145,7 +145,7 @@ END
     head -n 1 src/auto/cost_accuracy.csv
     grep '^fracture,Kalthoff,adaptive reference,' src/auto/cost_accuracy.csv
     grep '^fracture,Kalthoff,adaptive reference,' src/auto/cost_accuracy.csv | awk -F, -v OFS=, '
-        { $3 = "adaptive levels 2"; $8 *= 0.5; sub(/mpm.frame=reference/, "mpm.frame=reference;mpm.levels=2", $11); print }'
+        { $3 = "adaptive levels 2"; $8 *= 0.5; sub(/mpm.levels=0/, "mpm.levels=2", $11); print }'
 } >"$work/levels.csv"
 calm "$work/levels" "$work/struck.yaml"
 is "levels" "$(figure "$work/levels" auto.picked)" "adaptive levels 2, far cells of 8 spacings in 0.50 of the time"
