@@ -44,13 +44,15 @@ static void accuracy_sudden_make_scene(const struct accuracy_point *p, struct ac
     bench_override(&s->set, "particles.spacing", "20/%d mm", p->resolution);
 }
 
-/* In pieces: the last step of each is a sample. */
+/* In pieces: the last step of each is a sample, at which all levels of coarse cells are at the same time. */
 static status accuracy_sudden_run(const struct accuracy_point *p, struct engine *e)
 {
     const struct crack_medium m = crack_medium_of(&e->scene->material[0], e->scene->space);
     const double slower = p->at == MOVING ? crack_speed_factor(&m, SPEED_EXACT, speed) : 1;
+    const int64_t stride = levels_stride(&e->reference.levels);
     for (int k = 0; k < INSTANTS; k++) {
-        const int64_t until = k < INSTANTS - 1 ? llround(instant[k] / e->clock.dt) : e->clock.steps;
+        const int64_t whole = stride * llround(instant[k] / (e->clock.dt * (double)stride));
+        const int64_t until = k < INSTANTS - 1 ? whole : e->clock.steps;
         TRY(bench_engine_run(e, until, NULL));
         /* forces are those of the step before the last */
         factor[k] = accuracy_figure(e, "sif", "K_I") / slower /

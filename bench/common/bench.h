@@ -88,6 +88,7 @@ bool bench_scene_exists(const char *path);
 struct bench_child {
     int process;                         /* 0: none that runs */
     char folder[64];                     /* "": none */
+    double processor;                    /* of all its threads, once it has ended [s] */
 };
 status bench_child_start(struct bench_child *c, const char *path, const struct scene_override *override, int overrides,
                          int threads);

@@ -3,8 +3,9 @@
  * with coarse cells far from the crack, and of a part of the plate between absorbing faces, beside direct runs: bonds
  * everywhere, and cells of two spacings everywhere. Nothing breaks. Half of the plate is modelled, with a mirror.
  *
- * All runs have the same time step, the same samples and one thread; each is a process of its own. The part's wave
- * begins nearer: its time is shifted by that way. */
+ * All runs have the same time step, the same samples and one thread; each is a process of its own. The time of its loop
+ * is multiplied by the share of a processor that the process had, so that what else the machine does counts little. The
+ * part's wave begins nearer: its time is shifted by that way. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -75,18 +76,22 @@ static status field_scene_write(const struct field_bench *b, bool part)
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
-static status field_read(struct field_row *r, const char *folder, double later)
+static status field_read(struct field_row *r, const char *folder, double later, double processor)
 {
     struct history h = {0};
+    double wall;
     const struct { const char *key; double *value; } figure[] = {{"particles_made", &r->made}, {"particles", &r->body},
                                                                   {"memory_peak_bytes", &r->bytes},
-                                                                  {"loop_seconds", &r->seconds}};
+                                                                  {"loop_seconds", &r->seconds},
+                                                                  {"wall_seconds", &wall}};
     for (size_t k = 0; k < COUNT_OF(figure); k++) TRY(summary_number(folder, figure[k].key, figure[k].value));
     for (int k = 0; k < LAPS; k++) {
         char key[64];
         snprintf(key, sizeof key, "laps.%s", lap_name[k]);
         TRY(summary_number(folder, key, &r->lap[k]));
+        r->lap[k] *= fmin(1, processor / wall);
     }
+    r->seconds *= fmin(1, processor / wall);
     TRY(history_read(&h, folder));
     const int time = history_column(&h, "time"), K = history_column(&h, "sif.K_I");
     for (int64_t k = 0; k < h.rows && r->n < FIELD_SAMPLES + 2; k++, r->n++) {
@@ -109,7 +114,7 @@ static status field_run(struct field_bench *b, int k)
     if (way[k].levels > 0) bench_override(&o, "mpm.fill", "needed");
     status ran = bench_child_start(&c, SCENE, bench_overrides_ready(&o), o.n, 1);
     if (ran == OK) ran = bench_child_wait(&c);
-    if (ran == OK) ran = field_read(&b->at[k], c.folder, later);
+    if (ran == OK) ran = field_read(&b->at[k], c.folder, later, c.processor);
     bench_child_free(&c);
     remove(SCENE);
     return ran;
