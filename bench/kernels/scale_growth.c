@@ -118,10 +118,10 @@ static status growth_run(struct growth_row *r, const struct growth_series *s, do
     return ran;
 }
 
-/* Short runs are repeated: the least time counts. */
-static status growth_time(struct growth_row *least, const struct growth_series *s, double spacing)
+/* Short runs may be repeated: the least time counts. */
+static status growth_time(struct growth_row *least, const struct growth_series *s, double spacing, int repeated)
 {
-    for (int k = 0; k < REPEATED && (k == 0 || least->seconds < SHORT); k++) {
+    for (int k = 0; k < repeated && (k == 0 || least->seconds < SHORT); k++) {
         struct growth_row r = {0};
         TRY(growth_run(&r, s, spacing));
         if (k == 0 || r.seconds < least->seconds) *least = r;
@@ -282,17 +282,20 @@ static void growth_draw(FILE *to, const void *context)
 
 static status growth_measure(struct growth_bench *b, bool quick, bool finest)
 {
+    bool any = false;
     growth_print_header();
     for (int k = 0; k < SERIES; k++) {
         const struct growth_series *s = &series[k];
         const int rows = quick ? s->quick : finest ? SPACINGS : s->usual;
         if (!bench_scene_exists(s->path)) continue;
         for (int j = 0; j < rows && j < SPACINGS && s->spacing[j] > 0; j++) {
-            TRY(growth_time(&b->at[k][j], s, s->spacing[j]));
+            TRY(growth_time(&b->at[k][j], s, s->spacing[j], quick ? 1 : REPEATED));
             growth_print_row(s, &b->at[k][j]);
         }
         growth_fit_make(&b->fit[k], b->at[k], s);
+        any = true;
     }
+    if (!any) return OK;
     growth_print_fits(b);
     TRY(growth_write_table(b));
     return bench_draw("scale_growth", 1400, 500, growth_draw, b);
