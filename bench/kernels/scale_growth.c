@@ -1,7 +1,8 @@
 /* `cleave bench scale=growth`: what a finer spacing costs. Particles, memory and time of Kalthoff's plate, in the plane
  * and in space, as adaptive runs with coarse cells make it, beside full peridynamics where that is cheap. Each run is a
  * process of its own, on one thread: its memory is the high-water mark of that process, its time that of its loop times
- * the share of a processor that the process had, so that what else the machine does counts little.
+ * the share of a processor that the process had, so that what else the machine does counts little; of short loops the
+ * least of three.
  *
  * Coarse cells have at most 2 mm at any spacing, as mpm.levels: auto chooses in a plate of this size under a sudden
  * load, where it has particles enough. Time steps are in proportion to the spacing. Exponents are per halving of the
@@ -91,7 +92,7 @@ static void growth_overrides(struct bench_overrides *o, const struct growth_seri
 
 static status growth_read(struct growth_row *r, const char *folder, double processor)
 {
-    double step, critical, wall;
+    double step, critical, wall, share;
     char key[64];
     const struct { const char *key; double *value; } figure[] = {
         {"particles_made", &r->made}, {"particles", &r->body}, {"particles_pd_end", &r->bonded},
@@ -99,12 +100,13 @@ static status growth_read(struct growth_row *r, const char *folder, double proce
         {"time_step_critical", &critical}, {"crack.start_time", &r->start}, {"crack.angle_deg", &r->angle},
         {"wall_seconds", &wall}};
     for (size_t k = 0; k < COUNT_OF(figure); k++) TRY(summary_number(folder, figure[k].key, figure[k].value));
+    share = r->seconds < SHORT ? 1 : fmin(1, processor / wall);      /* short ones are repeated instead */
     for (int k = 0; k < LAPS_SHOWN; k++) {
         snprintf(key, sizeof key, "laps.%s", lap_name[k]);
         TRY(summary_number(folder, key, &r->lap[k]));
-        r->lap[k] *= fmin(1, processor / wall);
+        r->lap[k] *= share;
     }
-    r->seconds *= fmin(1, processor / wall);
+    r->seconds *= share;
     r->share = step / critical, r->known = true;
     return OK;
 }
