@@ -74,6 +74,7 @@ struct accuracy_problem {
     const char *name, *title;
     const char *error;                   /* what the error is, in words */
     const char *part[ACCURACY_PARTS];    /* what it is split into; NULL: nothing */
+    bool levels;                         /* methods with coarse cells apply, too */
     bool draws_parts;                    /* they have panels, of the worst of all cases */
     const char *cases[ACCURACY_CASES];   /* a table has a panel for each; NULL ends */
     const char *counts;                  /* what its resolutions count */
@@ -112,6 +113,8 @@ void accuracy_hole_exact(const double X[2], double u[2], double stress[3]);
 /* Material points of its method keep to the reference frame; it can relax to rest (solver: relaxation). */
 bool accuracy_is_reference(const struct accuracy_point *p);
 bool accuracy_relaxes(const struct accuracy_point *p);
+/* It has coarse cells (mpm.levels). */
+bool accuracy_is_coarse(const struct accuracy_method *method);
 /* How its method finds rest: by a static solver, or in the reference frame under a load that grows slowly. */
 const char *accuracy_solver(const struct accuracy_point *p);
 

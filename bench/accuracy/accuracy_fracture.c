@@ -146,6 +146,7 @@ const struct accuracy_problem accuracy_fracture = {
     .cases = {"Kalthoff", "pulled plate"},
     .counts = "particles across the plate",
     .families = ACCURACY_PD | ACCURACY_ADAPTIVE,
+    .levels = true,
     .dim = 2,
     .resolution = {40, 60, 100, 200, 300},
     .quick_resolutions = 3,
@@ -164,7 +165,8 @@ const struct accuracy_problem accuracy_fracture = {
          "current "
          "frame they take three to five times the time of bonds. Bonds with 60 particles in the pulled plate (2.8 %) "
          "are "
-         "luck: 56, 58, 62, 64, 70 give 10, 13, 7, 12, 11 %.",
+         "luck: 56, 58, 62, 64, 70 give 10, 13, 7, 12, 11 %. Coarse cells (levels 2) with 300 particles come to 0.9 "
+         "% in 0.49 s, cells of two spacings to 1.3 % in 0.42 s: samples and conversion are most of both.",
          "Couplings pm, pg, pmg and pgg do not crack: the grid moves both faces with one velocity field.",
          "mospd cracks at half the speed of bonds in Kalthoff's plate (570 m/s, 14 mm): its critical stretch is "
          "another law, of no error of the method's."},

@@ -8,7 +8,8 @@
 #define CURRENT {"mpm.frame", "current"}
 #define POINTS(shape, transfer) {{"method", "mpm"}, CURRENT, {"mpm.shape", shape}, {"mpm.transfer", transfer}}
 #define COUPLED(coupling) {{"method", "adaptive"}, CURRENT, {"coupling", coupling}}
-#define REFERENCE {"mpm.frame", "reference"}
+#define LEVELS(n) {"mpm.frame", "reference"}, {"mpm.levels", n}
+#define REFERENCE LEVELS("0")
 #define UNIFORM {"pd.weights", "uniform"}
 
 /* Colours by family: blue bonds, green states, orange and red material points, black reference, purple coupled, dark
@@ -28,6 +29,8 @@ const struct accuracy_method accuracy_method[] = {
     {"mpm cubic apic", ACCURACY_POINTS, true, "#a0522d", 10, POINTS("cubic", "apic")},
     {"mpm reference", ACCURACY_REFERENCE, true, "#111111", 7, MPM(REFERENCE)},
     {"mpm reference small", ACCURACY_REFERENCE, false, "#111111", 6, MPM(REFERENCE, {"mpm.strain", "small"})},
+    {"mpm levels 1", ACCURACY_REFERENCE, true, "#888888", 7, MPM(LEVELS("1"))},
+    {"mpm levels 2", ACCURACY_REFERENCE, true, "#888888", 6, MPM(LEVELS("2"))},
     {"coupled partial stress", ACCURACY_COUPLED, true, "#cc79a7", 7, COUPLED("partial stress")},
     {"coupled reference", ACCURACY_COUPLED, true, "#7b3294", 5, {{"method", "adaptive"}, REFERENCE}},
     {"coupled reference uniform",
@@ -49,6 +52,14 @@ const struct accuracy_method accuracy_method[] = {
      "#40004b",
      12,
      {{"method", "adaptive"}, REFERENCE, UNIFORM}},
+    {"adaptive levels 1", ACCURACY_ADAPTIVE, true, "#e7298a", 11, {{"method", "adaptive"}, LEVELS("1")}},
+    {"adaptive levels 2", ACCURACY_ADAPTIVE, true, "#e7298a", 9, {{"method", "adaptive"}, LEVELS("2")}},
+    {"adaptive levels 2 uniform",
+     ACCURACY_ADAPTIVE,
+     true,
+     "#e7298a",
+     8,
+     {{"method", "adaptive"}, LEVELS("2"), UNIFORM}},
     {"adaptive handshake", ACCURACY_ADAPTIVE, false, "#c51b7d", 12, COUPLED("handshake")},
     {"adaptive pm", ACCURACY_ADAPTIVE, false, "#35978f", 9, COUPLED("pm")},
     {"adaptive pg", ACCURACY_ADAPTIVE, false, "#35978f", 8, COUPLED("pg")},
@@ -65,6 +76,11 @@ static bool sets(const struct accuracy_method *m, const char *key, const char *v
 }
 
 bool accuracy_is_reference(const struct accuracy_point *p) { return sets(p->method, "mpm.frame", "reference"); }
+
+bool accuracy_is_coarse(const struct accuracy_method *method)
+{
+    return sets(method, "mpm.levels", "1") || sets(method, "mpm.levels", "2");
+}
 
 const char *accuracy_solver(const struct accuracy_point *p)
 {

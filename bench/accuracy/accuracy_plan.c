@@ -93,7 +93,7 @@ static status add_case(struct accuracy_plan *plan, const struct accuracy_problem
     const int varied = q->varied ? q->varied - 1 : 1;
     for (int m = 0; m < accuracy_methods; m++) {
         const struct accuracy_method *method = &accuracy_method[m];
-        if (!(method->family & q->families)) continue;
+        if (!(method->family & q->families) || (accuracy_is_coarse(method) && !q->levels)) continue;
         struct accuracy_point p = {.problem = q, .method = method, .at = at, .resolution = q->resolution[r],
                                    .step = ACCURACY_STEP,
                                    .horizon = method->family & ACCURACY_MPM ? 0 : ACCURACY_HORIZON};

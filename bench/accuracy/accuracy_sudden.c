@@ -44,13 +44,15 @@ static void accuracy_sudden_make_scene(const struct accuracy_point *p, struct ac
     bench_override(&s->set, "particles.spacing", "20/%d mm", p->resolution);
 }
 
-/* In pieces: the last step of each is a sample. */
+/* In pieces: the last step of each is a sample, at which all levels of coarse cells are at the same time. */
 static status accuracy_sudden_run(const struct accuracy_point *p, struct engine *e)
 {
     const struct crack_medium m = crack_medium_of(&e->scene->material[0], e->scene->space);
     const double slower = p->at == MOVING ? crack_speed_factor(&m, SPEED_EXACT, speed) : 1;
+    const int64_t stride = levels_stride(&e->reference.levels);
     for (int k = 0; k < INSTANTS; k++) {
-        const int64_t until = k < INSTANTS - 1 ? llround(instant[k] / e->clock.dt) : e->clock.steps;
+        const int64_t whole = stride * llround(instant[k] / (e->clock.dt * (double)stride));
+        const int64_t until = k < INSTANTS - 1 ? whole : e->clock.steps;
         TRY(bench_engine_run(e, until, NULL));
         /* forces are those of the step before the last */
         factor[k] = accuracy_figure(e, "sif", "K_I") / slower /
@@ -86,6 +88,7 @@ const struct accuracy_problem accuracy_sudden = {
     .cases = {"at rest", "at 1000 m/s"},
     .counts = "particles per 20 mm",
     .families = ACCURACY_PD | ACCURACY_MPM | ACCURACY_ADAPTIVE,
+    .levels = true,
     .dim = 2,
     .resolution = {20, 40, 80, 160},
     .quick_resolutions = 2,
@@ -97,7 +100,10 @@ const struct accuracy_problem accuracy_sudden = {
                "B-splines reach across the gap (4 to 13 %, worse the finer); couplings pm, pg, pmg and pgg hold the "
                "crack together, as peridynamic particles move on one velocity field (24 %).",
                "A crack that runs wants half the step: 3.9 % of bonds with 40 particles become 1.8 % at 0.4 of the "
-               "critical one."},
+               "critical one.",
+               "Coarse cells gain little: rings keep cells of two spacings and take two thirds of the loop. With 160 "
+               "particles and levels 2 the crack at rest comes to 0.24 % in the time of cells of two spacings (0.17), "
+               "at 1000 m/s to 0.8 % in 1.2 s where those take 1.7."},
     .seconds = 200,
     .quick_seconds = 20,
     .scene = accuracy_sudden_make_scene,

@@ -7,15 +7,19 @@
 struct bench {
     const char *name;
     status (*call)(bool quick);
+    bool apart;                          /* runs when its whole name is asked for, and not otherwise */
 };
 
-/* In the order in which they run: kernels first, while the process is still small. */
+/* In the order in which they run: kernels first, while the process is still small. NAME=PART: also with NAME. */
 static const struct bench benches[] = {
-    {"kernels", bench_kernels}, {"efficiency", bench_efficiency}, {"coupling", bench_coupling},
-    {"sif", bench_sif}, {"threads", bench_threads},       {"scale", bench_scale},
-    {"peers", bench_peers},     {"accuracy", bench_accuracy},     {"stability", bench_stability},
-    {"sensitivity", bench_sensitivity}, {"steps", bench_steps}, {"contact", bench_contact},
-    {"absorbing", bench_absorbing}};
+    {"kernels", bench_kernels, false},         {"efficiency", bench_efficiency, false},
+    {"coupling", bench_coupling, false},       {"sif", bench_sif, false},
+    {"threads", bench_threads, false},         {"scale", bench_scale, false},
+    {"scale=growth", bench_growth, false},     {"scale=finest", bench_growth_finest, true},
+    {"scale=field", bench_far_field, false},   {"peers", bench_peers, false},
+    {"accuracy", bench_accuracy, false},       {"stability", bench_stability, false},
+    {"sensitivity", bench_sensitivity, false}, {"steps", bench_steps, false},
+    {"contact", bench_contact, false},         {"absorbing", bench_absorbing, false}};
 enum { BENCHES = COUNT_OF(benches) };
 
 /* Names of earlier versions. */
@@ -32,15 +36,18 @@ static status bench_mark(const char *word, bool *asked)
             printf("cleave bench %s is now cleave bench %s\n", word, renamed[k].name);
             word = renamed[k].name;
         }
-    for (int k = 0; k < BENCHES; k++)
-        if (!strcmp(word, benches[k].name)) {
-            asked[k] = true;
-            return OK;
-        }
+    bool known = false;
+    const size_t length = strlen(word);
+    for (int k = 0; k < BENCHES; k++) {
+        const bool whole = !strcmp(word, benches[k].name);
+        const bool part = !strncmp(word, benches[k].name, length) && benches[k].name[length] == '=';
+        if (whole || (part && !benches[k].apart)) asked[k] = known = true;
+    }
+    if (known) return OK;
     return status_set(REFUSED,
                       "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [sif] [threads] "
-                      "[scale] [peers] [accuracy[=PROBLEM|=chart|=auto]] [stability[=lasting|=CASE]] "
-                      "[sensitivity] [steps] [contact] [absorbing] [--quick] [--readme]",
+                      "[scale[=growth|=finest|=field]] [peers] [accuracy[=PROBLEM|=chart|=auto]] "
+                      "[stability[=lasting|=CASE]] [sensitivity] [steps] [contact] [absorbing] [--quick] [--readme]",
                       word);
 }
 
@@ -67,7 +74,7 @@ status command_bench(int argc, char **argv)
         any = true;
     }
     for (int k = 0; k < BENCHES; k++)
-        if (asked[k] || !any) TRY(bench_call(&benches[k], quick, readme));
+        if (asked[k] || (!any && !benches[k].apart)) TRY(bench_call(&benches[k], quick, readme));
     if (lasting) TRY(bench_stability_of(lasting, quick));
     return only ? bench_accuracy_of(only, quick) : OK;
 }

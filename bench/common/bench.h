@@ -88,6 +88,7 @@ bool bench_scene_exists(const char *path);
 struct bench_child {
     int process;                         /* 0: none that runs */
     char folder[64];                     /* "": none */
+    double processor;                    /* of all its threads, once it has ended [s] */
 };
 status bench_child_start(struct bench_child *c, const char *path, const struct scene_override *override, int overrides,
                          int threads);
@@ -160,6 +161,11 @@ status bench_threads(bool quick);
 
 /* bench_scale.c: time and memory per particle, set-up and output, over the number of particles. */
 status bench_scale(bool quick);
+/* scale_growth.c: particles, memory and time of Kalthoff's plate over its spacing; finest: with the finest in space. */
+status bench_growth(bool quick);
+status bench_growth_finest(bool quick);
+/* scale_field.c: a crack in a plate of a hundred times the area that matters to it, with coarse cells far away. */
+status bench_far_field(bool quick);
 
 /* bench_peers.c: a block and a plate by this program and by LAMMPS, where `lmp` is installed. */
 status bench_peers(bool quick);

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -172,10 +173,13 @@ status bench_child_start(struct bench_child *c, const char *path, const struct s
 
 status bench_child_wait(struct bench_child *c)
 {
+    struct rusage used;
     int ended;
-    while (waitpid(c->process, &ended, 0) < 0)
+    while (wait4(c->process, &ended, 0, &used) < 0)
         if (errno != EINTR) return status_set(FAILED, "bench: %s", strerror(errno));
     c->process = 0;
+    c->processor = (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                   1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
     if (!WIFEXITED(ended) || WEXITSTATUS(ended) != 0) return status_set(FAILED, "bench: a run has failed");
     return OK;
 }

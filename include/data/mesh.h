@@ -73,6 +73,8 @@ struct mesh {
                                             of (mesh/levels.h); NULL: there are none */
     uint8_t *absent;                     /* [grid.n] 1: a whole cell without its particles (hollow.h), part of a coarser
                                             one; NULL: there are none */
+    int64_t filled_cells, filled_nodes;  /* with absent: cells that are not, and nodes at their corners, ascending */
+    int32_t *filled_cell, *filled_node;
     int32_t *place;                      /* [particles] (cell << dim) + c, -1: not in the mesh */
     real volume;                         /* of a point in the reference frame [m^3] */
 

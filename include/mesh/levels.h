@@ -116,8 +116,9 @@ void levels_change(struct mesh_levels *l, const struct particles *p, const struc
 void levels_half_kick(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite, real dt);
 /* Ghosts of all levels take the motion of the nodes at their places; in steps those do that are due. */
 void levels_sync(struct mesh_levels *l);
-/* Displacements and velocities of coarse cells to the nodes of level 0 inside them, for points. */
+/* Displacements and velocities of coarse cells to the nodes of level 0 inside them; for points: where there are any. */
 void levels_prolong(struct mesh_levels *l);
+void levels_prolong_points(struct mesh_levels *l);
 
 /* Levels that act in a step: 0 .. levels_due. */
 int levels_due(const struct mesh_levels *l, int64_t step);

@@ -146,6 +146,8 @@ enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
 bool probes_profile_name(const struct probes *s, int k, int frame, char *name);
 /* Factors of the named SIF probe at the last sample, and the direction of its tip then; false: none yet. */
 bool probes_sif_control(const struct probes *s, const char *name, struct control *found);
+/* Tip, as tips and growths are now, and radius [m] of the k-th probe, if it is a SIF probe; else false. */
+bool probes_sif_ring(const struct probes *s, int k, const struct observed *o, real place[2], real *radius);
 status probes_archive(struct probes *s, struct archive *a);
 
 #endif

@@ -4,11 +4,26 @@
 #include "mesh_run.h"
 #include "base/team.h"
 
+/* Have nodes first .. end - 1 no mass? Coarse cells leave most of level 0 so. */
+static bool none_moves(const real *mass, int64_t first, int64_t end)
+{
+    enum { PIECE = 64 };
+    for (; first < end; first += PIECE) {
+        const int64_t to = first + PIECE < end ? first + PIECE : end;
+        real most = 0;
+#pragma omp simd reduction(max : most)
+        for (int64_t I = first; I < to; I++) most = mass[I] > most ? mass[I] : most;
+        if (most > 0) return false;
+    }
+    return true;
+}
+
 /* Adds 1/2 m v^2 of nodes first .. end - 1 [J]; of coarse cells half their momentum times their velocity. */
 static void mesh_energy_kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
     const struct grid *g = &mesh->grid;
+    if (none_moves(g->mass, first, end)) return;
     for (int d = 0; d < g->dim; d++) {
         const real *mass = g->mass, *v = g->velocity[d], *momentum = mesh->matched ? g->momentum[d] : v;
         real total = 0;
@@ -29,6 +44,7 @@ real mesh_kinetic(const struct mesh *mesh)
 static void mesh_energy_kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
+    if (!mesh->matched && none_moves(mesh->inverse_mass, first, end)) return;
     for (int d = 0; d < mesh->grid.dim; d++) {
         const real *inverse_mass = mesh->inverse_mass, *force = mesh->grid.force[d];
         real total = 0;

@@ -7,6 +7,17 @@
 /* One body for all dimensions; the parallel region is inside each instance. */
 #define DIMENSIONS(X) X(1) X(2) X(3)
 
+/* Cells that may have points: all of them, or those of a list. */
+static ALWAYS_INLINE int64_t cells_of_points(const struct mesh *mesh)
+{
+    return mesh->absent ? mesh->filled_cells : mesh->grid.n;
+}
+
+static ALWAYS_INLINE int64_t cell_of_points(const struct mesh *mesh, int64_t k)
+{
+    return mesh->absent ? mesh->filled_cell[k] : k;
+}
+
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
 /* Moves the points of cell I whose places are set in `places`: u_p = sum N u_I, v_p = sum N v_I with constant
@@ -49,8 +60,8 @@ enum { FEW = 128 };                      /* cells whose points one thread moves 
 #define MOVE(D)                                                                                                        \
     static void all_move_##D(const struct mesh *mesh, struct particles *p)                                             \
     {                                                                                                                  \
-        _Pragma("omp parallel for schedule(static)") for (int64_t I = 0; I < mesh->grid.n; I++)                        \
-            if (mesh->kind[I]) cell_move(mesh, p, I, ~0u, D);                                                          \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < cells_of_points(mesh); k++)               \
+            if (mesh->kind[cell_of_points(mesh, k)]) cell_move(mesh, p, cell_of_points(mesh, k), ~0u, D);              \
     }                                                                                                                  \
     static void exposed_move_##D(const struct mesh *mesh, struct particles *p)                                         \
     {                                                                                                                  \
@@ -232,8 +243,8 @@ static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles 
 #define STRESS(D)                                                                                                      \
     static void stress_##D(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)         \
     {                                                                                                                  \
-        _Pragma("omp parallel for schedule(static)") for (int64_t I = 0; I < mesh->grid.n; I++)                        \
-            if (mesh->kind[I]) cell_stress(mesh, p, m, I, D, finite);                                                  \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < cells_of_points(mesh); k++)               \
+            if (mesh->kind[cell_of_points(mesh, k)]) cell_stress(mesh, p, m, cell_of_points(mesh, k), D, finite);      \
     }
 DIMENSIONS(STRESS)
 

@@ -56,6 +56,13 @@ static bool has_states(const struct cost_point *p)
 
 static bool auto_has_bonds(const struct cost_point *p) { return !cost_point_has(p, "method", "mpm"); }
 
+/* Levels of coarse cells of p; 0: none. */
+static int levels_of_point(const struct cost_point *p)
+{
+    char levels[TABLE_WORD];
+    return cost_accuracy_key(p, "mpm.levels", levels, sizeof levels) ? atoi(levels) : 0;
+}
+
 /* True if the method of p can represent the scene. Bonds impose Poisson's ratio, material points with one velocity
  * field do not crack, and bodies in the reference frame meet no other body. */
 static bool can_do(const struct cost_point *p, const struct ask *a)
@@ -91,6 +98,7 @@ static void usual_value(const struct key *k, const struct cost_point *p, char *t
 {
     const char *from = k->fallback + (*k->fallback == '(');
     if (strcmp(k->path, "mpm.frame") == 0) from = "current";      /* tables without a frame were measured in it */
+    if (strcmp(k->path, "mpm.levels") == 0) from = "0";           /* and those without levels, without coarse cells */
     if (strcmp(k->path, "pd.surface") == 0) from = cost_point_has(p, "method", "pd") ? "moments" : "none";
     if (strcmp(k->path, "pd.influence") == 0) from = has_states(p) ? "inverse" : "one";
     if (strcmp(k->path, "pd.normalisation") == 0) from = cost_point_has(p, "method", "pd") ? "bulk" : "local";
@@ -116,7 +124,8 @@ static bool agrees(const struct cost_point *p, const struct node *root)
     for (int i = 0; i < keys_count; i++) {
         const struct node *n = keys[i].type <= KEY_CHOICE ? tree_at(root, keys[i].path) : NULL;
         if (!n || n->kind != NODE_SCALAR || !concerns(keys[i].path, p)) continue;
-        if (strcmp(keys[i].path, "mpm.frame") == 0 && strcmp(n->text, "auto") == 0) continue;
+        const bool free = strcmp(keys[i].path, "mpm.frame") == 0 || strcmp(keys[i].path, "mpm.levels") == 0;
+        if (free && strcmp(n->text, "auto") == 0) continue;
         if (!cost_accuracy_key(p, keys[i].path, value, sizeof value)) usual_value(&keys[i], p, value, sizeof value);
         if (!same_value(n->text, value)) return false;
     }
@@ -135,6 +144,11 @@ static bool allows(const struct cost_point *p, const void *context)
     return can_do(p, a) && agrees(p, a->root);
 }
 
+static bool allows_even(const struct cost_point *p, const void *context)
+{
+    return levels_of_point(p) == 0 && allows(p, context);
+}
+
 /* ---- report of the choice ---------------------------------------------------------------------------------------- */
 
 /* Expected time [s]: the time of the table in proportion to the numbers of particles and of steps; the number of steps
@@ -151,15 +165,27 @@ static real seconds_of(const struct ask *a, const struct auto_point *p, real spa
     return p->seconds * particles / p->particles * steps;
 }
 
-/* Records the choice, for reports, in r->scene->choice. spacing: [m]. */
-static void keep_choice(struct scene_choice *c, const struct ask *a, const struct auto_found *f, real spacing)
+/* The method in words; `even`: time over that of the best without coarse cells, NAN without one. */
+static void name_choice(struct scene_choice *c, const struct ask *a, const struct cost_point *p, real even)
+{
+    const int levels = levels_of_point(p);
+    char coarse[64] = "", share[32] = "";
+    if (isfinite(even)) snprintf(share, sizeof share, " in %.2f of the time", even);
+    if (levels > 0) snprintf(coarse, sizeof coarse, ", far cells of %d spacings%s", 2 << levels, share);
+    const bool gap = a->match.needs_bonds && !auto_has_bonds(p);
+    const char *crack = gap ? ", a gap for the crack" : "";
+    if (snprintf(c->picked, sizeof c->picked, "%.25s%s%s", p->method, crack, coarse) < 0) c->picked[0] = '\0';
+}
+
+/* Records the choice, for reports, in r->scene->choice. spacing: [m]; even: as above. */
+static void keep_choice(struct scene_choice *c, const struct ask *a, const struct auto_found *f, real spacing,
+                        real even)
 {
     const struct auto_match *m = &a->match;
     c->made = true;
     snprintf(c->like, sizeof c->like, "%s (%s of the cost-accuracy table)", m->kind->title, m->kind->problem);
     snprintf(c->feature, sizeof c->feature, "%s", m->kind->feature);
-    const bool gap = m->needs_bonds && !auto_has_bonds(f->best.of);
-    snprintf(c->picked, sizeof c->picked, "%.40s%s", f->best.of->method, gap ? ", the crack a gap of one cell" : "");
+    name_choice(c, a, f->best.of, even);
     c->size = m->feature, c->points = m->feature / spacing, c->resolution = c->points / m->kind->per_resolution;
     c->accuracy = a->accuracy, c->error = m->growth * f->best.error;
     c->horizon = f->best.of->horizon, c->step = f->best.of->step;
@@ -253,14 +279,16 @@ static status choose(struct reader *r, struct node *root, struct ask *a, const s
     const struct node *spacing = tree_at(a->root, "particles.spacing");
     struct auto_wish w = {
         .match = &a->match, .accuracy = a->accuracy / a->match.growth, .allows = allows, .context = a};
-    struct auto_found f;
+    struct auto_found f, g = {0};
     real h = NAN;
     if (spacing) TRY(read_number(r, key_find("particles", "spacing"), spacing, &h));
     if (spacing) w.resolution = unit / h;
     auto_pick(&f, table, &w);
     if (!f.best.of) return fault_unreached(r, a, &f);
     if (!spacing) h = auto_spacing_fit(a->scene, unit / f.best.resolution, !cost_point_has(f.best.of, "method", "pd"));
-    keep_choice(&r->scene->choice, a, &f, h);
+    w.allows = allows_even;
+    if (levels_of_point(f.best.of) > 0) auto_pick(&g, table, &w);
+    keep_choice(&r->scene->choice, a, &f, h, g.best.of ? f.best.seconds / g.best.seconds : NAN);
     return auto_lay(r, root, &a->match, a->scene, f.best.of, h);
 }
 

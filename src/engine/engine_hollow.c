@@ -26,7 +26,10 @@ const char *engine_hollow_obstacle(const struct scene *s)
     if (s->contact_friction > 0) return "faces rub";
     for (int k = 0; k < s->probes; k++) {
         const enum probe_kind kind = s->probe[k].kind;
-        if (kind != PROBE_TIP && kind != PROBE_BREAK && kind != PROBE_REACTION && kind != PROBE_POINT)
+        const bool moves = kind == PROBE_SIF && isfinite(s->material[0].critical_stretch);
+        if (moves) return "the ring of a sif probe may move";
+        if (kind != PROBE_SIF && kind != PROBE_TIP && kind != PROBE_BREAK && kind != PROBE_REACTION &&
+            kind != PROBE_POINT)
             return "a probe looks at many of them";
     }
     return NULL;
@@ -86,12 +89,26 @@ static bool face_loaded(const struct scene *s, const struct hollow *h, int64_t I
     return false;
 }
 
+/* Is X within r of the place of a probe, or where it has none of an end of a pre-crack? */
+static bool near_probe(const struct scene *s, const struct probe_request *probe, const real *X, real r)
+{
+    if (probe->has_at) return segment_distance(probe->at, probe->at, X, s->dim) < r;
+    for (int k = 0; k < s->cracks; k++)
+        for (int a = 0; a < s->crack[k].n; a++)
+            if (segment_distance(s->crack[k].corner[a], s->crack[k].corner[a], X, s->dim) < r) return true;
+    return false;
+}
+
+/* Does a probe look at particles within 3 h of X? */
 static bool probed(const struct scene *s, const real *X, real h)
 {
     for (int k = 0; k < s->probes; k++) {
-        real r2 = 0;
-        for (int d = 0; d < s->dim; d++) r2 += square(s->probe[k].at[d] - X[d]);
-        if (s->probe[k].kind == PROBE_POINT && r2 < square(3 * h)) return true;
+        const struct probe_request *probe = &s->probe[k];
+        const struct number_list *ring = &probe->contours;
+        const real outer = probe->outer > 0 ? probe->outer : 20 * s->spacing;
+        const real reach = ring->n > 0 ? real_max(outer, ring->value[ring->n - 1]) : outer;
+        if (probe->kind == PROBE_POINT && near_probe(s, probe, X, 3 * h)) return true;
+        if (probe->kind == PROBE_SIF && near_probe(s, probe, X, reach + 3 * h)) return true;
     }
     return false;
 }
@@ -141,10 +158,19 @@ static bool any_lacks(const struct mesh *mesh, const uint8_t *level)
     return false;
 }
 
-/* The cells that need no particles with these levels [box.n]: not those within `ahead` cells of level 0. Coarse cells
- * are hollow as a whole, or not at all. */
-static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level, int ahead)
+static bool cell_probed(const struct scene *s, const struct hollow *h, int64_t J)
 {
+    real X[DIM_MAX] = {0};
+    if (s->probes == 0) return false;
+    for (int d = 0; d < s->dim; d++) X[d] = grid_quarter(&h->box, J, 0, d);
+    return probed(s, X, h->box.h);
+}
+
+/* The cells that need no particles with these levels [box.n]: not those within `ahead` cells of level 0, nor those at
+ * which probes look. Coarse cells are hollow as a whole, or not at all. */
+static uint8_t *absent_with(const struct engine *e, const uint8_t *level, int ahead)
+{
+    const struct reference_frame *r = &e->reference;
     const struct hollow *h = &r->hollow;
     const struct grid *g = &r->mesh.grid;
     uint8_t *absent = NEW("hollow.absent", h->box.n, uint8_t), *keep = NEW("hollow.keep", g->n, uint8_t);
@@ -152,7 +178,7 @@ static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *leve
     levels_dilate(&r->levels, keep, ahead);
     for (int64_t I = 0; I < g->n; I++) {
         const int64_t J = grid_same_cell(g, I, &h->box);
-        keep[I] = keep[I] || J < 0 || !h->whole[J];
+        keep[I] = keep[I] || J < 0 || !h->whole[J] || cell_probed(e->scene, h, J);
     }
     levels_mark_cells(&r->levels, level, keep);
     for (int64_t I = 0; I < g->n; I++)
@@ -173,7 +199,7 @@ bool engine_hollow_start(struct engine *e, const uint8_t *level)
     }
     r->lacks = any_lacks(&r->mesh, level);
     if (!r->lacks) return true;
-    uint8_t *absent = absent_with(r, level, 0);
+    uint8_t *absent = absent_with(e, level, 0);
     for (int64_t J = 0; J < r->hollow.box.n; J++) r->hollow.absent[J] &= absent[J];
     memory_free(absent);
     return false;
@@ -189,7 +215,7 @@ status engine_hollow_follow(struct engine *e, const uint8_t *level)
         TRY(output_wait(e->report.out));
         output_particles_changed(e->report.out);
     }
-    uint8_t *absent = absent_with(&e->reference, level, AHEAD);
+    uint8_t *absent = absent_with(e, level, AHEAD);
     memory_free(h->absent);
     h->absent = absent;
     return engine_replace(e);

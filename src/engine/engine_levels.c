@@ -7,7 +7,7 @@
 
 /* Cells of level 0 round peridynamic particles, beyond those that let points convert: cracks run some way between two
  * changes. Cells merge later than they split. */
-enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10 };
+enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 /* spacings: tips run on between looks */ };
 #define SPLITS 0.5                       /* of the stress at which points convert */
 #define MERGES 0.25
 #define ROUGH 0.01                       /* of the mean energy per mass: motion that a coarser cell would lose */
@@ -126,6 +126,42 @@ static void demand_slits(const struct mesh *mesh, uint8_t *demand)
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) demand[I - mesh->corner[c]] = 1;
 }
 
+/* Marks the cells of level 0 in the ring of a sif probe and about it (`demand` NULL: none). Is any of them part of a
+ * coarser one? */
+static bool ring_cells(const struct engine *e, int probe, uint8_t *demand)
+{
+    const struct observed seen = engine_observed(e);
+    const struct mesh_levels *l = &e->reference.levels;
+    const struct grid *g = &l->fine->grid;
+    real place[2], radius;
+    int64_t from[2], to[2];
+    bool coarse = false;
+    if (!probes_sif_ring(&e->probing.probes, probe, &seen, place, &radius)) return false;
+    radius += AROUND_RING * e->scene->spacing;
+    for (int d = 0; d < 2; d++) {
+        from[d] = grid_cell(g, d, place[d] - radius) - g->first[d];
+        to[d] = grid_cell(g, d, place[d] + radius) - g->first[d];
+        from[d] = from[d] > 0 ? from[d] : 0, to[d] = to[d] < g->count[d] - 2 ? to[d] : g->count[d] - 2;
+    }
+    for (int64_t j = from[1]; j <= to[1]; j++)
+        for (int64_t i = from[0]; i <= to[0]; i++) {
+            const real x = grid_position(g, 0, i) + 0.5 * g->h, y = grid_position(g, 1, j) + 0.5 * g->h;
+            const int64_t I = i * g->stride[0] + j * g->stride[1];
+            if (square(x - place[0]) + square(y - place[1]) > square(radius)) continue;
+            coarse |= l->level[I] > 0;
+            if (demand) demand[I] = 1;
+        }
+    return coarse;
+}
+
+/* The same of all sif probes: they want accelerations, which coarse cells have at some steps only. */
+static bool rings_cells(const struct engine *e, uint8_t *demand)
+{
+    bool coarse = false;
+    for (int k = 0; k < e->probing.probes.n; k++) coarse |= ring_cells(e, k, demand);
+    return coarse;
+}
+
 /* Adds marks to others; NULL: there are none. */
 static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t *mark)
 {
@@ -148,6 +184,7 @@ static uint8_t *demand_make(const struct engine *e, int more)
         for (int64_t k = 0; k < e->loads.load[b].n; k++) fixed[cell_of(l->fine, p, e->loads.load[b].particle[k])] = 1;
     demand_mirrors(e, fixed);
     demand_slits(l->fine, fixed);
+    rings_cells(e, fixed);
     levels_dilate(l, fixed, 1);
     marks_add(l, fixed, demand);
     memory_free(fixed);
@@ -320,7 +357,7 @@ status engine_levels_follow(struct engine *e)
     const bool looks = e->clock.step % LOOK_STEPS == 0;
     levels_sync(l);
     uint8_t *stressed = any_stressed(l) ? stressed_cells(e, SPLITS, false) : NULL;
-    if (!looks && !stressed && !l->any_wanted) return OK;
+    if (!looks && !stressed && !l->any_wanted && !rings_cells(e, NULL)) return OK;
     const int64_t n = l->fine->grid.n;
     uint8_t *demand = demand_make(e, ZONE_MORE), *limit = NEW("levels.limit", 2 * n, uint8_t), *level = limit + n;
     marks_add(l, stressed, demand);

@@ -200,7 +200,7 @@ void engine_mesh_move(struct engine *e, real middle, real dt_velocity)
 void engine_mesh_sync(struct engine *e)
 {
     if (e->reference.mesh.points == 0) return;
-    levels_prolong(&e->reference.levels);
+    levels_prolong_points(&e->reference.levels);
     mesh_points_move(&e->reference.mesh, &e->part);
     mesh_points_stress(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain);
     loads_mirror(&e->loads, &e->part);
@@ -211,7 +211,7 @@ void engine_mesh_sync_points(void *engine, const int32_t *list, int64_t n)
     struct engine *e = engine;
     if (e->reference.mesh.points == 0) return;
     if (list) mesh_listed_move(&e->reference.mesh, &e->part, list, n);
-    else levels_prolong(&e->reference.levels), mesh_points_move(&e->reference.mesh, &e->part);
+    else levels_prolong_points(&e->reference.levels), mesh_points_move(&e->reference.mesh, &e->part);
     loads_mirror(&e->loads, &e->part);
 }
 

@@ -374,7 +374,7 @@ static void put_probes(struct json *j, const struct engine *e)
 
 /* ---- figures of the machine -------------------------------------------------------------------------------------- */
 
-/* Figures that depend on the machine: threads, kernels, times, memory. */
+/* Figures that depend on the machine: threads, kernels, times, memory; laps: parts of the loop of this process [s]. */
 static void put_machine(struct json *j, const struct engine *e, int threads, double wall_seconds)
 {
     real steps = 0, ns = 1e9 * e->report.loop_seconds;
@@ -387,6 +387,9 @@ static void put_machine(struct json *j, const struct engine *e, int threads, dou
     json_number(j, "ns_per_particle_step", ns / steps, DIGITS_TIMING);
     json_number(j, "ns_per_bond_step", ns / (real)e->report.bond_visits, DIGITS_TIMING);
     json_number(j, "rest_share", e->report.inactive / (real)(e->clock.step > 0 ? e->clock.step : 1), DIGITS_TIMING);
+    json_open(j, "laps", '{');
+    for (int k = 0; k < LAPS; k++) json_number(j, lap_name[k], e->report.laps.spent[k], DIGITS_TIMING);
+    json_close(j, '}');
 }
 
 static void summary_print(FILE *file, const struct engine *e, const struct fragments *fragments, status s,

@@ -85,7 +85,13 @@ void levels_sync(struct mesh_levels *l)
 void levels_prolong(struct mesh_levels *l)
 {
     levels_sync(l);
-    if (l->n > 0) levels_interpolate(l);
+    if (l->n > 0) levels_interpolate(l, true);
+}
+
+void levels_prolong_points(struct mesh_levels *l)
+{
+    levels_sync(l);
+    if (l->n > 0) levels_interpolate(l, false);
 }
 
 bool levels_inverted(const struct mesh_levels *l, real *X)

@@ -48,28 +48,42 @@ static real field_at(const struct mesh *mesh, const struct cell_around *a, const
     return value;
 }
 
-static void row_interpolate(struct mesh_levels *l, int64_t row)
+/* Gives node I of level 0, with indices k, the motion of the coarse cell that it is in. */
+static void node_interpolate(struct mesh_levels *l, int64_t I, const int64_t *k)
 {
     struct mesh *fine = l->fine;
-    const int64_t first = row * fine->grid.count[0];
-    int64_t k[DIM_MAX];
-    walk_at(&fine->grid, first, k);
-    for (int64_t I = first; I < first + fine->grid.count[0]; I++, k[0]++) {
-        const struct cell_around a = coarse_around(l, I, k);
-        if (a.level == 0) continue;
-        const struct mesh *mesh = &l->at[a.level].mesh;
-        for (int d = 0; d < fine->grid.dim; d++) {
-            fine->displacement[d][I] = field_at(mesh, &a, mesh->displacement[d]);
-            fine->grid.velocity[d][I] = field_at(mesh, &a, mesh->grid.velocity[d]);
-        }
+    const struct cell_around a = coarse_around(l, I, k);
+    if (a.level == 0) return;
+    const struct mesh *mesh = &l->at[a.level].mesh;
+    for (int d = 0; d < fine->grid.dim; d++) {
+        fine->displacement[d][I] = field_at(mesh, &a, mesh->displacement[d]);
+        fine->grid.velocity[d][I] = field_at(mesh, &a, mesh->grid.velocity[d]);
     }
 }
 
-void levels_interpolate(struct mesh_levels *l)
+static void row_interpolate(struct mesh_levels *l, int64_t row)
+{
+    const struct grid *g = &l->fine->grid;
+    const int64_t first = row * g->count[0];
+    int64_t k[DIM_MAX];
+    walk_at(g, first, k);
+    for (int64_t I = first; I < first + g->count[0]; I++, k[0]++) node_interpolate(l, I, k);
+}
+
+void levels_interpolate(struct mesh_levels *l, bool all)
 {
     struct mesh *fine = l->fine;
+    if (all || !fine->absent) {
 #pragma omp parallel for schedule(static)
-    for (int64_t row = 0; row < fine->rows; row++) row_interpolate(l, row);
+        for (int64_t row = 0; row < fine->rows; row++) row_interpolate(l, row);
+        return;
+    }
+#pragma omp parallel for schedule(static)
+    for (int64_t n = 0; n < fine->filled_nodes; n++) {
+        int64_t k[DIM_MAX];
+        walk_at(&fine->grid, fine->filled_node[n], k);
+        node_interpolate(l, fine->filled_node[n], k);
+    }
 }
 
 /* ---- to the nodes of new cells ----------------------------------------------------------------------------------- */
@@ -211,7 +225,7 @@ void levels_change(struct mesh_levels *l, const struct particles *p, const struc
     const size_t cells = (size_t)l->fine->grid.n;
     uint8_t *before = NEW("levels.before", 2 * l->fine->grid.n + LANES, uint8_t), *dirty = before + cells;
     levels_sync(l);
-    levels_interpolate(l);
+    levels_interpolate(l, true);
     memcpy(before, l->level, cells);
     for (size_t I = 0; I < cells; I++) dirty[I] = before[I] != level[I];
     memcpy(l->level, level, cells);

@@ -89,8 +89,9 @@ void levels_link(struct mesh_levels *l);
 void levels_fold(struct mesh_levels *l, bool momenta);
 /* Runs and active blocks, after levels_fold. */
 void levels_runs_make(struct mesh_levels *l);
-/* Displacements and velocities of coarse cells to the nodes of level 0 inside them that no cell of level 0 has. */
-void levels_interpolate(struct mesh_levels *l);
+/* Displacements and velocities of coarse cells to the nodes of level 0 inside them that no cell of level 0 has;
+ * of all, or of those round which there are particles. */
+void levels_interpolate(struct mesh_levels *l, bool all);
 /* Momenta of the nodes of coarse cells, over mass, that belong to their velocities, which then differ by round-off. */
 void levels_momenta_find(struct mesh_levels *l);
 /* Are coarse cells whole, and their levels those of all their parts? */

@@ -248,12 +248,30 @@ status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *fro
     return OK;
 }
 
-/* Marks the cells whose particles are not made. */
+/* Is a cell round node I not absent? */
+static bool node_filled(const struct mesh *mesh, int64_t I)
+{
+    bool filled = false;
+    for (int c = 0; c < 1 << mesh->grid.dim && !filled; c++)
+        filled = I >= mesh->corner[c] && !mesh->absent[I - mesh->corner[c]];
+    return filled;
+}
+
+/* Marks the cells whose particles are not made, and lists the others. */
 static void mesh_absent_make(struct mesh *mesh, const struct hollow *h)
 {
     mesh->absent = NEW("mesh.absent", mesh->grid.n, uint8_t);
     for (int64_t I = 0; I < h->box.n; I++)
         if (h->absent[I]) mesh->absent[grid_same_cell(&h->box, I, &mesh->grid)] = 1;
+    for (int64_t I = 0; I < mesh->grid.n; I++)
+        mesh->filled_cells += !mesh->absent[I], mesh->filled_nodes += node_filled(mesh, I);
+    mesh->filled_cell = NEW("mesh.filled_cell", mesh->filled_cells, int32_t);
+    mesh->filled_node = NEW("mesh.filled_node", mesh->filled_nodes, int32_t);
+    int64_t cells = 0, nodes = 0;
+    for (int64_t I = 0; I < mesh->grid.n; I++) {
+        if (!mesh->absent[I]) mesh->filled_cell[cells++] = (int32_t)I;
+        if (node_filled(mesh, I)) mesh->filled_node[nodes++] = (int32_t)I;
+    }
 }
 
 /* Makes the nodes of the mesh, and the places of its points. */
@@ -313,7 +331,7 @@ void mesh_free(struct mesh *mesh)
     memory_free(mesh->point);
     memory_free(mesh->kind);
     memory_free(mesh->place);
-    memory_free(mesh->absent);
+    memory_free(mesh->absent), memory_free(mesh->filled_cell), memory_free(mesh->filled_node);
     memory_free(mesh->band);
     memory_free(mesh->run);
     mesh_partial_free(mesh);

@@ -68,12 +68,21 @@ static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, in
     }
 }
 
+/* Have nodes first .. end - 1 no mass? Coarse cells leave most of those of level 0 so. */
+static bool none_has_mass(const real *mass, int64_t first, int64_t end)
+{
+    real most = 0;
+#pragma omp simd reduction(max : most)
+    for (int64_t I = first; I < end; I++) most = mass[I] > most ? mass[I] : most;
+    return most == 0;
+}
+
 /* Motion of entries first .. end - 1: all sums, or the kinetic energy alone, which needs no roots. */
 static ALWAYS_INLINE struct motion diagnostics_motion_of(const struct movers *m, int64_t first, int64_t end,
                                                          const bool all)
 {
     struct motion sum = {0};
-    if (m->flag && all_meshed(m->flag, first, end)) return sum;
+    if (m->flag ? all_meshed(m->flag, first, end) : none_has_mass(m->mass, first, end)) return sum;
     for (int64_t to; first < end; first = to) {
         to = first + MOTION_PIECE < end ? first + MOTION_PIECE : end;
         motion_piece(m, first, to, &sum, all);

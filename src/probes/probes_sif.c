@@ -324,6 +324,17 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
     q->memory.time = o->t;
 }
 
+bool probes_sif_ring(const struct probes *s, int k, const struct observed *o, real place[2], real *radius)
+{
+    const struct sif_tracked *w = s->probe[k].sif;
+    if (s->probe[k].request.kind != PROBE_SIF || !w) return false;
+    const struct tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
+    const real *at = w->growth >= 0 ? o->growth[w->growth].place : tip && tip->growth > 0 ? tip->place : w->tip.place;
+    for (int d = 0; d < 2; d++) place[d] = at[d];
+    *radius = w->reach;
+    return true;
+}
+
 bool probes_sif_control(const struct probes *s, const char *name, struct control *found)
 {
     for (int k = 0; k < s->n; k++) {

@@ -125,4 +125,34 @@ refused "a bad chart" "bad.csv:1:1: no cost-accuracy table" "$work/pulse.yaml" -
 { head -n 1 src/auto/cost_accuracy.csv; grep '^bar,pulse,pd bond,' src/auto/cost_accuracy.csv; } >"$work/own.csv"
 calm "$work/own" "$work/pulse.yaml" -s "accuracy_table=own.csv" -s accuracy=5%
 is "a table of one's own" "$(figure "$work/own" auto.picked)" "pd bond"
+
+# A table in which cells of eight spacings take half of the time: they are chosen, written into the scene and said why; a scene that says
+# that it wants none has none.
+cat >"$work/struck.yaml" <<'END'
+space: plane stress
+thickness: 10 mm
+duration: 10 us
+method: auto
+accuracy: 15 %
+accuracy_table: levels.csv
+material: {young: 190 GPa, poisson: 1/3, density: 7800 kg/m^3, energy_release_rate: 69 kJ/m^2}
+body: [{box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}, {add: {box: {from: [-3 mm, -25 mm], to: [0, 25 mm]}}}]
+cracks: [{from: [-4 mm, -25 mm], to: [50 mm, -25 mm]}, {from: [-4 mm, 25 mm], to: [50 mm, 25 mm]}]
+boundary: [{velocity: [2.2 m/s, free], region: {box: {from: [-3 mm, -25 mm], to: [0, 25 mm]}}}]
+output: {frames: 0, samples: 4}
+END
+{
+    head -n 1 src/auto/cost_accuracy.csv
+    grep '^fracture,Kalthoff,adaptive reference,' src/auto/cost_accuracy.csv
+    grep '^fracture,Kalthoff,adaptive reference,' src/auto/cost_accuracy.csv | awk -F, -v OFS=, '
+        { $3 = "adaptive levels 2"; $8 *= 0.5; sub(/mpm.levels=0/, "mpm.levels=2", $11); print }'
+} >"$work/levels.csv"
+calm "$work/levels" "$work/struck.yaml"
+is "levels" "$(figure "$work/levels" auto.picked)" "adaptive levels 2, far cells of 8 spacings in 0.50 of the time"
+is "levels: in the scene" "$(grep -c "levels: 2" "$work/levels/scene.yaml")" 1
+is "levels: the next best" "$(figure "$work/levels" auto.next_best)" "adaptive reference"
+calm "$work/without" "$work/struck.yaml" -s mpm.levels=0
+is "levels: 0" "$(figure "$work/without" auto.picked)" "adaptive reference"
+calm "$work/own_levels" "$work/struck.yaml" -s mpm.levels=auto
+is "levels: auto" "$(figure "$work/own_levels" auto.picked)" "$(figure "$work/levels" auto.picked)"
 finish

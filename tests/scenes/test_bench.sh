@@ -89,6 +89,29 @@ for file in threads.json threads.png threads.svg threads_memory.csv scale.json s
     [ -s $file ] || fail "$file is missing"
 done
 [ -z "$(ls -d run-* 2>/dev/null)" ] || fail "scaling leaves runs behind"
+[ ! -e scale_growth.csv ] || fail "growth has figures of scenes that are not here"
+# A far field: cells of 8 spacings and a part between absorbing faces are within 2 % of K of both direct runs, cells of 32 are not.
+[ "$(head -1 scale_field.csv)" = run,levels,part,made,particles,bytes,seconds,steps_seconds,K_peak,off_bonds,off_cells ] ||
+    fail "columns of scale_field.csv"
+[ "$(wc -l <scale_field.csv)" -eq 9 ] || fail "eight runs of a far field"
+awk -F, 'NR > 1 { near = $10 < 0.02 && $11 < 0.02 }
+    $1 == "bonds everywhere" { next }
+    ($2 < 3 && NR > 1 && !near) || ($2 == 4 && near) || ($2 > 0 && $3 == 0 && $4 > 0.1 * $5) || ($9 < 1.2e5 && NR > 1) { bad = 1 }
+    END { exit bad }' scale_field.csv || fail "figures of scale_field.csv"
+cd ../..
+
+# Growth over the spacing, of the plate in space: of two rows the exponents are those of their ratios.
+cp "$inputs/kalthoff_3d_fine.yaml" inputs
+"$cleave" bench scale=growth --quick >out || fail "growth failed"
+cd results/bench
+[ "$(wc -l <scale_growth.csv)" -eq 5 ] && [ "$(wc -l <scale_growth_fit.csv)" -eq 3 ] || fail "two methods at two spacings"
+awk -F, 'FNR == 1 { next }
+    FILENAME == "scale_growth.csv" { if ($3 > 1.5e-3) for (k = 4; k <= 8; k++) one[$1, k] = $k; else for (k = 4; k <= 8; k++) two[$1, k] = $k; next }
+    { made = log(two[$1, 4] / one[$1, 4]) / log(2) - $3; bytes = log(two[$1, 7] / one[$1, 7]) / log(2) - $4
+      time = log(two[$1, 8] / one[$1, 8]) / log(2) - $5
+      if (made^2 + bytes^2 + time^2 > 1e-10 || $3 < 2.9 || $3 > 3.1) bad = 1 }
+    END { exit bad }' scale_growth.csv scale_growth_fit.csv || fail "exponents of growth"
+[ -s scale_growth.png ] || fail "scale_growth.png is missing"
 cd ../..
 
 # Speed against accuracy, its bar: files, figures known from inputs/bar_smooth.yaml, and that nothing is run twice.

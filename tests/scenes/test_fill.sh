@@ -82,4 +82,30 @@ for model in bond ospd; do
     done
 done
 
+# A ring of sif in cells of eight spacings, which a plane pulse crosses: its particles are made, and stay when cells change.
+cat >"$work/field.yaml" <<EOF2
+space: plane strain
+thickness: 1 mm
+duration: 15 us
+method: adaptive
+material: {young: 72 GPa, poisson: 1/4, density: 2440}
+body: {box: {from: [0, -50 mm], to: [50 mm, 50 mm]}}
+particles: {spacing: 0.5 mm}
+mpm: {levels: 2}
+cracks: [{from: [-1 mm, 0], to: [10 mm, 0]}]
+boundary:
+  - {mirror: {axis: x, at: 0}}
+  - {traction: [0, -1 MPa], face: y-, time: {pulse: {until: 10 us}}}
+output: {frames: 0, samples: 30}
+probes: [sif: {contours: [6 mm, 8 mm]}]
+EOF2
+calm "$work/ring" "$work/field.yaml" -s mpm.fill=all
+calm "$work/ring_needed" "$work/field.yaml" -s mpm.fill=needed
+between "ring: particles made" "$(f ring_needed particles_made)" 1000 4000
+for figure in K_I K_II J contour_spread; do
+    alike "ring: $figure" "$(f ring probes.sif.$figure)" "$(f ring_needed probes.sif.$figure)" 1e-9
+done
+calm "$work/ring_moves" "$work/field.yaml" -s material.energy_release_rate=1e9 -s mpm.fill=needed -s output.samples=2
+between "a ring that may move: all are made" "$(f ring_moves particles_made)" 20000 20000
+
 finish

@@ -1,0 +1,321 @@
+/* `cleave bench scale=growth`: what a finer spacing costs. Particles, memory and time of Kalthoff's plate, in the plane
+ * and in space, as adaptive runs with coarse cells make it, beside full peridynamics where that is cheap. Each run is a
+ * process of its own, on one thread: its memory is the high-water mark of that process, its time that of its loop times
+ * the share of a processor that the process had, so that what else the machine does counts little; of short loops the
+ * least of three.
+ *
+ * Coarse cells have at most 2 mm at any spacing, as mpm.levels: auto chooses in a plate of this size under a sudden
+ * load, where it has particles enough. Time steps are in proportion to the spacing. Exponents are per halving of the
+ * spacing, by least squares of the logarithms; without coarse cells particles and bytes have the dimension as exponent,
+ * time one more. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "bench/common/bench.h"
+#include "base/memory.h"
+#include "output/summary_read.h"
+#include "plot/gnuplot.h"
+
+enum { SPACINGS = 5, LAPS_SHOWN = LAP_OUTPUT, SERIES = 4, AIMS = 3, REPEATED = 3 };
+#define SHORT 3.0       /* [s] */
+#define STEP_PER_MM 0.05 /* [us] at a spacing of 1 mm */
+
+/* A method on a plate, from coarse to fine. */
+struct growth_series {
+    const char *name, *path, *method;
+    int dim;
+    double spacing[SPACINGS];            /* [mm]; 0 ends */
+    int quick, usual;                    /* so many of them with --quick, and without the finest */
+    double aim[AIMS];                    /* exponents of particles, bytes, time; NAN: none */
+};
+#define PLATE "inputs/kalthoff_winkler.yaml"
+#define HALF_PLATE "inputs/kalthoff_3d_fine.yaml"
+static const struct growth_series series[SERIES] = {
+    {"adaptive", PLATE, "adaptive", 2, {1, 0.5, 0.25, 0.125}, 3, 4, {1.3, 1.3, 2.3}},
+    {"pd", PLATE, "pd", 2, {1, 0.5, 0.25}, 2, 3, {NAN, NAN, NAN}},
+    {"adaptive", HALF_PLATE, "adaptive", 3, {2, 1, 0.5, 0.25, 0.125}, 2, 4, {2.3, 2.3, 3.3}},
+    {"pd", HALF_PLATE, "pd", 3, {2, 1, 0.5}, 2, 3, {NAN, NAN, NAN}},
+};
+
+struct growth_row {
+    bool known;
+    double spacing;                      /* [mm] */
+    double made, body, bonded, bytes, seconds, share;       /* share: of the critical step */
+    double lap[LAPS_SHOWN];              /* [s] */
+    double start, angle;                 /* of the crack [s] [degree] */
+};
+
+struct growth_fit {
+    double of[AIMS], last[AIMS];         /* exponents: of all rows, of the last two */
+    enum lap binds;                      /* part of the step that is most beyond the aim for time */
+    double binds_exponent, binds_share;  /* its own exponent; its share of the loop of the finest */
+};
+
+struct growth_bench {
+    struct growth_row at[SERIES][SPACINGS];
+    struct growth_fit fit[SERIES];
+};
+
+/* ---- one run ----------------------------------------------------------------------------------------------------- */
+
+/* Levels at which the largest cells have 2 mm. */
+static int levels_of(double spacing)
+{
+    int levels = 0;
+    while ((4 << levels) * spacing <= 2 * (1 + 1e-9)) levels++;
+    return levels;
+}
+
+static void growth_overrides(struct bench_overrides *o, const struct growth_series *s, double spacing)
+{
+    const double width = 3 * spacing;
+    bench_override(o, "method", "%s", s->method);
+    bench_override(o, "particles.spacing", "%g mm", spacing);
+    bench_override(o, "time.step", "%.9g us", STEP_PER_MM * spacing);
+    bench_override(o, "output.frames", "0");
+    if (s->dim == 2) {
+        bench_override(o, "body[1].add.box.from", "[-%g mm, -25 mm]", width);
+        bench_override(o, "boundary[0].region.box.from", "[-%g mm, -25 mm]", width);
+        bench_override(o, "pd.surface", "none");
+    } else {
+        bench_override(o, "body[1].add.box.from", "[-%g mm, 0, 0]", width);
+        bench_override(o, "boundary[0].region.box.from", "[-%g mm, 0, 0]", width);
+    }
+    if (strcmp(s->method, "pd") == 0) {
+        if (s->dim == 3) bench_override(o, "mpm", "%s", "");
+        return;
+    }
+    bench_override(o, "mpm.levels", "%d", levels_of(spacing));
+    bench_override(o, "mpm.fill", "needed");
+}
+
+static status growth_read(struct growth_row *r, const char *folder, double processor)
+{
+    double step, critical, wall, share;
+    char key[64];
+    const struct { const char *key; double *value; } figure[] = {
+        {"particles_made", &r->made}, {"particles", &r->body}, {"particles_pd_end", &r->bonded},
+        {"memory_peak_bytes", &r->bytes}, {"loop_seconds", &r->seconds}, {"time_step", &step},
+        {"time_step_critical", &critical}, {"crack.start_time", &r->start}, {"crack.angle_deg", &r->angle},
+        {"wall_seconds", &wall}};
+    for (size_t k = 0; k < COUNT_OF(figure); k++) TRY(summary_number(folder, figure[k].key, figure[k].value));
+    share = r->seconds < SHORT ? 1 : fmin(1, processor / wall);      /* short ones are repeated instead */
+    for (int k = 0; k < LAPS_SHOWN; k++) {
+        snprintf(key, sizeof key, "laps.%s", lap_name[k]);
+        TRY(summary_number(folder, key, &r->lap[k]));
+        r->lap[k] *= share;
+    }
+    r->seconds *= share;
+    r->share = step / critical, r->known = true;
+    return OK;
+}
+
+static status growth_run(struct growth_row *r, const struct growth_series *s, double spacing)
+{
+    struct bench_overrides o = {0};
+    struct bench_child c;
+    r->spacing = spacing;
+    growth_overrides(&o, s, spacing);
+    status ran = bench_child_start(&c, s->path, bench_overrides_ready(&o), o.n, 1);
+    if (ran == OK) ran = bench_child_wait(&c);
+    if (ran == OK) ran = growth_read(r, c.folder, c.processor);
+    bench_child_free(&c);
+    return ran;
+}
+
+/* Short runs may be repeated: the least time counts. */
+static status growth_time(struct growth_row *least, const struct growth_series *s, double spacing, int repeated)
+{
+    for (int k = 0; k < repeated && (k == 0 || least->seconds < SHORT); k++) {
+        struct growth_row r = {0};
+        TRY(growth_run(&r, s, spacing));
+        if (k == 0 || r.seconds < least->seconds) *least = r;
+    }
+    return OK;
+}
+
+/* ---- exponents --------------------------------------------------------------------------------------------------- */
+
+/* Slope of log2(y) over the number of halvings of the spacing, by least squares, from row `first` on. */
+static double exponent_of(const struct growth_row *row, int first, int n, double (*y)(const struct growth_row *, int),
+                          int which)
+{
+    double x1 = 0, y1 = 0, xx = 0, xy = 0;
+    for (int k = first; k < n; k++) {
+        const double x = -log2(row[k].spacing), value = log2(y(&row[k], which));
+        x1 += x, y1 += value, xx += x * x, xy += x * value;
+    }
+    const double count = n - first;
+    return (count * xy - x1 * y1) / (count * xx - x1 * x1);
+}
+
+static double cost_of(const struct growth_row *r, int which)
+{
+    return which == 0 ? r->made : which == 1 ? r->bytes : r->seconds;
+}
+
+static double lap_of(const struct growth_row *r, int which) { return fmax(r->lap[which], 1e-6); }
+
+static int rows_of(const struct growth_row *row)
+{
+    int n = 0;
+    while (n < SPACINGS && row[n].known) n++;
+    return n;
+}
+
+/* What binds time: the part of the step that took most beyond its share of the coarsest run grown as the aim asks. */
+static void growth_fit_make(struct growth_fit *f, const struct growth_row *row, const struct growth_series *s)
+{
+    const int n = rows_of(row);
+    double most = -INFINITY;
+    for (int a = 0; a < AIMS; a++) {
+        f->of[a] = n > 1 ? exponent_of(row, 0, n, cost_of, a) : NAN;
+        f->last[a] = n > 1 ? exponent_of(row, n - 2, n, cost_of, a) : NAN;
+    }
+    for (int k = 0; k < LAPS_SHOWN && n > 1; k++) {
+        const struct growth_row *coarse = &row[0], *fine = &row[n - 1];
+        const double asked = isfinite(s->aim[2]) ? s->aim[2] : s->dim + 1;
+        const double beyond = fine->lap[k] - coarse->lap[k] * pow(coarse->spacing / fine->spacing, asked);
+        if (beyond <= most) continue;
+        most = beyond, f->binds = (enum lap)k;
+        f->binds_exponent = exponent_of(row, 0, n, lap_of, k);
+        f->binds_share = fine->lap[k] / fine->seconds;
+    }
+}
+
+/* ---- what is said ------------------------------------------------------------------------------------------------ */
+
+static void growth_print_header(void)
+{
+    printf("  each run a process on one thread; largest cells 2 mm, time step %g us per mm of spacing, driven strip of "
+           "three spacings\n",
+           STEP_PER_MM);
+    printf("  %-11s %8s %10s %10s %8s %9s %7s %8s %9s %7s |", "", "spacing", "made", "of body", "bonded", "peak MB",
+           "byte/m", "of crit", "loop s", "angle");
+    for (int k = 0; k < LAPS_SHOWN; k++) printf(" %7s", lap_name[k]);
+    printf("  [s]\n");
+}
+
+static void growth_print_row(const struct growth_series *s, const struct growth_row *r)
+{
+    printf("  %-8s %dD %5g mm %10.0f %10.0f %8.0f %9.1f %7.0f %8.3f %9.3f %7.1f |", s->name, s->dim, r->spacing,
+           r->made, r->body, r->bonded, 1e-6 * r->bytes, r->bytes / r->made, r->share, r->seconds, r->angle);
+    for (int k = 0; k < LAPS_SHOWN; k++) printf(" %7.2f", r->lap[k]);
+    putchar('\n');
+    fflush(stdout);
+}
+
+static void growth_print_fits(const struct growth_bench *b)
+{
+    static const char *const name[AIMS] = {"particles", "bytes", "time"};
+    printf("\n  exponents per halving of the spacing, by least squares, and of the last halving alone\n");
+    for (int k = 0; k < SERIES; k++) {
+        const struct growth_fit *f = &b->fit[k];
+        if (rows_of(b->at[k]) < 2) continue;
+        for (int a = 0; a < AIMS; a++) {
+            const bool missed = f->of[a] > series[k].aim[a];
+            printf("    %-8s %dD %-9s %5.2f  last %5.2f", series[k].name, series[k].dim, name[a], f->of[a], f->last[a]);
+            if (isfinite(series[k].aim[a])) printf("  aim %.1f  %s", series[k].aim[a], missed ? "MISSED" : "met");
+            if (missed && a == 2)
+                printf(": the lap `%s` stands in the way (its exponent %.2f, %.0f %% of the finest loop)",
+                       lap_name[f->binds], f->binds_exponent, 100 * f->binds_share);
+            if (missed && a < 2)
+                printf(": %s stands in the way",
+                       f->of[0] > series[k].aim[0] ? "the number of particles made" : "memory beside the particles");
+            putchar('\n');
+        }
+    }
+}
+
+static status growth_write_table(const struct growth_bench *b)
+{
+    struct bench_table t[2];
+    bench_table_make(&t[0], "",
+                     "method,dim,spacing,made,particles,pd_end,bytes,seconds,critical_share,angle_deg,bonds,scatter,"
+                     "grid,gather,convert,sample");
+    bench_table_make(&t[1], "fit",
+                     "method,dim,particles,bytes,time,particles_last,bytes_last,time_last,particles_aim,bytes_aim,"
+                     "time_aim");
+    for (int k = 0; k < SERIES; k++) {
+        for (int j = 0; j < rows_of(b->at[k]); j++) {
+            const struct growth_row *r = &b->at[k][j];
+            const double row[] = {series[k].dim, 1e-3 * r->spacing, r->made,  r->body, r->bonded,
+                                  r->bytes,      r->seconds,        r->share, r->angle};
+            bench_text(&t[0], series[k].name);
+            for (size_t c = 0; c < COUNT_OF(row); c++) bench_number(&t[0], row[c]);
+            for (int c = 0; c < LAPS_SHOWN; c++) bench_number(&t[0], r->lap[c]);
+        }
+        if (rows_of(b->at[k]) < 2) continue;
+        bench_text(&t[1], series[k].name), bench_number(&t[1], series[k].dim);
+        for (int a = 0; a < AIMS; a++) bench_number(&t[1], b->fit[k].of[a]);
+        for (int a = 0; a < AIMS; a++) bench_number(&t[1], b->fit[k].last[a]);
+        for (int a = 0; a < AIMS; a++) bench_number(&t[1], series[k].aim[a]);
+    }
+    status s = bench_write("scale_growth", t, COUNT_OF(t));
+    for (size_t k = 0; k < COUNT_OF(t); k++) bench_table_free(&t[k]);
+    return s;
+}
+
+/* Particles, megabytes and seconds over the spacing, a panel each. */
+static void growth_draw(FILE *to, const void *context)
+{
+    static const char *const title[AIMS] = {"particles made", "peak memory [MB]", "loop [s]"};
+    const struct growth_bench *b = context;
+    for (int k = 0; k < SERIES; k++) {
+        fprintf(to, "$s%d << EOD\n", k);
+        for (int j = 0; j < rows_of(b->at[k]); j++) {
+            const struct growth_row *r = &b->at[k][j];
+            fprintf(to, "%g %.6g %.6g %.6g\n", r->spacing, r->made, 1e-6 * r->bytes, r->seconds);
+        }
+        if (!rows_of(b->at[k])) fputs("NaN NaN NaN NaN\n", to);
+        fputs("EOD\n", to);
+    }
+    fputs("set multiplot layout 1,3\nset logscale xy\nset xrange [3:0.1] reverse\nset xtics (2, 1, 0.5, 0.25, 0.125)\n"
+          "set xlabel 'spacing [mm]'\nset key top left\nset format y '%g'\n",
+          to);
+    for (int a = 0; a < AIMS; a++) {
+        fprintf(to, "set title '%s'\nplot ", title[a]);
+        for (int k = 0; k < SERIES; k++)
+            fprintf(to, "%s$s%d using 1:%d with linespoints pt 7 lw 2 lc rgb '%s' title '%s %dD'", k ? ", " : "", k,
+                    a + 2, curve_colour[k], series[k].name, series[k].dim);
+        fputc('\n', to);
+    }
+    fputs("unset multiplot\n", to);
+}
+
+/* ---- all --------------------------------------------------------------------------------------------------------- */
+
+static status growth_measure(struct growth_bench *b, bool quick, bool finest)
+{
+    bool any = false;
+    growth_print_header();
+    for (int k = 0; k < SERIES; k++) {
+        const struct growth_series *s = &series[k];
+        const int rows = quick ? s->quick : finest ? SPACINGS : s->usual;
+        if (!bench_scene_exists(s->path)) continue;
+        for (int j = 0; j < rows && j < SPACINGS && s->spacing[j] > 0; j++) {
+            TRY(growth_time(&b->at[k][j], s, s->spacing[j], quick ? 1 : REPEATED));
+            growth_print_row(s, &b->at[k][j]);
+        }
+        growth_fit_make(&b->fit[k], b->at[k], s);
+        any = true;
+    }
+    if (!any) return OK;
+    growth_print_fits(b);
+    TRY(growth_write_table(b));
+    return bench_draw("scale_growth", 1400, 500, growth_draw, b);
+}
+
+static status growth_bench_run(bool quick, bool finest)
+{
+    struct growth_bench *b = NEW("bench.growth", 1, struct growth_bench);
+    printf("scale: growth\n");
+    bench_print_machine(1);
+    status s = growth_measure(b, quick, finest);
+    memory_free(b);
+    return s;
+}
+
+status bench_growth(bool quick) { return growth_bench_run(quick, false); }
+status bench_growth_finest(bool quick) { return growth_bench_run(quick, true); }
