@@ -50,6 +50,8 @@ struct material_tables {
     real *pair_stretch;                  /* [materials^2] critical stretch of a pair of materials */
     real *pair_yield, *pair_hardening;   /* [materials^2] of bonds between two materials; NULL: elastic */
     int *mirror_axis;                    /* [boundaries] -1: clamped */
+    struct mirror_plane *mirror;         /* planes of symmetry */
+    struct crack_list cracks;            /* pre-cracks with their images in these */
     real *neighbour_volume;              /* [n_all] V^H of every particle, volume method only */
     struct surface_weights surface;      /* of bonds near faces, pd.surface moments only */
     struct impedance *impedance;         /* [movers][materials] of absorbing faces; NULL: there are none */

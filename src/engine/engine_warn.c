@@ -88,7 +88,7 @@ static void warn_of_empty(const struct engine *e, struct warnings *to)
         if (e->loads.load[b].n == 0 && e->scene->boundary[b].kind == BOUNDARY_VELOCITY)
             warnings_add(to, "boundary %s holds no particle%s", e->scene->boundary[b].name,
                          e->scene->method == METHOD_PD ? "" : "; it acts on grid nodes in its region only");
-    if (e->source.cracks > 0 && !bonds_are_cut(&e->bonds))
+    if (e->source.givens > 0 && !bonds_are_cut(&e->bonds))
         warnings_add(to, "the pre-cracks cut no bond: do they lie in the body?");
 }
 
