@@ -215,15 +215,28 @@ static real particles_now(const struct scene *s, const struct particles *p, real
     return p->n > 0 ? (real)p->n : expected;
 }
 
-real engine_memory(const struct engine *e)
+/* Of n particles with whole families or without; longest: edge of their box [spacings]. */
+static real memory_of(const struct engine *e, real n, real longest, bool families)
 {
     const struct scene *s = e->scene;
-    real longest;
-    const real n = particles_now(e->scene, &e->part, &longest);
-    const real bonds = s->method == METHOD_PD ? e->source.family.full / e->source.family.cell_volume : 1;
+    const real bonds = families ? e->source.family.full / e->source.family.cell_volume : 1;
     bool follow = s->irregularity == 0 && !e->source.yield.stretch && longest < EXACT_MOST;
     for (int b = 0; b < s->bodies; b++) follow = follow && !s->body[b].file;
     return n * (BYTES_PER_PARTICLE + bonds * (follow ? BYTES_PER_BOND_LATTICE : BYTES_PER_BOND));
+}
+
+real engine_memory(const struct engine *e)
+{
+    real longest;
+    const real n = particles_now(e->scene, &e->part, &longest);
+    return memory_of(e, n, longest, e->scene->method == METHOD_PD);
+}
+
+real engine_memory_peridynamic(const struct engine *e)
+{
+    real longest;
+    particles_expected(e->scene, &longest);
+    return memory_of(e, (real)e->part.n_body, longest, true);
 }
 
 /* REFUSED if a run needs more memory than is available. */
