@@ -17,8 +17,6 @@ static void say_particles(const struct engine *e)
            (long long)e->part.n_of[KIND_PD], (long long)e->part.n_of[KIND_MPM]);
     if (driven) printf("; %lld driven", (long long)driven);
     if (e->loads.images) printf("; %lld mirror images", (long long)e->loads.images);
-    const char *all = e->scene->fill == FILL_NEEDED ? engine_hollow_obstacle(e->scene) : NULL;
-    if (all) printf("\nfill           all particles are made, as %s", all);
     printf("\nbonds          %lld directed in %lld rows\n", (long long)e->bonds.n, (long long)e->bonds.rows);
 }
 

@@ -93,6 +93,20 @@ too_coarse "a ramp of 23 spacings" '3 makes .* want a rise over 40, or a body 40
 silent "a ramp of 23 spacings and cells of 8" 'unresolved: mpm.levels' "$far" -s "$ramp" -s mpm.levels=2
 silent "a pulse of 220 spacings and cells of 16" 'unresolved: mpm.levels' "$far" -s boundary=[] -s "$(initial_pulse "33 mm")" -s mpm.levels=3
 silent "a sudden load and cells of 4" 'unresolved: mpm.levels' "$far" -s "$narrow" -s mpm.levels=1
+# Keys that have no effect.
+cells="-s mpm.levels=2 -s mpm.fill=needed -s conversion.notch=slit"
+says "levels without cells" 'warning: mpm.levels: 2 has no effect, as method pd has no cells' plate_crack -s method=pd $cells
+says "fill without cells" 'warning: mpm.fill: needed has no effect, all particles are made, as method pd' plate_crack -s method=pd $cells
+says "slit of bonds" 'warning: conversion.notch: slit has no effect with method pd' plate_crack -s method=pd $cells
+says "slit of points" 'warning: conversion.notch: slit has no effect with method mpm' plate_crack -s method=mpm $cells
+says "levels of the current frame" 'warning: mpm.levels: 2 has no effect, as no material points are in the reference' plate_crack \
+    -s mpm.frame=current -s mpm.levels=2
+says "levels at rest" 'warning: mpm.levels: 2 has no effect, as a static solver' plate_crack -s method=mpm -s solver=relaxation \
+    -s mpm.transfer=apic -s mpm.levels=2
+says "fill without levels" 'warning: mpm.fill: needed has no effect, .* as there are no coarse cells' plate_crack -s mpm.fill=needed
+silent "keys that have none and say so" 'has no effect' plate_crack -s method=pd -s mpm.levels=0 -s conversion.notch=bonds
+silent "keys that have" 'has no effect' "$far" -s mpm.levels=1 -s mpm.fill=needed
+
 for scene in inputs/*.yaml; do
     grep -q '^mpm:.*levels: [1-4]' "$scene" || continue
     silent "own levels of $scene" 'unresolved: mpm.levels' "$scene"
