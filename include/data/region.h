@@ -84,8 +84,9 @@ struct mirror_plane {
     real at;                             /* [m] */
 };
 
-/* Is X on a plane of symmetry, to the tolerance [m], or beyond it? */
-bool mirrors_reach(const struct mirror_plane *m, int mirrors, const real *X, real tolerance);
+/* Does the crack come from inside to X on a plane of symmetry, to the tolerance [m], or beyond it? There it goes on as
+ * its image: that is no end of it. */
+bool mirrors_continue(const struct mirror_plane *m, int mirrors, const struct crack *c, const real *X, real tolerance);
 
 /* Cracks and, for each, the number of the crack that it is or is an image of. */
 struct crack_list {

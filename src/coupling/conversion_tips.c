@@ -12,11 +12,11 @@ static void region_add(struct region *r, const struct solid *s)
     r->solid[r->n++] = *s;
 }
 
-/* Is a particle within one spacing of X? An end outside the body is the mouth of a notch; on a mirror a crack goes on
- * as its image. */
-static bool in_body(const struct particles *p, const struct bond_source *s, const real *X)
+/* Is a particle within one spacing of X, a place at an end of the crack? An end outside the body is the mouth of a
+ * notch. */
+static bool in_body(const struct particles *p, const struct bond_source *s, const struct crack *c, const real *X)
 {
-    return !mirrors_reach(s->mirror, s->mirrors, X, ON_SURFACE * s->family.spacing) &&
+    return !mirrors_continue(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing) &&
            cells_near(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
 }
 
@@ -33,7 +33,7 @@ static void conversion_tip_add(struct region *r, const struct particles *p, cons
         solid.to[d] = c->corner[next][d];
         middle[d] = p->dim == 3 ? 0.5 * (solid.from[d] + solid.to[d]) : solid.centre[d];
     }
-    if (in_body(p, s, middle)) region_add(r, &solid);
+    if (in_body(p, s, c, middle)) region_add(r, &solid);
 }
 
 void convert_region(struct region *to, const struct region *given, const struct particles *p,

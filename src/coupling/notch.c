@@ -36,7 +36,7 @@ static bool edge_inside(const struct crack *c, int e, const struct particles *p,
             away[d] = 0.5 * (from[d] + to[d]) - middle[d];
             length2 += square(away[d]);
         }
-        if (mirrors_reach(s->mirror, s->mirrors, X, ON_SURFACE * s->family.spacing)) continue;  /* its image goes on */
+        if (mirrors_continue(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing)) continue;
         for (int d = 0; d < p->dim && length2 > 0; d++) X[d] += s->family.spacing * away[d] / sqrt(length2);
         if (cells_near(s->cells, p, X, AHEAD_REACH * s->family.spacing, -1, NULL, 0) >= 2) return true;
     }

@@ -11,10 +11,11 @@ static real inner_height(const struct mirror_plane *m, const real *X)
     return (real)-m->outside * (X[m->axis] - m->at);
 }
 
-bool mirrors_reach(const struct mirror_plane *m, int mirrors, const real *X, real tolerance)
+bool mirrors_continue(const struct mirror_plane *m, int mirrors, const struct crack *c, const real *X, real tolerance)
 {
     for (int k = 0; k < mirrors; k++)
-        if (inner_height(&m[k], X) <= tolerance) return true;
+        for (int a = 0; a < c->n && inner_height(&m[k], X) <= tolerance; a++)
+            if (inner_height(&m[k], c->corner[a]) > tolerance) return true;
     return false;
 }
 

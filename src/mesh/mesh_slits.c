@@ -338,8 +338,10 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
     m.split = NEW("slits.split", n, uint8_t);
     m.open = NEW("slits.open", n, uint8_t);
     slits_divide(&m);
-    if (m.node.n > 0) result = box_extend(&mesh->grid, from, to, m.node.n > m.cell.n ? m.node.n : m.cell.n);
-    if (m.node.n > 0 && result == OK) slits_tables_make(mesh, &m);
+    const bool any = m.node.n > 0 || memchr(m.open, 1 << 0, (size_t)n) || memchr(m.open, 1 << 1, (size_t)n) ||
+                     memchr(m.open, 1 << 2, (size_t)n);          /* of several mirrors: some node is on one alone */
+    if (any) result = box_extend(&mesh->grid, from, to, m.node.n > m.cell.n ? m.node.n : m.cell.n);
+    if (any && result == OK) slits_tables_make(mesh, &m);
     memory_free(m.point);
     memory_free(m.piece);
     memory_free(m.pieces);

@@ -82,6 +82,13 @@ for method in pd adaptive; do
         "{from: [20.1 mm, -8.1 mm], to: [20.1 mm, 8.1 mm]}" -s method=$method
 done
 
+# A crack in the mirror, whose end is its end.
+for method in pd adaptive; do
+    in="{from: [-1 mm, 0], to: [17.1 mm, 0]}"
+    both within_$method "$half" "$whole" "$in" "$in" -s method=$method
+done
+is "a slit in the mirror" "$(f half_within_adaptive conversion.notches.0)" "slit of the mesh, bonds within 8 spacings of its ends"
+
 # What else keeps momentum, though the whole has other pairs that are damped, or other coarse cells.
 for other in mpm.frame=current mpm.levels=1; do
     calm "$work/half_other" "$work/half.yaml" -s "body=$half" -s "cracks=[$along]" -s $other
