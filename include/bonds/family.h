@@ -73,8 +73,13 @@ struct bond_source {
     real core;                           /* stiffness of cores (kernels/pd/bond_core.h), in those of bonds */
     bool local, rotates;                 /* normalisation by what a family has; model with rotations */
     const int *mirror_axis;              /* [loads] axis of a plane of symmetry, -1: clamped */
-    const struct crack *crack;
+    const struct crack *given;           /* pre-cracks of the scene ... */
+    int givens;
+    const struct crack *crack;           /* ... and what of them lies in the body, with its images beyond mirrors */
     int cracks;
+    const int *crack_of;                 /* [cracks] number of the given one */
+    const struct mirror_plane *mirror;   /* planes of symmetry, clamped ones left out */
+    int mirrors;
     const struct image *image;           /* of loads */
     int room;                            /* most neighbours of a particle (bonds_room); 0: counted when needed */
     const real *neighbour_volume;        /* [n_all] V_i^H = sum V_j beta, for the volume method; NULL without */

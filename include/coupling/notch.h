@@ -17,8 +17,9 @@ struct notch { bool slit; const char *reason; };      /* reason: why it is none;
 struct notches {
     int n;
     struct notch *notch;                 /* [n] of each pre-crack */
-    int slits, cuts;
-    struct crack *slit, *cut;            /* [slits] borrowed from the scene; [cuts] those that cut bonds all along */
+    int slits, images, cuts;
+    struct crack *slit, *cut;            /* borrowed: [slits] of the scene, [images] behind them these in the body with
+                                          * their mirror images; [cuts] those that cut bonds all along, likewise */
     real radius;                         /* of the zones round the ends of slits [m] */
     real *lost;                          /* [particles] share of its family from which slits part a particle; NULL: no
                                           * slits */

@@ -47,6 +47,8 @@ struct mesh_slits {
     int64_t nodes, first;                /* number of extra nodes; first node and cell behind the box */
     int32_t *base;                       /* [grid.n - first] node of the grid at the same place, -1: no extra node */
     uint8_t *split;                      /* [grid.n] 1: other nodes are at the same place */
+    uint8_t *open;                       /* [grid.n] bit d: on a mirror across axis d, behind a slit that parts what it
+                                          * holds from its image */
     int32_t *cell;                       /* [grid.n] number of a cell in `corner`, -1: corners of the grid. NULL: no
                                           * slits */
     int64_t cells;

@@ -78,6 +78,29 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim);
  * away. */
 bool crack_near(const struct crack *c, const real *X, real reach, int dim);
 
+/* A plane of symmetry; the body is on one side of it. */
+struct mirror_plane {
+    int axis, outside;                   /* of its normal; side without body, -1 or +1 */
+    real at;                             /* [m] */
+};
+
+/* Does the crack come from inside to X on a plane of symmetry, to the tolerance [m], or beyond it? There it goes on as
+ * its image: that is no end of it. */
+bool mirrors_continue(const struct mirror_plane *m, int mirrors, const struct crack *c, const real *X, real tolerance);
+
+/* Cracks and, for each, the number of the crack that it is or is an image of. */
+struct crack_list {
+    int n, room;
+    struct crack *crack;
+    int *of;
+};
+
+/* What of the cracks lies in a body with planes of symmetry, and behind it the mirror images of what is within `reach`
+ * [m] of them: a bond across a plane and its own image are then cut alike. */
+void cracks_mirrored(struct crack_list *to, const struct crack *crack, int cracks, const struct mirror_plane *m,
+                     int mirrors, real reach, real tolerance);
+void crack_list_free(struct crack_list *l);
+
 /* Distance of X from the segment from..to [m]. */
 real segment_distance(const real *from, const real *to, const real *X, int dim);
 

@@ -50,6 +50,8 @@ struct material_tables {
     real *pair_stretch;                  /* [materials^2] critical stretch of a pair of materials */
     real *pair_yield, *pair_hardening;   /* [materials^2] of bonds between two materials; NULL: elastic */
     int *mirror_axis;                    /* [boundaries] -1: clamped */
+    struct mirror_plane *mirror;         /* planes of symmetry */
+    struct crack_list cracks;            /* pre-cracks with their images in these */
     real *neighbour_volume;              /* [n_all] V^H of every particle, volume method only */
     struct surface_weights surface;      /* of bonds near faces, pd.surface moments only */
     struct impedance *impedance;         /* [movers][materials] of absorbing faces; NULL: there are none */
@@ -223,6 +225,8 @@ bool engine_hollow_points(struct engine *e);
 /* What a run of its lattice bodies takes at the most, about, before anything of it is made but materials and family
  * [byte]. */
 real engine_memory(const struct engine *e);
+/* The same for all particles of the body, as peridynamic ones. */
+real engine_memory_peridynamic(const struct engine *e);
 /* Runs to the end of the scene. INTERRUPTED after a checkpoint when a signal came. */
 status engine_run(struct engine *e);
 /* The same with a solver that is not explicit (engine_solve.c), and what that needs. */
@@ -286,6 +290,32 @@ void engine_mesh_sync(struct engine *e);
 void engine_mesh_sync_points(void *engine, const int32_t *list, int64_t n);
 void engine_mesh_follow(struct engine *e, int64_t converted);
 void engine_mesh_insert(struct engine *e, const int32_t *list, int64_t n);
+/* The load of a scene that asks for the smallest cells, by how long it takes to rise. */
+enum rise_kind { RISE_NONE, RISE_BOUNDARY, RISE_INITIAL, RISE_BODY };
+struct load_rise {
+    enum rise_kind kind;
+    int number;                          /* of it in the scene */
+    bool pulse;                          /* comes and goes: rises in a quarter of its length */
+    real seconds, waves;                 /* [s], in spacings of wave */
+};
+
+/* How many levels of coarse cells there are, and why `mpm.levels: auto` takes as many as it does. */
+enum levels_why { LEVELS_BY_LOADS, LEVELS_AT_REST, LEVELS_NO_MESH, LEVELS_FEW, LEVELS_LONG_STEP };
+struct levels_choice {
+    int levels, automatic;               /* in this run; of auto */
+    bool given;                          /* by the scene */
+    enum levels_why why;
+    real across;                         /* the body [spacings] */
+    struct load_rise rise;
+};
+
+/* The choice (engine_levels_choice.c), once the critical step is known; in words; and whether the levels that the
+ * scene gives are too coarse for its loads, in words. */
+struct levels_choice engine_levels_choice(const struct engine *e);
+void engine_levels_text(const struct engine *e, char *text, size_t room);
+/* What `method: auto` has chosen, levels with it; nothing without it. */
+void engine_choice_print(const struct engine *e, FILE *out);
+bool engine_levels_coarse(const struct engine *e, char *text, size_t room);
 /* Coarse cells (engine_levels.c): their number of levels; made once the time step is known, with the levels of the
  * start unless `restored`; before a step they follow cracks and stress; before conversion, points near coarse cells
  * wait. Energy of all nodes of the mesh [J]. */

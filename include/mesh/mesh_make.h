@@ -23,6 +23,8 @@ struct mesh_source {
     const struct hollow *hollow;         /* cells whose particles are not made, borrowed; NULL: none */
     const struct crack *slit;            /* [slits] free surfaces between cells, borrowed */
     int slits;
+    const struct mirror_plane *mirror;   /* [mirrors] borrowed */
+    int mirrors;
 };
 
 /* A mesh of all particles with FLAG_MESHED, nodes where the anchor and node distance of `like` put them; nodes take

@@ -17,8 +17,6 @@ static void say_particles(const struct engine *e)
            (long long)e->part.n_of[KIND_PD], (long long)e->part.n_of[KIND_MPM]);
     if (driven) printf("; %lld driven", (long long)driven);
     if (e->loads.images) printf("; %lld mirror images", (long long)e->loads.images);
-    const char *all = e->scene->fill == FILL_NEEDED ? engine_hollow_obstacle(e->scene) : NULL;
-    if (all) printf("\nfill           all particles are made, as %s", all);
     printf("\nbonds          %lld directed in %lld rows\n", (long long)e->bonds.n, (long long)e->bonds.rows);
 }
 
@@ -31,10 +29,6 @@ static void say_frames(const struct engine *e)
     if (e->reference.mesh.points > 0)
         printf("mesh           %lld points in cells of two spacings: linear cells, state on the nodes\n",
                (long long)e->reference.mesh.points);
-    const struct mesh_levels *l = &e->reference.levels;
-    for (int level = 0; level <= l->n && l->n > 0; level++)
-        printf("%s%lld cells of %d spacings%s", level == 0 ? "levels         " : ", ",
-               (long long)levels_cells(l, level), 2 << level, level == l->n ? "\n" : "");
 }
 
 /* Names of the first few bodies from one to end, joined ones as a+b, and how many more there are. */
@@ -183,10 +177,11 @@ status command_check(int argc, char **argv)
     cost.make = team_clock() - start;
     if (result == OK) {
         printf("%s is sound\n", shown_name(a.scene).text);
-        scene_choice_print(&s, stdout);
+        engine_choice_print(&e, stdout);
         say_particles(&e);
         say_materials(&e);
         say_frames(&e);
+        say_levels(&e);
         say_notches(&e);
         say_time_step(&e);
         say_contact(&e);
@@ -196,6 +191,7 @@ status command_check(int argc, char **argv)
         result = cost_measure(&cost, &e, &a);
         if (result == OK) say_contact_cost(&e, &cost);
         if (result == OK) say_cost(&e, &cost, threads);
+        if (result == OK) say_levels_saving(&e, &cost);
     }
     engine_free(&e);
     scene_free(&s);

@@ -145,6 +145,13 @@ static void advise_waves(const struct engine *e, FILE *out)
                     s->initial[k].pulse.width / s->spacing, WAVE, s->initial[k].pulse.width / WAVE);
 }
 
+/* Coarse cells that the scene gives and that do not carry its loads. */
+static void advise_levels(const struct engine *e, FILE *out)
+{
+    char text[1024];
+    if (engine_levels_coarse(e, text, sizeof text)) fprintf(out, "unresolved: %s\n", text);
+}
+
 /* Number of pairs of particles near a crack's end, within their horizon, that the crack cuts if longer by 1e-7 of its
  * length and does not cut if shorter by as much. */
 static int64_t tied_bonds(const struct engine *e, const struct crack *c, int end, int32_t *found, int room)
@@ -310,6 +317,7 @@ void advise(const struct engine *e, FILE *out)
     advise_features(e->scene, out);
     advise_incompressible(e->scene, out);
     advise_waves(e, out);
+    advise_levels(e, out);
     advise_ties(e, out);
     advise_separation(e, out);
     advise_model(e->scene, out);

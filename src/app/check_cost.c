@@ -21,6 +21,7 @@ enum { PERIODS_MOST = 200 };
 #define FILE_SECONDS 2.5e-3              /* per frame, checkpoint or profile, of any size; measured, as the next: */
 #define FILE_SECONDS_PARTICLE 8e-8       /* 0.25 ms to 26 ms a frame for 160 to 320,000 particles             */
 #define BONDS_MOST 2e8                   /* of a body tried with all particles peridynamic                    */
+#define BONDS_TRIED 2e7                  /* of one with larger particles that stands for it                    */
 
 /* Median time of a step [s] after the first one, which has cold caches; measured from sample to sample, so that samples
  * are included. */
@@ -168,6 +169,39 @@ static void cost_run(struct cost *c, const struct engine *e, const struct run_ar
     c->run = c->make + loop + c->output;
 }
 
+/* Time of a step over its number of particles [s], all of them peridynamic and larger; NAN: unknown. */
+static double step_peridynamic(const struct run_arguments *a, double spacing)
+{
+    struct scene s = {0};
+    struct engine e = {0};
+    struct run_arguments coarse = *a;
+    double seconds = NAN;
+    char value[32];
+    snprintf(value, sizeof value, "%.17g", spacing);
+    coarse.override = NEW("check.coarse", a->overrides + 1, struct scene_override);
+    memcpy(coarse.override, a->override, (size_t)a->overrides * sizeof *a->override);
+    coarse.override[coarse.overrides++] = (struct scene_override){"particles.spacing", value};
+    if (make_other(&s, &e, &coarse, "method", "pd", false) != OK || time_steps(&e, &seconds) != OK) seconds = NAN;
+    else seconds /= (double)e.part.n;
+    memory_free(coarse.override);
+    engine_free(&e);
+    scene_free(&s);
+    return seconds;
+}
+
+/* A run with all particles peridynamic: by its first steps, or of too many bonds by those of larger particles. */
+static void cost_peridynamic(struct cost *c, const struct engine *e, const struct run_arguments *a)
+{
+    const struct scene *s = e->scene;
+    const double n = (double)e->part.n_body, bonds = n * family_size(&e->source.family);
+    double loop = NAN;
+    if (s->method != METHOD_ADAPTIVE) return;
+    if (bonds < BONDS_MOST) loop = try_other(a, "method", "pd", false);
+    else if (e->part.n < e->part.n_body)
+        loop = n * (double)e->clock.steps * step_peridynamic(a, s->spacing * pow(bonds / BONDS_TRIED, 1.0 / s->dim));
+    c->all_peridynamic = c->make + loop + c->output;
+}
+
 status cost_measure(struct cost *c, struct engine *e, const struct run_arguments *a)
 {
     const double n = (double)e->part.n;
@@ -183,7 +217,6 @@ status cost_measure(struct cost *c, struct engine *e, const struct run_arguments
     c->bytes = (double)memory_peak() + OUTPUT_BYTES + n * FRAME_BYTES;
     c->output = output_seconds(e);
     cost_run(c, e, a);
-    if (e->scene->method == METHOD_ADAPTIVE && n * family_size(&e->source.family) < BONDS_MOST)
-        c->all_peridynamic = c->make + try_other(a, "method", "pd", false) + c->output;
+    cost_peridynamic(c, e, a);
     return OK;
 }

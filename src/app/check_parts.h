@@ -30,6 +30,12 @@ struct cost {
  * scene. FAILED if one of the first steps fails. */
 status cost_measure(struct cost *c, struct engine *e, const struct run_arguments *a);
 
+/* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
+
+/* Coarse cells: how large, how many and why; what they save. */
+void say_levels(const struct engine *e);
+void say_levels_saving(const struct engine *e, const struct cost *c);
+
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
 /* Writes a line, with numbers, for each part of the scene that is not resolved, and for each that is not needed. The

@@ -80,8 +80,10 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
     TRY(engine_make(e, s, out));             /* first: a scene that is refused leaves no folder behind */
     TRY(open_folder(out, s, a));
     e->report.quiet = a->quiet;
-    if (!a->quiet) scene_choice_print(s, stderr);
+    if (!a->quiet) engine_choice_print(e, stderr);
     engine_warn(e);
+    char coarse[1024];
+    if (engine_levels_coarse(e, coarse, sizeof coarse)) warnings_add(&e->report.warnings, "%s", coarse);
     warnings_print(&e->report.warnings, 0, stderr);
     if (threads > 2 * omp_get_num_procs())
         fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads,

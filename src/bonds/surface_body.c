@@ -85,6 +85,16 @@ struct seen seen_of(const struct near_faces *b, int64_t j)
     return to;
 }
 
+struct seen seen_beyond(const struct near_faces *b, const struct seen *from, int k)
+{
+    const int32_t j = neighbour_of(b, b->place[from->particle], b->offset.mirrored[from->mirrors * b->offset.n + k]);
+    struct seen to = {-1, 0};
+    if (j < 0) return to;
+    to = seen_of(b, j);
+    to.mirrors ^= from->mirrors;
+    return to;
+}
+
 int twin_offset(const struct near_faces *b, const struct seen *to, int k)
 {
     return b->offset.n - 1 - b->offset.mirrored[to->mirrors * b->offset.n + k];

@@ -145,21 +145,22 @@ static void face_spread(struct faces *f, const struct near_faces *b, const struc
                         int up, bool rotates)
 {
     static const real area[2][2] = {{1}, {1.5, -0.5}}, first[2] = {1, -1}, second[CHAIN] = {2, -3, 1};
-    int64_t chain[CHAIN] = {t};
+    struct seen chain[CHAIN] = {{b->particle[t], 0}};
     int length = 1;
-    while (length < CHAIN) {
-        const int32_t j = neighbour_of(b, chain[length - 1], b->offset.axis[axis][!up]);
-        if (j < 0 || j >= b->p->n || b->place[j] < 0) break;
-        chain[length++] = b->place[j];
+    while (length < CHAIN) {                             /* through mirrors, too */
+        const struct seen next = seen_beyond(b, &chain[length - 1], b->offset.axis[axis][!up]);
+        if (next.particle < 0 || b->place[next.particle] < 0) break;
+        chain[length++] = next;
     }
     const int two = length > 1;
     for (int k = 0; k <= two; k++)
         for (int d = 0; d < b->p->dim; d++)
-            f->area[chain[k]][d] += area[two][k] * (up ? 1 : -1) * smooth[t].project[d][axis];
+            f->area[b->place[chain[k].particle]][d] += mirror_sign(chain[k].mirrors, d) * area[two][k] *
+                                                       (up ? 1 : -1) * smooth[t].project[d][axis];
     if (rotates && length == CHAIN)
-        for (int k = 0; k < CHAIN; k++) f->dipole[chain[k]] += second[k];
+        for (int k = 0; k < CHAIN; k++) f->dipole[b->place[chain[k].particle]] += second[k];
     else if (two)
-        for (int k = 0; k < 2; k++) f->dipole[chain[k]] += first[k];
+        for (int k = 0; k < 2; k++) f->dipole[b->place[chain[k].particle]] += first[k];
 }
 
 /* Layers from face to face along an axis, counted to `most`. */
@@ -167,13 +168,12 @@ static int layers(const struct near_faces *b, int64_t t, int axis, int most)
 {
     int n = 1;
     for (int up = 0; up < 2; up++) {
-        int64_t at = t;
+        struct seen at = {b->particle[t], 0};
         while (n < most) {
-            const int32_t j = neighbour_of(b, at, b->offset.axis[axis][up]);
-            if (j < 0) break;
+            at = seen_beyond(b, &at, b->offset.axis[axis][up]);
+            if (at.particle < 0) break;
             n++;
-            if (j >= b->p->n || b->place[j] < 0) return most;      /* through a mirror, or away from all faces */
-            at = b->place[j];
+            if (b->place[at.particle] < 0) return most;            /* away from all faces */
         }
     }
     return n;

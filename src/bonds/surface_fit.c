@@ -385,10 +385,11 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
     if (!cracks_near(b->source, p, b->particle[t])) return false;
     for (int k = 0; k < o->n; k++) {
         const int32_t j = neighbour_of(b, t, k);
-        if (j < 0 || j >= p->n || b->place[j] < 0) continue;
-        for (int l = 0; l < o->n; l++) {
+        if (j < 0) continue;
+        const struct seen seen = seen_of(b, j);
+        for (int l = 0; l < o->n && b->place[seen.particle] >= 0; l++) {
             int place = 0;
-            bool within = neighbour_of(b, b->place[j], l) >= 0;
+            bool within = seen_beyond(b, &seen, l).particle >= 0;
             for (int d = o->dim - 1; d >= 0; d--) {
                 const int at = o->at[k][d] + o->at[l][d];
                 within = within && abs(at) <= o->reach;

@@ -37,6 +37,8 @@ static inline int32_t neighbour_of(const struct near_faces *b, int64_t t, int k)
 {
     return b->neighbour[t * b->offset.n + k];
 }
+/* Neighbour at offset k of one that is near faces, with the mirrors up to it; its particle is -1: none, or cut off. */
+struct seen seen_beyond(const struct near_faces *b, const struct seen *from, int k);
 static inline bool is_whole(const struct near_faces *b, int64_t j)
 {
     return b->whole[j < b->p->n ? j : image_root(b->p, b->source->image, j)];

@@ -12,10 +12,12 @@ static void region_add(struct region *r, const struct solid *s)
     r->solid[r->n++] = *s;
 }
 
-/* Is a particle within one spacing of X? An end outside the body is the mouth of a notch. */
-static bool in_body(const struct particles *p, const struct bond_source *s, const real *X)
+/* Is a particle within one spacing of X, a place at an end of the crack? An end outside the body is the mouth of a
+ * notch. */
+static bool in_body(const struct particles *p, const struct bond_source *s, const struct crack *c, const real *X)
 {
-    return cells_near(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
+    return !mirrors_continue(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing) &&
+           cells_near(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
 }
 
 /* Adds a ball of `radius` [m] around end k of a pre-crack to the region; in space a cylinder around the edge from
@@ -31,7 +33,7 @@ static void conversion_tip_add(struct region *r, const struct particles *p, cons
         solid.to[d] = c->corner[next][d];
         middle[d] = p->dim == 3 ? 0.5 * (solid.from[d] + solid.to[d]) : solid.centre[d];
     }
-    if (in_body(p, s, middle)) region_add(r, &solid);
+    if (in_body(p, s, c, middle)) region_add(r, &solid);
 }
 
 void convert_region(struct region *to, const struct region *given, const struct particles *p,
@@ -39,6 +41,6 @@ void convert_region(struct region *to, const struct region *given, const struct 
 {
     memset(to, 0, sizeof *to);
     for (int k = 0; given && k < given->n; k++) region_add(to, &given->solid[k]);
-    for (int c = 0; c < source->cracks && radius > 0; c++)
-        for (int k = 0; k < source->crack[c].n; k++) conversion_tip_add(to, p, source, &source->crack[c], k, radius);
+    for (int c = 0; c < source->givens && radius > 0; c++)
+        for (int k = 0; k < source->given[c].n; k++) conversion_tip_add(to, p, source, &source->given[c], k, radius);
 }

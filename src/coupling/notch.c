@@ -36,6 +36,7 @@ static bool edge_inside(const struct crack *c, int e, const struct particles *p,
             away[d] = 0.5 * (from[d] + to[d]) - middle[d];
             length2 += square(away[d]);
         }
+        if (mirrors_continue(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing)) continue;
         for (int d = 0; d < p->dim && length2 > 0; d++) X[d] += s->family.spacing * away[d] / sqrt(length2);
         if (cells_near(s->cells, p, X, AHEAD_REACH * s->family.spacing, -1, NULL, 0) >= 2) return true;
     }
@@ -136,7 +137,7 @@ static const char *notch_obstacle(const struct crack *c, const struct particles 
 
 static bool near_slit(const struct notches *n, const struct particles *p, const struct bond_source *s, int64_t i)
 {
-    for (int k = 0; k < n->slits; k++)
+    for (int k = 0; k < n->slits + n->images; k++)
         if (near_crack(&n->slit[k], p, s, i)) return true;
     return false;
 }
@@ -151,7 +152,7 @@ static bool face_find(struct notches *n, const struct particles *p, const struct
     for (int q = 0; q < near->n; q++) {
         const int32_t j = near->at[q];
         if (p->body[j] != p->body[i]) continue;
-        const bool cut = cracks_part(n->slit, n->slits, p, i, j);
+        const bool cut = cracks_part(n->slit, n->slits + n->images, p, i, j);
         all += p->volume0[j], lost += cut ? p->volume0[j] : 0;
         faces |= cut && apart(p, i, j) < FACE_REACH * source->family.spacing;
     }
@@ -183,17 +184,19 @@ static void faces_find(struct notches *n, const struct particles *p, const struc
 void notches_make(struct notches *n, const struct particles *p, const struct bond_source *source, real radius,
                   const char *obstacle)
 {
-    *n = (struct notches){.n = source->cracks, .radius = radius};
+    *n = (struct notches){.n = source->givens, .radius = radius};
     n->notch = NEW("notch.notch", n->n, struct notch);
-    n->slit = NEW("notch.slit", n->n, struct crack);
-    n->cut = NEW("notch.cut", n->n, struct crack);
+    n->slit = NEW("notch.slit", n->n + source->cracks, struct crack);
+    n->cut = NEW("notch.cut", source->cracks, struct crack);
     for (int k = 0; k < n->n; k++) {
-        const struct crack *c = &source->crack[k];
+        const struct crack *c = &source->given[k];
         const char *why = obstacle ? obstacle : notch_obstacle(c, p, source, radius);
         n->notch[k] = (struct notch){!why, why};
-        if (why) n->cut[n->cuts++] = *c;
-        else n->slit[n->slits++] = *c;
+        if (!why) n->slit[n->slits++] = *c;
     }
+    for (int k = 0; k < source->cracks; k++)
+        if (!n->notch[source->crack_of[k]].slit) n->cut[n->cuts++] = source->crack[k];
+        else n->slit[n->slits + n->images++] = source->crack[k];
     if (n->slits == 0) return;
     faces_find(n, p, source);
 }

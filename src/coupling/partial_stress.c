@@ -81,10 +81,10 @@ void tensor_add(real *T, const real *xp, const real *xm, const real *X, real hal
         }
 }
 
-/* V/Q of particle i, with Q of a full family where it has no row of its own [m]. */
+/* V/Q of particle or image i, with Q of a full family where it has no row of its own [m]. */
 static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
-    int32_t row = i < p->n ? b->row_of[i] : -1;
+    const int32_t row = b->row_of[image_root(p, s->image, i)];
     return row >= 0 ? p->volume0[i] / b->state.weighted[row] : s->family.cell_volume / s->family.weighted;
 }
 

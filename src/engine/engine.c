@@ -324,7 +324,10 @@ static status prepare(struct engine *e, struct step *now)
     lap(&e->report.laps, LAP_SAMPLE);
     TRY(grid_sort(e));
     now->damps = e->coupling.zone.points > 0 && e->coupling.damping_share > 0;
-    if (now->damps) e->coupling.damped += interface_damp_begin(&e->coupling.zone, &e->part, e->coupling.damping_share);
+    if (now->damps) {
+        e->coupling.damped += interface_damp_begin(&e->coupling.zone, &e->part, e->coupling.damping_share);
+        loads_mirror(&e->loads, &e->part);       /* bonds that break ask images for their velocity */
+    }
     lap(&e->report.laps, LAP_GRID);
     return OK;
 }

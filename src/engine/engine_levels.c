@@ -1,4 +1,4 @@
-/* Coarse cells in a run: how many levels, where, and when they follow cracks and stress. */
+/* Coarse cells in a run: where, and when they follow cracks and stress. */
 #include <math.h>
 #include <string.h>
 
@@ -14,64 +14,6 @@ enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 /* spa
 enum { LOOK_STEPS = 256, CALM_LOOKS = 2 };       /* steps between looks for cells to merge; looks that a cell is calm */
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
-
-/* Shortest time in which a function of time rises, as for a ramp [s]. */
-static real rise_of(const struct time_function *f)
-{
-    real most = 0, steepest = 0;
-    if (f->kind == TIME_RAMP) return f->until - f->from;
-    if (f->kind == TIME_PULSE) return 0.25 * (f->until - f->from);
-    if (f->kind != TIME_TABLE) return 0;
-    for (int k = 0; k < f->n; k++) {
-        most = real_max(most, fabs(f->value[k]));
-        if (k > 0) steepest = real_max(steepest, fabs(f->value[k] - f->value[k - 1]) / (f->t[k] - f->t[k - 1]));
-    }
-    return steepest > 0 ? most / steepest : INFINITY;
-}
-
-/* Shortest rise of what moves the body [s]; initial states are sudden. */
-static real loads_rise(const struct scene *s)
-{
-    real rise = s->initials > 0 ? 0 : INFINITY;
-    for (int b = 0; b < s->boundaries; b++) {
-        const struct boundary *load = &s->boundary[b];
-        const bool moves = load->kind != BOUNDARY_MIRROR && load->kind != BOUNDARY_ABSORBING;
-        if (moves && dot(load->value, load->value, s->dim) > 0) rise = real_min(rise, rise_of(&load->time));
-    }
-    return rise;
-}
-
-/* Edge of the largest cells that carry what the loads excite: matched cells of 4 spacings do in bodies of 200 spacings
- * whatever the load, those of 8 where loads rise over 20 spacings (physics of the design: starts of cracks within 1 %)
- * [m]. */
-static real largest_edge(const struct engine *e)
-{
-    const struct scene *s = e->scene;
-    real extent[DIM_MAX] = {0}, low, high;
-    for (int d = 0; d < s->dim; d++) {
-        particles_extent(&e->part, e->part.n, d, &low, &high);
-        extent[d] = high - low + s->spacing;
-    }
-    const real longest = real_max(extent[0], real_max(extent[1], extent[2]));
-    const real middle = extent[0] + extent[1] + extent[2] - longest -
-                        real_min(extent[0], real_min(extent[1], extent[2]));
-    const real across = s->dim == 1 ? extent[0] : s->dim == 2 ? real_min(extent[0], extent[1]) : middle;
-    return real_max(across / 50, loads_rise(s) * e->tables.wave_speed / 2.5);
-}
-
-enum { PAYS = 100000 };                  /* particles of a body from which on coarse cells save time */
-
-int engine_levels_number(const struct engine *e)
-{
-    const struct scene *s = e->scene;
-    int levels = 0;
-    if (e->reference.mesh.points == 0 || s->solver != SOLVER_EXPLICIT) return 0;
-    if (s->levels != LEVELS_AUTO) return s->levels;
-    if (e->part.n_body < PAYS || s->time_step > LEVELS_STEP_MOST * e->clock.dt_critical) return 0;
-    const real most = largest_edge(e);
-    while (levels < LEVELS_MAX && (real)(4 << levels) * s->spacing <= most * (1 + 1e-6)) levels++;
-    return levels;
-}
 
 /* Edge of a lumped cell that disperses waves along an axis as bonds of the lattice do [m]: h^2 = sum xi^6/r^3 over sum
  * xi^4/r^3; without bonds that of the cells of level 0. */

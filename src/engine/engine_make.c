@@ -101,23 +101,35 @@ static void make_family(const struct scene *s, struct bond_source *source)
     f->influence = s->influence;
     family_make(f, s->space, s->spacing, s->horizon, scene_section(s));
     source->material = s->material, source->materials = s->materials;
-    source->crack = has_peridynamics(s) ? s->crack : NULL;
-    source->cracks = has_peridynamics(s) ? s->cracks : 0;
 }
 
-static void make_mirrors(const struct scene *s, struct material_tables *tables, struct bond_source *source)
+/* Planes of symmetry, and the pre-cracks that bonds know. */
+static void make_mirrors(const struct scene *s, const struct loads *loads, struct material_tables *tables,
+                         struct bond_source *source)
 {
+    const real tolerance = LOADS_TOLERANCE * s->spacing;
     tables->mirror_axis = NEW("engine.mirror_axis", s->boundaries, int);
     for (int b = 0; b < s->boundaries; b++)
         tables->mirror_axis[b] = is_clamp(&s->boundary[b], s->dim) ? -1 : s->boundary[b].axis;
     source->mirror_axis = tables->mirror_axis;
+    tables->mirror = NEW("engine.mirror", s->boundaries, struct mirror_plane);
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_MIRROR && !is_clamp(&s->boundary[b], s->dim))
+            tables->mirror[source->mirrors++] =
+                (struct mirror_plane){s->boundary[b].axis, loads->load[b].outside, s->boundary[b].at};
+    source->mirror = tables->mirror;
+    if (!has_peridynamics(s)) return;
+    source->given = s->crack, source->givens = s->cracks;
+    cracks_mirrored(&tables->cracks, s->crack, s->cracks, source->mirror, source->mirrors, source->family.cutoff,
+                    tolerance);
+    source->crack = tables->cracks.crack, source->cracks = tables->cracks.n, source->crack_of = tables->cracks.of;
 }
 
 /* Converts the initial peridynamic particles and makes the bonds. */
 static status make_bonds(struct engine *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
-    make_mirrors(e->scene, &e->tables, &e->source);
+    make_mirrors(e->scene, &e->loads, &e->tables, &e->source);
     e->source.image = e->loads.image;
     if (before) engine_take_particles(e, before);
     e->source.room = bonds_room(&e->source);
@@ -203,15 +215,28 @@ static real particles_now(const struct scene *s, const struct particles *p, real
     return p->n > 0 ? (real)p->n : expected;
 }
 
-real engine_memory(const struct engine *e)
+/* Of n particles with whole families or without; longest: edge of their box [spacings]. */
+static real memory_of(const struct engine *e, real n, real longest, bool families)
 {
     const struct scene *s = e->scene;
-    real longest;
-    const real n = particles_now(e->scene, &e->part, &longest);
-    const real bonds = s->method == METHOD_PD ? e->source.family.full / e->source.family.cell_volume : 1;
+    const real bonds = families ? e->source.family.full / e->source.family.cell_volume : 1;
     bool follow = s->irregularity == 0 && !e->source.yield.stretch && longest < EXACT_MOST;
     for (int b = 0; b < s->bodies; b++) follow = follow && !s->body[b].file;
     return n * (BYTES_PER_PARTICLE + bonds * (follow ? BYTES_PER_BOND_LATTICE : BYTES_PER_BOND));
+}
+
+real engine_memory(const struct engine *e)
+{
+    real longest;
+    const real n = particles_now(e->scene, &e->part, &longest);
+    return memory_of(e, n, longest, e->scene->method == METHOD_PD);
+}
+
+real engine_memory_peridynamic(const struct engine *e)
+{
+    real longest;
+    particles_expected(e->scene, &longest);
+    return memory_of(e, (real)e->part.n_body, longest, true);
 }
 
 /* REFUSED if a run needs more memory than is available. */
@@ -449,6 +474,8 @@ void engine_free(struct engine *e)
     memory_free(e->tables.impedance);
     memory_free(e->tables.modulus);
     memory_free(e->tables.mirror_axis);
+    memory_free(e->tables.mirror);
+    crack_list_free(&e->tables.cracks);
     memory_free(e->tables.pair_yield);
     memory_free(e->tables.pair_hardening);
     memory_free(e->tables.neighbour_volume);

@@ -91,7 +91,9 @@ static void make_constants(struct engine *e)
                                           .partial = e->coupling.uses_partial ? &e->coupling.partial : NULL,
                                           .hollow = &e->reference.hollow,
                                           .slit = e->coupling.notches.slit,
-                                          .slits = e->coupling.notches.slits};
+                                          .slits = e->coupling.notches.slits,
+                                          .mirror = e->source.mirror,
+                                          .mirrors = e->source.mirrors};
 }
 
 void engine_mesh_follow_points(struct engine *e)

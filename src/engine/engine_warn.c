@@ -55,6 +55,26 @@ static void warn_of_method(const struct engine *e, struct warnings *to)
             s->cell);
 }
 
+/* Keys of coarse cells and slits where there are none. */
+static void warn_of_idle_keys(const struct engine *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    const char *why = s->method == METHOD_PD              ? "method pd has no cells"
+                      : s->solver != SOLVER_EXPLICIT      ? "a static solver has no use for coarse cells"
+                      : e->reference.mesh.points == 0     ? "no material points are in the reference frame"
+                                                          : NULL;
+    const char *all = engine_hollow_obstacle(s);
+    if (s->levels != LEVELS_AUTO && s->levels > 0 && why)
+        warnings_add(to, "mpm.levels: %d has no effect, as %s; auto or 0 is expected", s->levels, why);
+    if (s->fill == FILL_NEEDED && (why || all || e->reference.levels.n == 0))
+        warnings_add(to, "mpm.fill: needed has no effect, all particles are made, as %s; auto or all is expected",
+                     why ? why : all ? all : "there are no coarse cells");
+    if (s->conversion.notch == NOTCH_SLIT && s->cracks > 0 && s->method != METHOD_ADAPTIVE)
+        warnings_add(to, "conversion.notch: slit has no effect with method %s%s; auto is expected",
+                     s->method == METHOD_PD ? "pd" : "mpm",
+                     s->method == METHOD_PD ? ", whose pre-cracks are cut bonds" : "");
+}
+
 static void warn_of_materials(const struct scene *s, const struct material_tables *tables, struct warnings *to)
 {
     for (int m = 0; m < s->materials; m++) {
@@ -88,7 +108,7 @@ static void warn_of_empty(const struct engine *e, struct warnings *to)
         if (e->loads.load[b].n == 0 && e->scene->boundary[b].kind == BOUNDARY_VELOCITY)
             warnings_add(to, "boundary %s holds no particle%s", e->scene->boundary[b].name,
                          e->scene->method == METHOD_PD ? "" : "; it acts on grid nodes in its region only");
-    if (e->source.cracks > 0 && !bonds_are_cut(&e->bonds))
+    if (e->source.givens > 0 && !bonds_are_cut(&e->bonds))
         warnings_add(to, "the pre-cracks cut no bond: do they lie in the body?");
 }
 
@@ -216,6 +236,7 @@ void engine_warn(struct engine *e)
     if (e->scene->renamed[0])
         warnings_add(to, "%s; earlier names work in this version, with the same meaning", e->scene->renamed);
     warn_of_method(e, to);
+    warn_of_idle_keys(e, to);
     warn_of_materials(e->scene, &e->tables, to);
     warn_of_solver(e, to);
     warn_of_empty(e, to);

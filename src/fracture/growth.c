@@ -125,13 +125,12 @@ static void cross_row(struct growth *g, const struct bonds *b, const struct part
     }
 }
 
-/* Particles within the cutoff of the path of the tip from `from` to its place, into *found, which the caller frees.
- * Returns their number. */
-static int near_way(const struct growth *g, struct particles *p, const struct bond_source *s, const real from[2],
+/* Particles within the cutoff of a path, into *found, which the caller frees. Returns their number. */
+static int near_way(const real from[2], const real to[2], struct particles *p, const struct bond_source *s,
                     int32_t **found)
 {
     real X[DIM_MAX] = {from[0], from[1]};
-    const real radius = s->family.cutoff + hypot(g->place[0] - from[0], g->place[1] - from[1]);
+    const real radius = s->family.cutoff + hypot(to[0] - from[0], to[1] - from[1]);
     const int room = cells_near(s->cells, p, X, radius, -1, NULL, 0);
     *found = NEW("growth.found", room, int32_t);
     return cells_near(s->cells, p, X, radius, -1, *found, room);
@@ -141,7 +140,7 @@ static int near_way(const struct growth *g, struct particles *p, const struct bo
 static int claim(const struct growth *g, struct particles *p, const struct bond_source *s)
 {
     int32_t *found;
-    const int n = near_way(g, p, s, g->place, &found);
+    const int n = near_way(g->place, g->place, p, s, &found);
     int claimed = 0;
     for (int k = 0; k < n; k++) {
         if (found[k] >= p->n || p->kind[found[k]] != KIND_MPM) continue;
@@ -157,12 +156,18 @@ static void cross(struct growth *g, const struct bonds *b, struct particles *p, 
                   const real from[2])
 {
     real corner[2][DIM_MAX] = {{from[0], from[1]}, {g->place[0], g->place[1]}};
-    const struct crack way = {.n = 2, .corner = corner};
-    int32_t *found;
-    const int n = near_way(g, p, s, from, &found);
-    for (int k = 0; k < n; k++)
-        if (found[k] < p->n) cross_row(g, b, p, &way, found[k]);
-    memory_free(found);
+    const struct crack path = {.n = 2, .corner = corner};
+    struct crack_list ways;
+    cracks_mirrored(&ways, &path, 1, s->mirror, s->mirrors, s->family.cutoff, ON_SURFACE * s->family.spacing);
+    for (int w = 0; w < ways.n; w++) {           /* the path, and its images in mirrors nearby */
+        const struct crack *way = &ways.crack[w];
+        int32_t *found;
+        const int n = near_way(way->corner[0], way->corner[1], p, s, &found);
+        for (int k = 0; k < n; k++)
+            if (found[k] < p->n) cross_row(g, b, p, way, found[k]);
+        memory_free(found);
+    }
+    crack_list_free(&ways);
 }
 
 /* ---- fading ------------------------------------------------------------------------------------------------------ */

@@ -11,6 +11,31 @@
 
 static bool is_absorbing(const struct load *l) { return l->boundary->kind == BOUNDARY_ABSORBING; }
 
+/* Do two loads absorb at the same face of a particle? */
+static bool absorb_same(const struct load *a, const struct load *b)
+{
+    if (a->boundary->face != b->boundary->face || a->boundary->side != b->boundary->side) return false;
+    for (int64_t k = 0, m = 0; k < a->n && m < b->n;) {          /* both ascend */
+        if (a->particle[k] == b->particle[m] && a->outer[k] > 0 && b->outer[m] > 0) return true;
+        if (a->particle[k] < b->particle[m]) k++;
+        else m++;
+    }
+    return false;
+}
+
+status loads_absorbing_check(const struct loads *l)
+{
+    for (int b = 0; b < l->n; b++)
+        for (int a = 0; a < b; a++) {
+            const struct boundary *one = l->load[a].boundary, *other = l->load[b].boundary;
+            const bool both = is_absorbing(&l->load[a]) && is_absorbing(&l->load[b]);
+            if (!both || !absorb_same(&l->load[a], &l->load[b])) continue;
+            return status_at(other->place, status_set(REFUSED, "boundary %s: boundary %s absorbs at this face already; "
+                                                      "each part of a face is expected once", other->name, one->name));
+        }
+    return OK;
+}
+
 /* Lists the particles of all absorbing faces. */
 static void particles_join(struct loads *l, const struct particles *p)
 {

@@ -89,10 +89,12 @@ static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, re
 }
 
 /* Is the place of node I no guide to what its cells hold? Of nodes that slits have doubled each holds other material:
- * only that says whether it is driven. */
+ * only that says whether it is driven; and of those on a mirror some hold material that a slit parts from its image. */
 static bool place_misleads(const struct mesh *mesh, const struct load *load, int64_t I)
 {
-    return mesh && mesh->slits.split && mesh->slits.split[I] && load->boundary->kind == BOUNDARY_VELOCITY;
+    if (!mesh || !mesh->slits.split) return false;
+    if (load->boundary->kind == BOUNDARY_MIRROR) return mesh->slits.open[I] >> load->boundary->axis & 1;
+    return mesh->slits.split[I] && load->boundary->kind == BOUNDARY_VELOCITY;
 }
 
 /* Finds the nodes constrained wherever the body is, and the mirror nodes; once for each box of the grid. Extra nodes of

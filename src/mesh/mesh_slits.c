@@ -14,7 +14,7 @@ enum { PIECES_MOST = CORNERS_MAX * CORNERS_MAX };    /* around a node: of 2^dim 
 
 /* An extra node or cell in the making. Pieces around a node have bits 8 c + g: piece g of the cell of which the node is
  * corner c; an extra cell has piece `piece` of cell `base`. */
-struct extra { int64_t base; uint64_t pieces; int piece; };
+struct extra { int64_t base; uint64_t pieces; int piece; uint8_t open; };
 struct extras { struct extra *at; int64_t n, room; };
 
 struct slit_maker {
@@ -24,7 +24,7 @@ struct slit_maker {
     int32_t *point;                      /* [nodes << dim] particle at a place of a cell, -1: none */
     uint8_t *piece;                      /* [nodes << dim] of its cell that it is in */
     uint8_t *pieces;                     /* [nodes] of a cell with points near a slit, else 0 */
-    uint8_t *split;                      /* [nodes] as in struct mesh_slits */
+    uint8_t *split, *open;               /* [nodes] as in struct mesh_slits */
     struct extras node, cell;
 };
 
@@ -71,7 +71,7 @@ static void cell_divide(struct slit_maker *m, int64_t I)
     for (int q = 0; q < corners; q++) open |= (unsigned)(point[q] >= 0) << q;
     for (int n = 0; open; n++) {
         m->pieces[I]++;
-        if (n > 0) extra_add(&m->cell, (struct extra){I, 0, n});
+        if (n > 0) extra_add(&m->cell, (struct extra){I, 0, n, 0});
         for (unsigned fresh = open & -open; fresh;) {
             const int from = __builtin_ctz(fresh);
             fresh &= fresh - 1, open &= ~(1u << from);
@@ -137,6 +137,49 @@ static uint64_t group_grow(const struct slit_maker *m, int64_t I, uint64_t open)
     return group;
 }
 
+/* Is point i parted from its image in a plane? */
+static bool image_parted(const struct slit_maker *m, int32_t i, const struct mirror_plane *plane)
+{
+    real a[DIM_MAX], b[DIM_MAX];
+    particle_place(m->p, i, a);
+    memcpy(b, a, sizeof b);
+    b[plane->axis] = 2 * plane->at - b[plane->axis];
+    for (int k = 0; k < m->source->slits; k++)
+        if (crack_cuts(&m->source->slit[k], a, b, m->p->dim)) return true;
+    return false;
+}
+
+/* Are the pieces of a group around node I together with their images in a plane through the node? As for pieces: by
+ * points that face the plane, or where there are none by any. */
+static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, const struct mirror_plane *plane)
+{
+    bool faced = false;
+    for (int pass = 0; pass < 2 && !faced; pass++)
+        for (uint64_t left = group; left; left &= left - 1) {
+            const int bit = __builtin_ctzll(left);
+            for (int q = 0; q < 1 << m->p->dim; q++) {
+                const int32_t i = piece_point(m, I, bit, q);
+                if (i < 0 || (pass == 0 && (q ^ bit / CORNERS_MAX) >> plane->axis & 1)) continue;
+                if (!image_parted(m, i, plane)) return true;
+                faced = true;
+            }
+        }
+    return false;
+}
+
+/* Bits of the axes of mirrors through node I from whose other side slits part a group of pieces. */
+static uint8_t group_open(const struct slit_maker *m, int64_t I, uint64_t group)
+{
+    const struct grid *g = &m->mesh->grid;
+    uint8_t open = 0;
+    for (int k = 0; k < m->source->mirrors; k++) {
+        const struct mirror_plane *plane = &m->source->mirror[k];
+        const real x = grid_position(g, plane->axis, I / g->stride[plane->axis] % g->count[plane->axis]);
+        if (fabs(x - plane->at) < 1e-6 * g->h && !image_joined(m, I, group, plane)) open |= (uint8_t)(1 << plane->axis);
+    }
+    return open;
+}
+
 /* Divides the pieces around node I into groups; all but the first have an extra node. */
 static void node_divide(struct slit_maker *m, int64_t I)
 {
@@ -148,7 +191,8 @@ static void node_divide(struct slit_maker *m, int64_t I)
     const int64_t before = m->node.n;
     for (bool first = true; open; first = false) {
         const uint64_t group = group_grow(m, I, open);
-        if (!first) extra_add(&m->node, (struct extra){I, group, 0});
+        if (first) m->open[I] = group_open(m, I, group);
+        else extra_add(&m->node, (struct extra){I, group, 0, group_open(m, I, group)});
         open &= ~group;
     }
     m->split[I] = m->node.n > before;
@@ -231,7 +275,7 @@ static void tables_nodes(struct mesh *mesh, const struct slit_maker *m)
         const struct extra *e = &m->node.at[k];
         const int64_t I = extra_place(mesh, k);
         s->base[I - s->first] = (int32_t)e->base;
-        s->split[I] = 1;
+        s->split[I] = 1, s->open[I] = e->open;
         for (uint64_t left = e->pieces; left; left &= left - 1) {
             const int bit = __builtin_ctzll(left);
             const int64_t at = cell_of_bit(m, e->base, bit);
@@ -261,7 +305,9 @@ static void slits_tables_make(struct mesh *mesh, const struct slit_maker *m)
     s->cut = none_make("slits.cut", n);
     s->split = NEW("slits.split", n, uint8_t);
     s->corner = BARE("slits.corner", most << mesh->grid.dim, int32_t);
+    s->open = NEW("slits.open", n, uint8_t);
     memcpy(s->split, m->split, (size_t)s->first);
+    memcpy(s->open, m->open, (size_t)s->first);
     tables_cells(mesh, m);
     tables_nodes(mesh, m);
 }
@@ -290,13 +336,17 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
     m.piece = NEW("slits.piece", n << p->dim, uint8_t);
     m.pieces = NEW("slits.pieces", n, uint8_t);
     m.split = NEW("slits.split", n, uint8_t);
+    m.open = NEW("slits.open", n, uint8_t);
     slits_divide(&m);
-    if (m.node.n > 0) result = box_extend(&mesh->grid, from, to, m.node.n > m.cell.n ? m.node.n : m.cell.n);
-    if (m.node.n > 0 && result == OK) slits_tables_make(mesh, &m);
+    const bool any = m.node.n > 0 || memchr(m.open, 1 << 0, (size_t)n) || memchr(m.open, 1 << 1, (size_t)n) ||
+                     memchr(m.open, 1 << 2, (size_t)n);          /* of several mirrors: some node is on one alone */
+    if (any) result = box_extend(&mesh->grid, from, to, m.node.n > m.cell.n ? m.node.n : m.cell.n);
+    if (any && result == OK) slits_tables_make(mesh, &m);
     memory_free(m.point);
     memory_free(m.piece);
     memory_free(m.pieces);
     memory_free(m.split);
+    memory_free(m.open);
     memory_free(m.node.at);
     memory_free(m.cell.at);
     return result;
@@ -357,6 +407,7 @@ void mesh_slits_free(struct mesh_slits *s)
     memory_free(s->cell);
     memory_free(s->corner);
     memory_free(s->split);
+    memory_free(s->open);
     memory_free(s->next);
     memory_free(s->cut);
     memory_free(s->home);

@@ -359,7 +359,7 @@ const struct key keys[] = {
         "where it is 0 and rises"),
     KEY("boundary.profile.sine.direction", KEY_POINT, UNIT_NONE, AT(profile, direction), ANY, "(along x)",
         "in which it varies, any length"),
-    KEY("boundary.mirror", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "plane of symmetry"),
+    KEY("boundary.mirror", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "plane of symmetry, of cracks too"),
     KEY("boundary.mirror.axis", KEY_CHOICE, UNIT_NONE, AT(boundary, axis), ANY, REQUIRED, "normal of the plane",
         .words = "x|y|z"),
     KEY("boundary.mirror.at", KEY_REAL, UNIT_LENGTH, AT(boundary, at), ANY, REQUIRED, "where it is"),

@@ -184,6 +184,7 @@ done <<'END'
 14|boundary:^  - {mirror: {axis: x, at: 0}}^  - {mirror: {axis: x, at: 0}}|bad.yaml:16:5: boundary[1]: boundary boundary1|one is enough
 14|boundary:^  - {absorbing: true, face: x+, region: {box: {from: [1, 1], to: [2, 2]}}}|bad.yaml:15:5: boundary[0]: boundary boundary0|no particle
 14|boundary:^  - {absorbing: true, face: x+, region: {box: {from: [10 mm, 0], to: [12 mm, 10 mm]}}}|bad.yaml:15:5: boundary[0]: boundary boundary0|before it
+14|boundary:^  - {absorbing: true, face: x+}^  - {absorbing: true, face: y+}^  - {absorbing: true, face: x+, region: {box: {from: [15 mm, 4 mm], to: [20 mm, 6 mm]}}}|bad.yaml:17:5: boundary[2]: boundary boundary2|boundary0 absorbs at this face already
 14|initial: [{displacement_gradient: [-2, 0, 0, 0]}]^boundary:|bad.yaml:14:11: initial[0]: |inside out
 8|  - box: {from: [0, 0], to: [1e-9, 1e-9]}|bad.yaml:7:1: body: body body|holds no particle
 END

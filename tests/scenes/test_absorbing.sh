@@ -38,6 +38,14 @@ within "adaptive: absorbed" "$(share "$work/adaptive1")" 0.85 1
 within "adaptive: balance error" "$(figure "$work/adaptive1" energy.balance_error)" -0.06 0.001
 holds "adaptive: nothing converted" test -n "$(figure "$work/adaptive1" conversion.first_time)"
 
+# a face in two parts is the face; parts that overlap would have dashpots twice
+part() { sed "s/{name: right, absorbing: true, face: x+}/{name: right, absorbing: true, face: x+, region: {box: {from: [0, 0], to: [80 mm, 30 mm]}}}\n  - {absorbing: true, face: x+, region: {box: {from: [0, $1 mm], to: [80 mm, 60 mm]}}}/" $plate; }
+part 30 >"$work/parts.yaml"
+part 28 >"$work/overlap.yaml"
+calm "$work/parts" "$work/parts.yaml"
+within "in parts" "$(awk -v a="$(share "$work/parts")" -v b="$(share "$work/pd1")" 'BEGIN { print a / b - 1 }')" -1e-12 1e-12
+refused "parts that overlap" "$work/not" "boundary boundary4: boundary right absorbs at this face already" "$work/overlap.yaml"
+
 # the echo is the same scene, the key is explained, check takes the scene
 calm "$work/echo" "$work/pd1/scene.yaml"
 same "the echo" "$work/pd1" "$work/echo"

@@ -40,6 +40,78 @@ checked plate_crack
 [ -e results/plate_crack/history.csv ] && after=$(ls -l results/plate_crack/history.csv) || after=
 is "check writes nothing" "$after" "$before"
 
+# ---- coarse cells ------------------------------------------------------------------------------------------------------
+
+# A plate 200 spacings across, of 133,400 particles; waves go 38.4 spacings in a microsecond. What levels are and save; why there are
+# that many, or none; and where the scene gives too many. The limits are those of the sheet on frequencies: 2.5 cells in a rise, 10 in
+# a pulse, 50 across a body that is loaded suddenly (a warning from 25 on).
+cat >"$work/far.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 5 us
+method: mpm
+material: {young: 72 GPa, poisson: 1/3, density: 2440 kg/m^3}
+body: {box: {from: [0, 0], to: [100 mm, 30 mm]}}
+particles: {spacing: 0.15 mm, horizon: 3.015}
+boundary:
+  - {name: pull, traction: [0, 12 MPa], face: y+}
+output: {frames: 0, samples: 5}
+END
+pulls() { echo "boundary=[{name: pull, traction: [0, 12 MPa], face: y+, time: {$1}}]"; }
+far=$work/far.yaml ramp=$(pulls 'ramp: {until: 0.6 us}') quick=$(pulls 'ramp: {until: 0.1 us}') pulse=$(pulls 'pulse: {until: 2 us}')
+needs='^levels  *this far field needs cells of'
+says "levels by the size" "$needs 4 spacings at most (boundary pull is sudden; the body is 200 spacings across, 50" "$far"
+says "levels by a ramp" "$needs 8 spacings at most (boundary pull rises within 6e-07 s = 23 spacings of wave)" "$far" -s "$ramp"
+says "levels and a quick ramp" "$needs 4 spacings at most (boundary pull rises .* = 3.84 spacings of wave; the body" "$far" -s "$quick"
+says "levels by a pulse" "$needs 4 spacings at most (boundary pull is 76.8 spacings of wave long)" "$far" -s "$pulse"
+says "levels by nothing" "$needs 32 spacings at most (nothing loads it)" "$far" -s boundary=[]
+says "levels: cells" '^levels  *[0-9]* cells of 2 spacings, [0-9]* cells of 4 spacings, [0-9]* cells of 8' "$far" -s "$ramp"
+says "levels: what they save" '^levels  *[0-9]* of 133400 particles move as [0-9]* coarse cells; memory [0-9]* MB; about' "$far"
+says "levels: none, too small" '^levels  *none, as the body has [0-9]* particles: from 100000' "$far" -s "body={box: {from: [0, 0], to: [100 mm, 12 mm]}}"
+says "levels: none, a long step" '^levels  *none, as time.step is 0.7[0-9] of the critical one, and they bear 0.70' "$far" -s time.step=0.03us
+narrow="body={box: {from: [0, 0], to: [200 mm, 15 mm]}}"
+says "levels: none, too sudden" 'none, as boundary pull is sudden: cells of 4 spacings want a rise over 10, or a body 200 .*is 100$' "$far" -s "$narrow"
+says "levels given" '^levels  *cells of up to 16 spacings by mpm.levels; auto: this far field needs cells of 4' "$far" -s mpm.levels=3
+silent "levels of what has no cells" '^levels' plate_crack -s method=pd
+says "few particles made" '^levels  *80[0-9]* particles become [0-9]* at first; memory 1[0-9]* MB instead of 551 MB; at least .* if all of it' \
+    kalthoff_3d_fine -s particles.spacing=0.5mm -s time.step=auto
+
+# too_coarse WHAT PATTERN ARGUMENT...: check says so, and the run once.
+too_coarse()
+{
+    load=$1 words=$2; shift 2
+    says "$load" "^unresolved: mpm.levels: $words" "$far" "$@"
+    rm -rf "$work/ran"
+    "$cleave" run "$far" -q -o "$work/ran" -s duration=0.1us "$@" >/dev/null 2>"$work/err"
+    is "$load: warned once" "$(grep -c "^warning: mpm.levels: $words" "$work/err")" 1
+}
+initial_pulse() { echo "initial=[{pulse: {at: [50 mm, 0], direction: [1, 0], width: $1, velocity: 1}}]"; }
+too_coarse "a pulse of 77 spacings" '4 makes .* 76.8 spacings of wave long: such cells want pulses of 320; 1 or auto would do' -s "$pulse" -s mpm.levels=4
+too_coarse "a pulse of 60 spacings" '4 makes cells of 32 spacings, and initial pulse 1 is 60 ' -s boundary=[] -s "$(initial_pulse "9 mm")" -s mpm.levels=4
+too_coarse "a sudden load" '2 makes .* is sudden: such cells want a rise over 20, or a body 200 .* is 100; 1 or auto' -s "$narrow" -s mpm.levels=2
+too_coarse "a ramp of 23 spacings" '3 makes .* want a rise over 40, or a body 400 .*is 200; 2 or auto' -s "$ramp" -s mpm.levels=3
+silent "a ramp of 23 spacings and cells of 8" 'unresolved: mpm.levels' "$far" -s "$ramp" -s mpm.levels=2
+silent "a pulse of 220 spacings and cells of 16" 'unresolved: mpm.levels' "$far" -s boundary=[] -s "$(initial_pulse "33 mm")" -s mpm.levels=3
+silent "a sudden load and cells of 4" 'unresolved: mpm.levels' "$far" -s "$narrow" -s mpm.levels=1
+# Keys that have no effect.
+cells="-s mpm.levels=2 -s mpm.fill=needed -s conversion.notch=slit"
+says "levels without cells" 'warning: mpm.levels: 2 has no effect, as method pd has no cells' plate_crack -s method=pd $cells
+says "fill without cells" 'warning: mpm.fill: needed has no effect, all particles are made, as method pd' plate_crack -s method=pd $cells
+says "slit of bonds" 'warning: conversion.notch: slit has no effect with method pd' plate_crack -s method=pd $cells
+says "slit of points" 'warning: conversion.notch: slit has no effect with method mpm' plate_crack -s method=mpm $cells
+says "levels of the current frame" 'warning: mpm.levels: 2 has no effect, as no material points are in the reference' plate_crack \
+    -s mpm.frame=current -s mpm.levels=2
+says "levels at rest" 'warning: mpm.levels: 2 has no effect, as a static solver' plate_crack -s method=mpm -s solver=relaxation \
+    -s mpm.transfer=apic -s mpm.levels=2
+says "fill without levels" 'warning: mpm.fill: needed has no effect, .* as there are no coarse cells' plate_crack -s mpm.fill=needed
+silent "keys that have none and say so" 'has no effect' plate_crack -s method=pd -s mpm.levels=0 -s conversion.notch=bonds
+silent "keys that have" 'has no effect' "$far" -s mpm.levels=1 -s mpm.fill=needed
+
+for scene in inputs/*.yaml; do
+    grep -q '^mpm:.*levels: [1-4]' "$scene" || continue
+    silent "own levels of $scene" 'unresolved: mpm.levels' "$scene"
+done
+
 # ---- what is not resolved ----------------------------------------------------------------------------------------------
 
 says "thin plate" 'unresolved: body body: a part of 0.01 m is 1.7 horizons (5 spacings)' kalthoff_winkler_3d

@@ -1,0 +1,73 @@
+/* What `cleave check` says of coarse cells: how large, why, and what they save. */
+#include <math.h>
+#include <stdio.h>
+
+#include "check_parts.h"
+
+void say_levels(const struct engine *e)
+{
+    const struct mesh_levels *l = &e->reference.levels;
+    char text[1024];
+    if (e->reference.mesh.points == 0 || e->scene->solver != SOLVER_EXPLICIT) return;
+    engine_levels_text(e, text, sizeof text);
+    if (!e->scene->choice.made) printf("levels         %s\n", text);       /* else engine_choice_print has said it */
+    for (int level = 0; level <= l->n && l->n > 0; level++)
+        printf("%s%lld cells of %d spacings%s", level == 0 ? "levels         " : ", ",
+               (long long)levels_cells(l, level), 2 << level, level == l->n ? "\n" : "");
+}
+
+/* A number, as 52 million. */
+static const char *many(double n, bool millions, char text[static 32])
+{
+    if (millions) snprintf(text, 32, "%.*f million", n < 1e6 ? 2 : n < 1e7 ? 1 : 0, 1e-6 * n);
+    else snprintf(text, 32, "%.0f", n);
+    return text;
+}
+
+static const char *long_time(double seconds, char text[static 32])
+{
+    if (seconds < 100) snprintf(text, 32, "%.2g s", seconds);
+    else if (seconds < 100 * 60) snprintf(text, 32, "%.2g minutes", seconds / 60);
+    else snprintf(text, 32, "%.3g hours", seconds / 3600);
+    return text;
+}
+
+static const char *much_memory(double bytes, char text[static 32])
+{
+    if (bytes < 1e9) snprintf(text, 32, "%.0f MB", 1e-6 * bytes);
+    else snprintf(text, 32, "%.2g GB", 1e-9 * bytes);
+    return text;
+}
+
+/* Points that lie in coarse cells, made or not. */
+static double points_in_coarse_cells(const struct mesh_levels *l, int dim)
+{
+    double n = 0;
+    for (int level = 1; level <= l->n; level++) n += (double)levels_cells(l, level) * pow(2 << level, dim);
+    return n;
+}
+
+void say_levels_saving(const struct engine *e, const struct cost *c)
+{
+    const struct mesh_levels *l = &e->reference.levels;
+    char all[32], made[32], few[32], memory[32], whole[32], now[32], then[32];
+    const bool millions = e->part.n_body >= 1000000;
+    double cells = 0;
+    for (int level = 1; level <= l->n; level++) cells += (double)levels_cells(l, level);
+    if (l->n == 0 || cells == 0) return;
+    if (e->part.n < e->part.n_body)
+        printf("levels         %s particles become %s at first", many((double)e->part.n_body, millions, all),
+               many((double)e->part.n, millions, made));
+    else
+        printf("levels         %s of %s particles move as %s coarse cells",
+               many(points_in_coarse_cells(l, e->part.dim), millions, few),
+               many((double)e->part.n_body, millions, all), many(cells, false, made));
+    printf("; memory %s", much_memory(c->bytes, memory));
+    const double peridynamic = engine_memory_peridynamic(e);
+    if (e->scene->method == METHOD_ADAPTIVE && peridynamic > c->bytes)
+        printf(" instead of %s", much_memory(peridynamic, whole));
+    printf("; %s %s", c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about",
+           long_time(c->run, now));
+    if (c->all_peridynamic > 0) printf(" instead of %s", long_time(c->all_peridynamic, then));
+    printf(e->scene->method == METHOD_ADAPTIVE ? " if all of it were peridynamic\n" : "\n");
+}

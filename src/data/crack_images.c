@@ -1,0 +1,101 @@
+/* Cracks of a body with planes of symmetry: what of them lies in the body, and its mirror images. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "data/region.h"
+
+/* Height of X above the plane on the body's side [m]. */
+static real inner_height(const struct mirror_plane *m, const real *X)
+{
+    return (real)-m->outside * (X[m->axis] - m->at);
+}
+
+bool mirrors_continue(const struct mirror_plane *m, int mirrors, const struct crack *c, const real *X, real tolerance)
+{
+    for (int k = 0; k < mirrors; k++)
+        for (int a = 0; a < c->n && inner_height(&m[k], X) <= tolerance; a++)
+            if (inner_height(&m[k], c->corner[a]) > tolerance) return true;
+    return false;
+}
+
+/* Where the line from a to b meets the plane. */
+static void meeting_place(const struct mirror_plane *m, const real *a, const real *b, real *X)
+{
+    const real share = inner_height(m, a) / (inner_height(m, a) - inner_height(m, b));
+    for (int d = 0; d < DIM_MAX; d++) X[d] = a[d] + share * (b[d] - a[d]);
+    X[m->axis] = m->at;
+}
+
+/* Leaves of a crack what is on the body's side of the plane: of a polygon with one corner more at the most, for which
+ * there is room. */
+static void crack_clip(struct crack *c, const struct mirror_plane *m, real tolerance)
+{
+    real (*corner)[DIM_MAX] = memory_new("crack.clip", c->n + 1, sizeof *corner);
+    int n = 0;
+    for (int k = 0; k < c->n; k++) {
+        const real *a = c->corner[k], *b = c->corner[(k + 1) % c->n];
+        const bool inside = inner_height(m, a) >= -tolerance, next = inner_height(m, b) >= -tolerance;
+        if (inside) memcpy(corner[n++], a, sizeof *corner);
+        if (inside != next && (c->n > 2 || k == 0)) meeting_place(m, a, b, corner[n++]);
+    }
+    memcpy(c->corner, corner, (size_t)n * sizeof *corner);
+    c->n = n;
+    memory_free(corner);
+}
+
+/* Adds a copy with room for corners to come. */
+static struct crack *crack_add(struct crack_list *to, const struct crack *c, int of, int more)
+{
+    if (to->n == to->room) {
+        const int room = to->room ? 2 * to->room : 8;
+        to->crack = memory_resize("crack.images", to->crack, to->room, room, sizeof *to->crack);
+        to->of = memory_resize("crack.images", to->of, to->room, room, sizeof *to->of);
+        to->room = room;
+    }
+    struct crack *new = &to->crack[to->n];
+    *new = *c;
+    new->corner = memory_new("crack.corners", c->n + more, sizeof *new->corner);
+    memcpy(new->corner, c->corner, (size_t)c->n * sizeof *c->corner);
+    to->of[to->n++] = of;
+    return new;
+}
+
+/* Adds the image of crack k, with its corners in reverse: particles in its plane count as on the same face of it. None
+ * of a crack in the plane, or one too far from it for bonds. */
+static void image_add(struct crack_list *to, int k, const struct mirror_plane *m, real reach, real tolerance)
+{
+    const struct crack c = to->crack[k];
+    real least = INFINITY, most = -INFINITY;
+    for (int a = 0; a < c.n; a++) {
+        const real height = inner_height(m, c.corner[a]);
+        least = real_min(least, height), most = real_max(most, height);
+    }
+    if (least > reach || most <= tolerance) return;
+    struct crack *image = crack_add(to, &c, to->of[k], 0);
+    for (int a = 0; a < c.n; a++) {
+        memcpy(image->corner[a], c.corner[c.n - 1 - a], sizeof *image->corner);
+        image->corner[a][m->axis] = 2 * m->at - image->corner[a][m->axis];
+    }
+}
+
+void cracks_mirrored(struct crack_list *to, const struct crack *crack, int cracks, const struct mirror_plane *m,
+                     int mirrors, real reach, real tolerance)
+{
+    *to = (struct crack_list){0};
+    for (int k = 0; k < cracks; k++) {
+        struct crack *c = crack_add(to, &crack[k], k, mirrors);
+        for (int b = 0; b < mirrors && c->n > 0; b++) crack_clip(c, &m[b], tolerance);
+        if (c->n == 0) memory_free(to->crack[--to->n].corner);
+    }
+    for (int b = 0; b < mirrors; b++)            /* images of images, too: for corners */
+        for (int k = 0, n = to->n; k < n; k++) image_add(to, k, &m[b], reach, tolerance);
+}
+
+void crack_list_free(struct crack_list *l)
+{
+    for (int k = 0; k < l->n; k++) memory_free(l->crack[k].corner);
+    memory_free(l->crack);
+    memory_free(l->of);
+    *l = (struct crack_list){0};
+}

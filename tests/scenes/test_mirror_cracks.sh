@@ -1,0 +1,143 @@
+#!/bin/sh
+# Cracks near a plane of symmetry: half a body with a mirror is the whole body with each crack and its image, by bonds and adaptive,
+# in the plane and in space; momentum is kept to round-off.
+test_name=test_mirror_cracks
+. tests/support/summary.sh
+. tests/support/trust.sh
+. tests/support/scenes.sh
+. tests/support/physics.sh
+
+# alike NAME SCALE WITHIN COLUMN...: these columns of the half's history times SCALE are those of the whole: to 2e-9 of their largest
+# value, which is what nine digits hold, or WITHIN.
+alike()
+{
+    folder=$1 scale=$2 within=$3; shift 3
+    for name in "$@"; do
+        off=$(awk -F, -v name="$name" -v scale="$scale" '
+            FNR == 1 { file++; for (k = 1; k <= NF; k++) { title = $k; sub(/ \[.*/, "", title); if (title == name) at = k }; next }
+            file == 1 { half[FNR] = scale * $at; next }
+            { size = $at < 0 ? -$at : $at + 0; if (size > most) most = size
+              gap = half[FNR] - $at; if (gap < 0) gap = -gap; if (gap > worst) worst = gap; n++ }
+            END { if (n > 5 && most > 0) printf "%.3g", worst / most }' "$work/half_$folder/history.csv" "$work/whole_$folder/history.csv")
+        between "$folder: $name of the half and of the whole" "$off" 0 "$within"
+    done
+}
+
+# energies NAME ENERGY...: those at the end are half as large, to 1e-10: sums of the same bonds in another order, over some hundred steps.
+energies()
+{
+    folder=$1; shift
+    for energy in "$@"; do
+        off=$(awk -v a="$(f "half_$folder" energy.$energy)" -v b="$(f "whole_$folder" energy.$energy)" \
+            'BEGIN { if (b > 0) printf "%.3g", 2 * a / b - 1 }')
+        between "$folder: $energy of the half and of the whole" "$off" -1e-10 1e-10
+    done
+}
+
+# both NAME HALF_BODY WHOLE_BODY CRACKS ALL_CRACKS [ARGUMENT...]: runs of the scene `all`: half the body with the mirror, and the whole.
+both()
+{
+    folder=$1 part="body=$2" all="body=$3" cracks="cracks=[$4]" twice="cracks=[$5]"; shift 5
+    sed '/name: below/d' "$work/all.yaml" >"$work/half.yaml"
+    sed '/mirror: {axis: y/d' "$work/all.yaml" >"$work/whole.yaml"
+    calm "$work/half_$folder" "$work/half.yaml" -s "$part" -s "$cracks" "$@"
+    calm "$work/whole_$folder" "$work/whole.yaml" -s "$all" -s "$twice" "$@"
+    between "$folder: momentum of the half" "$(f half_$folder momentum_error)" 0 1e-12
+    between "$folder: balance of the half" "$(f half_$folder energy.balance_error)" -0.01 0.01
+    energies $folder kinetic strain external_work fracture
+    alike $folder 1 1e-8 face.displacement_y face.velocity_x sliver.displacement_y sliver.velocity_x beside.displacement_x
+    between "$folder: bonds break" "$(f half_$folder energy.fracture)" 1e-9 1e9
+}
+
+# ---- in the plane -----------------------------------------------------------------------------------------------------------
+
+cat >"$work/all.yaml" <<END
+space: plane stress
+thickness: 1 mm
+duration: 9 us
+material: {young: 72 GPa, poisson: 1/3, density: 2440 kg/m^3, energy_release_rate: 30 J/m^2}
+body: {box: {from: [0, 0], to: [40 mm, 20 mm]}}
+particles: {spacing: 0.5 mm, horizon: 3.015}
+boundary:
+  - {mirror: {axis: y, at: 0}}
+  - {traction: [0, 20 MPa], face: y+}
+  - {traction: [20 MPa, 0], face: x+}
+  - {traction: [-20 MPa, 0], face: x-}
+  - {name: below, traction: [0, -20 MPa], face: y-}
+time: {step: 0.05 us}
+output: {frames: 1, samples: 60}
+probes:
+  - point: {name: face, at: [17.25 mm, 0.75 mm]}
+  - point: {name: sliver, at: [17.25 mm, 0.25 mm]}
+  - point: {name: beside, at: [19.75 mm, 2.25 mm]}
+END
+half="{box: {from: [0, 0], to: [40 mm, 20 mm]}}" whole="{box: {from: [0, -20 mm], to: [40 mm, 20 mm]}}"
+along="{from: [10.1 mm, 0.7 mm], to: [25.1 mm, 0.7 mm]}"
+slant="{from: [14.6 mm, 0.4 mm], to: [21.4 mm, 8.1 mm]}"
+for method in pd adaptive; do
+    both along_$method "$half" "$whole" "$along" "$along, {from: [25.1 mm, -0.7 mm], to: [10.1 mm, -0.7 mm]}" -s method=$method
+    both slant_$method "$half" "$whole" "$slant" "$slant, {from: [21.4 mm, -8.1 mm], to: [14.6 mm, -0.4 mm]}" -s method=$method
+    # what lies beyond the mirror does not count
+    both into_$method "$half" "$whole" "{from: [20.1 mm, -3 mm], to: [20.1 mm, 8.1 mm]}" \
+        "{from: [20.1 mm, -8.1 mm], to: [20.1 mm, 8.1 mm]}" -s method=$method
+done
+
+# A crack in the mirror, whose end is its end.
+for method in pd adaptive; do
+    in="{from: [-1 mm, 0], to: [17.1 mm, 0]}"
+    both within_$method "$half" "$whole" "$in" "$in" -s method=$method
+done
+is "a slit in the mirror" "$(f half_within_adaptive conversion.notches.0)" "slit of the mesh, bonds within 8 spacings of its ends"
+
+# What else keeps momentum, though the whole has other pairs that are damped, or other coarse cells.
+for other in mpm.frame=current mpm.levels=1; do
+    calm "$work/half_other" "$work/half.yaml" -s "body=$half" -s "cracks=[$along]" -s $other
+    between "$other: momentum of the half" "$(f half_other momentum_error)" 0 1e-12
+    rm -r "$work/half_other"
+done
+
+# Families: what an image's own lacks counts in partial stresses. (What is booked as fracture agrees to 6e-5.)
+calm "$work/half_families" "$work/half.yaml" -s "body=$half" -s "cracks=[$along]" -s model=ospd
+calm "$work/whole_families" "$work/whole.yaml" -s "body=$whole" -s model=ospd \
+    -s "cracks=[$along, {from: [25.1 mm, -0.7 mm], to: [10.1 mm, -0.7 mm]}]"
+between "families: momentum of the half" "$(f half_families momentum_error)" 0 1e-12
+energies families kinetic strain external_work
+
+# Cracks that are told how to grow, a spacing and a half from the mirror. (What is booked as fracture agrees to 1e-6.)
+grows="growth=[{at: [25.1 mm, 0.7 mm], direction: [1, 0.02], speed: 1000 m/s}"
+for method in pd adaptive; do
+    calm "$work/half_grows_$method" "$work/half.yaml" -s "body=$half" -s "cracks=[$along]" -s "$grows]" -s method=$method
+    calm "$work/whole_grows_$method" "$work/whole.yaml" -s "body=$whole" -s method=$method \
+        -s "cracks=[$along, {from: [25.1 mm, -0.7 mm], to: [10.1 mm, -0.7 mm]}]" \
+        -s "$grows, {at: [25.1 mm, -0.7 mm], direction: [1, -0.02], speed: 1000 m/s}]"
+    between "growth, $method: momentum of the half" "$(f half_grows_$method momentum_error)" 0 1e-12
+    energies grows_$method kinetic strain external_work
+done
+
+# ---- in space, two mirrors --------------------------------------------------------------------------------------------------
+
+cat >"$work/all.yaml" <<END
+space: solid
+duration: 6 us
+material: {young: 72 GPa, poisson: 1/4, density: 2440 kg/m^3, energy_release_rate: 60 J/m^2}
+body: {box: {from: [0, 0, 0], to: [16 mm, 8 mm, 8 mm]}}
+particles: {spacing: 1 mm, horizon: 2.015}
+boundary:
+  - {mirror: {axis: z, at: 0}}
+  - {mirror: {axis: y, at: 0}}
+  - {traction: [0, 80 MPa, 0], face: y+}
+  - {traction: [0, 0, 30 MPa], face: z+}
+  - {name: below, traction: [0, -80 MPa, 0], face: y-}
+time: {step: 0.1 us}
+output: {frames: 1, samples: 30}
+probes:
+  - point: {name: face, at: [4.5 mm, 1.5 mm, 0.5 mm]}
+  - point: {name: sliver, at: [4.5 mm, 0.5 mm, 0.5 mm]}
+  - point: {name: beside, at: [9.5 mm, 3.5 mm, 0.5 mm]}
+END
+half="{box: {from: [0, 0, 0], to: [16 mm, 8 mm, 8 mm]}}" whole="{box: {from: [0, -8 mm, 0], to: [16 mm, 8 mm, 8 mm]}}"
+up="{polygon: [[2.2 mm, 1.2 mm, -1 mm], [8.3 mm, 0.7 mm, -1 mm], [8.3 mm, 0.7 mm, 5.3 mm], [2.2 mm, 1.2 mm, 5.3 mm]]}"
+down="{polygon: [[2.2 mm, -1.2 mm, 5.3 mm], [8.3 mm, -0.7 mm, 5.3 mm], [8.3 mm, -0.7 mm, -1 mm], [2.2 mm, -1.2 mm, -1 mm]]}"
+for method in pd adaptive; do both solid_$method "$half" "$whole" "$up" "$up, $down" -s method=$method; done
+
+finish
