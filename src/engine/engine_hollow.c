@@ -142,6 +142,7 @@ status engine_hollow_plan(struct engine *e)
         h->absent[I] = h->whole[I] && !cell_needed(e, h, I);
         absent += h->absent[I];
     }
+    memcpy(h->whole, h->absent, (size_t)h->box.n);       /* loads, faces of pre-cracks and probes stay where they are */
     if (absent > least) return OK;
     memory_free(h->absent);
     h->absent = NULL;
@@ -174,7 +175,10 @@ static uint8_t *absent_with(const struct engine *e, const uint8_t *level, int ah
     const struct hollow *h = &r->hollow;
     const struct grid *g = &r->mesh.grid;
     uint8_t *absent = NEW("hollow.absent", h->box.n, uint8_t), *keep = NEW("hollow.keep", g->n, uint8_t);
-    for (int64_t I = 0; I < g->n; I++) keep[I] = level[I] == 0 && mesh_cell_holds(&r->mesh, I);
+    for (int64_t I = 0; I < g->n; I++) {         /* also where bonds have taken all points of a cell */
+        const int64_t J = grid_same_cell(g, I, &h->box);
+        keep[I] = level[I] == 0 && (mesh_cell_holds(&r->mesh, I) || (J >= 0 && h->whole[J]));
+    }
     levels_dilate(&r->levels, keep, ahead);
     for (int64_t I = 0; I < g->n; I++) {
         const int64_t J = grid_same_cell(g, I, &h->box);

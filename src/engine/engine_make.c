@@ -131,7 +131,6 @@ static status make_bonds(struct engine *e, struct predecessor *before)
     const struct scene *s = e->scene;
     make_mirrors(e->scene, &e->loads, &e->tables, &e->source);
     e->source.image = e->loads.image;
-    if (before) engine_take_particles(e, before);
     e->source.room = bonds_room(&e->source);
     if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {
         e->tables.neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
@@ -143,6 +142,7 @@ static status make_bonds(struct engine *e, struct predecessor *before)
         e->source.surface = &e->tables.surface;
     }
     if (s->method == METHOD_ADAPTIVE) TRY(engine_notch_convert(e));
+    if (before) engine_take_particles(e, before);    /* slits are those of the start, whatever has converted since */
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
     if (before) engine_take_bonds(e, before);
     e->coupling.conversion.first_time = NAN;
