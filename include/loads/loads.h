@@ -149,7 +149,7 @@ void loads_push_work(struct loads *l, struct particles *p, real t, real dt);
 /* ---- absorbing faces (loads_absorbing.c) ------------------------------------------------------------------------- */
 
 /* REFUSED where two absorbing faces share a part: it would have two dashpots. */
-status loads_absorbing_check(const struct loads *l);
+status loads_absorbing_check(const struct loads *l, const struct particles *p);
 /* After loads_make: the dashpots of all absorbing faces, by the impedances of what moves particles [materials], which
  * stay with the caller. */
 void loads_absorbing_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance);

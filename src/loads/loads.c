@@ -36,7 +36,7 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     l->load = NEW("loads.load", n, struct load);
     for (int b = 0; b < n; b++)
         TRY(status_at(boundary[b].place, load_select(&l->load[b], &boundary[b], p, spacing)));
-    TRY(loads_absorbing_check(l));
+    TRY(loads_absorbing_check(l, p));
     loads_join(l, p->dim);
     TRY(loads_mirrors_make(l, p, reach, optional));
     loads_list(l, p);

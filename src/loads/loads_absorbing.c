@@ -23,8 +23,32 @@ static bool absorb_same(const struct load *a, const struct load *b)
     return false;
 }
 
-status loads_absorbing_check(const struct loads *l)
+/* Does a load absorb in the plane of a mirror, where the body goes on? */
+static bool absorbs_in_mirror(const struct load *a, const struct load *mirror, const struct particles *p, real spacing)
 {
+    const int axis = a->boundary->face;
+    if (mirror->boundary->kind != BOUNDARY_MIRROR || mirror->boundary->axis != axis) return false;
+    for (int64_t k = 0; k < a->n; k++)
+        if (a->outer[k] > 0 && fabs(p->X[axis][a->particle[k]] - mirror->boundary->at) < 0.51 * spacing) return true;
+    return false;
+}
+
+static status absorbing_mirrors_check(const struct loads *l, const struct particles *p)
+{
+    for (int b = 0; b < l->n; b++)
+        for (int m = 0; m < l->n; m++) {
+            const struct boundary *one = l->load[b].boundary, *mirror = l->load[m].boundary;
+            if (!is_absorbing(&l->load[b]) || !absorbs_in_mirror(&l->load[b], &l->load[m], p, l->spacing)) continue;
+            return status_at(one->place, status_set(REFUSED, "boundary %s: the body goes on behind mirror %s at this "
+                                                    "face; a face of the whole body is expected to absorb", one->name,
+                                                    mirror->name));
+        }
+    return OK;
+}
+
+status loads_absorbing_check(const struct loads *l, const struct particles *p)
+{
+    TRY(absorbing_mirrors_check(l, p));
     for (int b = 0; b < l->n; b++)
         for (int a = 0; a < b; a++) {
             const struct boundary *one = l->load[a].boundary, *other = l->load[b].boundary;

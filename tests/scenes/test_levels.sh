@@ -152,6 +152,28 @@ interrupted "$work/ran" 45 $running
 calm "$work/ran" --resume $running
 same "a ring that runs, interrupted after 45 lines" "$work/runs" "$work/ran"
 
+# ---- two slits whose faces meet ----------------------------------------------------------------------------------------
+
+# Gained half of its energy with coarse cells a few spacings from the slits.
+cat >"$work/slits.yaml" <<EOF
+space: plane stress
+thickness: 1 mm
+duration: 45 us
+material: {young: 72 GPa, density: 2440 kg/m^3, energy_release_rate: 135 J/m^2}
+body: {box: {from: [0, 0], to: [64 mm, 32 mm]}}
+particles: {spacing: 0.4 mm}
+mpm: {levels: 1}
+cracks:
+  - {from: [-6 mm, 15 mm], to: [25.32 mm, 15 mm]}
+  - {from: [-1 mm, 7.5 mm], to: [25.32 mm, 13.5 mm]}
+boundary: [{traction: [0, 5 MPa], face: y+, time: {pulse: {until: 8 us}}}]
+output: {frames: 0}
+EOF
+for levels in 1 2; do
+    calm "$work/slits$levels" "$work/slits.yaml" -s mpm.levels=$levels
+    between "two slits, levels $levels: balance" "$(figure "$work/slits$levels" energy.balance_error)" -0.01 0.001
+done
+
 # ---- refusals ----------------------------------------------------------------------------------------------------------
 
 refused "five levels" "$work/not" "levels: 5 is unknown; 0, 1, 2, 3, 4 or auto is expected" "$work/ring.yaml" -s mpm.levels=5
