@@ -23,7 +23,7 @@ between "momentum" "$(f needed momentum_error)" 0 1e-13
 
 calm "$work/two" $plate -s mpm.fill=needed -t 2
 same "on 2 threads" "$work/needed" "$work/two"
-for lines in 30 75; do
+for lines in 30 60; do
     rm -rf "$work/stopped"
     interrupted "$work/stopped" $lines $plate -s mpm.fill=needed
     calm "$work/stopped" -t 2 --resume $plate -s mpm.fill=needed
