@@ -25,11 +25,7 @@ static const char *const part_name[PARTS] = {"bonds", "points", "conversion", "s
 /* One run of one method. Figures of the fracture are the same in every repetition. */
 struct run {
     double seconds[REPETITIONS];
-    double stepping[REPETITIONS]; /* of them without samples: the step's own work */
-    /* of them without conversion: what kernels alone take, as if rows and partial cells came for nothing */
-    double steady[REPETITIONS];
     double part[PARTS][REPETITIONS]; /* of them, time of each part [s] */
-    double rest[REPETITIONS]; /* share of them that is neither bonds nor material points: conversion, samples [1] */
     struct crack_ends ends;
     double time[SAMPLES + 1], share[SAMPLES + 1];
 };
@@ -92,10 +88,6 @@ static status efficiency_run_once(struct result *x, int way, int repetition)
     status ran = bench_engine_run(&e, e.clock.steps, NULL);
     r->seconds[repetition] = e.report.loop_seconds;
     parts_keep(r, e.report.laps.spent, repetition);
-    r->stepping[repetition] = e.report.loop_seconds - e.report.laps.spent[LAP_SAMPLE];
-    r->steady[repetition] = e.report.loop_seconds - e.report.laps.spent[LAP_CONVERT];
-    r->rest[repetition] =
-        (e.report.laps.spent[LAP_CONVERT] + e.report.laps.spent[LAP_SAMPLE]) / e.report.loop_seconds;
     x->particles = e.part.n, x->steps = e.clock.steps;
     if (ran == OK) crack_ends_keep(&r->ends, &e);
     bench_engine_free(&e, &s);
@@ -130,6 +122,23 @@ static void compare_tips(struct result *x, int way, int dim)
     x->angle_difference[way] = fabs(x->angle[0] - x->angle[way]);
 }
 
+/* Time of loops less that of a part: of the step's own work, or as if rows and partial cells came for nothing [s]. */
+static double median_without(const struct run *r, enum part part, int repetitions)
+{
+    double t[REPETITIONS];
+    for (int k = 0; k < repetitions; k++) t[k] = r->seconds[k] - r->part[part][k];
+    return median_of(t, repetitions);
+}
+
+/* Share of loops that is neither bonds nor material points [1]. */
+static double median_rest(const struct run *r, int repetitions)
+{
+    double t[REPETITIONS];
+    for (int k = 0; k < repetitions; k++)
+        t[k] = (r->part[PART_CONVERSION][k] + r->part[PART_SAMPLES][k]) / r->seconds[k];
+    return median_of(t, repetitions);
+}
+
 static status scene_measure(struct result *x, int repetitions)
 {
     struct scene s;
@@ -146,10 +155,10 @@ static status scene_measure(struct result *x, int repetitions)
         TRY(run_shares(x, way));
         x->t[way] = median_of(x->run[way].seconds, repetitions);
         x->t_r[way] = 1 - x->t[way] / x->t[0];
-        x->t_r_stepping[way] =
-            1 - median_of(x->run[way].stepping, repetitions) / median_of(x->run[0].stepping, repetitions);
-        x->t_r_bound[way] = 1 - median_of(x->run[way].steady, repetitions) / x->t[0];
-        x->rest_share[way] = median_of(x->run[way].rest, repetitions);
+        x->t_r_stepping[way] = 1 - median_without(&x->run[way], PART_SAMPLES, repetitions) /
+                                       median_without(&x->run[0], PART_SAMPLES, repetitions);
+        x->t_r_bound[way] = 1 - median_without(&x->run[way], PART_CONVERSION, repetitions) / x->t[0];
+        x->rest_share[way] = median_rest(&x->run[way], repetitions);
         for (int k = 0; k < PARTS; k++) x->part[way][k] = median_of(x->run[way].part[k], repetitions) / x->t[0];
         compare_tips(x, way, dim);
     }

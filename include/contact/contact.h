@@ -137,8 +137,7 @@ real contact_critical_step(const struct contact *c, const struct particles *p, c
 void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
                     const struct family *family, int64_t step, int64_t broken, int64_t changed);
 /* These have become peridynamic: a search is due if one of them is at a face. */
-void contact_add(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *family,
-                 const int32_t *list, int64_t n);
+void contact_add(struct contact *c, const struct bonds *b, const struct family *family, const int32_t *list, int64_t n);
 /* Marks the particles that something may push as loaded and their row blocks as active; also after a restart. */
 void contact_follow(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
 

@@ -19,12 +19,18 @@ static real first_layer_share(const struct family *f)
     return f->horizon < 1.5 * f->spacing ? 0.95 : space_dim(f->space) == 1 ? 0.6 : 0.78;
 }
 
+/* Has the particle of a row less of a family than `least` [m^3], less what it has lost? */
+static bool lacks_family(const struct bonds *b, int64_t row, real lost, real least)
+{
+    return row < 0 || b->family_volume[row] - lost < least;
+}
+
 /* Is particle i of the body near a face, or peridynamic and wanted everywhere? */
 static bool is_exposed(const struct particles *p, const struct bonds *b, real least_volume, bool everywhere, int64_t i)
 {
     const int64_t row = b->row_of[i];
     if (p->kind[i] != KIND_PD) return false;
-    return everywhere || p->damage[i] > 0 || row < 0 || b->family_volume[row] < least_volume;
+    return everywhere || p->damage[i] > 0 || lacks_family(b, row, 0, least_volume);
 }
 
 int64_t contact_row_of(const struct contact *c, int64_t i)
@@ -278,15 +284,14 @@ static bool has_come_far(const struct contact *c)
 }
 
 /* A lost bond or two make no face: what has them comes to the list with the next search. */
-void contact_add(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *family,
-                 const int32_t *list, int64_t n)
+void contact_add(struct contact *c, const struct bonds *b, const struct family *family, const int32_t *list, int64_t n)
 {
     const real least_volume = first_layer_share(family) * family->full;
     if (!contact_works(c)) return;
     for (int64_t k = 0; k < n && !c->due; k++) {
         const int64_t row = b->row_of[list[k]];
-        c->due = c->law.distance == DISTANCE_LAMMPS || row < 0 || p->kind[list[k]] != KIND_PD ||
-                 b->family_volume[row] - b->broken_volume[row] < least_volume;
+        c->due = c->law.distance == DISTANCE_LAMMPS ||
+                 lacks_family(b, row, row < 0 ? 0 : b->broken_volume[row], least_volume);
     }
 }
 

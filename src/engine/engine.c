@@ -280,7 +280,7 @@ static bool may_convert(const struct engine *e, const struct step *now)
 static void meet_others(void *context, const int32_t *list, int64_t n)
 {
     struct engine *e = context;
-    contact_add(&e->contact, &e->part, &e->bonds, &e->source.family, list, n);
+    contact_add(&e->contact, &e->bonds, &e->source.family, list, n);
 }
 
 /* Material points that become peridynamic, and what follows from them and from broken bonds: the active set, partial

@@ -159,19 +159,10 @@ static bool any_lacks(const struct mesh *mesh, const uint8_t *level)
     return false;
 }
 
-static bool cell_probed(const struct scene *s, const struct hollow *h, int64_t J)
+/* The cells that need no particles with these levels [box.n]: not those within `ahead` cells of level 0.
+ * Coarse cells are hollow as a whole, or not at all. */
+static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level, int ahead)
 {
-    real X[DIM_MAX] = {0};
-    if (s->probes == 0) return false;
-    for (int d = 0; d < s->dim; d++) X[d] = grid_quarter(&h->box, J, 0, d);
-    return probed(s, X, h->box.h);
-}
-
-/* The cells that need no particles with these levels [box.n]: not those within `ahead` cells of level 0, nor those at
- * which probes look. Coarse cells are hollow as a whole, or not at all. */
-static uint8_t *absent_with(const struct engine *e, const uint8_t *level, int ahead)
-{
-    const struct reference_frame *r = &e->reference;
     const struct hollow *h = &r->hollow;
     const struct grid *g = &r->mesh.grid;
     uint8_t *absent = NEW("hollow.absent", h->box.n, uint8_t), *keep = NEW("hollow.keep", g->n, uint8_t);
@@ -182,7 +173,7 @@ static uint8_t *absent_with(const struct engine *e, const uint8_t *level, int ah
     levels_dilate(&r->levels, keep, ahead);
     for (int64_t I = 0; I < g->n; I++) {
         const int64_t J = grid_same_cell(g, I, &h->box);
-        keep[I] = keep[I] || J < 0 || !h->whole[J] || cell_probed(e->scene, h, J);
+        keep[I] = keep[I] || J < 0 || !h->whole[J];
     }
     levels_mark_cells(&r->levels, level, keep);
     for (int64_t I = 0; I < g->n; I++)
@@ -203,7 +194,7 @@ bool engine_hollow_start(struct engine *e, const uint8_t *level)
     }
     r->lacks = any_lacks(&r->mesh, level);
     if (!r->lacks) return true;
-    uint8_t *absent = absent_with(e, level, 0);
+    uint8_t *absent = absent_with(r, level, 0);
     for (int64_t J = 0; J < r->hollow.box.n; J++) r->hollow.absent[J] &= absent[J];
     memory_free(absent);
     return false;
@@ -219,7 +210,7 @@ status engine_hollow_follow(struct engine *e, const uint8_t *level)
         TRY(output_wait(e->report.out));
         output_particles_changed(e->report.out);
     }
-    uint8_t *absent = absent_with(e, level, AHEAD);
+    uint8_t *absent = absent_with(&e->reference, level, AHEAD);
     memory_free(h->absent);
     h->absent = absent;
     return engine_replace(e);

@@ -7,10 +7,10 @@
 
 /* Cells of level 0 round peridynamic particles, beyond those that let points convert: cracks run some way between two
  * changes. Cells merge later than they split. */
+enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 /* spacings: tips run on between looks */ };
 /* Cells between slits and coarse cells beyond those of peridynamic particles: with coarse cells nearer, two slits 5 to
  * 18 spacings apart whose faces meet gained energy without bounds, one did not; why is not known. */
 enum { FLANK_MORE = 2 };
-enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 /* spacings: tips run on between looks */ };
 #define SPLITS 0.5                       /* of the stress at which points convert */
 #define MERGES 0.25
 #define ROUGH 0.01                       /* of the mean energy per mass: motion that a coarser cell would lose */

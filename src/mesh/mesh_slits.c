@@ -40,14 +40,19 @@ static void extra_add(struct extras *to, struct extra one)
 
 /* ---- pieces of cells --------------------------------------------------------------------------------------------- */
 
+static bool places_parted(const struct slit_maker *m, const real *a, const real *b)
+{
+    for (int k = 0; k < m->source->slits; k++)
+        if (crack_cuts(&m->source->slit[k], a, b, m->p->dim)) return true;
+    return false;
+}
+
 static bool points_parted(const struct slit_maker *m, int32_t i, int32_t j)
 {
     real a[DIM_MAX], b[DIM_MAX];
     particle_place(m->p, i, a);
     particle_place(m->p, j, b);
-    for (int k = 0; k < m->source->slits; k++)
-        if (crack_cuts(&m->source->slit[k], a, b, m->p->dim)) return true;
-    return false;
+    return places_parted(m, a, b);
 }
 
 /* Is some slit within two cells of node I? */
@@ -144,9 +149,7 @@ static bool image_parted(const struct slit_maker *m, int32_t i, const struct mir
     particle_place(m->p, i, a);
     memcpy(b, a, sizeof b);
     b[plane->axis] = 2 * plane->at - b[plane->axis];
-    for (int k = 0; k < m->source->slits; k++)
-        if (crack_cuts(&m->source->slit[k], a, b, m->p->dim)) return true;
-    return false;
+    return places_parted(m, a, b);
 }
 
 /* Are the pieces of a group around node I together with their images in a plane through the node? As for pieces: by
