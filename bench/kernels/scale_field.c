@@ -237,7 +237,8 @@ static void field_draw(FILE *to, const void *context)
         for (int64_t j = 0; j < b->at[k].n; j++) fprintf(to, "%.6g %.6g\n", 1e6 * b->at[k].t[j], 1e-3 * b->at[k].K[j]);
         fputs("EOD\n", to);
     }
-    fprintf(to, "set xlabel 'time [us]'\nset ylabel 'K_I [kPa m^{1/2}]'\nset xrange [%g:*]\nset key top left\nplot ",
+    fprintf(to, "set xlabel 'time [us]'\nset ylabel 'K_I [kPa √m]'\nset xrange [%g:*]\nset key inside top left\n"
+                "plot ",
             0.98 * 1e3 * HALF / b->speed);
     for (int k = 0; k < FIELD_WAYS; k++)
         fprintf(to, "%s$w%d using 1:2 with lines lw 2 dt %d lc rgb '%s' title '%s'", k ? ", " : "", k,

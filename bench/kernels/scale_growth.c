@@ -271,8 +271,9 @@ static void growth_draw(FILE *to, const void *context)
         if (!rows_of(b->at[k])) fputs("NaN NaN NaN NaN\n", to);
         fputs("EOD\n", to);
     }
-    fputs("set multiplot layout 1,3\nset logscale xy\nset xrange [3:0.1] reverse\nset xtics (2, 1, 0.5, 0.25, 0.125)\n"
-          "set xlabel 'spacing [mm]'\nset key top left\nset format y '%g'\n",
+    fputs("set multiplot layout 1,3\nset logscale xy\nset xrange [3:0.1] reverse\n"
+          "set xtics (2, 1, 0.5, 0.25, 0.125) font ',9'\n"
+          "set xlabel 'spacing [mm]'\nset key inside top left\nset format y '%g'\n",
           to);
     for (int a = 0; a < AIMS; a++) {
         fprintf(to, "set title '%s'\nplot ", title[a]);
