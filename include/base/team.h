@@ -19,6 +19,14 @@ struct machine team_machine(void);
 int64_t team_memory(void);             /* of the machine, or what limits leave of it [byte]; read by team_make */
 const char *team_memory_limit(void);   /* what sets it: "memory of the machine", "ulimit -v", ... */
 
+/* Physical cores that the process may use. */
+int team_cores(void);
+/* The cores in equal shares, for processes that run side by side; NULL where there are too few for a share each. A
+ * share is taken by the calling thread, from which processes inherit it; -1 gives back what it had. */
+struct core_shares *core_shares_make(int shares);
+void core_share_take(const struct core_shares *s, int share);
+void core_shares_free(struct core_shares *s);
+
 /* Wall clock [s]. */
 double team_clock(void);
 

@@ -10,6 +10,9 @@ enum { PATH_ROOM = 4096, PATH_NAME_ROOM = 300 };
 struct path { char text[PATH_ROOM]; };
 
 struct path path_join(const char *folder, const char *name);
+/* Makes a folder and those above it, unless they exist. REFUSED where a file has such a name; FAILED if it cannot be
+ * made. */
+status folder_make(const char *path);
 /* PATH.tmp, where a file is written before it is renamed. */
 struct path path_aside(const char *path);
 bool path_exists(const char *path);

@@ -12,4 +12,9 @@ status summary_number(const char *folder, const char *dotted_key, double *value)
 /* The same for a text; escapes other than \" and \\ are kept as they stand. At most size - 1 bytes; "" on FAILED. */
 status summary_string(const char *folder, const char *dotted_key, char *text, size_t size);
 
+/* Hands every number of folder/summary.json to `visit`, with its dotted key, in the order of the file. FAILED: no file,
+ * or not JSON; numbers before the fault have been handed out then. */
+typedef void summary_visit(void *context, const char *key, double value);
+status summary_numbers(const char *folder, summary_visit *visit, void *context);
+
 #endif

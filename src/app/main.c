@@ -23,6 +23,10 @@ struct command { const char *name, *words, *meaning; status (*call)(int argc, ch
 static const struct command commands[] = {
     {"run", "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]", "runs a scene", command_run},
     {"check", "SCENE [-s KEY=VALUE]... [-t THREADS]", "what a scene would cost and whether it is sound", command_check},
+    {"sweep", "SCENE -s KEY=VALUE,...|FROM:TO:STEP... [-o DIR] [-j RUNS] [--list] [--collect]",
+     "a study: runs, or lists, every combination", command_sweep},
+    {"converge", "SCENE [--of FIGURE]... [--budget TIME] [-s KEY=VALUE]... [-o DIR] [-j RUNS]",
+     "every figure of a scene with its error bar", command_converge},
     {"plot", "DIR [--frames all|last|N]", "pictures of a finished or running run", command_plot},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
     {"bench", "[NAME...] [--quick] [--readme]", "kernels, efficiency, coupling", command_bench},

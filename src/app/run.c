@@ -1,45 +1,12 @@
 /* `cleave run`: from a scene file to results. */
 #include <math.h>
 #include <omp.h>
-#include <signal.h>
 #include <stdio.h>
-#include <unistd.h>
 
 #include "auto/scene_read.h"
 #include "arguments.h"
 #include "commands.h"
 #include "engine/engine.h"
-
-/* Set by signals: a checkpoint and the end of the run are requested. */
-static volatile sig_atomic_t stop_asked;
-
-static void on_signal(int number)
-{
-    if (stop_asked) _exit(128 + number);     /* the second time: at once */
-    stop_asked = 1;
-}
-
-/* For signals that batch systems send before the end of a job, some of them every second: repeated ones have no
- * effect. */
-static void on_notice(int number)
-{
-    (void)number;
-    stop_asked = 1;
-}
-
-/* A signal that the parent process ignores stays ignored, as nohup and `&` in a script require. */
-static void listen_to_signals(void)
-{
-    static const struct { int number; void (*handler)(int); } heard[] = {
-        {SIGINT, on_signal}, {SIGTERM, on_signal}, {SIGHUP, on_signal},
-        {SIGXCPU, on_notice}, {SIGUSR1, on_notice}, {SIGUSR2, on_notice}};
-    for (size_t k = 0; k < COUNT_OF(heard); k++) {
-        const struct sigaction action = {.sa_handler = heard[k].handler};
-        struct sigaction before;
-        if (sigaction(heard[k].number, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
-            sigaction(heard[k].number, &action, NULL);
-    }
-}
 
 /* ---- run --------------------------------------------------------------------------------------------------------- */
 
@@ -88,7 +55,7 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
     if (threads > 2 * omp_get_num_procs())
         fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads,
                 omp_get_num_procs());
-    e->report.stop = &stop_asked;
+    e->report.stop = stop_signals();
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
     status ran = engine_run(e);
     if (ran == OK) ran = engine_baseline(e);
@@ -101,7 +68,7 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
 
 status command_run(int argc, char **argv)
 {
-    listen_to_signals();                     /* before the scene, whose reading may take seconds */
+    (void)stop_signals();                    /* before the scene, whose reading may take seconds */
     struct run_arguments a;
     TRY(arguments_read(&a, argc, argv,
                        "run SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]"));

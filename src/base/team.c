@@ -230,6 +230,51 @@ int team_make(int threads)
     return threads;
 }
 
+/* ---- shares of the cores ----------------------------------------------------------------------------------------- */
+
+struct core_shares { struct place place; int n, cores; };
+
+int team_cores(void)
+{
+    struct place place;
+    if (!place_make(&place)) return omp_get_num_procs();
+    const int cores = core_count(&place);
+    place_free(&place);
+    return cores;
+}
+
+struct core_shares *core_shares_make(int shares)
+{
+    struct core_shares *s = NEW("team.shares", 1, struct core_shares);
+    if (place_make(&s->place)) {
+        s->n = shares;
+        s->cores = core_count(&s->place);
+        if (shares > 1 && shares <= s->cores && core_at(&s->place, s->cores - 1)) return s;
+        place_free(&s->place);
+    }
+    memory_free(s);
+    return NULL;
+}
+
+void core_share_take(const struct core_shares *s, int share)
+{
+    if (!s || share >= s->n) return;
+    hwloc_bitmap_t mine = hwloc_bitmap_alloc();
+    const int first = share < 0 ? 0 : share * s->cores / s->n;
+    const int end = share < 0 ? s->cores : (share + 1) * s->cores / s->n;
+    for (int k = first; k < end; k++) hwloc_bitmap_or(mine, mine, core_at(&s->place, k)->cpuset);
+    hwloc_bitmap_and(mine, mine, s->place.mask);
+    hwloc_set_cpubind(s->place.topology, share < 0 ? s->place.mask : mine, HWLOC_CPUBIND_THREAD);
+    hwloc_bitmap_free(mine);
+}
+
+void core_shares_free(struct core_shares *s)
+{
+    if (!s) return;
+    place_free(&s->place);
+    memory_free(s);
+}
+
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
 enum { FEW_BLOCKS = 16 };            /* sums without memory of their own: steps need short ones several times         */

@@ -43,27 +43,6 @@ static bool is_frame(const char *name, const char *end)
     return digits >= 6 && strncmp(name + digits, ".hdf", 4) == 0 && strcmp(name + digits + 4, end) == 0;
 }
 
-/* Makes one folder unless it exists. REFUSED if a file has this name. */
-static status folder_make_one(const char *path)
-{
-    if (mkdir(path, 0777) == 0) return file_settle(path);
-    if (errno == EEXIST && path_is_folder(path)) return OK;
-    if (errno == EEXIST || errno == ENOTDIR)
-        return status_set(REFUSED, "%s: is a file, not a folder; choose another -o", path);
-    return status_set(FAILED, "cannot make the folder %s: %s; choose another -o", path, strerror(errno));
-}
-
-/* Makes a folder and those above it. */
-static status folder_make(const char *path)
-{
-    struct path part = {{0}};
-    for (size_t k = 0; path[k]; k++) {
-        if (path[k] == '/' && k > 0 && !path_is_folder(part.text)) TRY(folder_make_one(part.text));
-        part.text[k] = path[k];
-    }
-    return folder_make_one(part.text);
-}
-
 /* Removes the files of a folder that `chosen` names, with `end` after their names. */
 static void files_remove(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end)
 {
@@ -243,7 +222,7 @@ static status folder_prepare(const char *folder, const char *scene_text, enum ou
     struct path frames = path_join(folder, "frames");
     TRY(folder_check(folder, scene_text, mode));
     TRY(mode_check(folder, mode));
-    TRY(folder_make_one(frames.text));
+    TRY(folder_make(frames.text));
     temporary_remove(folder);
     if (mode != OUTPUT_RESUME) run_remove(folder);
     return file_put(path_join(folder, "scene.yaml").text, scene_text, strlen(scene_text));

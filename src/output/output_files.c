@@ -169,6 +169,30 @@ status file_put(const char *path, const void *bytes, size_t length)
     return file_settle(path);
 }
 
+/* ---- folders ----------------------------------------------------------------------------------------------------- */
+
+/* Makes one folder unless it exists. REFUSED if a file has this name. */
+static status folder_make_one(const char *path)
+{
+    if (mkdir(path, 0777) == 0) return file_settle(path);
+    if (errno == EEXIST && path_is_folder(path)) return OK;
+    if (errno == EEXIST || errno == ENOTDIR)
+        return status_set(REFUSED, "%s: is a file, not a folder; choose another -o", path);
+    return status_set(FAILED, "cannot make the folder %s: %s; choose another -o", path, strerror(errno));
+}
+
+status folder_make(const char *path)
+{
+    struct path part = {{0}};
+    for (size_t k = 0; path[k]; k++) {
+        if (path[k] == '/' && k > 0 && !path_is_folder(part.text)) TRY(folder_make_one(part.text));
+        part.text[k] = path[k];
+    }
+    return folder_make_one(part.text);
+}
+
+/* ---- reading ----------------------------------------------------------------------------------------------------- */
+
 /* Reads up to `room` bytes; returns their number, -1 on a fault. */
 static int64_t output_files_read_all(int fd, char *bytes, size_t room)
 {

@@ -1,4 +1,4 @@
-/* Reads one value of summary.json with a strict reader of JSON.
+/* Reads one value of summary.json, or all its numbers, with a strict reader of JSON.
  *
  * The document is checked from its first to its last byte. The functions pass on the rest of the dotted key: `rest` is
  * NULL off the path and "" at the wanted value. */
@@ -13,11 +13,15 @@
 
 #include "output/output_files.h"
 
-enum { DEPTH_MAX = 64, SIZE_MAX_BYTES = 64 << 20 };
+enum { DEPTH_MAX = 64, SIZE_MAX_BYTES = 64 << 20, KEY_ROOM = 512 };
 
 struct reader {
     const char *at;                      /* next byte; the text ends with a 0 byte   */
     const char *found;                   /* first byte of the wanted value, or NULL  */
+    summary_visit *visit;                /* is handed every number; NULL: nobody     */
+    void *context;
+    char key[KEY_ROOM];                  /* dotted key of the value that is read     */
+    size_t length;
 };
 
 static bool value(struct reader *r, const char *rest, int depth);
@@ -98,13 +102,25 @@ static const char *summary_read_below(const char *rest, const char *name, size_t
     return rest[length] == '.' ? rest + length + 1 : NULL;
 }
 
+/* The value of a member of this name, `length` bytes. A key that is too long is cut. */
+static bool member(struct reader *r, const char *rest, const char *name, size_t length, int depth)
+{
+    const size_t above = r->length;
+    const int whole = snprintf(r->key + above, KEY_ROOM - above, "%s%.*s", above > 0 ? "." : "", (int)length, name);
+    r->length = above + (size_t)whole < KEY_ROOM ? above + (size_t)whole : KEY_ROOM - 1;
+    const bool sound = value(r, summary_read_below(rest, name, length), depth);
+    r->length = above;
+    r->key[above] = '\0';
+    return sound;
+}
+
 static bool object(struct reader *r, const char *rest, int depth)
 {
     if (summary_read_take(r, '}')) return true;
     do {
         const char *from, *to;
         if (!string(r, &from, &to) || !summary_read_take(r, ':')) return false;
-        if (!value(r, summary_read_below(rest, from, (size_t)(to - from)), depth)) return false;
+        if (!member(r, rest, from, (size_t)(to - from), depth)) return false;
     } while (summary_read_take(r, ','));
     return summary_read_take(r, '}');
 }
@@ -116,7 +132,7 @@ static bool list(struct reader *r, const char *rest, int depth)
     int k = 0;
     do {
         int length = snprintf(name, sizeof name, "%d", k++);
-        if (!value(r, summary_read_below(rest, name, (size_t)length), depth)) return false;
+        if (!member(r, rest, name, (size_t)length, depth)) return false;
     } while (summary_read_take(r, ','));
     return summary_read_take(r, ']');
 }
@@ -138,8 +154,12 @@ static bool value(struct reader *r, const char *rest, int depth)
     case 't': return word(r, "true");
     case 'f': return word(r, "false");
     case 'n': return word(r, "null");
-    default: return number(r);
+    default: break;
     }
+    from = r->at;
+    if (!number(r)) return false;
+    if (r->visit) r->visit(r->context, r->key, strtod(from, NULL));
+    return true;
 }
 
 /* Reads a whole file into *text, which the caller frees. */
@@ -168,29 +188,43 @@ static status read_text(const char *path, char **text)
     return OK;
 }
 
-/* Finds the value of a key. *text: the document, which the caller frees; *found: the first byte of the value in it.
- * FAILED with file and line if it is not JSON, or without such a key. */
-static status summary_read_find(const char *folder, const char *key, char **text, const char **found)
+/* Reads the whole document. *text: its bytes, which the caller frees, on a fault as well. FAILED with file and line if
+ * it is not JSON. */
+static status summary_read_document(struct reader *r, const char *folder, const char *key, char **text)
 {
     char path[4096];
+    *text = NULL;
     if (snprintf(path, sizeof path, "%s/summary.json", folder) >= (int)sizeof path)
         return status_set(FAILED, "%s: the name is too long", folder);
     TRY(read_text(path, text));
-    struct reader r = {.at = *text};
-    bool sound = value(&r, key, 0);
-    skip_space(&r);
-    if (!sound || *r.at != '\0') {
-        int line = 1;
-        for (const char *c = *text; c < r.at; c++) line += *c == '\n';
-        free(*text);
-        return status_set(FAILED, "%s:%d: not JSON", path, line);
-    }
-    if (r.found == NULL) {
-        free(*text);
-        return status_set(FAILED, "%s: no %s", path, key);
-    }
+    r->at = *text;
+    const bool sound = value(r, key, 0);
+    skip_space(r);
+    if (sound && *r->at == '\0') return OK;
+    int line = 1;
+    for (const char *c = *text; c < r->at; c++) line += *c == '\n';
+    return status_set(FAILED, "%s:%d: not JSON", path, line);
+}
+
+/* Finds the value of a key. *text: the document, which the caller frees; *found: the first byte of the value in it.
+ * FAILED as summary_read_document, or without such a key. */
+static status summary_read_find(const char *folder, const char *key, char **text, const char **found)
+{
+    struct reader r = {0};
+    status s = summary_read_document(&r, folder, key, text);
+    if (s == OK && r.found == NULL) s = status_set(FAILED, "%s/summary.json: no %s", folder, key);
+    if (s != OK) free(*text);
     *found = r.found;
-    return OK;
+    return s;
+}
+
+status summary_numbers(const char *folder, summary_visit *visit, void *context)
+{
+    char *text;
+    struct reader r = {.visit = visit, .context = context};
+    const status s = summary_read_document(&r, folder, NULL, &text);
+    free(text);
+    return s;
 }
 
 status summary_number(const char *folder, const char *dotted_key, double *value_out)

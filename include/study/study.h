@@ -1,0 +1,102 @@
+/* Room `study`: many runs of one scene, which differ by some of its keys, as processes of their own; what comes out of
+ * them as one table. It knows scenes and the files of runs, but no engine; commands and benches call it. */
+#ifndef CLEAVE_STUDY
+#define CLEAVE_STUDY
+
+#include <signal.h>
+
+#include "output/output_lock.h"
+#include "scene/scene.h"
+
+enum { CASE_NAME_ROOM = 200, CASES_MOST = 100000 };
+
+/* A key of the scene with the values that it takes, as they stand behind `-s`. */
+struct varied_key {
+    char *key, **value;
+    int values;
+};
+
+enum case_state { CASE_WAITING, CASE_RUNNING, CASE_DONE, CASE_DONE_BEFORE, CASE_FAILED, CASE_STOPPED };
+
+/* One run of a study. */
+struct study_case {
+    char name[CASE_NAME_ROOM];       /* of its folder below that of the study */
+    struct scene_override *override; /* owned, with their strings */
+    int overrides;
+    enum case_state state;
+    int process, slot, ended; /* while it runs; its exit status */
+    double seconds;           /* that it took, of this study [s] */
+};
+
+struct study {
+    const char *scene; /* path of the scene; borrowed */
+    char folder[4096]; /* the runs are folders in it */
+    struct folder_lock lock;
+    struct study_case *at;
+    int n, room;
+};
+
+/* ---- values (study_values.c) ------------------------------------------------------------------------------------- */
+
+/* Reads `KEY=VALUE,...`: values between commas that no bracket or quote holds; `from:to:step`, numbers with at most one
+ * unit, is a row of them, both ends included. REFUSED with what is wrong. */
+status varied_key_read(struct varied_key *k, const char *text);
+void varied_key_free(struct varied_key *k);
+/* The number that a value begins with and what follows it, its unit; NAN: none. */
+double value_number(const char *value, const char **unit);
+
+/* ---- cases (study.c) --------------------------------------------------------------------------------------------- */
+
+/* Takes folder NULL as results/NAME_KIND, NAME the file's without ending. Makes no folder yet. */
+status study_make(struct study *s, const char *scene, const char *folder, const char *kind);
+void study_free(struct study *s);
+/* Adds a run; copies its overrides. The name is made unique and harmless to file systems. */
+struct study_case *study_add(struct study *s, const char *name, const struct scene_override *override, int overrides);
+/* Adds a run for every combination of the keys' values, the last key's change first. REFUSED if they are too many. */
+status study_cross(struct study *s, const struct varied_key *key, int keys);
+/* Reads every scene, REFUSED if one is not sound; marks the runs that are done already. */
+status study_check(struct study *s);
+/* Folder of a run. */
+struct path study_folder(const struct study *s, const struct study_case *c);
+
+/* ---- runs (study_run.c) ------------------------------------------------------------------------------------------ */
+
+struct study_way {
+    int jobs, threads; /* runs at once, threads of each; 0: as the cores allow */
+    bool overwrite, quiet;
+    double until;                      /* on team_clock: none starts after, those that run are stopped; 0: never */
+    const volatile sig_atomic_t *stop; /* set by a signal: those that run end with checkpoints, none starts */
+};
+
+/* Takes the folder of the study for this process. REFUSED if there is none, if it is a run's, while another study is in
+ * it. */
+status study_take(struct study *s);
+/* Makes and takes the folder, and runs what waits. Runs that fail are booked in their states, with a line on standard
+ * error. REFUSED as study_take, INTERRUPTED where it was stopped. */
+status study_run(struct study *s, struct study_way how);
+/* Prints the line of the command that runs a case by itself, with the words that a shell must not touch in quotes. */
+void study_print_command(const struct study *s, const struct study_case *c, int threads, FILE *out);
+
+/* ---- what comes out (study_table.c, study_draw.c) ---------------------------------------------------------------- */
+
+/* All numbers of the runs' summaries: value[figure][case]; NAN: it has none. */
+struct study_table {
+    char **figure;
+    double **value;
+    int figures, room, cases;
+};
+
+/* Reads the summaries of all runs that have one. FAILED if one cannot be read. */
+status study_table_read(struct study_table *t, const struct study *s);
+void study_table_free(struct study_table *t);
+/* Index of a figure; -1: there is none. */
+int study_figure(const struct study_table *t, const char *name);
+/* Is a figure about the computer or about how the body was divided, not about the body? */
+bool study_figure_is_technical(const char *name);
+
+/* Writes FOLDER/sweep.csv: a line for each run: its name, its state, the values of the keys that vary, its figures. */
+status study_write_table(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys);
+/* Draws FOLDER/pictures/KEY.png for each key that varies, and map.png where two do. */
+status study_draw(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys);
+
+#endif

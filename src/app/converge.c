@@ -1,0 +1,136 @@
+/* `cleave converge`: every figure of a scene with its error bar. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "commands.h"
+#include "src/scene/scene_internal.h"
+#include "study/convergence_study.h"
+
+static const char usage[] = "converge SCENE [--of FIGURE]... [--budget TIME] [--runs N] [--levels N] [--horizon] "
+                            "[-s KEY=VALUE]... [-o DIR] [-j RUNS] [-t THREADS] [-q]";
+
+enum { RUNS_USUAL = 5, LEVELS_USUAL = 3 };
+#define BUDGET_USUAL 600.0 /* [s] */
+
+struct converge_arguments {
+    struct convergence_wish wish;
+    struct varied_key *key; /* overrides, each with one value */
+    const char **wanted;
+    int keys, wanteds;
+};
+
+/* ---- the command line -------------------------------------------------------------------------------------------- */
+
+static status converge_count(int *count, const char *option, const char *text, int least, int most)
+{
+    char *end;
+    const long n = strtol(text, &end, 10);
+    if (*end || end == text || n < least || n > most)
+        return status_set(REFUSED, "%s %s: a number from %d to %d is expected", option, text, least, most);
+    *count = (int)n;
+    return OK;
+}
+
+static status budget_read(double *budget, const char *text)
+{
+    char what[256];
+    real value;
+    if (number_read(&value, text, UNIT_TIME, false, what, sizeof what) && value > 0) {
+        *budget = value;
+        return OK;
+    }
+    return status_set(REFUSED, "--budget %s: a time is expected, as in 10 min", text);
+}
+
+static status converge_override(struct converge_arguments *a, const char *text)
+{
+    struct varied_key *k = &a->key[a->keys];
+    TRY(varied_key_read(k, text));
+    a->keys++;
+    if (k->values > 1) return status_set(REFUSED, "-s %s: one value is expected; cleave sweep varies keys", k->key);
+    return OK;
+}
+
+static status converge_option(struct converge_arguments *a, const char *word, const char *value)
+{
+    struct convergence_wish *w = &a->wish;
+    if (!strcmp(word, "-o"))
+        w->folder = value;
+    else if (!strcmp(word, "-s"))
+        return converge_override(a, value);
+    else if (!strcmp(word, "-j"))
+        return converge_count(&w->way.jobs, word, value, 1, 4096);
+    else if (!strcmp(word, "-t"))
+        return converge_count(&w->way.threads, word, value, 1, 4096);
+    else if (!strcmp(word, "--runs"))
+        return converge_count(&w->runs, word, value, 1, RUNS_MOST);
+    else if (!strcmp(word, "--levels"))
+        return converge_count(&w->levels, word, value, LEVELS_LEAST, LEVELS_MOST);
+    else if (!strcmp(word, "--budget"))
+        return budget_read(&w->budget, value);
+    else
+        a->wanted[a->wanteds++] = value;
+    return OK;
+}
+
+static status converge_words(struct converge_arguments *a, int argc, char **argv)
+{
+    static const char *const taking[] = {"-o", "-s", "-j", "-t", "--runs", "--levels", "--budget", "--of"};
+    for (int k = 1; k < argc; k++) {
+        const char *word = argv[k];
+        bool takes = false;
+        for (size_t t = 0; t < COUNT_OF(taking); t++) takes |= !strcmp(word, taking[t]);
+        if (takes && k + 1 >= argc) return status_set(REFUSED, "%s expects a value; usage: cleave %s", word, usage);
+        if (takes)
+            TRY(converge_option(a, word, argv[++k]));
+        else if (!strcmp(word, "--horizon"))
+            a->wish.fixed_horizon = true;
+        else if (!strcmp(word, "-q"))
+            a->wish.way.quiet = true;
+        else if (word[0] == '-' && word[1])
+            return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
+        else if (a->wish.scene)
+            return status_set(REFUSED, "one scene at a time: %s and %s", a->wish.scene, word);
+        else
+            a->wish.scene = word;
+    }
+    return a->wish.scene ? OK : status_set(REFUSED, "no scene given; usage: cleave %s", usage);
+}
+
+/* ---- the command ------------------------------------------------------------------------------------------------- */
+
+static status converge_all(const struct converge_arguments *a)
+{
+    struct convergence_study s;
+    struct figure_study *figure = NULL;
+    int figures = 0;
+    TRY(convergence_study_run(&s, &a->wish));
+    status done = figures_find(&s, a->wanted, a->wanteds, &figure, &figures);
+    if (done == OK) done = figures_write(&s, figure, figures);
+    if (done == OK) figures_print(&s, figure, figures);
+    if (done == OK) done = figures_draw(&s, figure, figures);
+    memory_free(figure);
+    convergence_study_free(&s);
+    return done;
+}
+
+status command_converge(int argc, char **argv)
+{
+    struct converge_arguments a = {
+        .key = NEW("converge.keys", argc, struct varied_key),
+        .wanted = NEW("converge.wanted", argc, const char *),
+        .wish = {.runs = RUNS_USUAL, .levels = LEVELS_USUAL, .budget = BUDGET_USUAL, .way.stop = stop_signals()}};
+    status done = converge_words(&a, argc, argv);
+    struct scene_override *override = NEW("converge.overrides", argc, struct scene_override);
+    for (int k = 0; k < a.keys; k++) override[k] = (struct scene_override){a.key[k].key, a.key[k].value[0]};
+    a.wish.override = override;
+    a.wish.overrides = a.keys;
+    if (done == OK) done = converge_all(&a);
+    for (int k = 0; k < a.keys; k++) varied_key_free(&a.key[k]);
+    memory_free(override);
+    memory_free(a.wanted);
+    memory_free(a.key);
+    return done;
+}

@@ -1,0 +1,149 @@
+/* `cleave sweep`: every combination of the values of some keys; runs them, or lists the commands that do. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/team.h"
+#include "commands.h"
+#include "study/study.h"
+
+static const char usage[] = "sweep SCENE -s KEY=VALUE,...|FROM:TO:STEP [-s ...]... [-o DIR] [-j RUNS] [-t THREADS] "
+                            "[--list] [--collect] [--overwrite] [-q]";
+
+struct sweep_arguments {
+    const char *scene, *folder;
+    struct varied_key *key;
+    int keys;
+    struct study_way way;
+    bool list, collect;
+};
+
+/* ---- the command line -------------------------------------------------------------------------------------------- */
+
+static status key_add(struct sweep_arguments *a, const char *text)
+{
+    TRY(varied_key_read(&a->key[a->keys], text));
+    const char *key = a->key[a->keys++].key;
+    for (int k = 0; k + 1 < a->keys; k++)
+        if (strcmp(a->key[k].key, key) == 0)
+            return status_set(REFUSED, "-s %s: given twice; all its values stand in one list", key);
+    return OK;
+}
+
+static status count_read(int *count, const char *option, const char *text)
+{
+    char *end;
+    const long n = strtol(text, &end, 10);
+    if (*end || end == text || n < 1 || n > 4096)
+        return status_set(REFUSED, "%s %s: a number from 1 to 4096 is expected", option, text);
+    *count = (int)n;
+    return OK;
+}
+
+static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
+{
+    for (int k = 1; k < argc; k++) {
+        const char *word = argv[k];
+        const bool takes = word[0] == '-' && word[1] && strchr("osjt", word[1]) && !word[2];
+        if (takes && k + 1 >= argc) return status_set(REFUSED, "%s expects a value; usage: cleave %s", word, usage);
+        if (!strcmp(word, "-o"))
+            a->folder = argv[++k];
+        else if (!strcmp(word, "-s"))
+            TRY(key_add(a, argv[++k]));
+        else if (!strcmp(word, "-j"))
+            TRY(count_read(&a->way.jobs, word, argv[++k]));
+        else if (!strcmp(word, "-t"))
+            TRY(count_read(&a->way.threads, word, argv[++k]));
+        else if (!strcmp(word, "--list"))
+            a->list = true;
+        else if (!strcmp(word, "--collect"))
+            a->collect = true;
+        else if (!strcmp(word, "--overwrite"))
+            a->way.overwrite = true;
+        else if (!strcmp(word, "-q"))
+            a->way.quiet = true;
+        else if (word[0] == '-' && word[1])
+            return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
+        else if (a->scene)
+            return status_set(REFUSED, "one scene at a time: %s and %s", a->scene, word);
+        else
+            a->scene = word;
+    }
+    if (!a->scene) return status_set(REFUSED, "no scene given; usage: cleave %s", usage);
+    if (a->list && a->collect)
+        return status_set(REFUSED, "--list runs nothing and --collect reads what has run: one of them");
+    if (a->keys == 0) return status_set(REFUSED, "nothing varies; usage: cleave %s", usage);
+    return OK;
+}
+
+/* ---- what is printed --------------------------------------------------------------------------------------------- */
+
+static int cases_in(const struct study *s, enum case_state state)
+{
+    int n = 0;
+    for (int k = 0; k < s->n; k++) n += s->at[k].state == state;
+    return n;
+}
+
+static void sweep_print(const struct study *s)
+{
+    const int done = cases_in(s, CASE_DONE), before = cases_in(s, CASE_DONE_BEFORE), failed = cases_in(s, CASE_FAILED);
+    printf("%d runs: %d done", s->n, done + before);
+    if (before > 0) printf(" (%d before)", before);
+    if (failed > 0) printf(", %d failed: see %s/logs", failed, shown_name(s->folder).text);
+    if (done + before + failed < s->n) printf(", %d left", s->n - done - before - failed);
+    printf("; %s/sweep.csv", shown_name(s->folder).text);
+    printf("\n");
+}
+
+/* ---- the command ------------------------------------------------------------------------------------------------- */
+
+static status sweep_collect(const struct study *s, const struct sweep_arguments *a)
+{
+    struct study_table table;
+    TRY(study_table_read(&table, s));
+    status done = study_write_table(&table, s, a->key, a->keys);
+    if (done == OK && table.figures > 0) done = study_draw(&table, s, a->key, a->keys);
+    study_table_free(&table);
+    return done;
+}
+
+static status sweep_all(struct study *s, struct sweep_arguments *a)
+{
+    TRY(study_make(s, a->scene, a->folder, "sweep"));
+    TRY(study_cross(s, a->key, a->keys));
+    TRY(study_check(s));
+    if (a->list) {
+        for (int k = 0; k < s->n; k++) study_print_command(s, &s->at[k], a->way.threads, stdout);
+        return OK;
+    }
+    status ran = OK;
+    if (a->collect)
+        TRY(study_take(s));
+    else
+        ran = study_run(s, a->way);
+    if (ran != OK && ran != INTERRUPTED) return ran;
+    char message[256];
+    snprintf(message, sizeof message, "%s", status_message());
+    const status collected = sweep_collect(s, a);
+    if (ran == INTERRUPTED) return status_set(INTERRUPTED, "%s", message);
+    TRY(collected);
+    sweep_print(s);
+    const int failed = cases_in(s, CASE_FAILED), stopped = cases_in(s, CASE_STOPPED);
+    if (failed == 0 && stopped > 0)
+        return status_set(INTERRUPTED, "%d of %d runs have stopped early; the same command goes on", stopped, s->n);
+    return failed > 0 ? status_set(FAILED, "%d of %d runs have failed", failed, s->n) : OK;
+}
+
+status command_sweep(int argc, char **argv)
+{
+    struct sweep_arguments a = {.key = NEW("sweep.keys", argc, struct varied_key), .way.stop = stop_signals()};
+    struct study s = {.lock.fd = -1};
+    status done = sweep_words(&a, argc, argv);
+    if (done == OK) done = sweep_all(&s, &a);
+    study_free(&s);
+    for (int k = 0; k < a.keys; k++) varied_key_free(&a.key[k]);
+    memory_free(a.key);
+    return done;
+}

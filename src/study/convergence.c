@@ -1,0 +1,170 @@
+/* Observed order, extrapolation, and the grid convergence index of a figure. */
+#include "study/convergence.h"
+
+#include <math.h>
+
+/* Factor of safety of three spacings whose order is seen (Roache 1998); of means that oscillate or diverge, on their
+ * range (Eca & Hoekstra 2014). */
+#define SAFETY_SEEN 1.25
+#define SAFETY_UNSEEN 3.0
+#define ORDER_LEAST 0.5
+#define ORDER_MOST 2.0     /* of the methods, which an observed order may pass by chance ... */
+#define ORDER_CREDIBLE 2.2 /* ... by so much */
+
+const char *const verdict_name[VERDICTS] = {
+    [VERDICT_CONVERGES] = "converges", [VERDICT_SCATTERS] = "scatters",          [VERDICT_OSCILLATES] = "oscillates",
+    [VERDICT_SLOW] = "slow",           [VERDICT_DIVERGES] = "does not converge",
+};
+
+double student_95(int n)
+{
+    static const double table[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
+                                   2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086};
+    const double normal = 1.95996;
+    assert(n >= 1);
+    return n <= (int)COUNT_OF(table) ? table[n - 1] : normal + 2.5 / n; /* to 0.2 % */
+}
+
+/* ---- levels ------------------------------------------------------------------------------------------------------ */
+
+static void level_find(struct level_figures *l, const double *spacing, const double *value, const int *level, int n,
+                       int k)
+{
+    *l = (struct level_figures){0};
+    for (int r = 0; r < n; r++)
+        if (level[r] == k && isfinite(value[r])) {
+            l->spacing += spacing[r], l->mean += value[r];
+            l->runs++;
+        }
+    if (l->runs == 0) return;
+    l->spacing /= l->runs, l->mean /= l->runs;
+    double sum = 0;
+    for (int r = 0; r < n; r++)
+        if (level[r] == k && isfinite(value[r])) sum += square(value[r] - l->mean);
+    l->deviation = l->runs > 1 ? sqrt(sum / (l->runs - 1)) : NAN;
+}
+
+/* The error of each mean. A level of one run is taken to scatter as the others do. */
+static void errors_find(struct convergence *c)
+{
+    double sum = 0;
+    int freedom = 0;
+    for (int k = 0; k < c->levels; k++)
+        if (c->level[k].runs > 1) {
+            sum += (c->level[k].runs - 1) * square(c->level[k].deviation);
+            freedom += c->level[k].runs - 1;
+        }
+    for (int k = 0; k < c->levels; k++) {
+        struct level_figures *l = &c->level[k];
+        const bool alone = l->runs == 1;
+        if (alone) l->deviation = freedom > 0 ? sqrt(sum / freedom) : 0;
+        const int own = alone ? freedom : l->runs - 1;
+        l->error = own > 0 ? student_95(own) * l->deviation / sqrt(l->runs) : 0;
+    }
+}
+
+/* ---- order ------------------------------------------------------------------------------------------------------- */
+
+/* What the ratio (m2 - m1)/(m1 - m0) would be at order p. */
+static double ratio_at(const struct level_figures *l, double p)
+{
+    const double h0 = l[0].spacing, h1 = l[1].spacing / h0, h2 = l[2].spacing / h0;
+    if (fabs(p) < 1e-9) return log(h2 / h1) / log(h1);
+    return (pow(h2, p) - pow(h1, p)) / (pow(h1, p) - 1);
+}
+
+/* The order at which the means of the three finest levels lie on a line in h^p. The ratio grows with p. */
+static double order_find(const struct level_figures *l, double ratio)
+{
+    double low = -10, high = 20;
+    for (int k = 0; k < 80; k++) {
+        const double middle = 0.5 * (low + high);
+        if (ratio_at(l, middle) < ratio)
+            low = middle;
+        else
+            high = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+static double range_of_means(const struct convergence *c)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (int k = 0; k < c->levels; k++) least = fmin(least, c->level[k].mean), most = fmax(most, c->level[k].mean);
+    return most - least;
+}
+
+/* What the mean of the finest level would still change by, at order p, from its difference to another level. */
+static double remainder_at(const struct level_figures *fine, const struct level_figures *coarse, double p)
+{
+    return (coarse->mean - fine->mean) / (pow(coarse->spacing / fine->spacing, p) - 1);
+}
+
+/* Orders that the means allow within their errors: `low` and `high`, and the one that they have, NAN where they go up
+ * and down. False: no order does. */
+struct orders {
+    double low, seen, high;
+};
+
+static bool orders_find(struct orders *o, const struct level_figures *l)
+{
+    const double sign =
+        fabs(l[2].mean - l[1].mean) > fabs(l[1].mean - l[0].mean) ? l[2].mean - l[1].mean : l[1].mean - l[0].mean;
+    const double near = copysign(1, sign) * (l[1].mean - l[0].mean), near_error = hypot(l[0].error, l[1].error);
+    const double far = copysign(1, sign) * (l[2].mean - l[1].mean), far_error = hypot(l[1].error, l[2].error);
+    *o = (struct orders){-INFINITY, NAN, INFINITY};
+    if (near + near_error <= 0 || far + far_error <= 0) return false;
+    if (far - far_error > 0) o->low = order_find(l, (far - far_error) / (near + near_error));
+    if (near - near_error > 0) o->high = order_find(l, (far + far_error) / (near - near_error));
+    if (near > 0 && far > 0) o->seen = order_find(l, far / near);
+    return true;
+}
+
+/* The order to extrapolate with: 1 where the means allow it, as they mostly do, else the nearest that they allow; 1
+ * also where the finest difference is so small that only chance explains it. */
+static double order_taken(const struct orders *o)
+{
+    const double order = fmax(o->low, fmin(o->high, 1));
+    return order > ORDER_CREDIBLE ? 1 : fmax(ORDER_LEAST, fmin(ORDER_MOST, order));
+}
+
+static void convergence_judge(struct convergence *c)
+{
+    const struct level_figures *l = c->level, *coarse = &l[c->levels - 1];
+    const double near = fabs(l[1].mean - l[0].mean), far = fabs(l[2].mean - l[1].mean);
+    const bool hidden = near <= hypot(l[0].error, l[1].error) && far <= hypot(l[1].error, l[2].error);
+    struct orders o;
+    c->order = NAN;
+    c->extrapolated = l[0].mean;
+    if (hidden) { /* as first order would have it over the widest range */
+        c->verdict = VERDICT_SCATTERS;
+        c->discretisation = SAFETY_SEEN * fabs(remainder_at(&l[0], coarse, 1));
+        return;
+    }
+    const bool allowed = orders_find(&o, l);
+    c->order = o.seen;
+    if (!allowed || o.high <= 0) {
+        c->verdict = allowed ? VERDICT_DIVERGES : VERDICT_OSCILLATES;
+        c->discretisation = SAFETY_UNSEEN * range_of_means(c);
+        return;
+    }
+    c->verdict = o.high < ORDER_LEAST - 1e-6 ? VERDICT_SLOW : VERDICT_CONVERGES;
+    c->extrapolated = l[0].mean - remainder_at(&l[0], coarse, order_taken(&o));
+    c->discretisation = SAFETY_SEEN * fabs(l[0].mean - c->extrapolated);
+}
+
+bool convergence_find(struct convergence *c, const double *spacing, const double *value, const int *level, int n,
+                      int levels)
+{
+    assert(levels >= LEVELS_LEAST && levels <= LEVELS_MOST);
+    *c = (struct convergence){.levels = levels};
+    for (int k = 0; k < levels; k++) {
+        level_find(&c->level[k], spacing, value, level, n, k);
+        if (c->level[k].runs == 0) return false;
+    }
+    errors_find(c);
+    convergence_judge(c);
+    c->scatter = c->level[0].error;
+    c->uncertainty = hypot(c->discretisation, c->scatter);
+    return true;
+}

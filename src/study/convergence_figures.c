@@ -1,0 +1,213 @@
+/* Figures of a study of convergence: found, written, printed. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "output/output_files.h"
+#include "study/convergence_study.h"
+
+enum { PRINTED_MOST = 24 };
+
+/* ---- what moves a figure ----------------------------------------------------------------------------------------- */
+
+/* By least squares through the runs of all levels, each from the mean of its level. */
+static double step_moves(const struct convergence_study *s, const struct convergence *c, const double *value)
+{
+    double xx = 0, xy = 0;
+    for (int k = 0; k < s->study.n; k++) {
+        const struct study_point *p = &s->point[k];
+        if (p->level < 0 || !isfinite(value[k]) || c->level[p->level].runs < 2) continue;
+        xx += square(log(p->step));
+        xy += log(p->step) * (value[k] - c->level[p->level].mean);
+    }
+    return xx > 0 ? xy / xx * log(1.1) : NAN;
+}
+
+static double horizon_moves(const struct convergence_study *s, const double *value)
+{
+    double longer = NAN, own = NAN;
+    for (int k = 0; k < s->study.n; k++) {
+        const struct study_point *p = &s->point[k];
+        if (p->level == -1)
+            longer = value[k];
+        else if (p->level == s->spacings.levels - 1 && p->run == 0)
+            own = value[k];
+    }
+    return longer - own;
+}
+
+static bool figure_make(struct figure_study *f, const struct convergence_study *s, int at)
+{
+    double *spacing = NEW("study.spacing", s->study.n, double);
+    int *level = NEW("study.level", s->study.n, int);
+    for (int k = 0; k < s->study.n; k++) spacing[k] = s->point[k].spacing, level[k] = s->point[k].level;
+    *f = (struct figure_study){.name = s->table.figure[at]};
+    const bool known = convergence_find(&f->c, spacing, s->table.value[at], level, s->study.n, s->spacings.levels);
+    memory_free(level);
+    memory_free(spacing);
+    if (!known) return false;
+    f->step_moves = step_moves(s, &f->c, s->table.value[at]);
+    f->horizon_moves = horizon_moves(s, s->table.value[at]);
+    f->spacing_moves = f->c.level[0].mean - f->c.level[1].mean;
+    return true;
+}
+
+/* False: the same in all runs, as an energy that the scene does not have. */
+static bool figure_moves(const struct figure_study *f)
+{
+    bool moves = false;
+    for (int k = 0; k < f->c.levels; k++)
+        moves |= f->c.level[k].deviation > 0 || f->c.level[k].mean != f->c.level[0].mean;
+    return moves;
+}
+
+/* ---- choice ------------------------------------------------------------------------------------------------------ */
+
+/* Is a figure one that a study without wishes is about? Tips are numbered anew in each run. */
+static bool is_of_interest(const char *name)
+{
+    return !study_figure_is_technical(name) && strncmp(name, "crack.tips.", 11) != 0;
+}
+
+static bool is_wanted(const char *name, const char *const *wanted, int wanteds)
+{
+    if (wanteds == 0) return is_of_interest(name);
+    for (int k = 0; k < wanteds; k++)
+        if (strcmp(name, wanted[k]) == 0) return true;
+    return false;
+}
+
+status figures_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
+                    struct figure_study **figure, int *figures)
+{
+    for (int k = 0; k < wanteds; k++)
+        if (study_figure(&s->table, wanted[k]) < 0)
+            return status_set(REFUSED,
+                              "--of %s: summary.json has no such figure; names in it are joined by points, as "
+                              "in crack.angle_deg",
+                              wanted[k]);
+    *figure = NEW("study.figures", s->table.figures, struct figure_study);
+    *figures = 0;
+    for (int f = 0; f < s->table.figures; f++)
+        if (is_wanted(s->table.figure[f], wanted, wanteds) && figure_make(&(*figure)[*figures], s, f) &&
+            (wanteds > 0 || figure_moves(&(*figure)[*figures])))
+            ++*figures;
+    if (*figures > 0) return OK;
+    memory_free(*figure);
+    *figure = NULL;
+    return status_set(FAILED, "no figure has a value at every spacing: see %s/logs", s->study.folder);
+}
+
+/* ---- converge.csv ------------------------------------------------------------------------------------------------ */
+
+static void print_cell(FILE *to, double value)
+{
+    if (isfinite(value))
+        fprintf(to, ",%.10g", value);
+    else
+        putc(',', to);
+}
+
+static void figures_table(FILE *to, const struct convergence_study *s, const struct figure_study *figure, int figures)
+{
+    fputs("figure,value,uncertainty,scatter,discretisation,deviation_of_a_run,verdict,order,extrapolated,step_moves,"
+          "spacing_moves,horizon_moves",
+          to);
+    for (int l = 0; l < s->spacings.levels; l++)
+        fprintf(to, ",spacing_%d [m],mean_%d,deviation_%d,runs_%d", l, l, l, l);
+    putc('\n', to);
+    for (int f = 0; f < figures; f++) {
+        const struct convergence *c = &figure[f].c;
+        fputs(figure[f].name, to);
+        const double before[] = {c->level[0].mean, c->uncertainty, c->scatter, c->discretisation,
+                                 c->level[0].deviation};
+        for (size_t k = 0; k < COUNT_OF(before); k++) print_cell(to, before[k]);
+        fprintf(to, ",%s", verdict_name[c->verdict]);
+        const double behind[] = {c->order, c->extrapolated, figure[f].step_moves, figure[f].spacing_moves,
+                                 figure[f].horizon_moves};
+        for (size_t k = 0; k < COUNT_OF(behind); k++) print_cell(to, behind[k]);
+        for (int l = 0; l < c->levels; l++) {
+            print_cell(to, c->level[l].spacing), print_cell(to, c->level[l].mean);
+            print_cell(to, c->level[l].deviation);
+            fprintf(to, ",%d", c->level[l].runs);
+        }
+        putc('\n', to);
+    }
+}
+
+status figures_write(const struct convergence_study *s, const struct figure_study *figure, int figures)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *to = open_memstream(&text, &length);
+    if (!to) return status_set(FAILED, "cannot write converge.csv: out of memory");
+    figures_table(to, s, figure, figures);
+    const bool whole = !ferror(to) && fclose(to) == 0;
+    const status written = whole ? file_put(path_join(s->study.folder, "converge.csv").text, text, length)
+                                 : status_set(FAILED, "cannot write converge.csv: out of memory");
+    free(text);
+    return written;
+}
+
+/* ---- what is printed --------------------------------------------------------------------------------------------- */
+
+/* A value with the digits that its uncertainty leaves, two of which are uncertain. */
+static void certain_digits(char *text, size_t room, double value, double uncertainty)
+{
+    const double size = fabs(value);
+    const double least = uncertainty > 0 ? uncertainty : 1e-4 * fmax(size, 1e-300);
+    const int uncertain = (int)floor(log10(least)) - 1;
+    const int leading = size > 0 ? (int)floor(log10(size)) : 0;
+    if (leading >= 6 || leading < -3) {
+        const int digits = leading - uncertain;
+        snprintf(text, room, "%.*e", digits < 0 ? 0 : digits > 9 ? 9 : digits, value);
+    } else
+        snprintf(text, room, "%.*f", uncertain > 0 ? 0 : uncertain < -9 ? 9 : -uncertain, value);
+}
+
+/* What moves a figure most: a step a tenth longer, the spacing (by a factor sqrt(2)), a horizon one spacing longer. */
+static const char *mover(const struct figure_study *f)
+{
+    const double step = fabs(f->step_moves), spacing = fabs(f->spacing_moves), horizon = fabs(f->horizon_moves);
+    const double most = fmax(spacing, fmax(isfinite(step) ? step : 0, isfinite(horizon) ? horizon : 0));
+    return most == 0 ? "nothing" : most == spacing ? "spacing" : most == step ? "time step" : "horizon";
+}
+
+static void figure_print(const struct figure_study *f)
+{
+    const struct convergence *c = &f->c;
+    char text[40];
+    printf("%s\n ", f->name);
+    for (int k = c->levels - 1; k >= 0; k--) {
+        certain_digits(text, sizeof text, c->level[k].mean, c->uncertainty / 4);
+        printf(" %s (%.4g mm)%s", text, 1e3 * c->level[k].spacing, k > 0 ? "," : "");
+    }
+    printf("; %s", verdict_name[c->verdict]);
+    if (isfinite(c->order)) printf(", order %.2f", c->order);
+    if (c->verdict == VERDICT_CONVERGES || c->verdict == VERDICT_SLOW) {
+        certain_digits(text, sizeof text, c->extrapolated, c->uncertainty / 4);
+        printf(", towards %s", text);
+    }
+    certain_digits(text, sizeof text, c->level[0].mean, c->uncertainty);
+    printf("\n  %s +- %.2g (scatter %.2g, discretisation %.2g)", text, c->uncertainty, c->scatter, c->discretisation);
+    printf("; a run by itself scatters by %.2g; moved most by: %s\n", 2 * c->level[0].deviation, mover(f));
+}
+
+void figures_print(const struct convergence_study *s, const struct figure_study *figure, int figures)
+{
+    const int shown = figures < PRINTED_MOST ? figures : PRINTED_MOST;
+    int lost = 0;
+    printf("means at each spacing; what they converge to; the 95 %% interval of the true value round that at %.4g mm\n",
+           1e3 * s->spacings.at[0][0]);
+    for (int f = 0; f < shown; f++) figure_print(&figure[f]);
+    for (int f = 0; f < figures; f++) lost += figure[f].c.verdict == VERDICT_DIVERGES;
+    if (lost > 0)
+        printf("%d of %d figures do not converge at these spacings: theirs are bounds, no errors\n", lost, figures);
+    if (shown < figures)
+        printf("%d more", figures - shown);
+    else
+        printf("all");
+    printf(" in %s/converge.csv\n", shown_name(s->study.folder).text);
+}

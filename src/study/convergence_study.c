@@ -1,0 +1,247 @@
+/* Which runs a study of convergence takes within its budget, and how it makes them. */
+#include "study/convergence_study.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "auto/scene_read.h"
+#include "base/memory.h"
+#include "base/team.h"
+#include "output/output_files.h"
+#include "output/summary_read.h"
+
+enum { RUNS_LEAST = 3, SHIFTS_MOST = 6, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
+#define STEP_RANGE 0.1    /* steps from 0.9 to 1.1 of the scene's own */
+#define SAFETY_MOST 1.0   /* share of the critical step that no run exceeds */
+#define HORIZON_LEAST 2.0 /* [spacings], with a horizon of fixed length */
+
+/* ---- runs -------------------------------------------------------------------------------------------------------- */
+
+/* Steps of runs 0, 1, ..: the scene's own, then to either side, the far ones first. */
+static double step_of(const struct convergence_study *s, int run, int runs)
+{
+    const double most = s->scene.time_step > 0 ? INFINITY : SAFETY_MOST / s->scene.safety;
+    const double range = fmin(STEP_RANGE, most - 1 > 0 ? most - 1 : 0), centre = most > 1 ? 1 : most;
+    if (run == 0 || runs < 2) return centre;
+    const int pairs = (runs - 1 + 1) / 2, pair = (run - 1) / 2;
+    return centre * (1 + (run % 2 ? -1 : 1) * range * (pairs - pair) / pairs);
+}
+
+/* The level's own spacing for run 0; the others in turn. */
+static double spacing_in_turn(const struct convergence_study *s, int level, int run)
+{
+    return s->spacings.at[level][run % s->spacings.n[level]];
+}
+
+static bool has_bonds(const struct scene *s) { return s->method != METHOD_MPM; }
+
+/* Horizon of a level [spacings]. */
+static double horizon_at_level(const struct convergence_study *s, int level, double spacing)
+{
+    const double coarsest = s->spacings.at[s->spacings.levels - 1][0];
+    if (!s->fixed_horizon || level < 0) return s->scene.horizon;
+    return s->scene.horizon * coarsest / spacing;
+}
+
+static void value_put(struct scene_override *o, int *n, char value[][VALUE_ROOM], const char *key, double number)
+{
+    snprintf(value[*n], VALUE_ROOM, "%.15g", number);
+    o[*n] = (struct scene_override){key, value[*n]};
+    ++*n;
+}
+
+/* Adds a run to the study: the user's overrides, then its own. */
+static void point_add(struct convergence_study *s, struct study_point p)
+{
+    char value[OVERRIDES_OWN][VALUE_ROOM], name[CASE_NAME_ROOM];
+    struct scene_override own[OVERRIDES_OWN];
+    int n = 0;
+    const struct scene *scene = &s->scene;
+    value_put(own, &n, value, "particles.spacing", p.spacing);
+    if (has_bonds(scene) && p.horizon != scene->horizon) value_put(own, &n, value, "particles.horizon", p.horizon);
+    if (scene->time_step > 0)
+        value_put(own, &n, value, "time.step", scene->time_step * p.step * p.spacing / scene->spacing);
+    else if (scene->solver == SOLVER_EXPLICIT)
+        value_put(own, &n, value, "time.safety", scene->safety * p.step);
+    if (scene->irregularity > 0) value_put(own, &n, value, "particles.seed", (double)scene->seed + p.run);
+    value_put(own, &n, value, "output.frames", 0);
+    struct scene_override *all = NEW("study.override", s->overrides + n, struct scene_override);
+    for (int k = 0; k < s->overrides; k++) all[k] = s->override[k];
+    for (int k = 0; k < n; k++) all[s->overrides + k] = own[k];
+    snprintf(name, sizeof name, "spacing=%.5gmm,horizon=%.4g,step=%.3f,run=%d", 1e3 * p.spacing, p.horizon, p.step,
+             p.run);
+    s->point = memory_resize("study.points", s->point, s->study.n, s->study.n + 1, sizeof *s->point);
+    s->point[s->study.n] = p;
+    study_add(&s->study, name, all, s->overrides + n);
+    memory_free(all);
+}
+
+static void level_run_add(struct convergence_study *s, int level, int run, int runs)
+{
+    const double spacing = spacing_in_turn(s, level, run);
+    point_add(s, (struct study_point){.level = level,
+                                      .spacing = spacing,
+                                      .step = step_of(s, run, runs),
+                                      .horizon = horizon_at_level(s, level, spacing),
+                                      .run = run});
+}
+
+/* ---- budget ------------------------------------------------------------------------------------------------------ */
+
+/* Time of a run at a spacing beside that of the first run: particles, steps, and bonds of a longer horizon. */
+static double cost_beside(const struct convergence_study *s, double spacing)
+{
+    const double first = s->point[0].spacing, finer = first / spacing;
+    const double longer = s->fixed_horizon && has_bonds(&s->scene) ? pow(finer, s->scene.dim) : 1;
+    return s->spent * pow(finer, s->scene.dim + 1) * longer;
+}
+
+/* Time of all runs, `jobs` at once [s]. */
+static double cost_of_all(const struct convergence_study *s, int jobs)
+{
+    double sum = 0, longest = 0;
+    for (int level = 0; level < s->spacings.levels; level++) {
+        const double one = cost_beside(s, s->spacings.at[level][0]);
+        sum += s->runs[level] * one;
+        longest = fmax(longest, one);
+    }
+    return fmax(sum / jobs, longest);
+}
+
+static void runs_set(struct convergence_study *s, int runs, int finest)
+{
+    for (int level = 0; level < s->spacings.levels; level++) s->runs[level] = level == 0 ? finest : runs;
+}
+
+/* The most runs that the time left has room for; false: there is room for none. */
+static bool runs_fit(struct convergence_study *s, int runs, int jobs, double left)
+{
+    for (int k = runs; k >= RUNS_LEAST; k--) {
+        runs_set(s, k, k);
+        if ((s->expected = cost_of_all(s, jobs)) <= left) return true;
+    }
+    runs_set(s, runs < RUNS_LEAST ? runs : RUNS_LEAST, 1);
+    return (s->expected = cost_of_all(s, jobs)) <= left;
+}
+
+/* ---- the study --------------------------------------------------------------------------------------------------- */
+
+/* Why a scene cannot be studied; NULL: it can. */
+static const char *study_refusal(const struct scene *s, const struct convergence_wish *w)
+{
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].file)
+            return "a body's particles come from a list, which has one spacing: nothing can be refined";
+    if (s->choice.made) return "method auto chooses the spacing: give the scene as it ran, results/NAME/scene.yaml";
+    if (w->fixed_horizon && !has_bonds(s)) return "--horizon: method mpm has no horizon";
+    return NULL;
+}
+
+/* The first run, of the coarsest level: what the others will take is known from it. */
+static status first_run(struct convergence_study *s, const struct convergence_wish *w)
+{
+    struct study_way way = w->way;
+    way.jobs = 1;
+    if (way.threads <= 0) way.threads = 1;
+    way.quiet = true;
+    way.until = s->begun + s->budget;
+    level_run_add(s, s->spacings.levels - 1, 0, w->runs);
+    TRY(study_check(&s->study));
+    TRY(study_run(&s->study, way));
+    if (s->study.at[0].state == CASE_STOPPED)
+        return status_set(REFUSED, "%.3g s are too little: one run at %.4g mm, the coarsest, takes longer (--budget)",
+                          s->budget, 1e3 * s->point[0].spacing);
+    if (s->study.at[0].state == CASE_FAILED)
+        return status_set(FAILED, "the coarsest run has failed: the reason is in %s/logs", s->study.folder);
+    return summary_number(study_folder(&s->study, &s->study.at[0]).text, "wall_seconds", &s->spent);
+}
+
+/* The levels and runs that fit: where the finest is too dear, all become coarser. */
+static status plan_fit(struct convergence_study *s, const struct convergence_wish *w, int jobs)
+{
+    const double left = s->budget - (team_clock() - s->begun);
+    double need = 0;
+    for (int shift = 0; shift <= SHIFTS_MOST; shift++) {
+        if (shift > 0) spacings_plan(&s->spacings, &s->scene, w->levels, s->scene.spacing * pow(2, 0.5 * shift));
+        const bool fits = runs_fit(s, w->runs, jobs, left);
+        if (shift == 0) need = s->expected;
+        if (fits) {
+            s->shifted = shift > 0;
+            return OK;
+        }
+    }
+    return status_set(REFUSED, "%.3g s are too little: three runs at each spacing would take about %.3g s (--budget)",
+                      s->budget, need + s->spent);
+}
+
+static void runs_add_all(struct convergence_study *s)
+{
+    const int coarsest = s->spacings.levels - 1;
+    for (int level = coarsest; level >= 0; level--)
+        for (int run = 0; run < s->runs[level]; run++) {
+            const bool first = level == coarsest && run == 0 && !s->shifted;
+            if (!first) level_run_add(s, level, run, s->runs[level]);
+        }
+    if (!has_bonds(&s->scene) || s->fixed_horizon || s->scene.horizon + 1 > 10.5) return;
+    point_add(s, (struct study_point){.level = -1,
+                                      .spacing = s->spacings.at[coarsest][0],
+                                      .step = step_of(s, 0, 1),
+                                      .horizon = s->scene.horizon + 1});
+}
+
+static void plan_print(const struct convergence_study *s)
+{
+    fprintf(stderr, "spacings");
+    for (int k = s->spacings.levels - 1; k >= 0; k--)
+        fprintf(stderr, " %.4g mm (%d runs)%s", 1e3 * s->spacings.at[k][0], s->runs[k], k > 0 ? "," : "");
+    fprintf(stderr, ": about %.3g s of a budget of %.3g s\n", s->expected + s->spent, s->budget);
+    if (s->shifted)
+        fprintf(stderr,
+                "warning: the scene's own spacing, %.4g mm, would take longer than the budget: what follows is "
+                "for %.4g mm\n",
+                1e3 * s->scene.spacing, 1e3 * s->spacings.at[0][0]);
+}
+
+static status study_go(struct convergence_study *s, const struct convergence_wish *w)
+{
+    struct study_way way = w->way;
+    const int cores = team_cores();
+    TRY(study_make(&s->study, w->scene, w->folder, "converge"));
+    spacings_plan(&s->spacings, &s->scene, w->levels, s->scene.spacing);
+    TRY(first_run(s, w));
+    if (way.threads <= 0) way.threads = 1;
+    if (way.jobs <= 0) way.jobs = cores > way.threads ? cores / way.threads : 1;
+    TRY(plan_fit(s, w, way.jobs));
+    if (s->shifted) s->point[0].level = -2; /* no level has its spacing any more */
+    if (!way.quiet) plan_print(s);
+    runs_add_all(s);
+    TRY(study_check(&s->study));
+    way.until = s->begun + s->budget;
+    TRY(study_run(&s->study, way));
+    return study_table_read(&s->table, &s->study);
+}
+
+status convergence_study_run(struct convergence_study *s, const struct convergence_wish *w)
+{
+    *s = (struct convergence_study){.override = w->override,
+                                    .overrides = w->overrides,
+                                    .budget = w->budget,
+                                    .begun = team_clock(),
+                                    .fixed_horizon = w->fixed_horizon,
+                                    .study.lock.fd = -1};
+    TRY(scene_read(&s->scene, w->scene, w->override, w->overrides));
+    const char *refusal = study_refusal(&s->scene, w);
+    const status done = refusal ? status_set(REFUSED, "%s: %s", w->scene, refusal) : study_go(s, w);
+    if (done != OK) convergence_study_free(s);
+    return done;
+}
+
+void convergence_study_free(struct convergence_study *s)
+{
+    study_table_free(&s->table);
+    study_free(&s->study);
+    memory_free(s->point);
+    scene_free(&s->scene);
+    s->point = NULL;
+}

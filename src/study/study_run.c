@@ -1,0 +1,268 @@
+/* Runs of a study as processes side by side, each on its share of the cores. */
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+#include "base/memory.h"
+#include "base/team.h"
+#include "output/output_files.h"
+#include "study/study.h"
+
+enum { WORDS_FIXED = 12 };
+
+struct runner {
+    struct study *study;
+    struct study_way how;
+    struct core_shares *shares;
+    int running, ended;
+    bool stopped; /* those that run were told to stop */
+};
+
+/* ---- the command ------------------------------------------------------------------------------------------------- */
+
+/* Words of `cleave run`, the last one NULL; overrides as `key=value` in `pairs`, which the caller frees. */
+static char **command_words(const struct study *s, const struct study_case *c, char *threads, char *folder, char *mode,
+                            char **pairs)
+{
+    char **word = NEW("study.words", WORDS_FIXED + 2 * c->overrides, char *);
+    size_t length = 1;
+    int n = 0;
+    for (int k = 0; k < c->overrides; k++) length += strlen(c->override[k].key) + strlen(c->override[k].value) + 2;
+    char *pair = *pairs = NEW("study.pairs", (int64_t)length, char);
+    word[n++] = "cleave", word[n++] = "run", word[n++] = (char *)s->scene;
+    word[n++] = "-q", word[n++] = "-o", word[n++] = folder;
+    if (mode) word[n++] = mode;
+    if (threads) word[n++] = "-t", word[n++] = threads;
+    for (int k = 0; k < c->overrides; k++) {
+        word[n++] = "-s", word[n++] = pair;
+        pair += sprintf(pair, "%s=%s", c->override[k].key, c->override[k].value) + 1;
+    }
+    return word;
+}
+
+/* A word as a shell reads it: in quotes unless it holds nothing that a shell would touch. */
+static void print_word(FILE *out, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
+    if (*word && strspn(word, plain) == strlen(word)) {
+        fputs(word, out);
+        return;
+    }
+    putc('\'', out);
+    for (; *word; word++)
+        if (*word == '\'')
+            fputs("'\\''", out);
+        else
+            putc(*word, out);
+    putc('\'', out);
+}
+
+void study_print_command(const struct study *s, const struct study_case *c, int threads, FILE *out)
+{
+    char team[16], *pairs;
+    struct path folder = study_folder(s, c);
+    snprintf(team, sizeof team, "%d", threads);
+    char **word = command_words(s, c, threads > 0 ? team : NULL, folder.text, "--resume", &pairs);
+    print_word(out, program_invocation_name);
+    for (int k = 1; word[k]; k++) {
+        putc(' ', out);
+        print_word(out, word[k]);
+    }
+    putc('\n', out);
+    memory_free(pairs);
+    memory_free(word);
+}
+
+/* ---- processes --------------------------------------------------------------------------------------------------- */
+
+static struct path log_path(const struct study *s, const struct study_case *c)
+{
+    char name[CASE_NAME_ROOM + 8];
+    snprintf(name, sizeof name, "%s.txt", c->name);
+    return path_join(path_join(s->folder, "logs").text, name);
+}
+
+/* Child process: a group of its own, so that the terminal's interrupt reaches the study alone, which passes it on once;
+ * ended where the study is killed. */
+static _Noreturn void become_run(char **word, int log)
+{
+    setpgid(0, 0);
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+#endif
+    const int nothing = open("/dev/null", O_RDONLY);
+    dup2(nothing, STDIN_FILENO);
+    dup2(log, STDOUT_FILENO);
+    dup2(log, STDERR_FILENO);
+    execv("/proc/self/exe", word);
+    execvp(program_invocation_name, word); /* a system without /proc */
+    dprintf(STDERR_FILENO, "cannot start %s: %s\n", program_invocation_name, strerror(errno));
+    _exit(FAILED);
+}
+
+static status case_start(struct runner *r, struct study_case *c, int slot)
+{
+    char threads[16], *pairs;
+    struct path folder = study_folder(r->study, c), log = log_path(r->study, c);
+    const bool there = path_exists(path_join(folder.text, "scene.yaml").text);
+    snprintf(threads, sizeof threads, "%d", r->how.threads);
+    unlink(log.text); /* links of this name are not followed */
+    const int fd = open(log.text, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (fd < 0) return file_fault(log.text, errno);
+    char **word = command_words(r->study, c, threads, folder.text,
+                                r->how.overwrite ? "--overwrite"
+                                : there          ? "--resume"
+                                                 : NULL,
+                                &pairs);
+    c->seconds = -team_clock();
+    core_share_take(r->shares, slot); /* the child inherits it */
+    fflush(NULL);
+    c->process = (int)fork();
+    if (c->process == 0) become_run(word, fd);
+    const int fault = errno;
+    core_share_take(r->shares, -1);
+    close(fd);
+    memory_free(pairs);
+    memory_free(word);
+    if (c->process < 0) return status_set(FAILED, "cannot start a run as a process of its own: %s", strerror(fault));
+    c->state = CASE_RUNNING;
+    c->slot = slot;
+    r->running++;
+    return OK;
+}
+
+/* Last line of what a run has printed. */
+static void last_line(const char *path, char *line, size_t room)
+{
+    char *text;
+    size_t length;
+    snprintf(line, room, "it gave no reason");
+    if (file_get(path, &text, &length) != OK) return;
+    while (length > 0 && text[length - 1] == '\n') text[--length] = '\0';
+    const char *last = strrchr(text, '\n');
+    if (length > 0) snprintf(line, room, "%s", last ? last + 1 : text);
+    text_harmless(line);
+    memory_free(text);
+}
+
+static void case_end(struct runner *r, struct study_case *c, int ended)
+{
+    const struct path log = log_path(r->study, c);
+    struct stat info;
+    char line[1024];
+    c->ended = WIFEXITED(ended) ? WEXITSTATUS(ended) : 128 + WTERMSIG(ended);
+    c->state = c->ended == OK ? CASE_DONE : c->ended == INTERRUPTED || r->stopped ? CASE_STOPPED : CASE_FAILED;
+    c->seconds += team_clock();
+    c->process = 0;
+    r->running--;
+    r->ended++;
+    if (c->state == CASE_FAILED) {
+        last_line(log.text, line, sizeof line);
+        fprintf(stderr, "[%d/%d] %s: exit status %d: %s\n", r->ended, r->study->n, c->name, c->ended, line);
+    } else if (!r->how.quiet)
+        fprintf(stderr, "[%d/%d] %s: %s in %.3g s\n", r->ended, r->study->n, c->name,
+                c->state == CASE_DONE ? "done" : "stopped", c->seconds);
+    if (stat(log.text, &info) == 0 && info.st_size == 0) unlink(log.text);
+}
+
+/* Takes in the runs that have ended. */
+static void cases_take(struct runner *r)
+{
+    for (int k = 0; k < r->study->n; k++) {
+        struct study_case *c = &r->study->at[k];
+        int ended;
+        if (c->state == CASE_RUNNING && waitpid(c->process, &ended, WNOHANG) == c->process) case_end(r, c, ended);
+    }
+}
+
+/* A slot that no run has. */
+static int slot_free(const struct runner *r)
+{
+    for (int slot = 0;; slot++) {
+        bool taken = false;
+        for (int k = 0; k < r->study->n; k++)
+            taken |= r->study->at[k].state == CASE_RUNNING && r->study->at[k].slot == slot;
+        if (!taken) return slot;
+    }
+}
+
+/* Tells those that run to stop, once: a second signal would end them without checkpoints. */
+static void cases_stop(struct runner *r)
+{
+    for (int k = 0; k < r->study->n && !r->stopped; k++)
+        if (r->study->at[k].state == CASE_RUNNING) kill(r->study->at[k].process, SIGTERM);
+    r->stopped = true;
+}
+
+static status cases_run(struct runner *r)
+{
+    const struct timespec pause = {.tv_nsec = 5 * 1000 * 1000};
+    status s = OK;
+    for (int next = 0; next < r->study->n || r->running > 0;) {
+        const bool late = r->how.until > 0 && team_clock() > r->how.until;
+        if (s != OK || late || (r->how.stop && *r->how.stop)) {
+            next = r->study->n;
+            cases_stop(r);
+        }
+        while (next < r->study->n && r->study->at[next].state != CASE_WAITING) next++;
+        if (next < r->study->n && r->running < r->how.jobs) {
+            s = case_start(r, &r->study->at[next++], slot_free(r));
+            continue;
+        }
+        cases_take(r);
+        if (r->running > 0) nanosleep(&pause, NULL);
+    }
+    if (s == OK && r->how.stop && *r->how.stop) return status_set(INTERRUPTED, "interrupted; the same command goes on");
+    return s;
+}
+
+/* ---- all --------------------------------------------------------------------------------------------------------- */
+
+/* As many runs at once as there are cores, each with its share of them. */
+static struct study_way way_filled(struct study_way how, const struct study *s)
+{
+    const int cores = team_cores();
+    int waiting = 0;
+    for (int k = 0; k < s->n; k++) waiting += s->at[k].state == CASE_WAITING;
+    if (how.jobs <= 0) how.jobs = how.threads > 0 ? cores / how.threads : cores < waiting ? cores : waiting;
+    if (how.jobs < 1) how.jobs = 1;
+    if (how.threads <= 0) how.threads = cores / how.jobs;
+    if (how.threads < 1) how.threads = 1;
+    return how;
+}
+
+status study_take(struct study *s)
+{
+    if (path_exists(path_join(s->folder, "scene.yaml").text))
+        return status_set(REFUSED, "%s holds a run, not a study; choose another -o", s->folder);
+    if (!path_is_folder(s->folder)) return status_set(REFUSED, "%s: no study there", s->folder);
+    return s->lock.fd < 0 ? folder_lock(&s->lock, s->folder) : OK;
+}
+
+status study_run(struct study *s, struct study_way how)
+{
+    struct runner r = {.study = s};
+    TRY(folder_make(s->folder));
+    TRY(study_take(s));
+    TRY(folder_make(path_join(s->folder, "logs").text));
+    for (int k = 0; k < s->n; k++) {
+        struct study_case *c = &s->at[k];
+        if (how.overwrite && c->state == CASE_DONE_BEFORE) c->state = CASE_WAITING;
+        r.ended += c->state != CASE_WAITING;
+    }
+    r.how = way_filled(how, s);
+    r.shares = core_shares_make(r.how.jobs);
+    const status ran = cases_run(&r);
+    core_shares_free(r.shares);
+    rmdir(path_join(s->folder, "logs").text); /* stays unless it is empty */
+    return ran;
+}

@@ -1,0 +1,164 @@
+/* The figures of all runs of a study as one table. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "output/output_files.h"
+#include "output/summary_read.h"
+#include "study/study.h"
+
+/* ---- reading ----------------------------------------------------------------------------------------------------- */
+
+/* `next`: where the next figure is expected, as runs have their figures in the same order. */
+struct filled {
+    struct study_table *table;
+    int row, next;
+};
+
+static int figure_add(struct study_table *t, const char *name)
+{
+    if (t->figures == t->room) {
+        const int room = t->room > 0 ? 2 * t->room : 64;
+        t->figure = memory_resize("study.figure", t->figure, t->room, room, sizeof *t->figure);
+        t->value = memory_resize("study.value", t->value, t->room, room, sizeof *t->value);
+        t->room = room;
+    }
+    char *copy = NEW("study.name", (int64_t)strlen(name) + 1, char);
+    strcpy(copy, name);
+    double *value = NEW("study.values", t->cases, double);
+    for (int k = 0; k < t->cases; k++) value[k] = NAN;
+    t->figure[t->figures] = copy;
+    t->value[t->figures] = value;
+    return t->figures++;
+}
+
+static void number_take(void *context, const char *key, double value)
+{
+    struct filled *f = context;
+    int at =
+        f->next < f->table->figures && !strcmp(f->table->figure[f->next], key) ? f->next : study_figure(f->table, key);
+    if (at < 0) at = figure_add(f->table, key);
+    f->table->value[at][f->row] = value;
+    f->next = at + 1;
+}
+
+status study_table_read(struct study_table *t, const struct study *s)
+{
+    *t = (struct study_table){.cases = s->n};
+    for (int k = 0; k < s->n; k++) {
+        const struct path folder = study_folder(s, &s->at[k]);
+        struct filled f = {.table = t, .row = k};
+        if (!path_is_file(path_join(folder.text, "summary.json").text)) continue;
+        const status read = summary_numbers(folder.text, number_take, &f);
+        if (read == OK) continue;
+        study_table_free(t);
+        return read;
+    }
+    return OK;
+}
+
+void study_table_free(struct study_table *t)
+{
+    for (int f = 0; f < t->figures; f++) {
+        memory_free(t->figure[f]);
+        memory_free(t->value[f]);
+    }
+    memory_free(t->figure);
+    memory_free(t->value);
+    *t = (struct study_table){0};
+}
+
+int study_figure(const struct study_table *t, const char *name)
+{
+    for (int f = 0; f < t->figures; f++)
+        if (strcmp(t->figure[f], name) == 0) return f;
+    return -1;
+}
+
+bool study_figure_is_technical(const char *name)
+{
+    static const char *const begin[] = {"steps",         "time_step",      "time_end",
+                                        "particles",     "bonds_",         "levels.",
+                                        "laps.",         "threads",        "wall_",
+                                        "loop_",         "memory_",        "ns_per_",
+                                        "rest_share",    "momentum_error", "energy.balance_error",
+                                        "solver.",       "auto.",          "conversion.",
+                                        "contact.pairs", "contact.nodes",  "fragments.particles",
+                                        "uncertainty."};
+    for (size_t k = 0; k < COUNT_OF(begin); k++)
+        if (strncmp(name, begin[k], strlen(begin[k])) == 0) return true;
+    return false;
+}
+
+/* ---- sweep.csv --------------------------------------------------------------------------------------------------- */
+
+/* A cell of a table: in quotes where it holds what separates cells. */
+static void cell_print(FILE *to, const char *text)
+{
+    if (!strpbrk(text, ",\"\n")) {
+        fputs(text, to);
+        return;
+    }
+    putc('"', to);
+    for (; *text; text++) {
+        if (*text == '"') putc('"', to);
+        putc(*text, to);
+    }
+    putc('"', to);
+}
+
+/* The value of a key in a run. */
+static const char *value_of(const struct study_case *c, const char *key)
+{
+    for (int k = 0; k < c->overrides; k++)
+        if (strcmp(c->override[k].key, key) == 0) return c->override[k].value;
+    return "";
+}
+
+static const char *state_of(const struct study *s, const struct study_case *c, char *text, size_t room)
+{
+    const struct path folder = study_folder(s, c);
+    if (!path_is_file(path_join(folder.text, "summary.json").text))
+        return c->state == CASE_FAILED ? "failed" : "missing";
+    return summary_string(folder.text, "status", text, room) == OK ? text : "unknown";
+}
+
+static void table_print(FILE *to, const struct study_table *t, const struct study *s, const struct varied_key *key,
+                        int keys)
+{
+    fputs("run,state", to);
+    for (int k = 0; k < keys; k++)
+        if (key[k].values > 1) putc(',', to), cell_print(to, key[k].key);
+    for (int f = 0; f < t->figures; f++) putc(',', to), cell_print(to, t->figure[f]);
+    putc('\n', to);
+    for (int c = 0; c < s->n; c++) {
+        char state[NAME_MAX_LENGTH];
+        cell_print(to, s->at[c].name);
+        putc(',', to);
+        cell_print(to, state_of(s, &s->at[c], state, sizeof state));
+        for (int k = 0; k < keys; k++)
+            if (key[k].values > 1) putc(',', to), cell_print(to, value_of(&s->at[c], key[k].key));
+        for (int f = 0; f < t->figures; f++)
+            if (isnan(t->value[f][c]))
+                putc(',', to);
+            else
+                fprintf(to, ",%.15g", t->value[f][c]);
+        putc('\n', to);
+    }
+}
+
+status study_write_table(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *to = open_memstream(&text, &length);
+    if (!to) return status_set(FAILED, "cannot write sweep.csv: out of memory");
+    table_print(to, t, s, key, keys);
+    const bool whole = !ferror(to) && fclose(to) == 0;
+    const status written = whole ? file_put(path_join(s->folder, "sweep.csv").text, text, length)
+                                 : status_set(FAILED, "cannot write sweep.csv: out of memory");
+    free(text);
+    return written;
+}

@@ -1,0 +1,163 @@
+/* The values that a key takes in a study, as they stand behind `-s`. */
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "study/study.h"
+
+enum { VALUES_MOST = 10000, VALUE_LONGEST = 1000 };
+
+double value_number(const char *value, const char **unit)
+{
+    char *end;
+    const double number = strtod(value, &end);
+    if (end == value || !isfinite(number)) {
+        *unit = value;
+        return NAN;
+    }
+    while (*end == ' ') end++;
+    *unit = end;
+    return number;
+}
+
+/* ---- pieces of a list -------------------------------------------------------------------------------------------- */
+
+/* First `mark` outside brackets and quotes; the end of the text without one. */
+static const char *value_end(const char *at, char mark)
+{
+    int depth = 0;
+    char quote = '\0';
+    for (; *at; at++) {
+        if (quote) {
+            if (*at == quote) quote = '\0';
+        } else if (*at == mark && depth == 0)
+            return at;
+        else if (*at == '"' || *at == '\'')
+            quote = *at;
+        else if (*at == '[' || *at == '{')
+            depth++;
+        else if ((*at == ']' || *at == '}') && depth > 0)
+            depth--;
+    }
+    return at;
+}
+
+/* Copy of [from, to) without blanks at its ends. */
+static char *trimmed(const char *from, const char *to)
+{
+    while (from < to && isspace((unsigned char)*from)) from++;
+    while (to > from && isspace((unsigned char)to[-1])) to--;
+    char *copy = NEW("study.value", to - from + 1, char);
+    memcpy(copy, from, (size_t)(to - from));
+    return copy;
+}
+
+static status value_add(struct varied_key *k, char *value)
+{
+    const char *fault = !*value                         ? "a value is missing; key=value,value,... is expected"
+                        : k->values == VALUES_MOST      ? "more than 10000 values"
+                        : strlen(value) > VALUE_LONGEST ? "a value of more than 1000 characters"
+                                                        : NULL;
+    for (int v = 0; v < k->values && !fault; v++)
+        if (strcmp(k->value[v], value) == 0) fault = "a value is given twice";
+    if (fault) {
+        const status s = status_set(REFUSED, "-s %s: %s", k->key, fault);
+        memory_free(value);
+        return s;
+    }
+    k->value = memory_resize("study.values", k->value, k->values, k->values + 1, sizeof *k->value);
+    k->value[k->values++] = value;
+    return OK;
+}
+
+/* ---- rows of numbers --------------------------------------------------------------------------------------------- */
+
+/* from:to:step, each a number; their unit, which is that of all that have one. */
+struct row {
+    double number[3];
+    char unit[32];
+};
+
+/* False: the text is no row. REFUSED through `s` if it is one that makes no sense. */
+static bool row_read(struct row *r, const struct varied_key *k, const char *text, status *s)
+{
+    *r = (struct row){.unit = ""};
+    *s = OK;
+    const char *at = text;
+    for (int part = 0; part < 3; part++) {
+        const char *end = value_end(at, ':'), *unit;
+        if ((*end == '\0') != (part == 2)) return false;
+        char *piece = trimmed(at, end);
+        r->number[part] = value_number(piece, &unit);
+        const bool fits = !isnan(r->number[part]) && strlen(unit) < sizeof r->unit;
+        const bool other = fits && *unit && *r->unit && strcmp(unit, r->unit) != 0;
+        if (fits && *unit && !other) strcpy(r->unit, unit);
+        memory_free(piece);
+        if (!fits) return false;
+        if (other) *s = status_set(REFUSED, "-s %s: %s: one unit is expected, as in 10:30:5 mm", k->key, text);
+        at = end + 1;
+    }
+    const double steps = (r->number[1] - r->number[0]) / r->number[2];
+    if (*s == OK && !(steps >= 0 && steps < VALUES_MOST))
+        *s = status_set(REFUSED,
+                        "-s %s: %s: from:to:step with a step that leads from one to the other in less than "
+                        "%d steps is expected",
+                        k->key, text, VALUES_MOST);
+    return true;
+}
+
+static status values_add_row(struct varied_key *k, const struct row *r)
+{
+    const double whole = 1e-9; /* of a step: `to` is met in spite of rounding */
+    const int steps = (int)floor((r->number[1] - r->number[0]) / r->number[2] + whole);
+    for (int v = 0; v <= steps; v++) {
+        char *value = NEW("study.value", 64, char);
+        snprintf(value, 64, "%.10g%s%s", r->number[0] + v * r->number[2], *r->unit ? " " : "", r->unit);
+        TRY(value_add(k, value));
+    }
+    return OK;
+}
+
+/* ---- all --------------------------------------------------------------------------------------------------------- */
+
+static status values_read(struct varied_key *k, const char *text)
+{
+    for (const char *at = text;;) {
+        const char *end = value_end(at, ',');
+        char *piece = trimmed(at, end);
+        struct row row;
+        status s;
+        if (row_read(&row, k, piece, &s)) {
+            memory_free(piece);
+            if (s == OK) s = values_add_row(k, &row);
+        } else
+            s = value_add(k, piece);
+        TRY(s);
+        if (!*end) return OK;
+        at = end + 1;
+    }
+}
+
+status varied_key_read(struct varied_key *k, const char *text)
+{
+    const char *equals = strchr(text, '=');
+    *k = (struct varied_key){0};
+    if (!equals || equals == text)
+        return status_set(REFUSED, "-s %s: a key and its values are expected, as in -s particles.spacing=1mm,0.5mm",
+                          text);
+    k->key = trimmed(text, equals);
+    const status s = values_read(k, equals + 1);
+    if (s != OK) varied_key_free(k);
+    return s;
+}
+
+void varied_key_free(struct varied_key *k)
+{
+    for (int v = 0; v < k->values; v++) memory_free(k->value[v]);
+    memory_free(k->value);
+    memory_free(k->key);
+    *k = (struct varied_key){0};
+}

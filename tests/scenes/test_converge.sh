@@ -1,0 +1,87 @@
+#!/bin/sh
+# `cleave converge`: error bars that hold known answers, a budget that is kept, refusals.
+test_name=converge
+. tests/support/summary.sh
+inputs=$root/inputs
+cd "$work" || exit 1
+
+# value FIGURE COLUMN: of converge.csv in $folder.
+value()
+{
+    awk -F, -v figure="$1" -v column="$2" '
+        NR == 1 { for (k = 1; k <= NF; k++) if ($k == column) at = k; next }
+        $1 == figure { print $at }' "$folder/converge.csv"
+}
+
+# ---- a bar that is pulled: the time at which its end has moved is known ------------------------------------------------
+
+# Energy of a bar of plane stress under a step of traction sigma on its end: while the wave is on its way the work is
+# sigma^2 A c t/E with c = sqrt(E/rho) for a bar of Poisson's ratio 0; after 4 us of 20 mm in steel c t is short of the other end.
+cat >bar.yaml <<'END'
+space: line
+duration: 3 us
+method: pd
+material: {young: 200 GPa, density: 8000}
+body: {box: {from: [0], to: [20 mm]}}
+particles: {spacing: 0.2 mm}
+boundary:
+  - {traction: [100 MPa], face: x+}
+output: {frames: 0, samples: 20}
+END
+folder=bar
+"$cleave" converge bar.yaml -o bar --budget 60 >out 2>err
+is "status" $? 0
+exact=$(compute "100e6 ^ 2 / 200e9 * 5000 * 3e-6")
+low=$(compute "$(value energy.external_work value) - $(value energy.external_work uncertainty)")
+high=$(compute "$(value energy.external_work value) + $(value energy.external_work uncertainty)")
+between "work of a step, its interval from below" "$low" 0 "$exact"
+between "and from above" "$high" "$exact" 1e9
+between "and not wide" "$(value energy.external_work uncertainty)" 0 "$(compute "0.2 * $exact")"
+is "levels" "$(head -n 1 bar/converge.csv | tr , '\n' | grep -c '^spacing_')" 4    # three, and spacing_moves
+grep -q '^energy.external_work$' out && pass || fail "what is printed: $(cat out)"
+holds "a picture" test -s bar/pictures/convergence.png
+is "runs" "$(ls bar | grep -c '^spacing')" 16       # five at each spacing, one with a longer horizon
+is "what the user gave stays" "$(grep -c '^method: pd' bar/spacing*/scene.yaml | grep -c ':1$')" 16
+
+# the same again: nothing runs, the same table
+cp bar/converge.csv before.csv
+"$cleave" converge bar.yaml -o bar --budget 60 >again 2>err
+is "again" $? 0
+holds "the same table" cmp -s bar/converge.csv before.csv
+
+"$cleave" converge bar.yaml -o of --of energy.strain --runs 1 --levels 4 -q >out 2>err
+is "one figure" "$(wc -l <of/converge.csv | tr -d ' ')" 2
+is "nothing on standard error" "$(cat err)" ""
+
+# ---- budget ----------------------------------------------------------------------------------------------------------
+
+# At 0.0005 mm a run takes a second: three seconds leave room for coarser spacings only, which it says.
+"$cleave" converge bar.yaml -o dear -s particles.spacing=0.0005mm --budget 3 >out 2>err
+is "coarser" $? 0
+grep -q "would take longer than the budget" err && pass || fail "coarser: $(cat err)"
+"$cleave" converge bar.yaml -o dear -s particles.spacing=0.0001mm --budget 0.3 >out 2>err
+is "too dear" $? 2
+grep -q "are too little" err && pass || fail "too dear: $(cat err)"
+
+# ---- refusals --------------------------------------------------------------------------------------------------------
+
+refused()
+{
+    wanted=$1; shift
+    "$cleave" converge "$@" >out 2>err
+    is "status of $*" $? 2
+    grep -qF -e "$wanted" err && pass || fail "$*: $(cat err)"
+}
+refused "no scene given" -o none
+refused "a time is expected" bar.yaml --budget 10mm -o none
+refused "a number from 3 to 6" bar.yaml --levels 2 -o none
+refused "cleave sweep varies keys" bar.yaml -s method=pd,mpm -o none
+refused "unknown option" bar.yaml --list -o none
+refused "unknown key" bar.yaml -s nonsense=1 -o none
+holds "nothing is left behind" test ! -e none
+refused "summary.json has no such figure" bar.yaml --of nonsense -o bar
+awk 'BEGIN { print "x,volume"; for (i = 0; i < 20; i++) printf "%.4f,1e-3\n", 0.0005 + i * 0.001 }' >points.csv
+sed 's/^body:.*/bodies: [{name: bar, particles: points.csv}]/; s/0.2 mm/1 mm/' bar.yaml >list.yaml
+refused "nothing can be refined" list.yaml -o none
+
+finish

@@ -1,0 +1,111 @@
+#!/bin/sh
+# `cleave sweep`: runs, lists, skips, counts failures, excludes a second one; kills in the middle.
+test_name=sweep
+. tests/support/summary.sh
+cd "$work" || exit 1
+
+cat >bar.yaml <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 8 us
+method: pd
+material: {young: 72 GPa, density: 2440, toughness: 1e8}
+body: {box: {from: [0, 0], to: [20 mm, 10 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {traction: [10 MPa, 0], face: x+}
+output: {frames: 0, samples: 10}
+END
+
+# ---- two keys --------------------------------------------------------------------------------------------------------
+
+"$cleave" sweep bar.yaml -s particles.spacing=1mm,0.5mm -s boundary.0.traction='[5 MPa, 0],[10 MPa, 0],[20 MPa, 0]' -o two >out 2>err
+is "status" $? 0
+is "rows" "$(wc -l <two/sweep.csv | tr -d ' ')" 7
+is "folders" "$(find two -name summary.json | wc -l | tr -d ' ')" 6
+is "no logs of runs that said nothing" "$(ls two/logs 2>/dev/null)" ""
+head -n 1 two/sweep.csv | grep -q '^run,state,particles.spacing,boundary.0.traction,steps,' && pass || fail "columns: $(head -n 1 two/sweep.csv | cut -c 1-90)"
+is "cells with commas are in quotes" "$(sed -n 2p two/sweep.csv | cut -d, -f1-6)" '"spacing=1mm,traction=5MPa,0",done,1mm,"[5 MPa'
+is "maps and lines" "$(ls two/pictures | paste -s -d ' ' -)" "boundary.0.traction.png map.png particles.spacing.png"
+grep -q '^6 runs: 6 done; two/sweep.csv$' out && pass || fail "what is printed: $(cat out)"
+# the table says what the runs say, and that a load twice as large does four times the work (a linear body: rounding and large displacements, 1e-3)
+one=$(figure two/spacing=1mm,traction=5MPa,0 energy.external_work) two=$(figure two/spacing=1mm,traction=10MPa,0 energy.external_work)
+near "work over load squared" "$two" "$(compute "4 * $one")" 1e-3
+grep -q "$(printf '%.12g' "$one" | cut -c 1-10)" two/sweep.csv && pass || fail "the work of the first run, $one, is not in the table"
+
+# ---- what is done stays ----------------------------------------------------------------------------------------------
+
+cp two/sweep.csv before.csv
+stamp=$(find two -name history.csv -exec ls -l --time-style=full-iso {} + | sort)
+"$cleave" sweep bar.yaml -s particles.spacing=1mm,0.5mm -s boundary.0.traction='[5 MPa, 0],[10 MPa, 0],[20 MPa, 0]' -o two >out 2>err
+is "again" $? 0
+grep -q '^6 runs: 6 done (6 before)' out && pass || fail "nothing to do: $(cat out)"
+is "untouched" "$(find two -name history.csv -exec ls -l --time-style=full-iso {} + | sort)" "$stamp"
+holds "the same table" cmp -s two/sweep.csv before.csv
+
+# ---- the list is the interface of schedulers -------------------------------------------------------------------------
+
+keys="-s particles.spacing=1mm,0.5mm -s boundary.0.traction=[5MPa,0],[10MPa,0],[20MPa,0]"
+"$cleave" sweep bar.yaml $keys -o listed --list -t 1 >list
+is "lines" "$(wc -l <list | tr -d ' ')" 6
+holds "nothing runs" test ! -e listed
+for task in 1 2; do sh -c "$(sed -n "${task}p" list)" >/dev/null 2>&1; done     # as a task of a Slurm array does
+if command -v parallel >/dev/null 2>&1; then parallel -j 2 <list >/dev/null 2>&1
+else xargs -P 2 -I % sh -c % <list >/dev/null 2>&1; fi
+"$cleave" sweep bar.yaml $keys -o listed --collect >out
+is "collected" $? 0
+grep -q '^6 runs: 6 done' out && pass || fail "collected: $(cat out)"
+sed 's/,threads.*//' listed/sweep.csv | awk -F, 'NR > 1 { print $NF }' >a
+is "rows of the list" "$(wc -l <listed/sweep.csv | tr -d ' ')" 7
+same=0
+for run in two/spacing*; do cmp -s "$run/history.csv" "listed/$(basename "$run")/history.csv" && same=$((same + 1)); done
+is "the same histories" $same 6
+
+# ---- failures are counted, what is wrong is refused before anything runs ------------------------------------------------
+
+"$cleave" sweep bar.yaml -s time.safety=0.5,2 -s material.toughness=1e9 -o fails >out 2>err
+is "status of a failure" $? 1
+grep -q '^2 runs: 1 done, 1 failed: see fails/logs' out && pass || fail "one fails: $(cat out)"
+grep -q '^\[.*\] safety=2: exit status 1: ' err && pass || fail "and says why: $(cat err)"
+awk -F, '$1 == "safety=2" { print $2 }' fails/sweep.csv >state
+is "in the table" "$(cat state)" failed
+refused()
+{
+    wanted=$1; shift
+    "$cleave" sweep "$@" >out 2>err
+    is "status of $*" $? 2
+    grep -qF "$wanted" err && pass || fail "$*: $(cat err)"
+}
+refused "nothing varies" bar.yaml -o none
+refused "given twice" bar.yaml -s method=pd,mpm -s method=pd -o none
+refused "unknown key" bar.yaml -s particles.spacin=1mm,2mm -o none
+refused "particles.spacing" bar.yaml -s particles.spacing=1mm,-1mm -o none
+refused "one of them" bar.yaml -s method=pd,mpm --list --collect -o none
+refused "no study there" bar.yaml -s method=pd,mpm --collect -o none
+refused "holds a run, not a study" bar.yaml -s method=pd,mpm -o two/spacing=1mm,traction=5MPa,0
+refused "more than 100000" bar.yaml -s time.safety=0.1:0.9:0.0001 -s particles.seed=1:100:1 -o none
+holds "nothing is left behind" test ! -e none
+
+# ---- one at a time, and kills ----------------------------------------------------------------------------------------
+
+"$cleave" sweep bar.yaml -s duration=8us,4ms,5ms,6ms -s particles.spacing=0.5mm -o long -j 1 >out 2>err &
+first=$!
+tries=0
+while [ ! -f long/duration=8us/summary.json ] && [ $tries -lt 400 ]; do sleep 0.05; tries=$((tries + 1)); done
+refused "runs in it" bar.yaml -s duration=8us,4ms -s particles.spacing=0.5mm -o long
+kill -TERM $first
+wait $first
+is "interrupted" $? 130
+grep -q 'the same command goes on' err && pass || fail "interrupted: $(cat err)"
+holds "the first stays done" test "$(figure long/duration=8us status)" = done
+"$cleave" sweep bar.yaml -s duration=8us,4ms,5ms,6ms -s particles.spacing=0.5mm -o long -j 1 >out 2>err &
+first=$!
+sleep 0.5
+kill -KILL $first                        # its runs go with it
+wait $first 2>/dev/null
+sleep 0.5
+"$cleave" sweep bar.yaml -s duration=8us,20us -s particles.spacing=0.5mm -o long >out 2>err
+is "after a kill" $? 0
+grep -q '^2 runs: 2 done (1 before)' out && pass || fail "after a kill: $(cat out err)"
+
+finish

@@ -1,0 +1,228 @@
+/* Tests of studies: values of keys, names of runs, observed orders and error bars from closed forms. */
+#include "tests/support/near.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "study/convergence_study.h"
+
+/* ---- values ------------------------------------------------------------------------------------------------------ */
+
+static void check_values(const char *text, int n, const char *const *value)
+{
+    struct varied_key k;
+    assert_int_equal(varied_key_read(&k, text), OK);
+    assert_int_equal(k.values, n);
+    for (int v = 0; v < n; v++) assert_string_equal(k.value[v], value[v]);
+    varied_key_free(&k);
+}
+
+static void lists_and_rows_are_read(void **state)
+{
+    (void)state;
+    check_values("a.b=1mm,0.5mm", 2, (const char *[]){"1mm", "0.5mm"});
+    check_values("a= x , y ", 2, (const char *[]){"x", "y"});
+    check_values("a=[1, 2],[3, 4]", 2, (const char *[]){"[1, 2]", "[3, 4]"});
+    check_values("a={step: {until: 1us, from: 0}}", 1, (const char *[]){"{step: {until: 1us, from: 0}}"});
+    check_values("a=\"x,y\",z", 2, (const char *[]){"\"x,y\"", "z"});
+    check_values("a=10:30:10", 3, (const char *[]){"10", "20", "30"});
+    check_values("a=10:30:10 m/s", 3, (const char *[]){"10 m/s", "20 m/s", "30 m/s"});
+    check_values("a=1mm:0.5mm:-0.25mm", 3, (const char *[]){"1 mm", "0.75 mm", "0.5 mm"});
+    check_values("a=0:1:0.1", 11,
+                 (const char *[]){"0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9",
+                                  "1"}); /* `to` is met in spite of rounding */
+    check_values("a=0:1:0.3,7", 5, (const char *[]){"0", "0.3", "0.6", "0.9", "7"});
+    check_values("a=x:y:z", 1, (const char *[]){"x:y:z"}); /* no numbers: one value */
+}
+
+static void wrong_values_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *message;
+    } bad[] = {
+        {"a", "-s a: a key and its values are expected"},
+        {"=1", "a key and its values are expected"},
+        {"a=", "-s a: a value is missing"},
+        {"a=1,,2", "a value is missing"},
+        {"a=1,1", "a value is given twice"},
+        {"a=1:2:0", "1:2:0: from:to:step"},
+        {"a=1:2:-1", "from:to:step"},
+        {"a=1mm:2cm:1mm", "one unit is expected"},
+        {"a=0:1:1e-9", "in less than 10000 steps"},
+    };
+    struct varied_key k;
+    for (size_t b = 0; b < COUNT_OF(bad); b++) assert_refused(varied_key_read(&k, bad[b].text), bad[b].message);
+}
+
+/* ---- names ------------------------------------------------------------------------------------------------------- */
+
+static void runs_have_names_of_their_own(void **state)
+{
+    (void)state;
+    struct study s;
+    struct varied_key k[3];
+    assert_int_equal(study_make(&s, "inputs/plate.yaml", NULL, "sweep"), OK);
+    assert_string_equal(s.folder, "results/plate_sweep");
+    assert_int_equal(varied_key_read(&k[0], "particles.spacing=1 mm,0.5 mm"), OK);
+    assert_int_equal(varied_key_read(&k[1], "method=pd"), OK);
+    assert_int_equal(varied_key_read(&k[2], "boundary.0.velocity=[10 m/s, free],[20 m/s, free],a/b"), OK);
+    assert_int_equal(study_cross(&s, k, 3), OK);
+    assert_int_equal(s.n, 6);
+    assert_string_equal(s.at[0].name, "spacing=1mm,velocity=10m_s,free");
+    assert_string_equal(s.at[5].name, "spacing=0.5mm,velocity=a_b");
+    assert_int_equal(s.at[5].overrides, 3);
+    assert_string_equal(s.at[5].override[1].value, "pd");
+    assert_string_equal(study_add(&s, "spacing=1mm,velocity=10m_s,free", NULL, 0)->name, "case00007"); /* taken */
+    assert_string_equal(study_add(&s, "../up", NULL, 0)->name, "case00008");
+    assert_string_equal(study_add(&s, "logs", NULL, 0)->name, "case00009");
+    for (int v = 0; v < 3; v++) varied_key_free(&k[v]);
+    study_free(&s);
+    assert_refused(study_make(&s, "a.yaml", "", "sweep"), "needs the name of a folder");
+}
+
+/* ---- convergence ------------------------------------------------------------------------------------------------- */
+
+enum { LEVELS = 3, RUNS = 5 };
+
+/* f0 + a h^p at spacings 1, sqrt 2, 2, each run shifted by a part of `noise`. */
+static bool converge_at(struct convergence *c, double f0, double a, double p, double noise, int runs)
+{
+    static const double part[RUNS] = {0, -1, 1, -0.5, 0.5};
+    double spacing[LEVELS * RUNS], value[LEVELS * RUNS];
+    int level[LEVELS * RUNS], n = 0;
+    for (int k = 0; k < LEVELS; k++)
+        for (int r = 0; r < runs; r++, n++) {
+            level[n] = k;
+            spacing[n] = 1e-3 * pow(2, 0.5 * k);
+            value[n] = f0 + a * pow(pow(2, 0.5 * k), p) + noise * part[r];
+        }
+    return convergence_find(c, spacing, value, level, n, LEVELS);
+}
+
+/* The order and limit of a power law are found to rounding; the interval of the finest value holds the limit. */
+static void power_laws_are_found(void **state)
+{
+    (void)state;
+    struct convergence c;
+    for (double p = 0.5; p <= 2; p += 0.25) {
+        assert_true(converge_at(&c, 3, -0.2, p, 0, 1));
+        assert_int_equal(c.verdict, VERDICT_CONVERGES);
+        assert_near(c.order, p, 1e-9);
+        assert_near(c.extrapolated, 3, 1e-10);
+        assert_near(c.discretisation, 1.25 * 0.2, 1e-9);
+        assert_near(c.scatter, 0, 0);
+    }
+}
+
+static void bounds_where_no_order_is_seen(void **state)
+{
+    (void)state;
+    struct convergence c;
+    assert_true(converge_at(&c, 3, 1, 0.2, 0, 1));
+    assert_int_equal(c.verdict, VERDICT_SLOW);
+    assert_near(c.order, 0.2, 1e-9);
+    assert_true(converge_at(&c, 3, 1, -1, 0, 1)); /* grows as the spacing shrinks */
+    assert_int_equal(c.verdict, VERDICT_DIVERGES);
+    assert_near(c.discretisation, 3 * 0.5, 1e-12);
+    assert_near(c.extrapolated, 4, 1e-12);
+    const double spacing[] = {1, 1.4, 2}, value[] = {1, 2, 1.5}, lost[] = {1, NAN, 1};
+    const int level[] = {0, 1, 2};
+    assert_true(convergence_find(&c, spacing, value, level, 3, 3));
+    assert_int_equal(c.verdict, VERDICT_OSCILLATES);
+    assert_true(isnan(c.order));
+    assert_true(c.discretisation >= 1); /* the range of the means at least */
+    assert_false(convergence_find(&c, spacing, lost, level, 3, 3));
+}
+
+/* Means that chance has moved: order 1 is allowed, and taken. Observed, it is 2.9 here and -1.0. */
+static void chance_moves_the_order(void **state)
+{
+    (void)state;
+    struct convergence c;
+    static const double mean[2][LEVELS] = {{9.05, 8.75, 7.95}, {9.05, 8.45, 8.05}};
+    for (int which = 0; which < 2; which++) {
+        double spacing[LEVELS * RUNS], value[LEVELS * RUNS];
+        int level[LEVELS * RUNS];
+        for (int k = 0; k < LEVELS * RUNS; k++) {
+            level[k] = k / RUNS;
+            spacing[k] = (double[]){1, 1.4, 2}[level[k]];
+            value[k] = mean[which][level[k]] + 0.1 * (k % RUNS - 2); /* its mean to 0.2 */
+        }
+        assert_true(convergence_find(&c, spacing, value, level, LEVELS * RUNS, LEVELS));
+        assert_int_equal(c.verdict, VERDICT_CONVERGES);
+        assert_true(which == 0 ? c.order > 2.2 : c.order < 0);
+        assert_near(c.extrapolated, 2 * mean[which][0] - mean[which][2], 1e-9);
+        assert_near(c.discretisation, 1.25 * (mean[which][0] - mean[which][2]), 1e-9);
+    }
+}
+
+/* Scatter alone: the error of a mean is Student's; a trend below it is no order. */
+static void scatter_hides_small_trends(void **state)
+{
+    (void)state;
+    struct convergence c;
+    const double deviation = sqrt(2.5 / 4); /* of 0, -1, 1, -0.5, 0.5 */
+    assert_true(converge_at(&c, 3, 0.1, 1, 1, RUNS));
+    assert_int_equal(c.verdict, VERDICT_SCATTERS);
+    assert_near(c.level[0].deviation, deviation, 1e-12);
+    assert_near(c.scatter, 2.776 * deviation / sqrt(RUNS), 1e-12); /* 4 degrees of freedom, published tables */
+    assert_true(c.uncertainty >= c.scatter && c.uncertainty >= c.discretisation);
+    assert_true(converge_at(&c, 3, 10, 1, 1, RUNS)); /* a large one is seen */
+    assert_int_equal(c.verdict, VERDICT_CONVERGES);
+    assert_near(c.order, 1, 1e-9);
+}
+
+static void student_as_published(void **state)
+{
+    (void)state;
+    assert_near(student_95(1), 12.706, 0);
+    assert_near(student_95(30), 2.042, 0.005);
+    assert_near(student_95(60), 2.000, 0.005);
+    assert_near(student_95(1000000), 1.960, 0.001);
+}
+
+/* ---- spacings ---------------------------------------------------------------------------------------------------- */
+
+/* A plate of 100 x 40 with a crack at mid-height, at 0.5: others must divide both sides, and lie to both sides of the
+ * crack. */
+static void spacings_fit_faces_and_cracks(void **state)
+{
+    (void)state;
+    struct solid box = {.kind = SOLID_BOX, .to = {100, 40}};
+    struct scene_body body = {.shape = {1, &box}};
+    real corner[2][DIM_MAX] = {{0, 20}, {50, 20}};
+    struct crack crack = {2, corner, 0};
+    struct scene s = {.dim = 2, .spacing = 0.5, .bodies = 1, .body = &body, .cracks = 1, .crack = &crack};
+    struct spacings to;
+    spacings_plan(&to, &s, 3, s.spacing);
+    assert_near(to.at[0][0], 0.5, 0);
+    for (int k = 0; k < 3; k++) {
+        assert_true(fabs(to.at[k][0] / (0.5 * pow(2, 0.5 * k)) - 1) < 0.12);
+        for (int j = 0; j < to.n[k]; j++)
+            for (int side = 1; side <= 5; side += side == 1 ? 1 : 3) { /* 20, 40, 100 */
+                const double cells = 20 * side / to.at[k][j];
+                assert_near(cells, round(cells), 0.02);
+            }
+        for (int j = 1; j < to.n[k]; j++) assert_true(fabs(to.at[k][j] / to.at[k][0] - 1) > 1e-3);
+    }
+    corner[0][1] = corner[1][1] = 20.25; /* through the middle of a row */
+    spacings_plan(&to, &s, 3, s.spacing);
+    for (int k = 0; k < 3; k++) {
+        if (to.misfit[k] > 0.02) continue; /* then it says so */
+        const double rows = 20.25 / to.at[k][0] - 0.5;
+        assert_near(rows, round(rows), 0.02);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lists_and_rows_are_read),       cmocka_unit_test(wrong_values_are_refused),
+        cmocka_unit_test(runs_have_names_of_their_own),  cmocka_unit_test(power_laws_are_found),
+        cmocka_unit_test(bounds_where_no_order_is_seen), cmocka_unit_test(scatter_hides_small_trends),
+        cmocka_unit_test(chance_moves_the_order),        cmocka_unit_test(student_as_published),
+        cmocka_unit_test(spacings_fit_faces_and_cracks),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
