@@ -19,7 +19,8 @@ static const struct bench benches[] = {
     {"scale=field", bench_far_field, false},   {"peers", bench_peers, false},
     {"accuracy", bench_accuracy, false},       {"stability", bench_stability, false},
     {"sensitivity", bench_sensitivity, false}, {"steps", bench_steps, false},
-    {"contact", bench_contact, false},         {"absorbing", bench_absorbing, false}};
+    {"contact", bench_contact, false},         {"absorbing", bench_absorbing, false},
+    {"uncertainty", bench_uncertainty, false}};
 enum { BENCHES = COUNT_OF(benches) };
 
 /* Names of earlier versions. */
@@ -47,7 +48,8 @@ static status bench_mark(const char *word, bool *asked)
     return status_set(REFUSED,
                       "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [sif] [threads] "
                       "[scale[=growth|=finest|=field]] [peers] [accuracy[=PROBLEM|=chart|=auto]] "
-                      "[stability[=lasting|=CASE]] [sensitivity] [steps] [contact] [absorbing] [--quick] [--readme]",
+                      "[stability[=lasting|=CASE]] [sensitivity] [steps] [contact] [absorbing] [uncertainty] "
+                      "[--quick] [--readme]",
                       word);
 }
 

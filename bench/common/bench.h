@@ -188,6 +188,9 @@ status bench_contact(bool quick);
 /* bench_absorbing.c: what comes back from absorbing faces. */
 status bench_absorbing(bool quick);
 
+/* bench_uncertainty.c: are the error bars of `cleave converge` true? */
+status bench_uncertainty(bool quick);
+
 /* bench_steps.c: start, length, angle and energy of cracks over the time step. */
 status bench_steps(bool quick);
 

@@ -20,7 +20,7 @@ void spacings_plan(struct spacings *to, const struct scene *s, int levels, doubl
 
 /* What a run of the study differs in. */
 struct study_point {
-    int level;                     /* -1: a run with a longer horizon, of the coarsest level */
+    int level;                     /* -1: a run of level 1 with a longer horizon */
     double spacing, step, horizon; /* [m], share of the scene's own [1], [spacings] */
     int run;                       /* of its level, from 0 */
 };
@@ -34,7 +34,7 @@ struct convergence_study {
     int overrides;
     int runs[LEVELS_MOST];  /* of each level */
     bool fixed_horizon;     /* its length stays while the spacing shrinks */
-    bool shifted;           /* the scene's own spacing did not fit the budget */
+    int own;                /* level of the scene's own spacing; -1: it does not fit the budget */
     double budget, begun;   /* [s], on team_clock */
     double spent, expected; /* of the first run [s]; of all, with so many side by side [s] */
     struct study_table table;
@@ -46,7 +46,7 @@ struct figure_study {
     struct convergence c;
     double step_moves;    /* by a step a tenth longer; NAN: not known */
     double spacing_moves; /* from the second to the finest level */
-    double horizon_moves; /* by a horizon one spacing longer, at the coarsest level; NAN: not known */
+    double horizon_moves; /* by a horizon one spacing longer, at level 1; NAN: not known */
 };
 
 struct convergence_wish {
@@ -54,7 +54,7 @@ struct convergence_wish {
     const struct scene_override *override;
     int overrides, levels, runs; /* runs at the most */
     double budget;               /* [s] */
-    bool fixed_horizon;
+    bool fixed_horizon, finer;   /* finer: also spacings below the scene's own, as the budget allows */
     struct study_way way;
 };
 

@@ -33,12 +33,13 @@ static status converge_count(int *count, const char *option, const char *text, i
     return OK;
 }
 
-static status budget_read(double *budget, const char *text)
+static status budget_read(struct convergence_wish *w, const char *text)
 {
     char what[256];
     real value;
     if (number_read(&value, text, UNIT_TIME, false, what, sizeof what) && value > 0) {
-        *budget = value;
+        w->budget = value;
+        w->finer = true;
         return OK;
     }
     return status_set(REFUSED, "--budget %s: a time is expected, as in 10 min", text);
@@ -69,7 +70,7 @@ static status converge_option(struct converge_arguments *a, const char *word, co
     else if (!strcmp(word, "--levels"))
         return converge_count(&w->levels, word, value, LEVELS_LEAST, LEVELS_MOST);
     else if (!strcmp(word, "--budget"))
-        return budget_read(&w->budget, value);
+        return budget_read(w, value);
     else
         a->wanted[a->wanteds++] = value;
     return OK;

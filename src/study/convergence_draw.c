@@ -29,7 +29,7 @@ static void send_figure(FILE *to, const struct convergence_study *s, const struc
     for (int k = 0; k < f->c.levels; k++)
         fprintf(to, "%.8g %.10g %.10g\n", 1e3 * f->c.level[k].spacing, f->c.level[k].mean, f->c.level[k].error);
     fprintf(to, "EOD\n$e%d << EOD\n0 %.10g %.10g %.10g\nEOD\n", panel, f->c.extrapolated, f->c.level[0].mean,
-            f->c.uncertainty);
+            f->c.uncertainty[0]);
 }
 
 static void plot_figure(FILE *to, const struct figure_study *f, int panel)
@@ -40,9 +40,9 @@ static void plot_figure(FILE *to, const struct figure_study *f, int panel)
     gnuplot_quote(to, f->name);
     fputs("\nplot ", to);
     if (seen) {
-        const double h = 1e3 * c->level[0].spacing,
-                     p = log((c->level[c->levels - 1].mean - c->extrapolated) / (c->level[0].mean - c->extrapolated)) /
-                         log(c->level[c->levels - 1].spacing / c->level[0].spacing);
+        const double h = 1e3 * c->level[0].spacing, p = log((c->level[LEVELS_LEAST - 1].mean - c->extrapolated) /
+                                                            (c->level[0].mean - c->extrapolated)) /
+                                                        log(c->level[LEVELS_LEAST - 1].spacing / c->level[0].spacing);
         fprintf(to, "%.10g + %.10g*(x/%.10g)**%.6g with lines lw 1.6 dt (6,4) lc rgb '%s' notitle, ", c->extrapolated,
                 c->level[0].mean - c->extrapolated, h, p, curve_colour[1]);
         fprintf(to, "$e%d using 1:2 with points pt 6 ps 1.3 lw 2 lc rgb '%s' title 'extrapolated', ", panel,
@@ -53,6 +53,13 @@ static void plot_figure(FILE *to, const struct figure_study *f, int panel)
             "$r%d using 1:2 with points pt 7 ps 0.5 lc rgb '%s' title 'runs', "
             "$m%d using 1:2:3 with yerrorbars pt 7 ps 0.9 lw 1.8 lc rgb '%s' title 'means'\n",
             panel, panel, curve_colour[5], panel, curve_colour[0]);
+}
+
+/* A round distance of tics, of which some five lie between 0 and `most`. */
+static double tics_apart(double most)
+{
+    const double decade = pow(10, floor(log10(most / 3))), lead = most / 3 / decade;
+    return decade * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
 }
 
 static status draw_figures(const struct convergence_study *s, const struct figure_study *figure, int figures)
@@ -66,8 +73,8 @@ static status draw_figures(const struct convergence_study *s, const struct figur
     fprintf(g.to,
             "set multiplot layout %d,%d margins char 11, char 3, char 4, char 3 spacing char 12, char 6\n"
             "set format y '%%.4g'\nset xrange [0:*]\nset samples 200\nset key inside bottom right\n"
-            "set offsets 0, graph 0.06, graph 0.1, graph 0.1\nset xlabel 'spacing [mm]'\n",
-            rows, wide);
+            "set offsets 0, graph 0.06, graph 0.1, graph 0.1\nset xlabel 'spacing [mm]'\nset xtics %g\n",
+            rows, wide, tics_apart(1e3 * s->spacings.at[s->spacings.levels - 1][0]));
     for (int k = 0; k < shown; k++) {
         plot_figure(g.to, &figure[k], k);
         fputs("unset key\n", g.to);

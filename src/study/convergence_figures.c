@@ -32,10 +32,30 @@ static double horizon_moves(const struct convergence_study *s, const double *val
         const struct study_point *p = &s->point[k];
         if (p->level == -1)
             longer = value[k];
-        else if (p->level == s->spacings.levels - 1 && p->run == 0)
+        else if (p->level == 1 && p->run == 0)
             own = value[k];
     }
     return longer - own;
+}
+
+/* Half of the steps in which a figure comes at each level: places and lengths of tips by spacings, angles as these
+ * turn them. False: it comes in no steps. */
+static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
+{
+    const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
+    const int length = study_figure(&s->table, "crack.length_end");
+    const bool tip = !strncmp(name, "crack.", 6) || !strncmp(name, "probes.tip", 10);
+    const bool is_angle = !strcmp(own, "angle_deg") && length >= 0;
+    const bool is_place = !strcmp(own, "length_end") || !strcmp(own, "x") || !strcmp(own, "y") || !strcmp(own, "z");
+    if (!tip || (!is_angle && !is_place)) return false;
+    for (int l = 0; l < s->spacings.levels; l++) {
+        double longest = 0;
+        for (int k = 0; k < s->study.n && is_angle; k++)
+            if (s->point[k].level == l) longest = fmax(longest, s->table.value[length][k]);
+        const double half = 0.5 * s->spacings.at[l][0];
+        resolution[l] = is_angle ? 57.29577951 * half / fmax(longest, half) : half;
+    }
+    return true;
 }
 
 static bool figure_make(struct figure_study *f, const struct convergence_study *s, int at)
@@ -44,7 +64,10 @@ static bool figure_make(struct figure_study *f, const struct convergence_study *
     int *level = NEW("study.level", s->study.n, int);
     for (int k = 0; k < s->study.n; k++) spacing[k] = s->point[k].spacing, level[k] = s->point[k].level;
     *f = (struct figure_study){.name = s->table.figure[at]};
-    const bool known = convergence_find(&f->c, spacing, s->table.value[at], level, s->study.n, s->spacings.levels);
+    double resolution[LEVELS_MOST];
+    const bool steps = resolution_find(resolution, s, f->name);
+    const bool known = convergence_find(&f->c, spacing, s->table.value[at], level, s->study.n, s->spacings.levels,
+                                        steps ? resolution : NULL);
     memory_free(level);
     memory_free(spacing);
     if (!known) return false;
@@ -71,6 +94,9 @@ static bool is_of_interest(const char *name)
     return !study_figure_is_technical(name) && strncmp(name, "crack.tips.", 11) != 0;
 }
 
+/* Cracks come first, then what is neither crack nor energy, as probes. */
+static int part_of(const char *name) { return !strncmp(name, "crack.", 6) ? 0 : !strncmp(name, "energy.", 7) ? 2 : 1; }
+
 static bool is_wanted(const char *name, const char *const *wanted, int wanteds)
 {
     if (wanteds == 0) return is_of_interest(name);
@@ -90,10 +116,11 @@ status figures_find(const struct convergence_study *s, const char *const *wanted
                               wanted[k]);
     *figure = NEW("study.figures", s->table.figures, struct figure_study);
     *figures = 0;
-    for (int f = 0; f < s->table.figures; f++)
-        if (is_wanted(s->table.figure[f], wanted, wanteds) && figure_make(&(*figure)[*figures], s, f) &&
-            (wanteds > 0 || figure_moves(&(*figure)[*figures])))
-            ++*figures;
+    for (int part = 0; part < 3; part++)
+        for (int f = 0; f < s->table.figures; f++)
+            if (part_of(s->table.figure[f]) == part && is_wanted(s->table.figure[f], wanted, wanteds) &&
+                figure_make(&(*figure)[*figures], s, f) && (wanteds > 0 || figure_moves(&(*figure)[*figures])))
+                ++*figures;
     if (*figures > 0) return OK;
     memory_free(*figure);
     *figure = NULL;
@@ -116,12 +143,12 @@ static void figures_table(FILE *to, const struct convergence_study *s, const str
           "spacing_moves,horizon_moves",
           to);
     for (int l = 0; l < s->spacings.levels; l++)
-        fprintf(to, ",spacing_%d [m],mean_%d,deviation_%d,runs_%d", l, l, l, l);
+        fprintf(to, ",spacing_%d [m],mean_%d,deviation_%d,uncertainty_%d,runs_%d", l, l, l, l, l);
     putc('\n', to);
     for (int f = 0; f < figures; f++) {
         const struct convergence *c = &figure[f].c;
         fputs(figure[f].name, to);
-        const double before[] = {c->level[0].mean, c->uncertainty, c->scatter, c->discretisation,
+        const double before[] = {c->level[0].mean, c->uncertainty[0], c->level[0].error, c->discretisation[0],
                                  c->level[0].deviation};
         for (size_t k = 0; k < COUNT_OF(before); k++) print_cell(to, before[k]);
         fprintf(to, ",%s", verdict_name[c->verdict]);
@@ -130,7 +157,7 @@ static void figures_table(FILE *to, const struct convergence_study *s, const str
         for (size_t k = 0; k < COUNT_OF(behind); k++) print_cell(to, behind[k]);
         for (int l = 0; l < c->levels; l++) {
             print_cell(to, c->level[l].spacing), print_cell(to, c->level[l].mean);
-            print_cell(to, c->level[l].deviation);
+            print_cell(to, c->level[l].deviation), print_cell(to, c->uncertainty[l]);
             fprintf(to, ",%d", c->level[l].runs);
         }
         putc('\n', to);
@@ -175,23 +202,28 @@ static const char *mover(const struct figure_study *f)
     return most == 0 ? "nothing" : most == spacing ? "spacing" : most == step ? "time step" : "horizon";
 }
 
-static void figure_print(const struct figure_study *f)
+static void figure_print(const struct figure_study *f, int own)
 {
     const struct convergence *c = &f->c;
     char text[40];
     printf("%s\n ", f->name);
     for (int k = c->levels - 1; k >= 0; k--) {
-        certain_digits(text, sizeof text, c->level[k].mean, c->uncertainty / 4);
+        certain_digits(text, sizeof text, c->level[k].mean, c->uncertainty[0] / 4);
         printf(" %s (%.4g mm)%s", text, 1e3 * c->level[k].spacing, k > 0 ? "," : "");
     }
     printf("; %s", verdict_name[c->verdict]);
     if (isfinite(c->order)) printf(", order %.2f", c->order);
     if (c->verdict == VERDICT_CONVERGES || c->verdict == VERDICT_SLOW) {
-        certain_digits(text, sizeof text, c->extrapolated, c->uncertainty / 4);
+        certain_digits(text, sizeof text, c->extrapolated, c->uncertainty[0] / 4);
         printf(", towards %s", text);
     }
-    certain_digits(text, sizeof text, c->level[0].mean, c->uncertainty);
-    printf("\n  %s +- %.2g (scatter %.2g, discretisation %.2g)", text, c->uncertainty, c->scatter, c->discretisation);
+    certain_digits(text, sizeof text, c->level[0].mean, c->uncertainty[0]);
+    printf("\n  %s +- %.2g (scatter %.2g, discretisation %.2g)", text, c->uncertainty[0], c->level[0].error,
+           c->discretisation[0]);
+    if (own > 0) {
+        certain_digits(text, sizeof text, c->level[own].mean, c->uncertainty[own]);
+        printf("; at the scene's own %.4g mm %s +- %.2g", 1e3 * c->level[own].spacing, text, c->uncertainty[own]);
+    }
     printf("; a run by itself scatters by %.2g; moved most by: %s\n", 2 * c->level[0].deviation, mover(f));
 }
 
@@ -201,7 +233,7 @@ void figures_print(const struct convergence_study *s, const struct figure_study 
     int lost = 0;
     printf("means at each spacing; what they converge to; the 95 %% interval of the true value round that at %.4g mm\n",
            1e3 * s->spacings.at[0][0]);
-    for (int f = 0; f < shown; f++) figure_print(&figure[f]);
+    for (int f = 0; f < shown; f++) figure_print(&figure[f], s->own);
     for (int f = 0; f < figures; f++) lost += figure[f].c.verdict == VERDICT_DIVERGES;
     if (lost > 0)
         printf("%d of %d figures do not converge at these spacings: theirs are bounds, no errors\n", lost, figures);

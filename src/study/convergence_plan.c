@@ -98,8 +98,7 @@ void spacings_plan(struct spacings *to, const struct scene *s, int levels, doubl
     for (int k = 0; k < levels; k++) {
         double *at = to->at[k];
         const double wanted = finest * pow(2, 0.5 * k);
-        at[0] = k == 0 && fabs(finest / s->spacing - 1) < 1e-9 ? s->spacing
-                                                               : spacing_near(&p, wanted, NEAR_WANTED, NULL, 0);
+        at[0] = fabs(wanted / s->spacing - 1) < 1e-9 ? s->spacing : spacing_near(&p, wanted, NEAR_WANTED, NULL, 0);
         if (at[0] == 0) at[0] = wanted;
         to->misfit[k] = misfit(&p, at[0]);
         to->n[k] = 1;

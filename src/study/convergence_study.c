@@ -11,7 +11,7 @@
 #include "output/output_files.h"
 #include "output/summary_read.h"
 
-enum { RUNS_LEAST = 3, SHIFTS_MOST = 6, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
+enum { RUNS_LEAST = 3, SHIFTS_MOST = 6, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
 #define STEP_RANGE 0.1    /* steps from 0.9 to 1.1 of the scene's own */
 #define SAFETY_MOST 1.0   /* share of the critical step that no run exceeds */
 #define HORIZON_LEAST 2.0 /* [spacings], with a horizon of fixed length */
@@ -109,9 +109,14 @@ static double cost_of_all(const struct convergence_study *s, int jobs)
     return fmax(sum / jobs, longest);
 }
 
+/* Runs that would differ in nothing are left out: without steps or random numbers each spacing is run once. */
 static void runs_set(struct convergence_study *s, int runs, int finest)
 {
-    for (int level = 0; level < s->spacings.levels; level++) s->runs[level] = level == 0 ? finest : runs;
+    const bool differ = s->scene.solver == SOLVER_EXPLICIT || s->scene.irregularity > 0;
+    for (int level = 0; level < s->spacings.levels; level++) {
+        const int wanted = level == 0 ? finest : runs, most = differ ? wanted : s->spacings.n[level];
+        s->runs[level] = wanted < most ? wanted : most;
+    }
 }
 
 /* The most runs that the time left has room for; false: there is room for none. */
@@ -161,15 +166,18 @@ static status first_run(struct convergence_study *s, const struct convergence_wi
 static status plan_fit(struct convergence_study *s, const struct convergence_wish *w, int jobs)
 {
     const double left = s->budget - (team_clock() - s->begun);
+    const int finest = w->finer ? -FINER_MOST : 0;
     double need = 0;
-    for (int shift = 0; shift <= SHIFTS_MOST; shift++) {
-        if (shift > 0) spacings_plan(&s->spacings, &s->scene, w->levels, s->scene.spacing * pow(2, 0.5 * shift));
+    for (int shift = finest; shift <= SHIFTS_MOST; shift++) {
+        const int levels = w->levels - (shift < 0 ? shift : 0);
+        if (levels > LEVELS_MOST) continue;
+        spacings_plan(&s->spacings, &s->scene, levels, s->scene.spacing * pow(2, 0.5 * shift));
         const bool fits = runs_fit(s, w->runs, jobs, left);
         if (shift == 0) need = s->expected;
-        if (fits) {
-            s->shifted = shift > 0;
-            return OK;
-        }
+        if (!fits) continue;
+        s->own = shift > 0 ? -1 : -shift;
+        s->point[0].level = shift > 0 ? -2 : levels - 1; /* -2: no level has its spacing any more */
+        return OK;
     }
     return status_set(REFUSED, "%.3g s are too little: three runs at each spacing would take about %.3g s (--budget)",
                       s->budget, need + s->spent);
@@ -180,12 +188,12 @@ static void runs_add_all(struct convergence_study *s)
     const int coarsest = s->spacings.levels - 1;
     for (int level = coarsest; level >= 0; level--)
         for (int run = 0; run < s->runs[level]; run++) {
-            const bool first = level == coarsest && run == 0 && !s->shifted;
+            const bool first = level == coarsest && run == 0 && s->own >= 0;
             if (!first) level_run_add(s, level, run, s->runs[level]);
         }
     if (!has_bonds(&s->scene) || s->fixed_horizon || s->scene.horizon + 1 > 10.5) return;
     point_add(s, (struct study_point){.level = -1,
-                                      .spacing = s->spacings.at[coarsest][0],
+                                      .spacing = s->spacings.at[1][0],
                                       .step = step_of(s, 0, 1),
                                       .horizon = s->scene.horizon + 1});
 }
@@ -196,7 +204,7 @@ static void plan_print(const struct convergence_study *s)
     for (int k = s->spacings.levels - 1; k >= 0; k--)
         fprintf(stderr, " %.4g mm (%d runs)%s", 1e3 * s->spacings.at[k][0], s->runs[k], k > 0 ? "," : "");
     fprintf(stderr, ": about %.3g s of a budget of %.3g s\n", s->expected + s->spent, s->budget);
-    if (s->shifted)
+    if (s->own < 0)
         fprintf(stderr,
                 "warning: the scene's own spacing, %.4g mm, would take longer than the budget: what follows is "
                 "for %.4g mm\n",
@@ -213,7 +221,6 @@ static status study_go(struct convergence_study *s, const struct convergence_wis
     if (way.threads <= 0) way.threads = 1;
     if (way.jobs <= 0) way.jobs = cores > way.threads ? cores / way.threads : 1;
     TRY(plan_fit(s, w, way.jobs));
-    if (s->shifted) s->point[0].level = -2; /* no level has its spacing any more */
     if (!way.quiet) plan_print(s);
     runs_add_all(s);
     TRY(study_check(&s->study));
