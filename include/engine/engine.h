@@ -148,6 +148,10 @@ struct sampling {
 };
 
 /* What a run leaves and says, and when. */
+/* Half-width of the 95 % interval of a figure of the summary, from a study of convergence (study/uncertainty.h). */
+struct error_bar { char figure[NAME_MAX_LENGTH]; double half_width; };
+enum { ERROR_BARS_MOST = 128 };
+
 struct run_report {
     struct output *out;                  /* borrowed; NULL: a run without files (tests, benches) */
     struct sampling sampling;
@@ -166,6 +170,8 @@ struct run_report {
     struct particles more;               /* points of coarse cells in the last frame, and their spacings [m] */
     real *more_spacing;
     bool quiet;
+    const struct error_bar *bar;         /* borrowed, for the summary; NULL: no study is at hand */
+    int bars;
     const volatile sig_atomic_t *stop;   /* set by a signal: checkpoint and leave; NULL: never */
 };
 

@@ -7,6 +7,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "engine/engine.h"
+#include "study/uncertainty.h"
 
 /* ---- run --------------------------------------------------------------------------------------------------------- */
 
@@ -59,6 +60,9 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
     status ran = engine_run(e);
     if (ran == OK) ran = engine_baseline(e);
+    struct error_bar bar[ERROR_BARS_MOST];
+    e->report.bar = bar;
+    e->report.bars = error_bars_at_hand(bar, ERROR_BARS_MOST, s, out->folder);
     status written = ran == REFUSED ? OK : summary_write(e, ran, threads, team_clock() - start);
     if (ran != OK) return ran;
     TRY(written);

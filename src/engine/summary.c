@@ -372,6 +372,15 @@ static void put_probes(struct json *j, const struct engine *e)
     json_close(j, '}');
 }
 
+/* Half-widths of the figures above, where a study of this scene is at hand. */
+static void put_error_bars(struct json *j, const struct run_report *r)
+{
+    if (r->bars == 0) return;
+    json_open(j, "uncertainty", '{');
+    for (int k = 0; k < r->bars; k++) json_number(j, r->bar[k].figure, r->bar[k].half_width, 3);
+    json_close(j, '}');
+}
+
 /* ---- figures of the machine -------------------------------------------------------------------------------------- */
 
 /* Figures that depend on the machine: threads, kernels, times, memory; laps: parts of the loop of this process [s]. */
@@ -409,6 +418,7 @@ static void summary_print(FILE *file, const struct engine *e, const struct fragm
     put_conversion(&j, e);
     put_levels(&j, e);
     put_probes(&j, e);
+    put_error_bars(&j, &e->report);
     put_machine(&j, e, threads, wall_seconds);
     fputs("\n}\n", file);
 }

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "output/output_files.h"
 #include "study/convergence_study.h"
+#include "study/uncertainty.h"
 
 enum { PRINTED_MOST = 24 };
 
@@ -175,7 +176,8 @@ status figures_write(const struct convergence_study *s, const struct figure_stud
     const status written = whole ? file_put(path_join(s->study.folder, "converge.csv").text, text, length)
                                  : status_set(FAILED, "cannot write converge.csv: out of memory");
     free(text);
-    return written;
+    if (written != OK) return written;
+    return file_put(path_join(s->study.folder, STUDY_SCENE).text, s->scene.text, strlen(s->scene.text));
 }
 
 /* ---- what is printed --------------------------------------------------------------------------------------------- */

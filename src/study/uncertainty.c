@@ -1,0 +1,102 @@
+/* Error bars of a scene from a study of convergence that is at hand. */
+#include "study/uncertainty.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "output/output.h"
+#include "output/output_files.h"
+
+#define SAME_LEVEL 0.05 /* spacings of a level's runs differ by less from that of the scene [1] */
+
+/* The folder of the study beside that of a run. */
+static struct path study_beside(const char *folder, const char *name)
+{
+    char place[PATH_NAME_ROOM];
+    struct path parent = {{0}};
+    const char *slash = strrchr(folder, '/');
+    snprintf(place, sizeof place, "%s_converge", name);
+    snprintf(parent.text, sizeof parent.text, "%.*s", slash ? (int)(slash - folder) : 1, slash ? folder : ".");
+    return path_join(parent.text, place);
+}
+
+/* Is the study one of this scene? */
+static bool is_of_scene(const char *study, const char *scene_text)
+{
+    char *text;
+    size_t length;
+    if (!path_is_file(path_join(study, STUDY_SCENE).text)) return false;
+    if (file_get(path_join(study, STUDY_SCENE).text, &text, &length) != OK) return false;
+    const bool same = length == strlen(text) && scene_text_same(text, scene_text);
+    memory_free(text);
+    return same;
+}
+
+/* Cuts the next cell of a line; NULL at its end. */
+static char *cell_next(char **line)
+{
+    char *cell = *line;
+    if (!cell) return NULL;
+    char *comma = strchr(cell, ',');
+    if (comma) *comma = '\0';
+    *line = comma ? comma + 1 : NULL;
+    return cell;
+}
+
+/* Places of the columns `spacing_K [m]` and `uncertainty_K`. */
+struct bar_columns {
+    int spacing[16], half_width[16], levels;
+};
+
+static void columns_find(struct bar_columns *c, char *header)
+{
+    int column = 0, level;
+    *c = (struct bar_columns){0};
+    for (char *cell; (cell = cell_next(&header)); column++) {
+        if (sscanf(cell, "spacing_%d [m]", &level) == 1 && level >= 0 && level < 16) {
+            c->spacing[level] = column;
+            c->levels = level + 1 > c->levels ? level + 1 : c->levels;
+        } else if (sscanf(cell, "uncertainty_%d", &level) == 1 && level >= 0 && level < 16)
+            c->half_width[level] = column;
+    }
+}
+
+/* One line: the half-width of the level whose spacing is nearest. */
+static bool bar_read(struct error_bar *bar, const struct bar_columns *c, char *line, double spacing)
+{
+    enum { CELLS_MOST = 256 };
+    char *cell[CELLS_MOST];
+    int cells = 0;
+    double least = SAME_LEVEL;
+    for (char *next; cells < CELLS_MOST && (next = cell_next(&line));) cell[cells++] = next;
+    bar->half_width = NAN;
+    for (int l = 0; l < c->levels; l++) {
+        if (c->spacing[l] >= cells || c->half_width[l] >= cells) continue;
+        const double off = fabs(atof(cell[c->spacing[l]]) / spacing - 1);
+        if (!(off < least) || !*cell[c->half_width[l]]) continue;
+        least = off;
+        bar->half_width = atof(cell[c->half_width[l]]);
+    }
+    if (cells == 0 || !isfinite(bar->half_width) || strlen(cell[0]) >= sizeof bar->figure) return false;
+    strcpy(bar->figure, cell[0]);
+    return true;
+}
+
+int error_bars_at_hand(struct error_bar *bar, int most, const struct scene *s, const char *folder)
+{
+    const struct path study = study_beside(folder, s->name);
+    struct bar_columns columns;
+    char *text, *rest;
+    size_t length;
+    int n = 0;
+    if (!is_of_scene(study.text, s->text)) return 0;
+    if (file_get(path_join(study.text, "converge.csv").text, &text, &length) != OK) return 0;
+    char *line = strtok_r(text, "\n", &rest);
+    if (line) columns_find(&columns, line);
+    while (line && n < most && (line = strtok_r(NULL, "\n", &rest))) n += bar_read(&bar[n], &columns, line, s->spacing);
+    memory_free(text);
+    return n;
+}
