@@ -173,16 +173,17 @@ static void plot_panel(FILE *to, const struct study_picture *p, int panel)
 /* Room of the panels in rows of three; the key of lines above them. */
 static int panel_rows(const struct study_picture *p) { return (p->panels + WIDE - 1) / WIDE; }
 
-static status picture_open(struct gnuplot *g, const struct study_picture *p, const char *name)
+/* `beside`: room to the right of each panel [characters]. */
+static status picture_open(struct gnuplot *g, const struct study_picture *p, const char *name, int beside)
 {
     const struct path folder = path_join(p->study->folder, "pictures");
     const int columns = p->panels < WIDE ? p->panels : WIDE;
     TRY(folder_make(folder.text));
     TRY(gnuplot_open(g, path_join(folder.text, name).text, PICTURE_PNG, 80 + 420 * columns, 60 + 340 * panel_rows(p)));
     fprintf(g->to,
-            "set multiplot layout %d,%d margins char 10, char 3, char 4, char 4 spacing char 11, char 6\n"
+            "set multiplot layout %d,%d margins char 10, char %d, char 4, char 5 spacing char %d, char 6\n"
             "set format y '%%.4g'\nset offsets graph 0.04, graph 0.04, graph 0.08, graph 0.08\n",
-            panel_rows(p), columns);
+            panel_rows(p), columns, 3 + beside, 11 + beside);
     return OK;
 }
 
@@ -193,7 +194,7 @@ static status draw_lines(const struct study_picture *p)
     snprintf(name, sizeof name, "%.*s.png", CASE_NAME_ROOM, p->key[p->across].key);
     for (char *c = name; *c; c++)
         if (*c == '/') *c = '_';
-    TRY(picture_open(&g, p, name));
+    TRY(picture_open(&g, p, name, 0));
     for (int panel = 0; panel < p->panels; panel++) send_points(g.to, p, panel);
     if (p->numbers)
         fputs("set xtics autofreq\n", g.to);
@@ -204,8 +205,16 @@ static status draw_lines(const struct study_picture *p)
              *p->unit ? "]" : "");
     fputs("set xlabel ", g.to);
     gnuplot_quote(g.to, label);
-    fputs("\nset key inside top left\n", g.to);
-    for (int panel = 0; panel < p->panels; panel++) plot_panel(g.to, p, panel);
+    fputs("\nset key at screen 0.02,0.99 left top horizontal maxrows 1\n", g.to);
+    if (p->lines >= 0) {
+        fputs("set label 1 ", g.to);
+        gnuplot_quote(g.to, p->key[p->lines].key);
+        fputs(" at screen 0.99,0.975 right\n", g.to);
+    }
+    for (int panel = 0; panel < p->panels; panel++) {
+        plot_panel(g.to, p, panel);
+        fputs("unset label 1\n", g.to);
+    }
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
 }
@@ -216,7 +225,7 @@ static status draw_study_map(const struct study_picture *p)
 {
     const struct varied_key *across = &p->key[p->across], *up = &p->key[p->lines];
     struct gnuplot g;
-    TRY(picture_open(&g, p, "map.png"));
+    TRY(picture_open(&g, p, "map.png", 9));
     send_tics(g.to, "x", across);
     send_tics(g.to, "y", up);
     fputs("set format cb '%.4g'\nunset grid\nset palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\n"
@@ -225,7 +234,7 @@ static status draw_study_map(const struct study_picture *p)
     gnuplot_quote(g.to, across->key);
     fputs("\nset ylabel ", g.to);
     gnuplot_quote(g.to, up->key);
-    fputs("\nset offsets\n", g.to);
+    fputs(" offset char -2.5,0\nset offsets\n", g.to);
     fprintf(g.to, "set xrange [-0.5:%g]\nset yrange [-0.5:%g]\n", across->values - 0.5, up->values - 0.5);
     for (int panel = 0; panel < p->panels; panel++) {
         fprintf(g.to, "$m%d << EOD\n", panel);
