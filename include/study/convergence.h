@@ -15,8 +15,8 @@ struct level_figures {
 };
 
 enum verdict {
-    VERDICT_CONVERGES,  /* with an order of 0.5 or more, within the errors of the means */
-    VERDICT_SCATTERS,   /* differences of spacings are hidden in the scatter of runs */
+    VERDICT_CONVERGES,  /* with an observed order of 0.5 or more */
+    VERDICT_SCATTERS,   /* differences of spacings, or their order, are hidden in the scatter of runs */
     VERDICT_OSCILLATES, /* the means go up and down */
     VERDICT_SLOW,       /* an order below 0.5 */
     VERDICT_DIVERGES,   /* differences grow as the spacing shrinks */

@@ -54,8 +54,9 @@ void study_free(struct study *s);
 struct study_case *study_add(struct study *s, const char *name, const struct scene_override *override, int overrides);
 /* Adds a run for every combination of the keys' values, the last key's change first. REFUSED if they are too many. */
 status study_cross(struct study *s, const struct varied_key *key, int keys);
-/* Reads every scene, REFUSED if one is not sound; marks the runs that are done already. */
-status study_check(struct study *s);
+/* Reads every scene, REFUSED if one is not sound; marks the runs that are done already and, with `collect`, those that
+ * have failed, which a study would run again. */
+status study_check(struct study *s, bool collect);
 /* Folder of a run. */
 struct path study_folder(const struct study *s, const struct study_case *c);
 

@@ -113,7 +113,7 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
 {
     TRY(study_make(s, a->scene, a->folder, "sweep"));
     TRY(study_cross(s, a->key, a->keys));
-    TRY(study_check(s));
+    TRY(study_check(s, a->collect));
     if (a->list) {
         for (int k = 0; k < s->n; k++) study_print_command(s, &s->at[k], a->way.threads, stdout);
         return OK;

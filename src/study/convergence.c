@@ -153,12 +153,15 @@ static void convergence_judge(struct convergence *c)
     }
     const bool allowed = orders_find(&o, l);
     c->order = o.seen;
-    if (!allowed || o.high <= 0) {
+    const bool grows = allowed && (o.high <= 0 || (o.high < ORDER_LEAST && o.seen <= 0));
+    if (!allowed || grows) {
         c->verdict = allowed ? VERDICT_DIVERGES : VERDICT_OSCILLATES;
         bounds_set(c, SAFETY_UNSEEN * range_of_means(c));
         return;
     }
-    c->verdict = o.high < ORDER_LEAST - 1e-6 ? VERDICT_SLOW : VERDICT_CONVERGES;
+    c->verdict = o.high < ORDER_LEAST - 1e-6   ? VERDICT_SLOW
+                 : o.seen > ORDER_LEAST - 1e-6 ? VERDICT_CONVERGES
+                                               : VERDICT_SCATTERS;
     c->extrapolated = l[0].mean - remainder_at(&l[0], coarse, order_taken(&o));
     for (int k = 0; k < c->levels; k++) c->discretisation[k] = SAFETY_SEEN * fabs(l[k].mean - c->extrapolated);
 }
@@ -170,10 +173,13 @@ bool convergence_find(struct convergence *c, const double *spacing, const double
     *c = (struct convergence){.levels = levels};
     for (int k = 0; k < levels; k++) {
         level_find(&c->level[k], spacing, value, level, n, k);
-        if (c->level[k].runs == 0) return false;
+        if (c->level[k].runs > 0) continue;
+        if (k < LEVELS_LEAST) return false;
+        c->levels = k; /* coarser ones do not count */
+        break;
     }
     errors_find(c, resolution);
     convergence_judge(c);
-    for (int k = 0; k < levels; k++) c->uncertainty[k] = hypot(c->discretisation[k], c->level[k].error);
+    for (int k = 0; k < c->levels; k++) c->uncertainty[k] = hypot(c->discretisation[k], c->level[k].error);
     return true;
 }

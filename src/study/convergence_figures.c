@@ -222,11 +222,15 @@ static void figure_print(const struct figure_study *f, int own)
     certain_digits(text, sizeof text, c->level[0].mean, c->uncertainty[0]);
     printf("\n  %s +- %.2g (scatter %.2g, discretisation %.2g)", text, c->uncertainty[0], c->level[0].error,
            c->discretisation[0]);
-    if (own > 0) {
+    if (own > 0 && own < c->levels) {
         certain_digits(text, sizeof text, c->level[own].mean, c->uncertainty[own]);
         printf("; at the scene's own %.4g mm %s +- %.2g", 1e3 * c->level[own].spacing, text, c->uncertainty[own]);
     }
-    printf("; a run by itself scatters by %.2g; moved most by: %s\n", 2 * c->level[0].deviation, mover(f));
+    if (c->level[0].runs > 1 || c->level[0].deviation > 0)
+        printf("; a run by itself scatters by %.2g", 2 * c->level[0].deviation);
+    else
+        printf("; scatter not known, by one run");
+    printf("; moved most by: %s\n", mover(f));
 }
 
 void figures_print(const struct convergence_study *s, const struct figure_study *figure, int figures)

@@ -14,7 +14,7 @@
 enum { RUNS_LEAST = 3, SHIFTS_MOST = 6, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
 #define STEP_RANGE 0.1    /* steps from 0.9 to 1.1 of the scene's own */
 #define SAFETY_MOST 1.0   /* share of the critical step that no run exceeds */
-#define HORIZON_LEAST 2.0 /* [spacings], with a horizon of fixed length */
+#define HORIZON_MOST 10.5 /* [spacings] */
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
@@ -65,7 +65,7 @@ static void point_add(struct convergence_study *s, struct study_point p)
     else if (scene->solver == SOLVER_EXPLICIT)
         value_put(own, &n, value, "time.safety", scene->safety * p.step);
     if (scene->irregularity > 0) value_put(own, &n, value, "particles.seed", (double)scene->seed + p.run);
-    value_put(own, &n, value, "output.frames", 0);
+    if (scene->times.n == 0) value_put(own, &n, value, "output.frames", 0);
     struct scene_override *all = NEW("study.override", s->overrides + n, struct scene_override);
     for (int k = 0; k < s->overrides; k++) all[k] = s->override[k];
     for (int k = 0; k < n; k++) all[s->overrides + k] = own[k];
@@ -112,7 +112,8 @@ static double cost_of_all(const struct convergence_study *s, int jobs)
 /* Runs that would differ in nothing are left out: without steps or random numbers each spacing is run once. */
 static void runs_set(struct convergence_study *s, int runs, int finest)
 {
-    const bool differ = s->scene.solver == SOLVER_EXPLICIT || s->scene.irregularity > 0;
+    const bool steps = s->scene.solver == SOLVER_EXPLICIT && step_of(s, 1, 3) != step_of(s, 2, 3);
+    const bool differ = steps || s->scene.irregularity > 0;
     for (int level = 0; level < s->spacings.levels; level++) {
         const int wanted = level == 0 ? finest : runs, most = differ ? wanted : s->spacings.n[level];
         s->runs[level] = wanted < most ? wanted : most;
@@ -152,9 +153,9 @@ static status first_run(struct convergence_study *s, const struct convergence_wi
     way.quiet = true;
     way.until = s->begun + s->budget;
     level_run_add(s, s->spacings.levels - 1, 0, w->runs);
-    TRY(study_check(&s->study));
+    TRY(study_check(&s->study, false));
     TRY(study_run(&s->study, way));
-    if (s->study.at[0].state == CASE_STOPPED)
+    if (s->study.at[0].state == CASE_STOPPED || s->study.at[0].state == CASE_WAITING)
         return status_set(REFUSED, "%.3g s are too little: one run at %.4g mm, the coarsest, takes longer (--budget)",
                           s->budget, 1e3 * s->point[0].spacing);
     if (s->study.at[0].state == CASE_FAILED)
@@ -172,26 +173,28 @@ static status plan_fit(struct convergence_study *s, const struct convergence_wis
         const int levels = w->levels - (shift < 0 ? shift : 0);
         if (levels > LEVELS_MOST) continue;
         spacings_plan(&s->spacings, &s->scene, levels, s->scene.spacing * pow(2, 0.5 * shift));
-        const bool fits = runs_fit(s, w->runs, jobs, left);
+        const bool fits =
+            runs_fit(s, w->runs, jobs, left) && horizon_at_level(s, 0, s->spacings.at[0][0]) <= HORIZON_MOST;
         if (shift == 0) need = s->expected;
         if (!fits) continue;
         s->own = shift > 0 ? -1 : -shift;
-        s->point[0].level = shift > 0 ? -2 : levels - 1; /* -2: no level has its spacing any more */
+        s->point[0].level = -2; /* unless a level has its spacing */
+        for (int k = 0; k < levels; k++)
+            if (fabs(s->spacings.at[k][0] / s->point[0].spacing - 1) < 1e-9) s->point[0].level = k;
         return OK;
     }
     return status_set(REFUSED, "%.3g s are too little: three runs at each spacing would take about %.3g s (--budget)",
                       s->budget, need + s->spent);
 }
 
+/* One run of each level comes first, so that there is a result however soon the budget ends. */
 static void runs_add_all(struct convergence_study *s)
 {
-    const int coarsest = s->spacings.levels - 1;
-    for (int level = coarsest; level >= 0; level--)
-        for (int run = 0; run < s->runs[level]; run++) {
-            const bool first = level == coarsest && run == 0 && s->own >= 0;
-            if (!first) level_run_add(s, level, run, s->runs[level]);
-        }
-    if (!has_bonds(&s->scene) || s->fixed_horizon || s->scene.horizon + 1 > 10.5) return;
+    const int first = s->point[0].level;
+    for (int run = 0; run < RUNS_MOST; run++)
+        for (int level = s->spacings.levels - 1; level >= 0; level--)
+            if (run < s->runs[level] && !(level == first && run == 0)) level_run_add(s, level, run, s->runs[level]);
+    if (!has_bonds(&s->scene) || s->fixed_horizon || s->scene.horizon + 1 > HORIZON_MOST) return;
     point_add(s, (struct study_point){.level = -1,
                                       .spacing = s->spacings.at[1][0],
                                       .step = step_of(s, 0, 1),
@@ -217,15 +220,25 @@ static status study_go(struct convergence_study *s, const struct convergence_wis
     const int cores = team_cores();
     TRY(study_make(&s->study, w->scene, w->folder, "converge"));
     spacings_plan(&s->spacings, &s->scene, w->levels, s->scene.spacing);
+    if (horizon_at_level(s, 0, s->spacings.at[0][0]) > HORIZON_MOST)
+        return status_set(REFUSED,
+                          "--horizon: the finest spacing would have a horizon of %.3g spacings, %g is the most; "
+                          "fewer --levels or a smaller particles.horizon",
+                          horizon_at_level(s, 0, s->spacings.at[0][0]), HORIZON_MOST);
     TRY(first_run(s, w));
     if (way.threads <= 0) way.threads = 1;
     if (way.jobs <= 0) way.jobs = cores > way.threads ? cores / way.threads : 1;
     TRY(plan_fit(s, w, way.jobs));
     if (!way.quiet) plan_print(s);
     runs_add_all(s);
-    TRY(study_check(&s->study));
+    TRY(study_check(&s->study, false));
     way.until = s->begun + s->budget;
     TRY(study_run(&s->study, way));
+    int failed = 0;
+    for (int k = 0; k < s->study.n; k++) failed += s->study.at[k].state == CASE_FAILED;
+    if (failed > 0)
+        fprintf(stderr, "warning: %d of %d runs have failed and are left out: see %s/logs\n", failed, s->study.n,
+                s->study.folder);
     return study_table_read(&s->table, &s->study);
 }
 

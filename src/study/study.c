@@ -146,13 +146,13 @@ status study_cross(struct study *s, const struct varied_key *key, int keys)
 
 /* ---- what is done ------------------------------------------------------------------------------------------------ */
 
-/* True if the folder holds a finished run of a scene that says the same. */
-static bool is_done(const char *folder, const char *scene_text)
+/* True if the folder holds a run with this status of a scene that says the same. */
+static bool has_ended(const char *folder, const char *scene_text, const char *as)
 {
     char ended[NAME_MAX_LENGTH], *text;
     size_t length;
     if (!path_is_file(path_join(folder, "summary.json").text) ||
-        summary_string(folder, "status", ended, sizeof ended) != OK || strcmp(ended, "done") != 0)
+        summary_string(folder, "status", ended, sizeof ended) != OK || strcmp(ended, as) != 0)
         return false;
     if (file_get(path_join(folder, "scene.yaml").text, &text, &length) != OK) return false;
     const bool same = length == strlen(text) && scene_text_same(text, scene_text);
@@ -160,13 +160,17 @@ static bool is_done(const char *folder, const char *scene_text)
     return same;
 }
 
-status study_check(struct study *s)
+status study_check(struct study *s, bool collect)
 {
     for (int k = 0; k < s->n; k++) {
         struct study_case *c = &s->at[k];
         struct scene scene;
         TRY(scene_read(&scene, s->scene, c->override, c->overrides));
-        if (is_done(study_folder(s, c).text, scene.text)) c->state = CASE_DONE_BEFORE;
+        const struct path folder = study_folder(s, c);
+        if (has_ended(folder.text, scene.text, "done"))
+            c->state = CASE_DONE_BEFORE;
+        else if (collect && has_ended(folder.text, scene.text, "failed"))
+            c->state = CASE_FAILED;
         scene_free(&scene);
     }
     return OK;

@@ -157,7 +157,7 @@ static void plot_panel(FILE *to, const struct study_picture *p, int panel)
     fputs("\nplot ", to);
     for (int l = 0; l < lines; l++) {
         fprintf(to,
-                "%s$p%d_%d using 1:2 with lines lw 1.6 lc rgb '%s' notitle, "
+                "%s$p%d_%d using 1:2 smooth unique with lines lw 1.6 lc rgb '%s' notitle, "
                 "$p%d_%d using 1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.4 lc rgb '%s' ",
                 l > 0 ? ", " : "", panel, l, curve_colour[l], panel, l, curve_colour[l]);
         if (p->lines < 0 || panel > 0) {

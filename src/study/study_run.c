@@ -166,7 +166,10 @@ static void case_end(struct runner *r, struct study_case *c, int ended)
     r->running--;
     r->ended++;
     if (c->state == CASE_FAILED) {
-        last_line(log.text, line, sizeof line);
+        if (WIFSIGNALED(ended))
+            snprintf(line, sizeof line, "killed by signal %d", WTERMSIG(ended));
+        else
+            last_line(log.text, line, sizeof line);
         fprintf(stderr, "[%d/%d] %s: exit status %d: %s\n", r->ended, r->study->n, c->name, c->ended, line);
     } else if (!r->how.quiet)
         fprintf(stderr, "[%d/%d] %s: %s in %.3g s\n", r->ended, r->study->n, c->name,

@@ -141,6 +141,15 @@ static status values_read(struct varied_key *k, const char *text)
     }
 }
 
+/* `a[1].b` is the same key as `a.1.b`. */
+static void key_unify(char *key)
+{
+    char *to = key;
+    for (const char *from = key; *from; from++)
+        if (*from != ']') *to++ = *from == '[' ? '.' : *from;
+    *to = '\0';
+}
+
 status varied_key_read(struct varied_key *k, const char *text)
 {
     const char *equals = strchr(text, '=');
@@ -149,6 +158,7 @@ status varied_key_read(struct varied_key *k, const char *text)
         return status_set(REFUSED, "-s %s: a key and its values are expected, as in -s particles.spacing=1mm,0.5mm",
                           text);
     k->key = trimmed(text, equals);
+    key_unify(k->key);
     const status s = values_read(k, equals + 1);
     if (s != OK) varied_key_free(k);
     return s;

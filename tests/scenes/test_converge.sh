@@ -62,6 +62,15 @@ folder=bar
 is "one figure" "$(wc -l <of/converge.csv | tr -d ' ')" 2
 is "nothing on standard error" "$(cat err)" ""
 
+# ---- frames at given times, equal runs, coarse levels without a figure ------------------------------------------------
+
+sed 's/frames: 0/times: [1 us, 2 us]/' bar.yaml >times.yaml
+"$cleave" converge times.yaml -o times --runs 1 -q >out 2>err
+is "frames at given times" $? 0
+grep -q "scatter not known, by one run" out && pass || fail "one run: $(cat out)"
+"$cleave" converge bar.yaml -o limit -s time.safety=1 -q >out
+is "no two runs are equal" "$(cat limit/spacing*/scene.yaml | grep -c '^time')" "$(for run in limit/spacing*; do cksum <"$run/scene.yaml"; done | sort -u | wc -l | tr -d ' ')"
+
 # ---- a run knows of a study beside it --------------------------------------------------------------------------------
 
 "$cleave" converge bar.yaml -o runs/bar_converge -q >out
@@ -101,6 +110,8 @@ refused()
     grep -qF -e "$wanted" err && pass || fail "$*: $(cat err)"
 }
 refused "no scene given" -o none
+refused "are too little" bar.yaml --budget 1us -o tiny
+refused "10.5 is the most" bar.yaml --horizon --levels 6 -o none
 refused "a time is expected" bar.yaml --budget 10mm -o none
 refused "a number from 3 to 6" bar.yaml --levels 2 -o none
 refused "cleave sweep varies keys" bar.yaml -s method=pd,mpm -o none

@@ -51,7 +51,7 @@ is "lines" "$(wc -l <list | tr -d ' ')" 6
 holds "nothing runs" test ! -e listed
 for task in 1 2; do sh -c "$(sed -n "${task}p" list)" >/dev/null 2>&1; done     # as a task of a Slurm array does
 if command -v parallel >/dev/null 2>&1; then parallel -j 2 <list >/dev/null 2>&1
-else xargs -P 2 -I % sh -c % <list >/dev/null 2>&1; fi
+else xargs -d "\n" -P 2 -I % sh -c % <list >/dev/null 2>&1; fi
 "$cleave" sweep bar.yaml $keys -o listed --collect >out
 is "collected" $? 0
 grep -q '^6 runs: 6 done' out && pass || fail "collected: $(cat out)"
@@ -69,6 +69,8 @@ grep -q '^2 runs: 1 done, 1 failed: see fails/logs' out && pass || fail "one fai
 grep -q '^\[.*\] safety=2: exit status 1: ' err && pass || fail "and says why: $(cat err)"
 awk -F, '$1 == "safety=2" { print $2 }' fails/sweep.csv >state
 is "in the table" "$(cat state)" failed
+"$cleave" sweep bar.yaml -s time.safety=0.5,2 -s material.toughness=1e9 -o fails --collect >out 2>err
+is "status of a failure, collected" $? 1
 refused()
 {
     wanted=$1; shift
@@ -78,6 +80,7 @@ refused()
 }
 refused "nothing varies" bar.yaml -o none
 refused "given twice" bar.yaml -s method=pd,mpm -s method=pd -o none
+refused "given twice" bar.yaml -s boundary.0.traction=[1,0] -s boundary[0].traction=[2,0] -o none
 refused "unknown key" bar.yaml -s particles.spacin=1mm,2mm -o none
 refused "particles.spacing" bar.yaml -s particles.spacing=1mm,-1mm -o none
 refused "one of them" bar.yaml -s method=pd,mpm --list --collect -o none
