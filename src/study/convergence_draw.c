@@ -111,7 +111,8 @@ static bool send_path(FILE *to, const struct convergence_study *s, int k)
 static status draw_paths(const struct convergence_study *s)
 {
     struct gnuplot g;
-    int drawn = 0, last = -1;
+    bool named[LEVELS_MOST] = {false};
+    int drawn = 0;
     TRY(gnuplot_open(&g, convergence_picture(s, "path.png").text, PICTURE_PNG, 900, 720));
     fputs("set size ratio -1\nset xlabel 'x [mm]'\nset ylabel 'y [mm]'\n"
           "set title 'paths of the longest crack, all runs'\nset offsets graph 0.05, graph 0.05, graph 0.05, graph "
@@ -123,13 +124,13 @@ static status draw_paths(const struct convergence_study *s)
         const int level = s->point[k].level;
         if (level < 0 || !send_path(g.to, s, k)) continue;
         char title[64] = "";
-        if (level != last) snprintf(title, sizeof title, "title '%.4g mm'", 1e3 * s->spacings.at[level][0]);
+        if (!named[level]) snprintf(title, sizeof title, "title '%.4g mm'", 1e3 * s->spacings.at[level][0]);
         const int more =
             snprintf(plots + used, sizeof plots - used, "%s$w%d with lines lw 1.6 lc rgb '%s' %s",
-                     drawn > 0 ? ", " : "", k, curve_colour[level % CURVE_COLOURS], level != last ? title : "notitle");
+                     drawn > 0 ? ", " : "", k, curve_colour[level % CURVE_COLOURS], named[level] ? "notitle" : title);
         if (more < 0 || used + (size_t)more >= sizeof plots) break;
         used += (size_t)more;
-        last = level;
+        named[level] = true;
         drawn++;
     }
     if (drawn > 0)
