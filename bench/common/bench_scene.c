@@ -190,11 +190,13 @@ static int remove_entry(const char *path, const struct stat *info, int kind, str
     return remove(path);
 }
 
+void bench_folder_remove(const char *folder) { nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS); }
+
 void bench_child_free(struct bench_child *c)
 {
     int ended;
     if (c->process) waitpid(c->process, &ended, 0);
-    if (c->folder[0]) nftw(c->folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    if (c->folder[0]) bench_folder_remove(c->folder);
     *c = (struct bench_child){0};
 }
 

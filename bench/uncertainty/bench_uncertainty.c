@@ -2,7 +2,6 @@
  * methods and at several spacings: how often the interval of a nominal share holds the answer, and how wide it is
  * beside the true error. */
 #include <errno.h>
-#include <ftw.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,7 +36,7 @@ static const struct {
     {0.50, 0.67449 / 1.95996}, {0.6827, 1 / 1.95996}, {0.80, 1.28155 / 1.95996}, {0.90, 1.64485 / 1.95996}, {0.95, 1},
     {0.99, 2.57583 / 1.95996},
 };
-enum { SHARES = COUNT_OF(share), SHARE_95 = 4 };
+enum { SHARES = COUNT_OF(share) };
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 
@@ -52,12 +51,6 @@ static status scene_text_write(const char *path, const struct known_scene *k, co
                  lines, variant, spacing, at ? ", horizon: " : "", at ? at + 1 : "");
     assert(length < TEXT_ROOM);
     return file_put(path, text, (size_t)length);
-}
-
-static int entry_remove(const char *path, const struct stat *info, int kind, struct FTW *walk)
-{
-    (void)info, (void)kind, (void)walk;
-    return remove(path);
 }
 
 static status study_of(struct known_rows *rows, const struct known_scene *k, const char *const *variant,
@@ -84,7 +77,7 @@ static status study_of(struct known_rows *rows, const struct known_scene *k, con
         memory_free(figure);
     }
     convergence_study_free(&s);
-    nftw(into.text, entry_remove, 16, FTW_DEPTH | FTW_PHYS);
+    bench_folder_remove(into.text);
     return OK;
 }
 
@@ -204,12 +197,11 @@ status bench_uncertainty(bool quick)
            "+-/err", "verdict");
     for (int k = 0; k < known_scenes_n && s == OK; k++)
         if (!quick || known_scenes[k].quick) s = known_scene_measure(rows, &known_scenes[k], folder, quick);
-    nftw(folder, entry_remove, 16, FTW_DEPTH | FTW_PHYS);
+    bench_folder_remove(folder);
     if (s == OK && rows->n == 0) s = status_set(FAILED, "bench uncertainty: no study has ended");
     if (s == OK) {
         printf("  %d figures: the 95 %% interval held the answer in %.0f %% (asked 90); its median half-width is %.2f "
-               "true "
-               "errors (asked at most 3)\n",
+               "true errors (asked at most 3)\n",
                rows->n, 100 * covered(rows, 1), width_median(rows));
         s = rows_write(rows);
     }

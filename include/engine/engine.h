@@ -147,11 +147,11 @@ struct sampling {
     real rigid, rigid_work;              /* of rigid bodies: kinetic at the begin; work up to t_n [J] */
 };
 
-/* What a run leaves and says, and when. */
 /* Half-width of the 95 % interval of a figure of the summary, from a study of convergence (study/uncertainty.h). */
 struct error_bar { char figure[NAME_MAX_LENGTH]; double half_width; };
 enum { ERROR_BARS_MOST = 128 };
 
+/* What a run leaves and says, and when. */
 struct run_report {
     struct output *out;                  /* borrowed; NULL: a run without files (tests, benches) */
     struct sampling sampling;

@@ -50,6 +50,8 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
 void output_close(struct output *o);
 /* Do two texts of scenes say the same, wherever their particle lists lie? */
 bool scene_text_same(const char *a, const char *b);
+/* Does the file hold a scene that says the same? False where it cannot be read. */
+bool scene_file_same(const char *path, const char *scene_text);
 
 /* Writes `text` to DIR/name (aside, sync, rename). */
 status output_text(const struct output *o, const char *name, const char *text, size_t length);

@@ -57,6 +57,10 @@ status study_cross(struct study *s, const struct varied_key *key, int keys);
 /* Reads every scene, REFUSED if one is not sound; marks the runs that are done already and, with `collect`, those that
  * have failed, which a study would run again. */
 status study_check(struct study *s, bool collect);
+/* The value of a key in a run; "": it has none of its own. */
+const char *study_value(const struct study_case *c, const char *key);
+/* Closes a file of open_memstream (NULL: no memory) and writes its bytes, which are freed, as FOLDER/name. */
+status study_put(const struct study *s, const char *name, FILE *to, char **text, const size_t *length);
 /* Folder of a run. */
 struct path study_folder(const struct study *s, const struct study_case *c);
 

@@ -18,14 +18,28 @@ static status add_override(struct run_arguments *a, const char *text)
     return OK;
 }
 
-static status read_threads(struct run_arguments *a, const char *text)
+/* A whole number from least to most; false: it is none. */
+static bool count_read(int *count, const char *text, int least, int most)
 {
     char *end;
-    long n = strtol(text, &end, 10);
-    if (*end || end == text || n < 1 || n > 4096)
-        return status_set(REFUSED, "-t %s: a number of threads from 1 to 4096 is wanted", text);
-    a->threads = (int)n;
-    return OK;
+    const long n = strtol(text, &end, 10);
+    if (*end || end == text || n < least || n > most) return false;
+    *count = (int)n;
+    return true;
+}
+
+status option_count(int *count, const char *option, const char *text, int least, int most)
+{
+    return count_read(count, text, least, most)
+               ? OK
+               : status_set(REFUSED, "%s %s: a number from %d to %d is expected", option, text, least, most);
+}
+
+static status read_threads(struct run_arguments *a, const char *text)
+{
+    return count_read(&a->threads, text, 1, THREADS_MOST)
+               ? OK
+               : status_set(REFUSED, "-t %s: a number of threads from 1 to %d is wanted", text, THREADS_MOST);
 }
 
 static status arguments_read_all(struct run_arguments *a, int argc, char **argv, const char *usage)

@@ -4,6 +4,8 @@
 
 #include "scene/scene.h"
 
+enum { THREADS_MOST = 4096 };            /* of a run; and runs at once */
+
 struct run_arguments {
     const char *scene, *folder;          /* borrowed from argv; folder NULL: default */
     struct scene_override *override;     /* owned; strings point into copies of argv */
@@ -12,6 +14,8 @@ struct run_arguments {
     bool resume, overwrite, quiet;
 };
 
+/* The whole number behind an option; REFUSED unless it is from least to most. */
+status option_count(int *count, const char *option, const char *text, int least, int most);
 /* argv[0]: the command. REFUSED with the usage line for malformed words. */
 status arguments_read(struct run_arguments *a, int argc, char **argv, const char *usage);
 void arguments_free(struct run_arguments *a);

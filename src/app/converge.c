@@ -1,8 +1,8 @@
 /* `cleave converge`: every figure of a scene with its error bar. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "arguments.h"
 #include "base/memory.h"
 #include "commands.h"
 #include "src/scene/scene_internal.h"
@@ -22,16 +22,6 @@ struct converge_arguments {
 };
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
-
-static status converge_count(int *count, const char *option, const char *text, int least, int most)
-{
-    char *end;
-    const long n = strtol(text, &end, 10);
-    if (*end || end == text || n < least || n > most)
-        return status_set(REFUSED, "%s %s: a number from %d to %d is expected", option, text, least, most);
-    *count = (int)n;
-    return OK;
-}
 
 static status budget_read(struct convergence_wish *w, const char *text)
 {
@@ -62,13 +52,13 @@ static status converge_option(struct converge_arguments *a, const char *word, co
     else if (!strcmp(word, "-s"))
         return converge_override(a, value);
     else if (!strcmp(word, "-j"))
-        return converge_count(&w->way.jobs, word, value, 1, 4096);
+        return option_count(&w->way.jobs, word, value, 1, THREADS_MOST);
     else if (!strcmp(word, "-t"))
-        return converge_count(&w->way.threads, word, value, 1, 4096);
+        return option_count(&w->way.threads, word, value, 1, THREADS_MOST);
     else if (!strcmp(word, "--runs"))
-        return converge_count(&w->runs, word, value, 1, RUNS_MOST);
+        return option_count(&w->runs, word, value, 1, RUNS_MOST);
     else if (!strcmp(word, "--levels"))
-        return converge_count(&w->levels, word, value, LEVELS_LEAST, LEVELS_MOST);
+        return option_count(&w->levels, word, value, LEVELS_LEAST, LEVELS_MOST);
     else if (!strcmp(word, "--budget"))
         return budget_read(w, value);
     else

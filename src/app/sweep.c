@@ -1,10 +1,9 @@
 /* `cleave sweep`: every combination of the values of some keys; runs them, or lists the commands that do. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "arguments.h"
 #include "base/memory.h"
-#include "base/team.h"
 #include "commands.h"
 #include "study/study.h"
 
@@ -31,16 +30,6 @@ static status key_add(struct sweep_arguments *a, const char *text)
     return OK;
 }
 
-static status count_read(int *count, const char *option, const char *text)
-{
-    char *end;
-    const long n = strtol(text, &end, 10);
-    if (*end || end == text || n < 1 || n > 4096)
-        return status_set(REFUSED, "%s %s: a number from 1 to 4096 is expected", option, text);
-    *count = (int)n;
-    return OK;
-}
-
 static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
 {
     for (int k = 1; k < argc; k++) {
@@ -52,9 +41,9 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
         else if (!strcmp(word, "-s"))
             TRY(key_add(a, argv[++k]));
         else if (!strcmp(word, "-j"))
-            TRY(count_read(&a->way.jobs, word, argv[++k]));
+            TRY(option_count(&a->way.jobs, word, argv[++k], 1, THREADS_MOST));
         else if (!strcmp(word, "-t"))
-            TRY(count_read(&a->way.threads, word, argv[++k]));
+            TRY(option_count(&a->way.threads, word, argv[++k], 1, THREADS_MOST));
         else if (!strcmp(word, "--list"))
             a->list = true;
         else if (!strcmp(word, "--collect"))

@@ -2,12 +2,10 @@
 #include "output/output.h"
 
 #include <dirent.h>
-#include <errno.h>
 #include <hdf5.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/memory.h"
@@ -110,6 +108,16 @@ static int scene_difference(const char **a, const char **b)
 }
 
 bool scene_text_same(const char *a, const char *b) { return scene_difference(&a, &b) == 0; }
+
+bool scene_file_same(const char *path, const char *scene_text)
+{
+    char *text;
+    size_t length;
+    if (!path_is_file(path) || file_get(path, &text, &length) != OK) return false;
+    const bool same = length == strlen(text) && scene_text_same(text, scene_text);
+    memory_free(text);
+    return same;
+}
 
 /* The first line in which two scenes differ, in words. */
 static void difference_text(const char *a, const char *b, char *text, size_t room)

@@ -170,13 +170,8 @@ status figures_write(const struct convergence_study *s, const struct figure_stud
     char *text = NULL;
     size_t length = 0;
     FILE *to = open_memstream(&text, &length);
-    if (!to) return status_set(FAILED, "cannot write converge.csv: out of memory");
-    figures_table(to, s, figure, figures);
-    const bool whole = !ferror(to) && fclose(to) == 0;
-    const status written = whole ? file_put(path_join(s->study.folder, "converge.csv").text, text, length)
-                                 : status_set(FAILED, "cannot write converge.csv: out of memory");
-    free(text);
-    if (written != OK) return written;
+    if (to) figures_table(to, s, figure, figures);
+    TRY(study_put(&s->study, "converge.csv", to, &text, &length));
     return file_put(path_join(s->study.folder, STUDY_SCENE).text, s->scene.text, strlen(s->scene.text));
 }
 

@@ -24,7 +24,7 @@ static double step_of(const struct convergence_study *s, int run, int runs)
     const double most = s->scene.time_step > 0 ? INFINITY : SAFETY_MOST / s->scene.safety;
     const double range = fmin(STEP_RANGE, most - 1 > 0 ? most - 1 : 0), centre = most > 1 ? 1 : most;
     if (run == 0 || runs < 2) return centre;
-    const int pairs = (runs - 1 + 1) / 2, pair = (run - 1) / 2;
+    const int pairs = runs / 2, pair = (run - 1) / 2;
     return centre * (1 + (run % 2 ? -1 : 1) * range * (pairs - pair) / pairs);
 }
 
@@ -36,12 +36,11 @@ static double spacing_in_turn(const struct convergence_study *s, int level, int 
 
 static bool has_bonds(const struct scene *s) { return s->method != METHOD_MPM; }
 
-/* Horizon of a level [spacings]. */
-static double horizon_at_level(const struct convergence_study *s, int level, double spacing)
+/* Horizon of a run of this spacing [spacings]. */
+static double horizon_at(const struct convergence_study *s, double spacing)
 {
     const double coarsest = s->spacings.at[s->spacings.levels - 1][0];
-    if (!s->fixed_horizon || level < 0) return s->scene.horizon;
-    return s->scene.horizon * coarsest / spacing;
+    return s->scene.horizon * (s->fixed_horizon ? coarsest / spacing : 1);
 }
 
 static void value_put(struct scene_override *o, int *n, char value[][VALUE_ROOM], const char *key, double number)
@@ -83,7 +82,7 @@ static void level_run_add(struct convergence_study *s, int level, int run, int r
     point_add(s, (struct study_point){.level = level,
                                       .spacing = spacing,
                                       .step = step_of(s, run, runs),
-                                      .horizon = horizon_at_level(s, level, spacing),
+                                      .horizon = horizon_at(s, spacing),
                                       .run = run});
 }
 
@@ -173,8 +172,7 @@ static status plan_fit(struct convergence_study *s, const struct convergence_wis
         const int levels = w->levels - (shift < 0 ? shift : 0);
         if (levels > LEVELS_MOST) continue;
         spacings_plan(&s->spacings, &s->scene, levels, s->scene.spacing * pow(2, 0.5 * shift));
-        const bool fits =
-            runs_fit(s, w->runs, jobs, left) && horizon_at_level(s, 0, s->spacings.at[0][0]) <= HORIZON_MOST;
+        const bool fits = runs_fit(s, w->runs, jobs, left) && horizon_at(s, s->spacings.at[0][0]) <= HORIZON_MOST;
         if (shift == 0) need = s->expected;
         if (!fits) continue;
         s->own = shift > 0 ? -1 : -shift;
@@ -220,11 +218,11 @@ static status study_go(struct convergence_study *s, const struct convergence_wis
     const int cores = team_cores();
     TRY(study_make(&s->study, w->scene, w->folder, "converge"));
     spacings_plan(&s->spacings, &s->scene, w->levels, s->scene.spacing);
-    if (horizon_at_level(s, 0, s->spacings.at[0][0]) > HORIZON_MOST)
+    if (horizon_at(s, s->spacings.at[0][0]) > HORIZON_MOST)
         return status_set(REFUSED,
                           "--horizon: the finest spacing would have a horizon of %.3g spacings, %g is the most; "
                           "fewer --levels or a smaller particles.horizon",
-                          horizon_at_level(s, 0, s->spacings.at[0][0]), HORIZON_MOST);
+                          horizon_at(s, s->spacings.at[0][0]), HORIZON_MOST);
     TRY(first_run(s, w));
     if (way.threads <= 0) way.threads = 1;
     if (way.jobs <= 0) way.jobs = cores > way.threads ? cores / way.threads : 1;

@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "auto/scene_read.h"
@@ -146,18 +147,12 @@ status study_cross(struct study *s, const struct varied_key *key, int keys)
 
 /* ---- what is done ------------------------------------------------------------------------------------------------ */
 
-/* True if the folder holds a run with this status of a scene that says the same. */
-static bool has_ended(const char *folder, const char *scene_text, const char *as)
+/* How the run in a folder has ended, if it is one of a scene that says the same; else "". */
+static void ended_as(char *ended, size_t room, const char *folder, const char *scene_text)
 {
-    char ended[NAME_MAX_LENGTH], *text;
-    size_t length;
-    if (!path_is_file(path_join(folder, "summary.json").text) ||
-        summary_string(folder, "status", ended, sizeof ended) != OK || strcmp(ended, as) != 0)
-        return false;
-    if (file_get(path_join(folder, "scene.yaml").text, &text, &length) != OK) return false;
-    const bool same = length == strlen(text) && scene_text_same(text, scene_text);
-    memory_free(text);
-    return same;
+    if (!path_is_file(path_join(folder, "summary.json").text) || summary_string(folder, "status", ended, room) != OK ||
+        !scene_file_same(path_join(folder, "scene.yaml").text, scene_text))
+        ended[0] = '\0';
 }
 
 status study_check(struct study *s, bool collect)
@@ -165,13 +160,31 @@ status study_check(struct study *s, bool collect)
     for (int k = 0; k < s->n; k++) {
         struct study_case *c = &s->at[k];
         struct scene scene;
+        char ended[NAME_MAX_LENGTH];
         TRY(scene_read(&scene, s->scene, c->override, c->overrides));
-        const struct path folder = study_folder(s, c);
-        if (has_ended(folder.text, scene.text, "done"))
+        ended_as(ended, sizeof ended, study_folder(s, c).text, scene.text);
+        if (strcmp(ended, "done") == 0)
             c->state = CASE_DONE_BEFORE;
-        else if (collect && has_ended(folder.text, scene.text, "failed"))
+        else if (collect && strcmp(ended, "failed") == 0)
             c->state = CASE_FAILED;
         scene_free(&scene);
     }
     return OK;
+}
+
+const char *study_value(const struct study_case *c, const char *key)
+{
+    for (int k = 0; k < c->overrides; k++)
+        if (strcmp(c->override[k].key, key) == 0) return c->override[k].value;
+    return "";
+}
+
+status study_put(const struct study *s, const char *name, FILE *to, char **text, const size_t *length)
+{
+    const bool whole = to && !ferror(to);
+    const bool closed = to && fclose(to) == 0;
+    const status written = whole && closed ? file_put(path_join(s->folder, name).text, *text, *length)
+                                           : status_set(FAILED, "cannot write %s: out of memory", name);
+    free(*text);
+    return written;
 }

@@ -15,7 +15,7 @@ struct study_picture {
     const struct study_table *table;
     const struct study *study;
     const struct varied_key *key;
-    int keys, across, lines; /* the key along the axis; the key with a line each, -1: one line */
+    int across, lines; /* the key along the axis; the key with a line each, -1: one line */
     int figure[PANELS_MOST], panels;
     bool numbers; /* places along the axis are the values; else 0, 1, 2 */
     const char *unit;
@@ -61,10 +61,9 @@ static void panels_choose(struct study_picture *p)
 /* Number of a key's value in a run, -1: another one. */
 static int value_index(const struct varied_key *key, const struct study_case *c)
 {
-    for (int k = 0; k < c->overrides; k++)
-        if (strcmp(c->override[k].key, key->key) == 0)
-            for (int v = 0; v < key->values; v++)
-                if (strcmp(key->value[v], c->override[k].value) == 0) return v;
+    const char *own = study_value(c, key->key);
+    for (int v = 0; v < key->values; v++)
+        if (strcmp(key->value[v], own) == 0) return v;
     return -1;
 }
 
@@ -256,7 +255,7 @@ status study_draw(const struct study_table *t, const struct study *s, const stru
     int varied = 0;
     for (int k = 0; k < keys; k++) varied += key[k].values > 1;
     for (int k = 0; k < keys; k++) {
-        struct study_picture p = {.table = t, .study = s, .key = key, .keys = keys, .across = k, .unit = ""};
+        struct study_picture p = {.table = t, .study = s, .key = key, .across = k, .unit = ""};
         if (key[k].values < 2) continue;
         panels_choose(&p);
         if (p.panels == 0) return OK;

@@ -1,7 +1,6 @@
 /* The figures of all runs of a study as one table. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -109,14 +108,6 @@ static void cell_print(FILE *to, const char *text)
     putc('"', to);
 }
 
-/* The value of a key in a run. */
-static const char *value_of(const struct study_case *c, const char *key)
-{
-    for (int k = 0; k < c->overrides; k++)
-        if (strcmp(c->override[k].key, key) == 0) return c->override[k].value;
-    return "";
-}
-
 static const char *state_of(const struct study *s, const struct study_case *c, char *text, size_t room)
 {
     const struct path folder = study_folder(s, c);
@@ -139,7 +130,7 @@ static void table_print(FILE *to, const struct study_table *t, const struct stud
         putc(',', to);
         cell_print(to, state_of(s, &s->at[c], state, sizeof state));
         for (int k = 0; k < keys; k++)
-            if (key[k].values > 1) putc(',', to), cell_print(to, value_of(&s->at[c], key[k].key));
+            if (key[k].values > 1) putc(',', to), cell_print(to, study_value(&s->at[c], key[k].key));
         for (int f = 0; f < t->figures; f++)
             if (isnan(t->value[f][c]))
                 putc(',', to);
@@ -154,11 +145,6 @@ status study_write_table(const struct study_table *t, const struct study *s, con
     char *text = NULL;
     size_t length = 0;
     FILE *to = open_memstream(&text, &length);
-    if (!to) return status_set(FAILED, "cannot write sweep.csv: out of memory");
-    table_print(to, t, s, key, keys);
-    const bool whole = !ferror(to) && fclose(to) == 0;
-    const status written = whole ? file_put(path_join(s->folder, "sweep.csv").text, text, length)
-                                 : status_set(FAILED, "cannot write sweep.csv: out of memory");
-    free(text);
-    return written;
+    if (to) table_print(to, t, s, key, keys);
+    return study_put(s, "sweep.csv", to, &text, &length);
 }

@@ -23,18 +23,6 @@ static struct path study_beside(const char *folder, const char *name)
     return path_join(parent.text, place);
 }
 
-/* Is the study one of this scene? */
-static bool is_of_scene(const char *study, const char *scene_text)
-{
-    char *text;
-    size_t length;
-    if (!path_is_file(path_join(study, STUDY_SCENE).text)) return false;
-    if (file_get(path_join(study, STUDY_SCENE).text, &text, &length) != OK) return false;
-    const bool same = length == strlen(text) && scene_text_same(text, scene_text);
-    memory_free(text);
-    return same;
-}
-
 /* Cuts the next cell of a line; NULL at its end. */
 static char *cell_next(char **line)
 {
@@ -92,7 +80,7 @@ int error_bars_at_hand(struct error_bar *bar, int most, const struct scene *s, c
     char *text, *rest;
     size_t length;
     int n = 0;
-    if (!is_of_scene(study.text, s->text)) return 0;
+    if (!scene_file_same(path_join(study.text, STUDY_SCENE).text, s->text)) return 0;
     if (file_get(path_join(study.text, "converge.csv").text, &text, &length) != OK) return 0;
     char *line = strtok_r(text, "\n", &rest);
     if (line) columns_find(&columns, line);
