@@ -29,13 +29,7 @@ struct known_rows {
     struct known_row at[ROWS_MOST];
 };
 
-/* Shares of a normal distribution and their half-widths beside that of 95 %. */
-static const struct {
-    double nominal, width;
-} share[] = {
-    {0.50, 0.67449 / 1.95996}, {0.6827, 1 / 1.95996}, {0.80, 1.28155 / 1.95996}, {0.90, 1.64485 / 1.95996}, {0.95, 1},
-    {0.99, 2.57583 / 1.95996},
-};
+static const double share[] = {0.50, 0.6827, 0.80, 0.90, 0.95, 0.99};
 enum { SHARES = COUNT_OF(share) };
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
@@ -85,11 +79,12 @@ static status study_of(struct known_rows *rows, const struct known_scene *k, con
 
 static double true_error(const struct known_row *r) { return fabs(r->c.level[0].mean - r->exact); }
 
-/* Share of the rows whose interval, so many times as wide, holds the answer. */
-static double covered(const struct known_rows *rows, double width)
+/* Share of the rows whose interval of a nominal share holds the answer. */
+static double covered(const struct known_rows *rows, double nominal)
 {
     int held = 0;
-    for (int k = 0; k < rows->n; k++) held += true_error(&rows->at[k]) <= width * rows->at[k].c.uncertainty[0];
+    for (int k = 0; k < rows->n; k++)
+        held += true_error(&rows->at[k]) <= convergence_half_width(&rows->at[k].c, 0, nominal);
     return (double)held / rows->n;
 }
 
@@ -138,8 +133,7 @@ static status rows_write(const struct known_rows *rows)
         for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(&t[0], number[c]);
         bench_text(&t[0], verdict_name[r->c.verdict]);
     }
-    for (int k = 0; k < SHARES; k++)
-        bench_number(&t[1], share[k].nominal), bench_number(&t[1], covered(rows, share[k].width));
+    for (int k = 0; k < SHARES; k++) bench_number(&t[1], share[k]), bench_number(&t[1], covered(rows, share[k]));
     const status s = bench_write("uncertainty", t, 2);
     bench_table_free(&t[0]), bench_table_free(&t[1]);
     return s;
@@ -150,8 +144,7 @@ static void uncertainty_draw(FILE *to, const void *context)
 {
     const struct known_rows *rows = context;
     fputs("$c << EOD\n", to);
-    for (int k = 0; k < SHARES; k++)
-        fprintf(to, "%g %g\n", 100 * share[k].nominal, 100 * covered(rows, share[k].width));
+    for (int k = 0; k < SHARES; k++) fprintf(to, "%g %g\n", 100 * share[k], 100 * covered(rows, share[k]));
     fputs("EOD\n$w << EOD\n", to);
     for (int k = 0; k < rows->n; k++) {
         const struct known_row *r = &rows->at[k];
@@ -202,7 +195,7 @@ status bench_uncertainty(bool quick)
     if (s == OK) {
         printf("  %d figures: the 95 %% interval held the answer in %.0f %% (asked 90); its median half-width is %.2f "
                "true errors (asked at most 3)\n",
-               rows->n, 100 * covered(rows, 1), width_median(rows));
+               rows->n, 100 * covered(rows, 0.95), width_median(rows));
         s = rows_write(rows);
     }
     if (s == OK) s = bench_draw("uncertainty", 1100, 520, uncertainty_draw, rows);

@@ -24,25 +24,31 @@ enum verdict {
 };
 extern const char *const verdict_name[VERDICTS];
 
-/* Level 0 is the finest. All but `order` are in units of the figure. */
+/* Level 0 is the finest. All but orders are in units of the figure. */
 struct convergence {
     struct level_figures level[LEVELS_MOST];
     int levels;
     enum verdict verdict;
-    double order;                       /* observed on the three finest levels; NAN: none */
-    double extrapolated;                /* to spacing 0: with order 0.75 where the means allow it within their errors,
-                                         * else the nearest that they allow from 0.5 to 2 */
-    double discretisation[LEVELS_MOST]; /* of the mean of each level: grid convergence index */
-    double uncertainty[LEVELS_MOST];    /* root of the sum of the squares of this and of the error of the mean */
+    double order; /* observed on the three finest levels; NAN: none */
+    double index; /* grid convergence index of the finest level (Roache 1998, factor of safety 1.25); NAN: no order of
+                   * 1/2 or more is seen */
+    double order_likely, order_error; /* of all levels: mean and standard deviation of the orders that fit */
+    double extrapolated;              /* to spacing 0: mean of what they lead to */
+    double uncertainty[LEVELS_MOST];  /* half-width of the 95 % interval of the true value round the mean of a level */
+    double
+        discretisation[LEVELS_MOST]; /* what of it is not the error of the mean (root of the difference of squares) */
 };
 
 /* n runs: value[k] at spacing[k], of level[k] = 0 .. levels - 1; NAN: the run has none. resolution[level]: half of the
- * steps in which the figure comes there; NULL: none. False where a level has no value: nothing is known. The three
- * finest levels decide. The grid convergence index is that of Roache (1998), with the
- * factor of safety 1.5 where
- * the order is seen and bounds where it is not, as ASME V&V 20 (2009) asks. */
+ * steps in which the figure comes there; NULL: none. False where one of the three finest levels has no value. */
 bool convergence_find(struct convergence *c, const double *spacing, const double *value, const int *level, int n,
                       int levels, const double *resolution);
+
+/* Half-width of the interval round the mean of a level that holds the true value with probability `share`, from the
+ * means of all levels and their errors (convergence_interval.c). */
+double convergence_half_width(const struct convergence *c, int level, double share);
+/* Sets order_likely, order_error, extrapolated, uncertainty and discretisation of a convergence with levels. */
+void convergence_intervals(struct convergence *c);
 
 /* Quantile 97.5 % of Student's t with n >= 1 degrees of freedom. */
 double student_95(int n);

@@ -140,8 +140,8 @@ static void print_cell(FILE *to, double value)
 
 static void figures_table(FILE *to, const struct convergence_study *s, const struct figure_study *figure, int figures)
 {
-    fputs("figure,value,uncertainty,scatter,discretisation,deviation_of_a_run,verdict,order,extrapolated,step_moves,"
-          "spacing_moves,horizon_moves",
+    fputs("figure,value,uncertainty,scatter,discretisation,deviation_of_a_run,verdict,order,order_likely,order_error,"
+          "grid_convergence_index,extrapolated,step_moves,spacing_moves,horizon_moves",
           to);
     for (int l = 0; l < s->spacings.levels; l++)
         fprintf(to, ",spacing_%d [m],mean_%d,deviation_%d,uncertainty_%d,runs_%d", l, l, l, l, l);
@@ -153,8 +153,9 @@ static void figures_table(FILE *to, const struct convergence_study *s, const str
                                  c->level[0].deviation};
         for (size_t k = 0; k < COUNT_OF(before); k++) print_cell(to, before[k]);
         fprintf(to, ",%s", verdict_name[c->verdict]);
-        const double behind[] = {c->order, c->extrapolated, figure[f].step_moves, figure[f].spacing_moves,
-                                 figure[f].horizon_moves};
+        const double behind[] = {
+            c->order,        c->order_likely,      c->order_error,          c->index,
+            c->extrapolated, figure[f].step_moves, figure[f].spacing_moves, figure[f].horizon_moves};
         for (size_t k = 0; k < COUNT_OF(behind); k++) print_cell(to, behind[k]);
         for (int l = 0; l < c->levels; l++) {
             print_cell(to, c->level[l].spacing), print_cell(to, c->level[l].mean);
@@ -209,11 +210,12 @@ static void figure_print(const struct figure_study *f, int own)
         printf(" %s (%.4g mm)%s", text, 1e3 * c->level[k].spacing, k > 0 ? "," : "");
     }
     printf("; %s", verdict_name[c->verdict]);
-    if (isfinite(c->order)) printf(", order %.2f", c->order);
-    if (c->verdict == VERDICT_CONVERGES || c->verdict == VERDICT_SLOW) {
+    if (isfinite(c->order)) printf(", order %.2f on the finest three", c->order);
+    if (isfinite(c->order_likely)) {
         certain_digits(text, sizeof text, c->extrapolated, c->uncertainty[0] / 4);
-        printf(", towards %s", text);
+        printf("; order %.1f +- %.1f by all, towards %s", c->order_likely, c->order_error, text);
     }
+    if (isfinite(c->index)) printf("; grid convergence index %.2g", c->index);
     certain_digits(text, sizeof text, c->level[0].mean, c->uncertainty[0]);
     printf("\n  %s +- %.2g (scatter %.2g, discretisation %.2g)", text, c->uncertainty[0], c->level[0].error,
            c->discretisation[0]);

@@ -1,0 +1,142 @@
+/* The interval that holds the true value of a figure.
+ *
+ * The means of the levels are m_k = v + a (h_k/h_0)^p + noise, with the value v at spacing 0 that is sought. The noise
+ * is the error of the mean, of standard deviation e_k/2, and a misfit of standard deviation t S, by which lattices of
+ * different spacings meet a body differently; S is the range of the means. Before the means are looked at, nothing is
+ * known of v, the order p is anywhere from 1/2 (fronts) to 2 (smooth fields), the trend from the coarsest to the finest
+ * level is normal with the standard deviation S, and t has any size up to 1. For each (p, t) v is normal, by linear
+ * least squares; each counts by how likely it makes the means. The result is a mixture of normal distributions, which
+ * widens by itself where means scatter, turn or leave several orders open.
+ *
+ * `cleave bench uncertainty` compares these intervals with figures whose true values are known. */
+#include <math.h>
+
+#include "study/convergence.h"
+
+enum { ORDERS = 7, MISFITS = 10 };
+#define ORDER_FIRST 0.5   /* p in equal steps from here ... */
+#define ORDER_LAST 2.0    /* ... to here */
+#define MISFIT_LEAST 1e-3 /* t from here to 1, evenly in its logarithm */
+#define VAGUE 100.0       /* standard deviation of v before anything is known, in units of S */
+
+/* Normal distributions of v - m_0, in units of S, with their weights. */
+struct mixture {
+    struct {
+        double weight, centre, deviation, order;
+    } part[ORDERS * MISFITS];
+};
+
+/* ---- the mixture ------------------------------------------------------------------------------------------------- */
+
+/* S: range of the means, and their errors. */
+static double scale_of(const struct convergence *c)
+{
+    double least = INFINITY, most = -INFINITY, error = 0;
+    for (int k = 0; k < c->levels; k++) {
+        least = fmin(least, c->level[k].mean), most = fmax(most, c->level[k].mean);
+        error = fmax(error, c->level[k].error);
+    }
+    return hypot(most - least, 0.5 * error);
+}
+
+/* Least squares for v and a at order p and misfit t. Returns the logarithm of the likelihood of the means. */
+static double part_fit(const struct convergence *c, double scale, double p, double t, double *centre, double *deviation)
+{
+    const double trend = pow(c->level[c->levels - 1].spacing / c->level[0].spacing, p) - 1;
+    double vv = 1 / square(VAGUE), va = 0, aa = square(trend), v = 0, a = 0, misfit = 0, spread = -2 * log(trend);
+    for (int k = 0; k < c->levels; k++) {
+        const struct level_figures *l = &c->level[k];
+        const double x = pow(l->spacing / c->level[0].spacing, p), y = (l->mean - c->level[0].mean) / scale;
+        const double variance = square(0.5 * l->error / scale) + square(t);
+        vv += 1 / variance, va += x / variance, aa += x * x / variance;
+        v += y / variance, a += x * y / variance;
+        misfit += y * y / variance, spread += log(variance);
+    }
+    const double determinant = vv * aa - va * va;
+    const double value = (v * aa - a * va) / determinant, slope = (vv * a - va * v) / determinant;
+    *centre = value;
+    *deviation = sqrt(aa / determinant);
+    return -0.5 * (misfit - v * value - a * slope + spread + log(determinant));
+}
+
+/* False where all means are the same and exact. */
+static bool mixture_make(struct mixture *m, const struct convergence *c, double scale)
+{
+    double most = -INFINITY, sum = 0;
+    int n = 0;
+    if (!(scale > 0)) return false;
+    for (int o = 0; o < ORDERS; o++)
+        for (int k = 0; k < MISFITS; k++, n++) {
+            const double p = ORDER_FIRST + (ORDER_LAST - ORDER_FIRST) * o / (ORDERS - 1);
+            const bool at_end = o == 0 || o == ORDERS - 1; /* half a step of p */
+            const double t = pow(MISFIT_LEAST, 1 - (double)k / (MISFITS - 1));
+            m->part[n].order = p;
+            m->part[n].weight =
+                part_fit(c, scale, p, t, &m->part[n].centre, &m->part[n].deviation) + (at_end ? log(0.5) : 0);
+            most = fmax(most, m->part[n].weight);
+        }
+    for (int k = 0; k < n; k++) sum += m->part[k].weight = exp(m->part[k].weight - most);
+    for (int k = 0; k < n; k++) m->part[k].weight /= sum;
+    return true;
+}
+
+/* ---- intervals --------------------------------------------------------------------------------------------------- */
+
+static double normal_below(double z) { return 0.5 * erfc(-z * 0.70710678118654752); }
+
+/* Probability that v lies within half_width of `about`. */
+static double mixture_within(const struct mixture *m, double about, double half_width)
+{
+    double sum = 0;
+    for (int k = 0; k < ORDERS * MISFITS; k++) {
+        const double off = m->part[k].centre - about, s = m->part[k].deviation;
+        sum += m->part[k].weight * (normal_below((half_width - off) / s) - normal_below((-half_width - off) / s));
+    }
+    return sum;
+}
+
+/* By bisection, to 1e-9 of S. */
+static double mixture_half_width(const struct mixture *m, double about, double share)
+{
+    double low = 0, high = 4 * VAGUE;
+    while (high - low > 1e-9) {
+        const double middle = 0.5 * (low + high);
+        if (mixture_within(m, about, middle) < share)
+            low = middle;
+        else
+            high = middle;
+    }
+    return high;
+}
+
+double convergence_half_width(const struct convergence *c, int level, double share)
+{
+    struct mixture m;
+    const double scale = scale_of(c);
+    if (!mixture_make(&m, c, scale)) return 0;
+    return scale * mixture_half_width(&m, (c->level[level].mean - c->level[0].mean) / scale, share);
+}
+
+void convergence_intervals(struct convergence *c)
+{
+    struct mixture m;
+    const double scale = scale_of(c);
+    double value = 0, order = 0, squares = 0;
+    c->order_likely = c->order_error = NAN;
+    c->extrapolated = c->level[0].mean;
+    for (int k = 0; k < c->levels; k++) c->uncertainty[k] = c->discretisation[k] = 0;
+    if (!mixture_make(&m, c, scale)) return;
+    for (int k = 0; k < ORDERS * MISFITS; k++) {
+        value += m.part[k].weight * m.part[k].centre;
+        order += m.part[k].weight * m.part[k].order;
+        squares += m.part[k].weight * square(m.part[k].order);
+    }
+    c->order_likely = order;
+    c->order_error = sqrt(fmax(squares - square(order), 0));
+    c->extrapolated += scale * value;
+    for (int k = 0; k < c->levels; k++) {
+        const double error = c->level[k].error;
+        c->uncertainty[k] = convergence_half_width(c, k, 0.95);
+        c->discretisation[k] = sqrt(fmax(square(c->uncertainty[k]) - square(error), 0));
+    }
+}
