@@ -84,7 +84,7 @@ static double covered(const struct known_rows *rows, double nominal)
 {
     int held = 0;
     for (int k = 0; k < rows->n; k++)
-        held += true_error(&rows->at[k]) <= convergence_half_width(&rows->at[k].c, 0, nominal);
+        held += true_error(&rows->at[k]) <= convergence_half_width(&rows->at[k].c, rows->at[k].c.level[0].mean, nominal);
     return (double)held / rows->n;
 }
 

@@ -14,6 +14,26 @@ status scene_read(struct scene *s, const char *path, const struct scene_override
 /* The same from memory; no file is touched, not even to see whether particle lists exist. `name` stands in messages. */
 status scene_read_text(struct scene *s, const char *text, size_t length, const char *name,
                        const struct scene_override *override, int overrides);
+/* Where no problem of the table is like a scene with method auto, or its `accuracy` names a figure, runs at coarse
+ * spacings are to choose (study/pilot.h). */
+struct pilot_wish {
+    bool wanted;
+    char why[480];                       /* the table does not answer */
+    char figure[128];                    /* that is to be accurate; "": not named */
+    double within, budget;               /* its largest error [1]; time for the runs [s] */
+    double spacing;                      /* that the scene fixes [m]; 0: none */
+    char model[16];                      /* the same; "": none */
+    bool at_rest;                        /* it has a static solver */
+    bool has_accuracy, has_table, has_transfer; /* keys that the scene gives */
+    struct scene first;                  /* with stand-ins for what is to be chosen; scene_free */
+};
+/* Does the scene want that? REFUSED where it is not sound; nothing is left to free then. */
+status scene_pilot_wish(struct pilot_wish *w, const char *path, const struct scene_override *override, int overrides);
+
+/* Largest spacing <= h [m] that divides the edges of the first solid, and those of gaps and cracks along the axes, into
+ * whole numbers (`even`: of pairs); h if there is none near it. */
+real auto_spacing_fit(const struct scene *s, real h, bool even);
+
 /* What was chosen and why, in a few lines; nothing where the scene says itself (auto.c). */
 void scene_choice_print(const struct scene *s, FILE *out);
 

@@ -98,7 +98,6 @@ struct scene {
     int rigids;
     int interfaces; struct scene_interface *interface;
 
-    bool has_accuracy; real accuracy;    /* required of method auto [1] */
     struct scene_choice choice;
 
     real spacing, horizon, irregularity; /* [m], in spacings, [1] */

@@ -44,9 +44,9 @@ struct convergence {
 bool convergence_find(struct convergence *c, const double *spacing, const double *value, const int *level, int n,
                       int levels, const double *resolution);
 
-/* Half-width of the interval round the mean of a level that holds the true value with probability `share`, from the
- * means of all levels and their errors (convergence_interval.c). */
-double convergence_half_width(const struct convergence *c, int level, double share);
+/* Half-width of the interval round the value `about` that holds the true one with probability `share`, from the means
+ * of all levels and their errors (convergence_interval.c). */
+double convergence_half_width(const struct convergence *c, double about, double share);
 /* Sets order_likely, order_error, extrapolated, uncertainty and discretisation of a convergence with levels. */
 void convergence_intervals(struct convergence *c);
 

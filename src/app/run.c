@@ -7,6 +7,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "engine/engine.h"
+#include "study/pilot.h"
 #include "study/uncertainty.h"
 
 /* ---- run --------------------------------------------------------------------------------------------------------- */
@@ -72,19 +73,23 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
 
 status command_run(int argc, char **argv)
 {
-    (void)stop_signals();                    /* before the scene, whose reading may take seconds */
+    const volatile sig_atomic_t *stop = stop_signals(); /* before the scene, whose reading may take seconds */
     struct run_arguments a;
+    struct pilot pilot;
     TRY(arguments_read(&a, argc, argv,
                        "run SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]"));
     int threads = team_make(a.threads);
     struct scene s = {0};
     struct engine e = {0};
     struct output out = {0};
-    status result = scene_read(&s, a.scene, a.override, a.overrides);
+    status result = pilot_choose(&pilot, a.scene, a.override, a.overrides, a.folder,
+                                 (struct study_way){.quiet = a.quiet, .stop = stop});
+    if (result == OK) result = scene_read(&s, a.scene, pilot.override, pilot.overrides);
     if (result == OK) result = run_engine(&e, &s, &out, &a, threads);
     engine_free(&e);
     output_close(&out);
     scene_free(&s);
+    pilot_free(&pilot);
     arguments_free(&a);
     return result;
 }

@@ -12,8 +12,6 @@
 #include "base/memory.h"
 #include "src/scene/scene_internal.h"
 
-static const real usual_accuracy = 0.01;
-
 /* A request for a choice: the scene as read and as written, and the accuracy. */
 struct ask {
     const struct scene *scene;
@@ -229,63 +227,59 @@ static bool loads_may_wait(const struct scene *s)
     return any;
 }
 
-/* Matches the scene with a problem of the table and reads the accuracy. REFUSED without a match, or if strains exceed
- * the accuracy. */
-static status make_ask(struct reader *r, struct ask *a)
+/* REFUSED: the table does not answer, for the reason that status_message has. */
+static status fault_unanswered(struct reader *r, const struct node *at)
 {
-    const struct node *solver = tree_at(a->root, "solver"), *method = tree_at(a->root, "method");
-    const struct node *accuracy = tree_at(a->root, "accuracy");
+    char why[480];
+    snprintf(why, sizeof why, "%s", status_message());
+    return fault(r, at, "%s; cleave run chooses by pilot runs, or write method and particles.spacing", why);
+}
+
+/* Matches the scene with a problem of the table. REFUSED without a match, or if strains exceed the accuracy. */
+static status make_ask(struct ask *a)
+{
+    const struct node *solver = tree_at(a->root, "solver");
     const bool at_rest = solver && strcmp(solver->text, "explicit") != 0;
     a->slow_loads = loads_may_wait(a->scene);
-    a->accuracy = usual_accuracy;
-    if (accuracy) TRY(read_number(r, key_find("", "accuracy"), accuracy, &a->accuracy));
-    if (auto_match_find(&a->match, a->scene, at_rest) != OK) {
-        char why[400];
-        snprintf(why, sizeof why, "%s", status_message());
-        return fault(r, method, "%s", why);
-    }
+    TRY(auto_match_find(&a->match, a->scene, at_rest));
     if (a->match.strain > a->accuracy)
-        return fault(r, method,
-                     "strains of about %.2g are more than the accuracy of %.2g, and the table's problems are "
-                     "linear; write method and particles.spacing",
-                     a->match.strain, a->accuracy);
+        return status_set(REFUSED,
+                          "strains of about %.2g are more than the accuracy of %.2g, and the table's problems are linear",
+                          a->match.strain, a->accuracy);
     return OK;
 }
 
 /* REFUSED: no point of the table is allowed and accurate enough; the message gives the smallest error that is
  * reached. */
-static status fault_unreached(struct reader *r, const struct ask *a, const struct auto_found *f)
+static status fault_unreached(const struct ask *a, const struct auto_found *f)
 {
-    const struct node *at = tree_at(a->root, "accuracy");
     const struct auto_match *m = &a->match;
-    if (!at) at = tree_at(a->root, "method");
     if (!f->finest.of)
-        return fault(r, at,
-                     "no method of the cost-accuracy table for %s does what this scene asks and fits what it fixes; "
-                     "leave keys of "
-                     "pd, mpm, model and spacing to auto, or write method and particles.spacing",
-                     m->kind->title);
-    return fault(r, at,
-                 "an error of %.2g %% is not reached by the table of %s; %.2g %% is, by %s with %.4g spacings in %s: "
-                 "ask for that, or write method and particles.spacing",
-                 100 * a->accuracy, m->kind->title, 100 * m->growth * f->finest.error, f->finest.of->method,
-                 f->finest.resolution * m->kind->per_resolution, m->kind->feature);
+        return status_set(REFUSED,
+                          "no method of the cost-accuracy table for %s does what this scene asks and fits the keys "
+                          "of pd, mpm, model and spacing that it fixes",
+                          m->kind->title);
+    return status_set(REFUSED,
+                      "an error of %.2g %% is not reached by the table of %s; %.2g %% is, by %s with %.4g spacings in %s",
+                      100 * a->accuracy, m->kind->title, 100 * m->growth * f->finest.error, f->finest.of->method,
+                      f->finest.resolution * m->kind->per_resolution, m->kind->feature);
 }
 
 /* Picks the point and a spacing that fits the geometry, and writes them into the tree. */
-static status choose(struct reader *r, struct node *root, struct ask *a, const struct cost_accuracy *table)
+static status choose(struct reader *r, struct node *root, struct ask *a, const struct cost_accuracy *table, real fixed)
 {
     const real unit = a->match.feature / a->match.kind->per_resolution;      /* resolution x spacing */
-    const struct node *spacing = tree_at(a->root, "particles.spacing");
-    struct auto_wish w = {
-        .match = &a->match, .accuracy = a->accuracy / a->match.growth, .allows = allows, .context = a};
+    struct auto_wish w = {.match = &a->match,
+                          .accuracy = a->accuracy / a->match.growth,
+                          .resolution = fixed > 0 ? unit / fixed : 0,
+                          .allows = allows,
+                          .context = a};
     struct auto_found f, g = {0};
-    real h = NAN;
-    if (spacing) TRY(read_number(r, key_find("particles", "spacing"), spacing, &h));
-    if (spacing) w.resolution = unit / h;
+    real h = fixed;
     auto_pick(&f, table, &w);
-    if (!f.best.of) return fault_unreached(r, a, &f);
-    if (!spacing) h = auto_spacing_fit(a->scene, unit / f.best.resolution, !cost_point_has(f.best.of, "method", "pd"));
+    if (!f.best.of) return fault_unreached(a, &f);
+    if (!(fixed > 0))
+        h = auto_spacing_fit(a->scene, unit / f.best.resolution, !cost_point_has(f.best.of, "method", "pd"));
     w.allows = allows_even;
     if (levels_of_point(f.best.of) > 0) auto_pick(&g, table, &w);
     keep_choice(&r->scene->choice, a, &f, h, g.best.of ? f.best.seconds / g.best.seconds : NAN);
@@ -307,18 +301,57 @@ static status read_cost_accuracy(struct reader *r, const struct node *root, stru
     return cost_accuracy_read(table, access(path, R_OK) == 0 ? path : n->text);
 }
 
-status auto_resolve(struct reader *r, struct node *root, const char *text, size_t length)
+/* What the scene fixes, and what it wants of runs at coarse spacings. */
+static status wish_read(struct reader *r, const struct node *root, struct pilot_wish *w)
+{
+    const struct node *spacing = tree_at(root, "particles.spacing"), *model = tree_at(root, "model");
+    const struct node *solver = tree_at(root, "solver");
+    TRY(auto_accuracy_read(r, root, w));
+    if (spacing) TRY(read_number(r, key_find("particles", "spacing"), spacing, &w->spacing));
+    if (model) snprintf(w->model, sizeof w->model, "%s", model->text);
+    w->at_rest = solver && strcmp(solver->text, "explicit") != 0;
+    w->has_accuracy = tree_at(root, "accuracy") != NULL;
+    w->has_table = tree_at(root, "accuracy_table") != NULL;
+    w->has_transfer = tree_at(root, "mpm.transfer") != NULL;
+    return OK;
+}
+
+/* From the table alone. */
+static status resolve_by_table(struct reader *r, struct node *root, struct ask *a, const struct pilot_wish *w,
+                               const struct cost_accuracy *table)
+{
+    if (w->figure[0])
+        return status_set(REFUSED, "accuracy names a figure, %s, and the cost-accuracy table has others", w->figure);
+    TRY(make_ask(a));
+    return choose(r, root, a, table, w->spacing);
+}
+
+status auto_resolve(struct reader *r, struct node *root, const char *text, size_t length, struct pilot_wish *pilot)
 {
     const struct node *method = root->kind == NODE_MAP ? tree_at(root, "method") : NULL;
     struct cost_accuracy table = {0};
     struct scene first = {0};
+    struct pilot_wish wish = {0};
     if (!method || strcmp(method->text, "auto") != 0) return OK;
     struct ask a = {.scene = &first, .root = root};
     status s = read_first(r, text, length, &first);
+    if (s == OK) s = wish_read(r, root, &wish);
     if (s == OK) s = read_cost_accuracy(r, root, &table);
-    if (s == OK) s = make_ask(r, &a);
-    if (s == OK) s = choose(r, root, &a, &table);
+    if (s == OK) {
+        a.accuracy = wish.within;
+        s = resolve_by_table(r, root, &a, &wish, &table);
+        wish.wanted = s == REFUSED;
+    }
+    if (wish.wanted) {
+        snprintf(wish.why, sizeof wish.why, "%s", status_message());
+        s = fault_unanswered(r, method);
+    }
     cost_accuracy_free(&table);
-    scene_free(&first);
+    if (wish.wanted && pilot) {
+        *pilot = wish;
+        pilot->first = first;
+        if (!*first.name) snprintf(pilot->first.name, sizeof first.name, "%s", r->scene->name);
+    } else
+        scene_free(&first);
     return s;
 }

@@ -43,9 +43,6 @@ status auto_match_find(struct auto_match *m, const struct scene *s, bool at_rest
 
 /* Extent of the first solid of a body along an axis [m]; 0: it has none. */
 real auto_extent(const struct scene *s, int body, int axis);
-/* Largest spacing <= h that divides the edges of the first solid, and those of gaps and cracks along the axes, into
- * whole numbers (`even`: of pairs); h if there is none near it. */
-real auto_spacing_fit(const struct scene *s, real h, bool even);
 
 /* A point on a line of the table: one of its runs or between two. */
 struct auto_point {
@@ -72,7 +69,12 @@ struct node;
 status auto_lay(struct reader *r, struct node *root, const struct auto_match *m, const struct scene *s,
                 const struct cost_point *p, real spacing);
 
-/* With `method: auto` writes the choice into the tree; does nothing with other methods (auto.c). */
-status auto_resolve(struct reader *r, struct node *root, const char *text, size_t length);
+/* Reads `accuracy`, a share or {of, within, budget}, into `figure`, `within` and `budget` (auto_accuracy.c). */
+struct pilot_wish;
+status auto_accuracy_read(struct reader *r, const struct node *root, struct pilot_wish *w);
+
+/* With `method: auto` writes the choice into the tree; does nothing with other methods (auto.c). Where the table does
+ * not answer: REFUSED, and `pilot` (NULL: not asked for) says what is wanted then, with the scene. */
+status auto_resolve(struct reader *r, struct node *root, const char *text, size_t length, struct pilot_wish *pilot);
 
 #endif

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "auto.h"
+#include "auto/scene_read.h"
 
 enum { LENGTHS_MOST = 64 };
 struct lengths { int n; real of[LENGTHS_MOST]; };

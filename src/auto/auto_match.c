@@ -48,8 +48,7 @@ static const struct auto_kind kinds[] = {
 
 static status no_match(const char *what)
 {
-    return status_set(
-        REFUSED, "the cost-accuracy table has no problem like this one: %s; write method and particles.spacing", what);
+    return status_set(REFUSED, "the cost-accuracy table has no problem like this one: %s", what);
 }
 
 /* ---- content of a scene ------------------------------------------------------------------------------------------ */

@@ -28,19 +28,19 @@ static void name_from_path(char name[NAME_MAX_LENGTH], const char *path)
 }
 
 /* Text to tree, choices of method auto, tree to scene, and the echo of the scene. */
-static status scene_read_all(struct reader *r, const char *text, size_t length)
+static status scene_read_all(struct reader *r, const char *text, size_t length, struct pilot_wish *pilot)
 {
     struct scene *s = r->scene;
     struct node *root;
     TRY(scene_tree(r, text, length, &root));
-    TRY(auto_resolve(r, root, text, length));
+    TRY(auto_resolve(r, root, text, length, pilot));
     TRY(scene_from_tree(r, root));
     s->text = scene_echo(s);
     return s->text ? OK : status_set(FAILED, "%s: no memory to write it out", r->name);
 }
 
-/* Reads a scene from text in the C locale. Frees the nodes, and the scene on failure. */
-static status read_scene(struct reader *r, const char *text, size_t length)
+/* Reads a scene from text in the C locale. Frees the nodes, and the scene on failure. `pilot` as in auto_resolve. */
+static status read_scene(struct reader *r, const char *text, size_t length, struct pilot_wish *pilot)
 {
     struct scene *s = r->scene;
     *s = (struct scene){0};
@@ -50,7 +50,7 @@ static status read_scene(struct reader *r, const char *text, size_t length)
     s->path = NEW("scene path", strlen(r->name) + 1, char);
     strcpy(s->path, r->name);
     name_from_path(s->name, r->name);
-    status result = scene_read_all(r, text, length);
+    status result = scene_read_all(r, text, length, pilot);
     uselocale(old);
     freelocale(c);
     arena_free(r);
@@ -62,7 +62,7 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
                        const struct scene_override *override, int overrides)
 {
     struct reader r = {.name = name, .override = override, .overrides = overrides, .scene = s};
-    return read_scene(&r, text, length);
+    return read_scene(&r, text, length, NULL);
 }
 
 /* The file's bytes; freed with memory_free. */
@@ -88,14 +88,31 @@ static status file_bytes(const char *path, char **bytes, size_t *length)
     return status_set(REFUSED, "%s: longer than 16 MiB; long data belong into a particle list", path);
 }
 
-status scene_read(struct scene *s, const char *path, const struct scene_override *override, int overrides)
+/* scene_read, and `pilot` as in auto_resolve. */
+static status read_file(struct scene *s, const char *path, const struct scene_override *override, int overrides,
+                        struct pilot_wish *pilot)
 {
     char *text = NULL;
     size_t length = 0;
     struct reader r = {.name = path, .override = override, .overrides = overrides, .scene = s, .files = true};
     *s = (struct scene){0};
     TRY(file_bytes(path, &text, &length));
-    status result = read_scene(&r, text, length);
+    status result = read_scene(&r, text, length, pilot);
     memory_free(text);
     return result;
+}
+
+status scene_read(struct scene *s, const char *path, const struct scene_override *override, int overrides)
+{
+    return read_file(s, path, override, overrides, NULL);
+}
+
+status scene_pilot_wish(struct pilot_wish *w, const char *path, const struct scene_override *override, int overrides)
+{
+    struct scene s;
+    *w = (struct pilot_wish){0};
+    const status read = read_file(&s, path, override, overrides, w);
+    if (read != OK) return w->wanted ? OK : read;
+    scene_free(&s);
+    return OK;
 }

@@ -42,10 +42,17 @@ const struct key keys[] = {
         "largest residual force over the applied force or the reactions (relaxation, cg)"),
     KEY("solver_steps", KEY_INT, UNIT_NONE, AT(scene, solver_steps), BETWEEN(1, 1000000000), "200000",
         "most steps (relaxation, cg); a run that needs more fails"),
-    KEY("accuracy", KEY_REAL, UNIT_NONE, AT(scene, accuracy), INSIDE(0, 0.5), "(1 % with method auto)",
-        "method auto: largest error that the cost-accuracy table may expect, as measured for the problem that the "
-        "scene is like",
-        .has = FLAG(scene, has_accuracy)),
+    KEY("accuracy", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(1 % with method auto)",
+        "method auto: largest error; expected from the cost-accuracy table for the problem that the scene is like; "
+        "where it is like none, or a figure is named, runs of the scene at coarse spacings choose (cleave run)",
+        .words = "a share, as 2 %, or {of: figure, within: share, budget: time}"),
+    KEY("accuracy.of", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(the first of its probes, crack.start_time or an energy)",
+        "the figure of summary.json that is to be so accurate, its names joined by points",
+        .words = "name, as crack.start_time"),
+    KEY("accuracy.within", KEY_REAL, UNIT_NONE, NOWHERE, INSIDE(0, 0.5), "1 %",
+        "largest error of the figure, as a share of it, with a probability of 95 %"),
+    KEY("accuracy.budget", KEY_REAL, UNIT_TIME, NOWHERE, ABOVE(0), "5 min",
+        "time that the runs which choose may take, before the run itself"),
     KEY("accuracy_table", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(that of the program)",
         "method auto: a cost-accuracy table measured elsewhere, as `cleave bench accuracy` writes it "
         "(results/bench/cost_accuracy.csv); "

@@ -109,12 +109,12 @@ static double mixture_half_width(const struct mixture *m, double about, double s
     return high;
 }
 
-double convergence_half_width(const struct convergence *c, int level, double share)
+double convergence_half_width(const struct convergence *c, double about, double share)
 {
     struct mixture m;
     const double scale = scale_of(c);
     if (!mixture_make(&m, c, scale)) return 0;
-    return scale * mixture_half_width(&m, (c->level[level].mean - c->level[0].mean) / scale, share);
+    return scale * mixture_half_width(&m, (about - c->level[0].mean) / scale, share);
 }
 
 void convergence_intervals(struct convergence *c)
@@ -136,7 +136,7 @@ void convergence_intervals(struct convergence *c)
     c->extrapolated += scale * value;
     for (int k = 0; k < c->levels; k++) {
         const double error = c->level[k].error;
-        c->uncertainty[k] = convergence_half_width(c, k, 0.95);
+        c->uncertainty[k] = convergence_half_width(c, c->level[k].mean, 0.95);
         c->discretisation[k] = sqrt(fmax(square(c->uncertainty[k]) - square(error), 0));
     }
 }

@@ -12,7 +12,7 @@
 
 #define SAME_LEVEL 0.05 /* spacings of a level's runs differ by less from that of the scene [1] */
 
-/* The folder of the study beside that of a run. */
+/* The folder of the study of convergence beside that of a run; that of its pilot runs is FOLDER_pilot. */
 static struct path study_beside(const char *folder, const char *name)
 {
     char place[PATH_NAME_ROOM];
@@ -75,12 +75,15 @@ static bool bar_read(struct error_bar *bar, const struct bar_columns *c, char *l
 
 int error_bars_at_hand(struct error_bar *bar, int most, const struct scene *s, const char *folder)
 {
-    const struct path study = study_beside(folder, s->name);
+    struct path study = study_beside(folder, s->name);
     struct bar_columns columns;
     char *text, *rest;
     size_t length;
     int n = 0;
-    if (!scene_file_same(path_join(study.text, STUDY_SCENE).text, s->text)) return 0;
+    if (!scene_file_same(path_join(study.text, STUDY_SCENE).text, s->text)) {
+        snprintf(study.text, sizeof study.text, "%.*s_pilot", PATH_ROOM - 8, folder);
+        if (!scene_file_same(path_join(study.text, STUDY_SCENE).text, s->text)) return 0;
+    }
     if (file_get(path_join(study.text, "converge.csv").text, &text, &length) != OK) return 0;
     char *line = strtok_r(text, "\n", &rest);
     if (line) columns_find(&columns, line);

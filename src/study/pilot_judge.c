@@ -1,0 +1,100 @@
+/* What the study of a method says about the spacing that it needs. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "pilot_parts.h"
+
+/* ---- the figure -------------------------------------------------------------------------------------------------- */
+
+/* A figure of a scene that names none: the first of its probes that is not zero, the start of cracks, the largest
+ * energy. */
+static const struct figure_study *figure_usual(const struct figure_study *figure, int figures)
+{
+    const struct figure_study *start = NULL, *energy = NULL;
+    for (int f = 0; f < figures; f++) {
+        const struct convergence *c = &figure[f].c;
+        const double size = fabs(c->level[0].mean);
+        if (!strncmp(figure[f].name, "probes.", 7) && size > c->uncertainty[0]) return &figure[f];
+        if (!strcmp(figure[f].name, "crack.start_time")) start = &figure[f];
+        if (!strncmp(figure[f].name, "energy.", 7) && strcmp(figure[f].name, "energy.balance_error") != 0 &&
+            (!energy || size > fabs(energy->c.level[0].mean)))
+            energy = &figure[f];
+    }
+    return start ? start : energy;
+}
+
+/* ---- levels ------------------------------------------------------------------------------------------------------ */
+
+/* The run of a level that differs in nothing from the one that will be made: -1: it has failed. */
+static int level_run(const struct convergence_study *s, int level)
+{
+    for (int k = 0; k < s->study.n; k++)
+        if (s->point[k].level == level && s->point[k].run == 0) return k;
+    return -1;
+}
+
+static double figure_of_run(const struct convergence_study *s, const char *name, int run)
+{
+    const int figure = study_figure(&s->table, name);
+    return figure >= 0 && run >= 0 ? s->table.value[figure][run] : NAN;
+}
+
+/* The coarsest level whose own run is accurate enough; else, from the finest, the spacing that would be, by the least
+ * order that the means allow. */
+static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s,
+                         const struct figure_study *f)
+{
+    const double size = fabs(f->c.extrapolated);
+    for (int level = f->c.levels - 1; level >= 0; level--) {
+        const int run = level_run(s, level);
+        const double value = figure_of_run(s, f->name, run), seconds = figure_of_run(s, "wall_seconds", run);
+        if (!isfinite(value) || !isfinite(seconds)) continue;
+        c->finest = s->point[run].spacing, c->finest_seconds = seconds;
+        c->reached = convergence_half_width(&f->c, value, 0.95) / size;
+        const bool fixed = p->wish.spacing > 0 && level != s->own;
+        if (!(c->reached <= p->wish.within) || fixed) continue;
+        c->spacing = c->finest, c->seconds = seconds, c->expected = c->reached, c->seen = true;
+        return;
+    }
+    if (!(c->finest > 0) || !isfinite(c->reached) || p->wish.spacing > 0) return;
+    const double likely = isfinite(f->c.order_likely) ? f->c.order_likely - f->c.order_error : 0.5;
+    const double finer = pow(c->reached / p->wish.within, 1 / fmax(likely, 0.5));
+    c->spacing = auto_spacing_fit(&p->wish.first, c->finest / finer, false);
+    c->seconds = c->finest_seconds * pow(c->finest / c->spacing, s->scene.dim + 1);
+    c->expected = p->wish.within;
+}
+
+status pilot_judge(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s)
+{
+    struct figure_study *figure = NULL;
+    int figures = 0;
+    const char *wanted = p->wish.figure[0] ? p->wish.figure : p->figure;
+    TRY(figures_find(s, &wanted, *wanted ? 1 : 0, &figure, &figures));
+    const struct figure_study *f = *wanted ? figure : figure_usual(figure, figures);
+    status done = OK;
+    if (!f)
+        done = status_set(REFUSED, "accuracy.of: the scene has no probe, crack or energy; name a figure");
+    else {
+        c->spacing = c->finest = c->seconds = 0, c->seen = false;
+        snprintf(p->figure, sizeof p->figure, "%s", f->name);
+        spacing_find(p, c, s, f);
+    }
+    if (done == OK) done = figures_write(s, f, 1);
+    memory_free(figure);
+    return done;
+}
+
+void pilot_print(const struct pilot_search *p, const struct pilot_candidate *c)
+{
+    if (c->failed[0])
+        fprintf(stderr, "pilot          %s: %s\n", c->name, c->failed);
+    else if (c->seen)
+        fprintf(stderr, "pilot          %s: %s +- %.2g %% at %.4g mm, in %.2g s\n", c->name, p->figure,
+                100 * c->expected, 1e3 * c->spacing, c->seconds);
+    else
+        fprintf(stderr, "pilot          %s: %s +- %.2g %% at %.4g mm, in %.2g s; %.2g %% would need %.4g mm, %.2g s\n",
+                c->name, p->figure, 100 * c->reached, 1e3 * c->finest, c->finest_seconds, 100 * p->wish.within,
+                1e3 * c->spacing, c->seconds);
+}

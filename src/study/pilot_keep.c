@@ -1,0 +1,121 @@
+/* The choice of pilot runs beside what it answers: the same question has the same answer, without runs. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "output/output_files.h"
+#include "pilot_parts.h"
+#include "study/uncertainty.h"
+
+#define ASKED "asked.yaml"  /* the scene's file, and the overrides as comments */
+#define CHOSEN "chosen.txt" /* KEY=VALUE a line */
+
+void pilot_fill(struct pilot *to, const struct scene_override *override, int overrides, int n)
+{
+    memory_free(to->override);
+    to->override = NEW("pilot.override", overrides + n + 1, struct scene_override);
+    to->overrides = overrides + n;
+    for (int k = 0; k < overrides; k++) to->override[k] = override[k];
+    for (int k = 0; k < n; k++) to->override[overrides + k] = (struct scene_override){to->key[k], to->value[k]};
+}
+
+void pilot_free(struct pilot *to)
+{
+    memory_free(to->override);
+    *to = (struct pilot){0};
+}
+
+/* ---- the question ------------------------------------------------------------------------------------------------ */
+
+/* Its text, freed with free; NULL: the scene cannot be read. */
+static char *question_text(const struct pilot_search *p)
+{
+    char *scene, *text = NULL;
+    size_t length, size = 0;
+    if (file_get(p->scene, &scene, &length) != OK) return NULL;
+    FILE *to = open_memstream(&text, &size);
+    if (to) {
+        fputs(scene, to);
+        for (int k = 0; k < p->overrides; k++) fprintf(to, "\n# -s %s=%s", p->override[k].key, p->override[k].value);
+        fclose(to);
+    }
+    memory_free(scene);
+    return text;
+}
+
+/* ---- the answer -------------------------------------------------------------------------------------------------- */
+
+static status file_copy(const char *folder, const char *from, const char *name)
+{
+    char *text;
+    size_t length;
+    TRY(file_get(path_join(folder, from).text, &text, &length));
+    const status put = file_put(path_join(folder, name).text, text, length);
+    memory_free(text);
+    return put;
+}
+
+/* The scene as it will be run, and the error bars of the method's study: summary.json of the run will have them. */
+static status bars_keep(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
+{
+    struct scene s;
+    char table[CASE_NAME_ROOM];
+    TRY(scene_read(&s, p->scene, to->override, to->overrides));
+    const status put = file_put(path_join(p->folder, STUDY_SCENE).text, s.text, strlen(s.text));
+    scene_free(&s);
+    TRY(put);
+    snprintf(table, sizeof table, "%s/converge.csv", best->name);
+    return file_copy(p->folder, table, "converge.csv");
+}
+
+status pilot_keep(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
+{
+    char *asked = question_text(p), *text = NULL;
+    size_t length = 0;
+    if (!asked) return status_set(FAILED, "%s: cannot be read again", p->scene);
+    status put = bars_keep(to, p, best);
+    FILE *out = put == OK ? open_memstream(&text, &length) : NULL;
+    if (out) {
+        for (int k = p->overrides; k < to->overrides; k++)
+            fprintf(out, "%s=%s\n", to->override[k].key, to->override[k].value);
+        fclose(out);
+        put = file_put(path_join(p->folder, CHOSEN).text, text, length);
+        if (put == OK) put = file_put(path_join(p->folder, ASKED).text, asked, strlen(asked));
+    }
+    free(text);
+    free(asked);
+    return put;
+}
+
+static int answer_read(struct pilot *to, char *text)
+{
+    int n = 0;
+    char *rest;
+    for (char *line = strtok_r(text, "\n", &rest); line && n < CHOSEN_MOST; line = strtok_r(NULL, "\n", &rest)) {
+        char *equals = strchr(line, '=');
+        if (!equals) continue;
+        *equals = '\0';
+        snprintf(to->key[n], CHOSEN_ROOM, "%s", line);
+        snprintf(to->value[n++], CHOSEN_ROOM, "%s", equals + 1);
+    }
+    return n;
+}
+
+bool pilot_kept(struct pilot *to, const struct pilot_search *p)
+{
+    char *asked = question_text(p), *before = NULL, *text = NULL;
+    size_t length;
+    const bool same = asked && file_get(path_join(p->folder, ASKED).text, &before, &length) == OK &&
+                      strcmp(asked, before) == 0 && file_get(path_join(p->folder, CHOSEN).text, &text, &length) == OK;
+    if (same) {
+        pilot_fill(to, p->override, p->overrides, answer_read(to, text));
+        if (!p->way.quiet)
+            fprintf(stderr, "pilot          as chosen before: %s\n",
+                    shown_name(path_join(p->folder, CHOSEN).text).text);
+    }
+    memory_free(text);
+    memory_free(before);
+    free(asked);
+    return same;
+}
