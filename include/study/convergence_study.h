@@ -43,6 +43,7 @@ struct convergence_study {
 /* Result of one figure. */
 struct figure_study {
     const char *name;
+    char unit[UNIT_ROOM]; /* SI; "": none */
     struct convergence c;
     double step_moves;    /* by a step a tenth longer; NAN: not known */
     double spacing_moves; /* from the second to the finest level */

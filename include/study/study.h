@@ -8,7 +8,7 @@
 #include "output/output_lock.h"
 #include "scene/scene.h"
 
-enum { CASE_NAME_ROOM = 200, CASES_MOST = 100000 };
+enum { CASE_NAME_ROOM = 200, CASES_MOST = 100000, UNIT_ROOM = 16, HEADER_ROOM = 8192 };
 
 /* A key of the scene with the values that it takes, as they stand behind `-s`. */
 struct varied_key {
@@ -16,7 +16,10 @@ struct varied_key {
     int values;
 };
 
-enum case_state { CASE_WAITING, CASE_RUNNING, CASE_DONE, CASE_DONE_BEFORE, CASE_FAILED, CASE_STOPPED };
+/* CASE_SAME: the scene of another run, which stands for both. */
+enum case_state { CASE_WAITING, CASE_RUNNING, CASE_DONE, CASE_DONE_BEFORE, CASE_FAILED, CASE_STOPPED, CASE_SAME };
+
+#define STUDY_SCENE "study.yaml" /* in the folder of a study: its scene, without what varies */
 
 /* One run of a study. */
 struct study_case {
@@ -24,6 +27,7 @@ struct study_case {
     struct scene_override *override; /* owned, with their strings */
     int overrides;
     enum case_state state;
+    int same;                 /* of CASE_SAME: the number of the other run */
     int process, slot, ended; /* while it runs; its exit status */
     double seconds;           /* that it took, of this study [s] */
 };
@@ -31,9 +35,11 @@ struct study_case {
 struct study {
     const char *scene; /* path of the scene; borrowed */
     char folder[4096]; /* the runs are folders in it */
+    char *text;        /* the scene without what varies, which its folder is kept for; NULL: not known */
     struct folder_lock lock;
     struct study_case *at;
     int n, room;
+    int *place, places; /* the runs by the hashes of their names: number + 1, 0: none */
 };
 
 /* ---- values (study_values.c) ------------------------------------------------------------------------------------- */
@@ -47,21 +53,33 @@ double value_number(const char *value, const char **unit);
 
 /* ---- cases (study.c) --------------------------------------------------------------------------------------------- */
 
-/* Takes folder NULL as results/NAME_KIND, NAME the file's without ending. Makes no folder yet. */
+/* Takes folder NULL as results/NAME_KIND, NAME the scene's. Makes no folder yet. */
 status study_make(struct study *s, const char *scene, const char *folder, const char *kind);
+/* The same, for a study of the scene without the keys that vary; those with one value are laid over it. */
+status study_make_of(struct study *s, const char *scene, const char *folder, const char *kind,
+                     const struct varied_key *key, int keys);
+/* The folder that a study of a scene has if the user names none. */
+void study_place(char *to, size_t room, const struct scene *scene, const char *kind);
+/* REFUSED if the folder holds a study of another scene. */
+status study_folder_fits(const char *folder, const char *text);
 void study_free(struct study *s);
-/* Adds a run; copies its overrides. The name is made unique and harmless to file systems. */
+/* Adds a run; copies its overrides. The name is made unique and harmless to file systems: one that is too long or
+ * taken becomes case-HASH of the overrides, whatever their order. */
 struct study_case *study_add(struct study *s, const char *name, const struct scene_override *override, int overrides);
 /* Adds a run for every combination of the keys' values, the last key's change first. REFUSED if they are too many. */
 status study_cross(struct study *s, const struct varied_key *key, int keys);
-/* Reads every scene, REFUSED if one is not sound; marks the runs that are done already and, with `collect`, those that
- * have failed, which a study would run again. */
+/* Reads every scene, REFUSED if one is not sound; marks the runs that are the same as others, that are done already
+ * and, with `collect`, those that have failed, which a study would run again. */
 status study_check(struct study *s, bool collect);
+/* How many runs are the same as others, in a line; nothing if there are none. */
+void study_print_same(const struct study *s, FILE *out);
 /* The value of a key in a run; "": it has none of its own. */
 const char *study_value(const struct study_case *c, const char *key);
 /* Closes a file of open_memstream (NULL: no memory) and writes its bytes, which are freed, as FOLDER/name. */
 status study_put(const struct study *s, const char *name, FILE *to, char **text, const size_t *length);
-/* Folder of a run. */
+/* The run that stands for a run: itself unless it is the same as another one. */
+const struct study_case *study_stands(const struct study *s, const struct study_case *c);
+/* Folder of the run that stands for a run. */
 struct path study_folder(const struct study *s, const struct study_case *c);
 
 /* ---- runs (study_run.c) ------------------------------------------------------------------------------------------ */
@@ -74,13 +92,14 @@ struct study_way {
 };
 
 /* Takes the folder of the study for this process. REFUSED if there is none, if it is a run's, while another study is in
- * it. */
-status study_take(struct study *s);
+ * it; without `overwrite`, if it holds a study of another scene. */
+status study_take(struct study *s, bool overwrite);
 /* Makes and takes the folder, and runs what waits. Runs that fail are booked in their states, with a line on standard
  * error. REFUSED as study_take, INTERRUPTED where it was stopped. */
 status study_run(struct study *s, struct study_way how);
-/* Prints the line of the command that runs a case by itself, with the words that a shell must not touch in quotes. */
-void study_print_command(const struct study *s, const struct study_case *c, int threads, FILE *out);
+/* Prints the line of the command that runs a case by itself, wherever it is given, with the words that a shell must not
+ * touch in quotes. */
+void study_print_command(const struct study *s, const struct study_case *c, struct study_way how, FILE *out);
 
 /* ---- what comes out (study_table.c, study_draw.c) ---------------------------------------------------------------- */
 
@@ -99,6 +118,12 @@ int study_figure(const struct study_table *t, const char *name);
 /* Is a figure about the computer or about how the body was divided, not about the body? */
 bool study_figure_is_technical(const char *name);
 
+/* The first line of the history of a run, from which study_unit takes units; "": there is none. */
+void study_header_read(char *header, size_t room, const struct study *s);
+/* SI unit of a figure; "": it has none, or it is not known. */
+void study_unit(char *unit, size_t room, const char *header, const char *figure);
+/* Prints a line for each warning: how many runs have it, and the text of the first. */
+void study_print_warnings(const struct study *s, FILE *out);
 /* Writes FOLDER/sweep.csv: a line for each run: its name, its state, the values of the keys that vary, its figures. */
 status study_write_table(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys);
 /* Draws FOLDER/pictures/KEY.png for each key that varies, and map.png where two do. */

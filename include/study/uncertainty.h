@@ -4,8 +4,6 @@
 
 #include "engine/engine.h"
 
-#define STUDY_SCENE "study.yaml" /* in the folder of a study of convergence: the scene, as run at its own spacing */
-
 /* The 95 % intervals of the figures of a scene that is run in `folder`, if NAME_converge beside that folder is a study
  * of it. Returns how many; 0: there is none, or it cannot be read. */
 int error_bars_at_hand(struct error_bar *bar, int most, const struct scene *s, const char *folder);

@@ -78,10 +78,11 @@ static int cases_in(const struct study *s, enum case_state state)
 static void sweep_print(const struct study *s)
 {
     const int done = cases_in(s, CASE_DONE), before = cases_in(s, CASE_DONE_BEFORE), failed = cases_in(s, CASE_FAILED);
-    printf("%d runs: %d done", s->n, done + before);
+    const int runs = s->n - cases_in(s, CASE_SAME);
+    printf("%d runs: %d done", runs, done + before);
     if (before > 0) printf(" (%d before)", before);
     if (failed > 0) printf(", %d failed: see %s/logs", failed, shown_name(s->folder).text);
-    if (done + before + failed < s->n) printf(", %d left", s->n - done - before - failed);
+    if (done + before + failed < runs) printf(", %d left", runs - done - before - failed);
     printf("; %s/sweep.csv", shown_name(s->folder).text);
     printf("\n");
 }
@@ -98,18 +99,25 @@ static status sweep_collect(const struct study *s, const struct sweep_arguments 
     return done;
 }
 
+/* The commands of the runs that are not the same as others. */
+static status sweep_list(const struct study *s, const struct sweep_arguments *a)
+{
+    if (!a->way.overwrite) TRY(study_folder_fits(s->folder, s->text));
+    for (int k = 0; k < s->n; k++)
+        if (s->at[k].state != CASE_SAME) study_print_command(s, &s->at[k], a->way, stdout);
+    return OK;
+}
+
 static status sweep_all(struct study *s, struct sweep_arguments *a)
 {
-    TRY(study_make(s, a->scene, a->folder, "sweep"));
+    TRY(study_make_of(s, a->scene, a->folder, "sweep", a->key, a->keys));
     TRY(study_cross(s, a->key, a->keys));
     TRY(study_check(s, a->collect));
-    if (a->list) {
-        for (int k = 0; k < s->n; k++) study_print_command(s, &s->at[k], a->way.threads, stdout);
-        return OK;
-    }
+    study_print_same(s, stderr);
+    if (a->list) return sweep_list(s, a);
     status ran = OK;
     if (a->collect)
-        TRY(study_take(s));
+        TRY(study_take(s, a->way.overwrite));
     else
         ran = study_run(s, a->way);
     if (ran != OK && ran != INTERRUPTED) return ran;
@@ -118,11 +126,13 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
     const status collected = sweep_collect(s, a);
     if (ran == INTERRUPTED) return status_set(INTERRUPTED, "%s", message);
     TRY(collected);
+    study_print_warnings(s, stderr);
     sweep_print(s);
     const int failed = cases_in(s, CASE_FAILED), stopped = cases_in(s, CASE_STOPPED);
     if (failed == 0 && stopped > 0)
-        return status_set(INTERRUPTED, "%d of %d runs have stopped early; the same command goes on", stopped, s->n);
-    return failed > 0 ? status_set(FAILED, "%d of %d runs have failed", failed, s->n) : OK;
+        return status_set(INTERRUPTED, "%d of %d runs have stopped early; the same command goes on", stopped,
+                          s->n - cases_in(s, CASE_SAME));
+    return failed > 0 ? status_set(FAILED, "%d of %d runs have failed", failed, s->n - cases_in(s, CASE_SAME)) : OK;
 }
 
 status command_sweep(int argc, char **argv)

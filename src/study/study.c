@@ -1,7 +1,6 @@
-/* The runs of a study: their names, folders and overrides; which of them are done. */
+/* The runs of a study: their folders and overrides; which of them are done, and which are the same. */
 #include "study/study.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,22 +10,98 @@
 #include "output/output.h"
 #include "output/output_files.h"
 #include "output/summary_read.h"
+#include "study_internal.h"
 
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
-status study_make(struct study *s, const char *scene, const char *folder, const char *kind)
+void study_place(char *to, size_t room, const struct scene *scene, const char *kind)
 {
-    const char *slash = strrchr(scene, '/'), *base = slash ? slash + 1 : scene, *dot = strrchr(base, '.');
-    const int length = dot && dot > base ? (int)(dot - base) : (int)strlen(base);
-    *s = (struct study){.scene = scene, .lock.fd = -1};
-    const int whole = folder ? snprintf(s->folder, sizeof s->folder, "%s", folder)
-                             : snprintf(s->folder, sizeof s->folder, "results/%.*s_%s", length, base, kind);
-    if (folder && !*folder) return status_set(REFUSED, "-o: needs the name of a folder");
-    if (whole + CASE_NAME_ROOM + PATH_NAME_ROOM >= PATH_ROOM)
-        return status_set(REFUSED, "-o: the folder's name is too long");
-    for (int k = whole - 1; k > 0 && s->folder[k] == '/'; k--) s->folder[k] = '\0';
+    snprintf(to, room, "results/%s_%s", scene->name, kind);
+}
+
+/* results/NAME_KIND of the scene as its file has it. */
+static status place_read(char *to, size_t room, const char *path, const char *kind)
+{
+    struct scene scene;
+    TRY(scene_read(&scene, path, NULL, 0));
+    study_place(to, room, &scene, kind);
+    scene_free(&scene);
     return OK;
 }
+
+status study_make(struct study *s, const char *scene, const char *folder, const char *kind)
+{
+    *s = (struct study){.scene = scene, .lock.fd = -1};
+    if (folder && !*folder) return status_set(REFUSED, "-o: needs the name of a folder");
+    if (folder && strlen(folder) + CASE_NAME_ROOM + PATH_NAME_ROOM >= PATH_ROOM)
+        return status_set(REFUSED, "-o: the folder's name is too long");
+    if (folder)
+        snprintf(s->folder, sizeof s->folder, "%s", folder);
+    else
+        TRY(place_read(s->folder, sizeof s->folder, scene, kind));
+    for (size_t k = strlen(s->folder) - 1; k > 0 && s->folder[k] == '/'; k--) s->folder[k] = '\0';
+    return OK;
+}
+
+/* ---- what it is a study of --------------------------------------------------------------------------------------- */
+
+/* The file as it stands and the overrides: a scene that is none without the keys that vary. */
+static status scene_unread(char **text, const char *path, const struct scene_override *override, int overrides)
+{
+    size_t length, room;
+    char *file;
+    TRY(file_get(path, &file, &length));
+    room = length + 1;
+    for (int k = 0; k < overrides; k++) room += strlen(override[k].key) + strlen(override[k].value) + 8;
+    *text = NEW("study.text", (int64_t)room, char);
+    char *at = *text + sprintf(*text, "%s", file);
+    for (int k = 0; k < overrides; k++) at += sprintf(at, "# -s %s=%s\n", override[k].key, override[k].value);
+    memory_free(file);
+    return OK;
+}
+
+status study_make_of(struct study *s, const char *scene, const char *folder, const char *kind,
+                     const struct varied_key *key, int keys)
+{
+    struct scene_override *first = NEW("study.first", keys, struct scene_override);
+    struct scene_override *fixed = NEW("study.fixed", keys, struct scene_override);
+    int n = 0;
+    for (int k = 0; k < keys; k++) {
+        first[k] = (struct scene_override){key[k].key, key[k].value[0]};
+        if (key[k].values == 1) fixed[n++] = first[k];
+    }
+    struct scene is;
+    char *text = NULL, place[sizeof is.name + CASE_NAME_ROOM];
+    bool read = scene_read(&is, scene, fixed, n) == OK;
+    status done = OK;
+    if (read) {
+        text = NEW("study.text", (int64_t)strlen(is.text) + 1, char);
+        strcpy(text, is.text);
+    } else if ((done = scene_read(&is, scene, first, keys)) == OK) {
+        read = true;
+        done = scene_unread(&text, scene, fixed, n);
+    }
+    if (read) {
+        study_place(place, sizeof place, &is, kind);
+        scene_free(&is);
+    }
+    if (done == OK) done = study_make(s, scene, folder ? folder : place, kind);
+    s->text = text;
+    memory_free(fixed);
+    memory_free(first);
+    return done;
+}
+
+status study_folder_fits(const char *folder, const char *text)
+{
+    const struct path own = path_join(folder, STUDY_SCENE);
+    if (!path_exists(own.text) || scene_file_same(own.text, text)) return OK;
+    return status_set(REFUSED,
+                      "%s holds a study of another scene (%s there); choose another -o or replace it with --overwrite",
+                      shown_name(folder).text, STUDY_SCENE);
+}
+
+/* ---- cases of a study -------------------------------------------------------------------------------------------- */
 
 static void case_free(struct study_case *c)
 {
@@ -39,62 +114,19 @@ void study_free(struct study *s)
     folder_unlock(&s->lock, s->folder);
     for (int k = 0; k < s->n; k++) case_free(&s->at[k]);
     memory_free(s->at);
+    memory_free(s->place);
+    memory_free(s->text);
     *s = (struct study){.lock.fd = -1};
 }
 
-struct path study_folder(const struct study *s, const struct study_case *c) { return path_join(s->folder, c->name); }
-
-/* ---- names ------------------------------------------------------------------------------------------------------- */
-
-/* What every file system and shell takes as it is; blanks and brackets go. */
-static void name_append(char *name, const char *text)
+const struct study_case *study_stands(const struct study *s, const struct study_case *c)
 {
-    size_t n = strlen(name);
-    for (; *text && n + 1 < CASE_NAME_ROOM; text++) {
-        if (*text == ' ' || strchr("[]{}\"'", *text)) continue;
-        name[n++] = isalnum((unsigned char)*text) || strchr(".-+=_,", *text) ? *text : '_';
-    }
-    name[n] = '\0';
+    return c->state == CASE_SAME ? &s->at[c->same] : c;
 }
 
-static bool name_taken(const struct study *s, const char *name)
+struct path study_folder(const struct study *s, const struct study_case *c)
 {
-    for (int k = 0; k < s->n; k++)
-        if (strcmp(s->at[k].name, name) == 0) return true;
-    return false;
-}
-
-/* Names that are too long to be whole, reserved or taken are replaced by numbers. */
-static void name_settle(const struct study *s, char *name, size_t wanted)
-{
-    const bool reserved = !*name || *name == '.' || *name == '-' || !strcmp(name, "pictures") || !strcmp(name, "logs");
-    if (wanted + 1 < CASE_NAME_ROOM && !reserved && !name_taken(s, name)) return;
-    snprintf(name, CASE_NAME_ROOM, "case%05d", s->n + 1);
-}
-
-/* The last part of a key, or all of it where another key that varies ends alike. */
-static const char *key_label(const struct varied_key *key, int keys, int k)
-{
-    const char *dot = strrchr(key[k].key, '.'), *own = dot ? dot + 1 : key[k].key;
-    for (int other = 0; other < keys; other++) {
-        const char *last = strrchr(key[other].key, '.');
-        if (other != k && key[other].values > 1 && !strcmp(last ? last + 1 : key[other].key, own)) return key[k].key;
-    }
-    return own;
-}
-
-/* `spacing=0.5mm,speed=20` of the values number at[k] of the keys that vary. */
-static void name_compose(char *name, const struct varied_key *key, int keys, const int *at)
-{
-    *name = '\0';
-    for (int k = 0; k < keys; k++) {
-        if (key[k].values < 2) continue;
-        if (*name) name_append(name, ",");
-        name_append(name, key_label(key, keys, k));
-        name_append(name, "=");
-        name_append(name, key[k].value[at[k]]);
-    }
-    if (!*name) name_append(name, "run");
+    return path_join(s->folder, study_stands(s, c)->name);
 }
 
 /* ---- cases ------------------------------------------------------------------------------------------------------- */
@@ -115,13 +147,13 @@ struct study_case *study_add(struct study *s, const char *name, const struct sce
         s->at = memory_resize("study.cases", s->at, s->room, room, sizeof *s->at);
         s->room = room;
     }
+    study_names_grow(s);
     struct study_case *c = &s->at[s->n];
-    name_append(c->name, name);
-    name_settle(s, c->name, strlen(name));
+    study_name_settle(s, c->name, name, override, overrides);
     c->override = NEW("study.overrides", overrides, struct scene_override);
     for (int k = 0; k < overrides; k++) c->override[k] = override_copy(override[k]);
     c->overrides = overrides;
-    s->n++;
+    study_name_book(s, s->n++);
     return c;
 }
 
@@ -131,16 +163,18 @@ status study_cross(struct study *s, const struct varied_key *key, int keys)
     for (int k = 0; k < keys; k++) all *= key[k].values;
     if (all > CASES_MOST)
         return status_set(REFUSED, "%.0f runs: more than %d; fewer values of a key are expected", all, CASES_MOST);
-    int *at = NEW("study.at", keys, int);
+    int *at = NEW("study.at", keys, int), *order = NEW("study.order", keys, int);
+    const int varied = study_names_order(order, key, keys);
     struct scene_override *override = NEW("study.override", keys, struct scene_override);
     for (int left = (int)all; left > 0; left--) {
         char name[CASE_NAME_ROOM];
         for (int k = 0; k < keys; k++) override[k] = (struct scene_override){key[k].key, key[k].value[at[k]]};
-        name_compose(name, key, keys, at);
+        study_name_compose(name, key, keys, order, varied, at);
         study_add(s, name, override, keys);
         for (int k = keys - 1; k >= 0 && ++at[k] == key[k].values; k--) at[k] = 0;
     }
     memory_free(override);
+    memory_free(order);
     memory_free(at);
     return OK;
 }
@@ -155,21 +189,80 @@ static void ended_as(char *ended, size_t room, const char *folder, const char *s
         ended[0] = '\0';
 }
 
-status study_check(struct study *s, bool collect)
+/* Runs by the hashes of their scenes: number + 1, 0: none. */
+struct scenes_seen {
+    int *number, room;
+    uint64_t *hash;
+};
+
+/* Is the scene of a run that of another one? Hashes that agree are not believed. */
+static status case_same(bool *same, const struct study *s, const struct study_case *other, const char *text)
 {
-    for (int k = 0; k < s->n; k++) {
-        struct study_case *c = &s->at[k];
-        struct scene scene;
-        char ended[NAME_MAX_LENGTH];
-        TRY(scene_read(&scene, s->scene, c->override, c->overrides));
+    struct scene scene;
+    TRY(scene_read(&scene, s->scene, other->override, other->overrides));
+    *same = scene_text_same(scene.text, text);
+    scene_free(&scene);
+    return OK;
+}
+
+/* Looks for an earlier run with the scene of run `number`, which is that one then; else books it. */
+static status scene_seen(struct scenes_seen *seen, struct study *s, int number, const char *text)
+{
+    struct study_case *c = &s->at[number];
+    const uint64_t hash = study_hash(STUDY_HASH_START, text);
+    int at = (int)(hash % (uint64_t)seen->room);
+    for (; seen->number[at] > 0; at = (at + 1) % seen->room) {
+        const struct study_case *other = &s->at[seen->number[at] - 1];
+        bool same = false;
+        if (seen->hash[at] == hash) TRY(case_same(&same, s, other, text));
+        if (!same) continue;
+        c->state = CASE_SAME;
+        c->same = seen->number[at] - 1;
+        return OK;
+    }
+    seen->number[at] = number + 1;
+    seen->hash[at] = hash;
+    return OK;
+}
+
+static status case_check(struct study *s, int number, bool collect, struct scenes_seen *seen)
+{
+    struct study_case *c = &s->at[number];
+    struct scene scene;
+    char ended[NAME_MAX_LENGTH];
+    TRY(scene_read(&scene, s->scene, c->override, c->overrides));
+    const status looked = scene_seen(seen, s, number, scene.text);
+    if (looked == OK && c->state != CASE_SAME && c->state != CASE_DONE) {
         ended_as(ended, sizeof ended, study_folder(s, c).text, scene.text);
         if (strcmp(ended, "done") == 0)
             c->state = CASE_DONE_BEFORE;
         else if (collect && strcmp(ended, "failed") == 0)
             c->state = CASE_FAILED;
-        scene_free(&scene);
     }
-    return OK;
+    scene_free(&scene);
+    return looked;
+}
+
+status study_check(struct study *s, bool collect)
+{
+    const int room = 2 * s->n + 1;
+    struct scenes_seen seen = {NEW("study.seen", room, int), room, NEW("study.hashes", room, uint64_t)};
+    status checked = OK;
+    for (int k = 0; k < s->n && checked == OK; k++) checked = case_check(s, k, collect, &seen);
+    memory_free(seen.hash);
+    memory_free(seen.number);
+    return checked;
+}
+
+void study_print_same(const struct study *s, FILE *out)
+{
+    int same = 0;
+    const struct study_case *one = NULL;
+    for (int k = 0; k < s->n; k++)
+        if (s->at[k].state == CASE_SAME) one = &s->at[k], same++;
+    if (same > 0)
+        fprintf(out, "warning: %d of %d combinations are the same scene as others, as %s is as %s: each is run once\n",
+                same, s->n, one->name, s->at[one->same].name);
 }
 
 const char *study_value(const struct study_case *c, const char *key)

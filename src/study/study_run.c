@@ -14,6 +14,7 @@
 
 #include "base/memory.h"
 #include "base/team.h"
+#include "output/output.h"
 #include "output/output_files.h"
 #include "study/study.h"
 
@@ -30,7 +31,7 @@ struct runner {
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
 /* Words of `cleave run`, the last one NULL; overrides as `key=value` in `pairs`, which the caller frees. */
-static char **command_words(const struct study *s, const struct study_case *c, char *threads, char *folder, char *mode,
+static char **command_words(const char *scene, const struct study_case *c, char *threads, char *folder, char *mode,
                             char **pairs)
 {
     char **word = NEW("study.words", WORDS_FIXED + 2 * c->overrides, char *);
@@ -38,7 +39,7 @@ static char **command_words(const struct study *s, const struct study_case *c, c
     int n = 0;
     for (int k = 0; k < c->overrides; k++) length += strlen(c->override[k].key) + strlen(c->override[k].value) + 2;
     char *pair = *pairs = NEW("study.pairs", (int64_t)length, char);
-    word[n++] = "cleave", word[n++] = "run", word[n++] = (char *)s->scene;
+    word[n++] = "cleave", word[n++] = "run", word[n++] = (char *)scene;
     word[n++] = "-q", word[n++] = "-o", word[n++] = folder;
     if (mode) word[n++] = mode;
     if (threads) word[n++] = "-t", word[n++] = threads;
@@ -66,13 +67,29 @@ static void print_word(FILE *out, const char *word)
     putc('\'', out);
 }
 
-void study_print_command(const struct study *s, const struct study_case *c, int threads, FILE *out)
+/* A path that means the same wherever the command is given. Links stay: a scene has the name of the one that leads to
+ * it. */
+static struct path path_whole(const char *path)
+{
+    char here[PATH_ROOM];
+    struct path whole;
+    while (path[0] == '.' && path[1] == '/') path += 2;
+    if (*path != '/' && getcwd(here, sizeof here)) return path_join(here, path);
+    snprintf(whole.text, sizeof whole.text, "%s", path);
+    return whole;
+}
+
+void study_print_command(const struct study *s, const struct study_case *c, struct study_way how, FILE *out)
 {
     char team[16], *pairs;
-    struct path folder = study_folder(s, c);
-    snprintf(team, sizeof team, "%d", threads);
-    char **word = command_words(s, c, threads > 0 ? team : NULL, folder.text, "--resume", &pairs);
-    print_word(out, program_invocation_name);
+    const char *name = program_invocation_name;
+    const struct path program = strchr(name, '/') ? path_whole(name) : (struct path){{0}};
+    const struct path scene = path_whole(s->scene), study = path_whole(s->folder);
+    struct path folder = path_join(study.text, c->name);
+    snprintf(team, sizeof team, "%d", how.threads);
+    char **word = command_words(scene.text, c, how.threads > 0 ? team : NULL, folder.text,
+                                how.overwrite ? "--overwrite" : "--resume", &pairs);
+    print_word(out, *program.text ? program.text : name);
     for (int k = 1; word[k]; k++) {
         putc(' ', out);
         print_word(out, word[k]);
@@ -118,7 +135,7 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
     unlink(log.text); /* links of this name are not followed */
     const int fd = open(log.text, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (fd < 0) return file_fault(log.text, errno);
-    char **word = command_words(r->study, c, threads, folder.text,
+    char **word = command_words(r->study->scene, c, threads, folder.text,
                                 r->how.overwrite ? "--overwrite"
                                 : there          ? "--resume"
                                                  : NULL,
@@ -243,19 +260,30 @@ static struct study_way way_filled(struct study_way how, const struct study *s)
     return how;
 }
 
-status study_take(struct study *s)
+/* Refuses the study of another scene, and says in the folder what is in it now. */
+static status scene_put(const struct study *s, bool overwrite)
+{
+    const struct path own = path_join(s->folder, STUDY_SCENE);
+    if (!s->text) return OK;
+    if (!overwrite) TRY(study_folder_fits(s->folder, s->text));
+    return scene_file_same(own.text, s->text) ? OK : file_put(own.text, s->text, strlen(s->text));
+}
+
+status study_take(struct study *s, bool overwrite)
 {
     if (path_exists(path_join(s->folder, "scene.yaml").text))
         return status_set(REFUSED, "%s holds a run, not a study; choose another -o", s->folder);
     if (!path_is_folder(s->folder)) return status_set(REFUSED, "%s: no study there", s->folder);
-    return s->lock.fd < 0 ? folder_lock(&s->lock, s->folder) : OK;
+    if (s->lock.fd >= 0) return OK;
+    TRY(folder_lock(&s->lock, s->folder));
+    return scene_put(s, overwrite);
 }
 
 status study_run(struct study *s, struct study_way how)
 {
     struct runner r = {.study = s};
     TRY(folder_make(s->folder));
-    TRY(study_take(s));
+    TRY(study_take(s, how.overwrite));
     TRY(folder_make(path_join(s->folder, "logs").text));
     for (int k = 0; k < s->n; k++) {
         struct study_case *c = &s->at[k];

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "output/output.h"
 #include "output/output_files.h"
+#include "study/study.h"
 
 #define SAME_LEVEL 0.05 /* spacings of a level's runs differ by less from that of the scene [1] */
 

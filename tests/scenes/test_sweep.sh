@@ -61,6 +61,55 @@ same=0
 for run in two/spacing*; do cmp -s "$run/history.csv" "listed/$(basename "$run")/history.csv" && same=$((same + 1)); done
 is "the same histories" $same 6
 
+# A job starts elsewhere: the lines name program, scene and folder whole, and say what --overwrite asks for.
+mkdir -p elsewhere/there
+"$cleave" sweep bar.yaml -s method=pd,mpm -o jobs --list >list
+(cd elsewhere/there && SLURM_ARRAY_TASK_ID=2 && sh -c "$(sed -n "${SLURM_ARRAY_TASK_ID}p" ../../list)" 2>/dev/null)
+is "a job of a list, elsewhere" $? 0
+holds "and where it was asked for" test "$(figure jobs/method=mpm status)" = done
+mkdir bin && cp "$cleave" bin/cleave
+bin/cleave sweep bar.yaml -s method=pd,mpm -o jobs --list --overwrite >list
+is "a list that overwrites" "$(grep -c ' --overwrite ' list) $(grep -c resume list)" "2 0"
+(cd elsewhere/there && sh -c "$(sed -n 2p ../../list)")
+is "with the whole name of the program" $? 0
+
+# ---- what is the same ------------------------------------------------------------------------------------------------
+
+# Keys in another order: the same runs, not one more.
+"$cleave" sweep bar.yaml -s boundary.0.traction='[10 MPa, 0],[5 MPa, 0]' -s particles.spacing=0.5mm,1mm -o two >out 2>err
+is "keys in another order" $? 0
+grep -q '^4 runs: 4 done (4 before)' out && pass || fail "keys in another order: $(cat out err)"
+# A value in other units: one run, a row for each.
+"$cleave" sweep bar.yaml -s particles.spacing=1mm,0.001,2mm -s material.density=2440,2500 -o units >out 2>err
+is "values in other units" $? 0
+grep -q '^4 runs: 4 done; ' out && pass || fail "values in other units: $(cat out)"
+grep -q '^warning: 2 of 6 combinations are the same scene as others' err && pass || fail "said in a line: $(cat err)"
+is "rows" "$(grep -c '^"*density=2440,spacing=1mm' units/sweep.csv) $(wc -l <units/sweep.csv | tr -d ' ')" "2 7"
+is "lines of the list" "$("$cleave" sweep bar.yaml -s particles.spacing=1mm,0.001,2mm -o units2 --list 2>err | wc -l | tr -d ' ')" 2
+# The folder of a study is that of its scene, which its own name tells.
+{ echo 'name: rod'; sed 's/10 MPa, 0/15 MPa, 0/' bar.yaml; } >other.yaml
+cp two/sweep.csv before.csv
+refused()
+{
+    wanted=$1; shift
+    "$cleave" sweep "$@" >out 2>err
+    is "status of $*" $? 2
+    grep -qF "$wanted" err && pass || fail "$*: $(cat err)"
+}
+for how in "" --list --collect; do refused "two holds a study of another scene" other.yaml -s particles.spacing=1mm,2mm -o two $how; done
+refused "holds a study of another scene" bar.yaml -s method=mpm -s particles.spacing=1mm,2mm -o two
+holds "its table stays" cmp -s two/sweep.csv before.csv
+"$cleave" sweep other.yaml -s particles.spacing=1mm,2mm -o units --overwrite -q >out 2>err
+is "replaced" "$? $(wc -l <units/sweep.csv | tr -d ' ')" "0 3"
+"$cleave" sweep other.yaml -s particles.spacing=1mm,2mm -q >out 2>err
+holds "by the scene's name" test -f results/rod_sweep/sweep.csv
+# A scene that is none without what varies.
+sed '/^particles/d' bar.yaml >part.yaml
+"$cleave" sweep part.yaml -s particles.spacing=1mm,2mm -o part -q >out 2>err
+is "a scene in part" $? 0
+"$cleave" sweep part.yaml -s particles.spacing=4mm,2mm -o part -q >out 2>err
+grep -q '^2 runs: 2 done (1 before)' out && pass || fail "more values: $(cat out err)"
+
 # ---- failures are counted, what is wrong is refused before anything runs ------------------------------------------------
 
 "$cleave" sweep bar.yaml -s time.safety=0.5,2 -s material.toughness=1e9 -o fails >out 2>err
@@ -71,13 +120,6 @@ awk -F, '$1 == "safety=2" { print $2 }' fails/sweep.csv >state
 is "in the table" "$(cat state)" failed
 "$cleave" sweep bar.yaml -s time.safety=0.5,2 -s material.toughness=1e9 -o fails --collect >out 2>err
 is "status of a failure, collected" $? 1
-refused()
-{
-    wanted=$1; shift
-    "$cleave" sweep "$@" >out 2>err
-    is "status of $*" $? 2
-    grep -qF "$wanted" err && pass || fail "$*: $(cat err)"
-}
 refused "nothing varies" bar.yaml -o none
 refused "given twice" bar.yaml -s method=pd,mpm -s method=pd -o none
 refused "given twice" bar.yaml -s boundary.0.traction=[1,0] -s boundary[0].traction=[2,0] -o none

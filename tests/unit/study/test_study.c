@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <time.h>
 
 #include "study/convergence_study.h"
 
@@ -62,8 +63,8 @@ static void runs_have_names_of_their_own(void **state)
     (void)state;
     struct study s;
     struct varied_key k[3];
-    assert_int_equal(study_make(&s, "inputs/plate.yaml", NULL, "sweep"), OK);
-    assert_string_equal(s.folder, "results/plate_sweep");
+    assert_int_equal(study_make(&s, "inputs/plate_crack.yaml", NULL, "sweep"), OK);
+    assert_string_equal(s.folder, "results/plate_crack_sweep"); /* as its name has it */
     assert_int_equal(varied_key_read(&k[0], "particles.spacing=1 mm,0.5 mm"), OK);
     assert_int_equal(varied_key_read(&k[1], "method=pd"), OK);
     assert_int_equal(varied_key_read(&k[2], "boundary.0.velocity=[10 m/s, free],[20 m/s, free],a/b"), OK);
@@ -73,12 +74,59 @@ static void runs_have_names_of_their_own(void **state)
     assert_string_equal(s.at[5].name, "spacing=0.5mm,velocity=a_b");
     assert_int_equal(s.at[5].overrides, 3);
     assert_string_equal(s.at[5].override[1].value, "pd");
-    assert_string_equal(study_add(&s, "spacing=1mm,velocity=10m_s,free", NULL, 0)->name, "case00007"); /* taken */
-    assert_string_equal(study_add(&s, "../up", NULL, 0)->name, "case00008");
-    assert_string_equal(study_add(&s, "logs", NULL, 0)->name, "case00009");
+    static const char *const other[] = {"spacing=1mm,velocity=10m_s,free", "../up", "logs"}; /* taken, reserved */
+    for (size_t o = 0; o < COUNT_OF(other); o++) {
+        const char *name = study_add(&s, other[o], NULL, 0)->name;
+        assert_int_equal(strncmp(name, "case-", 5), 0);
+        for (int c = 0; c + 1 < s.n; c++) assert_string_not_equal(s.at[c].name, name);
+    }
     for (int v = 0; v < 3; v++) varied_key_free(&k[v]);
     study_free(&s);
     assert_refused(study_make(&s, "a.yaml", "", "sweep"), "needs the name of a folder");
+}
+
+/* Names of the same runs, with the keys in both orders; long ones are hashes. */
+static void names_do_not_depend_on_the_order_of_keys(void **state)
+{
+    (void)state;
+    struct varied_key k[2], swapped[2];
+    struct study a, b;
+    char longer[2][400];
+    for (int long_ones = 0; long_ones < 2; long_ones++) {
+        for (int j = 0; j < 2; j++)
+            snprintf(longer[j], sizeof longer[j], "%s=1,2%0*d", j ? "particles.seed" : "time.safety",
+                     long_ones ? 120 : 1, 3);
+        for (int j = 0; j < 2; j++) assert_int_equal(varied_key_read(&k[j], longer[j]), OK);
+        swapped[0] = k[1], swapped[1] = k[0];
+        assert_int_equal(study_make(&a, "a.yaml", "a", "sweep"), OK);
+        assert_int_equal(study_make(&b, "a.yaml", "a", "sweep"), OK);
+        assert_int_equal(study_cross(&a, k, 2), OK);
+        assert_int_equal(study_cross(&b, swapped, 2), OK);
+        for (int x = 0; x < 2; x++)
+            for (int y = 0; y < 2; y++) assert_string_equal(a.at[2 * x + y].name, b.at[2 * y + x].name);
+        assert_int_equal(!strncmp(a.at[3].name, "case-", 5), long_ones);
+        study_free(&a);
+        study_free(&b);
+        for (int j = 0; j < 2; j++) varied_key_free(&k[j]);
+    }
+}
+
+/* 100000 names take 0.1 s; comparing each with all others 24 s. */
+static void many_names_are_found_in_time(void **state)
+{
+    (void)state;
+    struct varied_key k[2];
+    struct study s;
+    const clock_t begin = clock();
+    assert_int_equal(varied_key_read(&k[0], "a=1:1000:1"), OK);
+    assert_int_equal(varied_key_read(&k[1], "b=1:100:1"), OK);
+    assert_int_equal(study_make(&s, "a.yaml", "a", "sweep"), OK);
+    assert_int_equal(study_cross(&s, k, 2), OK);
+    assert_int_equal(s.n, 100000);
+    assert_string_equal(s.at[99999].name, "a=1000,b=100");
+    for (int v = 0; v < 2; v++) varied_key_free(&k[v]);
+    study_free(&s);
+    assert_true((double)(clock() - begin) / CLOCKS_PER_SEC < 5);
 }
 
 /* ---- convergence ------------------------------------------------------------------------------------------------- */
@@ -306,12 +354,20 @@ static void spacings_fit_faces_and_cracks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lists_and_rows_are_read),       cmocka_unit_test(wrong_values_are_refused),
-        cmocka_unit_test(runs_have_names_of_their_own),  cmocka_unit_test(power_laws_are_found),
-        cmocka_unit_test(bounds_where_no_order_is_seen), cmocka_unit_test(scatter_hides_small_trends),
-        cmocka_unit_test(chance_moves_the_order),        cmocka_unit_test(intervals_as_defined),
-        cmocka_unit_test(intervals_hold_what_they_name), cmocka_unit_test(student_as_published),
-        cmocka_unit_test(steps_of_a_figure_are_errors),  cmocka_unit_test(spacings_fit_faces_and_cracks),
+        cmocka_unit_test(lists_and_rows_are_read),
+        cmocka_unit_test(wrong_values_are_refused),
+        cmocka_unit_test(runs_have_names_of_their_own),
+        cmocka_unit_test(power_laws_are_found),
+        cmocka_unit_test(bounds_where_no_order_is_seen),
+        cmocka_unit_test(scatter_hides_small_trends),
+        cmocka_unit_test(chance_moves_the_order),
+        cmocka_unit_test(intervals_as_defined),
+        cmocka_unit_test(intervals_hold_what_they_name),
+        cmocka_unit_test(student_as_published),
+        cmocka_unit_test(names_do_not_depend_on_the_order_of_keys),
+        cmocka_unit_test(many_names_are_found_in_time),
+        cmocka_unit_test(steps_of_a_figure_are_errors),
+        cmocka_unit_test(spacings_fit_faces_and_cracks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

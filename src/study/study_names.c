@@ -1,0 +1,127 @@
+/* Names of the runs of a study, which are those of their folders: the same for the same run, whatever stands before it
+ * or in which order its keys are given. */
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "study/study.h"
+#include "study_internal.h"
+
+/* ---- hashes ------------------------------------------------------------------------------------------------------ */
+
+uint64_t study_hash(uint64_t hash, const char *text)
+{
+    for (; *text; text++) hash = (hash ^ (unsigned char)*text) * 0x100000001b3u; /* Fowler, Noll and Vo (FNV-1a) */
+    hash = (hash ^ hash >> 32) * 0x9e3779b97f4a7c15u;
+    return hash ^ hash >> 29;
+}
+
+/* The same for any order of the overrides. */
+static uint64_t overrides_hash(const struct scene_override *o, int n)
+{
+    uint64_t sum = 0;
+    for (int k = 0; k < n; k++) sum += study_hash(study_hash(STUDY_HASH_START, o[k].key), o[k].value);
+    return sum;
+}
+
+/* Place of a name in the table, or the empty one where it belongs. */
+static int name_place(const struct study *s, const char *name)
+{
+    int at = (int)(study_hash(STUDY_HASH_START, name) % (uint64_t)s->places);
+    while (s->place[at] > 0 && strcmp(s->at[s->place[at] - 1].name, name) != 0) at = (at + 1) % s->places;
+    return at;
+}
+
+static bool name_taken(const struct study *s, const char *name) { return s->place[name_place(s, name)] > 0; }
+
+void study_name_book(struct study *s, int number) { s->place[name_place(s, s->at[number].name)] = number + 1; }
+
+void study_names_grow(struct study *s)
+{
+    if (2 * (s->n + 1) <= s->places) return;
+    memory_free(s->place);
+    s->places = s->places > 0 ? 2 * s->places : 64;
+    s->place = NEW("study.names", s->places, int);
+    for (int k = 0; k < s->n; k++) study_name_book(s, k);
+}
+
+/* ---- names ------------------------------------------------------------------------------------------------------- */
+
+/* What every file system and shell takes as it is; blanks and brackets go. */
+static void name_append(char *name, const char *text)
+{
+    size_t n = strlen(name);
+    for (; *text && n + 1 < CASE_NAME_ROOM; text++) {
+        if (*text == ' ' || strchr("[]{}\"'", *text)) continue;
+        name[n++] = isalnum((unsigned char)*text) || strchr(".-+=_,", *text) ? *text : '_';
+    }
+    name[n] = '\0';
+}
+
+/* Names that are too long to be whole, reserved or taken are replaced by what the overrides have as their hash. */
+void study_name_settle(const struct study *s, char *name, const char *wanted, const struct scene_override *o, int n)
+{
+    *name = '\0';
+    name_append(name, wanted);
+    const bool reserved = !*name || *name == '.' || *name == '-' || !strcmp(name, "pictures") || !strcmp(name, "logs");
+    if (strlen(wanted) + 1 < CASE_NAME_ROOM && !reserved && !name_taken(s, name)) return;
+    uint64_t hash = study_hash(overrides_hash(o, n), wanted);
+    do snprintf(name, CASE_NAME_ROOM, "case-%012llx", (unsigned long long)(hash++ & 0xffffffffffffu));
+    while (name_taken(s, name));
+}
+
+/* ---- names of combinations --------------------------------------------------------------------------------------- */
+
+static const char *key_last(const char *key)
+{
+    const char *dot = strrchr(key, '.');
+    return dot ? dot + 1 : key;
+}
+
+/* The last part of a key, or all of it where another key that varies ends alike. */
+static const char *key_label(const struct varied_key *key, int keys, int k)
+{
+    const char *own = key_last(key[k].key);
+    for (int other = 0; other < keys; other++)
+        if (other != k && key[other].values > 1 && !strcmp(key_last(key[other].key), own)) return key[k].key;
+    return own;
+}
+
+struct labelled {
+    const char *label, *key;
+    int at;
+};
+
+static int label_order(const void *a, const void *b)
+{
+    const struct labelled *x = a, *y = b;
+    const int order = strcmp(x->label, y->label);
+    return order != 0 ? order : strcmp(x->key, y->key);
+}
+
+int study_names_order(int *order, const struct varied_key *key, int keys)
+{
+    struct labelled *l = NEW("study.labels", keys, struct labelled);
+    int n = 0;
+    for (int k = 0; k < keys; k++)
+        if (key[k].values > 1) l[n++] = (struct labelled){key_label(key, keys, k), key[k].key, k};
+    qsort(l, (size_t)n, sizeof *l, label_order);
+    for (int k = 0; k < n; k++) order[k] = l[k].at;
+    memory_free(l);
+    return n;
+}
+
+void study_name_compose(char *name, const struct varied_key *key, int keys, const int *order, int n, const int *at)
+{
+    *name = '\0';
+    for (int k = 0; k < n; k++) {
+        const int own = order[k];
+        if (k > 0) name_append(name, ",");
+        name_append(name, key_label(key, keys, own));
+        name_append(name, "=");
+        name_append(name, key[own].value[at[own]]);
+    }
+    if (n == 0) name_append(name, "run");
+}

@@ -1,0 +1,71 @@
+/* Units of the figures of summary.json, which has them all in SI. What a history has as a column, too, has its unit in
+ * the header there, from the tables that the columns are made of; here are those of the other figures. */
+#include <stdio.h>
+#include <string.h>
+
+#include "output/output_files.h"
+#include "study/study.h"
+
+/* Beginnings, whole names and ends of the last part of a name, in the order in which they are tried. */
+static const struct {
+    const char *begin, *end, *unit;
+} unit_of_name[] = {
+    {"", "_deg", "degree"},    {"", "_time", "s"},    {"time", "", "s"},        {"began", "", "s"},
+    {"ended", "", "s"},        {"speed", "", "m/s"},  {"tip_speed", "", "m/s"}, {"velocity_", "", "m/s"},
+    {"stress_", "", "Pa"},     {"force_", "", "N"},   {"mass_", "", "kg"},      {"", "_work", "J"},
+    {"", "_energy", "J"},      {"", "_error", ""},    {"length", "", "m"},      {"growth", "", "m"},
+    {"displacement", "", "m"}, {"position", "", "m"}, {"patch", "", "m"},       {"origin_", "", "m"},
+};
+
+static bool name_fits(const char *name, const char *begin, const char *end)
+{
+    const size_t n = strlen(name), e = strlen(end);
+    return strncmp(name, begin, strlen(begin)) == 0 && n >= e && strcmp(name + n - e, end) == 0;
+}
+
+/* The unit of a column in the header of a history; false: there is no such column. */
+static bool unit_in_header(char *unit, size_t room, const char *header, const char *column)
+{
+    const size_t length = strlen(column);
+    for (const char *cell = header; cell; cell = strchr(cell, ',')) {
+        if (*cell == ',') cell++;
+        const size_t own = strcspn(cell, ",\n");
+        if (own < length || strncmp(cell, column, length) != 0) continue;
+        if (own == length || (own == length + 4 && !strncmp(cell + length, " [1]", 4))) {
+            *unit = '\0';
+            return true;
+        }
+        if (strncmp(cell + length, " [", 2) != 0) continue;
+        snprintf(unit, room, "%.*s", (int)(own - length - 3), cell + length + 2);
+        return true;
+    }
+    return false;
+}
+
+void study_header_read(char *header, size_t room, const struct study *s)
+{
+    *header = '\0';
+    for (int k = 0; k < s->n && !*header; k++) {
+        const struct path history = path_join(study_folder(s, &s->at[k]).text, "history.csv");
+        FILE *from = path_is_file(history.text) ? fopen(history.text, "r") : NULL;
+        if (!from) continue;
+        if (!fgets(header, (int)room, from)) *header = '\0';
+        fclose(from);
+    }
+}
+
+void study_unit(char *unit, size_t room, const char *header, const char *figure)
+{
+    const char *dot = strrchr(figure, '.'), *own = dot ? dot + 1 : figure;
+    const bool probe = !strncmp(figure, "probes.", 7), energy = !strncmp(figure, "energy.", 7);
+    *unit = '\0';
+    if ((probe || energy) && unit_in_header(unit, room, header, figure + 7)) return;
+    if (!probe && unit_in_header(unit, room, header, figure)) return;
+    const bool place = (*own == 'x' || *own == 'y' || *own == 'z') && !own[1];
+    if (place) snprintf(unit, room, "m");
+    for (size_t k = 0; k < COUNT_OF(unit_of_name) && !place; k++)
+        if (name_fits(own, unit_of_name[k].begin, unit_of_name[k].end)) {
+            snprintf(unit, room, "%s", unit_of_name[k].unit);
+            return;
+        }
+}

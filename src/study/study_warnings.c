@@ -1,0 +1,65 @@
+/* What the runs of a study have warned of, which they say in their own summaries alone. */
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "output/output_files.h"
+#include "output/summary_read.h"
+#include "study/study.h"
+
+enum { WARNING_ROOM = 1024, KINDS_MOST = 64, SHOWN_LONGEST = 240 };
+
+/* One warning, whatever the numbers in it: runs differ by spacing. */
+struct warning_kind {
+    char text[WARNING_ROOM];
+    int runs, last; /* that have it; the last one of them */
+};
+
+/* Do two texts differ in numbers alone? */
+static bool is_alike(const char *a, const char *b)
+{
+    static const char number[] = "0123456789.+-e";
+    while (*a && *b) {
+        const bool numbers = isdigit((unsigned char)*a) && isdigit((unsigned char)*b);
+        if (!numbers && *a != *b) return false;
+        a += numbers ? strspn(a, number) : 1;
+        b += numbers ? strspn(b, number) : 1;
+    }
+    return *a == *b;
+}
+
+static void warning_book(struct warning_kind *kind, int *kinds, const char *text, int run)
+{
+    int k = 0;
+    while (k < *kinds && !is_alike(kind[k].text, text)) k++;
+    if (k == KINDS_MOST) return;
+    if (k == *kinds) {
+        kind[(*kinds)++] = (struct warning_kind){.last = -1};
+        snprintf(kind[k].text, sizeof kind[k].text, "%s", text);
+    }
+    kind[k].runs += kind[k].last != run;
+    kind[k].last = run;
+}
+
+void study_print_warnings(const struct study *s, FILE *out)
+{
+    struct warning_kind *kind = NEW("study.warnings", KINDS_MOST, struct warning_kind);
+    int kinds = 0, runs = 0;
+    for (int k = 0; k < s->n; k++) {
+        const struct path folder = study_folder(s, &s->at[k]);
+        char key[32] = "warnings.0", text[WARNING_ROOM];
+        if (s->at[k].state == CASE_SAME || !path_is_file(path_join(folder.text, "summary.json").text)) continue;
+        runs++;
+        for (int w = 0; summary_string(folder.text, key, text, sizeof text) == OK; w++) {
+            warning_book(kind, &kinds, text, k);
+            snprintf(key, sizeof key, "warnings.%d", w + 1);
+        }
+    }
+    for (int k = 0; k < kinds; k++) {
+        text_harmless(kind[k].text);
+        fprintf(out, "warning: in %d of %d runs: %.*s%s\n", kind[k].runs, runs, SHOWN_LONGEST, kind[k].text,
+                strlen(kind[k].text) > SHOWN_LONGEST ? "..." : "");
+    }
+    memory_free(kind);
+}
