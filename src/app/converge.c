@@ -3,13 +3,14 @@
 #include <string.h>
 
 #include "arguments.h"
+#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "commands.h"
 #include "src/scene/scene_internal.h"
 #include "study/convergence_study.h"
 
 static const char usage[] = "converge SCENE [--of FIGURE]... [--budget TIME] [--runs N] [--levels N] [--horizon] "
-                            "[-s KEY=VALUE]... [-o DIR] [-j RUNS] [-t THREADS] [-q]";
+                            "[-s KEY=VALUE]... [-o DIR] [-j RUNS] [-t THREADS] [--overwrite] [-q]";
 
 enum { RUNS_USUAL = 5, LEVELS_USUAL = 3 };
 #define BUDGET_USUAL 600.0 /* [s] */
@@ -19,6 +20,7 @@ struct converge_arguments {
     struct varied_key *key; /* overrides, each with one value */
     const char **wanted;
     int keys, wanteds;
+    char folder[NAME_MAX_LENGTH + CASE_NAME_ROOM]; /* without -o */
 };
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
@@ -78,6 +80,8 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
             TRY(converge_option(a, word, argv[++k]));
         else if (!strcmp(word, "--horizon"))
             a->wish.fixed_horizon = true;
+        else if (!strcmp(word, "--overwrite"))
+            a->wish.way.overwrite = true;
         else if (!strcmp(word, "-q"))
             a->wish.way.quiet = true;
         else if (word[0] == '-' && word[1])
@@ -92,12 +96,27 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-static status converge_all(const struct converge_arguments *a)
+/* The folder; REFUSED if it is that of another scene's study. */
+static status converge_place(struct converge_arguments *a)
+{
+    struct convergence_wish *w = &a->wish;
+    struct scene scene;
+    TRY(scene_read(&scene, w->scene, w->override, w->overrides));
+    study_place(a->folder, sizeof a->folder, &scene, "converge");
+    if (!w->folder) w->folder = a->folder;
+    const status fits = w->way.overwrite ? OK : study_folder_fits(w->folder, scene.text);
+    scene_free(&scene);
+    return fits;
+}
+
+static status converge_all(struct converge_arguments *a)
 {
     struct convergence_study s;
     struct figure_study *figure = NULL;
     int figures = 0;
+    TRY(converge_place(a));
     TRY(convergence_study_run(&s, &a->wish));
+    study_print_warnings(&s.study, stderr);
     status done = figures_find(&s, a->wanted, a->wanteds, &figure, &figures);
     if (done == OK) done = figures_write(&s, figure, figures);
     if (done == OK) figures_print(&s, figure, figures);

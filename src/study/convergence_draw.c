@@ -3,12 +3,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "output/history.h"
 #include "output/output_files.h"
 #include "plot/gnuplot.h"
 #include "study/convergence_study.h"
 
-enum { SHOWN_MOST = 6, SHOWN_WIDE = 3 };
+enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16 };
+#define FLICKER 3.0 /* by which a tip moves without growing [spacings] */
 
 static struct path convergence_picture(const struct convergence_study *s, const char *name)
 {
@@ -36,8 +38,10 @@ static void plot_figure(FILE *to, const struct figure_study *f, int panel)
 {
     const struct convergence *c = &f->c;
     const bool seen = c->verdict == VERDICT_CONVERGES || c->verdict == VERDICT_SLOW;
+    char title[256];
+    snprintf(title, sizeof title, *f->unit ? "%.200s [%s]" : "%.200s%s", f->name, f->unit);
     fputs("set title ", to);
-    gnuplot_quote(to, f->name);
+    gnuplot_quote(to, title);
     fputs("\nplot ", to);
     if (seen) {
         const double h = 1e3 * c->level[0].spacing, p = log((c->level[LEVELS_LEAST - 1].mean - c->extrapolated) /
@@ -85,44 +89,115 @@ static status draw_figures(const struct convergence_study *s, const struct figur
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
-/* Sends the path of the longest crack of a run as $wK [mm]; false: it has none. */
-static bool send_path(FILE *to, const struct convergence_study *s, int k)
+/* The place of the longest tip in each sample at which it has grown; `tip`: which of the tips that were the longest in
+ * turn, as the history does not say. */
+struct longest {
+    int64_t n;
+    double *x, *y, *grown;
+    int *tip, tips;
+};
+
+/* What is drawn [m]. */
+struct extent {
+    double low[2], high[2];
+};
+
+/* Between samples a tip moves about as far as it grows, and its damage flickers by some spacings: a place that is
+ * farther off is that of another tip. */
+static int tip_drawn(const struct longest *l, int64_t i, double spacing)
+{
+    bool seen[TIPS_MOST] = {false};
+    double nearest = INFINITY;
+    int best = l->tips;
+    for (int64_t k = i - 1; k >= 0; k--) {
+        if (seen[l->tip[k]]) continue;
+        seen[l->tip[k]] = true;
+        const double off = hypot(l->x[i] - l->x[k], l->y[i] - l->y[k]);
+        if (off > 2 * (l->grown[i] - l->grown[k]) + FLICKER * spacing || off > nearest) continue;
+        nearest = off;
+        best = l->tip[k];
+    }
+    return best < TIPS_MOST ? best : TIPS_MOST - 1;
+}
+
+static void longest_find(struct longest *l, const struct history *h, double spacing)
+{
+    const int x = history_column(h, "tip_x"), y = history_column(h, "tip_y");
+    const int length = history_column(h, "crack_length");
+    *l = (struct longest){.x = NEW("study.x", h->rows, double),
+                          .y = NEW("study.y", h->rows, double),
+                          .grown = NEW("study.grown", h->rows, double),
+                          .tip = NEW("study.tip", h->rows, int)};
+    for (int64_t i = 0; i < h->rows; i++) {
+        const double grown = history_at(h, i, length), last = l->n > 0 ? l->grown[l->n - 1] : 0;
+        if (!(grown > last) || !isfinite(history_at(h, i, x)) || !isfinite(history_at(h, i, y))) continue;
+        l->x[l->n] = history_at(h, i, x), l->y[l->n] = history_at(h, i, y), l->grown[l->n] = grown;
+        l->tip[l->n] = tip_drawn(l, l->n, spacing);
+        if (l->tip[l->n] == l->tips) l->tips++;
+        l->n++;
+    }
+}
+
+static void longest_free(struct longest *l)
+{
+    memory_free(l->x);
+    memory_free(l->y);
+    memory_free(l->grown);
+    memory_free(l->tip);
+}
+
+/* Sends the paths of the longest tips of a run as $wK [mm], each for itself; false: it has none. */
+static bool send_path(FILE *to, const struct convergence_study *s, int k, struct extent *e)
 {
     struct history h;
+    struct longest l;
     const struct path folder = study_folder(&s->study, &s->study.at[k]);
     if (!path_is_file(path_join(folder.text, "history.csv").text) || history_read(&h, folder.text) != OK) return false;
-    const int x = history_column(&h, "tip_x"), y = history_column(&h, "tip_y");
-    const int length = history_column(&h, "crack_length");
-    double last = 0;
-    int sent = 0;
+    longest_find(&l, &h, s->point[k].spacing);
     fprintf(to, "$w%d << EOD\n", k);
-    for (int64_t i = 0; x >= 0 && y >= 0 && length >= 0 && i < h.rows; i++) {
-        const double grown = history_at(&h, i, length);
-        if (!(grown > last) || !isfinite(history_at(&h, i, x))) continue;
-        fprintf(to, "%.7g %.7g\n", 1e3 * history_at(&h, i, x), 1e3 * history_at(&h, i, y));
-        last = grown;
-        sent++;
+    for (int tip = 0; tip < l.tips; tip++) {
+        for (int64_t i = 0; i < l.n; i++) {
+            if (l.tip[i] != tip) continue;
+            fprintf(to, "%.7g %.7g\n", 1e3 * l.x[i], 1e3 * l.y[i]);
+            e->low[0] = fmin(e->low[0], l.x[i]), e->high[0] = fmax(e->high[0], l.x[i]);
+            e->low[1] = fmin(e->low[1], l.y[i]), e->high[1] = fmax(e->high[1], l.y[i]);
+        }
+        if (tip + 1 < l.tips) fputs("\n", to);
     }
     fputs("EOD\n", to);
+    const bool sent = l.n > 1;
+    longest_free(&l);
     history_free(&h);
-    return sent > 1;
+    return sent;
+}
+
+/* Some room round what is drawn, and a straight path has a height, too. */
+static void send_ranges(FILE *to, const struct extent *e)
+{
+    static const char axis[] = "xy";
+    const double longer = fmax(e->high[0] - e->low[0], e->high[1] - e->low[1]);
+    for (int d = 0; d < 2; d++) {
+        const double centre = 0.5 * (e->low[d] + e->high[d]);
+        const double half = fmax(0.55 * (e->high[d] - e->low[d]), 0.2 * longer);
+        fprintf(to, "set %crange [%.7g:%.7g]\n", axis[d], 1e3 * (centre - half), 1e3 * (centre + half));
+    }
 }
 
 static status draw_paths(const struct convergence_study *s)
 {
     struct gnuplot g;
+    struct extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     bool named[LEVELS_MOST] = {false};
     int drawn = 0;
     TRY(gnuplot_open(&g, convergence_picture(s, "path.png").text, PICTURE_PNG, 900, 720));
     fputs("set size ratio -1\nset xlabel 'x [mm]'\nset ylabel 'y [mm]'\n"
-          "set title 'paths of the longest crack, all runs'\nset offsets graph 0.05, graph 0.05, graph 0.05, graph "
-          "0.05\n",
+          "set title 'paths of the longest tip, all runs'\n",
           g.to);
     char plots[16384] = "";
     size_t used = 0;
     for (int k = 0; k < s->study.n; k++) {
         const int level = s->point[k].level;
-        if (level < 0 || !send_path(g.to, s, k)) continue;
+        if (level < 0 || !send_path(g.to, s, k, &e)) continue;
         char title[64] = "";
         if (!named[level]) snprintf(title, sizeof title, "title '%.4g mm'", 1e3 * s->spacings.at[level][0]);
         const int more =
@@ -133,9 +208,10 @@ static status draw_paths(const struct convergence_study *s)
         named[level] = true;
         drawn++;
     }
-    if (drawn > 0)
+    if (drawn > 0) {
+        send_ranges(g.to, &e);
         fprintf(g.to, "plot %s\n", plots);
-    else
+    } else
         fputs("set xrange [0:1]\nset yrange [0:1]\nset label 'no crack grew' at 0.5,0.5 center\nplot NaN notitle\n",
               g.to);
     return gnuplot_close(&g);

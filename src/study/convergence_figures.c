@@ -106,6 +106,13 @@ static bool is_wanted(const char *name, const char *const *wanted, int wanteds)
     return false;
 }
 
+static void figures_units(const struct convergence_study *s, struct figure_study *figure, int figures)
+{
+    char header[HEADER_ROOM];
+    study_header_read(header, sizeof header, &s->study);
+    for (int f = 0; f < figures; f++) study_unit(figure[f].unit, sizeof figure[f].unit, header, figure[f].name);
+}
+
 status figures_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
                     struct figure_study **figure, int *figures)
 {
@@ -122,6 +129,7 @@ status figures_find(const struct convergence_study *s, const char *const *wanted
             if (part_of(s->table.figure[f]) == part && is_wanted(s->table.figure[f], wanted, wanteds) &&
                 figure_make(&(*figure)[*figures], s, f) && (wanteds > 0 || figure_moves(&(*figure)[*figures])))
                 ++*figures;
+    figures_units(s, *figure, *figures);
     if (*figures > 0) return OK;
     memory_free(*figure);
     *figure = NULL;
@@ -140,15 +148,15 @@ static void print_cell(FILE *to, double value)
 
 static void figures_table(FILE *to, const struct convergence_study *s, const struct figure_study *figure, int figures)
 {
-    fputs("figure,value,uncertainty,scatter,discretisation,deviation_of_a_run,verdict,order,order_likely,order_error,"
-          "grid_convergence_index,extrapolated,step_moves,spacing_moves,horizon_moves",
+    fputs("figure,unit,value,uncertainty,scatter,discretisation,deviation_of_a_run,verdict,order,order_likely,"
+          "order_error,grid_convergence_index,extrapolated,step_moves,spacing_moves,horizon_moves",
           to);
     for (int l = 0; l < s->spacings.levels; l++)
         fprintf(to, ",spacing_%d [m],mean_%d,deviation_%d,uncertainty_%d,runs_%d", l, l, l, l, l);
     putc('\n', to);
     for (int f = 0; f < figures; f++) {
         const struct convergence *c = &figure[f].c;
-        fputs(figure[f].name, to);
+        fprintf(to, "%s,%s", figure[f].name, figure[f].unit);
         const double before[] = {c->level[0].mean, c->uncertainty[0], c->level[0].error, c->discretisation[0],
                                  c->level[0].deviation};
         for (size_t k = 0; k < COUNT_OF(before); k++) print_cell(to, before[k]);
@@ -204,7 +212,7 @@ static void figure_print(const struct figure_study *f, int own)
 {
     const struct convergence *c = &f->c;
     char text[40];
-    printf("%s\n ", f->name);
+    printf(*f->unit ? "%s [%s]\n " : "%s%s\n ", f->name, f->unit);
     for (int k = c->levels - 1; k >= 0; k--) {
         certain_digits(text, sizeof text, c->level[k].mean, c->uncertainty[0] / 4);
         printf(" %s (%.4g mm)%s", text, 1e3 * c->level[k].spacing, k > 0 ? "," : "");
