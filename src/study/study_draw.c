@@ -6,19 +6,39 @@
 #include "base/memory.h"
 #include "output/output_files.h"
 #include "plot/gnuplot.h"
-#include "study/study.h"
+#include "study_internal.h"
 
-enum { PANELS_MOST = 6, LINES_MOST = CURVE_COLOURS, WIDE = 3 };
+enum { PANELS_MOST = 6, LINES_MOST = CURVE_COLOURS, COLUMNS_MOST = 3, TICS_MOST = 12, STEPS_MOST = 4, NOTE_ROOM = 200 };
+/* In pixels: of a panel; a character and a row of text; room of numbers at an axis, of a title, of tics and a label
+ * below the axis, of a colour bar. */
+enum { WIDE = 320, HIGH = 220, CHARACTER = 10, ROW = 24, NUMBERS = 115, TITLE = 45, BELOW = 70, COLOURS = 100 };
+
+/* What a key does in a picture: its values stand along the axis, have a line each, or the picture is of its first value
+ * alone; what changes nothing physical are points with bars. */
+enum key_role { ROLE_NONE, ROLE_ACROSS, ROLE_LINES, ROLE_HELD, ROLE_CHANCE };
+
+/* Of the runs of one point: their mean, and how far they scatter by chance. */
+struct point_of {
+    double mean, scatter;
+    int runs;
+};
 
 /* One picture: the study, the figures that it shows, the key along its axis. */
 struct study_picture {
     const struct study_table *table;
     const struct study *study;
     const struct varied_key *key;
-    int across, lines; /* the key along the axis; the key with a line each, -1: one line */
+    int keys;
+    int **value_at;      /* [keys][runs] number of the key's value in a run; -1: another one */
+    enum key_role *role; /* [keys] */
+    int across, lines;   /* the key along the axis; lines, of which there is at least one */
     int figure[PANELS_MOST], panels;
-    bool numbers; /* places along the axis are the values; else 0, 1, 2 */
+    bool numbers, chance; /* places along the axis are the values, else 0, 1, 2; a key of chance varies */
     const char *unit;
+    const char *header;                     /* of a history, with the units of figures */
+    int left, right, below, legend, height; /* room round a panel, to the right of all, of the picture [pixel] */
+    int width, notes;
+    char note[2][NOTE_ROOM];
 };
 
 /* ---- what is shown ----------------------------------------------------------------------------------------------- */
@@ -58,15 +78,6 @@ static void panels_choose(struct study_picture *p)
     panel_add(p, study_figure(t, "loop_seconds"));
 }
 
-/* Number of a key's value in a run, -1: another one. */
-static int value_index(const struct varied_key *key, const struct study_case *c)
-{
-    const char *own = study_value(c, key->key);
-    for (int v = 0; v < key->values; v++)
-        if (strcmp(key->value[v], own) == 0) return v;
-    return -1;
-}
-
 /* Are a key's values numbers of one unit? */
 static bool key_is_number(const struct varied_key *key, const char **unit)
 {
@@ -84,135 +95,304 @@ static bool key_is_chance(const char *key)
     return !strcmp(key, "particles.seed") || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
 }
 
-/* The key that has a line for each of its values: the next one that varies and has few. */
-static int lines_choose(const struct varied_key *key, int keys, int across)
+/* Fills value_at. Runs that follow each other have the same value of a key, or its next one. */
+static void values_find(int **value_at, const struct study *s, const struct varied_key *key, int keys)
 {
-    for (int k = 0; k < keys; k++)
-        if (k != across && key[k].values > 1 && key[k].values <= LINES_MOST && !key_is_chance(key[k].key)) return k;
-    return -1;
-}
-
-/* ---- lines with bars --------------------------------------------------------------------------------------------- */
-
-/* Mean over the runs in which the key across has value v and the key of lines has value l, and how far they scatter. */
-struct point_of {
-    double mean, scatter;
-    int runs;
-};
-
-static struct point_of point_find(const struct study_picture *p, int figure, int v, int l)
-{
-    const double *value = p->table->value[figure];
-    struct point_of point = {0};
-    for (int pass = 0; pass < 2; pass++)
-        for (int c = 0; c < p->study->n; c++) {
-            const struct study_case *run = &p->study->at[c];
-            if (isnan(value[c]) || value_index(&p->key[p->across], run) != v) continue;
-            if (p->lines >= 0 && value_index(&p->key[p->lines], run) != l) continue;
-            if (pass == 0)
-                point.mean += value[c], point.runs++;
-            else
-                point.scatter += square(value[c] - point.mean / point.runs);
+    for (int k = 0; k < keys; k++) {
+        value_at[k] = NEW("study.value_at", s->n, int);
+        int last = 0;
+        for (int c = 0; c < s->n; c++) {
+            const char *own = study_value(&s->at[c], key[k].key);
+            int tried = 0;
+            while (tried < key[k].values && strcmp(key[k].value[last], own) != 0) {
+                last = (last + 1) % key[k].values;
+                tried++;
+            }
+            value_at[k][c] = tried < key[k].values ? last : -1;
         }
-    if (point.runs == 0) return (struct point_of){NAN, NAN, 0};
-    point.mean /= point.runs;
-    point.scatter = point.runs > 1 ? sqrt(point.scatter / (point.runs - 1)) : 0;
-    return point;
-}
-
-static void send_points(FILE *to, const struct study_picture *p, int panel)
-{
-    const struct varied_key *across = &p->key[p->across];
-    const int lines = p->lines >= 0 ? p->key[p->lines].values : 1;
-    const char *unit;
-    for (int l = 0; l < lines; l++) {
-        fprintf(to, "$p%d_%d << EOD\n", panel, l);
-        for (int v = 0; v < across->values; v++) {
-            const struct point_of point = point_find(p, p->figure[panel], v, l);
-            const double x = p->numbers ? value_number(across->value[v], &unit) : v;
-            if (point.runs > 0) fprintf(to, "%.10g %.10g %.10g\n", x, point.mean, point.scatter);
-        }
-        fputs("NaN NaN NaN\nEOD\n", to); /* no line has no points: gnuplot would not plot it */
     }
 }
 
-/* Places of the values along the axis as tics, where they are words. */
-static void send_tics(FILE *to, const char *axis, const struct varied_key *key)
+/* Keys that vary have lines in turn, as long as these can be told apart; the others are held. */
+static void roles_choose(struct study_picture *p, int lines_most)
 {
-    fprintf(to, "set %stics (", axis);
-    for (int v = 0; v < key->values; v++) {
+    p->lines = 1;
+    p->chance = false;
+    for (int k = 0; k < p->keys; k++) {
+        const int values = p->key[k].values;
+        p->role[k] = k == p->across                   ? ROLE_ACROSS
+                     : values < 2                     ? ROLE_NONE
+                     : key_is_chance(p->key[k].key)   ? ROLE_CHANCE
+                     : p->lines * values > lines_most ? ROLE_HELD
+                                                      : ROLE_LINES;
+        if (p->role[k] == ROLE_LINES) p->lines *= values;
+        p->chance |= p->role[k] == ROLE_CHANCE;
+    }
+}
+
+/* ---- points ------------------------------------------------------------------------------------------------------ */
+
+/* Number of the line that a run belongs to; -1: none. */
+static int line_of(const struct study_picture *p, int run)
+{
+    int line = 0;
+    for (int k = 0; k < p->keys; k++) {
+        const int at = p->value_at[k][run];
+        if (at < 0 || (p->role[k] == ROLE_HELD && at > 0)) return -1;
+        if (p->role[k] == ROLE_LINES) line = line * p->key[k].values + at;
+    }
+    return line;
+}
+
+/* [lines][values along the axis]; the caller frees it. */
+static struct point_of *means_find(const struct study_picture *p, int figure)
+{
+    const double *value = p->table->value[figure];
+    const int across = p->key[p->across].values;
+    struct point_of *point = NEW("study.points", (int64_t)p->lines * across, struct point_of);
+    for (int pass = 0; pass < 2; pass++) {
+        for (int c = 0; c < p->study->n; c++) {
+            const int line = line_of(p, c);
+            if (line < 0 || isnan(value[c])) continue;
+            struct point_of *to = &point[line * across + p->value_at[p->across][c]];
+            if (pass == 0)
+                to->mean += value[c], to->runs++;
+            else
+                to->scatter += square(value[c] - to->mean);
+        }
+        for (int k = 0; k < p->lines * across && pass == 0; k++) point[k].mean /= point[k].runs; /* 0/0: NAN */
+    }
+    for (int k = 0; k < p->lines * across; k++)
+        point[k].scatter = point[k].runs > 1 ? sqrt(point[k].scatter / (point[k].runs - 1)) : 0;
+    return point;
+}
+
+/* ---- words round the panels -------------------------------------------------------------------------------------- */
+
+/* The values of the keys with lines, of one line: `60GPa, 1mm`. */
+static void line_title(char *text, size_t room, const struct study_picture *p, int line)
+{
+    size_t used = 0;
+    int rest = p->lines;
+    *text = '\0';
+    for (int k = 0; k < p->keys; k++) {
+        char value[LABEL_ROOM];
+        if (p->role[k] != ROLE_LINES) continue;
+        rest /= p->key[k].values;
+        study_value_shown(value, &p->key[k], line / rest % p->key[k].values);
+        if (used < room) used += (size_t)snprintf(text + used, room - used, "%s%s", used > 0 ? ", " : "", value);
+    }
+}
+
+/* The keys with this role: `material.young, load`. */
+static void keys_text(char *text, size_t room, const struct study_picture *p, enum key_role role, bool with_value)
+{
+    size_t used = 0;
+    *text = '\0';
+    for (int k = 0; k < p->keys; k++) {
+        char value[LABEL_ROOM];
+        if (p->role[k] != role) continue;
+        study_value_shown(value, &p->key[k], 0);
+        if (used < room)
+            used += (size_t)snprintf(text + used, room - used, "%s%s%s%s", used > 0 ? ", " : "", p->key[k].key,
+                                     with_value ? " = " : "", with_value ? value : "");
+    }
+}
+
+static void screen_label(FILE *to, const struct study_picture *p, const char *text, double x, double y, const char *how)
+{
+    fputs("set label ", to);
+    gnuplot_quote(to, text);
+    fprintf(to, " at screen %.5f,%.5f %s textcolor rgb '#333333'\n", x / p->width, y / p->height, how);
+}
+
+/* What the points are of, to stand below the panels. */
+static void notes_find(struct study_picture *p, bool map)
+{
+    char keys[NOTE_ROOM - 64];
+    p->notes = 0;
+    keys_text(keys, sizeof keys, p, ROLE_HELD, true);
+    if (*keys) snprintf(p->note[p->notes++], NOTE_ROOM, "at %s alone", keys);
+    keys_text(keys, sizeof keys, p, ROLE_CHANCE, false);
+    if (*keys)
+        snprintf(p->note[p->notes++], NOTE_ROOM,
+                 map ? "means over %s" : "points and bars: mean and standard deviation over %s", keys);
+}
+
+/* Places of the values along the axis as tics, where they are words; some of them, where they are many. */
+static void send_tics(FILE *to, const char *axis, const struct varied_key *key, bool rotated)
+{
+    const int each = (key->values + TICS_MOST - 1) / TICS_MOST;
+    fprintf(to, "set %stics %s (", axis, rotated ? "rotate by 40 right" : "norotate");
+    for (int v = 0; v < key->values; v += each) {
+        char text[LABEL_ROOM];
+        study_value_shown(text, key, v);
         if (v > 0) putc(',', to);
-        gnuplot_quote(to, key->value[v]);
+        gnuplot_quote(to, text);
         fprintf(to, " %d", v);
     }
     fputs(")\n", to);
 }
 
+static int tics_shown(const struct varied_key *key) { return key->values < TICS_MOST ? key->values : TICS_MOST; }
+
+/* Words along an axis that would touch each other. */
+static bool words_touch(const struct varied_key *key)
+{
+    return tics_shown(key) * (study_values_longest(key) + 2) * CHARACTER > WIDE;
+}
+
+/* ---- room -------------------------------------------------------------------------------------------------------- */
+
+static int panel_columns(const struct study_picture *p) { return p->panels < COLUMNS_MOST ? p->panels : COLUMNS_MOST; }
+static int panel_rows(const struct study_picture *p) { return (p->panels + COLUMNS_MOST - 1) / COLUMNS_MOST; }
+
+static void room_find(struct study_picture *p, const struct varied_key *up)
+{
+    const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
+    const struct varied_key *across = &p->key[p->across];
+    const int along = study_values_longest(across) * CHARACTER;
+    const bool words = up || !p->numbers;
+    p->left = up ? (study_values_longest(up) + 5) * CHARACTER : NUMBERS;
+    p->right = up ? COLOURS : words ? 2 * CHARACTER + along / 2 : 3 * CHARACTER;
+    p->below = BELOW;
+    if (words && words_touch(across)) {
+        p->below += (int)(slope * along) - ROW / 2;
+        if (!up) p->right = 2 * CHARACTER;
+        if (p->left < (int)(run * along)) p->left = (int)(run * along);
+    }
+    char text[256];
+    int longest = 0;
+    keys_text(text, sizeof text, p, ROLE_LINES, false);
+    if (!up && p->lines > 1) longest = (int)strlen(text);
+    for (int l = 0; l < p->lines && !up && p->lines > 1; l++) {
+        line_title(text, sizeof text, p, l);
+        longest = (int)strlen(text) + 5 > longest ? (int)strlen(text) + 5 : longest;
+    }
+    p->legend = longest > 0 ? (longest + 2) * CHARACTER : 0;
+    notes_find(p, up != NULL);
+    p->width = panel_columns(p) * (p->left + WIDE + p->right) + p->legend;
+    for (int k = 0; k < p->notes; k++) {
+        const int wide = ((int)strlen(p->note[k]) + 2) * CHARACTER;
+        p->width = wide > p->width ? wide : p->width;
+    }
+    p->height = panel_rows(p) * (TITLE + HIGH + p->below) + p->notes * ROW;
+}
+
+static status picture_open(struct gnuplot *g, const struct study_picture *p, const char *name)
+{
+    const struct path folder = path_join(p->study->folder, "pictures");
+    TRY(folder_make(folder.text));
+    TRY(gnuplot_open(g, path_join(folder.text, name).text, PICTURE_PNG, p->width, p->height));
+    fputs("set multiplot\nset format y '%.4g'\nset format x '%.4g'\nset format cb '%.4g'\nset autoscale fix\n"
+          "set offsets graph 0.04, graph 0.04, graph 0.08, graph 0.08\n",
+          g->to);
+    for (int k = 0; k < p->notes; k++)
+        screen_label(g->to, p, p->note[k], CHARACTER, (p->notes - k - 0.4) * ROW, "left");
+    return OK;
+}
+
+/* Margins, title and names of the axes of a panel; `up`: NULL, a number. */
+static void panel_begin(FILE *to, const struct study_picture *p, int panel, const char *up)
+{
+    const int column = panel % COLUMNS_MOST, row = panel / COLUMNS_MOST;
+    const int x = column * (p->left + WIDE + p->right) + p->left;
+    const int y = p->height - row * (TITLE + HIGH + p->below) - TITLE;
+    const char *figure = p->table->figure[p->figure[panel]];
+    char unit[UNIT_ROOM], text[512];
+    fprintf(to, "set lmargin at screen %.5f\nset rmargin at screen %.5f\n", (double)x / p->width,
+            (double)(x + WIDE) / p->width);
+    fprintf(to, "set tmargin at screen %.5f\nset bmargin at screen %.5f\n", (double)y / p->height,
+            (double)(y - HIGH) / p->height);
+    study_unit(unit, sizeof unit, p->header, figure);
+    snprintf(text, sizeof text, *unit ? "%s [%s]" : "%s%s", figure, unit);
+    fputs("set title ", to);
+    gnuplot_quote(to, text);
+    putc('\n', to);
+    snprintf(text, sizeof text, *p->unit ? "%s [%s]" : "%s%s", p->key[p->across].key, p->unit);
+    screen_label(to, p, text, x + 0.5 * WIDE, y - HIGH - p->below + 0.9 * ROW, "center");
+    if (up) screen_label(to, p, up, x - p->left + 0.8 * ROW, y - 0.5 * HIGH, "center rotate by 90");
+}
+
+/* ---- lines with bars --------------------------------------------------------------------------------------------- */
+
+static void send_points(FILE *to, const struct study_picture *p, int panel)
+{
+    const struct varied_key *across = &p->key[p->across];
+    struct point_of *point = means_find(p, p->figure[panel]);
+    const char *unit;
+    for (int l = 0; l < p->lines; l++) {
+        fprintf(to, "$p%d_%d << EOD\n", panel, l);
+        for (int v = 0; v < across->values; v++) {
+            const struct point_of *at = &point[l * across->values + v];
+            const double x = p->numbers ? value_number(across->value[v], &unit) : v;
+            if (at->runs > 0) fprintf(to, "%.10g %.10g %.10g\n", x, at->mean, at->scatter);
+        }
+        fputs("NaN NaN NaN\nEOD\n", to); /* no line has no points: gnuplot would not plot it */
+    }
+    memory_free(point);
+}
+
 static void plot_panel(FILE *to, const struct study_picture *p, int panel)
 {
-    const int lines = p->lines >= 0 ? p->key[p->lines].values : 1;
-    fputs("set title ", to);
-    gnuplot_quote(to, p->table->figure[p->figure[panel]]);
-    fputs("\nplot ", to);
-    for (int l = 0; l < lines; l++) {
+    fputs("plot ", to);
+    for (int l = 0; l < p->lines; l++) {
+        fprintf(to, "%s$p%d_%d using 1:2 smooth unique with lines lw 1.6 lc rgb '%s' notitle, $p%d_%d using ",
+                l > 0 ? ", " : "", panel, l, curve_colour[l], panel, l);
         fprintf(to,
-                "%s$p%d_%d using 1:2 smooth unique with lines lw 1.6 lc rgb '%s' notitle, "
-                "$p%d_%d using 1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.4 lc rgb '%s' ",
-                l > 0 ? ", " : "", panel, l, curve_colour[l], panel, l, curve_colour[l]);
-        if (p->lines < 0 || panel > 0) {
+                p->chance ? "1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.4 lc rgb '%s' "
+                          : "1:2 with points pt 7 ps 0.9 lc rgb '%s' ",
+                curve_colour[l]);
+        if (p->lines < 2 || panel > 0) {
             fputs("notitle", to);
             continue;
         }
+        char text[256];
+        line_title(text, sizeof text, p, l);
         fputs("title ", to);
-        gnuplot_quote(to, p->key[p->lines].value[l]);
+        gnuplot_quote(to, text);
     }
     putc('\n', to);
 }
 
-/* Room of the panels in rows of three; the key of lines above them. */
-static int panel_rows(const struct study_picture *p) { return (p->panels + WIDE - 1) / WIDE; }
-
-/* `beside`: room to the right of each panel [characters]. */
-static status picture_open(struct gnuplot *g, const struct study_picture *p, const char *name, int beside)
+static void send_number_tics(FILE *to, const struct varied_key *key)
 {
-    const struct path folder = path_join(p->study->folder, "pictures");
-    const int columns = p->panels < WIDE ? p->panels : WIDE;
-    TRY(folder_make(folder.text));
-    TRY(gnuplot_open(g, path_join(folder.text, name).text, PICTURE_PNG, 80 + 420 * columns, 60 + 340 * panel_rows(p)));
-    fprintf(g->to,
-            "set multiplot layout %d,%d margins char 10, char %d, char 4, char 5 spacing char %d, char 6\n"
-            "set format y '%%.4g'\nset offsets graph 0.04, graph 0.04, graph 0.08, graph 0.08\n",
-            panel_rows(p), columns, 3 + beside, 11 + beside);
-    return OK;
+    double low = INFINITY, high = -INFINITY;
+    const char *unit;
+    for (int v = 0; v < key->values; v++) {
+        low = fmin(low, value_number(key->value[v], &unit));
+        high = fmax(high, value_number(key->value[v], &unit));
+    }
+    if (high > low)
+        fprintf(to, "set xtics norotate %.10g\n", study_tics_apart(high - low, STEPS_MOST));
+    else
+        fputs("set xtics norotate autofreq\n", to);
 }
 
-static status draw_lines(const struct study_picture *p)
+static status draw_lines(struct study_picture *p)
 {
-    char name[CASE_NAME_ROOM + 8];
+    char name[CASE_NAME_ROOM + 8], text[256];
     struct gnuplot g;
+    roles_choose(p, LINES_MOST);
+    room_find(p, NULL);
     snprintf(name, sizeof name, "%.*s.png", CASE_NAME_ROOM, p->key[p->across].key);
     for (char *c = name; *c; c++)
         if (*c == '/') *c = '_';
-    TRY(picture_open(&g, p, name, 0));
+    TRY(picture_open(&g, p, name));
     for (int panel = 0; panel < p->panels; panel++) send_points(g.to, p, panel);
     if (p->numbers)
-        fputs("set xtics autofreq\n", g.to);
+        send_number_tics(g.to, &p->key[p->across]);
     else
-        send_tics(g.to, "x", &p->key[p->across]);
-    char label[512];
-    snprintf(label, sizeof label, "%s%s%s%s", p->key[p->across].key, *p->unit ? " [" : "", p->unit,
-             *p->unit ? "]" : "");
-    fputs("set xlabel ", g.to);
-    gnuplot_quote(g.to, label);
-    fputs("\nset key at screen 0.02,0.99 left top horizontal maxrows 1\n", g.to);
-    if (p->lines >= 0) {
-        fputs("set label 1 ", g.to);
-        gnuplot_quote(g.to, p->key[p->lines].key);
-        fputs(" at screen 0.99,0.975 right\n", g.to);
-    }
+        send_tics(g.to, "x", &p->key[p->across], words_touch(&p->key[p->across]));
+    keys_text(text, sizeof text, p, ROLE_LINES, false);
+    const int x = p->width - p->legend + CHARACTER;
+    if (p->lines > 1) screen_label(g.to, p, text, x, p->height - 0.6 * TITLE, "left");
+    fprintf(g.to, "set key at screen %.5f,%.5f left top vertical maxrows %d\n", (double)x / p->width,
+            1 - (double)TITLE / p->height, LINES_MOST);
     for (int panel = 0; panel < p->panels; panel++) {
+        panel_begin(g.to, p, panel, NULL);
         plot_panel(g.to, p, panel);
-        fputs("unset label 1\n", g.to);
+        fputs("unset label\n", g.to);
     }
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
@@ -220,29 +400,29 @@ static status draw_lines(const struct study_picture *p)
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
-static status draw_study_map(const struct study_picture *p)
+static status draw_study_map(struct study_picture *p, int up)
 {
-    const struct varied_key *across = &p->key[p->across], *up = &p->key[p->lines];
+    const struct varied_key *across = &p->key[p->across], *key_up = &p->key[up];
     struct gnuplot g;
-    TRY(picture_open(&g, p, "map.png", 9));
-    send_tics(g.to, "x", across);
-    send_tics(g.to, "y", up);
-    fputs("set format cb '%.4g'\nunset grid\nset palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\n"
-          "set xlabel ",
-          g.to);
-    gnuplot_quote(g.to, across->key);
-    fputs("\nset ylabel ", g.to);
-    gnuplot_quote(g.to, up->key);
-    fputs(" offset char -2.5,0\nset offsets\n", g.to);
-    fprintf(g.to, "set xrange [-0.5:%g]\nset yrange [-0.5:%g]\n", across->values - 0.5, up->values - 0.5);
+    roles_choose(p, across->values * key_up->values);
+    if (p->role[up] == ROLE_CHANCE) p->role[up] = ROLE_LINES, p->lines = key_up->values, p->chance = false;
+    room_find(p, key_up);
+    p->unit = "";
+    TRY(picture_open(&g, p, "map.png"));
+    send_tics(g.to, "x", across, words_touch(across));
+    send_tics(g.to, "y", key_up, false);
+    fputs("unset grid\nset palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset offsets\n", g.to);
+    fprintf(g.to, "set xrange [-0.5:%g]\nset yrange [-0.5:%g]\n", across->values - 0.5, key_up->values - 0.5);
     for (int panel = 0; panel < p->panels; panel++) {
+        struct point_of *point = means_find(p, p->figure[panel]);
         fprintf(g.to, "$m%d << EOD\n", panel);
-        for (int l = 0; l < up->values; l++)
+        for (int l = 0; l < key_up->values; l++)
             for (int v = 0; v < across->values; v++)
-                fprintf(g.to, "%d %d %.10g\n", v, l, point_find(p, p->figure[panel], v, l).mean);
-        fputs("EOD\nset title ", g.to);
-        gnuplot_quote(g.to, p->table->figure[p->figure[panel]]);
-        fprintf(g.to, "\nplot $m%d using 1:2:3 with image notitle\n", panel);
+                fprintf(g.to, "%d %d %.10g\n", v, l, point[l * across->values + v].mean);
+        memory_free(point);
+        fputs("EOD\n", g.to);
+        panel_begin(g.to, p, panel, key_up->key);
+        fprintf(g.to, "plot $m%d using 1:2:3 with image notitle\nunset label\n", panel);
     }
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
@@ -250,24 +430,49 @@ static status draw_study_map(const struct study_picture *p)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
+/* The two keys of a map, in their order: those that are not chance, or all that vary. False: they are not two. */
+static bool map_keys(const struct study_picture *p, int *up, int *across)
+{
+    for (int all = 0; all < 2; all++) {
+        int n = 0, last[2] = {0};
+        for (int k = 0; k < p->keys; k++)
+            if (p->key[k].values > 1 && (all || !key_is_chance(p->key[k].key))) {
+                if (n < 2) last[n] = k;
+                n++;
+            }
+        *up = last[0], *across = last[1];
+        if (n == 2) return true;
+    }
+    return false;
+}
+
+static status draw_all(struct study_picture *p)
+{
+    int up;
+    for (int k = 0; k < p->keys; k++) {
+        if (p->key[k].values < 2) continue;
+        p->across = k;
+        p->unit = "";
+        p->numbers = key_is_number(&p->key[k], &p->unit);
+        if (!p->numbers) p->unit = "";
+        TRY(draw_lines(p));
+    }
+    return map_keys(p, &up, &p->across) ? draw_study_map(p, up) : OK;
+}
+
 status study_draw(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys)
 {
-    int varied = 0;
-    for (int k = 0; k < keys; k++) varied += key[k].values > 1;
-    for (int k = 0; k < keys; k++) {
-        struct study_picture p = {.table = t, .study = s, .key = key, .across = k, .unit = ""};
-        if (key[k].values < 2) continue;
-        panels_choose(&p);
-        if (p.panels == 0) return OK;
-        p.lines = lines_choose(key, keys, k);
-        p.numbers = key_is_number(&key[k], &p.unit);
-        if (!p.numbers) p.unit = "";
-        TRY(draw_lines(&p));
-        for (int other = 0; varied == 2 && other < k; other++)
-            if (key[other].values > 1) {
-                p.lines = other;
-                TRY(draw_study_map(&p));
-            }
-    }
-    return OK;
+    char header[HEADER_ROOM];
+    struct study_picture p = {.table = t, .study = s, .key = key, .keys = keys, .header = header};
+    panels_choose(&p);
+    if (p.panels == 0) return OK;
+    study_header_read(header, sizeof header, s);
+    p.value_at = NEW("study.value_at", keys, int *);
+    p.role = NEW("study.roles", keys, enum key_role);
+    values_find(p.value_at, s, key, keys);
+    const status drawn = draw_all(&p);
+    for (int k = 0; k < keys; k++) memory_free(p.value_at[k]);
+    memory_free(p.value_at);
+    memory_free(p.role);
+    return drawn;
 }

@@ -19,4 +19,14 @@ int study_names_order(int *order, const struct varied_key *key, int keys);
 /* `spacing=0.5mm,speed=20` of the values number at[k] of the n keys of `order`; [CASE_NAME_ROOM]. */
 void study_name_compose(char *name, const struct varied_key *key, int keys, const int *order, int n, const int *at);
 
+/* ---- labels of pictures (study_labels.c) ------------------------------------------------------------------------- */
+
+enum { LABEL_ROOM = 40 };
+/* Value number v of a key: without what all values begin and end with if they are long; [LABEL_ROOM]. */
+void study_value_shown(char *text, const struct varied_key *key, int v);
+/* Characters of the longest of these. */
+int study_values_longest(const struct varied_key *key);
+/* A round distance of tics, of which there are at most so many steps in the range. */
+double study_tics_apart(double range, int most);
+
 #endif

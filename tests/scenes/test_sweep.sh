@@ -110,6 +110,23 @@ is "a scene in part" $? 0
 "$cleave" sweep part.yaml -s particles.spacing=4mm,2mm -o part -q >out 2>err
 grep -q '^2 runs: 2 done (1 before)' out && pass || fail "more values: $(cat out err)"
 
+# ---- pictures --------------------------------------------------------------------------------------------------------
+
+# What gnuplot is told is kept. Keys of the body have lines of their own; bars are of what is chance alone, and say so.
+printf '#!/bin/sh\nexec tee -a "%s/drawn" | "%s" "$@"\n' "$work" "$(command -v gnuplot)" >bin/gnuplot
+chmod +x bin/gnuplot
+three="-s material.density=2000,3000 -s material.young=60GPa,72GPa"
+PATH=$work/bin:$PATH "$cleave" sweep bar.yaml $three -s boundary.0.traction='[5.0000001 MPa, 0],[10.000001 MPa, 0],[20.000001 MPa, 0]' -o chance -q >out
+is "no bars over a load" "$(grep -c yerrorbars drawn)" 0
+is "a line for each pair of the others" "$(grep -c "title '60GPa, \[20.000001 MPa, 0\]'" drawn)" 1
+is "long words at an axis are turned" "$(grep -c 'rotate by 40 right.*\[20.000001 MPa, 0\]' drawn)" 1
+rm drawn
+PATH=$work/bin:$PATH "$cleave" sweep bar.yaml -s material.density=2000,3000 -s particles.irregularity=0.3 -s particles.seed=1,2 -o seeds -q >out
+is "bars of chance say so" "$(grep -c 'mean and standard deviation over particles.seed' drawn)" 1
+grep -q yerrorbars drawn && pass || fail "no bars"
+mean=$(compute "($(figure seeds/density=2000,seed=1 energy.kinetic) + $(figure seeds/density=2000,seed=2 energy.kinetic)) / 2")
+near "a point is the mean of its runs" "$(awk '/^\$p0_0/ { at = 1; next } at { print $2; exit }' drawn)" "$mean" 1e-6
+
 # ---- failures are counted, what is wrong is refused before anything runs ------------------------------------------------
 
 "$cleave" sweep bar.yaml -s time.safety=0.5,2 -s material.toughness=1e9 -o fails >out 2>err

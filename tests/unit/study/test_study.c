@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "src/study/study_internal.h"
 #include "study/convergence_study.h"
 
 /* ---- values ------------------------------------------------------------------------------------------------------ */
@@ -108,6 +109,61 @@ static void names_do_not_depend_on_the_order_of_keys(void **state)
         study_free(&a);
         study_free(&b);
         for (int j = 0; j < 2; j++) varied_key_free(&k[j]);
+    }
+}
+
+static void values_are_short_in_pictures(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *shown;
+    } wanted[] = {
+        {"a=1mm,2mm", "2mm"},
+        {"boundary=[{traction: [1 MPa, 0], face: x+}],[{traction: [2 MPa, 0], face: x+}]",
+         "[{traction: [2 MPa, 0], face.."},
+        {"a=[1.00000000000001, 2.00000000000002, 3.0],[7.77777777777777, 8.88888888888888, 4.0]",
+         "2: [7.77777777777777, 8.."},
+    };
+    for (size_t w = 0; w < COUNT_OF(wanted); w++) {
+        struct varied_key k;
+        char text[LABEL_ROOM];
+        assert_int_equal(varied_key_read(&k, wanted[w].text), OK);
+        study_value_shown(text, &k, 1);
+        assert_string_equal(text, wanted[w].shown);
+        varied_key_free(&k);
+    }
+    assert_near(study_tics_apart(1000, 4), 500, 1e-9);
+    assert_near(study_tics_apart(1.5e-3, 4), 5e-4, 1e-12);
+    assert_near(study_tics_apart(8, 4), 2, 1e-12);
+}
+
+/* Units come from the header of a history, where it has the figure. */
+static void figures_have_units(void **state)
+{
+    (void)state;
+    static const char header[] =
+        "time [s],step,kinetic [J],pd_share,tip_x [m],sif.K_I [Pa m^(1/2)],sif.x [1],kin [W]\n";
+    static const char *const wanted[][2] = {
+        {"energy.kinetic", "J"},
+        {"probes.sif.K_I", "Pa m^(1/2)"},
+        {"probes.sif.x", ""},
+        {"energy.kin", "W"},
+        {"probes.tip.x", "m"},
+        {"crack.angle_deg", "degree"},
+        {"crack.start_time", "s"},
+        {"crack.tip_speed_max", "m/s"},
+        {"probes.tip.speed_mean", "m/s"},
+        {"crack.length_end", "m"},
+        {"rigid.0.force_max", "N"},
+        {"probes.line.velocity_x_max", "m/s"},
+        {"energy.balance_error", ""},
+        {"probes.pulse.reflected", ""},
+        {"pd_share", ""},
+    };
+    for (size_t w = 0; w < COUNT_OF(wanted); w++) {
+        char unit[UNIT_ROOM];
+        study_unit(unit, sizeof unit, header, wanted[w][0]);
+        assert_string_equal(unit, wanted[w][1]);
     }
 }
 
@@ -365,6 +421,8 @@ int main(void)
         cmocka_unit_test(intervals_hold_what_they_name),
         cmocka_unit_test(student_as_published),
         cmocka_unit_test(names_do_not_depend_on_the_order_of_keys),
+        cmocka_unit_test(values_are_short_in_pictures),
+        cmocka_unit_test(figures_have_units),
         cmocka_unit_test(many_names_are_found_in_time),
         cmocka_unit_test(steps_of_a_figure_are_errors),
         cmocka_unit_test(spacings_fit_faces_and_cracks),

@@ -1,0 +1,78 @@
+/* Values of keys and figures as pictures of a study show them: short, and apart from each other. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "study_internal.h"
+
+enum { VALUE_SHOWN = LABEL_ROOM - 8, CUT_SHOWN = 20, LEFT_OUT_LEAST = 4 };
+
+/* What all values of a key begin and end with, as far as it is not part of a longer number. */
+static void values_common(const struct varied_key *key, size_t *begin, size_t *end)
+{
+    const char *first = key->value[0];
+    *begin = *end = strlen(first);
+    for (int v = 1; v < key->values; v++) {
+        const char *other = key->value[v];
+        const size_t n = strlen(first), m = strlen(other);
+        size_t same = 0, tail = 0;
+        while (same < *begin && same < m && first[same] == other[same]) same++;
+        while (tail < *end && tail < m && first[n - 1 - tail] == other[m - 1 - tail]) tail++;
+        *begin = same, *end = tail;
+    }
+    const char *separators = " ,:[]{}";
+    while (*begin > 0 && !strchr(separators, first[*begin - 1])) --*begin;
+    while (*end > 0 && !strchr(separators, first[strlen(first) - *end])) --*end;
+    if (*begin < LEFT_OUT_LEAST) *begin = 0;
+    if (*end < LEFT_OUT_LEAST) *end = 0;
+}
+
+/* Keeps as much of what is common as there is room for. */
+static void common_keep(size_t *begin, size_t *end, size_t longest)
+{
+    const size_t wanted = longest - *begin - *end + 4;
+    if (wanted >= VALUE_SHOWN) return;
+    const size_t spare = VALUE_SHOWN - wanted, before = *begin < spare / 2 ? *begin : spare / 2;
+    *begin -= before;
+    *end -= *end < spare - before ? *end : spare - before;
+}
+
+void study_value_shown(char *text, const struct varied_key *key, int v)
+{
+    size_t longest = 0, begin, end;
+    for (int k = 0; k < key->values; k++) longest = strlen(key->value[k]) > longest ? strlen(key->value[k]) : longest;
+    if (longest <= VALUE_SHOWN) {
+        snprintf(text, LABEL_ROOM, "%s", key->value[v]);
+        return;
+    }
+    values_common(key, &begin, &end);
+    const size_t own = strlen(key->value[v]);
+    if (begin + end >= own) begin = end = 0;
+    common_keep(&begin, &end, longest);
+    const size_t left = own - begin - end;
+    if (longest - begin - end + 4 <= VALUE_SHOWN)
+        snprintf(text, LABEL_ROOM, "%s%.*s%s", begin > 0 ? ".." : "", (int)left, key->value[v] + begin,
+                 end > 0 ? ".." : "");
+    else
+        snprintf(text, LABEL_ROOM, "%d: %.*s..", v + 1, CUT_SHOWN, key->value[v] + begin);
+}
+
+int study_values_longest(const struct varied_key *key)
+{
+    int longest = 0;
+    for (int v = 0; v < key->values; v++) {
+        char text[LABEL_ROOM];
+        study_value_shown(text, key, v);
+        longest = (int)strlen(text) > longest ? (int)strlen(text) : longest;
+    }
+    return longest;
+}
+
+double study_tics_apart(double range, int most)
+{
+    static const double lead[] = {1, 2, 5, 10};
+    const double decade = pow(10, floor(log10(range / most)));
+    size_t k = 0;
+    while (k + 1 < COUNT_OF(lead) && range / (lead[k] * decade) > most) k++;
+    return lead[k] * decade;
+}
