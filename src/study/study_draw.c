@@ -11,7 +11,7 @@
 enum { PANELS_MOST = 6, LINES_MOST = CURVE_COLOURS, COLUMNS_MOST = 3, TICS_MOST = 12, STEPS_MOST = 4, NOTE_ROOM = 200 };
 /* In pixels: of a panel; a character and a row of text; room of numbers at an axis, of a title, of tics and a label
  * below the axis, of a colour bar. */
-enum { WIDE = 320, HIGH = 220, CHARACTER = 10, ROW = 24, NUMBERS = 115, TITLE = 45, BELOW = 70, COLOURS = 100 };
+enum { WIDE = 320, HIGH = 220, CHARACTER = 10, ROW = 24, NUMBERS = 115, TITLE = 45, BELOW = 70, COLOURS = 150 };
 
 /* What a key does in a picture: its values stand along the axis, have a line each, or the picture is of its first value
  * alone; what changes nothing physical are points with bars. */
