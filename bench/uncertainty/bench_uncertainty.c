@@ -83,8 +83,10 @@ static double true_error(const struct known_row *r) { return fabs(r->c.level[0].
 static double covered(const struct known_rows *rows, double nominal)
 {
     int held = 0;
-    for (int k = 0; k < rows->n; k++)
-        held += true_error(&rows->at[k]) <= convergence_half_width(&rows->at[k].c, rows->at[k].c.level[0].mean, nominal);
+    for (int k = 0; k < rows->n; k++) {
+        const struct known_row *r = &rows->at[k];
+        held += true_error(r) <= convergence_half_width(&r->c, r->c.level[0].mean, nominal);
+    }
     return (double)held / rows->n;
 }
 

@@ -29,6 +29,8 @@ struct convergence_study {
     struct scene scene; /* as the user gave it */
     struct study study;
     struct study_point *point; /* of each run of `study` */
+    int first;      /* run from which the time of the others is known */
+    double refused; /* spacing at which the scene is not sound; INFINITY: none [m] */
     struct spacings spacings;
     const struct scene_override *override; /* of the user; borrowed */
     int overrides;

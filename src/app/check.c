@@ -162,21 +162,29 @@ static void say_materials(const struct engine *e)
     }
 }
 
-status command_check(int argc, char **argv)
+/* A scene that runs at coarse spacings are to choose for has nothing more to check before. */
+static void say_pilot(const struct pilot_wish *w, const char *scene)
 {
-    struct run_arguments a;
-    TRY(arguments_read(&a, argc, argv, "check SCENE [-s KEY=VALUE]... [-t THREADS]"));
-    int threads = team_make(a.threads);
+    printf("%s can be read\n", shown_name(scene).text);
+    printf("auto           %s\n", w->why);
+    printf("auto           cleave run takes pilot runs of at most %.3g s, for %s within %.3g %%; scene.yaml of the run "
+           "can be checked then\n",
+           w->budget, w->figure[0] ? w->figure : "the first figure of its probes, the start of cracks or an energy",
+           100 * w->within);
+}
+
+static status check_sound(const struct run_arguments *a, int threads)
+{
     struct scene s = {0};
     struct engine e = {0};
     struct cost cost = {0};
     const double start = team_clock();
-    status result = scene_read(&s, a.scene, a.override, a.overrides);
+    status result = scene_read(&s, a->scene, a->override, a->overrides);
     s.active_set = false;                              /* cost with the whole body active */
     if (result == OK) result = engine_make(&e, &s, NULL);
     cost.make = team_clock() - start;
     if (result == OK) {
-        printf("%s is sound\n", shown_name(a.scene).text);
+        printf("%s is sound\n", shown_name(a->scene).text);
         engine_choice_print(&e, stdout);
         say_particles(&e);
         say_materials(&e);
@@ -188,13 +196,28 @@ status command_check(int argc, char **argv)
         engine_warn(&e);
         warnings_print(&e.report.warnings, 0, stdout);
         advise(&e, stdout);
-        result = cost_measure(&cost, &e, &a);
+        result = cost_measure(&cost, &e, a);
         if (result == OK) say_contact_cost(&e, &cost);
         if (result == OK) say_cost(&e, &cost, threads);
         if (result == OK) say_levels_saving(&e, &cost);
     }
     engine_free(&e);
     scene_free(&s);
+    return result;
+}
+
+status command_check(int argc, char **argv)
+{
+    struct run_arguments a;
+    struct pilot_wish pilot;
+    TRY(arguments_read(&a, argc, argv, "check SCENE [-s KEY=VALUE]... [-t THREADS]"));
+    const int threads = team_make(a.threads);
+    status result = scene_pilot_wish(&pilot, a.scene, a.override, a.overrides);
+    if (result == OK && pilot.wanted) {
+        say_pilot(&pilot, a.scene);
+        scene_free(&pilot.first);
+    } else if (result == OK)
+        result = check_sound(&a, threads);
     arguments_free(&a);
     return result;
 }

@@ -244,7 +244,8 @@ static status make_ask(struct ask *a)
     TRY(auto_match_find(&a->match, a->scene, at_rest));
     if (a->match.strain > a->accuracy)
         return status_set(REFUSED,
-                          "strains of about %.2g are more than the accuracy of %.2g, and the table's problems are linear",
+                          "strains of about %.2g are more than the accuracy of %.2g, and the table's problems are "
+                          "linear",
                           a->match.strain, a->accuracy);
     return OK;
 }
@@ -260,7 +261,8 @@ static status fault_unreached(const struct ask *a, const struct auto_found *f)
                           "of pd, mpm, model and spacing that it fixes",
                           m->kind->title);
     return status_set(REFUSED,
-                      "an error of %.2g %% is not reached by the table of %s; %.2g %% is, by %s with %.4g spacings in %s",
+                      "an error of %.2g %% is not reached by the table of %s; %.2g %% is, by %s with %.4g spacings "
+                      "in %s",
                       100 * a->accuracy, m->kind->title, 100 * m->growth * f->finest.error, f->finest.of->method,
                       f->finest.resolution * m->kind->per_resolution, m->kind->feature);
 }
@@ -279,7 +281,8 @@ static status choose(struct reader *r, struct node *root, struct ask *a, const s
     auto_pick(&f, table, &w);
     if (!f.best.of) return fault_unreached(a, &f);
     if (!(fixed > 0))
-        h = auto_spacing_fit(a->scene, unit / f.best.resolution, !cost_point_has(f.best.of, "method", "pd"));
+        h = auto_spacing_fit(a->scene, real_min(unit / f.best.resolution, auto_spacing_rings(a->scene)),
+                             !cost_point_has(f.best.of, "method", "pd"));
     w.allows = allows_even;
     if (levels_of_point(f.best.of) > 0) auto_pick(&g, table, &w);
     keep_choice(&r->scene->choice, a, &f, h, g.best.of ? f.best.seconds / g.best.seconds : NAN);

@@ -44,6 +44,9 @@ status auto_match_find(struct auto_match *m, const struct scene *s, bool at_rest
 /* Extent of the first solid of a body along an axis [m]; 0: it has none. */
 real auto_extent(const struct scene *s, int body, int axis);
 
+/* Largest spacing at which the rings of sif probes are wide enough [m]. */
+real auto_spacing_rings(const struct scene *s);
+
 /* A point on a line of the table: one of its runs or between two. */
 struct auto_point {
     const struct cost_point *of;         /* gives method, keys, horizon and step */

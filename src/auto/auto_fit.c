@@ -7,6 +7,7 @@
 #include "auto/scene_read.h"
 
 enum { LENGTHS_MOST = 64 };
+#define RING_SPACINGS 3.001 /* width of a ring that a sif probe takes [spacings] */
 struct lengths { int n; real of[LENGTHS_MOST]; };
 
 static void add(struct lengths *l, real length)
@@ -66,6 +67,21 @@ static bool fits(const struct lengths *l, const struct scene *s, real h, bool ev
     for (int d = 0; d < s->dim && even; d++)
         if (!divides(2 * h, auto_extent(s, 0, d))) return false;
     return true;
+}
+
+real auto_spacing_rings(const struct scene *s)
+{
+    real least = INFINITY;
+    for (int k = 0; k < s->probes; k++) {
+        const struct probe_request *p = &s->probe[k];
+        if (p->kind != PROBE_SIF) continue;
+        const int rings = p->contours.n > 0 ? p->contours.n : 1;
+        for (int c = 0; c < rings; c++) {
+            const real outer = p->contours.n > 0 ? p->contours.value[c] : p->outer;
+            if (outer > 0) least = real_min(least, (outer - (p->inner > 0 ? p->inner : 0.5 * outer)) / RING_SPACINGS);
+        }
+    }
+    return least;
 }
 
 /* Spacings down to 3/4 h are tried; without a fit the edge along x alone counts. */

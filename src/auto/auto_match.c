@@ -102,7 +102,7 @@ static real crack_length(const struct scene *s, const struct crack *c, bool *emb
     real inside = 0, part = 1;               /* bisection: where it leaves the body */
     for (int k = 0; k < 50; k++) {
         const real share = 0.5 * (inside + part);
-        real X[DIM_MAX];
+        real X[DIM_MAX] = {0};
         for (int d = 0; d < 2; d++) X[d] = tip[0] ? a[d] + share * (b[d] - a[d]) : b[d] + share * (a[d] - b[d]);
         if (is_inside(s, X)) inside = share;
         else part = share;
@@ -306,6 +306,43 @@ static bool may_be_gap(const struct scene *s)
     return (a[0] == b[0]) != (a[1] == b[1]) && is_inside(s, a) != is_inside(s, b);
 }
 
+/* ---- proportions ------------------------------------------------------------------------------------------------- */
+
+/* True if two mirrors make the body endless along an axis. */
+static bool is_endless(const struct scene *s, int axis)
+{
+    int mirrors = 0;
+    for (int k = 0; k < s->boundaries; k++)
+        mirrors += s->boundary[k].kind == BOUNDARY_MIRROR && s->boundary[k].axis == axis;
+    return mirrors > 1;
+}
+
+/* From the tip of an edge crack along it to the far edge [m]. */
+static real ligament(const struct scene *s, const struct crack *c)
+{
+    bool embedded = false;
+    const real length = crack_length(s, c, &embedded);
+    if (embedded || !(length > 0)) return INFINITY;
+    const int along = fabs(c->corner[1][0] - c->corner[0][0]) < fabs(c->corner[1][1] - c->corner[0][1]);
+    return auto_extent(s, 0, along) - length;
+}
+
+/* REFUSED for bodies that are thinner beside the feature, or have a shorter ligament, than those of the table. */
+static status check_proportions(const struct auto_match *m, const struct scene *s)
+{
+    const bool forced = m->kind == &kinds[SQUARE] || m->kind == &kinds[CUBE];
+    const bool wave = m->kind == &kinds[WAVE_P] || m->kind == &kinds[WAVE_S];
+    const real least = (forced ? 0.5 : wave ? 1 : 0) * m->feature * (1 - 1e-6);
+    for (int d = 0; d < s->dim; d++)
+        if (auto_extent(s, 0, d) < least && !is_endless(s, d))
+            return no_match(forced ? "a body thinner than half the wavelength"
+                                   : "a body thinner than the packet's width");
+    for (int k = 0; k < s->cracks && m->kind == &kinds[EDGE]; k++)
+        if (ligament(s, &s->crack[k]) < m->feature * (1 - 1e-6))
+            return no_match("an edge crack that is longer than what is left before it");
+    return OK;
+}
+
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
 /* REFUSED for what no problem of the table has. */
@@ -362,6 +399,7 @@ status auto_match_find(struct auto_match *m, const struct scene *s, bool at_rest
     *m = (struct auto_match){0};
     TRY(auto_match_problem(m, s, at_rest));
     TRY(check_loads(m, s));
+    TRY(check_proportions(m, s));
     if (!(m->feature > 0)) return no_match("what its spacing would resolve has no length");
     const struct material *a = &s->material[0];
     if (s->dim > 1 && fabs(a->c12 / a->c11 - 1.0 / 3) > 1e-3) m->growth *= MATERIAL_GROWTH;

@@ -89,7 +89,7 @@ static status file_bytes(const char *path, char **bytes, size_t *length)
 }
 
 /* scene_read, and `pilot` as in auto_resolve. */
-static status read_file(struct scene *s, const char *path, const struct scene_override *override, int overrides,
+static status scene_file_read(struct scene *s, const char *path, const struct scene_override *override, int overrides,
                         struct pilot_wish *pilot)
 {
     char *text = NULL;
@@ -104,14 +104,14 @@ static status read_file(struct scene *s, const char *path, const struct scene_ov
 
 status scene_read(struct scene *s, const char *path, const struct scene_override *override, int overrides)
 {
-    return read_file(s, path, override, overrides, NULL);
+    return scene_file_read(s, path, override, overrides, NULL);
 }
 
 status scene_pilot_wish(struct pilot_wish *w, const char *path, const struct scene_override *override, int overrides)
 {
     struct scene s;
     *w = (struct pilot_wish){0};
-    const status read = read_file(&s, path, override, overrides, w);
+    const status read = scene_file_read(&s, path, override, overrides, w);
     if (read != OK) return w->wanted ? OK : read;
     scene_free(&s);
     return OK;

@@ -43,21 +43,14 @@ const struct key keys[] = {
     KEY("solver_steps", KEY_INT, UNIT_NONE, AT(scene, solver_steps), BETWEEN(1, 1000000000), "200000",
         "most steps (relaxation, cg); a run that needs more fails"),
     KEY("accuracy", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(1 % with method auto)",
-        "method auto: largest error; expected from the cost-accuracy table for the problem that the scene is like; "
-        "where it is like none, or a figure is named, runs of the scene at coarse spacings choose (cleave run)",
+        "method auto: largest error, by the cost-accuracy table, or by pilot runs where it has no such problem",
         .words = "a share, as 2 %, or {of: figure, within: share, budget: time}"),
-    KEY("accuracy.of", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(the first of its probes, crack.start_time or an energy)",
-        "the figure of summary.json that is to be so accurate, its names joined by points",
-        .words = "name, as crack.start_time"),
-    KEY("accuracy.within", KEY_REAL, UNIT_NONE, NOWHERE, INSIDE(0, 0.5), "1 %",
-        "largest error of the figure, as a share of it, with a probability of 95 %"),
-    KEY("accuracy.budget", KEY_REAL, UNIT_TIME, NOWHERE, ABOVE(0), "5 min",
-        "time that the runs which choose may take, before the run itself"),
+    KEY("accuracy.of", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(first probe, start of cracks or an energy)",
+        "figure of summary.json, its names joined by points", .words = "name, as crack.start_time"),
+    KEY("accuracy.within", KEY_REAL, UNIT_NONE, NOWHERE, INSIDE(0, 0.5), "1 %", "largest error of the figure (95 %)"),
+    KEY("accuracy.budget", KEY_REAL, UNIT_TIME, NOWHERE, ABOVE(0), "5 min", "time for pilot runs"),
     KEY("accuracy_table", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(that of the program)",
-        "method auto: a cost-accuracy table measured elsewhere, as `cleave bench accuracy` writes it "
-        "(results/bench/cost_accuracy.csv); "
-        "sought in the scene's folder, then in the current one",
-        .words = "file name, .csv"),
+        "a table of `cleave bench accuracy`, in the scene's or the current folder", .words = "file name, .csv"),
 
     KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "the one material; its keys follow"),
     KEY("materials", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 255), "(required, or material)",

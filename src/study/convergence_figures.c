@@ -119,7 +119,7 @@ status figures_find(const struct convergence_study *s, const char *const *wanted
     for (int k = 0; k < wanteds; k++)
         if (study_figure(&s->table, wanted[k]) < 0)
             return status_set(REFUSED,
-                              "--of %s: summary.json has no such figure; names in it are joined by points, as "
+                              "%s: summary.json has no such figure; names in it are joined by points, as "
                               "in crack.angle_deg",
                               wanted[k]);
     *figure = NEW("study.figures", s->table.figures, struct figure_study);

@@ -29,7 +29,7 @@ struct mixture {
 /* ---- the mixture ------------------------------------------------------------------------------------------------- */
 
 /* S: range of the means, and their errors. */
-static double scale_of(const struct convergence *c)
+static double range_scale(const struct convergence *c)
 {
     double least = INFINITY, most = -INFINITY, error = 0;
     for (int k = 0; k < c->levels; k++) {
@@ -112,7 +112,7 @@ static double mixture_half_width(const struct mixture *m, double about, double s
 double convergence_half_width(const struct convergence *c, double about, double share)
 {
     struct mixture m;
-    const double scale = scale_of(c);
+    const double scale = range_scale(c);
     if (!mixture_make(&m, c, scale)) return 0;
     return scale * mixture_half_width(&m, (about - c->level[0].mean) / scale, share);
 }
@@ -120,7 +120,7 @@ double convergence_half_width(const struct convergence *c, double about, double 
 void convergence_intervals(struct convergence *c)
 {
     struct mixture m;
-    const double scale = scale_of(c);
+    const double scale = range_scale(c);
     double value = 0, order = 0, squares = 0;
     c->order_likely = c->order_error = NAN;
     c->extrapolated = c->level[0].mean;

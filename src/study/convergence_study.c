@@ -11,7 +11,7 @@
 #include "output/output_files.h"
 #include "output/summary_read.h"
 
-enum { RUNS_LEAST = 3, SHIFTS_MOST = 6, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
+enum { RUNS_LEAST = 3, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
 #define STEP_RANGE 0.1    /* steps from 0.9 to 1.1 of the scene's own */
 #define SAFETY_MOST 1.0   /* share of the critical step that no run exceeds */
 #define HORIZON_MOST 10.5 /* [spacings] */
@@ -91,7 +91,7 @@ static void level_run_add(struct convergence_study *s, int level, int run, int r
 /* Time of a run at a spacing beside that of the first run: particles, steps, and bonds of a longer horizon. */
 static double cost_beside(const struct convergence_study *s, double spacing)
 {
-    const double first = s->point[0].spacing, finer = first / spacing;
+    const double first = s->point[s->first].spacing, finer = first / spacing;
     const double longer = s->fixed_horizon && has_bonds(&s->scene) ? pow(finer, s->scene.dim) : 1;
     return s->spent * pow(finer, s->scene.dim + 1) * longer;
 }
@@ -143,10 +143,12 @@ static const char *study_refusal(const struct scene *s, const struct convergence
     return NULL;
 }
 
-/* The first run, of the coarsest level: what the others will take is known from it. */
-static status first_run(struct convergence_study *s, const struct convergence_wish *w)
+/* The first run, of the coarsest level: what the others will take is known from it. *refused: the scene is not sound at
+ * this spacing, as with rings that are too narrow for it. */
+static status first_run(struct convergence_study *s, const struct convergence_wish *w, bool *refused)
 {
     struct study_way way = w->way;
+    s->first = s->study.n;
     way.jobs = 1;
     if (way.threads <= 0) way.threads = 1;
     way.quiet = true;
@@ -154,31 +156,61 @@ static status first_run(struct convergence_study *s, const struct convergence_wi
     level_run_add(s, s->spacings.levels - 1, 0, w->runs);
     TRY(study_check(&s->study, false));
     TRY(study_run(&s->study, way));
-    if (s->study.at[0].state == CASE_STOPPED || s->study.at[0].state == CASE_WAITING)
+    const struct study_case *run = &s->study.at[s->first];
+    *refused = run->state == CASE_FAILED && run->ended == REFUSED;
+    if (run->state == CASE_STOPPED || run->state == CASE_WAITING)
         return status_set(REFUSED, "%.3g s are too little: one run at %.4g mm, the coarsest, takes longer (--budget)",
-                          s->budget, 1e3 * s->point[0].spacing);
-    if (s->study.at[0].state == CASE_FAILED)
+                          s->budget, 1e3 * s->point[s->first].spacing);
+    if (run->state == CASE_FAILED)
         return status_set(FAILED, "the coarsest run has failed: the reason is in %s/logs", s->study.folder);
-    return summary_number(study_folder(&s->study, &s->study.at[0]).text, "wall_seconds", &s->spent);
+    return summary_number(study_folder(&s->study, run).text, "wall_seconds", &s->spent);
+}
+
+/* Where a scene is not sound at the coarsest level, all become finer. */
+static status first_run_sound(struct convergence_study *s, const struct convergence_wish *w)
+{
+    bool refused = false;
+    status done = FAILED;
+    s->refused = INFINITY;
+    for (int finer = 0; finer <= FINER_MOST; finer++) {
+        spacings_plan(&s->spacings, &s->scene, w->levels, s->scene.spacing * pow(2, -0.5 * finer));
+        done = first_run(s, w, &refused);
+        if (!refused) break;
+        s->refused = s->point[s->first].spacing;
+        s->point[s->first].level = -2;
+    }
+    return done;
+}
+
+/* Plans levels from `shift` steps of sqrt(2) above the scene's own spacing, leaving out those at which it is not sound.
+ * False: too few are left. */
+static bool levels_plan(struct convergence_study *s, const struct convergence_wish *w, int shift)
+{
+    int levels = w->levels - (shift < 0 ? shift : 0);
+    if (levels > LEVELS_MOST) return false;
+    spacings_plan(&s->spacings, &s->scene, levels, s->scene.spacing * pow(2, 0.5 * shift));
+    while (levels > LEVELS_LEAST && s->spacings.at[levels - 1][0] > 0.999 * s->refused) levels--;
+    s->spacings.levels = levels;
+    return s->spacings.at[levels - 1][0] < 0.999 * s->refused;
 }
 
 /* The levels and runs that fit: where the finest is too dear, all become coarser. */
 static status plan_fit(struct convergence_study *s, const struct convergence_wish *w, int jobs)
 {
+    static const int finer_first[] = {-2, -1, 0, 1, 2, 3, 4, 5, 6}, own_first[] = {0, -1, -2, 1, 2, 3, 4, 5, 6};
     const double left = s->budget - (team_clock() - s->begun);
-    const int finest = w->finer ? -FINER_MOST : 0;
     double need = 0;
-    for (int shift = finest; shift <= SHIFTS_MOST; shift++) {
-        const int levels = w->levels - (shift < 0 ? shift : 0);
-        if (levels > LEVELS_MOST) continue;
-        spacings_plan(&s->spacings, &s->scene, levels, s->scene.spacing * pow(2, 0.5 * shift));
+    for (size_t k = 0; k < COUNT_OF(own_first); k++) {
+        const int shift = w->finer ? finer_first[k] : own_first[k];
+        if (!levels_plan(s, w, shift) || (shift < 0 && !w->finer && !isfinite(s->refused))) continue;
         const bool fits = runs_fit(s, w->runs, jobs, left) && horizon_at(s, s->spacings.at[0][0]) <= HORIZON_MOST;
-        if (shift == 0) need = s->expected;
+        if (shift <= 0) need = s->expected;
         if (!fits) continue;
         s->own = shift > 0 ? -1 : -shift;
-        s->point[0].level = -2; /* unless a level has its spacing */
-        for (int k = 0; k < levels; k++)
-            if (fabs(s->spacings.at[k][0] / s->point[0].spacing - 1) < 1e-9) s->point[0].level = k;
+        struct study_point *first = &s->point[s->first];
+        first->level = -2; /* unless a level has its spacing */
+        for (int l = 0; l < s->spacings.levels; l++)
+            if (fabs(s->spacings.at[l][0] / first->spacing - 1) < 1e-9) first->level = l;
         return OK;
     }
     return status_set(REFUSED, "%.3g s are too little: three runs at each spacing would take about %.3g s (--budget)",
@@ -188,7 +220,7 @@ static status plan_fit(struct convergence_study *s, const struct convergence_wis
 /* One run of each level comes first, so that there is a result however soon the budget ends. */
 static void runs_add_all(struct convergence_study *s)
 {
-    const int first = s->point[0].level;
+    const int first = s->point[s->first].level;
     for (int run = 0; run < RUNS_MOST; run++)
         for (int level = s->spacings.levels - 1; level >= 0; level--)
             if (run < s->runs[level] && !(level == first && run == 0)) level_run_add(s, level, run, s->runs[level]);
@@ -223,7 +255,7 @@ static status study_go(struct convergence_study *s, const struct convergence_wis
                           "--horizon: the finest spacing would have a horizon of %.3g spacings, %g is the most; "
                           "fewer --levels or a smaller particles.horizon",
                           horizon_at(s, s->spacings.at[0][0]), HORIZON_MOST);
-    TRY(first_run(s, w));
+    TRY(first_run_sound(s, w));
     if (way.threads <= 0) way.threads = 1;
     if (way.jobs <= 0) way.jobs = cores > way.threads ? cores / way.threads : 1;
     TRY(plan_fit(s, w, way.jobs));
@@ -233,7 +265,7 @@ static status study_go(struct convergence_study *s, const struct convergence_wis
     way.until = s->begun + s->budget;
     TRY(study_run(&s->study, way));
     int failed = 0;
-    for (int k = 0; k < s->study.n; k++) failed += s->study.at[k].state == CASE_FAILED;
+    for (int k = s->first; k < s->study.n; k++) failed += s->study.at[k].state == CASE_FAILED;
     if (failed > 0)
         fprintf(stderr, "warning: %d of %d runs have failed and are left out: see %s/logs\n", failed, s->study.n,
                 s->study.folder);

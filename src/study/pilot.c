@@ -15,8 +15,8 @@
 #define FIRST_SHARE 0.6 /* of the budget for the first runs of all methods */
 #define LONGEST 100.0   /* expected time of the run over the budget, beyond which the choice is refused */
 #define FARTHEST 8.0    /* coarsest spacing run over the one chosen: beyond, an order is no forecast */
-#define FINER_LEAST 1.4  /* a study goes on so much finer than the one before ... */
-#define FINER_MOST 2.9   /* ... to so much: three levels beyond it */
+#define FINER_LEAST 1.4 /* a study goes on so much finer than the one before ... */
+#define FINER_MOST 2.9  /* ... to so much: three levels beyond it */
 enum { RUNS_FIRST = 3, LEVELS_FIRST = 3, REFUSED_MOST = 4 };
 
 /* ---- methods ----------------------------------------------------------------------------------------------------- */
@@ -60,7 +60,7 @@ static void candidates_find(struct pilot_search *p)
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 
-static void value_put(struct pilot *to, int *n, const char *key, const char *value)
+static void chosen_put(struct pilot *to, int *n, const char *key, const char *value)
 {
     assert(*n < CHOSEN_MOST);
     snprintf(to->key[*n], CHOSEN_ROOM, "%s", key);
@@ -75,14 +75,14 @@ static void candidate_write(struct pilot *to, const struct pilot_search *p, cons
     char number[CHOSEN_ROOM];
     int n = 0;
     const bool points = !strcmp(c->method, "mpm");
-    if (p->wish.has_accuracy) value_put(to, &n, "accuracy", "");
-    if (p->wish.has_table) value_put(to, &n, "accuracy_table", "");
-    value_put(to, &n, "method", c->method);
-    if (c->model) value_put(to, &n, "model", c->model);
-    if (p->wish.at_rest) value_put(to, &n, "solver", !strcmp(c->method, "pd") ? "cg" : "relaxation");
-    if (p->wish.at_rest && points && !p->wish.has_transfer) value_put(to, &n, "mpm.transfer", "apic");
+    if (p->wish.has_accuracy) chosen_put(to, &n, "accuracy", "");
+    if (p->wish.has_table) chosen_put(to, &n, "accuracy_table", "");
+    chosen_put(to, &n, "method", c->method);
+    if (c->model) chosen_put(to, &n, "model", c->model);
+    if (p->wish.at_rest) chosen_put(to, &n, "solver", !strcmp(c->method, "pd") ? "cg" : "relaxation");
+    if (p->wish.at_rest && points && !p->wish.has_transfer) chosen_put(to, &n, "mpm.transfer", "apic");
     snprintf(number, sizeof number, "%.15g", spacing);
-    value_put(to, &n, "particles.spacing", number);
+    chosen_put(to, &n, "particles.spacing", number);
     pilot_fill(to, p->override, p->overrides, n);
 }
 
@@ -105,6 +105,7 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
     status done = convergence_study_run(&s, &w);
     if (done == OK) {
         done = pilot_judge(p, c, &s);
+        c->unknown = done == REFUSED;
         convergence_study_free(&s);
     }
     c->failed[0] = '\0';
@@ -139,7 +140,7 @@ static status search_first(struct pilot_search *p)
             spacing = auto_spacing_fit(&p->wish.first, spacing / FINER_LEAST, false);
             done = candidate_study(p, &p->at[k], spacing, share, true);
         }
-        if (done == INTERRUPTED) return done;
+        if (done == INTERRUPTED || p->at[k].unknown) return done;
         if (!p->way.quiet) pilot_print(p, &p->at[k]);
     }
     return OK;
@@ -187,11 +188,12 @@ static status search_failed(const struct pilot_search *p)
             n += (size_t)snprintf(text + n, sizeof text - n, "%s%s: %s +- %.2g %% at %.3g mm", k > 0 ? "; " : "",
                                   c->name, p->figure, 100 * c->reached, 1e3 * c->finest);
     }
-    return status_set(
-        REFUSED,
-        "%s: pilot runs of %.3g s found no method that is accurate to %.2g %% in %g times that time (%s); "
-        "a larger accuracy.within or accuracy.budget, or method and particles.spacing, would do",
-        p->scene, p->wish.budget, 100 * p->wish.within, LONGEST, text);
+    char limit[64] = "at its spacing";
+    if (!(p->wish.spacing > 0)) snprintf(limit, sizeof limit, "in %g times that time", LONGEST);
+    return status_set(REFUSED,
+                      "%s: pilot runs of %.3g s found no method that is accurate to %.2g %% %s (%s); "
+                      "a larger accuracy.within or accuracy.budget, or method and particles.spacing, would do",
+                      p->scene, p->wish.budget, 100 * p->wish.within, limit, text);
 }
 
 static status search_end(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
@@ -206,7 +208,7 @@ static status search_end(struct pilot *to, const struct pilot_search *p, const s
     return OK;
 }
 
-static status search(struct pilot *to, struct pilot_search *p)
+static status pilot_search_all(struct pilot *to, struct pilot_search *p)
 {
     candidates_find(p);
     if (!p->way.quiet)
@@ -238,7 +240,7 @@ status pilot_choose(struct pilot *to, const char *scene, const struct scene_over
     if (length + CASE_NAME_ROOM + 2 * PATH_NAME_ROOM >= PATH_ROOM)
         done = status_set(REFUSED, "-o: the folder's name is too long");
     else if (!pilot_kept(to, &p))
-        done = search(to, &p);
+        done = pilot_search_all(to, &p);
     scene_free(&p.wish.first);
     if (done != OK) pilot_free(to);
     return done;

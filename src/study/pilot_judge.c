@@ -93,8 +93,11 @@ void pilot_print(const struct pilot_search *p, const struct pilot_candidate *c)
     else if (c->seen)
         fprintf(stderr, "pilot          %s: %s +- %.2g %% at %.4g mm, in %.2g s\n", c->name, p->figure,
                 100 * c->expected, 1e3 * c->spacing, c->seconds);
-    else
-        fprintf(stderr, "pilot          %s: %s +- %.2g %% at %.4g mm, in %.2g s; %.2g %% would need %.4g mm, %.2g s\n",
-                c->name, p->figure, 100 * c->reached, 1e3 * c->finest, c->finest_seconds, 100 * p->wish.within,
-                1e3 * c->spacing, c->seconds);
+    else {
+        fprintf(stderr, "pilot          %s: %s +- %.2g %% at %.4g mm, in %.2g s", c->name, p->figure, 100 * c->reached,
+                1e3 * c->finest, c->finest_seconds);
+        if (c->spacing > 0)
+            fprintf(stderr, "; %.2g %% would need %.4g mm, %.2g s", 100 * p->wish.within, 1e3 * c->spacing, c->seconds);
+        fputc('\n', stderr);
+    }
 }

@@ -16,6 +16,7 @@ struct pilot_candidate {
     double expected;                   /* half-width there [1] */
     bool seen;                         /* it was run at this spacing */
     char failed[300];                  /* why there are no figures; "": there are */
+    bool unknown;                  /* the runs have no figure of the name that is wanted */
 };
 
 struct pilot_search {

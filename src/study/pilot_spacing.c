@@ -9,7 +9,7 @@
 #define IN_HOLE 4.0      /* ... in the radius of a hole, a cylinder, a ball */
 #define IN_CRACK 8.0     /* ... in a crack, or from its end to a face */
 #define IN_PULSE 10.0    /* ... in a pulse or a wavelength */
-#define IN_RING 6.0      /* ... in the radius of a ring of a sif probe */
+#define IN_RING 12.5     /* ... in the radius of a ring of a sif probe, which wants 6 */
 #define PARTICLES_MOST 5e4
 static const double particles_usual[] = {0, 200, 3000, 8000}; /* in 1, 2, 3 dimensions, or more where lengths ask */
 
@@ -81,7 +81,7 @@ static double probe_spacing(const struct probe_request *p)
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
 /* At which the boxes round all bodies have so many particles. */
-static double spacing_of(const struct scene *s, double particles)
+static double spacing_for(const struct scene *s, double particles)
 {
     real from[DIM_MAX], to[DIM_MAX];
     double volume = 0;
@@ -100,6 +100,6 @@ double pilot_spacing(const struct scene *s)
     for (int b = 0; b < s->bodies; b++) h = fmin(h, body_spacing(s, &s->body[b].shape));
     for (int k = 0; k < s->cracks; k++) h = fmin(h, crack_spacing(s, &s->crack[k]));
     for (int k = 0; k < s->probes; k++) h = fmin(h, probe_spacing(&s->probe[k]));
-    h = fmin(h, spacing_of(s, particles_usual[s->dim]));
-    return isfinite(h) ? auto_spacing_fit(s, fmax(h, spacing_of(s, PARTICLES_MOST)), false) : 0;
+    h = fmin(h, spacing_for(s, particles_usual[s->dim]));
+    return isfinite(h) ? auto_spacing_fit(s, fmax(h, spacing_for(s, PARTICLES_MOST)), false) : 0;
 }

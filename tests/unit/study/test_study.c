@@ -305,7 +305,8 @@ static void intervals_as_defined(void **state)
         const double *m = mean[which];
         const double range = fmax(m[0], fmax(m[1], m[2])) - fmin(m[0], fmin(m[1], m[2]));
         const double plainly = half_width_plainly(spacing, m, error, hypot(range, 0.15));
-        assert_near(convergence_half_width(&c, c.level[0].mean, 0.95), plainly, 0.03 * plainly); /* the steps of the rectangles */
+        const double width = convergence_half_width(&c, c.level[0].mean, 0.95);
+        assert_near(width, plainly, 0.03 * plainly); /* the steps of the rectangles */
     }
 }
 
