@@ -192,6 +192,8 @@ status bench_absorbing(bool quick);
 
 /* bench_uncertainty.c: are the error bars of `cleave converge` true? */
 status bench_uncertainty(bool quick);
+/* bench_pilot.c: does `method: auto` keep its word outside the table? */
+status bench_pilot(bool quick);
 
 /* bench_steps.c: start, length, angle and energy of cracks over the time step. */
 status bench_steps(bool quick);

@@ -19,6 +19,14 @@ struct known_scene {
     bool quick;
 };
 
+/* A scene for pilot runs (pilot_scenes.c). */
+struct pilot_scene {
+    const char *name, *text, *figure;
+    double exact;
+};
+extern const struct pilot_scene pilot_scenes[];
+extern const int pilot_scenes_n;
+
 extern const struct known_scene known_scenes[];
 extern const int known_scenes_n;
 

@@ -29,6 +29,7 @@ struct convergence {
     struct level_figures level[LEVELS_MOST];
     int levels;
     enum verdict verdict;
+    double bias;  /* half-width of what no spacing takes away, as by families of a shaken lattice; 0: none */
     double order; /* observed on the three finest levels; NAN: none */
     double index; /* grid convergence index of the finest level (Roache 1998, factor of safety 1.25); NAN: no order of
                    * 1/2 or more is seen */

@@ -24,7 +24,7 @@ struct ask {
 /* ---- first reading of the scene ---------------------------------------------------------------------------------- */
 
 /* Reads the scene with stand-ins for the keys that are to be chosen, which contradict no other key. */
-static status read_first(struct reader *r, const char *text, size_t length, struct scene *s)
+static status read_with(struct reader *r, const char *text, size_t length, struct scene *s, const char *method)
 {
     static const char *const dropped[] = {"accuracy", "accuracy_table", "pd.surface", "particles.spacing"};
     struct reader first = *r;
@@ -37,12 +37,22 @@ static status read_first(struct reader *r, const char *text, size_t length, stru
     const bool line = space && strcmp(space->text, "line") == 0,
                yields = read == OK && tree_at(root, "material.yield_stress");
     if (read == OK) read = tree_set(&first, root, "particles.spacing", "1");
-    if (read == OK) read = tree_set(&first, root, "method", "adaptive");
+    if (read == OK) read = tree_set(&first, root, "method", method);
     if (read == OK) read = tree_set(&first, root, "solver", "explicit");
     if (read == OK && !line && !yields) read = tree_set(&first, root, "model", "mospd");
     if (read == OK) read = scene_from_tree(&first, root);
     r->arena = first.arena;
     return read;
+}
+
+/* Joined bodies and rigid ones are not for every method. */
+static status read_first(struct reader *r, const char *text, size_t length, struct scene *s)
+{
+    status read = read_with(r, text, length, s, "adaptive");
+    if (read != REFUSED) return read;
+    scene_free(s);
+    *s = (struct scene){0};
+    return read_with(r, text, length, s, "pd");
 }
 
 /* ---- capabilities of methods ------------------------------------------------------------------------------------- */

@@ -10,6 +10,9 @@
 #include "study/uncertainty.h"
 
 enum { PRINTED_MOST = 24 };
+/* Families of a shaken lattice are summed with an error that no spacing takes away, only more neighbours: with a
+ * horizon m it falls about as m^(-3/2), so that from one horizon to the next but a third of it goes. */
+#define HORIZON_REST 2.9
 
 /* ---- what moves a figure ----------------------------------------------------------------------------------------- */
 
@@ -74,6 +77,10 @@ static bool figure_make(struct figure_study *f, const struct convergence_study *
     if (!known) return false;
     f->step_moves = step_moves(s, &f->c, s->table.value[at]);
     f->horizon_moves = horizon_moves(s, s->table.value[at]);
+    if (s->scene.irregularity > 0 && isfinite(f->horizon_moves)) {
+        f->c.bias = HORIZON_REST * fabs(f->horizon_moves);
+        convergence_intervals(&f->c);
+    }
     f->spacing_moves = f->c.level[0].mean - f->c.level[1].mean;
     return true;
 }

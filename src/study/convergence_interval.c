@@ -109,12 +109,26 @@ static double mixture_half_width(const struct mixture *m, double about, double s
     return high;
 }
 
+/* Half-width that a normal distribution of 95 % within 1 has for another share. */
+static double normal_half_width(double share)
+{
+    double low = 0, high = 10;
+    while (high - low > 1e-9) {
+        const double middle = 0.5 * (low + high);
+        if (2 * normal_below(1.959964 * middle) - 1 < share)
+            low = middle;
+        else
+            high = middle;
+    }
+    return high;
+}
+
 double convergence_half_width(const struct convergence *c, double about, double share)
 {
     struct mixture m;
-    const double scale = range_scale(c);
-    if (!mixture_make(&m, c, scale)) return 0;
-    return scale * mixture_half_width(&m, (about - c->level[0].mean) / scale, share);
+    const double scale = range_scale(c), rest = c->bias > 0 ? c->bias * normal_half_width(share) : 0;
+    if (!mixture_make(&m, c, scale)) return rest;
+    return hypot(scale * mixture_half_width(&m, (about - c->level[0].mean) / scale, share), rest);
 }
 
 void convergence_intervals(struct convergence *c)

@@ -13,7 +13,7 @@
 #include "pilot_parts.h"
 
 #define FIRST_SHARE 0.6 /* of the budget for the first runs of all methods */
-#define LONGEST 100.0   /* expected time of the run over the budget, beyond which the choice is refused */
+#define LONGEST 20.0    /* expected time of the run over the budget, beyond which the choice is refused */
 #define FARTHEST 8.0    /* coarsest spacing run over the one chosen: beyond, an order is no forecast */
 #define FINER_LEAST 1.4 /* a study goes on so much finer than the one before ... */
 #define FINER_MOST 2.9  /* ... to so much: three levels beyond it */

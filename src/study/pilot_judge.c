@@ -59,8 +59,11 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
         return;
     }
     if (!(c->finest > 0) || !isfinite(c->reached) || p->wish.spacing > 0) return;
+    /* what finer spacings take away has to become this small; a bias stays */
+    const double bias = f->c.bias / size, within = sqrt(square(p->wish.within) - square(bias));
+    if (!(within > 0)) return;
     const double likely = isfinite(f->c.order_likely) ? f->c.order_likely - f->c.order_error : 0.5;
-    const double finer = pow(c->reached / p->wish.within, 1 / fmax(likely, 0.5));
+    const double finer = pow(sqrt(square(c->reached) - square(bias)) / within, 1 / fmax(likely, 0.5));
     c->spacing = auto_spacing_fit(&p->wish.first, c->finest / finer, false);
     c->seconds = c->finest_seconds * pow(c->finest / c->spacing, s->scene.dim + 1);
     c->expected = p->wish.within;

@@ -1,0 +1,113 @@
+/* `cleave bench pilot`: does `method: auto` keep its word where the cost-accuracy table has no problem like the scene?
+ * Scenes with known answers, each asked for one figure within some percent, by pilot runs and the run that they choose.
+ */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/team.h"
+#include "output/output_files.h"
+#include "output/summary_read.h"
+#include "study/pilot.h"
+#include "uncertainty.h"
+
+enum { TEXT_ROOM = 2048 };
+#define BUDGET 30.0 /* of the pilot runs of one scene [s] */
+
+struct pilot_tally {
+    int asked, answered, kept;
+    struct bench_table *table;
+};
+
+/* ---- one scene ------------------------------------------------------------------------------------------------------
+ */
+
+static status pilot_scene_write(const char *path, const struct pilot_scene *k, double within)
+{
+    char text[TEXT_ROOM];
+    const int length =
+        snprintf(text, sizeof text, "method: auto\naccuracy: {of: %s, within: %g, budget: %g}\n%soutput: {frames: 0}\n",
+                 k->figure, within, BUDGET, k->text);
+    assert(length < TEXT_ROOM);
+    return file_put(path, text, (size_t)length);
+}
+
+/* The run that was chosen, as a study of one case. */
+static status chosen_run(const struct pilot *p, const char *scene, const char *folder, double *value,
+                         const char *figure)
+{
+    struct study s;
+    TRY(study_make(&s, scene, folder, "run"));
+    study_add(&s, "run", p->override, p->overrides);
+    status done = study_check(&s, false);
+    if (done == OK) done = study_run(&s, (struct study_way){.quiet = true});
+    if (done == OK) done = summary_number(study_folder(&s, &s.at[0]).text, figure, value);
+    study_free(&s);
+    return done;
+}
+
+static const char *chosen_value(const struct pilot *p, const char *key)
+{
+    for (int k = p->overrides - 1; k >= 0; k--)
+        if (!strcmp(p->override[k].key, key)) return p->override[k].value;
+    return "";
+}
+
+/* Prints and keeps one line. A scene that is refused is counted, with the reason. */
+static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene *k, double within, const char *folder)
+{
+    const struct path scene = path_join(folder, "scene.yaml.in"), into = path_join(folder, "run");
+    struct pilot p = {0};
+    double value = NAN;
+    const double begun = team_clock();
+    status done = pilot_scene_write(scene.text, k, within);
+    if (done == OK) done = pilot_choose(&p, scene.text, NULL, 0, into.text, (struct study_way){.quiet = true});
+    const double pilots = team_clock() - begun;
+    if (done == OK) done = chosen_run(&p, scene.text, into.text, &value, k->figure);
+    const double error = fabs(value / k->exact - 1), spacing = atof(chosen_value(&p, "particles.spacing"));
+    t->asked++;
+    if (done == OK) {
+        const bool kept = error <= within;
+        t->answered++;
+        t->kept += kept;
+        printf("  %-22s %-26s %5.2g %% %8.3f %%  %-8s %-5s %8.4g mm %7.1f s %7.1f s%s\n", k->name, k->figure,
+               100 * within, 100 * error, chosen_value(&p, "method"), chosen_value(&p, "model"), 1e3 * spacing, pilots,
+               team_clock() - begun - pilots, kept ? "" : "  missed");
+    } else
+        printf("  %-22s %-26s %5.2g %% refused: %s\n", k->name, k->figure, 100 * within, status_message());
+    fflush(stdout);
+    const double number[] = {within, k->exact, value, error, spacing, pilots, team_clock() - begun - pilots};
+    bench_text(t->table, k->name), bench_text(t->table, k->figure), bench_text(t->table, chosen_value(&p, "method"));
+    for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(t->table, number[c]);
+    pilot_free(&p);
+    bench_folder_remove(into.text);
+    bench_folder_remove(path_join(folder, "run_pilot").text);
+}
+
+/* ---- all --------------------------------------------------------------------------------------------------------- */
+
+status bench_pilot(bool quick)
+{
+    static const double asked[] = {0.05, 0.02, 0.01};
+    struct bench_table table;
+    struct pilot_tally t = {.table = &table};
+    char folder[] = BENCH_FOLDER "/pilot-XXXXXX";
+    TRY(bench_folder_make());
+    printf("pilot\n");
+    bench_print_machine(team_make(0));
+    if (!mkdtemp(folder)) return file_fault(folder, errno);
+    printf("  %-22s %-26s %7s %10s  %-14s %11s %9s %9s\n", "scene", "figure", "asked", "error", "chosen", "spacing",
+           "pilots", "run");
+    bench_table_make(&table, "", "scene,figure,method,asked,exact,value,error,spacing,pilot_seconds,run_seconds");
+    for (int k = 0; k < pilot_scenes_n; k++)
+        for (size_t a = 0; a < (quick ? 1 : COUNT_OF(asked)); a++)
+            pilot_scene_measure(&t, &pilot_scenes[k], asked[a], folder);
+    bench_folder_remove(folder);
+    printf("  %d requests: %d refused; %d of %d answers are as accurate as asked (%.0f %%, asked 90)\n", t.asked,
+           t.asked - t.answered, t.kept, t.answered, 100.0 * t.kept / t.answered);
+    const status s = bench_write("pilot", &table, 1);
+    bench_table_free(&table);
+    return s;
+}
