@@ -20,6 +20,7 @@
 #define REACHED 4                        /* rho c v  */
 #define PASSAGES 4
 #define LITTLE 0.1
+#define ON_MIRROR 1e-6                   /* distance of a face that lies on a plane of symmetry [spacings] */
 /* time per bond and step [ns]: 2D, 3D */
 static const real bond_ns[][3] = {
     [MODEL_BOND] = {0.44, 0.55}, [MODEL_OSPD] = {0.75, 0.86}, [MODEL_MOSPD] = {1.05, 2.2}};
@@ -28,11 +29,24 @@ static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; 
 
 /* ---- parts that are not resolved --------------------------------------------------------------------------------- */
 
-/* Smallest edge or diameter of a solid [m]; INFINITY: it has none. */
-static real solid_size(const struct solid *a, int dim)
+/* Edge of a box along d with its images beyond planes of symmetry [m]; INFINITY: it lies between two of them. */
+static real mirrored_edge(const struct engine *e, const struct solid *a, int d)
+{
+    const real near = ON_MIRROR * e->scene->spacing;
+    bool from = false, to = false;
+    for (int k = 0; k < e->source.mirrors; k++) {
+        if (e->source.mirror[k].axis != d) continue;
+        from |= fabs(e->source.mirror[k].at - a->from[d]) < near;
+        to |= fabs(e->source.mirror[k].at - a->to[d]) < near;
+    }
+    return from && to ? INFINITY : (from || to ? 2 : 1) * (a->to[d] - a->from[d]);
+}
+
+/* Smallest edge, mirror images included, or diameter of a solid [m]; INFINITY: it has none. */
+static real solid_size(const struct engine *e, const struct solid *a)
 {
     real least = INFINITY;
-    for (int d = 0; d < dim && a->kind == SOLID_BOX; d++) least = real_min(least, a->to[d] - a->from[d]);
+    for (int d = 0; d < e->scene->dim && a->kind == SOLID_BOX; d++) least = real_min(least, mirrored_edge(e, a, d));
     return a->kind == SOLID_BALL || a->kind == SOLID_CYLINDER ? 2 * a->radius : least;
 }
 
@@ -76,14 +90,15 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
 }
 
 /* Families of nearly incompressible materials: measured with ospd and mospd in plane strain, by static bending. */
-static void advise_incompressible(const struct scene *s, FILE *out)
+static void advise_incompressible(const struct engine *e, FILE *out)
 {
+    const struct scene *s = e->scene;
     if (s->method != METHOD_PD || s->model == MODEL_BOND || (s->space != SPACE_PLANE_STRAIN && s->dim < 3)) return;
     for (int b = 0; b < s->bodies; b++) {
         const real poisson = s->material[s->body[b].material].poisson;
         for (int k = 0; k < s->body[b].shape.n && poisson > 0.4; k++) {
             const struct solid *a = &s->body[b].shape.solid[k];
-            const double layers = solid_size(a, s->dim) / s->spacing;
+            const double layers = solid_size(e, a) / s->spacing;
             const double off = nearly_incompressible(poisson) * SOFT_LAYERS / layers;
             if (a->subtract || !(off >= SOFT_MOST)) continue;
             fprintf(out, "unresolved: body %s: at a Poisson's ratio of %.3g families near faces are too stiff: %.0f "
@@ -93,13 +108,14 @@ static void advise_incompressible(const struct scene *s, FILE *out)
     }
 }
 
-/* Bodies, gaps and cracks smaller than FEATURE horizons. */
-static void advise_features(const struct scene *s, FILE *out)
+/* Bodies and gaps smaller than FEATURE horizons. */
+static void advise_features(const struct engine *e, FILE *out)
 {
+    const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies && s->dim > 1; b++)
         for (int k = 0; k < s->body[b].shape.n; k++) {
             const struct solid *a = &s->body[b].shape.solid[k];
-            const real size = solid_size(a, s->dim);
+            const real size = solid_size(e, a);
             if (s->method == METHOD_MPM || (k > 0 && !a->subtract) || !(size < FEATURE * horizon_of(s))) continue;
             fprintf(out,
                     "unresolved: body %s: a %s of %.4g m is %.2g horizons (%.3g spacings); below %d horizons most of "
@@ -110,13 +126,49 @@ static void advise_features(const struct scene *s, FILE *out)
                 advise_thin(s, size / s->spacing, out);
             fprintf(out, "\n");
         }
+}
+
+/* Is this end of a pre-crack a tip, as the body goes on there? */
+static bool is_tip(const struct engine *e, const real *end)
+{
+    const struct tips *t = &e->fracture.tips;
+    for (int k = 0; k < t->n; k++)
+        if (t->tip[k].from_crack && memcmp(t->tip[k].origin, end, (size_t)t->dim * sizeof *end) == 0) return true;
+    return false;
+}
+
+/* Share of a crack that lies in bodies. */
+static real share_within(const struct engine *e, const real *from, const real *to)
+{
+    enum { PLACES = 1000 };
+    const struct scene *s = e->scene;
+    int within = 0;
+    for (int m = 0; m < PLACES; m++) {
+        real X[DIM_MAX] = {0};
+        bool found = false;
+        for (int d = 0; d < s->dim; d++) X[d] = from[d] + (m + 0.5) / PLACES * (to[d] - from[d]);
+        for (int b = 0; b < s->bodies && !found; b++) found = region_contains(&s->body[b].shape, X, s->dim, 0);
+        within += found;
+    }
+    return (real)within / PLACES;
+}
+
+/* Cracks whose two tips are not FEATURE horizons apart. What comes from a face or a plane of symmetry is half of a
+ * crack of twice the length. */
+static void advise_cracks(const struct engine *e, FILE *out)
+{
+    const struct scene *s = e->scene;
     for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
-        real length = 0;
-        for (int d = 0; d < s->dim; d++) length += square(s->crack[k].corner[1][d] - s->crack[k].corner[0][d]);
-        length = sqrt(length);
-        if (length < FEATURE * horizon_of(s))
+        const real *from = s->crack[k].corner[0], *to = s->crack[k].corner[1];
+        const bool tip[2] = {is_tip(e, from), is_tip(e, to)};
+        const real share = tip[0] && tip[1] ? 1 : share_within(e, from, to);
+        const real length = share * hypot(to[0] - from[0], to[1] - from[1]);
+        if (tip[0] && tip[1] && length < FEATURE * horizon_of(s))
             fprintf(out, "unresolved: crack %d is %.4g m long, %.2g horizons: its two ends are not apart\n", k + 1,
                     length, length / horizon_of(s));
+        else if (tip[0] != tip[1] && 2 * length < FEATURE * horizon_of(s))
+            fprintf(out, "unresolved: crack %d is %.3g m deep, %.2g horizons: its end is not apart from the face\n",
+                    k + 1, length, length / horizon_of(s));
     }
 }
 
@@ -152,8 +204,11 @@ static void advise_levels(const struct engine *e, FILE *out)
     if (engine_levels_coarse(e, text, sizeof text)) fprintf(out, "unresolved: %s\n", text);
 }
 
-/* Number of pairs of particles near a crack's end, within their horizon, that the crack cuts if longer by 1e-7 of its
- * length and does not cut if shorter by as much. */
+/* Body of a particle; joined ones are one. */
+static int body_of(const struct engine *e, int32_t i) { return e->scene->body[e->part.body[i]].joined; }
+
+/* Number of pairs of a body's particles near a crack's end, within their horizon, that the crack cuts if longer by 1e-7
+ * of its length and does not cut if shorter by as much. */
 static int64_t tied_bonds(const struct engine *e, const struct crack *c, int end, int32_t *found, int room)
 {
     const struct particles *p = &e->part;
@@ -171,6 +226,7 @@ static int64_t tied_bonds(const struct engine *e, const struct crack *c, int end
             particle_place(p, found[k], a);
             particle_place(p, found[m], b);
             for (int d = 0; d < p->dim; d++) r2 += square(a[d] - b[d]);
+            if (body_of(e, found[k]) != body_of(e, found[m])) continue;
             if (r2 > square(e->source.family.cutoff)) continue;
             tied += crack_cuts(&longer, a, b, p->dim) != crack_cuts(&shorter, a, b, p->dim);
         }
@@ -279,12 +335,13 @@ static bool has_notch(const struct scene *s)
     return notch;
 }
 
-/* Peridynamics where no bond can break. */
+/* Peridynamics where no bond can break, and nothing meets rigid bodies, which material points cannot. */
 static void advise_method(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
     real weakest = INFINITY;
-    if (s->method == METHOD_MPM || s->solver != SOLVER_EXPLICIT || has_notch(s) || s->bodies > 1) return;
+    if (s->method == METHOD_MPM || s->solver != SOLVER_EXPLICIT || has_notch(s)) return;
+    if (s->bodies > 1 || s->rigids > 0) return;
     for (int m = 0; m < s->materials; m++)
         weakest = real_min(weakest, s->material[m].young * s->material[m].critical_stretch);
     const real reached = stress_reached(e);
@@ -314,8 +371,9 @@ static void advise_symmetry(const struct engine *e, FILE *out)
 
 void advise(const struct engine *e, FILE *out)
 {
-    advise_features(e->scene, out);
-    advise_incompressible(e->scene, out);
+    advise_features(e, out);
+    advise_cracks(e, out);
+    advise_incompressible(e, out);
     advise_waves(e, out);
     advise_levels(e, out);
     advise_ties(e, out);

@@ -1,4 +1,7 @@
-/* Tests whether a scene is its own mirror image, on its particles: matter, cracks, initial velocities and loads. */
+/* Tests whether a scene is its own mirror image, on its particles: matter, cracks, initial velocities and loads; and
+ * whether half of it can be run: rigid bodies and cracks that grow are mirror images, too, no rigid body flies, on
+ * which mirrors do not act, no layer of particles lies in the plane, and no ring of stress-intensity factors crosses
+ * it, as the body must contain them. */
 #include <math.h>
 #include <string.h>
 
@@ -90,7 +93,8 @@ static bool loads_agree(const struct engine *e, int axis, const int32_t *twin)
     return same;
 }
 
-/* Finds the mirror image of every particle in the plane at `at` [m], twin[n]; false if a particle has none. */
+/* Finds the mirror image of every particle in the plane at `at` [m], twin[n]; false if a particle has none, or is its
+ * own: then half a layer would be left. */
 static bool mirror_twins_find(const struct engine *e, int axis, real at, int32_t *twin)
 {
     const struct particles *p = &e->part;
@@ -99,8 +103,79 @@ static bool mirror_twins_find(const struct engine *e, int axis, real at, int32_t
         particle_place(p, i, X);
         X[axis] = 2 * at - X[axis];
         const int64_t j = particle_at(e, X);
-        if (j < 0) return false;
+        if (j < 0 || j == i) return false;
         twin[i] = (int32_t)j;
+    }
+    return true;
+}
+
+/* Is rigid body b the mirror image of a? By how far both are from some of the particles and their images. */
+static bool rigid_twins(const struct engine *e, int axis, real at, const struct scene_body *a,
+                        const struct scene_body *b)
+{
+    enum { PLACES = 1000 };
+    const struct particles *p = &e->part;
+    const int dim = p->dim;
+    const real near = NEAR_ENOUGH * e->scene->spacing;
+    bool same = a->ramp == b->ramp;
+    for (int d = 0; d < dim; d++)
+        same &= fabs(a->velocity[d] - (d == axis ? -1 : 1) * b->velocity[d]) <= NEAR_ENOUGH * fabs(a->velocity[d]);
+    for (int64_t i = 0; i < p->n && same; i += 1 + p->n / PLACES) {
+        real X[DIM_MAX], image[DIM_MAX], normal[DIM_MAX];
+        particle_place(p, i, X);
+        memcpy(image, X, sizeof image);
+        image[axis] = 2 * at - X[axis];
+        const real far = region_distance(&a->shape, X, dim, normal);
+        same = fabs(far - region_distance(&b->shape, image, dim, normal)) <= near;
+    }
+    return same;
+}
+
+static bool rigid_bodies_agree(const struct engine *e, int axis, real at)
+{
+    const struct scene_body *rigid = e->scene->body + e->scene->bodies;
+    for (int a = 0; a < e->scene->rigids; a++) {
+        bool found = false;
+        for (int b = 0; b < e->scene->rigids && !found; b++) found = rigid_twins(e, axis, at, &rigid[a], &rigid[b]);
+        if (!found || rigid[a].mass > 0) return false;
+    }
+    return true;
+}
+
+/* Equal, or both not given. */
+static bool same_number(real a, real b) { return a == b || (isnan(a) && isnan(b)); }
+
+/* Has every crack that grows a mirror image that grows alike? */
+static bool growths_agree(const struct engine *e, int axis, real at)
+{
+    const struct scene *s = e->scene;
+    for (int k = 0; k < s->growths; k++) {
+        const struct growth_rule *a = &s->growth[k];
+        bool found = false;
+        for (int m = 0; m < s->growths && !found; m++) {
+            const struct growth_rule *b = &s->growth[m];
+            found = same_number(a->speed, b->speed) && same_number(a->toughness, b->toughness);
+            found &= a->start == b->start;
+            for (int d = 0; d < e->part.dim; d++) {
+                const real place = d == axis ? 2 * at - b->at[d] : b->at[d];
+                const real direction = d == axis ? -b->direction[d] : b->direction[d];
+                found &= fabs(a->at[d] - place) <= NEAR_ENOUGH * s->spacing;
+                found &= fabs(a->direction[d] - direction) <= NEAR_ENOUGH;
+            }
+        }
+        if (!found) return false;
+    }
+    return true;
+}
+
+/* Does no ring of stress-intensity factors cross the plane? */
+static bool rings_clear(const struct engine *e, int axis, real at)
+{
+    const struct observed seen = engine_observed(e);
+    for (int k = 0; k < e->probing.probes.n; k++) {
+        real place[2], radius;
+        if (!probes_sif_ring(&e->probing.probes, k, &seen, place, &radius)) continue;
+        if (fabs(place[axis] - at) < radius) return false;
     }
     return true;
 }
@@ -113,7 +188,8 @@ bool scene_is_mirrored(const struct engine *e, int axis, real *at)
         if (e->loads.load[b].boundary->kind == BOUNDARY_MIRROR && e->loads.load[b].boundary->axis == axis) return false;
     particles_extent(p, p->n, axis, &low, &high);
     *at = 0.5 * (low + high);
-    if (high - low < e->scene->spacing) return false;
+    if (high - low < e->scene->spacing || !rings_clear(e, axis, *at)) return false;
+    if (!rigid_bodies_agree(e, axis, *at) || !growths_agree(e, axis, *at)) return false;
     int32_t *twin = NEW("check.twin", p->n, int32_t);
     const bool same = mirror_twins_find(e, axis, *at, twin) && matter_agrees(e, twin) && loads_agree(e, axis, twin);
     memory_free(twin);

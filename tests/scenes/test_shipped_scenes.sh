@@ -1,0 +1,48 @@
+#!/bin/sh
+# What `cleave check` holds against a shipped scene is answered in it: each line of advice (unneeded, unresolved) by a comment
+#     # check: WORDS: REASON
+# whose words stand in that line. One comment may answer several lines; one that answers none is out of date.
+test_name=test_shipped_scenes
+. tests/support/summary.sh
+
+# unanswered SCENE SAID: what is left of the lines of advice and of the comments.
+unanswered()
+{
+    awk '
+        FILENAME == ARGV[1] { if (/^(unneeded|unresolved): /) advice[++lines] = $0; next }
+        !/^ *# check: / { next }
+        {
+            words = $0; sub(/^ *# check: /, "", words); at = index(words, ": ")
+            reason = at ? substr(words, at + 2) : ""; words = at ? substr(words, 1, at - 1) : words; used = 0
+            for (k = 1; k <= lines; k++) if (index(advice[k], words)) used = answered[k] = 1
+            if (!used) print "answers nothing: " $0
+            if (length(reason) < 10) print "gives no reason: " $0
+        }
+        END { for (k = 1; k <= lines; k++) if (!answered[k]) print "unanswered: " advice[k] }' "$2" "$1"
+}
+
+# The largest scene takes as long as all others.
+check() { "$cleave" check "$1" -t 1 >"$work/$(basename "$1" .yaml)" 2>&1 || echo failed >>"$work/$(basename "$1" .yaml)"; }
+check inputs/kalthoff_3d_fine.yaml &
+for scene in inputs/*.yaml; do [ "$scene" = inputs/kalthoff_3d_fine.yaml ] || check "$scene"; done
+wait
+for scene in inputs/*.yaml; do
+    said=$work/$(basename "$scene" .yaml)
+    holds "$scene: $(cat "$said")" grep -q ' is sound$' "$said"
+    is "$scene: $(tail -n 1 "$said")" "$(grep -c '^failed$' "$said")" 0
+    is "$scene" "$(unanswered "$scene" "$said")" ""
+done
+
+# The comparison itself finds what is missing and what is too much.
+printf 'unneeded: half of it: own mirror image at x = 0\nunneeded: half of it: own mirror image at y = 0\n' >"$work/said"
+printf '# check: own mirror image: both halves are shown\n' >"$work/scene"
+is "one comment for two lines" "$(unanswered "$work/scene" "$work/said")" ""
+printf '# check: image at x: both halves are shown\n' >"$work/scene"
+is "a line without comment" "$(unanswered "$work/scene" "$work/said")" "unanswered: unneeded: half of it: own mirror image at y = 0"
+printf '# check: own mirror image: both halves are shown\n  # check: method pd: a reason of old\n# check: own mirror image\n' >"$work/scene"
+is "comments without line or reason" "$(unanswered "$work/scene" "$work/said" | cut -c 1-16 | tr '\n' ' ')" \
+    "answers nothing: gives no reason: "
+: >"$work/said"
+is "no advice, a comment" "$(unanswered "$work/scene" "$work/said" | grep -c '^answers nothing')" 3
+
+finish
