@@ -131,7 +131,7 @@ outside "shaken" "a shaken lattice" "$work/crack.yaml" -s particles.irregularity
 outside "at rest, no crack" "plates with a round hole or a crack" "$work/crack.yaml" -s cracks=
 outside "a hole in time" "nearest is one at rest (solver: static)" inputs/plate_hole.yaml -s method=auto -s material.critical_stretch=inf -s particles.spacing=
 outside "large strains" "the table's problems are linear" "$work/pulse.yaml" -s "initial[0].pulse.velocity=500"
-outside "large strains of a spall" "the table.s problems are linear" inputs/hopkinson_bar.yaml -s method=auto -s particles= -s mpm= -s time= -s accuracy=5%
+outside "large strains of a spall" "the table.s problems are linear" inputs/hopkinson_bar.yaml -s method=auto -s particles= -s time= -s accuracy=5%
 outside "a spacing too wide" "fits the keys of pd, mpm, model and spacing that it fixes" "$work/pulse.yaml" -s particles.spacing=0.1
 outside "what no method is" "no method of the cost-accuracy table for" "$work/pulse.yaml" -s particles.horizon=7.3 -s method=auto -s mpm.frame=current -s mpm.transfer=flip -s mpm.cell=3 -s accuracy=5%
 refused "static alone" "static leaves the choice to method auto" "$work/crack.yaml" -s method=pd -s model=mospd -s particles.spacing=1mm
