@@ -192,7 +192,7 @@ chooses current "yield" $crack $few -s "material.yield_stress=1 GPa"
 chooses current "nodes elsewhere" $crack $few -s "mpm.origin=[0.1 mm, 0]"
 chooses reference "keeps its neighbours" $crack $few -s "mpm.origin=[1 mm, 0]"
 chooses current "static solvers" inputs/edge_crack_k1.yaml -s method=adaptive -s solver=relaxation -s particles.spacing=0.5mm -s probes=
-chooses current "bodies meet" inputs/hopkinson_bar.yaml -s mpm=
+chooses current "bodies meet" inputs/hopkinson_bar.yaml
 chooses reference "the scene says so" $crack $few -s mpm.frame=reference -s mpm.transfer=flip
 "$cleave" check $crack $few -s method=pd >"$work/out"
 holds "auto: nothing to choose in peridynamics" sh -c "! grep -q '^frame' '$work/out'"

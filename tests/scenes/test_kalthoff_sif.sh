@@ -26,7 +26,7 @@ worst()
         END { if (n >= 30) print most + 0 }' "$work/$1/history.csv"
 }
 
-# Measured: 73.0, 73.3, 73.2 degrees and at most 0.11 (Imachi et al. 2019: 73.6; experiments: about 70).
+# Measured: 73.9, 73.6, 72.1 degrees and at most 0.09 (Imachi et al. 2019: 73.6; experiments: about 70).
 for run in regular slightly strongly sparse; do
     sound $run 0.02
     between "$run: angle" "$(f $run probes.growth.angle_deg)" 70 76
