@@ -29,8 +29,8 @@ struct convergence_study {
     struct scene scene; /* as the user gave it */
     struct study study;
     struct study_point *point; /* of each run of `study` */
-    int first;      /* run from which the time of the others is known */
-    double refused; /* spacing at which the scene is not sound; INFINITY: none [m] */
+    int first;                 /* run from which the time of the others is known */
+    double refused;            /* spacing at which the scene is not sound; INFINITY: none [m] */
     struct spacings spacings;
     const struct scene_override *override; /* of the user; borrowed */
     int overrides;
@@ -57,7 +57,9 @@ struct convergence_wish {
     const struct scene_override *override;
     int overrides, levels, runs; /* runs at the most */
     double budget;               /* [s] */
-    bool fixed_horizon, finer;   /* finer: also spacings below the scene's own, as the budget allows */
+    const char *const *wanted;   /* figures that are asked for: a warning where the first run has none such; NULL */
+    int wanteds;
+    bool fixed_horizon, finer; /* finer: also spacings below the scene's own, as the budget allows */
     struct study_way way;
 };
 

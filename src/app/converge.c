@@ -115,7 +115,9 @@ static status converge_all(struct converge_arguments *a)
     struct figure_study *figure = NULL;
     int figures = 0;
     TRY(converge_place(a));
-    TRY(convergence_study_run(&s, &a->wish));
+    struct convergence_wish wish = a->wish;
+    wish.wanted = a->wanted, wish.wanteds = a->wanteds;
+    TRY(convergence_study_run(&s, &wish));
     study_print_warnings(&s.study, stderr);
     status done = figures_find(&s, a->wanted, a->wanteds, &figure, &figures);
     if (done == OK) done = figures_write(&s, figure, figures);

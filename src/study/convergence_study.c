@@ -166,6 +166,17 @@ static status first_run(struct convergence_study *s, const struct convergence_wi
     return summary_number(study_folder(&s->study, run).text, "wall_seconds", &s->spent);
 }
 
+/* Says at once what may be a wrong name: cracks and tips may still come at finer spacings. */
+static void wanted_warn(const struct convergence_study *s, const struct convergence_wish *w)
+{
+    const struct path folder = study_folder(&s->study, &s->study.at[s->first]);
+    double value;
+    for (int k = 0; k < w->wanteds; k++)
+        if (summary_number(folder.text, w->wanted[k], &value) != OK)
+            fprintf(stderr, "warning: the first run has no figure %s; those of %s/summary.json can be asked for\n",
+                    w->wanted[k], shown_name(folder.text).text);
+}
+
 /* Where a scene is not sound at the coarsest level, all become finer. */
 static status first_run_sound(struct convergence_study *s, const struct convergence_wish *w)
 {
@@ -256,6 +267,7 @@ static status study_go(struct convergence_study *s, const struct convergence_wis
                           "fewer --levels or a smaller particles.horizon",
                           horizon_at(s, s->spacings.at[0][0]), HORIZON_MOST);
     TRY(first_run_sound(s, w));
+    wanted_warn(s, w);
     if (way.threads <= 0) way.threads = 1;
     if (way.jobs <= 0) way.jobs = cores > way.threads ? cores / way.threads : 1;
     TRY(plan_fit(s, w, way.jobs));

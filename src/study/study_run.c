@@ -20,12 +20,15 @@
 
 enum { WORDS_FIXED = 12 };
 
+#define PATIENCE 0.5 /* of a budget with runs that stop late [s] */
+
 struct runner {
     struct study *study;
     struct study_way how;
     struct core_shares *shares;
     int running, ended;
-    bool stopped; /* those that run were told to stop */
+    bool stopped; /* those that run were told to stop ... */
+    double since; /* ... on team_clock */
 };
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
@@ -220,7 +223,16 @@ static void cases_stop(struct runner *r)
 {
     for (int k = 0; k < r->study->n && !r->stopped; k++)
         if (r->study->at[k].state == CASE_RUNNING) kill(r->study->at[k].process, SIGTERM);
+    if (!r->stopped) r->since = team_clock();
     r->stopped = true;
+}
+
+/* Ends those that have not stopped, as in a long set-up, once a budget is over. */
+static void cases_kill(struct runner *r)
+{
+    if (!r->stopped || team_clock() < r->since + PATIENCE) return;
+    for (int k = 0; k < r->study->n; k++)
+        if (r->study->at[k].state == CASE_RUNNING) kill(r->study->at[k].process, SIGKILL);
 }
 
 static status cases_run(struct runner *r)
@@ -232,6 +244,7 @@ static status cases_run(struct runner *r)
         if (s != OK || late || (r->how.stop && *r->how.stop)) {
             next = r->study->n;
             cases_stop(r);
+            if (late) cases_kill(r);
         }
         while (next < r->study->n && r->study->at[next].state != CASE_WAITING) next++;
         if (next < r->study->n && r->running < r->how.jobs) {

@@ -21,11 +21,13 @@ unanswered()
         END { for (k = 1; k <= lines; k++) if (!answered[k]) print "unanswered: " advice[k] }' "$2" "$1"
 }
 
-# The largest scene takes as long as all others.
-check() { "$cleave" check "$1" -t 1 >"$work/$(basename "$1" .yaml)" 2>&1 || echo failed >>"$work/$(basename "$1" .yaml)"; }
-check inputs/kalthoff_3d_fine.yaml &
-for scene in inputs/*.yaml; do [ "$scene" = inputs/kalthoff_3d_fine.yaml ] || check "$scene"; done
-wait
+# The largest scene takes as long as all others: at a wider spacing, at which the same is unneeded.
+for scene in inputs/*.yaml; do
+    said=$work/$(basename "$scene" .yaml) coarse=
+    case $scene in *kalthoff_3d_fine*) coarse="-s particles.spacing=10/13mm" ;; esac
+    # shellcheck disable=SC2086
+    "$cleave" check "$scene" -t 1 $coarse >"$said" 2>&1 || echo failed >>"$said"
+done
 for scene in inputs/*.yaml; do
     said=$work/$(basename "$scene" .yaml)
     holds "$scene: $(cat "$said")" grep -q ' is sound$' "$said"
