@@ -37,18 +37,15 @@ static void send_figure(FILE *to, const struct convergence_study *s, const struc
 static void plot_figure(FILE *to, const struct figure_study *f, int panel)
 {
     const struct convergence *c = &f->c;
-    const bool seen = c->verdict == VERDICT_CONVERGES || c->verdict == VERDICT_SLOW;
+    const bool seen = (c->verdict == VERDICT_CONVERGES || c->verdict == VERDICT_SLOW) && isfinite(c->order_likely);
     char title[256];
     snprintf(title, sizeof title, *f->unit ? "%.200s [%s]" : "%.200s%s", f->name, f->unit);
     fputs("set title ", to);
     gnuplot_quote(to, title);
     fputs("\nplot ", to);
     if (seen) {
-        const double h = 1e3 * c->level[0].spacing, p = log((c->level[LEVELS_LEAST - 1].mean - c->extrapolated) /
-                                                            (c->level[0].mean - c->extrapolated)) /
-                                                        log(c->level[LEVELS_LEAST - 1].spacing / c->level[0].spacing);
         fprintf(to, "%.10g + %.10g*(x/%.10g)**%.6g with lines lw 1.6 dt (6,4) lc rgb '%s' notitle, ", c->extrapolated,
-                c->level[0].mean - c->extrapolated, h, p, curve_colour[1]);
+                c->level[0].mean - c->extrapolated, 1e3 * c->level[0].spacing, c->order_likely, curve_colour[1]);
         fprintf(to, "$e%d using 1:2 with points pt 6 ps 1.3 lw 2 lc rgb '%s' title 'extrapolated', ", panel,
                 curve_colour[1]);
     }

@@ -159,7 +159,8 @@ static status first_run(struct convergence_study *s, const struct convergence_wi
     const struct study_case *run = &s->study.at[s->first];
     *refused = run->state == CASE_FAILED && run->ended == REFUSED;
     if (run->state == CASE_STOPPED || run->state == CASE_WAITING)
-        return status_set(REFUSED, "%.3g s are too little: one run at %.4g mm, the coarsest, takes longer (--budget)",
+        return status_set(REFUSED,
+                          "%.3g s are too little: one run at %.4g mm, the coarsest, takes longer (a larger budget)",
                           s->budget, 1e3 * s->point[s->first].spacing);
     if (run->state == CASE_FAILED)
         return status_set(FAILED, "the coarsest run has failed: the reason is in %s/logs", s->study.folder);
@@ -224,7 +225,8 @@ static status plan_fit(struct convergence_study *s, const struct convergence_wis
             if (fabs(s->spacings.at[l][0] / first->spacing - 1) < 1e-9) first->level = l;
         return OK;
     }
-    return status_set(REFUSED, "%.3g s are too little: three runs at each spacing would take about %.3g s (--budget)",
+    return status_set(REFUSED,
+                      "%.3g s are too little: three runs at each spacing would take about %.3g s (a larger budget)",
                       s->budget, need + s->spent);
 }
 

@@ -92,6 +92,10 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
     struct pilot own = {0};
     struct convergence_study s;
     const struct path folder = path_join(p->folder, c->name);
+    if (!(budget > 0)) {
+        snprintf(c->failed, sizeof c->failed, "no time is left for it");
+        return REFUSED;
+    }
     candidate_write(&own, p, c, spacing);
     const struct convergence_wish w = {.scene = p->scene,
                                        .folder = folder.text,
@@ -116,7 +120,7 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
 
 /* ---- the search -------------------------------------------------------------------------------------------------- */
 
-static double time_left(const struct pilot_search *p) { return p->wish.budget - (team_clock() - p->begun); }
+static double time_left(const struct pilot_search *p) { return fmax(p->wish.budget - (team_clock() - p->begun), 0); }
 
 /* The candidate whose run is the cheapest; NULL: none has a forecast. */
 static struct pilot_candidate *cheapest(struct pilot_search *p)

@@ -77,7 +77,10 @@ status pilot_judge(struct pilot_search *p, struct pilot_candidate *c, const stru
     TRY(figures_find(s, &wanted, *wanted ? 1 : 0, &figure, &figures));
     const struct figure_study *f = *wanted ? figure : figure_usual(figure, figures);
     status done = OK;
-    if (!f)
+    if (f && !(fabs(f->c.extrapolated) > 1e-9 * f->c.uncertainty[0]))
+        done =
+            status_set(REFUSED, "accuracy.of: %s is zero, of which nothing is a share; name another figure", f->name);
+    else if (!f)
         done = status_set(REFUSED, "accuracy.of: the scene has no probe, crack or energy; name a figure");
     else {
         c->spacing = c->finest = c->seconds = 0, c->seen = false;

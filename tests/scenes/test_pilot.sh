@@ -84,7 +84,7 @@ refused()
 refused "summary.json has no such figure" collide.yaml -s accuracy.of=energy.nonsense
 refused "found no method that is accurate to 1e-07 %" collide.yaml -s accuracy.within=1e-9 -s accuracy.budget=3s
 refused "no method that is accurate to 0.1 % at its spacing" plate.yaml -s particles.spacing=1mm -s accuracy.within=0.1%
-refused "are too little" collide.yaml -s accuracy.budget=1ms
+refused "no time is left for it" collide.yaml -s accuracy.budget=1ms
 "$cleave" converge collide.yaml -o converge >out 2>err
 is "converge of such a scene" $? 2
 holds "says who chooses: $(cat err)" grep -q "cleave run chooses by pilot runs" err

@@ -24,7 +24,7 @@ unanswered()
 # The largest scene takes as long as all others: at a wider spacing, at which the same is unneeded.
 for scene in inputs/*.yaml; do
     said=$work/$(basename "$scene" .yaml) coarse=
-    case $scene in *kalthoff_3d_fine*) coarse="-s particles.spacing=10/13mm" ;; esac
+    case $scene in *kalthoff_3d_fine*) coarse="-s particles.spacing=10/14mm" ;; esac
     # shellcheck disable=SC2086
     "$cleave" check "$scene" -t 1 $coarse >"$said" 2>&1 || echo failed >>"$said"
 done
