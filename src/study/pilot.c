@@ -11,6 +11,7 @@
 #include "base/team.h"
 #include "output/output_files.h"
 #include "pilot_parts.h"
+#include "study/uncertainty.h"
 
 #define FIRST_SHARE 0.6 /* of the budget for the first runs of all methods */
 #define LONGEST 20.0    /* expected time of the run over the budget, beyond which the choice is refused */
@@ -239,9 +240,10 @@ status pilot_choose(struct pilot *to, const char *scene, const struct scene_over
         return OK;
     }
     status done = OK;
-    const int length = folder ? snprintf(p.folder, sizeof p.folder, "%s_pilot", folder)
-                              : snprintf(p.folder, sizeof p.folder, "results/%s_pilot", p.wish.first.name);
-    if (length + CASE_NAME_ROOM + 2 * PATH_NAME_ROOM >= PATH_ROOM)
+    char run[NAME_MAX_LENGTH + sizeof "results/"];
+    snprintf(run, sizeof run, "results/%s", p.wish.first.name);
+    snprintf(p.folder, sizeof p.folder, "%s", pilot_folder(folder ? folder : run).text);
+    if (strlen(p.folder) + CASE_NAME_ROOM + 2 * PATH_NAME_ROOM >= PATH_ROOM)
         done = status_set(REFUSED, "-o: the folder's name is too long");
     else if (!pilot_kept(to, &p))
         done = pilot_search_all(to, &p);

@@ -24,6 +24,15 @@ static struct path study_beside(const char *folder, const char *name)
     return path_join(parent.text, place);
 }
 
+struct path pilot_folder(const char *folder)
+{
+    struct path to;
+    size_t length = strnlen(folder, PATH_ROOM - sizeof "_pilot");
+    while (length > 1 && folder[length - 1] == '/') length--;
+    snprintf(to.text, sizeof to.text, "%.*s_pilot", (int)length, folder);
+    return to;
+}
+
 /* Cuts the next cell of a line; NULL at its end. */
 static char *cell_next(char **line)
 {
@@ -82,7 +91,7 @@ int error_bars_at_hand(struct error_bar *bar, int most, const struct scene *s, c
     size_t length;
     int n = 0;
     if (!scene_file_same(path_join(study.text, STUDY_SCENE).text, s->text)) {
-        snprintf(study.text, sizeof study.text, "%.*s_pilot", PATH_ROOM - 8, folder);
+        study = pilot_folder(folder);
         if (!scene_file_same(path_join(study.text, STUDY_SCENE).text, s->text)) return 0;
     }
     if (file_get(path_join(study.text, "converge.csv").text, &text, &length) != OK) return 0;
