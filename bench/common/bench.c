@@ -20,7 +20,8 @@ static const struct bench benches[] = {
     {"accuracy", bench_accuracy, false},       {"stability", bench_stability, false},
     {"sensitivity", bench_sensitivity, false}, {"steps", bench_steps, false},
     {"contact", bench_contact, false},         {"absorbing", bench_absorbing, false},
-    {"uncertainty", bench_uncertainty, false}, {"pilot", bench_pilot, false}};
+    {"uncertainty", bench_uncertainty, false}, {"pilot", bench_pilot, false},
+    {"experiments", bench_experiments, true}};
 enum { BENCHES = COUNT_OF(benches) };
 
 /* Names of earlier versions. */
@@ -49,6 +50,7 @@ static status bench_mark(const char *word, bool *asked)
                       "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [sif] [threads] "
                       "[scale[=growth|=finest|=field]] [peers] [accuracy[=PROBLEM|=chart|=auto]] "
                       "[stability[=lasting|=CASE]] [sensitivity] [steps] [contact] [absorbing] [uncertainty] [pilot] "
+                      "[experiments] "
                       "[--quick] [--readme]",
                       word);
 }

@@ -195,6 +195,9 @@ status bench_uncertainty(bool quick);
 /* bench_pilot.c: does `method: auto` keep its word outside the table? */
 status bench_pilot(bool quick);
 
+/* bench_experiments.c: cracks beside laboratories and other codes. */
+status bench_experiments(bool quick);
+
 /* bench_steps.c: start, length, angle and energy of cracks over the time step. */
 status bench_steps(bool quick);
 

@@ -216,6 +216,7 @@ static status search_end(struct pilot *to, const struct pilot_search *p, const s
 static status pilot_search_all(struct pilot *to, struct pilot_search *p)
 {
     candidates_find(p);
+    TRY(folder_make(p->folder));
     if (!p->way.quiet)
         fprintf(
             stderr,

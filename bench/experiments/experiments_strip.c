@@ -1,0 +1,186 @@
+/* A crack through a long strip whose faces are held apart: once it runs steadily, G = E' strain^2 h/2 flows to its tip
+ * at any speed (Rice 1968). Its speed, its stress-intensity factor and the energy that breaking takes over the load.
+ *
+ * The material is about Homalite-100. Bonds alone have no other length and no other time than those of the lattice, so
+ * that speeds over c_R and factors over K_c depend on the load over G_c and on Poisson's ratio (1/3) alone. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "experiments.h"
+#include "fracture/sif_fields.h"
+#include "output/history.h"
+
+#define STRIP_YOUNG 4.55e9
+#define STRIP_POISSON (1.0 / 3)
+#define STRIP_DENSITY 1230.0
+#define STRIP_TOUGHNESS 40.0 /* G_c [J/m^2] */
+#define STRIP_FREE 16.8e-3   /* between the held faces [m] */
+#define STRIP_GROWN 10e-3    /* growth at which measuring begins [m] */
+#define STRIP_LAST 100e-3    /* and ends, 30 mm before the far end [m] */
+#define STRIP_NOTCH 30e-3    /* [m] */
+#define KNAUSS "Ravi-Chandar & Knauss 1984"
+
+static const char strip_text[] =
+    "name: strip\nspace: plane stress\nthickness: 1 mm\nduration: 250 us\nmethod: pd\n"
+    "material: {young: 4.55 GPa, density: 1230, energy_release_rate: 40}\n"
+    "body: {box: {from: [0, -10 mm], to: [160 mm, 10 mm]}}\nparticles: {spacing: 0.5 mm}\n"
+    "cracks: [{from: [-1 mm, 0], to: [30 mm, 0]}]\n"
+    "initial: [{displacement_gradient: [[0, 0], [0, 1e-3]]}]\nboundary:\n"
+    "  - {fixed: all, region: {box: {from: [-inf, 8.4 mm], to: [inf, inf]}}}\n"
+    "  - {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, -8.4 mm]}}}\n"
+    "output: {times: [250 us], samples: 250}\nprobes: [sif: {outer: 8 mm, contours: [7 mm, 8 mm]}]\n";
+
+/* G over G_c of the cases. */
+static const double strip_loads[] = {1.1, 1.3, 1.6, 2, 2.5, 3.2, 4, 6};
+enum { STRIP_LOADS = COUNT_OF(strip_loads) };
+
+static struct crack_medium strip_medium(void)
+{
+    struct material m = {.young = STRIP_YOUNG, .poisson = STRIP_POISSON, .density = STRIP_DENSITY};
+    material_derive(&m, SPACE_PLANE_STRESS);
+    return crack_medium_of(&m, SPACE_PLANE_STRESS);
+}
+
+/* ---- figures of a run -------------------------------------------------------------------------------------------- */
+
+/* Rows of the history while the crack is straight and far from both ends. */
+struct strip_window {
+    struct history h;
+    int64_t first, end;
+};
+
+static bool strip_window_open(struct strip_window *w, const char *folder, double spacing)
+{
+    const double branches = branching_place(folder, spacing);
+    *w = (struct strip_window){0};
+    if (history_read(&w->h, folder) != OK) return false;
+    const double straight = isnan(branches) ? INFINITY : branches - STRIP_NOTCH - 4 * spacing;
+    const double last = fmin(STRIP_LAST, straight), from = fmin(STRIP_GROWN, 0.3 * last);
+    const int length = history_column(&w->h, "crack_length");
+    while (w->first < w->h.rows && history_at(&w->h, w->first, length) < from) w->first++;
+    w->end = w->first;
+    while (w->end < w->h.rows && history_at(&w->h, w->end, length) <= last) w->end++;
+    if (w->end - w->first >= 8) return true;
+    history_free(&w->h);
+    return false;
+}
+
+/* Slope of column y over column x in the window. */
+static double strip_slope(const struct strip_window *w, const char *x_name, const char *y_name)
+{
+    const int cx = history_column(&w->h, x_name), cy = history_column(&w->h, y_name);
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (int64_t k = w->first; k < w->end; k++) {
+        const double a = history_at(&w->h, k, cx) - history_at(&w->h, w->first, cx), b = history_at(&w->h, k, cy);
+        n++, x += a, y += b, xx += a * a, xy += a * b;
+    }
+    return (n * xy - x * y) / (n * xx - x * x);
+}
+
+/* Speed over c_R. */
+static double strip_speed(const char *folder, double spacing)
+{
+    struct strip_window w;
+    if (!strip_window_open(&w, folder, spacing)) return NAN;
+    const double v = strip_slope(&w, "time", "crack_length");
+    history_free(&w.h);
+    return v / strip_medium().rayleigh;
+}
+
+/* Energy of the bonds that break, over the new area and G_c; 1 mm thick. */
+static double strip_taken(const char *folder, double spacing)
+{
+    struct strip_window w;
+    if (!strip_window_open(&w, folder, spacing)) return NAN;
+    const double taken = strip_slope(&w, "crack_length", "fracture") / (1e-3 * STRIP_TOUGHNESS);
+    history_free(&w.h);
+    return taken;
+}
+
+/* Mean of the stress-intensity factor that the probe finds at the running tip, over K_c = sqrt(G_c E). */
+static double strip_factor(const char *folder, double spacing)
+{
+    struct strip_window w;
+    double sum = 0;
+    if (!strip_window_open(&w, folder, spacing)) return NAN;
+    const int K = history_column(&w.h, "sif.K_I");
+    for (int64_t k = w.first; k < w.end; k++) sum += history_at(&w.h, k, K);
+    const double mean = sum / (double)(w.end - w.first);
+    history_free(&w.h);
+    return mean / sqrt(STRIP_TOUGHNESS * STRIP_YOUNG);
+}
+
+/* A_I K^2/E over G_c at the running tip: what flows into it. */
+static double strip_flux(const char *folder, double spacing)
+{
+    const struct crack_medium m = strip_medium();
+    const double v = strip_speed(folder, spacing) * m.rayleigh;
+    return crack_universal(&m, MODE_I, v) * square(strip_factor(folder, spacing));
+}
+
+/* ---- all loads --------------------------------------------------------------------------------------------------- */
+
+static double strip_value(const struct experiments *x, const char *variant, const char *figure, double *deviation)
+{
+    for (int k = x->n; k-- > 0;)
+        if (!strcmp(x->row[k].variant, variant) && !strcmp(x->row[k].figure, figure)) {
+            *deviation = x->row[k].deviation;
+            return x->row[k].value;
+        }
+    return NAN;
+}
+
+/* What all loads together say: the fastest straight crack, and the curves of the picture. */
+static void strip_curves(struct experiments *x, const char (*variant)[16])
+{
+    struct experiment_curve *speed = experiment_curve_begin(x, "speed", "strip, steady, bonds alone");
+    struct experiment_curve *taken = experiment_curve_begin(x, "taken", "strip, steady, bonds alone");
+    struct experiment_row fastest = {.experiment = "strip",
+                                     .variant = "all loads",
+                                     .figure = "largest speed / c_R",
+                                     .unit = "",
+                                     .verdict = "",
+                                     .source = KNAUSS,
+                                     .low = 0,
+                                     .high = 0.45};
+    fastest.value = fastest.interval = fastest.deviation = NAN;
+    for (int k = 0; k < STRIP_LOADS; k++) {
+        double spread = NAN, other = NAN;
+        const double v = strip_value(x, variant[k], "speed / c_R", &spread);
+        if (isnan(v)) continue;
+        experiment_curve_add(speed, strip_value(x, variant[k], "K / K_c", &other), v, spread);
+        experiment_curve_add(taken, v, strip_value(x, variant[k], "energy taken / G_c", &other), other);
+        if (isnan(fastest.value) || v > fastest.value) fastest.value = v, fastest.deviation = spread;
+    }
+    experiment_add(x, fastest);
+}
+
+status experiments_strip(struct experiments *x)
+{
+    char variant[STRIP_LOADS][16], initial[STRIP_LOADS][96];
+    for (int k = 0; k < STRIP_LOADS; k++) {
+        const double G = strip_loads[k] * STRIP_TOUGHNESS;
+        const double strain = sqrt(2 * G * (1 - square(STRIP_POISSON)) / (STRIP_YOUNG * STRIP_FREE));
+        snprintf(variant[k], sizeof variant[k], "G/G_c %.3g", strip_loads[k]);
+        snprintf(initial[k], sizeof initial[k], "[{displacement_gradient: [[0, 0], [0, %.9g]]}]", strain);
+        const struct experiment_case c = {"strip",
+                                          variant[k],
+                                          NULL,
+                                          strip_text,
+                                          {{"initial", initial[k]}},
+                                          {"0.25 mm", "0.4 mm"},
+                                          {5, 3},
+                                          k == 0 || k == 3,
+                                          false,
+                                          {{"speed / c_R", "", NULL, strip_speed, 1, NAN, NAN, ""},
+                                           {"K / K_c", "", NULL, strip_factor, 1, NAN, NAN, ""},
+                                           {"A_I K^2/E / G_c", "", NULL, strip_flux, 1, NAN, NAN, ""},
+                                           {"energy taken / G_c", "", NULL, strip_taken, 1, NAN, NAN, ""},
+                                           {"branches at x", "mm", NULL, branching_place, 1e3, NAN, NAN, ""}}};
+        TRY(experiment_study(x, &c));
+    }
+    strip_curves(x, variant);
+    return OK;
+}

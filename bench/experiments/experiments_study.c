@@ -1,0 +1,146 @@
+/* The same scene at three spacings, each some times with steps and spacings that change nothing physical. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "experiments.h"
+#include "output/output_files.h"
+#include "output/summary_read.h"
+#include "study/convergence_study.h"
+
+#define EXPERIMENT_BUDGET 7200.0 /* of one study: none comes near it [s] */
+
+int experiment_mean(const double *value, int n, double *mean, double *deviation, double *interval)
+{
+    int held = 0;
+    double sum = 0;
+    *mean = *deviation = *interval = NAN;
+    for (int k = 0; k < n; k++)
+        if (isfinite(value[k])) sum += value[k], held++;
+    if (held == 0) return 0;
+    *mean = sum / held;
+    if (held == 1) return 1;
+    for (int k = sum = 0; k < n; k++)
+        if (isfinite(value[k])) sum += (value[k] - *mean) * (value[k] - *mean);
+    *deviation = sqrt(sum / (held - 1));
+    *interval = student_95(held - 1) * *deviation / sqrt(held);
+    return held;
+}
+
+/* ---- figures ----------------------------------------------------------------------------------------------------- */
+
+static double figure_of_run(const struct convergence_study *s, int k, const struct experiment_figure *f)
+{
+    double value = NAN;
+    const enum case_state state = s->study.at[k].state;
+    const struct path folder = study_folder(&s->study, &s->study.at[k]);
+    if (state != CASE_DONE && state != CASE_DONE_BEFORE) return NAN;
+    if (f->measure)
+        value = f->measure(folder.text, s->point[k].spacing);
+    else if (summary_number(folder.text, f->key, &value) != OK)
+        return NAN;
+    return f->scale * value;
+}
+
+/* Means of the three levels, one by one: a figure that some runs do not have (a crack that does not branch) counts in
+ * those that have it. */
+static void levels_take(struct experiment_row *row, const struct convergence_study *s, const double *value)
+{
+    double own[LEVELS_MOST * RUNS_MOST], mean, deviation, interval;
+    for (int l = 0; l < s->spacings.levels; l++) {
+        int n = 0;
+        for (int k = 0; k < s->study.n; k++)
+            if (s->point[k].level == l) own[n++] = value[k];
+        const int runs = experiment_mean(own, n, &mean, &deviation, &interval);
+        if (l == 0)
+            row->value = mean, row->deviation = deviation, row->interval = interval, row->runs = runs;
+        else if (l <= 2) {
+            const double coarse[] = {1e3 * s->spacings.at[l][0], mean, deviation};
+            memcpy(row->coarse[row->coarser++], coarse, sizeof coarse);
+        }
+    }
+    row->spacing = 1e3 * s->spacings.at[0][0];
+}
+
+static void figure_take(struct experiments *x, const struct experiment_case *c, const struct convergence_study *s,
+                        const struct experiment_figure *f)
+{
+    const int n = s->study.n;
+    struct convergence found;
+    double *value = NEW("bench.value", n, double), *spacing = NEW("bench.spacing", n, double);
+    int *level = NEW("bench.level", n, int);
+    struct experiment_row row = {.unit = f->unit, .source = f->source, .low = f->low, .high = f->high, .verdict = ""};
+    snprintf(row.experiment, sizeof row.experiment, "%s", c->experiment);
+    snprintf(row.variant, sizeof row.variant, "%s", c->variant);
+    snprintf(row.figure, sizeof row.figure, "%s", f->name);
+    for (int k = 0; k < n; k++) {
+        value[k] = s->point[k].level >= 0 ? figure_of_run(s, k, f) : NAN;
+        spacing[k] = s->point[k].spacing, level[k] = s->point[k].level;
+    }
+    levels_take(&row, s, value);
+    if (convergence_find(&found, spacing, value, level, n, s->spacings.levels, NULL)) {
+        row.verdict = verdict_name[found.verdict];
+        row.interval = found.uncertainty[0];
+    }
+    experiment_add(x, row);
+    memory_free(level), memory_free(spacing), memory_free(value);
+}
+
+/* ---- paths ------------------------------------------------------------------------------------------------------- */
+
+static void path_add(struct experiment_paths *p, double at_x, double at_y, int level)
+{
+    if (p->n == p->room) {
+        const int64_t room = 2 * p->room + 4096;
+        p->x = memory_resize("bench.path", p->x, p->room, room, sizeof *p->x);
+        p->y = memory_resize("bench.path", p->y, p->room, room, sizeof *p->y);
+        p->level = memory_resize("bench.path", p->level, p->room, room, sizeof *p->level);
+        p->room = room;
+    }
+    p->x[p->n] = (float)(1e3 * at_x), p->y[p->n] = (float)(1e3 * at_y), p->level[p->n++] = (uint8_t)level;
+}
+
+static void paths_take(struct experiments *x, const struct experiment_case *c, const struct convergence_study *s)
+{
+    assert(x->paths < EXPERIMENT_PATHS_MOST);
+    struct experiment_paths *p = &x->path[x->paths++];
+    *p = (struct experiment_paths){.name = c->variant, .levels = s->spacings.levels};
+    for (int l = 0; l < p->levels; l++) p->spacing[l] = 1e3 * s->spacings.at[l][0];
+    for (int k = 0; k < s->study.n; k++) {
+        struct frame f = {0};
+        if (s->point[k].level < 0) continue;
+        if (experiment_last_frame(&f, study_folder(&s->study, &s->study.at[k]).text) == OK)
+            for (int64_t i = 0; i < f.n; i++)
+                if (f.damage[i] > 0.01 * EXPERIMENT_DAMAGED) path_add(p, f.X[0][i], f.X[1][i], s->point[k].level);
+        frame_free(&f);
+    }
+}
+
+/* ---- a study ----------------------------------------------------------------------------------------------------- */
+
+status experiment_study(struct experiments *x, const struct experiment_case *c)
+{
+    struct convergence_study s;
+    struct scene_override pair[EXPERIMENT_PAIRS_MOST + 1] = {{"particles.spacing", c->spacing[x->quick]}};
+    int pairs = 1;
+    const struct path text = path_join(x->folder, "scene.yaml"), into = path_join(x->folder, "study");
+    while (pairs <= EXPERIMENT_PAIRS_MOST && c->pair[pairs - 1].key) pair[pairs] = c->pair[pairs - 1], pairs++;
+    const struct convergence_wish wish = {.scene = c->path ? c->path : text.text,
+                                          .folder = into.text,
+                                          .override = pair,
+                                          .overrides = pairs,
+                                          .levels = LEVELS_LEAST,
+                                          .runs = c->runs[x->quick],
+                                          .budget = EXPERIMENT_BUDGET,
+                                          .way.quiet = true};
+    if (x->quick && !c->quick) return OK;
+    if (c->path && !bench_scene_exists(c->path)) return OK;
+    if (!c->path) TRY(file_put(text.text, c->text, strlen(c->text)));
+    TRY(convergence_study_run(&s, &wish));
+    for (int f = 0; f < EXPERIMENT_FIGURES_MOST && c->figure[f].name; f++) figure_take(x, c, &s, &c->figure[f]);
+    if (c->drawn) paths_take(x, c, &s);
+    convergence_study_free(&s);
+    bench_folder_remove(into.text);
+    return OK;
+}

@@ -1,0 +1,210 @@
+/* A crack that follows a moving field ("surfing": Hossain, Hsueh, Bourdin & Bhattacharya 2014): the edge of a plate is
+ * moved as the field of a steadily moving crack moves it. What breaking takes over the new area is then measured far
+ * from starts and ends.
+ *
+ * Scenes cannot move a boundary point by point: the plate's edge is held (`fixed`), and between two steps its particles
+ * are put where the field has them. The steps of the engine are called one by one, as its own account of the work of
+ * supports knows nothing of that. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "experiments.h"
+#include "fracture/sif_fields.h"
+
+#define SURF_WIDTH 0.1      /* of the plate, from x = 0 [m] */
+#define SURF_HEIGHT 0.02    /* half of it [m] */
+#define SURF_NOTCH 0.02     /* [m] */
+#define SURF_EDGE 3.1       /* held at each edge [spacings] */
+#define SURF_FROM 0.035     /* measured while the tip goes from here [m] */
+#define SURF_TO 0.075       /* to here [m] */
+#define SURF_TOUGHNESS 40.0 /* [J/m^2] */
+#define SURF_LOAD 1.2       /* A_I K^2/E of the field over G_c: the tip runs where the field has it */
+#define HOSSAIN "Hossain et al. 2014"
+enum { SURF_STEPS = 10 }; /* between two looks */
+
+/* The field as it is imposed. */
+struct surf {
+    struct crack_medium medium;
+    double speed, factor, tip; /* [m/s], K [Pa m^0.5], at t = 0 [m] */
+    int64_t held;
+    int32_t *particle; /* [held] */
+};
+
+static void surf_text(FILE *to, double spacing)
+{
+    const double edge = SURF_EDGE * spacing;
+    fprintf(to,
+            "name: surf\nspace: plane stress\nthickness: 1 mm\nduration: 1 s\nmethod: pd\n"
+            "material: {young: 4.55 GPa, density: 1230, energy_release_rate: %g}\nparticles: {spacing: %.9g}\n"
+            "body: {box: {from: [0, %g], to: [%g, %g]}}\ncracks: [{from: [-1 mm, 0], to: [%.9g, 0]}]\n"
+            "time: {active_set: false}\noutput: {frames: 0, samples: 1}\nboundary:\n",
+            SURF_TOUGHNESS, spacing, -SURF_HEIGHT, SURF_WIDTH, SURF_HEIGHT, SURF_NOTCH + 0.1 * spacing);
+    fprintf(to, "  - {fixed: all, region: {box: {from: [-inf, -inf], to: [%.9g, inf]}}}\n", edge);
+    fprintf(to, "  - {fixed: all, region: {box: {from: [%.9g, -inf], to: [inf, inf]}}}\n", SURF_WIDTH - edge);
+    fprintf(to, "  - {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, %.9g]}}}\n", edge - SURF_HEIGHT);
+    fprintf(to, "  - {fixed: all, region: {box: {from: [-inf, %.9g], to: [inf, inf]}}}\n", SURF_HEIGHT - edge);
+}
+
+/* Displacement and velocity of the field at X. */
+static void surf_field(const struct surf *s, const struct particles *p, int64_t i, double t, double *u, double *v)
+{
+    const real at[2] = {p->X[0][i] - s->tip - s->speed * t, p->X[1][i]};
+    struct crack_field f;
+    crack_field(&s->medium, MODE_I, s->speed, at, &f);
+    for (int d = 0; d < 2; d++) {
+        u[d] = s->factor * f.displacement[d];
+        v[d] = -s->speed * s->factor * f.state.gradient[d][0];
+    }
+}
+
+/* All particles begin in the field, at its velocity; those of the edge are listed. */
+static void surf_start(struct surf *s, struct engine *e)
+{
+    struct particles *p = &e->part;
+    double u[2], v[2];
+    s->medium = crack_medium_of(&e->scene->material[0], e->scene->space);
+    s->particle = NEW("bench.surf", p->n, int32_t);
+    for (int64_t i = 0; i < p->n; i++) {
+        const bool held = p->flag[i] & FLAG_DRIVEN;
+        surf_field(s, p, i, 0, u, v);
+        for (int d = 0; d < 2; d++) p->x[d][i] = p->X[d][i] + u[d], p->v[d][i] = held ? 0 : v[d];
+        if (held) s->particle[s->held++] = (int32_t)i;
+    }
+}
+
+static void surf_edge_move(const struct surf *s, struct particles *p, double t)
+{
+#pragma omp parallel for
+    for (int64_t k = 0; k < s->held; k++) {
+        double u[2], v[2];
+        surf_field(s, p, s->particle[k], t, u, v);
+        for (int d = 0; d < 2; d++) p->x[d][s->particle[k]] = p->X[d][s->particle[k]] + u[d];
+    }
+}
+
+static double surf_tip(const struct particles *p, double spacing)
+{
+    double tip = 0;
+    for (int64_t i = 0; i < p->n; i++)
+        if (fabs(p->X[1][i]) < spacing && p->damage[i] > 0.01 * EXPERIMENT_DAMAGED) tip = fmax(tip, p->X[0][i]);
+    return tip;
+}
+
+/* What a run gives: what broken bonds take over the new area [J/m^2]; mean speed [m/s]. What flows in at the edge is
+ * not the same: the strain energy of the field in the plate changes as it moves, and waves leave the tip. */
+struct surf_figures {
+    double taken, speed;
+};
+
+/* A line by least squares. */
+struct surf_line {
+    double n, x, y, xx, xy;
+};
+static void surf_line_add(struct surf_line *l, double x, double y)
+{
+    l->n++, l->x += x, l->y += y, l->xx += x * x, l->xy += x * y;
+}
+static double surf_line_slope(const struct surf_line *l)
+{
+    return (l->n * l->xy - l->x * l->y) / (l->n * l->xx - l->x * l->x);
+}
+
+static status surf_go(struct surf *s, struct engine *e, double spacing, struct surf_figures *found)
+{
+    const double until = (SURF_WIDTH - SURF_NOTCH) / s->speed;
+    struct surf_line taken = {0}, place = {0};
+    double tip = 0;
+    TRY(engine_report_start(e));
+    for (int64_t step = 0; e->clock.t < until && tip < SURF_TO; step++) {
+        surf_edge_move(s, &e->part, e->clock.t);
+        TRY(engine_step(e));
+        if (step % SURF_STEPS) continue;
+        tip = surf_tip(&e->part, spacing);
+        if (tip < SURF_FROM) continue;
+        surf_line_add(&taken, 1e-3 * (tip - SURF_FROM), bonds_fracture_energy(&e->bonds));
+        surf_line_add(&place, e->clock.t - SURF_FROM / s->speed, tip - SURF_FROM);
+    }
+    if (tip < SURF_TO) return status_set(FAILED, "surfing: the crack has not followed its field");
+    *found = (struct surf_figures){surf_line_slope(&taken), surf_line_slope(&place)};
+    return OK;
+}
+
+/* `share`: K^2 A_I/E over G_c of the field; `speed` over c_R. */
+static status surf_run(double spacing, double share, double speed, double safety, struct surf_figures *found,
+                       double *rayleigh)
+{
+    char text[2048];
+    struct engine e;
+    struct scene scene;
+    struct bench_overrides o = {0};
+    FILE *to = fmemopen(text, sizeof text, "w");
+    if (!to) return status_set(FAILED, "bench: out of memory");
+    surf_text(to, spacing);
+    fclose(to);
+    bench_override(&o, "time.safety", "%.9g", safety);
+    TRY(bench_engine_make(&e, &scene, "surf", text, bench_overrides_ready(&o), o.n));
+    struct surf s = {.tip = SURF_NOTCH};
+    s.medium = crack_medium_of(&scene.material[0], scene.space);
+    *rayleigh = s.medium.rayleigh;
+    s.speed = speed * *rayleigh;
+    s.factor = sqrt(share * SURF_TOUGHNESS * s.medium.modulus / crack_universal(&s.medium, MODE_I, s.speed));
+    surf_start(&s, &e);
+    const status ran = surf_go(&s, &e, spacing, found);
+    memory_free(s.particle);
+    bench_engine_free(&e, &scene);
+    return ran;
+}
+
+/* Runs of one speed of the field, over c_R: spacings [mm], each at steps that differ. */
+struct surf_case {
+    double speed, spacing[3];
+    bool quick;
+};
+static const struct surf_case surf_cases[] = {{0.05, {0.5, 0.4, 0}, false},
+                                              {0.1, {0.5, 0.4, 0.25}, true},
+                                              {0.2, {0.5, 0.4, 0.25}, false},
+                                              {0.4, {0.5, 0.4, 0.25}, false}};
+static const double surf_safety[] = {0.45, 0.5, 0.55}; /* shares of the critical step */
+enum { SURF_SAFETIES = COUNT_OF(surf_safety), SURF_RUNS = 3 * SURF_SAFETIES };
+
+static void surf_add(struct experiments *x, const struct surf_case *c, const char *figure, const double *value, int n)
+{
+    struct experiment_row row = {.experiment = "surfing",
+                                 .unit = "",
+                                 .verdict = "",
+                                 .source = "G_c, by " HOSSAIN,
+                                 .low = 0.98,
+                                 .high = 1.02,
+                                 .spacing = c->spacing[0]};
+    for (int k = 0; k < 3 && c->spacing[k] > 0 && !x->quick; k++) row.spacing = c->spacing[k];
+    snprintf(row.variant, sizeof row.variant, "v/c_R %.3g", c->speed);
+    snprintf(row.figure, sizeof row.figure, "%s", figure);
+    row.runs = experiment_mean(value, n, &row.value, &row.deviation, &row.interval);
+    experiment_add(x, row);
+}
+
+status experiments_surfing(struct experiments *x)
+{
+    struct experiment_curve *curve = experiment_curve_begin(x, "taken", "moving field");
+    for (size_t k = 0; k < COUNT_OF(surf_cases); k++) {
+        const struct surf_case *c = &surf_cases[k];
+        double taken[SURF_RUNS], speed[SURF_RUNS], mean, deviation, interval;
+        struct surf_figures f;
+        double rayleigh = 1;
+        int n = 0;
+        if (x->quick && !c->quick) continue;
+        for (int h = 0; h < (x->quick ? 1 : 3) && c->spacing[h] > 0; h++)
+            for (int s = 0; s < SURF_SAFETIES; s++) {
+                TRY(surf_run(1e-3 * c->spacing[h], SURF_LOAD, c->speed, surf_safety[s], &f, &rayleigh));
+                taken[n] = f.taken / SURF_TOUGHNESS, speed[n++] = f.speed / rayleigh;
+            }
+        surf_add(x, c, "energy taken / G_c", taken, n);
+        experiment_mean(speed, n, &mean, &deviation, &interval);
+        const double fast = mean;
+        experiment_mean(taken, n, &mean, &deviation, &interval);
+        experiment_curve_add(curve, fast, mean, deviation);
+    }
+    return OK;
+}
