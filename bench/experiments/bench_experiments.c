@@ -129,7 +129,8 @@ static void experiments_summary(const struct experiments *x)
 
 status bench_experiments(bool quick)
 {
-    static status (*const part[])(struct experiments *) = {experiments_plates, experiments_surfing, experiments_strip};
+    static status (*const part[])(struct experiments *) = {experiments_plates, experiments_surfing, experiments_strip,
+                                                           experiments_vortex, experiments_beam,    experiments_disc};
     struct experiments *x = NEW("bench.experiments", 1, struct experiments);
     status s = bench_folder_make();
     x->quick = quick;
@@ -142,6 +143,7 @@ status bench_experiments(bool quick)
     for (size_t k = 0; k < COUNT_OF(part) && s == OK; k++) s = part[k](x);
     if (s == OK) experiments_summary(x);
     if (s == OK) s = experiments_write(x);
+    if (s == OK) s = experiments_draw(x);
     experiments_free(x);
     return s;
 }

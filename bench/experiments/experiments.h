@@ -20,11 +20,11 @@ struct experiment_row {
     int coarser;                         /* the same at coarser spacings: [mm], mean, deviation */
     double coarse[2][3];
 };
-enum { EXPERIMENT_ROWS_MOST = 160, EXPERIMENT_PATHS_MOST = 8, EXPERIMENT_CURVES_MOST = 12 };
+enum { EXPERIMENT_ROWS_MOST = 160, EXPERIMENT_PATHS_MOST = 8, EXPERIMENT_CURVES_MOST = 16 };
 
 /* Damaged particles at the end of all runs of a study. */
 struct experiment_paths {
-    const char *name;
+    char title[96];
     int64_t n, room;
     int levels;
     double spacing[8]; /* of each level [mm] */
@@ -55,6 +55,11 @@ void experiment_add(struct experiments *x, struct experiment_row row);
 struct experiment_curve *experiment_curve_begin(struct experiments *x, const char *picture, const char *name, ...)
     __attribute__((format(printf, 3, 4)));
 void experiment_curve_add(struct experiment_curve *c, double x, double y, double error);
+
+/* ---- experiments_draw.c: pictures ---------------------------------------------------------------------------------
+ */
+
+status experiments_draw(struct experiments *x);
 
 /* ---- experiments_study.c: the same scene at three spacings, with what changes nothing physical ------------------- */
 
@@ -102,9 +107,22 @@ enum { EXPERIMENT_DAMAGED = 35 }; /* [%], as tips are found */
  */
 
 /* Kalthoff's plate; branching in glass. A crack through a strip that is held apart. A crack that follows a moving
- * field. */
+ * field. A vortex whose force is chosen for it. A notched beam, a squeezed disc. */
 status experiments_plates(struct experiments *x);
 status experiments_strip(struct experiments *x);
 status experiments_surfing(struct experiments *x);
+/* What broken bonds take over the new area [J/m^2], and the mean speed over that of the field, at a spacing [m] while
+ * the field (A_I K^2/E = `share` G_c) moves at `speed` c_R; c_R [m/s]. G_c is 40 J/m^2. */
+struct surf_figures {
+    double taken, speed;
+};
+status surf_run(double spacing, double share, double speed, double safety, struct surf_figures *found,
+                double *rayleigh);
+status experiments_vortex(struct experiments *x);
+/* Error of displacements over their size at the end, at a spacing [m]. */
+enum vortex_way { VORTEX_MESH, VORTEX_PD, VORTEX_WAYS };
+status vortex_run(enum vortex_way way, double spacing, double *error);
+status experiments_beam(struct experiments *x);
+status experiments_disc(struct experiments *x);
 
 #endif

@@ -152,7 +152,7 @@ static void strip_curves(struct experiments *x, const char (*variant)[16])
         if (isnan(v)) continue;
         experiment_curve_add(speed, strip_value(x, variant[k], "K / K_c", &other), v, spread);
         experiment_curve_add(taken, v, strip_value(x, variant[k], "energy taken / G_c", &other), other);
-        if (isnan(fastest.value) || v > fastest.value) fastest.value = v, fastest.deviation = spread;
+        if (isnan(fastest.value) || v > fastest.value) fastest.value = v, fastest.deviation = spread, fastest.runs = 1;
     }
     experiment_add(x, fastest);
 }

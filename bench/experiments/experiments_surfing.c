@@ -92,11 +92,8 @@ static double surf_tip(const struct particles *p, double spacing)
     return tip;
 }
 
-/* What a run gives: what broken bonds take over the new area [J/m^2]; mean speed [m/s]. What flows in at the edge is
- * not the same: the strain energy of the field in the plate changes as it moves, and waves leave the tip. */
-struct surf_figures {
-    double taken, speed;
-};
+/* Broken bonds alone are counted: what flows in at the edge is not the same, as the strain energy of the field in the
+ * plate changes while it moves, and waves leave the tip. */
 
 /* A line by least squares. */
 struct surf_line {
@@ -131,9 +128,7 @@ static status surf_go(struct surf *s, struct engine *e, double spacing, struct s
     return OK;
 }
 
-/* `share`: K^2 A_I/E over G_c of the field; `speed` over c_R. */
-static status surf_run(double spacing, double share, double speed, double safety, struct surf_figures *found,
-                       double *rayleigh)
+status surf_run(double spacing, double share, double speed, double safety, struct surf_figures *found, double *rayleigh)
 {
     char text[2048];
     struct engine e;

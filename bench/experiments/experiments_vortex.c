@@ -1,0 +1,133 @@
+/* The vortex at several spacings: the order of the error of displacements where the body turns by a radian. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "experiments.h"
+#include "vortex.h"
+
+#define VORTEX_TURN 1.0    /* of the middle, at the end [rad]; the shear reaches 0.84 */
+#define VORTEX_PERIOD 0.06 /* two transits of the radius by waves [s] */
+#define VORTEX_HALF 1.2    /* edge of the body: beyond R = 1 nothing moves [m] */
+#define VORTEX_REACH 3.015
+#define KAMOJJALA "order 2; Kamojjala et al. 2015"
+
+struct vortex_case {
+    const char *name, *lines;
+    enum vortex_law law;
+};
+static const struct vortex_case vortex_cases[VORTEX_WAYS] = {
+    [VORTEX_MESH] = {"mesh", "method: mpm\nmpm: {frame: reference, levels: 0}\n", VORTEX_BIOT},
+    [VORTEX_PD] = {"pd bonds", "method: pd\npd: {weights: uniform, surface: none}\ncontact: {between: none}\n",
+                   VORTEX_BONDS},
+};
+static const double vortex_spacings[] = {0.1, 0.05, 0.025, 0.0125}; /* [m] */
+enum { VORTEX_SPACINGS = COUNT_OF(vortex_spacings) };
+
+/* The load of the scene, one everywhere, gets a share of its own for either component: force times volume. */
+static void vortex_load(struct engine *e, const struct vortex *v)
+{
+    struct load *load = &e->loads.load[0];
+    const struct particles *p = &e->part;
+    if (load->share[1] == load->share[0]) load->share[1] = NEW("bench.vortex", load->n, real);
+#pragma omp parallel for
+    for (int64_t k = 0; k < load->n; k++) {
+        const int32_t i = load->particle[k];
+        const double X[2] = {p->X[0][i], p->X[1][i]};
+        double b[2] = {0};
+        if (X[0] * X[0] + X[1] * X[1] < 1.02) vortex_force(v, X, e->clock.t, b);
+        for (int d = 0; d < 2; d++) load->share[d][k] = b[d] * p->volume0[i];
+    }
+}
+
+/* Root of the mean square of the error of displacements, over that of displacements. */
+static double vortex_error(struct engine *e, const struct vortex *v)
+{
+    const struct particles *p = &e->part;
+    double wrong = 0, size = 0;
+    engine_sync(e);
+    for (int64_t i = 0; i < p->n; i++) {
+        const double X[2] = {p->X[0][i], p->X[1][i]};
+        double x[2];
+        vortex_place(v, X, e->clock.t, x);
+        for (int d = 0; d < 2; d++) wrong += square(p->x[d][i] - x[d]), size += square(x[d] - X[d]);
+    }
+    return sqrt(wrong / size);
+}
+
+static status vortex_go(struct engine *e, const struct vortex *v)
+{
+    TRY(engine_report_start(e));
+    while (e->clock.step < e->clock.steps) {
+        vortex_load(e, v);
+        TRY(engine_step(e));
+        TRY(engine_stability_check(e));
+    }
+    return OK;
+}
+
+status vortex_run(enum vortex_way way, double spacing, double *error)
+{
+    const struct vortex_case *c = &vortex_cases[way];
+    char text[1024];
+    struct engine e;
+    struct scene scene;
+    snprintf(text, sizeof text,
+             "name: vortex\nspace: plane stress\nthickness: 1 m\nduration: %g\n%s"
+             "material: {young: 1 MPa, density: 1000, critical_stretch: inf}\nparticles: {spacing: %g}\n"
+             "body: {box: {from: [%g, %g], to: [%g, %g]}}\nboundary: [{body_force: [1, 1]}]\n"
+             "time: {active_set: false, safety: 0.5}\noutput: {frames: 0, samples: 1}\n",
+             VORTEX_PERIOD, c->lines, spacing, -VORTEX_HALF, -VORTEX_HALF, VORTEX_HALF, VORTEX_HALF);
+    TRY(bench_engine_make(&e, &scene, "vortex", text, NULL, 0));
+    const struct material *m = &scene.material[0];
+    struct vortex v = {.law = c->law,
+                       .turn = VORTEX_TURN,
+                       .period = VORTEX_PERIOD,
+                       .density = m->density,
+                       .c11 = m->c12 + 2 * m->shear,
+                       .c12 = m->c12,
+                       .shear = m->shear};
+    vortex_bonds(&v, VORTEX_REACH);
+    const status ran = vortex_go(&e, &v);
+    if (ran == OK) *error = vortex_error(&e, &v);
+    bench_engine_free(&e, &scene);
+    return ran;
+}
+
+static void vortex_add(struct experiments *x, const char *variant, const char *figure, const char *unit, double value,
+                       double low, double high)
+{
+    struct experiment_row row = {.experiment = "vortex, 1 rad",
+                                 .unit = unit,
+                                 .verdict = "",
+                                 .source = KAMOJJALA,
+                                 .value = value,
+                                 .deviation = NAN,
+                                 .interval = NAN,
+                                 .low = low,
+                                 .high = high,
+                                 .runs = 1};
+    snprintf(row.variant, sizeof row.variant, "%s", variant);
+    snprintf(row.figure, sizeof row.figure, "%s", figure);
+    experiment_add(x, row);
+}
+
+status experiments_vortex(struct experiments *x)
+{
+    for (enum vortex_way k = 0; k < VORTEX_WAYS; k++) {
+        const struct vortex_case *c = &vortex_cases[k];
+        struct experiment_curve *curve = experiment_curve_begin(x, "vortex", "%s", c->name);
+        double error[VORTEX_SPACINGS];
+        const int n = x->quick ? VORTEX_SPACINGS - 1 : VORTEX_SPACINGS;
+        for (int h = 0; h < n; h++) {
+            char figure[48];
+            TRY(vortex_run(k, vortex_spacings[h], &error[h]));
+            snprintf(figure, sizeof figure, "error at %g mm", 1e3 * vortex_spacings[h]);
+            vortex_add(x, c->name, figure, "%", 100 * error[h], NAN, NAN);
+            experiment_curve_add(curve, vortex_spacings[h], error[h], NAN);
+        }
+        vortex_add(x, c->name, "order of displacements", "", log2(error[n - 2] / error[n - 1]), 1.8, 2.3);
+    }
+    return OK;
+}

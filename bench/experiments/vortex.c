@@ -1,0 +1,112 @@
+/* The closed forms of the vortex. */
+#include "vortex.h"
+
+#include <math.h>
+
+#define VORTEX_DIFFERENCE 1e-3 /* between places of differences [m]: their error is 1e-9 of the stress */
+
+/* ---- motion ------------------------------------------------------------------------------------------------------ */
+
+static double vortex_growth(const struct vortex *v, double t) { return square(sin(M_PI * t / (2 * v->period))); }
+
+/* alpha, and alpha'/R. */
+static double vortex_angle(const struct vortex *v, const double *X, double t, double *slope)
+{
+    const double rest = 1 - X[0] * X[0] - X[1] * X[1], grown = v->turn * vortex_growth(v, t);
+    *slope = rest > 0 ? -8 * grown * rest * rest * rest : 0;
+    return rest > 0 ? grown * square(rest * rest) : 0;
+}
+
+void vortex_place(const struct vortex *v, const double *X, double t, double *x)
+{
+    double slope;
+    const double a = vortex_angle(v, X, t, &slope);
+    x[0] = cos(a) * X[0] - sin(a) * X[1];
+    x[1] = sin(a) * X[0] + cos(a) * X[1];
+}
+
+void vortex_gradient(const struct vortex *v, const double *X, double t, double F[2][2])
+{
+    double slope;
+    const double a = vortex_angle(v, X, t, &slope), c = cos(a), s = sin(a);
+    const double G[2][2] = {{1 - slope * X[1] * X[0], -slope * X[1] * X[1]},
+                            {slope * X[0] * X[0], 1 + slope * X[0] * X[1]}};
+    for (int j = 0; j < 2; j++) F[0][j] = c * G[0][j] - s * G[1][j], F[1][j] = s * G[0][j] + c * G[1][j];
+}
+
+/* ---- laws -------------------------------------------------------------------------------------------------------- */
+
+void vortex_bonds(struct vortex *v, double reach)
+{
+    double sum = 0;
+    v->bonds = 0;
+    for (int i = 0; i <= (int)reach; i++)
+        for (int j = -(int)reach; j <= (int)reach; j++) {
+            const double r = hypot(i, j);
+            if (r == 0 || r > reach || (i == 0 && j < 0)) continue;
+            assert(v->bonds < VORTEX_BONDS_MOST);
+            v->xi[v->bonds][0] = i, v->xi[v->bonds][1] = j, v->weight[v->bonds++] = r;
+            sum += r;
+        }
+    /* Under e times 1 both directions of a bond make a stress of sum r c V e, half of it along each axis: (c11 + c12)
+     * e. */
+    for (int k = 0; k < v->bonds; k++) v->weight[k] *= 2 * (v->c11 + v->c12) / sum;
+}
+
+static void stress_of_bonds(const struct vortex *v, double F[2][2], double P[2][2])
+{
+    for (int a = 0; a < 2; a++) P[a][0] = P[a][1] = 0;
+    for (int k = 0; k < v->bonds; k++) {
+        const double r = hypot(v->xi[k][0], v->xi[k][1]), n[2] = {v->xi[k][0] / r, v->xi[k][1] / r};
+        const double y[2] = {F[0][0] * n[0] + F[0][1] * n[1], F[1][0] * n[0] + F[1][1] * n[1]};
+        const double pull = v->weight[k] * (1 - 1 / hypot(y[0], y[1]));
+        for (int a = 0; a < 2; a++)
+            for (int b = 0; b < 2; b++) P[a][b] += pull * y[a] * n[b];
+    }
+}
+
+static void stress_of_biot(const struct vortex *v, double F[2][2], double P[2][2])
+{
+    const double along = F[0][0] + F[1][1], across = F[1][0] - F[0][1], size = hypot(along, across);
+    const double c = along / size, s = across / size;
+    const double e11 = c * F[0][0] + s * F[1][0] - 1, e22 = c * F[1][1] - s * F[0][1] - 1;
+    const double s12 = 2 * v->shear * (c * F[0][1] + s * F[1][1]);
+    const double s11 = v->c11 * e11 + v->c12 * e22, s22 = v->c12 * e11 + v->c11 * e22;
+    P[0][0] = c * s11 - s * s12, P[0][1] = c * s12 - s * s22;
+    P[1][0] = s * s11 + c * s12, P[1][1] = s * s12 + c * s22;
+}
+
+void vortex_stress(const struct vortex *v, double F[2][2], double P[2][2])
+{
+    if (v->law == VORTEX_BONDS)
+        stress_of_bonds(v, F, P);
+    else
+        stress_of_biot(v, F, P);
+}
+
+/* ---- force ------------------------------------------------------------------------------------------------------- */
+
+/* Adds d P_ab/dX_b, for one b. */
+static void divergence_add(const struct vortex *v, const double *X, double t, int b, double *sum)
+{
+    static const double place[] = {-2, -1, 1, 2}, share[] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
+    for (int k = 0; k < 4; k++) {
+        double at[2] = {X[0], X[1]}, F[2][2], P[2][2];
+        at[b] += place[k] * VORTEX_DIFFERENCE;
+        vortex_gradient(v, at, t, F);
+        vortex_stress(v, F, P);
+        for (int a = 0; a < 2; a++) sum[a] += share[k] * P[a][b] / VORTEX_DIFFERENCE;
+    }
+}
+
+void vortex_force(const struct vortex *v, const double *X, double t, double *b)
+{
+    double x[2], divergence[2] = {0};
+    const double beat = M_PI / (2 * v->period), shape = square(square(fmax(0, 1 - X[0] * X[0] - X[1] * X[1])));
+    const double rate = v->turn * shape * beat * sin(2 * beat * t);
+    const double change = v->turn * shape * 2 * square(beat) * cos(2 * beat * t);
+    vortex_place(v, X, t, x);
+    for (int a = 0; a < 2; a++) divergence_add(v, X, t, a, divergence);
+    b[0] = v->density * (-change * x[1] - rate * rate * x[0]) - divergence[0];
+    b[1] = v->density * (change * x[0] - rate * rate * x[1]) - divergence[1];
+}
