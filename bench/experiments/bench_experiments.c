@@ -21,7 +21,10 @@ static bool experiment_is_held(const struct experiment_row *r) { return r->value
 static void experiment_row_print(const struct experiment_row *r)
 {
     printf("  %-19s %-11s %-24s", r->experiment, r->variant, r->figure);
-    printf(" %9.4g %-6s", r->value, r->unit);
+    if (isfinite(r->value))
+        printf(" %9.4g %-6s", r->value, r->unit);
+    else
+        printf(" %9s %-6s", "none", "");
     if (!isnan(r->deviation))
         printf(" %8.2g %2d", r->deviation, r->runs);
     else
@@ -34,7 +37,10 @@ static void experiment_row_print(const struct experiment_row *r)
         printf("  %s %.4g .. %.4g (%s)", experiment_is_held(r) ? "holds" : "SHORT", r->low, r->high, r->source);
     if (r->coarser) printf("  [");
     for (int k = 0; k < r->coarser; k++)
-        printf("%s%.3g mm: %.4g +- %.2g", k ? ", " : "", r->coarse[k][0], r->coarse[k][1], r->coarse[k][2]);
+        if (isfinite(r->coarse[k][1]))
+            printf("%s%.3g mm: %.4g +- %.2g", k ? ", " : "", r->coarse[k][0], r->coarse[k][1], r->coarse[k][2]);
+        else
+            printf("%s%.3g mm: none", k ? ", " : "", r->coarse[k][0]);
     puts(r->coarser ? "]" : "");
     fflush(stdout);
 }

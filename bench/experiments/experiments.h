@@ -120,7 +120,7 @@ status surf_run(double spacing, double share, double speed, double safety, struc
                 double *rayleigh);
 status experiments_vortex(struct experiments *x);
 /* Error of displacements over their size at the end, at a spacing [m]. */
-enum vortex_way { VORTEX_MESH, VORTEX_PD, VORTEX_WAYS };
+enum vortex_way { VORTEX_MESH, VORTEX_PD, VORTEX_PD_FAR, VORTEX_WAYS };
 status vortex_run(enum vortex_way way, double spacing, double *error);
 status experiments_beam(struct experiments *x);
 status experiments_disc(struct experiments *x);

@@ -19,13 +19,12 @@ static const struct experiment_panel panels[] = {
      "set xlabel 'v/c_R'\nset ylabel 'over G_c'\nset xrange [0:*]\nset yrange [0.9:*]\nset key top left\n",
      "1 with lines lw 2 dt (6,4) lc rgb '#777777' title 'G_c', 1.02 with lines lw 1 dt (2,3) lc rgb '#777777' title "
      "'+- 2 %', 0.98 with lines lw 1 dt (2,3) lc rgb '#777777' notitle"},
-    {"vortex", "vortex, 1 rad: error of displacements",
+    {"vortex", "vortex: error of displacements",
      "set xlabel 'spacing [m]'\nset ylabel 'over their size'\nset logscale xy\nset xrange [0.01:0.12]\n"
      "set yrange [*:*]\nset key top left\n",
      "10*x**2 with lines lw 2 dt (6,4) lc rgb '#777777' title 'order 2'"},
     {"branches at x", "where cracks branch (notch: 50 mm)",
-     "set xlabel 'spacing [mm]'\nset ylabel 'x [mm]'\nset xrange [0:*]\nset yrange [55:*]\nset key bottom right\n",
-     NULL},
+     "set xlabel 'spacing [mm]'\nset ylabel 'x [mm]'\nset xrange [0:*]\nset yrange [60:110]\nset key top left\n", NULL},
 };
 
 static void experiment_put_curve(FILE *to, const struct experiment_curve *c, int k)
@@ -83,16 +82,16 @@ static void experiments_draw_paths(FILE *to, const void *context)
 {
     const struct experiments *x = context;
     fprintf(to,
-            "set multiplot layout %d,%d margins 0.04,0.99,0.06,0.94 spacing 0.04,0.11\nset size ratio -1\n"
-            "set key inside bottom left\nset xrange [45:100]\nset yrange [0:*]\n",
+            "set multiplot layout %d,%d margins 0.04,0.98,0.06,0.86 spacing 0.05,0.2\nset size ratio -1\nset xtics 20\n"
+            "set key above samplen 0.5 font ',8'\nset xrange [45:100]\nset yrange [0:*]\n",
             (x->paths + PATHS_WIDE - 1) / PATHS_WIDE, PATHS_WIDE);
     for (int k = 0; k < x->paths; k++) {
         const struct experiment_paths *p = &x->path[k];
         fputs("$p << EOD\n", to);
         for (int64_t i = 0; i < p->n; i++) fprintf(to, "%g %g %d\n", p->x[i], p->y[i], p->level[i]);
-        fprintf(to, "EOD\nset title '%s [mm]'\nplot ", p->title);
+        fprintf(to, "EOD\nset title '%s [mm]' font ',10'\nplot ", p->title);
         for (int l = p->levels; l-- > 0;)
-            fprintf(to, "$p using ($3 == %d ? $1 : NaN):2 with points pt 7 ps 0.12 lc rgb '%s' title '%.3g mm'%s", l,
+            fprintf(to, "$p using ($3 == %d ? $1 : NaN):2 with points pt 7 ps 0.2 lc rgb '%s' title '%.3g mm'%s", l,
                     curve_colour[l % CURVE_COLOURS], p->spacing[l], l ? ", " : "\n");
     }
     fputs("unset multiplot\n", to);
@@ -102,7 +101,7 @@ status experiments_draw(struct experiments *x)
 {
     experiments_curves(x);
     if (x->paths > 0)
-        TRY(bench_draw("experiments_paths", 1100, 320 * ((x->paths + PATHS_WIDE - 1) / PATHS_WIDE),
+        TRY(bench_draw("experiments_paths", 1100, 340 * ((x->paths + PATHS_WIDE - 1) / PATHS_WIDE),
                        experiments_draw_paths, x));
     return bench_draw("experiments", 1100, 820, experiments_draw_curves, x);
 }
