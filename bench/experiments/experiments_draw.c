@@ -13,8 +13,8 @@ struct experiment_panel {
 };
 static const struct experiment_panel panels[] = {
     {"speed", "speed of a straight crack over its stress-intensity factor",
-     "set xlabel 'K_I/K_c'\nset ylabel 'v/c_R'\nset xrange [0.9:*]\nset yrange [0:1]\nset key bottom right\n",
-     "0.45 with lines lw 2 dt (6,4) lc rgb '#777777' title 'Homalite-100, at any K (Ravi-Chandar & Knauss 1984)'"},
+     "set xlabel 'K_I/K_c'\nset ylabel 'v/c_R'\nset xrange [0.9:*]\nset yrange [0:1.2]\nset key top left\n",
+     "0.45 with lines lw 2 dt (6,4) lc rgb '#777777' title 'Homalite-100'"},
     {"taken", "energy that broken bonds take, over the new area",
      "set xlabel 'v/c_R'\nset ylabel 'over G_c'\nset xrange [0:*]\nset yrange [0.9:*]\nset key top left\n",
      "1 with lines lw 2 dt (6,4) lc rgb '#777777' title 'G_c', 1.02 with lines lw 1 dt (2,3) lc rgb '#777777' title "
@@ -83,16 +83,17 @@ static void experiments_draw_paths(FILE *to, const void *context)
     const struct experiments *x = context;
     fprintf(to,
             "set multiplot layout %d,%d margins 0.04,0.98,0.06,0.86 spacing 0.05,0.2\nset size ratio -1\nset xtics 20\n"
-            "set key above samplen 0.5 font ',8'\nset xrange [45:100]\nset yrange [0:*]\n",
+            "unset key\nset xrange [45:100]\nset yrange [0:*]\n",
             (x->paths + PATHS_WIDE - 1) / PATHS_WIDE, PATHS_WIDE);
     for (int k = 0; k < x->paths; k++) {
         const struct experiment_paths *p = &x->path[k];
         fputs("$p << EOD\n", to);
         for (int64_t i = 0; i < p->n; i++) fprintf(to, "%g %g %d\n", p->x[i], p->y[i], p->level[i]);
-        fprintf(to, "EOD\nset title '%s [mm]' font ',10'\nplot ", p->title);
+        fprintf(to, "EOD\nset title \"%s [mm]\\n%.3g, %.3g, %.3g mm: blue, orange, green\" font ',9'\nplot ", p->title,
+                p->spacing[0], p->spacing[1], p->spacing[2]);
         for (int l = p->levels; l-- > 0;)
-            fprintf(to, "$p using ($3 == %d ? $1 : NaN):2 with points pt 7 ps 0.2 lc rgb '%s' title '%.3g mm'%s", l,
-                    curve_colour[l % CURVE_COLOURS], p->spacing[l], l ? ", " : "\n");
+            fprintf(to, "$p using ($3 == %d ? $1 : NaN):2 with points pt 7 ps 0.2 lc rgb '%s'%s", l,
+                    curve_colour[l % CURVE_COLOURS], l ? ", " : "\n");
     }
     fputs("unset multiplot\n", to);
 }

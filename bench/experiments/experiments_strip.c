@@ -135,8 +135,8 @@ static double strip_value(const struct experiments *x, const char *variant, cons
 /* What all loads together say: the fastest straight crack, and the curves of the picture. */
 static void strip_curves(struct experiments *x, const char (*variant)[16])
 {
-    struct experiment_curve *speed = experiment_curve_begin(x, "speed", "strip, steady, bonds alone");
-    struct experiment_curve *taken = experiment_curve_begin(x, "taken", "strip, steady, bonds alone");
+    struct experiment_curve *speed = experiment_curve_begin(x, "speed", "strip");
+    struct experiment_curve *taken = experiment_curve_begin(x, "taken", "strip");
     struct experiment_row fastest = {.experiment = "strip",
                                      .variant = "all loads",
                                      .figure = "largest speed / c_R",
