@@ -24,7 +24,7 @@ struct pilot_wish {
     double spacing;                      /* that the scene fixes [m]; 0: none */
     char model[16];                      /* the same; "": none */
     bool at_rest;                        /* it has a static solver */
-    bool has_accuracy, has_table, has_transfer; /* keys that the scene gives */
+    bool has_accuracy, has_table; /* keys that the scene gives */
     struct scene first;                  /* with stand-ins for what is to be chosen; scene_free */
 };
 /* Does the scene want that? REFUSED where it is not sound; nothing is left to free then. */

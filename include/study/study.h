@@ -110,7 +110,7 @@ struct study_table {
     int figures, room, cases;
 };
 
-/* Reads the summaries of all runs that have one. FAILED if one cannot be read. */
+/* Reads the summaries of all runs that are done. FAILED if one cannot be read. */
 status study_table_read(struct study_table *t, const struct study *s);
 void study_table_free(struct study_table *t);
 /* Index of a figure; -1: there is none. */

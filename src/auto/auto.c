@@ -325,7 +325,6 @@ static status wish_read(struct reader *r, const struct node *root, struct pilot_
     w->at_rest = solver && strcmp(solver->text, "explicit") != 0;
     w->has_accuracy = tree_at(root, "accuracy") != NULL;
     w->has_table = tree_at(root, "accuracy_table") != NULL;
-    w->has_transfer = tree_at(root, "mpm.transfer") != NULL;
     return OK;
 }
 

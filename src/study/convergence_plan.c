@@ -8,6 +8,7 @@
 
 #define MEETS 0.02       /* a place this close to a lattice plane, or half-way, is met [spacings] */
 #define NEAR_WANTED 0.12 /* spacings are looked for so far from the wanted one [1] */
+#define FAR_WANTED 0.16  /* ... or, if none there fits, so far: levels keep apart [1] */
 #define NEAR_CHOSEN 0.07 /* others beside the chosen one [1] */
 
 /* Distances of faces and cracks from the lower corner of their body, each a multiple of the scene's own spacing, or
@@ -99,6 +100,7 @@ void spacings_plan(struct spacings *to, const struct scene *s, int levels, doubl
         double *at = to->at[k];
         const double wanted = finest * pow(2, 0.5 * k);
         at[0] = fabs(wanted / s->spacing - 1) < 1e-9 ? s->spacing : spacing_near(&p, wanted, NEAR_WANTED, NULL, 0);
+        if (misfit(&p, at[0]) > MEETS) at[0] = spacing_near(&p, wanted, FAR_WANTED, NULL, 0);
         if (at[0] == 0) at[0] = wanted;
         to->misfit[k] = misfit(&p, at[0]);
         to->n[k] = 1;

@@ -14,6 +14,7 @@
 enum { RUNS_LEAST = 3, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
 #define STEP_RANGE 0.1    /* steps from 0.9 to 1.1 of the scene's own */
 #define SAFETY_MOST 1.0   /* share of the critical step that no run exceeds */
+#define MISFIT_MOST 0.1   /* of coarser levels than asked for: with more it is another body [spacings] */
 #define HORIZON_MOST 10.5 /* [spacings] */
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
@@ -203,6 +204,8 @@ static bool levels_plan(struct convergence_study *s, const struct convergence_wi
     spacings_plan(&s->spacings, &s->scene, levels, s->scene.spacing * pow(2, 0.5 * shift));
     while (levels > LEVELS_LEAST && s->spacings.at[levels - 1][0] > 0.999 * s->refused) levels--;
     s->spacings.levels = levels;
+    for (int k = 0; k < levels && shift > 0; k++)
+        if (s->spacings.misfit[k] > MISFIT_MOST) return false;
     return s->spacings.at[levels - 1][0] < 0.999 * s->refused;
 }
 

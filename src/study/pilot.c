@@ -52,7 +52,8 @@ static void candidates_find(struct pilot_search *p)
     const struct scene *s = &p->wish.first;
     const bool asked_bond = !strcmp(p->wish.model, "bond"), bond = asked_bond || bonds_fit(s);
     const bool breaks = scene_bonds_break(s) || s->growths > 0, zones = s->has_pd_region;
-    if (!needs_bonds(s)) candidate_add(p, "points", "mpm", NULL);
+    /* at rest they have no solver like that of bonds, and were measured to bend too little in it */
+    if (!needs_bonds(s) && !p->wish.at_rest) candidate_add(p, "points", "mpm", NULL);
     if (!zones) candidate_add(p, bond ? "bonds" : "states", "pd", bond ? "bond" : "ospd");
     if (!zones && !strcmp(p->wish.model, "mospd")) candidate_add(p, "rotations", "pd", "mospd");
     if ((breaks || zones) && !p->wish.at_rest)
@@ -75,13 +76,11 @@ static void candidate_write(struct pilot *to, const struct pilot_search *p, cons
 {
     char number[CHOSEN_ROOM];
     int n = 0;
-    const bool points = !strcmp(c->method, "mpm");
     if (p->wish.has_accuracy) chosen_put(to, &n, "accuracy", "");
     if (p->wish.has_table) chosen_put(to, &n, "accuracy_table", "");
     chosen_put(to, &n, "method", c->method);
     if (c->model) chosen_put(to, &n, "model", c->model);
-    if (p->wish.at_rest) chosen_put(to, &n, "solver", !strcmp(c->method, "pd") ? "cg" : "relaxation");
-    if (p->wish.at_rest && points && !p->wish.has_transfer) chosen_put(to, &n, "mpm.transfer", "apic");
+    if (p->wish.at_rest) chosen_put(to, &n, "solver", "cg");
     snprintf(number, sizeof number, "%.15g", spacing);
     chosen_put(to, &n, "particles.spacing", number);
     pilot_fill(to, p->override, p->overrides, n);
@@ -137,13 +136,14 @@ static status search_first(struct pilot_search *p)
     const double fixed = p->wish.spacing, first = fixed > 0 ? fixed : pilot_spacing(&p->wish.first);
     if (!(first > 0)) return status_set(REFUSED, "%s: no length tells where pilot runs should begin", p->scene);
     for (int k = 0; k < p->n; k++) {
-        const double share = FIRST_SHARE * time_left(p) / (p->n - k);
         double spacing = first;
-        status done = candidate_study(p, &p->at[k], spacing, share, !(fixed > 0));
+        status done = FAILED;
         /* rings and notches refuse spacings that are too coarse for them */
-        for (int finer = 0; finer < REFUSED_MOST && done == FAILED && !(fixed > 0); finer++) {
-            spacing = auto_spacing_fit(&p->wish.first, spacing / FINER_LEAST, false);
-            done = candidate_study(p, &p->at[k], spacing, share, true);
+        for (int finer = 0; finer <= REFUSED_MOST && done == FAILED; finer++) {
+            const double share = FIRST_SHARE * time_left(p) / (p->n - k);
+            if (finer > 0) spacing = auto_spacing_fit(&p->wish.first, spacing / FINER_LEAST, true);
+            done = candidate_study(p, &p->at[k], spacing, share, !(fixed > 0));
+            if (fixed > 0) break;
         }
         if (done == INTERRUPTED || p->at[k].unknown) return done;
         if (!p->way.quiet) pilot_print(p, &p->at[k]);
@@ -157,7 +157,7 @@ static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, s
     const double left = time_left(p), wanted = c->finest / c->spacing;
     const double bearable = pow(left / (RUNS_FIRST * c->finest_seconds), 1.0 / (p->wish.first.dim + 1));
     const double finer = fmin(fmax(wanted, FINER_LEAST), fmin(bearable, FINER_MOST));
-    const double next = auto_spacing_fit(&p->wish.first, c->finest / finer, false);
+    const double next = auto_spacing_fit(&p->wish.first, c->finest / finer, true);
     struct pilot_candidate again = *c;
     if (finer < FINER_LEAST) return false;
     *done = candidate_study(p, &again, next, left, false);

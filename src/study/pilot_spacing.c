@@ -101,5 +101,5 @@ double pilot_spacing(const struct scene *s)
     for (int k = 0; k < s->cracks; k++) h = fmin(h, crack_spacing(s, &s->crack[k]));
     for (int k = 0; k < s->probes; k++) h = fmin(h, probe_spacing(&s->probe[k]));
     h = fmin(h, spacing_for(s, particles_usual[s->dim]));
-    return isfinite(h) ? auto_spacing_fit(s, fmax(h, spacing_for(s, PARTICLES_MOST)), false) : 0;
+    return isfinite(h) ? auto_spacing_fit(s, fmax(h, spacing_for(s, PARTICLES_MOST)), true) : 0;
 }

@@ -49,6 +49,8 @@ status study_table_read(struct study_table *t, const struct study *s)
     for (int k = 0; k < s->n; k++) {
         const struct path folder = study_folder(s, &s->at[k]);
         struct filled f = {.table = t, .row = k};
+        /* a run that was stopped has a summary, too: figures of a part of the scene */
+        if (s->at[k].state != CASE_DONE && s->at[k].state != CASE_DONE_BEFORE) continue;
         if (!path_is_file(path_join(folder.text, "summary.json").text)) continue;
         const status read = summary_numbers(folder.text, number_take, &f);
         if (read == OK) continue;

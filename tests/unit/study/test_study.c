@@ -2,11 +2,14 @@
 #include "tests/support/near.h"
 
 #include <math.h>
+#include <unistd.h>
+#include <string.h>
 #include <stdlib.h>
 #include <time.h>
 
 #include "src/study/study_internal.h"
 #include "auto/scene_read.h"
+#include "output/output_files.h"
 #include "study/convergence_study.h"
 #include "study/pilot.h"
 
@@ -413,6 +416,37 @@ static void pilots_begin_where_lengths_are_seen(void **state)
     }
 }
 
+/* A run that was stopped has a summary of what it did until then: not a figure of the scene. */
+static void stopped_runs_have_no_figures(void **state)
+{
+    (void)state;
+    struct study s;
+    struct study_table t;
+    char folder[] = "/tmp/study-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    assert_int_equal(study_make(&s, "scene.yaml", folder, "sweep"), OK);
+    for (int k = 0; k < 3; k++) {
+        const char *const name[] = {"a", "b", "c"}, *const text = "{\"energy\": {\"kinetic\": 1.5}}";
+        const struct scene_override own = {"duration", name[k]};
+        struct study_case *c = study_add(&s, name[k], &own, 1);
+        c->state = (enum case_state[]){CASE_DONE, CASE_STOPPED, CASE_FAILED}[k];
+        const struct path run = study_folder(&s, c);
+        assert_int_equal(folder_make(run.text), OK);
+        assert_int_equal(file_put(path_join(run.text, "summary.json").text, text, strlen(text)), OK);
+    }
+    assert_int_equal(study_table_read(&t, &s), OK);
+    assert_int_equal(t.figures, 1);
+    assert_near(t.value[0][0], 1.5, 0);
+    assert_true(isnan(t.value[0][1]) && isnan(t.value[0][2]));
+    study_table_free(&t);
+    for (int k = 0; k < 3; k++) {
+        unlink(path_join(study_folder(&s, &s.at[k]).text, "summary.json").text);
+        rmdir(study_folder(&s, &s.at[k]).text);
+    }
+    study_free(&s);
+    rmdir(folder);
+}
+
 static void student_as_published(void **state)
 {
     (void)state;
@@ -469,6 +503,7 @@ int main(void)
         cmocka_unit_test(intervals_hold_what_they_name),
         cmocka_unit_test(bias_widens_intervals),
         cmocka_unit_test(pilots_begin_where_lengths_are_seen),
+        cmocka_unit_test(stopped_runs_have_no_figures),
         cmocka_unit_test(student_as_published),
         cmocka_unit_test(names_do_not_depend_on_the_order_of_keys),
         cmocka_unit_test(values_are_short_in_pictures),
