@@ -35,7 +35,7 @@ static int level_run(const struct convergence_study *s, int level)
     return -1;
 }
 
-static double figure_of_run(const struct convergence_study *s, const char *name, int run)
+static double pilot_run_figure(const struct convergence_study *s, const char *name, int run)
 {
     const int figure = study_figure(&s->table, name);
     return figure >= 0 && run >= 0 ? s->table.value[figure][run] : NAN;
@@ -49,7 +49,7 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
     const double size = fabs(f->c.extrapolated);
     for (int level = f->c.levels - 1; level >= 0; level--) {
         const int run = level_run(s, level);
-        const double value = figure_of_run(s, f->name, run), seconds = figure_of_run(s, "wall_seconds", run);
+        const double value = pilot_run_figure(s, f->name, run), seconds = pilot_run_figure(s, "wall_seconds", run);
         if (!isfinite(value) || !isfinite(seconds)) continue;
         c->finest = s->point[run].spacing, c->finest_seconds = seconds;
         c->reached = convergence_half_width(&f->c, value, 0.95) / size;

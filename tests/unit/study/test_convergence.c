@@ -1,0 +1,293 @@
+/* Studies of convergence: orders, intervals, spacings. */
+#include "tests/support/near.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "auto/scene_read.h"
+#include "study/convergence_study.h"
+#include "study/pilot.h"
+
+/* ---- convergence ------------------------------------------------------------------------------------------------- */
+
+enum { LEVELS = 3, RUNS = 5 };
+
+/* f0 + a h^p at spacings 1, sqrt 2, 2, each run shifted by a part of `noise`. */
+static bool converge_at(struct convergence *c, double f0, double a, double p, double noise, int runs)
+{
+    static const double part[RUNS] = {0, -1, 1, -0.5, 0.5};
+    double spacing[LEVELS * RUNS], value[LEVELS * RUNS];
+    int level[LEVELS * RUNS], n = 0;
+    for (int k = 0; k < LEVELS; k++)
+        for (int r = 0; r < runs; r++, n++) {
+            level[n] = k;
+            spacing[n] = 1e-3 * pow(2, 0.5 * k);
+            value[n] = f0 + a * pow(pow(2, 0.5 * k), p) + noise * part[r];
+        }
+    return convergence_find(c, spacing, value, level, n, LEVELS, NULL);
+}
+
+/* The order and limit of a power law are found to rounding; the interval of the finest value holds the limit. */
+static void power_laws_are_found(void **state)
+{
+    (void)state;
+    struct convergence c;
+    for (double p = 0.5; p <= 2; p += 0.25) {
+        assert_true(converge_at(&c, 3, -0.2, p, 0, 1));
+        assert_int_equal(c.verdict, VERDICT_CONVERGES);
+        assert_near(c.order, p, 1e-9);
+        assert_near(c.index, 1.25 * 0.2, 1e-9);
+        assert_true(fabs(c.order_likely - p) < 2 * c.order_error);
+        assert_true(c.uncertainty[0] > 0.2 && c.uncertainty[0] < 3 * 0.2); /* -0.2 is its true error */
+        assert_near(c.level[0].error, 0, 0);
+    }
+}
+
+static void bounds_where_no_order_is_seen(void **state)
+{
+    (void)state;
+    struct convergence c;
+    assert_true(converge_at(&c, 3, 1, 0.2, 0, 1));
+    assert_int_equal(c.verdict, VERDICT_SLOW);
+    assert_near(c.order, 0.2, 1e-9);
+    assert_true(converge_at(&c, 3, 1, -1, 0, 1)); /* grows as the spacing shrinks */
+    assert_int_equal(c.verdict, VERDICT_DIVERGES);
+    assert_true(isnan(c.index));
+    assert_true(c.uncertainty[0] >= 0.5); /* the range of the means */
+    const double spacing[] = {1, 1.4, 2}, value[] = {1, 2, 1.5}, lost[] = {1, NAN, 1};
+    const int level[] = {0, 1, 2};
+    assert_true(convergence_find(&c, spacing, value, level, 3, 3, NULL));
+    assert_int_equal(c.verdict, VERDICT_OSCILLATES);
+    assert_true(isnan(c.order));
+    assert_true(c.uncertainty[0] >= 1); /* the range of the means */
+    assert_false(convergence_find(&c, spacing, lost, level, 3, 3, NULL));
+}
+
+/* Means that chance has moved: the order observed on them, 2.9 and -1.0, is not taken for true. */
+static void chance_moves_the_order(void **state)
+{
+    (void)state;
+    struct convergence c;
+    static const double mean[2][LEVELS] = {{9.05, 8.75, 7.95}, {9.05, 8.45, 8.05}};
+    for (int which = 0; which < 2; which++) {
+        double spacing[LEVELS * RUNS], value[LEVELS * RUNS];
+        int level[LEVELS * RUNS];
+        for (int k = 0; k < LEVELS * RUNS; k++) {
+            level[k] = k / RUNS;
+            spacing[k] = (double[]){1, 1.4, 2}[level[k]];
+            value[k] = mean[which][level[k]] + 0.1 * (k % RUNS - 2); /* its mean to 0.2 */
+        }
+        assert_true(convergence_find(&c, spacing, value, level, LEVELS * RUNS, LEVELS, NULL));
+        assert_int_equal(c.verdict, which == 0 ? VERDICT_CONVERGES : VERDICT_SCATTERS);
+        assert_true(which == 0 ? c.order > 2.2 : c.order < 0);
+        assert_true(c.order_likely > 0.5 && c.order_likely < 2);
+        const double rest = mean[which][0] - mean[which][2]; /* what order 1 leaves */
+        assert_true(c.uncertainty[0] > rest);
+    }
+}
+
+/* The same interval by the rule of rectangles over value, slope, order and misfit: the definition, at its length. */
+static double half_width_plainly(const double *spacing, const double *mean, const double *error, double scale)
+{
+    static const double order[] = {0.5, 0.75, 1, 1.25, 1.5, 1.75, 2}, weight[] = {0.5, 1, 1, 1, 1, 1, 0.5};
+    enum { STEPS = 1201, SLOPES = 401 };
+    static double at[STEPS]; /* probability of each v - mean[0] from -6 to 6 scales */
+    double sum = 0, inside = 0;
+    for (int v = 0; v < STEPS; v++) at[v] = 0;
+    for (int o = 0; o < 7; o++)
+        for (int m = 0; m < 10; m++) {
+            const double misfit = scale * pow(1e-3, 1 - m / 9.0);
+            for (int v = 0; v < STEPS; v++)
+                for (int s = 0; s < SLOPES; s++) {
+                    const double value = (v - 600) * 0.01 * scale, trend = (s - 200) * 0.03 * scale;
+                    const double slope = trend / (pow(spacing[LEVELS - 1] / spacing[0], order[o]) - 1);
+                    double likely = weight[o] * exp(-0.5 * square(trend / scale));
+                    for (int k = 0; k < LEVELS; k++) {
+                        const double variance = square(0.5 * error[k]) + square(misfit);
+                        const double off = mean[k] - mean[0] - value - slope * pow(spacing[k] / spacing[0], order[o]);
+                        likely *= exp(-0.5 * off * off / variance) / sqrt(variance);
+                    }
+                    at[v] += likely;
+                }
+        }
+    for (int v = 0; v < STEPS; v++) sum += at[v];
+    int reach = 0;
+    for (inside = at[600]; inside < 0.95 * sum; reach++) inside += at[600 - reach - 1] + at[600 + reach + 1];
+    return 0.01 * scale * (reach + 0.5);
+}
+
+static void intervals_as_defined(void **state)
+{
+    (void)state;
+    struct convergence c = {.levels = LEVELS};
+    static const double spacing[] = {1, 1.5, 2}, error[] = {0.1, 0.2, 0.3};
+    static const double mean[][LEVELS] = {{1, 1.4, 2}, {1, 1.1, 0.4}, {1, 3, 3.2}};
+    for (int which = 0; which < 3; which++) {
+        for (int k = 0; k < LEVELS; k++)
+            c.level[k] = (struct level_figures){spacing[k], mean[which][k], 0.1, error[k], 5};
+        const double *m = mean[which];
+        const double range = fmax(m[0], fmax(m[1], m[2])) - fmin(m[0], fmin(m[1], m[2]));
+        const double plainly = half_width_plainly(spacing, m, error, hypot(range, 0.15));
+        const double width = convergence_half_width(&c, c.level[0].mean, 0.95);
+        assert_near(width, plainly, 0.03 * plainly); /* the steps of the rectangles */
+    }
+}
+
+/* Values made as the law of the intervals says, by Park & Miller's generator: 95 of 100 intervals hold. */
+static void intervals_hold_what_they_name(void **state)
+{
+    (void)state;
+    enum { CASES = 600 };
+    uint64_t seed = 20260101;
+    int held = 0;
+    for (int n = 0; n < CASES; n++) {
+        struct convergence c = {.levels = LEVELS};
+        double draw[8];
+        for (int k = 0; k < 8; k++) { /* nearly normal: twelve uniform numbers */
+            draw[k] = -6;
+            for (int j = 0; j < 12; j++) draw[k] += (double)(seed = seed * 48271 % 2147483647) / 2147483647.0;
+        }
+        const double p = 0.5 + 0.25 * (n % 7), misfit = pow(10, -(n % 4));
+        for (int k = 0; k < LEVELS; k++) {
+            const double h = pow(2, 0.5 * k), noise = hypot(misfit, 0.05) * 0.3 * draw[k];
+            const double trend = draw[7] / (pow(2, p) - 1);
+            c.level[k] = (struct level_figures){h, 7 + trend * pow(h, p) + noise, 0, 0.03, 5};
+        }
+        held += fabs(c.level[0].mean - 7) <= convergence_half_width(&c, c.level[0].mean, 0.95);
+    }
+    assert_true(held >= 0.9 * CASES && held <= 0.98 * CASES); /* their scale is from the means, which costs 3 of 100 */
+}
+
+/* Scatter alone: the error of a mean is Student's; a trend below it is no order. */
+static void scatter_hides_small_trends(void **state)
+{
+    (void)state;
+    struct convergence c;
+    const double deviation = sqrt(2.5 / 4); /* of 0, -1, 1, -0.5, 0.5 */
+    assert_true(converge_at(&c, 3, 0.1, 1, 1, RUNS));
+    assert_int_equal(c.verdict, VERDICT_SCATTERS);
+    assert_near(c.level[0].deviation, deviation, 1e-12);
+    assert_near(c.level[0].error, 2.776 * deviation / sqrt(RUNS), 1e-12); /* 4 degrees of freedom, published tables */
+    assert_true(c.uncertainty[0] >= c.level[0].error && c.uncertainty[0] >= c.discretisation[0]);
+    assert_true(converge_at(&c, 3, 10, 1, 1, RUNS)); /* a large one is seen */
+    assert_int_equal(c.verdict, VERDICT_CONVERGES);
+    assert_near(c.order, 1, 1e-9);
+}
+
+/* A length in steps of a spacing is not known better than to half of one, however alike the runs are. */
+static void steps_of_a_figure_are_errors(void **state)
+{
+    (void)state;
+    struct convergence c;
+    const double spacing[] = {1, 1, 1.4, 1.4, 2, 2}, value[] = {9, 9, 9.4, 9.4, 8, 8}, half[] = {0.5, 0.7, 1};
+    const int level[] = {0, 0, 1, 1, 2, 2};
+    assert_true(convergence_find(&c, spacing, value, level, 6, 3, NULL));
+    assert_int_equal(c.verdict, VERDICT_OSCILLATES);
+    assert_true(convergence_find(&c, spacing, value, level, 6, 3, half));
+    assert_int_equal(c.verdict, VERDICT_SCATTERS);
+    assert_near(c.level[0].error, 0.5, 1e-12);
+    assert_true(c.uncertainty[0] > 1 && c.uncertainty[2] > 1);
+}
+
+/* What no spacing takes away is added as a normal error of its own: 1.96 to 0.6745 standard deviations. */
+static void bias_widens_intervals(void **state)
+{
+    (void)state;
+    struct convergence c;
+    assert_true(converge_at(&c, 3, -0.2, 1, 0, 1));
+    const double at = c.level[0].mean, wide = convergence_half_width(&c, at, 0.95);
+    const double half = convergence_half_width(&c, at, 0.5);
+    c.bias = 2;
+    assert_near(convergence_half_width(&c, at, 0.95), hypot(wide, 2), 1e-5);
+    assert_near(convergence_half_width(&c, at, 0.5), hypot(half, 2 * 0.67449 / 1.95996), 1e-5);
+}
+
+static void student_as_published(void **state)
+{
+    (void)state;
+    assert_near(student_95(1), 12.706, 0);
+    assert_near(student_95(30), 2.042, 0.005);
+    assert_near(student_95(60), 2.000, 0.005);
+    assert_near(student_95(1000000), 1.960, 0.001);
+}
+
+/* ---- spacings ---------------------------------------------------------------------------------------------------- */
+
+/* A plate of 100 x 40 with a crack at mid-height, at 0.5: others must divide both sides, and lie to both sides of the
+ * crack. */
+static void spacings_fit_faces_and_cracks(void **state)
+{
+    (void)state;
+    struct solid box = {.kind = SOLID_BOX, .to = {100, 40}};
+    struct scene_body body = {.shape = {1, &box}};
+    real corner[2][DIM_MAX] = {{0, 20}, {50, 20}};
+    struct crack crack = {2, corner, 0};
+    struct scene s = {.dim = 2, .spacing = 0.5, .bodies = 1, .body = &body, .cracks = 1, .crack = &crack};
+    struct spacings to;
+    spacings_plan(&to, &s, 3, s.spacing);
+    assert_near(to.at[0][0], 0.5, 0);
+    for (int k = 0; k < 3; k++) {
+        assert_true(fabs(to.at[k][0] / (0.5 * pow(2, 0.5 * k)) - 1) < 0.12);
+        for (int j = 0; j < to.n[k]; j++)
+            for (int side = 1; side <= 5; side += side == 1 ? 1 : 3) { /* 20, 40, 100 */
+                const double cells = 20 * side / to.at[k][j];
+                assert_near(cells, round(cells), 0.02);
+            }
+        for (int j = 1; j < to.n[k]; j++) assert_true(fabs(to.at[k][j] / to.at[k][0] - 1) > 1e-3);
+    }
+    corner[0][1] = corner[1][1] = 20.25; /* through the middle of a row */
+    spacings_plan(&to, &s, 3, s.spacing);
+    for (int k = 0; k < 3; k++) {
+        if (to.misfit[k] > 0.02) continue; /* then it says so */
+        const double rows = 20.25 / to.at[k][0] - 0.5;
+        assert_near(rows, round(rows), 0.02);
+    }
+}
+
+/* ---- pilot runs ----------------------------------------------------------------------------------------------------
+ */
+
+/* Lengths that have to be resolved have a few spacings each, which divide the body; none needs more than 50,000
+ * particles. */
+static void pilots_begin_where_lengths_are_seen(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *body, *more;
+        double least, most;
+    } scene[] = {
+        {"{box: {from: [0, 0], to: [40 mm, 20 mm]}}", "", 0.4e-3, 0.52e-3}, /* 3000 particles */
+        {"{box: {from: [0, 0], to: [40 mm, 2 mm]}}", "", 0.1e-3, 0.2e-3},   /* ten across */
+        {"{box: {from: [0, 0], to: [40 mm, 20 mm]}}", "cracks: [{from: [-1 mm, 10 mm], to: [2 mm, 10 mm]}]\n", 0.2e-3,
+         0.26e-3}, /* eight from its end to the face */
+        {"{box: {from: [0, 0], to: [40 mm, 20 mm]}}",
+         "initial: [{pulse: {at: [2 mm, 0], direction: [1, 0], width: 1 mm, velocity: 1}}]\n", 0.11e-3, 0.13e-3},
+    };
+    for (size_t k = 0; k < COUNT_OF(scene); k++) {
+        char text[1024];
+        struct scene s;
+        const int length =
+            snprintf(text, sizeof text,
+                     "space: plane stress\nthickness: 1 mm\nduration: 1 us\nmethod: mpm\nmaterial: {young: 2e11, "
+                     "poisson: 1/3, density: 8000}\nparticles: {spacing: 1 mm}\nbody: %s\n%s",
+                     scene[k].body, scene[k].more);
+        assert_int_equal(scene_read_text(&s, text, (size_t)length, "pilot.yaml", NULL, 0), OK);
+        const double h = pilot_spacing(&s), across = 20e-3 / h;
+        assert_true(h > scene[k].least && h < scene[k].most);
+        if (k != 1) assert_near(across, round(across), 1e-6 * across);
+        scene_free(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(power_laws_are_found),          cmocka_unit_test(bounds_where_no_order_is_seen),
+        cmocka_unit_test(scatter_hides_small_trends),    cmocka_unit_test(chance_moves_the_order),
+        cmocka_unit_test(intervals_as_defined),          cmocka_unit_test(intervals_hold_what_they_name),
+        cmocka_unit_test(bias_widens_intervals),         cmocka_unit_test(pilots_begin_where_lengths_are_seen),
+        cmocka_unit_test(student_as_published),          cmocka_unit_test(steps_of_a_figure_are_errors),
+        cmocka_unit_test(spacings_fit_faces_and_cracks),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
