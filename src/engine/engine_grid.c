@@ -76,10 +76,10 @@ void engine_grid_make(struct engine *e)
     engine_grid_anchor(s, from, site, engine_has_mesh(e), g->anchor);
     real section = scene_section(s), lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
-    const real smallest = s->solver == SOLVER_EXPLICIT ? GRID_MASS_SMALLEST : GRID_MASS_STATIC;
+    const real light = s->solver == SOLVER_EXPLICIT ? GRID_MASS_LIGHT : GRID_MASS_STATIC;
     const real full = lightest * pow(g->h, s->dim) * section;
-    e->mpm.smallest_mass = smallest * full;
-    g->light_mass = s->transfer == TRANSFER_APIC && s->solver == SOLVER_EXPLICIT ? GRID_MASS_LIGHT * full : 0;
+    e->mpm.smallest_mass = GRID_MASS_SMALLEST * full;
+    g->light_mass = s->transfer == TRANSFER_APIC ? light * full : 0;
     for (int k = 0; k < e->mpm.fields && e->mpm.fields > 1; k++) {
         e->mpm.field[k].grid = *g;
         e->mpm.field[k].grid.body = 1 + engine_body_apart(s, k);

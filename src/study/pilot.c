@@ -52,7 +52,7 @@ static void candidates_find(struct pilot_search *p)
     const struct scene *s = &p->wish.first;
     const bool asked_bond = !strcmp(p->wish.model, "bond"), bond = asked_bond || bonds_fit(s);
     const bool breaks = scene_bonds_break(s) || s->growths > 0, zones = s->has_pd_region;
-    /* at rest they have no solver like that of bonds, and were measured to bend too little in it */
+    /* at rest, points take their time: bonds have conjugate gradients */
     if (!needs_bonds(s) && !p->wish.at_rest) candidate_add(p, "points", "mpm", NULL);
     if (!zones) candidate_add(p, bond ? "bonds" : "states", "pd", bond ? "bond" : "ospd");
     if (!zones && !strcmp(p->wish.model, "mospd")) candidate_add(p, "rotations", "pd", "mospd");
@@ -180,6 +180,19 @@ static status search_finer(struct pilot_search *p)
     return done;
 }
 
+/* The method whose interval is apart from that of c by more than is asked: one of them is not what it seems; NULL: all
+ * agree. */
+static const struct pilot_candidate *contradiction(const struct pilot_search *p, const struct pilot_candidate *c)
+{
+    for (int k = 0; k < p->n; k++) {
+        const struct pilot_candidate *other = &p->at[k];
+        if (other == c || other->failed[0] || !(other->finest > 0)) continue;
+        const double apart = fabs(c->value - other->value) - c->width - other->width;
+        if (apart > p->wish.within * fabs(c->value)) return other;
+    }
+    return NULL;
+}
+
 /* REFUSED with how far each method came. */
 static status search_failed(const struct pilot_search *p)
 {
@@ -205,6 +218,13 @@ static status search_end(struct pilot *to, const struct pilot_search *p, const s
 {
     if (!best || best->seconds > LONGEST * p->wish.budget || best->finest > FARTHEST * best->spacing)
         return search_failed(p);
+    const struct pilot_candidate *other = contradiction(p, best);
+    if (other)
+        return status_set(REFUSED,
+                          "%s: two methods converge to different values of %s: %s to %.4g +- %.2g, %s to %.4g +- %.2g; "
+                          "write the method that represents it, and particles.spacing",
+                          p->scene, p->figure, best->name, best->value, best->width, other->name, other->value,
+                          other->width);
     candidate_write(to, p, best, best->spacing);
     if (!p->way.quiet)
         fprintf(stderr, "pilot          %s, spacing %.4g mm: %s within %.2g %% %s, in about %.2g s on one thread\n",

@@ -52,7 +52,8 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
         const double value = pilot_run_figure(s, f->name, run), seconds = pilot_run_figure(s, "wall_seconds", run);
         if (!isfinite(value) || !isfinite(seconds)) continue;
         c->finest = s->point[run].spacing, c->finest_seconds = seconds;
-        c->reached = convergence_half_width(&f->c, value, 0.95) / size;
+        c->width = convergence_half_width(&f->c, value, 0.95);
+        c->value = value, c->reached = c->width / size;
         const bool fixed = p->wish.spacing > 0 && level != s->own;
         if (!(c->reached <= p->wish.within) || fixed) continue;
         c->spacing = c->finest, c->seconds = seconds, c->expected = c->reached, c->seen = true;
@@ -65,7 +66,10 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
     const double likely = isfinite(f->c.order_likely) ? f->c.order_likely - f->c.order_error : 0.5;
     const double finer = pow(sqrt(square(c->reached) - square(bias)) / within, 1 / fmax(likely, 0.5));
     c->spacing = auto_spacing_fit(&p->wish.first, c->finest / finer, false);
-    c->seconds = c->finest_seconds * pow(c->finest / c->spacing, s->scene.dim + 1);
+    const double loop =
+        pilot_run_figure(s, "loop_seconds", level_run(s, 0)); /* the rest is mostly the start of a process */
+    const double growth = pow(c->finest / c->spacing, s->scene.dim + 1);
+    c->seconds = isfinite(loop) ? c->finest_seconds + loop * (growth - 1) : c->finest_seconds * growth;
     c->expected = p->wish.within;
 }
 

@@ -14,6 +14,7 @@ struct pilot_candidate {
     double reached;                    /* half-width there as a share of the figure [1] */
     double spacing, seconds;           /* that is accurate enough, time of the run; 0: not known [m] [s] */
     double expected;                   /* half-width there [1] */
+    double value, width;          /* of the figure and the half-width of its interval, at the finest run */
     bool seen;                         /* it was run at this spacing */
     char failed[300];                  /* why there are no figures; "": there are */
     bool unknown;                  /* the runs have no figure of the name that is wanted */

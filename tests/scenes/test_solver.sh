@@ -28,6 +28,32 @@ between "steps of relaxation" "$(figure "$work/relaxation" solver.steps)" 500 10
 opening() { compute "$(figure "$work/$1" probes.mouth_above.displacement_y) - ($(figure "$work/$1" probes.mouth_below.displacement_y))"; }
 between "opening of the mouth" "$(compute "$(opening cg) / ($(opening relaxation))")" 0.999 1.001
 
+# ---- a cantilever of points ------------------------------------------------------------------------------------------
+
+# Plane strain, 300 mm by 20 mm, under its weight of 20 kN/m^3: q L^4/(8 E' I) = 0.1139 mm with E' = E/(1 - nu^2), and 0.1 % more by shear.
+# Its end sinks by a twentieth of a spacing, so that points reach into new cells. Four cells across it.
+cat >"$work/cantilever.yaml" <<'END'
+space: plane strain
+thickness: 10 mm
+duration: 1 s
+method: mpm
+mpm: {transfer: apic}
+solver: relaxation
+material: {young: 5 GPa, poisson: 0.25, density: 1000 kg/m^3}
+body: {box: {from: [0, 0], to: [300 mm, 20 mm]}}
+particles: {spacing: 2.5 mm}
+boundary: [{mirror: {axis: x, at: 0, tangential: held}}, {body_force: [0, -20 kN/m^3]}]
+output: {frames: 1}
+probes: [point: {name: end, at: [300 mm, 10 mm]}]
+END
+deflection=$(compute "-4 * 0.3^4 / (8 * 5e9/(1 - 0.0625) * 0.01 * 0.02^3 / 12) * 1.001")
+for shape in gimp quadratic; do
+    "$cleave" run -q -t 2 -o "$work/$shape" "$work/cantilever.yaml" -s mpm.shape=$shape 2>"$work/err"
+    is "cantilever, $shape: $(cat "$work/err")" $? 0
+    near "cantilever, $shape: deflection" "$(figure "$work/$shape" probes.end.displacement_y)" "$deflection" 0.02
+    between "cantilever, $shape: balance" "$(figure "$work/$shape" energy.balance_error)" -1e-4 1e-4
+done
+
 # ---- the same bits ---------------------------------------------------------------------------------------------------
 
 plate="$crack -s output.checkpoint=0.02"
