@@ -98,7 +98,8 @@ done <<'END'
 4|duration: 1/0 us|4:1|divides by 0
 4|duration: [1 us]|4:1|a list is not a number
 5|method: magic|5:1|pd, mpm, adaptive or auto
-5|method: auto|5:1|leave keys of pd, mpm, model and spacing to auto
+5|method: auto^accuracy: 0.7|6:1|out of range
+5|method: auto^accuracy: {of: tip, withn: 2 %}|6:21|the nearest is within
 5|method: adaptive^accuracy: 1 %|6:1|no meaning without method: auto
 5|model: lps|5:1|bond, ospd or mospd
 5|solver: cg|5:1|cg is for method pd
