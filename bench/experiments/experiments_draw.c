@@ -41,8 +41,9 @@ static void experiment_plot_panel(FILE *to, const struct experiments *x, const s
     fprintf(to, "unset logscale\nset title '%s'\n%s", p->title, p->commands);
     for (int k = 0; k < x->curves; k++) {
         if (strcmp(x->curve[k].picture, p->picture) != 0 || x->curve[k].n == 0) continue;
-        fprintf(to, "%s$c%d using 1:2:3 with yerrorlines lw 2 pt 7 ps 0.8 lc rgb '%s' title '%s'",
-                shown > 0 ? ", " : "plot ", k, curve_colour[shown % CURVE_COLOURS], x->curve[k].name);
+        fprintf(to, "%s$c%d using 1:2:3 with yerrorlines lw 2 pt 7 ps 0.8 lc rgb '%s' title ",
+                shown > 0 ? ", " : "plot ", k, curve_colour[shown % CURVE_COLOURS]);
+        gnuplot_quote(to, x->curve[k].name);
         shown++;
     }
     if (p->behind) fprintf(to, "%s%s", shown++ ? ", " : "plot ", p->behind);
@@ -69,9 +70,6 @@ static void experiments_curves(struct experiments *x)
         for (int l = 0; l < r->coarser; l++)
             if (isfinite(r->coarse[l][1])) experiment_curve_add(c, r->coarse[l][0], r->coarse[l][1], r->coarse[l][2]);
     }
-    for (int k = 0; k < x->curves; k++) /* gnuplot takes an apostrophe for the end of a title */
-        for (char *at = x->curve[k].name; *at; at++)
-            if (*at == '\'') *at = ' ';
 }
 
 enum { PATHS_WIDE = 4 }; /* panels side by side */
@@ -82,7 +80,7 @@ static void experiments_draw_paths(FILE *to, const void *context)
 {
     const struct experiments *x = context;
     fprintf(to,
-            "set multiplot layout %d,%d margins 0.04,0.98,0.06,0.86 spacing 0.05,0.2\nset size ratio -1\nset xtics 20\n"
+            "set multiplot layout %d,%d margins 0.08,0.98,0.06,0.86 spacing 0.05,0.2\nset size ratio -1\nset xtics 20\n"
             "unset key\nset xrange [45:100]\nset yrange [0:*]\n",
             (x->paths + PATHS_WIDE - 1) / PATHS_WIDE, PATHS_WIDE);
     for (int k = 0; k < x->paths; k++) {

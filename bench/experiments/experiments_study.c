@@ -107,8 +107,6 @@ static void paths_take(struct experiments *x, const struct experiment_case *c, c
     struct experiment_paths *p = &x->path[x->paths++];
     *p = (struct experiment_paths){.levels = s->spacings.levels};
     snprintf(p->title, sizeof p->title, "%s, %s", c->experiment, c->variant);
-    for (char *at = p->title; *at; at++)
-        if (*at == '\'') *at = ' '; /* the end of a title to gnuplot */
     for (int l = 0; l < p->levels; l++) p->spacing[l] = 1e3 * s->spacings.at[l][0];
     for (int k = 0; k < s->study.n; k++) {
         struct frame f = {0};
