@@ -26,24 +26,24 @@ static const char borden_text[] =
             "length", "mm", "crack.length_end", NULL, 1e3, NAN, NAN, ""                                                \
         }                                                                                                              \
     }
+/* Of a crack that branches. */
+#define BRANCHES                                                                                                       \
+    {"first bond breaks", "us", "crack.start_time", NULL, 1e6, NAN, NAN, ""},                                          \
+        {"branches at x", "mm", NULL, branching_place, 1e3, NAN, NAN, ""},                                             \
+        {"angle between branches", "deg", NULL, branching_angle, 1, NAN, NAN, ""},                                     \
+    {                                                                                                                  \
+        "branches", "", NULL, branching_count, 1, NAN, NAN, ""                                                         \
+    }
 #define GLASS_FIGURES                                                                                                  \
     {                                                                                                                  \
-        {"first bond breaks", "us", "crack.start_time", NULL, 1e6, NAN, NAN, ""},                                      \
-            {"branches at x", "mm", NULL, branching_place, 1e3, NAN, NAN, ""},                                         \
-            {"angle between branches", "deg", NULL, branching_angle, 1, NAN, NAN, ""},                                 \
-            {"branches", "", NULL, branching_count, 1, NAN, NAN, ""},                                                  \
-            {"largest speed", "m/s", "crack.tip_speed_max", NULL, 1, 0, 1580, BOWDEN},                                 \
+        BRANCHES, {"largest speed", "m/s", "crack.tip_speed_max", NULL, 1, 0, 1580, BOWDEN},                           \
         {                                                                                                              \
             "mean speed", "m/s", "crack.tip_speed_mean", NULL, 1, 0, 1580, BOWDEN                                      \
         }                                                                                                              \
     }
 #define BORDEN_FIGURES                                                                                                 \
     {                                                                                                                  \
-        {"first bond breaks", "us", "crack.start_time", NULL, 1e6, NAN, NAN, ""},                                      \
-            {"branches at x", "mm", NULL, branching_place, 1e3, NAN, NAN, ""},                                         \
-            {"angle between branches", "deg", NULL, branching_angle, 1, NAN, NAN, ""},                                 \
-            {"branches", "", NULL, branching_count, 1, NAN, NAN, ""},                                                  \
-            {"largest speed / c_R", "", "crack.tip_speed_max", NULL, 1 / 2125.0, 0, 0.6, BORDEN},                      \
+        BRANCHES, {"largest speed / c_R", "", "crack.tip_speed_max", NULL, 1 / 2125.0, 0, 0.6, BORDEN},                \
         {                                                                                                              \
             "mean speed / c_R", "", "crack.tip_speed_mean", NULL, 1 / 2125.0, 0, 0.6, BORDEN                           \
         }                                                                                                              \

@@ -63,7 +63,9 @@ static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene 
     double value = NAN;
     const double begun = team_clock();
     status done = pilot_scene_write(scene.text, k, within);
-    if (done == OK) done = pilot_choose(&p, scene.text, NULL, 0, into.text, (struct study_way){.quiet = true});
+    struct scene s;
+    if (done == OK) done = pilot_scene_read(&s, &p, scene.text, NULL, 0, into.text, (struct study_way){.quiet = true});
+    if (done == OK) scene_free(&s);
     const double pilots = team_clock() - begun;
     if (done == OK) done = chosen_run(&p, scene.text, into.text, &value, k->figure);
     const double error = fabs(value / k->exact - 1), spacing = atof(chosen_value(&p, "particles.spacing"));

@@ -24,11 +24,12 @@ struct pilot_wish {
     double spacing;                      /* that the scene fixes [m]; 0: none */
     char model[16];                      /* the same; "": none */
     bool at_rest;                        /* it has a static solver */
-    bool has_accuracy, has_table; /* keys that the scene gives */
+    bool has_accuracy, has_table;        /* keys that the scene gives */
     struct scene first;                  /* with stand-ins for what is to be chosen; scene_free */
 };
-/* Does the scene want that? REFUSED where it is not sound; nothing is left to free then. */
-status scene_pilot_wish(struct pilot_wish *w, const char *path, const struct scene_override *override, int overrides);
+/* Reads a scene as scene_read does, unless it wants that: w->wanted with OK, and no scene. */
+status scene_read_or_wish(struct scene *s, struct pilot_wish *w, const char *path,
+                          const struct scene_override *override, int overrides);
 
 /* Largest spacing <= h [m] that divides the edges of the first solid, and those of gaps and cracks along the axes, into
  * whole numbers (`even`: of pairs); h if there is none near it. */

@@ -168,6 +168,16 @@ static inline bool scene_bonds_break(const struct scene *s)
     return breaks;
 }
 
+/* Does a probe look at bonds that break? */
+static inline bool scene_watches_bonds(const struct scene *s)
+{
+    static const bool watches[PROBES] = {
+        [PROBE_TIP] = true, [PROBE_BREAK] = true, [PROBE_SPALL] = true, [PROBE_GROWTH] = true};
+    bool any = false;
+    for (int k = 0; k < s->probes; k++) any |= watches[s->probe[k].kind];
+    return any;
+}
+
 /* Can faces come about: by cracks of the scene, their growth, bonds that break? */
 static inline bool scene_cracks(const struct scene *s)
 {

@@ -17,11 +17,11 @@ struct pilot {
 /* Spacing for the first runs [m]: lengths that have to be resolved have a few spacings. 0: the scene has none. */
 double pilot_spacing(const struct scene *s);
 
-/* Makes the overrides. Where the scene wants pilot runs, they are made in FOLDER_pilot (`folder` NULL: results/NAME)
- * and the choice is kept there: the same scene has it without runs. `way`: threads, quiet, stop. REFUSED where the
+/* Reads a scene, with the overrides. Where it wants pilot runs, they are made in FOLDER_pilot (`folder` NULL:
+ * results/NAME) and the choice is kept there: the same scene has it without runs. `way`: quiet, stop. REFUSED where the
  * scene is not sound, or where no method reaches what is asked, with how far each comes; INTERRUPTED. */
-status pilot_choose(struct pilot *p, const char *scene, const struct scene_override *override, int overrides,
-                    const char *folder, struct study_way way);
+status pilot_scene_read(struct scene *s, struct pilot *p, const char *scene, const struct scene_override *override,
+                        int overrides, const char *folder, struct study_way way);
 void pilot_free(struct pilot *p);
 
 #endif

@@ -173,15 +173,13 @@ static void say_pilot(const struct pilot_wish *w, const char *scene)
            100 * w->within);
 }
 
-static status check_sound(const struct run_arguments *a, int threads)
+/* `start`: when its reading began, on team_clock. */
+static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start)
 {
-    struct scene s = {0};
     struct engine e = {0};
     struct cost cost = {0};
-    const double start = team_clock();
-    status result = scene_read(&s, a->scene, a->override, a->overrides);
-    s.active_set = false;                              /* cost with the whole body active */
-    if (result == OK) result = engine_make(&e, &s, NULL);
+    s->active_set = false;                             /* cost with the whole body active */
+    status result = engine_make(&e, s, NULL);
     cost.make = team_clock() - start;
     if (result == OK) {
         printf("%s is sound\n", shown_name(a->scene).text);
@@ -202,7 +200,6 @@ static status check_sound(const struct run_arguments *a, int threads)
         if (result == OK) say_levels_saving(&e, &cost);
     }
     engine_free(&e);
-    scene_free(&s);
     return result;
 }
 
@@ -212,12 +209,16 @@ status command_check(int argc, char **argv)
     struct pilot_wish pilot;
     TRY(arguments_read(&a, argc, argv, "check SCENE [-s KEY=VALUE]... [-t THREADS]"));
     const int threads = team_make(a.threads);
-    status result = scene_pilot_wish(&pilot, a.scene, a.override, a.overrides);
+    const double start = team_clock();
+    struct scene s = {0};
+    status result = scene_read_or_wish(&s, &pilot, a.scene, a.override, a.overrides);
     if (result == OK && pilot.wanted) {
         say_pilot(&pilot, a.scene);
         scene_free(&pilot.first);
-    } else if (result == OK)
-        result = check_sound(&a, threads);
+    } else if (result == OK) {
+        result = check_sound(&s, &a, threads, start);
+        scene_free(&s);
+    }
     arguments_free(&a);
     return result;
 }

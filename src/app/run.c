@@ -82,9 +82,8 @@ status command_run(int argc, char **argv)
     struct scene s = {0};
     struct engine e = {0};
     struct output out = {0};
-    status result = pilot_choose(&pilot, a.scene, a.override, a.overrides, a.folder,
-                                 (struct study_way){.quiet = a.quiet, .stop = stop});
-    if (result == OK) result = scene_read(&s, a.scene, pilot.override, pilot.overrides);
+    status result = pilot_scene_read(&s, &pilot, a.scene, a.override, a.overrides, a.folder,
+                                     (struct study_way){.quiet = a.quiet, .stop = stop});
     if (result == OK) result = run_engine(&e, &s, &out, &a, threads);
     engine_free(&e);
     output_close(&out);

@@ -394,8 +394,6 @@ static status check_loads(const struct auto_match *m, const struct scene *s)
 
 status auto_match_find(struct auto_match *m, const struct scene *s, bool at_rest)
 {
-    static const bool watches_bonds[PROBES] = {
-        [PROBE_TIP] = true, [PROBE_BREAK] = true, [PROBE_SPALL] = true, [PROBE_GROWTH] = true};
     *m = (struct auto_match){0};
     TRY(auto_match_problem(m, s, at_rest));
     TRY(check_loads(m, s));
@@ -403,8 +401,7 @@ status auto_match_find(struct auto_match *m, const struct scene *s, bool at_rest
     if (!(m->feature > 0)) return no_match("what its spacing would resolve has no length");
     const struct material *a = &s->material[0];
     if (s->dim > 1 && fabs(a->c12 / a->c11 - 1.0 / 3) > 1e-3) m->growth *= MATERIAL_GROWTH;
-    bool bonds = s->growths > 0 || (breaks(s) && !at_rest);
-    for (int k = 0; k < s->probes; k++) bonds |= watches_bonds[s->probe[k].kind];
+    const bool bonds = s->growths > 0 || (breaks(s) && !at_rest) || scene_watches_bonds(s);
     m->at_rest = at_rest;
     m->gap = !bonds && may_be_gap(s);
     m->needs_bonds = bonds || s->cracks > 0;

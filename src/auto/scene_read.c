@@ -107,12 +107,10 @@ status scene_read(struct scene *s, const char *path, const struct scene_override
     return scene_file_read(s, path, override, overrides, NULL);
 }
 
-status scene_pilot_wish(struct pilot_wish *w, const char *path, const struct scene_override *override, int overrides)
+status scene_read_or_wish(struct scene *s, struct pilot_wish *w, const char *path,
+                          const struct scene_override *override, int overrides)
 {
-    struct scene s;
     *w = (struct pilot_wish){0};
-    const status read = scene_file_read(&s, path, override, overrides, w);
-    if (read != OK) return w->wanted ? OK : read;
-    scene_free(&s);
-    return OK;
+    const status read = scene_file_read(s, path, override, overrides, w);
+    return w->wanted ? OK : read;
 }

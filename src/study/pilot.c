@@ -33,11 +33,7 @@ static bool bonds_fit(const struct scene *s)
 
 static bool needs_bonds(const struct scene *s)
 {
-    bool needs = scene_cracks(s) || s->has_pd_region;
-    for (int k = 0; k < s->probes; k++)
-        needs |= s->probe[k].kind == PROBE_TIP || s->probe[k].kind == PROBE_BREAK || s->probe[k].kind == PROBE_SPALL ||
-                 s->probe[k].kind == PROBE_GROWTH;
-    return needs;
+    return scene_cracks(s) || s->has_pd_region || scene_watches_bonds(s);
 }
 
 static void candidate_add(struct pilot_search *p, const char *name, const char *method, const char *model)
@@ -249,26 +245,28 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
     return pilot_keep(to, p, best);
 }
 
-status pilot_choose(struct pilot *to, const char *scene, const struct scene_override *override, int overrides,
-                    const char *folder, struct study_way way)
+/* The overrides of a scene that wants pilot runs. */
+static status pilot_choose(struct pilot *to, struct pilot_search *p, const char *folder)
+{
+    char run[NAME_MAX_LENGTH + sizeof "results/"];
+    snprintf(run, sizeof run, "results/%s", p->wish.first.name);
+    snprintf(p->folder, sizeof p->folder, "%s", pilot_folder(folder ? folder : run).text);
+    if (strlen(p->folder) + CASE_NAME_ROOM + 2 * PATH_NAME_ROOM >= PATH_ROOM)
+        return status_set(REFUSED, "-o: the folder's name is too long");
+    return pilot_kept(to, p) ? OK : pilot_search_all(to, p);
+}
+
+status pilot_scene_read(struct scene *s, struct pilot *to, const char *scene, const struct scene_override *override,
+                        int overrides, const char *folder, struct study_way way)
 {
     struct pilot_search p = {
         .scene = scene, .override = override, .overrides = overrides, .way = way, .begun = team_clock()};
     *to = (struct pilot){0};
-    TRY(scene_pilot_wish(&p.wish, scene, override, overrides));
-    if (!p.wish.wanted) {
-        pilot_fill(to, override, overrides, 0);
-        return OK;
-    }
-    status done = OK;
-    char run[NAME_MAX_LENGTH + sizeof "results/"];
-    snprintf(run, sizeof run, "results/%s", p.wish.first.name);
-    snprintf(p.folder, sizeof p.folder, "%s", pilot_folder(folder ? folder : run).text);
-    if (strlen(p.folder) + CASE_NAME_ROOM + 2 * PATH_NAME_ROOM >= PATH_ROOM)
-        done = status_set(REFUSED, "-o: the folder's name is too long");
-    else if (!pilot_kept(to, &p))
-        done = pilot_search_all(to, &p);
+    TRY(scene_read_or_wish(s, &p.wish, scene, override, overrides));
+    if (!p.wish.wanted) return OK;
+    status done = pilot_choose(to, &p, folder);
     scene_free(&p.wish.first);
+    if (done == OK) done = scene_read(s, scene, to->override, to->overrides);
     if (done != OK) pilot_free(to);
     return done;
 }
