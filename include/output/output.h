@@ -103,6 +103,10 @@ struct frame {
 static inline int frame_stresses(int dim) { return symmetric_count(dim) + (dim == 2); }
 status frame_read(struct frame *f, const char *path);
 void frame_free(struct frame *f);
+/* Numbers of a field at the particles of this frame, which was read from `path`, by name: one that follows from what
+ * was read (data/derived_fields.h), or one that the file holds. *columns numbers a particle, *value [n columns] row by
+ * row, freed with memory_free. FAILED where the frame has no such field. */
+status frame_field_read(const struct frame *f, const char *path, const char *name, int *columns, float **value);
 /* The frames that frames.hdf.series lists, ascending; how many through `n`. Numbers have gaps where files were lost. */
 struct listed_frame { int number; real time; };
 status frames_list(const char *folder, int *n, struct listed_frame **list);

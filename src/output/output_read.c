@@ -5,6 +5,7 @@
 
 #include "base/last_words.h"
 #include "base/memory.h"
+#include "data/derived_fields.h"
 #include "output/output.h"
 #include "output/output_files.h"
 #include "output/checksum.h"
@@ -107,6 +108,62 @@ void frame_free(struct frame *f)
     memory_free(f->fragment);
     memory_free(f->spacing);
     *f = (struct frame){0};
+}
+
+/* ---- one field by name ------------------------------------------------------------------------------------------- */
+
+/* Row i of the field from which another follows, components that the space does not have 0. */
+static void source_row(const struct frame *f, enum derived_from from, int64_t i, real *row)
+{
+    static const int plane[] = {0, 1, 3, 2}, plain[] = {0, 1, 2, 3, 4, 5};   /* read_fields */
+    memset(row, 0, SYM_MAX * sizeof *row);
+    if (from == FROM_VELOCITY)
+        for (int d = 0; d < f->dim; d++) row[d] = f->v[d][i];
+    else
+        for (int k = 0; k < frame_stresses(f->dim); k++) row[(f->dim == 2 ? plane : plain)[k]] = f->stress[k][i];
+}
+
+static float *derive_field(const struct frame *f, const struct derived_field *field)
+{
+    float *value = NEW("frame.derived", f->n * field->columns, float);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < f->n; i++) {
+        real from[SYM_MAX], to[DERIVED_MOST];
+        source_row(f, field->from, i, from);
+        field->compute(from, to);
+        for (int c = 0; c < field->columns; c++) value[i * field->columns + c] = (float)to[c];
+    }
+    return value;
+}
+
+/* Most numbers of a field at a particle, against files that claim any. */
+enum { COLUMNS_MOST = 16 };
+
+status frame_field_read(const struct frame *f, const char *path, const char *name, int *columns, float **value)
+{
+    char place[PATH_NAME_ROOM];
+    struct hdf h;
+    const struct derived_field *derived = derived_field_find(name);
+    *value = NULL, *columns = 0;
+    if (derived) {
+        *columns = derived->columns, *value = derive_field(f, derived);
+        return OK;
+    }
+    snprintf(place, sizeof place, "/VTKHDF/PointData/%s", name);
+    last_words_reading(path);
+    hdf_open(&h, path);
+    const int64_t count = strchr(name, '/') ? -1 : hdf_count(&h, place), most = f->n * COLUMNS_MOST;
+    if (count > 0 && count <= most && count % f->n == 0) {
+        *columns = (int)(count / f->n), *value = NEW("frame.field", count, float);
+        hdf_read_rows(&h, place, HDF_F32, count, *value);
+    }
+    const bool whole = !h.failed && *value;
+    hdf_close(&h);
+    last_words_reading(NULL);
+    if (whole) return OK;
+    memory_free(*value);
+    *value = NULL;
+    return status_set(FAILED, "%s has no field %s: `output: {fields: [%s]}` makes a run write it", path, name, name);
 }
 
 /* ---- times of frames --------------------------------------------------------------------------------------------- */

@@ -211,6 +211,42 @@ static void frames_hold_what_they_are_given(void **state)
     }
 }
 
+/* Fields by name: those that follow from what a frame holds, those that it holds, and a line for others. */
+static void fields_are_read_by_name(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++) {
+        struct output o;
+        struct particles p;
+        struct frame f;
+        static const char path[] = "named/frames/000000.hdf";
+        float *value;
+        int columns;
+        open_fresh(&o, "named", false);
+        make_particles(&p, dim, PARTICLES);
+        assert_int_equal(output_frame(&o, &p, 0, 0, scene_text), OK);
+        assert_int_equal(frame_read(&f, path), OK);
+        assert_int_equal(frame_field_read(&f, path, "pressure", &columns, &value), OK);
+        assert_int_equal(columns, 1);
+        for (int64_t k = 0; k < f.n; k++) {
+            double mean = 0;
+            for (int d = 0; d < dim; d++) mean -= f.stress[d][k] / 3;
+            assert_true(fabs(value[k] - mean) <= 1e-7 * fabs(mean) * 2);
+        }
+        memory_free(value);
+        assert_int_equal(frame_field_read(&f, path, "stress", &columns, &value), OK);
+        assert_int_equal(columns, SYM_MAX);
+        assert_true(value[SYM_MAX * 7] == f.stress[0][7]);
+        memory_free(value);
+        assert_int_equal(frame_field_read(&f, path, "strain", &columns, &value), FAILED);
+        assert_message("has no field strain");
+        assert_int_equal(frame_field_read(&f, path, "../Points", &columns, &value), FAILED);
+        frame_free(&f);
+        particles_free(&p);
+        output_close(&o);
+    }
+}
+
 static void indices_list_all_frames(void **state)
 {
     (void)state;
@@ -432,6 +468,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(frames_have_vtk_layout),
         cmocka_unit_test(plastic_strain_where_it_is),
         cmocka_unit_test(frames_hold_what_they_are_given),
+        cmocka_unit_test(fields_are_read_by_name),
         cmocka_unit_test(indices_list_all_frames),
         cmocka_unit_test(same_state_gives_same_bytes),
         cmocka_unit_test(damaged_frames_are_refused),
