@@ -3,7 +3,6 @@
 
 #include <hdf5.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,8 +12,9 @@
 #include "base/last_words.h"
 #include "base/memory.h"
 #include "base/team.h"
+#include "csv.h"
 
-enum { LINE_LENGTH = 4096, PARTICLES_MAX = INT32_MAX - 64 };
+enum { PARTICLES_MAX = INT32_MAX - 64 };
 
 /* Columns of a list; coordinates come first. */
 enum column { COLUMN_X, COLUMN_Y, COLUMN_Z, COLUMN_VOLUME, COLUMN_MATERIAL, COLUMN_BODY, COLUMNS };
@@ -63,56 +63,10 @@ static status list_affordable(const char *path, int64_t n)
 /* ---- CSV --------------------------------------------------------------------------------------------------------- */
 
 struct csv {
-    const char *path;
-    FILE *file;
-    int64_t line;                        /* number of the current line, from 1 */
-    char text[LINE_LENGTH];
+    struct csv_file in;
     int columns, column[COLUMNS];        /* enum column of each field of a line */
     int64_t room;
 };
-
-/* Cuts the next field off `rest`, without surrounding blanks; NULL at the end of the line. */
-static char *next_field(char **rest)
-{
-    char *field = *rest;
-    if (field == NULL) return NULL;
-    char *comma = strchr(field, ',');
-    *rest = comma != NULL ? comma + 1 : NULL;
-    if (comma != NULL) *comma = '\0';
-    field += strspn(field, " \t");
-    for (size_t n = strlen(field); n > 0 && strchr(" \t\r\n", field[n - 1]) != NULL; n--) field[n - 1] = '\0';
-    return field;
-}
-
-/* Reads the next line that is neither blank nor a comment; `*more` is false at the end of the file. */
-static status csv_line(struct csv *c, bool *more)
-{
-    while ((*more = fgets(c->text, sizeof c->text, c->file) != NULL)) {
-        c->line++;
-        size_t length = strlen(c->text);
-        if (length == 0 || (c->text[length - 1] != '\n' && !feof(c->file)))
-            return status_set(REFUSED, "%s:%lld: not a line of text; a particle list has one particle a line", c->path,
-                              (long long)c->line);
-        if (c->line == 1 && strncmp(c->text, "\xEF\xBB\xBF", 3) == 0) memmove(c->text, c->text + 3, length - 2);
-        size_t blank = strspn(c->text, " \t\r\n");
-        if (c->text[blank] != '\0' && c->text[blank] != '#') return OK;
-    }
-    if (ferror(c->file)) return status_set(REFUSED, "%s: cannot be read", c->path);
-    return OK;
-}
-
-/* REFUSED with `file:line:column: ` of a field of the current line. */
-static status csv_fault(const struct csv *c, const char *field, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-static status csv_fault(const struct csv *c, const char *field, const char *format, ...)
-{
-    char what[256];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
-    va_end(arguments);
-    return status_set(REFUSED, "%s:%lld:%d: %s", c->path, (long long)c->line, (int)(field - c->text) + 1, what);
-}
 
 /* What a header that is no list of names between commas is likely to be, as the end of a sentence. */
 static const char *header_guess(const char *name)
@@ -129,11 +83,11 @@ static status csv_column(struct csv *c, const char *name, int dim)
         if (strcmp(name, column_name[k]) != 0 || (k < DIM_MAX && k >= dim)) continue;
         for (int used = 0; used < c->columns; used++)
             if (c->column[used] == k)
-                return csv_fault(c, name, "column %s is named twice", name);
+                return csv_fault(&c->in, name, "column %s is named twice", name);
         c->column[c->columns++] = k;
         return OK;
     }
-    return csv_fault(c, name, "unknown column '%.*s'; in %dD a list has %s, volume, material, body%s",
+    return csv_fault(&c->in, name, "unknown column '%.*s'; in %dD a list has %s, volume, material, body%s",
                      (int)strcspn(name, "\r") < 40 ? (int)strcspn(name, "\r") : 40, name, dim,
                      dim == 1 ? "x" : dim == 2 ? "x, y" : "x, y, z", header_guess(name));
 }
@@ -142,15 +96,15 @@ static status csv_column(struct csv *c, const char *name, int dim)
 static status csv_header(struct csv *c, int dim)
 {
     bool more;
-    TRY(csv_line(c, &more));
-    if (!more) return status_set(REFUSED, "%s: empty; the first line names the columns: x,y,z,volume", c->path);
-    char *rest = c->text;
-    for (char *name; (name = next_field(&rest)) != NULL;) TRY(csv_column(c, name, dim));
+    TRY(csv_line(&c->in, &more));
+    if (!more) return status_set(REFUSED, "%s: empty; the first line names the columns: x,y,z,volume", c->in.path);
+    char *rest = c->in.text;
+    for (char *name; (name = csv_field(&c->in, &rest)) != NULL;) TRY(csv_column(c, name, dim));
     for (int k = 0; k < COLUMNS; k++) {
         bool found = !column_needed(k, dim);
         for (int used = 0; used < c->columns; used++) found = found || c->column[used] == k;
         if (!found)
-            return csv_fault(c, c->text, "column %s is missing", column_name[k]);
+            return csv_fault(&c->in, c->in.text, "column %s is missing", column_name[k]);
     }
     return OK;
 }
@@ -160,7 +114,7 @@ static status csv_grow(struct csv *c, struct particle_list *l)
 {
     if (l->n < c->room) return OK;
     int64_t room = c->room > 0 ? 2 * c->room : 1024;
-    TRY(list_affordable(c->path, room / 2));
+    TRY(list_affordable(c->in.path, room / 2));
     for (int k = 0; k < c->columns; k++) {
         real **array = column_array(l, c->column[k]);
         *array = memory_resize("list.column", *array, c->room, room, sizeof(real));
@@ -173,23 +127,23 @@ static status csv_grow(struct csv *c, struct particle_list *l)
 /* Reads one particle from the current line. */
 static status csv_entry(struct csv *c, struct particle_list *l)
 {
-    char *rest = c->text;
+    char *rest = c->in.text;
     for (int k = 0; k < c->columns; k++) {
-        char *field = next_field(&rest), *end;
+        char *field = csv_field(&c->in, &rest), *end;
         if (field == NULL)
-            return csv_fault(c, c->text, "%d values; the header names %d columns", k, c->columns);
+            return csv_fault(&c->in, c->in.text, "%d values; the header names %d columns", k, c->columns);
         real value = strtod(field, &end);
         const char *name = column_name[c->column[k]];
         if (end == field || *end != '\0' || strpbrk(field, "xX"))
-            return csv_fault(c, field, "%s: '%.40s' is not a number", name, field);
+            return csv_fault(&c->in, field, "%s: '%.40s' is not a number", name, field);
         const char *fault = value_fault(c->column[k], value);
-        if (fault != NULL) return csv_fault(c, field, "%s: %.40s %s", name, field, fault);
+        if (fault != NULL) return csv_fault(&c->in, field, "%s: %.40s %s", name, field, fault);
         (*column_array(l, c->column[k]))[l->n] = value;
     }
     if (rest != NULL)
-        return csv_fault(c, rest, "more values than the %d columns of the header; numbers have a point, not a comma",
-                         c->columns);
-    l->line[l->n++] = c->line;
+        return csv_fault(&c->in, rest,
+                         "more values than the %d columns of the header; numbers have a point, not a comma", c->columns);
+    l->line[l->n++] = c->in.line;
     return OK;
 }
 
@@ -197,9 +151,9 @@ static status csv_entries(struct csv *c, struct particle_list *l)
 {
     TRY(csv_header(c, l->dim));
     for (bool more;;) {
-        TRY(csv_line(c, &more));
+        TRY(csv_line(&c->in, &more));
         if (!more) return OK;
-        if (l->n >= PARTICLES_MAX) return status_set(REFUSED, "%s: more than %d particles", c->path, PARTICLES_MAX);
+        if (l->n >= PARTICLES_MAX) return status_set(REFUSED, "%s: more than %d particles", c->in.path, PARTICLES_MAX);
         TRY(csv_grow(c, l));
         TRY(csv_entry(c, l));
     }
@@ -207,10 +161,10 @@ static status csv_entries(struct csv *c, struct particle_list *l)
 
 static status csv_read(struct particle_list *l, const char *path)
 {
-    struct csv c = {.path = path, .file = fopen(path, "r")};
-    if (c.file == NULL) return status_set(REFUSED, "%s: cannot be opened", path);
+    struct csv c = {0};
+    TRY(csv_open(&c.in, path, "a particle list has one particle a line"));
     status s = csv_entries(&c, l);
-    fclose(c.file);
+    csv_close(&c.in);
     return s;
 }
 
