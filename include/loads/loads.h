@@ -41,6 +41,10 @@ struct boundary {
     uint8_t components;                  /* bit d: component d is held (VELOCITY) */
     real value[DIM_MAX];                 /* [m/s], [Pa] or [N/m^3] */
     struct time_function time;           /* factor on value */
+    char *time_file;                     /* it came from this CSV file; NULL: it stands in the scene */
+    char time_column[NAME_MAX_LENGTH];   /* of it; "": the only one beside the time */
+    uint64_t time_contents;              /* hash of that file; 0: not read */
+    bool time_unit;                      /* the column has the unit of the value, which then says the direction alone */
     struct profile profile;              /* BODY_FORCE: factor on value */
     int face;                            /* TRACTION, ABSORBING: axis of the face's normal */
     int side;                            /* TRACTION, ABSORBING: +1 upper face, -1 lower face */

@@ -112,16 +112,20 @@ void region_free(struct region *r)
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
+/* Bisects for the first time after t: tables from files have thousands. */
 static real table_at(const struct time_function *f, real t)
 {
+    int low = 0, k = f->n - 1;
     if (f->n == 0) return 0;
     if (t <= f->t[0]) return f->value[0];
-    for (int k = 1; k < f->n; k++)
-        if (t < f->t[k]) {
-            real share = (t - f->t[k - 1]) / (f->t[k] - f->t[k - 1]);
-            return f->value[k - 1] + share * (f->value[k] - f->value[k - 1]);
-        }
-    return f->value[f->n - 1];
+    if (!(t < f->t[k])) return f->value[k];
+    while (k - low > 1) {
+        const int middle = low + (k - low) / 2;
+        if (t < f->t[middle]) k = middle;
+        else low = middle;
+    }
+    const real share = (t - f->t[k - 1]) / (f->t[k] - f->t[k - 1]);
+    return f->value[k - 1] + share * (f->value[k] - f->value[k - 1]);
 }
 
 real time_function_at(const struct time_function *f, real t)

@@ -142,7 +142,8 @@ static status csv_entry(struct csv *c, struct particle_list *l)
     }
     if (rest != NULL)
         return csv_fault(&c->in, rest,
-                         "more values than the %d columns of the header; numbers have a point, not a comma", c->columns);
+                         "more values than the %d columns of the header; numbers have a point, not a comma",
+                         c->columns);
     l->line[l->n++] = c->in.line;
     return OK;
 }

@@ -67,6 +67,7 @@ void scene_free(struct scene *s)
         region_free(&s->boundary[k].region);
         memory_free(s->boundary[k].time.t);
         memory_free(s->boundary[k].time.value);
+        memory_free(s->boundary[k].time_file);
     }
     for (int k = 0; k < s->probes; k++) {
         region_free(&s->probe[k].region);

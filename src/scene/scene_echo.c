@@ -241,15 +241,15 @@ static void write_materials(struct writer *w)
     }
 }
 
-/* Writes the absolute path of a particle list, so that the echo runs from any folder, and the checksum of its contents:
- * a run resumes with identical contents only. */
-static void write_particle_list(struct writer *w, const struct scene_body *b)
+/* Writes the absolute path of a file, so that the echo runs from any folder, and the checksum of its contents: a run
+ * resumes with identical contents only. */
+static void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents)
 {
-    char *whole = b->contents ? realpath(b->file, NULL) : NULL;
-    begin(w, "particles");
+    char *whole = contents ? realpath(file, NULL) : NULL;
+    begin(w, key);
     fputc(' ', w->out);
-    write_quoted(w, whole ? whole : b->file);
-    if (b->contents) fprintf(w->out, "  # contents %016" PRIx64, b->contents);
+    write_quoted(w, whole ? whole : file);
+    if (contents) fprintf(w->out, "  # contents %016" PRIx64, contents);
     fputc('\n', w->out);
     free(whole);
 }
@@ -261,7 +261,7 @@ static void write_bodies(struct writer *w)
     for (int k = 0; k < s->bodies + s->rigids; k++) {
         begin_item(w);
         write_group(w, "bodies", &s->body[k]);
-        if (s->body[k].file) write_particle_list(w, &s->body[k]);
+        if (s->body[k].file) write_file_name(w, "particles", s->body[k].file, s->body[k].contents);
     }
 }
 
@@ -332,9 +332,30 @@ static void write_initials(struct writer *w)
     }
 }
 
-/* Writes the function of time of a boundary. */
-static void write_time(struct writer *w, const struct time_function *f)
+/* Writes a function of time from a file. */
+static void write_time_file(struct writer *w, const struct boundary *b)
 {
+    begin(w, "time");
+    fputc('\n', w->out);
+    w->indent += 2;
+    write_file_name(w, "file", b->time_file, b->time_contents);
+    if (b->time_column[0]) {
+        begin(w, "column");
+        fputc(' ', w->out);
+        write_quoted(w, b->time_column);
+        fputc('\n', w->out);
+    }
+    w->indent -= 2;
+}
+
+/* Writes the function of time of a boundary. */
+static void write_time(struct writer *w, const struct boundary *b)
+{
+    const struct time_function *f = &b->time;
+    if (b->time_file) {
+        write_time_file(w, b);
+        return;
+    }
     static const char *const words[] = {[TIME_STEP] = "step", [TIME_PULSE] = "pulse", [TIME_RAMP] = "ramp"};
     begin(w, "time");
     if (f->kind == TIME_CONSTANT) fputs(" constant", w->out);
@@ -402,7 +423,7 @@ static void write_boundary(struct writer *w, const struct boundary *b)
         fprintf(w->out, " %c%c\n", 'x' + b->face, b->side > 0 ? '+' : '-');
     }
     if (b->kind == BOUNDARY_BODY_FORCE) write_profile(w, &b->profile);
-    if (b->kind != BOUNDARY_ABSORBING) write_time(w, &b->time);
+    if (b->kind != BOUNDARY_ABSORBING) write_time(w, b);
 }
 
 static void write_boundaries(struct writer *w)

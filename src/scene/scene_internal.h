@@ -144,6 +144,10 @@ status read_point(struct reader *r, const struct key *k, const struct node *n, r
 /* REFUSED if n is not a list with as many items as the range of k allows. */
 status expect_list(struct reader *r, const struct key *k, const struct node *n);
 
+/* Path of a file, sought in the folder of the scene, then in the current folder, and the checksum of its contents;
+ * `what` it is. A reader without `files` takes the name as it stands, unseen (scene_files.c). */
+status read_path(struct reader *r, const struct node *n, const char *what, char **path, uint64_t *contents);
+
 /* ---- parts (scene_solids.c, scene_parts.c, scene_loads.c) -------------------------------------------------------- */
 
 status read_region(struct reader *r, const struct node *n, struct region *region);
@@ -152,6 +156,8 @@ status read_bodies(struct reader *r, const struct node *root);
 status read_cracks(struct reader *r, const struct node *root);
 status read_growths(struct reader *r, const struct node *root);
 status read_initials(struct reader *r, const struct node *root);
+/* The function of time of a boundary; n NULL or `constant`: 1 (scene_time.c). */
+status read_time(struct reader *r, const struct node *n, struct boundary *b);
 status read_boundaries(struct reader *r, const struct node *root);
 status read_probes(struct reader *r, const struct node *root);
 /* Conditions on several keys without lists, and defaults (scene_check.c). check_size and check_solver: the same for the

@@ -1,4 +1,4 @@
-/* Reads the boundary conditions of a scene with their functions of time, and its probes. */
+/* Reads the boundary conditions of a scene, and its probes. */
 #include "scene_internal.h"
 
 #include <math.h>
@@ -6,49 +6,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-
-/* ---- functions of time ------------------------------------------------------------------------------------------- */
-
-/* Reads a table of [time, factor] with ascending times into f->t, f->value, [n]. */
-static status read_table(struct reader *r, const struct node *n, struct time_function *f)
-{
-    const struct key *k = key_find("boundary.time", "table");
-    struct key time = *k, factor = *k;
-    time.range.given = factor.range.given = false;
-    factor.unit = UNIT_NONE;
-    TRY(expect_list(r, k, n));
-    f->kind = TIME_TABLE;
-    f->t = NEW("time table", n->n, real);
-    f->value = NEW("time table", n->n, real);
-    for (const struct node *row = n->first; row; row = row->next) {
-        if (row->kind != NODE_LIST || row->n != 2)
-            return fault(r, row, "%s is not a pair; [time, factor] is expected, as [5 us, 1]", shown(r, row));
-        TRY(read_number(r, &time, row->first, &f->t[f->n]));
-        TRY(read_number(r, &factor, row->last, &f->value[f->n]));
-        if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
-            return fault(r, row->first, "%s does not lie after the time before; times ascend", shown(r, row->first));
-        f->n++;
-    }
-    return OK;
-}
-
-/* Reads the function of time of a boundary; n NULL or `constant`: 1. */
-static status read_time(struct reader *r, const struct node *n, struct time_function *f)
-{
-    static const char *const groups[] = {"boundary.time.step", "boundary.time.pulse", "boundary.time.ramp"};
-    const char *forms = "constant, step, pulse, ramp or table";
-    if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "constant") == 0)) return OK;
-    if (n->kind != NODE_MAP)
-        return fault(r, n, "%s is no function of time; %s is expected", shown(r, n), forms);
-    TRY(check_keys(r, n, "boundary.time"));
-    if (n->n != 1) return fault(r, n, "has %d keys; one of %s is expected", n->n, forms);
-    const struct node *form = n->first;
-    int kind = word_index("step|pulse|ramp", form->key);
-    if (kind < 0) return read_table(r, form, f);
-    f->kind = kind == 0 ? TIME_STEP : kind == 1 ? TIME_PULSE : TIME_RAMP;
-    TRY(read_group(r, form, form, groups[kind], f));
-    return f->from < f->until ? OK : fault(r, form, "from is not before until; it begins at from and ends at until");
-}
 
 /* ---- profiles in space ------------------------------------------------------------------------------------------- */
 
@@ -177,16 +134,25 @@ static status kind_of_boundary(struct reader *r, const struct node *map, const s
     return *kind ? OK : fault(r, map, "does nothing; %s is expected", word_list(r, words));
 }
 
-/* Reads one boundary condition. REFUSED for keys that have no meaning with its kind. */
-static status read_boundary(struct reader *r, const struct node *n, struct boundary *b)
+/* REFUSED for a value beside a column of a file that has its unit: one of both says how large the load is. */
+static status check_time_unit(struct reader *r, const struct node *kind, const struct boundary *b)
 {
-    const struct node *kind, *face = NULL, *profile = node_find(n, "profile");
+    real most = 0;
+    for (int d = 0; d < r->dim; d++) most = real_max(most, fabs(b->value[d]));
+    if (!b->time_unit || most <= 1) return OK;
+    return fault(r, kind, "%s times a column that has a unit itself; a direction such as [0, -1], or a column without "
+                 "unit, is expected", shown(r, kind));
+}
+
+/* Reads the value of a boundary condition by its kind. REFUSED for keys that have no meaning with its kind. */
+static status read_kind(struct reader *r, const struct node *n, const struct node *kind, struct boundary *b)
+{
+    const struct node *face = NULL, *profile = node_find(n, "profile");
     TRY(expect(r, n, NODE_MAP, "a mapping of keys to values"));
     TRY(check_keys(r, n, "boundary"));
     TRY(kind_of_boundary(r, n, &kind));
     TRY(read_group(r, n, n, "boundary", b));
-    TRY(read_time(r, node_find(n, "time"), &b->time));
-    b->kind = *kind->key == 't'   ? BOUNDARY_TRACTION
+        b->kind = *kind->key == 't'   ? BOUNDARY_TRACTION
               : *kind->key == 'b' ? BOUNDARY_BODY_FORCE
               : *kind->key == 'm' ? BOUNDARY_MIRROR
               : *kind->key == 'a' ? BOUNDARY_ABSORBING
@@ -205,6 +171,18 @@ static status read_boundary(struct reader *r, const struct node *n, struct bound
     if (*kind->key == 'v') return read_velocity(r, kind, b);
     TRY(read_point(r, key_find("boundary", kind->key), kind, b->value));
     return b->kind == BOUNDARY_TRACTION ? read_face(r, n, b) : OK;
+}
+
+static status read_boundary(struct reader *r, const struct node *n, struct boundary *b)
+{
+    const struct node *kind;
+    TRY(expect(r, n, NODE_MAP, "a mapping of keys to values"));
+    TRY(check_keys(r, n, "boundary"));
+    TRY(kind_of_boundary(r, n, &kind));
+    TRY(read_group(r, n, n, "boundary", b));
+    TRY(read_kind(r, n, kind, b));
+    TRY(read_time(r, node_find(n, "time"), b));
+    return check_time_unit(r, kind, b);
 }
 
 status read_boundaries(struct reader *r, const struct node *root)

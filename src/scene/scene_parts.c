@@ -4,9 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "output/checksum.h"
 #include "base/memory.h"
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
@@ -116,26 +114,16 @@ status read_materials(struct reader *r, const struct node *root)
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* Path and checksum of a particle list, sought in the folder of the scene, then in the current folder. */
+/* Path and checksum of a particle list. */
 static status read_file(struct reader *r, const struct node *n, struct scene_body *b)
 {
-    const char *slash = strrchr(r->name, '/');
-    size_t folder = slash ? (size_t)(slash - r->name) + 1 : 0, length = strlen(n->text);
+    const size_t length = strlen(n->text);
     fault_place(r, n, b->place, sizeof b->place);
     bool csv = length > 4 && strcmp(n->text + length - 4, ".csv") == 0;
     bool h5 = length > 3 && strcmp(n->text + length - 3, ".h5") == 0;
     if (n->kind != NODE_SCALAR || (!csv && !h5))
         return fault(r, n, "%s is no particle list; a file name that ends in .csv or .h5 is expected", shown(r, n));
-    b->file = NEW("file name", folder + length + 1, char);
-    if (r->files && folder > 0 && n->text[0] != '/') {
-        memcpy(b->file, r->name, folder);
-        memcpy(b->file + folder, n->text, length + 1);
-        if (access(b->file, R_OK) == 0) return file_contents(b->file, &b->contents);
-    }
-    memcpy(b->file, n->text, length + 1);
-    if (!r->files) return OK;
-    if (access(b->file, R_OK) == 0) return file_contents(b->file, &b->contents);
-    return fault(r, n, "%s cannot be read; a particle list in the scene's folder is expected", shown(r, n));
+    return read_path(r, n, "a particle list", &b->file, &b->contents);
 }
 
 /* REFUSED for what a rigid body cannot have, and for what only it has. */

@@ -177,7 +177,7 @@ static const struct { const char *piece, *instead, *message;
     {"until: 5 us", "from: 9 us, until: 5 us",
      "29:12: step: from is not before until; it begins at from and ends at until"},
     {"{step: {until: 5 us}}", "sometimes",
-     "29:5: time: sometimes is no function of time; constant, step, pulse, ramp or table is expected"},
+     "29:5: time: sometimes is no function of time; constant, step, pulse, ramp, table or file is expected"},
     {"{step: {until: 5 us}}", "{table: [[1 us, 0], [0, 1]]}",
      "29:32: table[1][0]: 0 does not lie after the time before; times ascend"},
     {"{step: {until: 5 us}}", "{table: [[1 us, 0]]}", "29:12: table: has 1 items; 2 to 50000 are expected"},

@@ -1,0 +1,197 @@
+/* Reads the function of time of a boundary condition, also from a CSV file. */
+#include "scene_internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "csv.h"
+
+/* Reads a table of [time, factor] with ascending times into f->t, f->value, [n]. */
+static status read_table(struct reader *r, const struct node *n, struct time_function *f)
+{
+    const struct key *k = key_find("boundary.time", "table");
+    struct key time = *k, factor = *k;
+    time.range.given = factor.range.given = false;
+    factor.unit = UNIT_NONE;
+    TRY(expect_list(r, k, n));
+    f->kind = TIME_TABLE;
+    f->t = NEW("time table", n->n, real);
+    f->value = NEW("time table", n->n, real);
+    for (const struct node *row = n->first; row; row = row->next) {
+        if (row->kind != NODE_LIST || row->n != 2)
+            return fault(r, row, "%s is not a pair; [time, factor] is expected, as [5 us, 1]", shown(r, row));
+        TRY(read_number(r, &time, row->first, &f->t[f->n]));
+        TRY(read_number(r, &factor, row->last, &f->value[f->n]));
+        if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
+            return fault(r, row->first, "%s does not lie after the time before; times ascend", shown(r, row->first));
+        f->n++;
+    }
+    return OK;
+}
+
+/* ---- a CSV file -------------------------------------------------------------------------------------------------- */
+
+enum { TIMES_MAX = 1000000, UNIT_LONGEST_NAME = 40 };
+
+/* The two columns of a file that make a function of time. */
+struct time_columns {
+    struct csv_file in;
+    int time, value;                     /* from 0; -1: not found */
+    char time_unit[UNIT_LONGEST_NAME], value_unit[UNIT_LONGEST_NAME]; /* "": none */
+    enum unit unit;                      /* of the values */
+    const char *second;                  /* name of another column of values; NULL: none */
+};
+
+/* What a boundary's value counts in, so that a column can have this unit. */
+static enum unit unit_of_boundary(const struct boundary *b)
+{
+    switch (b->kind) {
+    case BOUNDARY_TRACTION: return UNIT_PRESSURE;
+    case BOUNDARY_BODY_FORCE: return UNIT_BODY_FORCE;
+    default: return UNIT_SPEED;
+    }
+}
+
+/* Takes column k of the header: the time, or the one that is wanted. REFUSED for units that do not fit. */
+static status column_take(struct time_columns *c, int k, char *name, const char *wanted)
+{
+    char what[160];
+    real one;
+    char *unit = csv_unit(name), number[UNIT_LONGEST_NAME + 2];
+    const bool time = strcmp(name, "time") == 0 || strcmp(name, "t") == 0;
+    if (!time && *wanted && strcmp(name, wanted) != 0) return OK;
+    if (strlen(unit) >= UNIT_LONGEST_NAME) return csv_fault(&c->in, name, "its unit is too long");
+    if (time && c->time >= 0) return csv_fault(&c->in, name, "column %.40s stands there twice", name);
+    if (!time && c->value >= 0) {
+        c->second = name;
+        return OK;
+    }
+    snprintf(number, sizeof number, "1 %s", unit);
+    if (!number_read(&one, number, time ? UNIT_TIME : *unit ? c->unit : UNIT_NONE, false, what, sizeof what))
+        return csv_fault(&c->in, unit, "column %.40s: [%s] %s", name, unit, what);
+    snprintf(time ? c->time_unit : c->value_unit, UNIT_LONGEST_NAME, "%s", unit);
+    *(time ? &c->time : &c->value) = k;
+    return OK;
+}
+
+/* Finds the columns by the header. */
+static status time_columns_find(struct time_columns *c, const char *wanted)
+{
+    bool more;
+    int k = 0;
+    char *rest = c->in.text;
+    c->time = c->value = -1;
+    TRY(csv_line(&c->in, &more));
+    if (!more) return status_set(REFUSED, "%s: empty; a header such as time [us], value is expected", c->in.path);
+    csv_separate(&c->in);
+    for (char *name; (name = csv_field(&c->in, &rest)) != NULL; k++) TRY(column_take(c, k, name, wanted));
+    if (c->time < 0)
+        return csv_fault(&c->in, c->in.text, "no column is called time; a header such as time [us], value is expected");
+    if (c->second)
+        return csv_fault(&c->in, c->second, "column %.40s is a second one of values; column: NAME says which is meant",
+                         c->second);
+    if (c->value >= 0) return OK;
+    if (*wanted) return csv_fault(&c->in, c->in.text, "no column is called %.40s", wanted);
+    return csv_fault(&c->in, c->in.text,
+                     "only one column; time and value, with a comma, semicolon or tab between them, are expected");
+}
+
+static status time_number(const struct time_columns *c, const char *field, const char *unit_text, enum unit unit,
+                          real *value)
+{
+    char text[100], what[160];
+    if (strlen(field) > 50) return csv_fault(&c->in, field, "'%.20s..' is not a number", field);
+    snprintf(text, sizeof text, *unit_text ? "%s %s" : "%s", field, unit_text);
+    if (number_read(value, text, unit, false, what, sizeof what)) return OK;
+    return csv_fault(&c->in, field, "'%s' %s", field, what);
+}
+
+/* Reads the current line as entry f->n. */
+static status time_entry(const struct time_columns *c, char *line, struct time_function *f)
+{
+    int k = 0, found = 0;
+    char *rest = line, *time = line;
+    for (char *field; (field = csv_field(&c->in, &rest)) != NULL; k++) {
+        if (k != c->time && k != c->value) continue;
+        found++;
+        if (k == c->time) {
+            time = field;
+            TRY(time_number(c, field, c->time_unit, UNIT_TIME, &f->t[f->n]));
+        } else {
+            TRY(time_number(c, field, c->value_unit, *c->value_unit ? c->unit : UNIT_NONE, &f->value[f->n]));
+        }
+    }
+    if (found < 2)
+        return csv_fault(&c->in, line, "%d values; the header says that column %d is wanted", k,
+                         1 + (c->time > c->value ? c->time : c->value));
+    if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
+        return csv_fault(&c->in, time, "time %s does not lie after the time before; times ascend", time);
+    return OK;
+}
+
+static status time_entries(struct time_columns *c, struct time_function *f, const char *wanted)
+{
+    int64_t room = 0;
+    TRY(time_columns_find(c, wanted));
+    for (bool more;; f->n++) {
+        TRY(csv_line(&c->in, &more));
+        if (!more) break;
+        if (f->n == TIMES_MAX) return csv_fault(&c->in, c->in.text, "more than %d times", TIMES_MAX);
+        if (f->n == room) {
+            const int64_t grown = room > 0 ? 2 * room : 256;
+            f->t = memory_resize("time table", f->t, room, grown, sizeof *f->t);
+            f->value = memory_resize("time table", f->value, room, grown, sizeof *f->value);
+            room = grown;
+        }
+        TRY(time_entry(c, c->in.text, f));
+    }
+    return f->n > 0 ? OK : status_set(REFUSED, "%s: has no times below its header", c->in.path);
+}
+
+/* Reads `file: name` with `column: name` beside it. A name alone is known to a reader without files. */
+static status read_time_file(struct reader *r, const struct node *map, struct boundary *b)
+{
+    struct time_columns c = {.unit = unit_of_boundary(b)};
+    const struct node *n = node_find(map, "file");
+    const struct node *column = node_find(map, "column");
+    if (!n) return fault(r, column, "has no meaning without file; the name of a CSV file is expected");
+    if (column && (column->kind != NODE_SCALAR || !*column->text || strlen(column->text) >= sizeof b->time_column))
+        return fault(r, column, "%s is no name of a column", shown(r, column));
+    if (column) snprintf(b->time_column, sizeof b->time_column, "%s", column->text);
+    b->time.kind = TIME_TABLE;
+    TRY(read_path(r, n, "a CSV file of time and value", &b->time_file, &b->time_contents));
+    if (!r->files) return OK;
+    TRY(csv_open(&c.in, b->time_file, "a function of time has a time and its value a line"));
+    status s = time_entries(&c, &b->time, b->time_column);
+    csv_close(&c.in);
+    b->time_unit = *c.value_unit != '\0';
+    return s;
+}
+
+/* ---- functions of time ------------------------------------------------------------------------------------------- */
+
+status read_time(struct reader *r, const struct node *n, struct boundary *b)
+{
+    static const char *const groups[] = {"boundary.time.step", "boundary.time.pulse", "boundary.time.ramp"};
+    const char *forms = "constant, step, pulse, ramp, table or file";
+    struct time_function *f = &b->time;
+    if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "constant") == 0)) return OK;
+    if (n->kind != NODE_MAP)
+        return fault(r, n, "%s is no function of time; %s is expected", shown(r, n), forms);
+    TRY(check_keys(r, n, "boundary.time"));
+    if (node_find(n, "file") || node_find(n, "column")) {
+        for (const struct node *other = n->first; other; other = other->next)
+            if (word_index("file|column", other->key) < 0)
+                return fault(r, other, "given beside file; one of %s is expected", forms);
+        return read_time_file(r, n, b);
+    }
+    if (n->n != 1) return fault(r, n, "has %d keys; one of %s is expected", n->n, forms);
+    const struct node *form = n->first;
+    int kind = word_index("step|pulse|ramp", form->key);
+    if (kind < 0) return read_table(r, form, f);
+    f->kind = kind == 0 ? TIME_STEP : kind == 1 ? TIME_PULSE : TIME_RAMP;
+    TRY(read_group(r, form, form, groups[kind], f));
+    return f->from < f->until ? OK : fault(r, form, "from is not before until; it begins at from and ends at until");
+}
