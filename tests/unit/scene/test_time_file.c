@@ -89,8 +89,8 @@ static void bad_files_are_refused(void **state)
         assert_refused(read, c[k].message);
     }
     struct scene s = {0};
-    assert_refused(read_with(&s, "{column: a}", "", 0), "timed.yaml:8:39: column: has no meaning without file");
-    assert_refused(read_with(&s, "{file: none.csv}", "", 0), "timed.yaml:8:39: file: none.csv cannot be read");
+    assert_refused(read_with(&s, "{column: a}", "", 0), "timed.yaml:8:38: column: has no meaning without file");
+    assert_refused(read_with(&s, "{file: none.csv}", "", 0), "timed.yaml:8:38: file: none.csv cannot be read");
     assert_refused(read_with(&s, "{file: blast.csv, table: [[0, 1]]}", "", 0), "table: given beside file");
 }
 
