@@ -24,13 +24,19 @@ LIBS      = $(shell pkg-config --libs $(LIBRARIES)) -lm
 rest     := $(ARCH:%=-march=%)
 X86      := $(findstring x86_64,$(shell $(CC) -dumpmachine))
 SETS     := $(if $(X86),avx512 avx2) portable
+BENCHES  := yes
 avx512   := -march=x86-64-v4 -mprefer-vector-width=512
 avx2     := -march=x86-64-v3 $(call known,-mmove-max=256 -mstore-max=256)
 portable := $(if $(X86),-march=x86-64,$(rest))
 
-CPPFLAGS += $(SETS:%=-DKERNELS_%)
+# FIRST=1 leaves out what the first run on this machine does not need: benches, and kernels for other processors.
+ifdef FIRST
+macros   := $(shell $(CC) -march=native -dM -E -x c /dev/null 2>/dev/null)
+SETS     := $(if $(X86),$(if $(filter __AVX512VL__,$(macros)),avx512,$(if $(filter __AVX2__,$(macros)),avx2,portable)),portable)
+BENCHES  :=
+endif
 
-SOURCES  := $(sort $(shell find src bench -name '*.c'))
+SOURCES  := $(sort $(shell find src $(if $(BENCHES),bench) -name '*.c'))
 KERNELS  := $(sort $(shell find kernels -name '*.c'))
 TESTS    := $(sort $(shell find tests -name 'test_*.c'))
 OBJECTS  := $(SOURCES:%.c=$(BUILD)/%.o) $(foreach set,$(SETS),$(KERNELS:%.c=$(BUILD)/%.$(set).o))
@@ -39,8 +45,19 @@ PROGRAMS := $(TESTS:%.c=$(BUILD)/%)
 SCRIPTS  := tests/house.sh $(sort $(shell find tests -name 'test_*.sh'))
 LONG     := $(sort $(shell find tests -name 'long_*.sh'))
 
-.PHONY: all run test test-long fuzz bench install packages packages-tests clean
+.PHONY: all run test test-long fuzz bench install uninstall dist deb help packages packages-tests clean always
 .SECONDARY:
+.DEFAULT_GOAL := all
+
+help:
+	@echo 'make            builds build/cleave (options: PREFIX, CC, OPTIMISE, ARCH=native, BUILD)'
+	@echo 'make run        installs what is missing, builds what a first run needs, breaks a plate, draws it'
+	@echo 'make test       installs what is missing, builds, runs every test on $(THREADS) threads; test-long: longer ones, too'
+	@echo 'make bench      measures kernels and efficiency (all: build/cleave bench --help)'
+	@echo 'make fuzz       feeds scenes and files of all kinds to the readers'
+	@echo 'make install    below PREFIX ($(PREFIX)): program, manual page, completion for bash and zsh; uninstall removes them'
+	@echo 'make dist deb   a tarball, a Debian package; inputs/packaging has recipes for Docker and Spack'
+	@echo 'make clean      removes build'
 
 all: $(BUILD)/cleave
 
@@ -59,6 +76,13 @@ $(BUILD)/cost_accuracy_text.h: src/auto/cost_accuracy.csv Makefile
 	@mkdir -p $(@D)
 	@awk '{gsub(/"/, "\\\""); printf "\"%s\\n\"\n", $$0}' $< > $@
 $(BUILD)/src/auto/cost_accuracy.o: $(BUILD)/cost_accuracy_text.h
+
+# What this build has, for the two files that list it; written anew only where it changes.
+PARTS    := $(SETS:%=KERNELS_%) $(if $(BENCHES),WITH_BENCHES)
+$(BUILD)/parts.h: always
+	@mkdir -p $(@D)
+	@printf '#define %s\n' $(PARTS) > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+$(foreach path,$(BUILD) $(BUILD)/fuzz,$(path)/src/simd/simd.o $(path)/src/app/commands.o): $(BUILD)/parts.h
 
 # One rule a set: build/kernels/pd/bond_force.avx2.o from kernels/pd/bond_force.c.
 define SET
@@ -90,7 +114,7 @@ $(BUILD)/fuzz/fuzz: $(BUILD)/tests/robustness/fuzz.o $(patsubst %.c,$(BUILD)/fuz
 
 # The main job: installs what is missing, builds, breaks a steel plate, draws it.
 run: packages
-	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) all
+	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) $(if $(wildcard $(BUILD)/bench),,FIRST=1) all
 	$(BUILD)/cleave run inputs/kalthoff_winkler.yaml --overwrite
 	$(BUILD)/cleave plot results/kalthoff_winkler
 
@@ -107,11 +131,35 @@ fuzz: all
 bench: all
 	$(BUILD)/cleave bench kernels efficiency
 
+# What `make install` lays below PREFIX, for `make uninstall`, too.
+SHARE     = $(DESTDIR)$(PREFIX)/share
+INSTALLED = $(DESTDIR)$(PREFIX)/bin/cleave $(SHARE)/man/man1/cleave.1 $(SHARE)/bash-completion/completions/cleave \
+            $(SHARE)/zsh/site-functions/_cleave
+
 install: all
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1
-	install -m 755 $(BUILD)/cleave $(DESTDIR)$(PREFIX)/bin/cleave
-	$(BUILD)/cleave help --manual > $(BUILD)/cleave.1
-	install -m 644 $(BUILD)/cleave.1 $(DESTDIR)$(PREFIX)/share/man/man1/cleave.1
+	@$(BUILD)/cleave help --manual > $(BUILD)/cleave.1
+	@$(BUILD)/cleave help --completion bash > $(BUILD)/cleave.bash
+	@$(BUILD)/cleave help --completion zsh > $(BUILD)/cleave.zsh
+	install -D -m 755 $(BUILD)/cleave $(DESTDIR)$(PREFIX)/bin/cleave
+	install -D -m 644 $(BUILD)/cleave.1 $(SHARE)/man/man1/cleave.1
+	install -D -m 644 $(BUILD)/cleave.bash $(SHARE)/bash-completion/completions/cleave
+	install -D -m 644 $(BUILD)/cleave.zsh $(SHARE)/zsh/site-functions/_cleave
+
+uninstall:
+	rm -f $(INSTALLED)
+
+# A tarball that builds without git; of what is committed where git is there, else of what lies here.
+DIST     := cleave-$(VERSION)
+dist:
+	@mkdir -p $(BUILD)
+	@if git rev-parse --git-dir >/dev/null 2>&1; then git archive --prefix=$(DIST)/ HEAD; \
+	else tar -c --transform='s|^|$(DIST)/|' $(DISTRIBUTED); fi | gzip -n9 > $(BUILD)/$(DIST).tar.gz
+	@echo $(BUILD)/$(DIST).tar.gz
+DISTRIBUTED := Makefile README.md src include kernels bench tests inputs
+
+# A package for Debian and its like: build/cleave_VERSION_ARCHITECTURE.deb.
+deb: all
+	@sh inputs/packaging/deb.sh $(BUILD) $(VERSION)
 
 clean:
 	rm -rf $(BUILD)

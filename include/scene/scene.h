@@ -209,7 +209,10 @@ const char *scene_frame_not_default(const struct scene *s, int body);
 /* Prints the table of keys: all of them (key NULL), those below a prefix, or one; REFUSED names the nearest key. */
 status scene_help(FILE *out, const char *key);
 
-/* Writes the manual page cleave.1 (troff). */
-status scene_manual(FILE *out);
+/* Prints the units that numbers may carry. */
+void scene_help_units(FILE *out);
+/* Writes the keys for the manual page (troff); and, one a line, those that `-s` sets, 0 for the number of an item. */
+void scene_manual_keys(FILE *out);
+void scene_override_keys(FILE *out);
 
 #endif

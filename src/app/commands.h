@@ -8,6 +8,12 @@
 
 #include "base/base.h"
 
+/* `words`: the form of the arguments, from which usage, manual and completion are made: names in capitals stand for
+ * values, an option is followed by the one that it takes. */
+struct command { const char *name, *words, *meaning; status (*call)(int argc, char **argv); };
+extern const struct command commands[];
+extern const int commands_count;
+
 status command_run(int argc, char **argv);
 status command_sweep(int argc, char **argv);
 status command_converge(int argc, char **argv);
@@ -16,12 +22,30 @@ status command_compare(int argc, char **argv);
 status command_help(int argc, char **argv);
 status command_info(int argc, char **argv);
 
+/* The command of this name. REFUSED with the nearest name. */
+status command_find(const char *name, const struct command **found);
+
 /* From the first call on signals that ask the program to end set what this returns; the second interrupt ends it at
  * once. */
 const volatile sig_atomic_t *stop_signals(void);
 
-/* Pages of `cleave help`: the guarantees of a run and the tests that check them; the equations. */
+/* `cleave --help` and `cleave COMMAND --help`. */
+void usage_print(FILE *out);
+void usage_print_of(FILE *out, const struct command *c);
+static inline bool wants_help(const char *word)
+{
+    return (word[0] == '-' && word[1] == 'h' && !word[2]) || __builtin_strcmp(word, "--help") == 0;
+}
+
+/* Pages of `cleave help`: the guarantees of a run and the tests that check them; the equations; options, files and
+ * exit statuses of a run; and the manual page cleave.1 (troff), of which the last is a part. FAILED if the page cannot
+ * be written. */
 status trust_print(FILE *out);
 status theory_print(FILE *out);
+status manual_run_print(FILE *out);
+status manual_print(FILE *out);
+
+/* Completion of commands, options, keys and words for `bash` or `zsh`, as a script. REFUSED for another shell. */
+status completion_print(FILE *out, const char *shell);
 
 #endif

@@ -5,12 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "bench/common/bench.h"
-#include "plot/plot.h"
 #include "commands.h"
 #include "base/last_words.h"
 #include "output/output.h"
-#include "scene/scene.h"
 #include "simd/simd.h"
 
 /* Exit without handlers; builds that report as they exit (leaks, coverage) define LEAVE as exit. */
@@ -18,60 +15,26 @@
 #define LEAVE _exit
 #endif
 
-struct command { const char *name, *words, *meaning; status (*call)(int argc, char **argv); };
-
-static const struct command commands[] = {
-    {"run", "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]", "runs a scene", command_run},
-    {"check", "SCENE [-s KEY=VALUE]... [-t THREADS]", "what a scene would cost and whether it is sound", command_check},
-    {"sweep", "SCENE -s KEY=VALUE,...|FROM:TO:STEP... [-o DIR] [-j RUNS] [--list] [--collect]",
-     "a study: runs, or lists, every combination", command_sweep},
-    {"converge", "SCENE [--of FIGURE]... [--budget TIME] [-s KEY=VALUE]... [-o DIR] [-j RUNS]",
-     "every figure of a scene with its error bar", command_converge},
-    {"plot", "DIR [--frames all|last|N]", "pictures of a finished or running run", command_plot},
-    {"compare", "DIR DIR", "how far two runs are apart", command_compare},
-    {"bench", "[NAME...] [--quick] [--readme]", "kernels, efficiency, coupling", command_bench},
-    {"help", "[KEY|theory|trust]", "every scene key; the equations; what a run promises", command_help},
-    {"info", "", "version, build, sets of kernels, threads, cores and caches", command_info},
-};
-
-/* `cleave COMMAND --help`. */
-static status usage_of(const struct command *c)
+/* `--help` anywhere behind a command, but as the value of an option. */
+static bool asks_help(int argc, char **argv)
 {
-    printf("cleave %s%s%s\n  %s\n", c->name, *c->words ? " " : "", c->words, c->meaning);
-    return OK;
-}
-
-static bool wants_help(const char *word) { return !strcmp(word, "--help") || !strcmp(word, "-h"); }
-
-static status usage(status result)
-{
-    FILE *to = result == OK ? stdout : stderr;
-    fprintf(to, "cleave: dynamic fracture by peridynamics and the material point method\n");
-    for (const struct command *c = commands; c < commands + COUNT_OF(commands); c++)
-        fprintf(to, "  cleave %-8s %-78s %s\n", c->name, c->words, c->meaning);
-    return result;
-}
-
-status command_help(int argc, char **argv)
-{
-    if (argc > 2) return status_set(REFUSED, "usage: cleave help [KEY|theory|trust]");
-    if (argc == 2 && !strcmp(argv[1], "--manual")) return scene_manual(stdout);
-    if (argc == 2 && !strcmp(argv[1], "trust")) return trust_print(stdout);
-    if (argc == 2 && !strcmp(argv[1], "theory")) return theory_print(stdout);
-    return scene_help(stdout, argc == 2 ? argv[1] : NULL);
+    bool asks = false;
+    for (int k = 2; k < argc; k++)
+        asks |= wants_help(argv[k]) && (k == 2 || argv[k - 1][0] != '-' || strlen(argv[k - 1]) != 2);
+    return asks;
 }
 
 static status call(int argc, char **argv)
 {
-    if (argc < 2) return usage(REFUSED);
+    const struct command *c;
+    if (argc < 2) return usage_print(stderr), REFUSED;
     output_start();
     TRY(simd_start());
-    if (wants_help(argv[1])) return usage(OK);
+    if (wants_help(argv[1])) return usage_print(stdout), OK;
     if (!strcmp(argv[1], "--version")) argv[1] = "info";
-    for (const struct command *c = commands; c < commands + COUNT_OF(commands); c++)
-        if (!strcmp(argv[1], c->name))
-            return argc == 3 && wants_help(argv[2]) ? usage_of(c) : c->call(argc - 1, argv + 1);
-    return status_set(REFUSED, "unknown command %s; cleave --help lists them", argv[1]);
+    TRY(command_find(argv[1], &c));
+    if (asks_help(argc, argv)) return usage_print_of(stdout, c), OK;
+    return c->call(argc - 1, argv + 1);
 }
 
 /* OpenMP threads wait for each other by spinning, for milliseconds: on a busy machine that slows a run many times

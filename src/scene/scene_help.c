@@ -140,62 +140,6 @@ status scene_help(FILE *out, const char *key)
 
 /* ---- cleave.1 ---------------------------------------------------------------------------------------------------- */
 
-static const char manual_head[] =
-    ".TH CLEAVE 1 \"\" \"cleave " CLEAVE_VERSION "\" \"User commands\"\n"
-    ".SH NAME\ncleave \\- dynamic fracture by peridynamics, material points and the conversion between them\n"
-    ".SH SYNOPSIS\n"
-    ".B cleave run\n.I scene\n[\\fB\\-o\\fR \\fIdir\\fR] [\\fB\\-s\\fR \\fIkey\\fR=\\fIvalue\\fR]... "
-    "[\\fB\\-t\\fR \\fIthreads\\fR] [\\fB\\-\\-resume\\fR|\\fB\\-\\-overwrite\\fR] [\\fB\\-q\\fR]\n.br\n"
-    ".B cleave check\n.I scene\n[\\fB\\-s\\fR \\fIkey\\fR=\\fIvalue\\fR]...\n.br\n"
-    ".B cleave plot\n.I dir\n.br\n"
-    ".B cleave compare\n.I dir dir\n.br\n"
-    ".B cleave bench\n[\\fIname\\fR]... [\\fB\\-\\-quick\\fR]\n.br\n"
-    ".B cleave help\n[\\fIkey\\fR|\\fBtrust\\fR]\n.br\n"
-    ".B cleave info\n"
-    ".SH DESCRIPTION\n"
-    "A scene is a YAML file that says what breaks. The body is peridynamic where its material breaks and made of\n"
-    "material points elsewhere; the points become peridynamic particles while the run goes on.\n"
-    ".TP\n.B run\nruns a scene and leaves its results in a folder (default results/ and the scene's name).\n"
-    ".TP\n.B check\nreads a scene and tells its size, cost and soundness without running a step.\n"
-    ".TP\n.B plot\ndraws pictures of a run, finished or not.\n"
-    ".TP\n.B compare\ntells how far two runs are apart.\n"
-    ".TP\n.B bench\nmeasures the program.\n"
-    ".TP\n.B help\nprints the keys below, those that begin with a key, or one; with trust, what a run promises.\n"
-    ".TP\n.B info\nprints version, build, sets of kernels, threads, cores and caches.\n"
-    ".SH OPTIONS\n"
-    ".TP\n.B \\-o \\fIdir\\fR\nfolder of the results. One that holds another run is refused.\n"
-    ".TP\n.B \\-s \\fIkey\\fR=\\fIvalue\\fR\nlays a value over the scene's: material.young=70e9, "
-    "boundary.0.velocity='[0, 20 m/s]', cracks.1.to='[20 mm, 0]', materials.steel.young=210e9. Items of lists go by "
-    "number,\n"
-    "from 0 (boundary.0 or boundary[0]), or by name. An empty value takes the key, or the item, away.\n"
-    ".TP\n.B \\-t \\fIthreads\\fR\nnumber of threads. The results do not depend on it.\n"
-    ".TP\n.B \\-\\-resume\ngoes on from the newest checkpoint.\n"
-    ".TP\n.B \\-\\-overwrite\nreplaces an older run, which is left alone otherwise.\n"
-    ".TP\n.B \\-q\nno progress and no figures at the end; warnings are still said, and stand in summary.json.\n"
-    ".SH EXIT STATUS\n"
-    ".TP\n.B 0\ndone\n.TP\n.B 1\nthe run failed\n.TP\n.B 2\nthe scene or the command line is wrong\n"
-    ".TP\n.B 130\ninterrupted, after a checkpoint\n"
-    ".SH ENVIRONMENT\nNO_COLOR, OMP_NUM_THREADS, OMP_PLACES and OMP_PROC_BIND are honoured.\n"
-    "CLEAVE_SIMD takes a set of kernels other than the widest that the processor runs: avx512, avx2 or portable.\n"
-    ".SH SIGNALS\nSIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1 and SIGUSR2 end a run with a checkpoint; the first three "
-    "end it at once the\n"
-    "second time. One that was ignored when the program was started stays ignored.\n"
-    ".SH FILES\n"
-    ".TP\n.I frames/NNNNNN.hdf, frames.hdf.series\nthe frames (VTKHDF) and the index that ParaView opens\n"
-    ".TP\n.I frames.xdmf\nthe same for other readers\n"
-    ".TP\n.I history.csv\none line per sample: energies, momentum, crack tip, probes; pd_share and mpm_share, shares "
-    "of the\n"
-    "particles by method, and rest_share, the share of them that rested, mean over the steps since the last sample\n"
-    ".TP\n.I NAME_NNNNNN.csv\nprofiles of the line and exact probe NAME, one with every frame\n"
-    ".TP\n.I summary.json\nthe figures of the run\n"
-    ".TP\n.I scene.yaml\nthe scene as run, every default written out\n"
-    ".TP\n.I checkpoint.h5, checkpoint.previous.h5\nthe two newest checkpoints\n"
-    ".SH SCENE\n"
-    "Numbers are SI or carry a unit (190 GPa, 0.5 mm, 20 us, 7800 kg/m^3, 2 %) and may be fractions (1/3). The key\n"
-    "decides what a value is: yes, 010 or 1:30 mean nothing special, and flags are true or false. Points are lists\n"
-    "of as many components as the space has. One document, no anchors, aliases or tags. In messages and below,\n"
-    "keys are written with dots; items of lists have the keys below the list.\n";
-
 /* Writes text with the characters escaped that have a meaning in troff. */
 static void troff(FILE *out, const char *text)
 {
@@ -207,10 +151,9 @@ static void troff(FILE *out, const char *text)
     }
 }
 
-status scene_manual(FILE *out)
+void scene_manual_keys(FILE *out)
 {
     char facts[384];
-    fputs(manual_head, out);
     for (int k = 0; k < keys_count; k++) {
         facts_text(&keys[k], facts, sizeof facts);
         fputs(".TP\n.B ", out);
@@ -221,5 +164,34 @@ status scene_manual(FILE *out)
         troff(out, keys[k].help);
         fputs("\n", out);
     }
-    return ferror(out) ? status_set(FAILED, "the manual page cannot be written") : OK;
+}
+
+/* ---- completion -------------------------------------------------------------------------------------------------- */
+
+/* Keys whose items are named by a number. */
+static bool is_item_list(const char *path, size_t length)
+{
+    for (int k = 0; k < keys_count; k++)
+        if (strncmp(keys[k].path, path, length) == 0 && keys[k].path[length] == '\0')
+            return keys[k].type == KEY_LIST;
+    return false;
+}
+
+/* `boundary.time` as `boundary.0.time`. */
+static void override_path(FILE *out, const char *path)
+{
+    for (const char *c = path; *c; c++) {
+        if (*c == '.' && is_item_list(path, (size_t)(c - path))) fputs(".0", out);
+        fputc(*c, out);
+    }
+}
+
+void scene_override_keys(FILE *out)
+{
+    for (int k = 0; k < keys_count; k++) {
+        if (keys[k].type >= KEY_MAP && keys[k].type != KEY_HAND) continue;
+        if (strncmp(keys[k].path, "solid", 5) == 0) continue;
+        override_path(out, keys[k].path);
+        fputc('\n', out);
+    }
 }

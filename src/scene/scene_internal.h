@@ -2,6 +2,7 @@
 #ifndef CLEAVE_SCENE_INTERNAL
 #define CLEAVE_SCENE_INTERNAL
 
+#include "base/edit_distance.h"
 #include "scene/scene.h"
 
 /* ---- nodes: YAML without types, every value is text until a key gives it a type (scene_yaml.c) ------------------- */
@@ -107,7 +108,6 @@ const char *key_leaf(const struct key *k);
 bool key_in(const struct key *k, const char *group);
 const struct key *key_find(const char *group, const char *leaf);
 const struct key *key_nearest(const char *group, const char *leaf);
-int edit_distance(const char *a, const char *b);
 
 /* ---- values (scene_value.c) -------------------------------------------------------------------------------------- */
 

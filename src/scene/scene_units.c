@@ -297,3 +297,21 @@ const char *number_text(char text[32], real value)
     }
     return text;
 }
+
+/* ---- cleave help units ------------------------------------------------------------------------------------------- */
+
+void scene_help_units(FILE *out)
+{
+    fputs("A number without a unit is SI. A unit stands behind it, with or without a blank: 0.5 mm, 190GPa, 1/3.\n\n"
+          "symbols   ", out);
+    for (size_t k = 0; k < COUNT_OF(symbols); k++)
+        if (strcmp(symbols[k].name, "1") != 0) fprintf(out, " %s", symbols[k].name);
+    fputs("; times also min, h\nprefixes  ", out);
+    for (size_t k = 0; k < COUNT_OF(prefixes); k++)
+        fprintf(out, " %s 1e%d%s", prefixes[k].name, prefixes[k].ten / 2, k + 1 < COUNT_OF(prefixes) ? "," : "\n");
+    fputs("powers     m^2, m2, m\u00b2, m^0.5, sqrt(m), s^-1; between factors a blank, * or /: N/m^2, MPa m^0.5\n\n"
+          "quantity              SI unit     as\n", out);
+    for (int u = 0; u < UNITS; u++)
+        fprintf(out, "%-21s %-11s %s\n", unit_rows[u].name, *unit_rows[u].symbol ? unit_rows[u].symbol : "1",
+                unit_rows[u].example);
+}

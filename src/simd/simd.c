@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "kernels/simd/set.h"
+#include "parts.h"
 
 #ifdef __x86_64__
 #include <cpuid.h>
@@ -39,7 +40,7 @@ static inline bool runs_avx512(void)
 }
 #endif
 
-/* The Makefile defines KERNELS_... for each set that it builds. */
+/* The Makefile defines KERNELS_... for each set that it builds, as the build lists them. */
 const struct simd_set simd_sets[] = {
 #ifdef KERNELS_avx512
     {"avx512", "AVX-512 (x86-64-v4), 8 doubles a vector", runs_avx512, &kernel_set_avx512},
@@ -47,10 +48,12 @@ const struct simd_set simd_sets[] = {
 #ifdef KERNELS_avx2
     {"avx2", "AVX2 with fused multiply-add (x86-64-v3), 4 doubles a vector", runs_avx2, &kernel_set_avx2},
 #endif
+#ifdef KERNELS_portable
 #ifdef __x86_64__
     {"portable", "SSE2 (x86-64), 2 doubles a vector", runs_anywhere, &kernel_set_portable},
 #else
     {"portable", "what the compiler takes this processor for", runs_anywhere, &kernel_set_portable},
+#endif
 #endif
 };
 const int simd_set_count = COUNT_OF(simd_sets);
@@ -91,6 +94,9 @@ status simd_start(void)
         if (s->runs()) widest = s;
         if (asked && !strcmp(asked, s->name)) wanted = s;
     }
+    if (!widest)
+        return status_set(REFUSED, "this build has kernels for other processors alone: %s; `make` builds the others",
+                          names(false, text, sizeof text));
     simd_use(wanted && wanted->runs() ? wanted : widest);
     if (!asked || in_use == wanted) return OK;
     if (!wanted)

@@ -208,7 +208,7 @@ done
 
 # ---- help of a command ----------------------------------------------------------------------------------------------
 
-for command in run check plot compare bench help info; do
+for command in run check; do
     "$cleave" $command --help >"$work/out" 2>"$work/err"
     is "$command --help: exit status" $? 0
     is "$command --help: first words" "$(head -n 1 "$work/out" | cut -d ' ' -f 1-2)" "cleave $command"

@@ -142,9 +142,8 @@ static void test_help(void **state)
     char *text = NULL;
     size_t length;
     FILE *out = open_memstream(&text, &length);
-    assert_int_equal(scene_manual(out), OK);
+    scene_manual_keys(out);
     fclose(out);
-    assert_true(strncmp(text, ".TH CLEAVE 1", 12) == 0);
     assert_non_null(strstr(text, ".B particles.horizon\n"));
     free(text);
 }

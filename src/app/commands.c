@@ -1,0 +1,50 @@
+/* The table of commands, from which the program, its usage, manual and completion are made. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/edit_distance.h"
+#include "bench/common/bench.h"
+#include "commands.h"
+#include "parts.h"
+#include "plot/plot.h"
+
+#ifndef WITH_BENCHES
+static status no_benches(int argc, char **argv)
+{
+    (void)argc, (void)argv;
+    return status_set(REFUSED, "this build, of `make run`, has no benches; `make` builds them");
+}
+#define command_bench no_benches
+#endif
+
+const struct command commands[] = {
+    {"run", "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]", "runs a scene", command_run},
+    {"check", "SCENE [-s KEY=VALUE]... [-t THREADS]", "what a scene would cost and whether it is sound", command_check},
+    {"sweep",
+     "SCENE -s KEY=VALUE,...|FROM:TO:STEP... [-o DIR] [-j RUNS] [-t THREADS] [--list] [--collect] [--overwrite]",
+     "a study: runs, or lists, every combination", command_sweep},
+    {"converge",
+     "SCENE [--of FIGURE]... [--budget TIME] [--levels COUNT] [--runs COUNT] [--horizon] [-s KEY=VALUE]... [-o DIR] "
+     "[-j RUNS] [-t THREADS] [--overwrite]",
+     "every figure of a scene with its error bar", command_converge},
+    {"plot", "DIR [--frames all|last|N]", "pictures of a finished or running run", command_plot},
+    {"compare", "DIR DIR", "how far two runs are apart", command_compare},
+    {"bench", "[NAME...] [--quick] [--readme]", "kernels, efficiency, coupling, ...", command_bench},
+    {"help", "[KEY|units|run|theory|trust]", "every scene key; units; a run; the equations; what a run promises",
+     command_help},
+    {"info", "", "version, build, sets of kernels, threads, cores and caches", command_info},
+};
+const int commands_count = COUNT_OF(commands);
+
+status command_find(const char *name, const struct command **found)
+{
+    const struct command *nearest = commands;
+    for (int k = 0; k < commands_count; k++) {
+        *found = &commands[k];
+        if (!strcmp(name, commands[k].name)) return OK;
+        if (edit_distance(name, commands[k].name) < edit_distance(name, nearest->name)) nearest = &commands[k];
+    }
+    if (edit_distance(name, nearest->name) <= 2)
+        return status_set(REFUSED, "unknown command %.40s; the nearest is %s", name, nearest->name);
+    return status_set(REFUSED, "unknown command %.40s; cleave --help lists them", name);
+}

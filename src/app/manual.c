@@ -1,0 +1,206 @@
+/* What the program says about itself: usage, the manual page cleave.1, and its part about runs as `cleave help run`.
+ * Commands come from their table, keys from that of the scene. */
+#include <stdio.h>
+#include <string.h>
+
+#include "commands.h"
+#include "scene/scene.h"
+
+/* ---- texts ------------------------------------------------------------------------------------------------------- */
+
+struct entry {
+    const char *term, *text;
+}; /* term NULL: a paragraph */
+struct section {
+    const char *title;
+    const struct entry *entry;
+    int n;
+    bool of_run;
+};
+
+static const struct entry description[] = {
+    {NULL,
+     "A scene is a YAML file that says what breaks. The body is peridynamic where its material breaks and made of "
+     "material points elsewhere; the points become peridynamic particles while the run goes on."},
+};
+static const struct entry options[] = {
+    {"-o DIR",
+     "folder of the results (default: results/ and the scene's name). One that holds another run is refused."},
+    {"-s KEY=VALUE",
+     "lays a value over the scene's: material.young=70e9, boundary.0.velocity='[0, 20 m/s]', cracks.1.to='[20 mm, 0]', "
+     "materials.steel.young=210e9. Items of lists go by number, from 0 (boundary.0 or boundary[0]), or by name. An "
+     "empty "
+     "value takes the key, or the item, away."},
+    {"-t THREADS", "number of threads. The results do not depend on it."},
+    {"--resume", "goes on from the newest checkpoint."},
+    {"--overwrite", "replaces an older run, or study, which is left alone otherwise."},
+    {"-q", "no progress and no figures at the end; warnings are still said, and stand in summary.json."},
+    {"-j RUNS", "runs of a study at once (default: as many as there are cores)."},
+    {"--list", "runs nothing and prints the command of each run, a line each."},
+    {"--collect", "runs nothing and makes the table and pictures of a study from the runs that are done."},
+    {"--of FIGURE", "a figure of summary.json, its names joined by points, as crack.start_time; several may be named."},
+    {"--budget TIME", "time for the runs of a study, as 5min."},
+    {"--levels COUNT", "number of spacings, from 2 on."},
+    {"--runs COUNT", "number of runs at each spacing."},
+    {"--horizon", "keeps the length of the horizon while the spacing varies."},
+    {"--frames", "which frames are drawn: all, last, or how many."},
+    {"--quick", "smaller cases."},
+    {"--readme", "writes the figures to bench/README.md."},
+    {"--help", "after any command: what it takes."},
+};
+static const struct entry exit_status[] = {
+    {"0", "done"},
+    {"1", "the run failed"},
+    {"2", "the scene or the command line is wrong"},
+    {"130", "interrupted, after a checkpoint"},
+};
+static const struct entry environment[] = {
+    {"NO_COLOR, OMP_NUM_THREADS, OMP_PLACES, OMP_PROC_BIND", "are honoured."},
+    {"CLEAVE_SIMD", "takes a set of kernels other than the widest that the processor runs: avx512, avx2 or portable."},
+};
+static const struct entry signals[] = {
+    {NULL,
+     "SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1 and SIGUSR2 end a run with a checkpoint; the first three end it at "
+     "once the second time. One that was ignored when the program was started stays ignored."},
+};
+static const struct entry files[] = {
+    {"frames/NNNNNN.hdf, frames.hdf.series", "the frames (VTKHDF) and the index that ParaView opens"},
+    {"frames.xdmf", "the same for other readers"},
+    {"history.csv",
+     "one line per sample: energies, momentum, crack tip, probes; pd_share and mpm_share, shares of the particles by "
+     "method, and rest_share, the share of them that rested, mean over the steps since the last sample"},
+    {"NAME_NNNNNN.csv", "profiles of the line and exact probe NAME, one with every frame"},
+    {"fragments.csv", "pieces that bonds hold together at the end (method pd)"},
+    {"summary.json", "the figures of the run"},
+    {"scene.yaml", "the scene as run, every default written out"},
+    {"checkpoint.h5, checkpoint.previous.h5", "the two newest checkpoints"},
+    {"pictures/", "pictures of cleave plot"},
+};
+static const struct entry scene_form[] = {
+    {NULL,
+     "Numbers are SI or carry a unit (190 GPa, 0.5 mm, 20 us, 7800 kg/m^3, 2 %) and may be fractions (1/3). The key "
+     "decides what a value is: yes, 010 or 1:30 mean nothing special, and flags are true or false. Points are lists "
+     "of as many components as the space has. One document, no anchors, aliases or tags. In messages and below, keys "
+     "are written with dots; items of lists have the keys below the list."},
+};
+#define SECTION(title, entries, of_run)                                                                                \
+    {                                                                                                                  \
+        title, entries, COUNT_OF(entries), of_run                                                                      \
+    }
+static const struct section sections[] = {
+    SECTION("DESCRIPTION", description, false), SECTION("OPTIONS", options, true),
+    SECTION("EXIT STATUS", exit_status, true),  SECTION("ENVIRONMENT", environment, true),
+    SECTION("SIGNALS", signals, true),          SECTION("FILES", files, true),
+    SECTION("SCENE", scene_form, false),
+};
+
+/* Words in lines of at most 100 characters that begin with `indent` blanks. */
+static void wrapped(FILE *out, const char *text, int indent)
+{
+    int column = 0;
+    while (*text) {
+        int length = (int)strcspn(text, " ");
+        if (column == 0 || column + 1 + length > 100)
+            column = fprintf(out, "%s%*s", column ? "\n" : "", indent, "") - (column != 0);
+        else
+            column += fprintf(out, " ");
+        column += fprintf(out, "%.*s", length, text);
+        text += length + (text[length] == ' ');
+    }
+    fputc('\n', out);
+}
+
+/* ---- usage ------------------------------------------------------------------------------------------------------- */
+
+void usage_print(FILE *out)
+{
+    fprintf(out, "cleave: dynamic fracture by peridynamics and the material point method\n\n");
+    for (int k = 0; k < commands_count; k++) fprintf(out, "  cleave %-9s %s\n", commands[k].name, commands[k].meaning);
+    fprintf(
+        out,
+        "\n`cleave COMMAND --help` says what a command takes; `cleave help run` what a run leaves and how it ends.\n");
+}
+
+/* Does the form of a command hold this option, as a word? */
+static bool takes_option(const struct command *c, const char *term)
+{
+    size_t length = strcspn(term, " ");
+    for (const char *at = strstr(c->words, term[1] == '-' ? "--" : "-"); at; at = strchr(at + 1, '-'))
+        if (!strncmp(at, term, length) && strchr(" ]|", at[length]) && strchr("[|", at[-1])) return true;
+    return !strcmp(term, "-s KEY=VALUE") && strstr(c->words, " -s ");
+}
+
+void usage_print_of(FILE *out, const struct command *c)
+{
+    fprintf(out, "cleave %s%s%s\n  %s\n", c->name, *c->words ? " " : "", c->words, c->meaning);
+    for (size_t k = 0; k < COUNT_OF(options); k++) {
+        if (!takes_option(c, options[k].term)) continue;
+        fprintf(out, "  %s\n", options[k].term);
+        wrapped(out, options[k].text, 6);
+    }
+}
+
+/* ---- pages ------------------------------------------------------------------------------------------------------- */
+
+/* Writes text with the characters escaped that have a meaning in troff. */
+static void troff_text(FILE *out, const char *text)
+{
+    for (const char *c = text; *c; c++) {
+        if (*c == '\\')
+            fputs("\\e", out);
+        else if (*c == '-')
+            fputs("\\-", out);
+        else if (*c == '^')
+            fputs("\\(ha", out);
+        else
+            fputc(*c, out);
+    }
+    fputc('\n', out);
+}
+
+static void section_troff(FILE *out, const struct section *s)
+{
+    fprintf(out, ".SH %s\n", s->title);
+    for (int k = 0; k < s->n; k++) {
+        if (s->entry[k].term) fputs(".TP\n.B ", out), troff_text(out, s->entry[k].term);
+        troff_text(out, s->entry[k].text);
+    }
+}
+
+status manual_run_print(FILE *out)
+{
+    for (size_t j = 0; j < COUNT_OF(sections); j++) {
+        const struct section *s = &sections[j];
+        if (!s->of_run) continue;
+        fprintf(out, "%s\n", s->title);
+        for (int k = 0; k < s->n; k++) {
+            if (s->entry[k].term) fprintf(out, "  %s\n", s->entry[k].term);
+            wrapped(out, s->entry[k].text, s->entry[k].term ? 6 : 2);
+        }
+        fputc('\n', out);
+    }
+    fprintf(out, "What is written is whole: `cleave help trust`. Fields of frames, particle lists, studies: "
+                 "inputs/README.md.\n");
+    return OK;
+}
+
+status manual_print(FILE *out)
+{
+    fputs(".TH CLEAVE 1 \"\" \"cleave " CLEAVE_VERSION "\" \"User commands\"\n"
+          ".SH NAME\ncleave \\- dynamic fracture by peridynamics, material points and the conversion between them\n"
+          ".SH SYNOPSIS\n",
+          out);
+    for (int k = 0; k < commands_count; k++) {
+        fprintf(out, "%s.B cleave %s\n", k ? ".br\n" : "", commands[k].name);
+        if (*commands[k].words) troff_text(out, commands[k].words);
+    }
+    section_troff(out, &sections[0]);
+    fputs(".SH COMMANDS\n", out);
+    for (int k = 0; k < commands_count; k++) {
+        fprintf(out, ".TP\n.B %s\n", commands[k].name);
+        troff_text(out, commands[k].meaning);
+    }
+    for (size_t k = 1; k < COUNT_OF(sections); k++) section_troff(out, &sections[k]);
+    scene_manual_keys(out);
+    return ferror(out) ? status_set(FAILED, "the manual page cannot be written") : OK;
+}
