@@ -134,7 +134,10 @@ bench: all
 # What `make install` lays below PREFIX, for `make uninstall`, too.
 SHARE     = $(DESTDIR)$(PREFIX)/share
 INSTALLED = $(DESTDIR)$(PREFIX)/bin/cleave $(SHARE)/man/man1/cleave.1 $(SHARE)/bash-completion/completions/cleave \
-            $(SHARE)/zsh/site-functions/_cleave
+            $(SHARE)/zsh/site-functions/_cleave $(MODULES)/cleave.py $(MODULES)/__pycache__/cleave.*.pyc
+# Where Python looks for modules below PREFIX; else a folder that PYTHONPATH has to name.
+SEEN      = $(shell python3 -c 'import sys; print(next((p for p in sys.path if p.startswith("$(PREFIX)/") and p.endswith("-packages")), ""))' 2>/dev/null)
+MODULES   = $(DESTDIR)$(or $(SEEN),$(PREFIX)/lib/python3/dist-packages)
 
 install: all
 	@$(BUILD)/cleave help --manual > $(BUILD)/cleave.1
@@ -144,6 +147,8 @@ install: all
 	install -D -m 644 $(BUILD)/cleave.1 $(SHARE)/man/man1/cleave.1
 	install -D -m 644 $(BUILD)/cleave.bash $(SHARE)/bash-completion/completions/cleave
 	install -D -m 644 $(BUILD)/cleave.zsh $(SHARE)/zsh/site-functions/_cleave
+	install -D -m 644 src/python/cleave.py $(MODULES)/cleave.py
+	@$(if $(DESTDIR)$(SEEN),:,echo "for import cleave: export PYTHONPATH=$(MODULES)")
 
 uninstall:
 	rm -f $(INSTALLED)

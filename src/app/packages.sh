@@ -5,6 +5,7 @@ set -eu
 
 have() { command -v "$1" >/dev/null 2>&1; }
 library() { have pkg-config && pkg-config --exists "$1"; }
+reads_frames() { python3 -c "import h5py" 2>/dev/null || /usr/bin/python3 -c "import h5py" 2>/dev/null; }
 
 # What is missing, by the names a person knows it by.
 missing()
@@ -16,6 +17,7 @@ missing()
     library hwloc || echo "hwloc"
     library yaml-0.1 || echo "libyaml"
     [ "${1:-}" != tests ] || library cmocka || echo "cmocka (for the tests)"
+    [ "${1:-}" != tests ] || ! have apt-get || reads_frames || echo "h5py of Python (for a test)"
 }
 lacking=$(missing "$@" | paste -s -d, - | sed 's/,/, /g')
 [ -n "$lacking" ] || exit 0
@@ -29,21 +31,21 @@ as_root() {
 
 if have apt-get; then
     packages="gcc libc6-dev pkg-config libhdf5-dev libhwloc-dev libyaml-dev gnuplot-nox"
-    cmocka=libcmocka-dev
+    tests="libcmocka-dev python3-h5py"
     install() { as_root apt-get update -q && as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends $packages; }
 elif have dnf; then
     packages="gcc pkgconf-pkg-config hdf5-devel hwloc-devel libyaml-devel gnuplot"
-    cmocka=libcmocka-devel
+    tests=libcmocka-devel
     install() { as_root dnf install -qy $packages; }
 elif have brew; then
     packages="gcc pkg-config hdf5 hwloc libyaml gnuplot"
-    cmocka=cmocka
+    tests=cmocka
     install() { brew install -q $packages; }
 else
     echo "Cleave needs what this machine lacks: $lacking; no apt-get, dnf or brew here: install it by hand" >&2
     exit 1
 fi
-[ "${1:-}" != tests ] || packages="$packages $cmocka"
+[ "${1:-}" != tests ] || packages="$packages $tests"
 
 echo "Cleave needs what this machine lacks: $lacking. About to install: $packages" >&2
 install

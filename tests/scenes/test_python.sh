@@ -1,0 +1,137 @@
+#!/bin/sh
+# The Python module (src/python/cleave.py): it runs scenes with overrides, keeps the program's one line and exit status, and reads
+# what `cleave` itself writes: history, summary, frames in the order of ids, probes, fragments, tables of studies, a run in progress.
+# Skipped where numpy or h5py is missing.
+test_name=python
+. tests/support/summary.sh
+
+for python in python3 /usr/bin/python3 none; do
+    "$python" -c 'import numpy, h5py' 2>/dev/null && break
+done
+[ "$python" != none ] || { echo "test_python: no python3 with numpy and h5py (Debian: python3-numpy python3-h5py)"; exit 77; }
+
+cat >"$work/plate.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 6 us
+method: pd
+material: {young: 72 GPa, density: 2440 kg/m^3, energy_release_rate: 135 J/m^2}
+body: {box: {from: [0, -10 mm], to: [20 mm, 10 mm]}}
+particles: {spacing: 1 mm}
+cracks: [{from: [0, 0], to: [9.9 mm, 0]}]
+boundary: [{traction: [0, 24 MPa], face: y+}, {traction: [0, -24 MPa], face: y-}]
+probes: [tip, line: {name: middle, from: [0, 0.5 mm], to: [20 mm, 0.5 mm]}]
+output: {frames: 2, samples: 10}
+END
+
+cat >"$work/test.py" <<'END'
+import os
+import sys
+
+import numpy as np
+
+import cleave
+
+work = sys.argv[1]
+scene = work + "/plate.yaml"
+checks = 0
+
+
+def holds(what, claim):
+    global checks
+    checks += 1
+    if not claim:
+        sys.exit("test_python: " + what)
+
+
+def refused(what, status, call, *words, **more):
+    try:
+        call(*words, **more)
+    except cleave.Error as fault:
+        holds(what + ": its line", "\n" not in str(fault) and str(fault))
+        holds(what + ": its status %s" % fault.status, fault.status == status)
+        return str(fault)
+    sys.exit("test_python: not refused: " + what)
+
+
+run = cleave.run(scene, {"boundary.0.traction": [0, 12e6], "boundary.1.traction": [0, np.float64(-12e6)],
+                         "time.active_set": False, "output.frames": 3, "name": "from_python"},
+                 output=work + "/run", threads=2)
+history, summary = run.history, run.summary
+
+# the overrides arrived, numbers as numbers
+holds("traction", "traction: [0, 12000000]" in run.scene and "traction: [0, -12000000]" in run.scene)
+holds("flag and number", "active_set: false" in run.scene and len(run.frames) == 4)
+holds("text", summary["name"] == "from_python" and run.status == "done")
+
+# tables: columns by name, with units
+holds("rows", history.rows == len(history["time"]) == 11 and history["time"][0] == 0)
+holds("time", np.isclose(history["time"][-1], 6e-6) and history.units["time"] == "s" and history.units["step"] == "")
+holds("energy", np.isclose(history["kinetic"][-1], summary["energy.kinetic"], rtol=1e-8))
+holds("pieces", run.fragments["mass"].sum() > 0 and run.fragments.units["mass"] == "kg")
+
+# records: by path, by name, by attribute
+holds("path", summary["crack.tips.0.x"] == summary["crack"]["tips"][0]["x"] == summary.crack.tips[0].x)
+for path in ("crack.tips.99.x", "crack.nothing", "name.nothing"):
+    holds(path, path not in summary)
+
+# frames: in the order of ids, against the lattice of the scene and against the history
+frame = run.frames[-1]
+holds("particles", len(frame) == summary["particles"] == 400 and (np.diff(frame["id"]) > 0).all())
+x, y = 1e-3 * (np.arange(400) % 20 + 0.5), 1e-3 * (np.arange(400) // 20 + 0.5) - 10e-3
+holds("places at rest", np.allclose(frame.reference, np.c_[x, y], atol=1e-12))
+holds("places now", np.allclose(frame.positions[:, :2], frame.reference + frame["displacement"][:, :2], atol=1e-8))
+holds("shapes", frame["stress"].shape == (400, 6) and frame["velocity"].shape == (400, 3) and frame["damage"].shape == (400,))
+holds("units", frame.units["stress"] == "Pa" and frame.units["damage"] == "")
+kinetic = 0.5 * 2440 * 1e-9 * (frame["velocity"].astype(float) ** 2).sum()
+holds("kinetic energy %g, %g" % (kinetic, history["kinetic"][-1]), np.isclose(kinetic, history["kinetic"][-1], rtol=0.05))
+holds("times", np.allclose(run.frames.times, [0, 2e-6, 4e-6, 6e-6], atol=1e-7) and run.frames.at(1.0).time == run.frames[-1].time)
+holds("slice", len(run.frames[1:]) == 3 and run.frames[0].step == 0 and "space: plane stress" in frame.scene)
+try:
+    frame["no field"]
+    sys.exit("test_python: a field that is not there")
+except KeyError as fault:
+    holds("fields that there are", "displacement" in str(fault))
+
+# probes
+tip = run.probes["tip"]
+holds("tip", tip["growth"][-1] == history["tip.growth"][-1] and tip.figures["x"] == summary["probes.tip.x"])
+holds("profiles", len(run.probes["middle"].profiles) == 4 and run.probes["middle"].profiles[0].rows > 1)
+
+# what is refused keeps the program's line and status; what is not there is said
+message = refused("a wrong unit", 2, cleave.run, scene, {"particles.spacing": "1 kg"}, output=work + "/none")
+holds("key and remedy in the line: " + message, "particles.spacing" in message)
+refused("an older run", 2, cleave.run, scene, output=work + "/run")
+refused("no run there", None, cleave.open, work)
+refused("no study there", None, lambda: run.sweep)
+holds("a command's text", "cleave" in cleave.call("info"))
+
+# a run in progress: the last line is being written, no summary yet; the table is read again once the file has grown
+os.mkdir(work + "/half")
+with open(work + "/half/history.csv", "w") as file:
+    file.write("time [s],kinetic [J]\n0,0\n1e-6,2")
+half = cleave.open(work + "/half")
+holds("half a line", half.history.rows == 1 and half.status == "no summary yet" and len(half.frames) == 0)
+with open(work + "/half/history.csv", "a") as file:
+    file.write("5\n")
+holds("the line whole", half.history["kinetic"][-1] == 25)
+
+# tables of studies: text where cells are words, nan where they are empty
+os.mkdir(work + "/study")
+with open(work + "/study/sweep.csv", "w") as file:
+    file.write('run,state,method,"boundary.0.velocity [m/s]",steps\na,done,pd,"[1, 0]",3\nb,failed,mpm,"[2, 0]",\n')
+sweep = cleave.open(work + "/study").sweep
+holds("words", list(sweep["method"]) == ["pd", "mpm"] and sweep["boundary.0.velocity"][1] == "[2, 0]")
+holds("numbers", sweep["steps"][0] == 3 and np.isnan(sweep["steps"][1]))
+print(checks)
+END
+
+told=$(CLEAVE=$cleave PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=src/python "$python" "$work/test.py" "$work") || exit 1
+checks=$((checks + told))
+
+# Installed, it finds the program that was installed with it.
+holds "make install" make -s install BUILD="${BUILD:-build}" PREFIX="$work/prefix" -o all >"$work/installed"
+PYTHONPATH=$(sed -n 's/.*PYTHONPATH=\([^ :]*\).*/\1/p' "$work/installed")
+is "where it is" "$PYTHONPATH" "$work/prefix/lib/python3/dist-packages"
+is "its program" "$(cd / && unset CLEAVE && PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$PYTHONPATH "$python" -c 'import cleave; print(cleave.program())')" "$work/prefix/bin/cleave"
+finish
