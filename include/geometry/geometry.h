@@ -1,0 +1,31 @@
+/* Room `geometry`: shapes from files of others: surfaces (STL), meshes of finite elements (Gmsh, Abaqus), images and
+ * stacks of images (PNG, TIFF). It knows the structures of `data` that answer where a place lies; scenes call it.
+ *
+ * A file is not trusted: counts are compared with its size, numbers must be finite, and what is wrong is said in one
+ * line that names file and line. */
+#ifndef CLEAVE_GEOMETRY
+#define CLEAVE_GEOMETRY
+
+#include "data/hull.h"
+
+/* A named part of a mesh: of elements that fill it a closed surface, of faces, lines or nodes an open one. */
+struct geometry_set {
+    char name[NAME_MAX_LENGTH];
+    struct hull hull;
+};
+
+struct geometry {
+    struct hull whole;
+    int sets;
+    struct geometry_set *set;
+};
+
+/* Reads a file by its ending, .stl, .msh or .inp; coordinates times `scale` are metres. In the plane elements are
+ * triangles and quadrilaterals of one z. REFUSED: what is no such file, has no body, or is so open that inside and
+ * outside cannot be told; nothing is left to free then. */
+status geometry_read(struct geometry *g, const char *path, int dim, real scale);
+/* NULL: no set has this name, in any case of its letters. */
+const struct geometry_set *geometry_find(const struct geometry *g, const char *name);
+void geometry_free(struct geometry *g);
+
+#endif

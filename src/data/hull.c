@@ -1,0 +1,202 @@
+/* Surfaces from faces: what cancels, what is open, which way is out. */
+#include "data/hull.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+
+/* ---- faces and their sides ------------------------------------------------------------------------------------- */
+
+/* A face, or a side of one, by its corners in ascending order; turn: +1 or -1, whether sorting them turned it over. */
+struct piece {
+    int32_t corner[DIM_MAX], of;
+    int turn;
+};
+
+static int piece_order(const void *a, const void *b)
+{
+    const struct piece *p = a, *q = b;
+    for (int k = 0; k < DIM_MAX; k++)
+        if (p->corner[k] != q->corner[k]) return p->corner[k] < q->corner[k] ? -1 : 1;
+    return (p->of > q->of) - (p->of < q->of);
+}
+
+static bool piece_same(const struct piece *p, const struct piece *q)
+{
+    return memcmp(p->corner, q->corner, sizeof p->corner) == 0;
+}
+
+/* Sorts the first n corners; each exchange turns the piece over. */
+static void piece_sort(struct piece *p, int n)
+{
+    for (int round = 1; round < n; round++)
+        for (int k = 0; k + 1 < n; k++) {
+            const int32_t low = p->corner[k + 1];
+            if (p->corner[k] <= low) continue;
+            p->corner[k + 1] = p->corner[k], p->corner[k] = low, p->turn = -p->turn;
+        }
+}
+
+static bool face_degenerate(const struct hull *s, const int32_t *face)
+{
+    return face[0] == face[1] || (s->dim == 3 && (face[1] == face[2] || face[2] == face[0]));
+}
+
+/* Keeps of equal faces one, or none if as many look one way as the other: where two elements meet. */
+static void faces_cancel(struct hull *s)
+{
+    struct piece *piece = NEW("hull.pieces", s->faces, struct piece);
+    int64_t n = 0, kept = 0;
+    for (int64_t k = 0; k < s->faces; k++) {
+        if (face_degenerate(s, s->face[k])) continue;
+        struct piece *p = &piece[n++];
+        *p = (struct piece){.of = (int32_t)k, .turn = 1};
+        for (int c = 0; c < s->dim; c++) p->corner[c] = s->face[k][c];
+        piece_sort(p, s->dim);
+    }
+    qsort(piece, (size_t)n, sizeof *piece, piece_order);
+    s->dropped = s->faces - n;
+    for (int64_t k = 0, end; k < n; k = end) {
+        int sum = 0;
+        for (end = k; end < n && piece_same(&piece[k], &piece[end]); end++) sum += piece[end].turn;
+        if (sum != 0) s->dropped += end - k - 1;
+        for (int c = 0; c < DIM_MAX && sum != 0; c++) s->face[kept][c] = piece[k].corner[c];
+        if (sum < 0) s->face[kept][0] = piece[k].corner[1], s->face[kept][1] = piece[k].corner[0];
+        kept += sum != 0;
+    }
+    s->faces = kept;
+    memory_free(piece);
+}
+
+/* ---- what is open, and how many shells ------------------------------------------------------------------------- */
+
+static int64_t sides_make(const struct hull *s, struct piece *side)
+{
+    int64_t n = 0;
+    for (int64_t k = 0; k < s->faces; k++)
+        for (int c = 0; c < s->dim; c++) {
+            struct piece *p = &side[n++];
+            *p = (struct piece){.of = (int32_t)k, .turn = s->dim == 2 && c == 0 ? -1 : 1};
+            p->corner[0] = s->face[k][c];
+            if (s->dim == 3) p->corner[1] = s->face[k][(c + 1) % 3];
+            piece_sort(p, s->dim - 1);
+        }
+    qsort(side, (size_t)n, sizeof *side, piece_order);
+    return n;
+}
+
+/* Sides that the faces beside them run through in one direction more often than in the other. */
+static void find_open(struct hull *s)
+{
+    struct piece *side = NEW("hull.pieces", s->faces * s->dim, struct piece);
+    const int64_t n = sides_make(s, side);
+    for (int64_t k = 0, end; k < n; k = end) {
+        int sum = 0;
+        for (end = k; end < n && piece_same(&side[k], &side[end]); end++) sum += side[end].turn;
+        if (sum == 0) continue;
+        const real *a = s->corner[side[k].corner[0]], *b = s->dim == 3 ? s->corner[side[k].corner[1]] : a;
+        for (int d = 0; d < s->dim && s->open_edges == 0; d++) s->open_at[d] = 0.5 * (a[d] + b[d]);
+        s->open_edges += abs(sum);
+    }
+    memory_free(side);
+}
+
+/* The lowest corner that is connected with this one, as far as is known; shortens the way to it. */
+static int32_t shell_root(int32_t *up, int32_t corner)
+{
+    while (up[corner] != corner) corner = up[corner] = up[up[corner]];
+    return corner;
+}
+
+static int64_t count_shells(const struct hull *s)
+{
+    int32_t *up = NEW("hull.shells", s->corners, int32_t);
+    int64_t shells = 0;
+    for (int64_t k = 0; k < s->corners; k++) up[k] = (int32_t)k;
+    for (int64_t k = 0; k < s->faces; k++)
+        for (int c = 1; c < s->dim; c++) {
+            const int32_t a = shell_root(up, s->face[k][0]), b = shell_root(up, s->face[k][c]);
+            up[a > b ? a : b] = a > b ? b : a;
+        }
+    /* a shell is counted at its lowest corner; corners of no face are none */
+    bool *met = NEW("hull.shells", s->corners, bool);
+    for (int64_t k = 0; k < s->faces; k++) met[shell_root(up, s->face[k][0])] = true;
+    for (int64_t k = 0; k < s->corners; k++) shells += met[k];
+    memory_free(met);
+    memory_free(up);
+    return shells;
+}
+
+/* ---- measures ------------------------------------------------------------------------------------------------- */
+
+void hull_area(const struct hull *s, int64_t k, real area[DIM_MAX])
+{
+    const real *a = s->corner[s->face[k][0]], *b = s->corner[s->face[k][1]];
+    if (s->dim == 2) {
+        area[0] = b[1] - a[1], area[1] = a[0] - b[0], area[2] = 0;
+        return;
+    }
+    const real *c = s->corner[s->face[k][2]];
+    for (int d = 0; d < 3; d++) {
+        const int e = (d + 1) % 3, f = (d + 2) % 3;
+        area[d] = 0.5 * ((b[e] - a[e]) * (c[f] - a[f]) - (b[f] - a[f]) * (c[e] - a[e]));
+    }
+}
+
+/* Integral of div X / dim over the body: the sum of (X - X0) . area / dim, X0 a corner, which keeps digits. */
+static real volume_of(const struct hull *s)
+{
+    real sum = 0;
+    for (int64_t k = 0; k < s->faces; k++) {
+        real area[DIM_MAX], arm[DIM_MAX];
+        hull_area(s, k, area);
+        for (int d = 0; d < s->dim; d++) arm[d] = s->corner[s->face[k][0]][d] - s->corner[s->face[0][0]][d];
+        sum += dot(arm, area, s->dim) / s->dim;
+    }
+    return sum;
+}
+
+static void faces_reverse(struct hull *s)
+{
+    for (int64_t k = 0; k < s->faces; k++) {
+        const int32_t first = s->face[k][0];
+        s->face[k][0] = s->face[k][1], s->face[k][1] = first;
+    }
+}
+
+static void hull_take(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
+                      int32_t (*face)[DIM_MAX])
+{
+    *s = (struct hull){.dim = dim, .corners = corners, .corner = corner, .faces = faces, .face = face};
+}
+
+void hull_make(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
+               int32_t (*face)[DIM_MAX])
+{
+    hull_take(s, dim, corners, corner, faces, face);
+    faces_cancel(s);
+    find_open(s);
+    s->shells = count_shells(s);
+    s->volume = volume_of(s);
+    s->reversed = s->volume < 0;
+    if (s->reversed) faces_reverse(s);
+    s->volume = fabs(s->volume);
+    hull_tree_make(s);
+}
+
+void hull_make_open(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
+                    int32_t (*face)[DIM_MAX])
+{
+    hull_take(s, dim, corners, corner, faces, face);
+    s->open = true;
+    hull_tree_make(s);
+}
+
+void hull_free(struct hull *s)
+{
+    memory_free(s->corner);
+    memory_free(s->face);
+    memory_free(s->node);
+    *s = (struct hull){0};
+}

@@ -1,0 +1,256 @@
+/* A tree of boxes over the faces of a surface; winding numbers and distances by it. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "data/hull.h"
+
+enum { LEAF = 8, DEEPEST = 64 }; /* faces of a leaf; nodes that wait */
+#define FAR 3.0                  /* radii of a node at which its dipole stands for its faces */
+
+static const real pi = 3.14159265358979323846;
+
+/* ---- making --------------------------------------------------------------------------------------------------- */
+
+/* A face while the tree is made: its middle, by which nodes are halved. */
+struct leaflet {
+    real middle[DIM_MAX];
+    int32_t face;
+};
+
+static int leaflet_order(const struct leaflet *a, const struct leaflet *b, int axis)
+{
+    const real x = a->middle[axis], y = b->middle[axis];
+    return x != y ? (x > y) - (x < y) : (a->face > b->face) - (a->face < b->face);
+}
+static int order_x(const void *a, const void *b) { return leaflet_order(a, b, 0); }
+static int order_y(const void *a, const void *b) { return leaflet_order(a, b, 1); }
+static int order_z(const void *a, const void *b) { return leaflet_order(a, b, 2); }
+
+/* Box, dipole and its place, from the faces of a node. */
+static void node_measure(const struct hull *s, struct hull_node *n, const struct leaflet *leaf)
+{
+    real weight = 0;
+    for (int d = 0; d < DIM_MAX; d++) n->low[d] = INFINITY, n->high[d] = -INFINITY;
+    for (int32_t k = n->first; k < n->first + n->count; k++) {
+        real area[DIM_MAX];
+        hull_area(s, leaf[k].face, area);
+        const real size = sqrt(dot(area, area, s->dim));
+        weight += size;
+        for (int d = 0; d < s->dim; d++) {
+            n->moment[d] += area[d];
+            n->centre[d] += size * leaf[k].middle[d];
+            for (int c = 0; c < s->dim; c++) {
+                const real x = s->corner[s->face[leaf[k].face][c]][d];
+                n->low[d] = real_min(n->low[d], x), n->high[d] = real_max(n->high[d], x);
+            }
+        }
+    }
+    for (int d = 0; d < s->dim; d++) n->centre[d] = weight > 0 ? n->centre[d] / weight : 0.5 * (n->low[d] + n->high[d]);
+}
+
+/* Halves a node at the middle face of the longest edge of its box, and so on; leaves hold LEAF faces at the most. */
+static void node_split(struct hull *s, int32_t at, struct leaflet *leaf)
+{
+    static int (*const order[])(const void *, const void *) = {order_x, order_y, order_z};
+    struct hull_node *n = &s->node[at];
+    int axis = 0;
+    node_measure(s, n, leaf);
+    if (n->count <= LEAF) return;
+    for (int d = 1; d < s->dim; d++)
+        if (n->high[d] - n->low[d] > n->high[axis] - n->low[axis]) axis = d;
+    qsort(leaf + n->first, (size_t)n->count, sizeof *leaf, order[axis]);
+    const int32_t half = n->count / 2, left = s->nodes;
+    n->left = left;
+    s->nodes += 2;
+    s->node[left] = (struct hull_node){.first = n->first, .count = half};
+    s->node[left + 1] = (struct hull_node){.first = n->first + half, .count = n->count - half};
+    node_split(s, left, leaf);
+    node_split(s, left + 1, leaf);
+}
+
+void hull_tree_make(struct hull *s)
+{
+    struct leaflet *leaf = NEW("hull.tree", s->faces, struct leaflet);
+    int32_t(*sorted)[DIM_MAX] = memory_new("hull.faces", s->faces, sizeof *sorted);
+    s->node = NEW("hull.tree", 1 + s->faces, struct hull_node); /* halves of 9 and more: leaves of 4 and more */
+    for (int64_t k = 0; k < s->faces; k++) {
+        leaf[k].face = (int32_t)k;
+        for (int c = 0; c < s->dim; c++)
+            for (int d = 0; d < s->dim; d++) leaf[k].middle[d] += s->corner[s->face[k][c]][d] / s->dim;
+    }
+    s->nodes = 1;
+    s->node[0] = (struct hull_node){.count = (int32_t)s->faces};
+    node_split(s, 0, leaf);
+    for (int64_t k = 0; k < s->faces; k++) memcpy(sorted[k], s->face[leaf[k].face], sizeof *sorted);
+    memory_free(s->face);
+    memory_free(leaf);
+    s->face = sorted;
+}
+
+/* ---- winding number ------------------------------------------------------------------------------------------- */
+
+/* Solid angle of a triangle (van Oosterom, Strackee 1983, eq. 8) over 4 pi; of a segment its angle over 2 pi. */
+static real face_winding(const struct hull *s, const int32_t *face, const real *X)
+{
+    real arm[DIM_MAX][DIM_MAX], length[DIM_MAX];
+    for (int c = 0; c < s->dim; c++) {
+        for (int d = 0; d < s->dim; d++) arm[c][d] = s->corner[face[c]][d] - X[d];
+        length[c] = sqrt(dot(arm[c], arm[c], s->dim));
+    }
+    const real *a = arm[0], *b = arm[1], *c = arm[2];
+    if (s->dim == 2) return atan2(a[0] * b[1] - a[1] * b[0], dot(a, b, 2)) / (2 * pi);
+    const real triple =
+        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    const real below = length[0] * length[1] * length[2] + dot(a, b, 3) * length[2] + dot(b, c, 3) * length[0] +
+                       dot(c, a, 3) * length[1];
+    return atan2(triple, below) / (2 * pi);
+}
+
+/* The dipole of a node at X, if X is FAR from it (Barill et al. 2018, first order). */
+static bool node_winding(const struct hull *s, const struct hull_node *n, const real *X, real *sum)
+{
+    real r2 = 0, radius2 = 0, along = 0;
+    for (int d = 0; d < s->dim; d++) {
+        const real arm = n->centre[d] - X[d];
+        r2 += square(arm);
+        radius2 += square(real_max(n->high[d] - n->centre[d], n->centre[d] - n->low[d]));
+        along += arm * n->moment[d];
+    }
+    if (!(r2 > square(FAR) * radius2)) return false;
+    *sum += s->dim == 2 ? along / (2 * pi * r2) : along / (4 * pi * r2 * sqrt(r2));
+    return true;
+}
+
+real hull_winding(const struct hull *s, const real *X)
+{
+    int32_t wait[DEEPEST];
+    int waiting = 1;
+    real sum = 0;
+    wait[0] = 0;
+    while (waiting > 0) {
+        const struct hull_node *n = &s->node[wait[--waiting]];
+        if (node_winding(s, n, X, &sum)) continue;
+        for (int32_t k = n->first; n->left == 0 && k < n->first + n->count; k++) sum += face_winding(s, s->face[k], X);
+        if (n->left > 0) wait[waiting++] = n->left + 1, wait[waiting++] = n->left;
+    }
+    return sum;
+}
+
+real hull_doubt(const struct hull *s)
+{
+    const int places = s->dim == 2 ? 64 : 16;
+    const struct hull_node *all = &s->node[0];
+    int64_t doubtful = 0, n = s->dim == 2 ? places * places : places * places * places;
+    for (int64_t k = 0; k < n; k++) {
+        const int64_t at[DIM_MAX] = {k % places, k / places % places, k / places / places};
+        real X[DIM_MAX];
+        for (int d = 0; d < s->dim; d++)
+            X[d] = all->low[d] + ((real)at[d] + 0.5) / places * (all->high[d] - all->low[d]);
+        const real w = hull_winding(s, X);
+        doubtful += w < -0.3 || fabs(w - nearbyint(w)) > 0.3;
+    }
+    return (real)doubtful / (real)n;
+}
+
+/* ---- distance ------------------------------------------------------------------------------------------------- */
+
+/* Nearest point of a segment. */
+static void segment_nearest(const real *a, const real *b, const real *X, int dim, real *nearest)
+{
+    real along = 0, length2 = 0;
+    for (int d = 0; d < dim; d++) along += (X[d] - a[d]) * (b[d] - a[d]), length2 += square(b[d] - a[d]);
+    const real share = length2 > 0 ? real_min(1, real_max(0, along / length2)) : 0;
+    for (int d = 0; d < dim; d++) nearest[d] = a[d] + share * (b[d] - a[d]);
+}
+
+static real apart2(const real *a, const real *b, int dim)
+{
+    real sum = 0;
+    for (int d = 0; d < dim; d++) sum += square(a[d] - b[d]);
+    return sum;
+}
+
+/* Nearest point of a triangle: the foot of X on its plane if that lies inside, else the nearest of its sides. */
+static void triangle_nearest(const real *corner[DIM_MAX], const real *area, const real *X, real *nearest)
+{
+    const real area2 = dot(area, area, 3);
+    real foot[DIM_MAX], best = INFINITY, above = 0;
+    bool inside = area2 > 0;
+    for (int d = 0; d < 3; d++) above += (X[d] - corner[0][d]) * area[d];
+    for (int d = 0; d < 3; d++) foot[d] = X[d] - (area2 > 0 ? above / area2 : 0) * area[d];
+    for (int c = 0; c < 3 && inside; c++) {
+        const real *a = corner[c], *b = corner[(c + 1) % 3];
+        real turn = 0;
+        for (int d = 0; d < 3; d++) {
+            const int e = (d + 1) % 3, f = (d + 2) % 3;
+            turn += area[d] * ((b[e] - a[e]) * (foot[f] - a[f]) - (b[f] - a[f]) * (foot[e] - a[e]));
+        }
+        inside = turn >= 0;
+    }
+    if (inside) memcpy(nearest, foot, sizeof foot);
+    for (int c = 0; c < 3 && !inside; c++) {
+        real point[DIM_MAX];
+        segment_nearest(corner[c], corner[(c + 1) % 3], X, 3, point);
+        const real r2 = apart2(point, X, 3);
+        if (r2 < best) best = r2, memcpy(nearest, point, sizeof point);
+    }
+}
+
+static void face_nearest(const struct hull *s, int64_t k, const real *X, real *nearest)
+{
+    const real *corner[DIM_MAX];
+    real area[DIM_MAX];
+    for (int c = 0; c < s->dim; c++) corner[c] = s->corner[s->face[k][c]];
+    if (s->dim == 2) {
+        segment_nearest(corner[0], corner[1], X, 2, nearest);
+        return;
+    }
+    hull_area(s, k, area);
+    triangle_nearest(corner, area, X, nearest);
+}
+
+/* Square of the distance from the box of a node [m^2]. */
+static real box_apart2(const struct hull_node *n, const real *X, int dim)
+{
+    real sum = 0;
+    for (int d = 0; d < dim; d++) sum += square(real_max(0, real_max(n->low[d] - X[d], X[d] - n->high[d])));
+    return sum;
+}
+
+/* The face nearest to X, its point there, and the square of the distance [m^2]. */
+static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, real *r2)
+{
+    int32_t wait[DEEPEST], found = 0;
+    int waiting = 1;
+    wait[0] = 0, *r2 = INFINITY;
+    while (waiting > 0) {
+        const struct hull_node *n = &s->node[wait[--waiting]];
+        if (box_apart2(n, X, s->dim) >= *r2) continue;
+        for (int32_t k = n->first; n->left == 0 && k < n->first + n->count; k++) {
+            real point[DIM_MAX];
+            face_nearest(s, k, X, point);
+            const real here = apart2(point, X, s->dim);
+            if (here < *r2) *r2 = here, found = k, memcpy(nearest, point, sizeof point);
+        }
+        if (n->left == 0) continue;
+        const real left = box_apart2(&s->node[n->left], X, s->dim),
+                   right = box_apart2(&s->node[n->left + 1], X, s->dim);
+        wait[waiting++] = n->left + (left <= right), wait[waiting++] = n->left + (left > right);
+    }
+    return found;
+}
+
+real hull_distance(const struct hull *s, const real *X, real *normal)
+{
+    real point[DIM_MAX] = {0}, r2, area[DIM_MAX] = {0};
+    if (s->faces == 0) return INFINITY;
+    const int32_t face = nearest_face(s, X, point, &r2);
+    const bool outside = s->open || box_apart2(&s->node[0], X, s->dim) > 0 || hull_winding(s, X) < 0.5;
+    const real distance = sqrt(r2), side = outside ? 1 : -1;
+    if (normal) hull_area(s, face, area);
+    const real size = sqrt(dot(area, area, s->dim));
+    for (int d = 0; normal && d < s->dim; d++)
+        normal[d] = distance > 1e-12 * size ? side * (X[d] - point[d]) / distance : size > 0 ? area[d] / size : 0;
+    return side * distance;
+}

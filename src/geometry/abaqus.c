@@ -1,0 +1,458 @@
+/* Abaqus .inp: nodes, elements and sets of a flat deck, or of parts that stand in an assembly once each. What else a
+ * deck says (materials, steps, loads) is passed over; what would make nodes or elements is refused. */
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <strings.h>
+
+#include "base/memory.h"
+#include "elements.h"
+
+enum { FIELD = 96, PARAMETERS_MAX = 16, PARTS_MAX = 256, LABEL_MAX = 999999999, GENERATED_MOST = 16 };
+
+/* A keyword and what stands behind it: *ELSET, ELSET=grip, GENERATE. */
+struct keyword {
+    char name[FIELD]; /* capital letters, without blanks and the star */
+    int n;
+    struct parameter {
+        char name[FIELD], value[FIELD];
+    } of[PARAMETERS_MAX];
+};
+
+/* Where labels count: a part, or what stands outside parts. */
+struct scope {
+    char name[FIELD], instance[FIELD];
+    int64_t node, element, node_end, element_end; /* first and last of the mesh */
+    struct label_map node_of, element_of;
+    bool placed;
+};
+
+struct deck {
+    struct source *s;
+    struct element_mesh *m;
+    struct keyword key;
+    int scopes, now; /* scope 0: outside parts */
+    struct scope *scope;
+    int64_t generated; /* members of sets made by GENERATE */
+};
+
+/* ---- lines and fields ------------------------------------------------------------------------------------------ */
+
+static bool at_end_of_line(const struct source *s) { return s->at >= s->length || s->text[s->at] == '\n'; }
+
+/* The next field of the line without blanks round it; false: there is none. Behind a comma that ends a line nothing
+ * follows in it. */
+static bool deck_field(struct source *s, char field[FIELD])
+{
+    size_t n = 0;
+    while (!at_end_of_line(s) && isspace((unsigned char)s->text[s->at])) s->at++;
+    if (at_end_of_line(s)) return false;
+    for (; !at_end_of_line(s) && s->text[s->at] != ','; s->at++)
+        if (n + 1 < FIELD) field[n++] = s->text[s->at];
+    while (n > 0 && isspace((unsigned char)field[n - 1])) n--;
+    field[n] = '\0';
+    if (!at_end_of_line(s)) s->at++;
+    return true;
+}
+
+/* Goes to the next line that is no comment and not empty; false: the next keyword, or the end. */
+static bool data_line(struct source *s)
+{
+    while (s->at < s->length) {
+        int64_t at = s->at;
+        while (at < s->length && (s->text[at] == ' ' || s->text[at] == '\t' || s->text[at] == '\r')) at++;
+        const bool empty = at >= s->length || s->text[at] == '\n';
+        const bool comment = at + 1 < s->length && s->text[at] == '*' && s->text[at + 1] == '*';
+        if (!empty && !comment) return s->text[at] != '*';
+        source_next_line(s);
+    }
+    return false;
+}
+
+/* A field as a number; letters d of Fortran are exponents, too. */
+static status deck_real(const struct source *s, const char *field, real *value)
+{
+    char text[FIELD], *end;
+    snprintf(text, sizeof text, "%s", field);
+    for (char *c = text; *c; c++)
+        if (*c == 'd' || *c == 'D') *c = 'e';
+    *value = strtod(text, &end);
+    if (field[0] == '\0') *value = 0; /* an empty field is 0 */
+    if (*end == '\0' && isfinite(*value) && !strpbrk(text, "xX")) return OK;
+    return source_fault(s, "%.40s is no number", field);
+}
+
+static bool is_label(const char *field) { return isdigit((unsigned char)field[0]); }
+
+static status deck_label(const struct source *s, const char *field, int32_t *label)
+{
+    real value;
+    TRY(deck_real(s, field, &value));
+    if (!(value >= 0 && value <= LABEL_MAX && value == floor(value)))
+        return source_fault(s, "%.40s is no number of a node or an element", field);
+    *label = (int32_t)value;
+    return OK;
+}
+
+/* ---- keywords ------------------------------------------------------------------------------------------------- */
+
+/* Capital letters without blanks. */
+static void word_plain(char *to, const char *from)
+{
+    size_t n = 0;
+    for (; *from && n + 1 < FIELD; from++)
+        if (!isspace((unsigned char)*from)) to[n++] = (char)toupper((unsigned char)*from);
+    to[n] = '\0';
+}
+
+static void parameter_add(struct keyword *k, char *field)
+{
+    char *equals = strchr(field, '=');
+    if (k->n == PARAMETERS_MAX) return;
+    struct parameter *p = &k->of[k->n++];
+    p->value[0] = '\0';
+    if (equals) {
+        *equals++ = '\0';
+        equals += strspn(equals, " \t\"");
+        snprintf(p->value, sizeof p->value, "%.*s", (int)strcspn(equals, "\""), equals);
+    }
+    word_plain(p->name, field);
+}
+
+/* Reads the line of a keyword; it goes on after a comma at its end. */
+static void keyword_read(struct deck *d)
+{
+    struct source *s = d->s;
+    char field[FIELD];
+    bool more;
+    d->key = (struct keyword){0};
+    deck_field(s, field);
+    word_plain(d->key.name, field + (field[0] == '*'));
+    do {
+        while (deck_field(s, field)) parameter_add(&d->key, field);
+        int64_t last = s->at - 1;
+        while (last > 0 && (s->text[last] == ' ' || s->text[last] == '\r')) last--;
+        more = s->at < s->length && last >= 0 && s->text[last] == ',';
+        source_next_line(s);
+        more = more && data_line(s);
+    } while (more);
+}
+
+static const char *parameter(const struct deck *d, const char *name)
+{
+    for (int k = 0; k < d->key.n; k++)
+        if (strcmp(d->key.of[k].name, name) == 0) return d->key.of[k].value;
+    return NULL;
+}
+
+/* ---- nodes and elements ---------------------------------------------------------------------------------------- */
+
+/* Its set, by a parameter of the keyword; -1: none. */
+static status set_named(struct deck *d, const char *name, bool of_nodes, int *set)
+{
+    const char *given = parameter(d, name);
+    *set = given ? mesh_set(d->m, given, of_nodes) : -1;
+    return given && *set < 0 ? source_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX) : OK;
+}
+
+static status nodes_read(struct deck *d)
+{
+    int set;
+    const char *system = parameter(d, "SYSTEM");
+    if (system && strcasecmp(system, "R") != 0)
+        return source_fault(d->s, "coordinates in the system %.10s; x, y, z are expected", system);
+    TRY(set_named(d, "NSET", true, &set));
+    for (char field[FIELD]; data_line(d->s); source_next_line(d->s)) {
+        int32_t label;
+        real X[DIM_MAX] = {0};
+        deck_field(d->s, field);
+        TRY(deck_label(d->s, field, &label));
+        for (int k = 0; k < DIM_MAX && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &X[k]));
+        TRY(mesh_node_add(d->m, d->s, X, label));
+        if (set >= 0) mesh_set_add(d->m, set, label);
+    }
+    return OK;
+}
+
+/* Families of elements and the numbers of nodes in them that are solids, pieces of a plane, or of a surface. */
+static const struct family {
+    const char *name;
+    bool plane;
+} families[] = {{"C3D", false}, {"CPS", true}, {"CPEG", true}, {"CPE", true}, {"CGAX", true},
+                {"CAX", true},  {"C2D", true}, {"M3D", true},  {"R3D", true}, {"SFM3D", true},
+                {"STRI", true}, {"SC", false}, {"DS", true},   {"S", true}};
+static const struct size {
+    bool plane;
+    int nodes;
+    enum element_kind kind;
+} sizes[] = {{true, 3, ELEMENT_TRIANGLE},      {true, 6, ELEMENT_TRIANGLE},    {true, 4, ELEMENT_QUAD},
+             {true, 8, ELEMENT_QUAD},          {true, 9, ELEMENT_QUAD},        {false, 4, ELEMENT_TETRAHEDRON},
+             {false, 10, ELEMENT_TETRAHEDRON}, {false, 5, ELEMENT_PYRAMID},    {false, 13, ELEMENT_PYRAMID},
+             {false, 6, ELEMENT_PRISM},        {false, 15, ELEMENT_PRISM},     {false, 8, ELEMENT_HEXAHEDRON},
+             {false, 20, ELEMENT_HEXAHEDRON},  {false, 27, ELEMENT_HEXAHEDRON}};
+
+/* What a type of elements is by its corners, as C3D10M or CPS4R; NULL: none that fills or bounds a body. */
+static const struct size *size_of_type(const char *type)
+{
+    for (size_t f = 0; f < COUNT_OF(families); f++) {
+        const size_t length = strlen(families[f].name);
+        const char *number = type + length + ((type[0] == 'D' || type[0] == 'A') && type[1] == 'C');
+        if (strncmp(number - length, families[f].name, length) != 0) continue;
+        const int nodes = atoi(number);
+        for (size_t k = 0; k < COUNT_OF(sizes); k++)
+            if (sizes[k].plane == families[f].plane && sizes[k].nodes == nodes) return &sizes[k];
+    }
+    return NULL;
+}
+
+/* The labels of the nodes of an element, on as many lines as it takes; corners are kept. */
+static status element_nodes(struct deck *d, const struct size *size, int32_t *node)
+{
+    char field[FIELD];
+    for (int k = 0; k < size->nodes;) {
+        int32_t label;
+        if (!deck_field(d->s, field)) {
+            source_next_line(d->s);
+            if (!data_line(d->s)) return source_fault(d->s, "an element of %d nodes has but %d", size->nodes, k);
+            continue;
+        }
+        TRY(deck_label(d->s, field, &label));
+        if (k < element_corners[size->kind]) node[k] = label;
+        k++;
+    }
+    return OK;
+}
+
+static status elements_read(struct deck *d)
+{
+    int set;
+    char type[FIELD], field[FIELD];
+    word_plain(type, parameter(d, "TYPE") ? parameter(d, "TYPE") : "");
+    const struct size *size = size_of_type(type);
+    TRY(set_named(d, "ELSET", false, &set));
+    if (!size) {
+        snprintf(d->m->skipped, sizeof d->m->skipped, "%.40s", type);
+        text_harmless(d->m->skipped);
+        return OK;
+    }
+    for (; data_line(d->s); source_next_line(d->s)) {
+        int32_t label, node[ELEMENT_CORNERS_MAX];
+        deck_field(d->s, field);
+        TRY(deck_label(d->s, field, &label));
+        TRY(element_nodes(d, size, node));
+        TRY(mesh_element_add(d->m, d->s, size->kind, node, label));
+        if (set >= 0) mesh_set_add(d->m, set, label);
+    }
+    return OK;
+}
+
+/* ---- sets ----------------------------------------------------------------------------------------------------- */
+
+/* first, last, step */
+static status generate_line(struct deck *d, int set)
+{
+    int32_t bound[3] = {0, 0, 1};
+    char field[FIELD];
+    for (int k = 0; k < 3 && deck_field(d->s, field); k++) TRY(deck_label(d->s, field, &bound[k]));
+    if (bound[2] < 1 || bound[1] < bound[0]) return source_fault(d->s, "first, last and step are expected");
+    d->generated += (bound[1] - bound[0]) / bound[2] + 1;
+    if (d->generated > GENERATED_MOST * d->s->length)
+        return source_fault(d->s, "sets of more nodes or elements than the file holds");
+    for (int64_t label = bound[0]; label <= bound[1]; label += bound[2]) mesh_set_add(d->m, set, label);
+    return OK;
+}
+
+/* Members of another set as they are known so far. */
+static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
+{
+    const int other = mesh_set(d->m, name, of_nodes);
+    if (other < 0) return source_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX);
+    d->generated += d->m->set[other].n;
+    if (d->generated > GENERATED_MOST * d->s->length)
+        return source_fault(d->s, "sets of more nodes or elements than the file holds");
+    for (int64_t k = d->m->set[other].resolved; other != set && k < d->m->set[other].n; k++)
+        mesh_set_add(d->m, set, d->m->set[other].member[k]);
+    return OK;
+}
+
+/* Indices for the labels that have been added to sets since; labels of what was left out are left out, too. */
+static void sets_resolve(struct deck *d, const struct scope *scope)
+{
+    for (int k = 0; k < d->m->sets; k++) {
+        struct element_set *set = &d->m->set[k];
+        const struct label_map *map = set->of_nodes ? &scope->node_of : &scope->element_of;
+        int64_t kept = set->resolved;
+        for (int64_t i = set->resolved; i < set->n; i++) {
+            const int64_t index = label_find(map, set->member[i]);
+            if (index >= 0) set->member[kept++] = (int32_t)index;
+        }
+        set->n = set->resolved = kept;
+    }
+}
+
+/* A part by its name or that of its instance; -1: there is none. */
+static int scope_find(const struct deck *d, const char *name, bool instance)
+{
+    for (int k = 1; k < d->scopes; k++)
+        if (strcasecmp(instance ? d->scope[k].instance : d->scope[k].name, name) == 0) return k;
+    return -1;
+}
+
+static status set_read(struct deck *d, bool of_nodes)
+{
+    int set;
+    const char *instance = parameter(d, "INSTANCE");
+    const bool generate = parameter(d, "GENERATE") != NULL;
+    TRY(set_named(d, of_nodes ? "NSET" : "ELSET", of_nodes, &set));
+    if (set < 0) return source_fault(d->s, "a set without a name");
+    for (char field[FIELD]; data_line(d->s); source_next_line(d->s)) {
+        int32_t label;
+        if (generate) {
+            TRY(generate_line(d, set));
+            continue;
+        }
+        while (deck_field(d->s, field)) {
+            if (field[0] == '\0') continue;
+            if (!is_label(field)) {
+                TRY(set_join(d, set, field, of_nodes));
+                continue;
+            }
+            TRY(deck_label(d->s, field, &label));
+            mesh_set_add(d->m, set, label);
+        }
+    }
+    if (!instance) return OK;
+    const int scope = scope_find(d, instance, true);
+    if (scope < 0) return source_fault(d->s, "there is no instance %.40s", instance);
+    sets_resolve(d, &d->scope[scope]);
+    return OK;
+}
+
+/* ---- parts ---------------------------------------------------------------------------------------------------- */
+
+/* Ends a scope: its labels become indices. */
+static status scope_end(struct deck *d)
+{
+    struct scope *scope = &d->scope[d->now];
+    struct element_mesh *m = d->m;
+    int64_t twice;
+    scope->node_end = m->nodes, scope->element_end = m->elements;
+    label_map_make(&scope->node_of, m->node_label + scope->node, scope->node, m->nodes - scope->node);
+    label_map_make(&scope->element_of, m->element_label + scope->element, scope->element, m->elements - scope->element);
+    if (label_twice(&scope->node_of, &twice)) return source_fault(d->s, "node %lld is given twice", (long long)twice);
+    for (int64_t k = scope->element; k < m->elements; k++)
+        for (int c = 0; c < element_corners[m->element[k].kind]; c++) {
+            int32_t *node = &m->element[k].node[c];
+            const int64_t index = label_find(&scope->node_of, *node);
+            if (index < 0)
+                return source_fault(d->s, "element %lld has node %d, which is not among the nodes",
+                                    (long long)m->element_label[k], (int)*node);
+            *node = (int32_t)index;
+        }
+    sets_resolve(d, scope);
+    return OK;
+}
+
+static void scope_begin(struct deck *d, const char *name)
+{
+    d->scope = memory_resize("abaqus.parts", d->scope, d->scopes, d->scopes + 1, sizeof *d->scope);
+    d->now = d->scopes++;
+    struct scope *scope = &d->scope[d->now];
+    snprintf(scope->name, sizeof scope->name, "%s", name);
+    scope->node = d->m->nodes, scope->element = d->m->elements;
+}
+
+/* Begins and ends of parts, and the assembly, whose own nodes have labels of their own. */
+static status scope_change(struct deck *d, const char *name)
+{
+    if (d->scopes >= PARTS_MAX) return source_fault(d->s, "more than %d parts", PARTS_MAX);
+    TRY(scope_end(d));
+    scope_begin(d, name ? name : "");
+    return OK;
+}
+
+/* Turns X by `angle` about the axis from a to b (Rodrigues). */
+static void turn_about(real *X, const real *a, const real *b, real angle)
+{
+    real axis[DIM_MAX], arm[DIM_MAX], length = 0;
+    for (int d = 0; d < DIM_MAX; d++) axis[d] = b[d] - a[d], arm[d] = X[d] - a[d], length += square(axis[d]);
+    length = sqrt(length);
+    for (int d = 0; d < DIM_MAX; d++) axis[d] /= length;
+    const real along = dot(axis, arm, DIM_MAX), c = cos(angle), s = sin(angle);
+    for (int d = 0; d < DIM_MAX; d++) {
+        const int e = (d + 1) % 3, f = (d + 2) % 3;
+        X[d] = a[d] + c * arm[d] + s * (axis[e] * arm[f] - axis[f] * arm[e]) + (1 - c) * along * axis[d];
+    }
+}
+
+/* Moves a part to where its instance stands: a line with the way, one with an axis and an angle in degrees. */
+static status instance_read(struct deck *d)
+{
+    const char *part = parameter(d, "PART"), *name = parameter(d, "NAME");
+    const int scope = part ? scope_find(d, part, false) : -1;
+    real way[DIM_MAX] = {0}, turn[7] = {0};
+    char field[FIELD];
+    if (scope < 0) return source_fault(d->s, "an instance of part %.40s, which there is not", part ? part : "?");
+    struct scope *p = &d->scope[scope];
+    if (p->placed) return source_fault(d->s, "part %.40s stands in the assembly twice; once is expected", p->name);
+    if (data_line(d->s)) {
+        for (int k = 0; k < 3 && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &way[k]));
+        source_next_line(d->s);
+    }
+    if (data_line(d->s))
+        for (int k = 0; k < 7 && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &turn[k]));
+    const bool turns = turn[6] != 0 && memcmp(turn, turn + 3, 3 * sizeof *turn) != 0;
+    for (int64_t k = p->node; k < p->node_end; k++) {
+        for (int a = 0; a < DIM_MAX; a++) d->m->node[k][a] += way[a];
+        if (turns) turn_about(d->m->node[k], turn, turn + 3, turn[6] * 3.14159265358979323846 / 180);
+    }
+    p->placed = true;
+    if (name) snprintf(p->instance, sizeof p->instance, "%s", name);
+    return OK;
+}
+
+/* ---- the deck ------------------------------------------------------------------------------------------------- */
+
+static status keyword_follow(struct deck *d)
+{
+    static const char *const makers[] = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "INCLUDE"};
+    const char *name = d->key.name;
+    for (size_t k = 0; k < COUNT_OF(makers); k++)
+        if (strcmp(name, makers[k]) == 0)
+            return source_fault(d->s, "*%s; a deck that writes out all nodes and elements in x, y, z is expected",
+                                name);
+    const bool node = strcmp(name, "NODE") == 0, element = strcmp(name, "ELEMENT") == 0;
+    const bool nset = strcmp(name, "NSET") == 0, elset = strcmp(name, "ELSET") == 0;
+    if ((node || element || nset || elset) && parameter(d, "INPUT"))
+        return source_fault(d->s, "*%s from another file; one file is expected", name);
+    if (node) return nodes_read(d);
+    if (element) return elements_read(d);
+    if (nset || elset) return set_read(d, nset);
+    if (strcmp(name, "PART") == 0) return scope_change(d, parameter(d, "NAME"));
+    if (strcmp(name, "ENDPART") == 0) return scope_change(d, NULL);
+    if (strcmp(name, "INSTANCE") == 0) return instance_read(d);
+    return OK;
+}
+
+status abaqus_read(struct element_mesh *m, struct source *s)
+{
+    struct deck d = {.s = s, .m = m};
+    status result = OK;
+    scope_begin(&d, "");
+    while (result == OK && source_more(s)) {
+        while (data_line(s)) source_next_line(s); /* of a keyword that is passed over */
+        if (s->at >= s->length) break;
+        source_more(s);
+        keyword_read(&d);
+        result = keyword_follow(&d);
+    }
+    if (result == OK) result = scope_end(&d);
+    if (result == OK && m->nodes == 0) result = source_fault(s, "no *NODE; a deck of Abaqus is expected");
+    for (int k = 0; k < d.scopes; k++) {
+        label_map_free(&d.scope[k].node_of);
+        label_map_free(&d.scope[k].element_of);
+    }
+    memory_free(d.scope);
+    return result;
+}

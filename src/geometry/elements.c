@@ -1,0 +1,125 @@
+/* Meshes of finite elements: what all formats have in common. */
+#include "elements.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <strings.h>
+
+#include "base/memory.h"
+
+const int element_corners[ELEMENT_KINDS] = {1, 2, 3, 4, 4, 5, 6, 8};
+const int element_dim[ELEMENT_KINDS] = {0, 1, 2, 2, 3, 3, 3, 3};
+
+/* Room for one more in an array that doubles; 0 becomes 256. */
+static int64_t room_for(int64_t n, int64_t room) { return n < room ? room : room > 0 ? 2 * room : 256; }
+
+status mesh_node_add(struct element_mesh *m, const struct source *s, const real *X, int64_t label)
+{
+    if (m->nodes >= HULL_CORNERS_MAX) return source_fault(s, "more than %d nodes", HULL_CORNERS_MAX);
+    const int64_t room = room_for(m->nodes, m->node_room);
+    if (room > m->node_room) {
+        m->node = memory_resize("mesh.node", m->node, m->node_room, room, sizeof *m->node);
+        m->node_label = memory_resize("mesh.label", m->node_label, m->node_room, room, sizeof *m->node_label);
+        m->node_room = room;
+    }
+    memcpy(m->node[m->nodes], X, sizeof *m->node);
+    m->node_label[m->nodes++] = label;
+    return OK;
+}
+
+status mesh_element_add(struct element_mesh *m, const struct source *s, enum element_kind kind, const int32_t *node,
+                        int64_t label)
+{
+    if (m->elements >= HULL_CORNERS_MAX) return source_fault(s, "more than %d elements", HULL_CORNERS_MAX);
+    const int64_t room = room_for(m->elements, m->element_room);
+    if (room > m->element_room) {
+        m->element = memory_resize("mesh.element", m->element, m->element_room, room, sizeof *m->element);
+        m->element_label =
+            memory_resize("mesh.label", m->element_label, m->element_room, room, sizeof *m->element_label);
+        m->element_room = room;
+    }
+    struct element *e = &m->element[m->elements];
+    e->kind = kind;
+    for (int k = 0; k < element_corners[kind]; k++) e->node[k] = node[k];
+    m->element_label[m->elements++] = label;
+    return OK;
+}
+
+int mesh_set(struct element_mesh *m, const char *name, bool of_nodes)
+{
+    for (int k = 0; k < m->sets; k++)
+        if (strcasecmp(m->set[k].name, name) == 0 && m->set[k].of_nodes == of_nodes) return k;
+    if (m->sets >= ELEMENT_SETS_MAX) return -1;
+    m->set = memory_resize("mesh.set", m->set, m->sets, m->sets + 1, sizeof *m->set);
+    struct element_set *set = &m->set[m->sets];
+    snprintf(set->name, sizeof set->name, "%s", name);
+    text_harmless(set->name);
+    set->of_nodes = of_nodes;
+    return m->sets++;
+}
+
+void mesh_set_add(struct element_mesh *m, int number, int64_t member)
+{
+    struct element_set *set = &m->set[number];
+    const int64_t room = room_for(set->n, set->room);
+    if (room > set->room) set->member = memory_resize("mesh.set", set->member, set->room, room, sizeof *set->member);
+    set->room = room;
+    set->member[set->n++] = (int32_t)member;
+}
+
+void element_mesh_free(struct element_mesh *m)
+{
+    for (int k = 0; k < m->sets; k++) memory_free(m->set[k].member);
+    memory_free(m->set);
+    memory_free(m->node);
+    memory_free(m->node_label);
+    memory_free(m->element);
+    memory_free(m->element_label);
+    *m = (struct element_mesh){0};
+}
+
+/* ---- labels --------------------------------------------------------------------------------------------------- */
+
+static int label_entry_order(const void *a, const void *b)
+{
+    const struct label_entry *p = a, *q = b;
+    return p->label != q->label ? (p->label > q->label) - (p->label < q->label)
+                                : (p->index > q->index) - (p->index < q->index);
+}
+
+void label_map_make(struct label_map *map, const int64_t *label, int64_t first, int64_t n)
+{
+    map->n = n;
+    map->entry = NEW("mesh.labels", n, struct label_entry);
+    for (int64_t k = 0; k < n; k++) map->entry[k] = (struct label_entry){label[k], first + k};
+    qsort(map->entry, (size_t)n, sizeof *map->entry, label_entry_order);
+}
+
+int64_t label_find(const struct label_map *map, int64_t label)
+{
+    int64_t low = 0, high = map->n;
+    while (low < high) {
+        const int64_t middle = low + (high - low) / 2;
+        if (map->entry[middle].label < label)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < map->n && map->entry[low].label == label ? map->entry[low].index : -1;
+}
+
+bool label_twice(const struct label_map *map, int64_t *label)
+{
+    for (int64_t k = 1; k < map->n; k++)
+        if (map->entry[k].label == map->entry[k - 1].label) {
+            *label = map->entry[k].label;
+            return true;
+        }
+    return false;
+}
+
+void label_map_free(struct label_map *map)
+{
+    memory_free(map->entry);
+    *map = (struct label_map){0};
+}

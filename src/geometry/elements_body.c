@@ -1,0 +1,227 @@
+/* The body that elements fill: their faces, of which inner ones cancel, and the surfaces of their sets. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "elements.h"
+
+enum { SIDES_MAX = 6 };
+
+/* Sides of elements, seen from outside counter-clockwise; of triangles 3 corners, the fourth is -1. Corners are
+ * numbered as in Gmsh and Abaqus, which agree in this. In the plane sides are edges. */
+struct sides {
+    int n;
+    signed char corner[SIDES_MAX][4];
+};
+static const struct sides sides_of[ELEMENT_KINDS] = {
+    [ELEMENT_TRIANGLE] = {3, {{0, 1}, {1, 2}, {2, 0}}},
+    [ELEMENT_QUAD] = {4, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
+    [ELEMENT_TETRAHEDRON] = {4, {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}}},
+    [ELEMENT_PYRAMID] = {5, {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}}},
+    [ELEMENT_PRISM] = {5, {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}},
+    [ELEMENT_HEXAHEDRON] = {6, {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
+};
+
+struct builder {
+    const struct element_mesh *m;
+    int dim, body_dim; /* of the space; of the elements that make the body */
+    real scale;
+    int64_t n, room; /* faces so far, by indices of nodes */
+    int32_t (*face)[DIM_MAX];
+};
+
+static void builder_add(struct builder *b, int32_t i, int32_t j, int32_t k)
+{
+    if (b->n == b->room) {
+        const int64_t room = b->room > 0 ? 2 * b->room : 1024;
+        b->face = memory_resize("mesh.face", b->face, b->room, room, sizeof *b->face);
+        b->room = room;
+    }
+    const int32_t face[DIM_MAX] = {i, j, k};
+    memcpy(b->face[b->n++], face, sizeof face);
+}
+
+/* A side of 3 or 4 corners as triangles. A quadrilateral is halved at its lowest node, so that the elements on both
+ * sides of it halve it alike. */
+static void builder_add_side(struct builder *b, const int32_t *node, int n)
+{
+    int low = 0;
+    for (int k = 1; k < n; k++)
+        if (node[k] < node[low]) low = k;
+    builder_add(b, node[low], node[(low + 1) % n], node[(low + 2) % n]);
+    if (n == 4) builder_add(b, node[low], node[(low + 2) % n], node[(low + 3) % n]);
+}
+
+/* The sides of an element that fills a part of the body, or the element itself where it is a part of the surface. */
+static void builder_add_element(struct builder *b, const struct element *e)
+{
+    const struct sides *sides = &sides_of[e->kind];
+    const int corners = element_corners[e->kind];
+    if (element_dim[e->kind] < b->dim) {
+        if (corners > 2)
+            builder_add_side(b, e->node, corners);
+        else
+            builder_add(b, e->node[0], e->node[corners - 1], e->node[corners - 1]);
+        return;
+    }
+    for (int k = 0; k < sides->n; k++) {
+        int32_t node[4];
+        const int n = b->dim == 2 ? 2 : sides->corner[k][3] < 0 ? 3 : 4;
+        for (int c = 0; c < n; c++) node[c] = e->node[sides->corner[k][c]];
+        if (b->dim == 2)
+            builder_add(b, node[0], node[1], 0);
+        else
+            builder_add_side(b, node, n);
+    }
+}
+
+/* Six times the volume of its faces from `first` on, or twice the area in the plane. */
+static real builder_volume(const struct builder *b, int64_t first)
+{
+    const real *O = b->m->node[b->face[first][0]];
+    real sum = 0;
+    for (int64_t k = first; k < b->n; k++) {
+        real arm[DIM_MAX][DIM_MAX];
+        for (int c = 0; c < b->dim; c++)
+            for (int d = 0; d < DIM_MAX; d++) arm[c][d] = b->m->node[b->face[k][c]][d] - O[d];
+        const real *p = arm[0], *q = arm[1], *r = arm[2];
+        sum += b->dim == 2 ? p[0] * q[1] - p[1] * q[0]
+                           : p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
+                                 p[2] * (q[0] * r[1] - q[1] * r[0]);
+    }
+    return sum;
+}
+
+/* Adds an element; one whose corners run the other way round is turned. */
+static void builder_take(struct builder *b, const struct element *e)
+{
+    const int64_t first = b->n;
+    builder_add_element(b, e);
+    if (element_dim[e->kind] < b->dim || !(builder_volume(b, first) < 0)) return;
+    for (int64_t k = first; k < b->n; k++) {
+        const int32_t node = b->face[k][0];
+        b->face[k][0] = b->face[k][1], b->face[k][1] = node;
+    }
+}
+
+/* Hands the faces over as a surface of the nodes that they use. node_of (may be NULL; to be freed): node of a corner.
+ */
+static void builder_close(struct builder *b, struct hull *hull, bool closed, int32_t **node_of)
+{
+    const struct element_mesh *m = b->m;
+    int32_t *corner_of = NEW("mesh.corners", m->nodes, int32_t), *node = NEW("mesh.corners", m->nodes, int32_t), n = 0;
+    for (int64_t k = 0; k < b->n; k++)
+        for (int c = 0; c < b->dim; c++) corner_of[b->face[k][c]] = 1;
+    for (int64_t k = 0; k < m->nodes; k++)
+        if (corner_of[k]) node[n] = (int32_t)k, corner_of[k] = n++;
+    real(*corner)[DIM_MAX] = memory_new("hull.corner", n, sizeof *corner);
+    for (int32_t k = 0; k < n; k++)
+        for (int d = 0; d < b->dim; d++) corner[k][d] = b->scale * m->node[node[k]][d];
+    for (int64_t k = 0; k < b->n; k++)
+        for (int c = 0; c < b->dim; c++) b->face[k][c] = corner_of[b->face[k][c]];
+    (closed ? hull_make : hull_make_open)(hull, b->dim, n, corner, b->n, b->face);
+    b->face = NULL, b->n = b->room = 0;
+    memory_free(corner_of);
+    if (node_of)
+        *node_of = node;
+    else
+        memory_free(node);
+}
+
+/* ---- sets ----------------------------------------------------------------------------------------------------- */
+
+/* Its elements that fill the body make a closed surface; where it has none, its faces, lines and points an open one. */
+static void set_of_elements(struct builder *b, const struct element_set *set, struct hull *hull)
+{
+    const struct element *e = b->m->element;
+    bool fills = false;
+    for (int64_t k = 0; k < set->n; k++) fills = fills || element_dim[e[set->member[k]].kind] == b->dim;
+    for (int64_t k = 0; k < set->n; k++)
+        if (!fills || element_dim[e[set->member[k]].kind] == b->dim) builder_take(b, &e[set->member[k]]);
+    builder_close(b, hull, fills, NULL);
+}
+
+/* Its nodes, and the faces of the body between them. */
+static void set_of_nodes(struct builder *b, const struct element_set *set, const struct hull *whole,
+                         const int32_t *node_of, struct hull *hull)
+{
+    bool *in = NEW("mesh.set", b->m->nodes, bool);
+    for (int64_t k = 0; k < set->n; k++) in[set->member[k]] = true;
+    for (int64_t k = 0; k < b->m->nodes; k++)
+        if (in[k]) builder_add(b, (int32_t)k, (int32_t)k, (int32_t)k);
+    for (int64_t k = 0; k < whole->faces; k++) {
+        int32_t node[DIM_MAX] = {0};
+        bool all = true;
+        for (int c = 0; c < b->dim; c++) node[c] = node_of[whole->face[k][c]], all = all && in[node[c]];
+        if (all) builder_add(b, node[0], node[1], node[2]);
+    }
+    memory_free(in);
+    builder_close(b, hull, false, NULL);
+}
+
+static void take_sets(struct builder *b, const int32_t *node_of, struct geometry *g)
+{
+    g->set = NEW("geometry.sets", b->m->sets, struct geometry_set);
+    for (int k = 0; k < b->m->sets; k++) {
+        const struct element_set *set = &b->m->set[k];
+        if (set->n == 0) continue;
+        struct geometry_set *to = &g->set[g->sets++];
+        memcpy(to->name, set->name, sizeof to->name);
+        if (set->of_nodes)
+            set_of_nodes(b, set, &g->whole, node_of, &to->hull);
+        else
+            set_of_elements(b, set, &to->hull);
+    }
+}
+
+/* ---- the body ------------------------------------------------------------------------------------------------- */
+
+/* Which elements make the body: in the plane triangles and quadrilaterals; in space solids, else a surface of such. */
+static status body_dim_of(const struct element_mesh *m, const char *path, int dim, int *body_dim)
+{
+    int64_t n[1 + DIM_MAX] = {0};
+    for (int64_t k = 0; k < m->elements; k++) n[element_dim[m->element[k].kind]]++;
+    *body_dim = dim == 3 && n[3] == 0 ? 2 : dim;
+    if (dim == 2 && n[3] > 0)
+        return status_set(REFUSED,
+                          "%s: its elements fill a space; space: solid is expected, or a mesh of triangles or "
+                          "quadrilaterals in the plane",
+                          path);
+    if (n[*body_dim] > 0) return OK;
+    return status_set(REFUSED, "%s: %lld nodes and no element that fills a body%s%s; %s are expected", path,
+                      (long long)m->nodes, m->skipped[0] ? ", but others such as " : "", m->skipped,
+                      dim == 2 ? "triangles or quadrilaterals"
+                               : "tetrahedra, hexahedra, prisms, pyramids or a closed surface of triangles");
+}
+
+/* REFUSED unless the elements of a plane body lie in one plane z = const, to a millionth of their extent. */
+static status check_plane(const struct element_mesh *m, const char *path)
+{
+    real low[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, high[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int64_t k = 0; k < m->elements; k++) {
+        const struct element *e = &m->element[k];
+        for (int c = 0; c < element_corners[e->kind] && element_dim[e->kind] == 2; c++)
+            for (int d = 0; d < DIM_MAX; d++) {
+                low[d] = real_min(low[d], m->node[e->node[c]][d]), high[d] = real_max(high[d], m->node[e->node[c]][d]);
+            }
+    }
+    const real extent = real_max(high[0] - low[0], high[1] - low[1]);
+    if (high[2] - low[2] <= 1e-6 * extent) return OK;
+    return status_set(REFUSED,
+                      "%s: its elements are not in a plane z = const: z goes from %.6g to %.6g; in the plane such "
+                      "a mesh is expected",
+                      path, low[2], high[2]);
+}
+
+status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real scale)
+{
+    struct builder b = {.m = m, .dim = dim, .scale = scale};
+    int32_t *node_of = NULL;
+    TRY(body_dim_of(m, path, dim, &b.body_dim));
+    if (dim == 2) TRY(check_plane(m, path));
+    for (int64_t k = 0; k < m->elements; k++)
+        if (element_dim[m->element[k].kind] == b.body_dim) builder_take(&b, &m->element[k]);
+    builder_close(&b, &g->whole, true, &node_of);
+    take_sets(&b, node_of, g);
+    memory_free(node_of);
+    return OK;
+}

@@ -1,0 +1,82 @@
+/* Which reader a file needs, and whether what it holds has an inside. */
+#include "geometry/geometry.h"
+
+#include <math.h>
+#include <strings.h>
+
+#include "base/memory.h"
+#include "elements.h"
+
+#define DOUBT_MOST 0.02 /* share of places that may not be known to be inside or outside */
+#define FARTHEST 1e30   /* [m] where squares and products of three still are numbers */
+
+static const struct format {
+    const char *ending;
+    status (*read)(struct element_mesh *, struct source *);
+} formats[] = {{".stl", stl_read}, {".msh", gmsh_read}, {".inp", abaqus_read}};
+
+static const struct format *format_of(const char *path)
+{
+    const size_t length = strlen(path);
+    for (size_t k = 0; k < COUNT_OF(formats); k++)
+        if (length > 4 && strcasecmp(path + length - 4, formats[k].ending) == 0) return &formats[k];
+    return NULL;
+}
+
+/* REFUSED where it encloses nothing, or is so open that places inside and outside cannot be told apart. */
+static status check_closed(const struct hull *s, const char *path)
+{
+    const real *at = s->open_at;
+    if (s->faces == 0) return status_set(REFUSED, "%s: its faces cancel each other; a body is expected", path);
+    for (int d = 0; d < s->dim; d++)
+        if (!(fabs(s->node[0].low[d]) < FARTHEST && fabs(s->node[0].high[d]) < FARTHEST))
+            return status_set(REFUSED, "%s: coordinates up to %.3g m; see whether the unit is right", path,
+                              real_max(fabs(s->node[0].low[d]), fabs(s->node[0].high[d])));
+    const real doubt = s->open_edges > 0 ? hull_doubt(s) : 0;
+    if (doubt > DOUBT_MOST)
+        return status_set(
+            REFUSED,
+            "%s: its surface is open or turned inside out at %lld edges, one at (%.6g, %.6g, %.6g) "
+            "m, and %.0f %% of the places in it are neither inside nor outside; a closed surface is expected "
+            "(a program for meshes closes holes and turns faces: admesh, MeshLab)",
+            path, (long long)s->open_edges, at[0], at[1], at[2], 100 * doubt);
+    if (s->volume > 0) return OK;
+    return status_set(REFUSED, "%s: encloses no volume; a body is expected", path);
+}
+
+static status read_elements(struct geometry *g, const char *path, int dim, real scale)
+{
+    const struct format *format = format_of(path);
+    struct element_mesh m = {0};
+    struct source source;
+    if (!format) return status_set(REFUSED, "%s: a file that ends in .stl, .msh or .inp is expected", path);
+    TRY(source_open(&source, path));
+    status s = format->read(&m, &source);
+    source_close(&source);
+    if (s == OK) s = geometry_from_elements(g, &m, path, dim, scale);
+    element_mesh_free(&m);
+    return s == OK ? check_closed(&g->whole, path) : s;
+}
+
+status geometry_read(struct geometry *g, const char *path, int dim, real scale)
+{
+    *g = (struct geometry){0};
+    const status s = read_elements(g, path, dim, scale);
+    if (s != OK) geometry_free(g);
+    return s;
+}
+
+const struct geometry_set *geometry_find(const struct geometry *g, const char *name)
+{
+    for (int k = 0; k < g->sets; k++)
+        if (strcasecmp(g->set[k].name, name) == 0) return &g->set[k];
+    return NULL;
+}
+
+void geometry_free(struct geometry *g)
+{
+    hull_free(&g->whole);
+    for (int k = 0; k < g->sets; k++) hull_free(&g->set[k].hull);
+    memory_free(g->set);
+    *g = (struct geometry){0};
+}

@@ -1,0 +1,388 @@
+/* Gmsh .msh, formats 2.2 and 4.1, in words or bytes (Gmsh reference manual, "File formats"). Physical groups become
+ * sets by their names, those without one by their number. */
+#include <ctype.h>
+#include <stdio.h>
+#include <strings.h>
+
+#include "base/memory.h"
+#include "elements.h"
+
+/* Gmsh's types: what they are by their corners, which come first, and how many nodes they have. */
+static const struct gmsh_type {
+    int type;
+    enum element_kind kind;
+    int nodes;
+} types[] = {{15, ELEMENT_POINT, 1},        {1, ELEMENT_LINE, 2},          {8, ELEMENT_LINE, 3},
+             {26, ELEMENT_LINE, 4},         {27, ELEMENT_LINE, 5},         {28, ELEMENT_LINE, 6},
+             {2, ELEMENT_TRIANGLE, 3},      {9, ELEMENT_TRIANGLE, 6},      {20, ELEMENT_TRIANGLE, 9},
+             {21, ELEMENT_TRIANGLE, 10},    {22, ELEMENT_TRIANGLE, 12},    {23, ELEMENT_TRIANGLE, 15},
+             {24, ELEMENT_TRIANGLE, 15},    {25, ELEMENT_TRIANGLE, 21},    {3, ELEMENT_QUAD, 4},
+             {10, ELEMENT_QUAD, 9},         {16, ELEMENT_QUAD, 8},         {4, ELEMENT_TETRAHEDRON, 4},
+             {11, ELEMENT_TETRAHEDRON, 10}, {29, ELEMENT_TETRAHEDRON, 20}, {30, ELEMENT_TETRAHEDRON, 35},
+             {31, ELEMENT_TETRAHEDRON, 56}, {5, ELEMENT_HEXAHEDRON, 8},    {12, ELEMENT_HEXAHEDRON, 27},
+             {17, ELEMENT_HEXAHEDRON, 20},  {92, ELEMENT_HEXAHEDRON, 64},  {93, ELEMENT_HEXAHEDRON, 125},
+             {6, ELEMENT_PRISM, 6},         {13, ELEMENT_PRISM, 18},       {18, ELEMENT_PRISM, 15},
+             {7, ELEMENT_PYRAMID, 5},       {14, ELEMENT_PYRAMID, 14},     {19, ELEMENT_PYRAMID, 13}};
+
+enum { GROUPS_MAX = 16 }; /* that an entity may belong to */
+
+struct gmsh {
+    struct source *s;
+    struct element_mesh *m;
+    bool bytes, old;          /* numbers are bytes; format 2.2 */
+    struct label_map node;    /* its labels, once the nodes are read */
+    int64_t names, name_room; /* of physical groups */
+    struct group_name {
+        int64_t dim, tag;
+        char text[NAME_MAX_LENGTH];
+    } * name;
+    int64_t links, link_room; /* entities and the physical groups that they belong to */
+    int64_t *entity, *group;  /* dimension and tag as one number; tag of the group */
+    struct label_map of_entity;
+    int64_t last_dim, last_tag; /* the group that was met last, and its set */
+    int last_set;
+};
+
+static int64_t entity_key(int64_t dim, int64_t tag) { return tag * 4 + dim; }
+
+static status type_of(const struct source *s, int64_t number, const struct gmsh_type **type)
+{
+    for (size_t k = 0; k < COUNT_OF(types); k++)
+        if (types[k].type == number) {
+            *type = &types[k];
+            return OK;
+        }
+    return source_fault(s,
+                        "elements of Gmsh's type %lld; lines, triangles, quadrilaterals, tetrahedra, hexahedra, prisms "
+                        "and pyramids are read",
+                        (long long)number);
+}
+
+/* Adds an element to the set of a physical group. */
+static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t element)
+{
+    if (g->last_set < 0 || dim != g->last_dim || tag != g->last_tag) {
+        char name[NAME_MAX_LENGTH];
+        snprintf(name, sizeof name, "%lld", (long long)tag);
+        for (int64_t k = 0; k < g->names; k++)
+            if (g->name[k].dim == dim && g->name[k].tag == tag) memcpy(name, g->name[k].text, sizeof name);
+        g->last_dim = dim, g->last_tag = tag, g->last_set = mesh_set(g->m, name, false);
+    }
+    if (g->last_set < 0) return source_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
+    mesh_set_add(g->m, g->last_set, element);
+    return OK;
+}
+
+/* The index of a node by its label, the next number of the file. */
+static status node_next(struct gmsh *g, int32_t *index)
+{
+    int64_t label;
+    TRY((g->old ? source_int : source_size)(g->s, "node of an element", &label));
+    const int64_t found = label_find(&g->node, label);
+    if (found < 0)
+        return source_fault(g->s, "an element has node %lld, which is not among the nodes", (long long)label);
+    *index = (int32_t)found;
+    return OK;
+}
+
+/* Nodes of an element: corners are kept. */
+static status element_next(struct gmsh *g, const struct gmsh_type *type, int64_t label)
+{
+    int32_t node[ELEMENT_CORNERS_MAX], middle;
+    for (int k = 0; k < type->nodes; k++) TRY(node_next(g, k < element_corners[type->kind] ? &node[k] : &middle));
+    return mesh_element_add(g->m, g->s, type->kind, node, label);
+}
+
+static status nodes_known(struct gmsh *g)
+{
+    int64_t twice;
+    label_map_make(&g->node, g->m->node_label, 0, g->m->nodes);
+    if (!label_twice(&g->node, &twice)) return OK;
+    return source_fault(g->s, "node %lld is given twice", (long long)twice);
+}
+
+/* ---- physical names and entities ------------------------------------------------------------------------------- */
+
+/* A text in quotes, as the next of the line. */
+static status quoted_next(struct source *s, char *text, size_t room)
+{
+    size_t n = 0;
+    if (!source_more(s) || s->text[s->at] != '"') return source_fault(s, "a name in quotes is expected");
+    for (s->at++; s->at < s->length && s->text[s->at] != '"' && s->text[s->at] != '\n'; s->at++)
+        if (n + 1 < room) text[n++] = s->text[s->at];
+    text[n] = '\0';
+    if (s->at >= s->length || s->text[s->at] != '"') return source_fault(s, "a name that does not end");
+    s->at++;
+    return OK;
+}
+
+static status names_read(struct gmsh *g)
+{
+    int64_t n;
+    TRY(source_whole(g->s, "number of names", &n));
+    TRY(source_counted(g->s, "names", n, 4));
+    if (n > ELEMENT_SETS_MAX) return source_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
+    g->name = memory_resize("gmsh.names", g->name, g->names, n, sizeof *g->name);
+    for (g->names = 0; g->names < n; g->names++) {
+        struct group_name *name = &g->name[g->names];
+        TRY(source_whole(g->s, "dimension of a group", &name->dim));
+        TRY(source_whole(g->s, "tag of a group", &name->tag));
+        TRY(quoted_next(g->s, name->text, sizeof name->text));
+    }
+    return OK;
+}
+
+static void entity_group_add(struct gmsh *g, int64_t entity, int64_t group)
+{
+    if (g->links == g->link_room) {
+        const int64_t room = g->link_room > 0 ? 2 * g->link_room : 64;
+        g->entity = memory_resize("gmsh.entities", g->entity, g->link_room, room, sizeof *g->entity);
+        g->group = memory_resize("gmsh.entities", g->group, g->link_room, room, sizeof *g->group);
+        g->link_room = room;
+    }
+    g->entity[g->links] = entity, g->group[g->links++] = group;
+}
+
+/* An entity: its tag, its box (of a point its place), its groups and, but for a point, what bounds it. */
+static status entity_read(struct gmsh *g, int64_t dim)
+{
+    int64_t tag, groups, group, bounds;
+    real box;
+    TRY(source_int(g->s, "tag of an entity", &tag));
+    for (int k = 0; k < (dim == 0 ? 3 : 6); k++) TRY(source_real(g->s, "coordinate", &box));
+    TRY(source_size(g->s, "number of groups", &groups));
+    TRY(source_counted(g->s, "groups", groups, 2));
+    for (int64_t k = 0; k < groups; k++) {
+        TRY(source_int(g->s, "tag of a group", &group));
+        entity_group_add(g, entity_key(dim, tag), group < 0 ? -group : group);
+    }
+    if (dim == 0) return OK;
+    TRY(source_size(g->s, "number of bounding entities", &bounds));
+    TRY(source_counted(g->s, "bounding entities", bounds, 2));
+    for (int64_t k = 0; k < bounds; k++) TRY(source_int(g->s, "tag of an entity", &tag));
+    return OK;
+}
+
+static status entities_read(struct gmsh *g)
+{
+    int64_t n[1 + DIM_MAX];
+    for (int d = 0; d <= DIM_MAX; d++) TRY(source_size(g->s, "number of entities", &n[d]));
+    for (int d = 0; d <= DIM_MAX; d++) {
+        TRY(source_counted(g->s, "entities", n[d], 8));
+        for (int64_t k = 0; k < n[d]; k++) TRY(entity_read(g, d));
+    }
+    label_map_free(&g->of_entity);
+    label_map_make(&g->of_entity, g->entity, 0, g->links);
+    return OK;
+}
+
+/* ---- format 2.2 ----------------------------------------------------------------------------------------------- */
+
+/* A count stands in words also before bytes, at the end of its line. */
+static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t *n)
+{
+    g->s->binary = false;
+    TRY(source_whole(g->s, what, n));
+    source_next_line(g->s);
+    g->s->binary = g->bytes;
+    return source_counted(g->s, what, *n, bytes);
+}
+
+static status old_nodes(struct gmsh *g)
+{
+    int64_t n, label;
+    TRY(old_count(g, "nodes", 8, &n));
+    for (int64_t k = 0; k < n; k++) {
+        real X[DIM_MAX];
+        TRY(source_int(g->s, "number of a node", &label));
+        for (int d = 0; d < DIM_MAX; d++) TRY(source_real(g->s, "coordinate", &X[d]));
+        TRY(mesh_node_add(g->m, g->s, X, label));
+    }
+    return nodes_known(g);
+}
+
+/* An element of 2.2: its tags, of which the first is the physical group, and nodes. */
+static status old_element(struct gmsh *g, const struct gmsh_type *type, int64_t label, int64_t tags)
+{
+    int64_t tag, group = 0;
+    TRY(source_counted(g->s, "tags", tags, 2));
+    for (int64_t k = 0; k < tags; k++) TRY(source_int(g->s, "tag", k == 0 ? &group : &tag));
+    TRY(element_next(g, type, label));
+    return group == 0 ? OK : group_add(g, element_dim[type->kind], group, g->m->elements - 1);
+}
+
+/* In bytes elements of one type come in blocks behind a header; in words each says what it is. */
+static status old_elements(struct gmsh *g)
+{
+    int64_t n, label = 0, number, tags, block = 1;
+    const struct gmsh_type *type = NULL;
+    TRY(old_count(g, "elements", 8, &n));
+    for (int64_t k = 0; k < n; k += block) {
+        if (!g->bytes) TRY(source_int(g->s, "number of an element", &label));
+        TRY(source_int(g->s, "type of an element", &number));
+        if (g->bytes) TRY(source_int(g->s, "number of elements", &block));
+        TRY(source_int(g->s, "number of tags", &tags));
+        TRY(type_of(g->s, number, &type));
+        if (block < 1) return source_fault(g->s, "a block of %lld elements", (long long)block);
+        TRY(source_counted(g->s, "elements", block, g->bytes ? 8 : 2));
+        for (int64_t e = 0; e < block; e++) {
+            if (g->bytes) TRY(source_int(g->s, "number of an element", &label));
+            TRY(old_element(g, type, label, tags));
+        }
+    }
+    return OK;
+}
+
+/* ---- format 4.1 ----------------------------------------------------------------------------------------------- */
+
+/* Blocks, things in all, least and largest label. */
+static status new_head(struct gmsh *g, const char *what, int64_t *blocks)
+{
+    int64_t skipped;
+    TRY(source_size(g->s, "number of blocks", blocks));
+    for (int k = 0; k < 3; k++) TRY(source_size(g->s, what, &skipped));
+    return source_counted(g->s, "blocks", *blocks, 8);
+}
+
+/* A block of nodes: their labels, then their places, with coordinates on their entity behind them. */
+static status new_node_block(struct gmsh *g)
+{
+    int64_t dim, tag, parametric, n, label;
+    TRY(source_int(g->s, "dimension", &dim));
+    TRY(source_int(g->s, "tag of an entity", &tag));
+    TRY(source_int(g->s, "parametric", &parametric));
+    TRY(source_size(g->s, "number of nodes", &n));
+    TRY(source_counted(g->s, "nodes", n, 8));
+    if (dim < 0 || dim > 3) return source_fault(g->s, "nodes of an entity of dimension %lld", (long long)dim);
+    const int64_t first = g->m->nodes;
+    for (int64_t k = 0; k < n; k++) {
+        TRY(source_size(g->s, "number of a node", &label));
+        TRY(mesh_node_add(g->m, g->s, (const real[DIM_MAX]){0}, label));
+    }
+    for (int64_t k = first; k < first + n; k++) {
+        real own;
+        for (int d = 0; d < DIM_MAX; d++) TRY(source_real(g->s, "coordinate", &g->m->node[k][d]));
+        for (int d = 0; d < dim && parametric != 0; d++) TRY(source_real(g->s, "coordinate", &own));
+    }
+    return OK;
+}
+
+static status new_nodes(struct gmsh *g)
+{
+    int64_t blocks;
+    TRY(new_head(g, "number of nodes", &blocks));
+    for (int64_t k = 0; k < blocks; k++) TRY(new_node_block(g));
+    return nodes_known(g);
+}
+
+static status new_element_block(struct gmsh *g)
+{
+    int64_t dim, tag, number, n, label;
+    const struct gmsh_type *type = NULL;
+    TRY(source_int(g->s, "dimension", &dim));
+    TRY(source_int(g->s, "tag of an entity", &tag));
+    TRY(source_int(g->s, "type of an element", &number));
+    TRY(source_size(g->s, "number of elements", &n));
+    TRY(type_of(g->s, number, &type));
+    TRY(source_counted(g->s, "elements", n, 4));
+    const int64_t key = entity_key(dim, tag), link = label_find(&g->of_entity, key), first = g->m->elements;
+    for (int64_t k = 0; k < n; k++) {
+        TRY(source_size(g->s, "number of an element", &label));
+        TRY(element_next(g, type, label));
+    }
+    for (int64_t l = link; l >= 0 && l < g->links && l < link + GROUPS_MAX && g->entity[l] == key; l++)
+        for (int64_t k = first; k < first + n; k++) TRY(group_add(g, element_dim[type->kind], g->group[l], k));
+    return OK;
+}
+
+static status new_elements(struct gmsh *g)
+{
+    int64_t blocks;
+    TRY(new_head(g, "number of elements", &blocks));
+    for (int64_t k = 0; k < blocks; k++) TRY(new_element_block(g));
+    return OK;
+}
+
+/* ---- sections ------------------------------------------------------------------------------------------------- */
+
+static status format_read(struct gmsh *g)
+{
+    char version[16];
+    int64_t bytes, size, one;
+    source_word(g->s, version, sizeof version);
+    g->old = strcmp(version, "2.2") == 0 || strcmp(version, "2") == 0;
+    if (!g->old && strcmp(version, "4.1") != 0)
+        return source_fault(g->s, "format %s of Gmsh; 2.2 and 4.1 are read (gmsh -save -format msh41 writes it)",
+                            version);
+    TRY(source_whole(g->s, "kind of file", &bytes));
+    TRY(source_whole(g->s, "size of numbers", &size));
+    if (size != 8) return source_fault(g->s, "numbers of %lld bytes; 8 are expected", (long long)size);
+    g->bytes = bytes != 0;
+    if (!g->bytes) return OK;
+    source_next_line(g->s);
+    g->s->binary = true;
+    TRY(source_int(g->s, "the number 1", &one));
+    g->s->binary = false;
+    return one == 1 ? OK : source_fault(g->s, "bytes in the order of another machine; save it anew, or in words");
+}
+
+/* Goes behind the line $EndNAME of a section that is not read. */
+static void section_skip(struct source *s, const char *name)
+{
+    char end[48];
+    const int length = snprintf(end, sizeof end, "$End%s", name + 1);
+    const char *found = memmem(s->text + s->at, (size_t)(s->length - s->at), end, (size_t)length);
+    s->at = found ? found - s->text + length : s->length;
+}
+
+static status section_read(struct gmsh *g, const char *name)
+{
+    static const struct section {
+        const char *name;
+        status (*old)(struct gmsh *), (*new)(struct gmsh *);
+    } sections[] = {{"$PhysicalNames", names_read, names_read},
+                    {"$Nodes", old_nodes, new_nodes},
+                    {"$Elements", old_elements, new_elements},
+                    {"$Entities", NULL, entities_read}};
+    if (strcmp(name, "$PartitionedEntities") == 0)
+        return source_fault(g->s, "a mesh in partitions; one without is expected");
+    if (strcmp(name, "$Nodes") == 0 && g->node.entry) return source_fault(g->s, "nodes are given twice");
+    for (size_t k = 0; k < COUNT_OF(sections); k++) {
+        if (strcmp(name, sections[k].name) != 0 || (g->old && !sections[k].old)) continue;
+        if (!g->old && g->bytes && k > 0) source_next_line(g->s);
+        g->s->binary = !g->old && g->bytes && k > 0; /* names are words */
+        const status s = (g->old ? sections[k].old : sections[k].new)(g);
+        g->s->binary = false;
+        if (s != OK) return s;
+    }
+    section_skip(g->s, name);
+    return OK;
+}
+
+static status sections_read(struct gmsh *g)
+{
+    char name[40];
+    source_word(g->s, name, sizeof name);
+    if (strcmp(name, "$MeshFormat") != 0) return source_fault(g->s, "no mesh of Gmsh: $MeshFormat is expected first");
+    TRY(format_read(g));
+    section_skip(g->s, name);
+    while (source_more(g->s)) {
+        source_word(g->s, name, sizeof name);
+        if (name[0] != '$') return source_fault(g->s, "%.30s: a section such as $Nodes is expected", name);
+        TRY(section_read(g, name));
+    }
+    if (!g->node.entry) return source_fault(g->s, "ends without $Nodes");
+    return g->m->elements > 0 ? OK : source_fault(g->s, "ends without $Elements");
+}
+
+status gmsh_read(struct element_mesh *m, struct source *s)
+{
+    struct gmsh g = {.s = s, .m = m, .last_set = -1};
+    const status result = sections_read(&g);
+    label_map_free(&g.node);
+    label_map_free(&g.of_entity);
+    memory_free(g.name);
+    memory_free(g.entity);
+    memory_free(g.group);
+    return result;
+}

@@ -1,0 +1,136 @@
+/* Bytes of a foreign file; nothing is believed of them. */
+#include "source.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "base/team.h"
+
+enum { FILE_SHARE = 8 }; /* a file takes an eighth of the memory at the most: what it holds needs more */
+
+status source_open(struct source *s, const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    *s = (struct source){.path = path};
+    if (!file) return status_set(REFUSED, "%s: cannot be opened", path);
+    const bool sized = fseeko(file, 0, SEEK_END) == 0;
+    const int64_t length = sized ? (int64_t)ftello(file) : -1, memory = team_memory();
+    const bool fits = memory <= 0 || length <= memory / FILE_SHARE;
+    if (length > 0 && fits && length < INT64_MAX) {
+        rewind(file);
+        s->text = memory_bare("file", length + 1, 1);
+        s->length = (int64_t)fread(s->text, 1, (size_t)length, file);
+        s->text[s->length] = '\0';
+    }
+    fclose(file);
+    if (s->length == length && length > 0) return OK;
+    source_close(s);
+    if (!fits)
+        return status_set(REFUSED, "%s: %.3g GB are too much for this machine's memory", path, 1e-9 * (real)length);
+    return status_set(REFUSED, length == 0 ? "%s: empty" : "%s: cannot be read", path);
+}
+
+void source_close(struct source *s)
+{
+    memory_free(s->text);
+    *s = (struct source){0};
+}
+
+status source_fault(const struct source *s, const char *format, ...)
+{
+    char what[256];
+    int64_t line = 1;
+    va_list more;
+    va_start(more, format);
+    vsnprintf(what, sizeof what, format, more);
+    va_end(more);
+    text_harmless(what);
+    if (s->binary) return status_set(REFUSED, "%s: %s", s->path, what);
+    for (int64_t k = 0; k < s->at && k < s->length; k++) line += s->text[k] == '\n';
+    return status_set(REFUSED, "%s:%lld: %s", s->path, (long long)line, what);
+}
+
+static bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+bool source_more(struct source *s)
+{
+    while (s->at < s->length && blank(s->text[s->at])) s->at++;
+    return s->at < s->length;
+}
+
+void source_word(struct source *s, char *word, size_t room)
+{
+    size_t n = 0;
+    source_more(s);
+    for (; s->at < s->length && !blank(s->text[s->at]); s->at++)
+        if (n + 1 < room) word[n++] = s->text[s->at];
+    word[n] = '\0';
+}
+
+/* The next word as a number; a word is short, so that a long file without blanks costs no time. */
+static status text_real(struct source *s, const char *what, real *value)
+{
+    char word[64], *end;
+    if (!source_more(s)) return source_fault(s, "ends where %s is expected", what);
+    const int64_t from = s->at;
+    source_word(s, word, sizeof word);
+    *value = strtod(word, &end);
+    if (end != word && *end == '\0' && isfinite(*value)) return OK;
+    s->at = from;
+    return source_fault(s, "%.40s is no %s; a number is expected", word, what);
+}
+
+/* `size` bytes of a binary file. */
+static status bytes_take(struct source *s, const char *what, void *value, int64_t size)
+{
+    if (s->length - s->at < size) return source_fault(s, "ends where %s is expected: it is cut off", what);
+    memcpy(value, s->text + s->at, (size_t)size);
+    s->at += size;
+    return OK;
+}
+
+status source_real(struct source *s, const char *what, real *value)
+{
+    if (!s->binary) return text_real(s, what, value);
+    TRY(bytes_take(s, what, value, sizeof *value));
+    return isfinite(*value) ? OK : source_fault(s, "%s is not finite", what);
+}
+
+status source_whole(struct source *s, const char *what, int64_t *value)
+{
+    real number;
+    TRY(text_real(s, what, &number));
+    if (number != floor(number) || fabs(number) > 9e15)
+        return source_fault(s, "%s is %.17g; a whole number is expected", what, number);
+    *value = (int64_t)number;
+    return OK;
+}
+
+status source_int(struct source *s, const char *what, int64_t *value)
+{
+    int32_t number;
+    if (!s->binary) return source_whole(s, what, value);
+    TRY(bytes_take(s, what, &number, sizeof number));
+    *value = number;
+    return OK;
+}
+
+status source_size(struct source *s, const char *what, int64_t *value)
+{
+    return s->binary ? bytes_take(s, what, value, sizeof *value) : source_whole(s, what, value);
+}
+
+status source_counted(const struct source *s, const char *what, int64_t count, int64_t bytes)
+{
+    if (count >= 0 && count <= (s->length - s->at) / bytes) return OK;
+    return source_fault(s, "%lld %s are more than the rest of the file holds", (long long)count, what);
+}
+
+void source_next_line(struct source *s)
+{
+    const char *end = memchr(s->text + s->at, '\n', (size_t)(s->length - s->at));
+    s->at = end ? end - s->text + 1 : s->length;
+}

@@ -1,0 +1,128 @@
+/* STL: triangles without units, names or neighbours, in bytes or in words. */
+#include <stdlib.h>
+#include <strings.h>
+
+#include "base/memory.h"
+#include "elements.h"
+
+enum { HEADER = 80, COUNT = 4, FACET = 50, NORMAL = 12 }; /* [byte] */
+
+static status corner_add(struct element_mesh *m, const struct source *s, const real *X)
+{
+    const int32_t node[] = {(int32_t)m->nodes - 2, (int32_t)m->nodes - 1, (int32_t)m->nodes};
+    TRY(mesh_node_add(m, s, X, m->nodes));
+    return m->nodes % 3 == 0 ? mesh_element_add(m, s, ELEMENT_TRIANGLE, node, m->elements) : OK;
+}
+
+/* ---- bytes ---------------------------------------------------------------------------------------------------- */
+
+static uint32_t word_at(const struct source *s, int64_t at)
+{
+    const unsigned char *c = (const unsigned char *)s->text + at;
+    return (uint32_t)c[0] | (uint32_t)c[1] << 8 | (uint32_t)c[2] << 16 | (uint32_t)c[3] << 24;
+}
+
+/* A file of bytes is as long as its count says; some begin with the word solid, too. */
+static bool is_binary(const struct source *s)
+{
+    return s->length >= HEADER + COUNT && s->length == HEADER + COUNT + FACET * (int64_t)word_at(s, HEADER);
+}
+
+static status binary_read(struct element_mesh *m, struct source *s)
+{
+    const int64_t n = word_at(s, HEADER);
+    s->binary = true;
+    for (int64_t k = 0; k < n; k++)
+        for (int c = 0; c < 3; c++) {
+            real X[DIM_MAX];
+            for (int d = 0; d < 3; d++) {
+                const uint32_t bits = word_at(s, HEADER + COUNT + k * FACET + NORMAL + 4 * (3 * c + d));
+                float value;
+                memcpy(&value, &bits, sizeof value);
+                X[d] = value;
+                /* of a number that is none, all bits of the exponent are set */
+                if ((bits & 0x7F800000u) == 0x7F800000u)
+                    return source_fault(s, "triangle %lld: a coordinate is not finite", (long long)k);
+            }
+            TRY(corner_add(m, s, X));
+        }
+    return OK;
+}
+
+/* ---- words ---------------------------------------------------------------------------------------------------- */
+
+static status words_read(struct element_mesh *m, struct source *s)
+{
+    char word[32];
+    bool ended = false;
+    source_next_line(s); /* solid NAME, of any words */
+    while (source_more(s)) {
+        source_word(s, word, sizeof word);
+        if (strcasecmp(word, "vertex") == 0) {
+            real X[DIM_MAX];
+            for (int d = 0; d < 3; d++) TRY(source_real(s, "coordinate", &X[d]));
+            TRY(corner_add(m, s, X));
+        } else if (strcasecmp(word, "endfacet") == 0 && m->nodes % 3 != 0) {
+            return source_fault(s, "a facet of %d corners; three are expected", (int)(m->nodes % 3));
+        } else if (strcasecmp(word, "endsolid") == 0 || strcasecmp(word, "solid") == 0) {
+            ended = strcasecmp(word, "endsolid") == 0;
+            source_next_line(s);
+        }
+    }
+    if (m->nodes % 3 != 0 || !ended) return source_fault(s, "ends within a solid: it is cut off");
+    return OK;
+}
+
+/* ---- one corner for one place --------------------------------------------------------------------------------- */
+
+struct corner_key {
+    real X[DIM_MAX];
+    int32_t at;
+};
+
+static int corner_order(const void *a, const void *b)
+{
+    const struct corner_key *p = a, *q = b;
+    for (int d = 0; d < DIM_MAX; d++)
+        if (p->X[d] != q->X[d]) return p->X[d] < q->X[d] ? -1 : 1;
+    return (p->at > q->at) - (p->at < q->at);
+}
+
+static void corners_weld(struct element_mesh *m)
+{
+    struct corner_key *key = NEW("stl.corners", m->nodes, struct corner_key);
+    for (int64_t k = 0; k < m->nodes; k++) {
+        for (int d = 0; d < DIM_MAX; d++) key[k].X[d] = m->node[k][d];
+        key[k].at = (int32_t)k;
+    }
+    qsort(key, (size_t)m->nodes, sizeof *key, corner_order);
+    int32_t first = 0;
+    for (int64_t k = 0; k < m->nodes; k++) {
+        const bool same =
+            k > 0 && key[k].X[0] == key[k - 1].X[0] && key[k].X[1] == key[k - 1].X[1] && key[k].X[2] == key[k - 1].X[2];
+        if (!same) first = key[k].at;
+        m->element[key[k].at / 3].node[key[k].at % 3] = first;
+    }
+    memory_free(key);
+}
+
+status stl_read(struct element_mesh *m, struct source *s)
+{
+    if (is_binary(s))
+        TRY(binary_read(m, s));
+    else if (s->length >= 5 && strncasecmp(s->text, "solid", 5) == 0)
+        TRY(words_read(m, s));
+    else if (s->length >= HEADER + COUNT) {
+        s->binary = true;
+        return source_fault(s,
+                            "no STL: %lld bytes, and %lld triangles, as it says, would be %lld; it is cut off or of "
+                            "another kind",
+                            (long long)s->length, (long long)word_at(s, HEADER),
+                            HEADER + COUNT + FACET * (long long)word_at(s, HEADER));
+    } else {
+        return source_fault(s, "no STL: it neither begins with solid nor holds a header of %d bytes", HEADER + COUNT);
+    }
+    if (m->elements == 0) return source_fault(s, "holds no triangle");
+    corners_weld(m);
+    return OK;
+}

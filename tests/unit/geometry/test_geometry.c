@@ -1,0 +1,410 @@
+/* Files of shapes: STL, Gmsh 2.2 and 4.1, Abaqus, in words and bytes, made here; what is wrong with them in one line;
+ * and some thousand damaged ones. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "tests/support/near.h"
+
+#include "base/memory.h"
+#include "geometry/geometry.h"
+
+static void write_file(const char *name, const void *bytes, size_t n)
+{
+    FILE *file = fopen(name, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, n, file), n);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void write_words(const char *name, const char *text) { write_file(name, text, strlen(text)); }
+
+/* The whole of a file, to be freed. */
+static char *file_text(const char *name, size_t *length)
+{
+    FILE *file = fopen(name, "rb");
+    assert_non_null(file);
+    char *text = memory_new("test", 1 << 20, 1);
+    *length = fread(text, 1, (1 << 20) - 1, file);
+    fclose(file);
+    return text;
+}
+
+static void refused(const char *name, int dim, const char *message)
+{
+    struct geometry g;
+    assert_refused(geometry_read(&g, name, dim, 1), message);
+}
+
+/* ---- STL --------------------------------------------------------------------------------------------------------- */
+
+/* Corner k of a unit cube, and its twelve triangles. */
+static const signed char cube_face[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                             {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+
+static void write_stl_words(const char *name, int triangles, const char *last)
+{
+    FILE *file = fopen(name, "w");
+    fputs("solid a cube of two\n", file);
+    for (int k = 0; k < triangles; k++) {
+        fputs("facet normal 0 0 0\n outer loop\n", file);
+        for (int c = 0; c < 3; c++) {
+            const int at = cube_face[k][c];
+            fprintf(file, "  vertex %d %d %de0\n", 2 * (at & 1), at & 2, at >> 1 & 2);
+        }
+        fputs(" endloop\nendfacet\n", file);
+    }
+    fputs(last, file);
+    fclose(file);
+}
+
+static size_t stl_bytes(unsigned char *bytes, uint32_t claimed)
+{
+    memset(bytes, 0, 84 + 12 * 50);
+    memcpy(bytes, "solid of bytes", 14);
+    memcpy(bytes + 80, &claimed, 4);
+    for (int k = 0; k < 12; k++)
+        for (int c = 0; c < 3; c++)
+            for (int d = 0; d < 3; d++) {
+                const float x = 2 * (cube_face[k][c] >> d & 1);
+                memcpy(bytes + 84 + 50 * k + 12 + 4 * (3 * c + d), &x, 4);
+            }
+    return 84 + 12 * 50;
+}
+
+static void stl_of_both_forms(void **state)
+{
+    (void)state;
+    unsigned char bytes[84 + 12 * 50];
+    struct geometry g;
+    write_stl_words("a.stl", 12, "endsolid a cube\n");
+    assert_ok(geometry_read(&g, "a.stl", 3, 1e-3));
+    assert_close(g.whole.volume, 8e-9, 1e-12);
+    assert_int_equal(g.whole.open_edges, 0);
+    assert_int_equal(g.whole.corners, 8);
+    geometry_free(&g);
+    write_file("b.stl", bytes, stl_bytes(bytes, 12));
+    assert_ok(geometry_read(&g, "b.stl", 3, 1));
+    assert_close(g.whole.volume, 8, 1e-12);
+    assert_close(hull_distance(&g.whole, (real[]){1, 1, 1.5}, NULL), -0.5, 1e-12);
+    geometry_free(&g);
+}
+
+static void bad_stl(void **state)
+{
+    (void)state;
+    unsigned char bytes[84 + 12 * 50];
+    const float none = NAN;
+    refused("none.stl", 3, "none.stl: cannot be opened");
+    write_words("c.stl", "");
+    refused("c.stl", 3, "c.stl: empty");
+    write_words("c.stl", "PK\3\4");
+    refused("c.stl", 3, "neither begins with solid");
+    write_stl_words("c.stl", 12, "");
+    refused("c.stl", 3, "it is cut off");
+    write_stl_words("c.stl", 0, "endsolid");
+    refused("c.stl", 3, "holds no triangle");
+    write_stl_words("c.stl", 2, "vertex 1 2 nan\n");
+    refused("c.stl", 3, "c.stl:16: nan is no coordinate");
+    write_stl_words("c.stl", 2, "vertex 1 2 3\nendfacet\nendsolid\n");
+    refused("c.stl", 3, "a facet of 1 corners");
+    write_stl_words("c.stl", 6, "endsolid");
+    refused("c.stl", 3, "open or turned inside out at 8 edges");
+    write_file("c.stl", bytes, stl_bytes(bytes, 13));
+    refused("c.stl", 3, "c.stl:"); /* begins with the word solid, and is none in words */
+    bytes[0] = 'x';
+    write_file("c.stl", bytes, sizeof bytes);
+    refused("c.stl", 3, "684 bytes, and 13 triangles, as it says, would be 734");
+    stl_bytes(bytes, 12);
+    memcpy(bytes + 84 + 50 * 3 + 16, &none, 4);
+    write_file("c.stl", bytes, sizeof bytes);
+    refused("c.stl", 3, "c.stl: triangle 3: a coordinate is not finite");
+    write_stl_words("c.stl", 12, "endsolid");
+    refused("c.stl", 2, "not in a plane z = const");
+}
+
+/* ---- Gmsh -------------------------------------------------------------------------------------------------------- */
+
+static const char msh2[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n3 1 \"left\"\n3 2 \"right\"\n"
+                           "2 7 \"grip\"\n$EndPhysicalNames\n$Nodes\n12\n1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n5 1 1 0\n"
+                           "6 2 1 0\n101 0 0 1\n102 1 0 1\n103 2 0 1\n104 0 1 1\n105 1 1 1\n106 2 1 1\n$EndNodes\n"
+                           "$Elements\n4\n1 3 2 7 1 1 4 104 101\n2 5 2 1 1 1 2 5 4 101 102 105 104\n"
+                           "3 6 2 2 2 2 3 6 102 103 106\n4 6 2 2 2 2 6 5 102 106 105\n$EndElements\n";
+static const char msh4[] = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"plate\"\n1 5 \"edge\"\n"
+                           "$EndPhysicalNames\n$Comments\nwhatever\n$EndComments\n$Entities\n1 1 1 0\n1 0 0 0 0\n"
+                           "3 0 0 0 1 0 0 1 5 2 1 -2\n9 0 0 0 1 1 0 1 1 1 3\n$EndEntities\n$Nodes\n2 5 1 5\n"
+                           "0 1 0 1\n1\n0 0 0\n2 9 1 4\n2\n3\n4\n5\n1 0 0 .1 .1\n1 1 0 .1 .1\n0 1 0 .1 .1\n"
+                           "2 .5 0 .1 .1\n$EndNodes\n$Elements\n3 3 1 3\n1 3 1 1\n1 1 2\n2 9 3 1\n2 1 2 3 4\n"
+                           "2 9 2 1\n3 2 5 3\n$EndElements\n";
+
+static void check_msh2(const char *name)
+{
+    struct geometry g;
+    assert_ok(geometry_read(&g, name, 3, 1));
+    assert_close(g.whole.volume, 2, 1e-12);
+    assert_int_equal(g.whole.open_edges, 0);
+    assert_int_equal(g.whole.shells, 1);
+    assert_int_equal(g.sets, 3);
+    assert_close(geometry_find(&g, "Left")->hull.volume, 1, 1e-12);
+    assert_close(geometry_find(&g, "right")->hull.volume, 1, 1e-12);
+    assert_true(geometry_find(&g, "grip")->hull.open);
+    assert_close(hull_distance(&geometry_find(&g, "grip")->hull, (real[]){0.25, 0.5, 0.7}, NULL), 0.25, 1e-12);
+    assert_null(geometry_find(&g, "leg"));
+    geometry_free(&g);
+}
+
+/* The numbers of 2.2 as bytes: counts stay words. */
+static void write_msh2_bytes(const char *name)
+{
+    static const real at[12][3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0},
+                                   {0, 0, 1}, {1, 0, 1}, {2, 0, 1}, {0, 1, 1}, {1, 1, 1}, {2, 1, 1}};
+    static const int32_t quad[] = {3, 1, 2, 1, 7, 1, 1, 4, 10, 7}, hex[] = {5, 1, 2, 2, 1, 1, 1, 2, 5, 4, 7, 8, 11, 10},
+                         prism[] = {6, 2, 2, 3, 2, 2, 2, 3, 6, 8, 9, 12, 4, 2, 2, 2, 6, 5, 8, 12, 11};
+    const int32_t one = 1;
+    FILE *file = fopen(name, "wb");
+    fputs("$MeshFormat\n2.2 1 8\n", file);
+    fwrite(&one, 4, 1, file);
+    fputs("\n$EndMeshFormat\n$PhysicalNames\n3\n3 1 \"left\"\n3 2 \"right\"\n2 7 "
+          "\"grip\"\n$EndPhysicalNames\n$Nodes\n12\n",
+          file);
+    for (int32_t k = 1; k <= 12; k++) fwrite(&k, 4, 1, file), fwrite(at[k - 1], 8, 3, file);
+    fputs("\n$EndNodes\n$Elements\n4\n", file);
+    fwrite(quad, sizeof quad, 1, file), fwrite(hex, sizeof hex, 1, file), fwrite(prism, sizeof prism, 1, file);
+    fputs("\n$EndElements\n", file);
+    fclose(file);
+}
+
+static void check_msh4(const char *name)
+{
+    struct geometry g;
+    assert_ok(geometry_read(&g, name, 2, 1e-3));
+    assert_close(g.whole.volume, 1.5e-6, 1e-12);
+    assert_int_equal(g.whole.faces, 5);
+    assert_int_equal(g.sets, 2);
+    assert_close(geometry_find(&g, "plate")->hull.volume, 1.5e-6, 1e-12);
+    assert_close(hull_distance(&geometry_find(&g, "edge")->hull, (real[]){0.5e-3, 2e-3}, NULL), 2e-3, 1e-12);
+    geometry_free(&g);
+}
+
+/* Sizes are numbers of 8 bytes, tags and types of 4. */
+static void write_sizes(FILE *file, int n, const int64_t *value) { fwrite(value, 8, (size_t)n, file); }
+static void write_ints(FILE *file, int n, const int32_t *value) { fwrite(value, 4, (size_t)n, file); }
+static void write_reals(FILE *file, int n, const real *value) { fwrite(value, 8, (size_t)n, file); }
+#define SIZES(...) write_sizes(file, COUNT_OF(((int64_t[]){__VA_ARGS__})), (int64_t[]){__VA_ARGS__})
+#define INTS(...) write_ints(file, COUNT_OF(((int32_t[]){__VA_ARGS__})), (int32_t[]){__VA_ARGS__})
+#define REALS(...) write_reals(file, COUNT_OF(((real[]){__VA_ARGS__})), (real[]){__VA_ARGS__})
+
+static void write_msh4_bytes(const char *name)
+{
+    FILE *file = fopen(name, "wb");
+    fputs("$MeshFormat\n4.1 1 8\n", file);
+    INTS(1);
+    fputs("\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"plate\"\n1 5 \"edge\"\n$EndPhysicalNames\n$Entities\n", file);
+    SIZES(1, 1, 1, 0);
+    INTS(1), REALS(0, 0, 0), SIZES(0);
+    INTS(3), REALS(0, 0, 0, 1, 0, 0), SIZES(1), INTS(5), SIZES(2), INTS(1, -2);
+    INTS(9), REALS(0, 0, 0, 1, 1, 0), SIZES(1), INTS(1), SIZES(1), INTS(3);
+    fputs("\n$EndEntities\n$Nodes\n", file);
+    SIZES(2, 5, 1, 5);
+    INTS(0, 1, 0), SIZES(1, 1), REALS(0, 0, 0);
+    INTS(2, 9, 1), SIZES(4, 2, 3, 4, 5);
+    REALS(1, 0, 0, .1, .1, 1, 1, 0, .1, .1, 0, 1, 0, .1, .1, 2, .5, 0, .1, .1);
+    fputs("\n$EndNodes\n$Elements\n", file);
+    SIZES(3, 3, 1, 3);
+    INTS(1, 3, 1), SIZES(1, 1, 1, 2);
+    INTS(2, 9, 3), SIZES(1, 2, 1, 2, 3, 4);
+    INTS(2, 9, 2), SIZES(1, 3, 2, 5, 3);
+    fputs("\n$EndElements\n", file);
+    fclose(file);
+}
+
+static void gmsh_of_both_versions(void **state)
+{
+    (void)state;
+    write_words("a.msh", msh2);
+    check_msh2("a.msh");
+    write_msh2_bytes("b.msh");
+    check_msh2("b.msh");
+    write_words("c.msh", msh4);
+    check_msh4("c.msh");
+    write_msh4_bytes("d.msh");
+    check_msh4("d.msh");
+}
+
+/* A mesh with `what` in place of `from`. */
+static void write_changed(const char *name, const char *text, const char *from, const char *what)
+{
+    char changed[4096];
+    const char *at = strstr(text, from);
+    assert_non_null(at);
+    snprintf(changed, sizeof changed, "%.*s%s%s", (int)(at - text), text, what, at + strlen(from));
+    write_words(name, changed);
+}
+
+static void bad_gmsh(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *from, *to, *message;
+    } bad[] = {{"2.2 0", "4.0 0", ":2: format 4.0 of Gmsh; 2.2 and 4.1 are read"},
+               {"$MeshFormat", "Meshformat", "$MeshFormat is expected first"},
+               {"$Nodes\n12", "$Nodes\n12000000000", "12000000000 nodes are more than the rest of the file holds"},
+               {"$Nodes\n12", "$Nodes\n-1", "-1 nodes are more"},
+               {"2 1 0 0\n", "2 1 nan 0\n", ":13: nan is no coordinate"},
+               {"2 1 0 0\n", "1 1 0 0\n", "node 1 is given twice"},
+               {"2 3 6 102", "2 3 66 102", ":29: an element has node 66, which is not among the nodes"},
+               {"4 6 2 2 2", "4 77 2 2 2", "type 77"},
+               {"$Nodes", "$Knots", "ends without $Nodes"},
+               {"\"grip\"", "grip", "a name in quotes"},
+               {"3 6 2 2 2 2 3 6 102 103 106\n4 6 2 2 2 2 6 5 102 106 105", "", "$EndElements is no"}};
+    for (size_t k = 0; k < COUNT_OF(bad); k++) {
+        write_changed("bad.msh", msh2, bad[k].from, bad[k].to);
+        refused("bad.msh", 3, bad[k].message);
+    }
+    write_words("bad.msh", msh2);
+    refused("bad.msh", 2, "its elements fill a space");
+    write_changed("bad.msh", msh4, "1 1 0 .1", "1 1 3 .1");
+    refused("bad.msh", 2, "not in a plane z = const");
+    write_changed("bad.msh", msh4, "$Entities", "$PartitionedEntities");
+    refused("bad.msh", 2, "a mesh in partitions");
+}
+
+/* ---- Abaqus ------------------------------------------------------------------------------------------------------ */
+
+static const char flat[] =
+    "*HEADING\nanything, 1, 2\n** a comment\n*node, nset=all\n1, 0., 0.\n2, 1., 0.\n 3, 2., 0\n"
+    "4, 0., 1.\n5, 1., 1.\n6, 2., 1.D0\n*Element, type=CPS4R, elset = Two\n10, 1, 2, 5, 4\n11, 2,\n"
+    " 3, 6, 5\n*NSET, NSET=left\n1, 4\n*Elset, elset=RIGHT, generate\n11, 11, 1\n"
+    "*elset, elset=both\nTwo,\n*Material, name=steel\n*Elastic\n210e9, .3\n"
+    "*Element, type=T3D2\n90, 1, 2\n*Step\n*Static\n0.1, 1.\n*End Step\n";
+static const char parts[] =
+    "*Part, name=A\n*Node\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*Element, type=C3D4\n"
+    "1, 1, 2, 3, 4\n*Nset, nset=tip\n4\n*End Part\n*Part, name=B\n*Node\n1, 0, 0, 0\n2, 0, 1, 0\n"
+    "3, 1, 0, 0\n4, 0, 0, -1\n*Element, type=C3D4H, elset=low\n1, 1, 2, 3, 4\n*End Part\n"
+    "*Assembly, name=C\n*Instance, name=A-1, part=A\n*End Instance\n"
+    "*Instance, name=B-1, part=B\n5, 0, 0\n5, 0, 0, 5, 0, 1, 90\n*End Instance\n"
+    "*Node\n1, 9, 9, 9\n*Nset, nset=foot, instance=B-1\n4\n*End Assembly\n";
+
+static void abaqus_decks(void **state)
+{
+    (void)state;
+    struct geometry g;
+    write_words("a.inp", flat);
+    assert_ok(geometry_read(&g, "a.inp", 2, 1));
+    assert_close(g.whole.volume, 2, 1e-12);
+    assert_int_equal(g.whole.faces, 6);
+    assert_close(geometry_find(&g, "right")->hull.volume, 1, 1e-12);
+    assert_close(geometry_find(&g, "both")->hull.volume, 2, 1e-12);
+    assert_close(hull_distance(&geometry_find(&g, "left")->hull, (real[]){0.3, 0.5}, NULL), 0.3, 1e-12);
+    geometry_free(&g);
+    write_words("b.inp", parts);
+    assert_ok(geometry_read(&g, "b.inp", 3, 1));
+    assert_close(g.whole.volume, 1. / 3, 1e-12);
+    assert_int_equal(g.whole.shells, 2);
+    /* B is turned by a right angle about a line through (5, 0): its corner 3 at (1, 0) comes to (5, 1) */
+    assert_close(g.whole.node[0].high[0], 5, 1e-12);
+    assert_close(g.whole.node[0].high[1], 1, 1e-12);
+    assert_close(geometry_find(&g, "low")->hull.volume, 1. / 6, 1e-12);
+    assert_close(hull_distance(&geometry_find(&g, "foot")->hull, (real[]){5, 0, 1}, NULL), 2, 1e-12);
+    assert_close(hull_distance(&geometry_find(&g, "tip")->hull, (real[]){0, 0, 0}, NULL), 1, 1e-12);
+    geometry_free(&g);
+}
+
+static void bad_abaqus(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *from, *to, *message;
+    } bad[] = {{"2, 1., 0.", "2, 1.x, 0.", ":6: 1.x is no number"},
+               {"2, 1., 0.", "-2, 1., 0.", ":6: -2 is no number of a node"},
+               {"2, 1., 0.", "1, 1., 0.", "node 1 is given twice"},
+               {"10, 1, 2, 5, 4", "10, 1, 2, 5, 44", "element 10 has node 44"},
+               {" 3, 6, 5\n", "", "an element of 4 nodes has but 1"},
+               {"CPS4R", "B31", "no element that fills a body, but others such as T3D2"},
+               {"*NSET, NSET=left", "*NGEN", "*NGEN; a deck that writes out all nodes"},
+               {"*NSET, NSET=left", "*NSET, NSET=left, INPUT=x", "*NSET from another file"},
+               {"*NSET, NSET=left", "*NSET", "a set without a name"},
+               {"*node, nset=all", "*node, system=C", "coordinates in the system C"},
+               {"11, 11, 1\n", "1, 999999999, 1\n", "sets of more nodes or elements than the file holds"}};
+    for (size_t k = 0; k < COUNT_OF(bad); k++) {
+        write_changed("bad.inp", flat, bad[k].from, bad[k].to);
+        refused("bad.inp", 2, bad[k].message);
+    }
+    write_changed("bad.inp", parts, "part=B", "part=A");
+    refused("bad.inp", 3, "part A stands in the assembly twice");
+    write_words("bad.inp", "PK\3\4\n, , ,\n");
+    refused("bad.inp", 3, "no *NODE");
+    refused("bad.obj", 3, "a file that ends in .stl, .msh or .inp");
+}
+
+/* ---- damage ------------------------------------------------------------------------------------------------------ */
+
+static uint64_t random_next(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return *seed >> 33;
+}
+
+/* Bytes changed, cut off, doubled: every file is read or refused. */
+static void damaged(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"a.stl", "b.stl", "a.msh", "b.msh", "c.msh", "d.msh", "a.inp", "b.inp"};
+    uint64_t seed = 25;
+    for (size_t n = 0; n < COUNT_OF(names); n++) {
+        size_t length;
+        char *text = file_text(names[n], &length), *copy = memory_new("test", 1 << 20, 1), name[16];
+        snprintf(name, sizeof name, "x%s", strchr(names[n], '.'));
+        for (int round = 0; round < 400; round++) {
+            size_t size = length;
+            memcpy(copy, text, length);
+            for (uint64_t k = random_next(&seed) % 4; k < 4; k++) {
+                const size_t at = random_next(&seed) % size, from = random_next(&seed) % size;
+                if (round % 3 == 0)
+                    copy[at] = "0123456789-,\n* e"[random_next(&seed) % 16];
+                else if (round % 3 == 1)
+                    copy[at] = (char)random_next(&seed);
+                else
+                    memmove(copy + at, copy + from, size - (at > from ? at : from));
+            }
+            if (round % 5 == 0) size = 1 + random_next(&seed) % size;
+            write_file(name, copy, size);
+            for (int dim = 2; dim <= 3; dim++) {
+                struct geometry g;
+                if (geometry_read(&g, name, dim, 1) != OK) continue;
+                assert_true(g.whole.volume > 0 && hull_distance(&g.whole, (real[]){0, 0, 0}, NULL) < 1e31);
+                geometry_free(&g);
+            }
+        }
+        unlink(name);
+        memory_free(text), memory_free(copy);
+    }
+}
+
+/* Files of the tests live in a folder of their own. */
+static char folder[] = "/tmp/cleave_geometry_XXXXXX";
+static int enter_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) == NULL || chdir(folder) != 0;
+}
+
+static int leave_folder(void **state)
+{
+    static const char *const names[] = {"a.stl", "b.stl",   "c.stl", "a.msh", "b.msh",  "c.msh",
+                                        "d.msh", "bad.msh", "a.inp", "b.inp", "bad.inp"};
+    (void)state;
+    for (size_t k = 0; k < COUNT_OF(names); k++) unlink(names[k]);
+    return chdir("/") != 0 || rmdir(folder) != 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stl_of_both_forms), cmocka_unit_test(bad_stl),      cmocka_unit_test(gmsh_of_both_versions),
+        cmocka_unit_test(bad_gmsh),          cmocka_unit_test(abaqus_decks), cmocka_unit_test(bad_abaqus),
+        cmocka_unit_test(damaged),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
