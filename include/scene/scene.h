@@ -211,6 +211,8 @@ status scene_help(FILE *out, const char *key);
 
 /* Prints the units that numbers may carry. */
 void scene_help_units(FILE *out);
+/* Prints what expressions are made of. */
+void scene_help_expressions(FILE *out);
 /* Writes the keys for the manual page (troff); and, one a line, those that `-s` sets, 0 for the number of an item. */
 void scene_manual_keys(FILE *out);
 void scene_override_keys(FILE *out);

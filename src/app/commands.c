@@ -30,8 +30,8 @@ const struct command commands[] = {
     {"plot", "DIR [--frames all|last|N]", "pictures of a finished or running run", command_plot},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
     {"bench", "[NAME...] [--quick] [--readme]", "kernels, efficiency, coupling, ...", command_bench},
-    {"help", "[KEY|units|run|theory|trust]", "every scene key; units; a run; the equations; what a run promises",
-     command_help},
+    {"help", "[KEY|units|expression|run|theory|trust]",
+     "every scene key; units; formulas; a run; the equations; what a run promises", command_help},
     {"info", "", "version, build, sets of kernels, threads, cores and caches", command_info},
 };
 const int commands_count = COUNT_OF(commands);

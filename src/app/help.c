@@ -8,11 +8,12 @@
 status command_help(int argc, char **argv)
 {
     const char *word = argc == 2 || (argc == 3 && !strcmp(argv[1], "--completion")) ? argv[1] : NULL;
-    if (argc > 1 && !word) return status_set(REFUSED, "usage: cleave help [KEY|units|run|theory|trust]");
+    if (argc > 1 && !word) return status_set(REFUSED, "usage: cleave help [KEY|units|expression|run|theory|trust]");
     if (!word) return scene_help(stdout, NULL);
     if (!strcmp(word, "--completion")) return completion_print(stdout, argc == 3 ? argv[2] : "");
     if (!strcmp(word, "--manual")) return manual_print(stdout);
     if (!strcmp(word, "units")) return scene_help_units(stdout), OK;
+    if (!strcmp(word, "expression") || !strcmp(word, "expressions")) return scene_help_expressions(stdout), OK;
     if (!strcmp(word, "run")) return manual_run_print(stdout);
     if (!strcmp(word, "trust")) return trust_print(stdout);
     if (!strcmp(word, "theory")) return theory_print(stdout);

@@ -43,6 +43,7 @@ status scene_from_tree(struct reader *r, const struct node *root)
     TRY(read_probes(r, root));
     TRY(read_growths(r, root));
     TRY(resolve_contact(r, root));
+    TRY(check_variables(r));
     return check_solver(r, root);
 }
 
@@ -52,7 +53,8 @@ status scene_tree(struct reader *r, const char *text, size_t length, struct node
     if (!*root) return fault_mark(r, -1, 1, 1, "empty; a scene begins with keys such as space and duration");
     TRY(tree_rename(r, *root));
     TRY(tree_override(r, *root));
-    return tree_rename(r, *root);        /* values of overrides may be mappings */
+    TRY(tree_rename(r, *root));          /* values of overrides may be mappings */
+    return read_variables(r, *root);
 }
 
 void scene_free(struct scene *s)

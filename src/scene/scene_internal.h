@@ -3,6 +3,7 @@
 #define CLEAVE_SCENE_INTERNAL
 
 #include "base/edit_distance.h"
+#include "data/expression.h"
 #include "scene/scene.h"
 
 /* ---- nodes: YAML without types, every value is text until a key gives it a type (scene_yaml.c) ------------------- */
@@ -20,6 +21,8 @@ struct node {
 };
 
 struct arena_block;
+struct variable;
+struct key;
 
 struct reader {
     const char *name;                    /* of the file, for messages */
@@ -29,6 +32,8 @@ struct reader {
     int dim;
     bool bounded;                        /* solids being read belong to a body: no infinite bounds */
     bool files;                          /* check that particle lists exist */
+    struct variable *variable;           /* of the scene, in the arena */
+    int variables, variables_open;       /* how many; how many are being evaluated */
     struct arena_block *arena;           /* nodes and texts of this reading */
 };
 
@@ -71,6 +76,49 @@ extern const struct unit_row unit_rows[UNITS];
 bool number_read(real *value, const char *text, enum unit unit, bool infinite, char *what, size_t room);
 /* The shortest text that reads back to identical bits. */
 const char *number_text(char text[32], real value);
+
+/* A number [SI] with twice the powers of m, kg, s; bare: made of numbers without units, which are SI in every key. */
+struct quantity { real value; int twice[3]; bool bare; };
+/* Reads what number_read does, in any unit; false: it is nothing of the kind. */
+bool number_quantity(struct quantity *q, const char *text);
+/* Length of the number that a text begins with, and (with_unit) of the unit behind it; 0 with what is *wrong. */
+size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const char **wrong);
+/* Length of the symbol of a unit that a text begins with, which is 1 of it. */
+size_t quantity_unit(struct quantity *q, const char *text);
+/* False with the rest of a sentence in `what`, as number_read: it is not what a key of this unit expects; its value is
+ * not finite or out of bounds. */
+bool quantity_fits(const struct quantity *q, enum unit unit, char *what, size_t room);
+bool quantity_bounded(real value, enum unit unit, char *what, size_t room);
+/* `a length`, or `in m^2 s^-1` where that has no name; and as a unit that reads back. */
+void quantity_name(const int twice[3], char *text, size_t room);
+void unit_text(const int twice[3], char *text, size_t room);
+const struct unit_row *unit_of(const int twice[3]);
+
+/* ---- expressions (scene_expression.c) ---------------------------------------------------------------------------- */
+
+/* What an expression may contain besides numbers and variables of the scene. */
+enum { EXPRESS_SPACE = 1, EXPRESS_TIME = 2 };
+/* Reads an expression with the unit of k, of x, y, z and t as `of` allows: `12 MPa*exp(-(t/3us)^2)`. A number is one,
+ * too. REFUSED in one line with the place in it. Freed with expression_free; its text is what the echo writes. */
+status read_expression(struct reader *r, const struct key *k, const struct node *n, unsigned of, struct expression *e);
+/* The value of an expression without x, y, z, t, with its unit. False with a complaint as number_read. */
+bool quantity_of_text(struct reader *r, const char *text, struct quantity *q, char *what, size_t room);
+/* Does a complaint about this text speak of an expression, not of a number? */
+bool looks_like_expression(const struct reader *r, const char *text);
+
+/* ---- variables (scene_number.c) ---------------------------------------------------------------------------------- */
+
+/* Evaluates the variables of a scene. REFUSED for those that are wrong. */
+status read_variables(struct reader *r, const struct node *root);
+/* REFUSED for one that an override sets and nothing uses. */
+status check_variables(struct reader *r);
+/* The variable of this name; NULL with a complaint, if there is none, or what it depends on is wrong. */
+const struct quantity *variable_value(struct reader *r, const char *name, char *what, size_t room);
+/* A number of a scene: a plain one as number_read, or an expression of variables. False with a complaint. */
+bool number_of_text(struct reader *r, real *value, const char *text, enum unit unit, bool infinite, char *what,
+                    size_t room);
+/* True for words that mean something in expressions, and cannot be variables: `is`, completed. */
+const char *reserved_word(const char *name);
 
 /* ---- the table of keys (scene_keys.c) ---------------------------------------------------------------------------- */
 

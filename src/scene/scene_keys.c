@@ -20,6 +20,8 @@
 /* path, type, unit, place in its group's struct, range, default, help; then fields that only some keys have. */
 const struct key keys[] = {
     KEY("name", KEY_NAME, UNIT_NONE, AT(scene, name), ANY, "(the file's name)", "names the run and its results folder"),
+    KEY("variables", KEY_HAND, UNIT_NONE, NOWHERE, BETWEEN(0, 1000), NONE,
+        "quantities that every number of the scene may contain: {a: 3 mm, b: 2*a + 1 mm}", .words = "mapping of names"),
     KEY("space", KEY_CHOICE, UNIT_NONE, AT(scene, space), ANY, REQUIRED, "dimension and plane state",
         .words = "line|plane stress|plane strain|solid"),
     KEY("thickness", KEY_REAL, UNIT_LENGTH, AT(scene, thickness), ABOVE(0), "(required in plane spaces)",

@@ -132,13 +132,67 @@ static bool unit_read(struct measure *sum, const char *text)
     return sum->ten % 2 == 0;
 }
 
-static const struct unit_row *unit_of(const int twice[3])
+const struct unit_row *unit_of(const int twice[3])
 {
     for (int u = 0; u < UNITS; u++) {
         const signed char *t = unit_rows[u].twice;
         if (t[0] == twice[0] && t[1] == twice[1] && t[2] == twice[2]) return &unit_rows[u];
     }
     return NULL;
+}
+
+/* Is the word at c a unit: a symbol alone, or with 2 or 3 as its power? Names of variables may begin like one. */
+static bool is_unit_word(const char *c)
+{
+    if (strncmp(c, "sqrt(", 5) == 0) c += 5;
+    c += symbol_length(c);
+    if (*c == '2' || *c == '3') c++;
+    return !isalnum((unsigned char)*c) && *c != '_';
+}
+
+/* Length of the unit that a text begins with, as far as it goes: factors with spaces, `*` or `/` between them, the
+ * first without such a sign. 0: it begins with none. */
+static size_t unit_length(struct measure *sum, const char *text)
+{
+    const char *end = text;
+    *sum = (struct measure){{0, 0, 0}, 0};
+    if (*text == '%') return symbol_read(sum, text, 1) ? 1 : 0;
+    for (const char *c = text; c - text <= UNIT_LONGEST;) {
+        struct measure m;
+        const char *sign = c;
+        while (*c == ' ') c++;
+        if (end != text && (*c == '/' || *c == '*')) sign = c++;
+        while (*c == ' ') c++;
+        if (!is_unit_word(c) || !factor_read(&m, &c)) break;
+        for (int k = 0; k < 3; k++) sum->twice[k] += *sign == '/' ? -m.twice[k] : m.twice[k];
+        sum->ten += *sign == '/' ? -m.ten : m.ten;
+        end = c;
+    }
+    return sum->ten % 2 == 0 ? (size_t)(end - text) : 0;
+}
+
+void quantity_name(const int twice[3], char *text, size_t room)
+{
+    static const char *const symbol[] = {"m", "kg", "s"};
+    const struct unit_row *row = unit_of(twice);
+    size_t used = (size_t)snprintf(text, room, "%s", row ? row->name : "in");
+    for (int k = 0; k < 3 && !row; k++)
+        if (twice[k] && used < room)
+            used += (size_t)snprintf(text + used, room - used, " %s^%g", symbol[k], twice[k] / 2.0);
+}
+
+void unit_text(const int twice[3], char *text, size_t room)
+{
+    static const char *const symbol[] = {"m", "kg", "s"};
+    size_t used = 0;
+    *text = '\0';
+    for (int k = 0; k < 3; k++) {
+        const int whole = twice[k] / 2, sign = whole < 0 ? -1 : 1;
+        for (int left = whole * sign; left > 0 && used < room; left -= 9)
+            used += (size_t)snprintf(text + used, room - used, " %s^%d", symbol[k], sign * (left < 9 ? left : 9));
+        if (twice[k] % 2 && used < room)
+            used += (size_t)snprintf(text + used, room - used, " %s^%s0.5", symbol[k], twice[k] < 0 ? "-" : "");
+    }
 }
 
 /* ---- numbers ----------------------------------------------------------------------------------------------------- */
@@ -265,6 +319,11 @@ static bool in_bounds(struct complaint c, real value, enum unit unit)
     return true;
 }
 
+static real number_scaled(const char *text, size_t length, int ten, int clock, real divisor)
+{
+    return clock ? clock * number_value(text, length, 0) / divisor : number_value(text, length, ten) / divisor;
+}
+
 bool number_read(real *value, const char *text, enum unit unit, bool infinite, char *what, size_t room)
 {
     struct complaint c = {what, room};
@@ -285,8 +344,80 @@ bool number_read(real *value, const char *text, enum unit unit, bool infinite, c
     const int clock = clock_seconds(rest, unit);
     if (!clock && !unit_fits(c, rest, unit, &ten)) return false;
     if (divisor == 0) return complain(c, "divides by 0", unit);
-    *value = clock ? clock * number_value(text, length, 0) / divisor : number_value(text, length, ten) / divisor;
+    *value = number_scaled(text, length, ten, clock, divisor);
     return in_bounds(c, *value, unit);
+}
+
+/* Seconds and letters of a clock's unit that a text begins with; 0: it does not. */
+static size_t clock_length(const char *text, int *seconds)
+{
+    const size_t letters = symbol_length(text);
+    char word[8] = "";
+    if (letters < sizeof word) memcpy(word, text, letters);
+    *seconds = clock_seconds(word, UNIT_TIME);
+    return *seconds ? letters : 0;
+}
+
+size_t quantity_unit(struct quantity *q, const char *text)
+{
+    struct measure m;
+    const size_t length = isdigit((unsigned char)*text) ? 0 : symbol_length(text);
+    if (length == 0 || !symbol_read(&m, text, length) || m.ten % 2 != 0) return 0;
+    *q = (struct quantity){.value = number_value("1", 1, m.ten / 2)};
+    memcpy(q->twice, m.twice, sizeof q->twice);
+    return length;
+}
+
+bool number_quantity(struct quantity *q, const char *text)
+{
+    struct measure m = {{0, 0, 0}, 0};
+    real divisor;
+    const size_t length = number_length(text);
+    if (length == 0 || length > NUMBER_LONGEST || trap(text, length)) return false;
+    const char *rest = text + length + divisor_read(text + length, &divisor);
+    rest += strspn(rest, " ");
+    const int clock = clock_seconds(rest, UNIT_TIME);
+    if (divisor == 0 || (!clock && !unit_read(&m, rest))) return false;
+    if (clock) m.twice[2] = 2;
+    *q = (struct quantity){number_scaled(text, length, m.ten / 2, clock, divisor), {0}, *rest == '\0'};
+    memcpy(q->twice, m.twice, sizeof q->twice);
+    return true;
+}
+
+size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const char **wrong)
+{
+    const size_t length = number_length(text);
+    struct measure m = {{0, 0, 0}, 0};
+    int seconds = 1;
+    *wrong = length == 0 ? "is no number" : length > NUMBER_LONGEST ? "has too many digits" : trap(text, length);
+    if (length > 0 && text[length] == ',') *wrong = NULL;                /* it may part operands of a function */
+    if (*wrong) return 0;
+    const char *unit = text + length + strspn(text + length, " ");
+    size_t letters = with_unit ? clock_length(unit, &seconds) : 0;
+    *q = (struct quantity){.bare = true};
+    if (letters) m.twice[2] = 2;
+    else seconds = 1, letters = with_unit ? unit_length(&m, unit) : 0;
+    q->value = seconds * number_value(text, length, m.ten / 2);
+    q->bare = letters == 0;
+    memcpy(q->twice, m.twice, sizeof q->twice);
+    return letters ? (size_t)(unit - text) + letters : length;
+}
+
+bool quantity_fits(const struct quantity *q, enum unit unit, char *what, size_t room)
+{
+    const struct complaint c = {what, room};
+    const signed char *twice = unit_rows[unit].twice;
+    const bool same = q->twice[0] == twice[0] && q->twice[1] == twice[1] && q->twice[2] == twice[2];
+    char name[64], wrong[80];
+    if (same || q->bare) return true;
+    quantity_name(q->twice, name, sizeof name);
+    snprintf(wrong, sizeof wrong, "is %s", name);
+    return complain(c, wrong, unit);
+}
+
+bool quantity_bounded(real value, enum unit unit, char *what, size_t room)
+{
+    return in_bounds((struct complaint){what, room}, value, unit);
 }
 
 const char *number_text(char text[32], real value)

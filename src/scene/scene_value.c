@@ -222,15 +222,30 @@ status read_number(struct reader *r, const struct key *k, const struct node *n, 
         return OK;
     }
     bool infinite = k->infinite && !(k->type == KEY_POINT && r->bounded);
-    if (!number_read(value, n->text, k->unit, infinite, what, sizeof what))
+    if (!number_of_text(r, value, n->text, k->unit, infinite, what, sizeof what))
         return fault(r, n, "%s %s", shown(r, n), what);
     return check_range(r, k, n, *value);
+}
+
+/* The value of an expression that is a whole number. */
+static status read_int_expression(struct reader *r, const struct key *k, const struct node *n, int *value)
+{
+    char what[256];
+    real number;
+    if (!number_of_text(r, &number, n->text, UNIT_NONE, false, what, sizeof what))
+        return fault(r, n, "%s %s", shown(r, n), what);
+    const real whole = round(number);
+    if (fabs(number - whole) > 1e-9 * (1 + fabs(whole)))
+        return fault(r, n, "%s is %g; a whole number is expected", shown(r, n), number);
+    *value = (int)(whole > INT32_MAX ? INT32_MAX : whole < INT32_MIN ? INT32_MIN : whole);
+    return check_range(r, k, n, whole);
 }
 
 /* Reads a whole number in decimal digits; out of 32 bits it is clamped, and the range refuses it. */
 static status read_int(struct reader *r, const struct key *k, const struct node *n, int *value)
 {
     const char *c = n->text + (*n->text == '-');
+    if (n->kind == NODE_SCALAR && looks_like_expression(r, n->text)) return read_int_expression(r, k, n, value);
     size_t digits = strspn(c, "0123456789");
     if (n->kind != NODE_SCALAR || digits == 0 || c[digits] != '\0' || (*c == '0' && digits > 1))
         return fault(r, n, "%s is not a whole number; digits alone are expected, as 20", shown(r, n));

@@ -1,0 +1,104 @@
+/* Values of compiled expressions. */
+#include "data/expression.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+
+static const real pi = 3.14159265358979323846;
+
+static real ramp_of(real a) { return a <= 0 ? 0 : a >= 1 ? 1 : a; }
+
+/* sin^2(pi a) for 0 < a < 1: a load that rises and falls smoothly. */
+static real pulse_at(real a) { return a > 0 && a < 1 ? square(sin(pi * a)) : 0; }
+
+static real one_operand(enum expression_op op, real a)
+{
+    switch (op) {
+    case EXPRESSION_MINUS: return -a;
+    case EXPRESSION_SQUARE: return a * a;
+    case EXPRESSION_SIN: return sin(a);
+    case EXPRESSION_COS: return cos(a);
+    case EXPRESSION_TAN: return tan(a);
+    case EXPRESSION_ASIN: return asin(a);
+    case EXPRESSION_ACOS: return acos(a);
+    case EXPRESSION_ATAN: return atan(a);
+    case EXPRESSION_SINH: return sinh(a);
+    case EXPRESSION_COSH: return cosh(a);
+    case EXPRESSION_TANH: return tanh(a);
+    case EXPRESSION_EXP: return exp(a);
+    case EXPRESSION_LOG: return log(a);
+    case EXPRESSION_SQRT: return sqrt(a);
+    case EXPRESSION_ABS: return fabs(a);
+    case EXPRESSION_FLOOR: return floor(a);
+    case EXPRESSION_SIGN: return a > 0 ? 1 : a < 0 ? -1 : 0;
+    case EXPRESSION_STEP: return a >= 0 ? 1 : 0;
+    case EXPRESSION_RAMP: return ramp_of(a);
+    default: return pulse_at(a);
+    }
+}
+
+real expression_operate(enum expression_op op, real a, real b)
+{
+    switch (op) {
+    case EXPRESSION_ADD: return a + b;
+    case EXPRESSION_SUBTRACT: return a - b;
+    case EXPRESSION_TIMES: return a * b;
+    case EXPRESSION_OVER: return a / b;
+    case EXPRESSION_POWER: return pow(a, b);
+    case EXPRESSION_ATAN2: return atan2(a, b);
+    case EXPRESSION_MIN: return real_min(a, b);
+    case EXPRESSION_MAX: return real_max(a, b);
+    default: return one_operand(op, a);
+    }
+}
+
+static real leaf(const struct expression_step *step, const real *X, int dim, real t)
+{
+    if (step->op == EXPRESSION_NUMBER) return step->value;
+    if (step->op == EXPRESSION_T) return t;
+    const int d = (int)step->op - EXPRESSION_X;
+    return X && d < dim ? X[d] : 0;
+}
+
+real expression_at(const struct expression *e, const real *X, int dim, real t)
+{
+    real stack[EXPRESSION_STACK + 1];
+    int top = -1;
+    for (const struct expression_step *step = e->step, *end = step + e->n; step < end; step++) {
+        if (expression_is_leaf(step->op)) {
+            stack[++top] = leaf(step, X, dim, t);
+        } else if (expression_has_two(step->op)) {
+            top--;
+            stack[top] = expression_operate(step->op, stack[top], stack[top + 1]);
+        } else {
+            stack[top] = one_operand(step->op, stack[top]);
+        }
+    }
+    return top == 0 ? stack[0] : NAN;
+}
+
+void expression_make(struct expression *e, const struct expression_step *step, int n, const char *text)
+{
+    const size_t length = strlen(text) + 1;
+    *e = (struct expression){.n = n, .step = NEW("expression", n, struct expression_step),
+                             .text = NEW("expression", length, char)};
+    memcpy(e->step, step, (size_t)n * sizeof *step);
+    memcpy(e->text, text, length);
+    for (int k = 0; k < n; k++) {
+        e->in_time |= step[k].op == EXPRESSION_T;
+        e->in_space |= expression_is_leaf(step[k].op) && step[k].op != EXPRESSION_NUMBER && step[k].op != EXPRESSION_T;
+    }
+}
+
+void expression_constant(struct expression *e, real value, const char *text)
+{
+    expression_make(e, &(struct expression_step){EXPRESSION_NUMBER, value}, 1, text);
+}
+
+void expression_free(struct expression *e)
+{
+    memory_free(e->step);
+    memory_free(e->text);
+    *e = (struct expression){0};
+}

@@ -1,0 +1,354 @@
+/* Reads expressions of scenes: sums of products of powers, functions, numbers with units, x y z t and variables of the
+ * scene. Units follow the text as it is read, so that `x + t` is refused at the place where it stands. */
+#include "scene_compile.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { DEPTH_MOST = 24, NAME_MOST = 40 };
+
+/* What units a function takes and gives. */
+enum rule { PLAIN, KEEPS, ROOT, FORGETS, SAME, ANGLE };
+struct function { const char *name; enum expression_op op; enum rule rule; const char *help; };
+static const struct function functions[] = {
+    {"sin", EXPRESSION_SIN, PLAIN, ""},
+    {"cos", EXPRESSION_COS, PLAIN, ""},
+    {"tan", EXPRESSION_TAN, PLAIN, ""},
+    {"asin", EXPRESSION_ASIN, PLAIN, ""},
+    {"acos", EXPRESSION_ACOS, PLAIN, ""},
+    {"atan", EXPRESSION_ATAN, PLAIN, ""},
+    {"atan2", EXPRESSION_ATAN2, ANGLE, "atan2(y, x), angle of the point (x, y)"},
+    {"sinh", EXPRESSION_SINH, PLAIN, ""},
+    {"cosh", EXPRESSION_COSH, PLAIN, ""},
+    {"tanh", EXPRESSION_TANH, PLAIN, ""},
+    {"exp", EXPRESSION_EXP, PLAIN, ""},
+    {"log", EXPRESSION_LOG, PLAIN, "natural"},
+    {"sqrt", EXPRESSION_SQRT, ROOT, "of any quantity"},
+    {"abs", EXPRESSION_ABS, KEEPS, "of any quantity"},
+    {"floor", EXPRESSION_FLOOR, PLAIN, "largest whole number below"},
+    {"min", EXPRESSION_MIN, SAME, "of two or more of one unit"},
+    {"max", EXPRESSION_MAX, SAME, "of two or more of one unit"},
+    {"sign", EXPRESSION_SIGN, FORGETS, "-1, 0 or 1, of any quantity"},
+    {"step", EXPRESSION_STEP, FORGETS, "0 below 0, else 1, of any quantity: step(t - 2 us)"},
+    {"ramp", EXPRESSION_RAMP, PLAIN, "0 below 0, 1 above 1, linear between: ramp(t/5us)"},
+    {"pulse", EXPRESSION_PULSE, PLAIN, "sin^2(pi s) for 0 < s < 1, else 0: pulse(t/5us)"},
+};
+
+/* ---- text -------------------------------------------------------------------------------------------------------- */
+
+static void skip(struct compile *c)
+{
+    while (*c->at == ' ' || *c->at == '\t' || *c->at == '\n') c->at++;
+}
+
+static bool keep(struct compile *c, const char *text, size_t length)
+{
+    if (c->used + length > EXPRESSION_TEXT) return compile_wrong(c, "is longer than %d characters", EXPRESSION_TEXT);
+    memcpy(c->kept + c->used, text, length);
+    c->used += length;
+    c->kept[c->used] = '\0';
+    return true;
+}
+
+/* Keeps the text up to here. */
+static bool keep_to(struct compile *c, const char *here)
+{
+    const char *from = c->copied;
+    c->copied = here;
+    return keep(c, from, (size_t)(here - from));
+}
+
+/* Keeps a number in place of the word that ends here. */
+static bool keep_value(struct compile *c, const char *word, const struct quantity *q)
+{
+    char number[32], unit[200], text[240];
+    unit_text(q->twice, unit, sizeof unit);
+    snprintf(text, sizeof text, "(%s%s)", number_text(number, q->value), unit);
+    if (!keep_to(c, word)) return false;
+    c->copied = c->at;
+    return keep(c, text, strlen(text));
+}
+
+/* Length of a name: letters, digits and _, no digit first. */
+static size_t name_length(const char *c)
+{
+    size_t n = 0;
+    while (isalpha((unsigned char)c[n]) || c[n] == '_' || (n > 0 && isdigit((unsigned char)c[n]))) n++;
+    return n;
+}
+
+static bool missing(struct compile *c, const char *expected)
+{
+    if (*c->at == '\0') return compile_wrong(c, "ends where %s is expected", expected);
+    size_t length = name_length(c->at);
+    if (length == 0) length = 1;
+    while (((unsigned char)c->at[length] & 0xC0) == 0x80) length++;
+    return compile_wrong(c, "has %.*s at character %d, where %s is expected", (int)(length < 30 ? length : 30), c->at,
+                 character_of(c, c->at), expected);
+}
+
+/* ---- grammar ----------------------------------------------------------------------------------------------------- */
+
+static bool compile_sum(struct compile *c);
+
+static bool deeper(struct compile *c, int levels)
+{
+    if (c->depth + levels <= DEPTH_MOST) return true;
+    return compile_wrong(c, "is nested deeper than %d levels", DEPTH_MOST);
+}
+
+static bool compile_brackets(struct compile *c)
+{
+    c->at++;
+    c->depth++;
+    if (!deeper(c, 0) || !compile_sum(c)) return false;
+    c->depth--;
+    if (*c->at != ')') return missing(c, "an operation or )");
+    c->at++;
+    return true;
+}
+
+static bool apply_function(struct compile *c, const struct function *f, const char *at)
+{
+    struct quantity unit = topmost(c, 0)->q;
+    const bool two = f->rule == SAME || f->rule == ANGLE;
+    if (two && !equal_units(c, f->name, at)) return false;
+    if (two) unit = topmost(c, 1)->q;
+    if (f->rule == PLAIN && !is_plain(&unit))
+        return compile_wrong(c, "takes %s of %s (character %d); a plain number is expected there, as (t/5us)", f->name,
+                     unit_named(&unit).text, character_of(c, at));
+    for (int k = 0; k < 3 && f->rule != KEEPS && f->rule != SAME; k++) {
+        if (f->rule == ROOT && unit.twice[k] % 2 != 0)
+            return compile_wrong(c, "takes sqrt of %s (character %d), which has no unit", unit_named(&unit).text,
+                         character_of(c, at));
+        unit.twice[k] = f->rule == ROOT ? unit.twice[k] / 2 : 0;
+    }
+    return add_operation(c, f->op, &unit);
+}
+
+/* The operands in brackets; min and max take any number of them from two on. */
+static bool compile_call(struct compile *c, const struct function *f, const char *at)
+{
+    const bool two = f->rule == SAME || f->rule == ANGLE;
+    int given = 0;
+    c->depth++;
+    do {
+        c->at++;
+        if (!deeper(c, 0) || !compile_sum(c)) return false;
+        given++;
+        if (two && given > 1 && !apply_function(c, f, at)) return false;
+    } while (*c->at == ',' && two && (f->rule == SAME || given < 2));
+    if (two && given < 2) return missing(c, "a comma and another operand");
+    if (*c->at != ')') return missing(c, "an operation or )");
+    c->at++;
+    c->depth--;
+    return two || apply_function(c, f, at);
+}
+
+static const struct function *function_named(const char *name)
+{
+    for (size_t k = 0; k < COUNT_OF(functions); k++)
+        if (strcmp(functions[k].name, name) == 0) return &functions[k];
+    return NULL;
+}
+
+/* x, y, z or t, where the key allows it. */
+static bool compile_coordinate(struct compile *c, char name)
+{
+    struct quantity q = {.twice = {2, 0, 0}};
+    if (name == 't') q.twice[0] = 0, q.twice[2] = 2;
+    if (!(c->of & (name == 't' ? EXPRESS_TIME : EXPRESS_SPACE)))
+        return compile_wrong(c, "contains %c, which has no meaning in this key", name);
+    if (name != 't' && name - 'x' >= c->r->dim)
+        return compile_wrong(c, "contains %c; space %s does not have it", name, space_names[c->r->scene->space]);
+    return add_leaf(c, name == 't' ? EXPRESSION_T : (enum expression_op)(EXPRESSION_X + name - 'x'), &q);
+}
+
+static bool compile_variable(struct compile *c, const char *name, const char *at)
+{
+    const struct quantity *q = variable_value(c->r, name, c->what, c->room);
+    if (!q) return false;
+    return deeper(c, 2) && keep_value(c, at, q) && add_leaf(c, EXPRESSION_NUMBER, q);
+}
+
+static bool compile_name(struct compile *c)
+{
+    struct quantity q = {.value = 3.14159265358979323846, .bare = true};
+    const char *at = c->at;
+    const size_t length = name_length(at);
+    char name[NAME_MOST + 1];
+    if (length > NAME_MOST) return compile_wrong(c, "has a name of more than %d letters", NAME_MOST);
+    snprintf(name, sizeof name, "%.*s", (int)length, at);
+    c->at += length;
+    skip(c);
+    const struct function *f = function_named(name);
+    if (*c->at == '(' && f) return compile_call(c, f, at);
+    if (*c->at == '(')
+        return compile_wrong(c, "has an unknown function %s (character %d); `cleave help expression` lists them", name,
+                     character_of(c, at));
+    if (f) return missing(c, "( and what it is of");
+    if (length == 1 && strchr("xyzt", *name)) return compile_coordinate(c, *name);
+    if (strcmp(name, "pi") == 0) return add_leaf(c, EXPRESSION_NUMBER, &q);
+    c->at = at + length;
+    return quantity_unit(&q, name) == length ? add_leaf(c, EXPRESSION_NUMBER, &q) : compile_variable(c, name, at);
+}
+
+/* A number with its unit; `power`: what follows a ^, without a unit. */
+static bool compile_number(struct compile *c, bool power)
+{
+    struct quantity q;
+    const char *why = NULL;
+    const size_t length = quantity_read(&q, c->at, !power, &why);
+    if (length == 0)
+        return compile_wrong(c, "has no number at character %d: %s", character_of(c, c->at), why);
+    c->at += length;
+    const char *rest = c->at + strspn(c->at, " ");
+    const int letters = (int)name_length(rest);
+    if (letters == 0) return add_leaf(c, EXPRESSION_NUMBER, &q);
+    return compile_wrong(c, "has an unknown unit %.*s (character %d); between a number and a name an operation is "
+                         "expected", letters < 30 ? letters : 30, rest, character_of(c, rest));
+}
+
+/* A number, a name with or without brackets, or brackets. */
+static bool compile_primary(struct compile *c, bool power)
+{
+    struct quantity q;
+    skip(c);
+    if (*c->at == '(') return compile_brackets(c);
+    if (name_length(c->at)) return compile_name(c);
+    if (isdigit((unsigned char)*c->at) || *c->at == '.') return compile_number(c, power);
+    const size_t unit = quantity_unit(&q, c->at);        /* micro is no letter of ASCII */
+    c->at += unit;
+    return unit ? add_leaf(c, EXPRESSION_NUMBER, &q) : missing(c, "a number");
+}
+
+/* a^b^c is a^(b^c); the sign of a power belongs to it. */
+static bool compile_power(struct compile *c, bool power)
+{
+    if (!compile_primary(c, power)) return false;
+    skip(c);
+    if (*c->at != '^') return true;
+    const char *at = c->at++;
+    skip(c);
+    const bool minus = *c->at == '-';
+    if (minus) c->at++;
+    c->depth++;
+    if (!deeper(c, 0) || !compile_power(c, true)) return false;
+    c->depth--;
+    return (!minus || add_minus(c)) && add_power(c, at);
+}
+
+static bool compile_product(struct compile *c)
+{
+    skip(c);
+    const bool minus = *c->at == '-';
+    if (minus || *c->at == '+') c->at++;
+    if (!compile_power(c, false)) return false;
+    if (minus && !add_minus(c)) return false;
+    for (skip(c); *c->at == '*' || *c->at == '/'; skip(c)) {
+        const char *at = c->at++;
+        skip(c);
+        const bool negative = *c->at == '-';
+        if (negative) c->at++;
+        if (!compile_power(c, false) || (negative && !add_minus(c)) || !add_product(c, *at, at)) return false;
+    }
+    return true;
+}
+
+static bool compile_sum(struct compile *c)
+{
+    if (!compile_product(c)) return false;
+    for (skip(c); *c->at == '+' || *c->at == '-'; skip(c)) {
+        const char *at = c->at++;
+        if (!compile_product(c) || !add_sum(c, *at, at)) return false;
+    }
+    return true;
+}
+
+/* The whole text; its value stands in operand[0]. */
+static bool compile_text(struct compile *c)
+{
+    c->at = c->copied = c->text;
+    if (strlen(c->text) > EXPRESSION_TEXT) return compile_wrong(c, "is longer than %d characters", EXPRESSION_TEXT);
+    if (!compile_sum(c)) return false;
+    return *c->at == '\0' ? keep_to(c, c->at) : missing(c, "an operation");
+}
+
+/* ---- for the reader ---------------------------------------------------------------------------------------------- */
+
+bool quantity_of_text(struct reader *r, const char *text, struct quantity *q, char *what, size_t room)
+{
+    struct compile c = {.r = r, .text = text, .what = what, .room = room};
+    if (!compile_text(&c)) return false;
+    *q = c.operand[0].q;
+    return true;
+}
+
+/* A number alone, as every key reads it: `1/3 mm`, which is no expression of the same value. */
+static bool number_constant(const struct node *n, const struct key *k, struct expression *e)
+{
+    char what[256];
+    real value;
+    if (!number_read(&value, n->text, k->unit, false, what, sizeof what)) return false;
+    expression_constant(e, value, n->text);
+    return true;
+}
+
+status read_expression(struct reader *r, const struct key *k, const struct node *n, unsigned of, struct expression *e)
+{
+    char what[256];
+    struct compile c = {.r = r, .of = of, .text = n->text, .what = what, .room = sizeof what};
+    const struct unit_row *unit = &unit_rows[k->unit];
+    if (n->kind != NODE_SCALAR)
+        return fault(r, n, "%s is no expression; %s is expected, as %s", shown(r, n), unit->name, unit->example);
+    if (number_constant(n, k, e)) return OK;
+    if (!compile_text(&c)) return fault(r, n, "%s %s", shown(r, n), what);
+    const struct operand *result = &c.operand[0];
+    if (!quantity_fits(&result->q, k->unit, what, sizeof what) ||
+        (result->constant && !quantity_bounded(result->q.value, k->unit, what, sizeof what)))
+        return fault(r, n, "%s %s", shown(r, n), what);
+    expression_make(e, c.step, c.steps, c.kept);
+    return OK;
+}
+
+bool looks_like_expression(const struct reader *r, const char *text)
+{
+    const char *c = text + (*text == '-' || *text == '+');
+    if (strpbrk(c, "()*+")) return true;
+    return name_length(c) > 0 && (r->variables > 0 || strpbrk(c, "/^-"));
+}
+
+const char *reserved_word(const char *name)
+{
+    struct quantity q;
+    if (function_named(name)) return "the name of a function";
+    if (strlen(name) == 1 && strchr("xyzt", *name)) return *name == 't' ? "the time" : "a coordinate";
+    if (strcmp(name, "pi") == 0 || strcmp(name, "inf") == 0) return "a number";
+    const size_t length = strlen(name), digit = length > 1 && strchr("23", name[length - 1]) ? 1 : 0;
+    return quantity_unit(&q, name) == length - digit ? "a unit" : NULL;
+}
+
+void scene_help_expressions(FILE *out)
+{
+    fputs("Expressions: wherever a scene has a number, and as loads that vary in space and time.\n\n"
+          "    variables: {a: 3 mm, n: 4, b: 2*a + 1 mm, E: 190 GPa, nu: 0.3}\n"
+          "    particles: {spacing: a/n}\n"
+          "    12 MPa * exp(-(t/3us)^2)        22 m/s * sin(2*pi*x/10 mm)        E/(2*(1 + nu))\n\n"
+          "  + - * / ^ ( )    as usual: -2^2 is -4, 2^3^2 is 2^9\n"
+          "  numbers          with a unit behind them, which belongs to the number: x/10 mm is x/(10 mm)\n"
+          "  units            also alone: x/mm; `cleave help units` lists them\n"
+          "  x y z t          coordinates of the undeformed body and the time, in keys that say so\n"
+          "  pi               3.14159..\n"
+          "  names            of `variables`, in any order: letters, digits and _, but no unit, function or\n"
+          "                   coordinate\n\n"
+          "Functions, of a plain number unless they say otherwise; angles are in radians:\n", out);
+    fputs(" ", out);
+    for (size_t k = 0; k < COUNT_OF(functions); k++)
+        if (!*functions[k].help) fprintf(out, " %s", functions[k].name);
+    fputs("\n", out);
+    for (size_t k = 0; k < COUNT_OF(functions); k++)
+        if (*functions[k].help) fprintf(out, "  %-8s %s\n", functions[k].name, functions[k].help);
+    fputs("\nUnits are checked: lengths add to lengths, exp takes a plain number, the result has the unit of its key.\n"
+          "Numbers without a unit are SI only if none in the expression has one; a 0 fits everything.\n", out);
+}

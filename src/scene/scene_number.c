@@ -1,0 +1,120 @@
+/* Numbers of a scene: plain ones, expressions, and the variables that these contain. */
+#include "scene_internal.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { CHAIN_MOST = 32, NAME_LONGEST = 40 };
+
+struct variable {
+    const struct node *n;                /* its key is the name */
+    struct quantity q;
+    enum { WAITING, OPEN, KNOWN } state;
+    bool used;
+};
+
+/* ---- variables --------------------------------------------------------------------------------------------------- */
+
+/* Its value, by those of others. False with a complaint. */
+static bool evaluate(struct reader *r, struct variable *v, char *what, size_t room)
+{
+    bool fine = true;
+    if (v->state == KNOWN) return true;
+    if (v->state == OPEN || r->variables_open == CHAIN_MOST) {
+        snprintf(what, room, v->state == OPEN ? "depends on itself" : "depends on a chain of more than %d others",
+                 CHAIN_MOST);
+        return false;
+    }
+    v->state = OPEN;
+    r->variables_open++;
+    if (!number_quantity(&v->q, v->n->text)) fine = quantity_of_text(r, v->n->text, &v->q, what, room);
+    r->variables_open--;
+    v->state = KNOWN;
+    return fine && quantity_bounded(v->q.value, UNIT_NONE, what, room);
+}
+
+static struct variable *variable_nearest(struct reader *r, const char *name)
+{
+    struct variable *nearest = r->variable;
+    for (struct variable *v = r->variable; v < r->variable + r->variables; v++)
+        if (edit_distance(v->n->key, name) < edit_distance(nearest->n->key, name)) nearest = v;
+    return nearest;
+}
+
+const struct quantity *variable_value(struct reader *r, const char *name, char *what, size_t room)
+{
+    char why[200];
+    if (r->variables == 0) {
+        snprintf(what, room, "has an unknown name %.40s, and the scene has no variables", name);
+        return NULL;
+    }
+    struct variable *v = variable_nearest(r, name);
+    if (strcmp(v->n->key, name) != 0) {
+        snprintf(what, room, "has an unknown name %.40s; the nearest variable is %.40s", name, v->n->key);
+        return NULL;
+    }
+    v->used = true;
+    if (evaluate(r, v, why, sizeof why)) return &v->q;
+    snprintf(what, room, "needs %.40s, which %s", name, why);
+    return NULL;
+}
+
+/* REFUSED for a name that is none, or that means something else in an expression. */
+static status check_variable_name(struct reader *r, const struct node *n)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
+    const size_t length = strlen(n->key);
+    if (length == 0 || length > NAME_LONGEST || strspn(n->key, letters) != length || strchr(letters + 53, *n->key))
+        return fault(r, n, "no name of a variable; up to %d letters, digits and _ are expected, a letter first",
+                     NAME_LONGEST);
+    const char *meaning = reserved_word(n->key);
+    return meaning ? fault(r, n, "is %s in expressions; another name is expected, as %.20s1", meaning, n->key) : OK;
+}
+
+status read_variables(struct reader *r, const struct node *root)
+{
+    const struct key *k = key_find("", "variables");
+    const struct node *map = node_find(root, k->path);
+    char what[256];
+    r->variables = 0;
+    if (!map || (map->kind == NODE_SCALAR && *map->text == '\0')) return OK;
+    TRY(expect(r, map, NODE_MAP, "a mapping such as {a: 3 mm, b: 2*a}"));
+    if (map->n > k->range.most) return fault(r, map, "has %d variables; up to %g are expected", map->n, k->range.most);
+    r->variable = arena_new(r, (size_t)(map->n + 1) * sizeof *r->variable);
+    for (const struct node *n = map->first; n; n = n->next) {
+        TRY(check_variable_name(r, n));
+        TRY(expect(r, n, NODE_SCALAR, "a number or an expression"));
+        for (int v = 0; v < r->variables; v++)
+            if (strcmp(r->variable[v].n->key, n->key) == 0)
+                return fault(r, n, "given twice, first in line %d; keep one", r->variable[v].n->line);
+        r->variable[r->variables++] = (struct variable){.n = n};
+    }
+    for (struct variable *v = r->variable; v < r->variable + r->variables; v++)
+        if (!evaluate(r, v, what, sizeof what)) return fault(r, v->n, "%s %s", shown(r, v->n), what);
+    return OK;
+}
+
+status check_variables(struct reader *r)
+{
+    for (const struct variable *v = r->variable; v < r->variable + r->variables; v++)
+        if (v->n->origin >= 0 && !v->used)
+            return fault(r, v->n, "no number of the scene contains this variable; `cleave help variables` says how");
+    return OK;
+}
+
+/* ---- numbers ----------------------------------------------------------------------------------------------------- */
+
+bool number_of_text(struct reader *r, real *value, const char *text, enum unit unit, bool infinite, char *what,
+                    size_t room)
+{
+    char other[256];
+    struct quantity q;
+    if (number_read(value, text, unit, infinite, what, room)) return true;
+    if (quantity_of_text(r, text, &q, other, sizeof other) && quantity_fits(&q, unit, other, sizeof other) &&
+        quantity_bounded(q.value, unit, other, sizeof other)) {
+        *value = q.value;
+        return true;
+    }
+    if (looks_like_expression(r, text)) snprintf(what, room, "%s", other);
+    return false;
+}
