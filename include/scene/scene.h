@@ -27,9 +27,16 @@ enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
 
 enum solver_kind { SOLVER_EXPLICIT, SOLVER_RELAXATION, SOLVER_CG, SOLVER_STATIC };
 
+/* Part of a body that is of another material. */
+struct scene_part {
+    struct region region;
+    int material;                        /* index into scene.material */
+};
+
 struct scene_body {
     char name[NAME_MAX_LENGTH];
     int material;                        /* index into scene.material */
+    int parts; struct scene_part *part;  /* later ones overwrite earlier ones, and `material` */
     struct region shape;                 /* filled with a lattice ... */
     char *file;                          /* ... or a particle list (.csv, .h5), as to be opened; or NULL */
     uint64_t contents;                   /* hash of that file; 0: not read */
@@ -197,6 +204,11 @@ static inline real scene_section(const struct scene *s)
 {
     return s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness;
 }
+
+/* Material of the particle of a body at X [m], which the body or its list says is of `material`. */
+int scene_material_at(const struct scene *s, const struct scene_body *b, const real *X, int material);
+/* Can a particle of the body be of this material? */
+bool scene_body_has(const struct scene_body *b, int material);
 
 /* Frees what a scene holds; a scene is read by auto/scene_read.h. */
 void scene_free(struct scene *s);

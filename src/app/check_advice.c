@@ -95,7 +95,9 @@ static void advise_incompressible(const struct engine *e, FILE *out)
     const struct scene *s = e->scene;
     if (s->method != METHOD_PD || s->model == MODEL_BOND || (s->space != SPACE_PLANE_STRAIN && s->dim < 3)) return;
     for (int b = 0; b < s->bodies; b++) {
-        const real poisson = s->material[s->body[b].material].poisson;
+        real poisson = 0;
+        for (int m = 0; m < s->materials; m++)
+            if (scene_body_has(&s->body[b], m)) poisson = real_max(poisson, s->material[m].poisson);
         for (int k = 0; k < s->body[b].shape.n && poisson > 0.4; k++) {
             const struct solid *a = &s->body[b].shape.solid[k];
             const double layers = solid_size(e, a) / s->spacing;
@@ -318,7 +320,9 @@ static void advise_frame(const struct engine *e, FILE *out)
 {
     const real reached = stress_reached(e);
     for (int b = 0; b < e->scene->bodies; b++) {
-        const real strain = reached / e->scene->material[e->scene->body[b].material].young;
+        real strain = 0;
+        for (int m = 0; m < e->scene->materials; m++)
+            if (scene_body_has(&e->scene->body[b], m)) strain = real_max(strain, reached / e->scene->material[m].young);
         if (e->reference.choice[b].reference || !engine_frame_allowed(e, b)) continue;
         fprintf(out, "unneeded: body %s in mpm.frame current: it meets no other body", e->scene->body[b].name);
         if (strain < LITTLE) fprintf(out, " and waves strain it by %.2g at the most", strain);

@@ -44,11 +44,19 @@ static void rise_take(struct load_rise *least, const struct load_rise *one, real
     if (least->kind == RISE_NONE || next < now || (next == now && one->waves < least->waves)) *least = *one;
 }
 
+/* Of waves in the slowest material, whose cells are to carry them, too [m/s]. */
+static real slowest_waves(const struct scene *s)
+{
+    real slowest = INFINITY;
+    for (int m = 0; m < s->materials; m++) slowest = real_min(slowest, s->material[m].wave_speed);
+    return slowest;
+}
+
 /* The load that asks for the smallest cells. */
 static struct load_rise sharpest_rise(const struct engine *e, real across)
 {
     const struct scene *s = e->scene;
-    const real c = e->tables.wave_speed, D = s->spacing;
+    const real c = slowest_waves(s), D = s->spacing;
     struct load_rise least = {.waves = INFINITY, .seconds = INFINITY};
     for (int b = 0; b < s->boundaries; b++) {
         const struct boundary *load = &s->boundary[b];

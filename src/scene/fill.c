@@ -175,7 +175,7 @@ static status lattice_point(struct draft *d, int body, const real *place, real v
     if (!region_contains(&s->body[body].shape, place, s->dim, ON_SURFACE * s->spacing)) return OK;
     for (int a = 0; a < s->dim; a++)
         X[a] = place[a] + s->spacing * s->irregularity * scatter(s->seed, d->n, a);   /* Imachi et al. 2019, eq. 49 */
-    return draft_add(d, X, volume, s->body[body].material, body);
+    return draft_add(d, X, volume, scene_material_at(s, &s->body[body], place, s->body[body].material), body);
 }
 
 /* Fills the shape of a body with the particles of its lattice, x fastest. */
@@ -237,7 +237,7 @@ static status take_list(struct draft *d, int body, const struct particle_list *l
         if (owner != body) continue;
         if (material >= s->materials) return refuse_entry(l, path, i, "the scene has no material", material);
         for (int a = 0; a < s->dim; a++) X[a] = l->X[a][i];
-        TRY(draft_add(d, X, l->volume[i], material, body));
+        TRY(draft_add(d, X, l->volume[i], scene_material_at(s, &s->body[body], X, material), body));
     }
     return OK;
 }

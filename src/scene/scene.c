@@ -61,6 +61,8 @@ void scene_free(struct scene *s)
 {
     for (int k = 0; k < s->bodies + s->rigids; k++) {
         region_free(&s->body[k].shape);
+        for (int part = 0; part < s->body[k].parts; part++) region_free(&s->body[k].part[part].region);
+        memory_free(s->body[k].part);
         memory_free(s->body[k].file);
     }
     for (int k = 0; k < s->cracks; k++) memory_free(s->crack[k].corner);

@@ -254,6 +254,17 @@ static void write_file_name(struct writer *w, const char *key, const char *file,
     free(whole);
 }
 
+static void write_body_parts(struct writer *w, const struct scene_body *b)
+{
+    if (!b->parts) return;
+    begin(w, "parts");
+    fputc('\n', w->out);
+    for (int k = 0; k < b->parts; k++) {
+        w->indent = 8, w->dash = true;
+        write_group(w, "bodies.parts", &b->part[k]);
+    }
+}
+
 static void write_bodies(struct writer *w)
 {
     const struct scene *s = w->scene;
@@ -262,6 +273,7 @@ static void write_bodies(struct writer *w)
         begin_item(w);
         write_group(w, "bodies", &s->body[k]);
         if (s->body[k].file) write_file_name(w, "particles", s->body[k].file, s->body[k].contents);
+        write_body_parts(w, &s->body[k]);
     }
 }
 

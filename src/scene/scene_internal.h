@@ -201,6 +201,8 @@ status read_path(struct reader *r, const struct node *n, const char *what, char 
 status read_region(struct reader *r, const struct node *n, struct region *region);
 status read_materials(struct reader *r, const struct node *root);
 status read_bodies(struct reader *r, const struct node *root);
+/* `list`: of key k, NULL: not given (scene_body_parts.c). */
+status read_body_parts(struct reader *r, const struct node *list, const struct key *k, struct scene_body *b);
 status read_cracks(struct reader *r, const struct node *root);
 status read_growths(struct reader *r, const struct node *root);
 status read_initials(struct reader *r, const struct node *root);

@@ -129,7 +129,8 @@ static status read_file(struct reader *r, const struct node *n, struct scene_bod
 /* REFUSED for what a rigid body cannot have, and for what only it has. */
 static status check_rigid_body(struct reader *r, const struct node *n, const struct scene_body *b)
 {
-    static const char *const own[] = {"mass", "ramp", "force"}, *const others[] = {"material", "particles", "frame"};
+    static const char *const own[] = {"mass", "ramp", "force"};
+    static const char *const others[] = {"material", "particles", "frame", "parts"};
     for (size_t k = 0; k < COUNT_OF(own) && !b->rigid; k++)
         if (node_find(n, own[k])) return fault(r, node_find(n, own[k]), "only rigid bodies have it; add rigid: true");
     if (node_find(n, "ramp") && (node_find(n, "mass") || !node_find(n, "velocity")))
@@ -157,6 +158,7 @@ static status scene_parts_read_body(struct reader *r, const struct node *n, stru
     TRY(read_group(r, n, n, "bodies", b));
     r->bounded = false;
     TRY(check_rigid_body(r, n, b));
+    TRY(read_body_parts(r, node_find(n, "parts"), key_find("bodies", "parts"), b));
     if (!shape && !file) return fault_missing(r, n, key_find("bodies", "shape"));
     if (shape && file) return fault_both(r, shape, file);
     if (file) TRY(read_file(r, file, b));
@@ -190,7 +192,10 @@ status read_bodies(struct reader *r, const struct node *root)
     const struct node *one = node_find(root, "body"), *many = node_find(root, "bodies");
     if (!one && !many) return fault_missing(r, root, key_find("", "body"));
     if (one && many) return fault_both(r, one, many);
-    if (one && s->materials > 1) return fault(r, one, "which of %d materials is it; use bodies", s->materials);
+    const struct node *parts = node_find(root, "parts");
+    if (many && parts) return fault(r, parts, "of which body is it; bodies have parts of their own");
+    if (one && s->materials > 1 && !parts)
+        return fault(r, one, "which of %d materials is it; use parts, or bodies", s->materials);
     if (many) TRY(expect_list(r, key_find("", "bodies"), many));
     const int n_bodies = many ? many->n : 1;
     s->body = NEW("bodies", n_bodies, struct scene_body);
@@ -202,7 +207,7 @@ status read_bodies(struct reader *r, const struct node *root)
         r->bounded = true;
         TRY(read_region(r, one, &s->body->shape));
         r->bounded = false;
-        return OK;
+        return read_body_parts(r, parts, key_find("", "parts"), s->body);
     }
     const struct node *n = many->first;
     for (int k = 0; k < n_bodies; k++, n = n->next) {

@@ -209,6 +209,31 @@ static void test_slits(void **state)
     assert_int_equal(wrong, 0);
 }
 
+/* A body of two materials: the one across the other's cells, and across the place where bonds begin. */
+#define PARTS(at, more)                                                                                                \
+    "space: plane stress\nthickness: 1e-3\nduration: 1\nmaterials: [{name: a, young: 72e9, density: 2440}, "           \
+    "{name: b, young: 9e9, density: 1200}]\nbody: {box: {from: [0, 0], to: [12e-3, 10e-3]}}\n"                         \
+    "parts: [{region: {box: {from: [0, " at "], to: [12e-3, 10e-3]}}, material: b}]\n"                                 \
+    "particles: {spacing: 1e-3, horizon: 2.015}\noutput: {frames: 0, samples: 1}\n" more
+#define PART_BONDS "method: adaptive\npd: {region: {box: {from: [7e-3, 0], to: [12e-3, 10e-3]}}}\n"
+static const struct body parts[] = {
+    {"parts, bonds", {.dim = 2, .text = PARTS("4e-3", "method: pd\n")}, 0},
+    {"parts, cells", {.dim = 2, .text = PARTS("4e-3", "method: mpm\n")}, 0},
+    {"parts, cells that are cut", {.dim = 2, .text = PARTS("5e-3", "method: mpm\n")}, 0},
+    {"parts, partial", {.dim = 2, .text = PARTS("4e-3", PART_BONDS)}, 0},
+    {"parts, partial, cells that are cut", {.dim = 2, .text = PARTS("5e-3", PART_BONDS)}, 0},
+    {"parts, partial, ospd", {.dim = 2, .text = PARTS("5e-3", PART_BONDS "model: ospd\n")}, 0},
+    {"parts, partial, mospd", {.dim = 2, .text = PARTS("5e-3", PART_BONDS "model: mospd\n")}, 0},
+};
+
+static void test_parts(void **state)
+{
+    (void)state;
+    begin();
+    check_all(parts, COUNT_OF(parts));
+    assert_int_equal(wrong, 0);
+}
+
 /* ---- both -------------------------------------------------------------------------------------------------------- */
 
 static const struct { const char *name; enum stability_region region; double offset;
@@ -336,6 +361,7 @@ int main(int n, char **words)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_tools),
                                        cmocka_unit_test(test_alone),
                                        cmocka_unit_test(test_cells), cmocka_unit_test(test_slits),
+                                       cmocka_unit_test(test_parts),
                                        cmocka_unit_test(test_coupled),
                                        cmocka_unit_test(test_coupled_elsewhere),
                                        cmocka_unit_test(test_supports)};

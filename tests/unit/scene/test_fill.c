@@ -46,6 +46,28 @@ static void boxes_are_filled_in_every_space(void **state)
     }
 }
 
+/* A plate with an inclusion, in which there is a seed of the plate's own material. */
+static void parts_are_of_their_material(void **state)
+{
+    (void)state;
+    struct setting s;
+    struct particles p;
+    struct solid disc = {.kind = SOLID_BALL, .centre = {1.5, 1.5}, .radius = 1};
+    struct solid seed = {.kind = SOLID_BOX, .from = {1, 1}, .to = {2, 1.5}};
+    struct scene_part part[] = {{{1, &disc}, 1}, {{1, &seed}, 0}};
+    setting_make(&s, SPACE_PLANE_STRESS, (real[]){3, 3});
+    s.body[0].parts = 2, s.body[0].part = part;
+    assert_ok(fill_particles(&p, &s.scene, NULL, 0));
+    assert_int_equal(p.n, 36);
+    for (int64_t i = 0; i < p.n; i++) {
+        const real x = p.X[0][i] - 1.5, y = p.X[1][i] - 1.5;
+        const bool is_seed = fabs(x) < 0.5 && y > -0.5 && y < 0, second = x * x + y * y < 1 && !is_seed;
+        assert_int_equal(p.material[i], second);
+        assert_close(p.mass[i], (second ? 2000 : 1000) * p.volume0[i], 1e-15);
+    }
+    particles_free(&p);
+}
+
 static void method_decides_the_kind(void **state)
 {
     (void)state;
@@ -308,6 +330,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(boxes_are_filled_in_every_space),
+        cmocka_unit_test(parts_are_of_their_material),
         cmocka_unit_test(method_decides_the_kind),
         cmocka_unit_test(symmetric_bodies_are_filled_symmetrically),
         cmocka_unit_test(added_solids_continue_the_lattice),

@@ -56,6 +56,8 @@ static void test_plate_materials_bodies(void **state)
     assert_int_equal(s.bodies, 3);
     assert_true(s.body[0].material == 1 && s.body[0].velocity[0] == 3000 && s.body[0].velocity[1] == -1000);
     assert_true(s.body[0].shape.n == 1 && s.body[0].shape.solid->kind == SOLID_BOX && s.body[0].file == NULL);
+    assert_true(s.body[0].parts == 2 && s.body[0].part[0].material == 0 && s.body[0].part[1].material == 3);
+    assert_true(s.body[0].part[0].region.solid->radius == 1e-2 && s.body[1].parts == 0);
     const struct solid *solid = s.body[1].shape.solid;
     assert_int_equal(s.body[1].shape.n, 4);
     assert_true(solid[1].subtract && solid[1].kind == SOLID_BALL && solid[1].radius == 5e-3 && !solid[2].subtract);

@@ -53,6 +53,17 @@ static const char good[] =
 /* piece of the good scene, what stands in its place, message after the file's name */
 static const struct { const char *piece, *instead, *message;
 } cases[] = {
+    {"particles:\n", "parts: [{region: {all: true}, material: material}]\nparticles:\n",
+     "14:1: parts: of which body is it; bodies have parts of their own"},
+    {"  - name: plate\n", "  - name: plate\n    parts: [{region: {all: true}}]\n",
+     "13:13: material: missing in bodies.parts; the name of a material is expected"},
+    {"  - name: plate\n", "  - name: plate\n    parts: [{region: {all: true}, material: glass}]\n",
+     "13:35: material: there is no material glass; the nearest is material"},
+    {"  - name: plate\n", "  - name: plate\n    parts: {region: {all: true}}\n",
+     "13:5: parts: a mapping is not a list"},
+    {"  - name: plate\n", "  - {rigid: true, shape: {box: {from: [0, 0], to: [1, 1]}}, parts: [{region: {all: true}, "
+     "material: material}]}\n  - name: plate\n",
+     "12:61: parts: a rigid body has none; a shape is expected, and a mass if it flies"},
     {"duration: 50 us", "duraton: 50 us", "4:1: duraton: unknown key; the nearest is duration"},
     {"  young: 190 GPa\n", "", "6:1: young: missing in material; a stress is expected, as 190 GPa"},
     {"duration: 50 us\n", "", "1:1: duration: missing; a time is expected, as 20 us"},

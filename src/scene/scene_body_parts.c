@@ -1,0 +1,29 @@
+/* Parts of a body that are of another material: bonds join them as they join the particles of one material, by springs
+ * in series (bonds/bonds.c: pairs_make), in state-based models each end by the modulus of its own material. */
+#include "base/memory.h"
+#include "scene_internal.h"
+
+status read_body_parts(struct reader *r, const struct node *list, const struct key *k, struct scene_body *b)
+{
+    if (!list) return OK;
+    TRY(expect_list(r, k, list));
+    b->part = NEW("parts", list->n, struct scene_part);
+    b->parts = list->n;
+    const struct node *n = list->first;
+    for (int part = 0; part < b->parts; part++, n = n->next) TRY(read_group(r, n, n, "bodies.parts", &b->part[part]));
+    return OK;
+}
+
+int scene_material_at(const struct scene *s, const struct scene_body *b, const real *X, int material)
+{
+    for (int k = b->parts - 1; k >= 0; k--)
+        if (region_contains(&b->part[k].region, X, s->dim, ON_SURFACE * s->spacing)) return b->part[k].material;
+    return material;
+}
+
+bool scene_body_has(const struct scene_body *b, int material)
+{
+    bool has = b->material == material;
+    for (int k = 0; k < b->parts; k++) has |= b->part[k].material == material;
+    return has;
+}
