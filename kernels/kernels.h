@@ -120,6 +120,8 @@ typedef real bond_energy_fn(const struct bonds *b, const struct particles *p);
 /* Half the plastic work k (s_y alpha + H_b alpha^2/2) of every row's bonds, broken ones included, added up in fixed
  * blocks [J]. 0 where no bond yields. */
 KERNEL(real, bond_plastic_work, (const struct bonds *b));
+/* The same of one row, where bonds yield. */
+KERNEL(real, bond_row_plastic_work, (const struct bonds *b, int64_t row));
 
 /* Bond virial (1/2V) sum F (x) (x_j - x_i) of every peridynamic row into stress [Pa]; when: particles.stress. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
@@ -221,6 +223,8 @@ KERNEL(void, mesh_listed_move, (const struct mesh *mesh, struct particles *p, co
 KERNEL(void, mesh_exposed_force, (struct mesh *mesh, const struct particles *p));
 /* Cauchy stress and volume of all points of the mesh. */
 KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
+/* Displacement gradient du_a/dX_b of all points of the mesh, to[a dim + b] [1]. */
+KERNEL(void, mesh_points_gradient, (const struct mesh *mesh, real *const *to));
 /* FLAG_STRESSED for points past their trigger, in the partial cells and runs that mesh_force marked. */
 KERNEL(void, mesh_points_mark, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 

@@ -169,6 +169,7 @@ struct run_report {
     struct warnings warnings;            /* what engine_warn and the run found */
     struct particles more;               /* points of coarse cells in the last frame, and their spacings [m] */
     real *more_spacing;
+    real *more_gradient[DIM_MAX * DIM_MAX]; /* of their displacement, where frames are asked for strain [1] */
     bool quiet;
     const struct error_bar *bar;         /* borrowed, for the summary; NULL: no study is at hand */
     int bars;
@@ -226,8 +227,10 @@ status engine_hollow_plan(struct engine *e);
 bool engine_hollow_start(struct engine *e, const uint8_t *level);
 status engine_hollow_follow(struct engine *e, const uint8_t *level);
 status engine_hollow_archive(struct engine *e, struct archive *a);
-/* Points of hollow coarse cells for a frame, into e->report (engine_hollow_points.c); false: there are none. */
-bool engine_hollow_points(struct engine *e);
+/* Points of hollow coarse cells for a frame, into e->report (engine_hollow_points.c), with the gradient of their
+ * displacement if wanted; false: there are none. */
+bool engine_hollow_points(struct engine *e, bool gradients);
+void engine_hollow_points_free(struct engine *e);
 /* What a run of its lattice bodies takes at the most, about, before anything of it is made but materials and family
  * [byte]. */
 real engine_memory(const struct engine *e);

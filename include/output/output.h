@@ -60,6 +60,20 @@ status output_text(const struct output *o, const char *name, const char *text, s
  * `text` what to say of them. */
 status output_frames_check(struct output *o, int *lost, char *text, size_t room);
 
+/* Fields by name, in the order of the table of output_fields.c, and those that only runs that ask for them write: a bit
+ * each. Pictures and comparisons read the others. */
+#define FRAME_FIELD_WORDS                                                                                              \
+    "displacement|velocity|stress|damage|plastic_strain|contact_force|fragment|spacing|kind|material|body|id|"         \
+    "von_mises|pressure|principal_stress|principal_directions|speed|strain|density|plastic_work|level"
+enum { ASK_STRAIN = 1 << 17, ASK_DENSITY = 1 << 18, ASK_PLASTIC_WORK = 1 << 19, ASK_LEVEL = 1 << 20 };
+
+/* What particles do not keep and the caller works out for fields that a run asks for, [n] each. */
+struct frame_state {
+    real *gradient[DIM_MAX * DIM_MAX];   /* du_a/dX_b at [a dim + b]; for strain and density [1] */
+    real *plastic_work;                  /* per volume [J/m^3] */
+    uint8_t *level;                      /* of the coarse cell that a material point is part of; 0: none */
+};
+
 /* What frames show besides the particles' own arrays, [n] each; NULL: frames of this run do not have it. */
 struct frame_extra {
     real *const *push;                   /* [dim] force of contact [N] */
@@ -67,6 +81,10 @@ struct frame_extra {
     const struct particles *more;        /* points of coarse cells, shown behind the particles; until output_wait */
     real spacing;                        /* of the particles; [more->n] of those points [m] */
     const real *more_spacing;
+    unsigned asked;                      /* bits of FRAME_FIELD_WORDS */
+    const struct material *material;     /* of the particles, borrowed; with strain and density */
+    enum space space;
+    struct frame_state state, more_state;
 };
 
 /* Frame number o->frames at time t [s]: frames/NNNNNN.hdf, then frames.hdf.series and frames.xdmf. Particles are

@@ -22,6 +22,7 @@
 enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE, METHOD_AUTO };
 enum { FILL_AUTO, FILL_ALL, FILL_NEEDED };   /* mpm.fill */
 enum { LEVELS_AUTO = 5 };                /* mpm.levels: auto */
+enum { FRAMES_MOST = 100000 };           /* of a run */
 enum grid_frame { FRAME_CURRENT, FRAME_REFERENCE, FRAME_AUTO };
 enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
 
@@ -154,6 +155,8 @@ struct scene {
     int frames;                          /* frames after the one at t = 0 */
     bool has_frames;                     /* the scene says how many */
     struct number_list times;            /* of these frames, ascending [s]; none: evenly spread */
+    real every;                          /* time from frame to frame [s]; 0: not given */
+    unsigned fields;                     /* that they are asked for: bits of FRAME_FIELD_WORDS */
     int samples;                         /* samples of history.csv after the one at t = 0 */
     real wall;                           /* wall clock after which a process ends with a checkpoint; INFINITY [s] */
     real checkpoint_interval;            /* wall clock between checkpoints [s] */

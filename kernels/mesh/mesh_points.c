@@ -255,6 +255,31 @@ void mesh_points_stress(const struct mesh *mesh, struct particles *p, const stru
     else stress_3(mesh, p, m, finite);
 }
 
+static ALWAYS_INLINE void cell_gradient(const struct mesh *mesh, int64_t I, real *const *to, const int dim)
+{
+    real g[CORNERS_MAX][DIM_MAX * DIM_MAX];
+    mesh_gradients(mesh, I, g, dim);
+    for (int q = 0; q < 1 << dim; q++) {
+        const int32_t i = mesh->point[(I << dim) + q];
+        for (int a = 0; a < dim * dim && i >= 0; a++) to[a][i] = g[q][a];
+    }
+}
+
+#define GRADIENT(D)                                                                                                    \
+    static void gradient_##D(const struct mesh *mesh, real *const *to)                                                 \
+    {                                                                                                                  \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < cells_of_points(mesh); k++)               \
+            if (mesh->kind[cell_of_points(mesh, k)]) cell_gradient(mesh, cell_of_points(mesh, k), to, D);              \
+    }
+DIMENSIONS(GRADIENT)
+
+void mesh_points_gradient(const struct mesh *mesh, real *const *to)
+{
+    if (mesh->grid.dim == 1) gradient_1(mesh, to);
+    else if (mesh->grid.dim == 2) gradient_2(mesh, to);
+    else gradient_3(mesh, to);
+}
+
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
 /* Marks the points of a cell whose largest principal stress passes the trigger. */

@@ -81,13 +81,14 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
             p->stress[s][row[l]] = sum[s][l] * b->stiffness / (2 * p->volume0[row[l]]);
 }
 
-static real bond_measure_plastic_term(const void *context, int64_t row)
+real bond_row_plastic_work(const struct bonds *b, int64_t row)
 {
-    const struct bonds *b = context;
     real sum = b->plastic_work[row];
     for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) sum += 0.5 * bond_work_of(b, &it.bond);
     return sum;
 }
+
+static real bond_measure_plastic_term(const void *context, int64_t row) { return bond_row_plastic_work(context, row); }
 
 real bond_plastic_work(const struct bonds *b)
 {

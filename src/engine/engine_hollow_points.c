@@ -33,6 +33,7 @@ static void level_points(struct engine *e, int level, const int64_t *cell, int64
         cell_points(p, &mesh, e->scene, cell[k], first + (k << dim), mesh.point + (cell[k] << dim));
     mesh_points_move(&mesh, p);
     mesh_points_stress(&mesh, p, e->reference.elastic, !e->scene->small_strain);
+    if (e->report.more_gradient[0]) mesh_points_gradient(&mesh, e->report.more_gradient);
     for (int64_t i = first; i < first + (cells << dim); i++) {
         e->report.more_spacing[i] = 0.5 * mesh.grid.h;
         p->id[i] += (int32_t)e->part.n_body;
@@ -40,18 +41,29 @@ static void level_points(struct engine *e, int level, const int64_t *cell, int64
     memory_free(mesh.point);
 }
 
-bool engine_hollow_points(struct engine *e)
+void engine_hollow_points_free(struct engine *e)
 {
-    struct mesh_levels *l = &e->reference.levels;
-    int64_t cells[LEVELS_MAX + 1] = {0}, points = 0;
     particles_free(&e->report.more);
     memory_free(e->report.more_spacing);
     e->report.more_spacing = NULL;
+    for (int k = 0; k < DIM_MAX * DIM_MAX; k++) {
+        memory_free(e->report.more_gradient[k]);
+        e->report.more_gradient[k] = NULL;
+    }
+}
+
+bool engine_hollow_points(struct engine *e, bool gradients)
+{
+    struct mesh_levels *l = &e->reference.levels;
+    int64_t cells[LEVELS_MAX + 1] = {0}, points = 0;
+    engine_hollow_points_free(e);
     if (!e->reference.hollow.absent) return false;
     for (int level = 1; level <= l->n; level++) points += (cells[level] = levels_hollow(l, level, NULL)) << e->part.dim;
     particles_make(&e->report.more, e->part.dim, points, 0);
     e->report.more.plane_strain = e->part.plane_strain;
     e->report.more_spacing = NEW("report.spacing", points, real);
+    for (int k = 0; k < e->part.dim * e->part.dim && gradients; k++)
+        e->report.more_gradient[k] = NEW("report.gradient", points, real);
     for (int level = 1, first = 0; level <= l->n; first += (int)cells[level] << e->part.dim, level++) {
         int64_t *cell = BARE("report.cell", cells[level], int64_t);
         levels_hollow(l, level, cell);

@@ -487,8 +487,7 @@ void engine_free(struct engine *e)
     levels_free(&e->reference.levels);
     mesh_free(&e->reference.mesh);
     hollow_free(&e->reference.hollow);
-    particles_free(&e->report.more);
-    memory_free(e->report.more_spacing);
+    engine_hollow_points_free(e);
     memory_free(e->report.record);
     memory_free(e->probing.pulse);
     warnings_free(&e->report.warnings);

@@ -32,8 +32,9 @@ static int64_t due_step(const struct run_clock *clock, int64_t k, int64_t n)
 static int64_t frame_step(const struct scene *s, const struct run_clock *clock, int64_t k, int64_t n)
 {
     const struct number_list *times = &s->times;
-    if (times->n == 0 || k < 1) return due_step(clock, k, n);
-    int64_t step = k <= n ? (int64_t)floor(times->value[k - 1] / clock->dt + 0.5) : clock->steps,
+    if ((times->n == 0 && s->every == 0) || k < 1) return due_step(clock, k, n);
+    const real time = k > n ? 0 : s->every > 0 ? (real)k * s->every : times->value[k - 1];
+    int64_t step = k <= n ? (int64_t)floor(time / clock->dt + 0.5) : clock->steps,
             last = clock->steps - (n - k);
     return common_step(clock, step < k ? k : step > last ? last : step);
 }
@@ -88,11 +89,13 @@ static status write_frame(struct engine *e)
     TRY(frame_sound(&e->clock, &e->part));
     if (parts) fragments_find(&fragments, &e->bonds, &e->part);
     struct frame_extra extra = {.push = e->contact.push[0] ? e->contact.push : NULL, .fragment = fragments.of};
-    if (engine_hollow_points(e)) {
+    if (engine_hollow_points(e, e->scene->fields & (ASK_STRAIN | ASK_DENSITY))) {
         extra.more = &e->report.more, extra.more_spacing = e->report.more_spacing;
         extra.spacing = e->scene->spacing;
     }
+    engine_fields_make(e, e->scene->fields, &extra);
     const status s = output_frame_begin(e->report.out, &e->part, &extra, e->clock.t, e->clock.step, e->scene->text);
+    engine_fields_free(&extra);
     fragments_free(&fragments);
     return s == OK ? engine_profiles_write(e) : s;
 }

@@ -35,6 +35,11 @@ void engine_residual(struct engine *e);
 /* Largest force on the nodes of grid g in the first step, for patch probes. */
 void engine_residual_of(struct engine *e, const struct grid *g);
 
+/* What a frame is asked for that particles do not keep (engine_fields.c): made once all particles are up to date and
+ * extra->more is known; freed when the frame has been begun. */
+void engine_fields_make(struct engine *e, unsigned asked, struct frame_extra *extra);
+void engine_fields_free(struct frame_extra *extra);
+
 /* Profiles of probes (engine_profiles.c). write: with the frame just written; check: a warning of profiles that a
  * resumed run lacks; remove: those of an older run, before a run that replaces it. */
 status engine_profiles_write(struct engine *e);

@@ -2,7 +2,10 @@
  * xy yz xz; components that the space does not have are 0, plane strain has zz. */
 #include "output_fields.h"
 
+#include <math.h>
 #include <string.h>
+
+#include "data/derived_fields.h"
 
 /* Vectors `of`, or the differences of - less, in rows of three; components that the space does not have are 0. */
 static ALWAYS_INLINE void copy_vectors(float *rows, int64_t first, int64_t end, real *const *of, real *const *less,
@@ -34,17 +37,103 @@ static void copy_scalars(float *rows, int64_t first, int64_t end, const real *of
     for (int64_t i = first; i < end; i++) rows[columns * i] = (float)of[i];
 }
 
-static void copy_stress(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+/* The stress of a particle in VTK's order, with that across the plane [Pa]. */
+static ALWAYS_INLINE void stress_row(const struct particles *p, int64_t i, real *row)
 {
-    const struct particles *p = s->p;
     /* Place of component k of struct particles in VTK's order; differs only in 2D: xx yy xy. */
     static const int place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
-    float *out = rows;
-    memset(out + SYM_MAX * first, 0, (size_t)(SYM_MAX * (end - first)) * sizeof *out);
-    for (int k = 0; k < symmetric_count(p->dim); k++)
-        copy_scalars(out + place[p->dim][k], first, end, p->stress[k], SYM_MAX);
-    for (int64_t i = first; i < end && p->plane_strain; i++) out[SYM_MAX * i + 2] = (float)particle_stress_across(p, i);
+    for (int k = 0; k < SYM_MAX; k++) row[k] = 0;
+    for (int k = 0; k < symmetric_count(p->dim); k++) row[place[p->dim][k]] = p->stress[k][i];
+    if (p->plane_strain) row[2] = particle_stress_across(p, i);
 }
+
+static void copy_stress(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+{
+    for (int64_t i = first; i < end; i++) {
+        real row[SYM_MAX];
+        stress_row(s->p, i, row);
+        for (int k = 0; k < SYM_MAX; k++) ((float *)rows)[SYM_MAX * i + k] = (float)row[k];
+    }
+}
+
+/* Rows of a field that follows from another one. */
+static void copy_derived(const struct derived_field *field, const struct frame_source *s, int64_t first, int64_t end,
+                         float *rows)
+{
+    for (int64_t i = first; i < end; i++) {
+        real from[SYM_MAX] = {0}, to[DERIVED_MOST];
+        if (field->from == FROM_STRESS) stress_row(s->p, i, from);
+        for (int d = 0; d < s->p->dim && field->from == FROM_VELOCITY; d++) from[d] = s->p->v[d][i];
+        field->compute(from, to);
+        for (int c = 0; c < field->columns; c++) rows[field->columns * i + c] = (float)to[c];
+    }
+}
+
+/* ---- fields of the displacement gradient ------------------------------------------------------------------------- */
+
+/* Strain across a stressed plane from F_zz of its thickness. An elastic material contracts by nu/(1 - nu) times the
+ * strains in the plane; flow keeps volumes, so that a yielding one has J/J_plane with the elastic J of its mean
+ * stress. */
+static real strain_across(const struct frame_source *s, int64_t i, const real *strain)
+{
+    const struct material *m = &s->extra.material[s->p->material[i]];
+    if (s->extra.space != SPACE_PLANE_STRESS) return 0;
+    if (!material_yields(m)) return -m->poisson / (1 - m->poisson) * (strain[0] + strain[1]);
+    const real plane = sqrt((1 + 2 * strain[0]) * (1 + 2 * strain[1]) - 4 * square(strain[3]));
+    const real elastic = 1 + (1 - 2 * m->poisson) / m->young * (s->p->stress[0][i] + s->p->stress[1][i]);
+    return 0.5 * (square(elastic / plane) - 1);
+}
+
+/* Green and Lagrange's strain 1/2 (H + H^T + H^T H) of a particle: no rotation changes it. */
+static void strain_row(const struct frame_source *s, int64_t i, real *strain)
+{
+    static const int row[SYM_MAX] = {0, 1, 2, 0, 1, 0}, column[SYM_MAX] = {0, 1, 2, 1, 2, 2};
+    real *const *H = s->extra.state.gradient;
+    const int dim = s->p->dim;
+    for (int k = 0; k < SYM_MAX; k++) {
+        const int a = row[k], b = column[k];
+        strain[k] = 0;
+        if (a >= dim || b >= dim) continue;
+        strain[k] = H[a * dim + b][i] + H[b * dim + a][i];
+        for (int c = 0; c < dim; c++) strain[k] += H[c * dim + a][i] * H[c * dim + b][i];
+        strain[k] *= 0.5;
+    }
+    if (dim == 2) strain[2] = strain_across(s, i, strain);
+}
+
+static void copy_strain(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+{
+    for (int64_t i = first; i < end; i++) {
+        real strain[SYM_MAX];
+        strain_row(s, i, strain);
+        for (int k = 0; k < SYM_MAX; k++) ((float *)rows)[SYM_MAX * i + k] = (float)strain[k];
+    }
+}
+
+/* rho_0/J with J^2 = det(1 + 2 strain). */
+static void copy_density(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+{
+    for (int64_t i = first; i < end; i++) {
+        real metric[SYM_MAX];
+        strain_row(s, i, metric);
+        for (int k = 0; k < SYM_MAX; k++) metric[k] = 2 * metric[k] + (k < 3);
+        const real square_of_J = tensor_determinant(metric), reference = s->p->mass[i] / s->p->volume0[i];
+        ((float *)rows)[i] = (float)(square_of_J > 0 ? reference / sqrt(square_of_J) : reference);
+    }
+}
+
+static void copy_plastic_work(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+{
+    for (int64_t i = first; i < end; i++)
+        ((float *)rows)[i] = s->extra.state.plastic_work ? (float)s->extra.state.plastic_work[i] : 0;
+}
+
+static void copy_level(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+{
+    memcpy((uint8_t *)rows + first, s->extra.state.level + first, (size_t)(end - first));
+}
+
+/* ---- further fields ---------------------------------------------------------------------------------------------- */
 
 static void copy_damage(const struct frame_source *s, int64_t first, int64_t end, void *rows)
 {
@@ -88,24 +177,38 @@ static void fill_id(const struct particles *p, int64_t i, void *row) { *(int32_t
 
 #define POINT_DATA "/VTKHDF/PointData/"
 const struct frame_field frame_fields[FRAME_FIELDS] = {
-    {"/VTKHDF/Points", HDF_F32, 3, NULL, copy_point},
-    {POINT_DATA "displacement", HDF_F32, 3, NULL, copy_displacement},
-    {POINT_DATA "velocity", HDF_F32, 3, NULL, copy_velocity},
-    {POINT_DATA "stress", HDF_F32, 6, NULL, copy_stress},
-    {POINT_DATA "damage", HDF_F32, 1, NULL, copy_damage},
-    {POINT_DATA "plastic_strain", HDF_F32, 1, NULL, copy_plastic_strain},
-    {POINT_DATA "contact_force", HDF_F32, 3, NULL, copy_push},
-    {POINT_DATA "fragment", HDF_I32, 1, NULL, copy_fragment},
-    {POINT_DATA "spacing", HDF_F32, 1, NULL, copy_spacing},
-    {POINT_DATA "kind", HDF_U8, 1, NULL, copy_kind},
-    {POINT_DATA "material", HDF_U8, 1, fill_material, NULL},
-    {POINT_DATA "body", HDF_U8, 1, fill_body, NULL},
-    {POINT_DATA "id", HDF_I32, 1, fill_id, NULL},
-    {"/Cleave/reference", HDF_F64, 0, fill_reference, NULL},
+    {"/VTKHDF/Points", "m", HDF_F32, 3, NULL, copy_point},
+    {POINT_DATA "displacement", "m", HDF_F32, 3, NULL, copy_displacement},
+    {POINT_DATA "velocity", "m/s", HDF_F32, 3, NULL, copy_velocity},
+    {POINT_DATA "stress", "Pa", HDF_F32, 6, NULL, copy_stress},
+    {POINT_DATA "damage", "", HDF_F32, 1, NULL, copy_damage},
+    {POINT_DATA "plastic_strain", "", HDF_F32, 1, NULL, copy_plastic_strain},
+    {POINT_DATA "contact_force", "N", HDF_F32, 3, NULL, copy_push},
+    {POINT_DATA "fragment", "", HDF_I32, 1, NULL, copy_fragment},
+    {POINT_DATA "spacing", "m", HDF_F32, 1, NULL, copy_spacing},
+    {POINT_DATA "kind", "", HDF_U8, 1, NULL, copy_kind},
+    {POINT_DATA "material", "", HDF_U8, 1, fill_material, NULL},
+    {POINT_DATA "body", "", HDF_U8, 1, fill_body, NULL},
+    {POINT_DATA "id", "", HDF_I32, 1, fill_id, NULL},
+    {POINT_DATA "von_mises", "Pa", HDF_F32, 1, NULL, NULL},
+    {POINT_DATA "pressure", "Pa", HDF_F32, 1, NULL, NULL},
+    {POINT_DATA "principal_stress", "Pa", HDF_F32, 3, NULL, NULL},
+    {POINT_DATA "principal_directions", "", HDF_F32, 9, NULL, NULL},
+    {POINT_DATA "speed", "m/s", HDF_F32, 1, NULL, NULL},
+    {POINT_DATA "strain", "", HDF_F32, 6, NULL, copy_strain},
+    {POINT_DATA "density", "kg/m^3", HDF_F32, 1, NULL, copy_density},
+    {POINT_DATA "plastic_work", "J/m^3", HDF_F32, 1, NULL, copy_plastic_work},
+    {POINT_DATA "level", "", HDF_U8, 1, NULL, copy_level},
+    {"/Cleave/reference", "m", HDF_F64, 0, fill_reference, NULL},
 };
+
+/* Fields that only runs that ask for them write; bit k of what is asked for is field k + 1. */
+enum { FIELD_ON_DEMAND = 13, FIELD_ON_DEMAND_LAST = 21 };
 
 static bool field_exists(const struct frame_field *field, const struct frame_source *s)
 {
+    const int64_t k = field - frame_fields;
+    if (k >= FIELD_ON_DEMAND && k <= FIELD_ON_DEMAND_LAST) return s->extra.asked >> (k - 1) & 1;
     if (field->copy == copy_plastic_strain) return s->p->plastic_strain != NULL;
     if (field->copy == copy_push) return s->extra.push != NULL;
     if (field->copy == copy_fragment) return s->extra.fragment != NULL;
@@ -126,12 +229,17 @@ size_t frame_field_row(const struct frame_field *field, int dim)
     return hdf_size(field->type) * (size_t)(field->columns ? field->columns : dim);
 }
 
+void frame_field_copy(const struct frame_field *field, const struct frame_source *source, int64_t first, int64_t end,
+                      void *rows)
+{
+    if (field->copy) field->copy(source, first, end, rows);
+    else copy_derived(derived_field_find(strrchr(field->path, '/') + 1), source, first, end, rows);
+}
+
 void frame_field_copy_more(const struct frame_field *field, const struct frame_source *source, void *rows)
 {
-    const struct frame_source more = {source->extra.more,
-                                      {.more = source->extra.more,
-                                       .spacing = source->extra.spacing,
-                                       .more_spacing = source->extra.more_spacing}};
-    if (field_exists(field, &more)) field->copy(&more, 0, more.p->n, rows);
+    struct frame_source more = {source->extra.more, source->extra};
+    more.extra.push = NULL, more.extra.fragment = NULL, more.extra.state = source->extra.more_state;
+    if (field_exists(field, &more)) frame_field_copy(field, &more, 0, more.p->n, rows);
     else memset(rows, 0, (size_t)more.p->n * frame_field_row(field, more.p->dim));
 }

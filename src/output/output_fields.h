@@ -8,23 +8,27 @@
 /* What a frame shows. */
 struct frame_source { const struct particles *p; struct frame_extra extra; };
 
-/* One dataset with a row per particle; `columns` 0 stands for dim. `fill`, for fields that are constant during a run,
- * writes the row of particle i; the writing thread calls it. `copy`, for all other fields, writes rows first .. end - 1
- * of `rows` of all particles; the step loop waits for it. */
+/* One dataset with a row per particle; `columns` 0 stands for dim; `unit` as people write it, "" for a pure number.
+ * `fill`, for fields that are constant during a run, writes the row of particle i; the writing thread calls it. `copy`,
+ * for all other fields, writes rows first .. end - 1 of `rows` of all particles; the step loop waits for it. Fields
+ * without either follow from another one (data/derived_fields.h). */
 struct frame_field {
-    const char *path;
+    const char *path, *unit;
     enum hdf_type type;
     int columns;
     void (*fill)(const struct particles *p, int64_t i, void *row);
     void (*copy)(const struct frame_source *s, int64_t first, int64_t end, void *rows);
 };
 
-enum { FIELD_POINTS, FRAME_FIELDS = 14 };    /* place of the positions in the table; its length */
+enum { FIELD_POINTS, FRAME_FIELDS = 23 };    /* place of the positions in the table; its length */
 extern const struct frame_field frame_fields[FRAME_FIELDS];
 
 /* Bits of the fields that there are: plastic strain where a material yields, the force of contact where there is
- * contact, fragments where bodies can break. */
+ * contact, fragments where bodies can break, others where they are asked for. */
 unsigned frame_fields_of(const struct frame_source *s);
+/* Rows first .. end - 1 of a field that is not constant. */
+void frame_field_copy(const struct frame_field *field, const struct frame_source *source, int64_t first, int64_t end,
+                      void *rows);
 /* Rows of the points of coarse cells (extra.more), of a field that is copied. */
 void frame_field_copy_more(const struct frame_field *field, const struct frame_source *source, void *rows);
 /* Bytes of a particle. */

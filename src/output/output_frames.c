@@ -58,7 +58,7 @@ static struct frame_job *job_make(struct output *o, const struct frame_source *s
     job->compress = o->compress, job->fields = frame_fields_of(source), job->scene_text = scene_text;
     for (int k = 0; k < FRAME_FIELDS; k++) {
         offset[k] = length;
-        if (job->fields >> k & 1 && frame_fields[k].copy)
+        if (job->fields >> k & 1 && !frame_fields[k].fill)
             length += (size_t)job->n * frame_field_row(&frame_fields[k], p->dim);
     }
     if (o->frame_copy_bytes < (int64_t)length) {
@@ -68,11 +68,11 @@ static struct frame_job *job_make(struct output *o, const struct frame_source *s
     }
     for (int k = 0; k < FRAME_FIELDS; k++) {
         const struct frame_field *field = &frame_fields[k];
-        if (!field->copy || !(job->fields >> k & 1)) continue;
+        if (field->fill || !(job->fields >> k & 1)) continue;
         job->field[k] = o->frame_copy + offset[k];
 #pragma omp parallel for schedule(static)
         for (int64_t first = 0; first < p->n; first += COPIED)
-            field->copy(source, first, first + COPIED < p->n ? first + COPIED : p->n, job->field[k]);
+            frame_field_copy(field, source, first, first + COPIED < p->n ? first + COPIED : p->n, job->field[k]);
         if (job->more)
             frame_field_copy_more(field, source, job->field[k] + (size_t)p->n * frame_field_row(field, p->dim));
     }
@@ -112,7 +112,7 @@ static int32_t *order_by_id(const struct particles *p)
     return order;
 }
 
-enum { ROW_MOST = 24 };                  /* bytes of a field's row: six singles or three doubles */
+enum { ROW_MOST = 36 };                  /* bytes of a field's row: nine singles */
 
 static void write_field(struct hdf *f, const struct frame_job *job, int k, const int32_t *order, char *room)
 {
@@ -247,7 +247,7 @@ static void xdmf_attribute(FILE *out, const char *frame, const struct frame_fiel
 static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n, unsigned fields)
 {
     /* Cells are listed, because the XDMF3 reader makes none from a count alone. */
-    static const struct frame_field vertices = {"/VTKHDF/Connectivity", HDF_I64, 1, NULL, NULL};
+    static const struct frame_field vertices = {"/VTKHDF/Connectivity", "", HDF_I64, 1, NULL, NULL};
     fprintf(out, "<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
     fprintf(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%lld\" NodesPerElement=\"1\">",
             (long long)n);

@@ -223,12 +223,19 @@ void resolve_frames(struct scene *s)
     if (s->frame == FRAME_AUTO) s->frame = s->body[0].frame;
 }
 
-/* Number of frames from output.times; times beyond the duration are left out. REFUSED beside output.frames. */
+/* Number of frames from output.every, and from output.times; times beyond the duration are left out. REFUSED beside
+ * each other and output.frames. */
 static status check_times(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
     const struct node *frames = scene_check_below(root, "output", "frames"),
+                      *every = s->every > 0 ? scene_check_below(root, "output", "every") : NULL,
                       *times = scene_check_below(root, "output", "times");
+    if (every && (frames || times)) return fault_both(r, frames ? frames : times, every);
+    if (every && s->duration / s->every > FRAMES_MOST)
+        return fault(r, every, "%s makes more than %d frames; at least %.3g s is expected", shown(r, every),
+                     FRAMES_MOST, s->duration / FRAMES_MOST);
+    if (every) s->frames = (int)floor(s->duration / s->every * (1 + 1e-12));
     if (s->times.n == 0) return OK;
     if (frames) return fault_both(r, frames, times);
     for (s->frames = 0; s->frames < s->times.n && s->times.value[s->frames] <= s->duration * (1 + 1e-12);) s->frames++;

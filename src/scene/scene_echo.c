@@ -468,7 +468,7 @@ char *scene_echo(const struct scene *s)
     struct scene head = *s;              /* without measures that its space does not have */
     if (s->dim != 2) head.thickness = NAN;
     if (s->dim != 1) head.section = NAN;
-    head.has_frames = s->times.n == 0;
+    head.has_frames = s->times.n == 0 && s->every == 0;
     struct writer w = {.out = open_memstream(&text, &length), .scene = s};
     if (!w.out) return NULL;
     write_group(&w, "", &head);

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "output/output.h"
+
 #define NOWHERE .place = 0
 #define AT(s, member) .place = 1 + offsetof(struct s, member), .size = sizeof(((struct s *)0)->member)
 #define FLAG(s, member) 1 + offsetof(struct s, member)
@@ -327,11 +329,16 @@ const struct key keys[] = {
         "share of the critical step; above 1 shows instability"),
 
     KEY("output", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "what is written, and how often"),
-    KEY("output.frames", KEY_INT, UNIT_NONE, AT(scene, frames), BETWEEN(0, 100000), "20",
+    KEY("output.frames", KEY_INT, UNIT_NONE, AT(scene, frames), BETWEEN(0, FRAMES_MOST), "20",
         "frames after the one at t = 0, evenly spread", .has = FLAG(scene, has_frames)),
     KEY("output.times", KEY_SERIES, UNIT_TIME, AT(scene, times), ABOVE(0), "(evenly spread)",
         "when frames are written, besides the one at t = 0; ascending, those beyond the duration are left out; "
         "instead of output.frames"),
+    KEY("output.every", KEY_REAL, UNIT_TIME, AT(scene, every), ABOVE(0), "none",
+        "time from frame to frame, instead of output.frames and output.times", .words = "none", .word_value = 0),
+    KEY("output.fields", KEY_SET, UNIT_NONE, AT(scene, fields), ANY, "none",
+        "what frames hold besides the standard fields (inputs/README.md): a list, all or none",
+        .words = FRAME_FIELD_WORDS),
     KEY("output.samples", KEY_INT, UNIT_NONE, AT(scene, samples), BETWEEN(1, 10000000), "200",
         "lines of history.csv after the one at t = 0"),
     KEY("output.checkpoint", KEY_REAL, UNIT_TIME, AT(scene, checkpoint_interval), FROM(0), "60 s",

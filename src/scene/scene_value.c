@@ -285,17 +285,37 @@ static status read_choice(struct reader *r, const struct key *k, const struct no
     return OK;
 }
 
+/* The nearest of the words a|b|c, NULL: none is like the text. */
+static const char *word_near(struct reader *r, const char *words, const char *text)
+{
+    const char *nearest = NULL;
+    int least = (int)strlen(text) / 3 + 2;
+    for (const char *c = words; c; c = strchr(c, '|') ? strchr(c, '|') + 1 : NULL) {
+        const char *word = arena_text(r, c, strcspn(c, "|"));
+        const int distance = edit_distance(word, text);
+        if (distance < least) nearest = word, least = distance;
+    }
+    return nearest;
+}
+
 /* Reads a list of words, or none, as bits in the order of the words. */
 static status read_set(struct reader *r, const struct key *k, const struct node *n, unsigned *bits)
 {
     const char *words = word_list(r, k->words);
     *bits = 0;
     if (n->kind == NODE_SCALAR && strcmp(n->text, "none") == 0) return OK;
+    for (const char *c = k->words; c && n->kind == NODE_SCALAR && strcmp(n->text, "all") == 0; c = strchr(c + 1, '|'))
+        *bits = *bits << 1 | 1;
+    if (*bits) return OK;
     if (n->kind != NODE_LIST || n->n == 0)
-        return fault(r, n, "%s is unknown; none or a list of %s is expected", shown(r, n), words);
+        return fault(r, n, "%s is unknown; none, all or a list of %s is expected", shown(r, n), words);
     for (const struct node *c = n->first; c; c = c->next) {
         int word = c->kind == NODE_SCALAR ? word_index(k->words, c->text) : -1;
-        if (word < 0) return fault(r, c, "%s is unknown; %s is expected", shown(r, c), words);
+        if (word < 0) {
+            const char *near = word_near(r, k->words, c->text);
+            return fault(r, c, "%s is unknown%s%s; %s is expected", shown(r, c), near ? "; the nearest is " : "",
+                         near ? near : "", words);
+        }
         *bits |= 1u << word;
     }
     return OK;

@@ -65,7 +65,7 @@ static void point_add(struct convergence_study *s, struct study_point p)
     else if (scene->solver == SOLVER_EXPLICIT)
         value_put(own, &n, value, "time.safety", scene->safety * p.step);
     if (scene->irregularity > 0) value_put(own, &n, value, "particles.seed", (double)scene->seed + p.run);
-    if (scene->times.n == 0) value_put(own, &n, value, "output.frames", 0);
+    if (scene->times.n == 0 && scene->every == 0) value_put(own, &n, value, "output.frames", 0);
     struct scene_override *all = NEW("study.override", s->overrides + n, struct scene_override);
     for (int k = 0; k < s->overrides; k++) all[k] = s->override[k];
     for (int k = 0; k < n; k++) all[s->overrides + k] = own[k];

@@ -164,6 +164,11 @@ done <<'END'
 20|probes: [exact: step bar]|20:10|space line is expected
 19|output: {frames: 2, times: [1 us]}|19:21|keep one of the two
 19|output: {times: [2 us, 1 us]}|19:24|they ascend
+19|output: {frames: 2, every: 1 us}|19:21|keep one of the two
+19|output: {every: 1e-13}|19:10|at least
+19|output: {every: 0}|19:10|every
+19|output: {fields: [von_mise]}|19:19|the nearest is von_mises
+19|output: {fields: heat}|19:10|none, all or a list
 20|probes: [{reaction: {boundary: push}}]|20:22|no boundary push
 20|probes: [{line: {from: [0, 0], to: [1, 1], points: 1}}]|20:44|out of range
 20|probes: {tip}|20:1|list
