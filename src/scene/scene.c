@@ -43,7 +43,6 @@ status scene_from_tree(struct reader *r, const struct node *root)
     TRY(read_probes(r, root));
     TRY(read_growths(r, root));
     TRY(resolve_contact(r, root));
-    TRY(check_variables(r));
     return check_solver(r, root);
 }
 

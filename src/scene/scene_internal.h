@@ -108,10 +108,9 @@ bool looks_like_expression(const struct reader *r, const char *text);
 
 /* ---- variables (scene_number.c) ---------------------------------------------------------------------------------- */
 
-/* Evaluates the variables of a scene. REFUSED for those that are wrong. */
+/* Evaluates the variables of a scene. REFUSED for those that are wrong, or that an override sets and nothing contains.
+ */
 status read_variables(struct reader *r, const struct node *root);
-/* REFUSED for one that an override sets and nothing uses. */
-status check_variables(struct reader *r);
 /* The variable of this name; NULL with a complaint, if there is none, or what it depends on is wrong. */
 const struct quantity *variable_value(struct reader *r, const char *name, char *what, size_t room);
 /* A number of a scene: a plain one as number_read, or an expression of variables. False with a complaint. */

@@ -1,6 +1,7 @@
 /* Numbers of a scene: plain ones, expressions, and the variables that these contain. */
 #include "scene_internal.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -10,7 +11,6 @@ struct variable {
     const struct node *n;                /* its key is the name */
     struct quantity q;
     enum { WAITING, OPEN, KNOWN } state;
-    bool used;
 };
 
 /* ---- variables --------------------------------------------------------------------------------------------------- */
@@ -30,14 +30,20 @@ static bool evaluate(struct reader *r, struct variable *v, char *what, size_t ro
     if (!number_quantity(&v->q, v->n->text)) fine = quantity_of_text(r, v->n->text, &v->q, what, room);
     r->variables_open--;
     v->state = KNOWN;
-    return fine && quantity_bounded(v->q.value, UNIT_NONE, what, room);
+    if (!fine || quantity_bounded(v->q.value, UNIT_NONE, what, room)) return fine;
+    what[strcspn(what, ";")] = '\0';     /* of no key, it has no unit to expect */
+    return false;
 }
 
 static struct variable *variable_nearest(struct reader *r, const char *name)
 {
     struct variable *nearest = r->variable;
-    for (struct variable *v = r->variable; v < r->variable + r->variables; v++)
-        if (edit_distance(v->n->key, name) < edit_distance(nearest->n->key, name)) nearest = v;
+    for (struct variable *v = r->variable; v < r->variable + r->variables; v++) {
+        if (strcmp(v->n->key, name) == 0) return v;
+        const bool own = v->state == OPEN;
+        if (!own && (nearest->state == OPEN || edit_distance(v->n->key, name) < edit_distance(nearest->n->key, name)))
+            nearest = v;
+    }
     return nearest;
 }
 
@@ -53,22 +59,60 @@ const struct quantity *variable_value(struct reader *r, const char *name, char *
         snprintf(what, room, "has an unknown name %.40s; the nearest variable is %.40s", name, v->n->key);
         return NULL;
     }
-    v->used = true;
     if (evaluate(r, v, why, sizeof why)) return &v->q;
-    snprintf(what, room, "needs %.40s, which %s", name, why);
+    const bool further = strncmp(why, "needs ", 6) == 0;                 /* the last of a chain is the one to look at */
+    snprintf(what, room, "%s%.40s%s%s", further ? "" : "needs ", further ? "" : name, further ? "" : ", which ", why);
     return NULL;
 }
+
+static bool is_letter(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
 /* REFUSED for a name that is none, or that means something else in an expression. */
 static status check_variable_name(struct reader *r, const struct node *n)
 {
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
-    const size_t length = strlen(n->key);
-    if (length == 0 || length > NAME_LONGEST || strspn(n->key, letters) != length || strchr(letters + 53, *n->key))
+    size_t length = 0;
+    while (is_letter(n->key[length])) length++;
+    if (length == 0 || length > NAME_LONGEST || n->key[length] || isdigit((unsigned char)*n->key))
         return fault(r, n, "no name of a variable; up to %d letters, digits and _ are expected, a letter first",
                      NAME_LONGEST);
     const char *meaning = reserved_word(n->key);
     return meaning ? fault(r, n, "is %s in expressions; another name is expected, as %.20s1", meaning, n->key) : OK;
+}
+
+/* Does a text contain a name as a whole word? */
+static bool has_word(const char *text, const char *name)
+{
+    const size_t length = strlen(name);
+    for (const char *at = text; (at = strstr(at, name)); at++) {
+        const bool begins = at == text || !is_letter(at[-1]);
+        if (begins && !is_letter(at[length])) return true;
+    }
+    return false;
+}
+
+static bool is_used(const struct node *n, const struct node *variable)
+{
+    if (n->kind == NODE_SCALAR) return n != variable && has_word(n->text, variable->key);
+    for (const struct node *c = n->first; c; c = c->next)
+        if (is_used(c, variable)) return true;
+    return false;
+}
+
+/* REFUSED for an override of a variable that no value contains: a name that is misspelt would change nothing. */
+static status check_overrides(struct reader *r, const struct node *root)
+{
+    for (const struct variable *v = r->variable; v < r->variable + r->variables; v++) {
+        if (v->n->origin < 0 || is_used(root, v->n)) continue;
+        const struct variable *nearest = NULL;
+        for (const struct variable *other = r->variable; other < r->variable + r->variables; other++)
+            if (other->n->origin < 0 && (!nearest || edit_distance(other->n->key, v->n->key) <
+                                                         edit_distance(nearest->n->key, v->n->key)))
+                nearest = other;
+        return fault(r, v->n, "no value of the scene contains this variable%s%s",
+                     nearest ? "; the nearest is " : "; `cleave help variables` says what they are for",
+                     nearest ? nearest->n->key : "");
+    }
+    return OK;
 }
 
 status read_variables(struct reader *r, const struct node *root)
@@ -91,15 +135,7 @@ status read_variables(struct reader *r, const struct node *root)
     }
     for (struct variable *v = r->variable; v < r->variable + r->variables; v++)
         if (!evaluate(r, v, what, sizeof what)) return fault(r, v->n, "%s %s", shown(r, v->n), what);
-    return OK;
-}
-
-status check_variables(struct reader *r)
-{
-    for (const struct variable *v = r->variable; v < r->variable + r->variables; v++)
-        if (v->n->origin >= 0 && !v->used)
-            return fault(r, v->n, "no number of the scene contains this variable; `cleave help variables` says how");
-    return OK;
+    return check_overrides(r, root);
 }
 
 /* ---- numbers ----------------------------------------------------------------------------------------------------- */

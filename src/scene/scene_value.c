@@ -227,25 +227,28 @@ status read_number(struct reader *r, const struct key *k, const struct node *n, 
     return check_range(r, k, n, *value);
 }
 
-/* The value of an expression that is a whole number. */
-static status read_int_expression(struct reader *r, const struct key *k, const struct node *n, int *value)
+/* The value of an expression that is a whole number, to rounding. */
+static status read_whole(struct reader *r, const struct node *n, real *value)
 {
     char what[256];
     real number;
     if (!number_of_text(r, &number, n->text, UNIT_NONE, false, what, sizeof what))
         return fault(r, n, "%s %s", shown(r, n), what);
-    const real whole = round(number);
-    if (fabs(number - whole) > 1e-9 * (1 + fabs(whole)))
-        return fault(r, n, "%s is %g; a whole number is expected", shown(r, n), number);
-    *value = (int)(whole > INT32_MAX ? INT32_MAX : whole < INT32_MIN ? INT32_MIN : whole);
-    return check_range(r, k, n, whole);
+    *value = round(number);
+    if (fabs(number - *value) <= 1e-9 * (1 + fabs(number))) return OK;
+    return fault(r, n, "%s is %g; a whole number is expected", shown(r, n), number);
 }
 
 /* Reads a whole number in decimal digits; out of 32 bits it is clamped, and the range refuses it. */
 static status read_int(struct reader *r, const struct key *k, const struct node *n, int *value)
 {
     const char *c = n->text + (*n->text == '-');
-    if (n->kind == NODE_SCALAR && looks_like_expression(r, n->text)) return read_int_expression(r, k, n, value);
+    if (n->kind == NODE_SCALAR && (strchr(n->text, '/') || looks_like_expression(r, n->text))) {
+        real whole;
+        TRY(read_whole(r, n, &whole));
+        *value = (int)real_max(INT32_MIN, real_min(INT32_MAX, whole));
+        return check_range(r, k, n, whole);
+    }
     size_t digits = strspn(c, "0123456789");
     if (n->kind != NODE_SCALAR || digits == 0 || c[digits] != '\0' || (*c == '0' && digits > 1))
         return fault(r, n, "%s is not a whole number; digits alone are expected, as 20", shown(r, n));
@@ -259,8 +262,11 @@ static status read_int(struct reader *r, const struct key *k, const struct node 
 static status read_seed(struct reader *r, const struct node *n, uint64_t *value)
 {
     size_t digits = strspn(n->text, "0123456789");
+    real whole = -1;
+    if (n->kind == NODE_SCALAR && looks_like_expression(r, n->text)) TRY(read_whole(r, n, &whole));
     errno = 0;
-    if (n->kind == NODE_SCALAR && digits > 0 && n->text[digits] == '\0') *value = strtoull(n->text, NULL, 10);
+    if (whole >= 0 && whole < 9e15) *value = (uint64_t)whole;
+    else if (n->kind == NODE_SCALAR && digits > 0 && n->text[digits] == '\0') *value = strtoull(n->text, NULL, 10);
     else errno = EINVAL;
     if (errno == 0) return OK;
     return fault(r, n, "%s is no seed; a whole number from 0 to 18446744073709551615 is expected",

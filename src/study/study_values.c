@@ -37,9 +37,9 @@ static const char *value_end(const char *at, char mark)
             return at;
         else if (*at == '"' || *at == '\'')
             quote = *at;
-        else if (*at == '[' || *at == '{')
+        else if (strchr("[{(", *at))
             depth++;
-        else if ((*at == ']' || *at == '}') && depth > 0)
+        else if (strchr("]})", *at) && depth > 0)
             depth--;
     }
     return at;

@@ -29,6 +29,7 @@ static void lists_and_rows_are_read(void **state)
     check_values("a= x , y ", 2, (const char *[]){"x", "y"});
     check_values("a=[1, 2],[3, 4]", 2, (const char *[]){"[1, 2]", "[3, 4]"});
     check_values("a={step: {until: 1us, from: 0}}", 1, (const char *[]){"{step: {until: 1us, from: 0}}"});
+    check_values("a=max(b, 2 mm),3 mm", 2, (const char *[]){"max(b, 2 mm)", "3 mm"});
     check_values("a=\"x,y\",z", 2, (const char *[]){"\"x,y\"", "z"});
     check_values("a=10:30:10", 3, (const char *[]){"10", "20", "30"});
     check_values("a=10:30:10 m/s", 3, (const char *[]){"10 m/s", "20 m/s", "30 m/s"});
