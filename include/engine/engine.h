@@ -176,6 +176,10 @@ struct run_report {
     const volatile sig_atomic_t *stop;   /* set by a signal: checkpoint and leave; NULL: never */
 };
 
+/* Velocities before a step moves them, of particles and of nodes, where damping acts; from step to step it has no
+ * state. */
+struct damping_state { real *before[2][DIM_MAX]; };
+
 struct engine {
     const struct scene *scene;           /* borrowed */
     struct kernels kernels;
@@ -195,6 +199,7 @@ struct engine {
     struct contact contact;
     struct loads loads;
     struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c) */
+    struct damping_state damping;
     struct solver solver;
     struct fracture_state fracture;
     struct diagnostics diagnostics;
@@ -269,6 +274,15 @@ void engine_ends_update(struct engine *e);
 /* Sum of v . f over points on the grid where they are now, without any motion [W]; accounts of loads change.
  * `middle`: half a step later [s]. */
 real engine_grid_power(struct engine *e, real middle);
+/* Bulk damping (engine_damping.c): keeps velocities before a step moves them; its loss since the step before, once it
+ * has [J]; slows all for the next step. The loss of the last kick, which nothing follows, by the kinetic energies
+ * before it and across it [J]. */
+void engine_damping_begin(struct engine *e);
+real engine_damping_loss(struct engine *e);
+void engine_damping_end(struct engine *e);
+real engine_damping_last(const struct engine *e, real kinetic_before, real kinetic);
+void engine_damping_free(struct engine *e);
+
 /* Dashpots of absorbing faces, by the constants of what moves their particles (engine_absorbing.c). */
 void engine_absorbing_make(struct engine *e);
 /* Bodies in the reference frame (engine_mesh.c): marks their particles, with reasons; makes their mesh; its critical
@@ -309,7 +323,7 @@ struct load_rise {
 };
 
 /* How many levels of coarse cells there are, and why `mpm.levels: auto` takes as many as it does. */
-enum levels_why { LEVELS_BY_LOADS, LEVELS_AT_REST, LEVELS_NO_MESH, LEVELS_FEW, LEVELS_LONG_STEP };
+enum levels_why { LEVELS_BY_LOADS, LEVELS_AT_REST, LEVELS_NO_MESH, LEVELS_FEW, LEVELS_DAMPED, LEVELS_LONG_STEP };
 struct levels_choice {
     int levels, automatic;               /* in this run; of auto */
     bool given;                          /* by the scene */

@@ -46,6 +46,7 @@ struct boundary {
     uint64_t time_contents;              /* hash of that file; 0: not read */
     bool time_unit;                      /* the column has the unit of the value, which then says the direction alone */
     struct profile profile;              /* BODY_FORCE: factor on value */
+    bool by_mass;                        /* BODY_FORCE: gravity; value is an acceleration [m/s^2] */
     int face;                            /* TRACTION, ABSORBING: axis of the face's normal */
     int side;                            /* TRACTION, ABSORBING: +1 upper face, -1 lower face */
     real section;                        /* TRACTION, ABSORBING: of all bodies, in line [m^2], in the plane [m], 1 in
@@ -62,7 +63,8 @@ struct load {
     int32_t *particle;                   /* ascending */
     real *share[DIM_MAX];                /* [n] by component, TRACTION: area [m^2], in the face's plane 3/2 of it on a
                                             column's first particle, -1/2 on the next; BODY_FORCE: volume times
-                                            profile [m^3]. Equal ones are one array, of several components or loads */
+                                            profile [m^3], or mass [kg]. Equal ones are one array, of several components
+                                            or loads */
     /* [n] ABSORBING: area on first particles alone; 3/2 of it on these and -1/2 on the next, for nodes of a grid, to
      * which first particles give some of it behind the face [m^2] */
     real *outer, *edge;

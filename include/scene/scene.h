@@ -95,6 +95,8 @@ struct scene {
     real thickness;                      /* 2D [m]; 1 in 3D */
     real section;                        /* 1D: cross-section A [m^2]; key `section`, default 1 */
     real duration;                       /* [s] */
+    real gravity[DIM_MAX];               /* of particles and of rigid bodies that fly [m/s^2] */
+    real damping;                        /* of particles: force over momentum [1/s] */
     enum method method;
     enum model model;
     enum solver_kind solver;             /* other than explicit: static equilibrium (solver.h) */

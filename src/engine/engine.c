@@ -328,6 +328,7 @@ static status prepare(struct engine *e, struct step *now)
         e->coupling.damped += interface_damp_begin(&e->coupling.zone, &e->part, e->coupling.damping_share);
         loads_mirror(&e->loads, &e->part);       /* bonds that break ask images for their velocity */
     }
+    engine_damping_begin(e);
     lap(&e->report.laps, LAP_GRID);
     return OK;
 }
@@ -376,10 +377,14 @@ static void move(struct engine *e, struct step *now)
     lap(&e->report.laps, LAP_GRID);
 }
 
-/* The line of history.csv of a sample, at t_n; then t and the step advance. */
+/* The line of history.csv of a sample, at t_n; damping; then t and the step advance. */
 static void finish(struct engine *e)
 {
+    const real loss = engine_damping_loss(e);
+    e->coupling.damped += loss;
+    e->report.sampling.energy.damped += loss;
     engine_sample_end(e);
+    engine_damping_end(e);
     e->clock.t = (real)(e->clock.step + 1) * e->clock.dt;
     e->clock.step++;
     lap(&e->report.laps, LAP_SAMPLE);

@@ -105,6 +105,7 @@ struct levels_choice engine_levels_choice(const struct engine *e)
     if (s->solver != SOLVER_EXPLICIT) c.why = LEVELS_AT_REST;
     else if (e->reference.mesh.points == 0) c.why = LEVELS_NO_MESH;
     else if (e->part.n_body < PAYS) c.why = LEVELS_FEW;
+    else if (s->damping > 0) c.why = LEVELS_DAMPED;
     else if (s->time_step > LEVELS_STEP_MOST * e->clock.dt_critical) c.why = LEVELS_LONG_STEP;
     else {
         const real most = edge_for(&c.rise, c.across, ACROSS);
@@ -157,6 +158,7 @@ static void automatic_text(const struct engine *e, const struct levels_choice *c
     else if (c->why == LEVELS_FEW)
         snprintf(text, room, "none, as the body has %lld particles: from %d on they save time",
                  (long long)e->part.n_body, PAYS);
+    else if (c->why == LEVELS_DAMPED) snprintf(text, room, "none with damping, which knows one time step");
     else if (c->why == LEVELS_LONG_STEP)
         snprintf(text, room, "none, as time.step is %.2f of the critical one, and they bear %.2f",
                  e->scene->time_step / e->clock.dt_critical, LEVELS_STEP_MOST);

@@ -459,6 +459,7 @@ void engine_free(struct engine *e)
     }
     memory_free(e->mpm.field);
     grid_contact_free(&e->mpm.contact);
+    engine_damping_free(e);
     bonds_free(&e->bonds);
     contact_free(&e->contact);
     memory_free(e->rigid);

@@ -20,7 +20,7 @@ status engine_rigid_make(struct engine *e)
         TRY(status_at(b->place, rigid_make(&e->rigid[k], &b->shape, s->dim, b->mass, b->velocity,
                                            s->spacing)));
         e->rigid[k].ramp = b->ramp;
-        memcpy(e->rigid[k].weight, b->force, sizeof b->force);
+        for (int d = 0; d < s->dim; d++) e->rigid[k].weight[d] = b->force[d] + b->mass * s->gravity[d];
     }
     return OK;
 }

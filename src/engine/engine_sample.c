@@ -292,7 +292,9 @@ void engine_sample_last(struct engine *e)
     sample_state(e);
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, &e->reference);
+    const real before = kinetic;
     if (e->scene->solver == SOLVER_EXPLICIT) kinetic += 0.5 * e->clock.dt * power_last(e, &held);
+    e->report.sampling.energy.damped += engine_damping_last(e, before, kinetic);
     e->report.sampling.energy.damped += e->mpm.contact.begun;
     const struct rigid_energy rigid = engine_rigid_energy(e);
     sample_write(e, e->clock.t - 0.5 * e->clock.dt, kinetic + rigid.last,

@@ -35,7 +35,8 @@ static void body_shares(struct load *l, const struct particles *p)
 {
 #pragma omp parallel for schedule(static)
     for (int64_t k = 0; k < l->n; k++)
-        l->share[0][k] = p->volume0[l->particle[k]] * profile_at(&l->boundary->profile, p, l->particle[k]);
+        l->share[0][k] = (l->boundary->by_mass ? p->mass : p->volume0)[l->particle[k]] *
+                         profile_at(&l->boundary->profile, p, l->particle[k]);
 }
 
 static void shares_allocate(struct load *l, int dim)

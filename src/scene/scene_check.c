@@ -70,6 +70,20 @@ status check_absorbing(struct reader *r, const struct node *root)
     return OK;
 }
 
+/* REFUSED for damping where nothing moves in time, or cells have steps of their own. */
+static status check_damping(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *damping = node_find(root, "damping"), *levels = scene_check_below(root, "mpm", "levels");
+    if (!(s->damping > 0)) return OK;
+    if (s->solver != SOLVER_EXPLICIT)
+        return fault(r, damping, "a static equilibrium knows no velocities; solver: explicit is expected");
+    if (levels && s->levels != LEVELS_AUTO && s->levels > 0)
+        return fault(r, levels, "%s levels have time steps of their own, damping knows one; 0 is expected",
+                     shown(r, levels));
+    return OK;
+}
+
 /* REFUSED for more than 1e12 time steps. */
 static status check_steps(struct reader *r, const struct node *root)
 {
@@ -307,5 +321,6 @@ status check_scene(struct reader *r, const struct node *root)
     TRY(check_model(r, root));
     TRY(check_accuracy(r, root));
     TRY(check_times(r, root));
+    TRY(check_damping(r, root));
     return check_steps(r, root);
 }

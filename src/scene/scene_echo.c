@@ -441,8 +441,10 @@ static void write_boundary(struct writer *w, const struct boundary *b)
 static void write_boundaries(struct writer *w)
 {
     const struct scene *s = w->scene;
-    if (s->boundaries) fputs("boundary:\n", w->out);
-    for (int k = 0; k < s->boundaries; k++) {
+    const bool falls = s->boundaries > 0 && s->boundary[s->boundaries - 1].by_mass;      /* a key of its own */
+    const int n = s->boundaries - falls;
+    if (n) fputs("boundary:\n", w->out);
+    for (int k = 0; k < n; k++) {
         begin_item(w);
         write_boundary(w, &s->boundary[k]);
     }

@@ -30,6 +30,10 @@ const struct key keys[] = {
         "out of the plane; plane stress and plane strain only"),
     KEY("section", KEY_REAL, UNIT_AREA, AT(scene, section), ABOVE(0), "1 m^2", "cross-section of a bar; line only"),
     KEY("duration", KEY_REAL, UNIT_TIME, AT(scene, duration), ABOVE(0), REQUIRED, "simulated time"),
+    KEY("gravity", KEY_POINT, UNIT_ACCELERATION, AT(scene, gravity), ANY, "(0)",
+        "acceleration of every particle and of rigid bodies that fly"),
+    KEY("damping", KEY_REAL, UNIT_RATE, AT(scene, damping), FROM(0), "0 1/s",
+        "c of the force -c m v on every particle (alpha of Rayleigh's damping): vibrations die out as exp(-c t/2)"),
     KEY("method", KEY_CHOICE, UNIT_NONE, AT(scene, method), ANY, "adaptive",
         "peridynamics, material points, or material points that become peridynamic where the material breaks; auto: "
         "these and spacing, horizon, shape, coupling and step from the cost-accuracy table, by accuracy",

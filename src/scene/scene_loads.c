@@ -185,16 +185,31 @@ static status read_boundary(struct reader *r, const struct node *n, struct bound
     return check_time_unit(r, kind, b);
 }
 
+/* Gravity is one more load, behind those of the list. */
+static status gravity_add(struct reader *r, const struct node *n)
+{
+    struct scene *s = r->scene;
+    struct boundary *b = &s->boundary[s->boundaries];
+    if (s->boundaries == BOUNDARIES_MAX)
+        return fault(r, n, "is one load more than the %d that there may be", BOUNDARIES_MAX);
+    for (int k = 0; k < s->boundaries; k++)
+        if (strcmp(s->boundary[k].name, "gravity") == 0)
+            return fault(r, n, "a boundary has this name; another one is expected there");
+    *b = (struct boundary){.name = "gravity", .kind = BOUNDARY_BODY_FORCE, .body = -1, .by_mass = true};
+    memcpy(b->value, s->gravity, sizeof b->value);
+    fault_place(r, n, b->place, sizeof b->place);
+    s->boundaries++;
+    return OK;
+}
+
 status read_boundaries(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
-    const struct node *list = node_find(root, "boundary");
-    if (!list) return OK;
-    TRY(expect_list(r, key_find("", "boundary"), list));
-    s->boundaries = list->n;
-    s->boundary = NEW("boundary conditions", list->n, struct boundary);
-    const struct node *n = list->first;
-    for (int k = 0; k < s->boundaries; k++, n = n->next) {
+    const struct node *list = node_find(root, "boundary"), *n = list ? list->first : NULL;
+    const bool falls = dot(s->gravity, s->gravity, s->dim) > 0;
+    if (list) TRY(expect_list(r, key_find("", "boundary"), list));
+    s->boundary = NEW("boundary conditions", (list ? list->n : 0) + falls, struct boundary);
+    for (int k = 0; n; k++, s->boundaries++, n = n->next) {
         struct boundary *b = &s->boundary[k];
         b->body = -1;
         fault_place(r, n, b->place, sizeof b->place);
@@ -204,7 +219,7 @@ status read_boundaries(struct reader *r, const struct node *root)
             if (strcmp(s->boundary[j].name, b->name) == 0)
                 return fault(r, n, "%s is the name of another boundary; every one has its own", b->name);
     }
-    return OK;
+    return falls ? gravity_add(r, node_find(root, "gravity")) : OK;
 }
 
 /* ---- probes ------------------------------------------------------------------------------------------------------ */

@@ -24,6 +24,7 @@ const struct unit_row unit_rows[UNITS] = {
     [UNIT_RATE] = {"a rate", "1/s", "100 1/s", {0, 0, -2}},
     [UNIT_MASS] = {"a mass", "kg", "1.6 kg", {0, 2, 0}},
     [UNIT_FORCE] = {"a force", "N", "20 N", {2, 2, -4}},
+    [UNIT_ACCELERATION] = {"an acceleration", "m/s^2", "-9.81 m/s^2", {2, 0, -4}},
 };
 
 /* ---- units ------------------------------------------------------------------------------------------------------- */

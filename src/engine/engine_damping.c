@@ -1,0 +1,120 @@
+/* Bulk damping: the force -c m v on every particle and node, mass-proportional as the first part of Rayleigh's damping.
+ *
+ * Between two steps all velocities shrink by exp(-c dt). However large c dt is, that only takes energy, and vibrations
+ * die out as they should: the product of the two roots of the difference equation of an oscillator is exp(-c dt), so
+ * that its amplitude shrinks by exp(-c dt/2) a step to the last digit.
+ *
+ * The loss follows from the energy that leap-frog keeps, E = 1/2 m v- . v+ + U, v- and v+ before and after a step. With
+ * the v+ of one step, the v- = D v+ of the next and its w+, the same forces that do the work give
+ * E' - E = -1/2 m (1 - D) v+ . (v+ + w+). */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/team.h"
+#include "engine/engine.h"
+
+#define EXPONENT_MOST 50.0               /* of what is then no more */
+
+/* What has mass and velocity; flag NULL: nodes. */
+struct damped {
+    int dim;
+    real factor;                         /* D */
+    const real *mass;
+    real *const *v, *const *before;      /* before: v- of this step */
+    const uint8_t *flag;
+};
+
+static bool moves_itself(const struct damped *a, int64_t i) { return !(a->flag && a->flag[i] & FLAG_MESHED); }
+
+/* The loss of those from first to end - 1 since the step before [J]. */
+static void loss_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct damped *a = context;
+    const real grown = 1 / a->factor;
+    for (int d = 0; d < a->dim; d++)
+        for (int64_t i = first; i < end; i++) {
+            const real before = a->before[d][i];
+            if (moves_itself(a, i)) sum[0] += 0.5 * (grown - 1) * a->mass[i] * before * (grown * before + a->v[d][i]);
+        }
+}
+
+/* Slows them; sums are the momentum by component that they lose [N s]. */
+static void slow_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct damped *a = context;
+    for (int d = 0; d < a->dim; d++)
+        for (int64_t i = first; i < end; i++) {
+            if (moves_itself(a, i)) sum[d] += (1 - a->factor) * a->mass[i] * a->v[d][i];
+            a->v[d][i] *= a->factor;
+        }
+}
+
+static real damping_exponent(const struct engine *e)
+{
+    return real_min(e->scene->damping * e->clock.dt, EXPONENT_MOST);
+}
+
+/* Particles and nodes; returns how many of the two there are. */
+static int damped_find(struct engine *e, struct damped *all, int64_t *n)
+{
+    struct particles *p = &e->part;
+    struct grid *nodes = &e->reference.mesh.grid;
+    const real factor = exp(-damping_exponent(e));
+    n[0] = p->n, n[1] = nodes->n;
+    all[0] = (struct damped){p->dim, factor, p->mass, p->v, e->damping.before[0], p->flag};
+    all[1] = (struct damped){p->dim, factor, nodes->mass, nodes->velocity, e->damping.before[1], NULL};
+    return e->reference.mesh.points > 0 ? 2 : 1;
+}
+
+void engine_damping_begin(struct engine *e)
+{
+    struct damped all[2];
+    int64_t n[2];
+    if (!(e->scene->damping > 0)) return;
+    const int kinds = damped_find(e, all, n);
+    for (int k = 0; k < kinds; k++)
+        for (int d = 0; d < e->part.dim; d++) {
+            if (!e->damping.before[k][d]) e->damping.before[k][d] = NEW("engine.damping", n[k], real);
+            memcpy(e->damping.before[k][d], all[k].v[d], (size_t)n[k] * sizeof(real));
+        }
+}
+
+real engine_damping_loss(struct engine *e)
+{
+    struct damped all[2];
+    int64_t n[2];
+    real loss = 0, sum;
+    if (!(e->scene->damping > 0) || e->clock.step == 0) return 0;        /* nothing is damped before the first step */
+    const int kinds = damped_find(e, all, n);
+    for (int k = 0; k < kinds; k++) team_sums(n[k], 1, loss_block, &all[k], &sum), loss += sum;
+    return loss;
+}
+
+real engine_damping_last(const struct engine *e, real kinetic_before, real kinetic)
+{
+    const real grown = exp(damping_exponent(e));
+    return e->clock.step > 0 ? (grown - 1) * (grown * kinetic_before + kinetic) : 0;
+}
+
+void engine_damping_end(struct engine *e)
+{
+    struct damped all[2];
+    int64_t n[2];
+    if (!(e->scene->damping > 0)) return;
+    const int kinds = damped_find(e, all, n);
+    for (int k = 0; k < kinds; k++) {
+        real sum[DIM_MAX];
+        team_sums(n[k], e->part.dim, slow_block, &all[k], sum);
+        for (int d = 0; d < e->part.dim; d++) e->loads.impulse[d] -= sum[d];
+    }
+    for (int c = 0; c < square(e->part.dim) && e->part.gradient[c]; c++) /* what APIC carries beside velocities */
+        for (int64_t i = 0; i < e->part.n; i++) e->part.gradient[c][i] *= all[0].factor;
+    loads_mirror(&e->loads, &e->part);
+}
+
+void engine_damping_free(struct engine *e)
+{
+    for (int k = 0; k < 2; k++)
+        for (int d = 0; d < DIM_MAX; d++) memory_free(e->damping.before[k][d]);
+}
