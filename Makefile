@@ -12,7 +12,7 @@ known = $(shell $(CC) -Werror $(1) -x c -c -o /dev/null /dev/null 2>/dev/null &&
 
 WARN     := -Wall -Wextra -Wshadow -Werror=implicit-function-declaration -Wno-unknown-pragmas -Wno-psabi
 WARN     += $(if $(call known,-Wpass-failed),-Wno-pass-failed)
-LIBRARIES := hdf5 hwloc yaml-0.1
+LIBRARIES := hdf5 hwloc yaml-0.1 libpng libtiff-4
 
 CPPFLAGS += -I. -Iinclude -I$(BUILD) -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'
 CFLAGS   += -std=c11 $(OPTIMISE) -g -ffp-contract=fast -fno-math-errno -fno-trapping-math -fopenmp $(WARN)

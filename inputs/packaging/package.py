@@ -16,6 +16,8 @@ class Cleave(MakefilePackage):
     depends_on("hdf5@1.10: ~mpi")
     depends_on("hwloc@2:")
     depends_on("libyaml")
+    depends_on("libpng")
+    depends_on("libtiff")
     depends_on("gnuplot", type="run", when="+gnuplot")
 
     def build(self, spec, prefix):

@@ -16,6 +16,8 @@ missing()
     library hdf5 || echo "HDF5"
     library hwloc || echo "hwloc"
     library yaml-0.1 || echo "libyaml"
+    library libpng || echo "libpng"
+    library libtiff-4 || echo "libtiff"
     [ "${1:-}" != tests ] || library cmocka || echo "cmocka (for the tests)"
     [ "${1:-}" != tests ] || ! have apt-get || reads_frames || echo "h5py of Python (for a test)"
 }
@@ -30,15 +32,15 @@ as_root() {
 }
 
 if have apt-get; then
-    packages="gcc libc6-dev pkg-config libhdf5-dev libhwloc-dev libyaml-dev gnuplot-nox"
+    packages="gcc libc6-dev pkg-config libhdf5-dev libhwloc-dev libyaml-dev libpng-dev libtiff-dev gnuplot-nox"
     tests="libcmocka-dev python3-h5py"
     install() { as_root apt-get update -q && as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends $packages; }
 elif have dnf; then
-    packages="gcc pkgconf-pkg-config hdf5-devel hwloc-devel libyaml-devel gnuplot"
+    packages="gcc pkgconf-pkg-config hdf5-devel hwloc-devel libyaml-devel libpng-devel libtiff-devel gnuplot"
     tests=libcmocka-devel
     install() { as_root dnf install -qy $packages; }
 elif have brew; then
-    packages="gcc pkg-config hdf5 hwloc libyaml gnuplot"
+    packages="gcc pkg-config hdf5 hwloc libyaml libpng libtiff gnuplot"
     tests=cmocka
     install() { brew install -q $packages; }
 else

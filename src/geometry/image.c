@@ -1,0 +1,81 @@
+/* Images to voxels. */
+#include "geometry/image.h"
+
+#include "base/memory.h"
+#include "base/team.h"
+#include "pages.h"
+
+enum { SHRINKS_MOST = 1100, BITS = 8 }; /* deflate by 1032 at the most; a byte may hold eight pixels */
+enum { BYTES_A_VOXEL = 16 };            /* grey values and levels while they are made */
+
+int luminance(int red, int green, int blue) { return (int)(0.2126 * red + 0.7152 * green + 0.0722 * blue + 0.5); }
+
+status pages_add(struct pages *p, const struct source *s, int64_t width, int64_t height, uint16_t **page)
+{
+    const int64_t memory = team_memory();
+    const real all = (real)width * (real)height * (real)(p->n + 1);
+    if (width < 1 || height < 1) return status_set(REFUSED, "%s: an image without pixels", s->path);
+    if (p->n > 0 && (width != p->width || height != p->height))
+        return status_set(REFUSED, "%s: %lld x %lld pixels where slices before it have %lld x %lld", s->path,
+                          (long long)width, (long long)height, (long long)p->width, (long long)p->height);
+    if ((real)width * (real)height > (real)s->length * SHRINKS_MOST * BITS)
+        return status_set(REFUSED, "%s: claims %lld x %lld pixels, more than a file of its size holds", s->path,
+                          (long long)width, (long long)height);
+    if (all > VOXELS_MAX || (memory > 0 && all * BYTES_A_VOXEL > (real)memory))
+        return status_set(REFUSED, "%s: %.3g voxels are more than memory holds; fewer or smaller slices are expected",
+                          s->path, all);
+    const int64_t size = width * height;
+    p->grey = memory_resize("image.grey", p->grey, p->n * size, (p->n + 1) * size, sizeof *p->grey);
+    *page = p->grey + p->n * size;
+    p->width = width, p->height = height, p->n++;
+    return OK;
+}
+
+static status file_read(struct pages *p, const char *path)
+{
+    struct source s;
+    TRY(source_open(&s, path));
+    const bool png = s.length > 4 && memcmp(s.text, "\x89PNG", 4) == 0;
+    const bool tiff = s.length > 4 && (memcmp(s.text, "II", 2) == 0 || memcmp(s.text, "MM", 2) == 0);
+    const status result = png    ? png_read_pages(p, &s)
+                          : tiff ? tiff_read_pages(p, &s)
+                                 : status_set(REFUSED, "%s: neither PNG nor TIFF", path);
+    source_close(&s);
+    return result;
+}
+
+static status files_read(struct pages *p, int files, char *const *path, int dim)
+{
+    for (int k = 0; k < files; k++) TRY(file_read(p, path[k]));
+    if (dim == 3 || p->n == 1) return OK;
+    return status_set(REFUSED, "%s: %lld images; in the plane one is expected", path[0], (long long)p->n);
+}
+
+/* Turns the rows of each page round: y goes up. */
+static void rows_turn(struct pages *p)
+{
+    for (int64_t k = 0; k < p->n; k++)
+        for (int64_t j = 0; j < p->height / 2; j++) {
+            uint16_t *low = p->grey + (k * p->height + j) * p->width;
+            uint16_t *high = p->grey + (k * p->height + p->height - 1 - j) * p->width;
+            for (int64_t i = 0; i < p->width; i++) {
+                const uint16_t grey = low[i];
+                low[i] = high[i], high[i] = grey;
+            }
+        }
+}
+
+status image_read(struct voxels *v, int files, char *const *path, int dim, const real *size, const real *from)
+{
+    struct pages p = {0};
+    const status result = files_read(&p, files, path, dim);
+    *v = (struct voxels){0};
+    if (result != OK) {
+        memory_free(p.grey);
+        return result;
+    }
+    rows_turn(&p);
+    *v = (struct voxels){.dim = dim, .n = {p.width, p.height, p.n}, .grey = p.grey};
+    for (int d = 0; d < dim; d++) v->size[d] = size[d], v->from[d] = from[d];
+    return OK;
+}

@@ -1,0 +1,250 @@
+/* Images and stacks: grey values as they were written, in all kinds of PNG and TIFF; distances of voxels against all
+ * pairs; damaged files. */
+#include <math.h>
+#include <png.h>
+#include <stdlib.h>
+#include <tiffio.h>
+#include <unistd.h>
+
+#include "tests/support/near.h"
+
+#include "base/memory.h"
+#include "geometry/image.h"
+
+enum { WIDE = 7, HIGH = 5, MOST = 1 << 16 };
+
+/* A grey value for each pixel, row 0 above. */
+static int value_at(int row, int column, int page) { return (37 * row + 11 * column + 50 * page + 3) % 256; }
+
+/* kind: colour type of PNG; bits 1, 8 or 16. Colours have three equal values, palettes the value as an entry. */
+static void write_png(const char *name, int kind, int bits)
+{
+    FILE *file = fopen(name, "wb");
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    png_infop info = png_create_info_struct(png);
+    png_byte row[8 * WIDE];
+    png_color palette[256];
+    for (int k = 0; k < 256; k++) palette[k] = (png_color){(png_byte)k, (png_byte)k, (png_byte)k};
+    png_init_io(png, file);
+    png_set_IHDR(png, info, WIDE, HIGH, bits, kind, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    if (kind == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette, 256);
+    png_write_info(png, info);
+    const int samples = kind == PNG_COLOR_TYPE_RGB_ALPHA ? 4 : kind == PNG_COLOR_TYPE_RGB ? 3 : 1;
+    for (int j = 0; j < HIGH; j++) {
+        memset(row, 0, sizeof row);
+        for (int i = 0; i < WIDE; i++) {
+            const int value = value_at(j, i, 0);
+            for (int c = 0; c < samples && bits == 8; c++) row[samples * i + c] = (png_byte)value;
+            if (bits == 16) row[2 * i] = (png_byte)value, row[2 * i + 1] = 7;
+            if (bits == 1 && value > 127) row[0] = (png_byte)(row[0] | 0x80 >> i);
+        }
+        png_write_row(png, row);
+    }
+    png_write_end(png, NULL);
+    png_destroy_write_struct(&png, &info);
+    fclose(file);
+}
+
+static void write_tiff(const char *name, int pages, int bits, int samples, int compression)
+{
+    TIFF *tiff = TIFFOpen(name, "w");
+    for (int p = 0; p < pages; p++) {
+        TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, WIDE);
+        TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, HIGH);
+        TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, bits);
+        TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, samples);
+        TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, samples == 1 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB);
+        TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+        TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, HIGH);
+        TIFFSetField(tiff, TIFFTAG_COMPRESSION, compression);
+        for (int j = 0; j < HIGH; j++) {
+            uint8_t row[8 * WIDE];
+            uint16_t wide[WIDE];
+            for (int i = 0; i < WIDE; i++) {
+                for (int c = 0; c < samples; c++) row[samples * i + c] = (uint8_t)value_at(j, i, p);
+                wide[i] = (uint16_t)(value_at(j, i, p) * 256 + 7);
+            }
+            assert_int_equal(TIFFWriteScanline(tiff, bits == 16 ? (void *)wide : row, (uint32_t)j, 0), 1);
+        }
+        TIFFWriteDirectory(tiff);
+    }
+    TIFFClose(tiff);
+}
+
+static const real size[] = {2, 2, 3}, from[] = {10, 20, 30};
+
+static void check_values(const char *name, int dim, int pages, int bits)
+{
+    struct voxels v;
+    char path[32], *const paths[] = {path};
+    snprintf(path, sizeof path, "%s", name);
+    assert_ok(image_read(&v, 1, paths, dim, size, from));
+    assert_int_equal(v.n[0], WIDE), assert_int_equal(v.n[1], HIGH), assert_int_equal(v.n[2], pages);
+    for (int p = 0; p < pages; p++)
+        for (int j = 0; j < HIGH; j++)
+            for (int i = 0; i < WIDE; i++) {
+                const int value = value_at(j, i, p);
+                const real X[] = {10 + 2 * i + 0.7, 20 + 2 * (HIGH - 1 - j) + 1.2, 30 + 3 * p + 2.9};
+                assert_int_equal(voxels_grey(&v, X), bits == 16  ? value * 256 + 7
+                                                     : bits == 1 ? value / 128 * 255
+                                                                 : value);
+            }
+    assert_int_equal(voxels_grey(&v, (real[]){9.9, 25, 31}), -1);
+    assert_int_equal(voxels_grey(&v, (real[]){12, 30, 31}), -1);
+    /* between two voxels, and a rounding below that place: the upper one */
+    assert_int_equal(voxels_grey(&v, (real[]){12 - 1e-12, 20, 30}), voxels_grey(&v, (real[]){12.5, 20.5, 30.5}));
+    voxels_free(&v);
+}
+
+static void kinds_of_images(void **state)
+{
+    (void)state;
+    static const struct {
+        int kind, bits;
+    } png[] = {{PNG_COLOR_TYPE_GRAY, 8}, {PNG_COLOR_TYPE_GRAY, 16},     {PNG_COLOR_TYPE_GRAY, 1},
+               {PNG_COLOR_TYPE_RGB, 8},  {PNG_COLOR_TYPE_RGB_ALPHA, 8}, {PNG_COLOR_TYPE_PALETTE, 8}};
+    for (size_t k = 0; k < COUNT_OF(png); k++) {
+        write_png("a.png", png[k].kind, png[k].bits);
+        check_values("a.png", 2, 1, png[k].bits);
+    }
+    write_tiff("a.tif", 3, 8, 1, COMPRESSION_LZW);
+    check_values("a.tif", 3, 3, 8);
+    write_tiff("a.tif", 2, 16, 1, COMPRESSION_NONE);
+    check_values("a.tif", 3, 2, 16);
+    write_tiff("b.tif", 1, 8, 3, COMPRESSION_NONE);
+    check_values("b.tif", 2, 1, 8);
+}
+
+/* The luminance of Rec. 709. */
+static void a_stack_of_files(void **state)
+{
+    (void)state;
+    struct voxels v;
+    char one[] = "a.png", two[] = "b.tif", *const paths[] = {one, two, one};
+    write_png(one, PNG_COLOR_TYPE_GRAY, 8);
+    assert_ok(image_read(&v, 3, paths, 3, size, from));
+    assert_int_equal(v.n[2], 3);
+    voxels_free(&v);
+    assert_refused(image_read(&v, 2, paths, 2, size, from), "in the plane one is expected");
+}
+
+static void write_bytes(const char *name, const void *bytes, size_t n)
+{
+    FILE *file = fopen(name, "wb");
+    assert_int_equal(fwrite(bytes, 1, n, file), n);
+    fclose(file);
+}
+
+static size_t read_bytes(const char *name, unsigned char *bytes)
+{
+    FILE *file = fopen(name, "rb");
+    const size_t n = fread(bytes, 1, MOST, file);
+    fclose(file);
+    return n;
+}
+
+static void refused(const unsigned char *bytes, size_t n, const char *message)
+{
+    struct voxels v;
+    char name[] = "bad.png", *const paths[] = {name};
+    write_bytes(name, bytes, n);
+    assert_refused(image_read(&v, 1, paths, 2, size, from), message);
+}
+
+static void bad_images(void **state)
+{
+    (void)state;
+    static unsigned char bytes[MOST];
+    write_png("a.png", PNG_COLOR_TYPE_GRAY, 8);
+    const size_t n = read_bytes("a.png", bytes);
+    refused(bytes, n / 2, "bad.png: no whole PNG: ");
+    refused(bytes, 20, "no whole PNG: it is cut off");
+    refused((const unsigned char *)"GIF89a", 6, "neither PNG nor TIFF");
+    refused((const unsigned char *)"II*\0abcd", 8, "no TIFF");
+    bytes[20] ^= 1;
+    refused(bytes, n, "no whole PNG: ");
+}
+
+/* Distances of centres from the nearest voxel of the other kind, against all pairs; and the sign at places. */
+static void distances(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        struct voxels v = {.dim = dim, .n = {9, 8, dim == 3 ? 6 : 1}, .size = {1, 1, 2}};
+        const int64_t all = v.n[0] * v.n[1] * v.n[2];
+        v.grey = NEW("test", all, uint16_t);
+        for (int64_t k = 0; k < all; k++) v.grey[k] = (uint16_t)(k * k * 7 % 13 < 9 ? 200 : 10);
+        struct voxel_part part = {.of = &v, .ranges = 2, .range = {{100, 199}, {200, 255}}};
+        voxel_part_make(&part);
+        for (int64_t a = 0; a < all; a++) {
+            real X[DIM_MAX], best = INFINITY, normal[DIM_MAX];
+            const int64_t at[] = {a % v.n[0], a / v.n[0] % v.n[1], a / v.n[0] / v.n[1]};
+            const bool in = v.grey[a] == 200;
+            for (int d = 0; d < dim; d++) {
+                X[d] = ((real)at[d] + 0.5) * v.size[d];
+                if (in)
+                    best = real_min(best,
+                                    ((real)(at[d] < v.n[d] - 1 - at[d] ? at[d] : v.n[d] - 1 - at[d]) + 1) * v.size[d]);
+            }
+            for (int64_t b = 0; b < all; b++) {
+                const int64_t other[] = {b % v.n[0], b / v.n[0] % v.n[1], b / v.n[0] / v.n[1]};
+                real r2 = 0;
+                for (int d = 0; d < dim; d++) r2 += square((real)(at[d] - other[d]) * v.size[d]);
+                if ((v.grey[b] == 200) != in) best = real_min(best, sqrt(r2));
+            }
+            assert_near(voxel_part_distance(&part, X, normal), in ? 0.5 - best : best - 0.5, 1e-6);
+        }
+        assert_near(voxel_part_distance(&part, (real[]){-3, 4, 5}, NULL) > 3, 1, 0);
+        voxel_part_free(&part);
+        voxels_free(&v);
+    }
+}
+
+static void damaged(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"a.png", "a.tif", "b.tif"};
+    static unsigned char bytes[MOST], copy[MOST];
+    uint64_t seed = 7;
+    char bad[] = "bad.png", *const paths[] = {bad};
+    write_tiff("a.tif", 3, 8, 1, COMPRESSION_LZW);
+    for (size_t k = 0; k < COUNT_OF(names); k++) {
+        const size_t n = read_bytes(names[k], bytes);
+        for (int round = 0; round < 700; round++) {
+            size_t length = n;
+            memcpy(copy, bytes, n);
+            for (int change = 0; change < 1 + round % 4; change++) {
+                seed = seed * 6364136223846793005u + 1442695040888963407u;
+                copy[(seed >> 33) % n] = (unsigned char)(seed >> 56);
+            }
+            if (round % 5 == 0) length = 1 + (seed >> 35) % n;
+            write_bytes(bad, copy, length);
+            struct voxels v;
+            if (image_read(&v, 1, paths, 2 + round % 2, size, from) == OK) voxels_free(&v);
+        }
+    }
+}
+
+static char folder[] = "/tmp/cleave_image_XXXXXX";
+static int enter_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) == NULL || chdir(folder) != 0;
+}
+
+static int leave_folder(void **state)
+{
+    (void)state;
+    unlink("a.png"), unlink("a.tif"), unlink("b.tif"), unlink("bad.png");
+    return chdir("/") != 0 || rmdir(folder) != 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(kinds_of_images), cmocka_unit_test(a_stack_of_files), cmocka_unit_test(bad_images),
+        cmocka_unit_test(distances),       cmocka_unit_test(damaged),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
