@@ -7,7 +7,10 @@
 
 #include "base/base.h"
 
-enum picture_format { PICTURE_PNG, PICTURE_SVG };
+enum picture_format { PICTURE_PNG, PICTURE_SVG, PICTURE_PDF, PICTURE_MP4, PICTURE_GIF, PICTURE_FORMATS };
+extern const char *const picture_ending[PICTURE_FORMATS];
+/* The last two are films of PNG pictures (plot/film.h). */
+static inline bool picture_moves(enum picture_format format) { return format >= PICTURE_MP4; }
 
 struct gnuplot {
     FILE *to;                            /* its standard input */

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-static status add_override(struct run_arguments *a, const char *text)
+status arguments_override(struct run_arguments *a, const char *text)
 {
     const char *equals = strchr(text, '=');
     if (!equals || equals == text)
@@ -49,7 +49,7 @@ static status arguments_read_all(struct run_arguments *a, int argc, char **argv,
         bool takes = !strcmp(word, "-o") || !strcmp(word, "-s") || !strcmp(word, "-t");
         if (takes && k + 1 >= argc) return status_set(REFUSED, "%s wants a value; usage: cleave %s", word, usage);
         if (!strcmp(word, "-o")) a->folder = argv[++k];
-        else if (!strcmp(word, "-s")) TRY(add_override(a, argv[++k]));
+        else if (!strcmp(word, "-s")) TRY(arguments_override(a, argv[++k]));
         else if (!strcmp(word, "-t")) TRY(read_threads(a, argv[++k]));
         else if (!strcmp(word, "--resume")) a->resume = true;
         else if (!strcmp(word, "--overwrite")) a->overwrite = true;

@@ -18,6 +18,8 @@ struct run_arguments {
 status option_count(int *count, const char *option, const char *text, int least, int most);
 /* argv[0]: the command. REFUSED with the usage line for malformed words. */
 status arguments_read(struct run_arguments *a, int argc, char **argv, const char *usage);
+/* `key=value` behind -s, into a->override, which has room. */
+status arguments_override(struct run_arguments *a, const char *text);
 void arguments_free(struct run_arguments *a);
 
 #endif

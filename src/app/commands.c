@@ -6,7 +6,6 @@
 #include "bench/common/bench.h"
 #include "commands.h"
 #include "parts.h"
-#include "plot/plot.h"
 
 #ifndef WITH_BENCHES
 static status no_benches(int argc, char **argv)
@@ -27,7 +26,10 @@ const struct command commands[] = {
      "SCENE [--of FIGURE]... [--budget TIME] [--levels COUNT] [--runs COUNT] [--horizon] [-s KEY=VALUE]... [-o DIR] "
      "[-j RUNS] [-t THREADS] [--overwrite]",
      "every figure of a scene with its error bar", command_converge},
-    {"plot", "DIR [--frames all|last|N]", "pictures of a finished or running run", command_plot},
+    {"plot",
+     "DIR [--field NAME] [--times T,...|all|last] [--frames all|last|N] [--slice z=4mm] [--view iso|x+|z-|...] "
+     "[--format png|svg|pdf|mp4|gif] [-o FILE], or --scene SCENE [-s KEY=VALUE]... [-o FILE]",
+     "pictures of a finished or running run; of a scene before it runs", command_plot},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
     {"bench", "[NAME...] [--quick] [--readme]", "kernels, efficiency, coupling, ...", command_bench},
     {"help", "[KEY|units|expression|run|theory|trust]",

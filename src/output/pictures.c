@@ -7,37 +7,57 @@
 static const char *const picture_name[DRAWN_KINDS] = {
     [DRAWN_DAMAGE] = "damage", [DRAWN_KIND] = "kind",     [DRAWN_LAST] = "last", [DRAWN_PROFILES] = "profiles",
     [DRAWN_CRACK] = "crack",   [DRAWN_ENERGY] = "energy", [DRAWN_SIF] = "sif",   [DRAWN_PATH] = "path",
-    [DRAWN_FRAGMENTS] = "fragments",
+    [DRAWN_FRAGMENTS] = "fragments", [DRAWN_SURFACE] = "surface", [DRAWN_CRACKS] = "cracks",
 };
+static const char field_prefix[] = "field_";
 
 struct path pictures_folder(const char *dir) { return path_join(dir, "pictures"); }
 
 /* `number` "" or _000012. */
-static struct path picture_place(const char *dir, enum picture which, const char *number)
+static struct path picture_place(const char *dir, const char *of, const char *number, const char *ending)
 {
     char name[PATH_NAME_ROOM];
     const struct path folder = pictures_folder(dir);
-    snprintf(name, sizeof name, "%s%s.png", picture_name[which], number);
+    snprintf(name, sizeof name, "%s%s.%s", of, number, ending);
     return folder.text[0] ? path_join(folder.text, name) : folder;
 }
 
-struct path picture_path(const char *dir, enum picture which) { return picture_place(dir, which, ""); }
+struct path picture_path(const char *dir, enum picture which, const char *ending)
+{
+    return picture_place(dir, picture_name[which], "", ending);
+}
 
 struct path picture_path_of_frame(const char *dir, enum picture which, int number)
 {
     char text[16];
     snprintf(text, sizeof text, "_%06d", number);
-    return picture_place(dir, which, text);
+    return picture_place(dir, picture_name[which], text, "png");
+}
+
+struct path picture_path_of_field(const char *dir, const char *field, const char *ending)
+{
+    return picture_place(dir, field_prefix, field, ending);
+}
+
+/* Is the rest of a name `.png` or another ending, followed by `end`? */
+static bool ends_as_picture(const char *rest, const char *end)
+{
+    static const char *const ending[] = {".png", ".svg", ".pdf", ".mp4", ".gif"};
+    for (size_t k = 0; k < COUNT_OF(ending); k++)
+        if (strncmp(rest, ending[k], 4) == 0 && strcmp(rest + 4, end) == 0) return true;
+    return false;
 }
 
 bool is_picture(const char *name, const char *end)
 {
+    if (strncmp(name, field_prefix, sizeof field_prefix - 1) == 0)
+        return ends_as_picture(name + strspn(name, "abcdefghijklmnopqrstuvwxyz_0123456789"), end);
     for (int k = 0; k < DRAWN_KINDS; k++) {
         const size_t length = strlen(picture_name[k]);
         if (strncmp(name, picture_name[k], length) != 0) continue;
         const char *rest = name + length;
         if (*rest == '_') rest += 1 + strspn(rest + 1, "0123456789");
-        if (strncmp(rest, ".png", 4) == 0 && strcmp(rest + 4, end) == 0) return true;
+        if (ends_as_picture(rest, end)) return true;
     }
     return false;
 }

@@ -17,6 +17,8 @@ const char *const curve_colour[CURVE_COLOURS] = {
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#3d3d3d",
 };
 
+const char *const picture_ending[PICTURE_FORMATS] = {"png", "svg", "pdf", "mp4", "gif"};
+
 void gnuplot_quote(FILE *to, const char *text)
 {
     putc('\'', to);
@@ -83,12 +85,18 @@ static void set_style(FILE *to)
         fprintf(to, "set linetype %d lc rgb '%s' lw 2.2 pt 7 ps 0.6\n", k + 1, curve_colour[k]);
 }
 
-/* SVG, or PNG by pngcairo, which has smooth edges, where gnuplot has it. */
+/* Pixels of a picture on paper: a picture 1000 pixels wide is as wide as a page of text, its letters as those. */
+#define PIXELS_PER_INCH 144.0
+
+/* SVG, PDF, or PNG by pngcairo, which has smooth edges, where gnuplot has it. */
 static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height)
 {
     if (format == PICTURE_SVG)
         fprintf(g->to, "set terminal svg size %d,%d font 'Liberation Sans,Helvetica,Arial,sans-serif,14' "
                        "background rgb 'white' noenhanced\n", width, height);
+    else if (format == PICTURE_PDF)
+        fprintf(g->to, "set terminal pdfcairo size %.6gin,%.6gin font 'Liberation Sans,13' fontscale 0.654 linewidth "
+                       "0.7 background rgb 'white' noenhanced\n", width / PIXELS_PER_INCH, height / PIXELS_PER_INCH);
     else
         fprintf(g->to, "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) { set terminal pngcairo size %d,%d "
                        "font 'Liberation Sans,13' background rgb 'white' noenhanced } else { set terminal png "

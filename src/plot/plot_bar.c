@@ -167,7 +167,7 @@ static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int
 }
 
 /* Draws all panels from the profiles h, [frames]. */
-static status plot_bar_draw(const char *path, const char *title, const struct history *h,
+static status plot_bar_draw(struct sheet sheet, const char *title, const struct history *h,
                             const struct listed_frame *show, int frames)
 {
     struct gnuplot g;
@@ -179,7 +179,7 @@ static status plot_bar_draw(const char *path, const char *title, const struct hi
     double half = h[0].rows > 1 ? 0.5 * fabs(history_at(&h[0], 1, at) - history_at(&h[0], 0, at)) : 0;
     struct unit metre = unit_for_length(fmax(-x.low, x.high));
     int height = 110 + 250 * panels;
-    TRY(gnuplot_open(&g, path, PICTURE_PNG, 1080, height));
+    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, height));
     for (int k = 0; k < frames; k++) send_frame(g.to, &h[k], k, metre.factor, scale);
     fputs("set label 1 ", g.to);
     gnuplot_quote(g.to, title);
@@ -201,7 +201,7 @@ static status plot_bar_draw(const char *path, const char *title, const struct hi
     return gnuplot_close(&g);
 }
 
-status bar_draw(const char *path, const char *title, const char *folder, const char *probe,
+status bar_draw(struct sheet sheet, const char *title, const char *folder, const char *probe,
                 const struct listed_frame *show, int frames)
 {
     struct history *h = NEW("plot.profiles", frames, struct history);
@@ -211,7 +211,7 @@ status bar_draw(const char *path, const char *title, const char *folder, const c
         s = profile_read(&h[read], folder, probe, show[read].number);
         if (s == OK) read++;
     }
-    if (s == OK) s = plot_bar_draw(path, title, h, show, frames);
+    if (s == OK) s = plot_bar_draw(sheet, title, h, show, frames);
     for (int k = 0; k < read; k++) history_free(&h[k]);
     memory_free(h);
     return s;

@@ -64,7 +64,7 @@ static void set_axis(FILE *to, const char *axis, const char *label, int colour, 
 }
 
 /* Crack length and share of peridynamic particles over time. */
-static status draw_crack(const char *path, const char *title, const struct series *s)
+static status draw_crack(struct sheet sheet, const char *title, const struct series *s)
 {
     int column[2] = {history_column(s->h, "crack_length"), history_column(s->h, "pd_share")};
     double largest[2] = {curves_largest(s->h, column[0]), curves_largest(s->h, column[1])};
@@ -72,8 +72,8 @@ static status draw_crack(const char *path, const char *title, const struct serie
     double factor[2] = {metre.factor, 0.01};         /* the share in percent */
     char label[64];
     struct gnuplot g;
-    if (column[0] < 0 && column[1] < 0) return OK;
-    TRY(gnuplot_open(&g, path, PICTURE_PNG, 1000, 600));
+    if (largest[0] == 0 && largest[1] == 0) return nothing_to_draw(sheet.path, "no crack, no peridynamic particle");
+    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 600));
     curves_send(g.to, s, column, factor, 2);
     curves_title(g.to, title, "crack");
     curves_time_axis(g.to, s);
@@ -93,7 +93,7 @@ static status draw_crack(const char *path, const char *title, const struct serie
 
 struct energies {
     int column[CURVES_MAX];
-    const char *label[CURVES_MAX];
+    const char *name[CURVES_MAX], *label[CURVES_MAX];
     double factor[CURVES_MAX];
     int n;
     struct unit joule;
@@ -113,6 +113,7 @@ static void choose_energies(struct energies *e, const struct history *h)
         double top = curves_largest(h, column);
         if (column < 0 || top == 0) continue;
         e->column[e->n] = column;
+        e->name[e->n] = known[k].name;
         e->label[e->n++] = known[k].label;
         largest = fmax(largest, top);
     }
@@ -125,11 +126,13 @@ static void plot_energies(FILE *to, const struct energies *e)
 {
     fputs("plot ", to);
     for (int k = 0; k < e->n; k++)
-        fprintf(to, "$data using 1:%d with lines lw 2.2 lc rgb '%s' title '%s', ", k + 2, curve_colour[k], e->label[k]);
+        fprintf(to, "$data using 1:%d with lines lw 2.2 lc rgb '%s' title '%s', ", k + 2,
+                energy_colour(e->name[k]), e->label[k]);
     fputs("$data using 1:(0", to);
     for (int k = 0; k < e->n; k++)
         if (strcmp(e->label[k], "external work") != 0) fprintf(to, "+$%d", k + 2);
-    fprintf(to, ") with lines lw 1.6 dt (6,4) lc rgb '%s' title 'sum of energies'\n", curve_colour[6]);
+    fprintf(to, ") with lines lw 1.6 dt (6,4) lc rgb '%s' title 'sum'\n",
+            energy_colour("sum"));
 }
 
 /* A round distance of tics that leaves one or two of them between 0 and `top`. */
@@ -150,20 +153,20 @@ static void plot_balance(FILE *to, const struct series *s, double largest)
 }
 
 /* Energies over time, and the balance error below them. */
-static status draw_energy(const char *path, const char *title, const struct series *s)
+static status draw_energy(struct sheet sheet, const char *title, const struct series *s)
 {
     struct energies e;
     struct gnuplot g;
     int balance = history_column(s->h, "balance_error");
     const double percent = 0.01;
     choose_energies(&e, s->h);
-    if (e.n == 0) return OK;
-    TRY(gnuplot_open(&g, path, PICTURE_PNG, 1000, balance >= 0 ? 760 : 600));
+    if (e.n == 0) return nothing_to_draw(sheet.path, "all energies are 0");
+    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, balance >= 0 ? 760 : 600));
     curves_send(g.to, s, e.column, e.factor, e.n);
     curves_title(g.to, title, "energy");
     curves_time_axis(g.to, s);
     fprintf(g.to,
-            "set lmargin at screen 0.1\nset rmargin at screen 0.79\nset key at screen 0.81,0.9 left top\n"
+            "set lmargin at screen 0.1\nset rmargin at screen 0.78\nset key at screen 0.79,0.91 left top\n"
             "set ylabel 'energy [%s]'\n",
             e.joule.name);
     if (balance >= 0)
@@ -179,18 +182,20 @@ static status draw_energy(const char *path, const char *title, const struct seri
     return gnuplot_close(&g);
 }
 
-status curves_draw(const char *folder, const char *title)
+status curves_draw(const char *folder, const char *title, enum picture_format format)
 {
     struct history h;
     TRY(history_read(&h, folder));
-    struct series s = {.h = &h, .time = history_column(&h, "time")};
+    struct series s = {.h = &h, .time = history_column(&h, "time"), .format = format};
+    const char *ending = picture_ending[format];
     status result = OK;
     if (s.time >= 0 && h.rows > 1) {
         s.second = unit_for(history_at(&h, h.rows - 1, s.time), "s");
-        result = draw_crack(picture_path(folder, DRAWN_CRACK).text, title, &s);
-        if (result == OK) result = draw_energy(picture_path(folder, DRAWN_ENERGY).text, title, &s);
+        result = draw_crack((struct sheet){picture_path(folder, DRAWN_CRACK, ending).text, format}, title, &s);
+        if (result == OK)
+            result = draw_energy((struct sheet){picture_path(folder, DRAWN_ENERGY, ending).text, format}, title, &s);
         if (result == OK) result = sif_bench_draw(folder, title, &s);
-        if (result == OK) result = paths_draw(folder, title, &h);
+        if (result == OK) result = paths_draw(folder, title, &s);
     }
     history_free(&h);
     return result;
@@ -266,7 +271,7 @@ static void plot_profile(FILE *to, const struct frame *frame, int frames, int co
     putc('\n', to);
 }
 
-status profiles_draw(const char *path, const char *title, const struct frame *frame, int frames)
+status profiles_draw(struct sheet sheet, const char *title, const struct frame *frame, int frames)
 {
     struct gnuplot g;
     struct unit unit[3];
@@ -276,7 +281,7 @@ status profiles_draw(const char *path, const char *title, const struct frame *fr
     snprintf(label[0], sizeof label[0], "velocity [%s]", unit[1].name);
     snprintf(label[1], sizeof label[1], "stress [%s]", unit[2].name);
     snprintf(label[2], sizeof label[2], "damage");
-    TRY(gnuplot_open(&g, path, PICTURE_PNG, 1080, 920));
+    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, 920));
     for (int k = 0; k < frames; k++) send_profile(g.to, &frame[k], k, spacing, unit);
     curves_title(g.to, title, "");
     fputs("set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.86\nset format x ''\n"
@@ -293,5 +298,53 @@ status profiles_draw(const char *path, const char *title, const struct frame *fr
         fputs("unset label\nunset key\n", g.to);
     }
     fputs("unset multiplot\n", g.to);
+    return gnuplot_close(&g);
+}
+
+/* The data block $fK: place and value, with an empty line at each separation. */
+static void send_field(FILE *to, const struct frame *f, int k, const struct plot_field *field, double spacing,
+                       const double factor[2])
+{
+    struct station *s = NEW("plot.profile", f->n, struct station);
+    for (int64_t i = 0; i < f->n; i++)
+        s[i] = (struct station){.x = f->X[0][i] + f->u[0][i], .velocity = (float)plot_field_at(field, f, i)};
+    qsort(s, (size_t)f->n, sizeof *s, plot_curves_by_place);
+    fprintf(to, "$f%d << EOD\n", k);
+    for (int64_t i = 0; i < f->n; i++) {
+        if (i > 0 && s[i].x - s[i - 1].x > 1.5 * spacing) putc('\n', to);
+        fprintf(to, "%.7g %.7g\n", s[i].x / factor[0], s[i].velocity / factor[1]);
+    }
+    fputs("EOD\n", to);
+    memory_free(s);
+}
+
+static double largest_of_field(const struct plot_field *field, const struct frame *frame, int frames)
+{
+    double largest = 0;
+    for (int k = 0; k < frames; k++)
+        for (int64_t i = 0; i < frame[k].n; i++) largest = fmax(largest, fabs(plot_field_at(field, &frame[k], i)));
+    return largest;
+}
+
+status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field,
+                           const struct frame *frame, int frames)
+{
+    struct gnuplot g;
+    struct unit unit[3];
+    choose_units(unit, frame, frames);
+    const struct unit own = unit_for(largest_of_field(field, frame, frames), field->unit);
+    const double factor[2] = {unit[0].factor, *field->unit ? own.factor : 1};
+    char label[64];
+    snprintf(label, sizeof label, *field->unit ? "%s [%s]" : "%s", field->name, own.name);
+    for (char *c = label; *c; c++)
+        if (*c == '_') *c = ' ';
+    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 560));
+    for (int k = 0; k < frames; k++) send_field(g.to, &frame[k], k, field, frame_spacing(&frame[0]), factor);
+    curves_title(g.to, title, "");
+    fprintf(g.to, "set lmargin at screen 0.1\nset rmargin at screen 0.84\nset tmargin at screen 0.9\n"
+                  "set bmargin at screen 0.13\nset autoscale xfix\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\n"
+                  "set key at screen 0.855,0.91 left top\nset xlabel 'x [%s]'\nset ylabel '%s'\n",
+            unit[0].name, label);
+    plot_profile(g.to, frame, frames, 2);
     return gnuplot_close(&g);
 }

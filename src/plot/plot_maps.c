@@ -1,25 +1,21 @@
 /* Damage and kind maps: panels, colour bar, titles. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
-#include "plot/plot.h"
+#include "maps_parts.h"
 
 /* Room round the panels [pixel]. */
-enum { LEFT = 92, RIGHT = 122, ABOVE = 84, BELOW = 70, GAP_X = 26, GAP_Y = 42 };
+enum { LEFT = 104, RIGHT = 136, ABOVE = 84, BELOW = 70, GAP_X = 26, GAP_Y = 42 };
 /* Least distance of tics: the width and twice the height of their numbers [pixel]. */
 enum { TICS_X = 50, TICS_Y = 36 };
 /* The colour bar; its image is two pixels wide because gnuplot draws none of a single one. */
 enum { BAR_FROM = 26, BAR_WIDTH = 16, BAR_STEPS = 256, BAR_COLUMNS = 2 };
-/* Size of the whole picture [pixel]; a single panel needs less. */
-enum { WIDTH = 1640, WIDTH_SINGLE = 1180, HEIGHT_MAX = 1500, PANEL_MIN = 24 };
+/* Size of the whole picture [pixel]: on a page of text its letters are then as large as those of the text. */
+enum { WIDTH = 1280, WIDTH_SINGLE = 1000, HEIGHT_MAX = 1180, PANEL_MIN = 24 };
+enum { KEY_BELOW = 760 };                /* pictures that narrow have the key below the title [pixel] */
 static const double SHAPE_WANTED = 0.72;             /* height over width of the picture */
-
-struct layout {
-    int columns, rows;
-    int panel_width, panel_height;       /* [pixel] */
-    int width, height;
-};
 
 /* Layout with this number of columns; aspect: height over width of a panel. */
 static struct layout layout_of(int columns, int panels, double aspect)
@@ -62,6 +58,11 @@ static void set_box(FILE *to, const struct layout *l, double left, double above,
             1 - (above + height) / l->height);
 }
 
+void panel_place(FILE *to, const struct layout *l, double left, double above)
+{
+    set_box(to, l, left, above, l->panel_width, l->panel_height);
+}
+
 /* A round distance of tics over `range`: at least `apart` pixels, and about ten tics at most. */
 static double plot_maps_tic_distance(double range, int pixels, int apart)
 {
@@ -70,17 +71,15 @@ static double plot_maps_tic_distance(double range, int pixels, int apart)
     return decade * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
 }
 
-/* Plots an image whose lower left corner is `from`, with pixels of size `step`. */
-static void send_image(FILE *to, const struct colour *pixel, int width, int height, const double *from,
-                       const double *step)
+void panel_image(FILE *to, const struct colour *pixel, int width, int height, const double *from, const double *step,
+                 const char *more)
 {
     fprintf(to, "plot '-' binary array=(%d,%d) dx=%.12g dy=%.12g origin=(%.12g,%.12g) format='%%uchar' "
-                "with rgbalpha notitle\n",
-            width, height, step[0], step[1], from[0] + 0.5 * step[0], from[1] + 0.5 * step[1]);
+                "with rgbalpha notitle%s\n",
+            width, height, step[0], step[1], from[0] + 0.5 * step[0], from[1] + 0.5 * step[1], more);
     fwrite(pixel, sizeof *pixel, (size_t)width * (size_t)height, to);
 }
 
-/* Draws the panel at a place of the grid of panels; `second`: unit of time of all panels; `lowest`: no panel below. */
 /* Pre-cracks as thin lines over the next panel: slits of a mesh have no damage that would show them. */
 static void draw_notches(FILE *to, const struct view *view, double metre)
 {
@@ -93,6 +92,42 @@ static void draw_notches(FILE *to, const struct view *view, double metre)
     }
 }
 
+void panel_axes(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
+                     const struct unit *metre, int column, bool lowest)
+{
+    const int size[2] = {l->panel_width, l->panel_height};
+    for (int k = 0; k < 2; k++) {
+        const double range = (view->to[k] - view->from[k]) / metre->factor;
+        const bool labelled = k == 0 ? lowest : column == 0;
+        fprintf(to, "set %ctics %.9g format '%s'\nset %clabel '", 'x' + k,
+                plot_maps_tic_distance(range, size[k], k == 0 ? TICS_X : TICS_Y), labelled ? "%g" : "", 'x' + k);
+        if (labelled) fprintf(to, "%c [%s]", 'x' + c->axis[k], metre->name);
+        fputs("'\n", to);
+    }
+}
+
+void panel_directions(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
+                           const struct unit *metre)
+{
+    const double pixel = (view->to[0] - view->from[0]) / metre->factor / l->panel_width;
+    const double corner[2] = {view->from[0] / metre->factor + 34 * pixel, view->from[1] / metre->factor + 20 * pixel};
+    const double length = plot_maps_tic_distance(300 * pixel, 300, 60);
+    fputs("unset xtics\nunset ytics\nunset xlabel\nunset ylabel\nset border 0\nunset arrow\n", to);
+    for (int d = 0; d < 3; d++) {
+        const double way[2] = {26 * pixel * c->camera.right[d], 26 * pixel * c->camera.up[d]};
+        if (hypot(way[0], way[1]) < 2 * pixel) continue;
+        fprintf(to, "set arrow from %.9g,%.9g rto %.9g,%.9g size screen 0.006,20 front lw 1.3 lc rgb '#333333'\n"
+                    "set label %d '%c' at %.9g,%.9g center front font ',11' textcolor rgb '#333333'\n",
+                corner[0], corner[1], way[0], way[1], 40 + d, 'x' + d, corner[0] + 1.45 * way[0],
+                corner[1] + 1.45 * way[1]);
+    }
+    const double end = view->to[0] / metre->factor - 8 * pixel, at = corner[1] - 10 * pixel;
+    fprintf(to, "set arrow from %.9g,%.9g to %.9g,%.9g heads size screen 0.004,90 front lw 1.3 lc rgb '#333333'\n"
+                "set label 43 '%.4g %s' at %.9g,%.9g center front font ',11' textcolor rgb '#333333'\n",
+            end - length, at, end, at, length, metre->name, end - 0.5 * length, at + 10 * pixel);
+}
+
+/* Draws the panel at a place of the grid of panels; `second`: unit of time of all panels; `lowest`: no panel below. */
 static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
                                  enum map map, const struct unit *second, int place, bool lowest)
 {
@@ -101,56 +136,69 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
     int size[2] = {l->panel_width, l->panel_height};
     for (int k = 0; k < 2; k++) largest = fmax(largest, fmax(fabs(view->from[k]), fabs(view->to[k])));
     struct unit metre = unit_for_length(largest);
-    set_box(to, l, LEFT + column * (l->panel_width + GAP_X), ABOVE + row * (l->panel_height + GAP_Y), l->panel_width,
-            l->panel_height);
+    panel_place(to, l, LEFT + column * (l->panel_width + GAP_X), ABOVE + row * (l->panel_height + GAP_Y));
     for (int k = 0; k < 2; k++) {
         from[k] = view->from[k] / metre.factor;
         step[k] = (view->to[k] - view->from[k]) / metre.factor / size[k];
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + k, from[k], view->to[k] / metre.factor);
-        bool labelled = k == 0 ? lowest : column == 0;
-        double range = view->to[k] / metre.factor - from[k];
-        fprintf(to, "set %ctics %.9g format '%s'\n", 'x' + k,
-                plot_maps_tic_distance(range, size[k], k == 0 ? TICS_X : TICS_Y), labelled ? "%g" : "");
-        fprintf(to, "set %clabel '", 'x' + k);
-        if (labelled) fprintf(to, "%c [%s]", 'x' + c->axis[k], metre.name);
-        fputs("'\n", to);
     }
     fprintf(to, "set title 't = %.3g %s' font ',13' offset 0,-0.5\n", c->t / second->factor, second->name);
     if (map == MAP_DAMAGE) draw_notches(to, view, metre.factor);
+    if (c->place[2]) panel_directions(to, l, view, c, &metre);
+    else panel_axes(to, l, view, c, &metre, column, lowest);
     struct colour *pixel = NEW("plot.pixel", (int64_t)size[0] * size[1], struct colour);
     raster_paint(pixel, size[0], size[1], view, c, map);
-    send_image(to, pixel, size[0], size[1], from, step);
+    panel_image(to, pixel, size[0], size[1], from, step, "");
     memory_free(pixel);
 }
 
-/* Colours of damage as a narrow panel on the right, at most a panel's height, beside the first row. */
+/* What the colour bar means: text, ends and distance of tics in the unit of the text. */
+struct bar_scale { char label[64]; double low, high, tics; };
+
+static struct bar_scale bar_scale_of(const struct view *view, enum map map)
+{
+    struct bar_scale s = {.high = view->top, .tics = view->top > 0.6 ? 0.2 : 0.1};
+    snprintf(s.label, sizeof s.label, "%s", map == MAP_KIND ? "peridynamic damage" : "damage");
+    if (map != MAP_FIELD) return s;
+    const struct unit u = unit_for(fmax(fabs(view->low), fabs(view->high)), view->field->unit);
+    const bool plain = !*view->field->unit;
+    s.low = view->low / (plain ? 1 : u.factor), s.high = view->high / (plain ? 1 : u.factor);
+    s.tics = plot_maps_tic_distance(s.high - s.low, 300, 50);
+    int length = snprintf(s.label, sizeof s.label, "%s", view->field->name);
+    if (!plain) snprintf(s.label + length, sizeof s.label - (size_t)length, " [%s]", u.name);
+    for (char *c = s.label; *c; c++)
+        if (*c == '_') *c = ' ';
+    return s;
+}
+
+/* The colours as a narrow panel on the right, at most a panel's height, beside the first row. */
 static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct view *view, enum map map)
 {
     struct colour pixel[BAR_STEPS * BAR_COLUMNS];
-    double from[2] = {0, 0}, step[2] = {1.0 / BAR_COLUMNS, view->top / BAR_STEPS};
+    const struct bar_scale scale = bar_scale_of(view, map);
+    double from[2] = {0, scale.low}, step[2] = {1.0 / BAR_COLUMNS, (scale.high - scale.low) / BAR_STEPS};
     int height = l->rows * l->panel_height + (l->rows - 1) * GAP_Y;
     for (int k = 0; k < BAR_STEPS * BAR_COLUMNS; k++)
-        pixel[k] = map_colour(map, KIND_PD, (k / BAR_COLUMNS + 0.5) * step[1], view->top);
+        pixel[k] = map_colour(view, map, (k / BAR_COLUMNS + 0.5) / BAR_STEPS);
     int shown = height < 360 ? height : 360;
     set_box(to, l, l->width - RIGHT + BAR_FROM, ABOVE, BAR_WIDTH, shown);
     fprintf(to, "unset arrow\nunset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\nset border 15\n"
-                "unset grid\n"
-                "set xrange [0:1]\nset yrange [0:%.9g]\nset y2range [0:%.9g]\nset y2tics out %.9g format '%%.1f'\n"
+                "unset grid\nunset label\n"
+                "set xrange [0:1]\nset yrange [%.9g:%.9g]\nset y2range [%.9g:%.9g]\nset y2tics out %.9g format '%s'\n"
                 "set y2label '%s' offset -1,0\n",
-            view->top, view->top, view->top > 0.6 ? 0.2 : 0.1, map == MAP_KIND ? "peridynamic damage" : "damage");
-    send_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step);
+            scale.low, scale.high, scale.low, scale.high, scale.tics, map == MAP_FIELD ? "%g" : "%.1f", scale.label);
+    panel_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step, "");
 }
 
 /* What colours mean, above the panels: the two kinds of particles, or fragments. */
 static void draw_key(FILE *to, const struct layout *l, enum map map)
 {
     const struct { struct colour colour; const char *text; } entry[2][2] = {
-        {{map_colour(MAP_KIND, KIND_MPM, 0.25, 1), "material points"},
-         {map_colour(MAP_KIND, KIND_PD, 0.25, 1), "peridynamics"}},
+        {{colour_points(), "material points"}, {colour_bonds(0.25), "peridynamics"}},
         {{fragment_colour(0), "the heaviest"}, {fragment_colour(-1), "no bond left"}}};
     for (int k = 0; k < 2; k++) {
         const struct colour c = entry[map == MAP_FRAGMENT][k].colour;
-        double x = l->width - RIGHT - 320 + 160 * k, y = 26;
+        double x = l->width - RIGHT - 320 + 160 * k, y = l->width < KEY_BELOW ? 50 : 26;
         fprintf(to, "set object rectangle from screen %.6g,%.6g to screen %.6g,%.6g fs solid border rgb '#888888' "
                     "fc rgb '#%02x%02x%02x'\n", x / l->width, 1 - (y + 6) / l->height, (x + 14) / l->width,
                 1 - (y - 8) / l->height, c.red, c.green, c.blue);
@@ -159,17 +207,30 @@ static void draw_key(FILE *to, const struct layout *l, enum map map)
     }
 }
 
-status maps_draw(const char *path, const char *title, enum map map, const struct view *view,
+/* The title, and what the rectangle leaves out. */
+static void draw_title(FILE *to, const struct layout *l, const char *title, int64_t outside)
+{
+    char text[TITLE_LENGTH + 64];
+    int length = snprintf(text, sizeof text, "%s", title);
+    if (outside > 0)
+        snprintf(text + length, sizeof text - (size_t)length, " (%lld particle%s outside the picture)",
+                 (long long)outside, outside > 1 ? "s are" : " is");
+    const double room = l->width - LEFT - 12, wide = 10.5 * (double)strlen(text);
+    fputs("set label 1 ", to);
+    gnuplot_quote(to, text);
+    fprintf(to, " at screen %.6g,%.6g left font ',%.3g' textcolor rgb '#111111'\n", (double)LEFT / l->width,
+            1 - 26.0 / l->height, fmax(16 * fmin(1, room / wide), 8));
+}
+
+status maps_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
                  const struct cloud *cloud, int clouds)
 {
     struct gnuplot g;
     struct layout l = layout_choose(clouds, (view->to[1] - view->from[1]) / (view->to[0] - view->from[0]));
-    TRY(gnuplot_open(&g, path, PICTURE_PNG, l.width, l.height));
-    fputs("set multiplot\nunset grid\nset label 1 ", g.to);
-    gnuplot_quote(g.to, title);
-    fprintf(g.to, " at screen %.6g,%.6g left font ',16' textcolor rgb '#111111'\n", (double)LEFT / l.width,
-            1 - 26.0 / l.height);
-    if (map != MAP_DAMAGE) draw_key(g.to, &l, map);
+    TRY(gnuplot_open(&g, sheet.path, sheet.format, l.width, l.height));
+    fputs("set multiplot\nunset grid\n", g.to);
+    draw_title(g.to, &l, title, view->outside);
+    if (map == MAP_KIND || map == MAP_FRAGMENT) draw_key(g.to, &l, map);
     struct unit second = unit_for(cloud[clouds - 1].t, "s");
     for (int k = 0; k < clouds; k++) {
         plot_maps_draw_panel(g.to, &l, view, &cloud[k], map, &second, k, k + l.columns >= clouds);

@@ -88,7 +88,7 @@ status sif_bench_draw(const char *folder, const char *title, const struct series
     struct gnuplot g;
     find_factors(&f, s->h);
     if (f.n == 0) return OK;
-    TRY(gnuplot_open(&g, picture_path(folder, DRAWN_SIF).text, PICTURE_PNG, 1000, 760));
+    TRY(gnuplot_open(&g, picture_path(folder, DRAWN_SIF, picture_ending[s->format]).text, s->format, 1000, 760));
     curves_send(g.to, s, f.column, f.factor, 2 * f.n);
     curves_title(g.to, title, "stress-intensity factors");
     curves_time_axis(g.to, s);
@@ -214,14 +214,15 @@ static void plot_ways(FILE *to, const struct way *w, int n, const struct unit *m
                     end[0] / metre->factor, end[1] / metre->factor);
 }
 
-status paths_draw(const char *folder, const char *title, const struct history *h)
+status paths_draw(const char *folder, const char *title, const struct series *s)
 {
+    const struct history *h = s->h;
     struct way way[PATHS_SHOWN];
     struct gnuplot g;
     const int n = find_ways(way, folder, h);
     if (n == 0) return OK;
     const struct unit metre = unit_for_length(fmax(fabs(way[0].to[0]), fabs(way[0].to[1])));
-    TRY(gnuplot_open(&g, picture_path(folder, DRAWN_PATH).text, PICTURE_PNG, 940, 760));
+    TRY(gnuplot_open(&g, picture_path(folder, DRAWN_PATH, picture_ending[s->format]).text, s->format, 940, 760));
     curves_title(g.to, title, "path of the crack");
     for (int k = 0; k < n; k++) send_way(g.to, h, &way[k], k, metre.factor);
     set_square(g.to, way, n, &metre);

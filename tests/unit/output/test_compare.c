@@ -326,7 +326,7 @@ static double covered(const struct cloud *c, double from_x, double to_x)
 {
     enum { PIXELS = 20 * SIDE };                       /* twenty a spacing: a seam of a tenth of it shows */
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
-    struct view v = {{from_x * SPACING, 0}, {to_x * SPACING, SIDE * SPACING}, 0.5};
+    struct view v = {.from = {from_x * SPACING, 0}, .to = {to_x * SPACING, SIDE * SPACING}, .top = 0.5};
     raster_paint(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
     int shown = 0;
     for (int q = 0; q < PIXELS * PIXELS; q++) shown += pixel[q].alpha > 0;
@@ -342,14 +342,14 @@ static void bodies_are_closed_and_gaps_open(void **state)
     write_run("a", 0, 2, 0.010);
     assert_int_equal(frame_read(&f, "a/frames/000000.hdf"), OK);
     assert_true(fabs(frame_spacing(&f) - SPACING) < 1e-6 * SPACING);      /* single precision */
-    cloud_make(&c, &f);
+    cloud_make(&c, &f, NULL);
     assert_true(c.aligned);
     assert_int_equal(c.n, SIDE * SIDE);
     assert_true(covered(&c, 0, SIDE) == 1);          /* no seam between neighbours */
     assert_true(covered(&c, SIDE + 1, SIDE + 3) == 0);
     cloud_free(&c);
     for (int64_t i = 0; i < f.n; i++) f.u[0][i] = f.X[0][i] > 0.5F * SIDE * 1e-3F ? 2e-3F : 0;
-    cloud_make(&c, &f);
+    cloud_make(&c, &f, NULL);
     assert_true(covered(&c, 0.5 * SIDE + 0.2, 0.5 * SIDE + 1.8) == 0);    /* two spacings apart */
     cloud_free(&c);
     const double rotation = 0.5;                         /* radian: a turned lattice is closed too */
@@ -358,10 +358,10 @@ static void bodies_are_closed_and_gaps_open(void **state)
         f.u[0][i] = (float)(x * cos(rotation) - y * sin(rotation) - x);
         f.u[1][i] = (float)(x * sin(rotation) + y * cos(rotation) - y);
     }
-    cloud_make(&c, &f);
+    cloud_make(&c, &f, NULL);
     assert_false(c.aligned);
     struct colour middle[64];
-    struct view v = {{4e-3, 4e-3}, {8e-3, 8e-3}, 0.5};
+    struct view v = {.from = {4e-3, 4e-3}, .to = {8e-3, 8e-3}, .top = 0.5};
     raster_paint(middle, 8, 8, &v, &c, MAP_DAMAGE);
     for (int q = 0; q < 64; q++) assert_int_equal(middle[q].alpha, 255);
     cloud_free(&c);

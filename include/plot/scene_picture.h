@@ -1,0 +1,13 @@
+/* A scene before it runs: bodies, materials, pre-cracks, loads, supports, probes and levels as a run begins with them. */
+#ifndef CLEAVE_SCENE_PICTURE
+#define CLEAVE_SCENE_PICTURE
+
+#include "plot/gnuplot.h"
+#include "scene/scene.h"
+
+/* Makes all that a run makes before its first step, and draws it into `out`: a file, a folder, or NULL: the file
+ * results/NAME_scene.png. What was drawn is printed. */
+status scene_picture(const char *path, const struct scene_override *override, int overrides, const char *out,
+                     enum picture_format format);
+
+#endif

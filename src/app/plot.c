@@ -1,0 +1,177 @@
+/* `cleave plot`: the words of the command; what they ask for is drawn by the room `plot`. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "arguments.h"
+#include "base/memory.h"
+#include "commands.h"
+#include "output/output_files.h"
+#include "plot/plot.h"
+#include "plot/scene_picture.h"
+#include "scene/words.h"
+
+static const char usage[] = "cleave plot DIR [--field NAME] [--times T,...|all|last] [--slice z=4mm] [--view iso] "
+                            "[--format png|svg|pdf|mp4|gif] [-o FILE], or cleave plot --scene SCENE [-s KEY=VALUE] "
+                            "[-o FILE]";
+
+struct plot_words {
+    struct plot_request request;
+    struct run_arguments scene;          /* of --scene; its overrides */
+    const char *times, *format;          /* as given */
+};
+
+/* ---- values ------------------------------------------------------------------------------------------------------ */
+
+/* --frames, and --times without a unit: all, last, or a number of panels. */
+static status read_frames_option(struct plot_words *w, const char *text)
+{
+    struct plot_request *r = &w->request;
+    r->every = strcmp(text, "all") == 0;
+    if (r->every) return OK;
+    if (strcmp(text, "last") != 0) return option_count(&r->panels, "plot: --frames", text, 1, PANELS_MAX);
+    r->panels = 1;
+    return OK;
+}
+
+/* Times with units, commas between them. */
+static status read_times(struct plot_words *w, const char *text)
+{
+    struct plot_request *r = &w->request;
+    w->times = text;
+    if (strcmp(text, "all") == 0 || strcmp(text, "last") == 0) return read_frames_option(w, text);
+    char *copy = NEW("plot.times", strlen(text) + 1, char), *rest = copy, *word, what[256];
+    status s = OK;
+    strcpy(copy, text);
+    while (s == OK && (word = strsep(&rest, ",")) != NULL) {
+        real time = 0;
+        if (r->times == PANELS_MAX)
+            s = status_set(REFUSED, "plot: --times: %d times are the most; a film shows all frames", PANELS_MAX);
+        else if (!word_time(&time, word, what, sizeof what))
+            s = status_set(REFUSED, "plot: --times %s: %s; or all, or last", shown_name(word).text, what);
+        else r->time[r->times++] = time;
+    }
+    memory_free(copy);
+    return s;
+}
+
+/* `z=4mm`, or `z`: the slice with most damage of that direction. */
+static status read_slice(struct plot_words *w, const char *text)
+{
+    struct look *look = &w->request.look;
+    char what[256];
+    const char *wrong = "the direction and place of a slice are expected, as z=4mm, or the direction alone";
+    if (text[0] < 'x' || text[0] > 'z' || (text[1] && text[1] != '='))
+        return status_set(REFUSED, "plot: --slice %s: %s", shown_name(text).text, wrong);
+    look->normal = text[0] - 'x';
+    look->placed = text[1] == '=';
+    if (!look->placed || word_length(&look->layer, text + 2, what, sizeof what)) return OK;
+    return status_set(REFUSED, "plot: --slice %s: %s %s", shown_name(text).text, shown_name(text + 2).text, what);
+}
+
+static status read_view(struct plot_words *w, const char *text)
+{
+    struct look *look = &w->request.look;
+    look->outside = true;
+    look->camera = camera_isometric;
+    if (strcmp(text, "iso") == 0) return OK;
+    if (strlen(text) != 2 || text[0] < 'x' || text[0] > 'z' || (text[1] != '+' && text[1] != '-'))
+        return status_set(REFUSED, "plot: --view %s: iso, x+, x-, y+, y-, z+ or z- is expected", shown_name(text).text);
+    look->camera = camera_along(text[0] - 'x', text[1] == '+' ? 1 : -1);
+    return OK;
+}
+
+static status read_format(struct plot_words *w, const char *text)
+{
+    w->format = text;
+    for (int k = 0; k < PICTURE_FORMATS; k++)
+        if (strcmp(text, picture_ending[k]) == 0) return w->request.format = (enum picture_format)k, OK;
+    return status_set(REFUSED, "plot: --format %s: png, svg, pdf, mp4 or gif is expected", shown_name(text).text);
+}
+
+static status read_field(struct plot_words *w, const char *text) { return w->request.field = text, OK; }
+static status read_out(struct plot_words *w, const char *text) { return w->request.out = text, OK; }
+static status read_scene_option(struct plot_words *w, const char *text) { return w->scene.scene = text, OK; }
+static status read_override(struct plot_words *w, const char *text) { return arguments_override(&w->scene, text); }
+
+/* ---- words ------------------------------------------------------------------------------------------------------- */
+
+static const struct { const char *name; status (*read)(struct plot_words *w, const char *text); } options[] = {
+    {"--field", read_field},   {"--times", read_times}, {"--frames", read_frames_option}, {"--slice", read_slice},
+    {"--view", read_view},     {"--format", read_format}, {"--scene", read_scene_option}, {"-s", read_override},
+    {"-o", read_out},
+};
+
+static status read_option(struct plot_words *w, const char *word, const char *value)
+{
+    const char *name[COUNT_OF(options)];
+    for (size_t k = 0; k < COUNT_OF(options); k++) {
+        name[k] = options[k].name;
+        if (strcmp(word, name[k]) != 0) continue;
+        return value ? options[k].read(w, value) : status_set(REFUSED, "plot: %s needs a value; usage: %s", word, usage);
+    }
+    return status_set(REFUSED, "plot: unknown option %s; do you mean %s? usage: %s", shown_name(word).text,
+                      word_nearest(word, name, COUNT_OF(name)), usage);
+}
+
+/* The format follows from the ending of -o where no other is given. */
+static status settle_format(struct plot_words *w)
+{
+    const char *dot = w->request.out ? strrchr(w->request.out, '.') : NULL;
+    if (w->format || !dot || strchr(dot, '/')) return OK;
+    return read_format(w, dot + 1);
+}
+
+static status words_together(const struct plot_words *w)
+{
+    const struct plot_request *r = &w->request;
+    const bool look = r->look.outside || r->look.normal >= 0;
+    if (w->scene.scene && (r->folder || r->field || w->times || look))
+        return status_set(REFUSED, "plot: --scene draws a scene before it runs: no folder, field, time, slice or view");
+    if (!w->scene.scene && w->scene.overrides)
+        return status_set(REFUSED, "plot: -s changes a scene; it goes with --scene");
+    if (r->look.outside && r->look.normal >= 0)
+        return status_set(REFUSED, "plot: --slice looks into the body, --view at it from outside: one of them");
+    if (!w->scene.scene && !r->folder) return status_set(REFUSED, "plot: which run? usage: %s", usage);
+    return OK;
+}
+
+static status read_words(struct plot_words *w, int argc, char **argv)
+{
+    w->request = (struct plot_request){.panels = PANELS, .look = {.normal = -1, .camera = camera_isometric}};
+    for (int k = 1; k < argc; k++) {
+        if (argv[k][0] == '-') {
+            TRY(read_option(w, argv[k], k + 1 < argc ? argv[k + 1] : NULL));
+            k++;
+        } else if (w->request.folder) {
+            return status_set(REFUSED, "plot: one folder at a time; %s is one too many", argv[k]);
+        } else w->request.folder = argv[k];
+    }
+    TRY(settle_format(w));
+    return words_together(w);
+}
+
+static status check_folder(const char *folder)
+{
+    if (!run_holds(folder, "frames.hdf.series") && !run_holds(folder, "history.csv"))
+        return status_set(REFUSED, "%s: no run there: neither frames nor history.csv", folder);
+    return strlen(folder) + PATH_NAME_ROOM < PATH_ROOM ? OK : status_set(FAILED, "%s: the name is too long", folder);
+}
+
+static status draw_words(const struct plot_words *w)
+{
+    const struct plot_request *r = &w->request;
+    if (w->scene.scene)
+        return scene_picture(w->scene.scene, w->scene.override, w->scene.overrides, r->out, r->format);
+    TRY(check_folder(r->folder));
+    const bool one = r->field || r->look.outside || r->look.normal >= 0 || r->out || picture_moves(r->format);
+    return one ? field_picture(r) : run_pictures(r);
+}
+
+status command_plot(int argc, char **argv)
+{
+    struct plot_words w = {.scene.override = NEW("arguments.override", argc, struct scene_override)};
+    status s = read_words(&w, argc, argv);
+    if (s == OK) s = draw_words(&w);
+    arguments_free(&w.scene);
+    return s;
+}

@@ -1,0 +1,92 @@
+/* The tables of colours. All of them remain apart for any colour vision; those of quantities change evenly in lightness,
+ * so that they can be read in grey print. */
+#include "plot/colours.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/base.h"
+
+struct stop { double at, red, green, blue; };
+
+/* viridis (Smith & van der Walt 2015), every eighth of it. */
+static const struct stop sequential[] = {
+    {0.000, 68, 1, 84},    {0.125, 71, 45, 123},  {0.250, 59, 82, 139},  {0.375, 44, 114, 142}, {0.500, 33, 145, 140},
+    {0.625, 40, 174, 128}, {0.750, 94, 201, 98},  {0.875, 173, 220, 48}, {1.000, 253, 231, 37},
+};
+/* RdBu of ColorBrewer (Harrower & Brewer 2003), blue first; grey in the middle, to be told from paper. */
+static const struct stop diverging[] = {
+    {0.0, 5, 48, 97},      {0.1, 33, 102, 172},   {0.2, 67, 147, 195}, {0.3, 146, 197, 222},
+    {0.4, 200, 217, 228},  {0.5, 226, 226, 226},  {0.6, 240, 209, 192}, {0.7, 244, 165, 130},
+    {0.8, 214, 96, 77},    {0.9, 178, 24, 43},    {1.0, 103, 0, 31},
+};
+static const struct stop damage_stops[] = {
+    {0.00, 226, 228, 231}, {0.12, 246, 220, 190}, {0.35, 240, 160, 110},
+    {0.60, 214, 80, 62},   {0.80, 158, 24, 42},   {1.00, 84, 2, 24},
+};
+static const struct stop bond_stops[] = {
+    {0.00, 158, 202, 233}, {0.40, 74, 144, 204}, {0.75, 22, 84, 158}, {1.00, 6, 34, 86},
+};
+
+static struct colour along_stops(const struct stop *stop, int stops, double at)
+{
+    int k = 0;
+    at = isfinite(at) ? fmin(fmax(at, 0), 1) : 1;
+    while (k + 2 < stops && at > stop[k + 1].at) k++;
+    const struct stop *a = &stop[k], *b = &stop[k + 1];
+    double share = (at - a->at) / (b->at - a->at);
+    return (struct colour){(uint8_t)lround(a->red + share * (b->red - a->red)),
+                           (uint8_t)lround(a->green + share * (b->green - a->green)),
+                           (uint8_t)lround(a->blue + share * (b->blue - a->blue)), 255};
+}
+
+struct colour colour_sequential(double at) { return along_stops(sequential, COUNT_OF(sequential), at); }
+struct colour colour_diverging(double at) { return along_stops(diverging, COUNT_OF(diverging), at); }
+struct colour colour_damage(double at) { return along_stops(damage_stops, COUNT_OF(damage_stops), at); }
+struct colour colour_bonds(double at) { return along_stops(bond_stops, COUNT_OF(bond_stops), at); }
+struct colour colour_points(void) { return (struct colour){236, 233, 226, 255}; }
+
+/* The heaviest fragment is light grey; nine colours in turn for the others, apart in lightness and hue; what has no bond
+ * is nearly black. */
+struct colour fragment_colour(int32_t fragment)
+{
+    static const struct colour turn[] = {{68, 119, 170, 255},  {238, 153, 51, 255},  {34, 136, 51, 255},
+                                         {170, 51, 119, 255},  {102, 204, 238, 255}, {204, 68, 51, 255},
+                                         {187, 187, 68, 255},  {119, 85, 170, 255},  {17, 119, 119, 255}};
+    if (fragment < 0) return (struct colour){40, 40, 44, 255};
+    if (fragment == 0) return (struct colour){212, 214, 217, 255};
+    return turn[(size_t)(fragment - 1) % COUNT_OF(turn)];
+}
+
+/* The light scheme of Tol (2021). */
+struct colour part_colour(int k)
+{
+    static const struct colour turn[] = {{187, 204, 220, 255}, {238, 221, 136, 255}, {187, 204, 51, 255},
+                                         {238, 136, 102, 255}, {153, 221, 255, 255}, {255, 170, 187, 255},
+                                         {68, 187, 153, 255},  {170, 170, 0, 255},   {190, 190, 190, 255}};
+    return turn[(size_t)k % COUNT_OF(turn)];
+}
+
+struct colour colour_faded(struct colour c, double share)
+{
+    return (struct colour){(uint8_t)lround(255 - share * (255 - c.red)), (uint8_t)lround(255 - share * (255 - c.green)),
+                           (uint8_t)lround(255 - share * (255 - c.blue)), c.alpha};
+}
+
+struct colour colour_shaded(struct colour c, double share)
+{
+    return (struct colour){(uint8_t)lround(share * c.red), (uint8_t)lround(share * c.green),
+                           (uint8_t)lround(share * c.blue), c.alpha};
+}
+
+/* Okabe & Ito (2008), and greys for what leaves. */
+const char *energy_colour(const char *column)
+{
+    static const struct { const char *column, *colour; } table[] = {
+        {"kinetic", "#0072b2"}, {"strain", "#009e73"},   {"plastic", "#e69f00"},
+        {"fracture", "#d55e00"}, {"contact", "#cc79a7"}, {"damped", "#56b4e9"},
+        {"absorbed", "#999999"}, {"external_work", "#000000"}};
+    for (size_t k = 0; k < COUNT_OF(table); k++)
+        if (strcmp(column, table[k].column) == 0) return table[k].colour;
+    return "#3d3d3d";
+}

@@ -1,0 +1,101 @@
+/* A solid as pixels: every particle is a cube of the lattice, seen along parallel lines; of those that cover a pixel the
+ * one nearest to who looks is shown. A face of the body is then an even colour, as its cubes show the same face, and the
+ * three faces are told apart by their shade. No light is needed, nor any search for the surface. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "plot/plot.h"
+
+/* Half a spacing, and a little to close the seams of a strained lattice. */
+static const double HALF = 0.52;
+/* Brightness of faces whose normal is x, y, z. */
+static const double SHADE[3] = {0.74, 0.87, 1};
+/* How much of its colour the body keeps behind its cracks. */
+static const double GHOST = 0.45;
+
+struct scene_canvas {
+    struct colour *pixel;
+    float *depth;                        /* of what is painted there, towards who looks [m] */
+    int size[2];
+    double per_metre[2];                 /* pixels */
+    const struct view *view;
+};
+
+/* Where the line of sight through `at` (in the plane of the picture, from the middle of the cube) leaves the cube of
+ * this half size, towards who looks [m], and the axis of the face there; -1: it misses the cube. */
+static int leaves_cube(const struct camera *eye, const double *half, const double *at, double *depth)
+{
+    double enters = -INFINITY, leaves = INFINITY;
+    int face = -1;
+    for (int k = 0; k < 3; k++) {
+        const double place = at[0] * eye->right[k] + at[1] * eye->up[k], slope = eye->towards[k];
+        if (fabs(slope) < 1e-9) {
+            if (fabs(place) > half[k]) return -1;
+            continue;
+        }
+        const double middle = -place / slope, reach = half[k] / fabs(slope);
+        enters = fmax(enters, middle - reach);
+        if (middle + reach < leaves) leaves = middle + reach, face = k;
+    }
+    *depth = leaves;
+    return enters < leaves ? face : -1;
+}
+
+/* Half sizes of a particle's cube [m]; one that is smaller than a pixel is painted as one. */
+static void cube_of(const struct scene_canvas *v, const struct cloud *c, int64_t i, double *half)
+{
+    const double least = 0.6 / v->per_metre[0], own = HALF * (c->size ? c->size[i] : c->spacing);
+    for (int k = 0; k < 3; k++) half[k] = fmax(own, least);
+    if (c->tall > 0) half[1] = c->tall;
+}
+
+static void paint_cube(struct scene_canvas *v, const struct cloud *c, int64_t i, struct colour colour)
+{
+    double half[3], at[2], reach[2] = {0, 0};
+    int from[2], to[2];
+    cube_of(v, c, i, half);
+    for (int k = 0; k < 3; k++)
+        reach[0] += half[k] * fabs(c->camera.right[k]), reach[1] += half[k] * fabs(c->camera.up[k]);
+    for (int a = 0; a < 2; a++) {
+        at[a] = c->place[a][i] - v->view->from[a];
+        const double low = (at[a] - reach[a]) * v->per_metre[a], high = (at[a] + reach[a]) * v->per_metre[a];
+        if (!(high > 0 && low < v->size[a])) return;             /* outside, or not a number */
+        from[a] = (int)fmax(ceil(low - 0.5), 0);
+        to[a] = (int)fmin(floor(high - 0.5), v->size[a] - 1);
+    }
+    for (int row = from[1]; row <= to[1]; row++)
+        for (int column = from[0]; column <= to[0]; column++) {
+            const double off[2] = {(column + 0.5) / v->per_metre[0] - at[0], (row + 0.5) / v->per_metre[1] - at[1]};
+            double depth = 0;
+            const int face = leaves_cube(&c->camera, half, off, &depth);
+            const int64_t q = (int64_t)row * v->size[0] + column;
+            if (c->place[2]) depth += c->place[2][i];
+            if (face < 0 || depth <= v->depth[q]) continue;
+            v->depth[q] = (float)depth;
+            v->pixel[q] = c->place[2] ? colour_shaded(colour, SHADE[face]) : colour;
+        }
+}
+
+static void canvas_clear_depth(struct scene_canvas *v)
+{
+    for (int64_t q = 0; q < (int64_t)v->size[0] * v->size[1]; q++) v->depth[q] = -INFINITY;
+}
+
+void boxes_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
+                 enum map map)
+{
+    const int64_t pixels = (int64_t)width * height;
+    struct scene_canvas v = {.pixel = pixel, .depth = NEW("plot.depth", pixels, float), .size = {width, height},
+                             .view = view};
+    for (int a = 0; a < 2; a++) v.per_metre[a] = v.size[a] / (view->to[a] - view->from[a]);
+    for (int64_t q = 0; q < pixels; q++) pixel[q] = (struct colour){255, 255, 255, 0};
+    canvas_clear_depth(&v);
+    for (int64_t i = 0; i < c->n; i++)
+        paint_cube(&v, c, i, map == MAP_CRACKS ? colour_faded(colour_damage(0), GHOST) : particle_colour(view, c, i, map));
+    if (map == MAP_CRACKS) {
+        canvas_clear_depth(&v);
+        for (int64_t i = 0; i < c->n; i++)
+            if (c->damage[i] >= CRACK_DAMAGE) paint_cube(&v, c, i, particle_colour(view, c, i, map));
+    }
+    memory_free(v.depth);
+}

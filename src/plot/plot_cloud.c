@@ -1,0 +1,264 @@
+/* The particles of a frame that a map shows, and the rectangle that shows them. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "plot/plot.h"
+
+/* Number of sampled particles, and of comparisons of distances, for the estimate of the spacing. */
+enum { SAMPLES = 200, SAMPLES_MIN = 9 };
+static const double COMPARISONS = 2e7;
+
+/* ---- spacing ----------------------------------------------------------------------------------------------------- */
+
+static int64_t sample_count(int64_t n)
+{
+    int64_t samples = (int64_t)(COMPARISONS / (double)(n + 1));
+    samples = samples > SAMPLES ? SAMPLES : samples < SAMPLES_MIN ? SAMPLES_MIN : samples;
+    return samples < n ? samples : n;
+}
+
+/* Mean distance of the `dim` nearest particles of i: a corner of a lattice has that many at one spacing. */
+static double near_distance(const struct frame *f, int64_t i)
+{
+    double nearest[DIM_MAX];
+    for (int k = 0; k < f->dim; k++) nearest[k] = INFINITY;
+    for (int64_t j = 0; j < f->n; j++) {
+        double r2 = j == i ? INFINITY : 0;
+        for (int d = 0; d < f->dim; d++) r2 += square((double)f->X[d][j] - f->X[d][i]);
+        for (int k = 0; k < f->dim; k++) {           /* insert, keeping ascending order */
+            if (r2 >= nearest[k]) continue;
+            double passed = nearest[k];
+            nearest[k] = r2;
+            r2 = passed;
+        }
+    }
+    double sum = 0;
+    for (int k = 0; k < f->dim; k++) sum += sqrt(nearest[k]);
+    return sum / f->dim;
+}
+
+static double least_spacing(const struct frame *f)
+{
+    double least = INFINITY;
+    for (int64_t i = 0; i < f->n; i++) least = fmin(least, f->spacing[i]);
+    return least;
+}
+
+double frame_spacing(const struct frame *f)
+{
+    double distance[SAMPLES];
+    int64_t samples = sample_count(f->n), known = 0;
+    if (f->spacing && f->n > 0) return least_spacing(f);
+    for (int64_t k = 0; k < samples; k++) {
+        double r = near_distance(f, k * f->n / samples);
+        if (isfinite(r)) distance[known++] = r;
+    }
+    if (known == 0) return 0;
+    return median_of(distance, known);
+}
+
+/* True if the nearest neighbour in the map lies within 8 degrees of an axis. */
+static bool lies_along(const struct cloud *c, int64_t i)
+{
+    double best = INFINITY, along = 0, across = 1;
+    for (int64_t j = 0; j < c->n; j++) {
+        double a = fabs((double)c->place[0][j] - c->place[0][i]), b = fabs((double)c->place[1][j] - c->place[1][i]);
+        if (j == i || a * a + b * b >= best) continue;
+        best = a * a + b * b;
+        along = fmax(a, b);
+        across = fmin(a, b);
+    }
+    return across < 0.14 * along;                    /* tan 8 degrees */
+}
+
+static bool is_aligned(const struct cloud *c)
+{
+    int64_t samples = sample_count(c->n), along = 0;
+    for (int64_t k = 0; k < samples; k++) along += lies_along(c, k * c->n / samples);
+    return 10 * along >= 9 * samples;
+}
+
+/* ---- slices ------------------------------------------------------------------------------------------------------ */
+
+static void frame_extent(const struct frame *f, int d, double *from, double *to)
+{
+    *from = INFINITY, *to = -INFINITY;
+    for (int64_t i = 0; i < f->n; i++) {
+        *from = fmin(*from, f->X[d][i]);
+        *to = fmax(*to, f->X[d][i]);
+    }
+}
+
+/* Thinnest direction of a solid, the last of equals. */
+static int thinnest_direction(const struct frame *f)
+{
+    double thinnest = INFINITY;
+    int normal = 2;
+    for (int d = 0; d < 3; d++) {
+        double from, to;
+        frame_extent(f, d, &from, &to);
+        if (to - from > thinnest * (1 + 1e-5)) continue;         /* single precision: equal is not exact */
+        thinnest = to - from;
+        normal = d;
+    }
+    return normal;
+}
+
+/* The coordinate of a particle that is nearest to `wanted`. */
+static double nearest_coordinate(const struct frame *f, int normal, double wanted)
+{
+    double best = INFINITY, at = wanted;
+    for (int64_t i = 0; i < f->n; i++) {
+        double off = fabs(f->X[normal][i] - wanted);
+        if (off >= best) continue;
+        best = off;
+        at = f->X[normal][i];
+    }
+    return at;
+}
+
+/* Where the sum of damage over a layer is largest; the nearest to the middle of layers that have nearly as much, or of
+ * all where nothing is damaged. */
+static double damaged_layer(const struct frame *f, int normal)
+{
+    enum { LAYERS_MAX = 100000 };
+    static const double NEARLY = 0.98;
+    double from, to, most = 0, best = INFINITY, spacing = frame_spacing(f);
+    frame_extent(f, normal, &from, &to);
+    const double middle = 0.5 * (from + to);
+    const int layers = spacing > 0 && (to - from) / spacing < LAYERS_MAX ? (int)((to - from) / spacing) + 2 : 1;
+    double *sum = NEW("plot.layers", layers, double), at = middle;
+    for (int64_t i = 0; i < f->n; i++) {
+        const int layer = layers > 1 ? (int)lround((f->X[normal][i] - from) / spacing) : 0;
+        if (isfinite(f->damage[i])) sum[layer] += f->damage[i];
+    }
+    for (int k = 0; k < layers; k++) most = fmax(most, sum[k]);
+    for (int k = 0; k < layers && most > 0; k++) {
+        const double place = from + k * spacing, off = fabs(place - middle);
+        if (sum[k] < NEARLY * most || off >= best) continue;
+        best = off, at = place;
+    }
+    memory_free(sum);
+    return nearest_coordinate(f, normal, at);
+}
+
+status look_settle(struct look *look, const struct frame *f)
+{
+    if (f->dim < 3 || look->outside) return OK;
+    if (look->normal < 0) look->normal = thinnest_direction(f);
+    if (!look->placed) {
+        look->layer = damaged_layer(f, look->normal);
+        look->placed = true;
+        return OK;
+    }
+    double from, to;
+    const double near = nearest_coordinate(f, look->normal, look->layer);
+    frame_extent(f, look->normal, &from, &to);
+    if (fabs(near - look->layer) > frame_spacing(f)) {
+        const struct unit metre = unit_for_length(fmax(fabs(from), fabs(to)));
+        return status_set(REFUSED, "plot: --slice %c=%.4g %s: no particle is there; they lie from %.4g to %.4g %s",
+                          'x' + look->normal, look->layer / metre.factor, metre.name, from / metre.factor,
+                          to / metre.factor, metre.name);
+    }
+    look->layer = near;
+    return OK;
+}
+
+/* ---- clouds ------------------------------------------------------------------------------------------------------ */
+
+const struct camera camera_isometric = {{0.86602540378, 0.5, 0}, {-0.25, 0.43301270189, 0.86602540378},
+                                        {0.43301270189, -0.75, 0.5}};
+
+struct camera camera_along(int axis, int side)
+{
+    struct camera c = {{0}, {0}, {0}};
+    const int right = axis == 0 ? 1 : 0, up = axis == 2 ? 1 : 2;
+    c.towards[axis] = side;
+    c.up[up] = 1;
+    c.right[right] = (axis == 1 ? -1 : 1) * side;    /* right, up and towards are right-handed */
+    return c;
+}
+
+/* Current position of a particle [m]. */
+static void place_now(const struct frame *f, int64_t i, double *x)
+{
+    for (int d = 0; d < 3; d++) x[d] = d < f->dim ? (double)f->X[d][i] + f->u[d][i] : 0;
+}
+
+static double along(const double *direction, const double *x)
+{
+    return direction[0] * x[0] + direction[1] * x[1] + direction[2] * x[2];
+}
+
+/* Places of particle k of the cloud; the box of reference positions grows. */
+static void cloud_place(struct cloud *c, const struct frame *f, int64_t i)
+{
+    const int64_t k = c->n;
+    double x[3], X[3];
+    place_now(f, i, x);
+    for (int d = 0; d < 3; d++) X[d] = d < f->dim ? f->X[d][i] : 0;
+    const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
+    for (int a = 0; a < 3; a++)
+        if (c->place[a]) c->place[a][k] = (float)along(axis[a], x);
+    for (int a = 0; a < 2; a++) {
+        c->from[a] = fmin(c->from[a], along(axis[a], X));
+        c->to[a] = fmax(c->to[a], along(axis[a], X));
+    }
+}
+
+static void cloud_allocate(struct cloud *c, const struct frame *f, const struct look *look)
+{
+    for (int k = 0; k < (f->dim == 3 && look->outside ? 3 : 2); k++) c->place[k] = NEW("plot.place", f->n, float);
+    c->damage = NEW("plot.damage", f->n, float);
+    c->kind = NEW("plot.kind", f->n, uint8_t);
+    if (f->fragment) c->fragment = NEW("plot.fragment", f->n, int32_t);
+    if (f->spacing) c->size = NEW("plot.size", f->n, float);
+    if (look->field) c->value = NEW("plot.value", f->n, float);
+}
+
+/* Axes of the map: x y, those of a slice, or those of a camera. */
+static void cloud_axes(struct cloud *c, const struct frame *f, const struct look *look)
+{
+    c->camera = f->dim == 3 && look->outside ? look->camera : camera_along(2, 1);
+    if (f->dim < 3 || look->outside) return;
+    c->normal = look->normal, c->layer = look->layer;
+    c->axis[0] = c->normal == 0 ? 1 : 0;
+    c->axis[1] = c->normal == 2 ? 1 : 2;
+    c->camera = camera_along(c->normal, c->normal == 1 ? -1 : 1);
+}
+
+void cloud_make(struct cloud *c, const struct frame *f, const struct look *look)
+{
+    struct look open = {.normal = -1};
+    if (!look) (void)look_settle(&open, f), look = &open;
+    *c = (struct cloud){.axis = {0, 1}, .normal = -1, .t = f->t, .spacing = frame_spacing(f),
+                        .from = {INFINITY, INFINITY}, .to = {-INFINITY, -INFINITY}};
+    cloud_axes(c, f, look);
+    cloud_allocate(c, f, look);
+    for (int64_t i = 0; i < f->n; i++) {
+        const double size = f->spacing ? f->spacing[i] : c->spacing;
+        if (c->normal >= 0 && fabs(f->X[c->normal][i] - c->layer) > 0.5 * size - 0.01 * c->spacing) continue;
+        if (f->spacing) c->size[c->n] = (float)size;
+        cloud_place(c, f, i);
+        c->damage[c->n] = f->damage[i];
+        if (f->fragment) c->fragment[c->n] = f->fragment[i];
+        if (f->fragment && f->fragment[i] >= c->fragments) c->fragments = f->fragment[i] + 1;
+        if (c->value) c->value[c->n] = (float)plot_field_at(look->field, f, i);
+        c->kind[c->n++] = f->kind[i];
+    }
+    c->aligned = !c->place[2] && is_aligned(c);
+}
+
+void cloud_free(struct cloud *c)
+{
+    for (int k = 0; k < DIM_MAX; k++) memory_free(c->place[k]);
+    memory_free(c->damage);
+    memory_free(c->kind);
+    memory_free(c->fragment);
+    memory_free(c->size);
+    memory_free(c->value);
+    memory_free(c->colour);
+    *c = (struct cloud){0};
+}

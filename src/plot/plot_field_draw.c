@@ -1,0 +1,150 @@
+/* `cleave plot DIR --field NAME`: one picture, or a film, of one field. */
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "output/output_files.h"
+#include "output/pictures.h"
+#include "plot/film.h"
+#include "plot/plot.h"
+
+/* Where the picture goes: the file of -o, or one in that folder, or in DIR/pictures. */
+static status field_path(struct path *path, const struct plot_request *r, const char *field)
+{
+    const char *ending = picture_ending[r->format];
+    const struct path usual = picture_path_of_field(r->folder, field, ending);
+    if (!r->out) {
+        *path = usual;
+        return pictures_folder_make(pictures_folder(r->folder).text);
+    }
+    const bool folder = path_is_folder(r->out);
+    if (folder) *path = path_join(r->out, strrchr(usual.text, '/') + 1);
+    else snprintf(path->text, sizeof path->text, "%s", r->out);
+    return path->text[0] ? OK : status_set(REFUSED, "%s: the name is too long", shown_name(r->out).text);
+}
+
+static enum map map_of_field(const struct plot_field *field)
+{
+    if (strcmp(field->name, "damage") == 0) return MAP_DAMAGE;
+    return strcmp(field->name, "kind") == 0 ? MAP_KIND : MAP_FIELD;
+}
+
+static bool same_everywhere(const struct cloud *cloud, int clouds)
+{
+    for (int c = 0; c < clouds; c++)
+        for (int64_t i = 0; i < cloud[c].n; i++)
+            if (cloud[c].value[i] != cloud[0].value[0]) return false;
+    return true;
+}
+
+static void field_title(char *title, const struct plot_request *r, const struct cloud *c)
+{
+    char name[TITLE_LENGTH];
+    snprintf(name, sizeof name, "%s", r->look.field->name);
+    for (char *at = name; *at; at++)
+        if (*at == '_') *at = ' ';
+    compose_title(title, r->folder, name, c);
+}
+
+/* Says what was drawn, with the range of the colours in SI units. */
+static status say_field(const char *path, const struct view *view, const struct plot_request *r, int frames,
+                        int64_t particles)
+{
+    const bool damage = map_of_field(r->look.field) != MAP_FIELD;
+    const int said = printf("%s: %s of %d frame%s, %lld particles, colours from %.4g to %.4g%s%s\n",
+                            shown_name(path).text, r->look.field->name, frames, frames > 1 ? "s" : "",
+                            (long long)particles, damage ? 0 : view->low, damage ? view->top : view->high,
+                            *r->look.field->unit ? " " : "", r->look.field->unit);
+    return said < 0 || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
+}
+
+static status draw_field_clouds(const struct plot_request *r, const char *path, const struct cloud *cloud, int clouds)
+{
+    char title[TITLE_LENGTH];
+    struct view view = view_of(cloud, clouds);
+    view_set_field(&view, r->look.field, cloud, clouds);
+    if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
+        return status_set(FAILED, "%s: the frames hold no particles, or places that are not numbers", r->folder);
+    if (same_everywhere(cloud, clouds)) {
+        char why[96];
+        snprintf(why, sizeof why, "%s is %.4g%s%s everywhere", r->look.field->name, cloud[0].value[0],
+                 *r->look.field->unit ? " " : "", r->look.field->unit);
+        return nothing_to_draw(path, why);
+    }
+    field_title(title, r, &cloud[0]);
+    const enum map map = map_of_field(r->look.field);
+    TRY(picture_moves(r->format) ? film_draw((struct sheet){path, r->format}, title, map, &view, cloud, clouds)
+                                 : maps_draw((struct sheet){path, r->format}, title, map, &view, cloud, clouds));
+    return say_field(path, &view, r, clouds, cloud[clouds - 1].n);
+}
+
+static status draw_field_map(const struct plot_request *r, const char *path, const struct run_frames *frames)
+{
+    struct cloud *cloud = NEW("plot.clouds", frames->shown, struct cloud);
+    status s = OK;
+    for (int k = 0; s == OK && k < frames->shown; k++) {
+        struct frame f;
+        s = run_frame(&f, r->folder, frames->show[k].number);
+        if (s != OK) break;
+        cloud_make(&cloud[k], &f, &r->look);
+        frame_free(&f);
+    }
+    if (s == OK) s = draw_field_clouds(r, path, cloud, frames->shown);
+    for (int k = 0; k < frames->shown; k++) cloud_free(&cloud[k]);
+    memory_free(cloud);
+    return s;
+}
+
+static status draw_field_bar(const struct plot_request *r, const char *path, const struct run_frames *frames)
+{
+    char title[TITLE_LENGTH];
+    struct frame *f = NULL;
+    if (picture_moves(r->format))
+        return status_set(REFUSED, "plot: --format %s: runs in one dimension have no films; take png, svg or pdf",
+                          picture_ending[r->format]);
+    TRY(frames_read(&f, r->folder, frames));
+    field_title(title, r, NULL);
+    status s = field_profiles_draw((struct sheet){path, r->format}, title, r->look.field, f, frames->shown);
+    frames_free(f, frames->shown);
+    if (s == OK && printf("%s\n", shown_name(path).text) < 0) s = status_set(FAILED, "cannot write to standard output");
+    return s;
+}
+
+/* A look that a run in the plane cannot have. */
+static status look_check(const struct plot_request *r, int dim)
+{
+    if (dim == 3 || (!r->look.placed && r->look.normal < 0 && !r->look.outside)) return OK;
+    return status_set(REFUSED, "plot: %s is for runs in space; this one has %d dimension%s",
+                      r->look.outside ? "--view" : "--slice", dim, dim > 1 ? "s" : "");
+}
+
+static status field_of_frames(struct plot_request *r, const struct run_frames *frames)
+{
+    struct frame last;
+    struct path path;
+    TRY(run_frame(&last, r->folder, frames->show[frames->shown - 1].number));
+    const int dim = last.dim;
+    status s = look_check(r, dim);
+    if (s == OK) s = plot_field_find(&r->look.field, r->field ? r->field : "damage", dim);
+    if (s == OK && dim == 3 && r->look.normal < 0) r->look.outside = true;
+    if (s == OK) s = look_settle(&r->look, &last);
+    frame_free(&last);
+    TRY(s);
+    TRY(field_path(&path, r, r->look.field->name));
+    return dim == 1 ? draw_field_bar(r, path.text, frames) : draw_field_map(r, path.text, frames);
+}
+
+status field_picture(const struct plot_request *request)
+{
+    struct plot_request r = *request;
+    struct run_frames frames;
+    if (picture_moves(r.format)) TRY(film_possible());
+    if (r.every || (picture_moves(r.format) && r.times == 0)) r.panels = picture_moves(r.format) ? INT_MAX : PANELS_MAX;
+    TRY(run_frames_choose(&frames, &r));
+    const status s = field_of_frames(&r, &frames);
+    run_frames_free(&frames);
+    return s;
+}

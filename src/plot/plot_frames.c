@@ -1,0 +1,143 @@
+/* What frames of a run are shown, and what is said of them. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/memory.h"
+#include "output/output_files.h"
+#include "output/summary_read.h"
+#include "plot/plot.h"
+
+enum { PATH_LENGTH = 4096 };
+
+/* ---- units ------------------------------------------------------------------------------------------------------- */
+
+struct unit unit_for(double largest, const char *name)
+{
+    static const struct { double factor; const char *prefix; } si[] = {
+        {1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}, {1e-12, "p"}};
+    struct unit u = {1, ""};
+    int k = 0;
+    while (k + 1 < (int)COUNT_OF(si) && fabs(largest) < si[k].factor * 0.9995) k++;
+    if (!(fabs(largest) > 1e-15)) k = 3;             /* zero or not finite: no prefix */
+    u.factor = si[k].factor;
+    snprintf(u.name, sizeof u.name, "%s%s", si[k].prefix, name);
+    return u;
+}
+
+struct unit unit_for_length(double largest)
+{
+    return largest > 5e-4 && largest < 10 ? (struct unit){1e-3, "mm"} : unit_for(largest, "m");
+}
+
+/* ---- frames ------------------------------------------------------------------------------------------------------ */
+
+bool run_holds(const char *folder, const char *name)
+{
+    char path[PATH_LENGTH];
+    struct stat found;
+    return snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path && stat(path, &found) == 0;
+}
+
+status run_frame(struct frame *f, const char *folder, int number)
+{
+    char path[PATH_LENGTH];
+    if (snprintf(path, sizeof path, "%s/frames/%06d.hdf", folder, number) >= (int)sizeof path)
+        return status_set(FAILED, "%s: the name is too long", folder);
+    return frame_read(f, path);
+}
+
+/* Frames evenly spread from the first to the last; a single one is the last. */
+static void spread_frames(struct run_frames *r, int panels)
+{
+    r->shown = r->listed < panels ? r->listed : panels;
+    r->show = NEW("plot.show", r->shown, struct listed_frame);
+    for (int k = 0; k < r->shown; k++)
+        r->show[k] = r->list[r->shown == 1 ? r->listed - 1 : (int)lround((double)k * (r->listed - 1) / (r->shown - 1))];
+}
+
+/* The frames nearest to the times that are asked for, each once. */
+static void nearest_frames(struct run_frames *r, const double *time, int times)
+{
+    r->show = NEW("plot.show", times, struct listed_frame);
+    for (int k = 0; k < times; k++) {
+        int best = 0;
+        for (int j = 1; j < r->listed; j++)
+            if (fabs(r->list[j].time - time[k]) < fabs(r->list[best].time - time[k])) best = j;
+        if (r->shown == 0 || r->show[r->shown - 1].number != r->list[best].number) r->show[r->shown++] = r->list[best];
+    }
+}
+
+status run_frames_choose(struct run_frames *f, const struct plot_request *r)
+{
+    *f = (struct run_frames){0};
+    TRY(frames_list(r->folder, &f->listed, &f->list));
+    if (r->times > 0) nearest_frames(f, r->time, r->times);
+    else spread_frames(f, r->panels);
+    return OK;
+}
+
+void run_frames_free(struct run_frames *f)
+{
+    memory_free(f->show);
+    memory_free(f->list);
+    *f = (struct run_frames){0};
+}
+
+status frames_read(struct frame **f, const char *folder, const struct run_frames *frames)
+{
+    *f = NEW("plot.frames", frames->shown, struct frame);
+    for (int k = 0; k < frames->shown; k++) {
+        const status s = run_frame(&(*f)[k], folder, frames->show[k].number);
+        if (s == OK) continue;
+        frames_free(*f, k);
+        return s;
+    }
+    return OK;
+}
+
+void frames_free(struct frame *f, int n)
+{
+    for (int k = 0; k < n; k++) frame_free(&f[k]);
+    memory_free(f);
+}
+
+status pictures_folder_make(const char *path)
+{
+    if (path_is_link(path))
+        return status_set(REFUSED, "%s is a link: pictures would be made somewhere else; remove it", path);
+    if (mkdir(path, 0777) != 0 && errno != EEXIST) return status_set(FAILED, "%s: %s", path, strerror(errno));
+    return OK;
+}
+
+/* ---- words ------------------------------------------------------------------------------------------------------- */
+
+status nothing_to_draw(const char *path, const char *why)
+{
+    const char *slash = strrchr(path, '/');
+    remove(path);                                    /* of an earlier time */
+    return printf("%s is not drawn: %s\n", slash ? slash + 1 : path, why) < 0
+               ? status_set(FAILED, "cannot write to standard output")
+               : OK;
+}
+
+void compose_title(char *title, const char *folder, const char *what, const struct cloud *c)
+{
+    char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], layer[NAME_MAX_LENGTH] = "";
+    if (summary_string(folder, "name", name, sizeof name) != OK) {
+        size_t length = strlen(folder);
+        while (length > 1 && folder[length - 1] == '/') length--;
+        size_t from = length;
+        while (from > 0 && folder[from - 1] != '/') from--;
+        snprintf(name, sizeof name, "%.*s", (int)(length - from), folder + from);
+    }
+    bool known = summary_string(folder, "method", method, sizeof method) == OK;
+    if (c != NULL && c->normal >= 0) {
+        struct unit metre = unit_for_length(fmax(fabs(c->layer), c->spacing));
+        snprintf(layer, sizeof layer, ", %c = %.4g %s", 'x' + c->normal, c->layer / metre.factor, metre.name);
+    }
+    snprintf(title, TITLE_LENGTH, "%s%s%s: %s%s", name, known ? ", " : "", known ? method : "", what, layer);
+}

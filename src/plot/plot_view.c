@@ -1,0 +1,129 @@
+/* What rectangle and what range of values a map shows: by the bulk of the particles, not by single ones that fly. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "plot/plot.h"
+
+enum { SAMPLE_MOST = 100000 };           /* values that quantiles are taken of */
+
+static int plot_view_ascending(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* Finite ones of n values, some thousand at most, ascending into `sample` [SAMPLE_MOST]; how many. */
+static int64_t sample_sorted(float *sample, const float *value, int64_t n)
+{
+    const int64_t stride = n / SAMPLE_MOST + 1;
+    int64_t kept = 0;
+    for (int64_t i = 0; i < n; i += stride)
+        if (isfinite(value[i])) sample[kept++] = value[i];
+    qsort(sample, (size_t)kept, sizeof *sample, plot_view_ascending);
+    return kept;
+}
+
+struct span { double from, to; };
+
+/* The value below which a share of them lies, and that above which it does. */
+static struct span bulk_of(float *sample, const float *value, int64_t n, double share)
+{
+    const int64_t kept = sample_sorted(sample, value, n);
+    const int64_t k = (int64_t)(share * (double)(kept - 1));
+    return kept ? (struct span){sample[k], sample[kept - 1 - k]} : (struct span){INFINITY, -INFINITY};
+}
+
+static struct span extent_of(const float *value, int64_t n)
+{
+    struct span s = {INFINITY, -INFINITY};
+    for (int64_t i = 0; i < n; i++) s.from = fmin(s.from, value[i]), s.to = fmax(s.to, value[i]);
+    return s;
+}
+
+/* Along an axis: where all but a hundredth of the particles of each frame are, with a fifth of that on both sides, and
+ * where the body was at first; but no more than there is. */
+static struct span span_along(const struct cloud *cloud, int clouds, int k)
+{
+    static const double SHARE = 0.01, BESIDE = 0.2;
+    float *sample = NEW("plot.sample", SAMPLE_MOST, float);
+    struct span shown = {INFINITY, -INFINITY}, all = shown;
+    for (int c = 0; c < clouds; c++) {
+        const struct span here = extent_of(cloud[c].place[k], cloud[c].n);
+        struct span bulk = bulk_of(sample, cloud[c].place[k], cloud[c].n, SHARE);
+        const double beside = BESIDE * (bulk.to - bulk.from);
+        all.from = fmin(all.from, here.from), all.to = fmax(all.to, here.to);
+        shown.from = fmin(shown.from, fmin(bulk.from - beside, cloud[c].from[k]));
+        shown.to = fmax(shown.to, fmax(bulk.to + beside, cloud[c].to[k]));
+    }
+    memory_free(sample);
+    return (struct span){fmax(shown.from, all.from), fmin(shown.to, all.to)};
+}
+
+static int64_t count_outside(const struct view *v, const struct cloud *c)
+{
+    int64_t outside = 0;
+    for (int64_t i = 0; i < c->n; i++) {
+        bool in = true;
+        for (int k = 0; k < 2; k++) in = in && c->place[k][i] >= v->from[k] && c->place[k][i] <= v->to[k];
+        outside += !in;
+    }
+    return outside;
+}
+
+struct view view_of(const struct cloud *cloud, int clouds)
+{
+    struct view v = {.top = 0.5};
+    double longest = 0, reach = 0;
+    for (int k = 0; k < 2; k++) {
+        const struct span s = span_along(cloud, clouds, k);
+        v.from[k] = s.from, v.to[k] = s.to;
+        longest = fmax(longest, s.to - s.from);
+    }
+    for (int c = 0; c < clouds; c++)
+        for (int64_t i = 0; i < cloud[c].n; i++) {
+            v.top = fmax(v.top, fmin(cloud[c].damage[i], 1));
+            if (cloud[c].size) reach = fmax(reach, 0.5 * cloud[c].size[i]);
+        }
+    v.top = ceil(10 * v.top - 1e-3) / 10;            /* the colour bar ends on a tenth, 0.5 at least */
+    double margin = fmax(fmax(cloud[0].spacing, reach), 0.02 * longest);
+    if (!(margin > 0)) margin = 1e-3;                /* a single particle: a millimetre round it [m] */
+    for (int k = 0; k < 2; k++) {
+        const double beside = k == 1 && cloud[0].tall > 0 ? 1.5 * cloud[0].tall : margin;
+        v.from[k] -= beside, v.to[k] += beside;
+    }
+    for (int c = 0; c < clouds; c++) v.outside = (int64_t)fmax((double)v.outside, (double)count_outside(&v, &cloud[c]));
+    return v;
+}
+
+void view_set_field(struct view *v, const struct plot_field *field, const struct cloud *cloud, int clouds)
+{
+    static const double SHARE = 0.002;
+    float *sample = NEW("plot.sample", SAMPLE_MOST, float);
+    struct span s = {0, 0};
+    for (int c = 0; c < clouds; c++) {
+        const struct span bulk = bulk_of(sample, cloud[c].value, cloud[c].n, SHARE);
+        s.from = fmin(s.from, bulk.from), s.to = fmax(s.to, bulk.to);
+    }
+    memory_free(sample);
+    v->field = field;
+    const double largest = fmax(-s.from, s.to);
+    v->low = field->has_sign ? -largest : s.from, v->high = field->has_sign ? largest : s.to;
+    if (!(v->high > v->low)) v->high = v->low + 1;   /* nothing but zero */
+}
+
+struct colour map_colour(const struct view *v, enum map map, double a)
+{
+    if (map == MAP_KIND) return colour_bonds(a);
+    if (map == MAP_FIELD && v->field) return v->field->has_sign ? colour_diverging(a) : colour_sequential(a);
+    return colour_damage(a);
+}
+
+struct colour particle_colour(const struct view *v, const struct cloud *c, int64_t i, enum map map)
+{
+    if (c->colour) return c->colour[i];
+    if (map == MAP_FRAGMENT && c->fragment) return fragment_colour(c->fragment[i]);
+    if (map == MAP_KIND && c->kind[i] == KIND_MPM) return colour_points();
+    if (map == MAP_FIELD && c->value) return map_colour(v, map, (c->value[i] - v->low) / (v->high - v->low));
+    return map_colour(v, map, c->damage[i] / v->top);
+}

@@ -1,0 +1,188 @@
+/* Loads and supports of a scene, on the particles that bear them. */
+#include "scene_marks.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { ARROWS_MOST = 22, ARROWS_FIELD = 60, ARROWS_BAR = 4, HOW = 160, TEXT = 160 };
+
+/* ---- words ------------------------------------------------------------------------------------------------------- */
+
+static int add_words(char *text, int length, const char *words)
+{
+    const int more = snprintf(text + length, (size_t)(TEXT - length), "%s", words);
+    return length + more < TEXT ? length + more : TEXT - 1;
+}
+
+/* `12 MPa`, of a vector its length. */
+static int add_value(char *text, int length, double value, const char *unit)
+{
+    char words[64];
+    const struct unit u = unit_for(value, unit);
+    snprintf(words, sizeof words, " %.3g %s", value / u.factor, u.name);
+    return add_words(text, length, words);
+}
+
+static double size_of(const real *value, int dim)
+{
+    double sum = 0;
+    for (int d = 0; d < dim; d++) sum += square(value[d]);
+    return sqrt(sum);
+}
+
+static bool is_support(const struct boundary *b, int dim)
+{
+    return b->kind == BOUNDARY_VELOCITY && size_of(b->value, dim) == 0;
+}
+
+/* What a boundary condition does, for the key. */
+static void describe_boundary(char *text, const struct boundary *b, int dim, int64_t particles)
+{
+    char face[16], many[48];
+    int length = snprintf(text, TEXT, "%.40s:", b->name);
+    snprintf(face, sizeof face, ", %c%c", 'x' + b->face, b->side > 0 ? '+' : '-');
+    if (b->kind == BOUNDARY_MIRROR) {
+        const struct unit metre = unit_for_length(fmax(fabs(b->at), 1e-3));
+        snprintf(many, sizeof many, " %s %c = %.4g %s", b->hold_tangential ? "clamped at" : "mirror", 'x' + b->axis,
+                 b->at / metre.factor, metre.name);
+        add_words(text, length, many);
+        return;
+    }
+    if (b->kind == BOUNDARY_TRACTION) length = add_words(text, length, " traction");
+    if (b->kind == BOUNDARY_BODY_FORCE) length = add_words(text, length, " body force");
+    if (b->kind == BOUNDARY_ABSORBING) length = add_words(text, length, " absorbing");
+    if (b->kind == BOUNDARY_VELOCITY) length = add_words(text, length, is_support(b, dim) ? " held" : " driven");
+    if (b->kind == BOUNDARY_TRACTION) length = add_value(text, length, size_of(b->value, dim), "Pa");
+    if (b->kind == BOUNDARY_BODY_FORCE) length = add_value(text, length, size_of(b->value, dim), "N/m³");
+    if (b->kind == BOUNDARY_VELOCITY && !is_support(b, dim))
+        length = add_value(text, length, size_of(b->value, dim), "m/s");
+    for (int d = 0; d < dim && b->kind == BOUNDARY_VELOCITY; d++)
+        if (b->components >> d & 1) length = add_words(text, length, (const char *[]){" x", " y", " z"}[d]);
+    if (b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING) length = add_words(text, length, face);
+    snprintf(many, sizeof many, " (%lld)", (long long)particles);
+    add_words(text, length, many);
+}
+
+/* ---- marks ------------------------------------------------------------------------------------------------------- */
+
+/* Every particle that is drawn of n, spread evenly. */
+static int64_t stride_for(int64_t n, int64_t most) { return n > most ? (n + most - 1) / most : 1; }
+
+/* Arrows of a load: pulling ones begin at the particle, pushing ones end there. */
+static void arrows_of_load(struct marks *m, const struct load *l, const struct boundary *b)
+{
+    const struct particles *p = &m->engine->part;
+    const double size = size_of(b->value, p->dim);
+    const bool inward = b->kind != BOUNDARY_TRACTION || b->value[b->face] * b->side <= 0;
+    double vector[DIM_MAX] = {0};
+    for (int d = 0; d < p->dim; d++) vector[d] = size > 0 ? m->arrow * b->value[d] / size : 0;
+    for (int64_t k = 0; k < l->n; k += stride_for(l->n, b->kind == BOUNDARY_BODY_FORCE ? ARROWS_FIELD : ARROWS_MOST)) {
+        real X[DIM_MAX];
+        particle_place(p, l->particle[k], X);
+        for (int d = 0; d < p->dim && inward; d++) X[d] -= vector[d];
+        mark_place(m, X, vector);
+    }
+}
+
+static void points_of_load(struct marks *m, const struct load *l)
+{
+    for (int64_t k = 0; k < l->n; k += stride_for(l->n, 3 * ARROWS_MOST)) {
+        real X[DIM_MAX];
+        particle_place(&m->engine->part, l->particle[k], X);
+        mark_place(m, X, NULL);
+    }
+}
+
+/* A plane of symmetry: a line across the picture in the plane, the frame of the body's box in space. */
+static void mirror_plane_mark(struct marks *m, const struct boundary *b)
+{
+    const struct particles *p = &m->engine->part;
+    real low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, X[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) particles_extent(p, p->n, d, &low[d], &high[d]);
+    const int a = b->axis == 0 ? 1 : 0, c = b->axis == 2 ? 1 : 2;
+    for (int k = 0; k < (p->dim == 3 ? 5 : 2); k++) {
+        const bool up = k == 1 || k == 2, far = k == 2 || k == 3;
+        for (int d = 0; d < DIM_MAX; d++) X[d] = low[d];
+        X[b->axis] = b->at;
+        if (p->dim > 1) X[a] = up ? high[a] + m->arrow : low[a] - m->arrow;
+        if (p->dim == 3) X[c] = far ? high[c] + m->arrow : low[c] - m->arrow;
+        mark_place(m, X, NULL);
+    }
+}
+
+static void boundary_mark(struct marks *m, int number)
+{
+    const struct scene *s = m->engine->scene;
+    const struct boundary *b = &s->boundary[number];
+    const struct load *l = &m->engine->loads.load[number];
+    const char *colour = curve_colour[number % CURVE_COLOURS];
+    char text[TEXT], how[HOW];
+    describe_boundary(text, b, s->dim, l->n);
+    mark_begin(m);
+    if (b->kind == BOUNDARY_MIRROR) {
+        mirror_plane_mark(m, b);
+        snprintf(how, sizeof how, "with lines lw 2 dt (12,4,3,4) lc rgb '%s'", colour);
+    } else if (is_support(b, s->dim) || b->kind == BOUNDARY_ABSORBING) {
+        points_of_load(m, l);
+        snprintf(how, sizeof how, "with points pt %d ps 1.1 lc rgb '%s'", b->kind == BOUNDARY_ABSORBING ? 6 : 9, colour);
+    } else {
+        arrows_of_load(m, l, b);
+        snprintf(how, sizeof how, "using 1:2:3:4 with vectors %s size screen 0.012,22 lw 1.8 lc rgb '%s'",
+                 b->kind == BOUNDARY_VELOCITY ? "head empty" : "head filled", colour);
+    }
+    mark_end(m, how, text);
+}
+
+void marks_loads(struct marks *m)
+{
+    for (int b = 0; b < m->engine->scene->boundaries; b++) boundary_mark(m, b);
+}
+
+/* ---- motion at the start ----------------------------------------------------------------------------------------- */
+
+static double speed_of(const struct particles *p, int64_t i)
+{
+    double sum = 0;
+    for (int d = 0; d < p->dim; d++) sum += square(p->v[d][i]);
+    return sqrt(sum);
+}
+
+/* Of all rigid bodies that move: an arrow from the middle of each. */
+static void rigid_arrows(struct marks *m, double fastest)
+{
+    const struct scene *s = m->engine->scene;
+    for (int k = 0; k < s->rigids; k++) {
+        const real *v = s->body[s->bodies + k].velocity;
+        double vector[DIM_MAX] = {0};
+        for (int d = 0; d < s->dim; d++) vector[d] = m->arrow * v[d] / fastest;
+        if (size_of(v, s->dim) > 0) mark_place(m, m->engine->rigid[k].x, vector);
+    }
+}
+
+void marks_motion(struct marks *m)
+{
+    const struct particles *p = &m->engine->part;
+    const struct scene *s = m->engine->scene;
+    double fastest = 0;
+    int64_t moving = 0;
+    char text[TEXT];
+    for (int k = 0; k < s->rigids; k++) fastest = fmax(fastest, size_of(s->body[s->bodies + k].velocity, s->dim));
+    for (int64_t i = 0; i < p->n; i++) {
+        const double v = speed_of(p, i);
+        fastest = fmax(fastest, v);
+        moving += v > 0;
+    }
+    if (fastest == 0) return;
+    mark_begin(m);
+    const int64_t stride = stride_for(moving, p->dim == 1 ? ARROWS_BAR : ARROWS_FIELD);
+    for (int64_t i = 0, k = 0; i < p->n; i++) {
+        double vector[DIM_MAX];
+        real X[DIM_MAX];
+        if (speed_of(p, i) == 0 || k++ % stride != 0) continue;
+        for (int d = 0; d < p->dim; d++) X[d] = p->x[d][i], vector[d] = m->arrow * p->v[d][i] / fastest;
+        mark_place(m, X, vector);
+    }
+    rigid_arrows(m, fastest);
+    add_value(text, snprintf(text, sizeof text, "velocity, at most"), fastest, "m/s");
+    mark_end(m, "using 1:2:3:4 with vectors head filled size screen 0.009,20 lw 1.3 lc rgb '#222222'", text);
+}

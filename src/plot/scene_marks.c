@@ -1,0 +1,195 @@
+/* Pre-cracks, probes and levels over the particles of a scene; and how marks are drawn. */
+#include "scene_marks.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- marks ------------------------------------------------------------------------------------------------------- */
+
+static double marks_across(const double *axis, const double *x, int dim)
+{
+    double sum = 0;
+    for (int d = 0; d < dim; d++) sum += axis[d] * x[d];
+    return sum;
+}
+
+void mark_begin(struct marks *m) { fprintf(m->to, "$m%d << EOD\n", m->blocks); }
+
+void mark_place(struct marks *m, const real *X, const double *vector)
+{
+    const int dim = m->engine->part.dim;
+    fprintf(m->to, "%.9g %.9g", marks_across(m->camera.right, X, dim) / m->metre,
+            marks_across(m->camera.up, X, dim) / m->metre);
+    if (vector)
+        fprintf(m->to, " %.9g %.9g", marks_across(m->camera.right, vector, dim) / m->metre,
+                marks_across(m->camera.up, vector, dim) / m->metre);
+    putc('\n', m->to);
+}
+
+void mark_break(struct marks *m) { putc('\n', m->to); }
+
+void mark_end(struct marks *m, const char *how, const char *text)
+{
+    fputs("NaN NaN NaN NaN\nEOD\n", m->to);          /* a block must hold something */
+    fprintf(m->plot, ", $m%d %s ", m->blocks++, how);
+    if (!*text) {
+        fputs("notitle", m->plot);
+        return;
+    }
+    fputs("title ", m->plot);
+    gnuplot_quote(m->plot, text);
+}
+
+void marks_colour(struct marks *m, struct colour c, const char *text)
+{
+    fprintf(m->plot, ", NaN with points pt 5 ps 2 lc rgb '#%02x%02x%02x' title ", c.red, c.green, c.blue);
+    gnuplot_quote(m->plot, text);
+}
+
+/* ---- cracks ------------------------------------------------------------------------------------------------------ */
+
+static void crack_line(struct marks *m, const struct crack *c)
+{
+    for (int k = 0; k < c->n; k++) mark_place(m, c->corner[k], NULL);
+    if (c->n > 2) mark_place(m, c->corner[0], NULL);
+    mark_break(m);
+}
+
+void marks_cracks(struct marks *m)
+{
+    const struct scene *s = m->engine->scene;
+    char text[96];
+    if (s->cracks > 0) {
+        mark_begin(m);
+        for (int k = 0; k < s->cracks; k++) crack_line(m, &s->crack[k]);
+        snprintf(text, sizeof text, "%d pre-crack%s", s->cracks, s->cracks > 1 ? "s" : "");
+        mark_end(m, s->dim == 1 ? "with points pt 2 ps 2 lw 3 lc rgb '#7a1020'" : "with lines lw 3.2 lc rgb '#7a1020'",
+                 text);
+    }
+    for (int k = 0; k < s->growths; k++) {
+        double way[DIM_MAX];
+        for (int d = 0; d < s->dim; d++) way[d] = m->arrow * s->growth[k].direction[d];
+        snprintf(text, sizeof text, "%.40s: a crack grows from here", s->growth[k].name);
+        mark_begin(m);
+        mark_place(m, s->growth[k].at, way);
+        mark_end(m, "using 1:2:3:4 with vectors head filled size screen 0.014,20 lw 2 dt (6,4) lc rgb '#7a1020'", text);
+    }
+}
+
+/* ---- probes ------------------------------------------------------------------------------------------------------ */
+
+enum { PROBES_NAMED = 10, CIRCLE = 48 };
+
+/* The corners of a box in the plane, or its twelve edges in space. */
+static void box_lines(struct marks *m, const real *from, const real *to, int dim)
+{
+    for (int a = 0; a < dim; a++)
+        for (int k = 0; k < 1 << dim; k++) {
+            real X[2][DIM_MAX] = {{0}};
+            if (k >> a & 1) continue;
+            for (int d = 0; d < dim; d++) X[0][d] = X[1][d] = k >> d & 1 ? to[d] : from[d];
+            X[1][a] = to[a];
+            mark_place(m, X[0], NULL);
+            mark_place(m, X[1], NULL);
+            mark_break(m);
+        }
+}
+
+static void circle_line(struct marks *m, const real *centre, double radius)
+{
+    for (int k = 0; k <= CIRCLE; k++) {
+        const double angle = 2 * M_PI * k / CIRCLE;
+        const real X[DIM_MAX] = {centre[0] + radius * cos(angle), centre[1] + radius * sin(angle), 0};
+        mark_place(m, X, NULL);
+    }
+}
+
+/* The place or line of a probe; false: it has none of its own. */
+static bool probe_mark(struct marks *m, int k, const char *text)
+{
+    const struct scene *s = m->engine->scene;
+    const struct probe_request *p = &s->probe[k];
+    const struct observed seen = engine_observed(m->engine);
+    real from[DIM_MAX] = {0}, to[DIM_MAX] = {0}, radius;
+    static const char line[] = "with lines lw 1.6 dt (7,4) lc rgb '#5b2a86'";
+    mark_begin(m);
+    if (probes_sif_ring(&m->engine->probing.probes, k, &seen, from, &radius)) {
+        circle_line(m, from, radius);
+        mark_end(m, line, text);
+    } else if (p->kind == PROBE_LINE) {
+        mark_place(m, p->from, NULL);
+        mark_place(m, p->to, NULL);
+        mark_end(m, line, text);
+    } else if (p->has_at) {
+        mark_place(m, p->at, NULL);
+        mark_end(m, "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'", text);
+    } else if (p->region.n > 0 && region_bounds(&p->region, s->dim, from, to)) {
+        box_lines(m, from, to, s->dim);
+        mark_end(m, line, text);
+    } else {
+        mark_end(m, "with points", "");
+        return false;
+    }
+    return true;
+}
+
+void marks_probes(struct marks *m)
+{
+    const struct scene *s = m->engine->scene;
+    char text[NAME_MAX_LENGTH + 16];
+    int more = 0;
+    for (int k = 0; k < s->probes; k++) {
+        if (k >= PROBES_NAMED) more++;
+        snprintf(text, sizeof text, "probe %.60s", s->probe[k].name);
+        probe_mark(m, k, k < PROBES_NAMED ? text : "");
+    }
+    if (more == 0) return;
+    snprintf(text, sizeof text, "and %d more probes", more);
+    mark_begin(m);
+    mark_end(m, "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'", text);
+}
+
+/* ---- levels ------------------------------------------------------------------------------------------------------ */
+
+/* The cell of level 0 at the lower corner of a coarse cell? `k`: its place in the box. */
+static bool is_corner_cell(const struct mesh_levels *l, int64_t cell, int64_t *k)
+{
+    const struct grid *g = &l->fine->grid;
+    bool corner = true;
+    for (int d = 0; d < g->dim; d++) {
+        k[d] = cell / g->stride[d] % g->count[d];
+        corner = corner && (k[d] - l->offset[0][d]) % ((int64_t)1 << l->level[cell]) == 0;
+    }
+    return corner;
+}
+
+static int64_t level_cells_draw(struct marks *m, int level)
+{
+    const struct mesh_levels *l = &m->engine->reference.levels;
+    const struct grid *g = &l->fine->grid;
+    int64_t n = 0;
+    for (int64_t I = 0; I < g->n; I++) {
+        int64_t k[DIM_MAX];
+        real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
+        if (l->level[I] != level || !is_corner_cell(l, I, k)) continue;
+        n++;
+        for (int d = 0; d < g->dim; d++)
+            from[d] = grid_position(g, d, k[d]), to[d] = grid_position(g, d, k[d] + ((int64_t)1 << level));
+        box_lines(m, from, to, g->dim);
+    }
+    return n;
+}
+
+void marks_levels(struct marks *m)
+{
+    static const char *const colour[LEVELS_MAX + 1] = {"", "#9a9a9a", "#7a7a7a", "#5a5a5a", "#3a3a3a"};
+    const struct mesh_levels *l = &m->engine->reference.levels;
+    for (int level = 1; level <= l->n && m->engine->part.dim == 2; level++) {
+        char text[96], how[96];
+        mark_begin(m);
+        const int64_t n = level_cells_draw(m, level);
+        snprintf(text, sizeof text, "level %d: %lld cells of %d spacings", level, (long long)n, 2 << level);
+        snprintf(how, sizeof how, "with lines lw 0.7 lc rgb '%s'", colour[level]);
+        mark_end(m, how, n > 0 ? text : "");
+    }
+}

@@ -1,0 +1,303 @@
+/* `cleave plot --scene SCENE`: the scene as its run begins. Particles, loads, levels and all else come from engine_make,
+ * as in a run: what is drawn is what will be computed. */
+#include "plot/scene_picture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "auto/scene_read.h"
+#include "base/memory.h"
+#include "maps_parts.h"
+#include "output/output_files.h"
+#include "scene_marks.h"
+
+enum { PICTURE_LEFT = 100, PICTURE_KEY = 372, PICTURE_ABOVE = 66, PICTURE_BELOW = 66, PANEL_WIDEST = 860, PANEL_HIGHEST = 760,
+       PANEL_LOWEST = 90, KEY_LINE = 23 };
+enum { RIGID_POINTS = 60000, TEXT_ROOM = 200 };
+/* How dark peridynamic particles are beside material points of the same body; rigid bodies. */
+static const double PERIDYNAMIC = 0.72;
+static const struct colour RIGID = {120, 120, 126, 255};
+/* Half height of the particles of a bar over its length. */
+static const double BAR_HALF = 0.02;
+
+/* ---- particles --------------------------------------------------------------------------------------------------- */
+
+/* Materials have colours of their own, or bodies where there is one material alone. */
+static int part_number(const struct scene *s, const struct particles *p, int64_t i)
+{
+    return s->materials > 1 ? p->material[i] : p->body[i];
+}
+
+static void cloud_add(struct cloud *c, const real *x, int dim, double size, struct colour colour)
+{
+    const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
+    for (int a = 0; a < 3; a++) {
+        double sum = 0;
+        for (int d = 0; d < dim; d++) sum += axis[a][d] * x[d];
+        if (c->place[a]) c->place[a][c->n] = (float)sum;
+        if (a < 2) c->from[a] = fmin(c->from[a], sum), c->to[a] = fmax(c->to[a], sum);
+    }
+    c->size[c->n] = (float)size;
+    c->colour[c->n++] = colour;
+}
+
+/* Places of the particles with their colours; `spacing` NULL: all that of the scene. */
+static void cloud_add_particles(struct cloud *c, const struct engine *e, const struct particles *p, const real *spacing)
+{
+    const struct scene *s = e->scene;
+    const bool both = e->part.n_of[KIND_PD] > 0 && e->part.n_of[KIND_MPM] > 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        struct colour colour = part_colour(part_number(s, p, i));
+        real x[DIM_MAX];
+        for (int d = 0; d < p->dim; d++) x[d] = spacing ? p->X[d][i] : p->x[d][i];
+        if (both && !spacing && p->kind[i] == KIND_PD) colour = colour_shaded(colour, PERIDYNAMIC);
+        cloud_add(c, x, p->dim, spacing ? spacing[i] : s->spacing, colour);
+    }
+}
+
+/* The lattice that shows a rigid body; returns its number of sites, and through `step` their distance. */
+static int64_t rigid_sites(const struct scene *s, const struct region *shape, real *from, real *to, double *step)
+{
+    double sites = 1;
+    *step = s->spacing;
+    if (!region_bounds(shape, s->dim, from, to)) return 0;
+    for (int d = 0; d < s->dim; d++) sites *= (to[d] - from[d]) / s->spacing + 1;
+    if (sites > RIGID_POINTS) *step *= pow(sites / RIGID_POINTS, 1.0 / s->dim);
+    int64_t n = 1;
+    for (int d = 0; d < s->dim; d++) n *= (int64_t)((to[d] - from[d]) / *step) + 1;
+    return n;
+}
+
+static void cloud_add_rigid(struct cloud *c, const struct scene *s, const struct region *shape)
+{
+    real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
+    double step;
+    const int64_t n = rigid_sites(s, shape, from, to, &step);
+    for (int64_t k = 0; k < n; k++) {
+        real X[DIM_MAX] = {0};
+        int64_t rest = k;
+        for (int d = 0; d < s->dim; d++) {
+            const int64_t count = (int64_t)((to[d] - from[d]) / step) + 1;
+            X[d] = from[d] + 0.5 * (to[d] - from[d] - step * (double)(count - 1)) + step * (double)(rest % count);
+            rest /= count;
+        }
+        if (region_contains(shape, X, s->dim, 0)) cloud_add(c, X, s->dim, step, RIGID);
+    }
+}
+
+/* Everything that has a place, from the engine. */
+static void scene_cloud(struct cloud *c, struct engine *e)
+{
+    const struct scene *s = e->scene;
+    real from[DIM_MAX], to[DIM_MAX];
+    double step;
+    const bool hollow = engine_hollow_points(e);
+    int64_t room = e->part.n + (hollow ? e->report.more.n : 0);
+    for (int b = s->bodies; b < s->bodies + s->rigids; b++) room += rigid_sites(s, &s->body[b].shape, from, to, &step);
+    *c = (struct cloud){.axis = {0, 1}, .normal = -1, .spacing = s->spacing, .aligned = true,
+                        .camera = s->dim == 3 ? camera_isometric : camera_along(2, 1),
+                        .from = {INFINITY, INFINITY}, .to = {-INFINITY, -INFINITY}};
+    for (int a = 0; a < (s->dim == 3 ? 3 : 2); a++) c->place[a] = NEW("plot.place", room, float);
+    c->damage = NEW("plot.damage", room, float);
+    c->size = NEW("plot.size", room, float);
+    c->colour = NEW("plot.colour", room, struct colour);
+    cloud_add_particles(c, e, &e->part, NULL);
+    if (hollow) cloud_add_particles(c, e, &e->report.more, e->report.more_spacing);
+    for (int b = s->bodies; b < s->bodies + s->rigids; b++) cloud_add_rigid(c, s, &s->body[b].shape);
+    if (s->dim == 1) c->tall = BAR_HALF * (c->to[0] - c->from[0]);
+}
+
+/* ---- key --------------------------------------------------------------------------------------------------------- */
+
+/* Particles of a part, hollow cells left out. */
+static int64_t count_part(const struct engine *e, int number)
+{
+    int64_t n = 0;
+    for (int64_t i = 0; i < e->part.n; i++) n += part_number(e->scene, &e->part, i) == number;
+    return n;
+}
+
+/* `ball: rigid, 4.1 g, 150 m/s`. */
+static void rigid_words(char *text, const struct scene_body *b, int dim)
+{
+    double speed = 0;
+    int length = snprintf(text, TEXT_ROOM, "%.48s: rigid", b->name);
+    for (int d = 0; d < dim; d++) speed += square(b->velocity[d]);
+    const struct unit mass = unit_for(1e3 * b->mass, "g"), fast = unit_for(sqrt(speed), "m/s");
+    if (b->mass > 0)
+        length += snprintf(text + length, (size_t)(TEXT_ROOM - length), ", %.3g %s", 1e3 * b->mass / mass.factor, mass.name);
+    if (speed > 0)
+        snprintf(text + length, (size_t)(TEXT_ROOM - length), ", %.3g %s", sqrt(speed) / fast.factor, fast.name);
+}
+
+static void key_of_parts(struct marks *m)
+{
+    const struct engine *e = m->engine;
+    const struct scene *s = e->scene;
+    const int parts = s->materials > 1 ? s->materials : s->bodies;
+    char text[TEXT_ROOM];
+    for (int k = 0; k < parts; k++) {
+        const int64_t n = count_part(e, k);
+        const char *name = s->materials > 1 || s->bodies == 1 ? s->material[s->materials > 1 ? k : 0].name : s->body[k].name;
+        if (n == 0) continue;
+        snprintf(text, sizeof text, "%.48s: %lld particles", name, (long long)n);
+        marks_colour(m, part_colour(k), text);
+    }
+    if (e->part.n_of[KIND_PD] > 0 && e->part.n_of[KIND_MPM] > 0) {
+        snprintf(text, sizeof text, "darker: %lld peridynamic", (long long)e->part.n_of[KIND_PD]);
+        marks_colour(m, colour_shaded(part_colour(0), PERIDYNAMIC), text);
+    }
+    for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
+        rigid_words(text, &s->body[b], s->dim);
+        marks_colour(m, RIGID, text);
+    }
+}
+
+/* Lines of the key, about. */
+static int key_lines(const struct scene *s)
+{
+    return s->materials + s->bodies + s->rigids + s->boundaries + s->probes + s->growths + 6;
+}
+
+/* ---- the picture ------------------------------------------------------------------------------------------------- */
+
+/* Room for arrows beside the body. */
+static struct view scene_view(const struct cloud *c, double arrow)
+{
+    struct view v = view_of(c, 1);
+    for (int a = 0; a < 2; a++) v.from[a] -= arrow, v.to[a] += arrow;
+    v.outside = 0;
+    return v;
+}
+
+static double arrow_length(const struct cloud *c)
+{
+    return 0.07 * fmax(c->to[0] - c->from[0], c->to[1] - c->from[1]);
+}
+
+static struct layout scene_layout(const struct view *v, int lines)
+{
+    struct layout l = {.columns = 1, .rows = 1};
+    const double aspect = (v->to[1] - v->from[1]) / (v->to[0] - v->from[0]);
+    const double width = fmin(PANEL_WIDEST, PANEL_HIGHEST / aspect);
+    l.panel_width = (int)fmax(lround(width), PANEL_LOWEST);
+    l.panel_height = (int)fmax(lround(width * aspect), PANEL_LOWEST);
+    l.width = PICTURE_LEFT + l.panel_width + PICTURE_KEY;
+    l.height = PICTURE_ABOVE + l.panel_height + PICTURE_BELOW;
+    if (l.height < 60 + KEY_LINE * lines) l.height = 60 + KEY_LINE * lines;
+    return l;
+}
+
+static void draw_scene_title(FILE *to, const struct layout *l, const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    const struct unit metre = unit_for_length(s->spacing);
+    char text[TEXT_ROOM];
+    snprintf(text, sizeof text, "%.60s before it runs: %lld particles, spacing %.4g %s", s->name,
+             (long long)e->part.n_body, s->spacing / metre.factor, metre.name);
+    fputs("set label 1 ", to);
+    gnuplot_quote(to, text);
+    fprintf(to, " at screen %.6g,%.6g left font ',15' textcolor rgb '#111111'\n", (double)PICTURE_LEFT / l->width,
+            1 - 28.0 / l->height);
+}
+
+static void set_panel(FILE *to, const struct layout *l, const struct view *v, const struct cloud *c,
+                      const struct unit *metre)
+{
+    panel_place(to, l, PICTURE_LEFT, PICTURE_ABOVE);
+    for (int a = 0; a < 2; a++)
+        fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + a, v->from[a] / metre->factor, v->to[a] / metre->factor);
+    if (c->place[2]) panel_directions(to, l, v, c, metre);
+    else panel_axes(to, l, v, c, metre, 0, true);
+    if (c->tall > 0) fputs("unset ytics\nset ylabel ''\nset border 1\n", to);
+    fprintf(to, "set key at screen %.6g,%.6g left top Left reverse vertical maxrows 60 samplen 2 spacing 1.15 font ',12'\n",
+            (PICTURE_LEFT + l->panel_width + 14.0) / l->width, 1 - 58.0 / l->height);
+}
+
+/* Image first, then the marks in one plot command. */
+static void plot_scene(FILE *to, const struct layout *l, const struct view *v, const struct cloud *c,
+                       const struct unit *metre, const char *marks)
+{
+    double step[2], from[2];
+    const int size[2] = {l->panel_width, l->panel_height};
+    struct colour *pixel = NEW("plot.pixel", (int64_t)size[0] * size[1], struct colour);
+    for (int a = 0; a < 2; a++)
+        from[a] = v->from[a] / metre->factor, step[a] = (v->to[a] - v->from[a]) / metre->factor / size[a];
+    boxes_paint(pixel, size[0], size[1], v, c, MAP_DAMAGE);
+    panel_image(to, pixel, size[0], size[1], from, step, marks);
+    memory_free(pixel);
+}
+
+static status draw_scene(struct sheet sheet, struct engine *e, struct cloud *c)
+{
+    struct gnuplot g;
+    char *elements = NULL;
+    size_t length = 0;
+    const double arrow = arrow_length(c);
+    const struct view v = scene_view(c, arrow);
+    const struct layout l = scene_layout(&v, key_lines(e->scene));
+    const struct unit metre = unit_for_length(fmax(fabs(v.from[0]), fabs(v.to[0])));
+    TRY(gnuplot_open(&g, sheet.path, sheet.format, l.width, l.height));
+    FILE *plot = open_memstream(&elements, &length);
+    if (!plot) return (void)gnuplot_close(&g), status_set(FAILED, "%s: out of memory", sheet.path);
+    struct marks m = {.to = g.to, .plot = plot, .engine = e, .camera = c->camera, .metre = metre.factor, .arrow = arrow};
+    fputs("unset grid\n", g.to);
+    draw_scene_title(g.to, &l, e);
+    key_of_parts(&m);
+    marks_levels(&m);
+    marks_cracks(&m);
+    marks_loads(&m);
+    marks_motion(&m);
+    marks_probes(&m);
+    fclose(plot);
+    set_panel(g.to, &l, &v, c, &metre);
+    plot_scene(g.to, &l, &v, c, &metre, elements);
+    free(elements);
+    return gnuplot_close(&g);
+}
+
+/* ---- command ----------------------------------------------------------------------------------------------------- */
+
+static status scene_sheet(struct path *path, const struct scene *s, const char *out, enum picture_format format)
+{
+    char name[sizeof s->name + 16];
+    snprintf(name, sizeof name, "%s_scene.%s", s->name, picture_ending[format]);
+    if (out && !path_is_folder(out)) return snprintf(path->text, sizeof path->text, "%s", out), OK;
+    if (!out) TRY(folder_make("results"));
+    *path = path_join(out ? out : "results", name);
+    return path->text[0] ? OK : status_set(REFUSED, "%s: the name is too long", shown_name(out).text);
+}
+
+static status draw_made(struct engine *e, const struct scene *s, const char *out, enum picture_format format)
+{
+    struct path path;
+    struct cloud c;
+    TRY(engine_make(e, s, NULL));
+    TRY(scene_sheet(&path, s, out, format));
+    scene_cloud(&c, e);
+    const int64_t drawn = c.n;
+    const status drew = draw_scene((struct sheet){path.text, format}, e, &c);
+    cloud_free(&c);
+    TRY(drew);
+    const int said = printf("%s: %lld places, %d boundary condition%s, %d pre-crack%s, %d probe%s\n",
+                            shown_name(path.text).text, (long long)drawn, s->boundaries, s->boundaries == 1 ? "" : "s",
+                            s->cracks, s->cracks == 1 ? "" : "s", s->probes, s->probes == 1 ? "" : "s");
+    return said < 0 || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
+}
+
+status scene_picture(const char *path, const struct scene_override *override, int overrides, const char *out,
+                     enum picture_format format)
+{
+    struct scene s = {0};
+    struct engine e = {0};
+    struct pilot_wish pilot;
+    if (picture_moves(format)) return status_set(REFUSED, "plot: --scene draws one picture: png, svg or pdf");
+    TRY(scene_read_or_wish(&s, &pilot, path, override, overrides));
+    if (pilot.wanted) printf("drawn with stand-ins for what pilot runs are to choose: %s\n", pilot.why);
+    struct scene *drawn = pilot.wanted ? &pilot.first : &s;
+    status result = draw_made(&e, drawn, out, format);
+    engine_free(&e);
+    scene_free(drawn);
+    return result;
+}
