@@ -8,6 +8,7 @@
 #include "data/region.h"
 #include "output/history.h"
 #include "output/output.h"
+#include "output/output_files.h"
 #include "plot/colours.h"
 #include "plot/gnuplot.h"
 
@@ -29,6 +30,7 @@ struct look {
     int normal;                          /* of the slice; -1: the thinnest direction */
     bool placed; double layer;           /* where it is [m]; else where most damage is */
     const struct plot_field *field;      /* NULL: none but damage, kind and fragment */
+    const float *value;                  /* its values in the frame at hand */
 };
 
 struct plot_request {
@@ -50,7 +52,8 @@ status field_picture(const struct plot_request *r);
 
 /* Is there a file of this name in the folder of a run? */
 bool run_holds(const char *folder, const char *name);
-/* Frame `number` of a run. */
+/* The file of a frame, and frame `number` of a run. */
+struct path run_frame_path(const char *folder, int number);
 status run_frame(struct frame *f, const char *folder, int number);
 
 struct run_frames {
@@ -86,16 +89,17 @@ struct unit unit_for_length(double largest);
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
 
-/* One number a particle, stored in frames or derived from what is. */
+/* One number a particle: a component of what a frame holds or what follows from it, or the length of a vector. */
 struct plot_field {
-    const char *name, *unit;
+    const char *name, *stored;           /* of the field, of that in frames */
+    int component;                       /* -1: the length */
+    const char *unit;
     bool has_sign;
-    double (*at)(const struct frame *f, int64_t i, int component);
-    int component;
 };
 /* REFUSED with the nearest name for an unknown one, or one that runs of this dimension do not have. */
 status plot_field_find(const struct plot_field **field, const char *name, int dim);
-double plot_field_at(const struct plot_field *field, const struct frame *f, int64_t i);
+/* Its values [f->n] of a frame that was read from `path`; freed with memory_free. */
+status plot_field_read(float **value, const struct plot_field *field, const struct frame *f, const char *path);
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
@@ -193,12 +197,13 @@ status sif_bench_draw(const char *folder, const char *title, const struct series
  * tells one; nothing without such probes. */
 status paths_draw(const char *folder, const char *title, const struct series *s);
 
-/* history.csv: crack.png, energy.png, sif.png and path.png (output/pictures.h), in another format where one is wanted. */
+/* history.csv: crack.png, energy.png, sif.png and path.png (output/pictures.h), in any format of stills. */
 status curves_draw(const char *folder, const char *title, enum picture_format format);
 
-/* One-dimensional frames: velocity, stress, damage along the bar; of a field that alone. */
+/* One-dimensional frames: velocity, stress, damage along the bar; of a field that alone, with its
+ * values [frames]. */
 status profiles_draw(struct sheet sheet, const char *title, const struct frame *frame, int frames);
-status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field,
+status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field, float *const *value,
                            const struct frame *frame, int frames);
 
 /* The name of a probe of the run that has compared a bar with a closed form; false if there is none. */

@@ -1,4 +1,5 @@
-/* A scene before it runs: bodies, materials, pre-cracks, loads, supports, probes and levels as a run begins with them. */
+/* A scene before it runs: bodies, materials, pre-cracks, loads, supports, probes and levels as a run begins with
+ * them. */
 #ifndef CLEAVE_SCENE_PICTURE
 #define CLEAVE_SCENE_PICTURE
 

@@ -4,7 +4,8 @@
 
 #include "base/base.h"
 
-/* A length [m] or a time [s] with its unit: `4mm`. False: `what` is the rest of a sentence that begins with the text. */
+/* A length [m] or a time [s] with its unit: `4mm`. False: `what` is the rest of a sentence that begins with the
+ * text. */
 bool word_length(real *value, const char *text, char *what, size_t room);
 bool word_time(real *value, const char *text, char *what, size_t room);
 

@@ -107,7 +107,8 @@ static status read_option(struct plot_words *w, const char *word, const char *va
     for (size_t k = 0; k < COUNT_OF(options); k++) {
         name[k] = options[k].name;
         if (strcmp(word, name[k]) != 0) continue;
-        return value ? options[k].read(w, value) : status_set(REFUSED, "plot: %s needs a value; usage: %s", word, usage);
+        if (!value) return status_set(REFUSED, "plot: %s needs a value; usage: %s", word, usage);
+        return options[k].read(w, value);
     }
     return status_set(REFUSED, "plot: unknown option %s; do you mean %s? usage: %s", shown_name(word).text,
                       word_nearest(word, name, COUNT_OF(name)), usage);
@@ -135,7 +136,7 @@ static status words_together(const struct plot_words *w)
     return OK;
 }
 
-static status read_words(struct plot_words *w, int argc, char **argv)
+static status plot_words_read(struct plot_words *w, int argc, char **argv)
 {
     w->request = (struct plot_request){.panels = PANELS, .look = {.normal = -1, .camera = camera_isometric}};
     for (int k = 1; k < argc; k++) {
@@ -170,7 +171,7 @@ static status draw_words(const struct plot_words *w)
 status command_plot(int argc, char **argv)
 {
     struct plot_words w = {.scene.override = NEW("arguments.override", argc, struct scene_override)};
-    status s = read_words(&w, argc, argv);
+    status s = plot_words_read(&w, argc, argv);
     if (s == OK) s = draw_words(&w);
     arguments_free(&w.scene);
     return s;

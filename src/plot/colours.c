@@ -1,5 +1,5 @@
-/* The tables of colours. All of them remain apart for any colour vision; those of quantities change evenly in lightness,
- * so that they can be read in grey print. */
+/* The tables of colours. All of them remain apart for any colour vision; those of quantities change evenly in
+ * lightness, so that they can be read in grey print. */
 #include "plot/colours.h"
 
 #include <math.h>
@@ -46,8 +46,8 @@ struct colour colour_damage(double at) { return along_stops(damage_stops, COUNT_
 struct colour colour_bonds(double at) { return along_stops(bond_stops, COUNT_OF(bond_stops), at); }
 struct colour colour_points(void) { return (struct colour){236, 233, 226, 255}; }
 
-/* The heaviest fragment is light grey; nine colours in turn for the others, apart in lightness and hue; what has no bond
- * is nearly black. */
+/* The heaviest fragment is light grey; nine colours in turn for the others, apart in lightness and hue; what has no
+ * bond is nearly black. */
 struct colour fragment_colour(int32_t fragment)
 {
     static const struct colour turn[] = {{68, 119, 170, 255},  {238, 153, 51, 255},  {34, 136, 51, 255},

@@ -1,6 +1,6 @@
-/* A solid as pixels: every particle is a cube of the lattice, seen along parallel lines; of those that cover a pixel the
- * one nearest to who looks is shown. A face of the body is then an even colour, as its cubes show the same face, and the
- * three faces are told apart by their shade. No light is needed, nor any search for the surface. */
+/* A solid as pixels: every particle is a cube of the lattice, seen along parallel lines; of those that cover a pixel
+ * the one nearest to who looks is shown. A face of the body is then an even colour, as its cubes show the same face,
+ * and the three faces are told apart by their shade. No light is needed, nor any search for the surface. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -90,8 +90,9 @@ void boxes_paint(struct colour *pixel, int width, int height, const struct view 
     for (int a = 0; a < 2; a++) v.per_metre[a] = v.size[a] / (view->to[a] - view->from[a]);
     for (int64_t q = 0; q < pixels; q++) pixel[q] = (struct colour){255, 255, 255, 0};
     canvas_clear_depth(&v);
+    const struct colour ghost = colour_faded(colour_damage(0), GHOST);
     for (int64_t i = 0; i < c->n; i++)
-        paint_cube(&v, c, i, map == MAP_CRACKS ? colour_faded(colour_damage(0), GHOST) : particle_colour(view, c, i, map));
+        paint_cube(&v, c, i, map == MAP_CRACKS ? ghost : particle_colour(view, c, i, map));
     if (map == MAP_CRACKS) {
         canvas_clear_depth(&v);
         for (int64_t i = 0; i < c->n; i++)

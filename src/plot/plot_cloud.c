@@ -215,7 +215,7 @@ static void cloud_allocate(struct cloud *c, const struct frame *f, const struct 
     c->kind = NEW("plot.kind", f->n, uint8_t);
     if (f->fragment) c->fragment = NEW("plot.fragment", f->n, int32_t);
     if (f->spacing) c->size = NEW("plot.size", f->n, float);
-    if (look->field) c->value = NEW("plot.value", f->n, float);
+    if (look->value) c->value = NEW("plot.value", f->n, float);
 }
 
 /* Axes of the map: x y, those of a slice, or those of a camera. */
@@ -245,7 +245,7 @@ void cloud_make(struct cloud *c, const struct frame *f, const struct look *look)
         c->damage[c->n] = f->damage[i];
         if (f->fragment) c->fragment[c->n] = f->fragment[i];
         if (f->fragment && f->fragment[i] >= c->fragments) c->fragments = f->fragment[i] + 1;
-        if (c->value) c->value[c->n] = (float)plot_field_at(look->field, f, i);
+        if (c->value) c->value[c->n] = look->value[i];
         c->kind[c->n++] = f->kind[i];
     }
     c->aligned = !c->place[2] && is_aligned(c);

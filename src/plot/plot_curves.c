@@ -302,12 +302,12 @@ status profiles_draw(struct sheet sheet, const char *title, const struct frame *
 }
 
 /* The data block $fK: place and value, with an empty line at each separation. */
-static void send_field(FILE *to, const struct frame *f, int k, const struct plot_field *field, double spacing,
+static void send_field(FILE *to, const struct frame *f, int k, const float *value, double spacing,
                        const double factor[2])
 {
     struct station *s = NEW("plot.profile", f->n, struct station);
     for (int64_t i = 0; i < f->n; i++)
-        s[i] = (struct station){.x = f->X[0][i] + f->u[0][i], .velocity = (float)plot_field_at(field, f, i)};
+        s[i] = (struct station){.x = f->X[0][i] + f->u[0][i], .velocity = value[i]};
     qsort(s, (size_t)f->n, sizeof *s, plot_curves_by_place);
     fprintf(to, "$f%d << EOD\n", k);
     for (int64_t i = 0; i < f->n; i++) {
@@ -318,32 +318,27 @@ static void send_field(FILE *to, const struct frame *f, int k, const struct plot
     memory_free(s);
 }
 
-static double largest_of_field(const struct plot_field *field, const struct frame *frame, int frames)
-{
-    double largest = 0;
-    for (int k = 0; k < frames; k++)
-        for (int64_t i = 0; i < frame[k].n; i++) largest = fmax(largest, fabs(plot_field_at(field, &frame[k], i)));
-    return largest;
-}
-
-status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field,
+status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field, float *const *value,
                            const struct frame *frame, int frames)
 {
     struct gnuplot g;
     struct unit unit[3];
     choose_units(unit, frame, frames);
-    const struct unit own = unit_for(largest_of_field(field, frame, frames), field->unit);
+    double largest = 0;
+    for (int k = 0; k < frames; k++) largest = fmax(largest, largest_in(value[k], frame[k].n));
+    const struct unit own = unit_for(largest, field->unit);
     const double factor[2] = {unit[0].factor, *field->unit ? own.factor : 1};
     char label[64];
     snprintf(label, sizeof label, *field->unit ? "%s [%s]" : "%s", field->name, own.name);
     for (char *c = label; *c; c++)
         if (*c == '_') *c = ' ';
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 560));
-    for (int k = 0; k < frames; k++) send_field(g.to, &frame[k], k, field, frame_spacing(&frame[0]), factor);
+    for (int k = 0; k < frames; k++) send_field(g.to, &frame[k], k, value[k], frame_spacing(&frame[0]), factor);
     curves_title(g.to, title, "");
     fprintf(g.to, "set lmargin at screen 0.1\nset rmargin at screen 0.84\nset tmargin at screen 0.9\n"
-                  "set bmargin at screen 0.13\nset autoscale xfix\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\n"
-                  "set key at screen 0.855,0.91 left top\nset xlabel 'x [%s]'\nset ylabel '%s'\n",
+                  "set bmargin at screen 0.13\nset autoscale xfix\n"
+                  "set offsets graph 0, graph 0, graph 0.06, graph 0.06\nset key at screen 0.855,0.91 left top\n"
+                  "set xlabel 'x [%s]'\nset ylabel '%s'\n",
             unit[0].name, label);
     plot_profile(g.to, frame, frames, 2);
     return gnuplot_close(&g);

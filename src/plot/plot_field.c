@@ -1,110 +1,61 @@
-/* The fields that `cleave plot --field` draws: stored in frames, or derived from what is. */
+/* The fields that `cleave plot --field` draws: those of frames, and what follows from them (data/derived_fields.h). */
 #include <math.h>
 #include <string.h>
 
-#include "data/derived_fields.h"
+#include "base/memory.h"
 #include "plot/plot.h"
 #include "scene/words.h"
 
-/* Components of the stress tensor [Pa] as xx yy zz xy yz zx; 0 where frames of this dimension have none. */
-static void stress_of(const struct frame *f, int64_t i, double *s)
-{
-    static const int line[] = {0}, plane[] = {0, 1, 3, 2}, solid[] = {0, 1, 2, 3, 4, 5};
-    const int *place = f->dim == 1 ? line : f->dim == 2 ? plane : solid;
-    for (int k = 0; k < SYM_MAX; k++) s[k] = 0;
-    for (int k = 0; k < frame_stresses(f->dim); k++) s[place[k]] = f->stress[k][i];
-}
-
-static double stress_at(const struct frame *f, int64_t i, int component)
-{
-    double s[SYM_MAX];
-    stress_of(f, i, s);
-    return s[component];
-}
-
-static double mises_at(const struct frame *f, int64_t i, int component)
-{
-    double s[SYM_MAX];
-    (void)component;
-    stress_of(f, i, s);
-    return tensor_mises(s);
-}
-
-static double pressure_at(const struct frame *f, int64_t i, int component)
-{
-    double s[SYM_MAX];
-    (void)component;
-    stress_of(f, i, s);
-    return -(s[0] + s[1] + s[2]) / 3;
-}
-
-/* Principal stresses of the tensor in space, in the plane with the stress across it; 0: the largest, 2: the least. */
-static double principal_at(const struct frame *f, int64_t i, int component)
-{
-    double s[SYM_MAX], value[3];
-    stress_of(f, i, s);
-    tensor_principal(s, value, NULL);
-    return value[component];
-}
-
-static double vector_at(float *const *vector, const struct frame *f, int64_t i, int component)
-{
-    double sum = 0;
-    if (component < 3) return component < f->dim ? vector[component][i] : 0;
-    for (int d = 0; d < f->dim; d++) sum += square((double)vector[d][i]);
-    return sqrt(sum);
-}
-
-static double velocity_at(const struct frame *f, int64_t i, int component) { return vector_at(f->v, f, i, component); }
-static double motion_at(const struct frame *f, int64_t i, int component) { return vector_at(f->u, f, i, component); }
-
-static double mark_at(const struct frame *f, int64_t i, int component)
-{
-    return component == 0 ? f->damage[i] : component == 1 ? f->kind[i] : component == 2 ? f->material[i] : f->body[i];
-}
+enum { MAGNITUDE = -1 };
 
 static const struct plot_field fields[] = {
-    {"damage", "", false, mark_at, 0},
-    {"kind", "", false, mark_at, 1},
-    {"material", "", false, mark_at, 2},
-    {"body", "", false, mark_at, 3},
-    {"displacement", "m", false, motion_at, 3},
-    {"displacement_x", "m", true, motion_at, 0},
-    {"displacement_y", "m", true, motion_at, 1},
-    {"displacement_z", "m", true, motion_at, 2},
-    {"velocity", "m/s", false, velocity_at, 3},
-    {"speed", "m/s", false, velocity_at, 3},
-    {"velocity_x", "m/s", true, velocity_at, 0},
-    {"velocity_y", "m/s", true, velocity_at, 1},
-    {"velocity_z", "m/s", true, velocity_at, 2},
-    {"stress_xx", "Pa", true, stress_at, 0},
-    {"stress_yy", "Pa", true, stress_at, 1},
-    {"stress_zz", "Pa", true, stress_at, 2},
-    {"stress_xy", "Pa", true, stress_at, 3},
-    {"stress_yz", "Pa", true, stress_at, 4},
-    {"stress_zx", "Pa", true, stress_at, 5},
-    {"von_mises", "Pa", false, mises_at, 0},
-    {"pressure", "Pa", true, pressure_at, 0},
-    {"principal_stress", "Pa", true, principal_at, 0},
-    {"principal_stress_1", "Pa", true, principal_at, 0},
-    {"principal_stress_2", "Pa", true, principal_at, 1},
-    {"principal_stress_3", "Pa", true, principal_at, 2},
+    {"damage", "damage", 0, "", false},
+    {"kind", "kind", 0, "", false},
+    {"material", "material", 0, "", false},
+    {"body", "body", 0, "", false},
+    {"fragment", "fragment", 0, "", false},
+    {"displacement", "displacement", MAGNITUDE, "m", false},
+    {"displacement_x", "displacement", 0, "m", true},
+    {"displacement_y", "displacement", 1, "m", true},
+    {"displacement_z", "displacement", 2, "m", true},
+    {"velocity", "velocity", MAGNITUDE, "m/s", false},
+    {"speed", "velocity", MAGNITUDE, "m/s", false},
+    {"velocity_x", "velocity", 0, "m/s", true},
+    {"velocity_y", "velocity", 1, "m/s", true},
+    {"velocity_z", "velocity", 2, "m/s", true},
+    {"stress_xx", "stress", 0, "Pa", true},
+    {"stress_yy", "stress", 1, "Pa", true},
+    {"stress_zz", "stress", 2, "Pa", true},
+    {"stress_xy", "stress", 3, "Pa", true},
+    {"stress_yz", "stress", 4, "Pa", true},
+    {"stress_zx", "stress", 5, "Pa", true},
+    {"von_mises", "von_mises", 0, "Pa", false},
+    {"pressure", "pressure", 0, "Pa", true},
+    {"principal_stress", "principal_stress", 0, "Pa", true},
+    {"principal_stress_2", "principal_stress", 1, "Pa", true},
+    {"principal_stress_3", "principal_stress", 2, "Pa", true},
+    {"strain_xx", "strain", 0, "", true},
+    {"strain_yy", "strain", 1, "", true},
+    {"strain_zz", "strain", 2, "", true},
+    {"strain_xy", "strain", 3, "", true},
+    {"strain_yz", "strain", 4, "", true},
+    {"strain_zx", "strain", 5, "", true},
+    {"plastic_strain", "plastic_strain", 0, "", false},
+    {"plastic_work", "plastic_work", 0, "J/m³", false},
+    {"density", "density", 0, "kg/m³", false},
+    {"contact_force", "contact_force", MAGNITUDE, "N", false},
+    {"level", "level", 0, "", false},
+    {"spacing", "spacing", 0, "m", false},
 };
 
-double plot_field_at(const struct plot_field *field, const struct frame *f, int64_t i)
-{
-    return field->at(f, i, field->component);
-}
-
-/* Is it a component along an axis that the run lacks? */
+/* Is it a component along an axis that the run lacks? Every run has a stress across the plane. */
 static bool lacks_component(const struct plot_field *field, int dim)
 {
-    static const char axis[] = "xyz";
     const char *end = strrchr(field->name, '_');
-    if (!end || end[1] < 'x' || dim == 3) return false;
-    if (dim == 2 && strcmp(end, "_zz") == 0) return false;       /* the stress across the plane */
+    if (!end || !strchr("xyz", end[1]) || dim == 3) return false;
+    if (dim == 2 && strcmp(end, "_zz") == 0) return false;
     for (const char *c = end + 1; *c; c++)
-        if (strchr(axis, *c) - axis >= dim) return true;
+        if (*c - 'x' >= dim) return true;
     return false;
 }
 
@@ -122,4 +73,20 @@ status plot_field_find(const struct plot_field **field, const char *name, int di
     return status_set(REFUSED, "plot: --field %s: there is no such field; do you mean %s? Others are damage, speed, "
                       "velocity_x, displacement, stress_xx, von_mises, pressure, principal_stress",
                       shown_name(name).text, word_nearest(name, names, COUNT_OF(names)));
+}
+
+status plot_field_read(float **value, const struct plot_field *field, const struct frame *f, const char *path)
+{
+    float *row = NULL;
+    int columns = 0;
+    TRY(frame_field_read(f, path, field->stored, &columns, &row));
+    *value = NEW("plot.field", f->n, float);
+    for (int64_t i = 0; i < f->n; i++) {
+        double sum = 0;
+        for (int c = 0; c < columns; c++) sum += square((double)row[i * columns + c]);
+        if (field->component == MAGNITUDE) (*value)[i] = (float)sqrt(sum);
+        else (*value)[i] = field->component < columns ? row[i * columns + field->component] : 0;
+    }
+    memory_free(row);
+    return OK;
 }

@@ -81,17 +81,25 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
     return say_field(path, &view, r, clouds, cloud[clouds - 1].n);
 }
 
-static status draw_field_map(const struct plot_request *r, const char *path, const struct run_frames *frames)
+/* The k-th frame that is shown, with its values. */
+static status read_cloud(struct cloud *c, struct plot_request *r, const struct listed_frame *shown)
+{
+    struct frame f;
+    float *value = NULL;
+    TRY(run_frame(&f, r->folder, shown->number));
+    const status s = plot_field_read(&value, r->look.field, &f, run_frame_path(r->folder, shown->number).text);
+    r->look.value = value;
+    if (s == OK) cloud_make(c, &f, &r->look);
+    memory_free(value);
+    frame_free(&f);
+    return s;
+}
+
+static status draw_field_map(struct plot_request *r, const char *path, const struct run_frames *frames)
 {
     struct cloud *cloud = NEW("plot.clouds", frames->shown, struct cloud);
     status s = OK;
-    for (int k = 0; s == OK && k < frames->shown; k++) {
-        struct frame f;
-        s = run_frame(&f, r->folder, frames->show[k].number);
-        if (s != OK) break;
-        cloud_make(&cloud[k], &f, &r->look);
-        frame_free(&f);
-    }
+    for (int k = 0; s == OK && k < frames->shown; k++) s = read_cloud(&cloud[k], r, &frames->show[k]);
     if (s == OK) s = draw_field_clouds(r, path, cloud, frames->shown);
     for (int k = 0; k < frames->shown; k++) cloud_free(&cloud[k]);
     memory_free(cloud);
@@ -106,10 +114,18 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
         return status_set(REFUSED, "plot: --format %s: runs in one dimension have no films; take png, svg or pdf",
                           picture_ending[r->format]);
     TRY(frames_read(&f, r->folder, frames));
+    float **value = NEW("plot.values", frames->shown, float *);
+    status s = OK;
+    for (int k = 0; s == OK && k < frames->shown; k++)
+        s = plot_field_read(&value[k], r->look.field, &f[k], run_frame_path(r->folder, frames->show[k].number).text);
     field_title(title, r, NULL);
-    status s = field_profiles_draw((struct sheet){path, r->format}, title, r->look.field, f, frames->shown);
+    if (s == OK)
+        s = field_profiles_draw((struct sheet){path, r->format}, title, r->look.field, value, f, frames->shown);
+    for (int k = 0; k < frames->shown; k++) memory_free(value[k]);
+    memory_free(value);
     frames_free(f, frames->shown);
-    if (s == OK && printf("%s\n", shown_name(path).text) < 0) s = status_set(FAILED, "cannot write to standard output");
+    if (s == OK && printf("%s: %s of %d frames\n", shown_name(path).text, r->look.field->name, frames->shown) < 0)
+        s = status_set(FAILED, "cannot write to standard output");
     return s;
 }
 

@@ -42,12 +42,17 @@ bool run_holds(const char *folder, const char *name)
     return snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path && stat(path, &found) == 0;
 }
 
+struct path run_frame_path(const char *folder, int number)
+{
+    char name[32];
+    snprintf(name, sizeof name, "frames/%06d.hdf", number);
+    return path_join(folder, name);
+}
+
 status run_frame(struct frame *f, const char *folder, int number)
 {
-    char path[PATH_LENGTH];
-    if (snprintf(path, sizeof path, "%s/frames/%06d.hdf", folder, number) >= (int)sizeof path)
-        return status_set(FAILED, "%s: the name is too long", folder);
-    return frame_read(f, path);
+    const struct path path = run_frame_path(folder, number);
+    return path.text[0] ? frame_read(f, path.text) : status_set(FAILED, "%s: the name is too long", folder);
 }
 
 /* Frames evenly spread from the first to the last; a single one is the last. */

@@ -23,7 +23,7 @@ static int add_value(char *text, int length, double value, const char *unit)
     return add_words(text, length, words);
 }
 
-static double size_of(const real *value, int dim)
+static double value_size(const real *value, int dim)
 {
     double sum = 0;
     for (int d = 0; d < dim; d++) sum += square(value[d]);
@@ -32,7 +32,7 @@ static double size_of(const real *value, int dim)
 
 static bool is_support(const struct boundary *b, int dim)
 {
-    return b->kind == BOUNDARY_VELOCITY && size_of(b->value, dim) == 0;
+    return b->kind == BOUNDARY_VELOCITY && value_size(b->value, dim) == 0;
 }
 
 /* What a boundary condition does, for the key. */
@@ -52,10 +52,10 @@ static void describe_boundary(char *text, const struct boundary *b, int dim, int
     if (b->kind == BOUNDARY_BODY_FORCE) length = add_words(text, length, " body force");
     if (b->kind == BOUNDARY_ABSORBING) length = add_words(text, length, " absorbing");
     if (b->kind == BOUNDARY_VELOCITY) length = add_words(text, length, is_support(b, dim) ? " held" : " driven");
-    if (b->kind == BOUNDARY_TRACTION) length = add_value(text, length, size_of(b->value, dim), "Pa");
-    if (b->kind == BOUNDARY_BODY_FORCE) length = add_value(text, length, size_of(b->value, dim), "N/m³");
+    if (b->kind == BOUNDARY_TRACTION) length = add_value(text, length, value_size(b->value, dim), "Pa");
+    if (b->kind == BOUNDARY_BODY_FORCE) length = add_value(text, length, value_size(b->value, dim), "N/m³");
     if (b->kind == BOUNDARY_VELOCITY && !is_support(b, dim))
-        length = add_value(text, length, size_of(b->value, dim), "m/s");
+        length = add_value(text, length, value_size(b->value, dim), "m/s");
     for (int d = 0; d < dim && b->kind == BOUNDARY_VELOCITY; d++)
         if (b->components >> d & 1) length = add_words(text, length, (const char *[]){" x", " y", " z"}[d]);
     if (b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING) length = add_words(text, length, face);
@@ -72,7 +72,7 @@ static int64_t stride_for(int64_t n, int64_t most) { return n > most ? (n + most
 static void arrows_of_load(struct marks *m, const struct load *l, const struct boundary *b)
 {
     const struct particles *p = &m->engine->part;
-    const double size = size_of(b->value, p->dim);
+    const double size = value_size(b->value, p->dim);
     const bool inward = b->kind != BOUNDARY_TRACTION || b->value[b->face] * b->side <= 0;
     double vector[DIM_MAX] = {0};
     for (int d = 0; d < p->dim; d++) vector[d] = size > 0 ? m->arrow * b->value[d] / size : 0;
@@ -124,7 +124,8 @@ static void boundary_mark(struct marks *m, int number)
         snprintf(how, sizeof how, "with lines lw 2 dt (12,4,3,4) lc rgb '%s'", colour);
     } else if (is_support(b, s->dim) || b->kind == BOUNDARY_ABSORBING) {
         points_of_load(m, l);
-        snprintf(how, sizeof how, "with points pt %d ps 1.1 lc rgb '%s'", b->kind == BOUNDARY_ABSORBING ? 6 : 9, colour);
+        const int point = b->kind == BOUNDARY_ABSORBING ? 6 : 9;
+        snprintf(how, sizeof how, "with points pt %d ps 1.1 lc rgb '%s'", point, colour);
     } else {
         arrows_of_load(m, l, b);
         snprintf(how, sizeof how, "using 1:2:3:4 with vectors %s size screen 0.012,22 lw 1.8 lc rgb '%s'",
@@ -140,7 +141,7 @@ void marks_loads(struct marks *m)
 
 /* ---- motion at the start ----------------------------------------------------------------------------------------- */
 
-static double speed_of(const struct particles *p, int64_t i)
+static double speed_at_start(const struct particles *p, int64_t i)
 {
     double sum = 0;
     for (int d = 0; d < p->dim; d++) sum += square(p->v[d][i]);
@@ -155,7 +156,7 @@ static void rigid_arrows(struct marks *m, double fastest)
         const real *v = s->body[s->bodies + k].velocity;
         double vector[DIM_MAX] = {0};
         for (int d = 0; d < s->dim; d++) vector[d] = m->arrow * v[d] / fastest;
-        if (size_of(v, s->dim) > 0) mark_place(m, m->engine->rigid[k].x, vector);
+        if (value_size(v, s->dim) > 0) mark_place(m, m->engine->rigid[k].x, vector);
     }
 }
 
@@ -166,9 +167,9 @@ void marks_motion(struct marks *m)
     double fastest = 0;
     int64_t moving = 0;
     char text[TEXT];
-    for (int k = 0; k < s->rigids; k++) fastest = fmax(fastest, size_of(s->body[s->bodies + k].velocity, s->dim));
+    for (int k = 0; k < s->rigids; k++) fastest = fmax(fastest, value_size(s->body[s->bodies + k].velocity, s->dim));
     for (int64_t i = 0; i < p->n; i++) {
-        const double v = speed_of(p, i);
+        const double v = speed_at_start(p, i);
         fastest = fmax(fastest, v);
         moving += v > 0;
     }
@@ -178,7 +179,7 @@ void marks_motion(struct marks *m)
     for (int64_t i = 0, k = 0; i < p->n; i++) {
         double vector[DIM_MAX];
         real X[DIM_MAX];
-        if (speed_of(p, i) == 0 || k++ % stride != 0) continue;
+        if (speed_at_start(p, i) == 0 || k++ % stride != 0) continue;
         for (int d = 0; d < p->dim; d++) X[d] = p->x[d][i], vector[d] = m->arrow * p->v[d][i] / fastest;
         mark_place(m, X, vector);
     }

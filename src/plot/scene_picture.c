@@ -1,5 +1,5 @@
-/* `cleave plot --scene SCENE`: the scene as its run begins. Particles, loads, levels and all else come from engine_make,
- * as in a run: what is drawn is what will be computed. */
+/* `cleave plot --scene SCENE`: the scene as its run begins. Particles, loads, levels and all else come from
+ * engine_make, as in a run: what is drawn is what will be computed. */
 #include "plot/scene_picture.h"
 
 #include <math.h>
@@ -12,8 +12,9 @@
 #include "output/output_files.h"
 #include "scene_marks.h"
 
-enum { PICTURE_LEFT = 100, PICTURE_KEY = 372, PICTURE_ABOVE = 66, PICTURE_BELOW = 66, PANEL_WIDEST = 860, PANEL_HIGHEST = 760,
-       PANEL_LOWEST = 90, KEY_LINE = 23 };
+/* Room round the panel, its size, and the height of a line of the key [pixel]. */
+enum { PICTURE_LEFT = 100, PICTURE_KEY = 372, PICTURE_ABOVE = 66, PICTURE_BELOW = 66, KEY_LINE = 23 };
+enum { PANEL_WIDEST = 860, PANEL_HIGHEST = 760, PANEL_LOWEST = 90 };
 enum { RIGID_POINTS = 60000, TEXT_ROOM = 200 };
 /* How dark peridynamic particles are beside material points of the same body; rigid bodies. */
 static const double PERIDYNAMIC = 0.72;
@@ -92,7 +93,7 @@ static void scene_cloud(struct cloud *c, struct engine *e)
     const struct scene *s = e->scene;
     real from[DIM_MAX], to[DIM_MAX];
     double step;
-    const bool hollow = engine_hollow_points(e);
+    const bool hollow = engine_hollow_points(e, false);
     int64_t room = e->part.n + (hollow ? e->report.more.n : 0);
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) room += rigid_sites(s, &s->body[b].shape, from, to, &step);
     *c = (struct cloud){.axis = {0, 1}, .normal = -1, .spacing = s->spacing, .aligned = true,
@@ -126,7 +127,8 @@ static void rigid_words(char *text, const struct scene_body *b, int dim)
     for (int d = 0; d < dim; d++) speed += square(b->velocity[d]);
     const struct unit mass = unit_for(1e3 * b->mass, "g"), fast = unit_for(sqrt(speed), "m/s");
     if (b->mass > 0)
-        length += snprintf(text + length, (size_t)(TEXT_ROOM - length), ", %.3g %s", 1e3 * b->mass / mass.factor, mass.name);
+        length += snprintf(text + length, (size_t)(TEXT_ROOM - length), ", %.3g %s", 1e3 * b->mass / mass.factor,
+                           mass.name);
     if (speed > 0)
         snprintf(text + length, (size_t)(TEXT_ROOM - length), ", %.3g %s", sqrt(speed) / fast.factor, fast.name);
 }
@@ -139,7 +141,7 @@ static void key_of_parts(struct marks *m)
     char text[TEXT_ROOM];
     for (int k = 0; k < parts; k++) {
         const int64_t n = count_part(e, k);
-        const char *name = s->materials > 1 || s->bodies == 1 ? s->material[s->materials > 1 ? k : 0].name : s->body[k].name;
+        const char *name = s->materials > 1 ? s->material[k].name : s->bodies > 1 ? s->body[k].name : s->material->name;
         if (n == 0) continue;
         snprintf(text, sizeof text, "%.48s: %lld particles", name, (long long)n);
         marks_colour(m, part_colour(k), text);
@@ -211,7 +213,8 @@ static void set_panel(FILE *to, const struct layout *l, const struct view *v, co
     if (c->place[2]) panel_directions(to, l, v, c, metre);
     else panel_axes(to, l, v, c, metre, 0, true);
     if (c->tall > 0) fputs("unset ytics\nset ylabel ''\nset border 1\n", to);
-    fprintf(to, "set key at screen %.6g,%.6g left top Left reverse vertical maxrows 60 samplen 2 spacing 1.15 font ',12'\n",
+    fprintf(to, "set key at screen %.6g,%.6g left top Left reverse vertical maxrows 60 samplen 2 spacing 1.15 "
+                "font ',12'\n",
             (PICTURE_LEFT + l->panel_width + 14.0) / l->width, 1 - 58.0 / l->height);
 }
 
@@ -241,7 +244,8 @@ static status draw_scene(struct sheet sheet, struct engine *e, struct cloud *c)
     TRY(gnuplot_open(&g, sheet.path, sheet.format, l.width, l.height));
     FILE *plot = open_memstream(&elements, &length);
     if (!plot) return (void)gnuplot_close(&g), status_set(FAILED, "%s: out of memory", sheet.path);
-    struct marks m = {.to = g.to, .plot = plot, .engine = e, .camera = c->camera, .metre = metre.factor, .arrow = arrow};
+    struct marks m = {
+        .to = g.to, .plot = plot, .engine = e, .camera = c->camera, .metre = metre.factor, .arrow = arrow};
     fputs("unset grid\n", g.to);
     draw_scene_title(g.to, &l, e);
     key_of_parts(&m);
