@@ -1,4 +1,5 @@
 /* STL: triangles without units, names or neighbours, in bytes or in words. */
+#include <math.h>
 #include <stdlib.h>
 #include <strings.h>
 
@@ -88,19 +89,34 @@ static int corner_order(const void *a, const void *b)
     return (p->at > q->at) - (p->at < q->at);
 }
 
+/* Part of the extent within which corners are one: programs write one corner with different last digits. */
+#define SAME_PLACE 1e-6
+
+static real extent_of(const struct element_mesh *m)
+{
+    real extent = 0;
+    for (int d = 0; d < DIM_MAX; d++) {
+        real low = m->node[0][d], high = low;
+        for (int64_t k = 1; k < m->nodes; k++)
+            low = real_min(low, m->node[k][d]), high = real_max(high, m->node[k][d]);
+        extent = real_max(extent, high - low);
+    }
+    return extent;
+}
+
 static void corners_weld(struct element_mesh *m)
 {
     struct corner_key *key = NEW("stl.corners", m->nodes, struct corner_key);
+    const real step = real_max(SAME_PLACE * extent_of(m), 1e-300);
+    int32_t first = 0;
     for (int64_t k = 0; k < m->nodes; k++) {
-        for (int d = 0; d < DIM_MAX; d++) key[k].X[d] = m->node[k][d];
+        for (int d = 0; d < DIM_MAX; d++) key[k].X[d] = nearbyint(m->node[k][d] / step);
         key[k].at = (int32_t)k;
     }
     qsort(key, (size_t)m->nodes, sizeof *key, corner_order);
-    int32_t first = 0;
     for (int64_t k = 0; k < m->nodes; k++) {
-        const bool same =
-            k > 0 && key[k].X[0] == key[k - 1].X[0] && key[k].X[1] == key[k - 1].X[1] && key[k].X[2] == key[k - 1].X[2];
-        if (!same) first = key[k].at;
+        const real *X = key[k].X, *before = key[k > 0 ? k - 1 : 0].X;
+        if (k == 0 || X[0] != before[0] || X[1] != before[1] || X[2] != before[2]) first = key[k].at;
         m->element[key[k].at / 3].node[key[k].at % 3] = first;
     }
     memory_free(key);
