@@ -299,18 +299,17 @@ static status choose(struct reader *r, struct node *root, struct ask *a, const s
     return auto_lay(r, root, &a->match, a->scene, f.best.of, h);
 }
 
-/* Reads the table given by accuracy_table, sought in the folder of the scene, then in the current folder; without this
- * key the table of the program. */
+/* Reads the table given by accuracy_table, sought in the folder of the scene that names it, then in the current folder;
+ * without this key the table of the program. */
 static status read_cost_accuracy(struct reader *r, const struct node *root, struct cost_accuracy *table)
 {
     const struct node *n = tree_at(root, "accuracy_table");
-    const char *slash = strrchr(r->name, '/');
     char path[4096];
     if (!n) return cost_accuracy_read(table, NULL);
     if (n->kind != NODE_SCALAR || !*n->text)
         return fault(r, n, "%s is no file name; results/bench/cost_accuracy.csv is one", shown(r, n));
-    snprintf(path, sizeof path, "%.*s%s", slash && n->text[0] != '/' ? (int)(slash - r->name) + 1 : 0, r->name,
-             n->text);
+    const char *from = file_of(r, n->origin);
+    snprintf(path, sizeof path, "%.*s%s", n->text[0] != '/' ? folder_length(from) : 0, from, n->text);
     return cost_accuracy_read(table, access(path, R_OK) == 0 ? path : n->text);
 }
 

@@ -2,7 +2,6 @@
 #include "auto/scene_read.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <locale.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,8 +9,6 @@
 #include "auto.h"
 #include "base/memory.h"
 #include "src/scene/scene_internal.h"
-
-enum { FILE_LONGEST = 16 * 1024 * 1024 };    /* [byte]; 1e5 events take far less */
 
 /* Name of a scene from its path: the file name without folder and ending; characters that a name may not have become
  * _. */
@@ -63,29 +60,6 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
 {
     struct reader r = {.name = name, .override = override, .overrides = overrides, .scene = s};
     return read_scene(&r, text, length, NULL);
-}
-
-/* The file's bytes; freed with memory_free. */
-static status file_bytes(const char *path, char **bytes, size_t *length)
-{
-    FILE *in = fopen(path, "rb");
-    if (!in) return status_set(REFUSED, "%s: %s; a scene file is expected", path, strerror(errno));
-    size_t room = 65536, used = 0, got;
-    char *text = NEW("scene file", room, char);
-    while ((got = fread(text + used, 1, room - used, in)) > 0 && used <= FILE_LONGEST) {
-        used += got;
-        if (used < room) continue;
-        text = memory_resize("scene file", text, (int64_t)room, (int64_t)(2 * room), 1);
-        room *= 2;
-    }
-    int error = ferror(in) ? errno : 0;
-    fclose(in);
-    *bytes = text;
-    *length = used;
-    if (error == 0 && used <= FILE_LONGEST) return OK;
-    memory_free(text);
-    if (error) return status_set(REFUSED, "%s: %s; a scene file is expected", path, strerror(error));
-    return status_set(REFUSED, "%s: longer than 16 MiB; long data belong into a particle list", path);
 }
 
 /* scene_read, and `pilot` as in auto_resolve. */

@@ -51,6 +51,7 @@ status scene_tree(struct reader *r, const char *text, size_t length, struct node
     TRY(tree_read(r, text, length, -1, root));
     if (!*root) return fault_mark(r, -1, 1, 1, "empty; a scene begins with keys such as space and duration");
     TRY(tree_rename(r, *root));
+    TRY(tree_include(r, *root));
     TRY(tree_override(r, *root));
     TRY(tree_rename(r, *root));          /* values of overrides may be mappings */
     return read_variables(r, *root);

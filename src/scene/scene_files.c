@@ -1,21 +1,58 @@
 /* Files that a scene names. */
 #include "scene_internal.h"
 
+#include <errno.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "output/checksum.h"
 #include "base/memory.h"
 
+enum { FILE_LONGEST = 16 * 1024 * 1024 };    /* [byte]; 1e5 events take far less */
+
+status file_bytes(const char *path, char **bytes, size_t *length)
+{
+    FILE *in = fopen(path, "rb");
+    if (!in) return status_set(REFUSED, "%s: %s; a scene file is expected", path, strerror(errno));
+    size_t room = 65536, used = 0, got;
+    char *text = NEW("scene file", room, char);
+    while ((got = fread(text + used, 1, room - used, in)) > 0 && used <= FILE_LONGEST) {
+        used += got;
+        if (used < room) continue;
+        text = memory_resize("scene file", text, (int64_t)room, (int64_t)(2 * room), 1);
+        room *= 2;
+    }
+    int error = ferror(in) ? errno : 0;
+    fclose(in);
+    *bytes = text;
+    *length = used;
+    if (error == 0 && used <= FILE_LONGEST) return OK;
+    memory_free(text);
+    if (error) return status_set(REFUSED, "%s: %s; a scene file is expected", path, strerror(error));
+    return status_set(REFUSED, "%s: longer than 16 MiB; long data belong into a particle list", path);
+}
+
+const char *file_of(const struct reader *r, int origin)
+{
+    return origin <= ORIGIN_INCLUDED ? r->included[ORIGIN_INCLUDED - origin] : r->name;
+}
+
+int folder_length(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? (int)(slash - path) + 1 : 0;
+}
+
 status read_path(struct reader *r, const struct node *n, const char *what, char **path, uint64_t *contents)
 {
-    const char *slash = strrchr(r->name, '/');
-    const size_t folder = slash ? (size_t)(slash - r->name) + 1 : 0, length = strlen(n->text);
+    const char *from = file_of(r, n->origin);
+    const size_t folder = (size_t)folder_length(from), length = strlen(n->text);
     if (n->kind != NODE_SCALAR || length == 0)
         return fault(r, n, "%s is no file name; %s is expected", shown(r, n), what);
     *path = NEW("file name", folder + length + 1, char);
     if (r->files && folder > 0 && n->text[0] != '/') {
-        memcpy(*path, r->name, folder);
+        memcpy(*path, from, folder);
         memcpy(*path + folder, n->text, length + 1);
         if (access(*path, R_OK) == 0) return file_contents(*path, contents);
     }

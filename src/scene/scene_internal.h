@@ -13,7 +13,8 @@ enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP };
 struct node {
     enum node_kind kind;
     int line, column;                    /* of the key, or of an item without a key; from 1 */
-    int origin;                          /* number of the override it came from; -1: the file */
+    int origin;                          /* number of the override it came from; -1: the file; -2, -3, ..: one that it
+                                            includes */
     int n;                               /* entries of a list or map */
     char *key;                           /* NULL: the root or an item of a list */
     char *text;                          /* of a scalar, without quotes; else "" */
@@ -24,6 +25,8 @@ struct arena_block;
 struct variable;
 struct key;
 
+enum { ORIGIN_INCLUDED = -2, INCLUDED_MOST = 64 };
+
 struct reader {
     const char *name;                    /* of the file, for messages */
     const struct scene_override *override;
@@ -32,6 +35,8 @@ struct reader {
     int dim;
     bool bounded;                        /* solids being read belong to a body: no infinite bounds */
     bool files;                          /* check that particle lists exist */
+    const char *included[INCLUDED_MOST]; /* names of the files that it includes */
+    int includes;
     struct variable *variable;           /* of the scene, in the arena */
     int variables, variables_open;       /* how many; how many are being evaluated */
     struct arena_block *arena;           /* nodes and texts of this reading */
@@ -46,6 +51,9 @@ void arena_free(struct reader *r);
 status tree_read(struct reader *r, const char *text, size_t length, int origin, struct node **root);
 void node_append(struct node *parent, struct node *child);
 struct node *node_find(const struct node *map, const char *key);
+void node_remove(struct node *parent, struct node *child);
+/* Reads the files that the tree includes, and lays it over them (scene_include.c). */
+status tree_include(struct reader *r, struct node *root);
 /* Lays the overrides over the tree (scene_override.c). */
 status tree_override(struct reader *r, struct node *root);
 /* Gives keys of an earlier version their name of now, in the tree or in the path of an override (scene_renamed.c); the
@@ -54,6 +62,12 @@ status tree_rename(struct reader *r, struct node *root);
 const char *path_renamed(struct reader *r, const char *path);
 /* The present name of a key of an earlier version; NULL: it is none. */
 const char *path_now(const char *path);
+/* The file that a node came from; that of the scene for an override. How much of a path is its folder (scene_files.c).
+ */
+const char *file_of(const struct reader *r, int origin);
+int folder_length(const char *path);
+/* The bytes of a scene's file; freed with memory_free. */
+status file_bytes(const char *path, char **bytes, size_t *length);
 /* Applies one more override, as from the command line. An empty value removes the key; REFUSED if it is not there. */
 status tree_set(struct reader *r, struct node *root, const char *key, const char *value);
 /* The node at a path of keys without lists; NULL: the scene does not give it. */

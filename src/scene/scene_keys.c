@@ -22,6 +22,10 @@
 /* path, type, unit, place in its group's struct, range, default, help; then fields that only some keys have. */
 const struct key keys[] = {
     KEY("name", KEY_NAME, UNIT_NONE, AT(scene, name), ANY, "(the file's name)", "names the run and its results folder"),
+    KEY("include", KEY_HAND, UNIT_NONE, NOWHERE, BETWEEN(1, 64), NONE,
+        "scenes that this one changes: its mappings of keys are laid over theirs, other values replace them, an empty "
+        "one takes a key away; their names are not taken; files are sought in the folder of the scene that names them",
+        .words = "file name or list of them"),
     KEY("variables", KEY_HAND, UNIT_NONE, NOWHERE, BETWEEN(0, 1000), NONE,
         "quantities that every number of the scene may contain: {a: 3 mm, b: 2*a + 1 mm}", .words = "mapping of names"),
     KEY("space", KEY_CHOICE, UNIT_NONE, AT(scene, space), ANY, REQUIRED, "dimension and plane state",

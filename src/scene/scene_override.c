@@ -154,16 +154,6 @@ static status scene_override_entry_of(struct reader *r, struct node *map, const 
     return OK;
 }
 
-static void remove_child(struct node *parent, struct node *child)
-{
-    struct node *before = NULL;
-    for (struct node *n = parent->first; n != child; n = n->next) before = n;
-    if (before) before->next = child->next;
-    else parent->first = child->next;
-    if (parent->last == child) parent->last = before;
-    parent->n--;
-}
-
 /* Replaces the value of a node; its key and place in the tree stay. */
 static void replace(struct node *n, const struct node *value)
 {
@@ -193,7 +183,7 @@ static status override_one(struct reader *r, struct node *root, int origin)
     if (n == root) return fault_mark(r, origin, 0, 0, "no key; material.young=70e9 is an override");
     if (value) replace(n, value);
     else if (n->origin == origin) return fault(r, n, "is not in the scene; an empty value takes a key away");
-    else remove_child(n->parent, n);
+    else node_remove(n->parent, n);
     return OK;
 }
 

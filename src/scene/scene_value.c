@@ -53,7 +53,7 @@ static void node_name(const struct node *n, char *name, size_t room)
 static void place_text(const struct reader *r, int origin, int line, int column, char *text, size_t room)
 {
     if (origin < 0) {
-        snprintf(text, room, "%.300s:%d:%d", r->name, line, column);
+        snprintf(text, room, "%.300s:%d:%d", file_of(r, origin), line, column);
         return;
     }
     snprintf(text, room, "-s %.100s=%.100s", r->override[origin].key, r->override[origin].value);

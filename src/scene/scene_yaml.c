@@ -62,6 +62,16 @@ void node_append(struct node *parent, struct node *child)
     parent->n++;
 }
 
+void node_remove(struct node *parent, struct node *child)
+{
+    struct node *before = NULL;
+    for (struct node *n = parent->first; n != child; n = n->next) before = n;
+    if (before) before->next = child->next;
+    else parent->first = child->next;
+    if (parent->last == child) parent->last = before;
+    parent->n--;
+}
+
 struct node *node_find(const struct node *map, const char *key)
 {
     if (!map || map->kind != NODE_MAP) return NULL;

@@ -1,0 +1,160 @@
+/* Scenes that build on others: reads the files that a scene includes, and lays the scene over them. What comes later
+ * goes before: of a list of files the last, then the scene itself. */
+#include "scene_internal.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/memory.h"
+
+enum { CHAIN_MOST = 8, KEYS_MOST = 1100 };
+
+/* Files that are being read, from the scene on. */
+struct chain {
+    const struct chain *up;
+    dev_t device;
+    ino_t number;
+};
+
+/* ---- one mapping over another ------------------------------------------------------------------------------------ */
+
+/* Is the value of this key a mapping of keys that each have a meaning of their own? Others, such as solids, are words
+ * with what belongs to them, and are replaced as a whole. */
+static bool is_group(const char *path)
+{
+    const struct key *k = key_find("", path);
+    const bool top = k && (k->type == KEY_MAP || k->type == KEY_PART || strcmp(path, "variables") == 0);
+    if (top) return true;
+    for (int i = 0; i < keys_count && strchr(path, '.'); i++)
+        if (strcmp(keys[i].path, path) == 0) return keys[i].type == KEY_MAP;
+    return false;
+}
+
+static bool is_empty(const struct node *n) { return n->kind == NODE_SCALAR && *n->text == '\0'; }
+
+/* REFUSED for a mapping with two equal keys, of which one would be lost. */
+static status check_twins(const struct reader *r, const struct node *map)
+{
+    if (map->n > KEYS_MOST) return fault(r, map, "has %d keys; no mapping of a scene has so many", map->n);
+    for (const struct node *n = map->first; n; n = n->next)
+        for (const struct node *twin = map->first; twin != n; twin = twin->next)
+            if (strcmp(twin->key, n->key) == 0)
+                return fault(r, n, "given twice, first in line %d; keep one", twin->line);
+    return OK;
+}
+
+/* Lays the entries of `over` over those of `under`, which keeps its place in the tree. `group`: its path. */
+static status merge(struct reader *r, struct node *under, struct node *over, const char *group)
+{
+    char path[64];
+    TRY(check_twins(r, over));
+    TRY(check_twins(r, under));
+    under->line = over->line, under->column = over->column, under->origin = over->origin;
+    for (struct node *n = over->first, *next; n; n = next) {
+        struct node *old = node_find(under, n->key);
+        next = n->next;
+        snprintf(path, sizeof path, "%.30s%s%.30s", group, *group ? "." : "", n->key);
+        if (old && old->kind == NODE_MAP && n->kind == NODE_MAP && is_group(path)) {
+            TRY(merge(r, old, n, path));
+            continue;
+        }
+        if (old) node_remove(under, old);
+        if (!old || !is_empty(n)) node_append(under, n);
+    }
+    return OK;
+}
+
+/* ---- files ------------------------------------------------------------------------------------------------------- */
+
+static bool is_open(const struct chain *chain, const struct stat *file)
+{
+    for (; chain; chain = chain->up)
+        if (chain->device == file->st_dev && chain->number == file->st_ino) return true;
+    return false;
+}
+
+static int length_of(const struct chain *chain)
+{
+    int n = 0;
+    for (; chain; chain = chain->up) n++;
+    return n;
+}
+
+/* Path of an included file, from the folder of the one that names it. */
+static char *path_from(struct reader *r, const struct node *n)
+{
+    const char *from = file_of(r, n->origin);
+    const size_t folder = *n->text == '/' ? 0 : (size_t)folder_length(from), length = strlen(n->text);
+    char *path = arena_new(r, folder + length + 1);
+    memcpy(path, from, folder);
+    memcpy(path + folder, n->text, length);
+    return path;
+}
+
+static status include_all(struct reader *r, struct node *root, const struct chain *chain);
+
+/* Reads the file that n names, with what it includes itself. */
+static status include_file(struct reader *r, const struct node *n, const struct chain *chain, struct node **root)
+{
+    struct stat file;
+    char *text, *path;
+    size_t length;
+    if (n->kind != NODE_SCALAR || is_empty(n))
+        return fault(r, n, "%s is no file name; a scene is expected", shown(r, n));
+    if (!r->files) return fault(r, n, "%s is not read here; a scene without includes is expected", shown(r, n));
+    path = path_from(r, n);
+    if (stat(path, &file) != 0 || !S_ISREG(file.st_mode))
+        return fault(r, n, "%s cannot be read; a scene in the folder of this one is expected", shown(r, n));
+    if (is_open(chain, &file)) return fault(r, n, "%s includes itself, or this scene it", shown(r, n));
+    if (length_of(chain) == CHAIN_MOST)
+        return fault(r, n, "%s is the last of more than %d scenes that include each other", shown(r, n), CHAIN_MOST);
+    if (r->includes == INCLUDED_MOST) return fault(r, n, "more than %d scenes are included", INCLUDED_MOST);
+    const int origin = ORIGIN_INCLUDED - r->includes;
+    r->included[r->includes++] = path;
+    TRY(file_bytes(path, &text, &length));
+    const status read = tree_read(r, text, length, origin, root);
+    memory_free(text);
+    TRY(read);
+    if (!*root) return fault_mark(r, origin, 1, 1, "empty; a scene begins with keys such as space and duration");
+    TRY(expect(r, *root, NODE_MAP, "a mapping of keys to values, as a scene is"));
+    TRY(tree_rename(r, *root));
+    struct node *name = node_find(*root, "name");
+    if (name) node_remove(*root, name);
+    return include_all(r, *root, &(struct chain){chain, file.st_dev, file.st_ino});
+}
+
+/* Lays a scene over what it includes. */
+static status include_all(struct reader *r, struct node *root, const struct chain *chain)
+{
+    struct node *list = node_find(root, "include"), *file;
+    if (!list) return OK;
+    struct node base = {.kind = NODE_MAP, .text = ""};
+    const struct node *n = list->kind == NODE_LIST ? list->first : list;
+    TRY(check_twins(r, root));
+    if (!n || list->n > INCLUDED_MOST)
+        return fault(r, list, "has %d items; 1 to %d are expected", list->n, INCLUDED_MOST);
+    node_remove(root, list);
+    for (const struct node *next; n; n = next) {
+        next = list->kind == NODE_LIST ? n->next : NULL;
+        TRY(include_file(r, n, chain, &file));
+        TRY(merge(r, &base, file, ""));
+    }
+    TRY(merge(r, &base, root, ""));
+    root->first = base.first, root->last = base.last, root->n = base.n;
+    for (struct node *c = root->first; c; c = c->next) c->parent = root;
+    return OK;
+}
+
+status tree_include(struct reader *r, struct node *root)
+{
+    struct stat file = {0};
+    r->includes = 0;
+    if (root->kind != NODE_MAP) return OK;
+    const bool known = r->files && stat(r->name, &file) == 0;
+    TRY(include_all(r, root, known ? &(struct chain){NULL, file.st_dev, file.st_ino} : NULL));
+    for (int k = 0; k < r->overrides; k++)
+        if (strcmp(r->override[k].key, "include") == 0)
+            return fault_mark(r, k, 0, 0, "include: stands in a file; a scene that includes this one can change it");
+    return OK;
+}
