@@ -35,6 +35,12 @@ static bool is_support(const struct boundary *b, int dim)
     return b->kind == BOUNDARY_VELOCITY && value_size(b->value, dim) == 0;
 }
 
+static const char *unit_of_value(const struct boundary *b)
+{
+    if (b->kind == BOUNDARY_BODY_FORCE) return b->by_mass ? "m/s²" : "N/m³";
+    return b->kind == BOUNDARY_TRACTION ? "Pa" : b->kind == BOUNDARY_VELOCITY ? "m/s" : "";
+}
+
 /* What a boundary condition does, for the key. */
 static void describe_boundary(char *text, const struct boundary *b, int dim, int64_t particles)
 {
@@ -49,13 +55,12 @@ static void describe_boundary(char *text, const struct boundary *b, int dim, int
         return;
     }
     if (b->kind == BOUNDARY_TRACTION) length = add_words(text, length, " traction");
-    if (b->kind == BOUNDARY_BODY_FORCE) length = add_words(text, length, " body force");
+    if (b->kind == BOUNDARY_BODY_FORCE) length = add_words(text, length, b->by_mass ? " gravity" : " body force");
     if (b->kind == BOUNDARY_ABSORBING) length = add_words(text, length, " absorbing");
     if (b->kind == BOUNDARY_VELOCITY) length = add_words(text, length, is_support(b, dim) ? " held" : " driven");
-    if (b->kind == BOUNDARY_TRACTION) length = add_value(text, length, value_size(b->value, dim), "Pa");
-    if (b->kind == BOUNDARY_BODY_FORCE) length = add_value(text, length, value_size(b->value, dim), "N/m³");
-    if (b->kind == BOUNDARY_VELOCITY && !is_support(b, dim))
-        length = add_value(text, length, value_size(b->value, dim), "m/s");
+    if (b->time_unit) length = add_words(text, length, " by its file");
+    else if (*unit_of_value(b) && !is_support(b, dim))
+        length = add_value(text, length, value_size(b->value, dim), unit_of_value(b));
     for (int d = 0; d < dim && b->kind == BOUNDARY_VELOCITY; d++)
         if (b->components >> d & 1) length = add_words(text, length, (const char *[]){" x", " y", " z"}[d]);
     if (b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING) length = add_words(text, length, face);
@@ -113,8 +118,8 @@ static void mirror_plane_mark(struct marks *m, const struct boundary *b)
 static void boundary_mark(struct marks *m, int number)
 {
     const struct scene *s = m->engine->scene;
-    const struct boundary *b = &s->boundary[number];
     const struct load *l = &m->engine->loads.load[number];
+    const struct boundary *b = number < s->boundaries ? &s->boundary[number] : l->boundary;
     const char *colour = curve_colour[number % CURVE_COLOURS];
     char text[TEXT], how[HOW];
     describe_boundary(text, b, s->dim, l->n);
@@ -136,7 +141,7 @@ static void boundary_mark(struct marks *m, int number)
 
 void marks_loads(struct marks *m)
 {
-    for (int b = 0; b < m->engine->scene->boundaries; b++) boundary_mark(m, b);
+    for (int b = 0; b < m->engine->loads.n; b++) boundary_mark(m, b);
 }
 
 /* ---- motion at the start ----------------------------------------------------------------------------------------- */

@@ -72,7 +72,7 @@ void marks_cracks(struct marks *m)
         snprintf(text, sizeof text, "%.40s: a crack grows from here", s->growth[k].name);
         mark_begin(m);
         mark_place(m, s->growth[k].at, way);
-        mark_end(m, "using 1:2:3:4 with vectors head filled size screen 0.014,20 lw 2 dt (6,4) lc rgb '#7a1020'", text);
+        mark_end(m, "using 1:2:3:4 with vectors head filled size screen 0.014,20 lw 2 lc rgb '#7a1020'", text);
     }
 }
 

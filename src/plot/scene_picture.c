@@ -15,7 +15,7 @@
 /* Room round the panel, its size, and the height of a line of the key [pixel]. */
 enum { PICTURE_LEFT = 100, PICTURE_KEY = 372, PICTURE_ABOVE = 66, PICTURE_BELOW = 66, KEY_LINE = 23 };
 enum { PANEL_WIDEST = 860, PANEL_HIGHEST = 760, PANEL_LOWEST = 90 };
-enum { RIGID_POINTS = 60000, TEXT_ROOM = 200 };
+enum { RIGID_POINTS = 60000, RIGID_ACROSS = 12, TEXT_ROOM = 200 };
 /* How dark peridynamic particles are beside material points of the same body; rigid bodies. */
 static const double PERIDYNAMIC = 0.72;
 static const struct colour RIGID = {120, 120, 126, 255};
@@ -57,33 +57,40 @@ static void cloud_add_particles(struct cloud *c, const struct engine *e, const s
     }
 }
 
-/* The lattice that shows a rigid body; returns its number of sites, and through `step` their distance. */
-static int64_t rigid_sites(const struct scene *s, const struct region *shape, real *from, real *to, double *step)
+/* The box of a rigid body, of one without bounds the part of it beside the particles; sites along each axis of a
+ * lattice that shows it. Returns the number of sites, and through `step` their distance. */
+static int64_t rigid_sites(const struct engine *e, const struct region *shape, real *from, int64_t *count, double *step)
 {
-    double sites = 1;
-    *step = s->spacing;
-    if (!region_bounds(shape, s->dim, from, to)) return 0;
-    for (int d = 0; d < s->dim; d++) sites *= (to[d] - from[d]) / s->spacing + 1;
+    const struct scene *s = e->scene;
+    real to[DIM_MAX];
+    double sites = 1, thinnest = INFINITY;
+    if (!region_bounds(shape, s->dim, from, to))
+        for (int d = 0; d < s->dim; d++) {
+            const real beside = 0.08 * particles_longest(&e->part);
+            particles_extent(&e->part, e->part.n, d, &from[d], &to[d]);
+            from[d] -= beside, to[d] += beside;
+        }
+    for (int d = 0; d < s->dim; d++) thinnest = fmin(thinnest, to[d] - from[d]);
+    *step = fmin(s->spacing, thinnest / RIGID_ACROSS);
+    for (int d = 0; d < s->dim; d++) sites *= (to[d] - from[d]) / *step;
     if (sites > RIGID_POINTS) *step *= pow(sites / RIGID_POINTS, 1.0 / s->dim);
     int64_t n = 1;
-    for (int d = 0; d < s->dim; d++) n *= (int64_t)((to[d] - from[d]) / *step) + 1;
+    for (int d = 0; d < s->dim; d++) n *= count[d] = (int64_t)ceil((to[d] - from[d]) / *step);
     return n;
 }
 
-static void cloud_add_rigid(struct cloud *c, const struct scene *s, const struct region *shape)
+static void cloud_add_rigid(struct cloud *c, const struct engine *e, const struct region *shape)
 {
-    real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
+    const int dim = e->scene->dim;
+    real from[DIM_MAX] = {0};
+    int64_t count[DIM_MAX];
     double step;
-    const int64_t n = rigid_sites(s, shape, from, to, &step);
+    const int64_t n = rigid_sites(e, shape, from, count, &step);
     for (int64_t k = 0; k < n; k++) {
         real X[DIM_MAX] = {0};
         int64_t rest = k;
-        for (int d = 0; d < s->dim; d++) {
-            const int64_t count = (int64_t)((to[d] - from[d]) / step) + 1;
-            X[d] = from[d] + 0.5 * (to[d] - from[d] - step * (double)(count - 1)) + step * (double)(rest % count);
-            rest /= count;
-        }
-        if (region_contains(shape, X, s->dim, 0)) cloud_add(c, X, s->dim, step, RIGID);
+        for (int d = 0; d < dim; rest /= count[d], d++) X[d] = from[d] + step * ((double)(rest % count[d]) + 0.5);
+        if (region_contains(shape, X, dim, 0)) cloud_add(c, X, dim, step, RIGID);
     }
 }
 
@@ -91,11 +98,12 @@ static void cloud_add_rigid(struct cloud *c, const struct scene *s, const struct
 static void scene_cloud(struct cloud *c, struct engine *e)
 {
     const struct scene *s = e->scene;
-    real from[DIM_MAX], to[DIM_MAX];
+    real from[DIM_MAX];
+    int64_t count[DIM_MAX];
     double step;
     const bool hollow = engine_hollow_points(e, false);
     int64_t room = e->part.n + (hollow ? e->report.more.n : 0);
-    for (int b = s->bodies; b < s->bodies + s->rigids; b++) room += rigid_sites(s, &s->body[b].shape, from, to, &step);
+    for (int b = s->bodies; b < s->bodies + s->rigids; b++) room += rigid_sites(e, &s->body[b].shape, from, count, &step);
     *c = (struct cloud){.axis = {0, 1}, .normal = -1, .spacing = s->spacing, .aligned = true,
                         .camera = s->dim == 3 ? camera_isometric : camera_along(2, 1),
                         .from = {INFINITY, INFINITY}, .to = {-INFINITY, -INFINITY}};
@@ -105,7 +113,7 @@ static void scene_cloud(struct cloud *c, struct engine *e)
     c->colour = NEW("plot.colour", room, struct colour);
     cloud_add_particles(c, e, &e->part, NULL);
     if (hollow) cloud_add_particles(c, e, &e->report.more, e->report.more_spacing);
-    for (int b = s->bodies; b < s->bodies + s->rigids; b++) cloud_add_rigid(c, s, &s->body[b].shape);
+    for (int b = s->bodies; b < s->bodies + s->rigids; b++) cloud_add_rigid(c, e, &s->body[b].shape);
     if (s->dim == 1) c->tall = BAR_HALF * (c->to[0] - c->from[0]);
 }
 

@@ -1,0 +1,132 @@
+#!/bin/sh
+# Pictures of fields, slices, films and of scenes before they run: what gnuplot is told, by a copy of its input.
+test_name=test_pictures
+. tests/support/summary.sh
+command -v gnuplot >/dev/null || { echo "gnuplot is missing: files not tested"; exit 77; }
+
+mkdir "$work/bin"
+printf '#!/bin/sh\nexec tee "%s/drawn" | "%s" "$@"\n' "$work" "$(command -v gnuplot)" >"$work/bin/gnuplot"
+chmod +x "$work/bin/gnuplot"
+PATH=$work/bin:$PATH
+cd "$work" || exit 1
+
+drawn() { holds "$1" grep -a -q -e "$2" drawn; }
+made() { holds "$1 is made" test -s "$1"; }
+# refused WORD ARGUMENTS: exit 2 with one line that has WORD.
+refused()
+{
+    word=$1
+    shift
+    "$cleave" plot "$@" >out 2>err
+    is "plot $*: exit status" $? 2
+    is "plot $*: lines" "$(wc -l <err)" 1
+    holds "plot $*: says $word" grep -q -e "$word" err
+}
+
+cat >strip.yaml <<'END'
+name: strip
+space: plane stress
+thickness: 1 mm
+duration: 2 us
+method: pd
+materials:
+  - {name: glass, young: 72 GPa, poisson: 1/3, density: 2440 kg/m^3, energy_release_rate: 10 J/m^2}
+bodies:
+  - {name: plate, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}
+  - {name: anvil, rigid: true, shape: {box: {from: [5 mm, -3 mm], to: [8 mm, 0]}}}
+particles: {spacing: 1 mm}
+cracks: [{from: [0, 5 mm], to: [5 mm, 5 mm]}]
+boundary:
+  - {name: pull, traction: [0, 20 MPa], face: y+}
+  - {name: grip, fixed: all, region: {box: {from: [18 mm, 0], to: [20 mm, 10 mm]}}}
+probes: [{point: {name: gauge, at: [10 mm, 5 mm]}}]
+output: {frames: 4}
+END
+
+# ---- a scene before it runs ---------------------------------------------------------------------------------------------
+
+"$cleave" plot --scene strip.yaml >out 2>err
+is "plot --scene: exit status" $? 0
+made results/strip_scene.png
+holds "no run has begun" test ! -e results/strip
+drawn "particles of the material" "title 'glass: 200 particles'"
+drawn "the rigid body" "title 'anvil: rigid'"
+drawn "the load and how many bear it" "title 'pull: traction 20 MPa, y+ (20)'"
+drawn "the support" "title 'grip: held x y (20)'"
+drawn "the pre-crack" "title '1 pre-crack'"
+drawn "the probe" "title 'probe gauge'"
+"$cleave" plot --scene strip.yaml -s particles.spacing=2mm -o coarse.svg >out 2>err
+is "plot --scene -s: exit status" $? 0
+made coarse.svg
+drawn "with the override" "title 'glass: 50 particles'"
+sed -i 's/20 MPa/20 mm/' strip.yaml
+refused "strip.yaml:1[0-9]:.*traction" --scene strip.yaml -o none.png
+sed -i 's/20 mm\], face/20 MPa], face/' strip.yaml
+holds "nothing is left of it" test ! -e none.png
+
+# ---- fields -------------------------------------------------------------------------------------------------------------
+
+"$cleave" run strip.yaml -q >out 2>err
+is "run: exit status" $? 0
+"$cleave" plot results/strip --field von_mises --times 1us,2us >out 2>err
+is "plot --field: exit status" $? 0
+made results/strip/pictures/field_von_mises.png
+holds "two panels of all particles" grep -q "von_mises of 2 frames, 200 particles, colours from 0 to" out
+drawn "its name and unit stand at the colours" "von mises \[.*Pa\]"
+"$cleave" plot results/strip --field velocity_y --times last -o v.pdf >out 2>err
+is "plot -o v.pdf: exit status" $? 0
+holds "v.pdf is a PDF" sh -c "head -c 5 v.pdf | grep -q %PDF-"
+"$cleave" plot results/strip --field body >out 2>err
+is "a field that is the same everywhere: exit status" $? 0
+holds "it is not drawn" test ! -e results/strip/pictures/field_body.png
+holds "a line says why" grep -q "field_body.png is not drawn: body is 0 everywhere" out
+if command -v ffmpeg >/dev/null; then
+    "$cleave" plot results/strip --field speed -o speed.mp4 >out 2>err
+    is "plot -o speed.mp4: exit status" $? 0
+    holds "speed.mp4 is a film" sh -c "head -c 12 speed.mp4 | tail -c 8 | grep -q ftyp"
+    holds "its pictures are gone" test "$(echo speed.mp4*)" = speed.mp4
+fi
+PATH=/nowhere "$cleave" plot results/strip --field speed --format gif >out 2>err
+is "a film without ffmpeg: exit status" $? 2
+holds "a film without ffmpeg: one line names it" grep -q "the package ffmpeg" err
+
+refused "von_mises" results/strip --field van_mises
+refused "runs in space" results/strip --slice z=1mm
+refused "do you mean --field" results/strip --feild speed
+refused "a time is expected" results/strip --times 5kg
+refused "png, svg, pdf, mp4 or gif" results/strip --format bmp
+refused "before it runs" results/strip --scene strip.yaml
+refused "goes with --scene" results/strip -s method=pd
+"$cleave" plot results/strip --field strain_xx >out 2>err
+is "a field that the run has not written: exit status" $? 1
+holds "the remedy is named" grep -q "output: {fields: \[strain\]}" err
+
+# ---- solids -------------------------------------------------------------------------------------------------------------
+
+cat >block.yaml <<'END'
+name: block
+space: solid
+duration: 1 us
+method: pd
+material: {young: 72 GPa, poisson: 1/4, density: 2440 kg/m^3, energy_release_rate: 10 J/m^2}
+body: {box: {from: [0, 0, 0], to: [12 mm, 8 mm, 6 mm]}}
+particles: {spacing: 1 mm}
+cracks: [{polygon: [[6 mm, -1 mm, 2.9 mm], [13 mm, -1 mm, 2.9 mm], [13 mm, 9 mm, 2.9 mm], [6 mm, 9 mm, 2.9 mm]]}]
+output: {frames: 1}
+END
+"$cleave" run block.yaml -q >out 2>err
+is "run block: exit status" $? 0
+"$cleave" plot results/block >out 2>err
+is "plot block: exit status" $? 0
+made results/block/pictures/surface.png
+made results/block/pictures/cracks.png
+drawn "the last picture has its axes" "set ylabel"
+"$cleave" plot results/block --slice y=3mm >out 2>err
+is "plot --slice: exit status" $? 0
+holds "a slice has the particles of a layer" grep -q "of 2 frames, 72 particles" out
+"$cleave" plot results/block --field speed --view x+ --times last >out 2>err
+holds "what is the same everywhere is not drawn" grep -q "speed is 0 m/s everywhere" out
+refused "no particle is there; they lie from 0.5 to 5.5 mm" results/block --slice z=9mm
+refused "one of them" results/block --slice z=3mm --view iso
+
+finish

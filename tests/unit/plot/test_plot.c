@@ -1,0 +1,198 @@
+/* Tests of pictures: what they would show, by the numbers that are drawn. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "plot/plot.h"
+#include "plot/scene_picture.h"
+#include "scene/words.h"
+
+static const double SPACING = 1e-3;                  /* [m] */
+
+/* A block of nx x ny x nz particles at rest, without damage. */
+static struct frame block_make(int nx, int ny, int nz, int dim)
+{
+    const int count[3] = {nx, ny, nz};
+    struct frame f = {.n = (int64_t)nx * ny * nz, .dim = dim};
+    for (int d = 0; d < dim; d++) {
+        f.X[d] = NEW("test.X", f.n, float), f.u[d] = NEW("test.u", f.n, float), f.v[d] = NEW("test.v", f.n, float);
+        for (int64_t i = 0; i < f.n; i++) {
+            const int64_t k = d == 0 ? i % nx : d == 1 ? i / nx % ny : i / nx / ny;
+            f.X[d][i] = (float)(((double)k + 0.5 - 0.5 * count[d]) * SPACING);
+        }
+    }
+    for (int k = 0; k < frame_stresses(dim); k++) f.stress[k] = NEW("test.stress", f.n, float);
+    f.damage = NEW("test.damage", f.n, float);
+    f.kind = NEW("test.kind", f.n, uint8_t), f.material = NEW("test.material", f.n, uint8_t);
+    f.body = NEW("test.body", f.n, uint8_t), f.id = NEW("test.id", f.n, int32_t);
+    return f;
+}
+
+static float value_of(struct frame *f, const char *name)
+{
+    const struct plot_field *field;
+    float *value = NULL;
+    assert_int_equal(plot_field_find(&field, name, f->dim), OK);
+    assert_int_equal(plot_field_read(&value, field, f, "nowhere"), OK);
+    const float first = value[0];
+    memory_free(value);
+    return first;
+}
+
+/* Closed forms: plane stress of 30 and 10 across each other with a shear of 10 has its principal ones at 20 +- sqrt(200)
+ * (Mohr 1882). */
+static void fields_follow_from_stress(void **state)
+{
+    (void)state;
+    struct frame f = block_make(2, 2, 1, 2);
+    f.stress[0][0] = 30, f.stress[1][0] = 10, f.stress[2][0] = 10;
+    f.v[0][0] = 3, f.v[1][0] = -4;
+    assert_float_equal(value_of(&f, "principal_stress"), 20 + sqrt(200), 1e-4);
+    assert_float_equal(value_of(&f, "principal_stress_3"), 0, 1e-4);         /* that across the plane */
+    assert_float_equal(value_of(&f, "pressure"), -40.0 / 3, 1e-4);
+    assert_float_equal(value_of(&f, "von_mises"), sqrt(30 * 30 + 10 * 10 - 30 * 10 + 3 * 10 * 10), 1e-3);
+    assert_float_equal(value_of(&f, "speed"), 5, 1e-5);
+    frame_free(&f);
+}
+
+static void unknown_fields_are_refused(void **state)
+{
+    (void)state;
+    const struct plot_field *field;
+    assert_int_equal(plot_field_find(&field, "van_mises", 2), REFUSED);
+    assert_non_null(strstr(status_message(), "von_mises"));
+    assert_int_equal(plot_field_find(&field, "velocity_z", 2), REFUSED);
+    assert_int_equal(plot_field_find(&field, "stress_zz", 2), OK);
+    assert_int_equal(plot_field_find(&field, "stress_yy", 1), REFUSED);
+}
+
+/* The slice with most damage, not the middle one; the one that is nearest to the middle where nothing is damaged. */
+static void slices_show_damage(void **state)
+{
+    (void)state;
+    struct frame f = block_make(6, 6, 4, 3);
+    struct cloud c;
+    for (int64_t i = 0; i < f.n; i++)
+        if (f.X[2][i] > 1e-3F && f.X[0][i] > 0) f.damage[i] = 0.4F;
+    cloud_make(&c, &f, NULL);
+    assert_int_equal(c.normal, 2);
+    assert_int_equal(c.n, 36);
+    assert_float_equal(c.layer, 1.5e-3, 1e-8);
+    cloud_free(&c);
+    memset(f.damage, 0, (size_t)f.n * sizeof *f.damage);
+    cloud_make(&c, &f, NULL);
+    assert_float_equal(fabs(c.layer), 0.5e-3, 1e-8);
+    cloud_free(&c);
+    struct look look = {.normal = 0, .placed = true, .layer = 1.9e-3};
+    assert_int_equal(look_settle(&look, &f), OK);
+    assert_float_equal(look.layer, 1.5e-3, 1e-8);
+    look.layer = 9e-3;
+    assert_int_equal(look_settle(&look, &f), REFUSED);
+    assert_non_null(strstr(status_message(), "-2.5 to 2.5 mm"));
+    frame_free(&f);
+}
+
+/* One particle that flies changes neither the rectangle nor the colours, and is counted. */
+static void one_particle_sets_no_scale(void **state)
+{
+    (void)state;
+    struct frame f = block_make(40, 20, 1, 2);
+    struct cloud c;
+    float *value = NEW("test.value", f.n, float);
+    for (int64_t i = 0; i < f.n; i++) value[i] = (float)(i % 10);
+    f.u[0][17] = 5, value[17] = 1e6F;
+    const struct plot_field *field;
+    assert_int_equal(plot_field_find(&field, "speed", 2), OK);
+    cloud_make(&c, &f, &(struct look){.normal = -1, .field = field, .value = value});
+    struct view v = view_of(&c, 1);
+    view_set_field(&v, field, &c, 1);
+    assert_true(v.to[0] < 30e-3 && v.from[0] > -25e-3);
+    assert_int_equal(v.outside, 1);
+    assert_true(v.low == 0 && v.high <= 9);
+    assert_int_equal(plot_field_find(&field, "velocity_x", 2), OK);
+    view_set_field(&v, field, &c, 1);
+    assert_true(v.low == -v.high);
+    cloud_free(&c), memory_free(value), frame_free(&f);
+}
+
+enum { PIXELS = 120 };
+
+/* Seen along an axis a block is a rectangle; cracks inside it show through the rest. */
+static void solids_are_seen_from_outside(void **state)
+{
+    (void)state;
+    struct frame f = block_make(10, 10, 10, 3);
+    struct cloud c;
+    struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
+    f.damage[555] = 1;                               /* inside */
+    const struct look look = {.outside = true, .camera = camera_along(2, 1), .normal = -1};
+    cloud_make(&c, &f, &look);
+    struct view v = {.from = {-6e-3, -6e-3}, .to = {6e-3, 6e-3}, .top = 1};
+    int shown = 0, dark = 0;
+    boxes_paint(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
+    for (int q = 0; q < PIXELS * PIXELS; q++) shown += pixel[q].alpha > 0, dark += pixel[q].green < 100 && pixel[q].alpha;
+    assert_true(abs(shown - 100 * 100) <= 4 * 101);  /* ten of twelve spacings wide, and the seams */
+    assert_int_equal(dark, 0);                       /* its damage is hidden */
+    boxes_paint(pixel, PIXELS, PIXELS, &v, &c, MAP_CRACKS);
+    for (int q = 0; q < PIXELS * PIXELS; q++) dark += pixel[q].green < 100 && pixel[q].alpha;
+    assert_true(dark >= 100 && dark <= 144);         /* one particle, ten pixels wide */
+    memory_free(pixel), cloud_free(&c), frame_free(&f);
+}
+
+/* Axes of every view are right-handed unit vectors. */
+static void cameras_are_right_handed(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 7; k++) {
+        const struct camera c = k < 6 ? camera_along(k / 2, k % 2 ? 1 : -1) : camera_isometric;
+        for (int d = 0; d < 3; d++) {
+            const int a = (d + 1) % 3, b = (d + 2) % 3;
+            assert_float_equal(c.right[a] * c.up[b] - c.right[b] * c.up[a], c.towards[d], 1e-9);
+        }
+    }
+}
+
+/* Maps of quantities grow evenly lighter: grey print and any colour vision keep their order. */
+static void colours_keep_their_order(void **state)
+{
+    (void)state;
+    double before = -1;
+    for (int k = 0; k <= 20; k++) {
+        const struct colour c = colour_sequential(k / 20.0);
+        const double light = 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue;
+        assert_true(light > before);
+        before = light;
+    }
+    assert_string_not_equal(energy_colour("kinetic"), energy_colour("strain"));
+    assert_int_equal(colour_diverging(0.5).red, colour_diverging(0.5).blue);
+}
+
+static void words_have_units(void **state)
+{
+    (void)state;
+    const char *names[] = {"--field", "--times", "--slice"};
+    char what[256];
+    real value;
+    assert_true(word_length(&value, "4mm", what, sizeof what) && value == 4e-3);
+    assert_true(word_time(&value, "10us", what, sizeof what) && value == 10e-6);
+    assert_false(word_time(&value, "10mm", what, sizeof what));
+    assert_string_equal(word_nearest("--slcie", names, 3), "--slice");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fields_follow_from_stress),  cmocka_unit_test(unknown_fields_are_refused),
+        cmocka_unit_test(slices_show_damage),         cmocka_unit_test(one_particle_sets_no_scale),
+        cmocka_unit_test(solids_are_seen_from_outside), cmocka_unit_test(cameras_are_right_handed),
+        cmocka_unit_test(colours_keep_their_order),   cmocka_unit_test(words_have_units),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
