@@ -103,7 +103,8 @@ static void scene_cloud(struct cloud *c, struct engine *e)
     double step;
     const bool hollow = engine_hollow_points(e, false);
     int64_t room = e->part.n + (hollow ? e->report.more.n : 0);
-    for (int b = s->bodies; b < s->bodies + s->rigids; b++) room += rigid_sites(e, &s->body[b].shape, from, count, &step);
+    for (int b = s->bodies; b < s->bodies + s->rigids; b++)
+        room += rigid_sites(e, &s->body[b].shape, from, count, &step);
     *c = (struct cloud){.axis = {0, 1}, .normal = -1, .spacing = s->spacing, .aligned = true,
                         .camera = s->dim == 3 ? camera_isometric : camera_along(2, 1),
                         .from = {INFINITY, INFINITY}, .to = {-INFINITY, -INFINITY}};

@@ -46,8 +46,8 @@ static float value_of(struct frame *f, const char *name)
     return first;
 }
 
-/* Closed forms: plane stress of 30 and 10 across each other with a shear of 10 has its principal ones at 20 +- sqrt(200)
- * (Mohr 1882). */
+/* Closed forms: plane stress of 30 and 10 across each other with a shear of 10 has its principal ones at
+ * 20 +- sqrt(200) (Mohr 1882). */
 static void fields_follow_from_stress(void **state)
 {
     (void)state;
@@ -137,7 +137,10 @@ static void solids_are_seen_from_outside(void **state)
     struct view v = {.from = {-6e-3, -6e-3}, .to = {6e-3, 6e-3}, .top = 1};
     int shown = 0, dark = 0;
     boxes_paint(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
-    for (int q = 0; q < PIXELS * PIXELS; q++) shown += pixel[q].alpha > 0, dark += pixel[q].green < 100 && pixel[q].alpha;
+    for (int q = 0; q < PIXELS * PIXELS; q++) {
+        shown += pixel[q].alpha > 0;
+        dark += pixel[q].green < 100 && pixel[q].alpha;
+    }
     assert_true(abs(shown - 100 * 100) <= 4 * 101);  /* ten of twelve spacings wide, and the seams */
     assert_int_equal(dark, 0);                       /* its damage is hidden */
     boxes_paint(pixel, PIXELS, PIXELS, &v, &c, MAP_CRACKS);
