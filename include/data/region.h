@@ -4,37 +4,29 @@
 #define CLEAVE_REGION
 
 #include "base/base.h"
+#include "data/solid.h"
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
-
-enum solid_kind { SOLID_ALL, SOLID_BOX, SOLID_BALL, SOLID_CYLINDER, SOLID_HALF_SPACE };
-
-/* One primitive. A 2D disc is a BALL. Bounds of a box may be infinite. */
-struct solid {
-    enum solid_kind kind;
-    bool subtract;                       /* taken away from what the list has built so far */
-    real from[DIM_MAX], to[DIM_MAX];     /* box corners; ends of a cylinder's axis [m] */
-    real centre[DIM_MAX], radius;        /* ball, cylinder (radius) [m] */
-    real point[DIM_MAX], normal[DIM_MAX]; /* half-space: (X - point) . normal <= 0 */
-};
-
-/* Union and difference in the order of the list; an empty list means everywhere. */
-struct region {
-    int n;
-    struct solid *solid;
-};
 
 /* Points this close to a surface count as on it, and so inside [spacings]. */
 #define ON_SURFACE 1e-8
 
 /* Closed set, grown by `tolerance` [m] (shrunk where negative). */
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance);
+/* region_contains holds where this is no more than the tolerance [m]. */
+real region_level(const struct region *r, const real *X, int dim);
 
-/* Smallest box round the added solids; returns false if it is unbounded. */
+/* Box round it, the smallest but for what intersections and differences cut off; returns false if it is unbounded. */
 bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[DIM_MAX]);
 /* Signed distance of X from the surface, negative inside [m]: exact outside each of its solids and beside flat faces,
  * of several solids the nearest; and the unit normal that leads away. All sides of boxes are finite. */
 real region_distance(const struct region *r, const real *X, int dim, real *normal);
+/* Is a side of one of its boxes infinite? Such boxes have no distance. */
+bool region_has_endless_box(const struct region *r, int dim);
+/* max over its points of X . along, at most [m]. */
+real region_support(const struct region *r, const real *along, int dim);
+/* Volume in the box from..to [m^dim] by evenly spread points: within about 0.1 % of the box. */
+real region_volume(const struct region *r, int dim, const real *from, const real *to);
 void region_free(struct region *r);
 
 /* Ascending numbers. */

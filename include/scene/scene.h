@@ -59,6 +59,12 @@ struct scene_interface {
     real critical_stretch;               /* of it; 0: none [1] */
 };
 
+/* A region that the scene calls by name; where it is called it stands as a copy. */
+struct named_region {
+    char name[NAME_MAX_LENGTH];
+    struct region region;
+};
+
 /* Initial state of the particles in a region; later entries overwrite earlier ones. */
 struct scene_initial {
     char place[PLACE_LENGTH];            /* in the scene */
@@ -107,6 +113,8 @@ struct scene {
     int bodies;     struct scene_body *body;   /* deformable ones; behind them `rigids` rigid ones */
     int rigids;
     int interfaces; struct scene_interface *interface;
+
+    int regions;    struct named_region *named;
 
     struct scene_choice choice;
 

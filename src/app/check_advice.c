@@ -42,12 +42,12 @@ static real mirrored_edge(const struct engine *e, const struct solid *a, int d)
     return from && to ? INFINITY : (from || to ? 2 : 1) * (a->to[d] - a->from[d]);
 }
 
-/* Smallest edge, mirror images included, or diameter of a solid [m]; INFINITY: it has none. */
+/* Smallest edge, mirror images included, diameter or wall of a solid [m]; INFINITY: it has none. */
 static real solid_size(const struct engine *e, const struct solid *a)
 {
     real least = INFINITY;
-    for (int d = 0; d < e->scene->dim && a->kind == SOLID_BOX; d++) least = real_min(least, mirrored_edge(e, a, d));
-    return a->kind == SOLID_BALL || a->kind == SOLID_CYLINDER ? 2 * a->radius : least;
+    for (int d = 0; d < e->scene->dim && solid_is(a, SOLID_BOX); d++) least = real_min(least, mirrored_edge(e, a, d));
+    return real_min(least, solid_width(a, e->scene->dim));
 }
 
 /* How far the stiffness of a part made of bonds and families is off in bending, twisting and stretching, by its layers,

@@ -39,7 +39,7 @@ static void collect(struct lengths *l, const struct scene *s)
         for (int d = 0; d < s->dim; d++) add(l, auto_extent(s, b, d));
         for (int k = 1; k < s->body[b].shape.n; k++) {
             const struct solid *gap = &s->body[b].shape.solid[k];
-            for (int d = 0; d < s->dim && gap->subtract && gap->kind == SOLID_BOX; d++)
+            for (int d = 0; d < s->dim && gap->subtract && solid_is(gap, SOLID_BOX); d++)
                 add_place(l, box, d, gap->from[d]), add_place(l, box, d, gap->to[d]);
         }
         add_cracks(l, s, box);

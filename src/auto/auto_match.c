@@ -56,7 +56,7 @@ static status no_match(const char *what)
 real auto_extent(const struct scene *s, int body, int axis)
 {
     const struct region *shape = &s->body[body].shape;
-    if (shape->n == 0 || shape->solid[0].kind != SOLID_BOX) return 0;
+    if (shape->n == 0 || !solid_is(&shape->solid[0], SOLID_BOX)) return 0;
     return shape->solid[0].to[axis] - shape->solid[0].from[axis];
 }
 
@@ -76,7 +76,7 @@ static real hole_radius(const struct scene *s)
     for (int b = 0; b < s->bodies; b++)
         for (int k = 0; k < s->body[b].shape.n; k++) {
             const struct solid *a = &s->body[b].shape.solid[k];
-            if (a->subtract && a->kind == SOLID_BALL) least = real_min(least, a->radius);
+            if (a->subtract && solid_is(a, SOLID_BALL)) least = real_min(least, a->radius);
         }
     return least;
 }
@@ -353,8 +353,11 @@ static status check_ordinary(const struct scene *s)
     for (int b = 0; b < s->bodies; b++) {
         const struct region *shape = &s->body[b].shape;
         if (s->body[b].file) return no_match("a body from a particle list");
-        if (shape->n == 0 || shape->solid[0].kind != SOLID_BOX)
+        if (shape->n == 0 || !solid_is(&shape->solid[0], SOLID_BOX))
             return no_match("a body whose first solid is no box");
+        for (int k = 0; k < shape->n; k++)
+            if (shape->solid[k].kind > SOLID_HALF_SPACE || shape->solid[k].images > 0 || shape->solid[k].intersect)
+                return no_match("a body of other solids than boxes, balls and half-spaces where they are");
     }
     if (material_yields(&s->material[0])) return no_match("a material that yields");
     return OK;

@@ -22,90 +22,77 @@ static real direction(const real *a, const real *b, int dim, real unit[DIM_MAX])
     return length;
 }
 
-static real box_distance(const struct solid *s, const real *X, int dim)
-{
-    real far = -INFINITY;
-    for (int d = 0; d < dim; d++) far = real_max(far, real_max(s->from[d] - X[d], X[d] - s->to[d]));
-    return far;
-}
-
-static real cylinder_distance(const struct solid *s, const real *X, int dim)
-{
-    real axis[DIM_MAX], arm[DIM_MAX], length = direction(s->from, s->to, dim, axis);
-    for (int d = 0; d < dim; d++) arm[d] = X[d] - s->from[d];
-    real along = dot(arm, axis, dim), across = 0;
-    for (int d = 0; d < dim; d++) across += square(arm[d] - along * axis[d]);
-    return real_max(sqrt(across) - s->radius, real_max(-along, along - length));
-}
-
-static real half_space_distance(const struct solid *s, const real *X, int dim)
-{
-    real length = sqrt(dot(s->normal, s->normal, dim)), above = 0;
-    for (int d = 0; d < dim; d++) above += (X[d] - s->point[d]) * s->normal[d];
-    return length > 0 ? above / length : INFINITY;
-}
-
-/* Negative inside, positive outside, 0 on the surface; the distance itself beside a flat face [m]. */
-static real solid_distance(const struct solid *s, const real *X, int dim)
-{
-    switch (s->kind) {
-    case SOLID_BOX: return box_distance(s, X, dim);
-    case SOLID_BALL: return distance_to(X, s->centre, dim) - s->radius;
-    case SOLID_CYLINDER: return cylinder_distance(s, X, dim);
-    case SOLID_HALF_SPACE: return half_space_distance(s, X, dim);
-    default: return -INFINITY;
-    }
-}
-
 /* What is taken away loses its surface to the region, which stays closed; growing the region shrinks it. */
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance)
 {
-    bool inside = r->n == 0;
+    bool inside = r->n == 0 || r->solid[0].intersect;
     for (int k = 0; k < r->n; k++) {
         const struct solid *s = &r->solid[k];
-        if (s->subtract == inside) {
-            real distance = solid_distance(s, X, dim);
-            if (s->subtract ? distance < -tolerance : distance <= tolerance) inside = !inside;
-        }
+        if (s->subtract || s->intersect ? !inside : inside) continue;
+        const real level = solid_level(s, X, dim);
+        inside = s->subtract ? !(level < -tolerance) : level <= tolerance;
     }
     return inside;
 }
 
-/* The box round one solid in one direction. */
-static void solid_bounds(const struct solid *s, int dim, int d, real *low, real *high)
+real region_level(const struct region *r, const real *X, int dim)
 {
-    real axis[DIM_MAX], reach;
-    *low = -INFINITY, *high = INFINITY;
-    switch (s->kind) {
-    case SOLID_BOX: *low = s->from[d], *high = s->to[d]; break;
-    case SOLID_BALL: *low = s->centre[d] - s->radius, *high = s->centre[d] + s->radius; break;
-    case SOLID_CYLINDER:
-        direction(s->from, s->to, dim, axis);
-        reach = s->radius * sqrt(real_max(0, 1 - square(axis[d])));
-        *low = real_min(s->from[d], s->to[d]) - reach, *high = real_max(s->from[d], s->to[d]) + reach;
-        break;
-    default: break;
+    real level = r->n == 0 || r->solid[0].intersect ? -INFINITY : INFINITY;
+    for (int k = 0; k < r->n; k++) {
+        const struct solid *s = &r->solid[k];
+        const real own = solid_level(s, X, dim);
+        level = s->subtract ? real_max(level, -own) : s->intersect ? real_max(level, own) : real_min(level, own);
     }
+    return level;
+}
+
+real region_support(const struct region *r, const real *along, int dim)
+{
+    real most = r->n == 0 || r->solid[0].intersect ? INFINITY : -INFINITY;
+    for (int k = 0; k < r->n; k++) {
+        const struct solid *s = &r->solid[k];
+        if (s->subtract) continue;
+        const real own = solid_support(s, along, dim);
+        most = s->intersect ? real_min(most, own) : real_max(most, own);
+    }
+    return most;
 }
 
 bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[DIM_MAX])
 {
     bool bounded = r->n > 0;
     for (int d = 0; d < dim; d++) {
-        from[d] = INFINITY, to[d] = -INFINITY;
-        for (int k = 0; k < r->n; k++) {
-            real low, high;
-            if (r->solid[k].subtract) continue;
-            solid_bounds(&r->solid[k], dim, d, &low, &high);
-            from[d] = real_min(from[d], low), to[d] = real_max(to[d], high);
-        }
+        real along[DIM_MAX] = {0};
+        along[d] = -1, from[d] = -region_support(r, along, dim);
+        along[d] = 1, to[d] = region_support(r, along, dim);
         if (!isfinite(from[d]) || !isfinite(to[d])) bounded = false;
     }
     return bounded;
 }
 
+/* By the sequence of Kronecker whose shares of 1 are powers of the root of g^(dim + 1) = g + 1 (Roberts 2018). */
+real region_volume(const struct region *r, int dim, const real *from, const real *to)
+{
+    static const real root[] = {0, 1.61803398874989485, 1.32471795724474602, 1.22074408460575947};
+    enum { POINTS = 1 << 18 };
+    int64_t inside = 0;
+    real volume = 1, share[DIM_MAX] = {0};
+    for (int d = 0; d < dim; d++) share[d] = pow(root[dim], -(d + 1)), volume *= to[d] - from[d];
+#pragma omp parallel for schedule(static) reduction(+ : inside)
+    for (int k = 0; k < POINTS; k++) {
+        real X[DIM_MAX] = {0};
+        for (int d = 0; d < dim; d++) {
+            const real at = 0.5 + (k + 1) * share[d];
+            X[d] = from[d] + (at - floor(at)) * (to[d] - from[d]);
+        }
+        inside += region_contains(r, X, dim, 0);
+    }
+    return volume * (real)inside / POINTS;
+}
+
 void region_free(struct region *r)
 {
+    for (int k = 0; k < r->n && r->solid; k++) solid_free(&r->solid[k]);
     memory_free(r->solid);
     *r = (struct region){0};
 }

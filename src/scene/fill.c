@@ -103,9 +103,10 @@ static void axis_round(struct axis *a)
     a->spacing = 2 * half;
 }
 
-/* Box of a shape's first added solid; false if it is unbounded. */
+/* Box of a shape's first added solid, or of the whole shape where that is an intersection; false if it is unbounded. */
 static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MAX], real high[DIM_MAX])
 {
+    if (shape->n > 0 && shape->solid[0].intersect) return region_bounds(shape, dim, low, high);
     for (int k = 0; k < shape->n; k++)
         if (!shape->solid[k].subtract)
             return region_bounds(&(struct region){.n = 1, .solid = &shape->solid[k]}, dim, low, high);

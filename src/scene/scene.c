@@ -24,6 +24,7 @@ status scene_from_tree(struct reader *r, const struct node *root)
     TRY(expect(r, root, NODE_MAP, "a mapping of keys to values, as a scene is"));
     TRY(check_keys(r, root, ""));
     TRY(read_space(r, root));
+    TRY(read_regions(r, root));
     s->conversion.criteria = CONVERT_ON_BREAK | CONVERT_ON_STRESS;
     TRY(read_group(r, root, root, "", s));
     TRY(check_scene(r, root));
@@ -78,6 +79,8 @@ void scene_free(struct scene *s)
         memory_free(s->probe[k].contours.value);
     }
     region_free(&s->pd_region);
+    for (int k = 0; k < s->regions; k++) region_free(&s->named[k].region);
+    memory_free(s->named);
     memory_free(s->material);
     memory_free(s->body);
     memory_free(s->interface);

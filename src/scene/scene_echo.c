@@ -1,5 +1,5 @@
 /* Writes the scene as run, in YAML that reads back to an identical scene, bit by bit: SI, every default written out. */
-#include "scene_internal.h"
+#include "scene_echo.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -9,26 +9,19 @@
 
 #include "base/memory.h"
 
-struct writer {
-    FILE *out;
-    const struct scene *scene;
-    int indent;
-    bool dash;                           /* the next line begins an item of a list */
-};
-
 static void begin(struct writer *w, const char *key)
 {
     fprintf(w->out, "%*s%s%s:", w->indent - (w->dash ? 2 : 0), "", w->dash ? "- " : "", key);
     w->dash = false;
 }
 
-static void write_real(struct writer *w, real value)
+void write_real(struct writer *w, real value)
 {
     char text[32];
     fputs(number_text(text, value), w->out);
 }
 
-static void write_list(struct writer *w, const real *value, int n)
+void write_list(struct writer *w, const real *value, int n)
 {
     for (int k = 0; k < n; k++) {
         fputs(k ? ", " : "[", w->out);
@@ -104,10 +97,7 @@ static void write_set(struct writer *w, const struct key *k, unsigned bits)
     if (bits) fputc(']', w->out);
 }
 
-static void write_region(struct writer *w, const struct region *region);
-
-/* Writes the value of key k at `place` in the form of its type. */
-static void write_value(struct writer *w, const struct key *k, const void *place)
+void write_value(struct writer *w, const struct key *k, const void *place)
 {
     const struct scene *s = w->scene;
     switch (k->type) {
@@ -129,7 +119,7 @@ static void write_value(struct writer *w, const struct key *k, const void *place
         break;
     }
     case KEY_NAME: write_quoted(w, place); break;
-    case KEY_POINT: write_list(w, place, s->dim); break;
+    case KEY_POINT: write_list(w, place, w->dim); break;
     case KEY_MATRIX: write_matrix(w, place); break;
     case KEY_REGION: write_region(w, place); break;
     case KEY_BODY: write_quoted(w, s->body[*(const int *)place].name); break;
@@ -187,35 +177,6 @@ static void write_group(struct writer *w, const char *group, const void *base)
         write_value(w, k, scene_echo_place_of(k, base));
         fprintf(w->out, "%s%s\n", k->unit ? "  # " : "", unit_rows[k->unit].symbol);
     }
-}
-
-/* ---- solids ------------------------------------------------------------------------------------------------------ */
-
-/* Writes a solid in flow style: {box: {..}}, {subtract: {box: {..}}}. */
-static void write_solid(struct writer *w, const struct solid *s)
-{
-    static const char *const words[] = {[SOLID_BOX] = "solid.box", [SOLID_BALL] = "solid.ball",
-                                        [SOLID_CYLINDER] = "solid.cylinder", [SOLID_HALF_SPACE] = "solid.half-space",
-                                        [SOLID_ALL] = "solid.all"};
-    const char *group = words[s->kind], *between = "";
-    fprintf(w->out, "%s{%s: %s", s->subtract ? "{subtract: " : "", strchr(group, '.') + 1,
-            s->kind == SOLID_ALL ? "true" : "{");
-    for (int i = 0; i < keys_count; i++) {
-        if (!key_in(&keys[i], group)) continue;
-        fprintf(w->out, "%s%s: ", between, key_leaf(&keys[i]));
-        write_value(w, &keys[i], scene_echo_place_of(&keys[i], s));
-        between = ", ";
-    }
-    fprintf(w->out, "%s}%s", s->kind == SOLID_ALL ? "" : "}", s->subtract ? "}" : "");
-}
-
-static void write_region(struct writer *w, const struct region *region)
-{
-    for (int k = 0; k < region->n; k++) {
-        fputs(k ? ", " : "[", w->out);
-        write_solid(w, &region->solid[k]);
-    }
-    fputc(']', w->out);
 }
 
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
@@ -471,10 +432,11 @@ char *scene_echo(const struct scene *s)
     if (s->dim != 2) head.thickness = NAN;
     if (s->dim != 1) head.section = NAN;
     head.has_frames = s->times.n == 0 && s->every == 0;
-    struct writer w = {.out = open_memstream(&text, &length), .scene = s};
+    struct writer w = {.out = open_memstream(&text, &length), .scene = s, .dim = s->dim};
     if (!w.out) return NULL;
     write_group(&w, "", &head);
     write_materials(&w);
+    write_regions(&w);
     write_bodies(&w);
     write_interfaces(&w);
     write_cracks(&w);

@@ -6,6 +6,9 @@
 #include "data/expression.h"
 #include "scene/scene.h"
 
+/* A region that is being read by its name, and the one that asked for it. */
+struct naming { const struct node *region; const struct naming *outer; };
+
 /* ---- nodes: YAML without types, every value is text until a key gives it a type (scene_yaml.c) ------------------- */
 
 enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP };
@@ -34,12 +37,16 @@ struct reader {
     struct scene *scene;                 /* being filled */
     int dim;
     bool bounded;                        /* solids being read belong to a body: no infinite bounds */
+    bool cutting;                        /* ... and take something away from it: they may be infinite */
+    int solids;                          /* number of those read */
     bool files;                          /* check that particle lists exist */
     const char *included[INCLUDED_MOST]; /* names of the files that it includes */
     int includes;
     struct variable *variable;           /* of the scene, in the arena */
     int variables, variables_open;       /* how many; how many are being evaluated */
     struct arena_block *arena;           /* nodes and texts of this reading */
+    const struct node *regions;          /* by name; NULL: none */
+    const struct naming *naming;         /* names of regions within whose reading this one is; NULL: none */
 };
 
 /* Memory that lasts until arena_free, zeroed. */
@@ -80,7 +87,8 @@ status scene_from_tree(struct reader *r, const struct node *root);
 
 enum unit {
     UNIT_NONE, UNIT_LENGTH, UNIT_AREA, UNIT_TIME, UNIT_SPEED, UNIT_DENSITY, UNIT_PRESSURE, UNIT_SURFACE_ENERGY,
-    UNIT_TOUGHNESS, UNIT_BODY_FORCE, UNIT_RATE, UNIT_MASS, UNIT_FORCE, UNIT_ACCELERATION, UNITS
+    UNIT_TOUGHNESS, UNIT_BODY_FORCE, UNIT_RATE, UNIT_MASS, UNIT_FORCE, UNIT_ACCELERATION, UNIT_ANGLE,
+    UNITS
 };
 struct unit_row { const char *name, *symbol, *example; signed char twice[3]; }; /* twice the powers of m, kg, s */
 extern const struct unit_row unit_rows[UNITS];
@@ -201,6 +209,8 @@ status read_group(struct reader *r, const struct node *where, const struct node 
 status read_key(struct reader *r, const struct key *k, const struct node *n, void *base);
 status read_number(struct reader *r, const struct key *k, const struct node *n, real *value);
 status read_point(struct reader *r, const struct key *k, const struct node *n, real *point);
+/* Where points being read lie, in words. */
+const char *space_shown(const struct reader *r);
 
 /* REFUSED if n is not a list with as many items as the range of k allows. */
 status expect_list(struct reader *r, const struct key *k, const struct node *n);
@@ -212,6 +222,11 @@ status read_path(struct reader *r, const struct node *n, const char *what, char 
 /* ---- parts (scene_solids.c, scene_parts.c, scene_loads.c) -------------------------------------------------------- */
 
 status read_region(struct reader *r, const struct node *n, struct region *region);
+/* The regions of the scene that have names; read_region reads those that its solids call. */
+status read_regions(struct reader *r, const struct node *root);
+/* Moves, turns and repeats a solid by the keys of `n` beside its own (scene_motions.c). */
+bool is_motion(const struct node *n);
+status read_motions(struct reader *r, const struct node *n, struct solid *s);
 status read_materials(struct reader *r, const struct node *root);
 status read_bodies(struct reader *r, const struct node *root);
 /* `list`: of key k, NULL: not given (scene_body_parts.c). */

@@ -66,6 +66,8 @@ const struct key keys[] = {
 
 #include "scene_keys_materials.h"
 
+    KEY("regions", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
+        "called by name wherever solids are read, as region: grip", .words = "mapping of names to solids"),
     KEY("body", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(required, or bodies)",
         "shape of the one body, which is then called body", .words = "solid or list of solids"),
     KEY("parts", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 10000), NONE,
@@ -108,33 +110,7 @@ const struct key keys[] = {
     KEY("interfaces.energy_release_rate", KEY_REAL, UNIT_SURFACE_ENERGY, AT(scene_interface, energy_release_rate),
         ABOVE(0), "(that of the weaker material)", "critical energy release rate of the interface"),
 
-    KEY("solid", KEY_GROUP, UNIT_NONE, NOWHERE, ANY, NONE,
-        "what bodies and regions are made of: one of the following, or a list of them, built in order"),
-    KEY("solid.box", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "axis-parallel box"),
-    KEY("solid.box.from", KEY_POINT, UNIT_LENGTH, AT(solid, from), ANY, REQUIRED, "lower corner; -inf only in a region",
-        .infinite = true),
-    KEY("solid.box.to", KEY_POINT, UNIT_LENGTH, AT(solid, to), ANY, REQUIRED, "upper corner; inf only in a region",
-        .infinite = true),
-    KEY("solid.disc", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "disc; plane spaces only"),
-    KEY("solid.disc.centre", KEY_POINT, UNIT_LENGTH, AT(solid, centre), ANY, REQUIRED, "centre"),
-    KEY("solid.disc.radius", KEY_REAL, UNIT_LENGTH, AT(solid, radius), ABOVE(0), REQUIRED, "radius"),
-    KEY("solid.ball", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "ball; in the plane a disc, in line an interval"),
-    KEY("solid.ball.centre", KEY_POINT, UNIT_LENGTH, AT(solid, centre), ANY, REQUIRED, "centre"),
-    KEY("solid.ball.radius", KEY_REAL, UNIT_LENGTH, AT(solid, radius), ABOVE(0), REQUIRED, "radius"),
-    KEY("solid.cylinder", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "round cylinder; space solid only"),
-    KEY("solid.cylinder.from", KEY_POINT, UNIT_LENGTH, AT(solid, from), ANY, REQUIRED, "one end of its axis"),
-    KEY("solid.cylinder.to", KEY_POINT, UNIT_LENGTH, AT(solid, to), ANY, REQUIRED, "the other end"),
-    KEY("solid.cylinder.radius", KEY_REAL, UNIT_LENGTH, AT(solid, radius), ABOVE(0), REQUIRED, "radius"),
-    KEY("solid.half-space", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
-        "all on the side of a plane that its normal leaves"),
-    KEY("solid.half-space.point", KEY_POINT, UNIT_LENGTH, AT(solid, point), ANY, REQUIRED, "a point of the plane"),
-    KEY("solid.half-space.normal", KEY_POINT, UNIT_NONE, AT(solid, normal), ANY, REQUIRED,
-        "points outwards, any length"),
-    KEY("solid.all", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE, "everywhere", .words = "true"),
-    KEY("solid.add", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE, "a solid to add; a solid by itself is added, too",
-        .words = "solid"),
-    KEY("solid.subtract", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE, "a solid to take away from what the list has built",
-        .words = "solid"),
+#include "scene_keys_solids.h"
 
     KEY("particles", KEY_MAP, UNIT_NONE, NOWHERE, ANY, REQUIRED, "discretisation"),
     KEY("particles.spacing", KEY_REAL, UNIT_LENGTH, AT(scene, spacing), ABOVE(0), REQUIRED, "distance of the lattice"),

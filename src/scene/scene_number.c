@@ -146,8 +146,12 @@ bool number_of_text(struct reader *r, real *value, const char *text, enum unit u
     char other[256];
     struct quantity q;
     if (number_read(value, text, unit, infinite, what, room)) return true;
-    if (quantity_of_text(r, text, &q, other, sizeof other) && quantity_fits(&q, unit, other, sizeof other) &&
-        quantity_bounded(q.value, unit, other, sizeof other)) {
+    const bool known = quantity_of_text(r, text, &q, other, sizeof other);
+    if (known && unit == UNIT_ANGLE && q.bare) {         /* 30 might be degrees */
+        snprintf(what, room, "has no unit; %s is expected, as %s", unit_rows[unit].name, unit_rows[unit].example);
+        return false;
+    }
+    if (known && quantity_fits(&q, unit, other, sizeof other) && quantity_bounded(q.value, unit, other, sizeof other)) {
         *value = q.value;
         return true;
     }

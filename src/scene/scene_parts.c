@@ -141,10 +141,8 @@ static status check_rigid_body(struct reader *r, const struct node *n, const str
         if (node_find(n, others[k]))
             return fault(r, node_find(n, others[k]), "a rigid body has none; a shape is expected, and a mass if "
                          "it flies");
-    for (int k = 0; k < b->shape.n && b->rigid; k++)
-        for (int d = 0; d < r->scene->dim && b->shape.solid[k].kind == SOLID_BOX; d++)
-            if (!isfinite(b->shape.solid[k].from[d]) || !isfinite(b->shape.solid[k].to[d]))
-                return fault(r, node_find(n, "shape"), "a box without end; a half-space is expected");
+    if (b->rigid && region_has_endless_box(&b->shape, r->scene->dim))
+        return fault(r, node_find(n, "shape"), "a box without end; a half-space is expected");
     return OK;
 }
 

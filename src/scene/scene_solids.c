@@ -7,13 +7,22 @@
 
 #include "base/memory.h"
 
-/* ---- solids ------------------------------------------------------------------------------------------------------ */
+enum { SOLIDS_MOST = 200000 };
+#define EFFORT_MOST 1e5                  /* primitive solids that one place of a lattice is compared with */
+
+/* ---- shapes ------------------------------------------------------------------------------------------------------ */
 
 static const struct solid_word { const char *name; enum solid_kind kind; int dim; } solid_words[] = {
     {"box", SOLID_BOX, 0},           {"disc", SOLID_BALL, 2},
     {"ball", SOLID_BALL, 0},         {"cylinder", SOLID_CYLINDER, 3},
+    {"ellipse", SOLID_ELLIPSOID, 2}, {"ellipsoid", SOLID_ELLIPSOID, 3},
+    {"ring", SOLID_RING, 2},         {"polygon", SOLID_POLYGON, 2},
+    {"tube", SOLID_TUBE, 3},         {"cone", SOLID_CONE, 3},
+    {"torus", SOLID_TORUS, 3},       {"extrude", SOLID_EXTRUSION, 3},
     {"half-space", SOLID_HALF_SPACE, 0}, {"all", SOLID_ALL, 0},
 };
+
+static status read_solids(struct reader *r, const struct node *n, struct region *region, bool intersect);
 
 static status check_box(struct reader *r, const struct node *n, const struct solid *s)
 {
@@ -23,13 +32,69 @@ static status check_box(struct reader *r, const struct node *n, const struct sol
     return OK;
 }
 
+/* REFUSED for an axis without length and for a hole or section that does not fit. */
+static status check_round(struct reader *r, const struct node *n, const struct solid *s)
+{
+    const bool has_ends = s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE || s->kind == SOLID_CONE;
+    if (has_ends && memcmp(s->from, s->to, sizeof s->from) == 0)
+        return fault(r, n, "its axis has no length; from and to are its two ends");
+    if ((s->kind == SOLID_TUBE || s->kind == SOLID_RING) && !(s->inner < s->radius))
+        return fault(r, node_find(n, "inner"), "is not below radius; the radius of its hole is expected");
+    if (s->kind == SOLID_CONE && !(s->inner + s->radius > 0))
+        return fault(r, n, "both radii are 0; one may be, for a cone that ends in a point");
+    if (s->kind == SOLID_TORUS && !(s->inner < s->radius))
+        return fault(r, node_find(n, "section"), "is not below radius; a torus has a hole");
+    return OK;
+}
+
 static status check_solid(struct reader *r, const struct node *n, const struct solid *s)
 {
     if (s->kind == SOLID_BOX) return check_box(r, n, s);
     if (s->kind == SOLID_HALF_SPACE && !(dot(s->normal, s->normal, r->dim) > 0))
         return fault(r, n, "the normal has no length; it points out of the half-space");
-    if (s->kind != SOLID_CYLINDER || memcmp(s->from, s->to, sizeof s->from) != 0) return OK;
-    return fault(r, n, "its axis has no length; from and to are its two ends");
+    if (s->kind == SOLID_TORUS && !(dot(s->normal, s->normal, r->dim) > 0))
+        return fault(r, n, "its axis has no length; it leads through the hole");
+    return check_round(r, n, s);
+}
+
+/* Reads the corners of a polygon and what makes them round. REFUSED if edges cross or a corner has no room. */
+static status read_corners(struct reader *r, const struct node *n, struct solid *s)
+{
+    const struct key *k = key_find("solid.polygon", "corners");
+    const struct node *list = node_find(n, "corners");
+    struct key corner = *k;
+    int at = 0;
+    corner.range.given = false;
+    s->polygon = NEW("solids.polygon", 1, struct polygon);
+    TRY(read_group(r, n, n, "solid.polygon", s->polygon));
+    if (!list) return fault_missing(r, n, k);
+    TRY(expect_list(r, k, list));
+    s->polygon->n = list->n;
+    s->polygon->corner = memory_new("solids.corner", list->n, sizeof *s->polygon->corner);
+    for (const struct node *p = list->first; p; p = p->next)
+        TRY(read_point(r, &corner, p, s->polygon->corner[at++]));
+    switch (polygon_make(s->polygon, &at)) {
+    case POLYGON_SHORT: return fault(r, list, "corner %d is also the next one; corners differ", at);
+    case POLYGON_FLAT: return fault(r, list, "have no area; the corners of a polygon are expected");
+    case POLYGON_CROSSED: return fault(r, list, "the edge at corner %d meets another; edges do not cross", at);
+    case POLYGON_TIGHT:
+        return fault(r, node_find(n, "round"), "is too large for the edge from corner %d to the next; a smaller radius "
+                     "is expected", at);
+    default: return OK;
+    }
+}
+
+/* Reads an extrusion, whose shape lies in the plane of the other two axes. */
+static status read_extrusion(struct reader *r, const struct node *n, struct solid *s)
+{
+    const struct node *shape = node_find(n, "shape");
+    TRY(read_group(r, n, n, "solid.extrude", s));
+    if (!shape) return fault_missing(r, n, key_find("solid.extrude", "shape"));
+    if (!(s->begin < s->end)) return fault(r, n, "from is not below to; from is the lower end");
+    r->dim = 2;
+    const status read = read_solids(r, shape, &s->region, false);
+    r->dim = r->scene->dim;
+    return read;
 }
 
 /* Reads the keys of a solid of this kind. REFUSED if the space does not have it, or for an infinite solid of a body. */
@@ -39,10 +104,15 @@ static status read_shape(struct reader *r, const struct node *n, const struct so
     snprintf(group, sizeof group, "solid.%s", word->name);
     s->kind = word->kind;
     if (word->dim && word->dim != r->dim)
-        return fault(r, n, "not in space %s; %s is expected", space_names[r->scene->space],
-                     r->dim == 1 ? "box" : r->dim == 2 ? "disc or box" : "ball, cylinder or box");
-    if (r->bounded && !s->subtract && (s->kind == SOLID_ALL || s->kind == SOLID_HALF_SPACE))
+        return fault(r, n, "not in %s; %s is expected", space_shown(r),
+                     r->dim == 1                   ? "box"
+                     : r->dim == 2                 ? "disc, polygon, ellipse, ring or box"
+                     : word->kind == SOLID_POLYGON ? "extrude, with a polygon as its shape,"
+                                                   : "ball, cylinder, tube, cone, extrude or box");
+    if (r->bounded && !r->cutting && (s->kind == SOLID_ALL || s->kind == SOLID_HALF_SPACE))
         return fault(r, n, "a body cannot be infinite; box, ball and cylinder are finite");
+    if (s->kind == SOLID_POLYGON) return read_corners(r, n, s);
+    if (s->kind == SOLID_EXTRUSION) return read_extrusion(r, n, s);
     if (s->kind != SOLID_ALL) {
         TRY(read_group(r, n, n, group, s));
         return check_solid(r, n, s);
@@ -51,31 +121,141 @@ static status read_shape(struct reader *r, const struct node *n, const struct so
     return fault(r, n, "%s is not true; write all: true", shown(r, n));
 }
 
-/* Reads one solid, possibly inside add or subtract. `signed_before`: it is inside one already. */
-static status read_solid(struct reader *r, const struct node *n, struct solid *s, bool signed_before)
+/* ---- names ------------------------------------------------------------------------------------------------------- */
+
+/* The node of the region of this name. REFUSED with the nearest name. */
+static status region_called(struct reader *r, const struct node *n, const struct node **called)
 {
-    TRY(expect(r, n, NODE_MAP, "a solid such as box: {from: [..], to: [..]}"));
-    TRY(check_keys(r, n, "solid"));
-    if (n->n != 1)
-        return fault(r, n, "has %d keys; a solid is one of box, disc, ball, cylinder, half-space, all", n->n);
-    const struct node *child = n->first;
-    for (size_t k = 0; k < COUNT_OF(solid_words); k++)
-        if (strcmp(solid_words[k].name, child->key) == 0) return read_shape(r, child, &solid_words[k], s);
-    if (signed_before) return fault(r, child, "stands inside add or subtract; a solid such as box is expected there");
-    s->subtract = strcmp(child->key, "subtract") == 0;
-    return read_solid(r, child, s, true);
+    const struct node *nearest = NULL;
+    if (n->kind != NODE_SCALAR) return fault(r, n, "%s is no name; one of regions is expected", shown(r, n));
+    if (!r->regions)
+        return fault(r, n, "%s is no solid, and no region has a name; regions: {%s: {box: ..}} is expected",
+                     shown(r, n), shown(r, n));
+    for (const struct node *c = r->regions->first; c; c = c->next) {
+        *called = c;
+        if (strcmp(c->key, n->text) == 0) return OK;
+        if (!nearest || edit_distance(c->key, n->text) < edit_distance(nearest->key, n->text)) nearest = c;
+    }
+    return fault(r, n, "there is no region %s; the nearest is %s", shown(r, n), nearest->key);
 }
 
-status read_region(struct reader *r, const struct node *n, struct region *region)
+/* Reads the region of a name as if it stood here. REFUSED if that needs itself. */
+static status read_called(struct reader *r, const struct node *n, struct region *region)
+{
+    struct naming here = {.outer = r->naming};
+    TRY(region_called(r, n, &here.region));
+    for (const struct naming *k = r->naming; k; k = k->outer)
+        if (k->region == here.region) return fault(r, n, "region %s is part of itself", shown(r, n));
+    r->naming = &here;
+    const status read = read_solids(r, here.region, region, false);
+    r->naming = here.outer;
+    return read;
+}
+
+/* A named region as one solid: that solid itself where the region is one as described, or a group. */
+static status read_named(struct reader *r, const struct node *n, struct solid *s)
+{
+    s->kind = SOLID_GROUP;
+    TRY(read_called(r, n, &s->region));
+    const struct solid only = s->region.solid[0];
+    if (s->region.n > 1 || only.intersect || only.images > 0) return OK;
+    const bool subtract = s->subtract, intersect = s->intersect;
+    memory_free(s->region.solid);
+    *s = only;
+    s->subtract = subtract, s->intersect = intersect;
+    return OK;
+}
+
+status read_regions(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *map = node_find(root, "regions");
+    r->regions = NULL, r->solids = 0;
+    if (!map) return OK;
+    TRY(expect(r, map, NODE_MAP, "a mapping of names to solids, as {grip: {box: ..}}"));
+    if (map->n == 0) return fault(r, map, "has no region; a name and its solids are expected");
+    r->regions = map;
+    s->named = NEW("regions", map->n, struct named_region);
+    for (const struct node *n = map->first; n; n = n->next) {
+        const struct node name = {.text = n->key, .key = n->key, .line = n->line, .column = n->column,
+                                  .origin = n->origin};
+        for (const struct node *twin = map->first; twin != n; twin = twin->next)
+            if (strcmp(twin->key, n->key) == 0)
+                return fault(r, n, "given twice, first in line %d; keep one", twin->line);
+        TRY(read_key(r, &(struct key){.type = KEY_NAME, .place = 1}, &name, s->named[s->regions].name));
+        TRY(read_called(r, &name, &s->named[s->regions++].region));
+    }
+    return OK;
+}
+
+/* ---- lists of solids --------------------------------------------------------------------------------------------- */
+
+static status read_solid(struct reader *r, const struct node *n, struct solid *s, bool signed_before);
+
+/* Reads what add, subtract or intersect does: with a solid; or with a list, or what `n` moves as a whole: a group. */
+static status read_operation(struct reader *r, const struct node *n, const struct node *what, struct solid *s)
+{
+    const bool cutting = r->cutting;
+    status read;
+    s->subtract = strcmp(what->key, "subtract") == 0;
+    s->intersect = strcmp(what->key, "intersect") == 0;
+    r->cutting = cutting || s->subtract || s->intersect;
+    if (what->kind == NODE_LIST || n->n > 1) {
+        s->kind = SOLID_GROUP;
+        read = read_solids(r, what, &s->region, s->intersect);
+    } else {
+        read = read_solid(r, what, s, true);
+    }
+    r->cutting = cutting;
+    return read;
+}
+
+/* Reads one solid, possibly inside add, subtract or intersect, and what moves it. `signed_before`: it is inside one
+ * already. */
+static status read_solid(struct reader *r, const struct node *n, struct solid *s, bool signed_before)
+{
+    const struct node *child = NULL;
+    const struct solid_word *word = NULL;
+    int solids = 0;
+    TRY(expect(r, n, NODE_MAP, "a solid such as box: {from: [..], to: [..]}"));
+    TRY(check_keys(r, n, "solid"));
+    for (const struct node *c = n->first; c; c = c->next)
+        if (!is_motion(c)) child = c, solids++;
+    if (solids != 1)
+        return fault(r, n, "has %d solids; it is one of box, disc, ball, cylinder, polygon, .. (`cleave help solid`)",
+                     solids);
+    if (r->solids++ > SOLIDS_MOST) return fault(r, n, "one of more than %d solids; fewer are expected", SOLIDS_MOST);
+    for (size_t k = 0; k < COUNT_OF(solid_words) && !word; k++)
+        if (strcmp(solid_words[k].name, child->key) == 0) word = &solid_words[k];
+    if (word) TRY(read_shape(r, child, word, s));
+    else if (strcmp(child->key, "region") == 0) TRY(read_named(r, child, s));
+    else if (signed_before)
+        return fault(r, child, "stands inside add, subtract or intersect; a solid such as box is expected there");
+    else TRY(read_operation(r, n, child, s));
+    TRY(read_motions(r, n, s));
+    if (solid_effort(s) <= EFFORT_MOST) return OK;
+    return fault(r, n, "makes more than %g solids with its copies; fewer are expected", EFFORT_MOST);
+}
+
+/* `intersect`: items that do not say what they do are to be intersected. */
+static status read_solids(struct reader *r, const struct node *n, struct region *region, bool intersect)
 {
     if (n->kind == NODE_LIST && n->n == 0) return fault(r, n, "an empty list; at least one solid is expected");
     const struct node *item = n->kind == NODE_LIST ? n->first : n;
     int count = n->kind == NODE_LIST ? n->n : 1;
     region->solid = NEW("solids", count, struct solid);
     region->n = count;
-    for (int k = 0; k < count; k++, item = item->next) TRY(read_solid(r, item, &region->solid[k], false));
+    for (int k = 0; k < count; k++, item = item->next) {
+        region->solid[k].intersect = intersect;
+        TRY(read_solid(r, item, &region->solid[k], false));
+    }
     if (!region->solid[0].subtract) return OK;
     return fault(r, n, "subtracts from nothing; the first solid must be added, for a region perhaps all: true");
+}
+
+status read_region(struct reader *r, const struct node *n, struct region *region)
+{
+    return n->kind == NODE_SCALAR && *n->text ? read_called(r, n, region) : read_solids(r, n, region, false);
 }
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */

@@ -25,6 +25,7 @@ const struct unit_row unit_rows[UNITS] = {
     [UNIT_MASS] = {"a mass", "kg", "1.6 kg", {0, 2, 0}},
     [UNIT_FORCE] = {"a force", "N", "20 N", {2, 2, -4}},
     [UNIT_ACCELERATION] = {"an acceleration", "m/s^2", "-9.81 m/s^2", {2, 0, -4}},
+    [UNIT_ANGLE] = {"an angle", "rad", "30 deg", {0, 0, 0}},
 };
 
 /* ---- units ------------------------------------------------------------------------------------------------------- */
@@ -284,6 +285,13 @@ static int clock_seconds(const char *text, enum unit unit)
     return 0;
 }
 
+/* Radians of rad and deg, which every angle has: 30 without a unit might be either; 0: another unit. */
+static real angle_radians(const char *text)
+{
+    if (strcmp(text, "rad") == 0) return 1;
+    return strcmp(text, "deg") == 0 || strcmp(text, "\u00b0") == 0 ? 3.14159265358979323846 / 180 : 0;
+}
+
 static bool infinite_read(real *value, const char *text)
 {
     const char *c = text + (*text == '-' || *text == '+');
@@ -343,20 +351,28 @@ bool number_read(real *value, const char *text, enum unit unit, bool infinite, c
     rest += divisor_read(rest, &divisor);
     while (*rest == ' ') rest++;
     const int clock = clock_seconds(rest, unit);
+    const real radians = unit == UNIT_ANGLE ? angle_radians(rest) : 1;
+    if (radians == 0) return complain(c, *rest ? "has another unit" : "has no unit", unit);
+    if (unit == UNIT_ANGLE) rest = "";
     if (!clock && !unit_fits(c, rest, unit, &ten)) return false;
     if (divisor == 0) return complain(c, "divides by 0", unit);
-    *value = number_scaled(text, length, ten, clock, divisor);
+    *value = number_scaled(text, length, ten, clock, divisor) * radians;
     return in_bounds(c, *value, unit);
 }
 
-/* Seconds and letters of a clock's unit that a text begins with; 0: it does not. */
-static size_t clock_length(const char *text, int *seconds)
+/* Letters of a unit of time or angle that is no power of ten, with which a text begins, and the seconds or radians of
+ * it; 0: it does not. */
+static size_t factor_length(const char *text, real *factor, bool *is_time)
 {
     const size_t letters = symbol_length(text);
     char word[8] = "";
     if (letters < sizeof word) memcpy(word, text, letters);
-    *seconds = clock_seconds(word, UNIT_TIME);
-    return *seconds ? letters : 0;
+    const int seconds = clock_seconds(word, UNIT_TIME);
+    *is_time = seconds > 0;
+    *factor = *is_time ? seconds : angle_radians(word);
+    if (*factor > 0) return letters;
+    *factor = 1;
+    return 0;
 }
 
 size_t quantity_unit(struct quantity *q, const char *text)
@@ -378,9 +394,11 @@ bool number_quantity(struct quantity *q, const char *text)
     const char *rest = text + length + divisor_read(text + length, &divisor);
     rest += strspn(rest, " ");
     const int clock = clock_seconds(rest, UNIT_TIME);
-    if (divisor == 0 || (!clock && !unit_read(&m, rest))) return false;
+    const real radians = angle_radians(rest);
+    if (divisor == 0 || (!clock && radians == 0 && !unit_read(&m, rest))) return false;
     if (clock) m.twice[2] = 2;
     *q = (struct quantity){number_scaled(text, length, m.ten / 2, clock, divisor), {0}, *rest == '\0'};
+    if (radians > 0) q->value *= radians;
     memcpy(q->twice, m.twice, sizeof q->twice);
     return true;
 }
@@ -389,16 +407,17 @@ size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const
 {
     const size_t length = number_length(text);
     struct measure m = {{0, 0, 0}, 0};
-    int seconds = 1;
+    real factor = 1;
+    bool is_time = false;
     *wrong = length == 0 ? "is no number" : length > NUMBER_LONGEST ? "has too many digits" : trap(text, length);
     if (length > 0 && text[length] == ',') *wrong = NULL;                /* it may part operands of a function */
     if (*wrong) return 0;
     const char *unit = text + length + strspn(text + length, " ");
-    size_t letters = with_unit ? clock_length(unit, &seconds) : 0;
+    size_t letters = with_unit ? factor_length(unit, &factor, &is_time) : 0;
     *q = (struct quantity){.bare = true};
-    if (letters) m.twice[2] = 2;
-    else seconds = 1, letters = with_unit ? unit_length(&m, unit) : 0;
-    q->value = seconds * number_value(text, length, m.ten / 2);
+    if (is_time) m.twice[2] = 2;
+    if (with_unit && !letters) letters = unit_length(&m, unit);
+    q->value = factor * number_value(text, length, m.ten / 2);
     q->bare = letters == 0;
     memcpy(q->twice, m.twice, sizeof q->twice);
     return letters ? (size_t)(unit - text) + letters : length;

@@ -347,15 +347,21 @@ static status read_name(struct reader *r, const struct node *n, char *name)
 
 const char *const space_names[] = {"line", "plane stress", "plane strain", "solid"};
 
+const char *space_shown(const struct reader *r)
+{
+    static const char *const shown_as[] = {"space line", "space plane stress", "space plane strain", "space solid"};
+    return r->dim == r->scene->dim ? shown_as[r->scene->space] : "the plane of extrude";
+}
+
 status read_point(struct reader *r, const struct key *k, const struct node *n, real *point)
 {
     int d = 0;
     if (r->dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, point);
-    const char *space = space_names[r->scene->space];
+    const char *space = space_shown(r);
     if (n->kind != NODE_LIST)
-        return fault(r, n, "%s is not a list; %d components are expected in space %s", shown(r, n), r->dim,
+        return fault(r, n, "%s is not a list; %d components are expected in %s", shown(r, n), r->dim,
                      space);
-    if (n->n != r->dim) return fault(r, n, "has %d components; %d are expected in space %s", n->n, r->dim, space);
+    if (n->n != r->dim) return fault(r, n, "has %d components; %d are expected in %s", n->n, r->dim, space);
     for (const struct node *c = n->first; c; c = c->next) TRY(read_number(r, k, c, &point[d++]));
     return OK;
 }

@@ -23,7 +23,7 @@ static double body_spacing(const struct scene *s, const struct region *shape)
     for (int d = 0; d < s->dim; d++) least = fmin(least, (to[d] - from[d]) / ACROSS_BODY);
     for (int k = 0; k < shape->n; k++) {
         const struct solid *a = &shape->solid[k];
-        if (a->kind == SOLID_BALL || a->kind == SOLID_CYLINDER) least = fmin(least, a->radius / IN_HOLE);
+        least = fmin(least, solid_radius(a, s->dim) / IN_HOLE);
     }
     return least;
 }

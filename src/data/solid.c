@@ -1,0 +1,377 @@
+/* Kinds of solids: how far a point is from each, and how far each reaches. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "data/region.h"
+#include "solid_kinds.h"
+
+/* ---- boxes, balls, half-spaces ----------------------------------------------------------------------------------- */
+
+real box_surface(const real *at, const real *half, int dim, real *normal)
+{
+    real out2 = 0, nearest = -INFINITY, beyond[DIM_MAX];
+    int face = 0;
+    for (int d = 0; d < dim; d++) {
+        const real off = fabs(at[d]) - half[d];
+        beyond[d] = real_max(off, 0);
+        out2 += square(beyond[d]);
+        if (off > nearest) nearest = off, face = d;
+    }
+    const real out = sqrt(out2);
+    for (int d = 0; d < dim; d++) normal[d] = copysign(out > 0 ? beyond[d] / out : d == face, at[d]);
+    return out > 0 ? out : nearest;
+}
+
+static real box_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    real at[DIM_MAX], half[DIM_MAX];
+    for (int d = 0; d < dim; d++) {
+        half[d] = 0.5 * (s->to[d] - s->from[d]);
+        at[d] = X[d] - 0.5 * (s->from[d] + s->to[d]);
+    }
+    return box_surface(at, half, dim, normal);
+}
+
+static real box_level(const struct solid *s, const real *X, int dim)
+{
+    real far = -INFINITY;
+    for (int d = 0; d < dim; d++) far = real_max(far, real_max(s->from[d] - X[d], X[d] - s->to[d]));
+    return far;
+}
+
+static real box_support(const struct solid *s, const real *along, int dim)
+{
+    real sum = 0;
+    for (int d = 0; d < dim; d++)
+        if (along[d] != 0) sum += along[d] * (along[d] > 0 ? s->to[d] : s->from[d]);     /* 0 times inf is none */
+    return sum;
+}
+
+/* Distance of X from the centre, and the direction from there. */
+static real centre_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    real r2 = 0;
+    for (int d = 0; d < dim; d++) normal[d] = X[d] - s->centre[d], r2 += square(normal[d]);
+    const real r = sqrt(r2);
+    for (int d = 0; d < dim; d++) normal[d] = r > 0 ? normal[d] / r : d == 0;
+    return r;
+}
+
+static real ball_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    return centre_from(s, X, dim, normal) - s->radius;
+}
+
+static real ball_support(const struct solid *s, const real *along, int dim)
+{
+    return dot(s->centre, along, dim) + s->radius * sqrt(dot(along, along, dim));
+}
+
+static real ring_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    const real r = centre_from(s, X, dim, normal), out = r - s->radius, in = s->inner - r;
+    for (int d = 0; d < dim && in > out; d++) normal[d] = -normal[d];
+    return real_max(out, in);
+}
+
+static real half_space_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    const real length = sqrt(dot(s->normal, s->normal, dim));
+    real above = 0;
+    for (int d = 0; d < dim; d++) {
+        normal[d] = s->normal[d] / length;
+        above += (X[d] - s->point[d]) * normal[d];
+    }
+    return above;
+}
+
+static real half_space_level(const struct solid *s, const real *X, int dim)
+{
+    real length = sqrt(dot(s->normal, s->normal, dim)), above = 0;
+    for (int d = 0; d < dim; d++) above += (X[d] - s->point[d]) * s->normal[d];
+    return length > 0 ? above / length : INFINITY;
+}
+
+/* Bounded along its normal only, to round-off. */
+static real half_space_support(const struct solid *s, const real *along, int dim)
+{
+    const real length = sqrt(dot(s->normal, s->normal, dim)), size = sqrt(dot(along, along, dim));
+    real off2 = 0;
+    for (int d = 0; d < dim; d++) off2 += square(along[d] / size - s->normal[d] / length);
+    return off2 < 1e-28 ? dot(s->point, along, dim) : INFINITY;
+}
+
+/* ---- round an axis ----------------------------------------------------------------------------------------------- */
+
+struct axis_place axis_place_of(const struct solid *s, const real *X)
+{
+    struct axis_place p = {0};
+    real r2 = 0;
+    for (int d = 0; d < DIM_MAX; d++) p.length += square(s->to[d] - s->from[d]);
+    p.length = sqrt(p.length);
+    for (int d = 0; d < DIM_MAX; d++) {
+        p.axis[d] = (s->to[d] - s->from[d]) / p.length;
+        p.along += (X[d] - 0.5 * (s->from[d] + s->to[d])) * p.axis[d];
+    }
+    for (int d = 0; d < DIM_MAX; d++) {
+        p.out[d] = X[d] - 0.5 * (s->from[d] + s->to[d]) - p.along * p.axis[d];
+        r2 += square(p.out[d]);
+    }
+    p.across = sqrt(r2);
+    for (int d = 0; d < DIM_MAX && p.across > 0; d++) p.out[d] /= p.across;
+    if (p.across > 0) return p;
+    int least = 0;                       /* on the axis: any direction across it */
+    for (int d = 1; d < DIM_MAX; d++)
+        if (fabs(p.axis[d]) < fabs(p.axis[least])) least = d;
+    for (int d = 0; d < DIM_MAX; d++) p.out[d] = (d == least) - p.axis[least] * p.axis[d];
+    const real size = sqrt(dot(p.out, p.out, DIM_MAX));
+    for (int d = 0; d < DIM_MAX; d++) p.out[d] /= size;
+    return p;
+}
+
+void axis_normal(const struct axis_place *p, const real in_plane[2], real *normal)
+{
+    for (int d = 0; d < DIM_MAX; d++) normal[d] = in_plane[0] * p->axis[d] + in_plane[1] * p->out[d];
+}
+
+/* A box in the half plane of the axis and the radius through the point: from the inner to the outer radius, where the
+ * inner one of a cylinder is the mirror image of the outer. */
+static real pipe_from(const struct solid *s, const real *X, real inner, real *normal)
+{
+    const struct axis_place p = axis_place_of(s, X);
+    const real at[] = {p.along, p.across - 0.5 * (s->radius + inner)};
+    const real half[] = {0.5 * p.length, 0.5 * (s->radius - inner)};
+    real in_plane[2];
+    const real distance = box_surface(at, half, 2, in_plane);
+    axis_normal(&p, in_plane, normal);
+    return distance;
+}
+
+static real cylinder_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    (void)dim;
+    return pipe_from(s, X, -s->radius, normal);
+}
+
+static real tube_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    (void)dim;
+    return pipe_from(s, X, s->inner, normal);
+}
+
+/* Unit vector and length of b - a; a length of 0 leaves the vector 0. */
+static real solid_direction(const real *a, const real *b, int dim, real unit[DIM_MAX])
+{
+    real sum = 0;
+    for (int d = 0; d < dim; d++) sum += square(a[d] - b[d]);
+    const real length = sqrt(sum), divisor = length > 0 ? length : INFINITY;
+    for (int d = 0; d < dim; d++) unit[d] = (b[d] - a[d]) / divisor;
+    return length;
+}
+
+static real cylinder_level(const struct solid *s, const real *X, int dim)
+{
+    real axis[DIM_MAX], arm[DIM_MAX], length = solid_direction(s->from, s->to, dim, axis);
+    for (int d = 0; d < dim; d++) arm[d] = X[d] - s->from[d];
+    real along = dot(arm, axis, dim), across = 0;
+    for (int d = 0; d < dim; d++) across += square(arm[d] - along * axis[d]);
+    return real_max(sqrt(across) - s->radius, real_max(-along, along - length));
+}
+
+/* Of a disc across the axis from..to of the solid. */
+static real end_support(const struct solid *s, const real *centre, real radius, const real *along)
+{
+    real axis[DIM_MAX];
+    solid_direction(s->from, s->to, DIM_MAX, axis);
+    const real size2 = dot(along, along, DIM_MAX), lengthwise = dot(along, axis, DIM_MAX);
+    return dot(centre, along, DIM_MAX) + radius * sqrt(real_max(0, size2 - square(lengthwise)));
+}
+
+static real cylinder_support(const struct solid *s, const real *along, int dim)
+{
+    (void)dim;
+    return real_max(end_support(s, s->from, s->radius, along), end_support(s, s->to, s->radius, along));
+}
+
+/* Its section through the axis is a trapezoid, or a triangle where it ends in a point. */
+static real cone_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    (void)dim;
+    const struct axis_place p = axis_place_of(s, X);
+    const real half = 0.5 * p.length, at[] = {p.along, p.across};
+    real corner[4][2], in_plane[2];
+    struct polygon section = {.corner = corner, .sense = 1};
+    const real ends[4][2] = {{-half, -s->radius}, {half, -s->inner}, {half, s->inner}, {-half, s->radius}};
+    for (int k = 0; k < 4; k++) {
+        if ((k == 2 && s->inner == 0) || (k == 3 && s->radius == 0)) continue;
+        corner[section.n][0] = ends[k][0], corner[section.n++][1] = ends[k][1];
+    }
+    const real distance = polygon_distance(&section, at, in_plane);
+    axis_normal(&p, in_plane, normal);
+    return distance;
+}
+
+static real cone_support(const struct solid *s, const real *along, int dim)
+{
+    (void)dim;
+    return real_max(end_support(s, s->from, s->radius, along), end_support(s, s->to, s->inner, along));
+}
+
+/* A ring of radius `radius` about the axis `normal`, of round section. */
+static real torus_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    struct solid line = {0};
+    const real length = sqrt(dot(s->normal, s->normal, dim));
+    for (int d = 0; d < DIM_MAX; d++) {
+        line.from[d] = s->centre[d] - 0.5 * s->normal[d] / length;
+        line.to[d] = s->centre[d] + 0.5 * s->normal[d] / length;
+    }
+    const struct axis_place p = axis_place_of(&line, X);
+    const real in_plane[] = {p.along, p.across - s->radius}, r = hypot(in_plane[0], in_plane[1]);
+    const real unit[] = {r > 0 ? in_plane[0] / r : 1, r > 0 ? in_plane[1] / r : 0};
+    axis_normal(&p, unit, normal);
+    return r - s->inner;
+}
+
+static real torus_support(const struct solid *s, const real *along, int dim)
+{
+    const real size2 = dot(along, along, dim), lengthwise2 = square(dot(along, s->normal, dim)) /
+                                                              dot(s->normal, s->normal, dim);
+    return dot(s->centre, along, dim) + s->radius * sqrt(real_max(0, size2 - lengthwise2)) + s->inner * sqrt(size2);
+}
+
+/* ---- polygons, ellipsoids, extrusions, groups -------------------------------------------------------------------- */
+
+static real polygon_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    (void)dim;
+    return polygon_distance(s->polygon, X, normal);
+}
+
+static real polygon_reach(const struct solid *s, const real *along, int dim)
+{
+    (void)dim;
+    return polygon_support(s->polygon, along);
+}
+
+static real ellipsoid_support(const struct solid *s, const real *along, int dim)
+{
+    real sum = 0;
+    for (int d = 0; d < dim; d++) sum += square(s->radii[d] * along[d]);
+    return dot(s->centre, along, dim) + sqrt(sum);
+}
+
+/* The two axes of the plane of an extrusion, in order. */
+static void plane_axes(const struct solid *s, int axes[2])
+{
+    axes[0] = s->axis == 0 ? 1 : 0;
+    axes[1] = s->axis == 2 ? 1 : 2;
+}
+
+static real extrusion_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    int axes[2];
+    (void)dim;
+    plane_axes(s, axes);
+    const real flat[] = {X[axes[0]], X[axes[1]]}, below = s->begin - X[s->axis], above = X[s->axis] - s->end;
+    real own[DIM_MAX];
+    const real across = region_distance(&s->region, flat, 2, own), along = real_max(below, above);
+    const real outside = hypot(real_max(across, 0), real_max(along, 0));
+    const real share = outside > 0 ? real_max(across, 0) / outside : across >= along;
+    const real rest = outside > 0 ? real_max(along, 0) / outside : across < along;
+    normal[axes[0]] = share * own[0], normal[axes[1]] = share * own[1];
+    normal[s->axis] = above > below ? rest : -rest;
+    return outside > 0 ? outside : real_max(across, along);
+}
+
+static real extrusion_level(const struct solid *s, const real *X, int dim)
+{
+    int axes[2];
+    (void)dim;
+    plane_axes(s, axes);
+    const real flat[] = {X[axes[0]], X[axes[1]]};
+    return real_max(region_level(&s->region, flat, 2), real_max(s->begin - X[s->axis], X[s->axis] - s->end));
+}
+
+static real extrusion_support(const struct solid *s, const real *along, int dim)
+{
+    int axes[2];
+    (void)dim;
+    plane_axes(s, axes);
+    const real flat[] = {along[axes[0]], along[axes[1]]}, up = along[s->axis];
+    const real ends = up == 0 ? 0 : up * (up > 0 ? s->end : s->begin);
+    return ends + (flat[0] == 0 && flat[1] == 0 ? 0 : region_support(&s->region, flat, 2));
+}
+
+static real group_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    return region_distance(&s->region, X, dim, normal);
+}
+
+static real group_level(const struct solid *s, const real *X, int dim) { return region_level(&s->region, X, dim); }
+
+static real group_support(const struct solid *s, const real *along, int dim)
+{
+    return region_support(&s->region, along, dim);
+}
+
+/* Everywhere. */
+static real all_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    (void)s, (void)X;
+    for (int d = 0; d < dim; d++) normal[d] = d == 0;
+    return -INFINITY;
+}
+
+static real all_support(const struct solid *s, const real *along, int dim)
+{
+    (void)s, (void)along, (void)dim;
+    return INFINITY;
+}
+
+const struct solid_type solid_types[SOLID_KINDS] = {
+    [SOLID_ALL] = {all_from, NULL, all_support},
+    [SOLID_BOX] = {box_from, box_level, box_support},
+    [SOLID_BALL] = {ball_from, NULL, ball_support},
+    [SOLID_CYLINDER] = {cylinder_from, cylinder_level, cylinder_support},
+    [SOLID_HALF_SPACE] = {half_space_from, half_space_level, half_space_support},
+    [SOLID_ELLIPSOID] = {ellipsoid_distance, NULL, ellipsoid_support},
+    [SOLID_RING] = {ring_from, NULL, ball_support},
+    [SOLID_POLYGON] = {polygon_from, NULL, polygon_reach},
+    [SOLID_TUBE] = {tube_from, NULL, cylinder_support},
+    [SOLID_CONE] = {cone_from, NULL, cone_support},
+    [SOLID_TORUS] = {torus_from, NULL, torus_support},
+    [SOLID_EXTRUSION] = {extrusion_from, extrusion_level, extrusion_support},
+    [SOLID_GROUP] = {group_from, group_level, group_support},
+};
+
+real solid_radius(const struct solid *s, int dim)
+{
+    real least = INFINITY;
+    for (int d = 0; d < dim && s->kind == SOLID_ELLIPSOID; d++) least = real_min(least, s->radii[d]);
+    const bool is_round = s->kind == SOLID_BALL || s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE ||
+                          s->kind == SOLID_RING;
+    return is_round ? s->radius : least;
+}
+
+real solid_width(const struct solid *s, int dim)
+{
+    switch (s->kind) {
+    case SOLID_TUBE:
+    case SOLID_RING: return s->radius - s->inner;
+    case SOLID_TORUS: return 2 * s->inner;
+    default: return 2 * solid_radius(s, dim);
+    }
+}
+
+void solid_free(struct solid *s)
+{
+    region_free(&s->region);
+    if (s->polygon) {
+        memory_free(s->polygon->corner);
+        memory_free(s->polygon->bend);
+    }
+    memory_free(s->polygon);
+    memory_free(s->motion);
+    memory_free(s->image);
+}

@@ -1,0 +1,199 @@
+/* Copies of solids: moved, turned, mirrored, repeated; distances over all of them. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "data/region.h"
+#include "solid_kinds.h"
+
+/* ---- motions ----------------------------------------------------------------------------------------------------- */
+
+/* Sine and cosine, exact where the angle is a whole number of quarter turns to round-off. */
+static void sine_cosine(real angle, real *sine, real *cosine)
+{
+    const real quarter = 1.57079632679489661923, turns = nearbyint(angle / quarter);
+    real rest = fma(-turns, quarter, angle);
+    if (fabs(rest) < 4e-16 * fabs(angle)) rest = 0;
+    const real s = sin(rest), c = cos(rest);
+    const real sines[] = {s, c, -s, -c}, cosines[] = {c, -s, -c, s};
+    const int at = (int)(turns - 4 * floor(turns / 4));
+    *sine = sines[at], *cosine = cosines[at];
+}
+
+/* Rotation about an axis: Rodrigues; in the plane from x to y. */
+static void solid_rotation(const struct solid_motion *m, real angle, int dim, real R[DIM_MAX][DIM_MAX])
+{
+    real k[DIM_MAX] = {0, 0, 1}, s, c;
+    const real length = sqrt(dot(m->axis, m->axis, DIM_MAX));
+    for (int d = 0; d < DIM_MAX && dim == 3; d++) k[d] = m->axis[d] / length;
+    sine_cosine(angle, &s, &c);
+    const real cross[DIM_MAX][DIM_MAX] = {{0, -k[2], k[1]}, {k[2], 0, -k[0]}, {-k[1], k[0], 0}};
+    for (int a = 0; a < DIM_MAX; a++)
+        for (int b = 0; b < DIM_MAX; b++) R[a][b] = (a == b) * c + s * cross[a][b] + (1 - c) * k[a] * k[b];
+}
+
+static void solid_reflection(const struct solid_motion *m, int dim, real R[DIM_MAX][DIM_MAX])
+{
+    const real length2 = dot(m->axis, m->axis, dim);
+    for (int a = 0; a < DIM_MAX; a++)
+        for (int b = 0; b < DIM_MAX; b++)
+            R[a][b] = (a == b) - (a < dim && b < dim ? 2 * m->axis[a] * m->axis[b] / length2 : 0);
+}
+
+/* What `from` becomes by R about a point. */
+static struct placement image_turned(const struct placement *from, real R[DIM_MAX][DIM_MAX], const real *about, int dim)
+{
+    struct placement to = {0};
+    for (int a = 0; a < DIM_MAX; a++) {
+        for (int b = 0; b < DIM_MAX; b++)
+            for (int c = 0; c < DIM_MAX; c++) to.turn[a][b] += R[a][c] * from->turn[c][b];
+        to.shift[a] = about[a];
+        for (int c = 0; c < dim; c++) to.shift[a] += R[a][c] * (from->shift[c] - about[c]);
+    }
+    return to;
+}
+
+/* Copy number k of one image by a motion. */
+static struct placement image_made(const struct placement *from, const struct solid_motion *m, int k, int dim)
+{
+    struct placement to = *from;
+    real R[DIM_MAX][DIM_MAX];
+    if (m->kind == MOTION_MOVE || m->kind == MOTION_GRID) {
+        for (int d = 0, rest = k; d < dim; d++) {
+            const int count = m->kind == MOTION_GRID ? (int)m->count[d] : 1;
+            to.shift[d] += (m->kind == MOTION_GRID ? rest % count : 1) * m->step[d];
+            rest /= count;
+        }
+        return to;
+    }
+    if (m->kind == MOTION_MIRROR) solid_reflection(m, dim, R);
+    else solid_rotation(m, m->kind == MOTION_RING ? k * m->angle : m->angle, dim, R);
+    const bool stays = (m->kind == MOTION_MIRROR && m->keep && k == 0) || (m->kind == MOTION_RING && k == 0);
+    return stays ? to : image_turned(from, R, m->about, dim);
+}
+
+static real motion_count(const struct solid_motion *m, int dim)
+{
+    real count = 1;
+    if (m->kind == MOTION_MIRROR) return m->keep ? 2 : 1;
+    for (int d = 0; d < dim && m->kind == MOTION_GRID; d++) count *= m->count[d];
+    return m->kind == MOTION_RING ? m->count[0] : count;
+}
+
+/* ---- one copy ---------------------------------------------------------------------------------------------------- */
+
+/* to = turn^T b: a direction as the solid itself sees it. */
+static void turn_back(const struct placement *i, const real *b, int dim, real *to)
+{
+    for (int c = 0; c < dim; c++) {
+        to[c] = 0;
+        for (int a = 0; a < dim; a++) to[c] += i->turn[a][c] * b[a];
+    }
+}
+
+static real image_support(const struct solid *s, const struct placement *i, const real *along, int dim)
+{
+    real own[DIM_MAX];
+    turn_back(i, along, dim, own);
+    return solid_types[s->kind].support(s, own, dim) + dot(i->shift, along, dim);
+}
+
+/* X as the solid itself sees it. */
+static void place_back(const struct placement *i, const real *X, int dim, real *to)
+{
+    real off[DIM_MAX];
+    for (int d = 0; d < dim; d++) off[d] = X[d] - i->shift[d];
+    turn_back(i, off, dim, to);
+}
+
+/* Least that a point can be away from a copy, as the largest of its distances from the sides of its box [m]. */
+static real image_least(const struct placement *i, const real *X, int dim)
+{
+    real far = -INFINITY;
+    for (int d = 0; d < dim; d++) far = real_max(far, real_max(i->low[d] - X[d], X[d] - i->high[d]));
+    return far;
+}
+
+static void image_box(struct placement *i, const struct solid *s, int dim)
+{
+    for (int d = 0; d < dim; d++) {
+        real along[DIM_MAX] = {0};
+        along[d] = -1, i->low[d] = -image_support(s, i, along, dim);
+        along[d] = 1, i->high[d] = image_support(s, i, along, dim);
+    }
+}
+
+bool solid_move(struct solid *s, const struct solid_motion *m, int dim)
+{
+    const int before = s->images > 0 ? s->images : 1;
+    const real count = motion_count(m, dim) * before;
+    struct placement itself = {.turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, *image;
+    if (!(count <= IMAGES_MOST)) return false;
+    image = NEW("solids.image", (int)count, struct placement);
+    for (int k = 0; k < (int)count; k++) {
+        image[k] = image_made(s->images > 0 ? &s->image[k % before] : &itself, m, k / before, dim);
+        image_box(&image[k], s, dim);
+    }
+    memory_free(s->image);
+    s->image = image, s->images = (int)count;
+    s->motion = memory_resize("solids.motion", s->motion, s->motions, s->motions + 1, sizeof *m);
+    s->motion[s->motions++] = *m;
+    return true;
+}
+
+/* ---- all copies -------------------------------------------------------------------------------------------------- */
+
+real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
+{
+    real nearest = INFINITY, own[DIM_MAX], at[DIM_MAX];
+    if (s->images == 0) return solid_types[s->kind].distance(s, X, dim, normal);
+    for (int d = 0; d < dim; d++) normal[d] = d == 0;
+    for (int k = 0; k < s->images; k++) {
+        const struct placement *i = &s->image[k];
+        if (image_least(i, X, dim) > nearest) continue;
+        place_back(i, X, dim, at);
+        const real distance = solid_types[s->kind].distance(s, at, dim, own);
+        if (!(distance < nearest)) continue;
+        nearest = distance;
+        for (int a = 0; a < dim; a++) {
+            normal[a] = 0;
+            for (int b = 0; b < dim; b++) normal[a] += i->turn[a][b] * own[b];
+        }
+    }
+    return nearest;
+}
+
+static real image_level(const struct solid *s, const real *X, int dim)
+{
+    const struct solid_type *type = &solid_types[s->kind];
+    real normal[DIM_MAX];
+    return type->level ? type->level(s, X, dim) : type->distance(s, X, dim, normal);
+}
+
+real solid_level(const struct solid *s, const real *X, int dim)
+{
+    real nearest = INFINITY, at[DIM_MAX];
+    if (s->images == 0) return image_level(s, X, dim);
+    for (int k = 0; k < s->images; k++) {
+        if (image_least(&s->image[k], X, dim) > nearest) continue;
+        place_back(&s->image[k], X, dim, at);
+        nearest = real_min(nearest, image_level(s, at, dim));
+    }
+    return nearest;
+}
+
+real solid_support(const struct solid *s, const real *along, int dim)
+{
+    real most = -INFINITY;
+    if (s->images == 0) return solid_types[s->kind].support(s, along, dim);
+    for (int k = 0; k < s->images; k++) most = real_max(most, image_support(s, &s->image[k], along, dim));
+    return most;
+}
+
+real solid_effort(const struct solid *s)
+{
+    real effort = s->region.n == 0 ? 1 : 0;
+    for (int k = 0; k < s->region.n; k++) effort += solid_effort(&s->region.solid[k]);
+    if (s->polygon) effort = 1 + 0.1 * s->polygon->n;
+    return effort * (s->images > 0 ? s->images : 1);
+}

@@ -1,0 +1,26 @@
+/* What the files scene_echo*.c share: where the scene as run is written to, and values in the form of their keys. */
+#ifndef CLEAVE_SCENE_ECHO
+#define CLEAVE_SCENE_ECHO
+
+#include <stdio.h>
+
+#include "scene_internal.h"
+
+struct writer {
+    FILE *out;
+    const struct scene *scene;
+    int dim;                             /* of points: that of the scene, or 2 in an extrusion */
+    int indent;
+    bool dash;                           /* the next line begins an item of a list */
+};
+
+void write_real(struct writer *w, real value);
+void write_list(struct writer *w, const real *value, int n);
+/* Writes the value of key k at `place` in the form of its type. */
+void write_value(struct writer *w, const struct key *k, const void *place);
+
+/* A region as a list of solids, and those that have names (scene_echo_solids.c). */
+void write_region(struct writer *w, const struct region *region);
+void write_regions(struct writer *w);
+
+#endif

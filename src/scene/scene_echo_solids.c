@@ -1,0 +1,120 @@
+/* Writes solids in flow style: {box: {..}}, {subtract: {box: {..}, move: [..]}}. Solids that were called by name are
+ * written where they stand. */
+#include "scene_echo.h"
+
+#include <string.h>
+
+/* Keys of a group in flow style, each behind a comma but for the first; `between` begins it. */
+static void write_keys(struct writer *w, const char *group, const void *base, const char *between)
+{
+    for (int i = 0; i < keys_count; i++) {
+        const struct key *k = &keys[i];
+        if (!key_in(k, group) || !k->place) continue;
+        if (k->has && !*((const bool *)base + (k->has - 1))) continue;
+        fprintf(w->out, "%s%s: ", between, key_leaf(k));
+        write_value(w, k, (const char *)base + (k->place - 1));
+        if (k->unit == UNIT_ANGLE) fputs(" rad", w->out);
+        between = ", ";
+    }
+}
+
+static void write_corners(struct writer *w, const struct polygon *p)
+{
+    for (int k = 0; k < p->n; k++) {
+        fputs(k ? ", " : "corners: [", w->out);
+        write_list(w, p->corner[k], 2);
+    }
+    fputc(']', w->out);
+    write_keys(w, "solid.polygon", p, ", ");
+}
+
+static void write_items(struct writer *w, const struct region *region, bool intersect);
+
+static void write_extrusion(struct writer *w, const struct solid *s)
+{
+    const int dim = w->dim;
+    fputs("shape: ", w->out);
+    w->dim = 2;
+    write_region(w, &s->region);
+    w->dim = dim;
+    write_keys(w, "solid.extrude", s, ", ");
+}
+
+/* The solid itself: `box: {..}`. */
+static void write_shape(struct writer *w, const struct solid *s)
+{
+    static const char *const words[] = {[SOLID_BOX] = "box", [SOLID_BALL] = "ball", [SOLID_CYLINDER] = "cylinder",
+                                        [SOLID_HALF_SPACE] = "half-space", [SOLID_RING] = "ring",
+                                        [SOLID_POLYGON] = "polygon", [SOLID_TUBE] = "tube", [SOLID_CONE] = "cone",
+                                        [SOLID_TORUS] = "torus", [SOLID_EXTRUSION] = "extrude"};
+    char group[32];
+    if (s->kind == SOLID_ALL) {
+        fputs("all: true", w->out);
+        return;
+    }
+    const char *word = s->kind == SOLID_ELLIPSOID ? w->dim == 2 ? "ellipse" : "ellipsoid" : words[s->kind];
+    fprintf(w->out, "%s: {", word);
+    snprintf(group, sizeof group, "solid.%s", word);
+    if (s->kind == SOLID_POLYGON) write_corners(w, s->polygon);
+    else if (s->kind == SOLID_EXTRUSION) write_extrusion(w, s);
+    else write_keys(w, group, s, "");
+    fputc('}', w->out);
+}
+
+static void write_motions(struct writer *w, const struct solid *s)
+{
+    static const char *const begins[] = {[MOTION_ROTATE] = ", rotate: {", [MOTION_MIRROR] = ", mirror: {",
+                                         [MOTION_GRID] = ", pattern: {grid: {", [MOTION_RING] = ", pattern: {ring: {"};
+    static const char *const groups[] = {[MOTION_ROTATE] = "solid.rotate", [MOTION_MIRROR] = "solid.mirror",
+                                         [MOTION_GRID] = "solid.pattern.grid", [MOTION_RING] = "solid.pattern.ring"};
+    for (int k = 0; k < s->motions; k++) {
+        const struct solid_motion *m = &s->motion[k];
+        if (m->kind == MOTION_MOVE) {
+            fputs(", move: ", w->out);
+            write_list(w, m->step, w->dim);
+            continue;
+        }
+        fputs(begins[m->kind], w->out);
+        write_keys(w, groups[m->kind], m, "");
+        fputs(m->kind == MOTION_GRID || m->kind == MOTION_RING ? "}}" : "}", w->out);
+    }
+}
+
+/* `plain`: a solid that is added has no word for that. */
+static void write_solid(struct writer *w, const struct solid *s, bool plain)
+{
+    const bool group = s->kind == SOLID_GROUP;
+    const char *word = s->subtract ? "subtract" : s->intersect ? "intersect" : group || !plain ? "add" : NULL;
+    fputc('{', w->out);
+    if (word) fprintf(w->out, "%s: ", word);
+    if (group) write_items(w, &s->region, s->intersect);
+    else {
+        if (word) fputc('{', w->out);
+        write_shape(w, s);
+    }
+    write_motions(w, s);
+    fputs(word && !group ? "}}" : "}", w->out);
+}
+
+/* `intersect`: in a list of solids to be intersected. */
+static void write_items(struct writer *w, const struct region *region, bool intersect)
+{
+    for (int k = 0; k < region->n; k++) {
+        fputs(k ? ", " : "[", w->out);
+        write_solid(w, &region->solid[k], !intersect);
+    }
+    fputc(']', w->out);
+}
+
+void write_region(struct writer *w, const struct region *region) { write_items(w, region, false); }
+
+void write_regions(struct writer *w)
+{
+    const struct scene *s = w->scene;
+    if (s->regions) fputs("regions:\n", w->out);
+    for (int k = 0; k < s->regions; k++) {
+        fprintf(w->out, "  %s: ", s->named[k].name);
+        write_region(w, &s->named[k].region);
+        fputc('\n', w->out);
+    }
+}

@@ -1,0 +1,97 @@
+/* Reads what stands beside a solid: move, rotate, mirror and pattern, in the order of the scene. */
+#include "scene_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *const motion_words[] = {"move", "rotate", "mirror", "pattern"};
+
+bool is_motion(const struct node *n)
+{
+    bool is = false;
+    for (size_t k = 0; k < COUNT_OF(motion_words); k++) is |= strcmp(n->key, motion_words[k]) == 0;
+    return is;
+}
+
+/* Axis of a rotation: z unless the scene gives one. REFUSED without length, and in the plane. */
+static status read_turning_axis(struct reader *r, const struct node *n, struct solid_motion *m)
+{
+    const struct node *axis = node_find(n, "axis");
+    if (r->dim == 1) return fault(r, n, "nothing turns on a line; move, mirror or pattern.grid is expected");
+    if (r->dim == 2 && axis) return fault(r, axis, "the plane has one axis to turn about; it has none to give");
+    if (!m->has_axis) m->axis[2] = 1;
+    m->has_axis = r->dim == 3;
+    if (dot(m->axis, m->axis, DIM_MAX) > 0) return OK;
+    return fault(r, axis, "has no length; an axis such as [0, 0, 1] is expected");
+}
+
+/* Of a rotation: the middle of the box round what turns, unless the scene gives a point. */
+static status read_about(struct reader *r, const struct node *n, const struct solid *s, struct solid_motion *m)
+{
+    for (int d = 0; d < r->dim && !m->has_about; d++) {
+        real along[DIM_MAX] = {0};
+        along[d] = -1;
+        const real low = -solid_support(s, along, r->dim);
+        along[d] = 1;
+        const real high = solid_support(s, along, r->dim);
+        m->about[d] = 0.5 * (low + high);
+        if (!isfinite(m->about[d])) return fault(r, n, "turns what has no end; a point `about` is expected");
+    }
+    m->has_about = true;
+    return OK;
+}
+
+static status read_rotate(struct reader *r, const struct node *n, const struct solid *s, struct solid_motion *m)
+{
+    m->kind = MOTION_ROTATE;
+    TRY(read_group(r, n, n, "solid.rotate", m));
+    TRY(read_turning_axis(r, n, m));
+    return read_about(r, n, s, m);
+}
+
+static status read_mirror_image(struct reader *r, const struct node *n, struct solid_motion *m)
+{
+    m->kind = MOTION_MIRROR;
+    TRY(read_group(r, n, n, "solid.mirror", m));
+    if (dot(m->axis, m->axis, r->dim) > 0) return OK;
+    return fault(r, node_find(n, "normal"), "has no length; the normal of the plane is expected");
+}
+
+static status read_pattern(struct reader *r, const struct node *n, struct solid_motion *m)
+{
+    TRY(expect(r, n, NODE_MAP, "a pattern such as grid: {count: [..], step: [..]}"));
+    TRY(check_keys(r, n, "solid.pattern"));
+    if (n->n != 1) return fault(r, n, "has %d keys; a pattern is one of grid and ring", n->n);
+    const struct node *form = n->first;
+    const bool ring = strcmp(form->key, "ring") == 0;
+    m->kind = ring ? MOTION_RING : MOTION_GRID;
+    TRY(read_group(r, form, form, ring ? "solid.pattern.ring" : "solid.pattern.grid", m));
+    for (int d = 0; d < (ring ? 1 : r->dim); d++)
+        if (m->count[d] != round(m->count[d]))
+            return fault(r, node_find(form, "count"), "is not a whole number; the number of copies is expected");
+    if (!ring) return OK;
+    if (!m->has_angle) m->angle = 2 * 3.14159265358979323846 / m->count[0];
+    return read_turning_axis(r, form, m);
+}
+
+static status read_motion(struct reader *r, const struct node *n, const struct solid *s, struct solid_motion *m)
+{
+    const int word = word_index("move|rotate|mirror|pattern", n->key);
+    switch (word) {
+    case 0: m->kind = MOTION_MOVE; return read_key(r, key_find("solid", "move"), n, m);
+    case 1: return read_rotate(r, n, s, m);
+    case 2: return read_mirror_image(r, n, m);
+    default: return read_pattern(r, n, m);
+    }
+}
+
+status read_motions(struct reader *r, const struct node *n, struct solid *s)
+{
+    for (const struct node *c = n->first; c; c = c->next) {
+        struct solid_motion m = {0};
+        if (!is_motion(c)) continue;
+        TRY(read_motion(r, c, s, &m));
+        if (!solid_move(s, &m, r->dim)) return fault(r, c, "makes more than %d copies; fewer are fine", IMAGES_MOST);
+    }
+    return OK;
+}

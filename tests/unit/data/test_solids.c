@@ -1,0 +1,290 @@
+/* Solids beside formulas that know nothing of them: areas and volumes, slopes of distances, symmetric copies. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <math.h>
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "data/region.h"
+
+static const real pi = 3.14159265358979323846;
+
+/* Uniform numbers in [0, 1) (Lehmer's generator modulo 2^31 - 1). */
+static real random_next(uint64_t *state)
+{
+    *state = *state * 48271 % 2147483647;
+    return (real)*state / 2147483647;
+}
+
+/* ---- one of each kind -------------------------------------------------------------------------------------------- */
+
+static real arrow[][2] = {{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}};
+static struct polygon sharp = {5, arrow, 0, NULL, 0}, rounded = {5, arrow, 0.25, NULL, 0};
+static struct solid washer = {.kind = SOLID_RING, .radius = 1, .inner = 0.4};
+
+/* Area of the arrow, and what a corner of interior angle a loses by rounding with r: r^2 (1/tan(a/2) - (pi - a)/2). */
+static real arrow_area(real r)
+{
+    real area = 0;
+    for (int k = 0; k < 5; k++) {
+        const real *a = arrow[(k + 4) % 5], *b = arrow[k], *c = arrow[(k + 1) % 5];
+        const real in[] = {a[0] - b[0], a[1] - b[1]}, out[] = {c[0] - b[0], c[1] - b[1]};
+        const real angle = acos((in[0] * out[0] + in[1] * out[1]) / hypot(in[0], in[1]) / hypot(out[0], out[1]));
+        const real lost = r * r * (1 / tan(angle / 2) - (pi - angle) / 2);
+        area += 0.5 * (b[0] * c[1] - b[1] * c[0]) - (k == 3 ? -lost : lost);
+    }
+    return area;
+}
+
+static struct example { struct solid s; int dim; real volume; } examples[] = {
+    {{.kind = SOLID_BOX, .from = {-1, 0, 0.5}, .to = {1, 0.5, 2}}, 3, 1.5},
+    {{.kind = SOLID_BALL, .centre = {1, 2}, .radius = 1.5}, 2, 0},
+    {{.kind = SOLID_CYLINDER, .from = {0, 0, 0}, .to = {1, 2, 2}, .radius = 0.7}, 3, 0},
+    {{.kind = SOLID_ELLIPSOID, .centre = {0.5, -1}, .radii = {2, 0.7}}, 2, 0},
+    {{.kind = SOLID_ELLIPSOID, .centre = {0.5, -1, 0}, .radii = {1, 0.5, 2}}, 3, 0},
+    {{.kind = SOLID_ELLIPSOID, .radii = {1, 1, 0.3}}, 3, 0},
+    {{.kind = SOLID_RING, .centre = {0.5, 0}, .radius = 2, .inner = 1.2}, 2, 0},
+    {{.kind = SOLID_TUBE, .from = {0, 0, 0}, .to = {0, 1, 2}, .radius = 1, .inner = 0.6}, 3, 0},
+    {{.kind = SOLID_CONE, .from = {0, 0, 0}, .to = {1, 0, 2}, .radius = 1, .inner = 0.4}, 3, 0},
+    {{.kind = SOLID_CONE, .from = {0, 0, 0}, .to = {0, 0, 1}, .radius = 0, .inner = 1}, 3, 0},
+    {{.kind = SOLID_TORUS, .normal = {0, 1, 1}, .radius = 1, .inner = 0.3}, 3, 0},
+    {{.kind = SOLID_POLYGON, .polygon = &sharp}, 2, 0},
+    {{.kind = SOLID_POLYGON, .polygon = &rounded}, 2, 0},
+    {{.kind = SOLID_EXTRUSION, .region = {1, &washer}, .axis = 1, .begin = -0.5, .end = 1}, 3, 0},
+};
+
+static void examples_make(void)
+{
+    int corner;
+    const real third = 4 * pi / 3, length = sqrt(5);
+    const real volumes[] = {1.5, pi * 2.25, pi * 0.49 * 3, pi * 1.4, third, third * 0.3, pi * (4 - 1.44),
+                            pi * 0.64 * length, pi / 3 * length * (1 + 0.4 + 0.16), pi / 3, 2 * pi * pi * 0.09,
+                            arrow_area(0), arrow_area(0.25), pi * 0.84 * 1.5};
+    assert_int_equal(polygon_make(&sharp, &corner), POLYGON_FINE);
+    if (!rounded.bend) assert_int_equal(polygon_make(&rounded, &corner), POLYGON_FINE);
+    for (size_t k = 0; k < COUNT_OF(examples); k++) examples[k].volume = volumes[k];
+}
+
+/* ---- checks of one solid ----------------------------------------------------------------------------------------- */
+
+/* Volume by points of a sequence, in a box that is a little larger than needed. */
+static void check_volume(const struct solid *s, int dim, real volume)
+{
+    const struct region r = {1, (struct solid *)(uintptr_t)s};
+    real from[DIM_MAX], to[DIM_MAX], box = 1;
+    assert_true(region_bounds(&r, dim, from, to));
+    for (int d = 0; d < dim; d++) {
+        const real edge = to[d] - from[d];
+        from[d] -= 0.05 * edge, to[d] += 0.04 * edge, box *= 1.09 * edge;
+    }
+    assert_float_equal(region_volume(&r, dim, from, to), volume, 2e-3 * box);
+}
+
+/* Bounds: no point of it lies outside, and it touches each side. */
+static void check_bounds(const struct solid *s, int dim)
+{
+    const struct region r = {1, (struct solid *)(uintptr_t)s};
+    real from[DIM_MAX], to[DIM_MAX], X[DIM_MAX] = {0};
+    uint64_t seed = 7;
+    assert_true(region_bounds(&r, dim, from, to));
+    for (int side = 0; side < 2 * dim; side++) {
+        const int d = side / 2;
+        real nearest = INFINITY;
+        for (int k = 0; k < 3000; k++) {
+            for (int a = 0; a < dim; a++) X[a] = from[a] + random_next(&seed) * (to[a] - from[a]);
+            X[d] = side % 2 ? to[d] + 1e-9 : from[d] - 1e-9;
+            const real level = solid_level(s, X, dim);
+            assert_true(level > 0);
+            nearest = real_min(nearest, level);
+        }
+        assert_true(nearest < 0.15);     /* 3000 points leave no larger hole */
+    }
+}
+
+/* Signed distance: unit normals; the level agrees in sign; no slope is steeper than 1, and from outside a step back
+ * along the normal by the distance leads to the surface. The two make it the distance. */
+static void check_distance(const struct solid *s, int dim)
+{
+    uint64_t seed = 99;
+    for (int k = 0; k < 2000; k++) {
+        real X[DIM_MAX] = {0}, Y[DIM_MAX] = {0}, normal[DIM_MAX] = {0}, other[DIM_MAX] = {0};
+        for (int d = 0; d < dim; d++) X[d] = 9 * random_next(&seed) - 4.5;
+        const real distance = solid_distance(s, X, dim, normal), level = solid_level(s, X, dim);
+        assert_float_equal(dot(normal, normal, dim), 1, 1e-12);
+        assert_true((level > 0) == (distance > 0));
+        for (int d = 0; d < dim; d++) Y[d] = X[d] + 0.3 * (2 * random_next(&seed) - 1);
+        real apart = 0;
+        for (int d = 0; d < dim; d++) apart += square(X[d] - Y[d]);
+        assert_true(fabs(solid_distance(s, Y, dim, other) - distance) <= sqrt(apart) * (1 + 1e-9) + 1e-12);
+        if (distance <= 0) continue;
+        for (int d = 0; d < dim; d++) Y[d] = X[d] - distance * normal[d];
+        assert_float_equal(solid_distance(s, Y, dim, other), 0, 1e-7);
+    }
+}
+
+static void test_every_kind(void **state)
+{
+    (void)state;
+    examples_make();
+    for (size_t k = 0; k < COUNT_OF(examples); k++) {
+        check_volume(&examples[k].s, examples[k].dim, examples[k].volume);
+        check_bounds(&examples[k].s, examples[k].dim);
+        check_distance(&examples[k].s, examples[k].dim);
+    }
+}
+
+/* The same turned, mirrored and moved: nothing changes but the place. */
+static void test_every_kind_moved(void **state)
+{
+    (void)state;
+    examples_make();
+    for (size_t k = 0; k < COUNT_OF(examples); k++) {
+        struct solid s = examples[k].s;
+        const int dim = examples[k].dim;
+        struct solid_motion turn = {.kind = MOTION_ROTATE, .about = {0.3, 0.1}, .axis = {1, -2, 0.5}, .angle = 0.7};
+        struct solid_motion mirror = {.kind = MOTION_MIRROR, .about = {0.2}, .axis = {1, 0.5, 0}};
+        struct solid_motion move = {.kind = MOTION_MOVE, .step = {0.3, -0.2, 0.1}};
+        assert_true(solid_move(&s, &turn, dim) && solid_move(&s, &mirror, dim) && solid_move(&s, &move, dim));
+        assert_int_equal(s.images, 1);
+        check_volume(&s, dim, examples[k].volume);
+        check_bounds(&s, dim);
+        check_distance(&s, dim);
+        memory_free(s.image), memory_free(s.motion);
+    }
+}
+
+/* ---- copies ------------------------------------------------------------------------------------------------------ */
+
+/* A box turned by quarters about its corner is the box with other corners, to the last bit. */
+static void test_quarter_turns(void **state)
+{
+    (void)state;
+    const real corners[4][4] = {{1, 2, 4, 3}, {-3, 1, -2, 4}, {-4, -3, -1, -2}, {2, -4, 3, -1}};
+    for (int k = 0; k < 4; k++) {
+        struct solid s = {.kind = SOLID_BOX, .from = {1, 2}, .to = {4, 3}};
+        struct solid_motion turn = {.kind = MOTION_ROTATE, .angle = k * 90 * pi / 180};
+        real from[DIM_MAX], to[DIM_MAX];
+        assert_true(solid_move(&s, &turn, 2));
+        assert_true(region_bounds(&(struct region){1, &s}, 2, from, to));
+        assert_true(from[0] == corners[k][0] && from[1] == corners[k][1]);
+        assert_true(to[0] == corners[k][2] && to[1] == corners[k][3]);
+        memory_free(s.image), memory_free(s.motion);
+    }
+}
+
+/* A wheel of 18 teeth: it looks the same from every tooth, and has their area. */
+static void test_gear(void **state)
+{
+    (void)state;
+    real tooth[][2] = {{9, -1}, {12, -0.5}, {12, 0.5}, {9, 1}};
+    struct polygon flank = {4, tooth, 0, NULL, 0};
+    struct solid s[2] = {{.kind = SOLID_BALL, .radius = 10}, {.kind = SOLID_POLYGON, .polygon = &flank}};
+    struct solid_motion ring = {.kind = MOTION_RING, .count = {18}, .angle = 2 * pi / 18};
+    const struct region gear = {2, s};
+    int corner;
+    uint64_t seed = 3;
+    assert_int_equal(polygon_make(&flank, &corner), POLYGON_FINE);
+    assert_true(solid_move(&s[1], &ring, 2));
+    assert_int_equal(s[1].images, 18);
+    for (int k = 0; k < 5000; k++) {
+        const real r = 8 + 5 * random_next(&seed), angle = 2 * pi * random_next(&seed), turned = angle + 7 * pi / 9;
+        const real X[] = {r * cos(angle), r * sin(angle), 0}, Y[] = {r * cos(turned), r * sin(turned), 0};
+        assert_float_equal(region_level(&gear, X, 2), region_level(&gear, Y, 2), 1e-13);
+    }
+    /* area of a tooth beyond the wheel: by strips along it */
+    real area = pi * 100;
+    enum { STRIPS = 20000 };
+    for (int k = 0; k < STRIPS; k++) {
+        const real y = (k + 0.5) / STRIPS, end = y < 0.5 ? 12 : 12 - (y - 0.5) * 6;
+        area += 18 * 2 * real_max(0, end - sqrt(100 - y * y)) / STRIPS;
+    }
+    const real from[] = {-12, -12, 0}, to[] = {12, 12, 0};
+    assert_float_equal(region_volume(&gear, 2, from, to), area, 1e-3 * 576);
+    memory_free(s[1].image), memory_free(s[1].motion);
+}
+
+/* A grid of holes is the list of the holes; a mirror image lies where it should. */
+static void test_grid_and_mirror(void **state)
+{
+    (void)state;
+    struct solid hole = {.kind = SOLID_BALL, .subtract = true, .centre = {1, 1}, .radius = 0.3}, list[7];
+    struct solid plate = {.kind = SOLID_BOX, .to = {6, 4}};
+    struct solid_motion grid = {.kind = MOTION_GRID, .count = {3, 2}, .step = {2, 2}};
+    struct solid_motion mirror = {.kind = MOTION_MIRROR, .about = {3, 0}, .axis = {2, 0}, .keep = true};
+    uint64_t seed = 5;
+    list[0] = plate;
+    for (int k = 0; k < 6; k++) {
+        list[1 + k] = hole;
+        list[1 + k].centre[0] += 2 * (k % 3), list[1 + k].centre[1] += 2 * (k / 3);
+    }
+    struct solid holes = hole, two = hole;
+    assert_true(solid_move(&holes, &grid, 2) && solid_move(&two, &mirror, 2));
+    struct solid perforated[] = {plate, holes}, pair[] = {plate, two}, said[] = {plate, hole, list[3]};
+    for (int k = 0; k < 4000; k++) {
+        const real X[] = {7 * random_next(&seed) - 0.5, 5 * random_next(&seed) - 0.5, 0};
+        real one[DIM_MAX], other[DIM_MAX];
+        assert_float_equal(region_level(&(struct region){2, perforated}, X, 2),
+                           region_level(&(struct region){7, list}, X, 2), 1e-13);
+        assert_float_equal(region_distance(&(struct region){2, pair}, X, 2, one),
+                           region_distance(&(struct region){3, said}, X, 2, other), 1e-13);
+    }
+    memory_free(holes.image), memory_free(holes.motion), memory_free(two.image), memory_free(two.motion);
+    struct solid many = hole;
+    grid.count[0] = 3000;
+    assert_false(solid_move(&many, &grid, 2));
+}
+
+/* Intersections: in all of them; closed; bounds are those of the smaller. */
+static void test_intersection(void **state)
+{
+    (void)state;
+    struct solid s[] = {{.kind = SOLID_BALL, .intersect = true, .radius = 2},
+                        {.kind = SOLID_HALF_SPACE, .intersect = true, .point = {0.5}, .normal = {2, 0}}};
+    const struct region r = {2, s};
+    struct solid group = {.kind = SOLID_GROUP, .region = r};
+    real from[DIM_MAX], to[DIM_MAX];
+    uint64_t seed = 11;
+    assert_true(region_bounds(&r, 2, from, to));
+    assert_true(from[0] == -2 && to[0] == 0.5 && from[1] == -2 && to[1] == 2);
+    assert_true(region_contains(&r, (real[]){0.5, 0, 0}, 2, 0) && region_contains(&r, (real[]){-2, 0, 0}, 2, 0));
+    assert_false(region_contains(&r, (real[]){0.6, 0, 0}, 2, 0));
+    for (int k = 0; k < 2000; k++) {
+        const real X[] = {5 * random_next(&seed) - 2.5, 5 * random_next(&seed) - 2.5, 0};
+        const bool inside = hypot(X[0], X[1]) <= 2 && X[0] <= 0.5;
+        assert_true(region_contains(&r, X, 2, 0) == inside);
+        assert_true(region_contains(&(struct region){1, &group}, X, 2, 0) == inside);
+    }
+    check_distance(&s[0], 2);
+}
+
+/* What is no polygon is told apart. */
+static void test_polygon_faults(void **state)
+{
+    (void)state;
+    static struct { real corner[4][2]; int n; real round; enum polygon_fault fault; } q[] = {
+        {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 4, 0.5, POLYGON_FINE},
+        {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 4, 0.51, POLYGON_TIGHT},
+        {{{0, 0}, {1, 1}, {1, 0}, {0, 1}}, 4, 0, POLYGON_CROSSED},
+        {{{0, 0}, {1, 0}, {0.5, 0}, {0, 1}}, 4, 0, POLYGON_CROSSED},
+        {{{0, 0}, {1, 0}, {1, 0}, {0, 1}}, 4, 0, POLYGON_SHORT},
+        {{{0, 0}, {1, 1}, {2, 2}}, 3, 0, POLYGON_CROSSED},
+    };
+    for (size_t k = 0; k < COUNT_OF(q); k++) {
+        struct polygon p = {q[k].n, q[k].corner, q[k].round, NULL, 0};
+        int corner;
+        assert_int_equal(polygon_make(&p, &corner), q[k].fault);
+        memory_free(p.bend);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_kind),      cmocka_unit_test(test_every_kind_moved),
+        cmocka_unit_test(test_quarter_turns),   cmocka_unit_test(test_gear),
+        cmocka_unit_test(test_grid_and_mirror), cmocka_unit_test(test_intersection),
+        cmocka_unit_test(test_polygon_faults),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
