@@ -35,8 +35,6 @@ struct accuracy_method {
     const char *name;                    /* as printed */
     enum accuracy_family family;
     bool quick;                          /* also with --quick */
-    const char *colour;                  /* of its points and their type, as gnuplot has them */
-    int mark;
     struct scene_override set[ACCURACY_SETTINGS]; /* key NULL: no more */
 };
 extern const struct accuracy_method accuracy_method[];

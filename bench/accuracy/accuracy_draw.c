@@ -1,8 +1,8 @@
 /* Pictures of the cost-accuracy table: a panel for each case of a problem, and one page with all problems.
  *
- * A point is a run: its time on one thread, a thin line to that on two. Lines join the resolutions of a method;
- * small marks are other horizons and steps; a cross at the upper edge is a run that was unstable. The broad grey
- * line is the front. */
+ * A point is a run, by its time on one thread. Runs on the front, which nothing beats in both time and error, have the
+ * colour of their family, and a label where there is room; all others are small and grey; a cross at the upper edge is
+ * one that was unstable. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,11 +12,6 @@
 #include "base/memory.h"
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
-
-static bool is_usual(const struct accuracy_point *p)
-{
-    return p->step == ACCURACY_STEP && (p->horizon == 0 || p->horizon == ACCURACY_HORIZON);
-}
 
 void accuracy_label(const struct accuracy_point *p, char *text, size_t size)
 {
@@ -90,8 +85,8 @@ static void panel_range(struct panel *q)
     }
     if (!isfinite(q->least)) q->least = 1e-3, q->most = 1;
     if (!isfinite(q->soonest)) q->soonest = 1e-3, q->latest = 1;
-    q->least /= 1.5, q->most = fmin(q->most * 1.5, 5);
-    q->latest *= 1.5, q->soonest *= pow(q->soonest / q->latest, 0.52);
+    q->least /= 2, q->most = fmin(q->most * 1.5, 5);
+    q->latest *= 1.5, q->soonest *= pow(q->soonest / q->latest, 0.8);
 }
 
 static void panel_make(struct panel *q, const struct accuracy_plan *plan, const struct accuracy_problem *problem,
@@ -109,105 +104,129 @@ static void panel_free(struct panel *q)
     memory_free(q->dot), memory_free(q->front), memory_free(q->of);
 }
 
-/* time, time on two threads, error in percent. */
-static void put_dot(FILE *to, const struct panel *q, int k)
+/* ---- families ---------------------------------------------------------------------------------------------------- */
+
+/* Families of methods, each with a colour: dark enough for letters, apart for any colour vision (Okabe & Ito 2008; Tol
+ * 2021). */
+enum { BOND, STATE, CURRENT_FRAME, REFERENCE_FRAME, COARSE, COUPLED_HERE, ADAPTIVE_MESH, ADAPTIVE_GRID, GROUPS };
+static const struct { const char *name, *colour; } group[GROUPS] = {
+    [BOND] = {"bonds", "#0072b2"},
+    [STATE] = {"state-based bonds", "#009e73"},
+    [CURRENT_FRAME] = {"material points, current frame", "#d55e00"},
+    [REFERENCE_FRAME] = {"material points, reference frame", "#111111"},
+    [COARSE] = {"coarse cells, converting or not", "#aa3377"},
+    [COUPLED_HERE] = {"coupled in a fixed region", "#997700"},
+    [ADAPTIVE_MESH] = {"adaptive, reference frame", "#6a3d9a"},
+    [ADAPTIVE_GRID] = {"adaptive, current frame", "#cc6677"},
+};
+
+static int group_of(const struct accuracy_point *p)
 {
-    const double error = isfinite(q->dot[k].error) ? fmin(q->dot[k].error, q->most) : q->most;
-    fprintf(to, "%.6g %.6g %.6g\n", q->dot[k].time, q->of[k]->result.seconds[1], 100 * error);
+    const enum accuracy_family family = p->method->family;
+    if (accuracy_is_coarse(p->method)) return COARSE;
+    if (family == ACCURACY_BONDS) return BOND;
+    if (family == ACCURACY_STATES) return STATE;
+    if (family == ACCURACY_COUPLED) return COUPLED_HERE;
+    if (family == ACCURACY_ADAPTIVE) return accuracy_is_reference(p) ? ADAPTIVE_MESH : ADAPTIVE_GRID;
+    return family == ACCURACY_REFERENCE ? REFERENCE_FRAME : CURRENT_FRAME;
 }
 
-/* Marks of a method: its resolutions, its variations, what was unstable. A block must hold something. */
-enum { USUAL, VARIED, UNSTABLE, SETS };
-
-static int set_of(const struct panel *q, int k)
+/* Is a point of this family on the front of a panel? */
+static bool has_group(const struct panel *q, int g)
 {
-    return !isfinite(q->dot[k].error) ? UNSTABLE : is_usual(&q->of[k]->point) ? USUAL : VARIED;
+    for (int k = 0; k < q->front_n; k++)
+        if (group_of(&q->of[q->front[k]]->point) == g) return true;
+    return false;
 }
 
-static void put_sets(FILE *to, const struct panel *q)
+/* ---- what a panel shows ------------------------------------------------------------------------------------------ */
+
+/* Runs that are not on the front, and unstable ones at the upper edge. A block must hold something. */
+static void put_others(FILE *to, const struct panel *q)
 {
-    for (int m = 0; m < accuracy_methods; m++)
-        for (int set = 0; set < SETS; set++) {
-            fprintf(to, "$p%d_%d_%d << EOD\n", q->number, m, set);
-            for (int k = 0; k < q->n; k++)
-                if (q->of[k]->point.method == &accuracy_method[m] && set_of(q, k) == set) put_dot(to, q, k);
-            fputs("NaN NaN NaN\nEOD\n", to);
+    for (int unstable = 0; unstable < 2; unstable++) {
+        fprintf(to, "$p%d_%s << EOD\n", q->number, unstable ? "unstable" : "others");
+        for (int k = 0; k < q->n; k++) {
+            if (isfinite(q->dot[k].error) == unstable) continue;
+            fprintf(to, "%.4g %.4g\n", q->dot[k].time, 100 * (unstable ? q->most : fmin(q->dot[k].error, q->most)));
         }
+        fputs("NaN NaN\nEOD\n", to);
+    }
 }
 
-/* Labels from the most accurate point upwards, as many as do not lie on each other. */
+/* The front as a line, and by families with labels: from the most accurate point upwards, as many as do not lie on
+ * each other. */
 static void put_front(FILE *to, const struct panel *q)
 {
-    const double line = 0.042 * log(q->most / q->least);
-    double below = 0;
+    const double line = 0.052 * log(q->most / q->least);
+    double below = -INFINITY;
+    struct label { char text[96]; } *label = NEW("bench.label", q->front_n, struct label);
     fprintf(to, "$p%d_front << EOD\n", q->number);
     for (int k = q->front_n - 1; k >= 0; k--) {
         const struct accuracy_dot *d = &q->dot[q->front[k]];
-        const bool room = log(d->error) - below > line || k == q->front_n - 1;
-        char label[96] = "";
-        if (room) accuracy_label(&q->of[q->front[k]]->point, label, sizeof label), below = log(d->error);
-        fprintf(to, "%.6g %.6g \"%s\"\n", d->time, 100 * d->error, label);
+        fprintf(to, "%.4g %.4g\n", d->time, 100 * d->error);
+        if (log(d->error) - below <= line) continue;
+        accuracy_label(&q->of[q->front[k]]->point, label[k].text, sizeof label[k].text);
+        below = log(d->error);
     }
-    fputs("NaN NaN \"\"\nEOD\n", to);
-}
-
-static bool has_method(const struct panel *q, int m)
-{
-    for (int k = 0; k < q->n; k++)
-        if (q->of[k]->point.method == &accuracy_method[m]) return true;
-    return false;
+    fputs("NaN NaN\nEOD\n", to);
+    for (int g = 0; g < GROUPS; g++) {
+        if (!has_group(q, g)) continue;
+        fprintf(to, "$p%d_front%d << EOD\n", q->number, g);
+        for (int k = 0; k < q->front_n; k++)
+            if (group_of(&q->of[q->front[k]]->point) == g)
+                fprintf(to, "%.4g %.4g \"%s\"\n", q->dot[q->front[k]].time, 100 * q->dot[q->front[k]].error,
+                        label[k].text);
+        fputs("EOD\n", to);
+    }
+    memory_free(label);
 }
 
 static void accuracy_draw_panel(FILE *to, const struct panel *q)
 {
     fprintf(to, "set xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n"
-            "plot $p%d_front using 1:2 with lines lw 9 lc rgb '#dddddd' notitle", q->soonest, q->latest, 100 * q->least,
-            100 * q->most, q->number);
-    for (int m = 0; m < accuracy_methods; m++) {
-        const struct accuracy_method *a = &accuracy_method[m];
-        if (!has_method(q, m)) continue;
+            "plot $p%d_others using 1:2 with points pt 7 ps 0.32 lc rgb '#c4c4c4' notitle"
+            ", $p%d_unstable using 1:2 with points pt 2 ps 0.8 lw 1.2 lc rgb '#a0a0a0' notitle"
+            ", $p%d_front using 1:2 with lines lw 1.4 lc rgb '#777777' notitle", q->soonest, q->latest, 100 * q->least,
+            100 * q->most, q->number, q->number, q->number);
+    for (int g = 0; g < GROUPS; g++) {
+        if (!has_group(q, g)) continue;
         fprintf(to,
-                ", $p%d_%d_0 using 1:3:($2-$1):(0) with vectors nohead lw 0.6 lc rgb '#bbbbbb' notitle"
-                ", $p%d_%d_0 using 1:3 with linespoints lw 1 pt %d ps 0.9 lc rgb '%s' notitle"
-                ", $p%d_%d_1 using 1:3 with points pt %d ps 0.45 lc rgb '%s' notitle"
-                ", $p%d_%d_2 using 1:3 with points pt 2 ps 1.2 lw 1.6 lc rgb '%s' notitle",
-                q->number, m, q->number, m, a->mark, a->colour, q->number, m, a->mark, a->colour, q->number, m,
-                a->colour);
+                ", $p%d_front%d using 1:2 with points pt 7 ps 1 lc rgb '%s' notitle"
+                ", $p%d_front%d using 1:2:3 with labels right offset -0.8,-0.35 font ',10.5' textcolor rgb '%s' "
+                "notitle",
+                q->number, g, group[g].colour, q->number, g, group[g].colour);
     }
-    fprintf(to,
-            ", $p%d_front using 1:2:3 with labels right offset -0.6,-0.5 font ',8' textcolor rgb '#222222' notitle\n",
-            q->number);
+    putc('\n', to);
 }
 
-/* The key is a panel without axes. */
-static void plot_key(FILE *to, const struct panel *panel, int panels, double left)
+/* The key is a panel without axes, at this place of the screen. */
+static void plot_key(FILE *to, const struct panel *panel, int panels, double left, double above)
 {
     fprintf(to,
             "unset logscale\nunset border\nunset tics\nset title ''\nset xlabel ''\nset ylabel ''\nset grid noxtics "
             "noytics\n"
-            "set lmargin at screen %g\nset rmargin at screen 0.995\nset tmargin at screen 0.96\nset bmargin at screen "
-            "0.04\n"
-            "set key at screen %g,0.95 left top vertical maxrows 40 Left reverse samplen 1.6 spacing 1 font "
-            "',9.5'\nset xrange [0:1]\n"
+            "set lmargin at screen %g\nset rmargin at screen 0.995\nset tmargin at screen %g\nset bmargin at screen "
+            "0.02\n"
+            "set key at screen %g,%g left top vertical maxrows 40 Left reverse samplen 1.6 spacing 1.25 font "
+            "',11.5'\nset xrange [0:1]\n"
             "set yrange [0:1]\nplot ",
-            left, left);
-    for (int m = 0; m < accuracy_methods; m++) {
+            left, above, left, above);
+    for (int g = 0; g < GROUPS; g++) {
         bool there = false;
-        for (int k = 0; k < panels; k++) there = there || has_method(&panel[k], m);
-        if (!there) continue;
-        fprintf(to, "NaN with linespoints lw 1 pt %d ps 1 lc rgb '%s' title '%s', ", accuracy_method[m].mark,
-                accuracy_method[m].colour, accuracy_method[m].name);
+        for (int k = 0; k < panels; k++) there = there || has_group(&panel[k], g);
+        if (there) fprintf(to, "NaN with points pt 7 ps 1.2 lc rgb '%s' title '%s', ", group[g].colour, group[g].name);
     }
-    fputs("NaN with lines lw 9 lc rgb '#dddddd' title 'front', NaN with points pt 7 ps 0.45 lc rgb '#777777' title "
-          "'other horizon or step', NaN with points pt 2 ps 1.2 lw 1.6 lc rgb '#777777' title 'unstable', NaN with "
-          "lines lw "
-          "0.6 lc rgb '#999999' title 'to two threads'\n",
+    fputs("NaN with lines lw 1.4 lc rgb '#777777' title 'front: none is better in both', NaN with points pt 7 ps "
+          "0.5 lc rgb '#b4b4b4' title 'every other run', NaN with points pt 2 ps 1 lw 1.4 lc rgb '#a0a0a0' title "
+          "'unstable'\n",
           to);
 }
 
 /* ---- a page of panels -------------------------------------------------------------------------------------------- */
 
-enum { COLUMNS = 3, PANELS_MAX = 16, KEY_PIXELS = 290, PANEL_WIDTH = 540, PANEL_HEIGHT = 480 };
+enum { COLUMNS = 2, PANELS_MAX = 16, KEY_PIXELS = 330, PANEL_WIDTH = 570, PANEL_HEIGHT = 380 };
+enum { PANEL_LEFT = 108, PANEL_RIGHT = 14, PANEL_ABOVE = 40, PANEL_BELOW = 56 };   /* room in a panel [pixel] */
 
 struct page {
     int panels, columns, rows;
@@ -215,7 +234,9 @@ struct page {
     char title[PANELS_MAX][128];
 };
 
-static int page_width(const struct page *p) { return p->columns * PANEL_WIDTH + KEY_PIXELS; }
+/* The key stands in the place of a panel that is not there, else on the right of all. */
+static bool key_inside(const struct page *p) { return p->panels % p->columns != 0; }
+static int page_width(const struct page *p) { return p->columns * PANEL_WIDTH + (key_inside(p) ? 0 : KEY_PIXELS); }
 static int page_height(const struct page *p) { return p->rows * PANEL_HEIGHT; }
 
 static void add_panel(struct page *p, const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at,
@@ -245,26 +266,29 @@ static void draw_page(FILE *to, const void *context)
 {
     const struct page *p = context;
     const double width = (double)p->columns * PANEL_WIDTH / page_width(p) / p->columns, height = 1.0 / p->rows;
-    for (int k = 0; k < p->panels; k++) put_sets(to, &p->panel[k]), put_front(to, &p->panel[k]);
+    for (int k = 0; k < p->panels; k++) put_others(to, &p->panel[k]), put_front(to, &p->panel[k]);
     fputs("set multiplot\nset logscale xy\nset format x '%.0s %cs'\nunset key\n"
           "set ytics ('0.001 %%' 0.001, '0.002 %%' 0.002, '0.005 %%' 0.005, '0.01 %%' 0.01, '0.02 %%' 0.02, '0.05 %%' "
           "0.05, "
           "'0.1 %%' 0.1, '0.2 %%' 0.2, '0.5 %%' 0.5, '1 %%' 1, '2 %%' 2, '5 %%' 5, '10 %%' 10, '20 %%' 20, '50 %%' 50, "
           "'100 %%' 100, "
-          "'200 %%' 200, '500 %%' 500)\nset xlabel 'loop time on one thread'\n",
+          "'200 %%' 200, '500 %%' 500)\n",
           to);
     for (int k = 0; k < p->panels; k++) {
         const double left = k % p->columns * width, above = 1 - k / p->columns * height;
         fprintf(
             to,
             "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\nset bmargin at screen %g\n",
-            left + 0.19 * width, left + 0.97 * width, above - 0.1 * height, above - 0.86 * height);
+            left + width * PANEL_LEFT / PANEL_WIDTH, left + width * (1 - (double)PANEL_RIGHT / PANEL_WIDTH),
+            above - height * PANEL_ABOVE / PANEL_HEIGHT, above - height * (1 - (double)PANEL_BELOW / PANEL_HEIGHT));
         fputs("set title ", to);
         gnuplot_quote(to, p->title[k]);
-        fprintf(to, "\nset ylabel '%s' offset 0.8,0\n", k % p->columns ? "" : "error");
+        fprintf(to, "\nset ylabel '%s' offset 0.8,0\nset xlabel '%s' offset 0,0.4\n", k % p->columns ? "" : "error",
+                k + p->columns < p->panels ? "" : "loop time on one thread");
         accuracy_draw_panel(to, &p->panel[k]);
     }
-    plot_key(to, p->panel, p->panels, p->columns * width + 0.01);
+    if (key_inside(p)) plot_key(to, p->panel, p->panels, (p->columns - 1) * width + 0.08, height - 0.02);
+    else plot_key(to, p->panel, p->panels, p->columns * width + 0.01, 0.96);
     fputs("unset multiplot\n", to);
 }
 

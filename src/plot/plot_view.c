@@ -34,7 +34,7 @@ static struct span bulk_of(float *sample, const float *value, int64_t n, double 
     return kept ? (struct span){sample[k], sample[kept - 1 - k]} : (struct span){INFINITY, -INFINITY};
 }
 
-static struct span extent_of(const float *value, int64_t n)
+static struct span values_extent(const float *value, int64_t n)
 {
     struct span s = {INFINITY, -INFINITY};
     for (int64_t i = 0; i < n; i++) s.from = fmin(s.from, value[i]), s.to = fmax(s.to, value[i]);
@@ -49,7 +49,7 @@ static struct span span_along(const struct cloud *cloud, int clouds, int k)
     float *sample = NEW("plot.sample", SAMPLE_MOST, float);
     struct span shown = {INFINITY, -INFINITY}, all = shown;
     for (int c = 0; c < clouds; c++) {
-        const struct span here = extent_of(cloud[c].place[k], cloud[c].n);
+        const struct span here = values_extent(cloud[c].place[k], cloud[c].n);
         struct span bulk = bulk_of(sample, cloud[c].place[k], cloud[c].n, SHARE);
         const double beside = BESIDE * (bulk.to - bulk.from);
         all.from = fmin(all.from, here.from), all.to = fmax(all.to, here.to);
