@@ -95,6 +95,9 @@ status output_frame(struct output *o, const struct particles *p, real t, int64_t
  * output_close wait for it. A fault is returned by the call that waits. extra: NULL, nothing; copied likewise. */
 status output_frame_begin(struct output *o, const struct particles *p, const struct frame_extra *extra, real t,
                           int64_t step, const char *scene_text);
+/* All frames so far as one file for later versions of ParaView, frames.vtkhdf (output_temporal.c): at the end of a run.
+ * Nothing where there is no frame, or more than such a file is good for. */
+status output_temporal(struct output *o, const char *scene_text);
 /* The next frame has other particles than the last one, which must be written. */
 void output_particles_changed(struct output *o);
 /* Until no frame is on its way; OK without one. */

@@ -27,9 +27,17 @@ void hdf_close(struct hdf *f);
 void hdf_group(struct hdf *f, const char *name);
 /* A dataset of `rows` times `columns` numbers (a plain list if columns is 1). */
 void hdf_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, const void *data);
+/* A dataset with the rows of datasets of one name in other files, one after the other; their names are relative to the
+ * folder of this one. Each has `rows` + `more` rows. Nothing is copied. */
+struct hdf_source { const char *file; int64_t rows; };
+void hdf_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns, const struct hdf_source *source,
+                 int sources, int more);
 /* A dataset with one string. */
 void hdf_text(struct hdf *f, const char *name, const char *text);
-/* Attributes of a group: `count` numbers (a list even if one), one number, one fixed-length ASCII string. */
+/* A list of one string of variable length, which VTK shows among the data of a field; bytes that are not ASCII become
+ * question marks. */
+void hdf_text_list(struct hdf *f, const char *name, const char *text);
+/* Attributes of a group or a dataset: `count` numbers (a list even if one), one number, one fixed-length ASCII string. */
 void hdf_mark(struct hdf *f, const char *group, const char *name, enum hdf_type type, int count, const void *values);
 void hdf_mark_one(struct hdf *f, const char *group, const char *name, enum hdf_type type, const void *value);
 void hdf_mark_text(struct hdf *f, const char *group, const char *name, const char *text);

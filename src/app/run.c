@@ -61,6 +61,10 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
     status ran = engine_run(e);
     if (ran == OK) ran = engine_baseline(e);
+    if (ran == OK || ran == INTERRUPTED) {
+        const status temporal = output_temporal(out, s->text);
+        if (temporal != OK) ran = temporal;
+    }
     struct error_bar bar[ERROR_BARS_MOST];
     e->report.bar = bar;
     e->report.bars = error_bars_at_hand(bar, ERROR_BARS_MOST, s, out->folder);

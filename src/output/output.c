@@ -32,7 +32,8 @@ static const char *const made[] = {"checkpoint.h5",
                                    "history.csv",
                                    "fragments.csv",
                                    "frames.hdf.series",
-                                   "frames.xdmf"};
+                                   "frames.xdmf",
+                                  "frames.vtkhdf"};
 
 /* True for the name of a frame, 123456.hdf, followed by `end`. */
 static bool is_frame(const char *name, const char *end)

@@ -243,3 +243,13 @@ void frame_field_copy_more(const struct frame_field *field, const struct frame_s
     if (field_exists(field, &more)) frame_field_copy(field, &more, 0, more.p->n, rows);
     else memset(rows, 0, (size_t)more.p->n * frame_field_row(field, more.p->dim));
 }
+
+void frame_units_text(unsigned fields, char *text, size_t room)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (int k = 0; k < FRAME_FIELDS; k++)
+        if (fields >> k & 1 && frame_fields[k].unit[0] && used < room)
+            used += (size_t)snprintf(text + used, room - used, "%s [%s]\n", strrchr(frame_fields[k].path, '/') + 1,
+                                     frame_fields[k].unit);
+}

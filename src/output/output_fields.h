@@ -31,6 +31,8 @@ void frame_field_copy(const struct frame_field *field, const struct frame_source
                       void *rows);
 /* Rows of the points of coarse cells (extra.more), of a field that is copied. */
 void frame_field_copy_more(const struct frame_field *field, const struct frame_source *source, void *rows);
+/* `field [unit]` of the fields that have one, a line each. */
+void frame_units_text(unsigned fields, char *text, size_t room);
 /* Bytes of a particle. */
 size_t frame_field_row(const struct frame_field *field, int dim);
 

@@ -127,6 +127,7 @@ static void write_field(struct hdf *f, const struct frame_job *job, int k, const
         if (field->fill) field->fill(job->more, i - own, room + (size_t)i * row);
         else memcpy(room + (size_t)i * row, job->field[k] + (size_t)i * row, row);
     hdf_rows(f, field->path, field->type, job->n, field->columns ? field->columns : job->dim, room);
+    hdf_mark_text(f, field->path, "unit", field->unit[0] ? field->unit : "1");
 }
 
 /* One vertex cell per particle: the k-th cell is point k and starts at k. */
@@ -141,6 +142,17 @@ static void write_cells(struct hdf *f, int64_t n, char *room)
     hdf_rows(f, "/VTKHDF/Offsets", HDF_I64, n + 1, 1, number);
     memset(room, VTK_VERTEX, (size_t)n);
     hdf_rows(f, "/VTKHDF/Types", HDF_U8, n, 1, room);
+}
+
+/* What VTK shows with the particles: the time, units, the scene. */
+static void write_field_data(struct hdf *f, const struct frame_job *job)
+{
+    char units[1000];
+    frame_units_text(job->fields, units, sizeof units);
+    hdf_group(f, "/VTKHDF/FieldData");
+    hdf_rows(f, "/VTKHDF/FieldData/TimeValue", HDF_F64, 1, 1, &job->t);
+    hdf_text_list(f, "/VTKHDF/FieldData/units", units);
+    hdf_text_list(f, "/VTKHDF/FieldData/scene", job->scene_text);
 }
 
 /* Groups and attributes of a frame, and the text of its scene. */
@@ -189,6 +201,7 @@ static status frame_write(struct frame_job *job)
     char *room = job->o->frame_kept.room;
     hdf_create(&f, path_aside(job->path.text).text, job->compress);
     write_marks(&f, job->dim, job->t, job->step, job->scene_text);
+    write_field_data(&f, job);
     write_cells(&f, job->n, room);
     for (int k = 0; k < FRAME_FIELDS; k++)
         if (job->fields >> k & 1) write_field(&f, job, k, order, room);

@@ -2,6 +2,7 @@
 #include "output/output_hdf5.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -118,6 +119,37 @@ void hdf_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows,
            good(f, H5Dclose(set)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)));
 }
 
+/* Maps the rows of one source to rows `at` and following of a virtual dataset. */
+static bool source_map(struct hdf *f, hid_t list, hid_t space, const char *name, const hsize_t *at,
+                       const struct hdf_source *source, const hsize_t *shape, int rank)
+{
+    hid_t from = -1;
+    return good(f, from = H5Screate_simple(rank, shape, NULL)) &&
+           good(f, H5Sselect_hyperslab(space, H5S_SELECT_SET, at, NULL, shape, NULL)) &&
+           good(f, H5Pset_virtual(list, space, source->file, name, from)) && good(f, H5Sclose(from));
+}
+
+void hdf_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns, const struct hdf_source *source,
+                 int sources, int more)
+{
+    hsize_t all[2] = {0, (hsize_t)columns}, at[2] = {0, 0};
+    const int rank = columns > 1 ? 2 : 1;
+    hid_t space = -1, list = -1, set = -1;
+    if (!ready(f)) return;
+    for (int k = 0; k < sources; k++) all[0] += (hsize_t)(source[k].rows + more);
+    if (!good(f, space = H5Screate_simple(rank, all, NULL)) || !good(f, list = H5Pcreate(H5P_DATASET_CREATE)) ||
+        !good(f, H5Pset_obj_track_times(list, false)))
+        return;
+    for (int k = 0; k < sources; k++) {
+        const hsize_t shape[2] = {(hsize_t)(source[k].rows + more), (hsize_t)columns};
+        if (shape[0] > 0 && !source_map(f, list, space, name, at, &source[k], shape, rank)) return;
+        at[0] += shape[0];
+    }
+    (void)(good(f, H5Sselect_all(space)) &&
+           good(f, set = H5Dcreate2(f->file, name, hdf_native(type), space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
+           good(f, H5Dclose(set)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)));
+}
+
 /* A fixed-length string type; VTK 9.1 reads no other. */
 static hid_t text_type(struct hdf *f, const char *text)
 {
@@ -137,6 +169,23 @@ void hdf_text(struct hdf *f, const char *name, const char *text)
            good(f, set = H5Dcreate2(f->file, name, type, space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
            good(f, H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text)) && good(f, H5Dclose(set)) &&
            good(f, H5Pclose(list)) && good(f, H5Sclose(space)) && good(f, H5Tclose(type)));
+}
+
+void hdf_text_list(struct hdf *f, const char *name, const char *text)
+{
+    const hsize_t one = 1;
+    hid_t type = -1, space = -1, list = -1, set = -1;
+    char *plain = f->failed ? NULL : strdup(text);
+    if (!ready(f)) return;
+    for (char *c = plain; c && *c; c++)
+        if ((unsigned char)*c > 126) *c = '?';
+    (void)(good(f, plain ? 0 : -1) && good(f, type = H5Tcopy(H5T_C_S1)) && good(f, H5Tset_size(type, H5T_VARIABLE)) &&
+           good(f, space = H5Screate_simple(1, &one, NULL)) && good(f, list = H5Pcreate(H5P_DATASET_CREATE)) &&
+           good(f, H5Pset_obj_track_times(list, false)) &&
+           good(f, set = H5Dcreate2(f->file, name, type, space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
+           good(f, H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &plain)) && good(f, H5Dclose(set)) &&
+           good(f, H5Pclose(list)) && good(f, H5Sclose(space)) && good(f, H5Tclose(type)));
+    free(plain);
 }
 
 /* Writes one attribute and closes `space`. */

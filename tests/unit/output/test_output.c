@@ -247,6 +247,83 @@ static void fields_are_read_by_name(void **state)
     }
 }
 
+/* Reads what VTK's reader of temporal grids reads of a step: the part PartOffsets[step]; points from PointOffsets on,
+ * one cell offset more than cells for each part before, rows of a field from its own offset on. */
+static void check_step(struct hdf *f, int step, int steps, const struct particles *p)
+{
+    static const char *const start[] = {"PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets",
+                                        "PointDataOffsets/stress", "NumberOfParts"};
+    int64_t at[6], *all = calloc((size_t)steps, sizeof *all), counts[3], n = 0;
+    char path[80];
+    for (int k = 0; k < 6; k++) {
+        snprintf(path, sizeof path, "/VTKHDF/Steps/%s", start[k]);
+        hdf_read_rows(f, path, HDF_I64, steps, all);
+        at[k] = all[step];
+    }
+    for (int k = 0; k < 3; k++) {
+        static const char *const count[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"};
+        snprintf(path, sizeof path, "/VTKHDF/%s", count[k]);
+        hdf_read_rows(f, path, HDF_I64, steps, all);
+        counts[k] = all[at[0]];
+    }
+    assert_true(at[5] == 1 && counts[0] == p->n && counts[1] == p->n && counts[2] == p->n);
+    n = hdf_count(f, "/VTKHDF/Types");
+    float *points = calloc((size_t)n * 3, sizeof *points), *stress = calloc((size_t)n * 6, sizeof *stress);
+    int64_t *offset = calloc((size_t)(n + steps), sizeof *offset), *corner = calloc((size_t)n, sizeof *corner);
+    hdf_read_rows(f, "/VTKHDF/Points", HDF_F32, 3 * n, points);
+    hdf_read_rows(f, "/VTKHDF/PointData/stress", HDF_F32, 6 * n, stress);
+    hdf_read_rows(f, "/VTKHDF/Offsets", HDF_I64, n + steps, offset);
+    hdf_read_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, corner);
+    assert_false(f->failed);
+    for (int64_t k = 0; k < p->n; k++) {
+        const int64_t i = p->n - 1 - k;                /* ids run backwards */
+        assert_true(points[3 * (at[1] + k)] == (float)p->x[0][i]);
+        assert_true(stress[6 * (at[4] + k)] == (float)p->stress[0][i]);
+        assert_int_equal(offset[at[2] + at[0] + k], k);
+        assert_int_equal(offset[at[2] + at[0] + k + 1], k + 1);
+        assert_int_equal(corner[at[3] + k], k);
+    }
+    free(all), free(points), free(stress), free(offset), free(corner);
+}
+
+/* frames.vtkhdf has the layout that VTK publishes, holds no rows of its own, and moves with its folder. */
+static void frames_in_one_file(void **state)
+{
+    (void)state;
+    enum { STEPS = 3 };
+    struct output o;
+    struct particles p[STEPS];
+    struct hdf f;
+    struct stat file;
+    double time[STEPS];
+    int32_t steps = 0;
+    open_fresh(&o, "temporal", false);
+    for (int k = 0; k < STEPS; k++) {
+        make_particles(&p[k], 2, PARTICLES + 100 * k);
+        output_particles_changed(&o);
+        assert_int_equal(output_frame(&o, &p[k], 0.5 * k, k, scene_text), OK);
+    }
+    assert_int_equal(output_temporal(&o, scene_text), OK);
+    output_close(&o);
+    assert_int_equal(stat("temporal/frames.vtkhdf", &file), 0);
+    assert_true(file.st_size < 64 << 10);
+    remove_tree("moved");
+    assert_int_equal(rename("temporal", "moved"), 0);
+    hdf_open(&f, "moved/frames.vtkhdf");
+    hdf_read_mark(&f, "/VTKHDF/Steps", "NSteps", HDF_I32, &steps);
+    assert_int_equal(steps, STEPS);
+    hdf_read_rows(&f, "/VTKHDF/Steps/Values", HDF_F64, STEPS, time);
+    for (int k = 0; k < STEPS; k++) {
+        assert_true(time[k] == 0.5 * k);
+        check_step(&f, k, STEPS, &p[k]);
+        particles_free(&p[k]);
+    }
+    assert_int_equal(hdf_count(&f, "/VTKHDF/FieldData/scene"), 1);
+    assert_int_equal(hdf_count(&f, "/VTKHDF/Steps/FieldDataSizes/units"), 2 * STEPS);
+    assert_int_equal(hdf_count(&f, "/VTKHDF/Steps/PointDataOffsets/fragment"), -1);
+    hdf_close(&f);
+}
+
 static void indices_list_all_frames(void **state)
 {
     (void)state;
@@ -469,6 +546,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(plastic_strain_where_it_is),
         cmocka_unit_test(frames_hold_what_they_are_given),
         cmocka_unit_test(fields_are_read_by_name),
+        cmocka_unit_test(frames_in_one_file),
         cmocka_unit_test(indices_list_all_frames),
         cmocka_unit_test(same_state_gives_same_bytes),
         cmocka_unit_test(damaged_frames_are_refused),

@@ -1,0 +1,172 @@
+/* All frames of a run as one file for ParaView 5.12 and later: frames.vtkhdf, a temporal UnstructuredGrid of VTKHDF 2.
+ *
+ * Its datasets are virtual: the rows of all frames one after the other, which stay where they are, in files of their
+ * own that no crash damages. Group Steps says where a time begins in them (docs.vtk.org, VTKHDF specification,
+ * "Temporal data"): each time is one part, its points, cells and connectivity begin at the sum of the points before,
+ * and its part of Offsets, which has one entry more than cells, one entry further for each part before. */
+#include "output_fields.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/last_words.h"
+#include "base/memory.h"
+#include "output/output_files.h"
+
+/* Beyond so many a file of virtual datasets is slower to open than the frames. */
+enum { TEMPORAL_MOST = 2000 };
+
+struct temporal {
+    const char *folder;                  /* of the run */
+    int n;                               /* times */
+    struct listed_frame *frame;
+    struct hdf_source *source;           /* [n] */
+    char (*name)[40];                    /* [n] of the frames, relative to the run's folder */
+    int64_t *start;                      /* [n] points of the frames before */
+    unsigned fields;                     /* that all frames have */
+};
+
+/* Size and fields of frame k; false: it cannot be read. */
+static bool frame_look(struct temporal *a, int k)
+{
+    struct hdf f;
+    const struct path path = path_join(a->folder, a->name[k]);
+    if (!path_is_file(path.text)) return false;
+    last_words_reading(path.text);
+    hdf_open(&f, path.text);
+    const int64_t n = hdf_count(&f, "/VTKHDF/Types");
+    for (int field = 0; field < FRAME_FIELDS; field++)
+        if (hdf_count(&f, frame_fields[field].path) != n * frame_fields[field].columns) a->fields &= ~(1u << field);
+    const bool whole = !f.failed && n >= 0;
+    hdf_close(&f);
+    last_words_reading(NULL);
+    a->source[k] = (struct hdf_source){a->name[k], n};
+    return whole;
+}
+
+/* Looks at all frames; those that cannot be read are left out. */
+static void frames_look(struct temporal *a)
+{
+    int found = 0;
+    a->fields = (1u << FRAME_FIELDS) - 1;
+    for (int k = 0; k < a->n; k++) {
+        a->frame[found] = a->frame[k];
+        snprintf(a->name[found], sizeof a->name[found], "frames/%06d.hdf", a->frame[found].number);
+        if (!frame_look(a, found)) continue;
+        a->start[found] = found > 0 ? a->start[found - 1] + a->source[found - 1].rows : 0;
+        found++;
+    }
+    a->n = found;
+}
+
+/* Group Steps: times, and where each begins. */
+static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number)
+{
+    static const char *const start[] = {"PointOffsets", "CellOffsets", "ConnectivityIdOffsets"};
+    const int32_t steps = a->n;
+    char name[PATH_NAME_ROOM];
+    double *time = (double *)number;
+    hdf_group(f, "/VTKHDF/Steps");
+    hdf_mark_one(f, "/VTKHDF/Steps", "NSteps", HDF_I32, &steps);
+    for (int k = 0; k < a->n; k++) time[k] = a->frame[k].time;
+    hdf_rows(f, "/VTKHDF/Steps/Values", HDF_F64, a->n, 1, time);
+    for (int k = 0; k < a->n; k++) number[k] = k;
+    hdf_rows(f, "/VTKHDF/Steps/PartOffsets", HDF_I64, a->n, 1, number);
+    for (int k = 0; k < a->n; k++) number[k] = 1;
+    hdf_rows(f, "/VTKHDF/Steps/NumberOfParts", HDF_I64, a->n, 1, number);
+    for (int s = 0; s < 3; s++) {
+        snprintf(name, sizeof name, "/VTKHDF/Steps/%s", start[s]);
+        hdf_rows(f, name, HDF_I64, a->n, 1, a->start);
+    }
+    hdf_group(f, "/VTKHDF/Steps/PointDataOffsets");
+    for (int field = FIELD_POINTS + 1; field < FRAME_FIELDS; field++) {
+        if (!(a->fields >> field & 1) || frame_fields[field].columns == 0) continue;
+        snprintf(name, sizeof name, "/VTKHDF/Steps/PointDataOffsets/%s", strrchr(frame_fields[field].path, '/') + 1);
+        hdf_rows(f, name, HDF_I64, a->n, 1, a->start);
+    }
+}
+
+/* Points, cells and fields, in the frames. */
+static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
+{
+    static const char *const count[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"};
+    char name[PATH_NAME_ROOM];
+    for (int k = 0; k < a->n; k++) number[k] = a->source[k].rows;
+    for (int c = 0; c < 3; c++) {
+        snprintf(name, sizeof name, "/VTKHDF/%s", count[c]);
+        hdf_rows(f, name, HDF_I64, a->n, 1, number);
+    }
+    hdf_virtual(f, "/VTKHDF/Connectivity", HDF_I64, 1, a->source, a->n, 0);
+    hdf_virtual(f, "/VTKHDF/Offsets", HDF_I64, 1, a->source, a->n, 1);
+    hdf_virtual(f, "/VTKHDF/Types", HDF_U8, 1, a->source, a->n, 0);
+    hdf_group(f, "/VTKHDF/PointData");
+    for (int k = 0; k < FRAME_FIELDS; k++) {
+        const struct frame_field *field = &frame_fields[k];
+        if (!(a->fields >> k & 1) || field->columns == 0) continue;
+        hdf_virtual(f, field->path, field->type, field->columns, a->source, a->n, 0);
+        hdf_mark_text(f, field->path, "unit", field->unit[0] ? field->unit : "1");
+    }
+}
+
+/* Texts that all times share: units and the scene. */
+static void write_texts(struct hdf *f, const struct temporal *a, const char *scene_text, int64_t *number)
+{
+    static const char *const name[] = {"units", "scene"};
+    char units[1000], path[PATH_NAME_ROOM];
+    frame_units_text(a->fields, units, sizeof units);
+    const char *const text[] = {units, scene_text};
+    hdf_group(f, "/VTKHDF/FieldData");
+    hdf_group(f, "/VTKHDF/Steps/FieldDataOffsets");
+    hdf_group(f, "/VTKHDF/Steps/FieldDataSizes");
+    for (int k = 0; k < 2; k++) {
+        snprintf(path, sizeof path, "/VTKHDF/FieldData/%s", name[k]);
+        hdf_text_list(f, path, text[k]);
+        for (int step = 0; step < a->n; step++) number[step] = 0;
+        snprintf(path, sizeof path, "/VTKHDF/Steps/FieldDataOffsets/%s", name[k]);
+        hdf_rows(f, path, HDF_I64, a->n, 1, number);
+        for (int step = 0; step < 2 * a->n; step++) number[step] = 1;
+        snprintf(path, sizeof path, "/VTKHDF/Steps/FieldDataSizes/%s", name[k]);
+        hdf_rows(f, path, HDF_I64, a->n, 2, number);
+    }
+}
+
+static status temporal_write(const struct temporal *a, const char *path, const char *scene_text, bool *broken)
+{
+    static const int32_t version[2] = {2, 0};
+    int64_t *number = NEW("temporal.number", 2 * (int64_t)a->n, int64_t);
+    struct hdf f;
+    hdf_create(&f, path_aside(path).text, false);
+    hdf_group(&f, "/VTKHDF");
+    hdf_mark(&f, "/VTKHDF", "Version", HDF_I32, 2, version);
+    hdf_mark_text(&f, "/VTKHDF", "Type", "UnstructuredGrid");
+    write_steps(&f, a, number);
+    write_rows(&f, a, number);
+    write_texts(&f, a, scene_text, number);
+    if (!f.failed) hdf_close(&f);
+    memory_free(number);
+    if (f.failed) {
+        *broken = true;
+        file_discard(path);
+        return file_fault(path, f.cause);
+    }
+    TRY(file_seal(path, NULL, 0));
+    return file_publish(path);
+}
+
+status output_temporal(struct output *o, const char *scene_text)
+{
+    struct temporal a = {.folder = o->folder};
+    status s = OK;
+    TRY(output_wait(o));
+    if (o->broken) return FAILED;
+    TRY(folder_held(&o->lock, o->folder));
+    if (o->frames == 0 || o->frames > TEMPORAL_MOST) return OK;
+    TRY(frames_list(o->folder, &a.n, &a.frame));
+    a.source = NEW("temporal.source", a.n, struct hdf_source);
+    a.name = memory_new("temporal.name", a.n, sizeof *a.name);
+    a.start = NEW("temporal.start", a.n, int64_t);
+    frames_look(&a);
+    if (a.n > 0) s = temporal_write(&a, path_join(o->folder, "frames.vtkhdf").text, scene_text, &o->broken);
+    memory_free(a.start), memory_free(a.name), memory_free(a.source), memory_free(a.frame);
+    return s;
+}
