@@ -59,13 +59,17 @@ help:
 	@echo 'make dist deb   a tarball, a Debian package; inputs/packaging has recipes for Docker and Spack'
 	@echo 'make clean      removes build'
 
-all: $(BUILD)/cleave
+all: $(BUILD)/cleave $(BUILD)/cleave.schema.json
 
 # Short lines unless V=1.
 Q = $(if $(V),,@echo "  $(if $(filter %.o,$@),CC,LD)  $@";)
 
 $(BUILD)/cleave: $(OBJECTS)
 	$(Q)$(CC) $(CFLAGS) -o $@ $^ $(LIBS)
+
+# Keys and words of scenes for editors, which shipped scenes name in their first line.
+$(BUILD)/cleave.schema.json: $(BUILD)/cleave
+	@$< help --schema > $@
 
 $(BUILD)/%.o: %.c Makefile
 	@mkdir -p $(@D)
@@ -134,7 +138,7 @@ bench: all
 # What `make install` lays below PREFIX, for `make uninstall`, too.
 SHARE     = $(DESTDIR)$(PREFIX)/share
 INSTALLED = $(DESTDIR)$(PREFIX)/bin/cleave $(SHARE)/man/man1/cleave.1 $(SHARE)/bash-completion/completions/cleave \
-            $(SHARE)/zsh/site-functions/_cleave $(MODULES)/cleave.py $(MODULES)/__pycache__/cleave.*.pyc
+            $(SHARE)/zsh/site-functions/_cleave $(SHARE)/cleave/cleave.schema.json $(MODULES)/cleave.py $(MODULES)/__pycache__/cleave.*.pyc
 # Where Python looks for modules below PREFIX; else a folder that PYTHONPATH has to name.
 SEEN      = $(shell python3 -c 'import sys; print(next((p for p in sys.path if p.startswith("$(PREFIX)/") and p.endswith("-packages")), ""))' 2>/dev/null)
 MODULES   = $(DESTDIR)$(or $(SEEN),$(PREFIX)/lib/python3/dist-packages)
@@ -143,10 +147,12 @@ install: all
 	@$(BUILD)/cleave help --manual > $(BUILD)/cleave.1
 	@$(BUILD)/cleave help --completion bash > $(BUILD)/cleave.bash
 	@$(BUILD)/cleave help --completion zsh > $(BUILD)/cleave.zsh
+	@$(BUILD)/cleave help --schema > $(BUILD)/cleave.schema.json
 	install -D -m 755 $(BUILD)/cleave $(DESTDIR)$(PREFIX)/bin/cleave
 	install -D -m 644 $(BUILD)/cleave.1 $(SHARE)/man/man1/cleave.1
 	install -D -m 644 $(BUILD)/cleave.bash $(SHARE)/bash-completion/completions/cleave
 	install -D -m 644 $(BUILD)/cleave.zsh $(SHARE)/zsh/site-functions/_cleave
+	install -D -m 644 $(BUILD)/cleave.schema.json $(SHARE)/cleave/cleave.schema.json
 	install -D -m 644 src/python/cleave.py $(MODULES)/cleave.py
 	@$(if $(DESTDIR)$(SEEN),:,echo "for import cleave: export PYTHONPATH=$(MODULES)")
 

@@ -236,6 +236,8 @@ status scene_help(FILE *out, const char *key);
 
 /* Prints the units that numbers may carry. */
 void scene_help_units(FILE *out);
+/* Prints a JSON schema of scenes, for editors. */
+status scene_schema(FILE *out);
 /* Prints what expressions are made of. */
 void scene_help_expressions(FILE *out);
 /* Writes the keys for the manual page (troff); and, one a line, those that `-s` sets, 0 for the number of an item. */

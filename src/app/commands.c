@@ -32,7 +32,7 @@ const struct command commands[] = {
      "pictures of a finished or running run; of a scene before it runs", command_plot},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
     {"bench", "[NAME...] [--quick] [--readme]", "kernels, efficiency, coupling, ...", command_bench},
-    {"help", "[KEY|units|expression|run|theory|trust]",
+    {"help", "[KEY|scene|units|expression|run|theory|trust]",
      "every scene key; units; formulas; a run; the equations; what a run promises", command_help},
     {"info", "", "version, build, sets of kernels, threads, cores and caches", command_info},
 };

@@ -46,6 +46,9 @@ status theory_print(FILE *out);
 status manual_run_print(FILE *out);
 status manual_print(FILE *out);
 
+/* The schema of scenes beside the program, installed or built; false: it is not there (schema_path.c). */
+bool schema_path(char *path, size_t room);
+
 /* Completion of commands, options, keys and words for `bash` or `zsh`, as a script. REFUSED for another shell. */
 status completion_print(FILE *out, const char *shell);
 

@@ -5,12 +5,24 @@
 #include "commands.h"
 #include "scene/scene.h"
 
+/* The page of all keys, after the line that makes an editor know them. */
+static status help_scene(void)
+{
+    char schema[4096];
+    if (schema_path(schema, sizeof schema))
+        printf("# yaml-language-server: $schema=%s\n"
+               "As the first line of a scene, this lets editors complete keys and underline mistakes.\n\n", schema);
+    return scene_help(stdout, NULL);
+}
+
 status command_help(int argc, char **argv)
 {
     const char *word = argc == 2 || (argc == 3 && !strcmp(argv[1], "--completion")) ? argv[1] : NULL;
-    if (argc > 1 && !word) return status_set(REFUSED, "usage: cleave help [KEY|units|expression|run|theory|trust]");
-    if (!word) return scene_help(stdout, NULL);
+    if (argc > 1 && !word)
+        return status_set(REFUSED, "usage: cleave help [KEY|scene|units|expression|run|theory|trust]");
+    if (!word || !strcmp(word, "scene")) return help_scene();
     if (!strcmp(word, "--completion")) return completion_print(stdout, argc == 3 ? argv[2] : "");
+    if (!strcmp(word, "--schema")) return scene_schema(stdout);
     if (!strcmp(word, "--manual")) return manual_print(stdout);
     if (!strcmp(word, "units")) return scene_help_units(stdout), OK;
     if (!strcmp(word, "expression") || !strcmp(word, "expressions")) return scene_help_expressions(stdout), OK;

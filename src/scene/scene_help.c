@@ -78,6 +78,13 @@ static void facts_text(const struct key *k, char *text, size_t room)
              *range ? "; " : "", range, *fallback ? "; " : "", *fallback && !required ? "default " : "", fallback);
 }
 
+void key_description(const struct key *k, char *text, size_t room)
+{
+    char facts[384];
+    facts_text(k, facts, sizeof facts);
+    snprintf(text, room, "%s (%s)", k->help, facts);
+}
+
 /* ---- cleave help ------------------------------------------------------------------------------------------------- */
 
 /* Path in the table of keys of a key as typed by a user: indices are dropped, `materials` becomes `material`. */

@@ -19,10 +19,9 @@ struct chain {
 
 /* ---- one mapping over another ------------------------------------------------------------------------------------ */
 
-/* Is the value of this key a mapping of keys that each have a meaning of their own? Others, such as solids, are words
- * with what belongs to them, and are replaced as a whole. */
-static bool is_group(const char *path)
+bool group_is_merged(const char *path)
 {
+    if (*path == '\0') return true;
     const struct key *k = key_find("", path);
     const bool top = k && (k->type == KEY_MAP || k->type == KEY_PART || strcmp(path, "variables") == 0);
     if (top) return true;
@@ -55,7 +54,7 @@ static status merge(struct reader *r, struct node *under, struct node *over, con
         struct node *old = node_find(under, n->key);
         next = n->next;
         snprintf(path, sizeof path, "%.30s%s%.30s", group, *group ? "." : "", n->key);
-        if (old && old->kind == NODE_MAP && n->kind == NODE_MAP && is_group(path)) {
+        if (old && old->kind == NODE_MAP && n->kind == NODE_MAP && group_is_merged(path)) {
             TRY(merge(r, old, n, path));
             continue;
         }

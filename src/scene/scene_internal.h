@@ -61,6 +61,9 @@ struct node *node_find(const struct node *map, const char *key);
 void node_remove(struct node *parent, struct node *child);
 /* Reads the files that the tree includes, and lays it over them (scene_include.c). */
 status tree_include(struct reader *r, struct node *root);
+/* Is the value of this key, or the whole scene (""), a mapping of keys that each have a meaning of their own? Others,
+ * such as solids, are words with what belongs to them, and are replaced as a whole. */
+bool group_is_merged(const char *path);
 /* Lays the overrides over the tree (scene_override.c). */
 status tree_override(struct reader *r, struct node *root);
 /* Gives keys of an earlier version their name of now, in the tree or in the path of an override (scene_renamed.c); the
@@ -173,6 +176,8 @@ extern const struct key keys[];
 extern const int keys_count;
 
 const char *key_leaf(const struct key *k);
+/* What a key is for, its type, range and default (scene_help.c). */
+void key_description(const struct key *k, char *text, size_t room);
 /* True if k is directly below `group` ("" for the top). */
 bool key_in(const struct key *k, const char *group);
 const struct key *key_find(const char *group, const char *leaf);

@@ -1,0 +1,232 @@
+/* The table of keys as a JSON schema (draft 7), by which editors complete and check scenes. It refuses unknown keys and
+ * words and numbers out of range; whether a formula or what a key says by hand makes sense only the program knows. */
+#include "scene_internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- pieces ------------------------------------------------------------------------------------------------------ */
+
+static void write_string(FILE *out, const char *text, size_t length)
+{
+    fputc('"', out);
+    for (const char *c = text; c < text + length; c++) {
+        if (*c == '"' || *c == '\\') fputc('\\', out);
+        fputc(*c, out);
+    }
+    fputc('"', out);
+}
+
+/* Words a|b|c; those that are digits also as numbers, which YAML makes of them. */
+static void write_words(FILE *out, const char *words)
+{
+    const char *between = "";
+    fputs("{\"enum\": [", out);
+    for (const char *c = words; *c; c += *c == '|') {
+        const size_t length = strcspn(c, "|");
+        fputs(between, out);
+        write_string(out, c, length);
+        if (strspn(c, "0123456789") >= length) fprintf(out, ", %.*s", (int)length, c);
+        if (length == 4 && strncmp(c, "true", 4) == 0) fputs(", true", out);
+        between = ", ", c += length;
+    }
+    fputs("]}", out);
+}
+
+/* A number by itself in the range of its key; formulas and units are texts. */
+static void write_numbers(FILE *out, const struct key *k, const char *type)
+{
+    char least[32], most[32];
+    const bool bounded = k->range.given && k->type < KEY_MAP;
+    fprintf(out, "{\"type\": \"%s\"", type);
+    if (bounded)
+        fprintf(out, ", \"%s\": %s", k->range.open ? "exclusiveMinimum" : "minimum",
+                number_text(least, k->range.least));
+    if (k->type == KEY_SEED) fputs(", \"minimum\": 0", out);
+    if (bounded && isfinite(k->range.most)) fprintf(out, ", \"maximum\": %s", number_text(most, k->range.most));
+    fputs("}, {\"$ref\": \"#/definitions/formula\"}", out);
+}
+
+static void write_list_of(FILE *out, const char *definition)
+{
+    fprintf(out, "{\"type\": \"array\", \"items\": {\"$ref\": \"#/definitions/%s\"}}", definition);
+}
+
+/* The required keys of a group, if it has any. */
+static void write_required(FILE *out, const char *group, const char *begin)
+{
+    const char *between = begin;
+    for (int k = 0; k < keys_count; k++) {
+        if (!key_in(&keys[k], group) || strcmp(keys[k].fallback, "required") != 0) continue;
+        fprintf(out, "%s\"%s\"", between, key_leaf(&keys[k]));
+        between = ", ";
+    }
+    if (between != begin) fputc(']', out);
+}
+
+static void write_object(FILE *out, const char *group);
+
+/* ---- values ------------------------------------------------------------------------------------------------------ */
+
+static bool has_children(const char *group)
+{
+    bool any = false;
+    for (int k = 0; k < keys_count; k++) any |= key_in(&keys[k], group);
+    return any;
+}
+
+/* Values of keys that functions read, by the form that the table says; a form that is not known here: anything. */
+static void write_by_hand(FILE *out, const struct key *k)
+{
+    const char *form = k->words ? k->words : "";
+    const bool choice = strchr(form, '|') && !strstr(form, " or ") && !strchr(form, ' ');
+    if (choice || strcmp(form, "true") == 0) write_words(out, form);
+    else if (strcmp(form, "number") == 0) write_numbers(out, k, "number");
+    else if (strncmp(form, "solid", 5) == 0) fputs("{\"$ref\": \"#/definitions/region\"}", out);
+    else if (strncmp(form, "file name or list", 17) == 0) fputs("{\"$ref\": \"#/definitions/names\"}", out);
+    else if (strncmp(form, "file name", 9) == 0 || strncmp(form, "name", 4) == 0)
+        fputs("{\"$ref\": \"#/definitions/name\"}", out);
+    else if (strncmp(form, "list of number", 14) == 0) {
+        write_list_of(out, "number");
+        fputs(", {\"$ref\": \"#/definitions/number\"}", out);
+    } else if (strcmp(form, "mapping of names") == 0)
+        fputs("{\"type\": \"object\", \"additionalProperties\": {\"$ref\": \"#/definitions/number\"}}", out);
+    else if (strstr(form, " or mapping") && has_children(k->path)) {
+        fprintf(out, "{\"enum\": [\"%.*s\"]}, ", (int)strcspn(form, " "), form);
+        write_object(out, k->path);
+    } else
+        fputs("{}", out);
+}
+
+/* The kinds of probes: a word, or a mapping with one of them. */
+static void write_probe(FILE *out)
+{
+    const char *between = "";
+    fputs("{\"anyOf\": [{\"enum\": [", out);
+    for (int k = 0; k < PROBES; k++, between = ", ") fprintf(out, "%s\"%s\"", between, probe_names[k]);
+    fputs("]}, ", out);
+    write_object(out, "probes");
+    fputs("]}", out);
+}
+
+static void write_items(FILE *out, const struct key *k)
+{
+    char least[32], most[32];
+    fputs("{\"type\": \"array\"", out);
+    if (k->range.given && isfinite(k->range.most))
+        fprintf(out, ", \"minItems\": %s, \"maxItems\": %s", number_text(least, k->range.least),
+                number_text(most, k->range.most));
+    fputs(", \"items\": ", out);
+    if (strcmp(k->path, "probes") == 0) write_probe(out);
+    else write_object(out, strcmp(k->path, "materials") == 0 ? "material" : k->path);
+    fputc('}', out);
+}
+
+/* The alternatives for the value of a key. */
+static void write_alternatives(FILE *out, const struct key *k)
+{
+    static const char *const definition[] = {
+        [KEY_NAME] = "name",     [KEY_BODY] = "name",     [KEY_MATERIAL] = "name",    [KEY_POINT] = "point",
+        [KEY_MATRIX] = "matrix", [KEY_REGION] = "region", [KEY_SERIES] = "numbers"};
+    const size_t type = k->type;
+    if (type < COUNT_OF(definition) && definition[type]) {
+        fprintf(out, "{\"$ref\": \"#/definitions/%s\"}", definition[type]);
+    } else if (type == KEY_REAL) {
+        if (k->words) write_words(out, k->words), fputs(", ", out);
+        write_numbers(out, k, "number");
+    } else if (type == KEY_INT || type == KEY_SEED) {
+        write_numbers(out, k, "integer");
+    } else if (type == KEY_FLAG) {
+        fputs("{\"type\": \"boolean\"}", out);
+    } else if (type == KEY_CHOICE) {
+        write_words(out, k->words);
+    } else if (type == KEY_SET) {
+        fputs("{\"enum\": [\"none\"]}, {\"type\": \"array\", \"items\": ", out);
+        write_words(out, k->words);
+        fputc('}', out);
+    } else if (type == KEY_LIST) {
+        write_items(out, k);
+    } else if (type == KEY_MAP || type == KEY_PART) {
+        const struct key *form = key_find(k->path, "form");              /* exact: step bar */
+        if (form && form->type == KEY_CHOICE) write_words(out, form->words), fputs(", ", out);
+        write_object(out, k->path);
+    } else {
+        write_by_hand(out, k);
+    }
+}
+
+/* Is the mapping that holds this key merged with those of other scenes? There an empty value takes a key away. */
+static bool is_in_merged(const struct key *k)
+{
+    char group[64];
+    snprintf(group, sizeof group, "%s", k->path);
+    char *dot = strrchr(group, '.');
+    *(dot ? dot : group) = '\0';
+    return group_is_merged(group);
+}
+
+static void write_property(FILE *out, const struct key *k)
+{
+    const bool probe = strncmp(k->path, "probes.", 7) == 0;
+    char description[1600];
+    key_description(k, description, sizeof description);
+    write_string(out, key_leaf(k), strlen(key_leaf(k)));
+    fputs(": {\"description\": ", out);
+    write_string(out, description, strlen(description));
+    fputs(", \"anyOf\": [", out);
+    write_alternatives(out, k);
+    if (is_in_merged(k) || (probe && k->type == KEY_PART))
+        fputs(", {\"type\": \"null\"}", out);
+    fputs("]}", out);
+}
+
+/* What a mapping of the keys below a group consists of; another scene can complete one that is merged. */
+static void write_members(FILE *out, const char *group)
+{
+    const char *between = "";
+    fputs("\"type\": \"object\", \"additionalProperties\": false, \"properties\": {", out);
+    for (int k = 0; k < keys_count; k++) {
+        if (!key_in(&keys[k], group)) continue;
+        fprintf(out, "%s\n", between);
+        write_property(out, &keys[k]);
+        between = ",";
+    }
+    fputs("}", out);
+    if (!group_is_merged(group)) write_required(out, group, ", \"required\": [");
+}
+
+static void write_object(FILE *out, const char *group)
+{
+    fputc('{', out);
+    write_members(out, group);
+    fputc('}', out);
+}
+
+static const char definitions[] =
+    "\"definitions\": {\n"
+    "\"formula\": {\"type\": \"string\", \"pattern\": \"^[-+*/^().,%\\\\s\\\\w\\u00b5\\u03bc\\u00b2\\u00b3]+$\"},\n"
+    "\"number\": {\"anyOf\": [{\"type\": \"number\"}, {\"$ref\": \"#/definitions/formula\"}]},\n"
+    "\"numbers\": {\"type\": \"array\", \"minItems\": 1, \"items\": {\"$ref\": \"#/definitions/number\"}},\n"
+    "\"point\": {\"anyOf\": [{\"$ref\": \"#/definitions/number\"}, {\"type\": \"array\", \"minItems\": 1, "
+    "\"maxItems\": 3, \"items\": {\"$ref\": \"#/definitions/number\"}}]},\n"
+    "\"matrix\": {\"anyOf\": [{\"$ref\": \"#/definitions/number\"}, {\"type\": \"array\", \"items\": {\"$ref\": "
+    "\"#/definitions/point\"}}]},\n"
+    "\"name\": {\"type\": [\"string\", \"integer\"]},\n"
+    "\"names\": {\"anyOf\": [{\"type\": \"string\"}, {\"type\": \"array\", \"items\": {\"type\": \"string\"}}]},\n"
+    "\"region\": {\"anyOf\": [{\"type\": \"string\"}, {\"$ref\": \"#/definitions/solid\"}, {\"type\": \"array\", "
+    "\"minItems\": 1, \"items\": {\"$ref\": \"#/definitions/solid\"}}]},\n"
+    "\"solid\": ";
+
+status scene_schema(FILE *out)
+{
+    fputs("{\"$schema\": \"http://json-schema.org/draft-07/schema#\", \"title\": \"scene of cleave\",\n", out);
+    fputs(definitions, out);
+    write_object(out, "solid");
+    fputs("},\n\"if\": {\"not\": {\"required\": [\"include\"]}}, \"then\": {", out);
+    write_required(out, "", "\"required\": [");
+    fputs("},\n", out);
+    write_members(out, "");
+    fputs("}\n", out);
+    return ferror(out) ? status_set(FAILED, "the schema cannot be written") : OK;
+}
