@@ -110,7 +110,7 @@ static void write_probe(FILE *out)
     fputs("]}", out);
 }
 
-static void write_items(FILE *out, const struct key *k)
+static void write_list_items(FILE *out, const struct key *k)
 {
     char least[32], most[32];
     fputs("{\"type\": \"array\"", out);
@@ -146,7 +146,7 @@ static void write_alternatives(FILE *out, const struct key *k)
         write_words(out, k->words);
         fputc('}', out);
     } else if (type == KEY_LIST) {
-        write_items(out, k);
+        write_list_items(out, k);
     } else if (type == KEY_MAP || type == KEY_PART) {
         const struct key *form = key_find(k->path, "form");              /* exact: step bar */
         if (form && form->type == KEY_CHOICE) write_words(out, form->words), fputs(", ", out);
