@@ -4,10 +4,14 @@
 #define CLEAVE_SOLID
 
 #include "base/base.h"
+#include "data/hull.h"
+#include "data/voxels.h"
 
 enum solid_kind {
     SOLID_ALL, SOLID_BOX, SOLID_BALL, SOLID_CYLINDER, SOLID_HALF_SPACE, SOLID_ELLIPSOID, SOLID_RING, SOLID_POLYGON,
     SOLID_TUBE, SOLID_CONE, SOLID_TORUS,
+    SOLID_HULL,                          /* a surface from a file: what it encloses, or what is near it */
+    SOLID_VOXELS,                        /* an image: where it has certain grey values */
     SOLID_EXTRUSION,                     /* a region of the plane, drawn out */
     SOLID_GROUP,                         /* a region */
     SOLID_KINDS
@@ -66,6 +70,8 @@ struct solid {
     real begin, end;                     /* ... from, to [m] */
     struct region region;                /* of an extrusion (its plane has the other two axes in order) or a group */
     struct polygon *polygon;             /* owned */
+    const struct hull *hull;             /* of the scene; an open one as far as `radius` from it */
+    const struct voxel_part *voxels;     /* of the scene */
     int motions, images;                 /* images 0: the solid is where it is described */
     struct solid_motion *motion;               /* [motions] */
     struct placement *image;                 /* [images] */

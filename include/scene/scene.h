@@ -115,6 +115,7 @@ struct scene {
     int interfaces; struct scene_interface *interface;
 
     int regions;    struct named_region *named;
+    struct shape_file *shapes;           /* files that solids are made of (shape_file.h) */
 
     struct scene_choice choice;
 

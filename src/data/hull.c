@@ -157,6 +157,14 @@ static real volume_of(const struct hull *s)
     return sum;
 }
 
+real hull_support(const struct hull *s, const real *along)
+{
+    real most = -INFINITY;
+    for (int64_t k = 0; k < s->faces; k++)
+        for (int c = 0; c < s->dim; c++) most = real_max(most, dot(s->corner[s->face[k][c]], along, s->dim));
+    return most;
+}
+
 static void faces_reverse(struct hull *s)
 {
     for (int64_t k = 0; k < s->faces; k++) {

@@ -315,6 +315,33 @@ static real group_support(const struct solid *s, const real *along, int dim)
     return region_support(&s->region, along, dim);
 }
 
+static real hull_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    (void)dim;
+    return hull_distance(s->hull, X, normal) - s->radius;
+}
+
+static real hull_reach(const struct solid *s, const real *along, int dim)
+{
+    return hull_support(s->hull, along) + s->radius * sqrt(dot(along, along, dim));
+}
+
+static real voxels_from(const struct solid *s, const real *X, int dim, real *normal)
+{
+    (void)dim;
+    return voxel_part_distance(s->voxels, X, normal);
+}
+
+/* Of the whole image. */
+static real voxels_reach(const struct solid *s, const real *along, int dim)
+{
+    const struct voxels *v = s->voxels->of;
+    real sum = 0;
+    for (int d = 0; d < dim; d++)
+        sum += along[d] * (v->from[d] + (along[d] > 0 ? (real)v->n[d] * v->size[d] : 0));
+    return sum;
+}
+
 /* Everywhere. */
 static real all_from(const struct solid *s, const real *X, int dim, real *normal)
 {
@@ -341,6 +368,8 @@ const struct solid_type solid_types[SOLID_KINDS] = {
     [SOLID_TUBE] = {tube_from, NULL, cylinder_support},
     [SOLID_CONE] = {cone_from, NULL, cone_support},
     [SOLID_TORUS] = {torus_from, NULL, torus_support},
+    [SOLID_HULL] = {hull_from, NULL, hull_reach},
+    [SOLID_VOXELS] = {voxels_from, NULL, voxels_reach},
     [SOLID_EXTRUSION] = {extrusion_from, extrusion_level, extrusion_support},
     [SOLID_GROUP] = {group_from, group_level, group_support},
 };

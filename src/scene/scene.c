@@ -1,4 +1,5 @@
 /* Makes a scene from its tree of nodes: overrides first, then struct scene by the table of keys. */
+#include "scene/shape_file.h"
 #include "scene_internal.h"
 
 #include <math.h>
@@ -79,6 +80,7 @@ void scene_free(struct scene *s)
         memory_free(s->probe[k].contours.value);
     }
     region_free(&s->pd_region);
+    shape_files_free(s->shapes);
     for (int k = 0; k < s->regions; k++) region_free(&s->named[k].region);
     memory_free(s->named);
     memory_free(s->material);

@@ -56,7 +56,7 @@ static int letter_of(const unsigned char *c, unsigned *code)
 }
 
 /* Writes a text in double quotes; characters other than printable ASCII as \U escapes. */
-static void write_quoted(struct writer *w, const char *text)
+void write_quoted(struct writer *w, const char *text)
 {
     fputc('"', w->out);
     for (const unsigned char *c = (const unsigned char *)text; *c;) {

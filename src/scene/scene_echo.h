@@ -15,6 +15,7 @@ struct writer {
 };
 
 void write_real(struct writer *w, real value);
+void write_quoted(struct writer *w, const char *text);
 void write_list(struct writer *w, const real *value, int n);
 /* Writes the value of key k at `place` in the form of its type. */
 void write_value(struct writer *w, const struct key *k, const void *place);
@@ -22,5 +23,7 @@ void write_value(struct writer *w, const struct key *k, const void *place);
 /* A region as a list of solids, and those that have names (scene_echo_solids.c). */
 void write_region(struct writer *w, const struct region *region);
 void write_regions(struct writer *w);
+/* A solid from a file: `stl: {..}` (scene_echo_shapes.c). */
+void write_shape_file(struct writer *w, const struct solid *s);
 
 #endif

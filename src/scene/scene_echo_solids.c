@@ -52,6 +52,10 @@ static void write_shape(struct writer *w, const struct solid *s)
         fputs("all: true", w->out);
         return;
     }
+    if (s->kind == SOLID_HULL || s->kind == SOLID_VOXELS) {
+        write_shape_file(w, s);
+        return;
+    }
     const char *word = s->kind == SOLID_ELLIPSOID ? w->dim == 2 ? "ellipse" : "ellipsoid" : words[s->kind];
     fprintf(w->out, "%s: {", word);
     snprintf(group, sizeof group, "solid.%s", word);

@@ -39,6 +39,7 @@ struct reader {
     bool bounded;                        /* solids being read belong to a body: no infinite bounds */
     bool cutting;                        /* ... and take something away from it: they may be infinite */
     int solids;                          /* number of those read */
+    int grey_materials;                  /* images whose `materials` have not become parts of a body yet */
     bool files;                          /* check that particle lists exist */
     const char *included[INCLUDED_MOST]; /* names of the files that it includes */
     int includes;
@@ -230,6 +231,11 @@ status read_region(struct reader *r, const struct node *n, struct region *region
 /* The regions of the scene that have names; read_region reads those that its solids call. */
 status read_regions(struct reader *r, const struct node *root);
 /* Moves, turns and repeats a solid by the keys of `n` beside its own (scene_motions.c). */
+/* Solids from files (scene_shapes.c), and the parts of a body that `materials` of the images of its shape are. */
+status read_stl(struct reader *r, const struct node *n, struct solid *s);
+status read_mesh(struct reader *r, const struct node *n, struct solid *s);
+status read_image(struct reader *r, const struct node *n, struct solid *s);
+status read_grey_parts(struct reader *r, const struct node *shape, struct scene_body *b);
 bool is_motion(const struct node *n);
 status read_motions(struct reader *r, const struct node *n, struct solid *s);
 status read_materials(struct reader *r, const struct node *root);

@@ -1,5 +1,6 @@
 /* The table of keys of a scene: what each sets, its unit, range and default. Reading, echo and help use this table. */
 #include "scene_internal.h"
+#include "scene_shapes.h"
 
 #include <math.h>
 

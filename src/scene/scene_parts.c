@@ -156,6 +156,7 @@ static status scene_parts_read_body(struct reader *r, const struct node *n, stru
     TRY(read_group(r, n, n, "bodies", b));
     r->bounded = false;
     TRY(check_rigid_body(r, n, b));
+    TRY(read_grey_parts(r, shape, b));
     TRY(read_body_parts(r, node_find(n, "parts"), key_find("bodies", "parts"), b));
     if (!shape && !file) return fault_missing(r, n, key_find("bodies", "shape"));
     if (shape && file) return fault_both(r, shape, file);
@@ -192,8 +193,6 @@ status read_bodies(struct reader *r, const struct node *root)
     if (one && many) return fault_both(r, one, many);
     const struct node *parts = node_find(root, "parts");
     if (many && parts) return fault(r, parts, "of which body is it; bodies have parts of their own");
-    if (one && s->materials > 1 && !parts)
-        return fault(r, one, "which of %d materials is it; use parts, or bodies", s->materials);
     if (many) TRY(expect_list(r, key_find("", "bodies"), many));
     const int n_bodies = many ? many->n : 1;
     s->body = NEW("bodies", n_bodies, struct scene_body);
@@ -205,6 +204,9 @@ status read_bodies(struct reader *r, const struct node *root)
         r->bounded = true;
         TRY(read_region(r, one, &s->body->shape));
         r->bounded = false;
+        TRY(read_grey_parts(r, one, s->body));
+        if (s->materials > 1 && !parts && s->body->parts == 0)
+            return fault(r, one, "which of %d materials is it; use parts, or bodies", s->materials);
         return read_body_parts(r, parts, key_find("", "parts"), s->body);
     }
     const struct node *n = many->first;

@@ -19,6 +19,8 @@ static const struct solid_word { const char *name; enum solid_kind kind; int dim
     {"ring", SOLID_RING, 2},         {"polygon", SOLID_POLYGON, 2},
     {"tube", SOLID_TUBE, 3},         {"cone", SOLID_CONE, 3},
     {"torus", SOLID_TORUS, 3},       {"extrude", SOLID_EXTRUSION, 3},
+    {"stl", SOLID_HULL, 3},          {"mesh", SOLID_HULL, 0},
+    {"image", SOLID_VOXELS, 0},
     {"half-space", SOLID_HALF_SPACE, 0}, {"all", SOLID_ALL, 0},
 };
 
@@ -111,6 +113,8 @@ static status read_shape(struct reader *r, const struct node *n, const struct so
                                                    : "ball, cylinder, tube, cone, extrude or box");
     if (r->bounded && !r->cutting && (s->kind == SOLID_ALL || s->kind == SOLID_HALF_SPACE))
         return fault(r, n, "a body cannot be infinite; box, ball and cylinder are finite");
+    if (s->kind == SOLID_VOXELS) return read_image(r, n, s);
+    if (s->kind == SOLID_HULL) return (strcmp(word->name, "stl") == 0 ? read_stl : read_mesh)(r, n, s);
     if (s->kind == SOLID_POLYGON) return read_corners(r, n, s);
     if (s->kind == SOLID_EXTRUSION) return read_extrusion(r, n, s);
     if (s->kind != SOLID_ALL) {

@@ -1,0 +1,76 @@
+/* Writes solids from files: absolute paths, so that the echo runs from any folder, and the hash of the contents, with
+ * which alone it reads back. */
+#include <inttypes.h>
+#include <stdlib.h>
+
+#include "scene/shape_file.h"
+#include "scene_echo.h"
+
+/* The file that a hull or voxels came from; *set: the name of the part of a mesh, NULL: all of it. */
+static const struct shape_file *shape_of(const struct scene *s, const struct solid *solid, const char **set)
+{
+    *set = NULL;
+    for (const struct shape_file *f = s->shapes; f; f = f->next) {
+        if (solid->kind == SOLID_VOXELS && solid->voxels->of == &f->voxels) return f;
+        if (solid->hull && solid->hull == &f->geometry.whole) return f;
+        for (int k = 0; k < f->geometry.sets && solid->hull; k++)
+            if (solid->hull == &f->geometry.set[k].hull) {
+                *set = f->geometry.set[k].name;
+                return f;
+            }
+    }
+    return NULL;
+}
+
+static void write_paths(struct writer *w, const struct shape_file *f)
+{
+    fputs(f->files > 1 ? "file: [" : "file: ", w->out);
+    for (int k = 0; k < f->files; k++) {
+        char *whole = realpath(f->path[k], NULL);
+        if (k > 0) fputs(", ", w->out);
+        write_quoted(w, whole ? whole : f->path[k]);
+        free(whole);
+    }
+    fprintf(w->out, "%s, contents: \"%016" PRIx64 "\"", f->files > 1 ? "]" : "", f->contents);
+}
+
+static void write_image(struct writer *w, const struct shape_file *f, const struct voxel_part *p)
+{
+    fputs(", pixel: ", w->out);
+    write_real(w, f->size[0]);
+    if (f->dim == 3) {
+        fputs(", slice: ", w->out);
+        write_real(w, f->size[2]);
+    }
+    fputs(", origin: ", w->out);
+    write_list(w, f->from, f->dim);
+    fputs(", values: [", w->out);
+    for (int k = 0; k < p->ranges; k++)
+        fprintf(w->out, "%s\"%d-%d\"", k ? ", " : "", p->range[k].low, p->range[k].high);
+    fputc(']', w->out);
+}
+
+void write_shape_file(struct writer *w, const struct solid *s)
+{
+    static const char *const words[] = {[SHAPE_STL] = "stl", [SHAPE_MESH] = "mesh", [SHAPE_IMAGE] = "image"};
+    const char *set;
+    const struct shape_file *f = shape_of(w->scene, s, &set);
+    if (!f) return;
+    fprintf(w->out, "%s: {", words[f->kind]);
+    write_paths(w, f);
+    if (f->kind == SHAPE_IMAGE)
+        write_image(w, f, s->voxels);
+    else {
+        fputs(", scale: ", w->out);
+        write_real(w, f->scale);
+    }
+    if (set) {
+        fputs(", set: ", w->out);
+        write_quoted(w, set);
+    }
+    if (s->kind == SOLID_HULL && s->hull->open) {
+        fputs(", within: ", w->out);
+        write_real(w, s->radius);
+    }
+    fputc('}', w->out);
+}

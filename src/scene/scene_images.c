@@ -1,0 +1,148 @@
+/* Grey values of images and what they are made of: `materials` of an image become parts of the body whose shape it is.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scene_shapes.h"
+
+int path_order(const void *a, const void *b) { return strverscmp(*(char *const *)a, *(char *const *)b); }
+
+/* ---- grey values ------------------------------------------------------------------------------------------------- */
+
+/* 255 or 100-255. */
+static status grey_range_read(struct reader *r, const struct node *n, const char *text, struct voxel_part *p)
+{
+    int low = -1, high = -1, end = 0;
+    if (sscanf(text, "%d%n", &low, &end) == 1 && text[end] == '\0')
+        high = low;
+    else if (sscanf(text, "%d - %d%n", &low, &high, &end) != 2 || text[end] != '\0')
+        low = -1;
+    if (low < 0 || high < low || high > GREY_MAX)
+        return fault(r, n, "%s is no grey value; 255 or 100-255, up to %d, is expected", shown_text(r, text), GREY_MAX);
+    if (p->ranges == GREY_RANGES_MAX) return fault(r, n, "more than %d ranges of grey values", GREY_RANGES_MAX);
+    p->range[p->ranges++] = (struct grey_range){low, high};
+    return OK;
+}
+
+status read_grey_values(struct reader *r, const struct node *n, struct voxel_part *p)
+{
+    p->ranges = 0;
+    if (n->kind == NODE_SCALAR) return grey_range_read(r, n, n->text, p);
+    if (n->kind != NODE_LIST || n->n == 0)
+        return fault(r, n, "is no grey value; 255, 100-255 or a list of these is expected");
+    for (const struct node *item = n->first; item; item = item->next) {
+        if (item->kind != NODE_SCALAR) return fault(r, item, "is no grey value; 255 or 100-255 is expected");
+        TRY(grey_range_read(r, item, item->text, p));
+    }
+    return OK;
+}
+
+/* ---- materials --------------------------------------------------------------------------------------------------- */
+
+static bool is_void(const struct node *n) { return n->kind == NODE_SCALAR && strcmp(n->text, "void") == 0; }
+
+/* REFUSED if a voxel has a grey value that `in` does not hold. */
+static status check_covered(struct reader *r, const struct node *n, const struct voxels *v, const bool *in)
+{
+    const int64_t all = v->n[0] * v->n[1] * v->n[2];
+    int64_t missing = 0;
+    int value = 0;
+    for (int64_t k = all - 1; k >= 0; k--)
+        if (!in[v->grey[k]]) missing++, value = v->grey[k];
+    if (missing == 0) return OK;
+    return fault(r, n, "%.3g %% of the image, grey value %d for one, have no material; void leaves them out",
+                 100 * (real)missing / (real)all, value);
+}
+
+status read_grey_materials(struct reader *r, const struct node *n, const struct voxels *v, struct voxel_part *p)
+{
+    if (!r->bounded || r->cutting)
+        return fault(r, n,
+                     "belongs to an image that is the shape of a body; here values, such as 100-255, is expected");
+    TRY(expect(r, n, NODE_MAP, "a mapping of grey values to materials, as {0: void, 1-255: rock}"));
+    bool *in = NEW("grey values", GREY_MAX + 1, bool);
+    status s = OK;
+    p->ranges = 0;
+    for (const struct node *c = n->first; c && s == OK; c = c->next) {
+        const int before = p->ranges;
+        s = grey_range_read(r, c, c->key, p);
+        if (s != OK) break;
+        const struct grey_range range = p->range[before];
+        for (int grey = range.low; grey <= range.high && s == OK; grey++) {
+            if (in[grey]) s = fault(r, c, "grey value %d is in two ranges; one is expected", grey);
+            in[grey] = true;
+        }
+        if (is_void(c)) p->ranges = before;
+    }
+    if (s == OK && p->ranges == 0) s = fault(r, n, "all is void; a material is expected");
+    if (s == OK) s = check_covered(r, n, v, in);
+    memory_free(in);
+    r->grey_materials++;
+    return s;
+}
+
+/* A copy of a node with its children up to `deep` levels down. */
+static struct node *node_copy(struct reader *r, const struct node *n, struct node *parent, const char *without)
+{
+    struct node *copy = arena_new(r, sizeof *copy);
+    *copy = *n;
+    copy->parent = parent, copy->first = copy->last = copy->next = NULL, copy->n = 0;
+    for (const struct node *c = n->first; c; c = c->next)
+        if (!c->key || strcmp(c->key, without) != 0) node_append(copy, node_copy(r, c, copy, without));
+    return copy;
+}
+
+static int material_called(const struct scene *s, const char *name)
+{
+    for (int m = 0; m < s->materials; m++)
+        if (strcmp(s->material[m].name, name) == 0) return m;
+    return -1;
+}
+
+/* The part of a body that one entry of `materials` is: the same image with its grey values alone, moved likewise. */
+static status read_grey_part(struct reader *r, const struct node *solid, const struct node *entry, struct scene_body *b)
+{
+    const int material = entry->kind == NODE_SCALAR ? material_called(r->scene, entry->text) : -1;
+    if (material < 0) return fault(r, entry, "there is no material %s; void leaves it out", shown(r, entry));
+    struct node *copy = node_copy(r, solid, solid->parent, "materials"), *image = node_find(copy, "image");
+    struct node *values = arena_new(r, sizeof *values);
+    *values = (struct node){.kind = NODE_SCALAR,
+                            .line = entry->line,
+                            .column = entry->column,
+                            .origin = entry->origin,
+                            .key = arena_text(r, "values", 6),
+                            .text = entry->key};
+    node_append(image, values);
+    b->part = memory_resize("parts", b->part, b->parts, b->parts + 1, sizeof *b->part);
+    struct scene_part *part = &b->part[b->parts++];
+    part->material = material;
+    return read_region(r, copy, &part->region);
+}
+
+status read_grey_parts(struct reader *r, const struct node *shape, struct scene_body *b)
+{
+    const struct node *solid = shape && shape->kind == NODE_LIST ? shape->first : shape;
+    const int wanted = r->grey_materials;
+    int found = 0;
+    r->grey_materials = 0;
+    for (; solid; solid = shape->kind == NODE_LIST ? solid->next : NULL) {
+        const struct node *image = solid->kind == NODE_MAP ? node_find(solid, "image") : NULL;
+        const struct node *materials = image ? node_find(image, "materials") : NULL;
+        found += materials != NULL;
+        for (const struct node *c = materials ? materials->first : NULL; c; c = c->next) {
+            if (is_void(c)) continue;
+            if (b->parts == 0) b->material = material_called(r->scene, c->text);
+            const bool bounded = r->bounded;
+            r->bounded = false;
+            const status s = read_grey_part(r, solid, c, b);
+            r->bounded = bounded;
+            TRY(s);
+        }
+    }
+    if (found == wanted) return OK;
+    return fault(r, shape,
+                 "materials of an image within other solids; the image itself in the list of the shape is expected");
+}

@@ -1,0 +1,269 @@
+/* Solids from files: surfaces, meshes and images. Files are sought as particle lists are, and known by their contents.
+ */
+#include "scene/shape_file.h"
+
+#include <glob.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "geometry/image.h"
+#include "scene_internal.h"
+#include "scene_shapes.h"
+
+enum { SLICES_MOST = 65536 };
+
+/* ---- names of files ---------------------------------------------------------------------------------------------- */
+
+/* FNV-1a of the hashes of all files, in order; of one file its own. */
+static void contents_add(struct shape_file *f, uint64_t contents)
+{
+    if (f->files == 0)
+        f->contents = contents;
+    else
+        f->contents = (f->contents ^ contents) * UINT64_C(1099511628211);
+}
+
+static status shape_path_add(struct reader *r, const struct node *n, struct shape_file *f)
+{
+    uint64_t contents = 0;
+    f->path = memory_resize("shape files", f->path, f->files, f->files + 1, sizeof *f->path);
+    TRY(read_path(r, n, "a file", &f->path[f->files], &contents));
+    contents_add(f, contents);
+    f->files++;
+    return OK;
+}
+
+/* Files by a pattern with stars, numbers in their names in order; sought in the scene's folder, then in the current. */
+static status pattern_add(struct reader *r, const struct node *n, struct shape_file *f)
+{
+    const char *slash = strrchr(r->name, '/');
+    const int folder = slash && n->text[0] != '/' ? (int)(slash - r->name) + 1 : 0;
+    char pattern[4096];
+    glob_t found = {0};
+    status s = OK;
+    snprintf(pattern, sizeof pattern, "%.*s%s", folder, r->name, n->text);
+    if (glob(pattern, 0, NULL, &found) != 0 && glob(n->text, 0, NULL, &found) != 0) {
+        globfree(&found);
+        return fault(r, n, "no file is called so; slices such as slice_*.png are expected");
+    }
+    if (found.gl_pathc > SLICES_MOST) s = fault(r, n, "more than %d files", SLICES_MOST);
+    qsort(found.gl_pathv, found.gl_pathc, sizeof *found.gl_pathv, path_order);
+    for (size_t k = 0; k < found.gl_pathc && s == OK; k++) {
+        struct node one = *n;
+        one.text = found.gl_pathv[k];
+        if (folder > 0 && strncmp(one.text, r->name, (size_t)folder) == 0) one.text += folder;
+        s = shape_path_add(r, &one, f);
+    }
+    globfree(&found);
+    return s;
+}
+
+static status paths_read(struct reader *r, const struct node *n, struct shape_file *f)
+{
+    if (n->kind == NODE_SCALAR && f->kind == SHAPE_IMAGE && strchr(n->text, '*')) return pattern_add(r, n, f);
+    if (n->kind != NODE_LIST || f->kind != SHAPE_IMAGE) return shape_path_add(r, n, f);
+    if (n->n == 0 || n->n > SLICES_MOST) return fault(r, n, "%d files; 1 to %d are expected", n->n, SLICES_MOST);
+    for (const struct node *item = n->first; item; item = item->next) TRY(shape_path_add(r, item, f));
+    return OK;
+}
+
+/* ---- files ------------------------------------------------------------------------------------------------------- */
+
+static void shape_file_free(struct shape_file *f)
+{
+    for (int k = 0; k < f->files; k++) memory_free(f->path[k]);
+    for (int k = 0; k < f->parts; k++) {
+        voxel_part_free(f->part[k]);
+        memory_free(f->part[k]);
+    }
+    memory_free(f->path);
+    memory_free(f->part);
+    geometry_free(&f->geometry);
+    voxels_free(&f->voxels);
+    memory_free(f);
+}
+
+void shape_files_free(struct shape_file *first)
+{
+    for (struct shape_file *next; first; first = next) {
+        next = first->next;
+        shape_file_free(first);
+    }
+}
+
+static bool same_words(const struct shape_file *a, const struct shape_file *b)
+{
+    bool same = a->kind == b->kind && a->dim == b->dim && a->files == b->files && a->contents == b->contents &&
+                bits_equal(a->scale, b->scale) && memcmp(a->size, b->size, sizeof a->size) == 0 &&
+                memcmp(a->from, b->from, sizeof a->from) == 0;
+    for (int k = 0; k < a->files && same; k++) same = strcmp(a->path[k], b->path[k]) == 0;
+    return same;
+}
+
+/* Reads a file unless a solid before had it; `f` is taken over or freed. */
+static status shape_take(struct reader *r, struct shape_file *f, struct shape_file **known)
+{
+    struct shape_file **last = &r->scene->shapes;
+    for (; *last; last = &(*last)->next)
+        if (same_words(*last, f)) {
+            shape_file_free(f);
+            *known = *last;
+            return OK;
+        }
+    const status s = f->kind == SHAPE_IMAGE ? image_read(&f->voxels, f->files, f->path, f->dim, f->size, f->from)
+                                            : geometry_read(&f->geometry, f->path[0], f->dim, f->scale);
+    if (s != OK) {
+        shape_file_free(f);
+        return s;
+    }
+    *known = *last = f;
+    return OK;
+}
+
+/* REFUSED if the scene says which contents it was written for, and the file has others. */
+static status check_contents(struct reader *r, const struct node *n, const struct shape_words *words, uint64_t contents)
+{
+    char found[NAME_MAX_LENGTH];
+    snprintf(found, sizeof found, "%016" PRIx64, contents);
+    if (!words->contents[0] || strcmp(words->contents, found) == 0) return OK;
+    return fault(r, node_find(n, "contents"),
+                 "is %s, and the file's is %s: it is another one; the one of then is expected, or no "
+                 "contents",
+                 words->contents, found);
+}
+
+/* The length that the number 1 of the file is, by unit or scale. */
+static status read_unit(struct reader *r, const struct node *n, struct shape_words *words)
+{
+    const struct node *unit = node_find(n, "unit"), *scale = node_find(n, "scale");
+    char text[48], what[256];
+    if (unit && scale) return fault_both(r, unit, scale);
+    if (!unit && !scale)
+        return fault(r, n, "unit is missing: its numbers have none; unit: mm, or scale: 25.4 mm, is expected");
+    if (!unit) return OK;
+    snprintf(text, sizeof text, "1 %.40s", unit->text);
+    if (unit->kind == NODE_SCALAR && number_read(&words->scale, text, UNIT_LENGTH, false, what, sizeof what)) return OK;
+    return fault(r, unit, "%s is no unit of length; mm, m, um, .. is expected, or scale: 25.4 mm", shown(r, unit));
+}
+
+/* ---- surfaces and meshes ----------------------------------------------------------------------------------------- */
+
+/* One spacing: as far as the outermost particles of a lattice may lie below a face. */
+static real spacing_given(struct reader *r, const struct node *n)
+{
+    real spacing = NAN;
+    while (n->parent) n = n->parent;
+    const struct node *given = tree_at(n, "particles.spacing");
+    const struct key *k = key_find("particles", "spacing");
+    if (given && k && read_number(r, k, given, &spacing) == OK) return spacing;
+    return NAN;
+}
+
+/* The part of a mesh that a solid is: all of it, or a set, which is closed or as far as `within` from its faces. */
+static status read_mesh_set(struct reader *r, const struct node *n, const struct shape_words *words,
+                            const struct geometry *g, struct solid *s)
+{
+    const struct node *within = node_find(n, "within");
+    const struct geometry_set *set = words->set[0] ? geometry_find(g, words->set) : NULL;
+    char names[200] = "";
+    for (int k = 0; k < g->sets && strlen(names) < 120; k++) {
+        strcat(names, k ? ", " : "");
+        strcat(names, g->set[k].name);
+    }
+    if (words->set[0] && !set)
+        return fault(r, node_find(n, "set"), "the file has no set %s; it has %s", words->set, g->sets ? names : "none");
+    s->hull = set ? &set->hull : &g->whole;
+    if (within && !s->hull->open)
+        return fault(r, within, "has no meaning for what fills a volume; only sets of nodes or faces have it");
+    if (!s->hull->open) return OK;
+    s->radius = within ? words->within : spacing_given(r, n);
+    if (s->radius > 0) return OK;
+    return fault(r, n,
+                 "set %s is one of nodes or faces; within, the distance up to which particles belong to it, is "
+                 "expected",
+                 words->set);
+}
+
+static status read_geometry(struct reader *r, const struct node *n, enum shape_kind kind, struct solid *s)
+{
+    const char *const group = kind == SHAPE_STL ? "solid.stl" : "solid.mesh";
+    const struct node *file = node_find(n, "file");
+    struct shape_words words = {.scale = NAN, .within = NAN};
+    struct shape_file *f = NULL;
+    TRY(read_group(r, n, n, group, &words));
+    if (!file) return fault_missing(r, n, key_find(group, "file"));
+    TRY(read_unit(r, n, &words));
+    if (r->dim == 1) return fault(r, n, "not in space line; box is expected");
+    f = NEW("shape files", 1, struct shape_file);
+    *f = (struct shape_file){.kind = kind, .dim = r->dim, .scale = words.scale};
+    status result = paths_read(r, file, f);
+    if (result == OK) result = check_contents(r, n, &words, f->contents);
+    if (result != OK) {
+        shape_file_free(f);
+        return result;
+    }
+    TRY(shape_take(r, f, &f));
+    s->kind = SOLID_HULL;
+    return read_mesh_set(r, n, &words, &f->geometry, s);
+}
+
+status read_stl(struct reader *r, const struct node *n, struct solid *s) { return read_geometry(r, n, SHAPE_STL, s); }
+status read_mesh(struct reader *r, const struct node *n, struct solid *s) { return read_geometry(r, n, SHAPE_MESH, s); }
+
+/* ---- images ------------------------------------------------------------------------------------------------------ */
+
+/* What an image is: its files, the size of its voxels, where it lies. */
+static status read_voxels(struct reader *r, const struct node *n, struct shape_file **known)
+{
+    const struct node *file = node_find(n, "file"), *slice = node_find(n, "slice");
+    struct shape_words words = {.pixel = NAN, .slice = NAN};
+    TRY(read_group(r, n, n, "solid.image", &words));
+    if (!file) return fault_missing(r, n, key_find("solid.image", "file"));
+    if (r->dim == 1) return fault(r, n, "not in space line; box is expected");
+    if (slice && r->dim == 2) return fault(r, slice, "has no meaning in the plane, where there is one image");
+    struct shape_file *f = NEW("shape files", 1, struct shape_file);
+    *f = (struct shape_file){.kind = SHAPE_IMAGE, .dim = r->dim, .scale = NAN};
+    for (int d = 0; d < r->dim; d++)
+        f->size[d] = d == 2 && slice ? words.slice : words.pixel, f->from[d] = words.origin[d];
+    status result = paths_read(r, file, f);
+    if (result == OK) result = check_contents(r, n, &words, f->contents);
+    if (result != OK) {
+        shape_file_free(f);
+        return result;
+    }
+    return shape_take(r, f, known);
+}
+
+/* The voxels of these grey values, which solids with the same ones share. */
+static const struct voxel_part *grey_part_of(struct shape_file *f, const struct voxel_part *wanted)
+{
+    for (int k = 0; k < f->parts; k++)
+        if (f->part[k]->ranges == wanted->ranges &&
+            memcmp(f->part[k]->range, wanted->range, (size_t)wanted->ranges * sizeof *wanted->range) == 0)
+            return f->part[k];
+    f->part = memory_resize("shape parts", f->part, f->parts, f->parts + 1, sizeof *f->part);
+    struct voxel_part *part = NEW("shape parts", 1, struct voxel_part);
+    *part = *wanted;
+    part->of = &f->voxels;
+    voxel_part_make(part);
+    return f->part[f->parts++] = part;
+}
+
+status read_image(struct reader *r, const struct node *n, struct solid *s)
+{
+    const struct node *values = node_find(n, "values"), *materials = node_find(n, "materials");
+    struct voxel_part wanted = {.ranges = 1, .range = {{1, GREY_MAX}}};
+    struct shape_file *f = NULL;
+    TRY(read_voxels(r, n, &f));
+    if (values && materials) return fault_both(r, values, materials);
+    if (values) TRY(read_grey_values(r, values, &wanted));
+    if (materials) TRY(read_grey_materials(r, materials, &f->voxels, &wanted));
+    s->kind = SOLID_VOXELS;
+    s->voxels = grey_part_of(f, &wanted);
+    if (s->voxels->voxels > 0) return OK;
+    return fault(r, values ? values : n, "no voxel of it has such a grey value; %s", "values that it has are expected");
+}
