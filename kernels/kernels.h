@@ -24,11 +24,19 @@ enum pd_model {
 /* Constants of a material for the stress update, and its conversion trigger. */
 struct elastic {
     real c11, c12, shear;                /* [Pa] */
-    real trigger;                        /* sigma_1 that marks a point for conversion; INFINITY [Pa] */
+    real trigger;                        /* sigma_1 that marks a point for conversion; INFINITY; where strength
+                                          * scatters that of the weakest point [Pa] */
+    real trigger_mean;                   /* that of a point of strength 1; the same where nothing scatters [Pa] */
     real yield, hardening;               /* sigma_y, 0: never yields; H (plastic.h) [Pa] */
     real poisson;                        /* of plane strain, where the material yields [1] */
     enum space space;
 };
+
+/* sigma_1 that marks a point of this material for conversion [Pa]. */
+static inline real point_trigger(const struct elastic *m, const struct particles *p, int64_t i)
+{
+    return p->strength ? m->trigger_mean * p->strength[i] : m->trigger;
+}
 
 /* Partial stress (src/coupling/partial_stress.c): the share of its stress that a material point leaves to the
  * crossing bonds: sigma_given = sigma - M sigma, M = T C^-1 over symmetric components. A point at the end of

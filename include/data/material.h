@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "base/base.h"
+#include "scatter.h"
 
 enum space { SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID };
 static inline int space_dim(enum space s) { return s == SPACE_LINE ? 1 : s == SPACE_SOLID ? 3 : 2; }
@@ -18,6 +19,7 @@ struct material {
     real critical_stretch;               /* s_c [1]; from G_c if not given; INFINITY: never breaks */
     real yield_stress;                   /* sigma_y [Pa]; INFINITY or 0: elastic */
     real yield_tangent;                  /* E_t: slope of the uniaxial curve behind sigma_y, below E [Pa] */
+    struct strength_scatter scatter;              /* of its critical stretch, by place */
     /* derived by material_derive */
     real yield_hardening;                /* H = E E_t/(E - E_t): yield stress over plastic strain [Pa] */
     real c11, c12, shear;                /* elastic constants of the space [Pa]; c12 = 0 in 1D */

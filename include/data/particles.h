@@ -67,6 +67,7 @@ struct particles {
     real *end_pull;
     real *end_moment[DIM_MAX];           /* ... moment of their bonds about them, in axes that turn with them [N m] */
     real *low_since; /* peridynamic: since when its stress is low, infinite: it is not; only with WITH_REVERSION [s] */
+    real *strength;                      /* factor on the critical stretch; only with WITH_STRENGTH [1] */
     real *damage;                        /* share of broken bonds, 0..1 [1] */
     uint8_t *kind, *material, *body, *flag; /* enum kind; indices; enum particle_flag */
     uint8_t *reversions;                 /* times it became a material point again; only with WITH_REVERSION [1] */
@@ -121,7 +122,8 @@ enum {
     WITH_REVERSION = 16,
     WITH_ENDS = 32,
     WITH_ROTATIONS = 64,
-    WITH_EVERYTHING = 127
+    WITH_STRENGTH = 128,
+    WITH_EVERYTHING = 255
 };
 
 /* One line per array: name, unit, what it is, where it lives. `size` is the bytes of one entry; `count` the
@@ -141,6 +143,13 @@ void *particle_array(const struct particles *p, const struct particle_field *f, 
 static inline void particle_place(const struct particles *p, int64_t i, real *X)
 {
     for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
+}
+
+/* Factor on the limit of a bond between i and j: that of its weaker end. Weibull's distribution is closed under the
+ * minimum (weakest link): bonds, and chains of them, have its modulus, too. */
+static inline real bond_strength(const struct particles *p, int64_t i, int64_t j)
+{
+    return p->strength ? (p->strength[i] < p->strength[j] ? p->strength[i] : p->strength[j]) : 1;
 }
 
 /* Is particle i moved by the grid? */

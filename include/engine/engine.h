@@ -229,6 +229,8 @@ void engine_take_bonds(struct engine *e, const struct predecessor *before);
  * all particles are made, NULL: some need not be. */
 const char *engine_hollow_obstacle(const struct scene *s);
 status engine_hollow_plan(struct engine *e);
+/* Triggers of materials whose strength scatters, once their particles are made (engine_strength.c). */
+void engine_strength_found(struct engine *e);
 bool engine_hollow_start(struct engine *e, const uint8_t *level);
 status engine_hollow_follow(struct engine *e, const uint8_t *level);
 status engine_hollow_archive(struct engine *e, struct archive *a);

@@ -22,5 +22,7 @@ void fill_whole(struct hollow *hollow, const struct scene *s, int body);
 /* Part of it (fill_lists.c): REFUSED where particles of a list are so far apart, or so close, that its unit is not
  * that of the spacing, or so many bonds would come of it that no memory holds them. */
 status fill_check_lists(const struct particles *p, const struct scene *s);
+/* Part of it (fill_strength.c): factors of materials whose strength scatters, 1 elsewhere. */
+void fill_strength(struct particles *p, const struct scene *s);
 
 #endif

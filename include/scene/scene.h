@@ -189,6 +189,14 @@ static inline bool scene_bonds_break(const struct scene *s)
     return breaks;
 }
 
+/* Does the strength of a material scatter from place to place? */
+static inline bool scene_scatters(const struct scene *s)
+{
+    bool scatters = false;
+    for (int m = 0; m < s->materials; m++) scatters |= s->material[m].scatter.given;
+    return scatters;
+}
+
 /* Does a probe look at bonds that break? */
 static inline bool scene_watches_bonds(const struct scene *s)
 {

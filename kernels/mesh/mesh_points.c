@@ -293,7 +293,8 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
         if (i < 0) continue;
         const struct elastic *own = &m[p->material[i]];
         mesh_point_stress(own, e[q], s, dim);
-        if (stress_bound(s, dim) > own->trigger && stress_principal(s, dim) > own->trigger) p->flag[i] |= FLAG_STRESSED;
+        const real most = point_trigger(own, p, i);
+        if (stress_bound(s, dim) > most && stress_principal(s, dim) > most) p->flag[i] |= FLAG_STRESSED;
     }
 }
 

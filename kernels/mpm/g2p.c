@@ -56,7 +56,9 @@ static ALWAYS_INLINE void points_strain(struct particles *p, const struct transf
     for (int k = 0; k < AT_ONCE(dim) && __builtin_expect(near, 0); k++) {
         real own[SYM_MAX];
         for (int c = 0; c < n; c++) own[c] = stress[c][k];
-        if (near >> k & 1 && stress_principal(own, dim) > m->trigger[k]) p->flag[point[k]] |= FLAG_STRESSED;
+        const int32_t i = point[k];
+        if (near >> k & 1 && stress_principal(own, dim) > point_trigger(&t->elastic[p->material[i]], p, i))
+            p->flag[i] |= FLAG_STRESSED;
     }
 }
 
@@ -102,7 +104,7 @@ static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic 
     p->plastic_strain[i] += more;
     if (keeps_zz) p->out_of_plane[i] = zz;
     for (int c = 0; c < n; c++) p->stress[c][i] = stress[c];
-    if (!(stress_principal(stress, dim) > m->trigger)) p->flag[i] &= (uint8_t)~FLAG_STRESSED;
+    if (!(stress_principal(stress, dim) > point_trigger(m, p, i))) p->flag[i] &= (uint8_t)~FLAG_STRESSED;
 }
 
 /* Adds `step` [m] to the positions of the points. Returns a bit mask of the points that left their cell. */

@@ -129,8 +129,8 @@ static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct par
     return column_largest(s, largest, distance2 * (inverse * lanes_size(inverse)));
 }
 
-/* Which rows of a row block have a bond beyond this stretch. */
-static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, real least,
+/* Which rows of a row block have a bond beyond this stretch, row by row. */
+static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, lanes least,
                                           const int dim)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -139,13 +139,13 @@ static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct pa
 #define VISIT(COLUMN) largest = bond_break_largest_of(largest, p, x, COLUMN, dim)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
-    return largest > lanes_of(square(1 + least) * (1 - ROUND_OFF));
+    return largest > (1.0 + least) * (1.0 + least) * (1 - ROUND_OFF);
 }
 
 /* The same in the body's dimension. */
 static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
-    const real least = least_limit(limit);
+    const lanes least = p->strength ? lanes_load(b->trigger + g * LANES) : lanes_of(least_limit(limit));
     return p->dim == 1   ? rows_past(b, p, g, least, 1)
            : p->dim == 2 ? rows_past(b, p, g, least, 2)
                          : rows_past(b, p, g, least, 3);

@@ -24,7 +24,7 @@ static inline real stretch_ago(const struct particles *p, real inverse_length, i
 
 static inline real stretch_limit(const struct particles *p, const struct bond_limit *limit, int32_t i, int32_t j)
 {
-    return limit->critical_stretch[p->material[i] * limit->materials + p->material[j]];
+    return limit->critical_stretch[p->material[i] * limit->materials + p->material[j]] * bond_strength(p, i, j);
 }
 
 /* When a bond ends: so long before the present places [s], and the share of its force in this step's kick [1]. */

@@ -149,6 +149,17 @@ static void say_cost(const struct engine *e, const struct cost *c, int threads)
     printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);
 }
 
+/* Range of the factors on the strength of a material. */
+static void say_scatter(const struct particles *p, int material)
+{
+    real least = INFINITY, most = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        if (p->material[i] != material) continue;
+        least = real_min(least, p->strength[i]), most = real_max(most, p->strength[i]);
+    }
+    if (most > 0) printf(", both by factors of %.3g to %.3g", least, most);
+}
+
 static void say_materials(const struct engine *e)
 {
     for (int m = 0; m < e->scene->materials; m++) {
@@ -157,7 +168,9 @@ static void say_materials(const struct engine *e)
         if (a->rayleigh_speed > 0) printf(", Rayleigh %.4g m/s", a->rayleigh_speed);
         if (isfinite(a->critical_stretch)) printf(", bonds break at a stretch of %.4g", a->critical_stretch);
         else printf("; its bonds never break: neither energy_release_rate nor critical_stretch is given");
-        if (isfinite(e->tables.elastic[m].trigger)) printf(", conversion above %.4g Pa", e->tables.elastic[m].trigger);
+        const real most = e->tables.elastic[m].trigger_mean;
+        if (isfinite(most)) printf(", conversion above %.4g Pa", most);
+        if (e->part.strength && a->scatter.given) say_scatter(&e->part, m);
         printf("\n");
     }
 }

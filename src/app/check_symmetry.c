@@ -41,6 +41,7 @@ static bool matter_agrees(const struct engine *e, const int32_t *twin)
     for (int64_t i = 0; i < p->n; i++)
         if (p->material[i] != p->material[twin[i]] || p->body[i] != p->body[twin[i]] || p->kind[i] != p->kind[twin[i]])
             return false;
+    if (p->strength && !agree(p->strength, twin, p->n, false)) return false;
     return agree(p->damage, twin, p->n, false) && agree(p->volume0, twin, p->n, false);
 }
 

@@ -349,6 +349,7 @@ static status check_proportions(const struct auto_match *m, const struct scene *
 static status check_ordinary(const struct scene *s)
 {
     if (s->materials > 1) return no_match("several materials");
+    if (scene_scatters(s)) return no_match("a strength that scatters");
     if (s->irregularity > 0) return no_match("a shaken lattice (particles.irregularity)");
     for (int b = 0; b < s->bodies; b++) {
         const struct region *shape = &s->body[b].shape;

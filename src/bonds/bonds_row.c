@@ -133,7 +133,8 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
 /* Stretch above which the vector test finds a bond: its limit less a margin. */
 real row_trigger(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
 {
-    return s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]] * (1 - TRIGGER_MARGIN);
+    return s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]] * bond_strength(p, i, j) *
+           (1 - TRIGGER_MARGIN);
 }
 
 /* Lengths, weights and what cracks cut, of the bonds that row_search has found. */

@@ -167,10 +167,8 @@ int row_block_regular_bonds(const struct regular_bonds *bonds)
     return sum;
 }
 
-/* The column of bonds to the particles at one index distance; what bond can break at the least stretch goes to
- * `trigger`. */
-static void fill_column(struct column_copy *column, const struct row_maker *m, int32_t i, int32_t j, unsigned bonds,
-                        real *trigger)
+/* The column of bonds to the particles at one index distance. */
+static void fill_column(struct column_copy *column, const struct row_maker *m, int32_t i, int32_t j, unsigned bonds)
 {
     const struct bond_source *s = m->source;
     column->first = j;
@@ -178,8 +176,19 @@ static void fill_column(struct column_copy *column, const struct row_maker *m, i
     for (int l = 0; l < LANES; l++) {
         column->nbr[l] = j + l;
         if (!(bonds >> l & 1)) column->inverse_length[l] = column->w[l] = 0;
-        else if (s->limit.materials > 1 || trigger[l] == INFINITY)
-            trigger[l] = real_min(trigger[l], row_trigger(s, m->p, i + l, j + l));
+    }
+}
+
+/* The least stretch at which a bond of each of eight particles in a row breaks. */
+static void regular_triggers(real trigger[LANES], const struct regular_bonds *bonds, const struct row_maker *m,
+                             int32_t i)
+{
+    const bool alike = m->source->limit.materials <= 1 && !m->p->strength;
+    for (int l = 0; l < LANES; l++) {
+        trigger[l] = INFINITY;
+        for (int k = 0; k < bonds->n && !(alike && trigger[l] < INFINITY); k++)
+            if (bonds->bonds[k] >> l & 1)
+                trigger[l] = real_min(trigger[l], row_trigger(m->source, m->p, i + l, i + bonds->offset[k] + l));
     }
 }
 
@@ -197,15 +206,15 @@ void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_
     const struct regular_bonds *bonds = &room->regular;
     const real *volume = m->p->volume0;
     const int32_t i = b->particle[g * LANES];
-    real family_volume[LANES] = {0}, *trigger = b->trigger + g * LANES;
+    const bool follows = whole_families(bonds) && row_block_follow(b, g, stencil_cache_find_row(bonds, m->source, i));
+    real family_volume[LANES] = {0};
     int columns = 0;
-    if (whole_families(bonds) && row_block_follow(b, g, stencil_cache_find_row(bonds, m->source, i)))
-        return;
-    for (int l = 0; l < LANES; l++) trigger[l] = INFINITY;
+    if (!follows || m->p->strength) regular_triggers(b->trigger + g * LANES, bonds, m, i);
+    if (follows) return;
     for (int k = 0; k < bonds->n; k++) {
         const int32_t j = i + bonds->offset[k], from = bonds->from[k], to = bonds->to[k];
         for (int l = 0; l < LANES; l++) family_volume[l] += l >= from && l <= to ? volume[j + l] : 0;
-        if (bonds->bonds[k]) fill_column(&room->column[columns++], m, i, j, bonds->bonds[k], trigger);
+        if (bonds->bonds[k]) fill_column(&room->column[columns++], m, i, j, bonds->bonds[k]);
     }
     for (int l = 0; l < LANES; l++) b->family_volume[g * LANES + l] = (float)family_volume[l];
     b->aligned[g] = true;

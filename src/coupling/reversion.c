@@ -51,7 +51,7 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
     real stress[SYM_MAX], share = b->family_volume[b->row_of[i]] / f->full;
     if (rule->source->modulus || !(share < 1)) share = 1;
     for (int s = 0; s < symmetric_count(p->dim); s++) stress[s] = p->stress[s][i] / share;
-    const real limit = rule->low_stress * rule->elastic[p->material[i]].trigger;
+    const real limit = rule->low_stress * point_trigger(&rule->elastic[p->material[i]], p, i);
     return stress_principal(stress, p->dim) < limit;
 }
 

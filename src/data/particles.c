@@ -18,6 +18,7 @@ static int if_out_of_plane(int dim, int optional) { return (void)dim, optional &
 static int if_ends(int dim, int optional) { return (void)dim, optional & WITH_ENDS ? 1 : 0; }
 static int if_rotates(int dim, int optional) { return optional & WITH_ROTATIONS ? (dim > 2 ? ROTATION : 2) : 0; }
 static int if_moment(int dim, int optional) { return optional & WITH_ROTATIONS ? (dim > 2 ? 3 : 1) : 0; }
+static int if_strength(int dim, int optional) { return (void)dim, optional & WITH_STRENGTH ? 1 : 0; }
 static int if_return(int dim, int optional) { return (void)dim, optional & WITH_REVERSION ? 1 : 0; }
 
 #define FIELD(member, type, count, unit, meaning) \
@@ -41,6 +42,7 @@ const struct particle_field particle_fields[] = {
     FIELD(end_pull, real, if_ends, "J", "derivative of its family's energy by that strain"),
     FIELD(end_moment, real, if_moment, "N m", "moment of its bonds about it"),
     FIELD(low_since, real, if_return, "s", "since when the stress of a peridynamic particle is low"),
+    FIELD(strength, real, if_strength, "1", "factor on the critical stretch"),
     FIELD(damage, real, one, "1", "share of broken bonds"),
     FIELD(kind, uint8_t, one, "1", "0 material point, 1 peridynamic"),
     FIELD(material, uint8_t, one, "1", "index of the material"),
@@ -51,10 +53,10 @@ const struct particle_field particle_fields[] = {
 };
 const int particle_fields_count = COUNT_OF(particle_fields);
 
-/* 4 vectors, 3 scalars, 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, 2 of return, damage, 4
- * indices, id; 2 scalars, a rotation and a moment of ends. */
+/* 4 vectors, 3 scalars, 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, 2 of return, strength, damage,
+ * 4 indices, id; 2 scalars, a rotation and a moment of ends. */
 _Static_assert(sizeof(struct particles) ==
-                   offsetof(struct particles, X) + (5 * DIM_MAX + 33 + ROTATION) * sizeof(void *),
+                   offsetof(struct particles, X) + (5 * DIM_MAX + 34 + ROTATION) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");
 
 /* Through bytes: a `real *` must not be read as a `void *`. */

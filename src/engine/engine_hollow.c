@@ -18,6 +18,7 @@ const char *engine_hollow_obstacle(const struct scene *s)
     if (s->method == METHOD_PD || s->solver != SOLVER_EXPLICIT || s->levels == 0) return "there are no coarse cells";
     if (s->bodies != 1 || s->rigids > 0) return "bodies may meet";
     if (s->body[0].file) return "they come from a list";
+    if (scene_scatters(s)) return "strength scatters from place to place";
     if (s->body[0].parts > 0) return "the body has parts of other materials";
     if (s->body[0].frame == FRAME_CURRENT || scene_frame_not_default(s, 0)) return "the body is in the current frame";
     if (s->initials > 0 || dot(s->body[0].velocity, s->body[0].velocity, s->dim) > 0) return "the body moves at first";

@@ -82,7 +82,8 @@ static void make_materials(const struct scene *s, struct material_tables *tables
                                                 .shear = given->shear,
                                                 .space = s->space,
                                                 .poisson = given->poisson,
-                                                .trigger = conversion_trigger(s, given)};
+                                                .trigger = conversion_trigger(s, given),
+                                                .trigger_mean = conversion_trigger(s, given)};
         if (!material_yields(given)) continue;
         tables->elastic[m].yield = given->yield_stress;
         tables->elastic[m].hardening = given->yield_hardening;
@@ -315,6 +316,7 @@ static int optional_arrays(const struct scene *s)
         if (material_yields(&s->material[m]))
             optional |= WITH_PLASTIC | (s->space == SPACE_PLANE_STRAIN ? WITH_OUT_OF_PLANE : 0);
     if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) optional |= WITH_REVERSION;
+    if (s->method != METHOD_MPM && scene_scatters(s)) optional |= WITH_STRENGTH;
     if (s->method == METHOD_ADAPTIVE && s->model != MODEL_BOND)
         optional |= WITH_ENDS | (s->model == MODEL_MOSPD ? WITH_ROTATIONS : 0);
     return optional;
@@ -357,6 +359,7 @@ static status make_particles(struct engine *e)
     TRY(named(s, engine_hollow_plan(e)));
     if (!e->reference.hollow.absent) TRY(named(s, make_affordable(e)));
     TRY(fill_particles(&e->part, s, &e->reference.hollow, e->optional));
+    engine_strength_found(e);
     return named(s, make_affordable(e));     /* with the actual number of particles */
 }
 

@@ -37,7 +37,8 @@ static int64_t bonds_past_limit(const struct engine *e)
     for (int64_t r = 0; r < b->rows; r++)
         for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);) {
             const int32_t i = b->particle[r], j = it.bond.nbr;
-            const real limit = e->tables.pair_stretch[p->material[i] * e->scene->materials + p->material[j]];
+            const real limit = e->tables.pair_stretch[p->material[i] * e->scene->materials + p->material[j]] *
+                               bond_strength(p, i, j);
             past += it.bond.w != 0 && j > i && bond_elastic_of(b, p, &it.bond, i) > limit;
         }
     return past;

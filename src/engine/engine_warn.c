@@ -79,11 +79,11 @@ static void warn_of_materials(const struct scene *s, const struct material_table
 {
     for (int m = 0; m < s->materials; m++) {
         const struct material *a = &s->material[m];
-        if (isfinite(tables->elastic[m].trigger) && tables->elastic[m].trigger > a->young * a->critical_stretch)
+        if (isfinite(tables->elastic[m].trigger) && tables->elastic[m].trigger_mean > a->young * a->critical_stretch)
             warnings_add(to,
                          "material %s converts at %.4g Pa, above E s_c = %.4g Pa: material points may pass the "
                          "strain at which bonds break",
-                         a->name, tables->elastic[m].trigger, a->young * a->critical_stretch);
+                         a->name, tables->elastic[m].trigger_mean, a->young * a->critical_stretch);
     }
 }
 

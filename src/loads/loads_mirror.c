@@ -56,6 +56,7 @@ static void mirror_make(struct loads *l, int which, struct particles *p, real re
         for (int d = 0; d < p->dim; d++) p->X[d][g] = d == b->axis ? stepped(l, d, 2 * b->at) - p->X[d][i] : p->X[d][i];
         p->volume0[g] = p->volume0[i], p->volume[g] = p->volume[i], p->mass[g] = p->mass[i];
         p->material[g] = p->material[i], p->body[g] = p->body[i], p->id[g] = p->id[i];
+        if (p->strength) p->strength[g] = p->strength[i];
     }
 }
 

@@ -150,6 +150,11 @@ static void copy_kind(const struct frame_source *s, int64_t first, int64_t end, 
     memcpy((uint8_t *)rows + first, s->p->kind + first, (size_t)(end - first));
 }
 
+static void copy_strength(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+{
+    for (int64_t i = first; i < end; i++) ((float *)rows)[i] = (float)s->p->strength[i];
+}
+
 static void copy_push(const struct frame_source *s, int64_t first, int64_t end, void *rows)
 {
     copy_vectors(rows, first, end, s->extra.push, NULL, s->p->dim);
@@ -199,6 +204,7 @@ const struct frame_field frame_fields[FRAME_FIELDS] = {
     {POINT_DATA "density", "kg/m^3", HDF_F32, 1, NULL, copy_density},
     {POINT_DATA "plastic_work", "J/m^3", HDF_F32, 1, NULL, copy_plastic_work},
     {POINT_DATA "level", "", HDF_U8, 1, NULL, copy_level},
+    {POINT_DATA "strength", "", HDF_F32, 1, NULL, copy_strength},
     {"/Cleave/reference", "m", HDF_F64, 0, fill_reference, NULL},
 };
 
@@ -210,6 +216,7 @@ static bool field_exists(const struct frame_field *field, const struct frame_sou
     const int64_t k = field - frame_fields;
     if (k >= FIELD_ON_DEMAND && k <= FIELD_ON_DEMAND_LAST) return s->extra.asked >> (k - 1) & 1;
     if (field->copy == copy_plastic_strain) return s->p->plastic_strain != NULL;
+    if (field->copy == copy_strength) return s->p->strength != NULL;
     if (field->copy == copy_push) return s->extra.push != NULL;
     if (field->copy == copy_fragment) return s->extra.fragment != NULL;
     if (field->copy == copy_spacing) return s->extra.spacing > 0;

@@ -20,7 +20,7 @@ struct frame_field {
     void (*copy)(const struct frame_source *s, int64_t first, int64_t end, void *rows);
 };
 
-enum { FIELD_POINTS, FRAME_FIELDS = 23 };    /* place of the positions in the table; its length */
+enum { FIELD_POINTS, FRAME_FIELDS = 24 };    /* place of the positions in the table; its length */
 extern const struct frame_field frame_fields[FRAME_FIELDS];
 
 /* Bits of the fields that there are: plastic strain where a material yields, the force of contact where there is

@@ -474,6 +474,7 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     real spacing = spacing_of(d);
     for (int k = 0; k < s->initials; k++) TRY(check_initial(s, &s->initial[k]));
     take_draft(p, d, optional);
+    fill_strength(p, s);
     take_skipped(p, d);
     TRY(check_values(p, d, spacing));
     TRY(fill_check_lists(p, s));

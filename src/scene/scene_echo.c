@@ -187,6 +187,16 @@ static void begin_item(struct writer *w)
     w->dash = true;
 }
 
+/* A mapping below an item of a list. */
+static void write_part(struct writer *w, const char *key, const char *group, const void *base)
+{
+    begin(w, key);
+    fputc('\n', w->out);
+    w->indent += 2;
+    write_group(w, group, base);
+    w->indent -= 2;
+}
+
 /* Writes `material` for a single material, else the list `materials`. */
 static void write_materials(struct writer *w)
 {
@@ -199,6 +209,7 @@ static void write_materials(struct writer *w)
         begin_item(w);
         if (one) w->indent = 2, w->dash = false;
         write_group(w, "material", &m);
+        if (m.scatter.given) write_part(w, "scatter", "material.scatter", &m.scatter);
     }
 }
 
@@ -270,16 +281,6 @@ static void write_cracks(struct writer *w)
         if (c->width > 0) fprintf(w->out, ", width: %.17g", c->width);
         fputs("}\n", w->out);
     }
-}
-
-/* A mapping below an item of a list. */
-static void write_part(struct writer *w, const char *key, const char *group, const void *base)
-{
-    begin(w, key);
-    fputc('\n', w->out);
-    w->indent += 2;
-    write_group(w, group, base);
-    w->indent -= 2;
 }
 
 static void write_growths(struct writer *w)

@@ -69,6 +69,26 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
     return sqrt(m->energy_release_rate / family_separation(&f, &modulus, !s->bulk));
 }
 
+/* REFUSED where nothing can scatter, and without the number that the distribution is told by. */
+static status read_scatter(struct reader *r, const struct node *n, struct material *m)
+{
+    struct strength_scatter *s = &m->scatter;
+    if (!n) return OK;
+    s->modulus = s->variation = NAN;
+    TRY(read_group(r, n, n, "material.scatter", s));
+    s->given = true;
+    const char *const own[] = {[SCATTER_WEIBULL] = "modulus", [SCATTER_LOGNORMAL] = "variation"};
+    const struct node *other = node_find(n, own[!s->form]);
+    if (!node_find(n, own[s->form])) return fault_missing(r, n, key_find("material.scatter", own[s->form]));
+    if (other) return fault(r, other, "of the other distribution; %s is expected", own[s->form]);
+    if (!isfinite(m->critical_stretch) && isnan(m->energy_release_rate))
+        return fault(r, n, "its bonds never break; energy_release_rate, critical_stretch or toughness is expected");
+    if (material_yields(m) && r->scene->method == METHOD_ADAPTIVE)
+        return fault(r, n, "where it yields, stress does not say how far a bond is from its limit; method: pd is "
+                     "expected, or no yield_stress");
+    return OK;
+}
+
 /* Reads one material with defaults by space, and derives its wave speeds and critical stretch. */
 static status scene_parts_read_material(struct reader *r, const struct node *n, struct material *m)
 {
@@ -81,6 +101,7 @@ static status scene_parts_read_material(struct reader *r, const struct node *n, 
     TRY(check_poisson(r, n, m));
     TRY(read_strength(r, n, m));
     TRY(read_hardening(r, n, m));
+    TRY(read_scatter(r, node_find(n, "scatter"), m));
     if (s->model != MODEL_BOND && material_yields(m))
         return fault(r, node_find(n, "yield_stress"),
                      "state-based models do not yield in this version; model bond, or no "

@@ -1,0 +1,91 @@
+/* A random field of strength as a function of the place. */
+#include "data/scatter.h"
+
+#include <math.h>
+
+/* Wichura 1988, algorithm AS 241 (PPND7): seven digits. */
+real normal_quantile(real u)
+{
+    const real q = u - 0.5;
+    if (fabs(q) <= 0.425) {
+        const real r = 0.180625 - q * q;
+        return q * (((59.109374720 * r + 159.29113202) * r + 50.434271938) * r + 3.3871327179) /
+               (((67.187563600 * r + 78.757757664) * r + 17.895169469) * r + 1);
+    }
+    real r = sqrt(-log(q < 0 ? u : 1 - u)), x;
+    if (r <= 5) {
+        r -= 1.6;
+        x = (((0.17023821103 * r + 1.3067284816) * r + 2.7568153900) * r + 1.4234372777) /
+            ((0.12021132975 * r + 0.73700164250) * r + 1);
+    } else {
+        r -= 5;
+        x = (((0.017337203997 * r + 0.42868294337) * r + 3.0812263860) * r + 6.6579051150) /
+            ((0.012258202635 * r + 0.24197894225) * r + 1);
+    }
+    return q < 0 ? -x : x;
+}
+
+/* Splitmix64 (Steele, Lea, Flood 2014): one step of its counter and its finaliser. */
+static uint64_t hashed(uint64_t z, uint64_t with)
+{
+    z += (with + 1) * 0x9E3779B97F4A7C15u;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ z >> 31;
+}
+
+/* A standard normal number of a hash. */
+static real noise_of(uint64_t hash) { return normal_quantile(((real)(hash >> 11) + 0.5) * 0x1p-53); }
+
+enum { NODES = 8 };                      /* along each direction, of a lattice of length/2: what is left out weighs
+                                          * exp(-8) of the largest */
+
+/* Nodes around a coordinate [lengths/2]: the first one, and their weights. */
+static int64_t weights_along(real place, real weight[NODES])
+{
+    const int64_t first = (int64_t)floor(place) - NODES / 2 + 1;
+    for (int k = 0; k < NODES; k++) weight[k] = exp(-0.5 * square(place - (real)(first + k)));
+    return first;
+}
+
+real scatter_gaussian(const struct strength_scatter *s, const real *X, int dim, int64_t id)
+{
+    if (!(s->length > 0)) return noise_of(hashed(hashed(s->seed, 0), (uint64_t)id));
+    real weight[DIM_MAX][NODES] = {{1}, {1}, {1}}, sum = 0, squares = 1;
+    int64_t first[DIM_MAX] = {0};
+    for (int d = 0; d < dim; d++) {
+        real own = 0;
+        first[d] = weights_along(X[d] / (0.5 * s->length), weight[d]);
+        for (int k = 0; k < NODES; k++) own += square(weight[d][k]);
+        squares *= own;
+    }
+    for (int k = 0; k < (dim > 2 ? NODES : 1); k++)
+        for (int j = 0; j < (dim > 1 ? NODES : 1); j++) {
+            const uint64_t row = hashed(hashed(hashed(s->seed, 0), (uint64_t)(first[2] + k)), (uint64_t)(first[1] + j));
+            for (int i = 0; i < NODES; i++)
+                sum += weight[2][k] * weight[1][j] * weight[0][i] * noise_of(hashed(row, (uint64_t)(first[0] + i)));
+        }
+    return sum / sqrt(squares);
+}
+
+/* F^-1(Phi(g)) of Weibull's distribution of mean 1: (-ln(1 - Phi(g)))^(1/m)/Gamma(1 + 1/m). */
+static real weibull_of(real g, real m)
+{
+    const real beyond = g > 0 ? -log(0.5 * erfc(g * M_SQRT1_2)) : -log1p(-0.5 * erfc(-g * M_SQRT1_2));
+    return pow(beyond, 1 / m) / tgamma(1 + 1 / m);
+}
+
+/* The same of the lognormal one. */
+static real lognormal_of(real g, real variation)
+{
+    const real spread2 = log1p(square(variation));
+    return exp(sqrt(spread2) * g - 0.5 * spread2);
+}
+
+real scatter_factor(const struct strength_scatter *s, const real *X, int dim, int64_t id)
+{
+    if (!s->given) return 1;
+    const real g = scatter_gaussian(s, X, dim, id);
+    const real factor = s->form == SCATTER_WEIBULL ? weibull_of(g, s->modulus) : lognormal_of(g, s->variation);
+    return s->of == SCATTER_ENERGY ? sqrt(factor) : factor;
+}

@@ -1,0 +1,13 @@
+/* Strength of particles where it scatters from place to place. */
+#include "scene/fill.h"
+
+void fill_strength(struct particles *p, const struct scene *s)
+{
+    if (!p->strength) return;
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++) {
+        real X[DIM_MAX];
+        particle_place(p, i, X);
+        p->strength[i] = scatter_factor(&s->material[p->material[i]].scatter, X, p->dim, p->id[i]);
+    }
+}

@@ -1,0 +1,146 @@
+/* Scatter of strength: the numbers, the field and what chains of it bear, against closed forms. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "tests/support/near.h"
+#include "data/scatter.h"
+
+static int test_scatter_ascending(const void *a, const void *b)
+{
+    const real x = *(const real *)a, y = *(const real *)b;
+    return (x > y) - (x < y);
+}
+
+static real normal_below(real g) { return 0.5 * erfc(-g * M_SQRT1_2); }
+
+/* Phi of the quantile is the probability again: the seven digits of the formula, times the
+ * size of the number, which reaches 8. */
+static void test_quantiles(void **state)
+{
+    (void)state;
+    for (int e = 1; e <= 15; e++)
+        for (int k = 1; k < 10; k++) {
+            const real u = k * pow(10, -e);
+            assert_close(normal_below(normal_quantile(u)), u, 1e-5);
+            assert_near(normal_quantile(1 - u), -normal_quantile(u), e < 8 ? 1e-5 : 0.2);
+        }
+    assert_exact(normal_quantile(0.5), 0);
+}
+
+/* The largest distance of the distribution of n numbers from F (Kolmogorov): 1.63/sqrt(n) is passed by one sample in
+ * a hundred. */
+static real kolmogorov(real *value, int n, real (*F)(real, real), real parameter)
+{
+    real most = 0;
+    qsort(value, (size_t)n, sizeof *value, test_scatter_ascending);
+    for (int k = 0; k < n; k++) {
+        const real here = F(value[k], parameter);
+        most = real_max(most, real_max(here - (real)k / n, (real)(k + 1) / n - here));
+    }
+    return most;
+}
+
+static real weibull(real W, real m) { return 1 - exp(-pow(W * tgamma(1 + 1 / m), m)); }
+static real lognormal(real W, real variation)
+{
+    const real spread2 = log1p(variation * variation);
+    return normal_below((log(W) + 0.5 * spread2) / sqrt(spread2));
+}
+static real weibull_of_square(real s, real m) { return weibull(s * s, m); }
+
+enum { MANY = 20000 };
+
+/* Places far apart, in every dimension, and particles without a length: as told, in every way of telling. */
+static void test_distributions(void **state)
+{
+    (void)state;
+    real *value = calloc(MANY, sizeof *value);
+    for (int dim = 0; dim <= DIM_MAX; dim++)
+        for (int form = 0; form < 3; form++) {
+            struct strength_scatter s = {.given = true, .modulus = 8, .variation = 0.3, .length = dim > 0 ? 0.01 : 0};
+            s.seed = (uint64_t)(7 + 10 * dim + form);
+            if (form == 1) s.form = SCATTER_LOGNORMAL;
+            if (form == 2) s.of = SCATTER_ENERGY;
+            for (int i = 0; i < MANY; i++) {
+                const real X[DIM_MAX] = {0.0701 * i, 0.0301 * (i % 100), -0.0407 * (i % 77)};
+                value[i] = scatter_factor(&s, X, dim, i);
+            }
+            const real D = form == 0   ? kolmogorov(value, MANY, weibull, 8)
+                           : form == 1 ? kolmogorov(value, MANY, lognormal, 0.3)
+                                       : kolmogorov(value, MANY, weibull_of_square, 8);
+            assert_true(D < 1.63 / sqrt(MANY));
+        }
+    free(value);
+}
+
+/* Mean of g(X) g(X + r) over places and seeds: exp(-(r/length)^2); its deviation is near 1/sqrt(n) of n pairs, four of
+ * which are allowed, and 1e-3 for what the lattice cuts off. */
+static void test_correlation(void **state)
+{
+    (void)state;
+    enum { PAIRS = 10000 };
+    const real distance[] = {0, 0.25, 0.5, 1, 1.5, 3};
+    for (int dim = 1; dim <= DIM_MAX; dim++) {
+        const int pairs = dim < 3 ? PAIRS : PAIRS / 8;
+        for (size_t k = 0; k < COUNT_OF(distance); k++) {
+            real sum = 0;
+            for (int i = 0; i < pairs; i++) {
+                struct strength_scatter s = {.given = true, .length = 0.02, .seed = (uint64_t)i};
+                real X[DIM_MAX] = {0.0013 * i, 0.0007 * i, -0.0003 * i}, Y[DIM_MAX];
+                for (int d = 0; d < DIM_MAX; d++) Y[d] = X[d] + (d < dim ? distance[k] * s.length / sqrt(dim) : 0);
+                sum += scatter_gaussian(&s, X, dim, 0) * scatter_gaussian(&s, Y, dim, 0);
+            }
+            const real exact = exp(-square(distance[k]));
+            assert_near(sum / pairs, exact, 4 * sqrt((1 + exact * exact) / pairs) + 1e-3);
+        }
+    }
+}
+
+/* Of n links the weakest has the mean n^(-1/m) (weakest link, Weibull 1951). Deviation of a mean over chains: the
+ * coefficient of variation, 1.2/m about, over their root; three of it. */
+static void test_weakest_link(void **state)
+{
+    (void)state;
+    enum { CHAINS = 1000 };
+    const real moduli[] = {3, 10, 30};
+    for (size_t k = 0; k < COUNT_OF(moduli); k++)
+        for (int n = 1; n <= 100; n *= 10) {
+            struct strength_scatter s = {.given = true, .modulus = moduli[k]};
+            real sum = 0;
+            for (int chain = 0; chain < CHAINS; chain++) {
+                const real X[DIM_MAX] = {0};
+                real least = INFINITY;
+                s.seed = (uint64_t)chain * 77 + 5;
+                for (int i = 0; i < n; i++) least = real_min(least, scatter_factor(&s, X, 1, i));
+                sum += least;
+            }
+            assert_close(sum / CHAINS, pow(n, -1 / s.modulus), 3 * 1.2 / s.modulus / sqrt(CHAINS));
+        }
+}
+
+/* A field of the place: the neighbours' distance, order and number play no part; it is smooth, and far from the origin
+ * as near. */
+static void test_by_place(void **state)
+{
+    (void)state;
+    const struct strength_scatter s = {.given = true, .modulus = 10, .length = 2e-3, .seed = 3};
+    for (int dim = 1; dim <= DIM_MAX; dim++)
+        for (int i = -20; i < 20; i++) {
+            const real X[DIM_MAX] = {1e-3 * i, 2e-3 * i, 0.1e-3 * i}, Y[DIM_MAX] = {X[0] + 1e-6, X[1], X[2]};
+            const real here = scatter_factor(&s, X, dim, i);
+            assert_exact(here, scatter_factor(&s, X, dim, 1000 - i));
+            assert_near(here, scatter_factor(&s, Y, dim, i), 2e-3);
+            const real away[DIM_MAX] = {1e4 + X[0], -1e4, 1e4};
+            assert_true(scatter_factor(&s, away, dim, 0) > 0 && scatter_factor(&s, away, dim, 0) < 2);
+        }
+    const struct strength_scatter none = {.modulus = 10};
+    assert_exact(scatter_factor(&none, (real[DIM_MAX]){1}, 1, 0), 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_quantiles), cmocka_unit_test(test_distributions),
+                                       cmocka_unit_test(test_correlation), cmocka_unit_test(test_weakest_link),
+                                       cmocka_unit_test(test_by_place)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

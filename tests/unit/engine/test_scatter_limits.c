@@ -1,0 +1,134 @@
+/* Scatter of strength in a run: what is watched for and what breaks is what the field says, bond by bond and point by
+ * point. */
+#include <omp.h>
+#include <string.h>
+
+#include "auto/scene_read.h"
+#include "engine/engine.h"
+#include "tests/support/near.h"
+
+static void make(struct engine *e, struct scene *s, const char *text)
+{
+    omp_set_num_threads(2);
+    if (scene_read_text(s, text, strlen(text), "scatter.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    assert_ok(engine_make(e, s, NULL));
+    e->report.quiet = true;
+    assert_ok(engine_report_start(e));
+}
+
+static void drop(struct engine *e, struct scene *s)
+{
+    engine_free(e);
+    scene_free(s);
+}
+
+#define PLATE(method)                                                                                                  \
+    "space: plane stress\nthickness: 1e-3\nduration: 5e-6\nmethod: " method "\n"                                       \
+    "material: {young: 70e9, density: 2700, critical_stretch: 1e-3, scatter: {modulus: 6, length: 2e-3, seed: 4}}\n"   \
+    "body: {box: {from: [0, 0], to: [20e-3, 20e-3]}}\nparticles: {spacing: 1e-3}\n"                                    \
+    "boundary: [{mirror: {axis: x, at: 0}}]\ninitial: [{velocity_gradient: [400, 0, 0, 400]}]\n"                       \
+    "contact: {between: none}\ntime: {step: 2e-8}\noutput: {frames: 0, samples: 1}\n"
+
+/* The least limit of a row's intact bonds; INFINITY without one. */
+static real least_of(const struct engine *e, int64_t row)
+{
+    const struct particles *p = &e->part;
+    const int32_t i = e->bonds.particle[row];
+    real least = INFINITY;
+    for (struct bond_iterator it = bonds_of_row(&e->bonds, row); bond_next(&it);)
+        if (it.bond.w != 0)
+            least = real_min(least, 1e-3 * real_min(p->strength[i], p->strength[it.bond.nbr]));
+    return least;
+}
+
+/* Rows of a lattice share what they store, but not when they are looked at: just below their least limit. */
+static void test_rows_are_watched(void **state)
+{
+    (void)state;
+    struct engine e = {0};
+    struct scene s;
+    make(&e, &s, PLATE("pd"));
+    assert_true(e.bonds.rows == e.part.n && e.loads.images > 0);
+    for (int64_t row = 0; row < e.bonds.rows; row++) assert_close(e.bonds.trigger[row], least_of(&e, row), 1e-8);
+    for (int64_t k = 0; k < e.loads.images; k++)
+        assert_exact(e.part.strength[e.part.n + k], e.part.strength[e.loads.image[k].source]);
+    drop(&e, &s);
+}
+
+static int64_t broken_in(const struct engine *e)
+{
+    int64_t broken = 0;
+    for (int64_t row = 0; row < e->bonds.rows; row++) broken += e->bonds.broken[row];
+    return broken;
+}
+
+/* Stretch of the shortest bond to break, and whether all others are below their limits, after every step. */
+static void check_breaks(const char *text)
+{
+    struct engine e = {0};
+    struct scene s;
+    make(&e, &s, text);
+    const struct particles *p = &e.part;
+    real weakest = INFINITY, first = NAN;
+    for (int64_t i = 0; i < p->n; i++) weakest = real_min(weakest, p->strength[i]);
+    while (e.clock.step + 1 < e.clock.steps && broken_in(&e) < 200) {
+        assert_ok(engine_step(&e));
+        if (isnan(first) && broken_in(&e) > 0) first = e.clock.t * 400 / (1e-3 * weakest);
+        for (int64_t row = 0; row < e.bonds.rows && e.clock.step % 10 == 0; row++)
+            for (struct bond_iterator it = bonds_of_row(&e.bonds, row); bond_next(&it);) {
+                const int32_t i = e.bonds.particle[row], j = it.bond.nbr;
+                real y2 = 0;
+                for (int d = 0; d < 2; d++) y2 += square(p->x[d][j] - p->x[d][i]);
+                const real stretch = sqrt(y2) * fabs(it.bond.inverse_length) - 1;
+                if (it.bond.w == 0 || e.bonds.row_of[i] < 0) continue;
+                assert_true(stretch <= 1e-3 * real_min(p->strength[i], p->strength[j]) * 1.2);
+            }
+    }
+    assert_true(broken_in(&e) > 0);
+    assert_near(first, 1, 0.1);              /* the plate grows evenly until waves come from its edges; steps are 2 % */
+    drop(&e, &s);
+}
+
+static void test_weakest_breaks_first(void **state)
+{
+    (void)state;
+    check_breaks(PLATE("pd"));
+    check_breaks(PLATE("pd") "model: ospd\n");
+}
+
+/* Material points convert by their own strength, in both frames: those whose stress is beyond their share of E s_c are
+ * marked, and no others. */
+static void check_points(const char *frame)
+{
+    struct engine e = {0};
+    struct scene s;
+    char text[1024];
+    snprintf(text, sizeof text, PLATE("adaptive") "conversion: {block: false}\nmpm: {frame: %s}\n", frame);
+    make(&e, &s, text);
+    const struct particles *p = &e.part;
+    real weakest = INFINITY;
+    int64_t weak = 0;
+    for (int64_t i = 0; i < p->n; i++)
+        if (p->strength[i] < weakest) weakest = p->strength[weak = i];
+    while (e.clock.step + 1 < e.clock.steps && p->n_of[KIND_PD] == 0) assert_ok(engine_step(&e));
+    assert_true(p->n_of[KIND_PD] > 0 && p->n_of[KIND_PD] < p->n / 10);
+    assert_int_equal(p->kind[weak], KIND_PD);
+    /* uniform biaxial strain: sigma = E/(1 - nu) strain, nu = 1/3 */
+    assert_near(e.clock.t * 400 * 1.5 / (0.95e-3 * weakest), 1, 0.1);
+    drop(&e, &s);
+}
+
+static void test_points_convert_by_their_own(void **state)
+{
+    (void)state;
+    check_points("current");
+    check_points("reference");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows_are_watched),
+                                       cmocka_unit_test(test_weakest_breaks_first),
+                                       cmocka_unit_test(test_points_convert_by_their_own)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
