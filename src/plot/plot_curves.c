@@ -99,7 +99,10 @@ struct energies {
     struct unit joule;
 };
 
-/* Chooses the columns of energies that exist and are not always zero. */
+/* Least part of the largest energy whose curve can be told from the axis. */
+#define ENERGY_SHOWN 5e-4
+
+/* Chooses the columns of energies that exist and can be seen. */
 static void choose_energies(struct energies *e, const struct history *h)
 {
     static const struct { const char *name, *label; } known[] = {
@@ -108,14 +111,14 @@ static void choose_energies(struct energies *e, const struct history *h)
         {"absorbed", "absorbed"}, {"external_work", "external work"}};
     double largest = 0;
     *e = (struct energies){0};
+    for (int k = 0; k < (int)COUNT_OF(known); k++)
+        largest = fmax(largest, curves_largest(h, history_column(h, known[k].name)));
     for (int k = 0; k < (int)COUNT_OF(known); k++) {
-        int column = history_column(h, known[k].name);
-        double top = curves_largest(h, column);
-        if (column < 0 || top == 0) continue;
+        const int column = history_column(h, known[k].name);
+        if (column < 0 || !(curves_largest(h, column) > ENERGY_SHOWN * largest)) continue;
         e->column[e->n] = column;
         e->name[e->n] = known[k].name;
         e->label[e->n++] = known[k].label;
-        largest = fmax(largest, top);
     }
     e->joule = unit_for(largest, "J");
     for (int k = 0; k < e->n; k++) e->factor[k] = e->joule.factor;
