@@ -88,6 +88,14 @@ $(BUILD)/parts.h: always
 	@printf '#define %s\n' $(PARTS) > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 $(foreach path,$(BUILD) $(BUILD)/fuzz,$(path)/src/simd/simd.o $(path)/src/app/commands.o): $(BUILD)/parts.h
 
+# Scenes that `cleave new` writes: rows of a table of C, each a kind, what it is (its second line) and its text.
+$(BUILD)/new_scenes.h: $(wildcard inputs/new/*.yaml) Makefile
+	@mkdir -p $(@D)
+	@awk 'FNR == 1 { kind = FILENAME; sub(/.*\//, "", kind); sub(/\.yaml/, "", kind); if (NR > 1) print "},"; next } \
+	     { gsub(/\\/, "\\\\"); gsub(/"/, "\\\"") } FNR == 2 { printf "{\"%s\", \"%s\",\n", kind, substr($$0, 3); next } \
+	     { printf "\"%s\\n\"\n", $$0 } END { print "}," }' $(sort $(filter %.yaml,$^)) > $@
+$(BUILD)/src/app/new.o $(BUILD)/fuzz/src/app/new.o: $(BUILD)/new_scenes.h
+
 # One rule a set: build/kernels/pd/bond_force.avx2.o from kernels/pd/bond_force.c.
 define SET
 $(BUILD)/%.$(1).o: %.c Makefile

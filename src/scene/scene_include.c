@@ -23,8 +23,8 @@ bool group_is_merged(const char *path)
 {
     if (*path == '\0') return true;
     const struct key *k = key_find("", path);
-    const bool top = k && (k->type == KEY_MAP || k->type == KEY_PART || strcmp(path, "variables") == 0);
-    if (top) return true;
+    if (k && k->words && strncmp(k->words, "mapping of names", 16) == 0) return true;
+    if (k && (k->type == KEY_MAP || k->type == KEY_PART)) return true;
     for (int i = 0; i < keys_count && strchr(path, '.'); i++)
         if (strcmp(keys[i].path, path) == 0) return keys[i].type == KEY_MAP;
     return false;

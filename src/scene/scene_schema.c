@@ -92,6 +92,9 @@ static void write_by_hand(FILE *out, const struct key *k)
         fputs(", {\"$ref\": \"#/definitions/number\"}", out);
     } else if (strcmp(form, "mapping of names") == 0)
         fputs("{\"type\": \"object\", \"additionalProperties\": {\"$ref\": \"#/definitions/number\"}}", out);
+    else if (strcmp(form, "mapping of names to solids") == 0)
+        fputs("{\"type\": \"object\", \"additionalProperties\": {\"$ref\": \"#/definitions/region\"}}", out);
+    else if (strcmp(form, "list of points") == 0) write_list_of(out, "point");
     else if (strstr(form, " or mapping") && has_children(k->path)) {
         fprintf(out, "{\"enum\": [\"%.*s\"]}, ", (int)strcspn(form, " "), form);
         write_object(out, k->path);

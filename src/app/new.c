@@ -1,0 +1,85 @@
+/* `cleave new`: a commented scene to begin with, of one of the kinds in inputs/new/. */
+#include <ctype.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/edit_distance.h"
+#include "commands.h"
+
+/* Kind, what it is, and the scene behind these two lines. */
+static const struct kind { const char *name, *meaning, *text; } kinds[] = {
+#include "new_scenes.h"
+};
+
+enum { PATH_LONGEST = 1000 };
+
+static status kinds_print(void)
+{
+    printf("cleave new NAME [KIND] writes NAME.yaml, a scene of one of these kinds:\n");
+    for (const struct kind *k = kinds; k < kinds + COUNT_OF(kinds); k++) printf("  %-10s %s\n", k->name, k->meaning);
+    return OK;
+}
+
+/* The kind of this name. REFUSED with the nearest. */
+static status kind_find(const char *name, const struct kind **found)
+{
+    const struct kind *nearest = kinds;
+    for (*found = kinds; *found < kinds + COUNT_OF(kinds); ++*found) {
+        if (!strcmp((*found)->name, name)) return OK;
+        if (edit_distance((*found)->name, name) < edit_distance(nearest->name, name)) nearest = *found;
+    }
+    return status_set(REFUSED, "there is no kind %.40s; the nearest is %s, and cleave new lists all", name,
+                      nearest->name);
+}
+
+/* REFUSED unless the last part of the path without .yaml is a name that a run may have. */
+static status check_path(const char *path, int *length, const char **name)
+{
+    const char *slash = strrchr(path, '/');
+    *name = slash ? slash + 1 : path;
+    *length = (int)strlen(path);
+    if (*length > 5 && !strcmp(path + *length - 5, ".yaml")) *length -= 5;
+    const int letters = *length - (int)(*name - path);
+    bool fine = letters > 0 && letters < NAME_MAX_LENGTH && **name != '-' && *length < PATH_LONGEST;
+    for (int k = 0; k < letters; k++) fine &= isalnum((unsigned char)(*name)[k]) || strchr("_-", (*name)[k]);
+    if (fine) return OK;
+    return status_set(REFUSED, "%s: no name of a scene; letters, digits, _ and - are expected", shown_name(path).text);
+}
+
+static void scene_write(FILE *out, const struct kind *k, const char *path, const char *name)
+{
+    char schema[4096];
+    if (schema_path(schema, sizeof schema)) fprintf(out, "# yaml-language-server: $schema=%s\n", schema);
+    fprintf(out, "# %s\n#\n"
+                 "# cleave check %s    says what it costs, and whether it is sound\n"
+                 "# cleave run %s      runs it\n"
+                 "# cleave plot results/%.*s    draws it\n"
+                 "# cleave help KEY    says what a key is for; cleave help lists all\n%s",
+            k->meaning, path, path, (int)strcspn(name, "."), name, k->text);
+}
+
+status command_new(int argc, char **argv)
+{
+    char path[PATH_LONGEST + 8];
+    const struct kind *kind;
+    const char *name;
+    int length;
+    if (argc > 3) return status_set(REFUSED, "usage: cleave new NAME [KIND]");
+    if (argc == 1) return kinds_print();
+    TRY(check_path(argv[1], &length, &name));
+    snprintf(path, sizeof path, "%.*s", length, argv[1]);
+    name = path + (name - argv[1]);
+    const bool named = argc == 2 && kind_find(name, &kind) == OK;        /* cleave new bar */
+    if (!named) TRY(kind_find(argc == 3 ? argv[2] : "crack", &kind));
+    strcat(path, ".yaml");
+    FILE *out = fopen(path, "wx");
+    if (!out && errno == EEXIST)
+        return status_set(REFUSED, "%s: is there already and stays as it is; another name is expected", path);
+    if (!out) return status_set(REFUSED, "%s: %s; a folder that can be written is expected", path, strerror(errno));
+    scene_write(out, kind, path, name);
+    const bool whole = !ferror(out);
+    if (fclose(out) != 0 || !whole) return remove(path), status_set(FAILED, "%s: cannot be written", path);
+    printf("%s: %s\ncleave run %s runs it\n", path, kind->meaning, path);
+    return OK;
+}

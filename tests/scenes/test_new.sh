@@ -1,0 +1,38 @@
+#!/bin/sh
+# Scenes of `cleave new`: each kind is sound, has no advice to follow, and runs; nothing is overwritten.
+test_name=new
+. tests/support/summary.sh
+
+"$cleave" new >"$work/kinds" || fail "cleave new lists no kinds"
+kinds=$(sed -n 's/^  \([a-z]*\) .*/\1/p' "$work/kinds")
+is "kinds are the files of inputs/new" "$(echo "$kinds" | sort | tr '\n' ' ')" "$(ls inputs/new/*.yaml | sed 's|.*/||; s/.yaml//' | sort | tr '\n' ' ')"
+
+cp inputs/new/*.stl inputs/new/*.png "$work" 2>/dev/null
+cd "$work" || exit 1
+for kind in $kinds; do
+    holds "$kind: written" "$cleave" new "a_$kind.yaml" "$kind" >/dev/null
+    holds "$kind: sound" "$cleave" check "a_$kind.yaml" >"$work/check"
+    is "$kind: advice" "$(grep -E '^(unneeded|unresolved):' "$work/check")" ""
+    holds "$kind: runs" "$cleave" run "a_$kind.yaml" -q -s duration=1us -o "$work/results_$kind" 2>/dev/null
+done
+
+holds "a kind is a name, too" "$cleave" new bar >/dev/null
+is "of a scene of that kind" "$(grep -c '^space: line' bar.yaml)" 1
+
+# refused WHAT MESSAGE WORDS...: status 2, one line, no file more
+refused()
+{
+    what=$1 message=$2; shift 2
+    files=$(ls | wc -l)
+    "$cleave" new "$@" 2>"$work/.message"
+    is "$what: status" $? 2
+    is "$what" "$(cat "$work/.message")" "$message"
+    is "$what: files" "$(ls | wc -l)" "$files"
+}
+refused "a scene that is there" "bar.yaml: is there already and stays as it is; another name is expected" bar
+refused "an unknown kind" "there is no kind impct; the nearest is impact, and cleave new lists all" b impct
+refused "a name with a blank" "b c: no name of a scene; letters, digits, _ and - are expected" "b c"
+refused "a name that is none" ".yaml: no name of a scene; letters, digits, _ and - are expected" .yaml
+refused "a folder that is not there" "no/b.yaml: No such file or directory; a folder that can be written is expected" no/b
+refused "three words" "usage: cleave new NAME [KIND]" a bar b
+finish
