@@ -13,17 +13,33 @@
 #include "base/archive.h"
 #include "output_lock.h"
 #include "data/particles.h"
+#include "data/region.h"
 #include "probes/probes.h"
 
 enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE };    /* what to do with an older run */
 
-struct output {
-    struct folder_lock lock;             /* against a second run in the folder; held while `folder` is set */
-    char *folder;                        /* DIR */
+enum { SERIES_MOST = 16 };               /* of frames, besides those of the whole body */
+
+/* Frames of the whole body, or of a region: in folders and with indices of their own. */
+struct frame_series {
+    char name[NAME_MAX_LENGTH];          /* "": of the body */
+    const struct region *region;         /* borrowed; NULL: everywhere */
     int frames, frames_room;             /* frames written */
     real *frame_time;                    /* [s] */
     int64_t *frame_rows;                 /* of each frame: particles, and points of coarse cells */
     unsigned frame_fields;               /* bits of the fields that frames have (output_fields.c) */
+    struct {                             /* while the particles are the same */
+        int32_t *order;                  /* [n] those shown, by id, then points of coarse cells, numbered behind them */
+        char *room;                      /* of a field: the writer's */
+        int64_t n, of;                   /* rows; of so many particles and points */
+    } kept;
+};
+
+struct output {
+    struct folder_lock lock;             /* against a second run in the folder; held while `folder` is set */
+    char *folder;                        /* DIR */
+    int n_series;                        /* behind that of the body */
+    struct frame_series series[1 + SERIES_MOST];
     bool compress;
     FILE *history;
     int64_t history_bytes;               /* length at the last sample */
@@ -33,7 +49,6 @@ struct output {
     struct frame_job *writing;           /* a frame on its way to the disk; NULL: none */
     char *frame_copy;                    /* what it copies; kept for the next one, whose pages are then there */
     int64_t frame_copy_bytes;
-    struct { int32_t *order; char *room; int64_t n; } frame_kept; /* by id; of a field: the writer's, kept likewise */
 };
 
 /* Once per process, before any other HDF5 call: no exit handler, no error stack on the terminal; SIGXFSZ and
@@ -48,6 +63,8 @@ void output_start(void);
  * is left to close. */
 status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress);
 void output_close(struct output *o);
+/* Adds a series of frames of a region (borrowed), after output_open: frames_NAME/, NAME.hdf.series and the rest. */
+status output_add_series(struct output *o, const char *name, const struct region *region);
 /* Do two texts of scenes say the same, wherever their particle lists lie? */
 bool scene_text_same(const char *a, const char *b);
 /* Does the file hold a scene that says the same? False where it cannot be read. */
@@ -87,16 +104,17 @@ struct frame_extra {
     struct frame_state state, more_state;
 };
 
-/* Frame number o->frames at time t [s]: frames/NNNNNN.hdf, then frames.hdf.series and frames.xdmf. Particles are
+/* The next frame of the body at time t [s]: frames/NNNNNN.hdf, then frames.hdf.series and frames.xdmf. Particles are
  * written in the order of their id. Single precision but for the reference positions. */
 status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
-/* The same, written by a thread of its own while the particles go on: what changes of them is copied before it
- * returns; they and `scene_text` must stay until output_wait. One frame at a time: the next frame, checkpoints and
- * output_close wait for it. A fault is returned by the call that waits. extra: NULL, nothing; copied likewise. */
-status output_frame_begin(struct output *o, const struct particles *p, const struct frame_extra *extra, real t,
+/* The same, of series k (0: of the body), written by a thread of its own while the particles go on: what changes of
+ * them is copied before it returns; they and `scene_text` must stay until output_wait. One frame at a time: the next
+ * frame, checkpoints and output_close wait for it. A fault is returned by the call that waits. extra: NULL, nothing;
+ * copied likewise. */
+status output_frame_begin(struct output *o, int k, const struct particles *p, const struct frame_extra *extra, real t,
                           int64_t step, const char *scene_text);
-/* All frames so far as one file for later versions of ParaView, frames.vtkhdf (output_temporal.c): at the end of a run.
- * Nothing where there is no frame, or more than such a file is good for. */
+/* All frames of each series so far as one file for later versions of ParaView, frames.vtkhdf (output_temporal.c): at
+ * the end of a run. Nothing where there is no frame, or more than such a file is good for. */
 status output_temporal(struct output *o, const char *scene_text);
 /* The next frame has other particles than the last one, which must be written. */
 void output_particles_changed(struct output *o);

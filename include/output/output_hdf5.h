@@ -37,7 +37,8 @@ void hdf_text(struct hdf *f, const char *name, const char *text);
 /* A list of one string of variable length, which VTK shows among the data of a field; bytes that are not ASCII become
  * question marks. */
 void hdf_text_list(struct hdf *f, const char *name, const char *text);
-/* Attributes of a group or a dataset: `count` numbers (a list even if one), one number, one fixed-length ASCII string. */
+/* Attributes of a group or a dataset: `count` numbers (a list even if one), one number, one fixed-length ASCII
+ * string. */
 void hdf_mark(struct hdf *f, const char *group, const char *name, enum hdf_type type, int count, const void *values);
 void hdf_mark_one(struct hdf *f, const char *group, const char *name, enum hdf_type type, const void *value);
 void hdf_mark_text(struct hdf *f, const char *group, const char *name, const char *text);

@@ -93,6 +93,14 @@ struct scene_choice {
     real second_error, second_share;     /* [1], its time over that of the choice */
 };
 
+/* Frames of a region at a rate of their own. */
+struct scene_series {
+    char name[NAME_MAX_LENGTH];
+    struct region region;
+    real every;                          /* time from frame to frame [s] */
+    unsigned fields;                     /* bits of FRAME_FIELD_WORDS; 0: those of the scene */
+};
+
 struct scene {
     char *path;                          /* file it came from, as given on the command line */
     char name[NAME_MAX_LENGTH];          /* default: the file's name without folder and ending */
@@ -168,6 +176,7 @@ struct scene {
     struct number_list times;            /* of these frames, ascending [s]; none: evenly spread */
     real every;                          /* time from frame to frame [s]; 0: not given */
     unsigned fields;                     /* that they are asked for: bits of FRAME_FIELD_WORDS */
+    int n_series;   struct scene_series *series;
     int samples;                         /* samples of history.csv after the one at t = 0 */
     real wall;                           /* wall clock after which a process ends with a checkpoint; INFINITY [s] */
     real checkpoint_interval;            /* wall clock between checkpoints [s] */

@@ -14,7 +14,8 @@ status engine_profiles_write(struct engine *e)
 {
     const struct observed o = engine_observed(e);
     if (probes_profiled(&e->probing.probes) == 0) return OK;
-    TRY(probes_profiles(&e->probing.probes, &o, engine_profiles_put, e->report.out->folder, e->report.out->frames - 1));
+    TRY(probes_profiles(&e->probing.probes, &o, engine_profiles_put, e->report.out->folder,
+                       e->report.out->series[0].frames - 1));
     return file_settle(path_join(e->report.out->folder, "history.csv").text);
 }
 
@@ -22,7 +23,7 @@ void engine_profiles_check(struct engine *e)
 {
     char text[PATH_NAME_ROOM + 120], name[PROFILE_NAME], first[PROFILE_NAME] = "";
     int64_t lost = 0;
-    for (int frame = 0; frame < e->report.out->frames; frame++)
+    for (int frame = 0; frame < e->report.out->series[0].frames; frame++)
         for (int k = 0; probes_profile_name(&e->probing.probes, k, frame, name); k++) {
             if (path_is_file(path_join(e->report.out->folder, name).text)) continue;
             if (lost++ == 0) snprintf(first, sizeof first, "%s", name);

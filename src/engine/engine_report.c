@@ -68,36 +68,71 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
         (long long)clock->step, clock->t, (int)p->id[first]);
 }
 
-/* Is frame number `frames` due once so many steps are done? Those of solvers that are not explicit: at the end. */
-static bool frame_due(const struct engine *e, int64_t step)
+/* Is the next frame of the body due once so many steps are done? */
+static bool body_frame_due(const struct engine *e, int64_t step)
 {
     const struct scene *s = e->scene;
     const int64_t most = e->clock.steps / e->clock.stride, n = s->frames < most ? s->frames : most;
-    if (!e->report.out || (s->solver != SOLVER_EXPLICIT && step < e->clock.steps)) return false;
-    return e->report.out->frames <= n && step >= frame_step(s, &e->clock, e->report.out->frames, n);
+    const int frames = e->report.out->series[0].frames;
+    return frames <= n && step >= frame_step(s, &e->clock, frames, n);
 }
 
-bool engine_frame_follows(const struct engine *e) { return frame_due(e, e->clock.step + 1); }
+/* Is the next frame of a region due? Where its time passes more than once in a step, a step writes one. */
+static bool region_frame_due(const struct engine *e, int k, int64_t step)
+{
+    const real time = (real)e->report.out->series[k].frames * e->scene->series[k - 1].every;
+    if (time > e->scene->duration * (1 + 1e-12)) return false;
+    return step >= common_step(&e->clock, (int64_t)floor(time / e->clock.dt + 0.5));
+}
 
-/* Before the first step nothing has been pushed. */
-static status write_frame(struct engine *e)
+/* Bits of the series, 0 the body's, of which a frame is due once so many steps are done. Those of solvers that are not
+ * explicit: at the start and at the end. */
+static unsigned frames_due(const struct engine *e, int64_t step)
+{
+    const bool at_rest = e->scene->solver != SOLVER_EXPLICIT, last = step == e->clock.steps;
+    unsigned due = 0;
+    if (!e->report.out || (at_rest && step > 0 && !last)) return 0;
+    for (int k = 0; k <= e->report.out->n_series; k++)
+        if (k == 0 ? body_frame_due(e, step) : at_rest || region_frame_due(e, k, step)) due |= 1u << k;
+    return due;
+}
+
+bool engine_frame_follows(const struct engine *e) { return frames_due(e, e->clock.step + 1) != 0; }
+
+/* Fields that the frames of series k are asked for. */
+static unsigned asked_of(const struct engine *e, int k)
+{
+    return k > 0 && e->scene->series[k - 1].fields ? e->scene->series[k - 1].fields : e->scene->fields;
+}
+
+/* A frame of each series that is due. Before the first step nothing has been pushed. */
+static status write_frames(struct engine *e, unsigned due)
 {
     const bool parts = e->scene->method == METHOD_PD && scene_cracks(e->scene);
+    struct output *out = e->report.out;
     struct fragments fragments = {0};
-    if (e->report.more.n > 0) TRY(output_wait(e->report.out));     /* which still reads them */
+    unsigned asked = 0;
+    status s = OK;
+    if (e->report.more.n > 0) TRY(output_wait(out));     /* which still reads them */
     engine_sync(e);
     TRY(frame_sound(&e->clock, &e->part));
     if (parts) fragments_find(&fragments, &e->bonds, &e->part);
+    for (int k = 0; k <= out->n_series; k++)
+        if (due >> k & 1) asked |= asked_of(e, k);
     struct frame_extra extra = {.push = e->contact.push[0] ? e->contact.push : NULL, .fragment = fragments.of};
-    if (engine_hollow_points(e, e->scene->fields & (ASK_STRAIN | ASK_DENSITY))) {
+    if (engine_hollow_points(e, asked & (ASK_STRAIN | ASK_DENSITY))) {
         extra.more = &e->report.more, extra.more_spacing = e->report.more_spacing;
         extra.spacing = e->scene->spacing;
     }
-    engine_fields_make(e, e->scene->fields, &extra);
-    const status s = output_frame_begin(e->report.out, &e->part, &extra, e->clock.t, e->clock.step, e->scene->text);
+    engine_fields_make(e, asked, &extra);
+    for (int k = 0; k <= out->n_series && s == OK; k++) {
+        if (!(due >> k & 1)) continue;
+        extra.asked = asked_of(e, k);
+        s = output_frame_begin(out, k, &e->part, &extra, e->clock.t, e->clock.step, e->scene->text);
+    }
     engine_fields_free(&extra);
     fragments_free(&fragments);
-    return s == OK ? engine_profiles_write(e) : s;
+    return s == OK && due & 1 ? engine_profiles_write(e) : s;
 }
 
 static status write_checkpoint(struct engine *e)
@@ -133,13 +168,13 @@ status engine_report_start(struct engine *e)
     r->step_started = e->clock.step;
     r->loop_before = r->loop_seconds;
     /* the first checkpoint, of step 0, already counts the first frame */
-    const bool resumed = r->out && r->out->frames > 0;
+    const bool resumed = r->out && r->out->series[0].frames > 0;
     TRY(engine_history_start(e, resumed));
     if (!r->out) return OK;
     contact_record(&e->contact, &e->part);
     if (resumed) return say_lost(e);
     engine_profiles_remove(e);
-    TRY(write_frame(e));
+    TRY(write_frames(e, frames_due(e, 0)));
     return write_checkpoint(e);
 }
 
@@ -196,7 +231,8 @@ status engine_report(struct engine *e)
     TRY(engine_energy_check(e));
     if (e->clock.step == e->clock.steps) engine_say_balance(e);
     if (e->report.out) {
-        if (frame_due(e, e->clock.step)) TRY(write_frame(e));
+        const unsigned due = frames_due(e, e->clock.step);
+        if (due) TRY(write_frames(e, due));
         const bool late = wall_is_over(e->scene, &e->report), stop = late || (e->report.stop && *e->report.stop);
         if (stop || team_clock() - e->report.last_checkpoint > e->scene->checkpoint_interval) TRY(write_checkpoint(e));
         if (stop && e->clock.step < e->clock.steps)

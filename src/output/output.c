@@ -210,10 +210,31 @@ static status mode_check(const char *folder, enum output_mode mode)
     return OK;
 }
 
+/* Frames of regions in folders frames_NAME, and their indices; `end` as in files_remove. */
+static void series_remove(const char *folder, const char *end)
+{
+    static const char *const index[] = {".hdf.series", ".xdmf", ".vtkhdf"};
+    DIR *d = opendir(folder);
+    if (!d) return;
+    for (struct dirent *e; (e = readdir(d));) {
+        char name[PATH_NAME_ROOM];
+        const struct path inner = path_join(folder, e->d_name);
+        if (strncmp(e->d_name, "frames_", 7) != 0 || path_is_link(inner.text) || !path_is_folder(inner.text)) continue;
+        files_remove(inner.text, is_frame, end);
+        for (size_t k = 0; k < COUNT_OF(index); k++) {
+            snprintf(name, sizeof name, "%.250s%s%s", e->d_name + 7, index[k], end);
+            unlink(path_join(folder, name).text);
+        }
+        if (!end[0]) rmdir(inner.text);  /* unless it holds what is no run's */
+    }
+    closedir(d);
+}
+
 static void run_remove(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_join(folder, made[k]).text);
     files_remove(path_join(folder, "frames").text, is_frame, "");
+    series_remove(folder, "");
     files_remove(pictures_folder(folder).text, is_picture, "");
     files_remove(pictures_folder(folder).text, is_picture, ".tmp");
 }
@@ -224,6 +245,7 @@ static void temporary_remove(const char *folder)
     for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_aside(path_join(folder, made[k]).text).text);
     unlink(path_aside(path_join(folder, "scene.yaml").text).text);
     files_remove(path_join(folder, "frames").text, is_frame, ".tmp");
+    series_remove(folder, ".tmp");
 }
 
 static status folder_prepare(const char *folder, const char *scene_text, enum output_mode mode)
@@ -259,17 +281,32 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
     return OK;
 }
 
+status output_add_series(struct output *o, const char *name, const struct region *region)
+{
+    char folder[PATH_NAME_ROOM];
+    assert(o->n_series < SERIES_MOST);
+    snprintf(folder, sizeof folder, "frames_%s", name);
+    const struct path path = path_join(o->folder, folder);
+    if (path_is_link(path.text)) return status_set(REFUSED, "%s is a link: frames would be somewhere else", path.text);
+    TRY(folder_make(path.text));
+    struct frame_series *s = &o->series[++o->n_series];
+    *s = (struct frame_series){.region = region};
+    snprintf(s->name, sizeof s->name, "%s", name);
+    return OK;
+}
+
 void output_close(struct output *o)
 {
     (void)output_wait(o);                /* the result was returned by output_wait before   */
     if (o->history) fclose(o->history);
     if (o->folder) folder_unlock(&o->lock, o->folder);
     memory_free(o->folder);
-    memory_free(o->frame_time);
-    memory_free(o->frame_rows);
+    output_particles_changed(o);
+    for (int k = 0; k <= o->n_series; k++) {
+        memory_free(o->series[k].frame_time);
+        memory_free(o->series[k].frame_rows);
+    }
     memory_free(o->frame_copy);
-    free(o->frame_kept.order);
-    free(o->frame_kept.room);
     *o = (struct output){0};
 }
 
@@ -281,21 +318,31 @@ status output_text(const struct output *o, const char *name, const char *text, s
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
+static status series_archive(struct frame_series *s, struct archive *a)
+{
+    char frames_name[100], time_name[100], rows_name[100];
+    const char *between = s->name[0] ? "_" : "";
+    int32_t frames = s->frames;
+    snprintf(frames_name, sizeof frames_name, "output/frames%s%s", between, s->name);
+    snprintf(time_name, sizeof time_name, "output/frame_time%s%s", between, s->name);
+    snprintf(rows_name, sizeof rows_name, "output/frame_rows%s%s", between, s->name);
+    ARCHIVE_VALUE(a, frames_name, frames);
+    if (!a->saving) {
+        if (frames < 0 || a->stored_size(a, time_name) != (int64_t)frames * (int64_t)sizeof(real))
+            return status_set(FAILED, "the checkpoint's list of frames does not fit their number");
+        memory_free(s->frame_time);
+        s->frame_time = NEW("output.frame_time", frames, real);
+        memory_free(s->frame_rows);
+        s->frame_rows = NEW("output.frame_rows", frames, int64_t);
+        s->frames = s->frames_room = frames;
+    }
+    TRY(a->exchange(a, time_name, s->frame_time, (size_t)frames * sizeof(real)));
+    return a->exchange(a, rows_name, s->frame_rows, (size_t)frames * sizeof(int64_t));
+}
+
 status output_archive(struct output *o, struct archive *a)
 {
-    int32_t frames = o->frames;
-    ARCHIVE_VALUE(a, "output/frames", frames);
-    if (!a->saving) {
-        if (frames < 0 || a->stored_size(a, "output/frame_time") != (int64_t)frames * (int64_t)sizeof(real))
-            return status_set(FAILED, "the checkpoint's list of frames does not fit their number");
-        memory_free(o->frame_time);
-        o->frame_time = NEW("output.frame_time", frames, real);
-        memory_free(o->frame_rows);
-        o->frame_rows = NEW("output.frame_rows", frames, int64_t);
-        o->frames = o->frames_room = frames;
-    }
-    TRY(a->exchange(a, "output/frame_time", o->frame_time, (size_t)frames * sizeof(real)));
-    TRY(a->exchange(a, "output/frame_rows", o->frame_rows, (size_t)frames * sizeof(int64_t)));
+    for (int k = 0; k <= o->n_series; k++) TRY(series_archive(&o->series[k], a));
     ARCHIVE_VALUE(a, "output/history_bytes", o->history_bytes);
     ARCHIVE_VALUE(a, "output/history_hash", o->history_hash);
     return OK;

@@ -36,4 +36,8 @@ void frame_units_text(unsigned fields, char *text, size_t room);
 /* Bytes of a particle. */
 size_t frame_field_row(const struct frame_field *field, int dim);
 
+/* Names relative to the run's folder: of a frame of a series, of its files with this end. */
+void frame_name(const struct frame_series *s, char *name, size_t room, int number);
+void series_file(const struct frame_series *s, char *name, size_t room, const char *end);
+
 #endif

@@ -28,7 +28,8 @@ struct frame_job {
     const struct particles *p;           /* borrowed; constant fields only */
     const struct particles *more;        /* points of coarse cells, as well; NULL: none */
     struct output *o;                    /* borrowed; holds the room kept for the writer */
-    int64_t n, step;
+    struct frame_series *series;         /* borrowed: what it shows, and in which order */
+    int64_t n, step;                     /* rows that are written */
     int dim;
     real t;
     bool compress, broken;
@@ -46,20 +47,21 @@ struct frame_job {
 
 /* Makes a job for a frame at time t [s] and copies the changing fields; the room of the copies is kept for the next
  * frame. */
-static struct frame_job *job_make(struct output *o, const struct frame_source *source, real t, int64_t step,
-                                  const char *scene_text)
+static struct frame_job *job_make(struct output *o, struct frame_series *series, const struct frame_source *source,
+                                  real t, int64_t step, const char *scene_text)
 {
     const struct particles *p = source->p;
     struct frame_job *job = NEW("output.job", 1, struct frame_job);
     size_t offset[FRAME_FIELDS], length = 0;
-    job->p = p, job->more = source->extra.more, job->o = o;
-    job->n = p->n + (job->more ? job->more->n : 0);
+    const int64_t all = p->n + (source->extra.more ? source->extra.more->n : 0);
+    job->p = p, job->more = source->extra.more, job->o = o, job->series = series;
+    job->n = series->kept.n;
     job->step = step, job->dim = p->dim, job->t = t;
     job->compress = o->compress, job->fields = frame_fields_of(source), job->scene_text = scene_text;
     for (int k = 0; k < FRAME_FIELDS; k++) {
         offset[k] = length;
         if (job->fields >> k & 1 && !frame_fields[k].fill)
-            length += (size_t)job->n * frame_field_row(&frame_fields[k], p->dim);
+            length += (size_t)all * frame_field_row(&frame_fields[k], p->dim);
     }
     if (o->frame_copy_bytes < (int64_t)length) {
         memory_free(o->frame_copy);
@@ -120,12 +122,13 @@ static void write_field(struct hdf *f, const struct frame_job *job, int k, const
     const size_t row = frame_field_row(field, job->dim);
     assert(row <= ROW_MOST);
     const int64_t own = job->p->n;
-    for (int64_t i = 0; i < own; i++)
-        if (field->fill) field->fill(job->p, order[i], room + (size_t)i * row);
-        else memcpy(room + (size_t)i * row, job->field[k] + (size_t)order[i] * row, row);
-    for (int64_t i = own; i < job->n; i++)
-        if (field->fill) field->fill(job->more, i - own, room + (size_t)i * row);
-        else memcpy(room + (size_t)i * row, job->field[k] + (size_t)i * row, row);
+    for (int64_t r = 0; r < job->n; r++) {
+        const int64_t i = order[r];
+        char *to = room + (size_t)r * row;
+        if (!field->fill) memcpy(to, job->field[k] + (size_t)i * row, row);
+        else if (i < own) field->fill(job->p, i, to);
+        else field->fill(job->more, i - own, to);
+    }
     hdf_rows(f, field->path, field->type, job->n, field->columns ? field->columns : job->dim, room);
     hdf_mark_text(f, field->path, "unit", field->unit[0] ? field->unit : "1");
 }
@@ -172,33 +175,54 @@ static void write_marks(struct hdf *f, int dim, real t, int64_t step, const char
     hdf_text(f, "/Cleave/scene", scene_text);
 }
 
-/* Order and room for frames of `n` rows, kept while neither the particles nor their ids change
- * (output_particles_changed). False: no memory. */
-static bool kept_make(struct output *o, const struct particles *p, int64_t n)
+static void kept_free(struct frame_series *s)
 {
-    if (o->frame_kept.n == n) return true;
-    free(o->frame_kept.order), free(o->frame_kept.room);
-    o->frame_kept.order = order_by_id(p);
-    o->frame_kept.room = malloc((size_t)(n + 1) * ROW_MOST);
-    const bool made = o->frame_kept.order && o->frame_kept.room;
-    o->frame_kept.n = made ? n : 0;
+    free(s->kept.order), free(s->kept.room);
+    memset(&s->kept, 0, sizeof s->kept);
+}
+
+/* Is point i, a particle or behind them a point of a coarse cell, in the series? */
+static bool series_shows(const struct frame_series *s, const struct frame_source *source, int64_t i)
+{
+    const struct particles *p = i < source->p->n ? source->p : source->extra.more;
+    real X[DIM_MAX];
+    if (!s->region) return true;
+    particle_place(p, i < source->p->n ? i : i - source->p->n, X);
+    return region_contains(s->region, X, p->dim, 0);
+}
+
+/* Order and room of a series, kept while neither the particles nor their ids change (output_particles_changed), nor
+ * the points of coarse cells may. False: no memory. */
+static bool kept_make(struct frame_series *s, const struct frame_source *source)
+{
+    const int64_t own = source->p->n, all = own + (source->extra.more ? source->extra.more->n : 0);
+    if (s->kept.order && s->kept.of == all && !(s->region && source->extra.more)) return true;
+    kept_free(s);
+    int32_t *by_id = order_by_id(source->p);
+    s->kept.order = calloc((size_t)all + 1, sizeof *s->kept.order);
+    for (int64_t k = 0; k < all && by_id && s->kept.order; k++) {
+        const int64_t i = k < own ? by_id[k] : k;
+        if (series_shows(s, source, i)) s->kept.order[s->kept.n++] = (int32_t)i;
+    }
+    s->kept.room = malloc((size_t)(s->kept.n + 1) * ROW_MOST);
+    s->kept.of = all;
+    const bool made = by_id && s->kept.order && s->kept.room;
+    free(by_id);
+    if (!made) kept_free(s);
     return made;
 }
 
 void output_particles_changed(struct output *o)
 {
-    free(o->frame_kept.order), free(o->frame_kept.room);
-    o->frame_kept.order = NULL, o->frame_kept.room = NULL;
-    o->frame_kept.n = 0;
+    for (int k = 0; k <= o->n_series; k++) kept_free(&o->series[k]);
 }
 
 /* Writes PATH.tmp and publishes it as PATH. */
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;
-    if (!kept_make(job->o, job->p, job->n)) return file_fault(job->path.text, ENOMEM);
-    const int32_t *order = job->o->frame_kept.order;
-    char *room = job->o->frame_kept.room;
+    const int32_t *order = job->series->kept.order;
+    char *room = job->series->kept.room;
     hdf_create(&f, path_aside(job->path.text).text, job->compress);
     write_marks(&f, job->dim, job->t, job->step, job->scene_text);
     write_field_data(&f, job);
@@ -217,19 +241,26 @@ static status frame_write(struct frame_job *job)
 
 /* ---- indices ----------------------------------------------------------------------------------------------------- */
 
-/* Name of frame `number` relative to the run's folder. */
-static void frame_name(char *name, size_t room, int number) { snprintf(name, room, "frames/%06d.hdf", number); }
+void frame_name(const struct frame_series *s, char *name, size_t room, int number)
+{
+    snprintf(name, room, "frames%s%s/%06d.hdf", s->name[0] ? "_" : "", s->name, number);
+}
+
+void series_file(const struct frame_series *s, char *name, size_t room, const char *end)
+{
+    snprintf(name, room, "%s%s", s->name[0] ? s->name : "frames", end);
+}
 
 /* Writes frames.hdf.series. */
-static void series_print(FILE *out, const struct output *o)
+static void series_print(FILE *out, const struct frame_series *s)
 {
     const char *between = "";
     fprintf(out, "{\"file-series-version\":\"1.0\",\"files\":[");
-    for (int k = 0; k < o->frames; k++) {
+    for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM];
-        if (isnan(o->frame_time[k])) continue;       /* lost (output_frames_check) */
-        frame_name(name, sizeof name, k);
-        fprintf(out, "%s\n{\"name\":\"%s\",\"time\":%.17g}", between, name, o->frame_time[k]);
+        if (isnan(s->frame_time[k])) continue;       /* lost (output_frames_check) */
+        frame_name(s, name, sizeof name, k);
+        fprintf(out, "%s\n{\"name\":\"%s\",\"time\":%.17g}", between, name, s->frame_time[k]);
         between = ",";
     }
     fprintf(out, "\n]}\n");
@@ -274,39 +305,46 @@ static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n, unsigned 
     fprintf(out, "</Grid>\n");
 }
 
-static void xdmf_print(FILE *out, const struct output *o)
+static void xdmf_print(FILE *out, const struct frame_series *s)
 {
     fprintf(out, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n");
     fprintf(out, "<Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
-    for (int k = 0; k < o->frames; k++) {
+    for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM];
-        if (isnan(o->frame_time[k])) continue;
-        frame_name(name, sizeof name, k);
-        xdmf_grid(out, name, o->frame_time[k], o->frame_rows[k], o->frame_fields);
+        if (isnan(s->frame_time[k])) continue;
+        frame_name(s, name, sizeof name, k);
+        xdmf_grid(out, name, s->frame_time[k], s->frame_rows[k], s->frame_fields);
     }
     fprintf(out, "</Grid>\n</Domain>\n</Xdmf>\n");
 }
 
 /* ---- one frame at a time ----------------------------------------------------------------------------------------- */
 
-static const char *const index_name[2] = {"frames.hdf.series", "frames.xdmf"};
+static const char *const index_end[2] = {".hdf.series", ".xdmf"};
+
+static struct path index_path(const char *folder, const struct frame_series *s, int which)
+{
+    char name[PATH_NAME_ROOM];
+    series_file(s, name, sizeof name, index_end[which]);
+    return path_join(folder, name);
+}
 
 /* Composes the text of an index in memory. */
 static status index_make(const struct output *o, struct frame_job *job, int which)
 {
-    static void (*const print[2])(FILE *, const struct output *) = {series_print, xdmf_print};
+    static void (*const print[2])(FILE *, const struct frame_series *) = {series_print, xdmf_print};
     FILE *out = open_memstream(&job->index[which], &job->index_length[which]);
-    if (out) print[which](out, o);
+    if (out) print[which](out, job->series);
     bool whole = out && !ferror(out);
     if (out && fclose(out) != 0) whole = false;
-    return whole ? OK : file_fault(path_join(o->folder, index_name[which]).text, ENOMEM);
+    return whole ? OK : file_fault(index_path(o->folder, job->series, which).text, ENOMEM);
 }
 
-/* Both indices of a run. */
+/* Both indices of a series. */
 static status indices_put(const char *folder, const struct frame_job *job)
 {
     for (int k = 0; k < 2; k++)
-        TRY(file_put(path_join(folder, index_name[k]).text, job->index[k], job->index_length[k]));
+        TRY(file_put(index_path(folder, job->series, k).text, job->index[k], job->index_length[k]));
     return OK;
 }
 
@@ -337,23 +375,23 @@ status output_wait(struct output *o)
     o->writing = NULL;
     o->broken = o->broken || job->broken;
     status s = job->ended == OK ? OK : status_set(job->ended, "%s", job->message);
-    if (s != OK) o->frames--;
+    if (s != OK) job->series->frames--;
     job_free(job);
     return s;
 }
 
 /* Counts a frame before it is written; output_wait takes the count back on a fault. */
-static void frame_count(struct output *o, const struct frame_job *job)
+static void frame_count(struct frame_series *s, const struct frame_job *job)
 {
-    if (o->frames == o->frames_room) {
-        int room = 2 * o->frames_room + 16;
-        o->frame_time = memory_resize("output.frame_time", o->frame_time, o->frames_room, room, sizeof(real));
-        o->frame_rows = memory_resize("output.frame_rows", o->frame_rows, o->frames_room, room, sizeof(int64_t));
-        o->frames_room = room;
+    if (s->frames == s->frames_room) {
+        int room = 2 * s->frames_room + 16;
+        s->frame_time = memory_resize("output.frame_time", s->frame_time, s->frames_room, room, sizeof(real));
+        s->frame_rows = memory_resize("output.frame_rows", s->frame_rows, s->frames_room, room, sizeof(int64_t));
+        s->frames_room = room;
     }
-    o->frame_rows[o->frames] = job->n;
-    o->frame_time[o->frames++] = job->t;
-    o->frame_fields = job->fields;
+    s->frame_rows[s->frames] = job->n;
+    s->frame_time[s->frames++] = job->t;
+    s->frame_fields = job->fields;
 }
 
 /* Starts the writing thread. It blocks all signals, which the stepping thread receives, but those of its own faults. */
@@ -368,19 +406,21 @@ static void output_frames_job_start(struct frame_job *job)
     if (!job->apart) job_run(job);           /* no thread available: write at once */
 }
 
-status output_frame_begin(struct output *o, const struct particles *p, const struct frame_extra *extra, real t,
+status output_frame_begin(struct output *o, int k, const struct particles *p, const struct frame_extra *extra, real t,
                           int64_t step, const char *scene_text)
 {
     const struct frame_source source = {p, extra ? *extra : (struct frame_extra){0}};
+    struct frame_series *series = &o->series[k];
     char name[PATH_NAME_ROOM];
     TRY(output_wait(o));
     if (o->broken) return FAILED;
     TRY(folder_held(&o->lock, o->folder));
-    struct frame_job *job = o->writing = job_make(o, &source, t, step, scene_text);
-    frame_name(name, sizeof name, o->frames);
+    frame_name(series, name, sizeof name, series->frames);
+    if (!kept_make(series, &source)) return file_fault(path_join(o->folder, name).text, ENOMEM);
+    struct frame_job *job = o->writing = job_make(o, series, &source, t, step, scene_text);
     job->path = path_join(o->folder, name);
-    frame_count(o, job);
-    for (int k = 0; k < 2 && job->ended == OK; k++) job->ended = index_make(o, job, k);
+    frame_count(series, job);
+    for (int which = 0; which < 2 && job->ended == OK; which++) job->ended = index_make(o, job, which);
     if (job->ended != OK) snprintf(job->message, sizeof job->message, "%s", status_message());
     else output_frames_job_start(job);
     return OK;
@@ -388,7 +428,7 @@ status output_frame_begin(struct output *o, const struct particles *p, const str
 
 status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text)
 {
-    TRY(output_frame_begin(o, p, NULL, t, step, scene_text));
+    TRY(output_frame_begin(o, 0, p, NULL, t, step, scene_text));
     return output_wait(o);
 }
 
@@ -410,26 +450,42 @@ static const char *frame_fault(const char *path, real time)
     return read && !bits_equal(found, time) ? "is another one" : NULL;
 }
 
-status output_frames_check(struct output *o, int *lost, char *text, size_t room)
+/* Marks the frames of a series that are lost; adds them to *lost, and the first of all to `text`. */
+static int series_check(const struct output *o, struct frame_series *s, int *lost, char *text, size_t room)
 {
-    struct frame_job job = {0};
-    status s = OK;
-    *lost = 0;
-    for (int k = 0; k < o->frames; k++) {
+    int own = 0;
+    for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM];
-        frame_name(name, sizeof name, k);
-        const char *fault = frame_fault(path_join(o->folder, name).text, o->frame_time[k]);
+        frame_name(s, name, sizeof name, k);
+        const char *fault = frame_fault(path_join(o->folder, name).text, s->frame_time[k]);
         if (!fault) continue;
         if ((*lost)++ == 0) snprintf(text, room, "%s %s", name, fault);
-        o->frame_time[k] = NAN;
+        s->frame_time[k] = NAN;
+        own++;
     }
+    return own;
+}
+
+/* Both indices of a series anew. */
+static status series_index(const struct output *o, struct frame_series *series)
+{
+    struct frame_job job = {.series = series};
+    status s = OK;
+    for (int k = 0; k < 2 && s == OK; k++) s = index_make(o, &job, k);
+    if (s == OK) s = indices_put(o->folder, &job);
+    for (int k = 0; k < 2; k++) free(job.index[k]);
+    return s;
+}
+
+status output_frames_check(struct output *o, int *lost, char *text, size_t room)
+{
+    *lost = 0;
+    for (int k = 0; k <= o->n_series; k++)
+        if (series_check(o, &o->series[k], lost, text, room) > 0) TRY(series_index(o, &o->series[k]));
     if (*lost == 0) return OK;
     const size_t used = strlen(text);
     if (*lost > 1) snprintf(text + used, room - used, ", and %d frames more are lost", *lost - 1);
     strncat(text, ": the indices leave out what is lost; a run of its own would make it again",
             room - strlen(text) - 1);
-    for (int k = 0; k < 2 && s == OK; k++) s = index_make(o, &job, k);
-    if (s == OK) s = indices_put(o->folder, &job);
-    for (int k = 0; k < 2; k++) free(job.index[k]);
-    return s;
+    return OK;
 }

@@ -6,7 +6,7 @@
  * and its part of Offsets, which has one entry more than cells, one entry further for each part before. */
 #include "output_fields.h"
 
-#include <stdlib.h>
+#include <math.h>
 #include <string.h>
 
 #include "base/last_words.h"
@@ -19,9 +19,9 @@ enum { TEMPORAL_MOST = 2000 };
 struct temporal {
     const char *folder;                  /* of the run */
     int n;                               /* times */
-    struct listed_frame *frame;
+    real *time;                          /* [n] [s] */
     struct hdf_source *source;           /* [n] */
-    char (*name)[40];                    /* [n] of the frames, relative to the run's folder */
+    char (*name)[PATH_NAME_ROOM];        /* [n] of the frames, relative to the run's folder */
     int64_t *start;                      /* [n] points of the frames before */
     unsigned fields;                     /* that all frames have */
 };
@@ -44,19 +44,17 @@ static bool frame_look(struct temporal *a, int k)
     return whole;
 }
 
-/* Looks at all frames; those that cannot be read are left out. */
-static void frames_look(struct temporal *a)
+/* Looks at all frames; those that are lost or cannot be read are left out. */
+static void frames_look(struct temporal *a, const struct frame_series *series)
 {
-    int found = 0;
     a->fields = (1u << FRAME_FIELDS) - 1;
-    for (int k = 0; k < a->n; k++) {
-        a->frame[found] = a->frame[k];
-        snprintf(a->name[found], sizeof a->name[found], "frames/%06d.hdf", a->frame[found].number);
-        if (!frame_look(a, found)) continue;
-        a->start[found] = found > 0 ? a->start[found - 1] + a->source[found - 1].rows : 0;
-        found++;
+    for (int k = 0; k < series->frames; k++) {
+        frame_name(series, a->name[a->n], sizeof a->name[a->n], k);
+        if (isnan(series->frame_time[k]) || !frame_look(a, a->n)) continue;
+        a->time[a->n] = series->frame_time[k];
+        a->start[a->n] = a->n > 0 ? a->start[a->n - 1] + a->source[a->n - 1].rows : 0;
+        a->n++;
     }
-    a->n = found;
 }
 
 /* Group Steps: times, and where each begins. */
@@ -68,7 +66,7 @@ static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number
     double *time = (double *)number;
     hdf_group(f, "/VTKHDF/Steps");
     hdf_mark_one(f, "/VTKHDF/Steps", "NSteps", HDF_I32, &steps);
-    for (int k = 0; k < a->n; k++) time[k] = a->frame[k].time;
+    for (int k = 0; k < a->n; k++) time[k] = a->time[k];
     hdf_rows(f, "/VTKHDF/Steps/Values", HDF_F64, a->n, 1, time);
     for (int k = 0; k < a->n; k++) number[k] = k;
     hdf_rows(f, "/VTKHDF/Steps/PartOffsets", HDF_I64, a->n, 1, number);
@@ -153,20 +151,28 @@ static status temporal_write(const struct temporal *a, const char *path, const c
     return file_publish(path);
 }
 
-status output_temporal(struct output *o, const char *scene_text)
+static status series_temporal(struct output *o, const struct frame_series *series, const char *scene_text)
 {
     struct temporal a = {.folder = o->folder};
+    char name[PATH_NAME_ROOM];
     status s = OK;
+    if (series->frames == 0 || series->frames > TEMPORAL_MOST) return OK;
+    a.time = NEW("temporal.time", series->frames, real);
+    a.source = NEW("temporal.source", series->frames, struct hdf_source);
+    a.name = memory_new("temporal.name", series->frames, sizeof *a.name);
+    a.start = NEW("temporal.start", series->frames, int64_t);
+    frames_look(&a, series);
+    series_file(series, name, sizeof name, ".vtkhdf");
+    if (a.n > 0) s = temporal_write(&a, path_join(o->folder, name).text, scene_text, &o->broken);
+    memory_free(a.start), memory_free(a.name), memory_free(a.source), memory_free(a.time);
+    return s;
+}
+
+status output_temporal(struct output *o, const char *scene_text)
+{
     TRY(output_wait(o));
     if (o->broken) return FAILED;
     TRY(folder_held(&o->lock, o->folder));
-    if (o->frames == 0 || o->frames > TEMPORAL_MOST) return OK;
-    TRY(frames_list(o->folder, &a.n, &a.frame));
-    a.source = NEW("temporal.source", a.n, struct hdf_source);
-    a.name = memory_new("temporal.name", a.n, sizeof *a.name);
-    a.start = NEW("temporal.start", a.n, int64_t);
-    frames_look(&a);
-    if (a.n > 0) s = temporal_write(&a, path_join(o->folder, "frames.vtkhdf").text, scene_text, &o->broken);
-    memory_free(a.start), memory_free(a.name), memory_free(a.source), memory_free(a.frame);
-    return s;
+    for (int k = 0; k <= o->n_series; k++) TRY(series_temporal(o, &o->series[k], scene_text));
+    return OK;
 }

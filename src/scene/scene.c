@@ -43,6 +43,7 @@ status scene_from_tree(struct reader *r, const struct node *root)
     TRY(check_absorbing(r, root));
     TRY(check_joined(r, root));
     TRY(read_probes(r, root));
+    TRY(read_frame_regions(r, root));
     TRY(read_growths(r, root));
     TRY(resolve_contact(r, root));
     return check_solver(r, root);
@@ -79,6 +80,8 @@ void scene_free(struct scene *s)
         region_free(&s->probe[k].region);
         memory_free(s->probe[k].contours.value);
     }
+    for (int k = 0; k < s->n_series; k++) region_free(&s->series[k].region);
+    memory_free(s->series);
     region_free(&s->pd_region);
     shape_files_free(s->shapes);
     for (int k = 0; k < s->regions; k++) region_free(&s->named[k].region);

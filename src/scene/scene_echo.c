@@ -158,6 +158,23 @@ static bool is_left_out(const struct key *k, const char *group, const void *base
     return n < 2 || (b->mass > 0 ? n == 5 : n == 3 || n == 4 || (n == 5 && !(b->ramp > 0)));
 }
 
+static void write_group(struct writer *w, const char *group, const void *base);
+
+/* Frames of regions: the list below `output`. */
+static void write_series(struct writer *w)
+{
+    const struct scene *s = w->scene;
+    if (s->n_series == 0) return;
+    begin(w, "regions");
+    fputc('\n', w->out);
+    w->indent += 4;
+    for (int k = 0; k < s->n_series; k++) {
+        w->dash = true;
+        write_group(w, "output.regions", &s->series[k]);
+    }
+    w->indent -= 4;
+}
+
 /* Writes all keys of a group from the struct `base`, with their units as comments. */
 static void write_group(struct writer *w, const char *group, const void *base)
 {
@@ -169,6 +186,7 @@ static void write_group(struct writer *w, const char *group, const void *base)
             fputc('\n', w->out);
             w->indent += 2;
             write_group(w, k->path, base);
+            if (strcmp(k->path, "output") == 0) write_series(w);
             w->indent -= 2;
         }
         if (!has_value(k, base, scene_echo_place_of(k, base))) continue;

@@ -249,6 +249,7 @@ status read_initials(struct reader *r, const struct node *root);
 status read_time(struct reader *r, const struct node *n, struct boundary *b);
 status read_boundaries(struct reader *r, const struct node *root);
 status read_probes(struct reader *r, const struct node *root);
+status read_frame_regions(struct reader *r, const struct node *root);
 /* Conditions on several keys without lists, and defaults (scene_check.c). check_size and check_solver: the same for the
  * number of particles of the bodies, and for the static solvers, after these are read. */
 status check_scene(struct reader *r, const struct node *root);

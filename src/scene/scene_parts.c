@@ -363,3 +363,37 @@ status read_growths(struct reader *r, const struct node *root)
     for (int k = 0; k < s->growths; k++, n = n->next) TRY(read_growth(r, n, &s->growth[k], k));
     return check_growth_probes(r, root);
 }
+
+/* ---- frames of regions ------------------------------------------------------------------------------------------- */
+
+/* REFUSED for a name whose files are those of the whole body or of another region, and for more frames than a run may
+ * have. */
+static status read_frame_region(struct reader *r, const struct node *n, int number)
+{
+    struct scene *s = r->scene;
+    struct scene_series *one = &s->series[number];
+    TRY(read_group(r, n, n, "output.regions", one));
+    if (strcmp(one->name, "frames") == 0)
+        return fault(r, node_find(n, "name"), "frames is the name of the body's own files; another one is expected");
+    for (int k = 0; k < number; k++)
+        if (strcmp(s->series[k].name, one->name) == 0)
+            return fault(r, node_find(n, "name"), "%s is the name of another region; give it a name of its own",
+                         one->name);
+    if (s->duration / one->every > FRAMES_MOST)
+        return fault(r, node_find(n, "every"), "%s makes more than %d frames; at least %.3g s is expected",
+                     shown(r, node_find(n, "every")), FRAMES_MOST, s->duration / FRAMES_MOST);
+    return OK;
+}
+
+status read_frame_regions(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    const struct node *output = node_find(root, "output"), *list = output ? node_find(output, "regions") : NULL;
+    if (!list) return OK;
+    TRY(expect_list(r, key_find("output", "regions"), list));
+    s->n_series = list->n;
+    s->series = NEW("scene.series", list->n, struct scene_series);
+    const struct node *n = list->first;
+    for (int k = 0; k < s->n_series; k++, n = n->next) TRY(read_frame_region(r, n, k));
+    return OK;
+}

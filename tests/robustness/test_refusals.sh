@@ -165,6 +165,9 @@ done <<'END'
 19|output: {frames: 2, times: [1 us]}|19:21|keep one of the two
 19|output: {times: [2 us, 1 us]}|19:24|they ascend
 19|output: {frames: 2, every: 1 us}|19:21|keep one of the two
+19|output: {regions: [{name: a, every: 1 us}]}|19:20|region: missing
+19|output: {regions: [{name: frames, region: {all: true}, every: 1 us}]}|19:21|the body's own files
+19|output: {regions: []}|19:10|regions
 19|output: {every: 1e-13}|19:10|at least
 19|output: {every: 0}|19:10|every
 19|output: {fields: [von_mise]}|19:19|the nearest is von_mises

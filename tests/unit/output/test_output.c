@@ -195,7 +195,7 @@ static void frames_hold_what_they_are_given(void **state)
         open_fresh(&o, "given", false);
         particles_make(&p, 2, 2, 0);
         p.id[0] = 1;
-        assert_int_equal(output_frame_begin(&o, &p, given ? &extra : NULL, 0, 0, scene_text), OK);
+        assert_int_equal(output_frame_begin(&o, 0, &p, given ? &extra : NULL, 0, 0, scene_text), OK);
         assert_int_equal(output_wait(&o), OK);
         hdf_open(&file, "given/frames/000000.hdf");
         hdf_read_rows(&file, "/VTKHDF/PointData/contact_force", HDF_F32, 6, force);
@@ -209,119 +209,6 @@ static void frames_hold_what_they_are_given(void **state)
         particles_free(&p);
         output_close(&o);
     }
-}
-
-/* Fields by name: those that follow from what a frame holds, those that it holds, and a line for others. */
-static void fields_are_read_by_name(void **state)
-{
-    (void)state;
-    for (int dim = 1; dim <= DIM_MAX; dim++) {
-        struct output o;
-        struct particles p;
-        struct frame f;
-        static const char path[] = "named/frames/000000.hdf";
-        float *value;
-        int columns;
-        open_fresh(&o, "named", false);
-        make_particles(&p, dim, PARTICLES);
-        assert_int_equal(output_frame(&o, &p, 0, 0, scene_text), OK);
-        assert_int_equal(frame_read(&f, path), OK);
-        assert_int_equal(frame_field_read(&f, path, "pressure", &columns, &value), OK);
-        assert_int_equal(columns, 1);
-        for (int64_t k = 0; k < f.n; k++) {
-            double mean = 0;
-            for (int d = 0; d < dim; d++) mean -= f.stress[d][k] / 3;
-            assert_true(fabs(value[k] - mean) <= 1e-7 * fabs(mean) * 2);
-        }
-        memory_free(value);
-        assert_int_equal(frame_field_read(&f, path, "stress", &columns, &value), OK);
-        assert_int_equal(columns, SYM_MAX);
-        assert_true(value[SYM_MAX * 7] == f.stress[0][7]);
-        memory_free(value);
-        assert_int_equal(frame_field_read(&f, path, "strain", &columns, &value), FAILED);
-        assert_message("has no field strain");
-        assert_int_equal(frame_field_read(&f, path, "../Points", &columns, &value), FAILED);
-        frame_free(&f);
-        particles_free(&p);
-        output_close(&o);
-    }
-}
-
-/* Reads what VTK's reader of temporal grids reads of a step: the part PartOffsets[step]; points from PointOffsets on,
- * one cell offset more than cells for each part before, rows of a field from its own offset on. */
-static void check_step(struct hdf *f, int step, int steps, const struct particles *p)
-{
-    static const char *const start[] = {"PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets",
-                                        "PointDataOffsets/stress", "NumberOfParts"};
-    int64_t at[6], *all = calloc((size_t)steps, sizeof *all), counts[3], n = 0;
-    char path[80];
-    for (int k = 0; k < 6; k++) {
-        snprintf(path, sizeof path, "/VTKHDF/Steps/%s", start[k]);
-        hdf_read_rows(f, path, HDF_I64, steps, all);
-        at[k] = all[step];
-    }
-    for (int k = 0; k < 3; k++) {
-        static const char *const count[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"};
-        snprintf(path, sizeof path, "/VTKHDF/%s", count[k]);
-        hdf_read_rows(f, path, HDF_I64, steps, all);
-        counts[k] = all[at[0]];
-    }
-    assert_true(at[5] == 1 && counts[0] == p->n && counts[1] == p->n && counts[2] == p->n);
-    n = hdf_count(f, "/VTKHDF/Types");
-    float *points = calloc((size_t)n * 3, sizeof *points), *stress = calloc((size_t)n * 6, sizeof *stress);
-    int64_t *offset = calloc((size_t)(n + steps), sizeof *offset), *corner = calloc((size_t)n, sizeof *corner);
-    hdf_read_rows(f, "/VTKHDF/Points", HDF_F32, 3 * n, points);
-    hdf_read_rows(f, "/VTKHDF/PointData/stress", HDF_F32, 6 * n, stress);
-    hdf_read_rows(f, "/VTKHDF/Offsets", HDF_I64, n + steps, offset);
-    hdf_read_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, corner);
-    assert_false(f->failed);
-    for (int64_t k = 0; k < p->n; k++) {
-        const int64_t i = p->n - 1 - k;                /* ids run backwards */
-        assert_true(points[3 * (at[1] + k)] == (float)p->x[0][i]);
-        assert_true(stress[6 * (at[4] + k)] == (float)p->stress[0][i]);
-        assert_int_equal(offset[at[2] + at[0] + k], k);
-        assert_int_equal(offset[at[2] + at[0] + k + 1], k + 1);
-        assert_int_equal(corner[at[3] + k], k);
-    }
-    free(all), free(points), free(stress), free(offset), free(corner);
-}
-
-/* frames.vtkhdf has the layout that VTK publishes, holds no rows of its own, and moves with its folder. */
-static void frames_in_one_file(void **state)
-{
-    (void)state;
-    enum { STEPS = 3 };
-    struct output o;
-    struct particles p[STEPS];
-    struct hdf f;
-    struct stat file;
-    double time[STEPS];
-    int32_t steps = 0;
-    open_fresh(&o, "temporal", false);
-    for (int k = 0; k < STEPS; k++) {
-        make_particles(&p[k], 2, PARTICLES + 100 * k);
-        output_particles_changed(&o);
-        assert_int_equal(output_frame(&o, &p[k], 0.5 * k, k, scene_text), OK);
-    }
-    assert_int_equal(output_temporal(&o, scene_text), OK);
-    output_close(&o);
-    assert_int_equal(stat("temporal/frames.vtkhdf", &file), 0);
-    assert_true(file.st_size < 64 << 10);
-    remove_tree("moved");
-    assert_int_equal(rename("temporal", "moved"), 0);
-    hdf_open(&f, "moved/frames.vtkhdf");
-    hdf_read_mark(&f, "/VTKHDF/Steps", "NSteps", HDF_I32, &steps);
-    assert_int_equal(steps, STEPS);
-    hdf_read_rows(&f, "/VTKHDF/Steps/Values", HDF_F64, STEPS, time);
-    for (int k = 0; k < STEPS; k++) {
-        assert_true(time[k] == 0.5 * k);
-        check_step(&f, k, STEPS, &p[k]);
-        particles_free(&p[k]);
-    }
-    assert_int_equal(hdf_count(&f, "/VTKHDF/FieldData/scene"), 1);
-    assert_int_equal(hdf_count(&f, "/VTKHDF/Steps/FieldDataSizes/units"), 2 * STEPS);
-    assert_int_equal(hdf_count(&f, "/VTKHDF/Steps/PointDataOffsets/fragment"), -1);
-    hdf_close(&f);
 }
 
 static void indices_list_all_frames(void **state)
@@ -545,8 +432,6 @@ int main(int argc, char **argv)
         cmocka_unit_test(frames_have_vtk_layout),
         cmocka_unit_test(plastic_strain_where_it_is),
         cmocka_unit_test(frames_hold_what_they_are_given),
-        cmocka_unit_test(fields_are_read_by_name),
-        cmocka_unit_test(frames_in_one_file),
         cmocka_unit_test(indices_list_all_frames),
         cmocka_unit_test(same_state_gives_same_bytes),
         cmocka_unit_test(damaged_frames_are_refused),
