@@ -198,6 +198,7 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
         printf("%s is sound\n", shown_name(a->scene).text);
         engine_choice_print(&e, stdout);
         say_particles(&e);
+        say_filled(&e);
         say_materials(&e);
         say_frames(&e);
         say_levels(&e);

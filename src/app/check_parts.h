@@ -36,6 +36,9 @@ status cost_measure(struct cost *c, struct engine *e, const struct run_arguments
 void say_levels(const struct engine *e);
 void say_levels_saving(const struct engine *e, const struct cost *c);
 
+/* Volume of the particles of bodies that are not boxes, beside that of their shapes (check_filled.c). */
+void say_filled(const struct engine *e);
+
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
 /* Writes a line, with numbers, for each part of the scene that is not resolved, and for each that is not needed. The

@@ -74,12 +74,13 @@ bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[
 real region_volume(const struct region *r, int dim, const real *from, const real *to)
 {
     static const real root[] = {0, 1.61803398874989485, 1.32471795724474602, 1.22074408460575947};
-    enum { POINTS = 1 << 18 };
     int64_t inside = 0;
-    real volume = 1, share[DIM_MAX] = {0};
+    real volume = 1, share[DIM_MAX] = {0}, effort = 0;
+    for (int k = 0; k < r->n; k++) effort += solid_effort(&r->solid[k]);
+    const int points = effort < 100 ? 1 << 18 : 1 << 16;
     for (int d = 0; d < dim; d++) share[d] = pow(root[dim], -(d + 1)), volume *= to[d] - from[d];
 #pragma omp parallel for schedule(static) reduction(+ : inside)
-    for (int k = 0; k < POINTS; k++) {
+    for (int k = 0; k < points; k++) {
         real X[DIM_MAX] = {0};
         for (int d = 0; d < dim; d++) {
             const real at = 0.5 + (k + 1) * share[d];
@@ -87,7 +88,7 @@ real region_volume(const struct region *r, int dim, const real *from, const real
         }
         inside += region_contains(r, X, dim, 0);
     }
-    return volume * (real)inside / POINTS;
+    return volume * (real)inside / points;
 }
 
 void region_free(struct region *r)

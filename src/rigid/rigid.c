@@ -61,6 +61,8 @@ static void spin_of(struct rigid_body *r, real turn[DIM_MAX][DIM_MAX], real *spi
 
 enum { SAMPLES = 200, SAMPLES_SPACE = 80 }; /* points of a body along its longest edge, for its inertia */
 
+#define ON_FACE 1e-9                     /* points of slanting faces count on either side alike [longest edge] */
+
 struct box { real from[DIM_MAX], to[DIM_MAX]; };
 
 /* Volume, centre and second moments of a region by its points on a grid. */
@@ -79,7 +81,7 @@ static real region_moments(const struct region *shape, int dim, const struct box
     for (int64_t k = 0; k < (int64_t)n[0] * n[1] * n[2]; k++) {
         const int64_t at[] = {k % n[0], k / n[0] % n[1], k / n[0] / n[1]};
         for (int d = 0; d < dim; d++) X[d] = b->from[d] + ((real)at[d] + 0.5) * step[d];
-        if (!region_contains(shape, X, dim, 0)) continue;
+        if (!region_contains(shape, X, dim, ON_FACE * longest)) continue;
         sum++;
         for (int r = 0; r < dim; r++) {
             centre[r] += X[r];

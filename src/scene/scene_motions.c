@@ -68,7 +68,8 @@ static status read_pattern(struct reader *r, const struct node *n, struct solid_
     TRY(read_group(r, form, form, ring ? "solid.pattern.ring" : "solid.pattern.grid", m));
     for (int d = 0; d < (ring ? 1 : r->dim); d++)
         if (m->count[d] != round(m->count[d]))
-            return fault(r, node_find(form, "count"), "is not a whole number; the number of copies is expected");
+            return fault(r, node_find(form, "count"), "%s is not a whole number; the number of copies is expected",
+                         shown(r, node_find(form, "count")));
     if (!ring) return OK;
     if (!m->has_angle) m->angle = 2 * 3.14159265358979323846 / m->count[0];
     return read_turning_axis(r, form, m);

@@ -51,6 +51,27 @@ static void add_box(struct maker *m, const double *from, const double *to)
     add(m, "]}}");
 }
 
+/* A solid that is cut out or stays, and perhaps moves and repeats. */
+static void add_cut(struct maker *m)
+{
+    add(m, ", {"), add_one(m, "subtract|subtract|intersect"), add(m, ": {");
+    const char *const shapes[] = {
+        "box: {from: [-1], to: [9]}",
+        "polygon: {corners: [[0, 0], [9, 1], [8, 8], [4, 3]], round: 0.5}|ellipse: {centre: [3, 3], radii: [4, 2]}|"
+        "ring: {centre: [3, 3], radius: 5, inner: 2}|region: cut",
+        "tube: {from: [0, 0, 0], to: [5, 5, 5], radius: 3, inner: 1}|"
+        "cone: {from: [0, 0, 0], to: [3, 0, 6], from_radius: 3}|"
+        "extrude: {shape: {ring: {centre: [2, 2], radius: 3, inner: 1}}, along: y, from: 0, to: 4}|"
+        "torus: {centre: [2, 2, 2], axis: [1, 0, 1], radius: 2, section: 1}|region: cut"};
+    const char *const turns[] = {"|, move: [2]|, mirror: {point: [3], normal: [1]}",
+                                 "|, rotate: {angle: 40 deg}|, pattern: {ring: {count: 3, centre: [4, 4]}}|, pattern: "
+                                 "{grid: {count: [2, 2], step: [5, 5]}}|, mirror: {point: [3, 3], normal: [1, 2]}",
+                                 "|, rotate: {angle: 1 rad, axis: [1, 1, 0]}|, pattern: {ring: {count: 3, centre: "
+                                 "[3, 3, 0]}}|, move: [1, 1, 1]"};
+    add_one(m, shapes[m->dim - 1]), add_one(m, turns[m->dim - 1]);
+    add(m, "}"), add_one(m, turns[m->dim - 1]), add(m, "}");
+}
+
 /* Lengths are in spacings of 1 m; waves take about a second for one. */
 static void add_bodies(struct maker *m, double *edge)
 {
@@ -66,6 +87,7 @@ static void add_bodies(struct maker *m, double *edge)
                    "poisson: 0.3");
         add(m, "}\n");
     }
+    add(m, "regions: {cut: [{ball: {centre: "), add_vector(m, 0, 4), add(m, ", radius: 2}}]}\n");
     add(m, "bodies:\n  - {name: a, material: m0, shape: [");
     add_box(m, zero, edge);
     if (choose(m, 4) == 3) {
@@ -73,6 +95,7 @@ static void add_bodies(struct maker *m, double *edge)
         add_vector(m, 0, edge[0]);
         add(m, ", radius: 2}}}");
     }
+    if (choose(m, 4) == 3) add_cut(m);
     add(m, "]}\n");
     if (bodies == 1) return;
     add(m, "  - {name: b, material: m1, shape: [");

@@ -116,7 +116,7 @@ done <<'END'
 8|  - ball: {centre: [0, 0], radius: 1e30}|10:13|particles; 2e9 is the most
 8|  - cylinder: {radius: 1}|8:5|not in space plane stress
 8|  - half-space: {point: [0, 0], normal: [1, 0]}|8:5|infinite
-8|  - torus: {radius: 1}|8:5|unknown key
+8|  - pyramid: {radius: 1}|8:5|unknown key
 10|particles: {spacing: 1 mm, horizon: 0.8}|10:28|smaller than one spacing; 3.015 is usual
 10|particles: {spacing: 1 mm, horizon: 100}|10:28|out of range
 10|particles: {spacing: 1 nm}|10:13|2e9 is the most

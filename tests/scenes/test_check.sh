@@ -45,6 +45,19 @@ is "check writes nothing" "$after" "$before"
 # A plate 200 spacings across, of 133,400 particles; waves go 38.4 spacings in a microsecond. What levels are and save; why there are
 # that many, or none; and where the scene gives too many. The limits are those of the sheet on frequencies: 2.5 cells in a rise, 10 in
 # a pulse, 50 across a body that is loaded suddenly (a warning from 25 on).
+# A disc of radius 20 fills pi 400 squares; boxes say nothing.
+cat >"$work/disc.yaml" <<'END'
+space: plane stress
+thickness: 1
+duration: 1 ms
+method: mpm
+material: {young: 1 GPa, density: 1000}
+body: {disc: {centre: [0, 0], radius: 20}}
+particles: {spacing: 1}
+END
+says "filled" '^filled  *body body: its particles are 12[0-9][0-9] m^3, [0-9.]* % [a-z]* than its shape' "$work/disc.yaml"
+silent "filled: boxes" '^filled' "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}'
+
 cat >"$work/far.yaml" <<'END'
 space: plane stress
 thickness: 1 mm

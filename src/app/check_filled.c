@@ -1,0 +1,39 @@
+/* How well a lattice fills the shapes of bodies: slanting and curved faces are steps of it. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "check_parts.h"
+
+/* Are all its solids boxes along the axes, whose volume the spacing tells? */
+static bool all_boxes(const struct region *shape)
+{
+    bool boxes = true;
+    for (int k = 0; k < shape->n; k++) boxes &= solid_is(&shape->solid[k], SOLID_BOX) && !shape->solid[k].intersect;
+    return boxes;
+}
+
+/* Particles of a body, also those that are not made where it is the only one; joined bodies count as the first. */
+static int64_t particles_of(const struct engine *e, int body)
+{
+    int64_t n = 0;
+    if (e->scene->bodies == 1) return e->part.n_body;
+    for (int64_t i = 0; i < e->part.n; i++) n += e->part.body[i] == body;
+    return n;
+}
+
+void say_filled(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    for (int b = 0; b < s->bodies; b++) {
+        const struct region *shape = &s->body[b].shape;
+        bool joined = s->body[b].joined != b;
+        real from[DIM_MAX], to[DIM_MAX];
+        for (int k = b + 1; k < s->bodies; k++) joined |= s->body[k].joined == b;
+        if (s->body[b].file || joined || all_boxes(shape) || !region_bounds(shape, s->dim, from, to)) continue;
+        const real exact = region_volume(shape, s->dim, from, to), section = scene_section(s);
+        const real filled = (real)particles_of(e, b) * pow(s->spacing, s->dim);
+        printf("filled         body %s: its particles are %.4g m^3, %.2f %% %s than its shape\n", s->body[b].name,
+               filled * section, 100 * fabs(filled / exact - 1), filled > exact ? "more" : "less");
+    }
+}
