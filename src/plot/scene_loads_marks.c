@@ -139,9 +139,13 @@ static void boundary_mark(struct marks *m, int number)
     mark_end(m, how, text);
 }
 
+/* Points over arrows, which would hide them. */
 void marks_loads(struct marks *m)
 {
-    for (int b = 0; b < m->engine->loads.n; b++) boundary_mark(m, b);
+    const struct engine *e = m->engine;
+    for (int pass = 0; pass < 2; pass++)
+        for (int b = 0; b < e->loads.n; b++)
+            if (is_support(e->loads.load[b].boundary, e->scene->dim) == pass) boundary_mark(m, b);
 }
 
 /* ---- motion at the start ----------------------------------------------------------------------------------------- */

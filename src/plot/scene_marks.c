@@ -149,6 +149,22 @@ void marks_probes(struct marks *m)
     mark_end(m, "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'", text);
 }
 
+/* ---- regions ----------------------------------------------------------------------------------------------------- */
+
+void marks_regions(struct marks *m)
+{
+    const struct scene *s = m->engine->scene;
+    for (int k = 0; k < s->regions; k++) {
+        real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
+        char text[NAME_MAX_LENGTH + 16];
+        if (!region_bounds(&s->named[k].region, s->dim, from, to)) continue;
+        snprintf(text, sizeof text, "region %.60s", s->named[k].name);
+        mark_begin(m);
+        box_lines(m, from, to, s->dim);
+        mark_end(m, "with lines lw 1.4 dt (3,3) lc rgb '#444444'", text);
+    }
+}
+
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
 /* The cell of level 0 at the lower corner of a coarse cell? `k`: its place in the box. */

@@ -28,10 +28,11 @@ void mark_end(struct marks *m, const char *how, const char *text);
 /* Loads, supports, mirrors, absorbing faces; velocities at the start. */
 void marks_loads(struct marks *m);
 void marks_motion(struct marks *m);
-/* Pre-cracks, cracks that grow, probes, levels of cells. */
+/* Pre-cracks, cracks that grow, probes, levels of cells, boxes round regions that have names. */
 void marks_cracks(struct marks *m);
 void marks_probes(struct marks *m);
 void marks_levels(struct marks *m);
+void marks_regions(struct marks *m);
 /* A line of the key for a colour. */
 void marks_colour(struct marks *m, struct colour c, const char *text);
 

@@ -152,7 +152,8 @@ static void key_of_parts(struct marks *m)
         const int64_t n = count_part(e, k);
         const char *name = s->materials > 1 ? s->material[k].name : s->bodies > 1 ? s->body[k].name : s->material->name;
         if (n == 0) continue;
-        snprintf(text, sizeof text, "%.48s: %lld particles", name, (long long)n);
+        snprintf(text, sizeof text, "%.48s: %lld particles%s", name, (long long)n,
+                 e->part.n < e->part.n_body ? " are made" : "");
         marks_colour(m, part_colour(k), text);
     }
     if (e->part.n_of[KIND_PD] > 0 && e->part.n_of[KIND_MPM] > 0) {
@@ -168,7 +169,7 @@ static void key_of_parts(struct marks *m)
 /* Lines of the key, about. */
 static int key_lines(const struct scene *s)
 {
-    return s->materials + s->bodies + s->rigids + s->boundaries + s->probes + s->growths + 6;
+    return s->materials + s->bodies + s->rigids + s->boundaries + s->probes + s->growths + s->regions + 6;
 }
 
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
@@ -259,6 +260,7 @@ static status draw_scene(struct sheet sheet, struct engine *e, struct cloud *c)
     draw_scene_title(g.to, &l, e);
     key_of_parts(&m);
     marks_levels(&m);
+    marks_regions(&m);
     marks_cracks(&m);
     marks_loads(&m);
     marks_motion(&m);
@@ -307,10 +309,14 @@ status scene_picture(const char *path, const struct scene_override *override, in
     struct pilot_wish pilot;
     if (picture_moves(format)) return status_set(REFUSED, "plot: --scene draws one picture: png, svg or pdf");
     TRY(scene_read_or_wish(&s, &pilot, path, override, overrides));
-    if (pilot.wanted) printf("drawn with stand-ins for what pilot runs are to choose: %s\n", pilot.why);
-    struct scene *drawn = pilot.wanted ? &pilot.first : &s;
-    status result = draw_made(&e, drawn, out, format);
+    if (pilot.wanted) {
+        scene_free(&pilot.first);
+        return status_set(REFUSED, "%s: method: auto takes pilot runs first, which choose method and spacing; draw it "
+                          "with -s method=pd -s particles.spacing=..., or draw the scene.yaml that its run leaves",
+                          shown_name(path).text);
+    }
+    const status result = draw_made(&e, &s, out, format);
     engine_free(&e);
-    scene_free(drawn);
+    scene_free(&s);
     return result;
 }
