@@ -95,8 +95,8 @@ static void set_terminal(struct gnuplot *g, enum picture_format format, int widt
         fprintf(g->to, "set terminal svg size %d,%d font 'Liberation Sans,Helvetica,Arial,sans-serif,14' "
                        "background rgb 'white' noenhanced\n", width, height);
     else if (format == PICTURE_PDF)
-        fprintf(g->to, "set terminal pdfcairo size %.6gin,%.6gin font 'Liberation Sans,13' fontscale 0.654 linewidth "
-                       "0.7 background rgb 'white' noenhanced\n", width / PIXELS_PER_INCH, height / PIXELS_PER_INCH);
+        fprintf(g->to, "set terminal pdfcairo size %.6gin,%.6gin font 'Liberation Sans,13' fontscale 0.5 linewidth "
+                       "0.9 background rgb 'white' noenhanced\n", width / PIXELS_PER_INCH, height / PIXELS_PER_INCH);
     else
         fprintf(g->to, "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) { set terminal pngcairo size %d,%d "
                        "font 'Liberation Sans,13' background rgb 'white' noenhanced } else { set terminal png "

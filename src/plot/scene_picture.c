@@ -13,7 +13,7 @@
 #include "scene_marks.h"
 
 /* Room round the panel, its size, and the height of a line of the key [pixel]. */
-enum { PICTURE_LEFT = 100, PICTURE_KEY = 372, PICTURE_ABOVE = 66, PICTURE_BELOW = 66, KEY_LINE = 23 };
+enum { PICTURE_LEFT = 100, PICTURE_KEY = 400, PICTURE_ABOVE = 66, PICTURE_BELOW = 66, KEY_LINE = 23 };
 enum { PANEL_WIDEST = 860, PANEL_HIGHEST = 760, PANEL_LOWEST = 90 };
 enum { RIGID_POINTS = 60000, RIGID_ACROSS = 12, TEXT_ROOM = 200 };
 /* How dark peridynamic particles are beside material points of the same body; rigid bodies. */
