@@ -69,7 +69,7 @@ static void default_text(const struct key *k, char *text, size_t room)
 /* All facts about a key but its path, in one line. */
 static void facts_text(const struct key *k, char *text, size_t room)
 {
-    char range[128], fallback[96];
+    char range[400], fallback[96];       /* all fields of frames are 270 */
     range_text(k, range, sizeof range);
     default_text(k, fallback, sizeof fallback);
     const char *symbol = unit_rows[k->unit].symbol;
@@ -80,7 +80,7 @@ static void facts_text(const struct key *k, char *text, size_t room)
 
 void key_description(const struct key *k, char *text, size_t room)
 {
-    char facts[384];
+    char facts[640];
     facts_text(k, facts, sizeof facts);
     snprintf(text, room, "%s (%s)", k->help, facts);
 }
@@ -126,7 +126,7 @@ static status help_unknown(const char *path)
 
 status scene_help(FILE *out, const char *key)
 {
-    char path[128] = "", facts[384];
+    char path[128] = "", facts[640];
     int found = 0;
     if (key) path_of_table(key, path, sizeof path);
     const char *now = path_now(path);
@@ -160,7 +160,7 @@ static void troff(FILE *out, const char *text)
 
 void scene_manual_keys(FILE *out)
 {
-    char facts[384];
+    char facts[640];
     for (int k = 0; k < keys_count; k++) {
         facts_text(&keys[k], facts, sizeof facts);
         fputs(".TP\n.B ", out);

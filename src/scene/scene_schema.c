@@ -145,7 +145,7 @@ static void write_alternatives(FILE *out, const struct key *k)
     } else if (type == KEY_CHOICE) {
         write_words(out, k->words);
     } else if (type == KEY_SET) {
-        fputs("{\"enum\": [\"none\"]}, {\"type\": \"array\", \"items\": ", out);
+        fputs("{\"enum\": [\"none\", \"all\"]}, {\"type\": \"array\", \"items\": ", out);
         write_words(out, k->words);
         fputc('}', out);
     } else if (type == KEY_LIST) {
