@@ -199,6 +199,7 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
         engine_choice_print(&e, stdout);
         say_particles(&e);
         say_filled(&e);
+        say_shapes(&e);
         say_materials(&e);
         say_frames(&e);
         say_levels(&e);

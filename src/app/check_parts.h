@@ -30,6 +30,11 @@ struct cost {
  * scene. FAILED if one of the first steps fails. */
 status cost_measure(struct cost *c, struct engine *e, const struct run_arguments *a);
 
+/* ---- check_shapes.c ---------------------------------------------------------------------------------------------- */
+
+/* Files that solids are made of: closed or open, what they enclose. */
+void say_shapes(const struct engine *e);
+
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
 
 /* Coarse cells: how large, how many and why; what they save. */

@@ -1,0 +1,43 @@
+/* What `cleave check` says of bodies from files: whether a surface is closed, and what it encloses. */
+#include <math.h>
+
+#include "check_parts.h"
+#include "scene/shape_file.h"
+
+static void say_hull(const struct shape_file *f)
+{
+    const struct hull *h = &f->geometry.whole;
+    printf("shape          %s: %lld %s, %lld shell%s", shown_name(f->path[0]).text, (long long)h->faces,
+           f->dim == 3 ? "triangles" : "edges", (long long)h->shells, h->shells == 1 ? "" : "s");
+    if (h->open_edges > 0)
+        printf(", open at %lld edges, one at (%.4g, %.4g, %.4g) m, which leave no doubt what is inside",
+               (long long)h->open_edges, h->open_at[0], h->open_at[1], h->open_at[2]);
+    else printf(", closed");
+    if (h->reversed) printf(", turned inside out and taken the other way round");
+    if (h->dropped > 0 && f->kind == SHAPE_STL) printf(", %lld without area or given twice", (long long)h->dropped);
+    printf(", encloses %.4g m^%d", h->volume, f->dim);
+    if (f->geometry.sets > 0) printf("; sets");
+    for (int k = 0; k < f->geometry.sets && k < 12; k++) printf("%s %s", k ? "," : "", f->geometry.set[k].name);
+    printf("%s\n", f->geometry.sets > 12 ? ", .." : "");
+}
+
+static void say_image(const struct engine *e, const struct shape_file *f)
+{
+    const struct voxels *v = &f->voxels;
+    printf("shape          %s%s: %lld x %lld", shown_name(f->path[0]).text, f->files > 1 ? " .." : "",
+           (long long)v->n[0], (long long)v->n[1]);
+    if (f->dim == 3) printf(" x %lld", (long long)v->n[2]);
+    printf(" voxels of %.4g m", v->size[0]);
+    if (e->scene->spacing > 1.001 * v->size[0])
+        printf("; a particle stands for %.3g of them and has the grey value at its place",
+               pow(e->scene->spacing / v->size[0], f->dim));
+    putchar('\n');
+}
+
+void say_shapes(const struct engine *e)
+{
+    for (const struct shape_file *f = e->scene->shapes; f; f = f->next) {
+        if (f->kind == SHAPE_IMAGE) say_image(e, f);
+        else say_hull(f);
+    }
+}
