@@ -94,7 +94,10 @@ $(BUILD)/new_scenes.h: $(wildcard inputs/new/*.yaml) Makefile
 	@awk 'FNR == 1 { kind = FILENAME; sub(/.*\//, "", kind); sub(/\.yaml/, "", kind); if (NR > 1) print "},"; next } \
 	     { gsub(/\\/, "\\\\"); gsub(/"/, "\\\"") } FNR == 2 { printf "{\"%s\", \"%s\",\n", kind, substr($$0, 3); next } \
 	     { printf "\"%s\\n\"\n", $$0 } END { print "}," }' $(sort $(filter %.yaml,$^)) > $@
-$(BUILD)/src/app/new.o $(BUILD)/fuzz/src/app/new.o: $(BUILD)/new_scenes.h
+$(BUILD)/new_part.h: inputs/new/stl.stl Makefile
+	@mkdir -p $(@D)
+	@awk '{ printf "\"%s\\n\"\n", $$0 }' $< > $@
+$(BUILD)/src/app/new.o $(BUILD)/fuzz/src/app/new.o: $(BUILD)/new_scenes.h $(BUILD)/new_part.h
 
 # One rule a set: build/kernels/pd/bond_force.avx2.o from kernels/pd/bond_force.c.
 define SET

@@ -12,6 +12,12 @@ static const struct kind { const char *name, *meaning, *text; } kinds[] = {
 #include "new_scenes.h"
 };
 
+/* The surface that the kind stl reads, under this name. */
+static const char part[] =
+#include "new_part.h"
+    ;
+static const char part_file[] = "stl.stl";
+
 enum { PATH_LONGEST = 1000 };
 
 static status kinds_print(void)
@@ -55,8 +61,42 @@ static void scene_write(FILE *out, const struct kind *k, const char *path, const
                  "# cleave check %s    says what it costs, and whether it is sound\n"
                  "# cleave run %s      runs it\n"
                  "# cleave plot results/%.*s    draws it\n"
-                 "# cleave help KEY    says what a key is for; cleave help lists all\n%s",
-            k->meaning, path, path, (int)strcspn(name, "."), name, k->text);
+                 "# cleave help KEY    says what a key is for; cleave help lists all\n",
+            k->meaning, path, path, (int)strcspn(name, "."), name);
+    const char *file = strstr(k->text, part_file);
+    const int before = file ? (int)(file - k->text) : 0;
+    if (file) fprintf(out, "%.*s%.*s.stl%s", before, k->text, (int)strcspn(name, "."), name, file + strlen(part_file));
+    else fputs(k->text, out);
+}
+
+/* Opens a file that is not there yet. REFUSED if it is. */
+static status file_open(FILE **out, const char *path)
+{
+    *out = fopen(path, "wx");
+    if (*out) return OK;
+    if (errno == EEXIST)
+        return status_set(REFUSED, "%s: is there already and stays as it is; another name is expected", path);
+    return status_set(REFUSED, "%s: %s; a folder that can be written is expected", path, strerror(errno));
+}
+
+static status file_close(FILE *out, const char *path)
+{
+    const bool whole = !ferror(out);
+    if (fclose(out) == 0 && whole) return OK;
+    remove(path);
+    return status_set(FAILED, "%s: cannot be written", path);
+}
+
+/* Writes the surface beside a scene that reads it. */
+static status part_write(const struct kind *k, const char *path)
+{
+    char file[PATH_LONGEST + 8];
+    FILE *out;
+    if (!strstr(k->text, part_file)) return OK;
+    snprintf(file, sizeof file, "%.*s.stl", (int)strlen(path) - 5, path);
+    TRY(file_open(&out, file));
+    fputs(part, out);
+    return file_close(out, file);
 }
 
 status command_new(int argc, char **argv)
@@ -64,6 +104,7 @@ status command_new(int argc, char **argv)
     char path[PATH_LONGEST + 8];
     const struct kind *kind;
     const char *name;
+    FILE *out;
     int length;
     if (argc > 3) return status_set(REFUSED, "usage: cleave new NAME [KIND]");
     if (argc == 1) return kinds_print();
@@ -73,13 +114,12 @@ status command_new(int argc, char **argv)
     const bool named = argc == 2 && kind_find(name, &kind) == OK;        /* cleave new bar */
     if (!named) TRY(kind_find(argc == 3 ? argv[2] : "crack", &kind));
     strcat(path, ".yaml");
-    FILE *out = fopen(path, "wx");
-    if (!out && errno == EEXIST)
-        return status_set(REFUSED, "%s: is there already and stays as it is; another name is expected", path);
-    if (!out) return status_set(REFUSED, "%s: %s; a folder that can be written is expected", path, strerror(errno));
-    scene_write(out, kind, path, name);
-    const bool whole = !ferror(out);
-    if (fclose(out) != 0 || !whole) return remove(path), status_set(FAILED, "%s: cannot be written", path);
+    TRY(file_open(&out, path));
+    const status written = part_write(kind, path);
+    if (written == OK) scene_write(out, kind, path, name);
+    if (written == OK) TRY(file_close(out, path));
+    else fclose(out), remove(path);
+    TRY(written);
     printf("%s: %s\ncleave run %s runs it\n", path, kind->meaning, path);
     return OK;
 }

@@ -7,7 +7,6 @@ test_name=new
 kinds=$(sed -n 's/^  \([a-z]*\) .*/\1/p' "$work/kinds")
 is "kinds are the files of inputs/new" "$(echo "$kinds" | sort | tr '\n' ' ')" "$(ls inputs/new/*.yaml | sed 's|.*/||; s/.yaml//' | sort | tr '\n' ' ')"
 
-cp inputs/new/*.stl inputs/new/*.png "$work" 2>/dev/null
 cd "$work" || exit 1
 for kind in $kinds; do
     holds "$kind: written" "$cleave" new "a_$kind.yaml" "$kind" >/dev/null
@@ -30,6 +29,8 @@ refused()
     is "$what: files" "$(ls | wc -l)" "$files"
 }
 refused "a scene that is there" "bar.yaml: is there already and stays as it is; another name is expected" bar
+touch c.stl
+refused "a part that is there" "c.stl: is there already and stays as it is; another name is expected" c stl
 refused "an unknown kind" "there is no kind impct; the nearest is impact, and cleave new lists all" b impct
 refused "a name with a blank" "b c: no name of a scene; letters, digits, _ and - are expected" "b c"
 refused "a name that is none" ".yaml: no name of a scene; letters, digits, _ and - are expected" .yaml
