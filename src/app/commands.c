@@ -32,6 +32,8 @@ const struct command commands[] = {
      "[--format png|svg|pdf|mp4|gif] [-o FILE], or --scene SCENE [-s KEY=VALUE]... [-o FILE]",
      "pictures of a finished or running run; of a scene before it runs", command_plot},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
+    {"export", "lammps SCENE -o DIR [-s KEY=VALUE]... [-t THREADS] [--style peri|bpm] [--allow-different]",
+     "the peridynamics of a scene as input of LAMMPS", command_export},
     {"bench", "[NAME...] [--quick] [--readme]", "kernels, efficiency, coupling, ...", command_bench},
     {"help", "[KEY|scene|units|expression|run|theory|trust]",
      "every scene key; units; formulas; a run; the equations; what a run promises", command_help},

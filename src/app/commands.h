@@ -21,6 +21,7 @@ status command_check(int argc, char **argv);
 status command_plot(int argc, char **argv);
 status command_compare(int argc, char **argv);
 status command_new(int argc, char **argv);
+status command_export(int argc, char **argv);
 status command_help(int argc, char **argv);
 status command_info(int argc, char **argv);
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "commands.h"
+#include "compare_lammps.h"
 #include "output/history.h"
 #include "base/memory.h"
 #include "output/output.h"
@@ -29,7 +30,7 @@ struct pair {
 static bool holds_run(const char *folder)
 {
     return run_holds(folder, "summary.json") || run_holds(folder, "history.csv") ||
-           run_holds(folder, "frames.hdf.series");
+           run_holds(folder, "frames.hdf.series") || lammps_run_holds(folder);
 }
 
 /* ---- rows of the table ------------------------------------------------------------------------------------------- */
@@ -127,7 +128,8 @@ static void print_fields(const struct frame *a, const struct frame *b)
     printf("\n%-30s %14s %14s %14s   %s\n", "fields, |B - A|", "largest", "rms", "largest |A|", "largest at X [m]");
     print_field("displacement", "m", a, field_difference(a->u, b->u, a->dim, a->n));
     print_field("velocity", "m/s", a, field_difference(a->v, b->v, a->dim, a->n));
-    print_field("stress", "Pa", a, field_difference(a->stress, b->stress, frame_stresses(a->dim), a->n));
+    if (a->stress[0] && b->stress[0])
+        print_field("stress", "Pa", a, field_difference(a->stress, b->stress, frame_stresses(a->dim), a->n));
     print_field("damage", "", a, field_difference(&a->damage, &b->damage, 1, a->n));
     printf("  %-28s %14lld of %lld\n", "particles of another kind", (long long)other_kind, (long long)a->n);
 }
@@ -170,13 +172,16 @@ static status compare_frames(struct pair *p)
     status s = OK;
     p->frames_differ = true;
     for (int k = 0; k < 2 && s == OK; k++)
-        if (run_holds(p->folder[k], "frames.hdf.series")) s = frames_list(p->folder[k], &t[k].n, &t[k].list);
+        if (lammps_run_holds(p->folder[k])) s = lammps_frames_list(p->folder[k], &t[k].n, &t[k].list);
+        else if (run_holds(p->folder[k], "frames.hdf.series")) s = frames_list(p->folder[k], &t[k].n, &t[k].list);
     if (s == OK && (t[0].n == 0 || t[1].n == 0)) {
         printf("\nfields are not compared: %s has no frames\n", shown_name(p->folder[t[0].n == 0 ? 0 : 1]).text);
     } else if (s == OK && !last_common(&t[0], &t[1], &at[0], &at[1])) {
         printf("\nfields are not compared: no frames of the same time\n");
     } else if (s == OK) {
-        for (int k = 0; k < 2 && s == OK; k++) s = run_frame(&f[k], p->folder[k], t[k].list[at[k]].number);
+        for (int k = 0; k < 2 && s == OK; k++)
+            s = (lammps_run_holds(p->folder[k]) ? lammps_run_frame : run_frame)(&f[k], p->folder[k],
+                                                                                 t[k].list[at[k]].number);
         if (s == OK) compare_particles(p, &f[0], &f[1]);
         for (int k = 0; k < 2; k++) frame_free(&f[k]);
     }
@@ -316,7 +321,8 @@ static status print_run(const char *letter, const char *folder)
 {
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], state[NAME_MAX_LENGTH];
     if (!run_holds(folder, "summary.json")) {
-        printf("%s  %s: no summary.json yet\n", letter, shown_name(folder).text);
+        printf("%s  %s: %s\n", letter, shown_name(folder).text,
+               lammps_run_holds(folder) ? "a run of LAMMPS" : "no summary.json yet");
         return OK;
     }
     TRY(summary_string(folder, "name", name, sizeof name));
@@ -333,6 +339,7 @@ status command_compare(int argc, char **argv)
     TRY(read_words(&p, argc, argv));
     TRY(print_run("A", p.folder[0]));
     TRY(print_run("B", p.folder[1]));
+    for (int k = 0; k < 2; k++) TRY(lammps_check_print(p.folder[k]));
     TRY(compare_frames(&p));
     TRY(compare_energies(&p));
     compare_cracks(&p);

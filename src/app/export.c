@@ -1,0 +1,50 @@
+/* `cleave export lammps SCENE -o DIR`: the peridynamics of a scene as input of another program. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "arguments.h"
+#include "base/memory.h"
+#include "base/team.h"
+#include "commands.h"
+#include "export/export.h"
+
+static const char *const usage = "export lammps SCENE -o DIR [-s KEY=VALUE]... [-t THREADS] [--style peri|bpm] "
+                                 "[--allow-different]";
+
+/* Takes the words of this command alone out of argv; what is left is that of a run. */
+static status export_words(struct export_request *r, int *argc, char **argv)
+{
+    int kept = 1;
+    for (int k = 2; k < *argc; k++) {
+        const bool style = !strcmp(argv[k], "--style");
+        if (style && k + 1 < *argc && (!strcmp(argv[k + 1], "peri") || !strcmp(argv[k + 1], "bpm")))
+            r->bond_style = !strcmp(argv[++k], "bpm");
+        else if (style)
+            return status_set(REFUSED, "--style: peri or bpm is expected; usage: cleave %s", usage);
+        else if (!strcmp(argv[k], "--allow-different"))
+            r->allow_different = true;
+        else if (!strcmp(argv[k], "--resume") || !strcmp(argv[k], "--overwrite") || !strcmp(argv[k], "-q"))
+            return status_set(REFUSED, "unknown option %s; usage: cleave %s", argv[k], usage);
+        else
+            argv[kept++] = argv[k];
+    }
+    *argc = kept;
+    return OK;
+}
+
+status command_export(int argc, char **argv)
+{
+    struct export_request request = {0};
+    struct run_arguments a;
+    if (argc < 2 || strcmp(argv[1], "lammps") != 0)
+        return status_set(REFUSED, "export: lammps is expected; usage: cleave %s", usage);
+    TRY(export_words(&request, &argc, argv));
+    TRY(arguments_read(&a, argc, argv, usage));
+    team_make(a.threads);
+    request.scene = a.scene, request.folder = a.folder;
+    request.override = a.override, request.overrides = a.overrides;
+    status result =
+        a.folder ? export_lammps(&request) : status_set(REFUSED, "export: -o DIR is missing; usage: cleave %s", usage);
+    arguments_free(&a);
+    return result;
+}

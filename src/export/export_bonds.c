@@ -1,0 +1,190 @@
+/* The bonds that LAMMPS makes, pairs within its cutoff, beside those of the scene: which are to be cut there. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "export_parts.h"
+
+/* Shares of volume are rounded, and so are weights (family.c); any other rule is farther off. */
+static const real WEIGHT_NEAR = 1e-6;
+
+/* peri/pmb, peri/lps: 1, within half a lattice constant of the horizon a ramp that is 1/2 there. */
+real lammps_share(const struct exported *x, real r)
+{
+    return fabs(r - x->cutoff) <= 0.5 * x->lattice ? 0.5 + (x->cutoff - r) / x->lattice : 1;
+}
+
+/* Distance as LAMMPS finds it; in the plane all are at z = 0. */
+static real distance2(const struct particles *p, int64_t i, int64_t j)
+{
+    real sum = 0;
+    for (int d = 0; d < p->dim; d++) sum += square(p->X[d][i] - p->X[d][j]);
+    return sum;
+}
+
+/* Micro-modulus over that of the first material: springs in series between two materials. */
+static real modulus_ratio(const struct exported *x, int a, int b)
+{
+    const struct family *f = &x->e->source.family;
+    const struct material *m = x->s->material;
+    if (a == b && a == 0) return 1;
+    const real first = family_micro_modulus(f, &m[a]), second = family_micro_modulus(f, &m[b]);
+    return 2 * first * second / (first + second) / family_micro_modulus(f, &m[0]);
+}
+
+/* Is this the weight that LAMMPS gives the bond? */
+static bool weight_alike(const struct exported *x, int64_t i, const struct bond *bond)
+{
+    const struct particles *p = &x->e->part;
+    const struct family *f = &x->e->source.family;
+    const int64_t j = bond->nbr;
+    const real r = 1 / bond->inverse_length, V2 = p->volume0[i] * p->volume0[j] / square(f->cell_volume);
+    const real law = x->e->source.modulus ? f->horizon / r : modulus_ratio(x, p->material[i], p->material[j]);
+    return fabs(bond->w - lammps_share(x, r) * V2 * law) <= WEIGHT_NEAR * bond->w;
+}
+
+static status bond_refuse(const struct exported *x, int64_t i, const char *what)
+{
+    const struct particles *p = &x->e->part;
+    return status_set(REFUSED, "%s: a bond of the particle at (%.6g, %.6g, %.6g) m %s", shown_name(x->s->path).text,
+                      p->X[0][i], p->X[1][i], p->dim > 2 ? p->X[2][i] : 0, what);
+}
+
+/* Marks the bonds of particle i in `bonded`; how many through *n. */
+static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int *n)
+{
+    const struct engine *e = x->e;
+    *n = 0;
+    for (struct bond_iterator it = bonds_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);) {
+        if (it.bond.w == 0) continue;
+        bonded[it.bond.nbr] = i + 1;
+        ++*n;
+        if (!(distance2(&e->part, i, it.bond.nbr) <= square(x->cutoff)))
+            return bond_refuse(x, i,
+                               "lies at the horizon, which LAMMPS cuts to the last digit; a horizon between "
+                               "two distances of the lattice is expected, as -s particles.horizon=3.015");
+        if (!weight_alike(x, i, &it.bond)) return bond_refuse(x, i, "weighs otherwise than LAMMPS would weigh it");
+    }
+    return OK;
+}
+
+/* Neighbours of i in LAMMPS, into found; how many. */
+static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int room)
+{
+    const struct engine *e = x->e;
+    real X[DIM_MAX];
+    int kept = 0;
+    particle_place(&e->part, i, X);
+    const int n = cells_near(&e->cells, &e->part, X, e->source.family.cutoff, (int32_t)i, found, room);
+    for (int k = 0; k < n; k++)
+        if (distance2(&e->part, i, found[k]) <= square(x->cutoff)) found[kept++] = found[k];
+    return kept;
+}
+
+/* ---- keys -------------------------------------------------------------------------------------------------------- */
+
+static uint64_t mix(uint64_t hash, int64_t word)
+{
+    hash = (hash ^ (uint64_t)word) * 0x9E3779B97F4A7C15u;
+    return hash ^ hash >> 29;
+}
+
+static int64_t lattice_place(const struct exported *x, int64_t i, int d)
+{
+    return (int64_t)floor((x->e->part.X[d][i] - x->e->part.X[d][0]) / x->s->spacing + 0.5);
+}
+
+/* What particles that cannot be mistaken for each other may share: material, loads, place modulo the reach. */
+static uint64_t key_of(const struct exported *x, int64_t i)
+{
+    const int64_t period = 2 * (int64_t)floor(x->cutoff / x->s->spacing + 1e-6) + 1;
+    uint64_t key = mix(mix(1, x->e->part.material[i]), x->loads[i]);
+    for (int d = 0; d < x->s->dim; d++) key = mix(key, (lattice_place(x, i, d) % period + period) % period);
+    return key;
+}
+
+static uint64_t offset_of(const struct exported *x, int64_t i, int64_t j)
+{
+    uint64_t offset = 2;
+    for (int d = 0; d < x->s->dim; d++) offset = mix(offset, lattice_place(x, j, d) - lattice_place(x, i, d));
+    return offset;
+}
+
+/* ---- particles at cut bonds -------------------------------------------------------------------------------------- */
+
+struct search {
+    int32_t *found;
+    int64_t *bonded;
+    int32_t *number;
+    int room;
+};
+
+/* Which particles are touched: number 1, else 0. Counts bonds. */
+static status touched_find(const struct exported *x, struct search *a, int64_t *bonds, int64_t *cut)
+{
+    int64_t ends = 0, ends_cut = 0;
+    for (int64_t i = 0; i < x->e->part.n; i++) {
+        int row;
+        TRY(row_mark(x, i, a->bonded, &row));
+        const int near = lammps_near(x, i, a->found, a->room);
+        a->number[i] = near > row;
+        ends += row, ends_cut += near - row;
+    }
+    *bonds = ends / 2, *cut = ends_cut / 2;
+    return OK;
+}
+
+static void touched_list(struct touched *t, const struct exported *x, struct search *a)
+{
+    const int64_t n = x->e->part.n;
+    for (int64_t i = 0; i < n; i++) t->n += a->number[i];
+    t->particle = NEW("touched.particle", t->n, int32_t);
+    t->first = NEW("touched.first", t->n + 1, int64_t);
+    t->key = NEW("touched.key", t->n, uint64_t);
+    for (int64_t i = 0, k = 0; i < n; i++) {
+        if (a->number[i]) t->particle[k] = (int32_t)i;
+        a->number[i] = a->number[i] ? (int32_t)k++ : -1;
+    }
+}
+
+/* Neighbours of those that are touched, and their keys. */
+static void touched_near(struct touched *t, const struct exported *x, struct search *a)
+{
+    int64_t room = 0;
+    for (int64_t k = 0; k < t->n; k++) {
+        const int64_t i = t->particle[k];
+        int row;
+        row_mark(x, i, a->bonded, &row);
+        const int near = lammps_near(x, i, a->found, a->room);
+        if (t->first[k] + near > room) {
+            const int64_t more = 2 * room + near;
+            t->near = memory_resize("touched.near", t->near, room, more, sizeof *t->near);
+            t->cut = memory_resize("touched.cut", t->cut, room, more, sizeof *t->cut);
+            room = more;
+        }
+        t->key[k] = key_of(x, i);
+        t->first[k + 1] = t->first[k];
+        for (int q = 0; q < near; q++) {
+            const int32_t j = a->found[q];
+            const bool cut = a->bonded[j] != i + 1;
+            if (cut) t->key[k] += offset_of(x, i, j);
+            if (a->number[j] < 0) continue;
+            t->near[t->first[k + 1]] = a->number[j];
+            t->cut[t->first[k + 1]++] = cut;
+        }
+    }
+}
+
+status lammps_touched(struct touched *t, struct exported *x)
+{
+    struct search a = {.room = bonds_room(&x->e->source) + 1};
+    a.found = NEW("touched.found", a.room, int32_t);
+    a.bonded = NEW("touched.bonded", x->e->part.n_all, int64_t);
+    a.number = NEW("touched.number", x->e->part.n_all, int32_t);
+    *t = (struct touched){0};
+    const status s = touched_find(x, &a, &x->bonds, &x->cut);
+    if (s == OK && !x->bond_style) touched_list(t, x, &a), touched_near(t, x, &a);
+    memory_free(a.found);
+    memory_free(a.bonded);
+    memory_free(a.number);
+    return s;
+}

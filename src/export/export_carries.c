@@ -1,0 +1,117 @@
+/* What of a scene LAMMPS can run: what it has no command for is refused; what it has by one rule only is a key to
+ * change. */
+#include <math.h>
+
+#include "export_parts.h"
+
+static status lammps_refuse(const struct scene *s, const char *what)
+{
+    return status_set(REFUSED, "%s: %s", shown_name(s->path).text, what);
+}
+
+static bool stretches_differ(const struct scene *s)
+{
+    for (int m = 1; m < s->materials; m++)
+        if (!bits_equal(s->material[m].critical_stretch, s->material[0].critical_stretch)) return true;
+    for (int k = 0; k < s->interfaces; k++)
+        if (s->interface[k].critical_stretch > 0) return true;
+    return false;
+}
+
+static bool any_yields(const struct scene *s)
+{
+    bool yields = false;
+    for (int m = 0; m < s->materials; m++) yields |= material_yields(&s->material[m]);
+    return yields;
+}
+
+static status carries_method(const struct scene *s)
+{
+    if (s->choice.made)
+        return lammps_refuse(s, "method: auto is no scene for LAMMPS, which is given one spacing and one step; export "
+                                "the scene.yaml that a run of it leaves");
+    if (s->method == METHOD_MPM)
+        return lammps_refuse(s, "method: mpm has no bonds, and LAMMPS no material points of this kind; method: pd or "
+                                "adaptive is expected");
+    if (s->dim == 1)
+        return lammps_refuse(s, "space: line is not in LAMMPS, whose particles lie in a plane or in space");
+    if (s->solver != SOLVER_EXPLICIT)
+        return lammps_refuse(s, "solver: LAMMPS' peridynamics has steps in time only; explicit is expected");
+    if (s->model == MODEL_MOSPD)
+        return lammps_refuse(s, "model: mospd is not in LAMMPS, which has bond (peri/pmb) and ospd (peri/lps)");
+    return OK;
+}
+
+static status carries_materials(const struct scene *s, bool bond_style)
+{
+    if (any_yields(s)) return lammps_refuse(s, "yield_stress: plastic bonds are not in LAMMPS; inf is expected");
+    if (s->model == MODEL_OSPD && s->materials > 1)
+        return lammps_refuse(s, "peri/lps mixes two materials by other rules than families here; one material, or "
+                                "model: bond, is expected");
+    if (stretches_differ(s) && !bond_style)
+        return lammps_refuse(s, "several critical stretches: peri/pmb breaks bonds by the largest of a particle's "
+                                "(lammps issue 984); one for all, or --style bpm, is expected");
+    if (s->rigids > 0) return lammps_refuse(s, "rigid bodies are not exported; a driven body of particles is expected");
+    if (s->damping > 0) return lammps_refuse(s, "damping is not exported; 0 is expected");
+    if (s->growths > 0) return lammps_refuse(s, "growth: LAMMPS has no cracks that grow by prescription");
+    return OK;
+}
+
+/* ---- keys -------------------------------------------------------------------------------------------------------- */
+
+static void settings_add(struct lammps_settings *to, bool differs, const char *key, const char *value,
+                         const char *effect)
+{
+    if (differs) to->of[to->n++] = (struct lammps_setting){key, value, effect};
+}
+
+/* Contact that peri/pmb has: its own, or none where no pair of particles is in its list any more. */
+static void contact_settings(struct lammps_settings *to, const struct scene *s, bool own)
+{
+    static const char *const effect = "pieces that meet push each other by LAMMPS' rule for pairs of particles";
+    if (s->contact_between == CONTACT_NONE) return;
+    if (!own) {
+        settings_add(to, true, "contact.between", "none", "pieces that meet pass through each other");
+        return;
+    }
+    settings_add(to, s->contact_between != CONTACT_ALL, "contact.between", "all", effect);
+    settings_add(to, s->contact_form != CONTACT_PAIR, "contact.law", "pair", effect);
+    settings_add(to, s->contact_distance != DISTANCE_LAMMPS, "contact.distance", "lammps", effect);
+    settings_add(to, s->contact_friction > 0, "contact.friction", "0", "faces slide without friction");
+    settings_add(to, s->contact_stiffness != 1, "contact.stiffness", "1", effect);
+}
+
+bool lammps_families_differ(const struct scene *s) { return s->model == MODEL_OSPD && scene_bonds_break(s); }
+
+static void pd_settings(struct lammps_settings *to, const struct scene *s, bool bond_style)
+{
+    const bool state = s->model == MODEL_OSPD, touches = s->contact_between != CONTACT_NONE && !state;
+    const bool any_volume = !bond_style && !touches && s->volume == VOLUME_WHOLE;
+    settings_add(
+        to, s->volume != VOLUME_CUT_RAMP && !any_volume, "pd.volume", "cut-ramp",
+        "neighbours at the horizon's edge count by their share within it: stiffness is calibrated anew, speeds of "
+        "waves differ by some percent");
+    settings_add(to, s->calibration == CALIBRATION_VMPD, "pd.calibration", "lattice",
+                 "stiffness is that of a full family on the lattice");
+    settings_add(to, s->surface != SURFACE_NONE, "pd.surface", "none",
+                 "bonds near faces keep their plain weight: faces are softer, thin parts bend more");
+    settings_add(to, s->shells != SHELLS_UNIFORM, "pd.weights", "uniform",
+                 "all bonds weigh alike: the lattice's anisotropy of some percent stays");
+    settings_add(to, s->influence != (state ? INFLUENCE_INVERSE : INFLUENCE_ONE), "pd.influence",
+                 state ? "inverse" : "one", "bonds weigh by another function of their length");
+    settings_add(to, state && s->bulk, "pd.normalisation", "local",
+                 "constants come from the family that a particle has: those at faces weigh otherwise");
+    settings_add(to, scene_bonds_break(s) && s->last_force != LAST_FORCE_WHOLE, "pd.last_force", "whole",
+                 "a bond acts for the whole step in which it breaks: breaks come a step later, which decides where two "
+                 "paths of a crack are nearly alike");
+}
+
+status lammps_carries(struct lammps_settings *to, const struct scene *s, bool bond_style)
+{
+    to->n = 0;
+    TRY(carries_method(s));
+    TRY(carries_materials(s, bond_style));
+    pd_settings(to, s, bond_style);
+    contact_settings(to, s, !bond_style && s->model == MODEL_BOND);
+    return OK;
+}

@@ -1,0 +1,52 @@
+/* check.csv: where this program has the particles after some steps, and which share of their bonds has broken. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "export_parts.h"
+
+/* Volume of the neighbours that intact bonds of every particle lead to: LAMMPS counts damage by it [m^3]. */
+static void joined_volume(real *volume, const struct engine *e)
+{
+    for (int64_t i = 0; i < e->part.n; i++) {
+        volume[i] = 0;
+        for (struct bond_iterator it = bonds_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
+            if (it.bond.w != 0) volume[i] += e->part.volume0[it.bond.nbr];
+    }
+}
+
+static void check_rows_write(FILE *to, const struct engine *e, const real *before, const real *after,
+                             const real *damage)
+{
+    const struct particles *p = &e->part;
+    fputs("id,X [m],Y [m],Z [m],x [m],y [m],z [m],damage,damage_start\n", to);
+    for (int64_t i = 0; i < p->n; i++) {
+        fprintf(to, "%d", p->id[i] + 1);
+        for (int d = 0; d < DIM_MAX; d++) fprintf(to, ",%.17g", d < p->dim ? p->X[d][i] : 0.0);
+        for (int d = 0; d < DIM_MAX; d++) fprintf(to, ",%.17g", d < p->dim ? p->x[d][i] : 0.0);
+        fprintf(to, ",%.17g,%.9g\n", before[i] > 0 ? 1 - after[i] / before[i] : 0.0, damage[i]);
+    }
+}
+
+status lammps_check_write(FILE *to, struct exported *x)
+{
+    struct engine *e = x->e;
+    const int64_t n = e->part.n, steps = e->clock.steps;
+    real *before = NEW("check.before", n, real), *after = NEW("check.after", n, real),
+         *damage = NEW("check.damage", n, real);
+    joined_volume(before, e);
+    memcpy(damage, e->part.damage, (size_t)n * sizeof *damage);
+    e->report.quiet = true;
+    e->clock.steps = CHECK_STEPS;
+    const status ran = engine_run(e);
+    e->clock.steps = steps;
+    if (ran == OK) {
+        /* there the positions just reached have broken bonds already */
+        e->kernels.bond_force(&e->bonds, &e->part, &e->source.limit, NULL);
+        joined_volume(after, e);
+        check_rows_write(to, e, before, after, damage);
+    }
+    memory_free(before);
+    memory_free(after);
+    memory_free(damage);
+    return ran;
+}

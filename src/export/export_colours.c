@@ -1,0 +1,98 @@
+/* Colours of particles for LAMMPS' only way to leave bonds out: pairs of types, excluded while its first neighbour list
+ * is made.
+ *
+ * On a lattice the place modulo the reach and the bonds that are cut make a key: two particles of such keys that are
+ * neighbours are so by one offset alone, and are cut or not. The number of colours then does not grow with the length
+ * of a crack. Elsewhere keys may mislead; a particle that does not fit takes a colour of its own key that does, or a
+ * new one. */
+#include "export_parts.h"
+
+#include "base/memory.h"
+
+void touched_free(struct touched *t)
+{
+    memory_free(t->particle);
+    memory_free(t->first);
+    memory_free(t->near);
+    memory_free(t->cut);
+    memory_free(t->key);
+    *t = (struct touched){0};
+}
+
+/* Colours as far as they are given; pairs of them by rows of COLOURS_MOST. */
+struct colouring {
+    const struct touched *t;
+    int32_t *of;
+    int n;
+    uint64_t *key;
+    uint8_t *pair;
+};
+
+static uint8_t pair_kind(const struct touched *t, int64_t q) { return t->cut[q] ? PAIR_CUT : PAIR_BONDED; }
+
+/* Does colour c suit particle k beside those that have one? */
+static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
+{
+    for (int64_t q = a->t->first[k]; q < a->t->first[k + 1]; q++) {
+        const int32_t other = a->of[a->t->near[q]];
+        const uint8_t known = other < 0 ? PAIR_UNKNOWN : a->pair[(int64_t)c * COLOURS_MOST + other];
+        if (known != PAIR_UNKNOWN && known != pair_kind(a->t, q)) return false;
+    }
+    return true;
+}
+
+/* Gives k the colour c; false: two of its neighbours, of one colour, differ. */
+static bool colour_take(struct colouring *a, int64_t k, int32_t c)
+{
+    a->of[k] = c;
+    for (int64_t q = a->t->first[k]; q < a->t->first[k + 1]; q++) {
+        const int32_t other = a->of[a->t->near[q]];
+        if (other < 0) continue;
+        uint8_t *known = &a->pair[(int64_t)c * COLOURS_MOST + other];
+        if (*known != PAIR_UNKNOWN && *known != pair_kind(a->t, q)) return false;
+        *known = a->pair[(int64_t)other * COLOURS_MOST + c] = pair_kind(a->t, q);
+    }
+    return true;
+}
+
+static bool colours_share(struct colouring *a)
+{
+    for (int64_t k = 0; k < a->t->n; k++) {
+        int32_t c = 0;
+        while (c < a->n && !(a->key[c] == a->t->key[k] && colour_fits(a, k, c))) c++;
+        if (c == COLOURS_MOST) return false;
+        if (c == a->n) a->key[a->n++] = a->t->key[k];
+        if (!colour_take(a, k, c)) return false;
+    }
+    return true;
+}
+
+int colours_make(int32_t *colour, const struct touched *t)
+{
+    struct colouring a = {t, colour, 0, NEW("colours.key", COLOURS_MOST, uint64_t),
+                          NEW("colours.pair", (int64_t)COLOURS_MOST * COLOURS_MOST, uint8_t)};
+    for (int64_t k = 0; k < t->n; k++) colour[k] = -1;
+    if (!colours_share(&a)) {
+        a.n = t->n <= COLOURS_MOST ? (int)t->n : 0;
+        for (int64_t k = 0; k < t->n; k++) colour[k] = (int32_t)k;
+    }
+    memory_free(a.key);
+    memory_free(a.pair);
+    return a.n;
+}
+
+uint8_t *colours_pairs(const int32_t *colour, int colours, const struct touched *t)
+{
+    uint8_t *pair = NEW("colours.pairs", (int64_t)colours * colours, uint8_t);
+    for (int64_t k = 0; k < t->n; k++)
+        for (int64_t q = t->first[k]; q < t->first[k + 1]; q++) {
+            uint8_t *known = &pair[(int64_t)colour[k] * colours + colour[t->near[q]]];
+            if (*known == PAIR_UNKNOWN || *known == pair_kind(t, q))
+                *known = pair_kind(t, q);
+            else {
+                memory_free(pair);
+                return NULL;
+            }
+        }
+    return pair;
+}

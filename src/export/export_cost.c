@@ -1,0 +1,52 @@
+/* What a run in LAMMPS costs beside one here, and what it lacks. */
+#include <math.h>
+
+#include "export_parts.h"
+
+/* Time of a directed bond and step on one core, both programs on one machine [ns]: `cleave bench peers`, of
+ * bench/README.md, LAMMPS of 29 September 2021. bpm/peri: 3.6 and 5.4 times as fast as peri on 4096 particles, by the
+ * benchmark of LAMMPS' own examples/bpm/peri. */
+struct bond_time {
+    real here, there, there_bonds;
+};
+static struct bond_time bond_time_of(const struct scene *s)
+{
+    if (s->model == MODEL_BOND)
+        return s->dim == 2 ? (struct bond_time){0.67, 15.4, 15.4 / 3.6} : (struct bond_time){0.77, 15.8, 15.8 / 3.6};
+    return s->dim == 2 ? (struct bond_time){1.13, 40.6, 40.6 / 5.4} : (struct bond_time){1.39, 44.7, 44.7 / 5.4};
+}
+
+/* A duration in words. */
+struct duration {
+    char text[40];
+};
+static struct duration duration_of(real seconds)
+{
+    struct duration d;
+    if (seconds < 120)
+        snprintf(d.text, sizeof d.text, "%.3g s", seconds);
+    else if (seconds < 7200)
+        snprintf(d.text, sizeof d.text, "%.3g min", seconds / 60);
+    else
+        snprintf(d.text, sizeof d.text, "%.3g h", seconds / 3600);
+    return d;
+}
+
+void lammps_cost_write(FILE *to, const struct exported *x)
+{
+    const struct bond_time t = bond_time_of(x->s);
+    const real there = x->bond_style ? t.there_bonds : t.there,
+               work = 2e-9 * (real)x->bonds * (real)x->e->clock.steps;
+    const int cores = team_cores();
+    fprintf(to, "%lld particles, %lld bonds, %lld steps of %.4g s: about %s on a core there, %s here\n",
+            (long long)x->e->part.n, (long long)x->bonds, (long long)x->e->clock.steps, x->e->clock.dt,
+            duration_of(work * there).text, duration_of(work * t.here).text);
+    fprintf(to, "(%.3g and %.2g ns for a directed bond and step, %s).\n", there, t.here,
+            x->bond_style ? "the first by LAMMPS' own benchmark" : "measured on one machine");
+    fprintf(to,
+            "Break-even: %.0f ranks of LAMMPS, if they lose nothing to each other, are as fast as %d core%s here.\n",
+            ceil(cores * there / t.here), cores, cores == 1 ? "" : "s");
+    fputs("Lost there: material points and conversion (all particles have bonds from start to end), the balance of\n"
+          "energy, stress, crack tips and their speed, stress-intensity factors, probes, fragments, the same bits on\n"
+          "any number of ranks.\n", to);
+}

@@ -1,0 +1,195 @@
+/* The export to LAMMPS: reads the scene, with bonds everywhere and with what LAMMPS has by one rule only; makes its
+ * particles and bonds; writes the files. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "auto/scene_read.h"
+#include "base/memory.h"
+#include "export_parts.h"
+#include "output/output_files.h"
+
+/* ---- the scene --------------------------------------------------------------------------------------------------- */
+
+/* The scene with its user's overrides, bonds everywhere, and the settings. */
+static status scene_make(struct scene *s, const struct export_request *r, const struct lammps_settings *with)
+{
+    struct scene_override *all = NEW("export.overrides", r->overrides + 1 + with->n, struct scene_override);
+    int n = 0;
+    for (int k = 0; k < r->overrides; k++) all[n++] = r->override[k];
+    all[n++] = (struct scene_override){"method", "pd"};
+    for (int k = 0; k < with->n; k++) all[n++] = (struct scene_override){with->of[k].key, with->of[k].value};
+    const status read = scene_read(s, r->scene, all, n);
+    memory_free(all);
+    return read;
+}
+
+/* REFUSED with all keys to change in one line. */
+static status settings_refuse(const struct lammps_settings *settings, const struct scene *s)
+{
+    char list[1024] = "";
+    size_t length = 0;
+    for (int k = 0; k < settings->n && length < sizeof list; k++)
+        length += (size_t)snprintf(list + length, sizeof list - length, " -s %s=%s", settings->of[k].key,
+                                   settings->of[k].value);
+    if (settings->n == 0)
+        return status_set(REFUSED,
+                          "%s: once bonds break, families of peri/lps keep the weight they had whole, and results "
+                          "differ; model: bond, or --allow-different, is expected",
+                          shown_name(s->path).text);
+    return status_set(REFUSED,
+                      "%s: LAMMPS runs it to the same result with%s; give these, or --allow-different, which "
+                      "lays them over the scene",
+                      shown_name(s->path).text, list);
+}
+
+static status scene_to_export(struct scene *s, struct lammps_settings *settings, const struct export_request *r)
+{
+    const struct lammps_settings none = {0};
+    TRY(scene_read(s, r->scene, r->override, r->overrides));
+    TRY(lammps_carries(settings, s, r->bond_style));
+    scene_free(s);
+    TRY(scene_make(s, r, &none));
+    TRY(lammps_carries(settings, s, r->bond_style));
+    if (settings->n == 0 && !lammps_families_differ(s)) return OK;
+    if (!r->allow_different) return settings_refuse(settings, s);
+    struct lammps_settings left;
+    scene_free(s);
+    TRY(scene_make(s, r, settings));
+    TRY(lammps_carries(&left, s, r->bond_style));
+    if (left.n > 0) return settings_refuse(&left, s);
+    return OK;
+}
+
+/* ---- files ------------------------------------------------------------------------------------------------------- */
+
+static void readme_write(FILE *to, const struct exported *x)
+{
+    const char *style = x->bond_style ? "bond_style bpm/peri" : x->s->model == MODEL_BOND ? "peri/pmb" : "peri/lps";
+    fprintf(
+        to,
+        "%s for LAMMPS (%s), exported by Cleave %s\n\n"
+        "    lmp -in in.lammps                       # or: mpirun -np 16 lmp -in in.lammps\n"
+        "    cleave compare RESULTS_OF_CLEAVE .      # displacement, velocity, damage; and the check of %d steps\n\n"
+        "in.lammps   the commands; their last lines are a test for a machine without Cleave\n"
+        "plate.data  particles%s\n"
+        "scene.yaml  the scene as exported: `cleave run scene.yaml` is the same run in Cleave\n"
+        "check.csv   where Cleave has the particles after %d steps; damage, of the bonds there were (as LAMMPS counts "
+        "it), and\n"
+        "            damage at the start, by pre-cracks: in all d = start + (1 - start) damage\n\n",
+        x->s->name, style, CLEAVE_VERSION, CHECK_STEPS, x->bond_style ? " and bonds" : "", CHECK_STEPS);
+    lammps_cost_write(to, x);
+    fprintf(to, "\nThe method is `pd`: what a scene of `adaptive` leaves to material points has bonds here, too.\n");
+    for (int k = 0; k < x->settings.n; k++)
+        fprintf(to, "%s%s: %s   %s\n",
+                k ? "" : "\nThe results differ from those of the scene as it was, by LAMMPS' rules:\n",
+                x->settings.of[k].key, x->settings.of[k].value, x->settings.of[k].effect);
+    if (lammps_families_differ(x->s))
+        fputs("\nThe results differ once bonds break: families of LAMMPS keep the weight that they had whole, those of "
+              "Cleave\n"
+              "do not. check.csv agrees to round-off only as long as nothing has broken.\n",
+              to);
+    if (x->bond_style)
+        fputs("\nbond_style bpm/peri was written by its documentation (LAMMPS of 2 September 2026) and has not been "
+              "run by "
+              "Cleave's\ntests. Compare with check.csv before you rely on it. There is no contact: see the comment at "
+              "pair_style.\n",
+              to);
+    else if (x->s->contact_between != CONTACT_NONE)
+        fputs("\nPieces that meet push each other, by the same rule in both programs.\n", to);
+    fputs("\nBonds compressed below 0.7 of their length repel in Cleave, which those of LAMMPS do not. One rank and "
+          "several\n"
+          "differ in the last digits.\n",
+          to);
+}
+
+struct writing {
+    FILE *to;
+    struct path path;
+};
+
+static status writing_begin(struct writing *w, const struct exported *x, const char *name)
+{
+    w->path = path_join(x->request->folder, name);
+    w->to = fopen(path_aside(w->path.text).text, "w");
+    return w->to ? OK : file_fault(w->path.text, errno);
+}
+
+static status writing_end(struct writing *w, status s)
+{
+    const bool whole = !ferror(w->to);
+    const bool closed = fclose(w->to) == 0;
+    if (s == OK && !(whole && closed)) s = file_fault(w->path.text, errno);
+    if (s == OK) s = file_seal(w->path.text, NULL, 0);
+    if (s == OK) return file_publish(w->path.text);
+    file_discard(w->path.text);
+    return s;
+}
+
+/* The check runs steps, and so comes after the data; the script comes last: a folder with it is whole. */
+static status files_write(struct exported *x, const struct lammps_types *t)
+{
+    struct writing w;
+    TRY(folder_make(x->request->folder));
+    TRY(writing_begin(&w, x, "plate.data"));
+    lammps_data_write(w.to, x, t);
+    TRY(writing_end(&w, OK));
+    TRY(writing_begin(&w, x, "README.txt"));
+    readme_write(w.to, x);
+    TRY(writing_end(&w, OK));
+    TRY(writing_begin(&w, x, "scene.yaml"));
+    fputs(x->s->text, w.to);
+    TRY(writing_end(&w, OK));
+    TRY(writing_begin(&w, x, "check.csv"));
+    TRY(writing_end(&w, lammps_check_write(w.to, x)));
+    TRY(writing_begin(&w, x, "in.lammps"));
+    lammps_script_write(w.to, x, t);
+    return writing_end(&w, OK);
+}
+
+/* ---- the export -------------------------------------------------------------------------------------------------- */
+
+static void export_print(const struct exported *x, const struct lammps_types *t)
+{
+    printf("%s: run it there with: lmp -in in.lammps\n", shown_name(x->request->folder).text);
+    if (x->cut > 0)
+        printf("%lld bonds cut, by %lld exclusions among %d types of particles\n", (long long)x->cut,
+               (long long)t->pairs, t->n);
+    lammps_cost_write(stdout, x);
+    for (int k = 0; k < x->settings.n; k++)
+        printf("differs from the scene: %s: %s\n", x->settings.of[k].key, x->settings.of[k].value);
+}
+
+static status export_write(struct exported *x)
+{
+    struct lammps_types t = {0};
+    const struct family *f = &x->e->source.family;
+    const bool ramp = f->volume == VOLUME_CUT_RAMP;
+    x->cutoff = ramp ? f->horizon : f->cutoff;
+    x->lattice = ramp ? f->spacing : 1e-8 * f->spacing; /* so narrow a ramp that no neighbour lies on it */
+    TRY(lammps_loads_make(x));
+    status s = lammps_types_make(&t, x);
+    if (s == OK) s = files_write(x, &t);
+    if (s == OK) export_print(x, &t);
+    lammps_types_free(&t);
+    memory_free(x->loads);
+    return s;
+}
+
+status export_lammps(const struct export_request *request)
+{
+    struct scene s = {0};
+    struct engine *e = NEW("export.engine", 1, struct engine);
+    struct exported *x = NEW("export", 1, struct exported);
+    if (path_exists(path_join(request->folder, "in.lammps").text))
+        return status_set(REFUSED, "%s holds an export; choose another -o, or remove it", request->folder);
+    x->s = &s, x->e = e, x->request = request, x->bond_style = request->bond_style;
+    status result = scene_to_export(&s, &x->settings, request);
+    if (result == OK) result = engine_make(e, &s, NULL);
+    if (result == OK) result = export_write(x);
+    engine_free(e);
+    scene_free(&s);
+    memory_free(x);
+    memory_free(e);
+    return result;
+}

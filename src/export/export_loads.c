@@ -1,0 +1,304 @@
+/* Loads in LAMMPS' words: what is driven has its force replaced (fix setforce) so that its velocity is the prescribed
+ * one in the middle of each step; forces are added (fix addforce), as means over the kick that they act in. Both give
+ * the steps of this program to round-off, for any function of time. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "export_parts.h"
+
+static bool is_force(const struct load *load)
+{
+    return load->boundary->kind == BOUNDARY_TRACTION || load->boundary->kind == BOUNDARY_BODY_FORCE;
+}
+
+static const char axis_name[] = "xyz";
+enum { TABLE_MOST = 500 };
+
+struct word {
+    char text[32];
+};
+
+static bool is_constant(const struct load *load) { return load->boundary->time.kind == TIME_CONSTANT; }
+
+/* ---- what can be done -------------------------------------------------------------------------------------------- */
+
+static bool function_carries(const struct time_function *f)
+{
+    const enum time_kind kind = f->kind;
+    return kind == TIME_CONSTANT || kind == TIME_STEP || kind == TIME_PULSE || kind == TIME_RAMP || kind == TIME_TABLE;
+}
+
+static status load_carries(const struct load *load)
+{
+    const struct boundary *b = load->boundary;
+    const char *why = NULL;
+    if (b->kind == BOUNDARY_MIRROR) why = "LAMMPS has no planes of symmetry; the whole body is expected";
+    else if (b->kind == BOUNDARY_ABSORBING) why = "absorbing faces are not exported; a larger body is expected";
+    else if (!is_force(load) && b->kind != BOUNDARY_VELOCITY) why = "this kind of load is not exported to LAMMPS";
+    else if (!function_carries(&b->time)) why = "this function of time is not exported to LAMMPS; a table is expected";
+    else if (b->time.kind == TIME_TABLE && b->time.n > TABLE_MOST)
+        why = "LAMMPS would work out all of a table's values in every step; 500 are the most";
+    return why ? status_set(REFUSED, "%s%s", b->place, why) : OK;
+}
+
+static void columns_make(struct exported *x);
+
+status lammps_loads_make(struct exported *x)
+{
+    const struct loads *l = &x->e->loads;
+    for (int k = 0; k < l->n; k++) TRY(load_carries(&l->load[k]));
+    if (l->n > LOADS_MOST)
+        return status_set(REFUSED, "%s: %d loads; LAMMPS has groups for %d", shown_name(x->s->path).text, l->n,
+                          LOADS_MOST);
+    x->loads = NEW("export.loads", x->e->part.n, uint32_t);
+    for (int k = 0; k < l->n; k++)
+        for (int64_t q = 0; q < l->load[k].n; q++) x->loads[l->load[k].particle[q]] |= 1u << k;
+    columns_make(x);
+    return OK;
+}
+
+void lammps_velocity(const struct exported *x, int64_t i, real v[DIM_MAX])
+{
+    const struct loads *l = &x->e->loads;
+    const int dim = x->e->part.dim;
+    for (int d = 0; d < DIM_MAX; d++) v[d] = d < dim ? x->e->part.v[d][i] : 0;
+    for (int k = 0; k < l->n; k++) {
+        const struct boundary *b = l->load[k].boundary;
+        if (is_force(&l->load[k]) || !(x->loads[i] >> k & 1)) continue;
+        for (int d = 0; d < dim; d++)
+            if (b->components >> d & 1) v[d] = b->value[d] * time_function_at(&b->time, 0.5 * x->e->clock.dt);
+    }
+}
+
+/* ---- columns of plate.data --------------------------------------------------------------------------------------- */
+
+/* Component d of a force on its k-th particle: by volume in peri, whose mass is density; whole with bonds [N/m^3, N].
+ */
+static real force_on(const struct exported *x, const struct load *load, int d, int64_t k)
+{
+    const real force = load->boundary->value[d] * load->share[d][k];
+    return x->bond_style ? force : force / x->e->part.volume0[load->particle[k]];
+}
+
+static bool pushes_along(const struct load *load, int d)
+{
+    return is_force(load) && load->n > 0 && load->boundary->value[d] != 0;
+}
+
+/* Do the particles of a force differ by more than round-off? */
+static bool force_varies(const struct exported *x, const struct load *load, int d)
+{
+    for (int64_t k = 1; k < load->n; k++)
+        if (!(fabs(force_on(x, load, d, k) / force_on(x, load, d, 0) - 1) <= 1e-14)) return true;
+    return false;
+}
+
+static bool is_displaced(const struct particles *p)
+{
+    for (int d = 0; d < p->dim; d++)
+        for (int64_t i = 0; i < p->n; i++)
+            if (!bits_equal(p->x[d][i], p->X[d][i])) return true;
+    return false;
+}
+
+static void columns_make(struct exported *x)
+{
+    const struct loads *l = &x->e->loads;
+    for (int k = 0; k < l->n; k++)
+        for (int d = 0; d < x->s->dim; d++)
+            if (pushes_along(&l->load[k], d) && force_varies(x, &l->load[k], d))
+                x->column[x->columns++] = (struct lammps_column){k, d};
+    x->displaced = is_displaced(&x->e->part);
+    for (int d = 0; x->displaced && d < x->s->dim; d++) x->column[x->columns++] = (struct lammps_column){-1, d};
+}
+
+static struct word column_name(const struct lammps_column *c)
+{
+    struct word w;
+    if (c->load < 0)
+        snprintf(w.text, sizeof w.text, "start%c", axis_name[c->axis]);
+    else
+        snprintf(w.text, sizeof w.text, "load%d%c", c->load + 1, axis_name[c->axis]);
+    return w;
+}
+
+void lammps_columns_name(FILE *to, const struct exported *x)
+{
+    for (int c = 0; c < x->columns; c++) fprintf(to, " d_%s", column_name(&x->column[c]).text);
+}
+
+void lammps_columns_compute(FILE *to, const struct exported *x)
+{
+    for (int c = 0; c < x->columns; c++) {
+        const struct word name = column_name(&x->column[c]);
+        fprintf(to, "compute %s all property/atom d_%s\n", name.text, name.text);
+    }
+}
+
+/* Place of particle i in the list of a load, which ascends; -1: it is not there. */
+static int64_t place_in(const struct load *load, int64_t i)
+{
+    int64_t low = 0, high = load->n;
+    while (low < high) {
+        const int64_t middle = (low + high) / 2;
+        if (load->particle[middle] < i)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < load->n && load->particle[low] == i ? low : -1;
+}
+
+real lammps_column_value(const struct exported *x, int c, int64_t i)
+{
+    const int d = x->column[c].axis;
+    if (x->column[c].load < 0) return x->e->part.x[d][i] - x->e->part.X[d][i];
+    const struct load *load = &x->e->loads.load[x->column[c].load];
+    const int64_t k = place_in(load, i);
+    return k < 0 ? 0 : force_on(x, load, d, k);
+}
+
+/* ---- functions of time ------------------------------------------------------------------------------------------- */
+
+/* A finite number for LAMMPS, in brackets where it has a sign. */
+static void put(FILE *to, real value)
+{
+    if (!isfinite(value)) value = value > 0 ? 1e300 : -1e300;
+    fprintf(to, value < 0 ? "(%.17g)" : "%.17g", value);
+}
+
+/* Text with numbers at its percent signs. */
+static void put_formula(FILE *to, const char *text, const char *t, const real *number)
+{
+    for (; *text; text++)
+        if (*text == '%')
+            put(to, *number++);
+        else if (*text == 't')
+            fputs(t, to);
+        else
+            fputc(*text, to);
+}
+
+static void put_table(FILE *to, const struct time_function *f, const char *t)
+{
+    put_formula(to, "((t<%)*%", t, (real[]){f->t[0], f->value[0]});
+    for (int k = 1; k < f->n; k++)
+        if (f->t[k] > f->t[k - 1])
+            put_formula(to, "+(t>=%)*(t<%)*(%+(t-%)*(%))", t,
+                        (real[]){f->t[k - 1], f->t[k], f->value[k - 1], f->t[k - 1],
+                                 (f->value[k] - f->value[k - 1]) / (f->t[k] - f->t[k - 1])});
+    put_formula(to, "+(t>=%)*%)", t, (real[]){f->t[f->n - 1], f->value[f->n - 1]});
+}
+
+/* A function of time (time_function_at) of the variable t. */
+static void put_function(FILE *to, const struct time_function *f, const char *t)
+{
+    const real a = f->from, b = f->until;
+    switch (f->kind) {
+    case TIME_STEP:
+        put_formula(to, "((t>=%)*(t<%))", t, (real[]){a, b});
+        break;
+    case TIME_PULSE:
+        put_formula(to, "((t>=%)*(t<%)*", t, (real[]){a, b});
+        fputs("sin(PI*(", to);
+        put_formula(to, "t-%)/(%-%))^2)", t, (real[]){a, b, a});
+        break;
+    case TIME_RAMP:
+        put_formula(to, "((t>=%)+(t>=%)*(t<%)*(t-%)/(%-%))", t, (real[]){b, a, b, a, b, a});
+        break;
+    case TIME_TABLE:
+        put_table(to, f, t);
+        break;
+    default:
+        fputs("1", to);
+    }
+}
+
+/* ---- commands ---------------------------------------------------------------------------------------------------- */
+
+static void group_write(FILE *to, int k, const struct lammps_types *t, const struct exported *x)
+{
+    fprintf(to, "group load%d type", k + 1);
+    for (int type = 1; type <= t->n; type++)
+        if (x->loads[t->any[type]] >> k & 1) fprintf(to, " %d", type);
+    fputc('\n', to);
+}
+
+/* Component d of a force: a number, or a variable of time, of the particle, or of both. */
+static struct word force_word(FILE *to, const struct exported *x, int k, int d)
+{
+    const struct load *load = &x->e->loads.load[k];
+    struct word w = {"0.0"};
+    if (!pushes_along(load, d)) return w;
+    const bool atoms = force_varies(x, load, d);
+    snprintf(w.text, sizeof w.text, "%.17g", force_on(x, load, d, 0));
+    if (!atoms && is_constant(load)) return w;
+    fprintf(to, "variable force%d%c %s \"", k + 1, axis_name[d], atoms ? "atom" : "equal");
+    if (atoms)
+        fprintf(to, "c_load%d%c", k + 1, axis_name[d]);
+    else
+        put(to, force_on(x, load, d, 0));
+    if (!is_constant(load)) fprintf(to, "*v_factor%d", k + 1);
+    fputs("\"\n", to);
+    snprintf(w.text, sizeof w.text, "v_force%d%c", k + 1, axis_name[d]);
+    return w;
+}
+
+/* Force by the mean of its function over the kick, which ends half a step later; of the first step, over half a one. */
+static void force_write(FILE *to, const struct exported *x, int k)
+{
+    const struct load *load = &x->e->loads.load[k];
+    struct word w[DIM_MAX];
+    if (!is_constant(load)) {
+        fprintf(to, "variable factor%d equal \"0.5*(", k + 1);
+        put_function(to, &load->boundary->time, "v_kicked");
+        fputc('+', to);
+        put_function(to, &load->boundary->time, "v_kick");
+        fputs(")\"\n", to);
+    }
+    for (int d = 0; d < DIM_MAX; d++) w[d] = force_word(to, x, k, d);
+    fprintf(to, "fix load%d load%d addforce %s %s %s\n", k + 1, k + 1, w[0].text, w[1].text, w[2].text);
+}
+
+/* The force that takes what is driven from its velocity in the middle of the last step to that in this one. */
+static void drive_write(FILE *to, const struct exported *x, int k)
+{
+    const struct boundary *b = x->e->loads.load[k].boundary;
+    const bool varies = !is_constant(&x->e->loads.load[k]);
+    struct word w[DIM_MAX] = {{"NULL"}, {"NULL"}, {"NULL"}};
+    if (varies) {
+        fprintf(to, "variable rate%d equal \"(step>0)*(", k + 1);
+        put_function(to, &b->time, "v_kick");
+        fputc('-', to);
+        put_function(to, &b->time, "v_kicked");
+        fprintf(to, ")/%.17g\"\n", x->e->clock.dt);
+    }
+    for (int d = 0; d < x->s->dim; d++) {
+        if (!(b->components >> d & 1)) continue;
+        strcpy(w[d].text, "0.0");
+        if (!varies || b->value[d] == 0) continue;
+        snprintf(w[d].text, sizeof w[d].text, "v_drive%d%c", k + 1, axis_name[d]);
+        fprintf(to, "variable drive%d%c atom \"mass*", k + 1, axis_name[d]);
+        put(to, b->value[d]);
+        fprintf(to, "*v_rate%d\"\n", k + 1);
+    }
+    fprintf(to, "fix load%d load%d setforce %s %s %s\n", k + 1, k + 1, w[0].text, w[1].text, w[2].text);
+}
+
+void lammps_loads_write(FILE *to, const struct exported *x, const struct lammps_types *t)
+{
+    const struct loads *l = &x->e->loads;
+    if (l->n == 0) return;
+    fprintf(to,
+            "\n# Loads; the kick of a step begins and ends at these times, in the middles of steps\n"
+            "variable kick equal \"(step+0.5)*%.17g\"\nvariable kicked equal \"(step-0.5*(step>0))*%.17g\"\n",
+            x->e->clock.dt, x->e->clock.dt);
+    for (int k = 0; k < l->n; k++) {
+        if (l->load[k].n == 0) continue;
+        fprintf(to, "# %s\n", l->load[k].boundary->name);
+        group_write(to, k, t, x);
+        if (is_force(&l->load[k])) force_write(to, x, k);
+    }
+    for (int k = 0; k < l->n; k++) /* after all forces, which they replace */
+        if (l->load[k].n > 0 && !is_force(&l->load[k])) drive_write(to, x, k);
+}

@@ -1,0 +1,127 @@
+/* Types of particles in LAMMPS: one for those with the same material and loads, which makes groups of a word; more
+ * where bonds are cut, so that pairs of types say which. */
+#include "base/memory.h"
+#include "export_parts.h"
+
+enum { CLASSES_MOST = 1000 };
+
+/* Particles of one material and one set of loads are a class (of one mass, too, where types have masses); colours are
+ * parts of a class that cut bonds single out. */
+struct classes {
+    int n, room;
+    int32_t *any;
+};
+
+static bool class_alike(const struct exported *x, int64_t i, int64_t j)
+{
+    const struct particles *p = &x->e->part;
+    return p->material[i] == p->material[j] && x->loads[i] == x->loads[j] &&
+           (!x->bond_style || bits_equal(p->mass[i], p->mass[j]));
+}
+
+/* Number of the class of particle i; -1: there are too many. */
+static int class_of(struct classes *c, const struct exported *x, int64_t i)
+{
+    for (int k = c->n; k-- > 0;)
+        if (class_alike(x, c->any[k], i)) return k;
+    if (c->n == CLASSES_MOST) return -1;
+    if (c->n == c->room) {
+        const int more = 2 * c->room + 8;
+        c->any = memory_resize("types.classes", c->any, c->room, more, sizeof *c->any);
+        c->room = more;
+    }
+    c->any[c->n] = (int32_t)i;
+    return c->n++;
+}
+
+/* Numbers the types so that those of a material follow each other: `first` has classes, then colours. */
+static void types_number(struct lammps_types *t, const struct exported *x, int32_t *number, const int32_t *any, int n)
+{
+    t->material = NEW("types.material", n + 1, int32_t);
+    t->any = NEW("types.any", n + 1, int32_t);
+    for (int m = 0; m < x->s->materials; m++)
+        for (int k = 0; k < n; k++)
+            if (x->e->part.material[any[k]] == m) {
+                number[k] = ++t->n;
+                t->material[t->n] = m, t->any[t->n] = any[k];
+            }
+}
+
+static void types_exclude(struct lammps_types *t, const int32_t *number, const uint8_t *pair, int colours)
+{
+    for (int pass = 0; pass < 2; pass++) {
+        t->pairs = 0;
+        for (int a = 0; a < colours; a++)
+            for (int b = a; b < colours; b++) {
+                if (pair[(int64_t)a * colours + b] != PAIR_CUT) continue;
+                if (pass) t->pair[t->pairs][0] = number[a], t->pair[t->pairs][1] = number[b];
+                t->pairs++;
+            }
+        if (!pass) t->pair = memory_new("types.pair", t->pairs, sizeof *t->pair);
+    }
+}
+
+/* Classes of all particles, into t->of. */
+static status classes_find(struct classes *c, struct lammps_types *t, const struct exported *x)
+{
+    t->of = NEW("types.of", x->e->part.n, int32_t);
+    for (int64_t i = 0; i < x->e->part.n; i++)
+        if ((t->of[i] = class_of(c, x, i)) < 0)
+            return status_set(REFUSED,
+                              "%s: particles of more than %d masses, materials or sets of loads, which are types "
+                              "there",
+                              shown_name(x->s->path).text, CLASSES_MOST);
+    return OK;
+}
+
+static status types_give(struct lammps_types *t, struct exported *x, const struct touched *touched,
+                         const int32_t *colour, int colours, const uint8_t *pair)
+{
+    const int64_t n = x->e->part.n;
+    struct classes c = {0};
+    const status made = classes_find(&c, t, x);
+    int32_t *any = NEW("types.first", c.n + colours, int32_t), *number = NEW("types.number", c.n + colours, int32_t);
+    for (int k = 0; k < c.n; k++) any[k] = c.any[k];
+    for (int64_t k = made == OK ? touched->n : 0; k-- > 0;) {
+        any[c.n + colour[k]] = touched->particle[k];
+        t->of[touched->particle[k]] = c.n + colour[k];
+    }
+    if (made == OK) types_number(t, x, number, any, c.n + colours);
+    for (int64_t i = 0; i < n && made == OK; i++) t->of[i] = number[t->of[i]];
+    if (pair && made == OK) types_exclude(t, number + c.n, pair, colours);
+    memory_free(any);
+    memory_free(number);
+    memory_free(c.any);
+    return made;
+}
+
+status lammps_types_make(struct lammps_types *t, struct exported *x)
+{
+    struct touched touched;
+    *t = (struct lammps_types){0};
+    status s = lammps_touched(&touched, x);
+    int32_t *colour = NEW("types.colour", touched.n, int32_t);
+    uint8_t *pair = NULL;
+    const int colours = s == OK && touched.n > 0 ? colours_make(colour, &touched) : 0;
+    if (s == OK && touched.n > 0 && colours == 0)
+        s = status_set(REFUSED,
+                       "%s: the cracks touch %lld particles, which would need more than %d types of LAMMPS, "
+                       "whose tables grow with their square; straight cracks on a lattice need fewer",
+                       shown_name(x->s->path).text, (long long)touched.n, COLOURS_MOST);
+    if (s == OK && colours > 0 && !(pair = colours_pairs(colour, colours, &touched)))
+        s = status_set(FAILED, "export: types of particles do not say which bonds are cut");
+    if (s == OK) s = types_give(t, x, &touched, colour, colours, pair);
+    memory_free(pair);
+    memory_free(colour);
+    touched_free(&touched);
+    return s;
+}
+
+void lammps_types_free(struct lammps_types *t)
+{
+    memory_free(t->of);
+    memory_free(t->material);
+    memory_free(t->any);
+    memory_free(t->pair);
+    *t = (struct lammps_types){0};
+}

@@ -1,0 +1,212 @@
+/* Reads text dumps of LAMMPS line by line: they may be larger than memory. */
+#include "output/lammps_dump.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include "base/memory.h"
+
+enum { LINE_ROOM = 1024, FRAME_COLUMNS_MOST = 32, LEAST_LINE = 8 }; /* bytes of `1 0 0 0\n` */
+enum { WANTED = 8 };
+static const char *const wanted_name[WANTED] = {"id", "x", "y", "z", "vx", "vy", "vz", "c_damage"};
+
+struct dump {
+    FILE *file;
+    const char *path;
+    int64_t bytes, line;
+    char text[LINE_ROOM];
+};
+
+/* What stands before the particles of a step: their number, and the place of each wanted column, -1: it is not there.
+ */
+struct dump_head {
+    int64_t step, n;
+    int column[WANTED];
+};
+
+static status dump_fault(const struct dump *d, const char *what)
+{
+    return status_set(FAILED, "%s:%lld: %s", shown_name(d->path).text, (long long)d->line, what);
+}
+
+static status dump_open(struct dump *d, const char *path)
+{
+    struct stat s;
+    *d = (struct dump){.path = path};
+    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode) || !(d->file = fopen(path, "r")))
+        return status_set(FAILED, "cannot read %s: there is no such file", shown_name(path).text);
+    d->bytes = s.st_size;
+    return OK;
+}
+
+/* The next line; false at the end, or where the line has none. */
+static bool dump_line(struct dump *d)
+{
+    d->line++;
+    return fgets(d->text, sizeof d->text, d->file) && strchr(d->text, '\n');
+}
+
+static bool dump_whole_number(const char *text, int64_t *value)
+{
+    char *end;
+    errno = 0;
+    *value = strtoll(text, &end, 10);
+    return end != text && errno == 0 && end[strspn(end, " \r\n")] == '\0';
+}
+
+static bool dump_begins(const char *text, const char *with) { return strncmp(text, with, strlen(with)) == 0; }
+
+static status head_columns(struct dump *d, struct dump_head *h)
+{
+    char *rest = d->text + strlen("ITEM: ATOMS");
+    for (int w = 0; w < WANTED; w++) h->column[w] = -1;
+    int k = 0;
+    for (char *name = strtok_r(rest, " \r\n", &rest); name; name = strtok_r(NULL, " \r\n", &rest), k++) {
+        if (k == FRAME_COLUMNS_MOST) return dump_fault(d, "too many columns");
+        for (int w = 0; w < WANTED; w++)
+            if (strcmp(name, wanted_name[w]) == 0) h->column[w] = k;
+    }
+    for (int w = 0; w < 4; w++)
+        if (h->column[w] < 0) return dump_fault(d, "columns id, x, y and z are expected");
+    return OK;
+}
+
+/* The head of the next step; *more false at the end. */
+static status head_next(struct dump *d, struct dump_head *h, bool *more)
+{
+    *more = dump_line(d);
+    if (!*more) return OK;
+    if (!dump_begins(d->text, "ITEM: TIMESTEP"))
+        return dump_fault(d, "ITEM: TIMESTEP, of a text dump of LAMMPS, is expected");
+    h->n = -1;
+    if ((*more = dump_line(d)) && !dump_whole_number(d->text, &h->step)) return dump_fault(d, "no number of a step");
+    while (*more && (*more = dump_line(d)) && !dump_begins(d->text, "ITEM: ATOMS")) {
+        if (!dump_begins(d->text, "ITEM: NUMBER OF ATOMS")) continue;
+        if (!(*more = dump_line(d))) break;
+        if (!dump_whole_number(d->text, &h->n) || h->n < 0 || h->n > d->bytes / LEAST_LINE || h->n > INT32_MAX)
+            return dump_fault(d, "no number of particles that this file can hold");
+    }
+    if (!*more) return OK;
+    return h->n < 0 ? dump_fault(d, "ITEM: NUMBER OF ATOMS is missing") : head_columns(d, h);
+}
+
+static bool skip_rows(struct dump *d, int64_t n)
+{
+    bool more = true;
+    for (int64_t k = 0; k < n && more; k++) more = dump_line(d);
+    return more;
+}
+
+static status steps_read(struct dump *d, int *n, int64_t **step)
+{
+    struct dump_head h;
+    bool more;
+    int room = 0;
+    for (;;) {
+        TRY(head_next(d, &h, &more));
+        if (!more || !skip_rows(d, h.n)) return OK;
+        if (*n > 0 && h.step <= (*step)[*n - 1]) return dump_fault(d, "steps do not ascend");
+        if (*n == room) {
+            *step = memory_resize("dump.steps", *step, room, 2 * room + 16, sizeof **step);
+            room = 2 * room + 16;
+        }
+        (*step)[(*n)++] = h.step;
+    }
+}
+
+status lammps_steps(const char *path, int *n, int64_t **step)
+{
+    struct dump d;
+    *n = 0, *step = NULL;
+    TRY(dump_open(&d, path));
+    const status s = steps_read(&d, n, step);
+    fclose(d.file);
+    if (s == OK && *n > 0) return OK;
+    memory_free(*step);
+    *step = NULL, *n = 0;
+    return s != OK ? s : status_set(FAILED, "%s holds no step of LAMMPS yet", shown_name(path).text);
+}
+
+/* ---- particles --------------------------------------------------------------------------------------------------- */
+
+static void lammps_frame_make(struct lammps_frame *f, const struct dump_head *h)
+{
+    f->n = h->n, f->step = h->step;
+    for (int d = 0; d < DIM_MAX; d++) {
+        f->x[d] = NEW("dump.x", f->n, double);
+        f->v[d] = NEW("dump.v", f->n, double);
+    }
+    f->damage = NEW("dump.damage", f->n, double);
+}
+
+void lammps_frame_free(struct lammps_frame *f)
+{
+    for (int d = 0; d < DIM_MAX; d++) memory_free(f->x[d]), memory_free(f->v[d]);
+    memory_free(f->damage);
+    *f = (struct lammps_frame){0};
+}
+
+/* Numbers of the wanted columns of the line in d; false: not all are there. */
+static bool dump_row_read(const struct dump *d, const struct dump_head *h, double value[WANTED])
+{
+    double number[FRAME_COLUMNS_MOST];
+    const char *at = d->text;
+    int n = 0;
+    for (char *end; n < FRAME_COLUMNS_MOST; n++, at = end) {
+        number[n] = strtod(at, &end);
+        if (end == at) break;
+    }
+    for (int w = 0; w < WANTED; w++) {
+        if (h->column[w] >= n) return false;
+        value[w] = h->column[w] < 0 ? 0 : number[h->column[w]];
+        if (!isfinite(value[w])) return false;
+    }
+    return true;
+}
+
+static status rows_take(struct dump *d, const struct dump_head *h, struct lammps_frame *f, uint8_t *seen)
+{
+    double value[WANTED];
+    for (int64_t k = 0; k < h->n; k++) {
+        if (!dump_line(d) || !dump_row_read(d, h, value)) return dump_fault(d, "a particle's numbers are expected");
+        if (!(value[0] >= 1 && value[0] <= (double)h->n))
+            return dump_fault(d, "ids from 1 to the number of particles "
+                                 "are expected");
+        const int64_t i = (int64_t)value[0] - 1;
+        if (seen[i]++) return dump_fault(d, "an id is there twice");
+        for (int a = 0; a < DIM_MAX; a++) f->x[a][i] = value[1 + a], f->v[a][i] = value[4 + a];
+        f->damage[i] = value[7];
+    }
+    return OK;
+}
+
+static status frame_find(struct dump *d, struct lammps_frame *f, int64_t step)
+{
+    struct dump_head h;
+    bool more;
+    for (;;) {
+        TRY(head_next(d, &h, &more));
+        if (!more) return status_set(FAILED, "%s has no step %lld", shown_name(d->path).text, (long long)step);
+        if (h.step == step) break;
+        if (!skip_rows(d, h.n)) h.n = 0;
+    }
+    lammps_frame_make(f, &h);
+    uint8_t *seen = NEW("dump.seen", h.n, uint8_t);
+    const status s = rows_take(d, &h, f, seen);
+    memory_free(seen);
+    if (s != OK) lammps_frame_free(f);
+    return s;
+}
+
+status lammps_frame_read(struct lammps_frame *f, const char *path, int64_t step)
+{
+    struct dump d;
+    *f = (struct lammps_frame){0};
+    TRY(dump_open(&d, path));
+    const status s = frame_find(&d, f, step);
+    fclose(d.file);
+    return s;
+}
