@@ -52,6 +52,8 @@ static status carries_materials(const struct scene *s, bool bond_style)
         return lammps_refuse(s, "several critical stretches: peri/pmb breaks bonds by the largest of a particle's "
                                 "(lammps issue 984); one for all, or --style bpm, is expected");
     if (s->rigids > 0) return lammps_refuse(s, "rigid bodies are not exported; a driven body of particles is expected");
+    if (scene_scatters(s))
+        return lammps_refuse(s, "strength that scatters from place to place is not in LAMMPS' types; none is expected");
     if (s->damping > 0) return lammps_refuse(s, "damping is not exported; 0 is expected");
     if (s->growths > 0) return lammps_refuse(s, "growth: LAMMPS has no cracks that grow by prescription");
     return OK;

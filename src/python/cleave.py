@@ -303,7 +303,8 @@ def _unit(field, name):
     told = field.attrs.get("unit", field.attrs.get("units"))
     if told is None:
         return _UNITS.get(name, "")
-    return told.decode() if isinstance(told, bytes) else str(told)
+    told = told.decode() if isinstance(told, bytes) else str(told)
+    return "" if told == "1" else told
 
 
 class Frames(collections.abc.Sequence):
