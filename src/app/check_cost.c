@@ -149,7 +149,9 @@ static double family_size(const struct family *f) { return f->full / f->cell_vol
 /* Time of output [s]: frames, the initial one and two checkpoints included. */
 static double output_seconds(const struct engine *e)
 {
-    const double files = (double)(e->scene->frames < e->clock.steps ? e->scene->frames : e->clock.steps) + 3;
+    double files = (double)(e->scene->frames < e->clock.steps ? e->scene->frames : e->clock.steps) + 3;
+    for (int k = 0; k < e->scene->n_series; k++)         /* of regions: of each, all particles are brought up to date */
+        files += fmin(e->scene->duration / e->scene->series[k].every, (double)e->clock.steps) + 1;
     return files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n +
                     FILE_SECONDS * (double)probes_profiled(&e->probing.probes));
 }

@@ -102,8 +102,24 @@ static void warn_of_solver(const struct engine *e, struct warnings *to)
                      "there (a step that ends before has none)", s->duration);
 }
 
+/* Does a region hold a particle? Where some are not made it may hold points of coarse cells alone: true. */
+static bool region_is_met(const struct engine *e, const struct region *region)
+{
+    bool any = e->reference.hollow.absent != NULL;
+    for (int64_t i = 0; i < e->part.n && !any; i++) {
+        real X[DIM_MAX];
+        particle_place(&e->part, i, X);
+        any = region_contains(region, X, e->part.dim, 0);
+    }
+    return any;
+}
+
 static void warn_of_empty(const struct engine *e, struct warnings *to)
 {
+    for (int k = 0; k < e->scene->n_series; k++)
+        if (!region_is_met(e, &e->scene->series[k].region))
+            warnings_add(to, "output.regions: %s holds no particle: its frames will be empty",
+                         e->scene->series[k].name);
     for (int b = 0; b < e->loads.n; b++)
         if (e->loads.load[b].n == 0 && e->scene->boundary[b].kind == BOUNDARY_VELOCITY)
             warnings_add(to, "boundary %s holds no particle%s", e->scene->boundary[b].name,
