@@ -80,7 +80,9 @@ static size_t name_length(const char *c)
 
 static bool missing(struct compile *c, const char *expected)
 {
-    if (*c->at == '\0') return compile_wrong(c, "ends where %s is expected", expected);
+    if (*c->at == '\0')
+        return compile_wrong(c, "ends where %s is expected%s", expected,
+                             c->depth > 0 ? " (in a list a formula with a comma stands in quotes)" : "");
     size_t length = name_length(c->at);
     if (length == 0) length = 1;
     while (((unsigned char)c->at[length] & 0xC0) == 0x80) length++;
@@ -103,8 +105,8 @@ static bool compile_brackets(struct compile *c)
     c->at++;
     c->depth++;
     if (!deeper(c, 0) || !compile_sum(c)) return false;
-    c->depth--;
     if (*c->at != ')') return missing(c, "an operation or )");
+    c->depth--;
     c->at++;
     return true;
 }
@@ -339,7 +341,7 @@ void scene_help_expressions(FILE *out)
           "  numbers          with a unit behind them, which belongs to the number: x/10 mm is x/(10 mm)\n"
           "  units            also alone: x/mm; `cleave help units` lists them\n"
           "  x y z t          coordinates of the undeformed body and the time, in keys that say so\n"
-          "  pi               3.14159..\n"
+          "  pi, 30 deg       3.14159.., an angle\n"
           "  names            of `variables`, in any order: letters, digits and _, but no unit, function or\n"
           "                   coordinate\n\n"
           "Functions, of a plain number unless they say otherwise; angles are in radians:\n", out);

@@ -209,8 +209,9 @@ status read_boundaries(struct reader *r, const struct node *root)
     const bool falls = dot(s->gravity, s->gravity, s->dim) > 0;
     if (list) TRY(expect_list(r, key_find("", "boundary"), list));
     s->boundary = NEW("boundary conditions", (list ? list->n : 0) + falls, struct boundary);
-    for (int k = 0; n; k++, s->boundaries++, n = n->next) {
+    for (int k = 0; n; k++, n = n->next) {
         struct boundary *b = &s->boundary[k];
+        s->boundaries++;                 /* what is read of it is freed when the rest is refused */
         b->body = -1;
         fault_place(r, n, b->place, sizeof b->place);
         snprintf(b->name, sizeof b->name, "boundary%d", k);
