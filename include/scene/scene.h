@@ -17,6 +17,7 @@
 #include "data/material.h"
 #include "probes/probes.h"
 #include "data/region.h"
+#include "particle_list.h"
 
 /* METHOD_AUTO, FRAME_AUTO and SOLVER_STATIC are requests: reading a scene resolves them. */
 enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE, METHOD_AUTO };
@@ -41,6 +42,7 @@ struct scene_body {
     struct region shape;                 /* filled with a lattice ... */
     char *file;                          /* ... or a particle list (.csv, .h5), as to be opened; or NULL */
     uint64_t contents;                   /* hash of that file; 0: not read */
+    struct particle_list_head list;      /* its columns */
     char place[PLACE_LENGTH];            /* in the scene, of its list if it has one */
     real velocity[DIM_MAX];              /* [m/s] */
     int joined;                          /* lowest number of the bodies that are one with it by interfaces */

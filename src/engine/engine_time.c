@@ -162,13 +162,25 @@ static real core_stiffness(const struct engine *e)
     return real_max(0, real_min(CORE_STIFFNESS, square(e->clock.dt_critical / e->clock.dt) - 1));
 }
 
+/* Least mass of a particle over that of its material, where lists say it; 1 where none is lighter [1]. */
+static real lightest_share(const struct scene *s, const struct particles *p)
+{
+    real least = 1;
+    bool own = false;
+    for (int b = 0; b < s->bodies; b++) own |= s->body[b].list.mass;
+    for (int64_t i = 0; i < p->n && own; i++)
+        least = real_min(least, p->mass[i] / (s->material[p->material[i]].density * p->volume0[i]));
+    return least;
+}
+
 /* The critical step is the smallest limit of all methods, whichever kinds are present at the start, since particles
  * convert. */
 status engine_time_make(struct engine *e)
 {
     const struct scene *s = e->scene;
     e->clock.dt_critical =
-        real_min(real_min(critical_of_bonds(e), critical_of_points(e)), engine_mesh_critical_step(e));
+        real_min(real_min(critical_of_bonds(e), critical_of_points(e)), engine_mesh_critical_step(e)) *
+        sqrt(lightest_share(s, &e->part));
     e->clock.dt_critical *= damping_share(s, e->clock.dt_critical);
     const real contact = contact_critical_step(&e->contact, &e->part, s->material, e->clock.dt_critical);
     const real safety = engine_levels_number(e) > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;

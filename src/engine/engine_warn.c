@@ -114,6 +114,14 @@ static bool region_is_met(const struct engine *e, const struct region *region)
     return any;
 }
 
+/* Columns of particle lists that are not read, or that have a default. */
+static void warn_of_lists(const struct scene *s, struct warnings *to)
+{
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].list.note[0])
+            warnings_add(to, "%.200s: %s", s->body[b].file, s->body[b].list.note);
+}
+
 static void warn_of_empty(const struct engine *e, struct warnings *to)
 {
     for (int k = 0; k < e->scene->n_series; k++)
@@ -254,6 +262,7 @@ void engine_warn(struct engine *e)
     warn_of_method(e, to);
     warn_of_idle_keys(e, to);
     warn_of_materials(e->scene, &e->tables, to);
+    warn_of_lists(e->scene, to);
     warn_of_solver(e, to);
     warn_of_empty(e, to);
     warn_of_mirrors(e->scene, &e->mpm, to);

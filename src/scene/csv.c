@@ -36,10 +36,21 @@ void csv_separate(struct csv_file *c)
     c->separator = strchr(c->text, ';') ? ';' : strchr(c->text, '\t') ? '\t' : ',';
 }
 
+/* The same where blanks separate: as many as there are. */
+static char *csv_word(char *field, char **rest)
+{
+    field += strspn(field, " \t\r\n");
+    char *end = field + strcspn(field, " \t\r\n"), *next = end + strspn(end, " \t\r\n");
+    *rest = *next ? next : NULL;
+    *end = '\0';
+    return field;
+}
+
 char *csv_field(const struct csv_file *c, char **rest)
 {
     char *field = *rest;
     if (field == NULL) return NULL;
+    if (c->separator == ' ') return csv_word(field, rest);
     char *end = strchr(field, c->separator);
     *rest = end != NULL ? end + 1 : NULL;
     if (end != NULL) *end = '\0';

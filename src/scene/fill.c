@@ -14,36 +14,26 @@
 #include "data/cells.h"
 #include "scene/fill.h"
 #include "base/memory.h"
-#include "scene/particle_list.h"
 #include "base/team.h"
+#include "fill_draft.h"
 
 /* Closer particles are refused as one particle given twice [spacings]. */
 static const real too_close = 1e-3;
 
 enum { PARTICLES_MAX = INT32_MAX - 64 };
 
-/* Particles in the order in which the scene makes them, collected before their number is known. */
-struct draft {
-    const struct scene *scene;
-    const struct hollow *hollow;         /* cells whose particles are not made; NULL: none */
-    int64_t n, room;
-    int64_t skipped;                     /* that are not made */
-    real low[DIM_MAX], high[DIM_MAX];    /* of those [m] */
-    real *X[DIM_MAX], *volume;           /* [m], [m^3] */
-    uint8_t *material, *body;
-    int32_t *id;
-};
-
 static void draft_free(struct draft *d)
 {
     for (int a = 0; a < DIM_MAX; a++) memory_free(d->X[a]);
+    for (int a = 0; a < DIM_MAX; a++) memory_free(d->v[a]);
     memory_free(d->volume);
+    memory_free(d->mass);
     memory_free(d->material);
     memory_free(d->body);
     memory_free(d->id);
 }
 
-static status draft_refuse(const struct draft *d, int body, const char *why)
+status draft_refuse(const struct draft *d, int body, const char *why)
 {
     const struct scene_body *b = &d->scene->body[body];
     return status_at(b->place, status_set(REFUSED, "body %s: %s", b->name, why));
@@ -54,21 +44,23 @@ static void draft_grow(struct draft *d)
     int64_t room = d->room > 0 ? 2 * d->room : 4096;
     for (int a = 0; a < d->scene->dim; a++)
         d->X[a] = memory_resize("fill.X", d->X[a], d->room, room, sizeof(real));
+    for (int a = 0; a < d->scene->dim; a++) d->v[a] = memory_resize("fill.v", d->v[a], d->room, room, sizeof(real));
     d->volume = memory_resize("fill.volume", d->volume, d->room, room, sizeof(real));
+    d->mass = memory_resize("fill.mass", d->mass, d->room, room, sizeof(real));
     d->material = memory_resize("fill.material", d->material, d->room, room, sizeof(uint8_t));
     d->body = memory_resize("fill.body", d->body, d->room, room, sizeof(uint8_t));
     d->id = memory_resize("fill.id", d->id, d->room, room, sizeof(int32_t));
     d->room = room;
 }
 
-/* Appends a particle at X [m], [dim]; volume [m^3]. REFUSED beyond PARTICLES_MAX particles. */
-static status draft_add(struct draft *d, const real *X, real volume, int material, int body)
+status draft_add(struct draft *d, const real *X, real volume, int material, int body)
 {
     if (d->n + d->skipped >= PARTICLES_MAX)
         return draft_refuse(d, body, "more than 2147483583 particles; use a larger spacing");
     if (d->n == d->room) draft_grow(d);
     for (int a = 0; a < d->scene->dim; a++) d->X[a][d->n] = X[a];
-    d->volume[d->n] = volume;
+    for (int a = 0; a < d->scene->dim; a++) d->v[a][d->n] = NAN;
+    d->volume[d->n] = volume, d->mass[d->n] = NAN;
     d->material[d->n] = (uint8_t)material;
     d->body[d->n] = (uint8_t)body;
     d->id[d->n] = (int32_t)(d->n + d->skipped);
@@ -207,50 +199,7 @@ status fill_place(const struct scene *s, int body, real *X)
     return OK;
 }
 
-/* ---- lists ------------------------------------------------------------------------------------------------------- */
-
-/* REFUSED with a message that begins with `file:line` of entry i (CSV) or `file: entry i` (HDF5). */
-static status refuse_entry(const struct particle_list *l, const char *path, int64_t i, const char *what, int number)
-{
-    bool csv = l->line != NULL;
-    return status_set(REFUSED, "%s:%s%lld: %s %d (numbered from 0 in the order of the scene)", path,
-                      csv ? "" : " entry ", (long long)(csv ? l->line[i] : i), what, number);
-}
-
-/* True if body number k takes its particles from this file. */
-static bool shares_file(const struct scene *s, int k, const char *file)
-{
-    return k < s->bodies && s->body[k].file != NULL && strcmp(s->body[k].file, file) == 0;
-}
-
-/* Adds the entries of a body to the draft: entries with its number, or all entries of a list without a body column.
- * REFUSED for entries of a body with another file and for materials that the scene does not have. */
-static status take_list(struct draft *d, int body, const struct particle_list *l)
-{
-    const struct scene *s = d->scene;
-    const char *path = s->body[body].file;
-    for (int64_t i = 0; i < l->n; i++) {
-        int owner = l->body != NULL ? (int)l->body[i] : body;
-        int material = l->material != NULL ? (int)l->material[i] : s->body[body].material;
-        real X[DIM_MAX];
-        if (!shares_file(s, owner, path))
-            return refuse_entry(l, path, i, "this file is not that of body", owner);
-        if (owner != body) continue;
-        if (material >= s->materials) return refuse_entry(l, path, i, "the scene has no material", material);
-        for (int a = 0; a < s->dim; a++) X[a] = l->X[a][i];
-        TRY(draft_add(d, X, l->volume[i], scene_material_at(s, &s->body[body], X, material), body));
-    }
-    return OK;
-}
-
-static status fill_list(struct draft *d, int body)
-{
-    struct particle_list list;
-    TRY(particle_list_read(&list, d->scene->body[body].file, d->scene->dim));
-    status s = take_list(d, body, &list);
-    particle_list_free(&list);
-    return s;
-}
+/* ---- all ------------------------------------------------------------------------------------------------------- */
 
 /* Makes the particles of all bodies. REFUSED for a body without particles. */
 static status draft_make(struct draft *d)
@@ -289,14 +238,14 @@ static void take_draft(struct particles *p, const struct draft *d, int optional)
     for (int64_t i = 0; i < d->n; i++) {
         for (int a = 0; a < s->dim; a++) {
             p->X[a][i] = p->x[a][i] = d->X[a][i];
-            p->v[a][i] = s->body[d->body[i]].velocity[a];
+            p->v[a][i] = isnan(d->v[a][i]) ? s->body[d->body[i]].velocity[a] : d->v[a][i];
             if (optional & WITH_STRETCH) p->stretch[a][i] = 1;
             if (optional & WITH_ROTATIONS && s->dim == 3) p->end_rotation[ROTATION - 1][i] = 1;
         }
         p->volume0[i] = p->volume[i] = d->volume[i];
         p->material[i] = d->material[i];
         p->body[i] = d->body[i];
-        p->mass[i] = s->material[p->material[i]].density * p->volume0[i];
+        p->mass[i] = isnan(d->mass[i]) ? s->material[p->material[i]].density * p->volume0[i] : d->mass[i];
         p->kind[i] = s->method == METHOD_PD ? KIND_PD : KIND_MPM;
         p->id[i] = d->id[i];
     }

@@ -13,29 +13,60 @@
 #include "base/memory.h"
 #include "base/team.h"
 #include "csv.h"
+#include "scene_internal.h"
 
-enum { PARTICLES_MAX = INT32_MAX - 64 };
+enum { PARTICLES_MAX = INT32_MAX - 64, FIELDS_MAX = 256, NAMES_MAX = 256, UNIT_TEXT = 40 };
 
 /* Columns of a list; coordinates come first. */
-enum column { COLUMN_X, COLUMN_Y, COLUMN_Z, COLUMN_VOLUME, COLUMN_MATERIAL, COLUMN_BODY, COLUMNS };
-static const char *const column_name[COLUMNS] = {"x", "y", "z", "volume", "material", "body"};
+enum list_column {
+    COLUMN_X, COLUMN_Y, COLUMN_Z, COLUMN_VX, COLUMN_VY, COLUMN_VZ, COLUMN_VOLUME, COLUMN_MASS, COLUMN_DENSITY,
+    COLUMN_MATERIAL, COLUMN_BODY, COLUMNS, COLUMN_NONE
+};
+static const struct { const char *name; enum unit unit; } columns[COLUMNS] = {
+    {"x", UNIT_LENGTH}, {"y", UNIT_LENGTH}, {"z", UNIT_LENGTH}, {"vx", UNIT_SPEED}, {"vy", UNIT_SPEED},
+    {"vz", UNIT_SPEED}, {"volume", UNIT_VOLUME}, {"mass", UNIT_MASS}, {"density", UNIT_DENSITY},
+    {"material", UNIT_NONE}, {"body", UNIT_NONE},
+};
 
 static real **column_array(struct particle_list *l, int column)
 {
     switch (column) {
+    case COLUMN_VX: case COLUMN_VY: case COLUMN_VZ: return &l->v[column - COLUMN_VX];
     case COLUMN_VOLUME: return &l->volume;
+    case COLUMN_MASS: return &l->mass;
+    case COLUMN_DENSITY: return &l->density;
     case COLUMN_MATERIAL: return &l->material;
     case COLUMN_BODY: return &l->body;
     default: return &l->X[column];
     }
 }
 
-static bool column_needed(int column, int dim) { return column < dim || column == COLUMN_VOLUME; }
+/* Has a list in so many dimensions no use for a column? */
+static bool column_idle(int column, int dim)
+{
+    return column <= COLUMN_VZ && column % DIM_MAX >= dim;       /* x, y, z, vx, vy, vz */
+}
+
+/* Appends to the note on a list. */
+static void note_add(struct particle_list_head *head, const char *between, const char *what)
+{
+    const size_t used = strlen(head->note);
+    snprintf(head->note + used, sizeof head->note - used, "%s%.40s", used ? between : "", what);
+}
+
+/* What the columns found say about the list: `has` [COLUMNS]. */
+static void note_columns(struct particle_list_head *head, const bool *has)
+{
+    head->material = has[COLUMN_MATERIAL], head->mass = has[COLUMN_MASS] || has[COLUMN_DENSITY];
+    if (head->note[0]) note_add(head, " ", "not read");
+    if (!has[COLUMN_VOLUME]) note_add(head, "; ", "no volumes: each that of the spacing");
+}
 
 void particle_list_free(struct particle_list *l)
 {
     for (int c = 0; c < COLUMNS; c++) memory_free(*column_array(l, c));
     memory_free(l->line);
+    memory_free(l->name);
     *l = (struct particle_list){0};
 }
 
@@ -43,7 +74,7 @@ void particle_list_free(struct particle_list *l)
 static const char *value_fault(int column, real value)
 {
     if (!isfinite(value)) return "is not a finite number";
-    if (column == COLUMN_VOLUME && value <= 0) return "must be larger than 0";
+    if (column >= COLUMN_VOLUME && column <= COLUMN_DENSITY && value <= 0) return "must be larger than 0";
     if (column >= COLUMN_MATERIAL && (value < 0 || value > UINT8_MAX || value != floor(value)))
         return "must be a whole number from 0 to 255";
     return NULL;
@@ -64,48 +95,99 @@ static status list_affordable(const char *path, int64_t n)
 
 struct csv {
     struct csv_file in;
-    int columns, column[COLUMNS];        /* enum column of each field of a line */
+    int fields, column[FIELDS_MAX];      /* enum list_column of each field of a line */
+    real factor[FIELDS_MAX];             /* of its unit */
     int64_t room;
 };
 
-/* What a header that is no list of names between commas is likely to be, as the end of a sentence. */
+/* What a header that is no list of names is likely to be, as the end of a sentence. */
 static const char *header_guess(const char *name)
 {
     if (strchr(name, '\r')) return "; its lines end in carriage returns alone, line feeds are expected";
-    if (strpbrk(name, ";\t\"'")) return "; names without quotes, with commas between them, are expected";
+    if (strpbrk(name, "\"'")) return "; names without quotes are expected";
     return "";
 }
 
-/* Appends a column named in the header. REFUSED if the name is unknown or given twice. */
-static status csv_column(struct csv *c, const char *name, int dim)
+/* Which column a name is; COLUMN_NONE: none that is read. */
+static int column_named(const char *name, int dim)
 {
-    for (int k = 0; k < COLUMNS; k++) {
-        if (strcmp(name, column_name[k]) != 0 || (k < DIM_MAX && k >= dim)) continue;
-        for (int used = 0; used < c->columns; used++)
-            if (c->column[used] == k)
-                return csv_fault(&c->in, name, "column %s is named twice", name);
-        c->column[c->columns++] = k;
-        return OK;
+    for (int k = 0; k < COLUMNS; k++)
+        if (strcasecmp(name, columns[k].name) == 0 && !column_idle(k, dim)) return k;
+    return COLUMN_NONE;
+}
+
+/* The factor of a unit of this kind; false with the rest of a sentence: it is none. */
+static bool unit_factor(real *factor, const char *unit, enum unit of, char *what, size_t room)
+{
+    char number[UNIT_TEXT + 2];
+    *factor = 1;
+    if (*unit == '\0') return true;
+    snprintf(number, sizeof number, "1 %.*s", UNIT_TEXT - 1, unit);
+    return number_read(factor, number, of, false, what, room);
+}
+
+/* A column `weight`: a mass or a volume, by its unit. REFUSED without one of these. */
+static status weight_column(struct csv *c, const char *name, const char *unit, int *column)
+{
+    char what[160];
+    real one;
+    *column = unit_factor(&one, unit, UNIT_MASS, what, sizeof what) ? COLUMN_MASS : COLUMN_VOLUME;
+    if (*unit && unit_factor(&one, unit, columns[*column].unit, what, sizeof what)) return OK;
+    return csv_fault(&c->in, name, "weight: a mass or a volume? its unit says it, as weight [kg]");
+}
+
+/* Appends a column named in the header. REFUSED if it is given twice, or its unit is of another quantity. */
+static status csv_column(struct csv *c, char *name, struct particle_list *l, bool *has)
+{
+    char what[160];
+    const char *unit = csv_unit(name);
+    int k = column_named(name, l->dim);
+    if (c->fields == FIELDS_MAX) return csv_fault(&c->in, name, "more than %d columns", FIELDS_MAX);
+    if (*header_guess(name))
+        return csv_fault(&c->in, name, "unknown column '%.*s'%s", (int)strcspn(name, "\r") < 40
+                         ? (int)strcspn(name, "\r") : 40, name, header_guess(name));
+    if (strcasecmp(name, "weight") == 0) TRY(weight_column(c, name, unit, &k));
+    if (k == COLUMN_NONE) note_add(&l->head, ", ", *name ? name : "a column without a name");
+    else if (has[k]) return csv_fault(&c->in, name, "column %s is named twice", columns[k].name);
+    else if (!unit_factor(&c->factor[c->fields], unit, columns[k].unit, what, sizeof what))
+        return csv_fault(&c->in, unit, "%s: [%.40s] %s", columns[k].name, unit, what);
+    else has[k] = true;
+    c->column[c->fields++] = k;
+    return OK;
+}
+
+/* Takes a blank for the separator where there is no other; then none stands before and in a unit: `x [mm] y [mm]`. */
+static void header_separate(struct csv *c)
+{
+    char *text = c->in.text, *to = text;
+    csv_separate(&c->in);
+    if (strchr(text, c->in.separator) || !strpbrk(text + strspn(text, " "), " ")) return;
+    c->in.separator = ' ';
+    bool inside = false;
+    for (const char *from = text; *from; from++) {
+        const char *next = from + strspn(from, " ");
+        inside = *from == '[' || (inside && *from != ']');
+        if (*from != ' ' || !(inside || *next == '[')) *to++ = *from;
     }
-    return csv_fault(&c->in, name, "unknown column '%.*s'; in %dD a list has %s, volume, material, body%s",
-                     (int)strcspn(name, "\r") < 40 ? (int)strcspn(name, "\r") : 40, name, dim,
-                     dim == 1 ? "x" : dim == 2 ? "x, y" : "x, y, z", header_guess(name));
+    *to = '\0';
 }
 
 /* Reads the header. REFUSED if a required column is missing. */
-static status csv_header(struct csv *c, int dim)
+static status csv_header(struct csv *c, struct particle_list *l)
 {
-    bool more;
+    bool more, has[COLUMNS] = {false};
     TRY(csv_line(&c->in, &more));
     if (!more) return status_set(REFUSED, "%s: empty; the first line names the columns: x,y,z,volume", c->in.path);
+    header_separate(c);
     char *rest = c->in.text;
-    for (char *name; (name = csv_field(&c->in, &rest)) != NULL;) TRY(csv_column(c, name, dim));
-    for (int k = 0; k < COLUMNS; k++) {
-        bool found = !column_needed(k, dim);
-        for (int used = 0; used < c->columns; used++) found = found || c->column[used] == k;
-        if (!found)
-            return csv_fault(&c->in, c->in.text, "column %s is missing", column_name[k]);
-    }
+    for (char *name; (name = csv_field(&c->in, &rest)) != NULL;) TRY(csv_column(c, name, l, has));
+    for (int k = 0; k < l->dim; k++)
+        if (!has[k])
+            return csv_fault(&c->in, c->in.text, "column %s is missing; the first line names the columns, as %s",
+                             columns[k].name, l->dim == 1 ? "x,volume" : l->dim == 2 ? "x,y,volume" : "x,y,z,volume");
+    if (has[COLUMN_MASS] && has[COLUMN_DENSITY])
+        return csv_fault(&c->in, c->in.text, "mass beside density; one of the two fixes the other");
+    note_columns(&l->head, has);
     return OK;
 }
 
@@ -115,7 +197,8 @@ static status csv_grow(struct csv *c, struct particle_list *l)
     if (l->n < c->room) return OK;
     int64_t room = c->room > 0 ? 2 * c->room : 1024;
     TRY(list_affordable(c->in.path, room / 2));
-    for (int k = 0; k < c->columns; k++) {
+    for (int k = 0; k < c->fields; k++) {
+        if (c->column[k] == COLUMN_NONE) continue;
         real **array = column_array(l, c->column[k]);
         *array = memory_resize("list.column", *array, c->room, room, sizeof(real));
     }
@@ -124,33 +207,56 @@ static status csv_grow(struct csv *c, struct particle_list *l)
     return OK;
 }
 
+/* A material by its name: -1 - its number in the list of names. REFUSED for more than there can be. */
+static status csv_name(const struct csv *c, struct particle_list *l, const char *field, real *value)
+{
+    int k = 0;
+    if (!l->name) l->name = memory_new("list.name", NAMES_MAX, sizeof *l->name);
+    if (strlen(field) >= NAME_MAX_LENGTH) return csv_fault(&c->in, field, "material: its name is too long");
+    while (k < l->names && strcmp(l->name[k], field) != 0) k++;
+    if (k == NAMES_MAX) return csv_fault(&c->in, field, "material: more than %d names", NAMES_MAX);
+    if (k == l->names) strcpy(l->name[l->names++], field);
+    *value = -1 - k;
+    return OK;
+}
+
+/* Reads a field of a column. */
+static status csv_value(const struct csv *c, struct particle_list *l, int k, const char *field)
+{
+    const int column = c->column[k];
+    char *end;
+    real value = strtod(field, &end), *to = *column_array(l, column) + l->n;
+    if (column == COLUMN_MATERIAL && end == field && *field) return csv_name(c, l, field, to);
+    if (end == field || *end != '\0' || strpbrk(field, "xX"))
+        return csv_fault(&c->in, field, "%s: '%.40s' is not a number", columns[column].name, field);
+    const char *fault = value_fault(column, value * c->factor[k]);
+    if (fault != NULL) return csv_fault(&c->in, field, "%s: %.40s %s", columns[column].name, field, fault);
+    *to = value * c->factor[k];
+    return OK;
+}
+
 /* Reads one particle from the current line. */
 static status csv_entry(struct csv *c, struct particle_list *l)
 {
     char *rest = c->in.text;
-    for (int k = 0; k < c->columns; k++) {
-        char *field = csv_field(&c->in, &rest), *end;
+    for (int k = 0; k < c->fields; k++) {
+        const char *field = csv_field(&c->in, &rest);
         if (field == NULL)
-            return csv_fault(&c->in, c->in.text, "%d values; the header names %d columns", k, c->columns);
-        real value = strtod(field, &end);
-        const char *name = column_name[c->column[k]];
-        if (end == field || *end != '\0' || strpbrk(field, "xX"))
-            return csv_fault(&c->in, field, "%s: '%.40s' is not a number", name, field);
-        const char *fault = value_fault(c->column[k], value);
-        if (fault != NULL) return csv_fault(&c->in, field, "%s: %.40s %s", name, field, fault);
-        (*column_array(l, c->column[k]))[l->n] = value;
+            return csv_fault(&c->in, c->in.text, "%d values; the header names %d columns", k, c->fields);
+        if (c->column[k] != COLUMN_NONE) TRY(csv_value(c, l, k, field));
     }
     if (rest != NULL)
         return csv_fault(&c->in, rest,
                          "more values than the %d columns of the header; numbers have a point, not a comma",
-                         c->columns);
+                         c->fields);
     l->line[l->n++] = c->in.line;
     return OK;
 }
 
-static status csv_entries(struct csv *c, struct particle_list *l)
+static status csv_entries(struct csv *c, struct particle_list *l, bool head)
 {
-    TRY(csv_header(c, l->dim));
+    TRY(csv_header(c, l));
+    if (head) return OK;
     for (bool more;;) {
         TRY(csv_line(&c->in, &more));
         if (!more) return OK;
@@ -160,11 +266,11 @@ static status csv_entries(struct csv *c, struct particle_list *l)
     }
 }
 
-static status csv_read(struct particle_list *l, const char *path)
+static status csv_read(struct particle_list *l, const char *path, bool head)
 {
     struct csv c = {0};
     TRY(csv_open(&c.in, path, "a particle list has one particle a line"));
-    status s = csv_entries(&c, l);
+    status s = csv_entries(&c, l, head);
     csv_close(&c.in);
     return s;
 }
@@ -175,6 +281,7 @@ static status csv_read(struct particle_list *l, const char *path)
 struct table {
     int64_t rows, columns;
     real *value;                         /* row major */
+    real factor;                         /* of its unit */
 };
 
 /* Shape of a dataset; false unless it is a list of numbers with at most PARTICLES_MAX rows and DIM_MAX columns. */
@@ -255,26 +362,51 @@ static status table_take(struct particle_list *l, int column, const struct table
     real *array = NEW("list.column", l->n, real);
     *column_array(l, column) = array;
     for (int64_t i = 0; i < l->n; i++) {
-        array[i] = t->value[i * t->columns + k];
+        array[i] = t->value[i * t->columns + k] * t->factor;
         const char *fault = value_fault(column, array[i]);
         if (fault != NULL)
-            return status_set(REFUSED, "%s: entry %lld: %s: %g %s", path, (long long)i, column_name[column], array[i],
+            return status_set(REFUSED, "%s: entry %lld: %s: %g %s", path, (long long)i, columns[column].name, array[i],
                               fault);
     }
     return OK;
 }
 
-/* Reads a dataset as `count` columns of the list, from `column` on. The positions set the number of entries. */
+/* The attribute `unit` of a dataset as text; "": it has none that is a text. */
+static void unit_read_attribute(hid_t file, const char *name, char text[UNIT_TEXT])
+{
+    text[0] = '\0';
+    if (H5Aexists_by_name(file, name, "unit", H5P_DEFAULT) <= 0) return;
+    hid_t unit = H5Aopen_by_name(file, name, "unit", H5P_DEFAULT, H5P_DEFAULT), type = H5Aget_type(unit);
+    char *long_text = NULL;
+    if (H5Tget_class(type) == H5T_STRING && H5Aget_storage_size(unit) > 0) {
+        if (H5Tis_variable_str(type) > 0) {
+            if (H5Aread(unit, type, &long_text) >= 0 && long_text) snprintf(text, UNIT_TEXT, "%s", long_text);
+            if (long_text) H5free_memory(long_text);
+        } else if (H5Tget_size(type) < UNIT_TEXT && H5Aread(unit, type, text) >= 0) {
+            text[H5Tget_size(type)] = '\0';
+        }
+    }
+    H5Tclose(type);
+    H5Aclose(unit);
+}
+
+/* Reads a dataset as `count` columns of the list, from `column` on. The positions set the number of entries; places and
+ * velocities may have more components than the space. */
 static status hdf5_column(struct particle_list *l, hid_t file, const char *path, const char *name, int column,
                           int count)
 {
+    char unit[UNIT_TEXT], what[160];
     struct table t = {0};
     TRY(table_read(file, path, name, &t));
     status s = OK;
+    unit_read_attribute(file, name, unit);
     if (column == COLUMN_X) l->n = t.rows;
-    if (t.rows != l->n || t.columns != count)
+    if (t.rows != l->n || (count > 1 || column < COLUMN_VOLUME ? t.columns < count : t.columns != count))
         s = status_set(REFUSED, "%s: %s has %lld x %lld numbers; %lld x %d are wanted", path, name, (long long)t.rows,
                        (long long)t.columns, (long long)l->n, count);
+    else if (!unit_factor(&t.factor, unit, columns[column].unit, what, sizeof what))
+        s = status_set(REFUSED, "%s: %s: its unit %s %s", path, name, unit, what);
+    if (t.columns > count) note_add(&l->head, ", ", column == COLUMN_X ? "further positions" : "further velocities");
     for (int k = 0; k < count && s == OK; k++) s = table_take(l, column + k, &t, k, path);
     memory_free(t.value);
     return s;
@@ -282,12 +414,19 @@ static status hdf5_column(struct particle_list *l, hid_t file, const char *path,
 
 static status hdf5_columns(struct particle_list *l, hid_t file, const char *path)
 {
+    static const struct { const char *name; int column; } sets[] = {
+        {"volumes", COLUMN_VOLUME}, {"mass", COLUMN_MASS}, {"density", COLUMN_DENSITY}, {"velocities", COLUMN_VX},
+        {"material", COLUMN_MATERIAL}, {"body", COLUMN_BODY}};
+    bool has[COLUMNS] = {false};
     TRY(hdf5_column(l, file, path, "positions", COLUMN_X, l->dim));
-    TRY(hdf5_column(l, file, path, "volumes", COLUMN_VOLUME, 1));
-    if (H5Lexists(file, "material", H5P_DEFAULT) > 0)
-        TRY(hdf5_column(l, file, path, "material", COLUMN_MATERIAL, 1));
-    if (H5Lexists(file, "body", H5P_DEFAULT) > 0) TRY(hdf5_column(l, file, path, "body", COLUMN_BODY, 1));
-    return OK;
+    for (size_t k = 0; k < COUNT_OF(sets); k++) {
+        if (H5Lexists(file, sets[k].name, H5P_DEFAULT) <= 0) continue;
+        TRY(hdf5_column(l, file, path, sets[k].name, sets[k].column, sets[k].column == COLUMN_VX ? l->dim : 1));
+        has[sets[k].column] = true;
+    }
+    note_columns(&l->head, has);
+    if (!has[COLUMN_MASS] || !has[COLUMN_DENSITY]) return OK;
+    return status_set(REFUSED, "%s: mass beside density; one of the two fixes the other", path);
 }
 
 /* Reads a list from an HDF5 file. A crash of the library on a damaged file is reported with the name of the file. */
@@ -314,16 +453,40 @@ static bool ends_with(const char *path, const char *ending)
     return length > tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
-status particle_list_read(struct particle_list *l, const char *path, int dim)
+enum { NO_LIST, LIST_CSV, LIST_HDF5 };
+
+/* The kind of file by its ending. */
+static int list_format(const char *path)
+{
+    static const char *const endings[] = {".csv", ".tsv", ".txt", ".dat", ".h5", ".hdf5", ".hdf"};
+    for (size_t k = 0; k < COUNT_OF(endings); k++)
+        if (ends_with(path, endings[k])) return k < 4 ? LIST_CSV : LIST_HDF5;
+    return NO_LIST;
+}
+
+bool particle_list_named(const char *path) { return list_format(path) != NO_LIST; }
+
+/* `head`: the names of columns are enough. */
+static status list_read(struct particle_list *l, const char *path, int dim, bool head)
 {
     *l = (struct particle_list){.dim = dim};
     struct stat about;
-    bool csv = ends_with(path, ".csv");
-    bool hdf5 = ends_with(path, ".h5") || ends_with(path, ".hdf5") || ends_with(path, ".hdf");
-    if (!csv && !hdf5) return status_set(REFUSED, "%s: a particle list is a .csv or an .h5 file", path);
+    const int format = list_format(path);
+    if (format == NO_LIST) return status_set(REFUSED, "%s: a particle list is a .csv or an .h5 file", path);
     if (stat(path, &about) != 0) return status_set(REFUSED, "%s: there is no such file", path);
     if (!S_ISREG(about.st_mode)) return status_set(REFUSED, "%s: not a plain file", path);
-    status s = csv ? csv_read(l, path) : hdf5_read(l, path);
+    status s = format == LIST_CSV ? csv_read(l, path, head) : hdf5_read(l, path);
     if (s != OK) particle_list_free(l);
     return s;
+}
+
+status particle_list_read(struct particle_list *l, const char *path, int dim) { return list_read(l, path, dim, false); }
+
+status particle_list_look(struct particle_list_head *head, const char *path, int dim)
+{
+    struct particle_list l;
+    TRY(list_read(&l, path, dim, true));
+    *head = l.head;
+    particle_list_free(&l);
+    return OK;
 }

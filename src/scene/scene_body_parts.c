@@ -24,7 +24,7 @@ int scene_material_at(const struct scene *s, const struct scene_body *b, const r
 
 bool scene_body_has(const struct scene_body *b, int material)
 {
-    bool has = b->material == material;
+    bool has = b->material == material || b->list.material;
     for (int k = 0; k < b->parts; k++) has |= b->part[k].material == material;
     return has;
 }

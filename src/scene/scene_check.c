@@ -190,6 +190,7 @@ const char *scene_frame_unsupported(const struct scene *s, int body)
         return "couplings pm to pgg carry bonds on the grid of frame current";
     if (s->cell != 2) return "it wants mpm.cell 2";
     if (s->irregularity > 0) return "it wants a regular lattice";
+    if (s->body[body].list.mass) return "particles with masses of their own want frame current";
     for (int m = 0; m < s->materials; m++)
         if (scene_body_has(&s->body[body], m) && material_yields(&s->material[m]))
             return "materials that yield want frame current";

@@ -91,7 +91,7 @@ status scene_from_tree(struct reader *r, const struct node *root);
 
 enum unit {
     UNIT_NONE, UNIT_LENGTH, UNIT_AREA, UNIT_TIME, UNIT_SPEED, UNIT_DENSITY, UNIT_PRESSURE, UNIT_SURFACE_ENERGY,
-    UNIT_TOUGHNESS, UNIT_BODY_FORCE, UNIT_RATE, UNIT_MASS, UNIT_FORCE, UNIT_ACCELERATION, UNIT_ANGLE,
+    UNIT_TOUGHNESS, UNIT_BODY_FORCE, UNIT_RATE, UNIT_MASS, UNIT_FORCE, UNIT_VOLUME, UNIT_ACCELERATION, UNIT_ANGLE,
     UNITS
 };
 struct unit_row { const char *name, *symbol, *example; signed char twice[3]; }; /* twice the powers of m, kg, s */

@@ -138,13 +138,11 @@ status read_materials(struct reader *r, const struct node *root)
 /* Path and checksum of a particle list. */
 static status read_file(struct reader *r, const struct node *n, struct scene_body *b)
 {
-    const size_t length = strlen(n->text);
     fault_place(r, n, b->place, sizeof b->place);
-    bool csv = length > 4 && strcmp(n->text + length - 4, ".csv") == 0;
-    bool h5 = length > 3 && strcmp(n->text + length - 3, ".h5") == 0;
-    if (n->kind != NODE_SCALAR || (!csv && !h5))
+    if (n->kind != NODE_SCALAR || !particle_list_named(n->text))
         return fault(r, n, "%s is no particle list; a file name that ends in .csv or .h5 is expected", shown(r, n));
-    return read_path(r, n, "a particle list", &b->file, &b->contents);
+    TRY(read_path(r, n, "a particle list", &b->file, &b->contents));
+    return r->files ? particle_list_look(&b->list, b->file, r->dim) : OK;
 }
 
 /* REFUSED for what a rigid body cannot have, and for what only it has. */
@@ -182,7 +180,7 @@ static status scene_parts_read_body(struct reader *r, const struct node *n, stru
     if (!shape && !file) return fault_missing(r, n, key_find("bodies", "shape"));
     if (shape && file) return fault_both(r, shape, file);
     if (file) TRY(read_file(r, file, b));
-    if (!b->rigid && b->material < 0 && r->scene->materials > 1)
+    if (!b->rigid && b->material < 0 && r->scene->materials > 1 && !b->list.material)
         return fault_missing(r, n, key_find("bodies", "material"));
     if (b->material < 0) b->material = 0;
     if (!node_find(n, "frame")) b->frame = r->scene->frame;

@@ -23,6 +23,7 @@ const struct unit_row unit_rows[UNITS] = {
     [UNIT_BODY_FORCE] = {"a force per volume", "N/m^3", "1e5 N/m^3", {-4, 2, -4}},
     [UNIT_RATE] = {"a rate", "1/s", "100 1/s", {0, 0, -2}},
     [UNIT_MASS] = {"a mass", "kg", "1.6 kg", {0, 2, 0}},
+    [UNIT_VOLUME] = {"a volume", "m^3", "2 mm^3", {6, 0, 0}},
     [UNIT_FORCE] = {"a force", "N", "20 N", {2, 2, -4}},
     [UNIT_ACCELERATION] = {"an acceleration", "m/s^2", "-9.81 m/s^2", {2, 0, -4}},
     [UNIT_ANGLE] = {"an angle", "rad", "30 deg", {0, 0, 0}},

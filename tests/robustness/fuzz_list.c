@@ -23,6 +23,8 @@ void fuzz_list(const uint8_t *bytes, size_t n)
     }
     for (int64_t i = 0; i < l.n; i++)
         for (int d = 0; d < dim; d++)
-            if (!isfinite(l.X[d][i])) fuzz_fail("a place that is no number", "");
+            if (!isfinite(l.X[d][i]) || (l.v[d] && !isfinite(l.v[d][i]))) fuzz_fail("a place that is no number", "");
+    for (int64_t i = 0; i < l.n && l.material; i++)
+        if (l.material[i] < -l.names || l.material[i] > UINT8_MAX) fuzz_fail("a material without a name", "");
     particle_list_free(&l);
 }

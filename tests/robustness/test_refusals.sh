@@ -281,8 +281,8 @@ END
 list "no particle" "bad.yaml:7:25: particles: " "its list holds no particle" <<'END'
 x,y,volume
 END
-list "semicolons" "kept/grains.csv:1:1: " "commas between them" <<'END'
-x;y;volume
+list "a pipe" "kept/grains.csv:1:1: " "column x is missing" <<'END'
+x|y|volume
 END
 list "decimal commas" "kept/grains.csv:2:7: " "a point, not a comma" <<'END'
 x,y,volume

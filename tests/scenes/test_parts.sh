@@ -111,6 +111,30 @@ between "weak: peridynamic" "$(f weak conversion.x)" 0 0.1
 sound weak 0.05
 if cmp "$work/weak/history.csv" "$work/weak_again/history.csv"; then pass; else fail "weak: scene.yaml is another scene"; fi
 
+# A list of two materials by name, as another program writes it: nobody asks for the body's, what is not read is said, and a
+# checkpoint goes on to the same end.
+awk 'BEGIN { print "id; x [mm]; y [mm]; z; vx [m/s]; weight [g]; material"
+    for (j = 0; j < 8; j++) for (i = 0; i < 20; i++) printf "%d; %g; %g; 0; %g; 2.5e-3; %s\n", 20 * j + i, i, j, i < 10 ? 1 : -1, i < 10 ? "left" : "right" }' \
+    >"$work/grains.csv"
+cat >"$work/list.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 20 us
+method: pd
+materials:
+  - {name: right, young: 70 GPa, density: 2700}
+  - {name: left, young: 140 GPa, density: 2700}
+bodies: [{name: grains, particles: grains.csv}]
+particles: {spacing: 1 mm}
+output: {frames: 1, samples: 10, checkpoint: 0}
+END
+"$cleave" run "$work/list.yaml" -o "$work/list" -t 1 -q 2>"$work/list.err" || fail "list: $(cat "$work/list.err")"
+is "list: lines" "$(grep -c "id, z not read; no volumes" "$work/list.err")" 1
+between "list: kinetic energy" "$(awk -F, 'NR == 2 { print $3 }' "$work/list/history.csv")" 1.99999e-4 2.00001e-4    # 160 x 2.5 mg x 1/2
+start list_again "$work/list/scene.yaml"; wait
+if cmp "$work/list/history.csv" "$work/list_again/history.csv"; then pass; else fail "list: scene.yaml is another scene"; fi
+sound list 0.005
+
 refused "two materials, no parts" "$work/no" "use parts, or bodies" "$work/layers.yaml" -s parts=
 refused "an unknown material" "$work/no" "there is no material wood" "$work/layers.yaml" -s parts.0.material=wood
 refused "a part of nowhere" "$work/no" "region: missing" "$work/layers.yaml" -s parts.0.region=

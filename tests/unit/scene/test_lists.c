@@ -77,10 +77,14 @@ static void bad_lists_are_refused(void **state)
         {"", "bad.csv: empty"},
         {"# nothing\n\n", "bad.csv: empty"},
         {"x,y,volume\n", "body plate: its list holds no particle"},
-        {"x,y,z,volume\n", "bad.csv:1:5: unknown column 'z'"},
-        {"x,y,mass\n", "bad.csv:1:5: unknown column 'mass'"},
+        {"x,y,weight,volume\n", "bad.csv:1:5: weight: a mass or a volume? its unit says it, as weight [kg]"},
+        {"x,y,weight [m],volume\n", "bad.csv:1:5: weight: a mass or a volume?"},
+        {"x,y,mass,density\n", "bad.csv:1:1: mass beside density"},
+        {"x [s],y,volume\n", "bad.csv:1:4: x: [s] is a time; a length is expected, as 0.5 mm"},
+        {"x [furlong],y,volume\n", "bad.csv:1:4: x: [furlong] has an unknown unit"},
+        {"x,y,volume,material\n0,0,1,glass\n", "bad.csv:2: the scene has no material glass"},
+        {"x,y,mass\n0,0,0\n", "bad.csv:2:5: mass: 0 must be larger than 0"},
         {"x,volume\n", "bad.csv:1:1: column y is missing"},
-        {"x,y\n", "bad.csv:1:1: column volume is missing"},
         {"x,y,x,volume\n", "bad.csv:1:5: column x is named twice"},
         {"x,y,volume\n0,0,1\n1,1\n", "bad.csv:3:1: 2 values; the header names 3"},
         {"x,y,volume\n0,0,1,5\n", "bad.csv:2:7: more values than the 3"},
@@ -97,7 +101,7 @@ static void bad_lists_are_refused(void **state)
         {"x,y,volume,material\n0,0,1,2\n", "bad.csv:2: the scene has no material 2"},
         {"x,y,volume,body\n0,0,1,1\n", "bad.csv:2: this file is not that of body 1"},
         {"x,y,volume\n0x1p-9,0,1\n", "bad.csv:2:1: x: '0x1p-9' is not a number"},
-        {"\"x\",\"y\",\"volume\"\n", "names without quotes, with commas between them"},
+        {"\"x\",\"y\",\"volume\"\n", "names without quotes are expected"},
         {"x,y,volume\r0,0,1\r", "lines end in carriage returns alone"},
         {"x,y,volume\n0,0,1\n3,3,1\n0,0,1\n", "two particles in one place: (0, 0, 0) m"},
         {"x,y,volume\n0,0,1\n0.0004,0.0002,1\n", "particles in one place"},
@@ -120,8 +124,8 @@ static void bad_lists_are_refused(void **state)
     memory_free(text);
     remove(name);
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "bad.csv: there is no such file");
-    s.body[0].file = "points.txt";
-    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "points.txt: a particle list is a .csv or an .h5 file");
+    s.body[0].file = "points.xyz";
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "points.xyz: a particle list is a .csv or an .h5 file");
 }
 
 static void write_table(hid_t file, const char *name, int rank, const hsize_t *extent, hid_t type, const void *value)
@@ -152,21 +156,66 @@ static void hdf5_lists_are_read(void **state)
         if (part >= 2) write_table(file, "volumes", 1, (hsize_t[]){3}, H5T_NATIVE_DOUBLE, volume);
         if (part == 3) write_table(file, "material", 1, (hsize_t[]){3}, H5T_NATIVE_INT, material);
         H5Fclose(file);
-        if (part == 0) assert_refused(fill_particles(&p, &s.scene, NULL, 0), "list.h5: volumes is not a dataset");
         if (part == 1) assert_refused(fill_particles(&p, &s.scene, NULL, 0),
                                       "volumes has 2 x 1 numbers; 3 x 1 are wanted");
-        if (part < 2) continue;
+        if (part == 1) continue;
         assert_ok(fill_particles(&p, &s.scene, NULL, 0));
         for (int i = 0; i < 3; i++) {
             assert_exact(p.X[0][i], X[i][0]);
             assert_exact(p.X[1][i], X[i][1]);
-            assert_exact(p.volume[i], volume[i]);
+            assert_exact(p.volume[i], part == 0 ? 0.25 : volume[i]);
             assert_int_equal(p.material[i], part == 3 ? material[i] : 0);
         }
         particles_free(&p);
     }
     s.scene.dim = 1, s.scene.space = SPACE_LINE;
-    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "positions has 3 x 2 numbers; 3 x 1 are wanted");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "particles in one place: (0, 0, 0) m");
+    remove(name);
+}
+
+/* An attribute `unit` of a dataset, of fixed length or of its own. */
+static void unit_write(hid_t file, const char *name, const char *unit, bool variable)
+{
+    hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, variable ? H5T_VARIABLE : strlen(unit));
+    hid_t at = H5Acreate_by_name(file, name, "unit", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Awrite(at, type, variable ? (const void *)&unit : unit) >= 0);
+    H5Aclose(at);
+    H5Sclose(space);
+    H5Tclose(type);
+}
+
+/* Places in space, velocities, masses, and units beside them. */
+static void hdf5_lists_have_units(void **state)
+{
+    (void)state;
+    struct setting s;
+    struct particles p;
+    struct particle_list_head head;
+    char name[] = "units.h5";
+    const double X[2][3] = {{0, 0, 7}, {500, 0, 7}}, v[2][2] = {{1, 2}, {3, 4}}, mass[2] = {5, 6};
+    for (int part = 0; part < 4; part++) {
+        hid_t file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+        setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
+        s.body[0].file = name;
+        write_table(file, "positions", 2, (hsize_t[]){2, 3}, H5T_NATIVE_DOUBLE, X);
+        write_table(file, "velocities", 2, (hsize_t[]){2, 2}, H5T_NATIVE_DOUBLE, v);
+        write_table(file, "mass", 1, (hsize_t[]){2}, H5T_NATIVE_DOUBLE, mass);
+        unit_write(file, "positions", part == 2 ? "kg" : "mm", part % 2);
+        unit_write(file, "velocities", "km/s", !(part % 2));
+        if (part == 3) write_table(file, "density", 1, (hsize_t[]){2}, H5T_NATIVE_DOUBLE, mass);
+        H5Fclose(file);
+        if (part == 2) assert_refused(particle_list_look(&head, name, 2), "positions: its unit kg is a mass; a length");
+        if (part == 3) assert_refused(particle_list_look(&head, name, 2), "mass beside density");
+        if (part >= 2) continue;
+        assert_ok(particle_list_look(&head, name, 2));
+        assert_string_equal(head.note, "further positions not read; no volumes: each that of the spacing");
+        assert_ok(fill_particles(&p, &s.scene, NULL, 0));
+        assert_close(p.X[0][1], 0.5, 1e-15);
+        assert_close(p.v[1][1], 4000, 1e-15);
+        assert_exact(p.mass[1], 6);
+        particles_free(&p);
+    }
     remove(name);
 }
 
@@ -369,6 +418,7 @@ int main(void)
         cmocka_unit_test(bodies_share_a_list),
         cmocka_unit_test(bad_lists_are_refused),
         cmocka_unit_test(hdf5_lists_are_read),
+        cmocka_unit_test(hdf5_lists_have_units),
         cmocka_unit_test(hdf5_lists_are_whole),
         cmocka_unit_test(units_of_lists_are_told),
         cmocka_unit_test(other_bodies_are_neighbours_of_points),

@@ -165,8 +165,8 @@ static const struct { const char *piece, *instead, *message;
      "13:5: material: there is no material iron; the nearest is material"},
     {"shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}", "velocity: [0, 0]",
      "12:5: shape: missing in bodies; a solid or a list of solids is expected"},
-    {"shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}", "particles: grains.txt",
-     "13:5: particles: grains.txt is no particle list; a file name that ends in .csv or .h5 is expected"},
+    {"shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}", "particles: grains.xyz",
+     "13:5: particles: grains.xyz is no particle list; a file name that ends in .csv or .h5 is expected"},
     {"cracks:\n", "cracks:\n  - {at: 1}\n", "24:6: at: not in space plane stress; a crack there has from and to"},
     {"from: [0, 25 mm], to", "from: [50 mm, 25 mm], to",
      "24:5: cracks[0]: has no length; from and to are its two ends"},
@@ -426,6 +426,7 @@ static void test_files(void **state)
                                           "a particle list in the scene's folder is expected");
     out = fopen(list, "w");
     assert_non_null(out);
+    fputs("x,y,volume\n", out);
     fclose(out);
     assert_int_equal(scene_read(&s, path, o, 2), OK);
     assert_string_equal(s.body->file, list);

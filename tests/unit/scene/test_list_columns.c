@@ -1,0 +1,122 @@
+/* Columns of lists as other programs write them: units, separators, names, what is missing or too much; and
+ * bytes that are no list. */
+#include "tests/support/near.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "tests/support/setting.h"
+
+/* Writes `text` to a file in the test's folder and makes it the list of body 0. */
+static void list_written(struct setting *s, char *name, const char *text)
+{
+    FILE *file = fopen(name, "wb");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    s->body[0].file = name;
+}
+
+/* Units, separators, columns of other programs, and what is taken in place of what is missing. */
+static void lists_of_others_are_read(void **state)
+{
+    (void)state;
+    static const char *const text[] = {
+        "id; X [mm]; y [cm]; z; volume [mm^3]; vx [m/s]; weight [g]; Material\n7; 500; 100; 3; 2e6; 8; 4; hard\n",
+        "id\tx [mm]\ty\tvolume\tvx [km/s]\tdensity [kg/m^3]\tmaterial\n7\t500\t1\t2e-3\t8e-3\t2\t1\n",
+        "  x y [mm] vx [mm / us]  weight [m^3]   mass [kg] material z\n 0.5 1000  8e-3  2e-3 4e-3 hard 9\n"};
+    for (size_t k = 0; k < COUNT_OF(text); k++) {
+        struct setting s;
+        struct particles p;
+        struct particle_list_head head;
+        char name[] = "others.txt";
+        setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
+        strcpy(s.material[1].name, "hard");
+        list_written(&s, name, text[k]);
+        s.body[0].velocity[0] = 1, s.body[0].velocity[1] = 5;
+        assert_ok(particle_list_look(&head, name, 2));
+        assert_true(head.material && head.mass);
+        assert_string_equal(head.note, k == 0 ? "id, z not read" : k == 1 ? "id not read" : "z not read");
+        assert_ok(fill_particles(&p, &s.scene, NULL, 0));
+        assert_int_equal(p.n, 1);
+        assert_close(p.X[0][0], 0.5, 1e-15);
+        assert_close(p.X[1][0], 1, 1e-15);
+        assert_close(p.volume0[0], 2e-3, 1e-15);
+        assert_close(p.mass[0], 4e-3, 1e-15);
+        assert_close(p.v[0][0], 8, 1e-15);
+        assert_exact(p.v[1][0], 5);
+        assert_int_equal(p.material[0], 1);
+        particles_free(&p);
+        remove(name);
+    }
+}
+
+/* Without volumes each particle has that of the lattice, and it is said. */
+static void volumes_have_a_default(void **state)
+{
+    (void)state;
+    struct setting s;
+    struct particles p;
+    struct particle_list_head head;
+    char name[] = "places.csv";
+    setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
+    list_written(&s, name, "x,y,colour\n0,0,red\n0.5,0,blue\n");
+    s.scene.thickness = 0.1;
+    assert_ok(particle_list_look(&head, name, 2));
+    assert_string_equal(head.note, "colour not read; no volumes: each that of the spacing");
+    assert_true(!head.material && !head.mass);
+    assert_ok(fill_particles(&p, &s.scene, NULL, 0));
+    assert_close(p.volume0[1], 0.5 * 0.5 * 0.1, 1e-15);
+    particles_free(&p);
+    s.scene.spacing = 0;
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "has no column volume, and there is no particles.spacing");
+    remove(name);
+}
+
+/* Mutated lists are read, or refused in one line. */
+static void mutated_lists_are_bounded(void **state)
+{
+    (void)state;
+    static const char good[] = "id; x [mm]; y [cm]; z; volume [mm^3]; vx [m/s]; weight [g]; material\n"
+                               "7; 500; 100; 3; 2e6; 8; 4; hard\n8; 600; 1e2; 3; 2; 8; 4; soft\n";
+    static const char bytes[] = ";,\t []^#-+.eExz0123456789\n\r\"\0\xFF";
+    char name[] = "mutated.csv";
+    uint64_t random = 88172645463325252u;
+    for (int trial = 0; trial < 3000; trial++) {
+        char text[sizeof good];
+        struct particle_list l;
+        memcpy(text, good, sizeof good);
+        for (int k = 0; k < 1 + trial % 5; k++) {
+            random ^= random << 13, random ^= random >> 7, random ^= random << 17;
+            text[random % (sizeof good - 1)] = bytes[(random >> 32) % sizeof bytes];
+        }
+        FILE *file = fopen(name, "wb");
+        assert_int_equal(fwrite(text, 1, sizeof good - 1, file), sizeof good - 1);
+        fclose(file);
+        if (particle_list_read(&l, name, 1 + trial % 3) != OK) {
+            assert_null(strchr(status_message(), '\n'));
+            continue;
+        }
+        for (int64_t i = 0; i < l.n; i++) assert_true(isfinite(l.X[0][i]) && (!l.volume || l.volume[i] > 0));
+        for (int64_t i = 0; i < l.n && l.material; i++) assert_true(l.material[i] >= -l.names);
+        particle_list_free(&l);
+    }
+    remove(name);
+}
+
+static int enter_columns(void **state)
+{
+    static char folder[] = "/tmp/cleave_columns_XXXXXX";
+    *state = folder;
+    return mkdtemp(folder) == NULL || chdir(folder) != 0;
+}
+
+static int leave_columns(void **state) { return chdir("/") != 0 || rmdir(*state) != 0; }
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lists_of_others_are_read),
+                                       cmocka_unit_test(volumes_have_a_default),
+                                       cmocka_unit_test(mutated_lists_are_bounded)};
+    return cmocka_run_group_tests(tests, enter_columns, leave_columns);
+}
