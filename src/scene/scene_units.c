@@ -458,7 +458,7 @@ void scene_help_units(FILE *out)
           "symbols   ", out);
     for (size_t k = 0; k < COUNT_OF(symbols); k++)
         if (strcmp(symbols[k].name, "1") != 0) fprintf(out, " %s", symbols[k].name);
-    fputs("; times also min, h\nprefixes  ", out);
+    fputs("; times also min, h; angles deg, rad\nprefixes  ", out);
     for (size_t k = 0; k < COUNT_OF(prefixes); k++)
         fprintf(out, " %s 1e%d%s", prefixes[k].name, prefixes[k].ten / 2, k + 1 < COUNT_OF(prefixes) ? "," : "\n");
     fputs("powers     m^2, m2, m\u00b2, m^0.5, sqrt(m), s^-1; between factors a blank, * or /: N/m^2, MPa m^0.5\n\n"
