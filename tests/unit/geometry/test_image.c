@@ -116,7 +116,7 @@ static void kinds_of_images(void **state)
     check_values("b.tif", 2, 1, 8);
 }
 
-/* The luminance of Rec. 709. */
+/* Slices of several files, PNG and TIFF mixed; in the plane there is but one. */
 static void a_stack_of_files(void **state)
 {
     (void)state;
