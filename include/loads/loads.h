@@ -11,6 +11,7 @@
 #include "data/grid.h"
 #include "kernels/kernels.h"
 #include "data/particles.h"
+#include "data/expression.h"
 #include "data/region.h"
 #include "absorbing.h"
 
@@ -19,7 +20,8 @@ enum boundary_kind {
     BOUNDARY_TRACTION,       /* surface force on the face that a body shows along an axis [Pa] */
     BOUNDARY_BODY_FORCE,     /* [N/m^3] */
     BOUNDARY_MIRROR,         /* plane of symmetry (roller) or of antisymmetry (fixed end) */
-    BOUNDARY_ABSORBING       /* dashpots on the face that a body shows along an axis (absorbing.h) */
+    BOUNDARY_ABSORBING,      /* dashpots on the face that a body shows along an axis (absorbing.h) */
+    BOUNDARY_PRESSURE        /* on every free face, against its outward normal (loads_pressure.c) [Pa] */
 };
 
 /* Factor on a body force over the reference position: sin(2 pi (X - origin) . direction/wavelength). */
@@ -39,7 +41,13 @@ struct boundary {
     struct region region;                /* of reference positions; empty: everywhere */
     int body;                            /* -1: any */
     uint8_t components;                  /* bit d: component d is held (VELOCITY) */
-    real value[DIM_MAX];                 /* [m/s], [Pa] or [N/m^3] */
+    real value[DIM_MAX];                 /* [m/s], [Pa] or [N/m^3]; PRESSURE: the same in all; 1 beside a formula */
+    struct expression formula[DIM_MAX];  /* of a component in X and t, PRESSURE: the first for all; none: value */
+    bool frozen;                         /* static: formulas have their value at `frozen_at` [s] */
+    real frozen_at;
+    bool rotates;                        /* VELOCITY: all components, on circles about an axis through `centre` */
+    real centre[DIM_MAX], axis_of[DIM_MAX], rate; /* [m], of any length, z in the plane; times the factor [1/s] */
+    bool follow;                         /* PRESSURE: normals and areas are those of the deformed body */
     struct time_function time;           /* factor on value */
     char *time_file;                     /* it came from this CSV file; NULL: it stands in the scene */
     char time_column[NAME_MAX_LENGTH];   /* of it; "": the only one beside the time */
@@ -68,6 +76,10 @@ struct load {
     /* [n] ABSORBING: area on first particles alone; 3/2 of it on these and -1/2 on the next, for nodes of a grid, to
      * which first particles give some of it behind the face [m^2] */
     real *outer, *edge;
+    /* of a load whose shares change, which has them for itself: shares without function of time and formula */
+    bool moving;
+    real *base[DIM_MAX];
+    struct surface *surface;             /* of pressure that follows; NULL: none */
     /* TRACTION, BODY_FORCE: first load on the same particles, which keeps the arrays of both; -1: itself */
     int leader;
     /* [n] of a load without leader, components with a value: positions before this step [m] */
@@ -77,6 +89,12 @@ struct load {
     real displacement[DIM_MAX];          /* of the driven particles, accumulated [m] */
     int outside;                         /* MIRROR: side of the plane without body, -1 or +1 */
 };
+
+/* Does it put forces on particles? */
+static inline bool boundary_is_force(const struct boundary *b)
+{
+    return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE || b->kind == BOUNDARY_PRESSURE;
+}
 
 /* A component of a node that is held as long as the grid keeps its box. */
 struct held { int32_t node; uint8_t component, load; };
@@ -124,6 +142,10 @@ static inline bool is_clamp(const struct boundary *b, int dim)
 /* Finds the particles of one boundary (of a mirror those in its plane, if it is clamped), ascending, and their
  * shares; marks FLAG_DRIVEN. Refuses a force on a region without particles, a traction on one without a free face. */
 status load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing);
+/* Which particles are in the region and body of a boundary [n]; false: none. */
+bool load_region(const struct boundary *b, const struct particles *p, real spacing, uint8_t *selected);
+/* The load acts on particles with taken[i] > 0: lists them, marks driven ones, makes room for shares. */
+void load_take(struct load *l, const uint8_t *taken, struct particles *p);
 
 /* The face of a traction (loads_columns.c): of each column of particles along the normal the first that nothing
  * hides bears its area, and that along the face together with the next where `two` are wanted. */
@@ -133,6 +155,22 @@ struct face {
 void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
                real spacing, bool two);
 void face_free(struct face *f);
+/* Calls `found` for every free end of a column along the normal of b's face, the walls of holes too, with the area of
+ * the column [m^2]. */
+typedef void face_found_fn(void *context, int32_t particle, real area);
+void face_every(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
+                face_found_fn *found, void *context);
+/* The part of loads_make that finds the particles of a pressure, number `which` of n boundaries (loads_pressure.c). */
+status load_select_pressure(struct load *l, const struct boundary *boundary, int n, int which, struct particles *p,
+                            real spacing);
+
+/* Loads whose shares change (loads_moving.c): formulas of time, pressure that follows. make: formulas without time
+ * become part of the shares; REFUSED where a formula is not finite. push, work: the shares of loads_push and
+ * loads_push_work. */
+status load_formula_make(struct load *l, const struct particles *p);
+void loads_moving_push(struct loads *l, const struct particles *p, real t, real dt_velocity);
+void loads_moving_work(struct loads *l, const struct particles *p, real t, real dt);
+void load_moving_free(struct load *l);
 
 /* Finds the particles of every boundary and marks FLAG_DRIVEN; appends mirror images within `reach` of
  * mirror planes to the particles (so bonds must be made after it). `spacing` [m] is that of the columns that bear
@@ -167,6 +205,22 @@ void loads_dashpots(struct loads *l, struct grid *g, const struct particles *p, 
                     real half_width);
 void loads_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
 void loads_absorbed(struct loads *l, const struct absorbed *by);
+
+/* What a boundary prescribes in a step from t - dt/2 to t + dt/2 (loads_driving.c). */
+struct driving {
+    const struct boundary *boundary;
+    int dim;
+    real t, dt, factor;                  /* of its function of time, at t */
+    real from[DIM_MAX * DIM_MAX], to[DIM_MAX * DIM_MAX]; /* rotates: rotations at the step's ends, row major */
+};
+struct driving driving_make(const struct boundary *b, int dim, real t, real dt);
+/* Velocity of component d at the reference place X; `placed`: of what is at X when the step begins [m/s]. */
+real driving_at(const struct driving *s, const real *X, int d, bool placed);
+/* Does it depend on the place? */
+static inline bool drives_by_place(const struct boundary *b)
+{
+    return b->rotates || b->formula[0].in_space || b->formula[1].in_space || b->formula[2].in_space;
+}
 
 #define LOADS_TOLERANCE ON_SURFACE       /* of a spacing: points on a region's border belong to it    */
 

@@ -263,6 +263,7 @@ static void advise_separation(const struct engine *e, FILE *out)
         for (int b = 0; b < s->boundaries; b++) {
             const struct boundary *a = &s->boundary[b];
             if (a->kind != BOUNDARY_VELOCITY || !(a->components & 1 << d)) continue;
+            if (a->rotates || a->formula[d].n > 0) continue;
             const real way = a->value[d] * time_function_integral(&a->time, s->duration);
             least = real_min(least, way), most = real_max(most, way);
         }
@@ -304,11 +305,13 @@ static real stress_reached(const struct engine *e)
             low[d] = real_min(low[d], e->part.v[d][i]), high[d] = real_max(high[d], e->part.v[d][i]);
     for (int b = 0; b < s->boundaries; b++) {
         const struct boundary *a = &s->boundary[b];
-        if (a->kind == BOUNDARY_BODY_FORCE || a->time.kind == TIME_TABLE) return INFINITY;
+        const bool formula = a->formula[0].n + a->formula[1].n + a->formula[2].n > 0;
+        if (a->kind == BOUNDARY_BODY_FORCE || a->time.kind == TIME_TABLE || formula || a->rotates) return INFINITY;
         for (int d = 0; d < s->dim && a->kind == BOUNDARY_VELOCITY; d++)
             if (a->components & 1 << d)
                 low[d] = real_min(low[d], a->value[d]), high[d] = real_max(high[d], a->value[d]);
         for (int d = 0; d < s->dim && a->kind == BOUNDARY_TRACTION; d++) traction += fabs(a->value[d]);
+        if (a->kind == BOUNDARY_PRESSURE) traction += fabs(a->value[0]);
     }
     for (int d = 0; d < s->dim; d++) speed2 += square(high[d] - low[d]);
     for (int m = 0; m < s->materials; m++) density = real_max(density, s->material[m].density);

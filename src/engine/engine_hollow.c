@@ -26,6 +26,8 @@ const char *engine_hollow_obstacle(const struct scene *s)
     if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) return "peridynamic particles may become points again";
     if (s->method == METHOD_ADAPTIVE && s->surface == SURFACE_MOMENTS) return "pd.surface moments looks at all faces";
     if (s->contact_friction > 0) return "faces rub";
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_PRESSURE) return "a pressure looks at all faces";
     for (int k = 0; k < s->probes; k++) {
         const enum probe_kind kind = s->probe[k].kind;
         const bool moves = kind == PROBE_SIF && isfinite(s->material[0].critical_stretch);

@@ -94,7 +94,8 @@ static real engine_stability_start_strain(const struct scene *s)
  * rise. */
 static bool load_explanation(const struct engine *e, real steps, char *text, size_t room)
 {
-    static const char *const unit[] = {"m/s", "Pa", "N/m^3"}, *const word[] = {"velocity", "traction", "body force"};
+    static const char *const unit[] = {"m/s", "Pa", "N/m^3", "", "", "Pa"};
+    static const char *const word[] = {"velocity", "traction", "body force", "", "", "pressure"};
     const real window =
         real_min((real)e->clock.step, isfinite(steps) ? real_max(ceil(steps), RISE_STRIDE) : (real)e->clock.step);
     const struct load *worst = NULL;
@@ -123,7 +124,8 @@ static bool load_explanation(const struct engine *e, real steps, char *text, siz
     }
     if (!worst) return false;
     const struct boundary *b = worst->boundary;
-    const real value = sqrt(dot(b->value, b->value, e->part.dim));
+    const real size = sqrt(dot(b->value, b->value, e->part.dim));
+    const real value = b->kind == BOUNDARY_PRESSURE ? fabs(b->value[0]) : size;
     char within[40] = "";
     if (b->kind != BOUNDARY_VELOCITY) snprintf(within, sizeof within, " in %.0f step%s", window, window > 1 ? "s" : "");
     snprintf(
@@ -131,7 +133,8 @@ static bool load_explanation(const struct engine *e, real steps, char *text, siz
         "no smaller time step helps: boundary %s, a %s of %.3g %s, %s its particles %.3g m/s%s, %.3g times the wave "
         "speed, and loads "
         "have done %.3g J of work; see whether its value is meant, and in which unit",
-        b->name, word[b->kind], value, unit[b->kind], b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed, within,
+        b->name, word[b->kind], value, b->by_mass ? "N/kg" : unit[b->kind],
+        b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed, within,
         speed / e->tables.wave_speed, e->loads.work + e->loads.constraint_work);
     return true;
 }

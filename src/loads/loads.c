@@ -36,6 +36,9 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     l->load = NEW("loads.load", n, struct load);
     for (int b = 0; b < n; b++)
         TRY(status_at(boundary[b].place, load_select(&l->load[b], &boundary[b], p, spacing)));
+    for (int b = 0; b < n; b++)
+        TRY(status_at(boundary[b].place, load_select_pressure(&l->load[b], boundary, n, b, p, spacing)));
+    for (int b = 0; b < n; b++) TRY(status_at(boundary[b].place, load_formula_make(&l->load[b], p)));
     TRY(loads_absorbing_check(l, p));
     loads_join(l, p->dim);
     TRY(loads_mirrors_make(l, p, reach, optional));
@@ -67,7 +70,7 @@ void loads_free(struct loads *l)
 {
     loads_applied_free(l);
     loads_absorbing_free(l);
-    for (int b = 0; b < l->n; b++) memory_free(l->load[b].particle);
+    for (int b = 0; b < l->n; b++) load_moving_free(&l->load[b]), memory_free(l->load[b].particle);
     memory_free(l->load);
     memory_free(l->loaded);
     memory_free(l->list);
@@ -81,17 +84,19 @@ void loads_free(struct loads *l)
 
 /* Replaces the force on driven peridynamic particles by the force that gives them their velocity; its difference from
  * the bond force is the reaction of the support. Books impulse and work. */
-static void drive(struct loads *l, struct load *load, struct particles *p, real factor, real dt_velocity)
+static void drive(struct loads *l, struct load *load, struct particles *p, const struct driving *by, real dt_velocity)
 {
     const struct boundary *b = load->boundary;
     const uint8_t components = is_clamp(b, p->dim) ? UINT8_MAX : b->components;
     real given[DIM_MAX] = {0}, work = 0;
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
+        real X[DIM_MAX];
         if (particle_on_grid(p, i)) continue;
+        particle_place(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(components >> d & 1)) continue;
-            real target = factor * b->value[d], before = p->v[d][i];
+            const real target = driving_at(by, X, d, false), before = p->v[d][i];
             real needed = p->mass[i] * (target - before) / dt_velocity, reaction = needed - p->f[d][i];
             load->reaction[d] -= p->f[d][i];     /* without the driven particles' own inertia: what a load cell reads */
             p->f[d][i] = needed;
@@ -136,6 +141,22 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
     }
 }
 
+/* Adds the way of a step to the displacement of what a load drives: of its particles the mean, where they differ. */
+static void way_add(struct load *load, const struct particles *p, const struct driving *by)
+{
+    const int64_t n = drives_by_place(load->boundary) ? load->n : 1;
+    for (int d = 0; d < p->dim; d++) {
+        real sum = 0;
+        if (!(load->boundary->components >> d & 1)) continue;
+        for (int64_t k = 0; k < n; k++) {
+            real X[DIM_MAX] = {0};
+            if (load->n > 0) particle_place(p, load->particle[k], X);
+            sum += driving_at(by, X, d, false);
+        }
+        if (n > 0) load->displacement[d] += sum / (real)n * by->dt;
+    }
+}
+
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
 {
     if (l->images > 0) mirror_impulse(l, p, dt_velocity);
@@ -148,25 +169,26 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
     for (int c = 0; c < l->n; c++) {         /* after all forces, which reactions contain */
         struct load *load = &l->load[c];
         if (load->boundary->kind != BOUNDARY_VELOCITY && load->boundary->kind != BOUNDARY_MIRROR) continue;
-        real factor = time_function_at(&load->boundary->time, t);
-        for (int d = 0; d < p->dim; d++)
-            if (load->boundary->components >> d & 1) load->displacement[d] += factor * load->boundary->value[d] * dt;
-        drive(l, load, p, factor, dt_velocity);
+        const struct driving by = driving_make(load->boundary, p->dim, t, dt);
+        way_add(load, p, &by);
+        drive(l, load, p, &by, dt_velocity);
     }
 }
 
 /* ---- after the gather -------------------------------------------------------------------------------------------- */
 
 /* Gives driven material points on the grid their velocity exactly; books impulse and work. */
-static void hold(struct loads *l, const struct load *load, struct particles *p, real factor)
+static void hold(struct loads *l, const struct load *load, struct particles *p, const struct driving *by)
 {
     const struct boundary *b = load->boundary;
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
+        real X[DIM_MAX];
         if (!particle_on_grid(p, i) || p->flag[i] & FLAG_MESHED) continue;      /* the mesh constrains nodes */
+        particle_place(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(b->components >> d & 1)) continue;
-            real target = factor * b->value[d], given = p->mass[i] * (target - p->v[d][i]);
+            const real target = driving_at(by, X, d, false), given = p->mass[i] * (target - p->v[d][i]);
             l->impulse[d] += given;
             l->constraint_work += given * 0.5 * (target + p->v[d][i]);
             p->v[d][i] = target;
@@ -194,8 +216,8 @@ void loads_hold(struct loads *l, struct particles *p, real t, real dt)
 {
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
-        real factor = time_function_at(&load->boundary->time, t);
-        if (load->boundary->kind == BOUNDARY_VELOCITY) hold(l, load, p, factor);
+        const struct driving by = driving_make(load->boundary, p->dim, t, dt);
+        if (load->boundary->kind == BOUNDARY_VELOCITY) hold(l, load, p, &by);
     }
     loads_push_work(l, p, t, dt);
 }

@@ -10,14 +10,11 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-static bool loads_applied_is_force(const struct load *load)
-{
-    return load->boundary->kind == BOUNDARY_TRACTION || load->boundary->kind == BOUNDARY_BODY_FORCE;
-}
-
+/* Are they on the same particles, and can be one term? */
 static bool same_particles(const struct load *a, const struct load *b)
 {
-    return a->n == b->n && memcmp(a->particle, b->particle, (size_t)a->n * sizeof *a->particle) == 0;
+    return !a->moving && !b->moving && a->n == b->n &&
+           memcmp(a->particle, b->particle, (size_t)a->n * sizeof *a->particle) == 0;
 }
 
 /* Replaces the share of component d of load b by an equal one that the same leader's earlier loads have, if there is
@@ -56,7 +53,7 @@ void loads_join(struct loads *l, int dim)
 {
     for (int b = 0; b < l->n; b++) {
         l->load[b].leader = -1;
-        if (loads_applied_is_force(&l->load[b]) && l->load[b].n > 0) load_join(l, b, dim);
+        if (boundary_is_force(l->load[b].boundary) && l->load[b].n > 0) load_join(l, b, dim);
     }
 }
 
@@ -184,7 +181,11 @@ void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity)
 {
     real factor[BOUNDARIES_MAX], given;
     struct push a;
-    for (int b = 0; b < l->n; b++) factor[b] = kick_factor(&l->load[b].boundary->time, t, dt_velocity);
+    loads_moving_push(l, p, t, dt_velocity);
+    for (int b = 0; b < l->n; b++) {
+        const struct load *load = &l->load[b];
+        factor[b] = load->moving ? 1 : kick_factor(&load->boundary->time, t, dt_velocity);
+    }
     for (int b = 0; b < l->n; b++)
         for (int d = 0; d < p->dim && l->load[b].leader == b; d++) {
             if (!push_make(&a, l, b, p, d, factor)) continue;
@@ -206,7 +207,11 @@ void loads_push_work(struct loads *l, struct particles *p, real t, real dt)
 {
     real factor[BOUNDARIES_MAX], done;
     struct push a;
-    for (int b = 0; b < l->n; b++) factor[b] = way_factor(&l->load[b].boundary->time, t, dt);
+    loads_moving_work(l, p, t, dt);
+    for (int b = 0; b < l->n; b++) {
+        const struct load *load = &l->load[b];
+        factor[b] = load->moving ? 1 : way_factor(&load->boundary->time, t, dt);
+    }
     for (int b = 0; b < l->n; b++)
         for (int d = 0; d < p->dim && l->load[b].leader == b; d++) {
             if (!push_make(&a, l, b, p, d, factor)) continue;
@@ -230,7 +235,7 @@ void loads_clear(struct loads *l, struct particles *p)
     for (int b = 0; b < l->n; b++) {
         const struct load *load = &l->load[b];
         const int64_t n = load->n;
-        if (loads_applied_is_force(load) && load->leader != b) continue;
+        if (boundary_is_force(load->boundary) && load->leader != b) continue;
         TEAM_LOOP(n > SUM_BLOCK, for (int64_t first = 0; first < n; first += SUM_BLOCK)
             clear_run(load, p, first, first + SUM_BLOCK < n ? first + SUM_BLOCK : n););
     }

@@ -238,18 +238,26 @@ static real behind(const struct columns *c, const struct boundary *b, const stru
            (0.5 * (width_of(c, b, p, i) + width_of(c, b, p, j)));
 }
 
+/* Index in c->order of the next exposed particle of a column below `from`, -1: none. */
+static int64_t exposed_below(const struct columns *c, int64_t column, int64_t from, const struct boundary *b,
+                             const struct particles *p, const uint8_t *selected)
+{
+    const int32_t *order = c->order;
+    const int64_t end = c->start[column + 1];
+    for (int64_t k = from; k-- > c->start[column];) {
+        const bool free = k + 1 == end || behind(c, b, p, order[k + 1], order[k]) > GAP;
+        if (selected[order[k]] && free) return k;
+    }
+    return -1;
+}
+
 /* Index in c->order of the exposed particle of a column, -1: none of this body. An exposed particle of another body
  * belongs to the columns of that body. */
 static int64_t loads_columns_shown(const struct columns *c, int64_t column, const struct boundary *b,
                                    const struct particles *p, const uint8_t *selected)
 {
-    const int32_t *order = c->order;
-    const int64_t end = c->start[column + 1];
-    for (int64_t k = end; k-- > c->start[column];) {
-        const bool free = k + 1 == end || behind(c, b, p, order[k + 1], order[k]) > GAP;
-        if (selected[order[k]] && free) return p->body[order[k]] == c->body ? k : -1;
-    }
-    return -1;
+    const int64_t k = exposed_below(c, column, c->start[column + 1], b, p, selected);
+    return k >= 0 && p->body[c->order[k]] == c->body ? k : -1;
 }
 
 /* Index in c->order of the next particle of the body behind the one at k, -1: none. */
@@ -289,6 +297,24 @@ static real column_area(const struct columns *c, const struct boundary *b, int d
     if (!(b->section > 0)) return 0;
     const real area = lattice_volume(b->section, c->width, dim) / c->width;
     return c->step == c->width ? area : area * pow(c->step / c->width, dim - 1);
+}
+
+void face_every(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
+                face_found_fn *found, void *context)
+{
+    bool has[UINT8_MAX + 1] = {false};
+    for (int64_t i = 0; i < p->n; i++) has[p->body[i]] |= selected[i];
+    for (int body = 0; body <= UINT8_MAX; body++) {
+        struct columns c;
+        if (!has[body]) continue;
+        loads_columns_make(&c, b, p, body, spacing);
+        const real area = column_area(&c, b, p->dim);
+        for (int64_t column = 0; column < c.n; column++)
+            for (int64_t k = c.start[column + 1]; (k = exposed_below(&c, column, k, b, p, selected)) >= 0;)
+                if (p->body[c.order[k]] == body)
+                    found(context, c.order[k], area > 0 ? area : p->volume0[c.order[k]] / c.width);
+        loads_columns_free(&c);
+    }
 }
 
 void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,

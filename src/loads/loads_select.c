@@ -45,18 +45,12 @@ static void shares_allocate(struct load *l, int dim)
     for (int d = 0; d < dim; d++) l->share[d] = d > 0 && alike ? l->share[0] : NEW("loads.share", l->n, real);
 }
 
-static bool bears_force(const struct boundary *b)
-{
-    return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE;
-}
-
 static bool wants_face(const struct boundary *b)
 {
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING;
 }
 
-/* Lists the particles with taken[i] > 0, marks driven ones, and makes room for shares. */
-static void take_particles(struct load *l, const uint8_t *taken, struct particles *p)
+void load_take(struct load *l, const uint8_t *taken, struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) l->n += taken[i] > 0;
     l->particle = NEW("loads.particle", l->n, int32_t);
@@ -65,7 +59,7 @@ static void take_particles(struct load *l, const uint8_t *taken, struct particle
         l->particle[k++] = (int32_t)i;
         if (l->boundary->kind == BOUNDARY_VELOCITY) p->flag[i] |= FLAG_DRIVEN;
     }
-    if (bears_force(l->boundary)) shares_allocate(l, p->dim);
+    if (boundary_is_force(l->boundary)) shares_allocate(l, p->dim);
 }
 
 /* Lists the particles of the exposed face of a traction; their shares are areas. */
@@ -75,7 +69,7 @@ static void select_face(struct load *l, const uint8_t *selected, struct particle
     uint8_t *bears = NEW("loads.bears", p->n, uint8_t);
     face_make(&face, l->boundary, p, selected, spacing, has_tangential(l->boundary, p->dim));
     for (int64_t i = 0; i < p->n; i++) bears[i] = face.normal[i] != 0 || face.along[i] != 0;
-    take_particles(l, bears, p);
+    load_take(l, bears, p);
     for (int64_t k = 0; k < l->n; k++)
         for (int d = 0; d < p->dim; d++)
             l->share[d][k] = (d == l->boundary->face ? face.normal : face.along)[l->particle[k]];
@@ -90,12 +84,22 @@ static void select_absorbing(struct load *l, const uint8_t *selected, struct par
     uint8_t *bears = NEW("loads.bears", p->n, uint8_t);
     face_make(&face, l->boundary, p, selected, spacing, true);
     for (int64_t i = 0; i < p->n; i++) bears[i] = face.along[i] != 0;
-    take_particles(l, bears, p);
+    load_take(l, bears, p);
     l->outer = NEW("loads.outer", l->n, real), l->edge = NEW("loads.edge", l->n, real);
     for (int64_t k = 0; k < l->n; k++)
         l->outer[k] = face.normal[l->particle[k]], l->edge[k] = face.along[l->particle[k]];
     memory_free(bears);
     face_free(&face);
+}
+
+bool load_region(const struct boundary *b, const struct particles *p, real spacing, uint8_t *selected)
+{
+    bool any = false;
+    for (int64_t i = 0; i < p->n; i++) {
+        selected[i] = selects(b, p, i, spacing);
+        any = any || selected[i];
+    }
+    return any;
 }
 
 /* Does particle i lie in the plane of a clamped mirror? Such a particle is its own image and stays at rest. */
@@ -109,7 +113,7 @@ status load_select(struct load *l, const struct boundary *b, struct particles *p
     const bool clamp = is_clamp(b, p->dim);
     bool any = false;
     l->boundary = b;
-    if (b->kind == BOUNDARY_MIRROR && !clamp) return OK;
+    if ((b->kind == BOUNDARY_MIRROR && !clamp) || b->kind == BOUNDARY_PRESSURE) return OK;
     uint8_t *selected = NEW("loads.selected", p->n, uint8_t);
     for (int64_t i = 0; i < p->n; i++) {
         selected[i] = clamp ? is_in_plane(b, p, i, spacing) : selects(b, p, i, spacing);
@@ -117,10 +121,10 @@ status load_select(struct load *l, const struct boundary *b, struct particles *p
     }
     if (b->kind == BOUNDARY_TRACTION) select_face(l, selected, p, spacing);
     else if (b->kind == BOUNDARY_ABSORBING) select_absorbing(l, selected, p, spacing);
-    else take_particles(l, selected, p);
+    else load_take(l, selected, p);
     if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
     memory_free(selected);
-    if (!any && (bears_force(b) || wants_face(b)))
+    if (!any && (boundary_is_force(b) || wants_face(b)))
         return status_set(REFUSED, "boundary %s: no particle lies in its region", b->name);
     if (l->n > 0 || !wants_face(b)) return OK;
     return status_set(REFUSED,

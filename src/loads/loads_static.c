@@ -6,17 +6,13 @@
 
 #define ROUND_OFF 1e-12                  /* share of the largest possible moment; smaller moments count as 0 */
 
-static bool loads_static_is_force(const struct boundary *b)
-{
-    return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE;
-}
-
 void loads_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp)
 {
     for (int b = 0; b < n; b++) {
         real factor = 1;
         to[b] = from[b];
-        if (loads_static_is_force(&from[b])) {
+        to[b].frozen = true, to[b].frozen_at = duration;
+        if (boundary_is_force(&from[b])) {
             factor = time_function_at(&from[b].time, duration);
             to[b].time = (struct time_function){.kind = TIME_RAMP, .until = ramp};
         } else if (from[b].kind == BOUNDARY_VELOCITY) {
@@ -52,7 +48,7 @@ static void moment(const struct loads *l, const struct particles *p, real *turni
     *turning = *most = 0;
     for (int c = 0; c < l->n; c++) {
         const struct load *load = &l->load[c];
-        if (!loads_static_is_force(load->boundary)) continue;
+        if (!boundary_is_force(load->boundary)) continue;
         for (int64_t k = 0; k < load->n; k++) {
             const real *value = load->boundary->value;
             const real x = p->X[0][load->particle[k]] - l->centre[0], y = p->X[1][load->particle[k]] - l->centre[1];
@@ -87,7 +83,7 @@ void loads_static_force(const struct loads *l, struct particles *p)
     }
     for (int c = 0; c < l->n; c++) {
         const struct load *load = &l->load[c];
-        if (!loads_static_is_force(load->boundary)) continue;
+        if (!boundary_is_force(load->boundary)) continue;
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++)
                 p->f[d][load->particle[k]] += load->boundary->value[d] * load->share[d][k];
@@ -117,7 +113,7 @@ void loads_static_work(struct loads *l, const struct particles *p)
         const struct boundary *b = load->boundary;
         for (int d = 0; d < p->dim; d++)
             if (b->kind == BOUNDARY_VELOCITY) l->constraint_work += 0.5 * load->reaction[d] * load->displacement[d];
-        if (!loads_static_is_force(b)) continue;
+        if (!boundary_is_force(b)) continue;
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++) {
                 const int32_t i = load->particle[k];

@@ -20,9 +20,11 @@ static void constrained_add(struct constrained_set *s, int64_t node, int compone
 
 /* Does a load constrain this component of any node at position x: in a driven region, on a mirror plane or beyond
  * it? */
-static bool node_constrained(const struct load *load, const real *x, int dim, real tolerance, int component)
+static bool node_constrained(const struct load *load, const struct grid *g, const real *x, real tolerance,
+                             int component)
 {
     const struct boundary *b = load->boundary;
+    const int dim = g->dim;
     if (b->kind == BOUNDARY_VELOCITY)
         return b->body < 0 && (b->components >> component & 1) && region_contains(&b->region, x, dim, tolerance);
     return b->kind == BOUNDARY_MIRROR && (component == b->axis || b->hold_tangential) &&
@@ -100,7 +102,7 @@ static bool place_misleads(const struct mesh *mesh, const struct load *load, int
 /* Finds the nodes constrained wherever the body is, and the mirror nodes; once for each box of the grid. Extra nodes of
  * a mesh mirror no others: there are none where a mirror lies between nodes. */
 static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g, const struct mesh *mesh,
-                             const struct particles *p)
+                             const struct particles *p, bool reference)
 {
     struct mirror_node mirror_node;
     s->n = 0;
@@ -118,7 +120,8 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
         for (int b = 0; b < l->n; b++)
             for (int d = 0; d < g->dim; d++)
                 if (load_holds(&l->load[b], g, p) && !place_misleads(mesh, &l->load[b], I) &&
-                    node_constrained(&l->load[b], x, g->dim, LOADS_TOLERANCE * l->spacing, d))
+                    node_constrained(&l->load[b], g, x, LOADS_TOLERANCE * l->spacing, d) &&
+                    (reference || !l->load[b].boundary->rotates))       /* the region turns, nodes stay */
                     constrained_add(s, I, d, b);
     }
 }
@@ -130,7 +133,7 @@ static bool constrained_by_region(const struct loads *l, const struct load *load
     real x[DIM_MAX];
     node_at(&mesh->grid, mesh, I, x);
     return !place_misleads(mesh, load, I) &&
-           node_constrained(load, x, mesh->grid.dim, LOADS_TOLERANCE * l->spacing, component);
+           node_constrained(load, &mesh->grid, x, LOADS_TOLERANCE * l->spacing, component);
 }
 
 /* Was the set found for the present box of nodes? */
@@ -172,52 +175,70 @@ static int64_t driven_share(struct loads *l, const struct load *load, const stru
     return n;
 }
 
+/* What a load prescribes in this step and did in the step before. */
+struct driven_by { struct driving now, before; };
+
+/* A wall of component d of node I, at x. The change is that of what is at the node: a rotation carries it away. */
+static void wall_add(struct grid *g, const struct driven_by *by, int64_t I, const real *x, int d, int which,
+                     bool reference)
+{
+    const struct boundary *b = by->now.boundary;
+    const bool drives = b->kind == BOUNDARY_VELOCITY, first = by->now.t <= by->now.dt;
+    const real velocity = drives ? driving_at(&by->now, x, d, !reference) : 0;
+    real change = 0;
+    if (drives && !first && (b->rotates || b->formula[d].n > 0))
+        change = velocity - driving_at(&by->before, x, d, !reference);
+    else if (drives && !first) change = (by->now.factor - by->before.factor) * b->value[d];
+    grid_add_wall(g, I, d, velocity, change, which);
+}
+
 /* Adds walls at the nodes that have at least half of their mass from driven points. */
-static void driven_walls(struct loads *l, int which, struct grid *g, real velocity_factor, real change_factor)
+static void driven_walls(struct loads *l, int which, struct grid *g, const struct driven_by *by)
 {
     const struct boundary *b = l->load[which].boundary;
     for (int64_t I = 0; I < g->n; I++) {
+        real x[DIM_MAX];
         if (l->share[I] <= 0 || l->share[I] < 0.5 * (1 - 1e-9) * g->mass[I]) continue;
+        node_at(g, NULL, I, x);
         for (int d = 0; d < g->dim; d++)
-            if (b->components >> d & 1)
-                grid_add_wall(g, I, d, velocity_factor * b->value[d], change_factor * b->value[d], which);
+            if (b->components >> d & 1) wall_add(g, by, I, x, d, which, false);
     }
 }
 
-/* Time factors of all loads at time t, and their change since the step before, both [loads] [1]. */
-static void sif_bench_at(const struct loads *l, real t, real dt, real *velocity, real *change)
+/* What all loads prescribe in the step about t. */
+static void driven_by_all(const struct loads *l, int dim, real t, real dt, struct driven_by *by)
 {
     for (int b = 0; b < l->n; b++) {
-        velocity[b] = time_function_at(&l->load[b].boundary->time, t);
-        change[b] = t > dt ? velocity[b] - time_function_at(&l->load[b].boundary->time, t - dt) : 0;
+        by[b].now = driving_make(l->load[b].boundary, dim, t, dt);
+        by[b].before = t > dt ? driving_make(l->load[b].boundary, dim, t - dt, dt) : by[b].now;
     }
 }
 
 /* Adds walls at the nodes of a constrained set that have mass. */
-static void constrained_walls(const struct loads *l, const struct constrained_set *s, struct grid *g,
-                              const real *velocity, const real *change)
+static void constrained_walls(const struct constrained_set *s, struct grid *g, const struct mesh *mesh,
+                              const struct driven_by *by, bool reference)
 {
     for (int64_t q = 0; q < s->n; q++) {
         const struct held *h = &s->held[q];
+        real x[DIM_MAX];
         if (g->mass[h->node] <= 0) continue;
-        const struct boundary *b = l->load[h->load].boundary;
-        real value = b->kind == BOUNDARY_VELOCITY ? b->value[h->component] : 0;
-        grid_add_wall(g, h->node, h->component, velocity[h->load] * value, change[h->load] * value, h->load);
+        node_at(g, mesh, h->node, x);
+        wall_add(g, &by[h->load], h->node, x, h->component, h->load, reference);
     }
 }
 
 void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p,
                  const struct kernels *k, real half_width, real t, real dt)
 {
-    real velocity[BOUNDARIES_MAX], change[BOUNDARIES_MAX];
+    struct driven_by by[BOUNDARIES_MAX];
     g->walls = 0;
     if (l->n == 0) return;
-    if (!constrained_is_current(held, g)) constrained_find(l, held, g, NULL, p);
-    sif_bench_at(l, t, dt, velocity, change);
-    constrained_walls(l, held, g, velocity, change);
+    if (!constrained_is_current(held, g)) constrained_find(l, held, g, NULL, p, false);
+    driven_by_all(l, g->dim, t, dt, by);
+    constrained_walls(held, g, NULL, by, false);
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY && driven_share(l, &l->load[b], g, p, k, half_width) > 0)
-            driven_walls(l, b, g, velocity[b], change[b]);
+            driven_walls(l, b, g, &by[b]);
     loads_dashpots(l, g, p, k, half_width);
 }
 
@@ -259,7 +280,7 @@ void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles 
     if (mesh->points == 0) return;
     /* regions and mirrors are constant; driven nodes depend on masses */
     if (!constrained_is_current(&l->constrained_mesh, &mesh->grid)) {
-        constrained_find(l, &l->constrained_mesh, &mesh->grid, mesh, p);
+        constrained_find(l, &l->constrained_mesh, &mesh->grid, mesh, p, true);
         l->constrained_mesh.lasting = l->constrained_mesh.n;
     }
     l->constrained_mesh.n = l->constrained_mesh.lasting;
@@ -270,18 +291,24 @@ void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles 
 
 void loads_level_find(const struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p)
 {
-    if (!constrained_is_current(held, g)) constrained_find(l, held, g, NULL, p);
+    if (!constrained_is_current(held, g)) constrained_find(l, held, g, NULL, p, true);
+}
+
+static void reference_walls(const struct loads *l, const struct constrained_set *held, struct grid *g,
+                            const struct mesh *mesh, real t, real dt)
+{
+    struct driven_by by[BOUNDARIES_MAX];
+    g->walls = 0;
+    driven_by_all(l, g->dim, t, dt, by);
+    constrained_walls(held, g, mesh, by, true);
 }
 
 void loads_level_walls(const struct loads *l, const struct constrained_set *held, struct grid *g, real t, real dt)
 {
-    real velocity[BOUNDARIES_MAX], change[BOUNDARIES_MAX];
-    g->walls = 0;
-    sif_bench_at(l, t, dt, velocity, change);
-    constrained_walls(l, held, g, velocity, change);
+    reference_walls(l, held, g, NULL, t, dt);
 }
 
 void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt)
 {
-    loads_level_walls(l, &l->constrained_mesh, &mesh->grid, t, dt);
+    reference_walls(l, &l->constrained_mesh, &mesh->grid, mesh, t, dt);
 }

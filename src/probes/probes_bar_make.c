@@ -132,7 +132,8 @@ static status find_traction(struct probe *q, const struct observed *o)
     int end = c->side > 0 ? 1 : 0;
     if (!acts_on(l, b->order[end == 1 ? b->n - 1 : 0]))
         return refuse(q, "the traction is not on the bar's end; leave out its region or let it reach there");
-    if (c->time.kind != TIME_CONSTANT) return refuse(q, "the traction changes with time; time: constant is expected");
+    if (c->time.kind != TIME_CONSTANT || c->formula[0].n > 0)
+        return refuse(q, "the traction changes with time; time: constant is expected");
     if (b->exact.reflection[end] > 0) return refuse(q, "the loaded end is held; hold the other one");
     b->exact.loaded = c->side, b->exact.load = c->side * c->value[0];
     if (b->exact.load == 0) return refuse(q, "the traction is 0; a stress is expected");
@@ -146,6 +147,8 @@ static status find_load(struct probe *q, const struct observed *o)
     const struct material *m = &o->material[o->part->material[0]];
     if (probes_bar_make_count_of(o, BOUNDARY_BODY_FORCE, &other) > 0)
         return refuse(q, "a body_force acts on the bar; leave it out");
+    if (probes_bar_make_count_of(o, BOUNDARY_PRESSURE, &other) > 0)
+        return refuse(q, "a pressure acts on the bar; a traction on one end is expected");
     if (probes_bar_make_count_of(o, BOUNDARY_ABSORBING, &other) > 0)
         return refuse(q, "an end of the bar is absorbing; fixed, mirror or nothing is expected");
     TRY(find_ends(q, o));

@@ -41,6 +41,7 @@ status scene_from_tree(struct reader *r, const struct node *root)
     TRY(read_boundaries(r, root));
     TRY(check_friction(r, root));
     TRY(check_absorbing(r, root));
+    TRY(check_bearing(r, root));
     TRY(check_joined(r, root));
     TRY(read_probes(r, root));
     TRY(read_frame_regions(r, root));
@@ -75,6 +76,7 @@ void scene_free(struct scene *s)
         memory_free(s->boundary[k].time.t);
         memory_free(s->boundary[k].time.value);
         memory_free(s->boundary[k].time_file);
+        for (int d = 0; d < DIM_MAX; d++) expression_free(&s->boundary[k].formula[d]);
     }
     for (int k = 0; k < s->probes; k++) {
         region_free(&s->probe[k].region);

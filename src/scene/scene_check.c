@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#define PRESSURE_SHAKEN 0.7              /* irregularity: beyond, gaps and faces look alike (loads_columns.c) */
+
 static const struct node *scene_check_below(const struct node *root, const char *group, const char *leaf)
 {
     return node_find(node_find(root, group), leaf);
@@ -81,6 +83,31 @@ static status check_damping(struct reader *r, const struct node *root)
     if (levels && s->levels != LEVELS_AUTO && s->levels > 0)
         return fault(r, levels, "%s levels have time steps of their own, damping knows one; 0 is expected",
                      shown(r, levels));
+    return OK;
+}
+
+/* REFUSED for loads that a static problem, or scattered particles, do not bear. */
+status check_bearing(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *list = node_find(root, "boundary"), *n = list ? list->first : NULL;
+    for (int b = 0; b < s->boundaries && n; b++, n = n->next) {
+        const struct boundary *load = &s->boundary[b];
+        const bool formula = load->formula[0].n + load->formula[1].n + load->formula[2].n > 0;
+        if (load->kind == BOUNDARY_PRESSURE && s->irregularity > PRESSURE_SHAKEN)
+            return fault(r, node_find(n, "pressure"), "lattices shaken by more than %g of a spacing do not say where "
+                         "faces are; a traction, or less particles.irregularity, is expected", PRESSURE_SHAKEN);
+        if (s->solver == SOLVER_EXPLICIT) continue;
+        if (load->follow)
+            return fault(r, node_find(n, "follow"), "a static equilibrium is found under loads on the reference state; "
+                         "solver: explicit with damping is expected");
+        if (load->rotates)
+            return fault(r, node_find(n, "rotation"), "static solvers drive along straight lines; solver: explicit is "
+                         "expected");
+        if (load->kind == BOUNDARY_VELOCITY && formula)
+            return fault(r, node_find(n, "velocity"), "static solvers drive by numbers and a function of time; solver: "
+                         "explicit is expected with formulas");
+    }
     return OK;
 }
 

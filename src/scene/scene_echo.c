@@ -9,7 +9,7 @@
 
 #include "base/memory.h"
 
-static void begin(struct writer *w, const char *key)
+void begin(struct writer *w, const char *key)
 {
     fprintf(w->out, "%*s%s%s:", w->indent - (w->dash ? 2 : 0), "", w->dash ? "- " : "", key);
     w->dash = false;
@@ -141,7 +141,7 @@ static bool has_value(const struct key *k, const void *base, const void *place)
     return true;
 }
 
-static const void *scene_echo_place_of(const struct key *k, const void *base)
+const void *scene_echo_place_of(const struct key *k, const void *base)
 {
     return k->place ? (const char *)base + (k->place - 1) : NULL;
 }
@@ -158,7 +158,6 @@ static bool is_left_out(const struct key *k, const char *group, const void *base
     return n < 2 || (b->mass > 0 ? n == 5 : n == 3 || n == 4 || (n == 5 && !(b->ramp > 0)));
 }
 
-static void write_group(struct writer *w, const char *group, const void *base);
 
 /* Frames of regions: the list below `output`. */
 static void write_series(struct writer *w)
@@ -176,7 +175,7 @@ static void write_series(struct writer *w)
 }
 
 /* Writes all keys of a group from the struct `base`, with their units as comments. */
-static void write_group(struct writer *w, const char *group, const void *base)
+void write_group(struct writer *w, const char *group, const void *base)
 {
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
@@ -199,14 +198,14 @@ static void write_group(struct writer *w, const char *group, const void *base)
 
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
-static void begin_item(struct writer *w)
+void begin_item(struct writer *w)
 {
     w->indent = 4;
     w->dash = true;
 }
 
 /* A mapping below an item of a list. */
-static void write_part(struct writer *w, const char *key, const char *group, const void *base)
+void write_part(struct writer *w, const char *key, const char *group, const void *base)
 {
     begin(w, key);
     fputc('\n', w->out);
@@ -233,7 +232,7 @@ static void write_materials(struct writer *w)
 
 /* Writes the absolute path of a file, so that the echo runs from any folder, and the checksum of its contents: a run
  * resumes with identical contents only. */
-static void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents)
+void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents)
 {
     char *whole = contents ? realpath(file, NULL) : NULL;
     begin(w, key);
@@ -321,112 +320,6 @@ static void write_initials(struct writer *w)
         begin_item(w);
         write_group(w, "initial", &s->initial[k]);
         if (s->initial[k].sets_pulse) write_part(w, "pulse", "initial.pulse", &s->initial[k]);
-    }
-}
-
-/* Writes a function of time from a file. */
-static void write_time_file(struct writer *w, const struct boundary *b)
-{
-    begin(w, "time");
-    fputc('\n', w->out);
-    w->indent += 2;
-    write_file_name(w, "file", b->time_file, b->time_contents);
-    if (b->time_column[0]) {
-        begin(w, "column");
-        fputc(' ', w->out);
-        write_quoted(w, b->time_column);
-        fputc('\n', w->out);
-    }
-    w->indent -= 2;
-}
-
-/* Writes the function of time of a boundary. */
-static void write_time(struct writer *w, const struct boundary *b)
-{
-    const struct time_function *f = &b->time;
-    if (b->time_file) {
-        write_time_file(w, b);
-        return;
-    }
-    static const char *const words[] = {[TIME_STEP] = "step", [TIME_PULSE] = "pulse", [TIME_RAMP] = "ramp"};
-    begin(w, "time");
-    if (f->kind == TIME_CONSTANT) fputs(" constant", w->out);
-    else if (f->kind == TIME_TABLE) fputs(" {table: [", w->out);
-    else {
-        fprintf(w->out, " {%s: {from: ", words[f->kind]);
-        write_real(w, f->from);
-        fputs(", until: ", w->out);
-        write_real(w, f->until);
-        fputs("}}", w->out);
-    }
-    for (int k = 0; k < f->n; k++) {
-        real row[2] = {f->t[k], f->value[k]};
-        fputs(k ? ", " : "", w->out);
-        write_list(w, row, 2);
-    }
-    fputs(f->kind == TIME_TABLE ? "]}\n" : "\n", w->out);
-}
-
-static void write_profile(struct writer *w, const struct profile *f)
-{
-    const char *group = "boundary.profile.sine", *between = " {sine: {";
-    begin(w, "profile");
-    for (int i = 0; i < keys_count && f->kind == PROFILE_SINE; i++) {
-        if (!key_in(&keys[i], group)) continue;
-        fprintf(w->out, "%s%s: ", between, key_leaf(&keys[i]));
-        write_value(w, &keys[i], scene_echo_place_of(&keys[i], f));
-        between = ", ";
-    }
-    fputs(f->kind == PROFILE_SINE ? "}}\n" : " uniform\n", w->out);
-}
-
-static void write_velocity(struct writer *w, const struct boundary *b)
-{
-    begin(w, "velocity");
-    for (int d = 0; d < w->scene->dim; d++) {
-        fputs(d ? ", " : " [", w->out);
-        if (b->components >> d & 1) write_real(w, b->value[d]);
-        else fputs("free", w->out);
-    }
-    fputs("]\n", w->out);
-}
-
-/* Writes a boundary: the keys of the table, then value, face, profile and time by its kind. */
-static void write_boundary(struct writer *w, const struct boundary *b)
-{
-    write_group(w, "boundary", b);
-    if (b->kind == BOUNDARY_MIRROR) {
-        write_part(w, "mirror", "boundary.mirror", b);
-        return;
-    }
-    if (b->kind == BOUNDARY_VELOCITY) {
-        write_velocity(w, b);
-    } else if (b->kind == BOUNDARY_ABSORBING) {
-        begin(w, "absorbing");
-        fputs(" true\n", w->out);
-    } else {
-        begin(w, b->kind == BOUNDARY_TRACTION ? "traction" : "body_force");
-        fputc(' ', w->out);
-        write_list(w, b->value, w->scene->dim);
-        fputc('\n', w->out);
-    }
-    if (b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING) {
-        begin(w, "face");
-        fprintf(w->out, " %c%c\n", 'x' + b->face, b->side > 0 ? '+' : '-');
-    }
-    if (b->kind == BOUNDARY_BODY_FORCE) write_profile(w, &b->profile);
-    if (b->kind != BOUNDARY_ABSORBING) write_time(w, b);
-}
-
-static void write_boundaries(struct writer *w)
-{
-    const struct scene *s = w->scene;
-    const bool falls = s->boundaries > 0 && s->boundary[s->boundaries - 1].by_mass;      /* a key of its own */
-    const int n = s->boundaries - falls;
-    if (n) fputs("boundary:\n", w->out);
-    for (int k = 0; k < n; k++) {
-        begin_item(w);
-        write_boundary(w, &s->boundary[k]);
     }
 }
 

@@ -247,6 +247,8 @@ status read_growths(struct reader *r, const struct node *root);
 status read_initials(struct reader *r, const struct node *root);
 /* The function of time of a boundary; n NULL or `constant`: 1 (scene_time.c). */
 status read_time(struct reader *r, const struct node *n, struct boundary *b);
+/* Reads the axis of a rotation, `n` the mapping with it: z in the plane (scene_loads.c). */
+status read_axis_of(struct reader *r, const struct node *n, const char *group, real *axis);
 status read_boundaries(struct reader *r, const struct node *root);
 status read_probes(struct reader *r, const struct node *root);
 status read_frame_regions(struct reader *r, const struct node *root);
@@ -263,6 +265,7 @@ status check_joined(struct reader *r, const struct node *root);
 real scene_critical_stretch(const struct scene *s, const struct material *m);
 status check_friction(struct reader *r, const struct node *root);
 status check_absorbing(struct reader *r, const struct node *root);
+status check_bearing(struct reader *r, const struct node *root);
 /* Resolves frames left at auto; after the bodies are read. */
 void resolve_frames(struct scene *s);
 /* Surfaces of bodies again once they are known: those of lists need not be lattices. */

@@ -297,6 +297,13 @@ const struct key keys[] = {
         "largest velocity of particles, along polarisation"),
     KEY("initial.pulse.polarisation", KEY_POINT, UNIT_NONE, AT(scene_initial, pulse.polarisation), ANY, "(direction)",
         "how particles move: along direction, a longitudinal wave, or across it, a transverse one; any length"),
+    KEY("initial.rotation", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
+        "velocities of a rigid rotation, instead of velocity_gradient and centre; added to velocity"),
+    KEY("initial.rotation.centre", KEY_POINT, UNIT_LENGTH, AT(scene_initial, centre), ANY, REQUIRED, "on the axis"),
+    KEY("initial.rotation.axis", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(z in the plane; required in space)",
+        "of any length, right-handed", .words = "list of three numbers"),
+    KEY("initial.rotation.rate", KEY_HAND, UNIT_RATE, NOWHERE, ANY, REQUIRED, "angle over time [rad/s]",
+        .words = "number"),
     KEY("initial.centre", KEY_POINT, UNIT_LENGTH, AT(scene_initial, centre), ANY, "(0)", "of both gradients"),
 
 #include "scene_keys_boundary.h"

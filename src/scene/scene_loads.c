@@ -57,11 +57,42 @@ static status read_fixed(struct reader *r, const struct node *n, struct boundary
     return OK;
 }
 
+/* Reads component d of a value: a number, or a formula of x, y, z and t, beside which value is 1. */
+static status read_load_value(struct reader *r, const struct key *k, const struct node *n, struct boundary *b, int d)
+{
+    struct expression *f = &b->formula[d];
+    if (n->kind != NODE_SCALAR || !looks_like_expression(r, n->text)) return read_number(r, k, n, &b->value[d]);
+    TRY(read_expression(r, k, n, EXPRESS_SPACE | EXPRESS_TIME, f));
+    b->value[d] = 1;
+    if (f->in_space || f->in_time) return OK;
+    expression_free(f);
+    return read_number(r, k, n, &b->value[d]);
+}
+
+/* Reads the components of a force. */
+static status read_values(struct reader *r, const struct key *k, const struct node *n, struct boundary *b)
+{
+    int d = 0;
+    if (n->kind == NODE_SCALAR && r->dim == 1) return read_load_value(r, k, n, b, 0);
+    if (n->kind != NODE_LIST || n->n != r->dim) return read_point(r, k, n, b->value);
+    for (const struct node *c = n->first; c; c = c->next) TRY(read_load_value(r, k, c, b, d++));
+    return OK;
+}
+
+/* Reads a pressure: one value, along all components. */
+static status read_pressure(struct reader *r, const struct node *n, struct boundary *b)
+{
+    TRY(read_load_value(r, key_find("boundary", "pressure"), n, b, 0));
+    for (int d = 1; d < r->dim; d++) b->value[d] = b->value[0];
+    b->section = scene_section(r->scene);
+    return OK;
+}
+
 static status read_component(struct reader *r, const struct node *n, struct boundary *b, int d)
 {
     if (n->kind == NODE_SCALAR && strcmp(n->text, "free") == 0) return OK;
     b->components |= (uint8_t)(1 << d);
-    return read_number(r, key_find("boundary", "velocity"), n, &b->value[d]);
+    return read_load_value(r, key_find("boundary", "velocity"), n, b, d);
 }
 
 /* Reads prescribed velocities, one number or `free` per component, into b->value [m/s] and b->components. */
@@ -78,6 +109,38 @@ static status read_velocity(struct reader *r, const struct node *n, struct bound
                      r->dim == 1 ? "[22 m/s]" : r->dim == 2 ? "[22 m/s, free]" : "[22 m/s, free, free]");
     }
     return b->components ? OK : fault(r, n, "every component is free; at least one velocity is expected");
+}
+
+status read_axis_of(struct reader *r, const struct node *n, const char *group, real *axis)
+{
+    const struct key *k = key_find(group, "axis");
+    const struct node *list = node_find(n, "axis");
+    int d = 0;
+    if (r->dim == 1) return fault(r, n, "space line does not turn; a plane space or solid is expected");
+    axis[2] = 1;
+    if (!list && r->dim == 2) return OK;
+    if (!list) return fault_missing(r, n, k);
+    if (r->dim == 2) return fault(r, list, "is z in a plane space; leave it out");
+    if (list->kind != NODE_LIST || list->n != DIM_MAX)
+        return fault(r, list, "%s is no axis; three numbers such as [0, 0, 1] are expected", shown(r, list));
+    for (const struct node *c = list->first; c; c = c->next) {
+        struct key plain = *k;
+        plain.unit = UNIT_NONE;
+        TRY(read_number(r, &plain, c, &axis[d++]));
+    }
+    const real length2 = dot(axis, axis, DIM_MAX);
+    return length2 > 0 && isfinite(length2) ? OK : fault(r, list, "has no length; as [0, 0, 1]");
+}
+
+/* Reads what is driven on circles. */
+static status read_rotation(struct reader *r, const struct node *n, struct boundary *b)
+{
+    TRY(read_group(r, n, n, "boundary.rotation", b));
+    TRY(read_axis_of(r, n, "boundary.rotation", b->axis_of));
+    b->rotates = true;
+    b->components = (uint8_t)((1 << r->dim) - 1);
+    for (int d = 0; d < r->dim; d++) b->value[d] = 1;    /* it moves */
+    return OK;
 }
 
 /* Reads a mirror. REFUSED beside region, body or time, which have no meaning with it. */
@@ -124,7 +187,7 @@ static status read_face(struct reader *r, const struct node *map, struct boundar
 /* Finds the one key that gives the kind of a boundary condition. REFUSED for none or two. */
 static status kind_of_boundary(struct reader *r, const struct node *map, const struct node **kind)
 {
-    const char *const words = "fixed|velocity|traction|body_force|mirror|absorbing";
+    const char *const words = "fixed|velocity|rotation|traction|pressure|body_force|mirror|absorbing";
     *kind = NULL;
     for (const struct node *n = map->first; n; n = n->next) {
         if (word_index(words, n->key) < 0) continue;
@@ -154,11 +217,14 @@ static status read_kind(struct reader *r, const struct node *n, const struct nod
     TRY(read_group(r, n, n, "boundary", b));
         b->kind = *kind->key == 't'   ? BOUNDARY_TRACTION
               : *kind->key == 'b' ? BOUNDARY_BODY_FORCE
+              : *kind->key == 'p' ? BOUNDARY_PRESSURE
               : *kind->key == 'm' ? BOUNDARY_MIRROR
               : *kind->key == 'a' ? BOUNDARY_ABSORBING
                                   : BOUNDARY_VELOCITY;
     if (b->kind != BOUNDARY_TRACTION && b->kind != BOUNDARY_ABSORBING) face = node_find(n, "face");
     if (face) return fault(r, face, "has no meaning without traction or absorbing; leave it out");
+    if (b->follow && b->kind != BOUNDARY_PRESSURE)
+        return fault(r, node_find(n, "follow"), "has no meaning without pressure; leave it out");
     if (profile && b->kind != BOUNDARY_BODY_FORCE)
         return fault(r, profile, "has no meaning without body_force; leave it out");
     TRY(read_profile(r, profile, &b->profile));
@@ -169,7 +235,9 @@ static status read_kind(struct reader *r, const struct node *n, const struct nod
     }
     if (*kind->key == 'f') return read_fixed(r, kind, b);
     if (*kind->key == 'v') return read_velocity(r, kind, b);
-    TRY(read_point(r, key_find("boundary", kind->key), kind, b->value));
+    if (*kind->key == 'r') return read_rotation(r, kind, b);
+    if (*kind->key == 'p') return read_pressure(r, kind, b);
+    TRY(read_values(r, key_find("boundary", kind->key), kind, b));
     return b->kind == BOUNDARY_TRACTION ? read_face(r, n, b) : OK;
 }
 

@@ -279,14 +279,38 @@ static status read_pulse(struct reader *r, const struct node *n, struct scene_in
     return read_polarisation(r, node_find(n, "polarisation"), &initial->pulse);
 }
 
+/* A rigid rotation is the velocity gradient of w x (X - centre). */
+static status read_initial_rotation(struct reader *r, const struct node *map, struct scene_initial *initial)
+{
+    const struct node *n = node_find(map, "rotation"), *gradient = node_find(map, "velocity_gradient"),
+                      *centre = node_find(map, "centre");
+    real w[DIM_MAX] = {0}, rate;
+    if (!n) return OK;
+    if (gradient || centre) return fault_both(r, n, gradient ? gradient : centre);
+    TRY(read_group(r, n, n, "initial.rotation", initial));
+    TRY(read_axis_of(r, n, "initial.rotation", w));
+    if (!node_find(n, "rate")) return fault_missing(r, n, key_find("initial.rotation", "rate"));
+    TRY(read_number(r, key_find("initial.rotation", "rate"), node_find(n, "rate"), &rate));
+    const real scale = rate / sqrt(dot(w, w, DIM_MAX));
+    for (int a = 0; a < r->dim; a++)
+        for (int b = 0; b < r->dim; b++) {               /* row a, column b of w x: -w_c or w_c, c the third */
+            const real sign = (b - a + 3) % 3 == 1 ? -1 : 1;
+            if (a != b) initial->velocity_gradient[a * r->dim + b] = sign * scale * w[3 - a - b];
+        }
+    initial->sets_velocity = true;
+    return OK;
+}
+
 static status read_initial(struct reader *r, const struct node *n, struct scene_initial *initial)
 {
     initial->body = -1;
     fault_place(r, n, initial->place, sizeof initial->place);
     TRY(read_group(r, n, n, "initial", initial));
     TRY(read_pulse(r, node_find(n, "pulse"), initial));
+    TRY(read_initial_rotation(r, n, initial));
     if (initial->sets_velocity || initial->sets_strain || initial->sets_pulse) return OK;
-    return fault(r, n, "sets nothing; velocity, velocity_gradient, displacement_gradient or pulse is expected");
+    return fault(r, n, "sets nothing; velocity, velocity_gradient, rotation, displacement_gradient or pulse is "
+                 "expected");
 }
 
 status read_initials(struct reader *r, const struct node *root)

@@ -48,9 +48,10 @@ struct time_columns {
 static enum unit unit_of_boundary(const struct boundary *b)
 {
     switch (b->kind) {
-    case BOUNDARY_TRACTION: return UNIT_PRESSURE;
+    case BOUNDARY_TRACTION:
+    case BOUNDARY_PRESSURE: return UNIT_PRESSURE;
     case BOUNDARY_BODY_FORCE: return UNIT_BODY_FORCE;
-    default: return UNIT_SPEED;
+    default: return b->rotates ? UNIT_RATE : UNIT_SPEED;
     }
 }
 

@@ -133,7 +133,7 @@ static status force_balanced(const struct loads *loads, int d)
     real sum = 0, size = 0;
     for (int b = 0; b < loads->n; b++) {
         const struct load *l = &loads->load[b];
-        if (l->boundary->kind != BOUNDARY_TRACTION && l->boundary->kind != BOUNDARY_BODY_FORCE) continue;
+        if (!boundary_is_force(l->boundary)) continue;
         for (int64_t k = 0; k < l->n; k++) {
             sum += l->share[d][k] * l->boundary->value[d];
             size += fabs(l->share[d][k] * l->boundary->value[d]);

@@ -1,0 +1,112 @@
+/* Loads whose shares change from step to step: formulas of time, and pressure that follows its surface. Their shares
+ * contain functions of time and formulas; all that comes after is that of other loads. */
+#include <math.h>
+
+#include "loads/loads.h"
+#include "loads_surface.h"
+#include "base/memory.h"
+#include "base/team.h"
+
+static const struct expression *formula_of(const struct boundary *b, int d)
+{
+    return &b->formula[b->kind == BOUNDARY_PRESSURE ? 0 : d];
+}
+
+/* Formula of component d at particle i and time t; 1 without [of the value]. */
+static real formula_at(const struct boundary *b, int d, const struct particles *p, int32_t i, real t)
+{
+    real X[DIM_MAX];
+    if (formula_of(b, d)->n == 0) return 1;
+    particle_place(p, i, X);
+    return expression_at(formula_of(b, d), X, p->dim, t);
+}
+
+/* ---- set-up ------------------------------------------------------------------------------------------------------ */
+
+/* REFUSED for a formula without a finite value at t. */
+static status formula_finite(const struct load *l, const struct particles *p, real t)
+{
+    const struct boundary *b = l->boundary;
+    for (int d = 0; d < p->dim; d++)
+        for (int64_t k = 0; k < l->n; k++) {
+            const int32_t i = l->particle[k];
+            if (isfinite(formula_at(b, d, p, i, t))) continue;
+            return status_set(REFUSED, "boundary %s: its formula has no finite value at (%.4g, %.4g, %.4g) m, %.4g s",
+                              b->name, p->X[0][i], p->dim > 1 ? p->X[1][i] : 0, p->dim > 2 ? p->X[2][i] : 0, t);
+        }
+    return OK;
+}
+
+/* Gives each component shares of its own, times the formula at t if `with`. */
+static void shares_part(struct load *l, const struct particles *p, bool with, real t)
+{
+    for (int d = p->dim; d-- > 0;) {
+        real *own = NEW("loads.share", l->n, real);
+        for (int64_t k = 0; k < l->n; k++)
+            own[k] = l->share[d][k] * (with ? formula_at(l->boundary, d, p, l->particle[k], t) : 1);
+        if (d == 0 || l->share[d] != l->share[0]) memory_free(l->share[d]);
+        l->share[d] = own;
+    }
+}
+
+status load_formula_make(struct load *l, const struct particles *p)
+{
+    const struct boundary *b = l->boundary;
+    bool any = false, in_time = false;
+    for (int d = 0; d < p->dim; d++) {
+        any |= b->formula[d].n > 0;
+        in_time |= b->formula[d].in_time && !b->frozen;
+    }
+    if (any) TRY(formula_finite(l, p, b->frozen ? b->frozen_at : 0));
+    if (!boundary_is_force(b) || l->n == 0) return OK;
+    l->moving = l->surface || in_time;
+    if (any) shares_part(l, p, !l->moving, b->frozen_at);
+    for (int d = 0; d < p->dim && l->moving; d++) {
+        l->base[d] = NEW("loads.base", l->n, real);
+        memcpy(l->base[d], l->share[d], (size_t)l->n * sizeof(real));
+    }
+    return OK;
+}
+
+void load_moving_free(struct load *l)
+{
+    for (int d = 0; d < DIM_MAX; d++) memory_free(l->base[d]);
+    load_surface_free(l->surface);
+}
+
+/* ---- a step ------------------------------------------------------------------------------------------------------ */
+
+/* Mean of function of time and formula over the kick from t - dt to t, times the shares without: as kick_factor is of
+ * other loads. Added with the weight `half` to what the shares were, times 1 - half. */
+static void moving_shares(struct load *l, const struct particles *p, int d, real t, real dt, real half)
+{
+    const struct boundary *b = l->boundary;
+    const real from = time_function_at(&b->time, t - dt), to = time_function_at(&b->time, t);
+    TEAM_LOOP(l->n > SUM_BLOCK, for (int64_t k = 0; k < l->n; k++) {
+        const int32_t i = l->particle[k];
+        const real kick = 0.5 * (from * formula_at(b, d, p, i, t - dt) + to * formula_at(b, d, p, i, t));
+        l->share[d][k] = (1 - half) * l->share[d][k] + half * (l->base[d][k] * kick);
+    });
+}
+
+static void moving_update(struct loads *l, const struct particles *p, real t, real dt, real half)
+{
+    for (int b = 0; b < l->n; b++) {
+        struct load *load = &l->load[b];
+        if (!load->moving) continue;
+        if (load->surface) surface_areas(load->surface, p, load->base);
+        for (int d = 0; d < p->dim; d++)
+            if (load->boundary->value[d] != 0) moving_shares(load, p, d, t, dt, half);
+    }
+}
+
+void loads_moving_push(struct loads *l, const struct particles *p, real t, real dt_velocity)
+{
+    moving_update(l, p, t, dt_velocity, 1);
+}
+
+/* The mean of the kicks before and after a drift, at the places before and after it. */
+void loads_moving_work(struct loads *l, const struct particles *p, real t, real dt)
+{
+    moving_update(l, p, t + dt, dt, 0.5);
+}

@@ -1,0 +1,93 @@
+/* Pressure on every free face of a body.
+ *
+ * A particle is a cube (a square in the plane) of a lattice; each face of it that has no neighbour counts with its area
+ * along its outward normal. These faces are the surface of the body of cubes: each column of particles along an axis
+ * ends twice with the same area, so that the resultant of a pressure all round vanishes to the last digit, and on a
+ * lattice its moment, too, as both ends lie on one line. Steps of a curved or sloping surface add up to its projected
+ * areas, as those of tractions do. Columns are those of tractions (loads_columns.c), which know scattered particles as
+ * well. A face on a mirror is none: the body goes on there. */
+#include <math.h>
+#include <string.h>
+
+#include "loads/loads.h"
+#include "loads_surface.h"
+#include "base/memory.h"
+
+/* What free ends of columns along one axis add up to. */
+struct ends {
+    const struct boundary *boundary, *all; /* with axis and side; those of the scene */
+    int n;                                 /* of the scene */
+    const struct particles *p;
+    real spacing;
+    real *area;                          /* [particles] along the axis [m^2] */
+    struct surface_faces *faces;         /* of pressure that follows; NULL: none */
+};
+
+/* Does the body go on behind a mirror at this end? */
+static bool is_mirrored(const struct ends *e, int32_t i)
+{
+    const int axis = e->boundary->face;
+    for (int k = 0; k < e->n; k++) {
+        const struct boundary *m = &e->all[k];
+        if (m->kind == BOUNDARY_MIRROR && m->axis == axis && fabs(e->p->X[axis][i] - m->at) < 0.51 * e->spacing)
+            return true;
+    }
+    return false;
+}
+
+static void end_found(void *context, int32_t i, real area)
+{
+    struct ends *e = context;
+    if (is_mirrored(e, i)) return;
+    e->area[i] += e->boundary->side * area;
+    if (e->faces) surface_face_add(e->faces, i, e->boundary->face, e->boundary->side);
+}
+
+/* Areas of the free faces of selected particles along their outward normals, by component [particles] [m^2]. */
+static void ends_find(const struct boundary *all, int n, int which, const struct particles *p, real spacing,
+                      const uint8_t *selected, real *const *area, struct surface_faces *faces)
+{
+    struct boundary one = all[which];
+    for (one.face = 0; one.face < p->dim; one.face++)
+        for (one.side = -1; one.side <= 1; one.side += 2) {
+            struct ends e = {&one, all, n, p, spacing, area[one.face], faces};
+            face_every(&one, p, selected, spacing, end_found, &e);
+        }
+}
+
+/* A pressure that acts on the reference state: its shares are the areas, inwards. */
+static bool pressure_shares(struct load *l, struct particles *p, real *const *area)
+{
+    uint8_t *bears = NEW("loads.bears", p->n, uint8_t);
+    for (int d = 0; d < p->dim; d++)
+        for (int64_t i = 0; i < p->n; i++) bears[i] |= area[d][i] != 0;
+    load_take(l, bears, p);
+    for (int d = 0; d < p->dim; d++)
+        for (int64_t k = 0; k < l->n; k++) l->share[d][k] = -area[d][l->particle[k]];
+    memory_free(bears);
+    return l->n > 0;
+}
+
+status load_select_pressure(struct load *l, const struct boundary *boundary, int n, int which, struct particles *p,
+                            real spacing)
+{
+    const struct boundary *b = &boundary[which];
+    const bool follows = b->follow && p->dim > 1;         /* in a line there is nothing to follow */
+    real *area[DIM_MAX] = {NULL};
+    struct surface_faces faces = {0};
+    status s = OK;
+    if (b->kind != BOUNDARY_PRESSURE) return OK;
+    uint8_t *selected = NEW("loads.selected", p->n, uint8_t);
+    const bool any = load_region(b, p, spacing, selected);
+    for (int d = 0; d < p->dim; d++) area[d] = NEW("loads.area", p->n, real);
+    if (any) ends_find(boundary, n, which, p, spacing, selected, area, follows ? &faces : NULL);
+    if (!any) s = status_set(REFUSED, "boundary %s: no particle lies in its region", b->name);
+    else if (follows) s = load_surface_make(l, &faces, p, spacing);
+    else if (!pressure_shares(l, p, area))
+        s = status_set(REFUSED, "boundary %s: no particle in its region has a free face; let the region hold some of "
+                       "the body's surface", b->name);
+    for (int d = 0; d < p->dim; d++) memory_free(area[d]);
+    surface_faces_free(&faces);
+    memory_free(selected);
+    return s;
+}

@@ -1,0 +1,428 @@
+/* Pressure that follows the surface of a body of lattice cubes.
+ *
+ * The free faces of the cubes meet in corners. A corner goes with the particles around it: its place is a weighted mean
+ * of theirs, x = sum w x_i, with sum w = 1 and sum w X_i = X, so that it is exact in every uniform deformation. The
+ * faces between corners (in the plane segments; in space quadrilaterals, halved along either diagonal, the mean of
+ * both) enclose a volume V. A pressure p does the work -p dV: the force on a corner is -p dV/dx, a half of each of its
+ * segments, a third of each of its triangles, and that on a particle follows by the weights. So the forces of a closed
+ * surface have the energy p V, no resultant and no moment, whatever the deformation, and turn with the body; on part of
+ * a surface each face gives its own share. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "loads_surface.h"
+#include "base/memory.h"
+#include "base/team.h"
+
+#define OFF_LATTICE 1e-4                 /* of particles that count as on it [spacings] */
+#define SECOND_LAYER 0.25                /* weight of particles behind those at a corner */
+#define SINGULAR 1e-10                   /* least variance that counts as extent [spacings^2] */
+#define TORN 3.0                         /* edge of a face that no longer is one [spacings] */
+enum { FACE_CORNERS = 4, STENCIL_MOST = 32, SITE_BITS = 18 };
+
+struct surface {
+    int dim;
+    real section, longest;               /* [m] in the plane, 1 in space; of an edge [m] */
+    int64_t faces, corners, particles;
+    int32_t *corner;                     /* [faces][4] in order round the outward normal of an upper face */
+    int8_t *sign;                        /* [faces] of their area in this order */
+    int64_t *first, *face_first, *share_first; /* [corners + 1] stencil, faces; [particles + 1] corners */
+    int32_t *particle;                   /* [first[corners]] of a corner's stencil ... */
+    real *weight;                        /* ... and its weight [1] */
+    int32_t *part;                       /* [4 faces] 4 face + place of those that meet in a corner */
+    int32_t *share_corner;               /* [first[corners]] corners that go with a particle of the load ... */
+    real *share_weight;
+    real *x, *face_area, *area;          /* scratch: [corners][dim], [faces][4][dim], [corners][dim] */
+};
+
+/* ---- faces ------------------------------------------------------------------------------------------------------- */
+
+void surface_face_add(struct surface_faces *f, int32_t particle, int axis, int side)
+{
+    if (f->n == f->room) {
+        const int64_t room = f->room ? 2 * f->room : 256;
+        f->face = memory_resize("loads.faces", f->face, f->room, room, sizeof *f->face);
+        f->room = room;
+    }
+    f->face[f->n++] = (struct surface_face){particle, (uint8_t)axis, (int8_t)side};
+}
+
+void surface_faces_free(struct surface_faces *f)
+{
+    memory_free(f->face);
+    *f = (struct surface_faces){0};
+}
+
+/* ---- sites ------------------------------------------------------------------------------------------------------- */
+
+/* A lattice site, or the corner below it, of a body as one number. */
+struct site { int64_t key; int32_t value; };
+
+struct sites {
+    const struct particles *p;
+    real spacing;
+    int32_t first[UINT8_MAX + 1];        /* a particle of each body, -1: none */
+    int64_t n;
+    struct site *site;                   /* by ascending key */
+};
+
+static int by_key(const void *a, const void *b)
+{
+    const struct site *p = a, *q = b;
+    return p->key != q->key ? (p->key > q->key) - (p->key < q->key) : (p->value > q->value) - (p->value < q->value);
+}
+
+/* Of a body, at steps k from its first particle; -1: too far away. */
+static int64_t key_of(int body, const int64_t *k, int dim)
+{
+    int64_t key = body;
+    for (int d = 0; d < DIM_MAX; d++) {
+        const int64_t at = (d < dim ? k[d] : 0) + (1 << (SITE_BITS - 1));
+        if (at < 0 || at >= 1 << SITE_BITS) return -1;
+        key = key << SITE_BITS | at;
+    }
+    return key;
+}
+
+/* Steps of particle i from the first of its body; false: it is not on their lattice. */
+static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
+{
+    bool on = true;
+    for (int d = 0; d < s->p->dim; d++) {
+        const real at = (s->p->X[d][i] - s->p->X[d][s->first[s->p->body[i]]]) / s->spacing;
+        k[d] = llround(at);
+        on &= fabs(at - (real)k[d]) < OFF_LATTICE;
+    }
+    return on;
+}
+
+static int32_t site_find(const struct sites *s, int64_t key)
+{
+    const struct site wanted = {key, 0};
+    int64_t low = 0, high = s->n;
+    while (low < high) {
+        const int64_t middle = low + (high - low) / 2;
+        if (by_key(&s->site[middle], &wanted) < 0) low = middle + 1;
+        else high = middle;
+    }
+    return low < s->n && s->site[low].key == key ? s->site[low].value : -1;
+}
+
+/* Sites of all particles of bodies that have faces. */
+static status sites_make(struct sites *s, const struct surface_faces *f)
+{
+    bool has[UINT8_MAX + 1] = {false};
+    int64_t k[DIM_MAX];
+    for (int64_t q = 0; q < f->n; q++) has[s->p->body[f->face[q].particle]] = true;
+    for (int64_t i = s->p->n; i-- > 0;) s->first[s->p->body[i]] = (int32_t)i;
+    s->site = NEW("loads.sites", s->p->n, struct site);
+    for (int64_t i = 0; i < s->p->n; i++) {
+        if (!has[s->p->body[i]]) continue;
+        const bool on = place_on_lattice(s, (int32_t)i, k);
+        s->site[s->n] = (struct site){key_of(s->p->body[i], k, s->p->dim), (int32_t)i};
+        if (!on || s->site[s->n++].key < 0)
+            return status_set(REFUSED, "pressure that follows wants particles on a regular lattice of the spacing; "
+                              "follow: false, or particles.irregularity 0 and no list, is expected");
+    }
+    qsort(s->site, (size_t)s->n, sizeof *s->site, by_key);
+    return OK;
+}
+
+/* ---- corners ----------------------------------------------------------------------------------------------------- */
+
+/* Site above corner c of face q; corners are in order round it. */
+static void corner_site(const struct sites *s, const struct surface_face *f, int c, int64_t *k)
+{
+    const int dim = s->p->dim, u = dim == 2 ? 1 - f->axis : (f->axis + 1) % 3, v = (f->axis + 2) % 3;
+    place_on_lattice(s, f->particle, k);
+    k[f->axis] += f->side > 0;
+    k[u] += c == 1 || c == 2;
+    if (dim == 3) k[v] += c >= 2;
+}
+
+/* Numbers the corners of all faces; their sites in the order of the numbers. */
+static struct site *corners_number(struct surface *a, const struct sites *s, const struct surface_faces *f)
+{
+    const int each = a->dim == 2 ? 2 : FACE_CORNERS;
+    struct site *all = NEW("loads.corners", f->n * each, struct site);
+    for (int64_t q = 0; q < f->n; q++)
+        for (int c = 0; c < each; c++) {
+            int64_t k[DIM_MAX];
+            corner_site(s, &f->face[q], c, k);
+            all[q * each + c] = (struct site){key_of(s->p->body[f->face[q].particle], k, a->dim),
+                                              (int32_t)(q * FACE_CORNERS + c)};
+        }
+    qsort(all, (size_t)(f->n * each), sizeof *all, by_key);
+    a->corner = NEW("loads.corner", f->n * FACE_CORNERS, int32_t);
+    for (int64_t q = 0; q < f->n * each; q++) {
+        if (q == 0 || all[q].key != all[q - 1].key) a->corners++;
+        a->corner[all[q].value] = (int32_t)(a->corners - 1);
+    }
+    return all;
+}
+
+/* The faces that meet in each corner, by the sorted corners of faces. */
+static void parts_make(struct surface *a, const struct site *all, int64_t n)
+{
+    a->face_first = NEW("loads.face_first", a->corners + 1, int64_t);
+    a->part = NEW("loads.part", n, int32_t);
+    for (int64_t q = 0; q < n; q++) {
+        a->part[q] = all[q].value;
+        a->face_first[a->corner[all[q].value] + 1] = q + 1;
+    }
+}
+
+/* Particles that a corner goes with, their places in spacings from it, and how much each counts. */
+struct around { int n; int32_t particle[STENCIL_MOST]; real r[STENCIL_MOST][DIM_MAX], counts[STENCIL_MOST]; };
+
+static void corner_reach(struct around *t, int32_t i, const int64_t *off, int dim, real counts)
+{
+    for (int q = 0; q < t->n; q++)
+        if (t->particle[q] == i) return;
+    if (i < 0 || t->n == STENCIL_MOST) return;
+    t->particle[t->n] = i, t->counts[t->n] = counts;
+    for (int d = 0; d < dim; d++) t->r[t->n][d] = (real)off[d] + 0.5;
+    t->n++;
+}
+
+/* The particles at a corner and, along each axis, those behind them. */
+static void corner_around(struct around *t, const struct sites *s, int body, const int64_t *site)
+{
+    const int dim = s->p->dim;
+    t->n = 0;
+    for (int layer = 0; layer < 2; layer++)
+        for (int c = 0; c < 1 << dim; c++) {
+            int64_t off[DIM_MAX] = {0}, at[DIM_MAX] = {0};
+            for (int d = 0; d < dim; d++) off[d] = (c >> d & 1) - 1, at[d] = site[d] + off[d];
+            const int32_t near = site_find(s, key_of(body, at, dim));
+            if (layer == 0) corner_reach(t, near, off, dim, 1);
+            for (int d = 0; d < dim && layer == 1 && near >= 0; d++) {
+                const int64_t away = c >> d & 1 ? 1 : -1;
+                off[d] += away, at[d] += away;
+                corner_reach(t, site_find(s, key_of(body, at, dim)), off, dim, SECOND_LAYER);
+                off[d] -= away, at[d] -= away;
+            }
+        }
+}
+
+/* Solves C y = b, symmetric and positive once SINGULAR is on its diagonal, by elimination. */
+static void solve_small(real C[DIM_MAX][DIM_MAX], const real *b, int n, real *y)
+{
+    memcpy(y, b, (size_t)n * sizeof *y);
+    for (int k = 0; k < n; k++)
+        for (int m = k + 1; m < n; m++) {
+            const real share = C[m][k] / C[k][k];
+            for (int d = k; d < n; d++) C[m][d] -= share * C[k][d];
+            y[m] -= share * y[k];
+        }
+    for (int k = n; k-- > 0;) {
+        for (int d = k + 1; d < n; d++) y[k] -= C[k][d] * y[d];
+        y[k] /= C[k][k];
+    }
+}
+
+/* Weights of least weighted square with sum w = 1 and sum w r = 0: w = counts (1 - (r - mean) . C^-1 mean), where C is
+ * the variance. Along directions in which a thin body has no extent they say nothing. */
+static void corner_weights(const struct around *t, int dim, real *w)
+{
+    real C[DIM_MAX][DIM_MAX] = {{0}}, mean[DIM_MAX] = {0}, y[DIM_MAX], all = 0;
+    for (int q = 0; q < t->n; q++) {
+        all += t->counts[q];
+        for (int d = 0; d < dim; d++) mean[d] += t->counts[q] * t->r[q][d];
+    }
+    for (int d = 0; d < dim; d++) mean[d] /= all;
+    for (int q = 0; q < t->n; q++)
+        for (int d = 0; d < dim; d++)
+            for (int c = 0; c < dim; c++)
+                C[d][c] += t->counts[q] / all * (t->r[q][d] - mean[d]) * (t->r[q][c] - mean[c]);
+    for (int d = 0; d < dim; d++) C[d][d] += SINGULAR;
+    solve_small(C, mean, dim, y);
+    for (int q = 0; q < t->n; q++) {
+        real along = 0;
+        for (int d = 0; d < dim; d++) along += (t->r[q][d] - mean[d]) * y[d];
+        w[q] = t->counts[q] / all * (1 - along);
+    }
+}
+
+/* Particles and weights of all corners, by the sorted corners of faces. */
+static void corners_make(struct surface *a, const struct sites *s, const struct site *all,
+                          const struct surface_faces *f)
+{
+    const int64_t most = a->corners * STENCIL_MOST;
+    a->first = NEW("loads.first", a->corners + 1, int64_t);
+    a->particle = NEW("loads.stencil", most, int32_t);
+    a->weight = NEW("loads.weight", most, real);
+    for (int64_t c = 0; c < a->corners; c++) {
+        const struct site *one = &all[a->face_first[c]];
+        const struct surface_face *face = &f->face[one->value / FACE_CORNERS];
+        int64_t site[DIM_MAX] = {0};
+        struct around t;
+        corner_site(s, face, one->value % FACE_CORNERS, site);
+        corner_around(&t, s, s->p->body[face->particle], site);
+        corner_weights(&t, a->dim, a->weight + a->first[c]);
+        memcpy(a->particle + a->first[c], t.particle, (size_t)t.n * sizeof *t.particle);
+        a->first[c + 1] = a->first[c] + t.n;
+    }
+}
+
+/* The corners that each particle of the load goes with. */
+static void shares_transpose(struct surface *a, const struct load *l, int64_t particles)
+{
+    int32_t *place = NEW("loads.place", particles, int32_t);
+    a->share_first = NEW("loads.share_first", l->n + 2, int64_t);
+    a->share_corner = NEW("loads.share_corner", a->first[a->corners], int32_t);
+    a->share_weight = NEW("loads.share_weight", a->first[a->corners], real);
+    for (int64_t k = 0; k < l->n; k++) place[l->particle[k]] = (int32_t)k;
+    for (int64_t q = 0; q < a->first[a->corners]; q++) a->share_first[place[a->particle[q]] + 2]++;
+    for (int64_t k = 0; k < l->n; k++) a->share_first[k + 2] += a->share_first[k + 1];
+    for (int64_t c = 0; c < a->corners; c++)
+        for (int64_t q = a->first[c]; q < a->first[c + 1]; q++) {
+            const int64_t at = a->share_first[place[a->particle[q]] + 1]++;
+            a->share_corner[at] = (int32_t)c, a->share_weight[at] = a->weight[q];
+        }
+    memory_free(place);
+}
+
+/* Everything but the sites; takes the particles of the load. */
+static void surface_fill(struct surface *a, struct load *l, const struct sites *s, const struct surface_faces *f,
+                         struct particles *p)
+{
+    struct site *all = corners_number(a, s, f);
+    parts_make(a, all, f->n * (a->dim == 2 ? 2 : FACE_CORNERS));
+    a->sign = NEW("loads.sign", f->n, int8_t);
+    for (int64_t q = 0; q < f->n; q++)
+        a->sign[q] = (int8_t)(a->dim == 2 && f->face[q].axis == 1 ? -f->face[q].side : f->face[q].side);
+    corners_make(a, s, all, f);
+    uint8_t *bears = NEW("loads.bears", p->n, uint8_t);
+    for (int64_t q = 0; q < a->first[a->corners]; q++) bears[a->particle[q]] = 1;
+    load_take(l, bears, p);
+    a->particles = l->n;
+    shares_transpose(a, l, p->n);
+    a->x = NEW("loads.corner_x", a->corners * a->dim, real);
+    a->area = NEW("loads.corner_area", a->corners * a->dim, real);
+    a->face_area = NEW("loads.face_area", a->faces * FACE_CORNERS * a->dim, real);
+    surface_areas(a, p, l->share);
+    memory_free(bears);
+    memory_free(all);
+}
+
+status load_surface_make(struct load *l, const struct surface_faces *faces, struct particles *p, real spacing)
+{
+    struct sites s = {.p = p, .spacing = spacing};
+    if (faces->n == 0)
+        return status_set(REFUSED, "boundary %s: no particle in its region has a free face; let the region hold some "
+                          "of the body's surface", l->boundary->name);
+    status made = sites_make(&s, faces);
+    if (made == OK) {
+        l->surface = NEW("loads.surface", 1, struct surface);
+        *l->surface = (struct surface){.dim = p->dim, .section = l->boundary->section > 0 ? l->boundary->section : 1,
+                                       .longest = TORN * spacing, .faces = faces->n};
+        surface_fill(l->surface, l, &s, faces, p);
+    }
+    memory_free(s.site);
+    return made;
+}
+
+void load_surface_free(struct surface *s)
+{
+    if (!s) return;
+    memory_free(s->corner), memory_free(s->sign), memory_free(s->first), memory_free(s->face_first);
+    memory_free(s->share_first), memory_free(s->particle), memory_free(s->weight), memory_free(s->part);
+    memory_free(s->share_corner), memory_free(s->share_weight);
+    memory_free(s->x), memory_free(s->face_area), memory_free(s->area);
+    memory_free(s);
+}
+
+/* ---- a step ------------------------------------------------------------------------------------------------------ */
+
+/* Is a face no longer one, as its corners have gone with different fragments? */
+static bool is_torn(const struct surface *s, const real *const *x, int corners)
+{
+    bool torn = false;
+    for (int c = 0; c < corners; c++) {
+        real length2 = 0;
+        for (int d = 0; d < s->dim; d++) length2 += square(x[c][d] - x[(c + 1) % corners][d]);
+        torn |= !(length2 <= square(s->longest));
+    }
+    return torn;
+}
+
+/* Half of a segment's area for both of its ends. */
+static void segment_area(const struct surface *s, const real *const *x, real sign, real *to)
+{
+    for (int c = 0; c < 2; c++) {
+        to[2 * c] = 0.5 * sign * s->section * (x[1][1] - x[0][1]);
+        to[2 * c + 1] = -0.5 * sign * s->section * (x[1][0] - x[0][0]);
+    }
+}
+
+/* Adds a sixth of the area of a triangle, half of what its corners get, as either diagonal counts half. */
+static void triangle_add(const real *const *x, int a, int b, int c, real sign, real *to)
+{
+    real u[DIM_MAX], v[DIM_MAX];
+    for (int d = 0; d < DIM_MAX; d++) u[d] = x[b][d] - x[a][d], v[d] = x[c][d] - x[a][d];
+    for (int d = 0; d < DIM_MAX; d++) {
+        const int e = (d + 1) % DIM_MAX, f = (d + 2) % DIM_MAX;
+        const real share = sign * 0.5 * (u[e] * v[f] - u[f] * v[e]) / 6;
+        to[3 * a + d] += share, to[3 * b + d] += share, to[3 * c + d] += share;
+    }
+}
+
+static void quadrilateral_area(const real *const *x, real sign, real *to)
+{
+    triangle_add(x, 0, 1, 2, sign, to);
+    triangle_add(x, 0, 2, 3, sign, to);
+    triangle_add(x, 0, 1, 3, sign, to);
+    triangle_add(x, 1, 2, 3, sign, to);
+}
+
+static void surface_face_area(struct surface *s, int64_t q)
+{
+    const int corners = s->dim == 2 ? 2 : FACE_CORNERS;
+    const real *x[FACE_CORNERS];
+    real *to = s->face_area + q * FACE_CORNERS * s->dim;
+    for (int c = 0; c < corners; c++) x[c] = s->x + (int64_t)s->corner[q * FACE_CORNERS + c] * s->dim;
+    memset(to, 0, (size_t)(FACE_CORNERS * s->dim) * sizeof *to);
+    if (is_torn(s, x, corners)) return;
+    if (s->dim == 2) segment_area(s, x, s->sign[q], to);
+    else quadrilateral_area(x, s->sign[q], to);
+}
+
+static void surface_corner_place(struct surface *s, const struct particles *p, int64_t c)
+{
+    for (int d = 0; d < s->dim; d++) {
+        real x = 0;
+        for (int64_t q = s->first[c]; q < s->first[c + 1]; q++) x += s->weight[q] * p->x[d][s->particle[q]];
+        s->x[c * s->dim + d] = x;
+    }
+}
+
+static void surface_corner_area(struct surface *s, int64_t c)
+{
+    for (int d = 0; d < s->dim; d++) {
+        real area = 0;
+        for (int64_t q = s->face_first[c]; q < s->face_first[c + 1]; q++)
+            area += s->face_area[(int64_t)s->part[q] * s->dim + d];
+        s->area[c * s->dim + d] = area;
+    }
+}
+
+static real surface_share(const struct surface *s, int64_t k, int d)
+{
+    real area = 0;
+    for (int64_t q = s->share_first[k]; q < s->share_first[k + 1]; q++)
+        area -= s->share_weight[q] * s->area[(int64_t)s->share_corner[q] * s->dim + d];
+    return area;
+}
+
+/* Each step gathers: the same bits on any number of threads. */
+void surface_areas(struct surface *s, const struct particles *p, real *const *area)
+{
+    const bool many = s->corners > SUM_BLOCK;
+    TEAM_LOOP(many, for (int64_t c = 0; c < s->corners; c++) surface_corner_place(s, p, c););
+    TEAM_LOOP(many, for (int64_t q = 0; q < s->faces; q++) surface_face_area(s, q););
+    TEAM_LOOP(many, for (int64_t c = 0; c < s->corners; c++) surface_corner_area(s, c););
+    TEAM_LOOP(many, for (int64_t k = 0; k < s->particles; k++)
+        for (int d = 0; d < s->dim; d++) area[d][k] = surface_share(s, k, d););
+}

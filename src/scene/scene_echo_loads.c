@@ -1,0 +1,136 @@
+/* Writes the boundary conditions of the scene as run. */
+#include "scene_echo.h"
+
+/* Writes a function of time from a file. */
+static void write_time_file(struct writer *w, const struct boundary *b)
+{
+    begin(w, "time");
+    fputc('\n', w->out);
+    w->indent += 2;
+    write_file_name(w, "file", b->time_file, b->time_contents);
+    if (b->time_column[0]) {
+        begin(w, "column");
+        fputc(' ', w->out);
+        write_quoted(w, b->time_column);
+        fputc('\n', w->out);
+    }
+    w->indent -= 2;
+}
+
+/* Writes the function of time of a boundary. */
+static void write_time(struct writer *w, const struct boundary *b)
+{
+    const struct time_function *f = &b->time;
+    if (b->time_file) {
+        write_time_file(w, b);
+        return;
+    }
+    static const char *const words[] = {[TIME_STEP] = "step", [TIME_PULSE] = "pulse", [TIME_RAMP] = "ramp"};
+    begin(w, "time");
+    if (f->kind == TIME_CONSTANT) fputs(" constant", w->out);
+    else if (f->kind == TIME_TABLE) fputs(" {table: [", w->out);
+    else {
+        fprintf(w->out, " {%s: {from: ", words[f->kind]);
+        write_real(w, f->from);
+        fputs(", until: ", w->out);
+        write_real(w, f->until);
+        fputs("}}", w->out);
+    }
+    for (int k = 0; k < f->n; k++) {
+        real row[2] = {f->t[k], f->value[k]};
+        fputs(k ? ", " : "", w->out);
+        write_list(w, row, 2);
+    }
+    fputs(f->kind == TIME_TABLE ? "]}\n" : "\n", w->out);
+}
+
+static void write_profile(struct writer *w, const struct profile *f)
+{
+    const char *group = "boundary.profile.sine", *between = " {sine: {";
+    begin(w, "profile");
+    for (int i = 0; i < keys_count && f->kind == PROFILE_SINE; i++) {
+        if (!key_in(&keys[i], group)) continue;
+        fprintf(w->out, "%s%s: ", between, key_leaf(&keys[i]));
+        write_value(w, &keys[i], scene_echo_place_of(&keys[i], f));
+        between = ", ";
+    }
+    fputs(f->kind == PROFILE_SINE ? "}}\n" : " uniform\n", w->out);
+}
+
+/* Component d of a load: its formula or its number. */
+static void write_load(struct writer *w, const struct boundary *b, int d)
+{
+    if (b->formula[d].n > 0) write_quoted(w, b->formula[d].text);
+    else write_real(w, b->value[d]);
+}
+
+static void write_rotation(struct writer *w, const struct boundary *b)
+{
+    write_part(w, "rotation", "boundary.rotation", b);
+    if (w->scene->dim < 3) return;
+    w->indent += 2;
+    begin(w, "axis");
+    fputc(' ', w->out);
+    write_list(w, b->axis_of, DIM_MAX);
+    fputc('\n', w->out);
+    w->indent -= 2;
+}
+
+static void write_velocity(struct writer *w, const struct boundary *b)
+{
+    begin(w, "velocity");
+    for (int d = 0; d < w->scene->dim; d++) {
+        fputs(d ? ", " : " [", w->out);
+        if (b->components >> d & 1) write_load(w, b, d);
+        else fputs("free", w->out);
+    }
+    fputs("]\n", w->out);
+}
+
+/* Writes a boundary: the keys of the table, then value, face, profile and time by its kind. */
+static void write_boundary(struct writer *w, const struct boundary *b)
+{
+    write_group(w, "boundary", b);
+    if (b->kind == BOUNDARY_MIRROR) {
+        write_part(w, "mirror", "boundary.mirror", b);
+        return;
+    }
+    if (b->rotates) {
+        write_rotation(w, b);
+    } else if (b->kind == BOUNDARY_VELOCITY) {
+        write_velocity(w, b);
+    } else if (b->kind == BOUNDARY_ABSORBING) {
+        begin(w, "absorbing");
+        fputs(" true\n", w->out);
+    } else if (b->kind == BOUNDARY_PRESSURE) {
+        begin(w, "pressure");
+        fputc(' ', w->out);
+        write_load(w, b, 0);
+        fputc('\n', w->out);
+    } else {
+        begin(w, b->kind == BOUNDARY_TRACTION ? "traction" : "body_force");
+        for (int d = 0; d < w->scene->dim; d++) {
+            fputs(d ? ", " : " [", w->out);
+            write_load(w, b, d);
+        }
+        fputs("]\n", w->out);
+    }
+    if (b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING) {
+        begin(w, "face");
+        fprintf(w->out, " %c%c\n", 'x' + b->face, b->side > 0 ? '+' : '-');
+    }
+    if (b->kind == BOUNDARY_BODY_FORCE) write_profile(w, &b->profile);
+    if (b->kind != BOUNDARY_ABSORBING) write_time(w, b);
+}
+
+void write_boundaries(struct writer *w)
+{
+    const struct scene *s = w->scene;
+    const bool falls = s->boundaries > 0 && s->boundary[s->boundaries - 1].by_mass;      /* a key of its own */
+    const int n = s->boundaries - falls;
+    if (n) fputs("boundary:\n", w->out);
+    for (int k = 0; k < n; k++) {
+        begin_item(w);
+        write_boundary(w, &s->boundary[k]);
+    }
+}
