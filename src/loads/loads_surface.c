@@ -74,7 +74,7 @@ static int by_key(const void *a, const void *b)
 }
 
 /* Of a body, at steps k from its first particle; -1: too far away. */
-static int64_t key_of(int body, const int64_t *k, int dim)
+static int64_t site_key(int body, const int64_t *k, int dim)
 {
     int64_t key = body;
     for (int d = 0; d < DIM_MAX; d++) {
@@ -120,7 +120,7 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
     for (int64_t i = 0; i < s->p->n; i++) {
         if (!has[s->p->body[i]]) continue;
         const bool on = place_on_lattice(s, (int32_t)i, k);
-        s->site[s->n] = (struct site){key_of(s->p->body[i], k, s->p->dim), (int32_t)i};
+        s->site[s->n] = (struct site){site_key(s->p->body[i], k, s->p->dim), (int32_t)i};
         if (!on || s->site[s->n++].key < 0)
             return status_set(REFUSED, "pressure that follows wants particles on a regular lattice of the spacing; "
                               "follow: false, or particles.irregularity 0 and no list, is expected");
@@ -150,7 +150,7 @@ static struct site *corners_number(struct surface *a, const struct sites *s, con
         for (int c = 0; c < each; c++) {
             int64_t k[DIM_MAX];
             corner_site(s, &f->face[q], c, k);
-            all[q * each + c] = (struct site){key_of(s->p->body[f->face[q].particle], k, a->dim),
+            all[q * each + c] = (struct site){site_key(s->p->body[f->face[q].particle], k, a->dim),
                                               (int32_t)(q * FACE_CORNERS + c)};
         }
     qsort(all, (size_t)(f->n * each), sizeof *all, by_key);
@@ -195,12 +195,12 @@ static void corner_around(struct around *t, const struct sites *s, int body, con
         for (int c = 0; c < 1 << dim; c++) {
             int64_t off[DIM_MAX] = {0}, at[DIM_MAX] = {0};
             for (int d = 0; d < dim; d++) off[d] = (c >> d & 1) - 1, at[d] = site[d] + off[d];
-            const int32_t near = site_find(s, key_of(body, at, dim));
+            const int32_t near = site_find(s, site_key(body, at, dim));
             if (layer == 0) corner_reach(t, near, off, dim, 1);
             for (int d = 0; d < dim && layer == 1 && near >= 0; d++) {
                 const int64_t away = c >> d & 1 ? 1 : -1;
                 off[d] += away, at[d] += away;
-                corner_reach(t, site_find(s, key_of(body, at, dim)), off, dim, SECOND_LAYER);
+                corner_reach(t, site_find(s, site_key(body, at, dim)), off, dim, SECOND_LAYER);
                 off[d] -= away, at[d] -= away;
             }
         }

@@ -158,7 +158,6 @@ static bool is_left_out(const struct key *k, const char *group, const void *base
     return n < 2 || (b->mass > 0 ? n == 5 : n == 3 || n == 4 || (n == 5 && !(b->ramp > 0)));
 }
 
-
 /* Frames of regions: the list below `output`. */
 static void write_series(struct writer *w)
 {

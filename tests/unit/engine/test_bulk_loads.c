@@ -181,7 +181,7 @@ static void pressure_all_round_is_balanced(void **state)
     for (int k = 0; k < 2; k++)
         for (int b = 0; b < 3; b++) {
             struct run a;
-            run(&a, bodies[b], follow[k], "duration=1 us", NULL);
+            run(&a, bodies[b], follow[k], "duration=1 us", "pd.surface=none", NULL);
             assert_true(loads_left(&a) < 1e-12);
             run_end(&a);
         }
