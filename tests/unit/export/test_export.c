@@ -176,7 +176,8 @@ static void what_lammps_cannot(void **state)
     refused(scene_equal, "", true, "-s contact.between=none");
     refused(scene_equal, "boundary: [{mirror: {axis: x, at: -6 mm}}]\n", false, "no planes of symmetry");
     refused(scene_equal, "boundary: [{absorbing: true, face: x+}]\n", false, "absorbing faces are not exported");
-    refused(scene_equal, "boundary: [{traction: [0, 1 MPa * t / us], face: y+}]\n", false, "formulas and rotation are not");
+    refused(scene_equal, "boundary: [{traction: [0, 1 MPa * t / us], face: y+}]\n", false,
+            "formulas and rotation are not");
     refused(scene_equal, "boundary: [{pressure: 1 MPa}]\n", false, "this kind of load is not exported");
     refused(scene_equal, "solver: relaxation\n", false, "solver: ");
     refused("", "model: mospd\n", false, "model: mospd is not in LAMMPS");
