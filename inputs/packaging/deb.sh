@@ -17,7 +17,7 @@ gzip -n9 "$root/usr/share/man/man1/cleave.1"
 documents=$root/usr/share/doc/cleave
 mkdir -p "$documents/examples" "$root/DEBIAN" "$build/deb/debian"
 cp README.md "$documents/README.md"
-cp inputs/README.md inputs/*.yaml "$documents/examples/"
+cp inputs/*.md inputs/*.yaml "$documents/examples/"
 sed -i '1s|=\.\./build/|=../../../cleave/|' "$documents/examples/"*.yaml        # the schema for editors
 printf 'cleave (%s) unstable; urgency=low\n\n  * Release %s.\n\n -- Cleave maintainers <maintainers@cleave.example>  %s\n' \
     "$version" "$version" "$(date -R -r Makefile)" | gzip -n9 >"$documents/changelog.gz"

@@ -179,7 +179,7 @@ status manual_run_print(FILE *out)
         }
         fputc('\n', out);
     }
-    fprintf(out, "What is written is whole: `cleave help trust`. Fields of frames, particle lists, studies: "
+    fprintf(out, "What is written is whole: `cleave help trust`. Bodies, loads, results, studies: "
                  "inputs/README.md.\n");
     return OK;
 }

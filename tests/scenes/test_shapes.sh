@@ -1,12 +1,12 @@
 #!/bin/sh
-# Bodies from files as a user has them: the three scenes of inputs/README.md, their volumes, materials, echoes; files that change.
+# Bodies from files as a user has them: the three scenes of inputs/bodies.md, their volumes, materials, echoes; files that change.
 test_name=test_shapes
 . tests/support/summary.sh
 
 cp inputs/blade.stl inputs/gear.inp inputs/fibres.png "$work"
 # The scenes of the section, by the names in their first lines.
 awk -v work="$work" '/^```yaml/ { getline; if ($2 ~ /^(blade|gear|fibres)\.yaml:$/) { name = $2; sub(":", "", name); file = work "/" name } }
-    /^```$/ { file = "" } file { print > file }' inputs/README.md
+    /^```$/ { file = "" } file { print > file }' inputs/bodies.md
 cd "$work" || exit 1
 
 # said NAME PATTERN ARGUMENTS: what check says of a scene.
