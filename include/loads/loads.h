@@ -164,6 +164,12 @@ void face_every(const struct boundary *b, const struct particles *p, const uint8
 status load_select_pressure(struct load *l, const struct boundary *boundary, int n, int which, struct particles *p,
                             real spacing);
 
+/* Calls `found` for every free face on which a pressure acts, number `which` of n boundaries: axis and side of its
+ * normal, its area [m^2]. */
+typedef void pressure_face_fn(void *context, int32_t particle, int axis, int side, real area);
+void pressure_faces(const struct boundary *all, int n, int which, const struct particles *p, real spacing,
+                    const uint8_t *selected, pressure_face_fn *found, void *context);
+
 /* Loads whose shares change (loads_moving.c): formulas of time, pressure that follows. make: formulas without time
  * become part of the shares; REFUSED where a formula is not finite. push, work: the shares of loads_push and
  * loads_push_work. */
@@ -171,6 +177,8 @@ status load_formula_make(struct load *l, const struct particles *p);
 void loads_moving_push(struct loads *l, const struct particles *p, real t, real dt_velocity);
 void loads_moving_work(struct loads *l, const struct particles *p, real t, real dt);
 void load_moving_free(struct load *l);
+/* Force of a load on its k-th particle at t, at reference places; static: once it has grown [dim, N]. */
+void load_force_at(const struct load *l, const struct particles *p, int64_t k, real t, real *force);
 
 /* Finds the particles of every boundary and marks FLAG_DRIVEN; appends mirror images within `reach` of
  * mirror planes to the particles (so bonds must be made after it). `spacing` [m] is that of the columns that bear

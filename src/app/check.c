@@ -204,6 +204,7 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
         say_frames(&e);
         say_levels(&e);
         say_notches(&e);
+        say_loads(&e);
         say_time_step(&e);
         say_contact(&e);
         engine_warn(&e);

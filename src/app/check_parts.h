@@ -41,6 +41,11 @@ void say_shapes(const struct engine *e);
 void say_levels(const struct engine *e);
 void say_levels_saving(const struct engine *e, const struct cost *c);
 
+/* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
+
+/* Loads and supports: particles, areas, forces and moments. */
+void say_loads(const struct engine *e);
+
 /* Volume of the particles of bodies that are not boxes, beside that of their shapes (check_filled.c). */
 void say_filled(const struct engine *e);
 

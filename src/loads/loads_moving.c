@@ -110,3 +110,15 @@ void loads_moving_work(struct loads *l, const struct particles *p, real t, real 
 {
     moving_update(l, p, t + dt, dt, 0.5);
 }
+
+/* ---- what it amounts to ------------------------------------------------------------------------------------------ */
+
+void load_force_at(const struct load *l, const struct particles *p, int64_t k, real t, real *force)
+{
+    const struct boundary *b = l->boundary;
+    const real factor = b->frozen ? 1 : time_function_at(&b->time, t);
+    for (int d = 0; d < p->dim; d++) {
+        const real share = l->moving ? l->base[d][k] * formula_at(b, d, p, l->particle[k], t) : l->share[d][k];
+        force[d] = factor * b->value[d] * share;
+    }
+}

@@ -13,14 +13,14 @@
 #include "loads_surface.h"
 #include "base/memory.h"
 
-/* What free ends of columns along one axis add up to. */
+/* What hears of the free ends of columns along one axis. */
 struct ends {
     const struct boundary *boundary, *all; /* with axis and side; those of the scene */
     int n;                                 /* of the scene */
     const struct particles *p;
     real spacing;
-    real *area;                          /* [particles] along the axis [m^2] */
-    struct surface_faces *faces;         /* of pressure that follows; NULL: none */
+    pressure_face_fn *found;
+    void *context;
 };
 
 /* Does the body go on behind a mirror at this end? */
@@ -37,22 +37,32 @@ static bool is_mirrored(const struct ends *e, int32_t i)
 
 static void end_found(void *context, int32_t i, real area)
 {
-    struct ends *e = context;
-    if (is_mirrored(e, i)) return;
-    e->area[i] += e->boundary->side * area;
-    if (e->faces) surface_face_add(e->faces, i, e->boundary->face, e->boundary->side);
+    const struct ends *e = context;
+    if (!is_mirrored(e, i)) e->found(e->context, i, e->boundary->face, e->boundary->side, area);
 }
 
-/* Areas of the free faces of selected particles along their outward normals, by component [particles] [m^2]. */
-static void ends_find(const struct boundary *all, int n, int which, const struct particles *p, real spacing,
-                      const uint8_t *selected, real *const *area, struct surface_faces *faces)
+void pressure_faces(const struct boundary *all, int n, int which, const struct particles *p, real spacing,
+                    const uint8_t *selected, pressure_face_fn *found, void *context)
 {
     struct boundary one = all[which];
     for (one.face = 0; one.face < p->dim; one.face++)
         for (one.side = -1; one.side <= 1; one.side += 2) {
-            struct ends e = {&one, all, n, p, spacing, area[one.face], faces};
+            struct ends e = {&one, all, n, p, spacing, found, context};
             face_every(&one, p, selected, spacing, end_found, &e);
         }
+}
+
+/* Areas of free faces along their outward normals. */
+struct pressed {
+    real *const *area;                   /* by component [particles] [m^2] */
+    struct surface_faces *faces;         /* of pressure that follows; NULL: none */
+};
+
+static void face_pressed(void *context, int32_t i, int axis, int side, real area)
+{
+    const struct pressed *a = context;
+    a->area[axis][i] += side * area;
+    if (a->faces) surface_face_add(a->faces, i, axis, side);
 }
 
 /* A pressure that acts on the reference state: its shares are the areas, inwards. */
@@ -80,7 +90,8 @@ status load_select_pressure(struct load *l, const struct boundary *boundary, int
     uint8_t *selected = NEW("loads.selected", p->n, uint8_t);
     const bool any = load_region(b, p, spacing, selected);
     for (int d = 0; d < p->dim; d++) area[d] = NEW("loads.area", p->n, real);
-    if (any) ends_find(boundary, n, which, p, spacing, selected, area, follows ? &faces : NULL);
+    struct pressed pressed = {area, follows ? &faces : NULL};
+    if (any) pressure_faces(boundary, n, which, p, spacing, selected, face_pressed, &pressed);
     if (!any) s = status_set(REFUSED, "boundary %s: no particle lies in its region", b->name);
     else if (follows) s = load_surface_make(l, &faces, p, spacing);
     else if (!pressure_shares(l, p, area))

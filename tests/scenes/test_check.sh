@@ -57,6 +57,20 @@ particles: {spacing: 1}
 END
 says "filled" '^filled  *body body: its particles are 12[0-9][0-9] m^3, [0-9.]* % [a-z]* than its shape' "$work/disc.yaml"
 silent "filled: boxes" '^filled' "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}'
+# Loads: 20 x 10 m^2 under 3 Pa at the half of a pulse, linear in x towards the end, the weight of 400 m^2; areas of faces that the
+# spacing does not divide; a circle of radius 20, on which steps lie nearer than a tenth of a spacing.
+checked "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}' -s 'gravity=[0, -10 m/s^2]' -s 'boundary=[
+    {traction: [0, 3 Pa], face: y+, region: {box: {from: [10, 0], to: [20, 20]}}, time: {pulse: {until: 1 ms}}, name: a},
+    {traction: ["2 Pa*x/(1 m)*t/(1 ms)", 0], face: x+, name: b}, {fixed: [y], region: {box: {from: [0, 0], to: [20, 1]}}, name: c}]'
+amounts() { holds "$1" grep -qxF "$1" "$work/said"; }
+amounts 'load           a: traction on y+, 10 particles, 10 m^2; force (0, 30) N, moment about the origin 450 N m when it is largest, at 0.0005 s'
+amounts 'load           b: traction on x+, 20 particles, 20 m^2; force (780, 0) N, moment about the origin -7800 N m at the end'
+amounts 'support        c: y held, 20 particles'
+amounts 'load           gravity: weight, 400 particles; force (0, -4e+06) N, moment about the origin -4e+07 N m at all times'
+says "area" '20 m^2 (2.56 % more than the face of its box)' "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [19.5, 19.5]}}' \
+    -s 'boundary=[{traction: [0, 3 Pa], face: y+}]'
+says "round" 'pressure, [0-9]* particles, 12[56][0-9.]* m^2 0.0[0-9]* spacings [a-z]* the surface of its shape on average; force (0, 0)' \
+    "$work/disc.yaml" -s 'boundary=[{pressure: 1 Pa}]'
 
 cat >"$work/far.yaml" <<'END'
 space: plane stress

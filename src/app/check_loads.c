@@ -1,0 +1,237 @@
+/* What `cleave check` says of loads and supports: on how many particles they act, on what area, with which force and
+ * moment. Beside planes of symmetry these are of the part that is computed. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "check_parts.h"
+
+#define NOTHING 1e-10 /* sums that are round-off, as share of what adds up without signs */
+enum { SAID = 20 };   /* loads and supports of which a line is written */
+
+/* ---- when -------------------------------------------------------------------------------------------------------- */
+
+/* When a load is looked at [s]; why there. */
+struct instant {
+    real t;
+    const char *why;
+};
+
+static void instant_try(const struct time_function *f, real t, real duration, real *best, real *most)
+{
+    if (t < 0 || t > duration || !(fabs(time_function_at(f, t)) > *most)) return;
+    *best = t, *most = fabs(time_function_at(f, t));
+}
+
+/* Time of the largest factor, the first of several. */
+static real largest_factor_at(const struct time_function *f, real duration, real *most)
+{
+    real best = *most = 0;
+    const real middle = 0.5 * (f->from + f->until);
+    instant_try(f, 0, duration, &best, most);
+    for (int k = 0; k < f->n; k++) instant_try(f, f->t[k], duration, &best, most);
+    if (f->kind == TIME_STEP || f->kind == TIME_PULSE || f->kind == TIME_RAMP)
+        instant_try(f,
+                    f->kind == TIME_STEP    ? f->from
+                    : f->kind == TIME_PULSE ? middle
+                                            : f->until,
+                    duration, &best, most);
+    instant_try(f, duration, duration, &best, most);
+    return best;
+}
+
+static struct instant instant_of(const struct boundary *b, int dim, real duration)
+{
+    bool in_time = false;
+    real most;
+    for (int d = 0; d < dim; d++) in_time |= b->formula[d].in_time;
+    if (b->frozen || in_time) return (struct instant){duration, "at the end"};
+    const real t = largest_factor_at(&b->time, duration, &most);
+    if (b->time.kind == TIME_CONSTANT) return (struct instant){0, "at all times"};
+    return (struct instant){t, most > 0 ? "when it is largest" : "as it does not begin before the end"};
+}
+
+/* ---- how much ---------------------------------------------------------------------------------------------------- */
+
+struct resultant {
+    real force[DIM_MAX], moment[DIM_MAX];
+}; /* [N], about the origin [N m] */
+
+/* Sums over the particles of a load; what is round-off counts as 0. */
+static struct resultant resultant_at(const struct load *l, const struct particles *p, real t)
+{
+    struct resultant r = {{0}, {0}};
+    real all = 0, turning = 0;
+    for (int64_t k = 0; k < l->n; k++) {
+        real f[DIM_MAX] = {0}, X[DIM_MAX] = {0};
+        load_force_at(l, p, k, t, f);
+        particle_place(p, l->particle[k], X);
+        for (int d = 0; d < DIM_MAX; d++) {
+            const int u = (d + 1) % DIM_MAX, v = (d + 2) % DIM_MAX;
+            r.force[d] += f[d], r.moment[d] += X[u] * f[v] - X[v] * f[u];
+            all += fabs(f[d]), turning += fabs(X[u] * f[v]) + fabs(X[v] * f[u]);
+        }
+    }
+    for (int d = 0; d < DIM_MAX; d++) {
+        if (fabs(r.force[d]) < NOTHING * all) r.force[d] = 0;
+        if (fabs(r.moment[d]) < NOTHING * turning) r.moment[d] = 0;
+    }
+    return r;
+}
+
+static void say_vector(const real *a, int n)
+{
+    for (int d = 0; d < n; d++) printf("%s%.4g", d ? ", " : n > 1 ? "(" : "", a[d]);
+    if (n > 1) putchar(')');
+}
+
+/* ---- areas ------------------------------------------------------------------------------------------------------- */
+
+/* The faces on which a pressure acts, beside the shapes of their bodies. */
+struct faced {
+    const struct engine *e;
+    real area;       /* of the faces [m^2] */
+    real along, off; /* projected to the shapes' surfaces [m^2]; times the distance from them,
+                        outside positive [m^3] */
+    bool unknown;    /* there is a body of which no distance is known */
+};
+
+/* Has a body a shape with distances, of its own? */
+static bool has_distance(const struct scene *s, int body)
+{
+    const struct region *shape = &s->body[body].shape;
+    bool has = !s->body[body].file && shape->n > 0 && !region_has_endless_box(shape, s->dim);
+    for (int b = 0; b < s->bodies; b++) has &= b == body || s->body[b].joined != body;
+    for (int k = 0; k < shape->n; k++)
+        has &= shape->solid[k].kind != SOLID_VOXELS && shape->solid[k].kind != SOLID_HULL &&
+               shape->solid[k].kind != SOLID_ALL;
+    return has;
+}
+
+static void face_beside_shape(void *context, int32_t i, int axis, int side, real area)
+{
+    struct faced *f = context;
+    const struct particles *p = &f->e->part;
+    const int body = p->body[i];
+    real X[DIM_MAX], normal[DIM_MAX] = {0};
+    f->area += area;
+    f->unknown |= !has_distance(f->e->scene, body);
+    if (f->unknown) return;
+    particle_place(p, i, X);
+    X[axis] += 0.5 * side * f->e->scene->spacing;
+    const real off = region_distance(&f->e->scene->body[body].shape, X, p->dim, normal);
+    f->along += area * side * normal[axis];
+    f->off += area * side * normal[axis] * off;
+}
+
+/* Steps of a slanting or curved surface have more area than it, and lie about it; by how much they lie beside it in the
+ * mean, the volume between both over the area, is what a bore is wider than its shape: the flux of the shape's normals
+ * through closed steps is that through the surface. */
+static void say_pressed(const struct engine *e, int which)
+{
+    const struct load *l = &e->loads.load[which];
+    const real spacing = e->scene->spacing;
+    struct faced f = {.e = e};
+    uint8_t *selected = NEW("check.selected", e->part.n, uint8_t);
+    load_region(l->boundary, &e->part, spacing, selected);
+    pressure_faces(e->loads.load[0].boundary, e->loads.n, which, &e->part, spacing, selected, face_beside_shape, &f);
+    memory_free(selected);
+    if (f.unknown || !(f.along > 0)) {
+        printf(", %.4g m^2 of faces of particles", f.area);
+        return;
+    }
+    const real off = f.off / f.along;
+    printf(", %.4g m^2", f.along);
+    if (fabs(off) > 1e-3 * spacing)
+        printf(" %.2g spacings %s the surface of its shape on average", fabs(off) / spacing,
+               off < 0 ? "below" : "above");
+}
+
+/* Edge of the face of a box that shows along b->face, as far as b's region reaches; false: not known by so little. */
+static bool face_exact(const struct scene *s, const struct boundary *b, real *area)
+{
+    const int body = b->body >= 0 ? b->body : 0;
+    const struct region *shape = &s->body[body].shape, *region = &b->region;
+    if ((b->body < 0 && s->bodies > 1) || s->body[body].file || shape->n != 1 || region->n > 1) return false;
+    if (!solid_is(&shape->solid[0], SOLID_BOX) || (region->n == 1 && !solid_is(&region->solid[0], SOLID_BOX)))
+        return false;
+    *area = b->section > 0 ? b->section : 1;
+    for (int d = 0; d < s->dim; d++) {
+        real from = shape->solid[0].from[d], to = shape->solid[0].to[d];
+        if (region->n) from = real_max(from, region->solid[0].from[d]), to = real_min(to, region->solid[0].to[d]);
+        if (d != b->face) *area *= to - from;
+    }
+    return *area > 0;
+}
+
+static void say_traction_area(const struct engine *e, const struct load *l)
+{
+    real area = 0, exact;
+    for (int64_t k = 0; k < l->n; k++)
+        area += l->boundary->kind == BOUNDARY_ABSORBING ? l->outer[k] : l->share[l->boundary->face][k];
+    printf(", %.4g m^2", area);
+    if (face_exact(e->scene, l->boundary, &exact) && fabs(area / exact - 1) > 1e-6)
+        printf(" (%.2f %% %s than the face of its box)", 100 * fabs(area / exact - 1), area > exact ? "more" : "less");
+}
+
+/* ---- lines ------------------------------------------------------------------------------------------------------- */
+
+static void say_force(const struct engine *e, const struct load *l)
+{
+    const int dim = e->part.dim;
+    const struct instant at = instant_of(l->boundary, dim, e->scene->duration);
+    const struct resultant r = resultant_at(l, &e->part, at.t);
+    printf("; force ");
+    say_vector(r.force, dim);
+    printf(" N");
+    if (dim > 1) printf(", moment about the origin ");
+    if (dim > 1) say_vector(dim == 2 ? &r.moment[2] : r.moment, dim == 2 ? 1 : DIM_MAX);
+    printf("%s %s", dim > 1 ? " N m" : "", at.why);
+    if (l->boundary->time.kind != TIME_CONSTANT && at.why[0] == 'w') printf(", at %.4g s", at.t);
+}
+
+static void say_support(const struct engine *e, const struct load *l)
+{
+    const struct boundary *b = l->boundary;
+    const char *between = "";
+    if (b->kind == BOUNDARY_MIRROR) {
+        printf("plane of %ssymmetry at %c = %.4g m", b->hold_tangential ? "anti" : "", "xyz"[b->axis], b -> at);
+        return;
+    }
+    for (int d = 0; d < e->part.dim && !b->rotates; d++) {
+        if (!(b->components >> d & 1)) continue;
+        printf("%s%c", between, "xyz"[d]);
+        between = ", ";
+    }
+    bool moves = b->rotates;
+    for (int d = 0; d < e->part.dim; d++) moves |= b->value[d] != 0;
+    printf(b->rotates ? "on circles" : moves ? " driven" : " held");
+}
+
+static void say_load(const struct engine *e, int which)
+{
+    static const char *const words[] = {[BOUNDARY_TRACTION] = "traction",
+                                        [BOUNDARY_BODY_FORCE] = "body force",
+                                        [BOUNDARY_ABSORBING] = "absorbing",
+                                        [BOUNDARY_PRESSURE] = "pressure"};
+    const struct load *l = &e->loads.load[which];
+    const struct boundary *b = l->boundary;
+    const bool force = boundary_is_force(b), faces = b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING;
+    printf("%-15s%s: ", force ? "load" : "support", b->name);
+    if (b->kind == BOUNDARY_VELOCITY || b->kind == BOUNDARY_MIRROR)
+        say_support(e, l);
+    else
+        printf("%s", b->by_mass ? "weight" : words[b->kind]);
+    if (faces) printf(" on %c%c", "xyz"[b->face], b -> side > 0 ? '+' : '-');
+    if (b->kind != BOUNDARY_MIRROR) printf(", %lld particle%s", (long long)l->n, l->n == 1 ? "" : "s");
+    if (faces) say_traction_area(e, l);
+    if (b->kind == BOUNDARY_PRESSURE) say_pressed(e, which);
+    if (force) say_force(e, l);
+    putchar('\n');
+}
+
+void say_loads(const struct engine *e)
+{
+    for (int b = 0; b < e->loads.n && b < SAID; b++) say_load(e, b);
+    if (e->loads.n > SAID) printf("load           and %d more loads and supports\n", e->loads.n - SAID);
+}
