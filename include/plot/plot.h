@@ -35,7 +35,7 @@ struct look {
 
 struct plot_request {
     const char *folder;
-    int panels;                          /* frames evenly spread */
+    int panels;                          /* frames evenly spread; 0: as many as suit, all of a film */
     bool every;                          /* all frames; of standard pictures one picture each */
     int times; double time[PANELS_MAX];  /* the nearest frames instead [s] */
     const char *field;                   /* NULL: the standard pictures */

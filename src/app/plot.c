@@ -10,35 +10,38 @@
 #include "plot/scene_picture.h"
 #include "scene/words.h"
 
-static const char usage[] = "cleave plot DIR [--field NAME] [--times T,...|all|last] [--slice z=4mm] [--view iso] "
-                            "[--format png|svg|pdf|mp4|gif] [-o FILE], or cleave plot --scene SCENE [-s KEY=VALUE] "
+static const char usage[] = "cleave plot DIR [--field NAME] [--times T,...|all|last] [--frames N] [--slice z=4mm] "
+                            "[--view iso|x+|x-|y+|...] [--format png|svg|pdf|mp4|gif] [-o FILE], or cleave plot --scene SCENE [-s KEY=VALUE] "
                             "[-o FILE]";
 
 struct plot_words {
     struct plot_request request;
     struct run_arguments scene;          /* of --scene; its overrides */
-    const char *times, *format;          /* as given */
+    const char *times, *frames, *format; /* as given */
 };
+
+/* Of a film; stills have PANELS_MAX. */
+enum { FILM_FRAMES_MAX = 100000 };
 
 /* ---- values ------------------------------------------------------------------------------------------------------ */
 
-/* --frames, and --times without a unit: all, last, or a number of panels. */
+/* --frames: all, last, or how many. */
 static status read_frames_option(struct plot_words *w, const char *text)
 {
     struct plot_request *r = &w->request;
+    w->frames = text;
     r->every = strcmp(text, "all") == 0;
-    if (r->every) return OK;
-    if (strcmp(text, "last") != 0) return option_count(&r->panels, "plot: --frames", text, 1, PANELS_MAX);
-    r->panels = 1;
-    return OK;
+    r->panels = strcmp(text, "last") == 0 ? 1 : 0;
+    if (r->every || r->panels) return OK;
+    return option_count(&r->panels, "plot: --frames", text, 1, FILM_FRAMES_MAX);
 }
 
 /* Times with units, commas between them. */
 static status read_times(struct plot_words *w, const char *text)
 {
     struct plot_request *r = &w->request;
-    w->times = text;
     if (strcmp(text, "all") == 0 || strcmp(text, "last") == 0) return read_frames_option(w, text);
+    w->times = text;
     char *copy = NEW("plot.times", strlen(text) + 1, char), *rest = copy, *word, what[256];
     status s = OK;
     strcpy(copy, text);
@@ -80,11 +83,17 @@ static status read_view(struct plot_words *w, const char *text)
     return OK;
 }
 
+static bool picture_format_named(enum picture_format *format, const char *ending)
+{
+    for (int k = 0; k < PICTURE_FORMATS; k++)
+        if (strcmp(ending, picture_ending[k]) == 0) return *format = (enum picture_format)k, true;
+    return false;
+}
+
 static status read_format(struct plot_words *w, const char *text)
 {
     w->format = text;
-    for (int k = 0; k < PICTURE_FORMATS; k++)
-        if (strcmp(text, picture_ending[k]) == 0) return w->request.format = (enum picture_format)k, OK;
+    if (picture_format_named(&w->request.format, text)) return OK;
     return status_set(REFUSED, "plot: --format %s: png, svg, pdf, mp4 or gif is expected", shown_name(text).text);
 }
 
@@ -117,17 +126,27 @@ static status read_option(struct plot_words *w, const char *word, const char *va
 /* The format follows from the ending of -o where no other is given. */
 static status settle_format(struct plot_words *w)
 {
-    const char *dot = w->request.out ? strrchr(w->request.out, '.') : NULL;
-    if (w->format || !dot || strchr(dot, '/')) return OK;
-    return read_format(w, dot + 1);
+    const char *out = w->request.out, *dot = out ? strrchr(out, '.') : NULL;
+    if (!dot || strchr(dot, '/') || path_is_folder(out)) return OK;
+    if (!w->format && picture_format_named(&w->request.format, dot + 1)) return OK;
+    if (w->format && strcmp(w->format, dot + 1) == 0) return OK;
+    return status_set(REFUSED, w->format ? "plot: -o %s: the ending is not that of --format %s"
+                                         : "plot: -o %s: an ending .png, .svg, .pdf, .mp4 or .gif is expected",
+                      shown_name(out).text, w->format);
 }
 
 static status words_together(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;
     const bool look = r->look.outside || r->look.normal >= 0;
-    if (w->scene.scene && (r->folder || r->field || w->times || look))
+    if (w->scene.scene && (r->folder || r->field || w->times || w->frames || look))
         return status_set(REFUSED, "plot: --scene draws a scene before it runs: no folder, field, time, slice or view");
+    if (w->times && w->frames)
+        return status_set(REFUSED, "plot: --times %s and --frames (or --times) %s: one of them", shown_name(w->times).text,
+                          shown_name(w->frames).text);
+    if (r->panels > PANELS_MAX && !picture_moves(r->format))
+        return status_set(REFUSED, "plot: --frames %d: a picture has %d panels at the most; a film (mp4, gif) has any "
+                          "number", r->panels, PANELS_MAX);
     if (!w->scene.scene && w->scene.overrides)
         return status_set(REFUSED, "plot: -s changes a scene; it goes with --scene");
     if (r->look.outside && r->look.normal >= 0)
@@ -138,7 +157,7 @@ static status words_together(const struct plot_words *w)
 
 static status plot_words_read(struct plot_words *w, int argc, char **argv)
 {
-    w->request = (struct plot_request){.panels = PANELS, .look = {.normal = -1, .camera = camera_isometric}};
+    w->request = (struct plot_request){.look = {.normal = -1, .camera = camera_isometric}};
     for (int k = 1; k < argc; k++) {
         if (argv[k][0] == '-') {
             TRY(read_option(w, argv[k], k + 1 < argc ? argv[k + 1] : NULL));
@@ -153,6 +172,9 @@ static status plot_words_read(struct plot_words *w, int argc, char **argv)
 
 static status check_folder(const char *folder)
 {
+    if (path_exists(folder) && !path_is_folder(folder))
+        return status_set(REFUSED, "%s is a file: the folder of a run is expected; a scene is drawn by `cleave plot "
+                          "--scene %s`", shown_name(folder).text, shown_name(folder).text);
     if (!run_holds(folder, "frames.hdf.series") && !run_holds(folder, "history.csv"))
         return status_set(REFUSED, "%s: no run there: neither frames nor history.csv", folder);
     return strlen(folder) + PATH_NAME_ROOM < PATH_ROOM ? OK : status_set(FAILED, "%s: the name is too long", folder);

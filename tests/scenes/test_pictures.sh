@@ -85,6 +85,8 @@ if command -v ffmpeg >/dev/null; then
     is "plot -o speed.mp4: exit status" $? 0
     holds "speed.mp4 is a film" sh -c "head -c 12 speed.mp4 | tail -c 8 | grep -q ftyp"
     holds "its pictures are gone" test "$(echo speed.mp4*)" = speed.mp4
+    "$cleave" plot results/strip --field speed --frames 2 -o speed.gif >out 2>err
+    holds "a film of as many frames as are asked for" grep -q "speed of 2 frames" out
 fi
 PATH=/nowhere "$cleave" plot results/strip --field speed --format gif >out 2>err
 is "a film without ffmpeg: exit status" $? 2
@@ -95,6 +97,11 @@ refused "runs in space" results/strip --slice z=1mm
 refused "do you mean --field" results/strip --feild speed
 refused "a time is expected" results/strip --times 5kg
 refused "png, svg, pdf, mp4 or gif" results/strip --format bmp
+refused "not that of --format pdf" results/strip --field speed --format pdf -o x.png
+refused "an ending .png" results/strip --field speed -o x.bmp
+refused "one of them" results/strip --times 1us --frames 2
+refused "24 panels at the most" results/strip --frames 30
+refused "cleave plot --scene strip.yaml" strip.yaml
 refused "before it runs" results/strip --scene strip.yaml
 refused "goes with --scene" results/strip -s method=pd
 "$cleave" plot results/strip --field strain_xx >out 2>err
