@@ -71,6 +71,8 @@ void frames_free(struct frame *f, int n);
 
 /* DIR/pictures. REFUSED where it is a link. */
 status pictures_folder_make(const char *path);
+/* The file that -o names, or one of this name in the folder that it names; folders that are missing are made. */
+status picture_destination(struct path *path, const char *out, const char *name);
 /* Says why a picture is not drawn, and removes what an earlier time has left. */
 status nothing_to_draw(const char *path, const char *why);
 
@@ -89,12 +91,15 @@ struct unit unit_for_length(double largest);
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
 
+/* Colours of a field: from zero on; as far below it as above; or one for each of a few values, which are names. */
+enum field_scale { FROM_ZERO, BOTH_SIGNS, CATEGORY };
+
 /* One number a particle: a component of what a frame holds or what follows from it, or the length of a vector. */
 struct plot_field {
     const char *name, *stored;           /* of the field, of that in frames */
     int component;                       /* -1: the length */
     const char *unit;
-    bool has_sign;
+    enum field_scale scale;
 };
 /* REFUSED with the nearest name for an unknown one, or one that runs of this dimension do not have. */
 status plot_field_find(const struct plot_field **field, const char *name, int dim);
@@ -134,7 +139,16 @@ status look_settle(struct look *look, const struct frame *f);
 /* Distance of neighbouring particles: median over a sample, reference positions [m]. */
 double frame_spacing(const struct frame *f);
 
-enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CRACKS };
+enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRACKS };
+
+/* Values of a field of names that are seen: no more than part_colour can tell apart. */
+enum { CATEGORIES_MOST = 9 };
+struct category { struct colour colour; char name[NAME_MAX_LENGTH]; };
+struct categories { int n, more; struct category of[CATEGORIES_MOST]; };   /* more: not listed */
+/* Those of the clouds, with the names of the scene in the run's folder. */
+void categories_find(struct categories *k, const struct plot_field *field, const char *folder,
+                     const struct cloud *cloud, int clouds);
+struct colour category_colour(const struct plot_field *field, float value);
 
 /* Rectangle of the map [m], and how its frames are shown. */
 struct view {
@@ -142,6 +156,7 @@ struct view {
     double top;                          /* damage at the upper end of the colours */
     const struct plot_field *field;      /* of MAP_FIELD, and the values at the ends of its colours */
     double low, high;
+    const struct categories *categories; /* of MAP_CATEGORY; borrowed */
     int64_t outside;                     /* particles that are not in the rectangle, in the frame that has most */
     int notches;
     const struct crack *notch;           /* pre-cracks of a plane scene, lines where damage is shown; borrowed */

@@ -11,8 +11,8 @@
 #include "scene/words.h"
 
 static const char usage[] = "cleave plot DIR [--field NAME] [--times T,...|all|last] [--frames N] [--slice z=4mm] "
-                            "[--view iso|x+|x-|y+|...] [--format png|svg|pdf|mp4|gif] [-o FILE], or cleave plot --scene SCENE [-s KEY=VALUE] "
-                            "[-o FILE]";
+                            "[--view iso|x+|x-|y+|...] [--format png|svg|pdf|mp4|gif] [-o FILE], or "
+                            "cleave plot --scene SCENE [-s KEY=VALUE] [-o FILE]";
 
 struct plot_words {
     struct plot_request request;
@@ -142,8 +142,8 @@ static status words_together(const struct plot_words *w)
     if (w->scene.scene && (r->folder || r->field || w->times || w->frames || look))
         return status_set(REFUSED, "plot: --scene draws a scene before it runs: no folder, field, time, slice or view");
     if (w->times && w->frames)
-        return status_set(REFUSED, "plot: --times %s and --frames (or --times) %s: one of them", shown_name(w->times).text,
-                          shown_name(w->frames).text);
+        return status_set(REFUSED, "plot: --times %s and --frames (or --times) %s: one of them",
+                          shown_name(w->times).text, shown_name(w->frames).text);
     if (r->panels > PANELS_MAX && !picture_moves(r->format))
         return status_set(REFUSED, "plot: --frames %d: a picture has %d panels at the most; a film (mp4, gif) has any "
                           "number", r->panels, PANELS_MAX);

@@ -50,7 +50,7 @@ static status gnuplot_start(struct gnuplot *g)
     remove(g->aside);                                /* links of this name are not followed */
     const int own = open(g->aside, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     g->complaints = own < 0 ? NULL : fdopen(own, "w+");          /* an unlinked file, beside the picture */
-    if (g->complaints == NULL) return status_set(FAILED, "cannot write %s: %s", g->aside, strerror(errno));
+    if (g->complaints == NULL) return status_set(FAILED, "cannot write %s: %s", g->path, strerror(errno));
     remove(g->aside);
     if (pipe(ends) != 0)
         return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(errno));

@@ -8,8 +8,9 @@
 
 /* Half a spacing, and a little to close the seams of a strained lattice. */
 static const double HALF = 0.52;
-/* Brightness of faces whose normal is x, y, z. */
+/* Brightness of faces whose normal is x, y, z. Along an axis one face alone is seen: it has the colours of the bar. */
 static const double SHADE[3] = {0.74, 0.87, 1};
+static const double STRAIGHT = 0.999;                /* cosine */
 /* How much of its colour the body keeps behind its cracks. */
 static const double GHOST = 0.45;
 
@@ -72,7 +73,8 @@ static void paint_cube(struct scene_canvas *v, const struct cloud *c, int64_t i,
             if (c->place[2]) depth += c->place[2][i];
             if (face < 0 || depth <= v->depth[q]) continue;
             v->depth[q] = (float)depth;
-            v->pixel[q] = c->place[2] ? colour_shaded(colour, SHADE[face]) : colour;
+            v->pixel[q] = c->place[2] && fabs(c->camera.towards[face]) < STRAIGHT ? colour_shaded(colour, SHADE[face])
+                                                                                 : colour;
         }
 }
 

@@ -206,14 +206,12 @@ status curves_draw(const char *folder, const char *title, enum picture_format fo
 
 /* ---- profiles ---------------------------------------------------------------------------------------------------- */
 
-/* Early frames light, late ones dark. */
-static struct colour frame_colour(int k, int frames)
+/* Few frames have the colours of curves; more of them run from dark to light, short of what is too light for lines. */
+static void frame_colour(char *text, size_t room, int k, int frames)
 {
-    double late = frames > 1 ? (double)k / (frames - 1) : 1;
-    const double early[3] = {158, 202, 225}, dark[3] = {8, 48, 107};
-    return (struct colour){(uint8_t)(early[0] + late * (dark[0] - early[0])),
-                           (uint8_t)(early[1] + late * (dark[1] - early[1])),
-                           (uint8_t)(early[2] + late * (dark[2] - early[2])), 255};
+    const struct colour c = colour_sequential(0.88 * k / fmax(frames - 1, 1));
+    if (frames <= CURVE_COLOURS) snprintf(text, room, "%s", curve_colour[k]);
+    else snprintf(text, room, "#%02x%02x%02x", c.red, c.green, c.blue);
 }
 
 struct station { float x, velocity, stress, damage; };
@@ -222,6 +220,21 @@ static int plot_curves_by_place(const void *a, const void *b)
 {
     float x = ((const struct station *)a)->x, y = ((const struct station *)b)->x;
     return (x > y) - (x < y);
+}
+
+/* The axis along the bar, with the halves of its outer particles: its ends are then round numbers where those of the
+ * body are. */
+static void profile_range(FILE *to, const struct frame *frame, int frames, double metre)
+{
+    const double half = 0.5 * frame_spacing(&frame[0]);
+    double from = INFINITY, end = -INFINITY;
+    for (int k = 0; k < frames; k++)
+        for (int64_t i = 0; i < frame[k].n; i++) {
+            const double x = (double)frame[k].X[0][i] + frame[k].u[0][i];
+            from = fmin(from, x - half), end = fmax(end, x + half);
+        }
+    const double beside = 1e-3 * (end - from);       /* or rounding takes the tics at the ends */
+    if (end > from) fprintf(to, "set xrange [%.9g:%.9g]\n", (from - beside) / metre, (end + beside) / metre);
 }
 
 /* The data block $fK: the bar from left to right, with an empty line at each separation. */
@@ -267,9 +280,10 @@ static void plot_profile(FILE *to, const struct frame *frame, int frames, int co
     struct unit second = unit_for(frame[frames - 1].t, "s");
     fputs("plot ", to);
     for (int k = 0; k < frames; k++) {
-        struct colour c = frame_colour(k, frames);
-        fprintf(to, "%s$f%d using 1:%d with lines lw 1.8 lc rgb '#%02x%02x%02x' title '%.3g %s'", k > 0 ? ", " : "", k,
-                column, c.red, c.green, c.blue, frame[k].t / second.factor, second.name);
+        char colour[8];
+        frame_colour(colour, sizeof colour, k, frames);
+        fprintf(to, "%s$f%d using 1:%d with lines lw 1.8 lc rgb '%s' title '%.3g %s'", k > 0 ? ", " : "", k, column,
+                colour, frame[k].t / second.factor, second.name);
     }
     putc('\n', to);
 }
@@ -288,9 +302,10 @@ status profiles_draw(struct sheet sheet, const char *title, const struct frame *
     for (int k = 0; k < frames; k++) send_profile(g.to, &frame[k], k, spacing, unit);
     curves_title(g.to, title, "");
     fputs("set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.86\nset format x ''\n"
-          "set autoscale xfix\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\n"
+          "set offsets graph 0, graph 0, graph 0.06, graph 0.06\n"
           "set key at screen 0.875,0.92 left top\n",
           g.to);
+    profile_range(g.to, frame, frames, unit[0].factor);
     for (int k = 0; k < 3; k++) {
         double above = 0.915 - 0.285 * k;
         fprintf(g.to, "set tmargin at screen %.4f\nset bmargin at screen %.4f\nset ylabel '%s'\n", above, above - 0.255,
@@ -339,10 +354,12 @@ status field_profiles_draw(struct sheet sheet, const char *title, const struct p
     for (int k = 0; k < frames; k++) send_field(g.to, &frame[k], k, value[k], frame_spacing(&frame[0]), factor);
     curves_title(g.to, title, "");
     fprintf(g.to, "set lmargin at screen 0.1\nset rmargin at screen 0.84\nset tmargin at screen 0.9\n"
-                  "set bmargin at screen 0.13\nset autoscale xfix\n"
+                  "set bmargin at screen 0.13\n"
                   "set offsets graph 0, graph 0, graph 0.06, graph 0.06\nset key at screen 0.855,0.91 left top\n"
                   "set xlabel 'x [%s]'\nset ylabel '%s'\n",
             unit[0].name, label);
+    profile_range(g.to, frame, frames, unit[0].factor);
+    if (field->scale == CATEGORY && largest < 12) fputs("set ytics 1\n", g.to);
     plot_profile(g.to, frame, frames, 2);
     return gnuplot_close(&g);
 }

@@ -11,7 +11,7 @@
 #include "plot/film.h"
 #include "plot/plot.h"
 
-/* Where the picture goes: the file of -o, or one in that folder, or in DIR/pictures. */
+/* Where the picture goes: as -o says, or into DIR/pictures. */
 static status field_path(struct path *path, const struct plot_request *r, const char *field)
 {
     const char *ending = picture_ending[r->format];
@@ -20,16 +20,13 @@ static status field_path(struct path *path, const struct plot_request *r, const 
         *path = usual;
         return pictures_folder_make(pictures_folder(r->folder).text);
     }
-    const bool folder = path_is_folder(r->out);
-    if (folder) *path = path_join(r->out, strrchr(usual.text, '/') + 1);
-    else snprintf(path->text, sizeof path->text, "%s", r->out);
-    return path->text[0] ? OK : status_set(REFUSED, "%s: the name is too long", shown_name(r->out).text);
+    return picture_destination(path, r->out, strrchr(usual.text, '/') + 1);
 }
 
 static enum map map_of_field(const struct plot_field *field)
 {
     if (strcmp(field->name, "damage") == 0) return MAP_DAMAGE;
-    return strcmp(field->name, "kind") == 0 ? MAP_KIND : MAP_FIELD;
+    return field->scale == CATEGORY ? MAP_CATEGORY : MAP_FIELD;
 }
 
 static bool same_everywhere(const struct cloud *cloud, int clouds)
@@ -49,16 +46,25 @@ static void field_title(char *title, const struct plot_request *r, const struct 
     compose_title(title, r->folder, name, c);
 }
 
+/* The names that categories have. */
+static void say_categories(const struct categories *k)
+{
+    for (int i = 0; i < k->n; i++) printf("%s%s", i ? ", " : ": ", k->of[i].name);
+    if (k->more > 0) printf(" and %d more", k->more);
+    putchar('\n');
+}
+
 /* Says what was drawn, with the range of the colours in SI units. */
 static status say_field(const char *path, const struct view *view, const struct plot_request *r, int frames,
                         int64_t particles)
 {
-    const bool damage = map_of_field(r->look.field) != MAP_FIELD;
-    const int said = printf("%s: %s of %d frame%s, %lld particles, colours from %.4g to %.4g%s%s\n",
-                            shown_name(path).text, r->look.field->name, frames, frames > 1 ? "s" : "",
-                            (long long)particles, damage ? 0 : view->low, damage ? view->top : view->high,
-                            *r->look.field->unit ? " " : "", r->look.field->unit);
-    return said < 0 || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
+    const bool damage = map_of_field(r->look.field) == MAP_DAMAGE;
+    printf("%s: %s of %d frame%s, %lld particles", shown_name(path).text, r->look.field->name, frames,
+           frames > 1 ? "s" : "", (long long)particles);
+    if (view->categories) say_categories(view->categories);
+    else printf(", colours from %.4g to %.4g%s%s\n", damage ? 0 : view->low, damage ? view->top : view->high,
+                *r->look.field->unit ? " " : "", r->look.field->unit);
+    return ferror(stdout) || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
 }
 
 static status draw_field_clouds(const struct plot_request *r, const char *path, const struct cloud *cloud, int clouds)
@@ -76,6 +82,11 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
     }
     field_title(title, r, &cloud[0]);
     const enum map map = map_of_field(r->look.field);
+    struct categories categories;
+    if (map == MAP_CATEGORY) {
+        categories_find(&categories, r->look.field, r->folder, cloud, clouds);
+        view.categories = &categories;
+    }
     TRY(picture_moves(r->format) ? film_draw((struct sheet){path, r->format}, title, map, &view, cloud, clouds)
                                  : maps_draw((struct sheet){path, r->format}, title, map, &view, cloud, clouds));
     return say_field(path, &view, r, clouds, cloud[clouds - 1].n);

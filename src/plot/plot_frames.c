@@ -118,6 +118,20 @@ status pictures_folder_make(const char *path)
     return OK;
 }
 
+status picture_destination(struct path *path, const char *out, const char *name)
+{
+    const char *end = strrchr(out, '/');
+    struct path above = {{0}};
+    if (!*out || strlen(out) >= sizeof path->text)
+        return status_set(REFUSED, "plot: -o '%s': the name of a file or folder is expected", shown_name(out).text);
+    snprintf(above.text, sizeof above.text, "%.*s", end > out ? (int)(end - out) : 0, out);
+    if (above.text[0]) TRY(folder_make(above.text));
+    if (end > out && !end[1]) *path = path_join(above.text, name);
+    else if (path_is_folder(out)) *path = path_join(out, name);
+    else snprintf(path->text, sizeof path->text, "%s", out);
+    return path->text[0] ? OK : status_set(REFUSED, "%s: the name is too long", shown_name(out).text);
+}
+
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
 status nothing_to_draw(const char *path, const char *why)

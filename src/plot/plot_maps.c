@@ -7,39 +7,40 @@
 #include "maps_parts.h"
 
 /* Room round the panels [pixel]. */
-enum { LEFT = 104, RIGHT = 136, ABOVE = 84, BELOW = 70, GAP_X = 26, GAP_Y = 42 };
+enum { LEFT = 104, RIGHT = 136, RIGHT_MAX = 420, ABOVE = 84, BELOW = 70, GAP_X = 26, GAP_Y = 42 };
 /* Least distance of tics: the width and twice the height of their numbers [pixel]. */
 enum { TICS_X = 50, TICS_Y = 36 };
 /* The colour bar; its image is two pixels wide because gnuplot draws none of a single one. */
 enum { BAR_FROM = 26, BAR_WIDTH = 16, BAR_STEPS = 256, BAR_COLUMNS = 2 };
 /* Size of the whole picture [pixel]: on a page of text its letters are then as large as those of the text. */
 enum { WIDTH = 1280, WIDTH_SINGLE = 1000, HEIGHT_MAX = 1180, PANEL_MIN = 24 };
+enum { KEY_LINE = 22 };                  /* from one name to the next [pixel] */
 enum { KEY_BELOW = 760 };                /* pictures that narrow have the key below the title [pixel] */
 static const double SHAPE_WANTED = 0.72;             /* height over width of the picture */
 
 /* Layout with this number of columns; aspect: height over width of a panel. */
-static struct layout layout_of(int columns, int panels, double aspect)
+static struct layout layout_of(int columns, int panels, double aspect, int right)
 {
-    struct layout l = {.columns = columns, .rows = (panels + columns - 1) / columns};
+    struct layout l = {.columns = columns, .rows = (panels + columns - 1) / columns, .right = right};
     int width = panels == 1 ? WIDTH_SINGLE : WIDTH;
     int between_x = (columns - 1) * GAP_X, between_y = (l.rows - 1) * GAP_Y;
-    double panel = fmax((width - LEFT - RIGHT - between_x) / columns, PANEL_MIN);
+    double panel = fmax((width - LEFT - right - between_x) / columns, PANEL_MIN);
     double highest = fmax((HEIGHT_MAX - ABOVE - BELOW - between_y) / l.rows, PANEL_MIN);
     panel = fmin(panel, highest / aspect);
     l.panel_width = (int)fmax(lround(panel), PANEL_MIN);
     l.panel_height = (int)fmax(lround(panel * aspect), PANEL_MIN);
-    l.width = LEFT + RIGHT + between_x + columns * l.panel_width;
+    l.width = LEFT + right + between_x + columns * l.panel_width;
     l.height = ABOVE + BELOW + between_y + l.rows * l.panel_height;
     return l;
 }
 
 /* The arrangement with the largest panels among those not far from the wanted shape. */
-static struct layout layout_choose(int panels, double aspect)
+static struct layout layout_choose(int panels, double aspect, int right)
 {
-    struct layout best = layout_of(1, panels, aspect);
+    struct layout best = layout_of(1, panels, aspect, right);
     double best_cost = INFINITY;
     for (int columns = 1; columns <= panels; columns++) {
-        struct layout l = layout_of(columns, panels, aspect);
+        struct layout l = layout_of(columns, panels, aspect, right);
         double area = (double)l.panel_width * l.panel_height;
         double cost = fabs(log((double)l.height / l.width / SHAPE_WANTED)) - 0.5 * log(area);
         cost += 0.2 * (l.rows * l.columns - panels);             /* empty places */
@@ -181,7 +182,7 @@ static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct vi
     for (int k = 0; k < BAR_STEPS * BAR_COLUMNS; k++)
         pixel[k] = map_colour(view, map, (k / BAR_COLUMNS + 0.5) / BAR_STEPS);
     int shown = height < 360 ? height : 360;
-    set_box(to, l, l->width - RIGHT + BAR_FROM, ABOVE, BAR_WIDTH, shown);
+    set_box(to, l, l->width - l->right + BAR_FROM, ABOVE, BAR_WIDTH, shown);
     fprintf(to, "unset arrow\nunset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\nset border 15\n"
                 "unset grid\nunset label\n"
                 "set xrange [0:1]\nset yrange [%.9g:%.9g]\nset y2range [%.9g:%.9g]\nset y2tics out %.9g format '%s'\n"
@@ -190,21 +191,49 @@ static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct vi
     panel_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step, "");
 }
 
-/* What colours mean, above the panels: the two kinds of particles, or fragments. */
-static void draw_key(FILE *to, const struct layout *l, enum map map)
+/* A square of a colour, if it has any, and what it means, in pixels from the upper left corner. */
+static void key_entry(FILE *to, const struct layout *l, double x, double y, struct colour c, const char *text)
 {
-    const struct { struct colour colour; const char *text; } entry[2][2] = {
-        {{colour_points(), "material points"}, {colour_bonds(0.25), "peridynamics"}},
-        {{fragment_colour(0), "the heaviest"}, {fragment_colour(-1), "no bond left"}}};
-    for (int k = 0; k < 2; k++) {
-        const struct colour c = entry[map == MAP_FRAGMENT][k].colour;
-        double x = l->width - RIGHT - 320 + 160 * k, y = l->width < KEY_BELOW ? 50 : 26;
+    if (c.alpha > 0)
         fprintf(to, "set object rectangle from screen %.6g,%.6g to screen %.6g,%.6g fs solid border rgb '#888888' "
                     "fc rgb '#%02x%02x%02x'\n", x / l->width, 1 - (y + 6) / l->height, (x + 14) / l->width,
                 1 - (y - 8) / l->height, c.red, c.green, c.blue);
-        fprintf(to, "set label '%s' at screen %.6g,%.6g left font ',12' textcolor rgb '#333333'\n",
-                entry[map == MAP_FRAGMENT][k].text, (x + 21) / l->width, 1 - (y - 1) / l->height);
+    fputs("set label ", to);
+    gnuplot_quote(to, text);
+    fprintf(to, " at screen %.6g,%.6g left font ',12' textcolor rgb '#333333'\n", (x + 21) / l->width,
+            1 - (y - 1) / l->height);
+}
+
+/* What colours mean, above the panels: the two kinds of particles, or fragments. */
+static void draw_key(FILE *to, const struct layout *l, enum map map)
+{
+    const struct category entry[2][2] = {{{colour_points(), "material points"}, {colour_bonds(0.25), "peridynamics"}},
+                                         {{fragment_colour(0), "the heaviest"}, {fragment_colour(-1), "no bond left"}}};
+    for (int k = 0; k < 2; k++) {
+        const struct category *e = &entry[map == MAP_FRAGMENT][k];
+        key_entry(to, l, l->width - l->right - 320 + 160 * k, l->width < KEY_BELOW ? 50 : 26, e->colour, e->name);
     }
+}
+
+/* On the right, where quantities have their colour bar. */
+static void draw_categories(FILE *to, const struct layout *l, const struct categories *k)
+{
+    const double x = l->width - l->right + BAR_FROM;
+    char more[32];
+    for (int i = 0; i < k->n; i++) key_entry(to, l, x, ABOVE + 8 + KEY_LINE * i, k->of[i].colour, k->of[i].name);
+    snprintf(more, sizeof more, "and %d more", k->more);
+    if (k->more > 0) key_entry(to, l, x, ABOVE + 8 + KEY_LINE * k->n, (struct colour){0}, more);
+}
+
+/* Room on the right for the longest name of a category. */
+static int right_room(const struct view *view, enum map map)
+{
+    size_t longest = 12;                             /* `and 120 more` */
+    for (int k = 0; map == MAP_CATEGORY && k < view->categories->n; k++) {
+        const size_t length = strlen(view->categories->of[k].name);
+        if (length > longest) longest = length;
+    }
+    return (int)fmin(map == MAP_CATEGORY ? fmax(RIGHT, BAR_FROM + 30 + 9 * (double)longest) : RIGHT, RIGHT_MAX);
 }
 
 /* The title, and what the rectangle leaves out. */
@@ -226,17 +255,19 @@ status maps_draw(struct sheet sheet, const char *title, enum map map, const stru
                  const struct cloud *cloud, int clouds)
 {
     struct gnuplot g;
-    struct layout l = layout_choose(clouds, (view->to[1] - view->from[1]) / (view->to[0] - view->from[0]));
+    const double aspect = (view->to[1] - view->from[1]) / (view->to[0] - view->from[0]);
+    const struct layout l = layout_choose(clouds, aspect, right_room(view, map));
     TRY(gnuplot_open(&g, sheet.path, sheet.format, l.width, l.height));
     fputs("set multiplot\nunset grid\n", g.to);
     draw_title(g.to, &l, title, view->outside);
     if (map == MAP_KIND || map == MAP_FRAGMENT) draw_key(g.to, &l, map);
+    if (map == MAP_CATEGORY) draw_categories(g.to, &l, view->categories);
     struct unit second = unit_for(cloud[clouds - 1].t, "s");
     for (int k = 0; k < clouds; k++) {
         plot_maps_draw_panel(g.to, &l, view, &cloud[k], map, &second, k, k + l.columns >= clouds);
         fputs("unset label\nunset object\n", g.to);  /* drawn once for all panels */
     }
-    if (map != MAP_FRAGMENT) plot_maps_draw_bar(g.to, &l, view, map);
+    if (map != MAP_FRAGMENT && map != MAP_CATEGORY) plot_maps_draw_bar(g.to, &l, view, map);
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
 }

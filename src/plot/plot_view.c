@@ -26,11 +26,12 @@ static int64_t sample_sorted(float *sample, const float *value, int64_t n)
 
 struct span { double from, to; };
 
-/* The value below which a share of them lies, and that above which it does. */
-static struct span bulk_of(float *sample, const float *value, int64_t n, double share)
+/* The value below which a share of them lies, and that above which it does; but `few` of them at least, where that is
+ * not more than a twentieth. */
+static struct span bulk_of(float *sample, const float *value, int64_t n, double share, int64_t few)
 {
-    const int64_t kept = sample_sorted(sample, value, n);
-    const int64_t k = (int64_t)(share * (double)(kept - 1));
+    const int64_t kept = sample_sorted(sample, value, n), part = (int64_t)(share * (double)(kept - 1));
+    const int64_t least = few < kept / 20 ? few : kept / 20, k = part > least ? part : least;
     return kept ? (struct span){sample[k], sample[kept - 1 - k]} : (struct span){INFINITY, -INFINITY};
 }
 
@@ -50,7 +51,7 @@ static struct span span_along(const struct cloud *cloud, int clouds, int k)
     struct span shown = {INFINITY, -INFINITY}, all = shown;
     for (int c = 0; c < clouds; c++) {
         const struct span here = values_extent(cloud[c].place[k], cloud[c].n);
-        struct span bulk = bulk_of(sample, cloud[c].place[k], cloud[c].n, SHARE);
+        struct span bulk = bulk_of(sample, cloud[c].place[k], cloud[c].n, SHARE, 0);
         const double beside = BESIDE * (bulk.to - bulk.from);
         all.from = fmin(all.from, here.from), all.to = fmax(all.to, here.to);
         shown.from = fmin(shown.from, fmin(bulk.from - beside, cloud[c].from[k]));
@@ -96,26 +97,33 @@ struct view view_of(const struct cloud *cloud, int clouds)
     return v;
 }
 
-void view_set_field(struct view *v, const struct plot_field *field, const struct cloud *cloud, int clouds)
+/* Of the values of all clouds, and zero. */
+static struct span values_bulk(const struct cloud *cloud, int clouds, double share, int64_t few)
 {
-    static const double SHARE = 0.002;
     float *sample = NEW("plot.sample", SAMPLE_MOST, float);
     struct span s = {0, 0};
     for (int c = 0; c < clouds; c++) {
-        const struct span bulk = bulk_of(sample, cloud[c].value, cloud[c].n, SHARE);
+        const struct span bulk = bulk_of(sample, cloud[c].value, cloud[c].n, share, few);
         s.from = fmin(s.from, bulk.from), s.to = fmax(s.to, bulk.to);
     }
     memory_free(sample);
+    return s;
+}
+
+void view_set_field(struct view *v, const struct plot_field *field, const struct cloud *cloud, int clouds)
+{
+    struct span s = values_bulk(cloud, clouds, 0.002, 3);
+    if (!(s.to > s.from)) s = values_bulk(cloud, clouds, 0, 0);  /* of few particles alone */
     v->field = field;
     const double largest = fmax(-s.from, s.to);
-    v->low = field->has_sign ? -largest : s.from, v->high = field->has_sign ? largest : s.to;
+    v->low = field->scale == BOTH_SIGNS ? -largest : s.from, v->high = field->scale == BOTH_SIGNS ? largest : s.to;
     if (!(v->high > v->low)) v->high = v->low + 1;   /* nothing but zero */
 }
 
 struct colour map_colour(const struct view *v, enum map map, double a)
 {
     if (map == MAP_KIND) return colour_bonds(a);
-    if (map == MAP_FIELD && v->field) return v->field->has_sign ? colour_diverging(a) : colour_sequential(a);
+    if (map == MAP_FIELD && v->field) return v->field->scale == BOTH_SIGNS ? colour_diverging(a) : colour_sequential(a);
     return colour_damage(a);
 }
 
@@ -123,6 +131,7 @@ struct colour particle_colour(const struct view *v, const struct cloud *c, int64
 {
     if (c->colour) return c->colour[i];
     if (map == MAP_FRAGMENT && c->fragment) return fragment_colour(c->fragment[i]);
+    if (map == MAP_CATEGORY && c->value) return category_colour(v->field, c->value[i]);
     if (map == MAP_KIND && c->kind[i] == KIND_MPM) return colour_points();
     if (map == MAP_FIELD && c->value) return map_colour(v, map, (c->value[i] - v->low) / (v->high - v->low));
     return map_colour(v, map, c->damage[i] / v->top);

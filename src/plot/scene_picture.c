@@ -278,10 +278,7 @@ static status scene_sheet(struct path *path, const struct scene *s, const char *
 {
     char name[sizeof s->name + 16];
     snprintf(name, sizeof name, "%s_scene.%s", s->name, picture_ending[format]);
-    if (out && !path_is_folder(out)) return snprintf(path->text, sizeof path->text, "%s", out), OK;
-    if (!out) TRY(folder_make("results"));
-    *path = path_join(out ? out : "results", name);
-    return path->text[0] ? OK : status_set(REFUSED, "%s: the name is too long", shown_name(out).text);
+    return picture_destination(path, out ? out : "results/", name);
 }
 
 static status draw_made(struct engine *e, const struct scene *s, const char *out, enum picture_format format)

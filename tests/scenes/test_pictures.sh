@@ -55,9 +55,9 @@ drawn "the load and how many bear it" "title 'pull: traction 20 MPa, y+ (20)'"
 drawn "the support" "title 'grip: held x y (20)'"
 drawn "the pre-crack" "title '1 pre-crack'"
 drawn "the probe" "title 'probe gauge'"
-"$cleave" plot --scene strip.yaml -s particles.spacing=2mm -o coarse.svg >out 2>err
+"$cleave" plot --scene strip.yaml -s particles.spacing=2mm -o new/folder/coarse.svg >out 2>err
 is "plot --scene -s: exit status" $? 0
-made coarse.svg
+made new/folder/coarse.svg
 drawn "with the override" "title 'glass: 50 particles'"
 sed -i 's/20 MPa/20 mm/' strip.yaml
 refused "strip.yaml:1[0-9]:.*traction" --scene strip.yaml -o none.png
@@ -80,6 +80,10 @@ holds "v.pdf is a PDF" sh -c "head -c 5 v.pdf | grep -q %PDF-"
 is "a field that is the same everywhere: exit status" $? 0
 holds "it is not drawn" test ! -e results/strip/pictures/field_body.png
 holds "a line says why" grep -q "field_body.png is not drawn: body is 0 everywhere" out
+"$cleave" run strip.yaml -q -o both -s method=adaptive -s duration=0.1us -s output.frames=1 >out 2>err
+"$cleave" plot both --field kind >out 2>err
+holds "categories are named" grep -q "kind of 2 frames, 200 particles: material points, peridynamics" out
+drawn "and have a key" "set label 'peridynamics' at screen"
 if command -v ffmpeg >/dev/null; then
     "$cleave" plot results/strip --field speed -o speed.mp4 >out 2>err
     is "plot -o speed.mp4: exit status" $? 0

@@ -1,0 +1,70 @@
+/* Fields whose values are names (kind, body, material, fragment, level): a colour for each value, and what the key says
+ * of those that are seen. */
+#include <math.h>
+#include <string.h>
+
+#include "auto/scene_read.h"
+#include "base/memory.h"
+#include "output/output_files.h"
+#include "plot/plot.h"
+
+struct colour category_colour(const struct plot_field *field, float value)
+{
+    if (strcmp(field->name, "kind") == 0) return value == KIND_MPM ? colour_points() : colour_bonds(0.25);
+    return strcmp(field->name, "fragment") == 0 ? fragment_colour((int32_t)value) : part_colour((int)value);
+}
+
+/* The name of a value; that of bodies and materials is the scene's (NULL: not known). */
+static void category_name(char *name, size_t room, const char *field, int value, const struct scene *s)
+{
+    const char *known = NULL;
+    if (strcmp(field, "kind") == 0) known = value == KIND_MPM ? "material points" : "peridynamics";
+    if (strcmp(field, "fragment") == 0) known = value < 0 ? "no bond left" : value == 0 ? "the heaviest" : NULL;
+    if (strcmp(field, "level") == 0 && value == 0) known = "none";
+    if (strcmp(field, "body") == 0 && s && value < s->bodies) known = s->body[value].name;
+    if (strcmp(field, "material") == 0 && s && value < s->materials) known = s->material[value].name;
+    if (known && *known) snprintf(name, room, "%s", known);
+    else snprintf(name, room, "%s %d", field, value);
+}
+
+/* From -1 on, also of files that hold other numbers. */
+static int category_value(const struct cloud *c, int64_t i)
+{
+    static const float MOST = 1 << 24;
+    return (int)fminf(fmaxf(c->value[i], -1), MOST);
+}
+
+/* Which values the clouds have; the largest through `last`. */
+static bool *values_seen(int *last, const struct cloud *cloud, int clouds)
+{
+    *last = -1;
+    for (int c = 0; c < clouds; c++)
+        for (int64_t i = 0; i < cloud[c].n; i++)
+            if (category_value(&cloud[c], i) > *last) *last = category_value(&cloud[c], i);
+    bool *seen = NEW("plot.values", *last + 2, bool);
+    for (int c = 0; c < clouds; c++)
+        for (int64_t i = 0; i < cloud[c].n; i++) seen[1 + category_value(&cloud[c], i)] = true;
+    return seen;
+}
+
+void categories_find(struct categories *k, const struct plot_field *field, const char *folder,
+                     const struct cloud *cloud, int clouds)
+{
+    struct scene scene;
+    const bool known = scene_read(&scene, path_join(folder, "scene.yaml").text, NULL, 0) == OK;
+    int last = -1;
+    bool *seen = values_seen(&last, cloud, clouds);
+    *k = (struct categories){0};
+    for (int value = -1; value <= last; value++) {
+        if (!seen[value + 1]) continue;
+        if (k->n == CATEGORIES_MOST) {
+            k->more++;
+            continue;
+        }
+        struct category *of = &k->of[k->n++];
+        of->colour = category_colour(field, (float)value);
+        category_name(of->name, sizeof of->name, field->name, value, known ? &scene : NULL);
+    }
+    memory_free(seen);
+    if (known) scene_free(&scene);
+}
