@@ -74,6 +74,7 @@ static void set_style(FILE *to)
     fputs("set encoding utf8\n"
           "set border 3 lw 0.8 lc rgb '#555555'\n"
           "set tics nomirror out scale 0.5 textcolor rgb '#333333'\n"
+          "set format '%g'\n"                        /* its own begins with a blank: numbers beside their tics */
           "set xlabel textcolor rgb '#333333'\nset ylabel textcolor rgb '#333333'\n"
           "set y2label textcolor rgb '#333333'\n"
           "set title textcolor rgb '#222222'\n"
