@@ -282,6 +282,8 @@ status engine_driving_check(const struct engine *e);
 /* Bulk damping (engine_damping.c): keeps velocities before a step moves them; its loss since the step before, once it
  * has [J]; slows all for the next step. The loss of the last kick, which nothing follows, by the kinetic energies
  * before it and across it [J]. */
+/* Of a kick that is left at its end, exp(-c dt/2); 1 without damping [1]. */
+real engine_damping_share(const struct engine *e);
 void engine_damping_begin(struct engine *e);
 real engine_damping_loss(struct engine *e);
 void engine_damping_end(struct engine *e);

@@ -311,7 +311,7 @@ static status prepare(struct engine *e, struct step *now)
 {
     TRY(engine_levels_follow(e));
     now->middle = e->clock.t + 0.5 * e->clock.dt;
-    now->dt_velocity = e->clock.step == 0 ? 0.5 * e->clock.dt : e->clock.dt;
+    now->dt_velocity = (e->clock.step == 0 ? 0.5 : 1) * e->clock.dt * engine_damping_share(e);
     e->mpm.transfer.dt_velocity = now->dt_velocity;
     if (e->coupling.approaches && e->clock.step == 0) convert_points(e, now);    /* bodies that touch at the start */
     engine_revert(e);
@@ -365,7 +365,7 @@ static void move(struct engine *e, struct step *now)
 {
     struct particles *p = &e->part;
     move_peridynamic(e, &now->motion);
-    engine_rigid_move(e, now->middle, now->dt_velocity);
+    engine_rigid_move(e, now->middle, now->dt_velocity / engine_damping_share(e));      /* these are not damped */
     lap(&e->report.laps, LAP_BONDS);
     if (p->n_free + p->n_grid_coupled > 0) step_grid(e, now->middle);
     else step_without_grid(e);

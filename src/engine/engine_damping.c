@@ -1,12 +1,15 @@
 /* Bulk damping: the force -c m v on every particle and node, mass-proportional as the first part of Rayleigh's damping.
  *
- * Between two steps all velocities shrink by exp(-c dt). However large c dt is, that only takes energy, and vibrations
- * die out as they should: the product of the two roots of the difference equation of an oscillator is exp(-c dt), so
- * that its amplitude shrinks by exp(-c dt/2) a step to the last digit.
+ * Between two steps all velocities shrink by D = exp(-c dt), half of it before the kick of the forces and half behind
+ * it, so that motion is of second order in c dt: v+ = D v + s dt f/m, s = exp(-c dt/2), v the velocity of the step
+ * before. Under a constant force it tends to f/(c m) (c dt/2)/sinh(c dt/2). However large c dt is, that only takes
+ * energy: the product of the two roots of the difference equation of an oscillator is D, so that its amplitude shrinks
+ * by s a step to the last digit.
  *
- * The loss follows from the energy that leap-frog keeps, E = 1/2 m v- . v+ + U, v- and v+ before and after a step. With
- * the v+ of one step, the v- = D v+ of the next and its w+, the same forces that do the work give
- * E' - E = -1/2 m (1 - D) v+ . (v+ + w+). */
+ * In the code kicks have the length s dt, and velocities are slowed by D behind a step, by s before the first. The loss
+ * follows from the energy that leap-frog keeps, E = 1/2 m v- . v+/s + U, v- and v+ before and after a kick. With the v+
+ * of one step, the v- = D v+ of the next and its w+, the same forces that do the work give E' - E = -1/2 m (1 - D)/s v+
+ * . (v+ + w+). */
 #include <math.h>
 #include <string.h>
 
@@ -14,14 +17,14 @@
 #include "base/team.h"
 #include "engine/engine.h"
 
-#define EXPONENT_MOST 50.0               /* of what is then no more */
+#define EXPONENT_MOST 50.0 /* of what is then no more */
 
 /* What has mass and velocity; flag NULL: nodes. */
 struct damped {
     int dim;
-    real factor;                         /* D */
+    real factor; /* D */
     const real *mass;
-    real *const *v, *const *before;      /* before: v- of this step */
+    real *const *v, *const *before; /* before: v- of this step */
     const uint8_t *flag;
 };
 
@@ -39,13 +42,16 @@ static void loss_block(const void *context, int64_t first, int64_t end, real *su
         }
 }
 
-/* Slows them; sums are the momentum by component that they lose [N s]. */
+/* Slows them; sums are the momentum by component that they lose [N s], and their kinetic energy before [J]. */
 static void slow_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct damped *a = context;
     for (int d = 0; d < a->dim; d++)
         for (int64_t i = first; i < end; i++) {
-            if (moves_itself(a, i)) sum[d] += (1 - a->factor) * a->mass[i] * a->v[d][i];
+            if (moves_itself(a, i)) {
+                sum[d] += (1 - a->factor) * a->mass[i] * a->v[d][i];
+                sum[DIM_MAX] += 0.5 * a->mass[i] * square(a->v[d][i]);
+            }
             a->v[d][i] *= a->factor;
         }
 }
@@ -54,6 +60,8 @@ static real damping_exponent(const struct engine *e)
 {
     return real_min(e->scene->damping * e->clock.dt, EXPONENT_MOST);
 }
+
+real engine_damping_share(const struct engine *e) { return exp(-0.5 * damping_exponent(e)); }
 
 /* Particles and nodes; returns how many of the two there are. */
 static int damped_find(struct engine *e, struct damped *all, int64_t *n)
@@ -67,11 +75,41 @@ static int damped_find(struct engine *e, struct damped *all, int64_t *n)
     return e->reference.mesh.points > 0 ? 2 : 1;
 }
 
+/* Multiplies all velocities by the factor; returns the kinetic energy before it [J]. */
+static real slow_all(struct engine *e, real factor)
+{
+    struct damped all[2];
+    int64_t n[2];
+    real kinetic = 0;
+    const int kinds = damped_find(e, all, n);
+    for (int k = 0; k < kinds; k++) {
+        real sum[DIM_MAX + 1];
+        all[k].factor = factor;
+        team_sums(n[k], DIM_MAX + 1, slow_block, &all[k], sum);
+        for (int d = 0; d < e->part.dim; d++) e->loads.impulse[d] -= sum[d];
+        kinetic += sum[DIM_MAX];
+    }
+    for (int c = 0; c < square(e->part.dim) && e->part.gradient[c]; c++) /* what APIC carries beside velocities */
+        for (int64_t i = 0; i < e->part.n; i++) e->part.gradient[c][i] *= factor;
+    loads_mirror(&e->loads, &e->part);
+    return kinetic;
+}
+
+/* The half of a decay before the first kick, which samples of the start do not see. */
+static void damping_start(struct engine *e)
+{
+    const real share = engine_damping_share(e);
+    e->coupling.damped += (1 - share) * slow_all(e, share);
+    for (int d = 0; d < e->part.dim && e->report.sampling.before[d]; d++)
+        for (int64_t i = 0; i < e->part.n; i++) e->report.sampling.before[d][i] *= share;
+}
+
 void engine_damping_begin(struct engine *e)
 {
     struct damped all[2];
     int64_t n[2];
     if (!(e->scene->damping > 0)) return;
+    if (e->clock.step == 0) damping_start(e);
     const int kinds = damped_find(e, all, n);
     for (int k = 0; k < kinds; k++)
         for (int d = 0; d < e->part.dim; d++) {
@@ -85,32 +123,21 @@ real engine_damping_loss(struct engine *e)
     struct damped all[2];
     int64_t n[2];
     real loss = 0, sum;
-    if (!(e->scene->damping > 0) || e->clock.step == 0) return 0;        /* nothing is damped before the first step */
+    if (!(e->scene->damping > 0) || e->clock.step == 0) return 0; /* nothing is damped before the first step */
     const int kinds = damped_find(e, all, n);
     for (int k = 0; k < kinds; k++) team_sums(n[k], 1, loss_block, &all[k], &sum), loss += sum;
-    return loss;
+    return loss / engine_damping_share(e);
 }
 
 real engine_damping_last(const struct engine *e, real kinetic_before, real kinetic)
 {
     const real grown = exp(damping_exponent(e));
-    return e->clock.step > 0 ? (grown - 1) * (grown * kinetic_before + kinetic) : 0;
+    return e->clock.step > 0 ? (grown - 1) * (grown * kinetic_before + kinetic) / engine_damping_share(e) : 0;
 }
 
 void engine_damping_end(struct engine *e)
 {
-    struct damped all[2];
-    int64_t n[2];
-    if (!(e->scene->damping > 0)) return;
-    const int kinds = damped_find(e, all, n);
-    for (int k = 0; k < kinds; k++) {
-        real sum[DIM_MAX];
-        team_sums(n[k], e->part.dim, slow_block, &all[k], sum);
-        for (int d = 0; d < e->part.dim; d++) e->loads.impulse[d] -= sum[d];
-    }
-    for (int c = 0; c < square(e->part.dim) && e->part.gradient[c]; c++) /* what APIC carries beside velocities */
-        for (int64_t i = 0; i < e->part.n; i++) e->part.gradient[c][i] *= all[0].factor;
-    loads_mirror(&e->loads, &e->part);
+    if (e->scene->damping > 0) slow_all(e, exp(-damping_exponent(e)));
 }
 
 void engine_damping_free(struct engine *e)

@@ -226,14 +226,14 @@ void engine_sample_end(struct engine *e)
         sampling->energy.damped = sampling->energy.absorbed = 0;
         sample_write(e, e->clock.t + 0.5 * e->clock.dt, sampling->kinetic + sampling->rigid,
                      sampling->work);
-        e->diagnostics.energy_start -= start_excess(e);
+        e->diagnostics.energy_start -= start_excess(e) / engine_damping_share(e);
         return;
     }
     real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&e->part, &e->reference)) - kick_now(e);
     sampling->energy.damped += e->mpm.contact.begun;
     sampling->energy.absorbed = 0.5 * (sampling->absorbed + e->loads.absorbing.energy);
     const struct rigid_energy rigid = engine_rigid_energy(e);
-    sample_write(e, e->clock.t + 0.5 * e->clock.dt, kinetic + rigid.step,
+    sample_write(e, e->clock.t + 0.5 * e->clock.dt, kinetic / engine_damping_share(e) + rigid.step,
                  sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
 }
 
@@ -266,11 +266,12 @@ static real power_last(struct engine *e, real *held)
     const struct loads account = e->loads;
     struct load *own = BARE("report.load", e->loads.n, struct load);
     if (e->loads.n > 0) memcpy(own, e->loads.load, (size_t)e->loads.n * sizeof *own);
+    const real dt_velocity = e->clock.dt * engine_damping_share(e);
     e->loads.absorbing.idle = true;
     loads_clear(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_force(&e->contact, &e->part, 0);
-    loads_apply(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, e->clock.dt);
+    loads_apply(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
     if (e->reference.mesh.points > 0) engine_nodes_force(e);
     const real power = power_now(&e->part, &e->reference) + engine_grid_power(e, e->clock.t + 0.5 * e->clock.dt);
     *held = e->loads.constraint_work - account.constraint_work;
@@ -293,11 +294,12 @@ void engine_sample_last(struct engine *e)
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, &e->reference);
     const real before = kinetic;
-    if (e->scene->solver == SOLVER_EXPLICIT) kinetic += 0.5 * e->clock.dt * power_last(e, &held);
+    const real kick = e->clock.dt * engine_damping_share(e);
+    if (e->scene->solver == SOLVER_EXPLICIT) kinetic += 0.5 * kick * power_last(e, &held);
     e->report.sampling.energy.damped += engine_damping_last(e, before, kinetic);
     e->report.sampling.energy.damped += e->mpm.contact.begun;
     const struct rigid_energy rigid = engine_rigid_energy(e);
-    sample_write(e, e->clock.t - 0.5 * e->clock.dt, kinetic + rigid.last,
+    sample_write(e, e->clock.t - 0.5 * e->clock.dt, kinetic / engine_damping_share(e) + rigid.last,
                  e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);
 }
 

@@ -148,12 +148,8 @@ static real contact_safety(const struct scene *s)
     return real_min(s->safety, s->dim == 1 ? 0.35 : 0.5);
 }
 
-/* Share of the critical step with bulk damping, by which velocities shrink to D times themselves between steps: the
- * roots of z^2 - (1 + D - (omega dt)^2) z + D stay within the unit circle for (omega dt)^2 < 2 (1 + D). */
-static real damping_share(const struct scene *s, real dt)
-{
-    return s->damping > 0 ? sqrt(0.5 * (1 + exp(-s->damping * dt))) : 1;
-}
+/* Below it motion against bulk damping is within 1 % of c v = f/m (engine_damping.c); no stability asks for it. */
+static real damping_step(const struct scene *s) { return s->damping > 0 ? 0.5 / s->damping : INFINITY; }
 
 /* Stiffness of the cores of bonds that the step bears, as kernels/pd/bond_core.h has it; of no step: the most. */
 static real core_stiffness(const struct engine *e)
@@ -181,10 +177,10 @@ status engine_time_make(struct engine *e)
     e->clock.dt_critical =
         real_min(real_min(critical_of_bonds(e), critical_of_points(e)), engine_mesh_critical_step(e)) *
         sqrt(lightest_share(s, &e->part));
-    e->clock.dt_critical *= damping_share(s, e->clock.dt_critical);
     const real contact = contact_critical_step(&e->contact, &e->part, s->material, e->clock.dt_critical);
     const real safety = engine_levels_number(e) > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;
-    const real automatic = real_min(safety * e->clock.dt_critical, contact_safety(s) * contact);
+    const real automatic =
+        real_min(damping_step(s), real_min(safety * e->clock.dt_critical, contact_safety(s) * contact));
     const real dt = s->time_step > 0 ? s->time_step : automatic;
     e->clock.stride = 1 << engine_levels_number(e);
     if (e->clock.stride > 1 && dt > LEVELS_STEP_MOST * e->clock.dt_critical * (1 + 1e-9))
