@@ -26,7 +26,10 @@ void engine_sample_rest(struct engine *e);
  * (engine_stress). */
 void engine_sample_last(struct engine *e);
 
-/* Records broken bonds (`broken`: their number in this step) and calls the probes of breaks. */
+/* Calls the probes that look at every step. In a static run that is once, at the equilibrium: steps on the way to it are
+ * no states of the body. */
+void engine_probes_step(struct engine *e);
+/* Records broken bonds (`broken`: their number in this step); of a run in time it then calls those probes. */
 void engine_breaks(struct engine *e, int64_t broken);
 
 /* Largest nodal force of the first step, for patch probes. Called between the first map and the motion of the nodes; in

@@ -303,9 +303,14 @@ void engine_sample_last(struct engine *e)
                  e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);
 }
 
+void engine_probes_step(struct engine *e)
+{
+    struct observed o = engine_observed(e);
+    probes_step(&e->probing.probes, &o);
+}
+
 void engine_breaks(struct engine *e, int64_t broken)
 {
     if (broken > 0) diagnostics_breaks(&e->diagnostics, &e->part, broken, e->clock.t);
-    struct observed o = engine_observed(e);
-    probes_step(&e->probing.probes, &o);
+    if (e->scene->solver == SOLVER_EXPLICIT) engine_probes_step(e);
 }

@@ -87,7 +87,7 @@ static void solver_finish(struct engine *e)
     e->clock.steps = e->clock.step;
     e->report.sampling.due = false;
     e->report.sampling.kinetic = 0, e->report.sampling.constraint_work = e->loads.constraint_work;
-    engine_breaks(e, 0);
+    engine_probes_step(e);
     e->solver.past_limit = bonds_past_limit(e);
     say_past_limit(e);
     say_large_strain(e);

@@ -189,6 +189,30 @@ static void test_bar_weight(void **state)
     solution_free(&a);
 }
 
+/* The largest of the forces that a probe puts out, and their root mean square. */
+static void reaction_keep(void *context, const char *probe, const char *quantity, real value)
+{
+    real *figure = context;
+    (void)probe;
+    if (strcmp(quantity, "force_max") == 0) figure[0] = value;
+    if (strcmp(quantity, "force_rms") == 0) figure[1] = value;
+}
+
+/* Points come to rest by steps in time; reactions on the way there are none of the body at rest. */
+static void test_points_support(void **state)
+{
+    (void)state;
+    struct solution a;
+    real figure[2] = {0};
+    solve(&a, BAR BAR_FIXED "  - {name: end, velocity: [0.5 um/s], region: {box: {from: 0.97 m, to: inf}}}\n"
+          "probes: [{reaction: {boundary: end}}]\n", "solver=relaxation", "method=mpm", NULL);
+    solved(&a);
+    probes_figures(&a.e.probing.probes, &(struct observed){.loads = &a.e.loads, .part = &a.e.part}, reaction_keep, figure);
+    near("reaction", figure[0], 1e12 * strain(&a, 0, quarter_place, far_place), 1e-3);
+    assert_true(figure[0] == figure[1] && figure[0] == a.e.loads.load[1].reaction[0]);
+    solution_free(&a);
+}
+
 /* A residual of 1e-5 leaves 1e-4 of a strain; so does what light nodes lose at the interfaces (grid.h). */
 static void test_bar_points(void **state)
 {
@@ -401,7 +425,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_integrals), cmocka_unit_test(test_bar_traction), cmocka_unit_test(test_bar_support),
-        cmocka_unit_test(test_bar_weight), cmocka_unit_test(test_bar_points), cmocka_unit_test(test_plate),
+        cmocka_unit_test(test_bar_weight), cmocka_unit_test(test_points_support),
+        cmocka_unit_test(test_bar_points), cmocka_unit_test(test_plate),
         cmocka_unit_test(test_crack), cmocka_unit_test(test_models), cmocka_unit_test(test_crack_coupled),
         cmocka_unit_test(test_irregular),
         cmocka_unit_test(test_quarter), cmocka_unit_test(test_on_plane), cmocka_unit_test(test_solid),
