@@ -26,8 +26,8 @@ void engine_sample_rest(struct engine *e);
  * (engine_stress). */
 void engine_sample_last(struct engine *e);
 
-/* Calls the probes that look at every step. In a static run that is once, at the equilibrium: steps on the way to it are
- * no states of the body. */
+/* Calls the probes that look at every step. In a static run that is once, at the equilibrium: steps on the way to it
+ * are no states of the body. */
 void engine_probes_step(struct engine *e);
 /* Records broken bonds (`broken`: their number in this step); of a run in time it then calls those probes. */
 void engine_breaks(struct engine *e, int64_t broken);

@@ -207,7 +207,8 @@ static void test_points_support(void **state)
     solve(&a, BAR BAR_FIXED "  - {name: end, velocity: [0.5 um/s], region: {box: {from: 0.97 m, to: inf}}}\n"
           "probes: [{reaction: {boundary: end}}]\n", "solver=relaxation", "method=mpm", NULL);
     solved(&a);
-    probes_figures(&a.e.probing.probes, &(struct observed){.loads = &a.e.loads, .part = &a.e.part}, reaction_keep, figure);
+    const struct observed o = {.loads = &a.e.loads, .part = &a.e.part};
+    probes_figures(&a.e.probing.probes, &o, reaction_keep, figure);
     near("reaction", figure[0], 1e12 * strain(&a, 0, quarter_place, far_place), 1e-3);
     assert_true(figure[0] == figure[1] && figure[0] == a.e.loads.load[1].reaction[0]);
     solution_free(&a);
