@@ -210,6 +210,9 @@ struct engine {
 
 /* Everything up to step 0: particles, cells, loads, bonds, grid, time step. `out` may be NULL. */
 status engine_make(struct engine *e, const struct scene *s, struct output *out);
+/* How many frames of the body follow the one of t = 0, and the step of frame k (engine_report.c). */
+int64_t engine_frames_number(const struct engine *e);
+int64_t engine_frame_step(const struct engine *e, int64_t k);
 /* A run whose place another takes that has other particles. */
 struct predecessor {
     struct engine *run;

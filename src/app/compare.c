@@ -143,6 +143,21 @@ static const char *particles_differ(const struct frame *a, const struct frame *b
     return NULL;
 }
 
+static double frame_step_length(const struct frame *f) { return f->step > 0 ? f->t / (double)f->step : INFINITY; }
+
+/* What lies between fields of frames that count as taken at one time. */
+static void print_time_apart(const struct pair *p, const struct frame *a, const struct frame *b)
+{
+    const double apart = fabs(b->t - a->t), step = fmin(frame_step_length(a), frame_step_length(b));
+    const bool lammps[2] = {lammps_run_holds(p->folder[0]), lammps_run_holds(p->folder[1])};
+    if (apart > 0.5 * step)
+        printf("the frames are %.4g s apart, %.2g steps: fields differ by what they change in that time, too\n", apart,
+               apart / step);
+    if (lammps[0] != lammps[1])
+        printf("velocities of %s are half a step older than those of LAMMPS, and its damage by a step\n",
+               lammps[0] ? "B" : "A");
+}
+
 /* Compares two frames particle by particle and prints the differences. */
 static void compare_particles(struct pair *p, const struct frame *a, const struct frame *b)
 {
@@ -151,6 +166,7 @@ static void compare_particles(struct pair *p, const struct frame *a, const struc
     p->spacing = frame_spacing(a);
     printf("\nlast common frame: t = %.7g s (A), %.7g s (B); step %lld, %lld; particles %lld, %lld\n", a->t, b->t,
            (long long)a->step, (long long)b->step, (long long)a->n, (long long)b->n);
+    print_time_apart(p, a, b);
     p->frames_differ = why != NULL;
     if (why != NULL) {
         printf("fields are not compared: %s\n", why);

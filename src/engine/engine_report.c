@@ -68,13 +68,22 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
         (long long)clock->step, clock->t, (int)p->id[first]);
 }
 
+int64_t engine_frames_number(const struct engine *e)
+{
+    const int64_t most = e->clock.steps / e->clock.stride;
+    return e->scene->frames < most ? e->scene->frames : most;
+}
+
+int64_t engine_frame_step(const struct engine *e, int64_t k)
+{
+    return frame_step(e->scene, &e->clock, k, engine_frames_number(e));
+}
+
 /* Is the next frame of the body due once so many steps are done? */
 static bool body_frame_due(const struct engine *e, int64_t step)
 {
-    const struct scene *s = e->scene;
-    const int64_t most = e->clock.steps / e->clock.stride, n = s->frames < most ? s->frames : most;
     const int frames = e->report.out->series[0].frames;
-    return frames <= n && step >= frame_step(s, &e->clock, frames, n);
+    return frames <= engine_frames_number(e) && step >= engine_frame_step(e, frames);
 }
 
 /* Is the next frame of a region due? Where its time passes more than once in a step, a step writes one. */

@@ -27,6 +27,11 @@ static void check_rows_write(FILE *to, const struct engine *e, const real *befor
     }
 }
 
+int64_t lammps_check_steps(const struct exported *x)
+{
+    return x->e->clock.steps < CHECK_STEPS ? x->e->clock.steps : CHECK_STEPS;
+}
+
 status lammps_check_write(FILE *to, struct exported *x)
 {
     struct engine *e = x->e;
@@ -36,7 +41,7 @@ status lammps_check_write(FILE *to, struct exported *x)
     joined_volume(before, e);
     memcpy(damage, e->part.damage, (size_t)n * sizeof *damage);
     e->report.quiet = true;
-    e->clock.steps = CHECK_STEPS;
+    e->clock.steps = lammps_check_steps(x);
     const status ran = engine_run(e);
     e->clock.steps = steps;
     if (ran == OK) {

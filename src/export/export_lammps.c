@@ -66,18 +66,19 @@ static status scene_to_export(struct scene *s, struct lammps_settings *settings,
 static void readme_write(FILE *to, const struct exported *x)
 {
     const char *style = x->bond_style ? "bond_style bpm/peri" : x->s->model == MODEL_BOND ? "peri/pmb" : "peri/lps";
+    const long long steps = (long long)lammps_check_steps(x);
     fprintf(
         to,
         "%s for LAMMPS (%s), exported by Cleave %s\n\n"
         "    lmp -in in.lammps                       # or: mpirun -np 16 lmp -in in.lammps\n"
-        "    cleave compare RESULTS_OF_CLEAVE .      # displacement, velocity, damage; and the check of %d steps\n\n"
+        "    cleave compare RESULTS_OF_CLEAVE .      # displacement, velocity, damage; and the check of %lld steps\n\n"
         "in.lammps   the commands; their last lines are a test for a machine without Cleave\n"
         "plate.data  particles%s\n"
         "scene.yaml  the scene as exported: `cleave run scene.yaml` is the same run in Cleave\n"
-        "check.csv   where Cleave has the particles after %d steps; damage, of the bonds there were (as LAMMPS counts "
-        "it), and\n"
+        "check.csv   where Cleave has the particles after %lld steps; damage, of the bonds there were (as LAMMPS "
+        "counts it), and\n"
         "            damage at the start, by pre-cracks: in all d = start + (1 - start) damage\n\n",
-        x->s->name, style, CLEAVE_VERSION, CHECK_STEPS, x->bond_style ? " and bonds" : "", CHECK_STEPS);
+        x->s->name, style, CLEAVE_VERSION, steps, x->bond_style ? " and bonds" : "", steps);
     lammps_cost_write(to, x);
     fprintf(to, "\nThe method is `pd`: what a scene of `adaptive` leaves to material points has bonds here, too.\n");
     for (int k = 0; k < x->settings.n; k++)

@@ -7,7 +7,7 @@
 #include "engine/engine.h"
 #include "export/export.h"
 
-enum { CHECK_STEPS = 200 }; /* after which positions of both programs are compared */
+enum { CHECK_STEPS = 200 }; /* after which positions of both programs are compared; the last one of shorter runs */
 
 /* ---- what carries over (export_carries.c) ------------------------------------------------------------------------ */
 
@@ -109,8 +109,9 @@ void lammps_script_write(FILE *to, const struct exported *x, const struct lammps
 /* What the run costs there and here, and what it lacks (export_cost.c). */
 void lammps_cost_write(FILE *to, const struct exported *x);
 
-/* Runs CHECK_STEPS steps and writes where particles then are, and the share of their bonds that have broken
- * (export_check.c). */
+/* How many steps the check has; runs them and writes where particles then are, and the share of their bonds that have
+ * broken (export_check.c). */
+int64_t lammps_check_steps(const struct exported *x);
 status lammps_check_write(FILE *to, struct exported *x);
 
 #endif

@@ -5,6 +5,7 @@
 #include "export_parts.h"
 
 #define SKIN 0.3 /* of the neighbour list [spacings] */
+#define FRAMES_MOST 1000 /* at uneven steps: as terms of a variable */
 #define FAR 0.5  /* stretch at which ghosts of bonds that never break may be lost */
 
 static real stretch_of(const struct exported *x, int a, int b)
@@ -136,34 +137,64 @@ static void start_write(FILE *to, const struct exported *x, const struct lammps_
 }
 
 /* The test is for a machine without Cleave. */
-static void test_write(FILE *to)
+static void test_write(FILE *to, int64_t steps)
 {
-    fputs(
-        "\n# Test: largest difference from Cleave over the largest displacement after 200 steps (1e-9: round-off), and "
-        "of "
-        "damage:\n# awk -F '[ ,]' 'NR == FNR {for (k = 2; k < 9; k++) a[$1, k] = $k; n[$1]; next} /TIMESTEP/ {getline; "
-        "t = $1} t == 200 && NF > 4 && $1 in n "
-        "{for (k = 2; k < 5; k++) {d[k] = $k - a[$1, k + 3]; u[k] = a[$1, k + 3] - a[$1, k]} "
-        "e = d[2]^2 + d[3]^2 + d[4]^2; r = u[2]^2 + u[3]^2 + u[4]^2; if (e > E) E = e; if (r > R) R = r; "
-        "f = $5 - a[$1, 8]; if (f < 0) f = -f; if (f > F) F = f} END {print sqrt(E / R), F + 0}' check.csv "
-        "check.dump\n",
-        to);
+    fprintf(to,
+            "\n# Test: largest difference from Cleave over the largest displacement after %lld steps (1e-9: "
+            "round-off), and of damage:\n# awk -F '[ ,]' 'NR == FNR {for (k = 2; k < 9; k++) a[$1, k] = $k; n[$1]; next} "
+            "/TIMESTEP/ {getline; t = $1} t == %lld && NF > 4 && $1 in n "
+            "{for (k = 2; k < 5; k++) {d[k] = $k - a[$1, k + 3]; u[k] = a[$1, k + 3] - a[$1, k]} "
+            "e = d[2]^2 + d[3]^2 + d[4]^2; r = u[2]^2 + u[3]^2 + u[4]^2; if (e > E) E = e; if (r > R) R = r; "
+            "f = $5 - a[$1, 8]; if (f < 0) f = -f; if (f > F) F = f} END {print sqrt(E / R), F + 0}' check.csv "
+            "check.dump\n",
+            (long long)steps, (long long)steps);
+}
+
+/* Steps between the frames of this program, where they are one number; 0: they differ. */
+static int64_t frame_distance(const struct engine *e, int64_t frames)
+{
+    const int64_t first = engine_frame_step(e, 1);
+    for (int64_t k = 2; k <= frames; k++)
+        if (engine_frame_step(e, k) != k * first) return 0;
+    return first;
+}
+
+/* The dump has the very steps of this program's frames: the variable is the step of the next one. */
+static void frames_write(FILE *to, const struct exported *x)
+{
+    static const char columns[] = "plate.dump id x y z vx vy vz c_damage\n"
+                                  "dump_modify frames sort id format float %.17g";
+    const struct engine *e = x->e;
+    const int64_t frames = engine_frames_number(e), steps = e->clock.steps;
+    int64_t every = frames > 0 ? frame_distance(e, frames) : steps;
+    if (every == 0 && frames > FRAMES_MOST) {
+        every = steps / frames;
+        fputs("# more frames than a variable takes: these are not at the steps of Cleave's\n", to);
+    }
+    if (every > 0) {
+        fprintf(to, "dump frames all custom %lld %s\n", (long long)every, columns);
+        return;
+    }
+    fprintf(to, "variable next equal %lld", (long long)engine_frame_step(e, 1));
+    for (int64_t k = 1; k <= frames; k++) {
+        const int64_t here = engine_frame_step(e, k), next = k < frames ? engine_frame_step(e, k + 1) : steps + 1;
+        if (next > here) fprintf(to, "+(step>=%lld)*%lld", (long long)here, (long long)(next - here));
+    }
+    fprintf(to, "\ndump frames all custom %lld %s every v_next first yes\n", (long long)steps, columns);
 }
 
 static void runs_write(FILE *to, const struct exported *x)
 {
-    const int64_t steps = x->e->clock.steps, frames = x->s->frames > 0 ? x->s->frames : 10,
-                  every = steps > frames ? (steps + frames / 2) / frames : 1;
+    const int64_t steps = x->e->clock.steps, check = lammps_check_steps(x);
     if (!x->bond_style) fputs("\ncompute damage all damage/atom\n", to);
+    frames_write(to, x);
     fprintf(to,
-            "dump frames all custom %lld plate.dump id x y z vx vy vz c_damage\n"
-            "dump_modify frames sort id format float %%.17g\n"
-            "dump check all custom %d check.dump id x y z c_damage\ndump_modify check sort id format float %%.17g\n"
-            "run %d\nundump check\n",
-            (long long)every, CHECK_STEPS, CHECK_STEPS);
-    if (steps > CHECK_STEPS) /* forces anew would lack the last ones of bonds that have just broken */
-        fprintf(to, "run %lld pre no\n", (long long)(steps - CHECK_STEPS));
-    test_write(to);
+            "dump check all custom %lld check.dump id x y z c_damage\ndump_modify check sort id format float %%.17g\n"
+            "run %lld\nundump check\n",
+            (long long)check, (long long)check);
+    if (steps > check) /* forces anew would lack the last ones of bonds that have just broken */
+        fprintf(to, "run %lld pre no\n", (long long)(steps - check));
+    test_write(to, check);
 }
 
 void lammps_script_write(FILE *to, const struct exported *x, const struct lammps_types *t)
