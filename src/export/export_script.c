@@ -141,8 +141,8 @@ static void test_write(FILE *to, int64_t steps)
 {
     fprintf(to,
             "\n# Test: largest difference from Cleave over the largest displacement after %lld steps (1e-9: "
-            "round-off), and of damage:\n# awk -F '[ ,]' 'NR == FNR {for (k = 2; k < 9; k++) a[$1, k] = $k; n[$1]; next} "
-            "/TIMESTEP/ {getline; t = $1} t == %lld && NF > 4 && $1 in n "
+            "round-off), and of damage:\n# awk -F '[ ,]' 'NR == FNR {for (k = 2; k < 9; k++) a[$1, k] = $k; n[$1]; "
+            "next} /TIMESTEP/ {getline; t = $1} t == %lld && NF > 4 && $1 in n "
             "{for (k = 2; k < 5; k++) {d[k] = $k - a[$1, k + 3]; u[k] = a[$1, k + 3] - a[$1, k]} "
             "e = d[2]^2 + d[3]^2 + d[4]^2; r = u[2]^2 + u[3]^2 + u[4]^2; if (e > E) E = e; if (r > R) R = r; "
             "f = $5 - a[$1, 8]; if (f < 0) f = -f; if (f > F) F = f} END {print sqrt(E / R), F + 0}' check.csv "

@@ -6,6 +6,7 @@
     run.history["time"], run.history["kinetic"]   # columns of history.csv as arrays
     run.summary["crack.tips.0.growth"]            # figures of summary.json
     run.frames[-1]["stress"]                      # fields, a row for each particle, in the order of ids
+    run.regions["tip"].at(20e-6)["strain"]        # frames of a region of output.regions
 
 All numbers are in SI units. Needs numpy; frames need h5py as well. Files are read when they are asked for, and again
 once they have changed.
@@ -129,6 +130,15 @@ def open(folder):                        # noqa: A001: the name of the module's 
 # ---- tables -------------------------------------------------------------------------------------------------------
 
 
+def _entry(entries, name, what):
+    """entries[name]; the KeyError of a name that is not there says which are."""
+    if name not in entries:
+        there = [str(entry) for entry in entries]
+        listed = ", ".join(there[:40] + ["..."] * (len(there) > 40))
+        raise KeyError("%s; %s has %s" % (name, what, listed or "nothing"))
+    return entries[name]
+
+
 def _number(text):
     return float(text) if text else float("nan")
 
@@ -159,7 +169,7 @@ class Table(collections.abc.Mapping):
         self._columns = {head.group(1): _column([line[k] for line in whole]) for k, head in enumerate(heads)}
 
     def __getitem__(self, name):
-        return self._columns[name]
+        return _entry(self._columns, name, os.path.basename(self.path))
 
     def __iter__(self):
         return iter(self._columns)
@@ -189,23 +199,17 @@ class Record(collections.abc.Mapping):
         """The entry of a dictionary or list with this path, whose names may have dots themselves; KeyError."""
         if isinstance(value, list):
             head, _, rest = path.partition(".")
-            if not head.isdigit() or int(head) >= len(value):
-                raise KeyError(path)
-            return Record._walk(value[int(head)], rest) if rest else value[int(head)]
+            found = _entry({str(k): entry for k, entry in enumerate(value)}, head, "the list")
+            return Record._walk(found, rest) if rest else found
         if not isinstance(value, dict):
-            raise KeyError(path)
-        if path in value:
-            return value[path]
+            raise KeyError("%s; there is a single figure: %r" % (path, value))
         for name in value:
-            if path.startswith(name + "."):
+            if path.startswith(name + ".") and path not in value:
                 return Record._walk(value[name], path[len(name) + 1:])
-        raise KeyError(path)
+        return _entry(value, path, "this record")
 
     def __getitem__(self, path):
-        try:
-            return Record._shown(Record._walk(self._entries, path))
-        except KeyError:
-            raise KeyError(path) from None
+        return Record._shown(Record._walk(self._entries, path))
 
     def __getattr__(self, name):
         if name.startswith("_") or name not in self._entries:
@@ -279,9 +283,10 @@ class Frame:
 
     @property
     def reference(self):
-        """Places at rest [m], n x dimensions, in double precision."""
+        """Places at rest [m], n x 3 in double precision; z = 0 in the plane."""
         with self._file() as file:
-            return file["Cleave/reference"][()]
+            stored = file["Cleave/reference"][()]
+        return np.pad(stored, ((0, 0), (0, 3 - stored.shape[1])))
 
     def __getitem__(self, name):
         """A field: n numbers, or n x 3 of vectors, n x 6 (xx yy zz xy yz xz) of tensors; KeyError names those there."""
@@ -415,9 +420,18 @@ class Run:
     @property
     def frames(self):
         """The frames so far, as Frames; none without frames.hdf.series."""
-        if not os.path.exists(self._path("frames.hdf.series")):
+        return self._series("frames.hdf.series")
+
+    @property
+    def regions(self):
+        """The frames of each region of `output.regions`, as Frames by its name."""
+        found = [re.fullmatch(r"(.+)\.hdf\.series", name) for name in sorted(os.listdir(self.folder))]
+        return {m.group(1): self._series(m.group()) for m in found if m and m.group(1) != "frames"}
+
+    def _series(self, name):
+        if not os.path.exists(self._path(name)):
             return Frames([])
-        listed = self._kept("frames.hdf.series", self._json)["files"]
+        listed = self._kept(name, self._json)["files"]
         return Frames([(self._path(entry["name"]), float(entry["time"])) for entry in listed])
 
     @property

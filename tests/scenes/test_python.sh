@@ -21,7 +21,10 @@ particles: {spacing: 1 mm}
 cracks: [{from: [0, 0], to: [9.9 mm, 0]}]
 boundary: [{traction: [0, 24 MPa], face: y+}, {traction: [0, -24 MPa], face: y-}]
 probes: [tip, line: {name: middle, from: [0, 0.5 mm], to: [20 mm, 0.5 mm]}]
-output: {frames: 2, samples: 10}
+output:
+  frames: 2
+  samples: 10
+  regions: [{name: left, region: {box: {from: [0, -10 mm], to: [5 mm, 10 mm]}}, every: 3 us}]
 END
 
 cat >"$work/test.py" <<'END'
@@ -79,8 +82,8 @@ for path in ("crack.tips.99.x", "crack.nothing", "name.nothing"):
 frame = run.frames[-1]
 holds("particles", len(frame) == summary["particles"] == 400 and (np.diff(frame["id"]) > 0).all())
 x, y = 1e-3 * (np.arange(400) % 20 + 0.5), 1e-3 * (np.arange(400) // 20 + 0.5) - 10e-3
-holds("places at rest", np.allclose(frame.reference, np.c_[x, y], atol=1e-12))
-holds("places now", np.allclose(frame.positions[:, :2], frame.reference + frame["displacement"][:, :2], atol=1e-8))
+holds("places at rest", np.allclose(frame.reference, np.c_[x, y, 0 * x], atol=1e-12))
+holds("places now", np.allclose(frame.positions - frame.reference, frame["displacement"], atol=1e-8))
 holds("shapes", frame["stress"].shape == (400, 6) and frame["velocity"].shape == (400, 3) and frame["damage"].shape == (400,))
 holds("units", frame.units["stress"] == "Pa" and frame.units["damage"] == "")
 kinetic = 0.5 * 2440 * 1e-9 * (frame["velocity"].astype(float) ** 2).sum()
@@ -92,6 +95,14 @@ try:
     sys.exit("test_python: a field that is not there")
 except KeyError as fault:
     holds("fields that there are", "displacement" in str(fault))
+left = run.regions["left"]
+holds("a region", list(run.regions) == ["left"] and len(left) == 3 and len(left[-1]) == 100 and (left[0].reference[:, 0] < 5e-3).all())
+for entries, name in ((history, "kinetics"), (summary, "crack.tip")):
+    try:
+        entries[name]
+        sys.exit("test_python: an entry that is not there")
+    except KeyError as fault:
+        holds("entries that there are", "kinetic, " in str(fault) or "tips" in str(fault))
 
 # probes
 tip = run.probes["tip"]
