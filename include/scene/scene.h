@@ -253,6 +253,8 @@ const char *scene_frame_not_default(const struct scene *s, int body);
 
 /* Prints the table of keys: all of them (key NULL), those below a prefix, or one; REFUSED names the nearest key. */
 status scene_help(FILE *out, const char *key);
+/* Is it a key, or what several begin with? */
+bool scene_has_key(const char *key);
 
 /* Prints the units that numbers may carry. */
 void scene_help_units(FILE *out);

@@ -14,6 +14,17 @@ struct command { const char *name, *words, *meaning; status (*call)(int argc, ch
 extern const struct command commands[];
 extern const int commands_count;
 
+/* Forms of commands that say them when a word is wrong, too. */
+#define SWEEP_WORDS                                                                                                    \
+    "SCENE -s KEY=VALUE,...|FROM:TO:STEP... [-o DIR] [-j RUNS] [-t THREADS] [--list] [--collect] [--overwrite] [-q]"
+#define CONVERGE_WORDS                                                                                                 \
+    "SCENE [--of FIGURE]... [--budget TIME] [--levels COUNT] [--runs COUNT] [--horizon] [-s KEY=VALUE]... [-o DIR] "   \
+    "[-j RUNS] [-t THREADS] [--overwrite] [-q]"
+#define PLOT_WORDS                                                                                                     \
+    "DIR [--field NAME] [--times T,...|all|last] [--frames all|last|N] [--slice z=4mm] [--view iso|x+|x-|...|z-] "     \
+    "[--format png|svg|pdf|mp4|gif] [-o FILE], or --scene SCENE [-s KEY=VALUE]... [-o FILE]"
+#define EXPORT_WORDS "lammps SCENE -o DIR [-s KEY=VALUE]... [-t THREADS] [--style peri|bpm] [--allow-different]"
+
 status command_run(int argc, char **argv);
 status command_sweep(int argc, char **argv);
 status command_converge(int argc, char **argv);

@@ -9,8 +9,7 @@
 #include "src/scene/scene_internal.h"
 #include "study/convergence_study.h"
 
-static const char usage[] = "converge SCENE [--of FIGURE]... [--budget TIME] [--runs N] [--levels N] [--horizon] "
-                            "[-s KEY=VALUE]... [-o DIR] [-j RUNS] [-t THREADS] [--overwrite] [-q]";
+static const char usage[] = "converge " CONVERGE_WORDS;
 
 enum { RUNS_USUAL = 5, LEVELS_USUAL = 3 };
 #define BUDGET_USUAL 600.0 /* [s] */

@@ -8,8 +8,7 @@
 #include "commands.h"
 #include "export/export.h"
 
-static const char *const usage = "export lammps SCENE -o DIR [-s KEY=VALUE]... [-t THREADS] [--style peri|bpm] "
-                                 "[--allow-different]";
+static const char usage[] = "export " EXPORT_WORDS;
 
 /* Takes the words of this command alone out of argv; what is left is that of a run. */
 static status export_words(struct export_request *r, int *argc, char **argv)

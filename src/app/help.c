@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/edit_distance.h"
 #include "commands.h"
 #include "scene/scene.h"
 
@@ -13,6 +14,20 @@ static status help_scene(void)
         printf("# yaml-language-server: $schema=%s\n"
                "As the first line of a scene, this lets editors complete keys and underline mistakes.\n\n", schema);
     return scene_help(stdout, NULL);
+}
+
+/* REFUSED with the page or command that is nearest to a word that is no key, if there is one within two letters. */
+static status help_misspelt(const char *word)
+{
+    static const char *const pages[] = {"scene", "units", "expression", "run", "theory", "trust"};
+    const char *nearest = pages[0];
+    if (scene_has_key(word)) return OK;
+    for (size_t k = 0; k < COUNT_OF(pages); k++)
+        if (edit_distance(word, pages[k]) < edit_distance(word, nearest)) nearest = pages[k];
+    for (int k = 0; k < commands_count; k++)
+        if (edit_distance(word, commands[k].name) < edit_distance(word, nearest)) nearest = commands[k].name;
+    if (edit_distance(word, nearest) > 2) return OK;
+    return status_set(REFUSED, "%.40s: neither a page nor a key; the nearest is %s", word, nearest);
 }
 
 status command_help(int argc, char **argv)
@@ -31,5 +46,6 @@ status command_help(int argc, char **argv)
     if (!strcmp(word, "theory")) return theory_print(stdout);
     for (int k = 0; k < commands_count; k++)
         if (!strcmp(word, commands[k].name)) return usage_print_of(stdout, &commands[k]), OK;
+    TRY(help_misspelt(word));
     return scene_help(stdout, word);
 }

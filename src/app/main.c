@@ -1,5 +1,6 @@
 /* The program: one command, one exit status. */
 #include <fcntl.h>
+#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,6 +57,13 @@ static void keep_descriptors(void)
     if (fd > STDERR_FILENO) close(fd);
 }
 
+/* Has who read standard output left? */
+static bool reader_gone(void)
+{
+    struct pollfd output = {STDOUT_FILENO, POLLOUT, 0};
+    return poll(&output, 1, 0) > 0 && (output.revents & POLLERR);
+}
+
 int main(int argc, char **argv)
 {
     keep_descriptors();
@@ -63,6 +71,7 @@ int main(int argc, char **argv)
     last_words_start();
     status result = call(argc, argv);
     const bool lost = fflush(stdout) != 0 || ferror(stdout);
+    if (lost && reader_gone()) LEAVE(FAILED);        /* `cleave help | head` */
     if (lost && result == OK) result = status_set(FAILED, "cannot write to standard output");
     if (result != OK && status_message()[0]) fprintf(stderr, "%s\n", status_message());
     fflush(stderr);

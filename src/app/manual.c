@@ -8,9 +8,10 @@
 
 /* ---- texts ------------------------------------------------------------------------------------------------------- */
 
+/* term NULL: a paragraph; of: names of the commands that it is true of, NULL: of all that have it. */
 struct entry {
-    const char *term, *text;
-}; /* term NULL: a paragraph */
+    const char *term, *text, *of;
+};
 struct section {
     const char *title;
     const struct entry *entry;
@@ -21,67 +22,85 @@ struct section {
 static const struct entry description[] = {
     {NULL,
      "A scene is a YAML file that says what breaks. The body is peridynamic where its material breaks and made of "
-     "material points elsewhere; the points become peridynamic particles while the run goes on."},
+     "material points elsewhere; the points become peridynamic particles while the run goes on.",
+     NULL},
 };
 static const struct entry options[] = {
     {"-o DIR",
-     "folder of the results (default: results/ and the scene's name). One that holds another run is refused."},
+     "folder of the results (default: results/ and the scene's name, with _sweep or _converge behind it for "
+     "studies). One that holds another run is refused.",
+     "run sweep converge"},
+    {"-o DIR", "folder that the input of LAMMPS goes to.", "export"},
+    {"-o FILE", "the picture, or a folder for it (default: pictures/ of the run, results/NAME_scene.png).", "plot"},
     {"-s KEY=VALUE",
      "lays a value over the scene's: material.young=70e9, boundary.0.velocity='[0, 20 m/s]', cracks.1.to='[20 mm, 0]', "
      "materials.steel.young=210e9. Items of lists go by number, from 0 (boundary.0 or boundary[0]), or by name. An "
-     "empty "
-     "value takes the key, or the item, away."},
-    {"-t THREADS", "number of threads. The results do not depend on it."},
-    {"--resume", "goes on from the newest checkpoint."},
-    {"--overwrite", "replaces an older run, or study, which is left alone otherwise."},
-    {"-q", "no progress and no figures at the end; warnings are still said, and stand in summary.json."},
-    {"-j RUNS", "runs of a study at once (default: as many as there are cores)."},
-    {"--list", "runs nothing and prints the command of each run, a line each."},
-    {"--collect", "runs nothing and makes the table and pictures of a study from the runs that are done."},
-    {"--of FIGURE", "a figure of summary.json, its names joined by points, as crack.start_time; several may be named."},
-    {"--budget TIME", "time for the runs of a study, as 5min."},
-    {"--levels COUNT", "number of spacings, from 2 on."},
-    {"--runs COUNT", "number of runs at each spacing."},
-    {"--horizon", "keeps the length of the horizon while the spacing varies."},
-    {"--frames", "which frames are drawn: all, last, or how many."},
-    {"--quick", "smaller cases."},
-    {"--readme", "writes the figures to bench/README.md."},
-    {"--help", "after any command: what it takes."},
+     "empty value takes the key, or the item, away.",
+     NULL},
+    {"-t THREADS", "number of threads. The results do not depend on it.", NULL},
+    {"--resume", "goes on from the newest checkpoint.", NULL},
+    {"--overwrite", "replaces an older run, or study, which is left alone otherwise.", NULL},
+    {"-q", "no progress and no figures at the end; warnings are still said, and stand in summary.json.", NULL},
+    {"-j RUNS", "runs of a study at once (default: as many as there are cores).", NULL},
+    {"--list", "runs nothing and prints the command of each run, a line each.", NULL},
+    {"--collect", "runs nothing and makes the table and pictures of a study from the runs that are done.", NULL},
+    {"--of FIGURE", "a figure of summary.json, its names joined by points, as crack.start_time; several may be named.",
+     NULL},
+    {"--budget TIME", "time for the runs of a study, as 5min.", NULL},
+    {"--levels COUNT", "number of spacings, from 2 on.", NULL},
+    {"--runs COUNT", "number of runs at each spacing.", NULL},
+    {"--horizon", "keeps the length of the horizon while the spacing varies.", NULL},
+    {"--field NAME", "draws this field of the frames: displacement, velocity_y, von_mises, ...", NULL},
+    {"--times T,...", "of the frames nearest to these times, as 10us,20us; or all, last.", NULL},
+    {"--frames N", "of this frame; or all, last.", NULL},
+    {"--slice z=4mm", "through a solid; without a place, where most damage is.", NULL},
+    {"--view iso", "a solid from outside: iso, x+, x-, y+, y-, z+, z-.", NULL},
+    {"--format png", "png, svg, pdf; mp4, gif (films of all frames, by ffmpeg). The ending of -o says the same.", NULL},
+    {"--scene SCENE", "draws a scene before it runs: particles, cracks, loads, supports, probes.", NULL},
+    {"--style peri", "peri: pair_style peri of every LAMMPS; bpm: bond_style bpm/peri of 2026.", NULL},
+    {"--allow-different", "exports what differs in LAMMPS, too; README.txt there says in what.", NULL},
+    {"--quick", "smaller cases.", NULL},
+    {"--readme", "writes the figures to bench/README.md.", NULL},
+    {"--help", "after any command: what it takes.", NULL},
 };
 static const struct entry exit_status[] = {
-    {"0", "done"},
-    {"1", "the run failed"},
-    {"2", "the scene or the command line is wrong"},
-    {"130", "interrupted, after a checkpoint"},
+    {"0", "done", NULL},
+    {"1", "the run failed", NULL},
+    {"2", "the scene or the command line is wrong", NULL},
+    {"130", "interrupted, after a checkpoint", NULL},
 };
 static const struct entry environment[] = {
-    {"NO_COLOR, OMP_NUM_THREADS, OMP_PLACES, OMP_PROC_BIND", "are honoured."},
-    {"CLEAVE_SIMD", "takes a set of kernels other than the widest that the processor runs: avx512, avx2 or portable."},
+    {"NO_COLOR, OMP_NUM_THREADS, OMP_PLACES, OMP_PROC_BIND", "are honoured.", NULL},
+    {"CLEAVE_SIMD", "takes a set of kernels other than the widest that the processor runs: avx512, avx2 or portable.",
+     NULL},
 };
 static const struct entry signals[] = {
     {NULL,
      "SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1 and SIGUSR2 end a run with a checkpoint; the first three end it at "
-     "once the second time. One that was ignored when the program was started stays ignored."},
+     "once the second time. One that was ignored when the program was started stays ignored.",
+     NULL},
 };
 static const struct entry files[] = {
-    {"frames/NNNNNN.hdf, frames.hdf.series", "the frames (VTKHDF) and the index that ParaView opens"},
-    {"frames.xdmf", "the same for other readers"},
+    {"frames/NNNNNN.hdf, frames.hdf.series", "the frames (VTKHDF) and the index that ParaView opens", NULL},
+    {"frames.xdmf", "the same for other readers", NULL},
     {"history.csv",
      "one line per sample: energies, momentum, crack tip, probes; pd_share and mpm_share, shares of the particles by "
-     "method, and rest_share, the share of them that rested, mean over the steps since the last sample"},
-    {"NAME_NNNNNN.csv", "profiles of the line and exact probe NAME, one with every frame"},
-    {"fragments.csv", "pieces that bonds hold together at the end (method pd)"},
-    {"summary.json", "the figures of the run"},
-    {"scene.yaml", "the scene as run, every default written out"},
-    {"checkpoint.h5, checkpoint.previous.h5", "the two newest checkpoints"},
-    {"pictures/", "pictures of cleave plot"},
+     "method, and rest_share, the share of them that rested, mean over the steps since the last sample",
+     NULL},
+    {"NAME_NNNNNN.csv", "profiles of the line and exact probe NAME, one with every frame", NULL},
+    {"fragments.csv", "pieces that bonds hold together at the end (method pd)", NULL},
+    {"summary.json", "the figures of the run", NULL},
+    {"scene.yaml", "the scene as run, every default written out", NULL},
+    {"checkpoint.h5, checkpoint.previous.h5", "the two newest checkpoints", NULL},
+    {"pictures/", "pictures of cleave plot", NULL},
 };
 static const struct entry scene_form[] = {
     {NULL,
      "Numbers are SI or carry a unit (190 GPa, 0.5 mm, 20 us, 7800 kg/m^3, 2 %) and may be fractions (1/3). The key "
      "decides what a value is: yes, 010 or 1:30 mean nothing special, and flags are true or false. Points are lists "
      "of as many components as the space has. One document, no anchors, aliases or tags. In messages and below, keys "
-     "are written with dots; items of lists have the keys below the list."},
+     "are written with dots; items of lists have the keys below the list.",
+     NULL},
 };
 #define SECTION(title, entries, of_run)                                                                                \
     {                                                                                                                  \
@@ -126,15 +145,25 @@ static bool takes_option(const struct command *c, const char *term)
 {
     size_t length = strcspn(term, " ");
     for (const char *at = strstr(c->words, term[1] == '-' ? "--" : "-"); at; at = strchr(at + 1, '-'))
-        if (!strncmp(at, term, length) && strchr(" ]|", at[length]) && strchr("[|", at[-1])) return true;
-    return !strcmp(term, "-s KEY=VALUE") && strstr(c->words, " -s ");
+        if (!strncmp(at, term, length) && strchr(" ]|", at[length]) && strchr("[| ", at[-1])) return true;
+    return false;
+}
+
+/* Is it of this command, by the list of names? */
+static bool is_of(const struct entry *e, const struct command *c)
+{
+    const size_t length = strlen(c->name);
+    bool of = !e->of;
+    for (const char *at = e->of; at && *at && !of; at += strcspn(at, " "), at += *at == ' ')
+        of = strcspn(at, " ") == length && !strncmp(at, c->name, length);
+    return of;
 }
 
 void usage_print_of(FILE *out, const struct command *c)
 {
     fprintf(out, "cleave %s%s%s\n  %s\n", c->name, *c->words ? " " : "", c->words, c->meaning);
     for (size_t k = 0; k < COUNT_OF(options); k++) {
-        if (!takes_option(c, options[k].term)) continue;
+        if (!takes_option(c, options[k].term) || !is_of(&options[k], c)) continue;
         fprintf(out, "  %s\n", options[k].term);
         wrapped(out, options[k].text, 6);
     }

@@ -10,9 +10,7 @@
 #include "plot/scene_picture.h"
 #include "scene/words.h"
 
-static const char usage[] = "cleave plot DIR [--field NAME] [--times T,...|all|last] [--frames N] [--slice z=4mm] "
-                            "[--view iso|x+|x-|y+|...] [--format png|svg|pdf|mp4|gif] [-o FILE], or "
-                            "cleave plot --scene SCENE [-s KEY=VALUE] [-o FILE]";
+static const char usage[] = "cleave plot " PLOT_WORDS;
 
 struct plot_words {
     struct plot_request request;

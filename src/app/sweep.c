@@ -7,8 +7,7 @@
 #include "commands.h"
 #include "study/study.h"
 
-static const char usage[] = "sweep SCENE -s KEY=VALUE,...|FROM:TO:STEP [-s ...]... [-o DIR] [-j RUNS] [-t THREADS] "
-                            "[--list] [--collect] [--overwrite] [-q]";
+static const char usage[] = "sweep " SWEEP_WORDS;
 
 struct sweep_arguments {
     const char *scene, *folder;

@@ -124,6 +124,15 @@ static status help_unknown(const char *path)
     return status_set(REFUSED, "%.64s: unknown key; the nearest is %s", path, nearest->path);
 }
 
+bool scene_has_key(const char *key)
+{
+    char path[128];
+    path_of_table(key, path, sizeof path);
+    bool has = path_now(path) != NULL;
+    for (int k = 0; k < keys_count && !has; k++) has = is_below(&keys[k], path);
+    return has;
+}
+
 status scene_help(FILE *out, const char *key)
 {
     char path[128] = "", facts[640];

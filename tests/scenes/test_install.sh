@@ -54,4 +54,8 @@ done
 "$cleave" rnu 2>"$work/err"
 is "a mistyped command: exit status" $? 2
 is "and its line" "$(cat "$work/err")" "unknown command rnu; the nearest is run"
+"$cleave" help thoery 2>"$work/err"
+is "a mistyped page" "$(cat "$work/err")" "thoery: neither a page nor a key; the nearest is theory"
+is "a reader that leaves" "$("$cleave" help 2>&1 | head -n 1 | wc -l)" 1
+holds "options of a command by what they are of it" test "$("$cleave" plot --help | grep -c '^  -o FILE')" = 1
 finish
