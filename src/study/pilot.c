@@ -202,6 +202,9 @@ static status search_failed(const struct pilot_search *p)
             n += (size_t)snprintf(text + n, sizeof text - n, "%s%s: %s +- %.2g %% at %.3g mm", k > 0 ? "; " : "",
                                   c->name, p->figure, 100 * c->reached, 1e3 * c->finest);
     }
+    bool any = false;
+    for (int k = 0; k < p->n; k++) any |= !p->at[k].failed[0];
+    if (!any) return status_set(REFUSED, "%s: no method can do the scene (%s)", p->scene, text);
     char limit[64] = "at its spacing";
     if (!(p->wish.spacing > 0)) snprintf(limit, sizeof limit, "in %g times that time", LONGEST);
     return status_set(REFUSED,

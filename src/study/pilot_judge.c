@@ -59,6 +59,11 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
         c->spacing = c->finest, c->seconds = seconds, c->expected = c->reached, c->seen = true;
         return;
     }
+    /* a wished spacing that the budget did not reach is finer than one that is accurate enough */
+    if (p->wish.spacing > 0 && p->wish.spacing < c->finest && c->reached <= p->wish.within) {
+        c->spacing = p->wish.spacing, c->expected = c->reached, c->seen = true;
+        c->seconds = c->finest_seconds * pow(c->finest / c->spacing, s->scene.dim + 1);
+    }
     if (!(c->finest > 0) || !isfinite(c->reached) || p->wish.spacing > 0) return;
     /* what finer spacings take away has to become this small; a bias stays */
     const double bias = f->c.bias / size, within = sqrt(square(p->wish.within) - square(bias));
