@@ -334,5 +334,7 @@ int main(void)
         cmocka_unit_test(fields_follow),  cmocka_unit_test(yielding_bar),
         cmocka_unit_test(yielding_sheet), cmocka_unit_test(only_what_is_asked_for),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    nftw("run", remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    return failed;
 }
