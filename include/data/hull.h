@@ -49,6 +49,8 @@ void hull_free(struct hull *s);
 real hull_winding(const struct hull *s, const real *X);
 /* Signed distance of X, negative inside [m]. normal (may be NULL): away from the surface, outwards. */
 real hull_distance(const struct hull *s, const real *X, real *normal);
+/* hull_distance(s, X, NULL) <= most, without a search for faces farther away than that. */
+bool hull_within(const struct hull *s, const real *X, real most);
 /* max over its corners of X . along [m]. */
 real hull_support(const struct hull *s, const real *along);
 /* Share of places in its box at which the winding number does not say whether they are inside; about 4000 are asked. */

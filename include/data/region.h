@@ -27,6 +27,9 @@ bool region_has_endless_box(const struct region *r, int dim);
 real region_support(const struct region *r, const real *along, int dim);
 /* Volume in the box from..to [m^dim] by evenly spread points: within about 0.1 % of the box. */
 real region_volume(const struct region *r, int dim, const real *from, const real *to);
+/* Makes an index of a long list, by which a point is compared with what is near it only: the same results, to the last
+ * bit. The list stays as it is from then on. */
+void region_index(struct region *r, int dim);
 void region_free(struct region *r);
 
 /* Ascending numbers. */

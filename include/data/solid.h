@@ -4,6 +4,7 @@
 #define CLEAVE_SOLID
 
 #include "base/base.h"
+#include "data/box_tree.h"
 #include "data/hull.h"
 #include "data/voxels.h"
 
@@ -30,10 +31,9 @@ struct solid_motion {
     bool has_about, has_axis, has_angle; /* the scene gives them */
 };
 
-/* Where a copy of a solid is: X = turn X' + shift of the X' of the solid as described; and a box round it. */
+/* Where a copy of a solid is: X = turn X' + shift of the X' of the solid as described. */
 struct placement {
     real turn[DIM_MAX][DIM_MAX], shift[DIM_MAX];         /* [1], [m]; det turn = -1 of a mirror image */
-    real low[DIM_MAX], high[DIM_MAX];                    /* [m] */
 };
 #define IMAGES_MOST 4096
 
@@ -42,7 +42,13 @@ struct placement {
 struct region {
     int n;
     struct solid *solid;
+    int runs;                            /* 0: without an index (region_index) */
+    struct region_run *run;              /* [runs] */
 };
+
+/* Solids of a list one after another that are all added or all taken away, and a tree over their boxes; or a single
+ * solid, without a tree. */
+struct region_run { int first, count; struct box_tree tree; };
 
 /* A round corner of a polygon: from the end of one edge to the beginning of the next about a centre. */
 struct bend { real centre[2], from[2], to[2]; };
@@ -75,6 +81,7 @@ struct solid {
     int motions, images;                 /* images 0: the solid is where it is described */
     struct solid_motion *motion;               /* [motions] */
     struct placement *image;                 /* [images] */
+    struct box_tree tree;                    /* over the boxes round images */
 };
 
 /* Is it a box, ball, .. of this kind as described, without copies? Only then from, to, radius .. say where it is. */
@@ -85,6 +92,10 @@ real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
 /* What tells inside (<= 0) from outside: the distance beside flat faces; of boxes and cylinders the largest of the
  * distances from their faces, so that they grow with their edges [m]. */
 real solid_level(const struct solid *s, const real *X, int dim);
+/* solid_level(s, X, dim) <= most, and quicker. */
+bool solid_within(const struct solid *s, const real *X, int dim, real most);
+/* Box round it, a little larger, for a box_tree; infinite where none is known that its levels keep to. */
+void solid_box(const struct solid *s, int dim, struct bounds *box);
 /* max over its points of X . along [m], for lengths 1 of `along`. */
 real solid_support(const struct solid *s, const real *along, int dim);
 /* Radius of a ball, cylinder, tube or ring, the least half axis of an ellipsoid, wherever it is; INFINITY: it has none.
@@ -94,6 +105,9 @@ real solid_radius(const struct solid *s, int dim);
 real solid_width(const struct solid *s, int dim);
 /* Appends a motion and makes its images. False: there would be more than IMAGES_MOST. */
 bool solid_move(struct solid *s, const struct solid_motion *m, int dim);
+/* How far X is at the most from the box of a solid whose level there is no more than this, in any direction [m]: levels
+ * outside are 1/sqrt(3) of the distance at the least, beside the corner of a box. */
+static inline real level_reach(real level) { return level > 0 ? 1.75 * level : level; }
 /* Number of primitive solids that one query looks at. */
 real solid_effort(const struct solid *s);
 void solid_free(struct solid *s);

@@ -218,12 +218,12 @@ static real box_apart2(const struct hull_node *n, const real *X, int dim)
     return sum;
 }
 
-/* The face nearest to X, its point there, and the square of the distance [m^2]. */
+/* The face nearest to X of those whose squared distance is below *r2, which it becomes, and its point there [m^2]. */
 static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, real *r2)
 {
     int32_t wait[DEEPEST], found = 0;
     int waiting = 1;
-    wait[0] = 0, *r2 = INFINITY;
+    wait[0] = 0;
     while (waiting > 0) {
         const struct hull_node *n = &s->node[wait[--waiting]];
         if (box_apart2(n, X, s->dim) >= *r2) continue;
@@ -241,13 +241,30 @@ static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, 
     return found;
 }
 
+static bool hull_outside(const struct hull *s, const real *X)
+{
+    return s->open || box_apart2(&s->node[0], X, s->dim) > 0 || hull_winding(s, X) < 0.5;
+}
+
+/* A surface beyond what is asked for leaves only the question of the side. */
+bool hull_within(const struct hull *s, const real *X, real most)
+{
+    real size = 0, point[DIM_MAX];
+    if (s->faces == 0) return most == INFINITY;
+    for (int d = 0; d < s->dim; d++) size += s->node[0].high[d] - s->node[0].low[d] + fabs(X[d]);
+    const real limit2 = square(fabs(most) + 1e-9 * (fabs(most) + size));     /* by far more than round-off */
+    real r2 = limit2;
+    nearest_face(s, X, point, &r2);
+    const real distance = r2 < limit2 ? sqrt(r2) : INFINITY;
+    return (hull_outside(s, X) ? distance : -distance) <= most;
+}
+
 real hull_distance(const struct hull *s, const real *X, real *normal)
 {
-    real point[DIM_MAX] = {0}, r2, area[DIM_MAX] = {0};
+    real point[DIM_MAX] = {0}, r2 = INFINITY, area[DIM_MAX] = {0};
     if (s->faces == 0) return INFINITY;
     const int32_t face = nearest_face(s, X, point, &r2);
-    const bool outside = s->open || box_apart2(&s->node[0], X, s->dim) > 0 || hull_winding(s, X) < 0.5;
-    const real distance = sqrt(r2), side = outside ? 1 : -1;
+    const real distance = sqrt(r2), side = hull_outside(s, X) ? 1 : -1;
     if (normal) hull_area(s, face, area);
     const real size = sqrt(dot(area, area, s->dim));
     for (int d = 0; normal && d < s->dim; d++)

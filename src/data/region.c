@@ -22,30 +22,6 @@ static real direction(const real *a, const real *b, int dim, real unit[DIM_MAX])
     return length;
 }
 
-/* What is taken away loses its surface to the region, which stays closed; growing the region shrinks it. */
-bool region_contains(const struct region *r, const real *X, int dim, real tolerance)
-{
-    bool inside = r->n == 0 || r->solid[0].intersect;
-    for (int k = 0; k < r->n; k++) {
-        const struct solid *s = &r->solid[k];
-        if (s->subtract || s->intersect ? !inside : inside) continue;
-        const real level = solid_level(s, X, dim);
-        inside = s->subtract ? !(level < -tolerance) : level <= tolerance;
-    }
-    return inside;
-}
-
-real region_level(const struct region *r, const real *X, int dim)
-{
-    real level = r->n == 0 || r->solid[0].intersect ? -INFINITY : INFINITY;
-    for (int k = 0; k < r->n; k++) {
-        const struct solid *s = &r->solid[k];
-        const real own = solid_level(s, X, dim);
-        level = s->subtract ? real_max(level, -own) : s->intersect ? real_max(level, own) : real_min(level, own);
-    }
-    return level;
-}
-
 real region_support(const struct region *r, const real *along, int dim)
 {
     real most = r->n == 0 || r->solid[0].intersect ? INFINITY : -INFINITY;
@@ -94,6 +70,8 @@ real region_volume(const struct region *r, int dim, const real *from, const real
 void region_free(struct region *r)
 {
     for (int k = 0; k < r->n && r->solid; k++) solid_free(&r->solid[k]);
+    for (int j = 0; j < r->runs; j++) box_tree_free(&r->run[j].tree);
+    memory_free(r->run);
     memory_free(r->solid);
     *r = (struct region){0};
 }

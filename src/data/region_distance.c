@@ -1,7 +1,128 @@
-/* Distances from regions, and the direction of their surfaces. */
+/* Which points lie in regions, how far they are from them, and the direction of their surfaces: by the solids of the
+ * list in turn, or of long runs of them that are added, or taken away, by those near the point. */
+#include <float.h>
 #include <math.h>
 
+#include "base/memory.h"
 #include "data/region.h"
+
+/* ---- index ------------------------------------------------------------------------------------------------------- */
+
+enum { RUN_LEAST = 8 };                  /* solids with which a tree is quicker */
+
+/* Solids from `first` on that do the same as that. */
+static int run_length(const struct region *r, int first)
+{
+    const struct solid *s = &r->solid[first];
+    int end = first + 1;
+    if (s->intersect) return 1;
+    while (end < r->n && r->solid[end].subtract == s->subtract && !r->solid[end].intersect) end++;
+    return end - first < RUN_LEAST ? 1 : end - first;
+}
+
+void region_index(struct region *r, int dim)
+{
+    int runs = 0;
+    for (int k = 0; k < r->n; k += run_length(r, k)) runs++;
+    if (runs == r->n) return;
+    r->run = NEW("solids.run", runs, struct region_run);
+    for (int k = 0; k < r->n; k += r->run[r->runs++].count) {
+        struct region_run *run = &r->run[r->runs];
+        *run = (struct region_run){.first = k, .count = run_length(r, k)};
+        if (run->count == 1) continue;
+        struct bounds *box = NEW("solids.box", run->count, struct bounds);
+        for (int j = 0; j < run->count; j++) solid_box(&r->solid[k + j], dim, &box[j]);
+        box_tree_make(&run->tree, box, run->count, dim);
+        memory_free(box);
+    }
+}
+
+static int region_runs(const struct region *r) { return r->run ? r->runs : r->n; }
+
+/* Its solid or solids, for a loop over j < region_runs. */
+static struct region_run region_run(const struct region *r, int j)
+{
+    return r->run ? r->run[j] : (struct region_run){.first = j, .count = 1};
+}
+
+/* ---- runs -------------------------------------------------------------------------------------------------------- */
+
+/* Solids are asked as if all were added. */
+static bool run_within(const struct solid *s, const struct region_run *run, const real *X, int dim, real most)
+{
+    struct box_search near;
+    bool within = false;
+    if (run->count == 1) return solid_within(s, X, dim, most);
+    box_search_start(&near, &run->tree, X, dim);
+    for (int k; !within && (k = box_search_next(&near, level_reach(most))) >= 0;)
+        within = solid_within(&s[k], X, dim, most);
+    return within;
+}
+
+static real run_level(const struct solid *s, const struct region_run *run, const real *X, int dim)
+{
+    struct box_search near;
+    real nearest = INFINITY;
+    if (run->count == 1) return solid_level(s, X, dim);
+    box_search_start(&near, &run->tree, X, dim);
+    for (int k; (k = box_search_next(&near, level_reach(nearest))) >= 0;)
+        nearest = real_min(nearest, solid_level(&s[k], X, dim));
+    return nearest;
+}
+
+/* Of solids that are equally near the first counts. */
+static real run_distance(const struct solid *s, const struct region_run *run, const real *X, int dim, real *normal)
+{
+    struct box_search near;
+    real nearest = INFINITY, own[DIM_MAX];
+    int first = 0;
+    if (run->count == 1) return solid_distance(s, X, dim, normal);
+    for (int d = 0; d < dim; d++) normal[d] = d == 0;
+    box_search_start(&near, &run->tree, X, dim);
+    for (int k; (k = box_search_next(&near, level_reach(nearest))) >= 0;) {
+        const real distance = solid_distance(&s[k], X, dim, own);
+        if (!(distance < nearest || (distance == nearest && k < first))) continue;
+        nearest = distance, first = k;
+        for (int d = 0; d < dim; d++) normal[d] = own[d];
+    }
+    return nearest;
+}
+
+/* ---- regions ----------------------------------------------------------------------------------------------------- */
+
+/* The number before this one; of 0 the first that processors do not take for 0 (base/team.h). */
+static real number_before(real x)
+{
+    const real before = nextafter(x, -INFINITY);
+    return fabs(before) < DBL_MIN ? -DBL_MIN : before;
+}
+
+/* What is taken away loses its surface to the region, which stays closed; growing the region shrinks it: it lies where
+ * the level is below -tolerance. */
+bool region_contains(const struct region *r, const real *X, int dim, real tolerance)
+{
+    bool inside = r->n == 0 || r->solid[0].intersect;
+    for (int j = 0; j < region_runs(r); j++) {
+        const struct region_run run = region_run(r, j);
+        const struct solid *s = &r->solid[run.first];
+        if (s->subtract || s->intersect ? !inside : inside) continue;
+        const bool within = run_within(s, &run, X, dim, s->subtract ? number_before(-tolerance) : tolerance);
+        inside = s->subtract ? !within : within;
+    }
+    return inside;
+}
+
+real region_level(const struct region *r, const real *X, int dim)
+{
+    real level = r->n == 0 || r->solid[0].intersect ? -INFINITY : INFINITY;
+    for (int j = 0; j < region_runs(r); j++) {
+        const struct region_run run = region_run(r, j);
+        const struct solid *s = &r->solid[run.first];
+        const real own = run_level(s, &run, X, dim);
+        level = s->subtract ? real_max(level, -own) : s->intersect ? real_max(level, own) : real_min(level, own);
+    }
+    return level;
+}
 
 bool region_has_endless_box(const struct region *r, int dim)
 {
@@ -18,9 +139,10 @@ real region_distance(const struct region *r, const real *X, int dim, real *norma
 {
     real nearest = r->n > 0 && r->solid[0].intersect ? -INFINITY : INFINITY, own[DIM_MAX];
     for (int d = 0; d < dim; d++) normal[d] = d == 0;
-    for (int k = 0; k < r->n; k++) {
-        const struct solid *s = &r->solid[k];
-        const real distance = solid_distance(s, X, dim, own) * (s->subtract ? -1 : 1);
+    for (int j = 0; j < region_runs(r); j++) {
+        const struct region_run run = region_run(r, j);
+        const struct solid *s = &r->solid[run.first];
+        const real distance = run_distance(s, &run, X, dim, own) * (s->subtract ? -1 : 1);
         if (s->subtract || s->intersect ? distance <= nearest : distance >= nearest) continue;
         nearest = distance;
         for (int d = 0; d < dim; d++) normal[d] = s->subtract ? -own[d] : own[d];

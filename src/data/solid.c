@@ -293,6 +293,16 @@ static real extrusion_level(const struct solid *s, const real *X, int dim)
     return real_max(region_level(&s->region, flat, 2), real_max(s->begin - X[s->axis], X[s->axis] - s->end));
 }
 
+static bool extrusion_within(const struct solid *s, const real *X, int dim, real most)
+{
+    int axes[2];
+    (void)dim;
+    plane_axes(s, axes);
+    const real flat[] = {X[axes[0]], X[axes[1]]};
+    if (!(real_max(s->begin - X[s->axis], X[s->axis] - s->end) <= most)) return false;
+    return region_contains(&s->region, flat, 2, most);
+}
+
 static real extrusion_support(const struct solid *s, const real *along, int dim)
 {
     int axes[2];
@@ -310,6 +320,11 @@ static real group_from(const struct solid *s, const real *X, int dim, real *norm
 
 static real group_level(const struct solid *s, const real *X, int dim) { return region_level(&s->region, X, dim); }
 
+static bool group_within(const struct solid *s, const real *X, int dim, real most)
+{
+    return region_contains(&s->region, X, dim, most);
+}
+
 static real group_support(const struct solid *s, const real *along, int dim)
 {
     return region_support(&s->region, along, dim);
@@ -326,10 +341,22 @@ static real hull_reach(const struct solid *s, const real *along, int dim)
     return hull_support(s->hull, along) + s->radius * sqrt(dot(along, along, dim));
 }
 
+static bool hull_holds(const struct solid *s, const real *X, int dim, real most)
+{
+    (void)dim;
+    return s->radius == 0 ? hull_within(s->hull, X, most) : hull_distance(s->hull, X, NULL) - s->radius <= most;
+}
+
 static real voxels_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
     return voxel_part_distance(s->voxels, X, normal);
+}
+
+static real voxels_level(const struct solid *s, const real *X, int dim)
+{
+    (void)dim;
+    return voxel_part_distance(s->voxels, X, NULL);
 }
 
 /* Of the whole image. */
@@ -357,21 +384,21 @@ static real all_support(const struct solid *s, const real *along, int dim)
 }
 
 const struct solid_type solid_types[SOLID_KINDS] = {
-    [SOLID_ALL] = {all_from, NULL, all_support},
-    [SOLID_BOX] = {box_from, box_level, box_support},
-    [SOLID_BALL] = {ball_from, NULL, ball_support},
-    [SOLID_CYLINDER] = {cylinder_from, cylinder_level, cylinder_support},
-    [SOLID_HALF_SPACE] = {half_space_from, half_space_level, half_space_support},
-    [SOLID_ELLIPSOID] = {ellipsoid_distance, NULL, ellipsoid_support},
-    [SOLID_RING] = {ring_from, NULL, ball_support},
-    [SOLID_POLYGON] = {polygon_from, NULL, polygon_reach},
-    [SOLID_TUBE] = {tube_from, NULL, cylinder_support},
-    [SOLID_CONE] = {cone_from, NULL, cone_support},
-    [SOLID_TORUS] = {torus_from, NULL, torus_support},
-    [SOLID_HULL] = {hull_from, NULL, hull_reach},
-    [SOLID_VOXELS] = {voxels_from, NULL, voxels_reach},
-    [SOLID_EXTRUSION] = {extrusion_from, extrusion_level, extrusion_support},
-    [SOLID_GROUP] = {group_from, group_level, group_support},
+    [SOLID_ALL] = {all_from, NULL, all_support, NULL},
+    [SOLID_BOX] = {box_from, box_level, box_support, NULL},
+    [SOLID_BALL] = {ball_from, NULL, ball_support, NULL},
+    [SOLID_CYLINDER] = {cylinder_from, cylinder_level, cylinder_support, NULL},
+    [SOLID_HALF_SPACE] = {half_space_from, half_space_level, half_space_support, NULL},
+    [SOLID_ELLIPSOID] = {ellipsoid_distance, NULL, ellipsoid_support, NULL},
+    [SOLID_RING] = {ring_from, NULL, ball_support, NULL},
+    [SOLID_POLYGON] = {polygon_from, NULL, polygon_reach, NULL},
+    [SOLID_TUBE] = {tube_from, NULL, cylinder_support, NULL},
+    [SOLID_CONE] = {cone_from, NULL, cone_support, NULL},
+    [SOLID_TORUS] = {torus_from, NULL, torus_support, NULL},
+    [SOLID_HULL] = {hull_from, NULL, hull_reach, hull_holds},
+    [SOLID_VOXELS] = {voxels_from, voxels_level, voxels_reach, NULL},
+    [SOLID_EXTRUSION] = {extrusion_from, extrusion_level, extrusion_support, extrusion_within},
+    [SOLID_GROUP] = {group_from, group_level, group_support, group_within},
 };
 
 real solid_radius(const struct solid *s, int dim)
@@ -403,4 +430,5 @@ void solid_free(struct solid *s)
     memory_free(s->polygon);
     memory_free(s->motion);
     memory_free(s->image);
+    box_tree_free(&s->tree);
 }

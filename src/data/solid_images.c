@@ -106,21 +106,43 @@ static void place_back(const struct placement *i, const real *X, int dim, real *
     turn_back(i, off, dim, to);
 }
 
-/* Least that a point can be away from a copy, as the largest of its distances from the sides of its box [m]. */
-static real image_least(const struct placement *i, const real *X, int dim)
+/* How far its levels may be below what its box says, which for all others are no deeper in a solid than in its box:
+ * those of pixels are of their middles, and a surface with holes in it may be far from what it holds. */
+static real box_slack(const struct solid *s, int dim)
 {
-    real far = -INFINITY;
-    for (int d = 0; d < dim; d++) far = real_max(far, real_max(i->low[d] - X[d], X[d] - i->high[d]));
-    return far;
+    real slack = 0;
+    if (s->kind == SOLID_HULL && s->hull->open_edges > 0) return INFINITY;
+    for (int d = 0; d < dim && s->kind == SOLID_VOXELS; d++) slack = real_max(slack, s->voxels->of->size[d]);
+    for (int k = 0; k < s->region.n; k++) slack = real_max(slack, box_slack(&s->region.solid[k], dim));
+    return slack;
 }
 
-static void image_box(struct placement *i, const struct solid *s, int dim)
+/* Of a copy, or of all of them (i = NULL); larger by more than round-off. */
+static void placement_box(const struct solid *s, const struct placement *i, int dim, struct bounds *box)
 {
+    const real slack = box_slack(s, s->kind == SOLID_EXTRUSION ? 2 : dim);
     for (int d = 0; d < dim; d++) {
-        real along[DIM_MAX] = {0};
-        along[d] = -1, i->low[d] = -image_support(s, i, along, dim);
-        along[d] = 1, i->high[d] = image_support(s, i, along, dim);
+        real along[DIM_MAX] = {0}, end[2];
+        for (int side = 0; side < 2; side++) {
+            along[d] = side == 0 ? -1 : 1;
+            end[side] = i ? image_support(s, i, along, dim) : solid_support(s, along, dim);
+        }
+        const real more = slack + 1e-9 * (fabs(end[0]) + fabs(end[1]));
+        box->low[d] = isfinite(end[0]) ? -end[0] - more : -INFINITY;
+        box->high[d] = isfinite(end[1]) ? end[1] + more : INFINITY;
     }
+}
+
+void solid_box(const struct solid *s, int dim, struct bounds *box) { placement_box(s, NULL, dim, box); }
+
+/* The copies anew, and the tree over their boxes. */
+static void images_index(struct solid *s, int dim)
+{
+    struct bounds *box = NEW("solids.box", s->images, struct bounds);
+    for (int k = 0; k < s->images; k++) placement_box(s, &s->image[k], dim, &box[k]);
+    box_tree_free(&s->tree);
+    box_tree_make(&s->tree, box, s->images, dim);
+    memory_free(box);
 }
 
 bool solid_move(struct solid *s, const struct solid_motion *m, int dim)
@@ -130,12 +152,11 @@ bool solid_move(struct solid *s, const struct solid_motion *m, int dim)
     struct placement itself = {.turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, *image;
     if (!(count <= IMAGES_MOST)) return false;
     image = NEW("solids.image", (int)count, struct placement);
-    for (int k = 0; k < (int)count; k++) {
+    for (int k = 0; k < (int)count; k++)
         image[k] = image_made(s->images > 0 ? &s->image[k % before] : &itself, m, k / before, dim);
-        image_box(&image[k], s, dim);
-    }
     memory_free(s->image);
     s->image = image, s->images = (int)count;
+    images_index(s, dim);
     s->motion = memory_resize("solids.motion", s->motion, s->motions, s->motions + 1, sizeof *m);
     s->motion[s->motions++] = *m;
     return true;
@@ -143,18 +164,21 @@ bool solid_move(struct solid *s, const struct solid_motion *m, int dim)
 
 /* ---- all copies -------------------------------------------------------------------------------------------------- */
 
+/* Of copies that are equally near the first counts. */
 real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
 {
     real nearest = INFINITY, own[DIM_MAX], at[DIM_MAX];
+    int first = 0;
+    struct box_search near;
     if (s->images == 0) return solid_types[s->kind].distance(s, X, dim, normal);
     for (int d = 0; d < dim; d++) normal[d] = d == 0;
-    for (int k = 0; k < s->images; k++) {
+    box_search_start(&near, &s->tree, X, dim);
+    for (int k; (k = box_search_next(&near, level_reach(nearest))) >= 0;) {
         const struct placement *i = &s->image[k];
-        if (image_least(i, X, dim) > nearest) continue;
         place_back(i, X, dim, at);
         const real distance = solid_types[s->kind].distance(s, at, dim, own);
-        if (!(distance < nearest)) continue;
-        nearest = distance;
+        if (!(distance < nearest || (distance == nearest && k < first))) continue;
+        nearest = distance, first = k;
         for (int a = 0; a < dim; a++) {
             normal[a] = 0;
             for (int b = 0; b < dim; b++) normal[a] += i->turn[a][b] * own[b];
@@ -173,13 +197,34 @@ static real image_level(const struct solid *s, const real *X, int dim)
 real solid_level(const struct solid *s, const real *X, int dim)
 {
     real nearest = INFINITY, at[DIM_MAX];
+    struct box_search near;
     if (s->images == 0) return image_level(s, X, dim);
-    for (int k = 0; k < s->images; k++) {
-        if (image_least(&s->image[k], X, dim) > nearest) continue;
+    box_search_start(&near, &s->tree, X, dim);
+    for (int k; (k = box_search_next(&near, level_reach(nearest))) >= 0;) {
         place_back(&s->image[k], X, dim, at);
         nearest = real_min(nearest, image_level(s, at, dim));
     }
     return nearest;
+}
+
+static bool image_within(const struct solid *s, const real *X, int dim, real most)
+{
+    const struct solid_type *type = &solid_types[s->kind];
+    return type->within ? type->within(s, X, dim, most) : image_level(s, X, dim) <= most;
+}
+
+bool solid_within(const struct solid *s, const real *X, int dim, real most)
+{
+    real at[DIM_MAX];
+    bool within = false;
+    struct box_search near;
+    if (s->images == 0) return image_within(s, X, dim, most);
+    box_search_start(&near, &s->tree, X, dim);
+    for (int k; !within && (k = box_search_next(&near, level_reach(most))) >= 0;) {
+        place_back(&s->image[k], X, dim, at);
+        within = image_within(s, at, dim, most);
+    }
+    return within;
 }
 
 real solid_support(const struct solid *s, const real *along, int dim)

@@ -47,6 +47,7 @@ struct reader {
     int variables, variables_open;       /* how many; how many are being evaluated */
     struct arena_block *arena;           /* nodes and texts of this reading */
     const struct node *regions;          /* by name; NULL: none */
+    const struct node *sections;         /* likewise, of the plane, which extrusions in space call */
     const struct naming *naming;         /* names of regions within whose reading this one is; NULL: none */
 };
 

@@ -69,6 +69,9 @@ const struct key keys[] = {
 
     KEY("regions", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
         "called by name wherever solids are read, as region: grip", .words = "mapping of names to solids"),
+    KEY("sections", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
+        "shapes of the plane, called by name as the shape of extrude; space solid only",
+        .words = "mapping of names to solids of the plane"),
     KEY("body", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(required, or bodies)",
         "shape of the one body, which is then called body", .words = "solid or list of solids"),
     KEY("parts", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 10000), NONE,

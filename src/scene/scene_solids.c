@@ -94,7 +94,7 @@ static status read_extrusion(struct reader *r, const struct node *n, struct soli
     if (!shape) return fault_missing(r, n, key_find("solid.extrude", "shape"));
     if (!(s->begin < s->end)) return fault(r, n, "from is not below to; from is the lower end");
     r->dim = 2;
-    const status read = read_solids(r, shape, &s->region, false);
+    const status read = read_region(r, shape, &s->region);
     r->dim = r->scene->dim;
     return read;
 }
@@ -127,20 +127,21 @@ static status read_shape(struct reader *r, const struct node *n, const struct so
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
-/* The node of the region of this name. REFUSED with the nearest name. */
+/* The node of the region of this name; in an extrusion's plane, of the section. REFUSED with the nearest name. */
 static status region_called(struct reader *r, const struct node *n, const struct node **called)
 {
-    const struct node *nearest = NULL;
-    if (n->kind != NODE_SCALAR) return fault(r, n, "%s is no name; one of regions is expected", shown(r, n));
-    if (!r->regions)
-        return fault(r, n, "%s is no solid, and no region has a name; regions: {%s: {box: ..}} is expected",
-                     shown(r, n), shown(r, n));
-    for (const struct node *c = r->regions->first; c; c = c->next) {
+    const struct node *nearest = NULL, *map = r->dim == r->scene->dim ? r->regions : r->sections;
+    const char *word = r->dim == r->scene->dim ? "region" : "section";
+    if (n->kind != NODE_SCALAR) return fault(r, n, "%s is no name; one of %ss is expected", shown(r, n), word);
+    if (!map)
+        return fault(r, n, "%s is no solid, and no %s has a name; %ss: {%s: {box: ..}} is expected", shown(r, n), word,
+                     word, shown(r, n));
+    for (const struct node *c = map->first; c; c = c->next) {
         *called = c;
         if (strcmp(c->key, n->text) == 0) return OK;
         if (!nearest || edit_distance(c->key, n->text) < edit_distance(nearest->key, n->text)) nearest = c;
     }
-    return fault(r, n, "there is no region %s; the nearest is %s", shown(r, n), nearest->key);
+    return fault(r, n, "there is no %s %s; the nearest is %s", word, shown(r, n), nearest->key);
 }
 
 /* Reads the region of a name as if it stood here. REFUSED if that needs itself. */
@@ -170,26 +171,55 @@ static status read_named(struct reader *r, const struct node *n, struct solid *s
     return OK;
 }
 
-status read_regions(struct reader *r, const struct node *root)
+/* Reads what a mapping gives names to; *count: how many, also on failure. */
+static status read_names(struct reader *r, const struct node *map, struct named_region *named, int *count)
 {
-    struct scene *s = r->scene;
-    const struct node *map = node_find(root, "regions");
-    r->regions = NULL, r->solids = 0;
-    if (!map) return OK;
-    TRY(expect(r, map, NODE_MAP, "a mapping of names to solids, as {grip: {box: ..}}"));
-    if (map->n == 0) return fault(r, map, "has no region; a name and its solids are expected");
-    r->regions = map;
-    s->named = NEW("regions", map->n, struct named_region);
     for (const struct node *n = map->first; n; n = n->next) {
         const struct node name = {.text = n->key, .key = n->key, .line = n->line, .column = n->column,
                                   .origin = n->origin};
         for (const struct node *twin = map->first; twin != n; twin = twin->next)
             if (strcmp(twin->key, n->key) == 0)
                 return fault(r, n, "given twice, first in line %d; keep one", twin->line);
-        TRY(read_key(r, &(struct key){.type = KEY_NAME, .place = 1}, &name, s->named[s->regions].name));
-        TRY(read_called(r, &name, &s->named[s->regions++].region));
+        TRY(read_key(r, &(struct key){.type = KEY_NAME, .place = 1}, &name, named[*count].name));
+        TRY(read_called(r, &name, &named[(*count)++].region));
     }
     return OK;
+}
+
+/* The mapping of a key; NULL if it is not given. */
+static status names_find(struct reader *r, const struct node *root, const char *key, const struct node **map)
+{
+    *map = node_find(root, key);
+    if (!*map) return OK;
+    TRY(expect(r, *map, NODE_MAP, "a mapping of names to solids, as {grip: {box: ..}}"));
+    return (*map)->n > 0 ? OK : fault(r, *map, "has no region; a name and its solids are expected");
+}
+
+/* Sections are read to say what is wrong with them; extrusions read them again. */
+static status read_sections(struct reader *r)
+{
+    const struct node *map = r->sections;
+    int count = 0;
+    if (r->dim != 3) return fault(r, map, "not in %s; regions are expected there", space_shown(r));
+    struct named_region *named = NEW("regions", map->n, struct named_region);
+    r->dim = 2;
+    const status read = read_names(r, map, named, &count);
+    r->dim = 3;
+    for (int k = 0; k < count; k++) region_free(&named[k].region);
+    memory_free(named);
+    return read;
+}
+
+status read_regions(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    r->regions = r->sections = NULL, r->solids = 0;
+    TRY(names_find(r, root, "regions", &r->regions));
+    TRY(names_find(r, root, "sections", &r->sections));
+    if (r->sections) TRY(read_sections(r));
+    if (!r->regions) return OK;
+    s->named = NEW("regions", r->regions->n, struct named_region);
+    return read_names(r, r->regions, s->named, &s->regions);
 }
 
 /* ---- lists of solids --------------------------------------------------------------------------------------------- */
@@ -253,8 +283,10 @@ static status read_solids(struct reader *r, const struct node *n, struct region 
         region->solid[k].intersect = intersect;
         TRY(read_solid(r, item, &region->solid[k], false));
     }
-    if (!region->solid[0].subtract) return OK;
-    return fault(r, n, "subtracts from nothing; the first solid must be added, for a region perhaps all: true");
+    if (region->solid[0].subtract)
+        return fault(r, n, "subtracts from nothing; the first solid must be added, for a region perhaps all: true");
+    region_index(region, r->dim);
+    return OK;
 }
 
 status read_region(struct reader *r, const struct node *n, struct region *region)

@@ -34,7 +34,7 @@ static inline void setting_make(struct setting *s, enum space space, const real 
         material_derive(&s->material[m], space);
     }
     for (int b = 0; b < BODIES; b++) {
-        s->body[b].shape = (struct region){1, s->solid[b]};
+        s->body[b].shape = (struct region){.n = 1, .solid = s->solid[b]};
         s->body[b].joined = b;
         snprintf(s->body[b].name, sizeof s->body[b].name, "%s", name[b]);
     }

@@ -193,7 +193,7 @@ static void solids_are_closed_and_grow(void **state)
              {&cylinder, {0.5, 0.5, 1}, {1, 0, 2}, {0, 0, 2.1}},
              {&half, {9, -9, 9}, {3, 1, 4}, {0, 1.1, 0}}};
     for (size_t k = 0; k < COUNT_OF(c); k++) {
-        struct region r = {1, c[k].solid};
+        struct region r = {.n = 1, .solid = c[k].solid};
         assert_true(region_contains(&r, c[k].inside, 3, 0));
         assert_true(region_contains(&r, c[k].surface, 3, 0));
         assert_false(region_contains(&r, c[k].surface, 3, -1e-6));
@@ -208,7 +208,8 @@ static void regions_build_in_order(void **state)
     struct solid plate = {.kind = SOLID_BOX, .from = {0, 0}, .to = {4, 4}};
     struct solid hole = {.kind = SOLID_BALL, .subtract = true, .centre = {2, 2}, .radius = 1};
     struct solid pin = {.kind = SOLID_BALL, .centre = {2, 2}, .radius = 0.5};
-    struct region r = {3, (struct solid[]){plate, hole, pin}}, turned = {3, (struct solid[]){plate, pin, hole}};
+    struct region r = {.n = 3, .solid = (struct solid[]){plate, hole, pin}},
+                  turned = {.n = 3, .solid = (struct solid[]){plate, pin, hole}};
     assert_true(region_contains(&r, POINT(2, 2), 2, 0));
     assert_false(region_contains(&turned, POINT(2, 2), 2, 0));
     assert_false(region_contains(&r, POINT(2.7, 2), 2, 0));
@@ -218,7 +219,7 @@ static void regions_build_in_order(void **state)
     assert_false(region_contains(&r, POINT(5, 2), 2, 0));
     assert_true(region_contains(&(struct region){0}, POINT(1e9, -1e9), 2, 0));
     struct solid all = {.kind = SOLID_ALL};
-    assert_true(region_contains(&(struct region){1, &all}, POINT(7), 1, 0));
+    assert_true(region_contains(&(struct region){.n = 1, .solid = &all}, POINT(7), 1, 0));
 }
 
 static void bounds_hold_the_added_solids(void **state)
@@ -228,7 +229,7 @@ static void bounds_hold_the_added_solids(void **state)
     struct solid s[] = {{.kind = SOLID_CYLINDER, .from = {0, 0, 0}, .to = {3, 4, 0}, .radius = 1},
                         {.kind = SOLID_BALL, .centre = {0, 0, 5}, .radius = 2},
                         {.kind = SOLID_HALF_SPACE, .subtract = true, .normal = {1, 0, 0}}};
-    struct region r = {3, s};
+    struct region r = {.n = 3, .solid = s};
     assert_true(region_bounds(&r, 3, low, high));
     const real want_low[] = {-2, -2, -1}, want_high[] = {3.8, 4.6, 7};   /* cylinder: reach 0.8, 0.6, 1 */
     for (int d = 0; d < 3; d++) {
@@ -239,9 +240,9 @@ static void bounds_hold_the_added_solids(void **state)
     assert_false(region_bounds(&r, 3, low, high));
     assert_false(region_bounds(&(struct region){0}, 3, low, high));
     struct solid strip = {.kind = SOLID_BOX, .from = {0, -INFINITY}, .to = {1, INFINITY}};
-    assert_false(region_bounds(&(struct region){1, &strip}, 2, low, high));
-    assert_true(region_bounds(&(struct region){1, &strip}, 1, low, high));
-    assert_true(region_contains(&(struct region){1, &strip}, POINT(0.5, 1e30), 2, 0));
+    assert_false(region_bounds(&(struct region){.n = 1, .solid = &strip}, 2, low, high));
+    assert_true(region_bounds(&(struct region){.n = 1, .solid = &strip}, 1, low, high));
+    assert_true(region_contains(&(struct region){.n = 1, .solid = &strip}, POINT(0.5, 1e30), 2, 0));
 }
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */

@@ -220,7 +220,7 @@ static void test_energy_at_start(void **state)
         is_near("energy before", before / particle, (real)c.p.n, 1e-4);
         struct solid box = {
             .kind = SOLID_BOX, .from = {12 * CLOUD_SPACING}, .to = {(12 + row[k].block) * CLOUD_SPACING}};
-        convert_start(&c.p, &c.source, &(struct region){1, &box});
+        convert_start(&c.p, &c.source, &(struct region){.n = 1, .solid = &box});
         assert_int_equal(c.p.n_of[KIND_PD], row[k].block);
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
         set_stress(&c, strain, stress);

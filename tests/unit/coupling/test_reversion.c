@@ -209,7 +209,7 @@ static void test_who_stays(void **state)
         struct solid box = {.kind = SOLID_BOX};
         for (int d = 0; d < 2; d++)
             box.from[d] = p->X[d][one] - 0.1 * CLOUD_SPACING, box.to[d] = p->X[d][one] + 0.1 * CLOUD_SPACING;
-        struct region region = {1, &box};
+        struct region region = {.n = 1, .solid = &box};
         if (reason == REASON_BREAK) p->damage[one] = 0.1;
         if (reason == REASON_REGION) s.rule.kept = &region;
         know_stress(&s);

@@ -197,7 +197,7 @@ static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int e
     cloud_strain(c, strain);
     stress_set(c, strain);
     const real before = energy_of(&b, model), particle = before / (real)c->p.n;
-    convert_start(&c->p, &c->source, &(struct region){1, &box});
+    convert_start(&c->p, &c->source, &(struct region){.n = 1, .solid = &box});
     assert_int_equal(c->p.n_of[KIND_PD], edge * edge);
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
     forces(&b, model);

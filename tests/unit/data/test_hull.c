@@ -71,6 +71,8 @@ static void ball_and_torus(void **state)
             assert_true(fabs(hull_winding(&s, X) - (exact < 0)) < 0.04 || fabs(exact) < 0.003);
             const real distance = hull_distance(&s, X, normal);
             assert_true(fabs(distance - exact) < 0.003);
+            const real most[] = {0, 0.4, -0.4, distance, nextafter(distance, -9)};
+            for (int t = 0; t < 5; t++) assert_true(hull_within(&s, X, most[t]) == (distance <= most[t]));
             assert_true(fabs(dot(normal, normal, 3) - 1) < 1e-12);
             const real along =
                 torus ? (X[0] * normal[0] + X[1] * normal[1]) / out * (out - 2) + X[2] * normal[2] : dot(X, normal, 3);
@@ -169,6 +171,8 @@ static void open_ones(void **state)
     assert_true(fabs(hull_distance(&s, (real[]){0.5, 0, 2}, NULL) - 2) < 1e-12);
     assert_true(fabs(hull_distance(&s, (real[]){0, 5, -1}, NULL) - 1) < 1e-12);
     assert_true(hull_distance(&s, (real[]){0, 5, 0}, NULL) == 0);
+    assert_true(hull_within(&s, (real[]){0, 5, 0}, 0) && hull_within(&s, (real[]){0, 5, 1}, 1));
+    assert_false(hull_within(&s, (real[]){0, 5, 1}, 0.999) || hull_within(&s, (real[]){0, 5, 0}, -1));
     hull_free(&s);
 }
 

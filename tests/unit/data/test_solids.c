@@ -51,7 +51,7 @@ static struct example { struct solid s; int dim; real volume; } examples[] = {
     {{.kind = SOLID_TORUS, .normal = {0, 1, 1}, .radius = 1, .inner = 0.3}, 3, 0},
     {{.kind = SOLID_POLYGON, .polygon = &sharp}, 2, 0},
     {{.kind = SOLID_POLYGON, .polygon = &rounded}, 2, 0},
-    {{.kind = SOLID_EXTRUSION, .region = {1, &washer}, .axis = 1, .begin = -0.5, .end = 1}, 3, 0},
+    {{.kind = SOLID_EXTRUSION, .region = {.n = 1, .solid = &washer}, .axis = 1, .begin = -0.5, .end = 1}, 3, 0},
 };
 
 static void examples_make(void)
@@ -71,7 +71,7 @@ static void examples_make(void)
 /* Volume by points of a sequence, in a box that is a little larger than needed. */
 static void check_volume(const struct solid *s, int dim, real volume)
 {
-    const struct region r = {1, (struct solid *)(uintptr_t)s};
+    const struct region r = {.n = 1, .solid = (struct solid *)(uintptr_t)s};
     real from[DIM_MAX], to[DIM_MAX], box = 1;
     assert_true(region_bounds(&r, dim, from, to));
     for (int d = 0; d < dim; d++) {
@@ -84,7 +84,7 @@ static void check_volume(const struct solid *s, int dim, real volume)
 /* Bounds: no point of it lies outside, and it touches each side. */
 static void check_bounds(const struct solid *s, int dim)
 {
-    const struct region r = {1, (struct solid *)(uintptr_t)s};
+    const struct region r = {.n = 1, .solid = (struct solid *)(uintptr_t)s};
     real from[DIM_MAX], to[DIM_MAX], X[DIM_MAX] = {0};
     uint64_t seed = 7;
     assert_true(region_bounds(&r, dim, from, to));
@@ -150,7 +150,7 @@ static void test_every_kind_moved(void **state)
         check_volume(&s, dim, examples[k].volume);
         check_bounds(&s, dim);
         check_distance(&s, dim);
-        memory_free(s.image), memory_free(s.motion);
+        memory_free(s.image), memory_free(s.motion), box_tree_free(&s.tree);
     }
 }
 
@@ -166,10 +166,10 @@ static void test_quarter_turns(void **state)
         struct solid_motion turn = {.kind = MOTION_ROTATE, .angle = k * 90 * pi / 180};
         real from[DIM_MAX], to[DIM_MAX];
         assert_true(solid_move(&s, &turn, 2));
-        assert_true(region_bounds(&(struct region){1, &s}, 2, from, to));
+        assert_true(region_bounds(&(struct region){.n = 1, .solid = &s}, 2, from, to));
         assert_true(from[0] == corners[k][0] && from[1] == corners[k][1]);
         assert_true(to[0] == corners[k][2] && to[1] == corners[k][3]);
-        memory_free(s.image), memory_free(s.motion);
+        memory_free(s.image), memory_free(s.motion), box_tree_free(&s.tree);
     }
 }
 
@@ -181,7 +181,7 @@ static void test_gear(void **state)
     struct polygon flank = {4, tooth, 0, NULL, 0};
     struct solid s[2] = {{.kind = SOLID_BALL, .radius = 10}, {.kind = SOLID_POLYGON, .polygon = &flank}};
     struct solid_motion ring = {.kind = MOTION_RING, .count = {18}, .angle = 2 * pi / 18};
-    const struct region gear = {2, s};
+    const struct region gear = {.n = 2, .solid = s};
     int corner;
     uint64_t seed = 3;
     assert_int_equal(polygon_make(&flank, &corner), POLYGON_FINE);
@@ -201,7 +201,7 @@ static void test_gear(void **state)
     }
     const real from[] = {-12, -12, 0}, to[] = {12, 12, 0};
     assert_float_equal(region_volume(&gear, 2, from, to), area, 1e-3 * 576);
-    memory_free(s[1].image), memory_free(s[1].motion);
+    memory_free(s[1].image), memory_free(s[1].motion), box_tree_free(&s[1].tree);
 }
 
 /* A grid of holes is the list of the holes; a mirror image lies where it should. */
@@ -224,15 +224,107 @@ static void test_grid_and_mirror(void **state)
     for (int k = 0; k < 4000; k++) {
         const real X[] = {7 * random_next(&seed) - 0.5, 5 * random_next(&seed) - 0.5, 0};
         real one[DIM_MAX], other[DIM_MAX];
-        assert_float_equal(region_level(&(struct region){2, perforated}, X, 2),
-                           region_level(&(struct region){7, list}, X, 2), 1e-13);
-        assert_float_equal(region_distance(&(struct region){2, pair}, X, 2, one),
-                           region_distance(&(struct region){3, said}, X, 2, other), 1e-13);
+        assert_float_equal(region_level(&(struct region){.n = 2, .solid = perforated}, X, 2),
+                           region_level(&(struct region){.n = 7, .solid = list}, X, 2), 1e-13);
+        assert_float_equal(region_distance(&(struct region){.n = 2, .solid = pair}, X, 2, one),
+                           region_distance(&(struct region){.n = 3, .solid = said}, X, 2, other), 1e-13);
     }
     memory_free(holes.image), memory_free(holes.motion), memory_free(two.image), memory_free(two.motion);
+    box_tree_free(&holes.tree), box_tree_free(&two.tree);
     struct solid many = hole;
     grid.count[0] = 3000;
     assert_false(solid_move(&many, &grid, 2));
+}
+
+/* ---- index ------------------------------------------------------------------------------------------------------- */
+
+/* Asks two regions at random places: the same to the last bit, on surfaces, too. */
+static void check_same(const struct region *a, const struct region *b, int dim, int places)
+{
+    uint64_t seed = 13;
+    for (int k = 0; k < places; k++) {
+        real X[DIM_MAX] = {0}, one[DIM_MAX], other[DIM_MAX];
+        for (int d = 0; d < dim; d++) X[d] = 24 * random_next(&seed) - 2;
+        for (int d = 0; d < dim && k % 4 == 0; d++) X[d] = nearbyint(X[d]);
+        const real level = region_level(a, X, dim), grown[] = {0, 0.4, -0.4, 2, level, -level};
+        assert_true(level == region_level(b, X, dim));
+        assert_true(region_distance(a, X, dim, one) == region_distance(b, X, dim, other));
+        for (int d = 0; d < dim; d++) assert_true(one[d] == other[d]);
+        for (size_t t = 0; t < COUNT_OF(grown); t++) {
+            assert_true(region_contains(a, X, dim, grown[t]) == (level <= grown[t]));
+            assert_true(region_contains(b, X, dim, grown[t]) == (level <= grown[t]));
+        }
+    }
+}
+
+enum { MANY = 200 };
+
+static void many_free(struct solid *list)
+{
+    for (int k = 0; k < MANY; k++) {
+        memory_free(list[k].image), memory_free(list[k].motion);
+        box_tree_free(&list[k].tree);
+    }
+}
+
+/* Solids of all kinds, many turned, in runs that are added, taken away and intersected: an index changes nothing. */
+static void test_index_of_list(void **state)
+{
+    (void)state;
+    examples_make();
+    for (int dim = 2; dim <= 3; dim++) {
+        struct solid list[MANY];
+        uint64_t seed = 3;
+        for (int k = 0; k < MANY; k++) {
+            const struct example *e;
+            do e = &examples[(size_t)(random_next(&seed) * COUNT_OF(examples))];
+            while (e->dim != dim);
+            struct solid_motion turn = {.kind = MOTION_ROTATE, .axis = {1, 2, 3}, .angle = 6 * random_next(&seed)};
+            struct solid_motion move = {.kind = MOTION_MOVE};
+            for (int d = 0; d < dim; d++) move.step[d] = 20 * random_next(&seed);
+            list[k] = e->s;
+            list[k].subtract = k / 30 % 2;
+            if (k == 70) continue;
+            assert_true((k % 3 == 0 || solid_move(&list[k], &turn, dim)) && solid_move(&list[k], &move, dim));
+        }
+        list[70] = (struct solid){.kind = SOLID_BALL, .intersect = true, .centre = {10, 10, 10}, .radius = 11};
+        const struct region plain = {.n = MANY, .solid = list};
+        struct region indexed = plain;
+        region_index(&indexed, dim);
+        assert_int_equal(indexed.runs, 9);
+        check_same(&plain, &indexed, dim, 800);
+        struct solid group = {.kind = SOLID_GROUP, .region = indexed};
+        check_same(&plain, &(struct region){.n = 1, .solid = &group}, dim, 200);
+        for (int j = 0; j < indexed.runs; j++) box_tree_free(&indexed.run[j].tree);
+        memory_free(indexed.run);
+        many_free(list);
+    }
+}
+
+/* Copies are what a list of them is, one after another; of an extrusion, too. */
+static void test_index_of_copies(void **state)
+{
+    (void)state;
+    const struct solid_motion turn = {.kind = MOTION_ROTATE, .angle = 0.7, .axis = {0, 1, 2}},
+                              grid = {.kind = MOTION_GRID, .count = {10, 20, 1}, .step = {2, 1, 0}};
+    struct solid plate[] = {{.kind = SOLID_BOX, .to = {20, 20}},
+                            {.kind = SOLID_BOX, .subtract = true, .from = {0, 0, -1}, .to = {1.4, 0.3, 1}}}, list[MANY];
+    assert_true(solid_move(&plate[1], &turn, 2) && solid_move(&plate[1], &grid, 2));
+    for (int k = 0; k < MANY; k++) {
+        list[k] = plate[1], list[k].image = &plate[1].image[k], list[k].images = 1;
+        const struct bounds endless = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+        box_tree_make(&list[k].tree, &endless, 1, 2);
+        list[k].subtract = false;
+    }
+    const struct solid all = {.kind = SOLID_GROUP, .subtract = true, .region = {.n = MANY, .solid = list}};
+    struct solid said[] = {plate[0], all};
+    const struct region a = {.n = 2, .solid = plate}, b = {.n = 2, .solid = said};
+    struct solid one = {.kind = SOLID_EXTRUSION, .axis = 1, .begin = 0, .end = 20, .region = a}, other = one;
+    other.region = b;
+    check_same(&a, &b, 2, 2000);
+    check_same(&(struct region){.n = 1, .solid = &one}, &(struct region){.n = 1, .solid = &other}, 3, 500);
+    for (int k = 0; k < MANY; k++) box_tree_free(&list[k].tree);
+    memory_free(plate[1].image), memory_free(plate[1].motion), box_tree_free(&plate[1].tree);
 }
 
 /* Intersections: in all of them; closed; bounds are those of the smaller. */
@@ -241,7 +333,7 @@ static void test_intersection(void **state)
     (void)state;
     struct solid s[] = {{.kind = SOLID_BALL, .intersect = true, .radius = 2},
                         {.kind = SOLID_HALF_SPACE, .intersect = true, .point = {0.5}, .normal = {2, 0}}};
-    const struct region r = {2, s};
+    const struct region r = {.n = 2, .solid = s};
     struct solid group = {.kind = SOLID_GROUP, .region = r};
     real from[DIM_MAX], to[DIM_MAX];
     uint64_t seed = 11;
@@ -253,7 +345,7 @@ static void test_intersection(void **state)
         const real X[] = {5 * random_next(&seed) - 2.5, 5 * random_next(&seed) - 2.5, 0};
         const bool inside = hypot(X[0], X[1]) <= 2 && X[0] <= 0.5;
         assert_true(region_contains(&r, X, 2, 0) == inside);
-        assert_true(region_contains(&(struct region){1, &group}, X, 2, 0) == inside);
+        assert_true(region_contains(&(struct region){.n = 1, .solid = &group}, X, 2, 0) == inside);
     }
     check_distance(&s[0], 2);
 }
@@ -284,7 +376,8 @@ int main(void)
         cmocka_unit_test(test_every_kind),      cmocka_unit_test(test_every_kind_moved),
         cmocka_unit_test(test_quarter_turns),   cmocka_unit_test(test_gear),
         cmocka_unit_test(test_grid_and_mirror), cmocka_unit_test(test_intersection),
-        cmocka_unit_test(test_polygon_faults),
+        cmocka_unit_test(test_polygon_faults),  cmocka_unit_test(test_index_of_list),
+        cmocka_unit_test(test_index_of_copies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

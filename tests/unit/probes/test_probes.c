@@ -59,7 +59,7 @@ static void probes_read_particles_and_regions(void **state)
     struct solid left = box(0, 0, 5, 10);
     struct probe_request request[] = {
         {.name = "gauge", .kind = PROBE_POINT, .has_at = true, .at = {3.4, 7.6}},
-        {.name = "left", .kind = PROBE_MOMENTUM, .region = {1, &left}},
+        {.name = "left", .kind = PROBE_MOMENTUM, .region = {.n = 1, .solid = &left}},
         {.name = "all", .kind = PROBE_ENERGY},
         {.name = "patch", .kind = PROBE_PATCH},
     };
@@ -99,7 +99,7 @@ static void probes_refuse_what_is_not_there(void **state)
     struct solid outside = box(20, 20, 30, 30);
     struct { struct probe_request request; const char *says; } bad[] = {
         {{.name = "p", .kind = PROBE_POINT, .at = {11.6, 5}}, "point (11.6, 5) m lies outside"},
-        {{.name = "p", .kind = PROBE_BREAK, .region = {1, &outside}}, "holds no particle"},
+        {{.name = "p", .kind = PROBE_BREAK, .region = {.n = 1, .solid = &outside}}, "holds no particle"},
         {{.name = "p", .kind = PROBE_REACTION, .boundary = "grap"},
          "no boundary is named \"grap\"; fixed or driven are: \"grip\""},
         {{.name = "p", .kind = PROBE_REACTION, .boundary = "pull"}, "holds no velocity"},
@@ -300,7 +300,7 @@ static void probe_of_a_break(void **state)
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = KIND_PD;
     bar_bond(&bar);
     struct solid right = box(15, 0, 30, 0);
-    struct probe_request request[] = {{.name = "right", .kind = PROBE_BREAK, .region = {1, &right}},
+    struct probe_request request[] = {{.name = "right", .kind = PROBE_BREAK, .region = {.n = 1, .solid = &right}},
                                       {.name = "all", .kind = PROBE_BREAK},
                                       {.name = "energy", .kind = PROBE_ENERGY}};
     struct observed o = bar_seen(&bar, 1);

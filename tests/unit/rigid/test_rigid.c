@@ -13,7 +13,7 @@ static struct solid solids[] = {
     {.kind = SOLID_BALL, .centre = {5, 1, 1}, .radius = 1.5},
     {.kind = SOLID_CYLINDER, .from = {-3, 0, 0}, .to = {-3, 4, 1}, .radius = 1},
 };
-static const struct region shape = {3, solids};
+static const struct region shape = {.n = 3, .solid = solids};
 
 /* The distance falls to 0 along the normal, and nothing of the body is nearer: the ball of that radius round the point
  * holds no point of it (outside). */
@@ -51,7 +51,7 @@ static void test_inertia(void **state)
     (void)state;
     static struct solid brick = {.kind = SOLID_BOX, .from = {1, 1, 1}, .to = {5, 3, 2}};
     static struct solid disc = {.kind = SOLID_BALL, .centre = {1, 2}, .radius = 3};
-    const struct region a = {1, &brick}, b = {1, &disc};
+    const struct region a = {.n = 1, .solid = &brick}, b = {1, &disc};
     struct rigid_body r = {.name = "brick"};
     assert_ok(rigid_make(&r, &a, 3, 6, rest, 1));
     assert_near(r.inertia[0][0], 0.5 * (4 + 1), 1e-3 * 2.5);
@@ -68,7 +68,7 @@ static void test_tumbling(void **state)
 {
     (void)state;
     static struct solid brick = {.kind = SOLID_BOX, .from = {-2, -1, -0.5}, .to = {2, 1, 0.5}};
-    const struct region a = {1, &brick};
+    const struct region a = {.n = 1, .solid = &brick};
     struct rigid_body r = {.name = "brick"};
     assert_ok(rigid_make(&r, &a, 3, 6, rest, 1));
     memcpy(r.angular, (const real[]){0.01, 8.5, 0.01}, sizeof r.angular);
@@ -94,7 +94,7 @@ static void test_driven(void **state)
 {
     (void)state;
     static struct solid disc = {.kind = SOLID_BALL, .centre = {1, 2}, .radius = 3};
-    const struct region b = {1, &disc};
+    const struct region b = {.n = 1, .solid = &disc};
     struct rigid_body r = {.name = "disc"}, driven = {.name = "plate", .ramp = 1};
     assert_ok(rigid_make(&r, &b, 2, 2, rest, 1));
     assert_ok(rigid_make(&driven, &b, 2, 0, (const real[]){3, 0, 0}, 1));
@@ -118,7 +118,7 @@ static void test_refused(void **state)
 {
     (void)state;
     static struct solid half = {.kind = SOLID_HALF_SPACE, .normal = {0, 1, 0}}, none = {.kind = SOLID_BOX};
-    const struct region a = {1, &half}, b = {1, &none};
+    const struct region a = {.n = 1, .solid = &half}, b = {1, &none};
     struct rigid_body r = {.name = "floor"};
     assert_ok(rigid_make(&r, &a, 2, 0, rest, 1));
     assert_int_equal(rigid_make(&r, &a, 2, 1, rest, 1), REFUSED);

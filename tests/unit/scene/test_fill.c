@@ -232,7 +232,7 @@ static void later_initial_entries_overwrite(void **state)
     s.scene.initials = 3;
     s.initial[0].sets_velocity = s.initial[1].sets_velocity = s.initial[2].sets_velocity = true;
     s.initial[0].velocity[0] = 1;
-    s.initial[1].region = (struct region){1, &right};
+    s.initial[1].region = (struct region){.n = 1, .solid = &right};
     s.initial[1].velocity[1] = 2;
     memcpy(s.initial[1].velocity_gradient, (real[]){0.5, -3, 3, 0}, 4 * sizeof(real));
     s.initial[1].centre[0] = 1;

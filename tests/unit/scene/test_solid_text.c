@@ -53,6 +53,10 @@ static const struct shown_shape { int dim; const char *regions, *shape; real in[
      {0, 0, 2.9}, {2.9, 0, 0}},
     {3, "", "{extrude: {shape: [{disc: {centre: [1, 2], radius: 3}}, {subtract: {ellipse: {centre: [1, 2], radii: "
             "[1, 2]}, rotate: {angle: 0.5 rad}}}], along: y, from: -2, to: 3}}", {3.5, 0, 2}, {1, 0, 2}},
+    {3, "sections: {web: [{disc: {centre: [1, 2], radius: 3}}, {subtract: {region: hole}}], hole: {disc: {centre: [1, "
+        "2], radius: 1}}}\n",
+     "[{extrude: {shape: web, from: 0, to: 1}}, {extrude: {shape: [{region: hole}, {region: hole, move: [9, 0]}], "
+     "from: -3, to: -2}}]", {10, 2, -2.5}, {1, 2, 0.5}},
     {3, "", "{cylinder: {from: [0, 0, 0], to: [0, 0, 4], radius: 1}, pattern: {ring: {count: 3, centre: [3, 0, 0], "
             "axis: [0, 0, 2]}}}", {3 + 1.5, 2.598, 1}, {6, 0, 1}},
 };
@@ -192,6 +196,15 @@ static void test_refusals(void **state)
         {2, "regions: {a: {box: {from: [0, 0], to: [1, 1]}}, a: {all: true}}\n", "a", "given twice"},
         {2, "regions: {'a b': {box: {from: [0, 0], to: [1, 1]}}}\n", "a b", "is no name"},
         {2, "regions: 3\n", "a", "is not a mapping"},
+        {2, "sections: {a: {box: {from: [0, 0], to: [1, 1]}}}\n", "{box: {from: [0, 0], to: [1, 1]}}",
+         "not in space plane stress; regions are expected there"},
+        {3, "regions: {a: {ball: {centre: [0, 0, 0], radius: 1}}}\n", "{extrude: {shape: a, from: 0, to: 1}}",
+         "a is no solid, and no section has a name; sections: {a: {box: ..}} is expected"},
+        {3, "sections: {a: {ball: {centre: [0, 0, 0], radius: 1}}}\n", "{extrude: {shape: a, from: 0, to: 1}}",
+         "2 are expected in the plane of extrude"},
+        {3, "sections: {web: {disc: {centre: [0, 0], radius: 1}}}\n", "{extrude: {shape: wed, from: 0, to: 1}}",
+         "there is no section wed; the nearest is web"},
+        {3, "sections: {a: [{region: a}]}\n", "{extrude: {shape: a, from: 0, to: 1}}", "a is part of itself"},
     };
     char text[2000];
     for (size_t k = 0; k < COUNT_OF(cases); k++) {

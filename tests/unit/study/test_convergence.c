@@ -219,7 +219,7 @@ static void spacings_fit_faces_and_cracks(void **state)
 {
     (void)state;
     struct solid box = {.kind = SOLID_BOX, .to = {100, 40}};
-    struct scene_body body = {.shape = {1, &box}};
+    struct scene_body body = {.shape = {.n = 1, .solid = &box}};
     real corner[2][DIM_MAX] = {{0, 20}, {50, 20}};
     struct crack crack = {2, corner, 0};
     struct scene s = {.dim = 2, .spacing = 0.5, .bodies = 1, .body = &body, .cracks = 1, .crack = &crack};

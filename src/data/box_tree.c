@@ -1,0 +1,110 @@
+/* Boxes halved by their middles, again and again. */
+#include "data/box_tree.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+
+/* A box while the tree is made, and the middle by which its node is halved now; 0 of one without end. */
+struct boxed { real middle; int32_t item; };
+
+static int boxed_order(const void *a, const void *b)
+{
+    const struct boxed *p = a, *q = b;
+    if (p->middle != q->middle) return p->middle < q->middle ? -1 : 1;
+    return (p->item > q->item) - (p->item < q->item);
+}
+
+static real middle_of(const struct bounds *box, int d)
+{
+    const real middle = 0.5 * (box->low[d] + box->high[d]);
+    return isfinite(middle) ? middle : 0;
+}
+
+/* The direction along which the middles are spread most. */
+static int widest_spread(const struct boxed *list, int n, const struct bounds *box, int dim)
+{
+    int widest = 0;
+    real most = -1;
+    for (int d = 0; d < dim; d++) {
+        real low = INFINITY, high = -INFINITY;
+        for (int k = 0; k < n; k++) {
+            const real middle = middle_of(&box[list[k].item], d);
+            low = real_min(low, middle), high = real_max(high, middle);
+        }
+        if (high - low > most) most = high - low, widest = d;
+    }
+    return widest;
+}
+
+/* Makes node `at` of the boxes list[0 .. n - 1]; `nodes`: how many there are so far. */
+static void boxes_halve(struct box_tree *t, int32_t at, int32_t *nodes, struct boxed *list, int n,
+                        const struct bounds *box, int dim)
+{
+    struct box_node *node = &t->node[at];
+    node->box = box[list[0].item], node->item = list[0].item;
+    for (int k = 1; k < n; k++)
+        for (int d = 0; d < dim; d++) {
+            node->box.low[d] = real_min(node->box.low[d], box[list[k].item].low[d]);
+            node->box.high[d] = real_max(node->box.high[d], box[list[k].item].high[d]);
+        }
+    if (n == 1) return;
+    const int d = widest_spread(list, n, box, dim);
+    for (int k = 0; k < n; k++) list[k].middle = middle_of(&box[list[k].item], d);
+    qsort(list, (size_t)n, sizeof *list, boxed_order);
+    const int32_t left = *nodes;
+    *nodes += 2, node->left = left;
+    boxes_halve(t, left, nodes, list, n / 2, box, dim);
+    boxes_halve(t, left + 1, nodes, list + n / 2, n - n / 2, box, dim);
+}
+
+void box_tree_make(struct box_tree *t, const struct bounds *box, int n, int dim)
+{
+    struct boxed *list = NEW("boxes.list", n, struct boxed);
+    int32_t nodes = 1;
+    *t = (struct box_tree){n, NEW("boxes.node", 2 * (int64_t)n - 1, struct box_node)};
+    for (int k = 0; k < n; k++) list[k].item = k;
+    boxes_halve(t, 0, &nodes, list, n, box, dim);
+    memory_free(list);
+}
+
+void box_tree_free(struct box_tree *t)
+{
+    memory_free(t->node);
+    *t = (struct box_tree){0};
+}
+
+/* ---- search ------------------------------------------------------------------------------------------------------ */
+
+static void box_wait(struct box_search *q, int32_t node)
+{
+    const struct bounds *box = &q->tree->node[node].box;
+    real least = -INFINITY;
+    for (int d = 0; d < q->dim; d++) least = real_max(least, real_max(box->low[d] - q->X[d], q->X[d] - box->high[d]));
+    q->wait[q->waiting++] = (struct box_waiting){node, least};
+}
+
+void box_search_start(struct box_search *q, const struct box_tree *t, const real *X, int dim)
+{
+    q->tree = t, q->X = X, q->dim = dim, q->waiting = 0;
+    if (t->n > 0) box_wait(q, 0);
+}
+
+int box_search_next(struct box_search *q, real reach)
+{
+    while (q->waiting > 0) {
+        const struct box_waiting next = q->wait[--q->waiting];
+        const struct box_node *node = &q->tree->node[next.node];
+        if (next.least > reach) continue;
+        if (node->left == 0) return node->item;
+        box_wait(q, node->left);
+        box_wait(q, node->left + 1);
+        struct box_waiting *two = &q->wait[q->waiting - 2];
+        if (two[0].least < two[1].least) {
+            const struct box_waiting nearer = two[0];
+            two[0] = two[1], two[1] = nearer;
+        }
+    }
+    return -1;
+}
