@@ -17,7 +17,9 @@ enum { PERIODS_MOST = 200 };
 #define PATIENCE 3.0                     /* factor on it, for conversion or a busy machine                    */
 #define COARSER_MOST 4.0                 /* factor on the spacing: a body still breaks in about the same places */
 #define FRAME_BYTES 72                   /* per particle: copy for the writer, its room, order                */
-#define OUTPUT_BYTES 2.7e6               /* of the HDF5 library                                               */
+#define PARTS_BYTES 56                   /* ... more where there are bonds: parts of a broken body, damage    */
+#define OUTPUT_BYTES 5.2e6               /* of the HDF5 library: itself 2.1 MB, its room for conversions 2 MB, */
+                                         /* the file of all frames 1.1 MB                                     */
 #define FILE_SECONDS 2.5e-3              /* per frame, checkpoint or profile, of any size; measured, as the next: */
 #define FILE_SECONDS_PARTICLE 8e-8       /* 0.25 ms to 26 ms a frame for 160 to 320,000 particles             */
 #define BONDS_MOST 2e8                   /* of a body tried with all particles peridynamic                    */
@@ -204,19 +206,24 @@ static void cost_peridynamic(struct cost *c, const struct engine *e, const struc
     c->all_peridynamic = c->make + loop + c->output;
 }
 
+/* What the run has beyond the steps so far [byte]. */
+static double output_bytes(const struct engine *e)
+{
+    return OUTPUT_BYTES + (double)e->part.n * (FRAME_BYTES + (e->scene->method == METHOD_MPM ? 0 : PARTS_BYTES));
+}
+
 status cost_measure(struct cost *c, struct engine *e, const struct run_arguments *a)
 {
-    const double n = (double)e->part.n;
     c->all_peridynamic = NAN;
     if (e->scene->solver != SOLVER_EXPLICIT) {
         /* conjugate gradients difference forces centrally: two evaluations per iteration (solver_tangent) */
         c->step = (e->scene->solver == SOLVER_CG ? 2 : 1) * time_force(e);
-        c->bytes = (double)memory_peak() + OUTPUT_BYTES + n * FRAME_BYTES;
+        c->bytes = (double)memory_peak() + output_bytes(e);
         return OK;
     }
     TRY(time_steps(e, &c->step));
     c->contact = time_contact(e) / c->step;
-    c->bytes = (double)memory_peak() + OUTPUT_BYTES + n * FRAME_BYTES;
+    c->bytes = (double)memory_peak() + output_bytes(e);
     c->output = output_seconds(e);
     cost_run(c, e, a);
     cost_peridynamic(c, e, a);
