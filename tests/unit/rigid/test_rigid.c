@@ -51,7 +51,7 @@ static void test_inertia(void **state)
     (void)state;
     static struct solid brick = {.kind = SOLID_BOX, .from = {1, 1, 1}, .to = {5, 3, 2}};
     static struct solid disc = {.kind = SOLID_BALL, .centre = {1, 2}, .radius = 3};
-    const struct region a = {.n = 1, .solid = &brick}, b = {1, &disc};
+    const struct region a = {.n = 1, .solid = &brick}, b = {.n = 1, .solid = &disc};
     struct rigid_body r = {.name = "brick"};
     assert_ok(rigid_make(&r, &a, 3, 6, rest, 1));
     assert_near(r.inertia[0][0], 0.5 * (4 + 1), 1e-3 * 2.5);
@@ -118,7 +118,7 @@ static void test_refused(void **state)
 {
     (void)state;
     static struct solid half = {.kind = SOLID_HALF_SPACE, .normal = {0, 1, 0}}, none = {.kind = SOLID_BOX};
-    const struct region a = {.n = 1, .solid = &half}, b = {1, &none};
+    const struct region a = {.n = 1, .solid = &half}, b = {.n = 1, .solid = &none};
     struct rigid_body r = {.name = "floor"};
     assert_ok(rigid_make(&r, &a, 2, 0, rest, 1));
     assert_int_equal(rigid_make(&r, &a, 2, 1, rest, 1), REFUSED);

@@ -54,7 +54,7 @@ static void parts_are_of_their_material(void **state)
     struct particles p;
     struct solid disc = {.kind = SOLID_BALL, .centre = {1.5, 1.5}, .radius = 1};
     struct solid seed = {.kind = SOLID_BOX, .from = {1, 1}, .to = {2, 1.5}};
-    struct scene_part part[] = {{{1, &disc}, 1}, {{1, &seed}, 0}};
+    struct scene_part part[] = {{{.n = 1, .solid = &disc}, 1}, {{.n = 1, .solid = &seed}, 0}};
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){3, 3});
     s.body[0].parts = 2, s.body[0].part = part;
     assert_ok(fill_particles(&p, &s.scene, NULL, 0));
