@@ -91,8 +91,9 @@ struct unit unit_for_length(double largest);
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
 
-/* Colours of a field: from zero on; as far below it as above; or one for each of a few values, which are names. */
-enum field_scale { FROM_ZERO, BOTH_SIGNS, CATEGORY };
+/* Colours of a field: from zero on; as far below it as above; from its least value; or one for each of a few values,
+ * which are names. */
+enum field_scale { FROM_ZERO, BOTH_SIGNS, FROM_LEAST, CATEGORY };
 
 /* One number a particle: a component of what a frame holds or what follows from it, or the length of a vector. */
 struct plot_field {

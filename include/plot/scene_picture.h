@@ -3,12 +3,12 @@
 #ifndef CLEAVE_SCENE_PICTURE
 #define CLEAVE_SCENE_PICTURE
 
-#include "plot/gnuplot.h"
+#include "plot/plot.h"
 #include "scene/scene.h"
 
-/* Makes all that a run makes before its first step, and draws it into `out`: a file, a folder, or NULL: the file
- * results/NAME_scene.png. What was drawn is printed. */
-status scene_picture(const char *path, const struct scene_override *override, int overrides, const char *out,
-                     enum picture_format format);
+/* Makes all that a run makes before its first step, and draws it into `out` of the request: a file, a folder, or NULL:
+ * the file results/NAME_scene.png. A solid is seen by the request's camera. What was drawn is printed. */
+status scene_picture(const char *path, const struct scene_override *override, int overrides,
+                     const struct plot_request *r);
 
 #endif

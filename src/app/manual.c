@@ -52,7 +52,7 @@ static const struct entry options[] = {
     {"--horizon", "keeps the length of the horizon while the spacing varies.", NULL},
     {"--field NAME", "draws this field of the frames: displacement, velocity_y, von_mises, ...", NULL},
     {"--times T,...", "of the frames nearest to these times, as 10us,20us; or all, last.", NULL},
-    {"--frames N", "of this frame; or all, last.", NULL},
+    {"--frames N", "of so many frames, evenly spread; or all, last.", NULL},
     {"--slice z=4mm", "through a solid; without a place, where most damage is.", NULL},
     {"--view iso", "a solid from outside: iso, x+, x-, y+, y-, z+, z-.", NULL},
     {"--format png", "png, svg, pdf; mp4, gif (films of all frames, by ffmpeg). The ending of -o says the same.", NULL},

@@ -114,7 +114,7 @@ static status read_option(struct plot_words *w, const char *word, const char *va
     for (size_t k = 0; k < COUNT_OF(options); k++) {
         name[k] = options[k].name;
         if (strcmp(word, name[k]) != 0) continue;
-        if (!value) return status_set(REFUSED, "plot: %s needs a value; usage: %s", word, usage);
+        if (!value) return status_set(REFUSED, "plot: %s needs a value; see cleave plot --help", word);
         return options[k].read(w, value);
     }
     return status_set(REFUSED, "plot: unknown option %s; do you mean %s? usage: %s", shown_name(word).text,
@@ -136,9 +136,8 @@ static status settle_format(struct plot_words *w)
 static status words_together(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;
-    const bool look = r->look.outside || r->look.normal >= 0;
-    if (w->scene.scene && (r->folder || r->field || w->times || w->frames || look))
-        return status_set(REFUSED, "plot: --scene draws a scene before it runs: no folder, field, time, slice or view");
+    if (w->scene.scene && (r->folder || r->field || w->times || w->frames || r->look.normal >= 0))
+        return status_set(REFUSED, "plot: --scene draws a scene before it runs: no folder, field, time or slice");
     if (w->times && w->frames)
         return status_set(REFUSED, "plot: --times %s and --frames (or --times) %s: one of them",
                           shown_name(w->times).text, shown_name(w->frames).text);
@@ -182,7 +181,7 @@ static status draw_words(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;
     if (w->scene.scene)
-        return scene_picture(w->scene.scene, w->scene.override, w->scene.overrides, r->out, r->format);
+        return scene_picture(w->scene.scene, w->scene.override, w->scene.overrides, r);
     TRY(check_folder(r->folder));
     const bool one = r->field || r->look.outside || r->look.normal >= 0 || r->out || picture_moves(r->format);
     return one ? field_picture(r) : run_pictures(r);

@@ -64,7 +64,7 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
     return OK;
 }
 
-/* Damage and kinds of flat clouds. Where there is one kind alone the map of damage is that of the motion, too. */
+/* Damage and kinds of flat clouds, where there are any. */
 static status draw_views(const struct plot_request *r, const struct run_frames *frames, const struct cloud *cloud,
                          const struct scene *scene)
 {
@@ -74,13 +74,15 @@ static status draw_views(const struct plot_request *r, const struct run_frames *
     if (scene && scene->dim == 2) view.notches = scene->cracks, view.notch = scene->crack;
     if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
         return status_set(FAILED, "%s: the frames hold no particles, or places that are not numbers", r->folder);
-    const struct path damage = sheet_path(r, DRAWN_DAMAGE), kind = sheet_path(r, DRAWN_KIND);
-    const bool damaged = has.damage || view.notches > 0 || !has.kinds;
+    const struct path damage = sheet_path(r, DRAWN_DAMAGE), kind = sheet_path(r, DRAWN_KIND),
+                      latest = sheet_path(r, DRAWN_LAST);
+    const bool damaged = has.damage || view.notches > 0;
     TRY(damaged ? draw_map(r, damage.text, MAP_DAMAGE, &view, cloud, frames->shown)
-                : nothing_to_draw(damage.text, "no bond is broken"));
+                : nothing_to_draw(damage.text, "no bond is broken; --field von_mises, speed, ... draw other fields"));
     TRY(has.kinds ? draw_map(r, kind.text, MAP_KIND, &view, cloud, frames->shown)
                   : nothing_to_draw(kind.text, "all particles are of one method"));
-    TRY(draw_map(r, sheet_path(r, DRAWN_LAST).text, damaged ? MAP_DAMAGE : MAP_KIND, &view, last, 1));
+    TRY(damaged || has.kinds ? draw_map(r, latest.text, damaged ? MAP_DAMAGE : MAP_KIND, &view, last, 1)
+                             : nothing_to_draw(latest.text, "it would show neither damage nor two methods"));
     if (last->fragments > 1) TRY(draw_map(r, sheet_path(r, DRAWN_FRAGMENTS).text, MAP_FRAGMENT, &view, last, 1));
     return r->every ? draw_every(r, frames, &view) : OK;
 }

@@ -288,30 +288,37 @@ static void plot_profile(FILE *to, const struct frame *frame, int frames, int co
     putc('\n', to);
 }
 
+/* Damage is the last panel, where there is any. */
+static int profile_panels(const struct frame *frame, int frames)
+{
+    double damage = 0;
+    for (int k = 0; k < frames; k++) damage = fmax(damage, largest_in(frame[k].damage, frame[k].n));
+    return damage > 0 ? 3 : 2;
+}
+
 status profiles_draw(struct sheet sheet, const char *title, const struct frame *frame, int frames)
 {
     struct gnuplot g;
     struct unit unit[3];
     char label[3][32];
-    double spacing = frame_spacing(&frame[0]);
+    const int panels = profile_panels(frame, frames), height = 130 + 263 * panels;
     choose_units(unit, frame, frames);
     snprintf(label[0], sizeof label[0], "velocity [%s]", unit[1].name);
     snprintf(label[1], sizeof label[1], "stress [%s]", unit[2].name);
     snprintf(label[2], sizeof label[2], "damage");
-    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, 920));
-    for (int k = 0; k < frames; k++) send_profile(g.to, &frame[k], k, spacing, unit);
+    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, height));
+    for (int k = 0; k < frames; k++) send_profile(g.to, &frame[k], k, frame_spacing(&frame[0]), unit);
     curves_title(g.to, title, "");
-    fputs("set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.86\nset format x ''\n"
-          "set offsets graph 0, graph 0, graph 0.06, graph 0.06\n"
-          "set key at screen 0.875,0.92 left top\n",
-          g.to);
+    fprintf(g.to, "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.86\nset format x ''\n"
+                  "set offsets graph 0, graph 0, graph 0.06, graph 0.06\nset key at screen 0.875,%.4f left top\n",
+            1 - 73.0 / height);
     profile_range(g.to, frame, frames, unit[0].factor);
-    for (int k = 0; k < 3; k++) {
-        double above = 0.915 - 0.285 * k;
-        fprintf(g.to, "set tmargin at screen %.4f\nset bmargin at screen %.4f\nset ylabel '%s'\n", above, above - 0.255,
-                label[k]);
-        if (k == 2)
-            fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\nset offsets\nset yrange [0:1.04]\n", unit[0].name);
+    for (int k = 0; k < panels; k++) {
+        const double above = 1 - (78.0 + 262 * k) / height;
+        fprintf(g.to, "set tmargin at screen %.4f\nset bmargin at screen %.4f\nset ylabel '%s'\n", above,
+                above - 235.0 / height, label[k]);
+        if (k == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", unit[0].name);
+        if (k == 2) fputs("set offsets\nset yrange [0:1.04]\n", g.to);
         plot_profile(g.to, frame, frames, k + 2);
         fputs("unset label\nunset key\n", g.to);
     }

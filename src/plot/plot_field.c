@@ -34,6 +34,15 @@ static const struct plot_field fields[] = {
     {"principal_stress", "principal_stress", 0, "Pa", BOTH_SIGNS},
     {"principal_stress_2", "principal_stress", 1, "Pa", BOTH_SIGNS},
     {"principal_stress_3", "principal_stress", 2, "Pa", BOTH_SIGNS},
+    {"principal_directions_1_x", "principal_directions", 0, "", BOTH_SIGNS},
+    {"principal_directions_1_y", "principal_directions", 1, "", BOTH_SIGNS},
+    {"principal_directions_1_z", "principal_directions", 2, "", BOTH_SIGNS},
+    {"principal_directions_2_x", "principal_directions", 3, "", BOTH_SIGNS},
+    {"principal_directions_2_y", "principal_directions", 4, "", BOTH_SIGNS},
+    {"principal_directions_2_z", "principal_directions", 5, "", BOTH_SIGNS},
+    {"principal_directions_3_x", "principal_directions", 6, "", BOTH_SIGNS},
+    {"principal_directions_3_y", "principal_directions", 7, "", BOTH_SIGNS},
+    {"principal_directions_3_z", "principal_directions", 8, "", BOTH_SIGNS},
     {"strain_xx", "strain", 0, "", BOTH_SIGNS},
     {"strain_yy", "strain", 1, "", BOTH_SIGNS},
     {"strain_zz", "strain", 2, "", BOTH_SIGNS},
@@ -42,18 +51,19 @@ static const struct plot_field fields[] = {
     {"strain_zx", "strain", 5, "", BOTH_SIGNS},
     {"plastic_strain", "plastic_strain", 0, "", FROM_ZERO},
     {"plastic_work", "plastic_work", 0, "J/m³", FROM_ZERO},
-    {"density", "density", 0, "kg/m³", FROM_ZERO},
+    {"density", "density", 0, "kg/m³", FROM_LEAST},
     {"contact_force", "contact_force", MAGNITUDE, "N", FROM_ZERO},
     {"level", "level", 0, "", CATEGORY},
     {"spacing", "spacing", 0, "m", FROM_ZERO},
 };
 
-/* Is it a component along an axis that the run lacks? Every run has a stress across the plane. */
+/* Is it a component along an axis that the run lacks? Every run has a stress across the plane, which may be a principal
+ * one. */
 static bool lacks_component(const struct plot_field *field, int dim)
 {
     const char *end = strrchr(field->name, '_');
     if (!end || !strchr("xyz", end[1]) || dim == 3) return false;
-    if (dim == 2 && strcmp(end, "_zz") == 0) return false;
+    if (dim == 2 && (strcmp(end, "_zz") == 0 || strncmp(field->name, "principal", 9) == 0)) return false;
     for (const char *c = end + 1; *c; c++)
         if (*c - 'x' >= dim) return true;
     return false;

@@ -97,11 +97,11 @@ struct view view_of(const struct cloud *cloud, int clouds)
     return v;
 }
 
-/* Of the values of all clouds, and zero. */
+/* Of the values of all clouds. */
 static struct span values_bulk(const struct cloud *cloud, int clouds, double share, int64_t few)
 {
     float *sample = NEW("plot.sample", SAMPLE_MOST, float);
-    struct span s = {0, 0};
+    struct span s = {INFINITY, -INFINITY};
     for (int c = 0; c < clouds; c++) {
         const struct span bulk = bulk_of(sample, cloud[c].value, cloud[c].n, share, few);
         s.from = fmin(s.from, bulk.from), s.to = fmax(s.to, bulk.to);
@@ -113,11 +113,11 @@ static struct span values_bulk(const struct cloud *cloud, int clouds, double sha
 void view_set_field(struct view *v, const struct plot_field *field, const struct cloud *cloud, int clouds)
 {
     struct span s = values_bulk(cloud, clouds, 0.002, 3);
-    if (!(s.to > s.from)) s = values_bulk(cloud, clouds, 0, 0);  /* of few particles alone */
-    v->field = field;
-    const double largest = fmax(-s.from, s.to);
-    v->low = field->scale == BOTH_SIGNS ? -largest : s.from, v->high = field->scale == BOTH_SIGNS ? largest : s.to;
-    if (!(v->high > v->low)) v->high = v->low + 1;   /* nothing but zero */
+    if (!(s.to > s.from)) s = values_bulk(cloud, clouds, 0, 0);  /* what few particles alone have */
+    if (field->scale != FROM_LEAST) s.from = fmin(s.from, 0), s.to = fmax(s.to, 0);
+    if (field->scale == BOTH_SIGNS) s.to = fmax(-s.from, s.to), s.from = -s.to;
+    v->field = field, v->low = s.from, v->high = s.to;
+    if (!(v->high > v->low)) v->high = v->low + 1;   /* nothing but zero, or one value */
 }
 
 struct colour map_colour(const struct view *v, enum map map, double a)

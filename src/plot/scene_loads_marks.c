@@ -73,16 +73,60 @@ static void describe_boundary(char *text, const struct boundary *b, int dim, int
 /* Every particle that is drawn of n, spread evenly. */
 static int64_t stride_for(int64_t n, int64_t most) { return n > most ? (n + most - 1) / most : 1; }
 
+/* Of a load: those on every m-th line of the lattice in each direction, so that they cover the whole of it. */
+struct chosen { double from[DIM_MAX], spacing; int64_t layers[DIM_MAX], every; };
+
+static bool chosen_has(const struct chosen *c, const struct particles *p, int32_t i)
+{
+    real X[DIM_MAX];
+    bool on = true;
+    particle_place(p, i, X);
+    for (int d = 0; d < p->dim; d++) {
+        const int64_t layer = (int64_t)floor((X[d] - c->from[d]) / c->spacing + 0.5);
+        const int64_t first = ((c->layers[d] - 1) % c->every) / 2;   /* as far from both ends */
+        on = on && layer % c->every == first;
+    }
+    return on;
+}
+
+static int64_t chosen_count(const struct chosen *c, const struct particles *p, const struct load *l)
+{
+    int64_t n = 0;
+    for (int64_t k = 0; k < l->n; k++) n += chosen_has(c, p, l->particle[k]);
+    return n;
+}
+
+static struct chosen choose_particles(const struct marks *m, const struct load *l, int64_t most)
+{
+    const struct particles *p = &m->engine->part;
+    struct chosen c = {.spacing = m->engine->scene->spacing, .every = 1};
+    for (int d = 0; d < p->dim && l->n > 0; d++) {
+        double from = INFINITY, to = -INFINITY;
+        for (int64_t k = 0; k < l->n; k++) {
+            real X[DIM_MAX];
+            particle_place(p, l->particle[k], X);
+            from = fmin(from, X[d]), to = fmax(to, X[d]);
+        }
+        c.from[d] = from, c.layers[d] = (int64_t)floor((to - from) / c.spacing + 1.5);
+    }
+    const int64_t longest = (int64_t)fmax(fmax((double)c.layers[0], (double)c.layers[1]), (double)c.layers[2]);
+    while (l->n > most && c.every < longest && chosen_count(&c, p, l) > most) c.every++;
+    while (c.every > 1 && chosen_count(&c, p, l) == 0) c.every--;
+    return c;
+}
+
 /* Arrows of a load: pulling ones begin at the particle, pushing ones end there. */
 static void arrows_of_load(struct marks *m, const struct load *l, const struct boundary *b)
 {
     const struct particles *p = &m->engine->part;
     const double size = value_size(b->value, p->dim);
     const bool inward = b->kind != BOUNDARY_TRACTION || b->value[b->face] * b->side <= 0;
+    const struct chosen chosen = choose_particles(m, l, b->kind == BOUNDARY_BODY_FORCE ? ARROWS_FIELD : ARROWS_MOST);
     double vector[DIM_MAX] = {0};
     for (int d = 0; d < p->dim; d++) vector[d] = size > 0 ? m->arrow * b->value[d] / size : 0;
-    for (int64_t k = 0; k < l->n; k += stride_for(l->n, b->kind == BOUNDARY_BODY_FORCE ? ARROWS_FIELD : ARROWS_MOST)) {
+    for (int64_t k = 0; k < l->n; k++) {
         real X[DIM_MAX];
+        if (!chosen_has(&chosen, p, l->particle[k])) continue;
         particle_place(p, l->particle[k], X);
         for (int d = 0; d < p->dim && inward; d++) X[d] -= vector[d];
         mark_place(m, X, vector);
@@ -91,8 +135,10 @@ static void arrows_of_load(struct marks *m, const struct load *l, const struct b
 
 static void points_of_load(struct marks *m, const struct load *l)
 {
-    for (int64_t k = 0; k < l->n; k += stride_for(l->n, 3 * ARROWS_MOST)) {
+    const struct chosen chosen = choose_particles(m, l, 3 * ARROWS_MOST);
+    for (int64_t k = 0; k < l->n; k++) {
         real X[DIM_MAX];
+        if (!chosen_has(&chosen, &m->engine->part, l->particle[k])) continue;
         particle_place(&m->engine->part, l->particle[k], X);
         mark_place(m, X, NULL);
     }

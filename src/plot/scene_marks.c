@@ -104,13 +104,21 @@ static void circle_line(struct marks *m, const real *centre, double radius)
     }
 }
 
-/* The place or line of a probe; false: it has none of its own. */
-static bool probe_mark(struct marks *m, int k, const char *text)
+/* Crack tips at the start: a probe of tips follows the longest. */
+static void tip_marks(struct marks *m)
+{
+    const struct tips *t = &m->engine->fracture.tips;
+    for (int k = 0; k < t->n; k++) mark_place(m, t->tip[k].origin, NULL);
+}
+
+/* The place or line of a probe; those without one stand in the key alone. */
+static void probe_mark(struct marks *m, int k, const char *text)
 {
     const struct scene *s = m->engine->scene;
     const struct probe_request *p = &s->probe[k];
     const struct observed seen = engine_observed(m->engine);
     real from[DIM_MAX] = {0}, to[DIM_MAX] = {0}, radius;
+    static const char point[] = "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'";
     static const char line[] = "with lines lw 1.6 dt (7,4) lc rgb '#5b2a86'";
     mark_begin(m);
     if (probes_sif_ring(&m->engine->probing.probes, k, &seen, from, &radius)) {
@@ -122,15 +130,19 @@ static bool probe_mark(struct marks *m, int k, const char *text)
         mark_end(m, line, text);
     } else if (p->has_at) {
         mark_place(m, p->at, NULL);
-        mark_end(m, "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'", text);
+        mark_end(m, point, text);
+    } else if (p->kind == PROBE_TIP && m->engine->fracture.tips.n > 0) {
+        tip_marks(m);
+        mark_end(m, point, text);
     } else if (p->region.n > 0 && region_bounds(&p->region, s->dim, from, to)) {
         box_lines(m, from, to, s->dim);
         mark_end(m, line, text);
     } else {
-        mark_end(m, "with points", "");
-        return false;
+        char words[256] = "";
+        if (*text && p->kind == PROBE_REACTION) snprintf(words, sizeof words, "%.80s: at %.60s", text, p->boundary);
+        else if (*text) snprintf(words, sizeof words, "%.80s: everywhere", text);
+        mark_end(m, "with points pt -1", words);
     }
-    return true;
 }
 
 void marks_probes(struct marks *m)
@@ -156,12 +168,16 @@ void marks_regions(struct marks *m)
     const struct scene *s = m->engine->scene;
     for (int k = 0; k < s->regions; k++) {
         real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
-        char text[NAME_MAX_LENGTH + 16];
+        char text[NAME_MAX_LENGTH + 16], how[96];
         if (!region_bounds(&s->named[k].region, s->dim, from, to)) continue;
         snprintf(text, sizeof text, "region %.60s", s->named[k].name);
         mark_begin(m);
         box_lines(m, from, to, s->dim);
-        mark_end(m, "with lines lw 1.4 dt (3,3) lc rgb '#444444'", text);
+        /* the darker of the colours of fragments, each with dashes of its own once they come again */
+        const struct colour c = fragment_colour(1 + k);
+        snprintf(how, sizeof how, "with lines lw 2.4 dt (%d,3) lc rgb '#%02x%02x%02x'", 3 + 4 * (k / 9), c.red, c.green,
+                 c.blue);
+        mark_end(m, how, text);
     }
 }
 

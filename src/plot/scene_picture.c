@@ -95,7 +95,7 @@ static void cloud_add_rigid(struct cloud *c, const struct engine *e, const struc
 }
 
 /* Everything that has a place, from the engine. */
-static void scene_cloud(struct cloud *c, struct engine *e)
+static void scene_cloud(struct cloud *c, struct engine *e, const struct camera *camera)
 {
     const struct scene *s = e->scene;
     real from[DIM_MAX];
@@ -106,7 +106,7 @@ static void scene_cloud(struct cloud *c, struct engine *e)
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
         room += rigid_sites(e, &s->body[b].shape, from, count, &step);
     *c = (struct cloud){.axis = {0, 1}, .normal = -1, .spacing = s->spacing, .aligned = true,
-                        .camera = s->dim == 3 ? camera_isometric : camera_along(2, 1),
+                        .camera = s->dim == 3 ? *camera : camera_along(2, 1),
                         .from = {INFINITY, INFINITY}, .to = {-INFINITY, -INFINITY}};
     for (int a = 0; a < (s->dim == 3 ? 3 : 2); a++) c->place[a] = NEW("plot.place", room, float);
     c->damage = NEW("plot.damage", room, float);
@@ -281,15 +281,18 @@ static status scene_sheet(struct path *path, const struct scene *s, const char *
     return picture_destination(path, out ? out : "results/", name);
 }
 
-static status draw_made(struct engine *e, const struct scene *s, const char *out, enum picture_format format)
+static status draw_made(struct engine *e, const struct scene *s, const struct plot_request *r)
 {
     struct path path;
     struct cloud c;
+    if (r->look.outside && s->dim < 3)
+        return status_set(REFUSED, "plot: --view is for scenes in space; this one has %d dimension%s", s->dim,
+                          s->dim > 1 ? "s" : "");
     TRY(engine_make(e, s, NULL));
-    TRY(scene_sheet(&path, s, out, format));
-    scene_cloud(&c, e);
+    TRY(scene_sheet(&path, s, r->out, r->format));
+    scene_cloud(&c, e, &r->look.camera);
     const int64_t drawn = c.n;
-    const status drew = draw_scene((struct sheet){path.text, format}, e, &c);
+    const status drew = draw_scene((struct sheet){path.text, r->format}, e, &c);
     cloud_free(&c);
     TRY(drew);
     const int said = printf("%s: %lld places, %d boundary condition%s, %d pre-crack%s, %d probe%s\n",
@@ -298,13 +301,13 @@ static status draw_made(struct engine *e, const struct scene *s, const char *out
     return said < 0 || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
 }
 
-status scene_picture(const char *path, const struct scene_override *override, int overrides, const char *out,
-                     enum picture_format format)
+status scene_picture(const char *path, const struct scene_override *override, int overrides,
+                     const struct plot_request *r)
 {
     struct scene s = {0};
     struct engine e = {0};
     struct pilot_wish pilot;
-    if (picture_moves(format)) return status_set(REFUSED, "plot: --scene draws one picture: png, svg or pdf");
+    if (picture_moves(r->format)) return status_set(REFUSED, "plot: --scene draws one picture: png, svg or pdf");
     TRY(scene_read_or_wish(&s, &pilot, path, override, overrides));
     if (pilot.wanted) {
         scene_free(&pilot.first);
@@ -312,7 +315,7 @@ status scene_picture(const char *path, const struct scene_override *override, in
                           "with -s method=pd -s particles.spacing=..., or draw the scene.yaml that its run leaves",
                           shown_name(path).text);
     }
-    const status result = draw_made(&e, &s, out, format);
+    const status result = draw_made(&e, &s, r);
     engine_free(&e);
     scene_free(&s);
     return result;

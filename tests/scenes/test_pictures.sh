@@ -107,6 +107,7 @@ refused "one of them" results/strip --times 1us --frames 2
 refused "24 panels at the most" results/strip --frames 30
 refused "cleave plot --scene strip.yaml" strip.yaml
 refused "before it runs" results/strip --scene strip.yaml
+refused "for scenes in space" --scene strip.yaml --view x+
 refused "goes with --scene" results/strip -s method=pd
 "$cleave" plot results/strip --field strain_xx >out 2>err
 is "a field that the run has not written: exit status" $? 1
@@ -125,6 +126,8 @@ particles: {spacing: 1 mm}
 cracks: [{polygon: [[6 mm, -1 mm, 2.9 mm], [13 mm, -1 mm, 2.9 mm], [13 mm, 9 mm, 2.9 mm], [6 mm, 9 mm, 2.9 mm]]}]
 output: {frames: 1}
 END
+"$cleave" plot --scene block.yaml --view x+ -o block.png >out 2>err
+is "plot --scene --view: exit status" $? 0
 "$cleave" run block.yaml -q >out 2>err
 is "run block: exit status" $? 0
 "$cleave" plot results/block >out 2>err
