@@ -73,7 +73,8 @@ struct scene_initial {
     struct region region;
     int body;                            /* -1: any */
     bool sets_velocity, sets_strain;
-    real velocity[DIM_MAX];              /* [m/s] */
+    real velocity[DIM_MAX];              /* 1 beside a formula [m/s] */
+    struct expression formula[DIM_MAX];  /* of a component of it in X; none: velocity */
     real velocity_gradient[DIM_MAX * DIM_MAX]; /* v += G (X - centre), row major dim x dim [1/s] */
     real displacement_gradient[DIM_MAX * DIM_MAX]; /* x = X + H (X - centre), stress = C : sym H [1] */
     real centre[DIM_MAX];                /* [m] */

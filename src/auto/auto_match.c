@@ -345,6 +345,17 @@ static status check_proportions(const struct auto_match *m, const struct scene *
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
+/* Does a formula say how large something is? Its value is not known here. */
+static bool scales_by_formula(const struct scene *s)
+{
+    int steps = 0;
+    for (int d = 0; d < s->dim; d++) {
+        for (int k = 0; k < s->boundaries; k++) steps += s->boundary[k].formula[d].n;
+        for (int k = 0; k < s->initials; k++) steps += s->initial[k].formula[d].n;
+    }
+    return steps > 0;
+}
+
 /* REFUSED for what no problem of the table has. */
 static status check_ordinary(const struct scene *s)
 {
@@ -361,6 +372,7 @@ static status check_ordinary(const struct scene *s)
                 return no_match("a body of other solids than boxes, balls and half-spaces where they are");
     }
     if (material_yields(&s->material[0])) return no_match("a material that yields");
+    if (scales_by_formula(s)) return no_match("a load or an initial velocity by a formula");
     return OK;
 }
 

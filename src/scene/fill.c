@@ -328,14 +328,31 @@ static status check_distances(const struct particles *p, const struct draft *d, 
 
 /* ---- initial state ----------------------------------------------------------------------------------------------- */
 
-/* v = velocity + G arm with the velocity gradient G, which is stored where particles have one; arm = X - centre [m]. */
-static void start_velocity(struct particles *p, int64_t i, const struct scene_initial *s, const real *arm)
+/* Slope of component a of the formula along b, over a spacing of which X is the middle; 0 without formula, and where it
+ * has none beyond X [1/s]. */
+static real start_slope(const struct scene_initial *s, int a, int b, const real *X, int dim, real spacing)
 {
-    for (int a = 0; a < p->dim; a++) {
-        p->v[a][i] = s->velocity[a] + dot(&s->velocity_gradient[a * p->dim], arm, p->dim);
-        for (int b = 0; b < p->dim; b++) {
-            real *gradient = p->gradient[a * p->dim + b];
-            if (gradient != NULL) gradient[i] = s->velocity_gradient[a * p->dim + b];
+    real before[DIM_MAX] = {0}, after[DIM_MAX] = {0};
+    if (s->formula[a].n == 0) return 0;
+    for (int d = 0; d < dim; d++) before[d] = after[d] = X[d];
+    before[b] -= 0.5 * spacing, after[b] += 0.5 * spacing;
+    const real slope = (expression_at(&s->formula[a], after, dim, 0) - expression_at(&s->formula[a], before, dim, 0)) /
+                       spacing;
+    return isfinite(slope) ? slope : 0;
+}
+
+/* v = velocity + G arm with the velocity gradient G, which is stored where particles have one; arm = X - centre [m]. */
+static void start_velocity(struct particles *p, int64_t i, const struct scene_initial *s, const real *X,
+                           const real *arm, real spacing)
+{
+    const int dim = p->dim;
+    for (int a = 0; a < dim; a++) {
+        const real here = s->formula[a].n > 0 ? expression_at(&s->formula[a], X, dim, 0) : 1;
+        p->v[a][i] = s->velocity[a] * here + dot(&s->velocity_gradient[a * dim], arm, dim);
+        for (int b = 0; b < dim; b++) {
+            real *gradient = p->gradient[a * dim + b];
+            if (gradient == NULL) continue;
+            gradient[i] = s->velocity_gradient[a * dim + b] + start_slope(s, a, b, X, dim, spacing);
         }
     }
 }
@@ -402,15 +419,16 @@ static status check_initial(const struct scene *s, const struct scene_initial *i
         status_set(REFUSED, "its displacement gradient turns the body inside out; strains near 1e-3 are usual"));
 }
 
-/* Applies the initial states that hold for particle i, in the order of the scene. tolerance [m]: of regions. */
-static void start_particle(struct particles *p, int64_t i, const struct scene *s, real tolerance)
+/* Applies the initial states that hold for particle i, in the order of the scene. */
+static void start_particle(struct particles *p, int64_t i, const struct scene *s, real spacing)
 {
+    const real tolerance = ON_SURFACE * spacing;
     real X[DIM_MAX], arm[DIM_MAX];
     particle_place(p, i, X);
     for (const struct scene_initial *k = s->initial; k < s->initial + s->initials; k++) {
         if ((k->body >= 0 && k->body != p->body[i]) || !region_contains(&k->region, X, p->dim, tolerance)) continue;
         for (int a = 0; a < p->dim; a++) arm[a] = X[a] - k->centre[a];
-        if (k->sets_velocity) start_velocity(p, i, k, arm);
+        if (k->sets_velocity) start_velocity(p, i, k, X, arm, spacing);
         if (k->sets_strain) fill_start_strain(p, i, k, &s->material[p->material[i]], arm);
         if (k->sets_pulse) start_pulse(p, i, &k->pulse, &s->material[p->material[i]], X);
     }
@@ -428,7 +446,7 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     TRY(check_values(p, d, spacing));
     TRY(fill_check_lists(p, s));
 #pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < p->n; i++) start_particle(p, i, s, ON_SURFACE * spacing);
+    for (int64_t i = 0; i < p->n; i++) start_particle(p, i, s, spacing);
     TRY(check_start(p, d, spacing));
     particles_sort(p, spacing, optional);
     TRY(check_distances(p, d, spacing));

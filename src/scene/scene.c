@@ -70,7 +70,10 @@ void scene_free(struct scene *s)
         memory_free(s->body[k].file);
     }
     for (int k = 0; k < s->cracks; k++) memory_free(s->crack[k].corner);
-    for (int k = 0; k < s->initials; k++) region_free(&s->initial[k].region);
+    for (int k = 0; k < s->initials; k++) {
+        region_free(&s->initial[k].region);
+        for (int d = 0; d < DIM_MAX; d++) expression_free(&s->initial[k].formula[d]);
+    }
     for (int k = 0; k < s->boundaries; k++) {
         region_free(&s->boundary[k].region);
         memory_free(s->boundary[k].time.t);

@@ -317,8 +317,10 @@ static void write_initials(struct writer *w)
     if (s->initials) fputs("initial:\n", w->out);
     for (int k = 0; k < s->initials; k++) {
         begin_item(w);
-        write_group(w, "initial", &s->initial[k]);
-        if (s->initial[k].sets_pulse) write_part(w, "pulse", "initial.pulse", &s->initial[k]);
+        const struct scene_initial *one = &s->initial[k];
+        write_group(w, "initial", one);
+        if (one->sets_velocity) write_formulas(w, "velocity", one->velocity, one->formula);
+        if (one->sets_pulse) write_part(w, "pulse", "initial.pulse", one);
     }
 }
 

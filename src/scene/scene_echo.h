@@ -29,6 +29,8 @@ void write_part(struct writer *w, const char *key, const char *group, const void
 /* A file by its absolute path, so that the echo runs from any folder, and the checksum of its contents. */
 void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents);
 void write_boundaries(struct writer *w);             /* scene_echo_loads.c */
+/* A vector of numbers and formulas. */
+void write_formulas(struct writer *w, const char *key, const real *value, const struct expression *formula);
 
 /* A region as a list of solids, and those that have names (scene_echo_solids.c). */
 void write_region(struct writer *w, const struct region *region);

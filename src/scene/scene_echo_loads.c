@@ -57,11 +57,21 @@ static void write_profile(struct writer *w, const struct profile *f)
     fputs(f->kind == PROFILE_SINE ? "}}\n" : " uniform\n", w->out);
 }
 
-/* Component d of a load: its formula or its number. */
-static void write_load(struct writer *w, const struct boundary *b, int d)
+/* Component d of a vector: its formula or its number. */
+static void write_formula(struct writer *w, const real *value, const struct expression *formula, int d)
 {
-    if (b->formula[d].n > 0) write_quoted(w, b->formula[d].text);
-    else write_real(w, b->value[d]);
+    if (formula[d].n > 0) write_quoted(w, formula[d].text);
+    else write_real(w, value[d]);
+}
+
+void write_formulas(struct writer *w, const char *key, const real *value, const struct expression *formula)
+{
+    begin(w, key);
+    for (int d = 0; d < w->scene->dim; d++) {
+        fputs(d ? ", " : " [", w->out);
+        write_formula(w, value, formula, d);
+    }
+    fputs("]\n", w->out);
 }
 
 static void write_rotation(struct writer *w, const struct boundary *b)
@@ -81,7 +91,7 @@ static void write_velocity(struct writer *w, const struct boundary *b)
     begin(w, "velocity");
     for (int d = 0; d < w->scene->dim; d++) {
         fputs(d ? ", " : " [", w->out);
-        if (b->components >> d & 1) write_load(w, b, d);
+        if (b->components >> d & 1) write_formula(w, b->value, b->formula, d);
         else fputs("free", w->out);
     }
     fputs("]\n", w->out);
@@ -105,15 +115,10 @@ static void write_boundary(struct writer *w, const struct boundary *b)
     } else if (b->kind == BOUNDARY_PRESSURE) {
         begin(w, "pressure");
         fputc(' ', w->out);
-        write_load(w, b, 0);
+        write_formula(w, b->value, b->formula, 0);
         fputc('\n', w->out);
     } else {
-        begin(w, b->kind == BOUNDARY_TRACTION ? "traction" : "body_force");
-        for (int d = 0; d < w->scene->dim; d++) {
-            fputs(d ? ", " : " [", w->out);
-            write_load(w, b, d);
-        }
-        fputs("]\n", w->out);
+        write_formulas(w, b->kind == BOUNDARY_TRACTION ? "traction" : "body_force", b->value, b->formula);
     }
     if (b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING) {
         begin(w, "face");

@@ -250,6 +250,10 @@ status read_initials(struct reader *r, const struct node *root);
 status read_time(struct reader *r, const struct node *n, struct boundary *b);
 /* Reads the axis of a rotation, `n` the mapping with it: z in the plane (scene_loads.c). */
 status read_axis_of(struct reader *r, const struct node *n, const char *group, real *axis);
+/* Reads the components of a vector, value [dim]: numbers, or formulas of x, y, z and what else is in `of`, beside which
+ * the value is 1 (scene_loads.c). */
+status read_formulas(struct reader *r, const struct key *k, const struct node *n, unsigned of, real *value,
+                     struct expression *formula);
 status read_boundaries(struct reader *r, const struct node *root);
 status read_probes(struct reader *r, const struct node *root);
 status read_frame_regions(struct reader *r, const struct node *root);

@@ -57,26 +57,32 @@ static status read_fixed(struct reader *r, const struct node *n, struct boundary
     return OK;
 }
 
-/* Reads component d of a value: a number, or a formula of x, y, z and t, beside which value is 1. */
-static status read_load_value(struct reader *r, const struct key *k, const struct node *n, struct boundary *b, int d)
+/* Reads one component: a number, or a formula of what is in `of`, beside which value is 1. */
+static status read_formula(struct reader *r, const struct key *k, const struct node *n, unsigned of, real *value,
+                           struct expression *f)
 {
-    struct expression *f = &b->formula[d];
-    if (n->kind != NODE_SCALAR || !looks_like_expression(r, n->text)) return read_number(r, k, n, &b->value[d]);
-    TRY(read_expression(r, k, n, EXPRESS_SPACE | EXPRESS_TIME, f));
-    b->value[d] = 1;
+    if (n->kind != NODE_SCALAR || !looks_like_expression(r, n->text)) return read_number(r, k, n, value);
+    TRY(read_expression(r, k, n, of, f));
+    *value = 1;
     if (f->in_space || f->in_time) return OK;
     expression_free(f);
-    return read_number(r, k, n, &b->value[d]);
+    return read_number(r, k, n, value);
 }
 
-/* Reads the components of a force. */
-static status read_values(struct reader *r, const struct key *k, const struct node *n, struct boundary *b)
+status read_formulas(struct reader *r, const struct key *k, const struct node *n, unsigned of, real *value,
+                     struct expression *formula)
 {
     int d = 0;
-    if (n->kind == NODE_SCALAR && r->dim == 1) return read_load_value(r, k, n, b, 0);
-    if (n->kind != NODE_LIST || n->n != r->dim) return read_point(r, k, n, b->value);
-    for (const struct node *c = n->first; c; c = c->next) TRY(read_load_value(r, k, c, b, d++));
+    if (n->kind == NODE_SCALAR && r->dim == 1) return read_formula(r, k, n, of, value, formula);
+    if (n->kind != NODE_LIST || n->n != r->dim) return read_point(r, k, n, value);
+    for (const struct node *c = n->first; c; c = c->next, d++) TRY(read_formula(r, k, c, of, &value[d], &formula[d]));
     return OK;
+}
+
+/* Component d of what a boundary prescribes. */
+static status read_load_value(struct reader *r, const struct key *k, const struct node *n, struct boundary *b, int d)
+{
+    return read_formula(r, k, n, EXPRESS_SPACE | EXPRESS_TIME, &b->value[d], &b->formula[d]);
 }
 
 /* Reads a pressure: one value, along all components. */
@@ -215,7 +221,7 @@ static status read_kind(struct reader *r, const struct node *n, const struct nod
     TRY(check_keys(r, n, "boundary"));
     TRY(kind_of_boundary(r, n, &kind));
     TRY(read_group(r, n, n, "boundary", b));
-        b->kind = *kind->key == 't'   ? BOUNDARY_TRACTION
+    b->kind = *kind->key == 't'   ? BOUNDARY_TRACTION
               : *kind->key == 'b' ? BOUNDARY_BODY_FORCE
               : *kind->key == 'p' ? BOUNDARY_PRESSURE
               : *kind->key == 'm' ? BOUNDARY_MIRROR
@@ -237,7 +243,7 @@ static status read_kind(struct reader *r, const struct node *n, const struct nod
     if (*kind->key == 'v') return read_velocity(r, kind, b);
     if (*kind->key == 'r') return read_rotation(r, kind, b);
     if (*kind->key == 'p') return read_pressure(r, kind, b);
-    TRY(read_values(r, key_find("boundary", kind->key), kind, b));
+    TRY(read_formulas(r, key_find("boundary", kind->key), kind, EXPRESS_SPACE | EXPRESS_TIME, b->value, b->formula));
     return b->kind == BOUNDARY_TRACTION ? read_face(r, n, b) : OK;
 }
 

@@ -301,11 +301,20 @@ static status read_initial_rotation(struct reader *r, const struct node *map, st
     return OK;
 }
 
+/* Numbers, or formulas of the place. */
+static status read_initial_velocity(struct reader *r, const struct node *n, struct scene_initial *initial)
+{
+    if (!n) return OK;
+    initial->sets_velocity = true;
+    return read_formulas(r, key_find("initial", "velocity"), n, EXPRESS_SPACE, initial->velocity, initial->formula);
+}
+
 static status read_initial(struct reader *r, const struct node *n, struct scene_initial *initial)
 {
     initial->body = -1;
     fault_place(r, n, initial->place, sizeof initial->place);
     TRY(read_group(r, n, n, "initial", initial));
+    TRY(read_initial_velocity(r, node_find(n, "velocity"), initial));
     TRY(read_pulse(r, node_find(n, "pulse"), initial));
     TRY(read_initial_rotation(r, n, initial));
     if (initial->sets_velocity || initial->sets_strain || initial->sets_pulse) return OK;

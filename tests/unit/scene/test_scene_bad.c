@@ -228,6 +228,8 @@ static const struct { const char *piece, *instead, *message;
     {"probes:\n",
      "initial: [{pulse: {at: [0, 0], direction: [1, 0], width: 1, velocity: 1, polarisation: [0, 0]}}]\nprobes:\n",
      "33:74: polarisation: has no length; direction, or a vector across it, is expected"},
+    {"probes:\n", "initial: [{velocity: [x/s, 1 m/s*t/s]}]\nprobes:\n",
+     "33:28: velocity[1]: 1 m/s*t/s contains t, which has no meaning in this key"},
     {"  - tip\n", "  - exact: step bar\n", "34:5: exact: closed forms are those of a bar; space line is expected"},
     {"  - tip\n", "  - exact\n",
      "34:5: form: missing in probes.exact; step bar, plastic bar, pulse or manufactured is expected"},
