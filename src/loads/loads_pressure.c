@@ -52,6 +52,22 @@ void pressure_faces(const struct boundary *all, int n, int which, const struct p
         }
 }
 
+static void surface_face_add(struct surface_faces *f, int32_t particle, int axis, int side)
+{
+    if (f->n == f->room) {
+        const int64_t room = f->room ? 2 * f->room : 256;
+        f->face = memory_resize("loads.faces", f->face, f->room, room, sizeof *f->face);
+        f->room = room;
+    }
+    f->face[f->n++] = (struct surface_face){particle, (uint8_t)axis, (int8_t)side};
+}
+
+static void surface_faces_free(struct surface_faces *f)
+{
+    memory_free(f->face);
+    *f = (struct surface_faces){0};
+}
+
 /* Areas of free faces along their outward normals. */
 struct pressed {
     real *const *area;                   /* by component [particles] [m^2] */
@@ -93,7 +109,7 @@ status load_select_pressure(struct load *l, const struct boundary *boundary, int
     struct pressed pressed = {area, follows ? &faces : NULL};
     if (any) pressure_faces(boundary, n, which, p, spacing, selected, face_pressed, &pressed);
     if (!any) s = status_set(REFUSED, "boundary %s: no particle lies in its region", b->name);
-    else if (follows) s = load_surface_make(l, &faces, p, spacing);
+    else if (follows) s = load_surface_make(l, &faces, boundary, n, p, spacing);
     else if (!pressure_shares(l, p, area))
         s = status_set(REFUSED, "boundary %s: no particle in its region has a free face; let the region hold some of "
                        "the body's surface", b->name);

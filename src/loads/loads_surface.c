@@ -6,7 +6,10 @@
  * both) enclose a volume V. A pressure p does the work -p dV: the force on a corner is -p dV/dx, a half of each of its
  * segments, a third of each of its triangles, and that on a particle follows by the weights. So the forces of a closed
  * surface have the energy p V, no resultant and no moment, whatever the deformation, and turn with the body; on part of
- * a surface each face gives its own share. */
+ * a surface each face gives its own share.
+ *
+ * Beside a mirror a corner goes with images, too, whose displacement is that of their sources with some components
+ * turned round. V is that of the part on this side; its derivative by a source is what the whole surface does to it. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +21,7 @@
 #define OFF_LATTICE 1e-4                 /* of particles that count as on it [spacings] */
 #define SECOND_LAYER 0.25                /* weight of particles behind those at a corner */
 #define SINGULAR 1e-10                   /* least variance that counts as extent [spacings^2] */
+#define BESIDE 3.0                       /* corners farther away from mirrors know nothing of them [spacings] */
 #define TORN 3.0                         /* edge of a face that no longer is one [spacings] */
 enum { FACE_CORNERS = 4, STENCIL_MOST = 32, SITE_BITS = 18 };
 
@@ -27,32 +31,17 @@ struct surface {
     int64_t faces, corners, particles;
     int32_t *corner;                     /* [faces][4] in order round the outward normal of an upper face */
     int8_t *sign;                        /* [faces] of their area in this order */
+    uint8_t *turned;                     /* [first[corners]] bit d: component d is that of an image */
     int64_t *first, *face_first, *share_first; /* [corners + 1] stencil, faces; [particles + 1] corners */
     int32_t *particle;                   /* [first[corners]] of a corner's stencil ... */
     real *weight;                        /* ... and its weight [1] */
     int32_t *part;                       /* [4 faces] 4 face + place of those that meet in a corner */
     int32_t *share_corner;               /* [first[corners]] corners that go with a particle of the load ... */
     real *share_weight;
+    uint8_t *share_turned;
+    real *place;                         /* [corners][dim] of the reference state [m] */
     real *x, *face_area, *area;          /* scratch: [corners][dim], [faces][4][dim], [corners][dim] */
 };
-
-/* ---- faces ------------------------------------------------------------------------------------------------------- */
-
-void surface_face_add(struct surface_faces *f, int32_t particle, int axis, int side)
-{
-    if (f->n == f->room) {
-        const int64_t room = f->room ? 2 * f->room : 256;
-        f->face = memory_resize("loads.faces", f->face, f->room, room, sizeof *f->face);
-        f->room = room;
-    }
-    f->face[f->n++] = (struct surface_face){particle, (uint8_t)axis, (int8_t)side};
-}
-
-void surface_faces_free(struct surface_faces *f)
-{
-    memory_free(f->face);
-    *f = (struct surface_faces){0};
-}
 
 /* ---- sites ------------------------------------------------------------------------------------------------------- */
 
@@ -61,6 +50,8 @@ struct site { int64_t key; int32_t value; };
 
 struct sites {
     const struct particles *p;
+    const struct boundary *all;          /* [boundaries] of the scene, with the mirrors */
+    int boundaries;
     real spacing;
     int32_t first[UINT8_MAX + 1];        /* a particle of each body, -1: none */
     int64_t n;
@@ -129,6 +120,45 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
     return OK;
 }
 
+/* Twice the place of a mirror in steps from the first particle of a body. */
+static real mirror_steps(const struct sites *s, const struct boundary *m, int body)
+{
+    return 2 * (m->at - s->p->X[m->axis][s->first[body]]) / s->spacing;
+}
+
+/* REFUSED for a mirror whose images are on no site half-way beside the lattice of a body that has faces. */
+static status mirrors_between(const struct sites *s, const struct surface_faces *f)
+{
+    for (int m = 0; m < s->boundaries; m++)
+        for (int64_t q = 0; q < f->n && s->all[m].kind == BOUNDARY_MIRROR; q++) {
+            const int32_t i = f->face[q].particle;
+            const real twice = mirror_steps(s, &s->all[m], s->p->body[i]);
+            if (fabs(s->p->X[s->all[m].axis][i] - s->all[m].at) > BESIDE * s->spacing) continue;
+            if (fabs(remainder(twice - 1, 2)) < 2 * OFF_LATTICE) continue;
+            return status_at(s->all[m].place, status_set(REFUSED, "boundary %s: pressure that follows wants mirrors "
+                             "half-way between particles; half a spacing from the first ones is expected, or follow: "
+                             "false", s->all[m].name));
+        }
+    return OK;
+}
+
+/* Particle of a body at a site, or of which it has the image: which components are turned round. -1: none. */
+static int32_t site_or_image_find(const struct sites *s, int body, const int64_t *site, uint8_t *turned)
+{
+    int64_t k[DIM_MAX];
+    *turned = 0;
+    memcpy(k, site, sizeof k);
+    for (int b = 0; b < s->boundaries; b++) {
+        const struct boundary *m = &s->all[b];
+        if (m->kind != BOUNDARY_MIRROR) continue;
+        const int64_t twice = llround(mirror_steps(s, m, body));
+        if ((2 * k[m->axis] - twice) * (twice > 0 ? 1 : -1) < 0) continue;      /* the first particle is inside, at 0 */
+        k[m->axis] = twice - k[m->axis];
+        *turned ^= (uint8_t)(m->hold_tangential ? (1 << s->p->dim) - 1 : 1 << m->axis);
+    }
+    return site_find(s, site_key(body, k, s->p->dim));
+}
+
 /* ---- corners ----------------------------------------------------------------------------------------------------- */
 
 /* Site above corner c of face q; corners are in order round it. */
@@ -174,16 +204,28 @@ static void parts_make(struct surface *a, const struct site *all, int64_t n)
 }
 
 /* Particles that a corner goes with, their places in spacings from it, and how much each counts. */
-struct around { int n; int32_t particle[STENCIL_MOST]; real r[STENCIL_MOST][DIM_MAX], counts[STENCIL_MOST]; };
+struct around {
+    int n;
+    int32_t particle[STENCIL_MOST];
+    uint8_t turned[STENCIL_MOST];
+    real r[STENCIL_MOST][DIM_MAX], counts[STENCIL_MOST];
+};
 
-static void corner_reach(struct around *t, int32_t i, const int64_t *off, int dim, real counts)
+/* Adds the particle at a site, `off` steps from the corner's, or its image. True: there is one. */
+static bool corner_reach(struct around *t, const struct sites *s, int body, const int64_t *site, const int64_t *off,
+                         real counts)
 {
+    const int dim = s->p->dim;
+    uint8_t turned;
+    const int32_t i = site_or_image_find(s, body, site, &turned);
+    if (i < 0) return false;
     for (int q = 0; q < t->n; q++)
-        if (t->particle[q] == i) return;
-    if (i < 0 || t->n == STENCIL_MOST) return;
-    t->particle[t->n] = i, t->counts[t->n] = counts;
+        if (t->particle[q] == i && t->turned[q] == turned) return true;
+    if (t->n == STENCIL_MOST) return true;
+    t->particle[t->n] = i, t->turned[t->n] = turned, t->counts[t->n] = counts;
     for (int d = 0; d < dim; d++) t->r[t->n][d] = (real)off[d] + 0.5;
     t->n++;
+    return true;
 }
 
 /* The particles at a corner and, along each axis, those behind them. */
@@ -195,12 +237,11 @@ static void corner_around(struct around *t, const struct sites *s, int body, con
         for (int c = 0; c < 1 << dim; c++) {
             int64_t off[DIM_MAX] = {0}, at[DIM_MAX] = {0};
             for (int d = 0; d < dim; d++) off[d] = (c >> d & 1) - 1, at[d] = site[d] + off[d];
-            const int32_t near = site_find(s, site_key(body, at, dim));
-            if (layer == 0) corner_reach(t, near, off, dim, 1);
-            for (int d = 0; d < dim && layer == 1 && near >= 0; d++) {
+            const bool near = corner_reach(t, s, body, at, off, 1);
+            for (int d = 0; d < dim && layer == 1 && near; d++) {
                 const int64_t away = c >> d & 1 ? 1 : -1;
                 off[d] += away, at[d] += away;
-                corner_reach(t, site_find(s, site_key(body, at, dim)), off, dim, SECOND_LAYER);
+                corner_reach(t, s, body, at, off, SECOND_LAYER);
                 off[d] -= away, at[d] -= away;
             }
         }
@@ -245,6 +286,19 @@ static void corner_weights(const struct around *t, int dim, real *w)
     }
 }
 
+/* Reference place of corner c at a site, the weighted mean of the places of particles and images: to the last digit, so
+ * that forces have no moment. first: a particle of its body. */
+static void corner_place_make(struct surface *a, int64_t c, const struct sites *s, int32_t first, const int64_t *site,
+                              const struct around *t)
+{
+    for (int d = 0; d < a->dim; d++) {
+        const real corner = s->p->X[d][first] + ((real)site[d] - 0.5) * s->spacing;
+        for (int q = 0; q < t->n; q++)
+            a->place[c * a->dim + d] += a->weight[a->first[c] + q] * (t->turned[q] >> d & 1
+                                            ? corner + t->r[q][d] * s->spacing : s->p->X[d][t->particle[q]]);
+    }
+}
+
 /* Particles and weights of all corners, by the sorted corners of faces. */
 static void corners_make(struct surface *a, const struct sites *s, const struct site *all,
                           const struct surface_faces *f)
@@ -253,6 +307,8 @@ static void corners_make(struct surface *a, const struct sites *s, const struct 
     a->first = NEW("loads.first", a->corners + 1, int64_t);
     a->particle = NEW("loads.stencil", most, int32_t);
     a->weight = NEW("loads.weight", most, real);
+    a->turned = NEW("loads.turned", most, uint8_t);
+    a->place = NEW("loads.corner_place", a->corners * a->dim, real);
     for (int64_t c = 0; c < a->corners; c++) {
         const struct site *one = &all[a->face_first[c]];
         const struct surface_face *face = &f->face[one->value / FACE_CORNERS];
@@ -262,6 +318,8 @@ static void corners_make(struct surface *a, const struct sites *s, const struct 
         corner_around(&t, s, s->p->body[face->particle], site);
         corner_weights(&t, a->dim, a->weight + a->first[c]);
         memcpy(a->particle + a->first[c], t.particle, (size_t)t.n * sizeof *t.particle);
+        memcpy(a->turned + a->first[c], t.turned, (size_t)t.n * sizeof *t.turned);
+        corner_place_make(a, c, s, s->first[s->p->body[face->particle]], site, &t);
         a->first[c + 1] = a->first[c] + t.n;
     }
 }
@@ -273,13 +331,14 @@ static void shares_transpose(struct surface *a, const struct load *l, int64_t pa
     a->share_first = NEW("loads.share_first", l->n + 2, int64_t);
     a->share_corner = NEW("loads.share_corner", a->first[a->corners], int32_t);
     a->share_weight = NEW("loads.share_weight", a->first[a->corners], real);
+    a->share_turned = NEW("loads.share_turned", a->first[a->corners], uint8_t);
     for (int64_t k = 0; k < l->n; k++) place[l->particle[k]] = (int32_t)k;
     for (int64_t q = 0; q < a->first[a->corners]; q++) a->share_first[place[a->particle[q]] + 2]++;
     for (int64_t k = 0; k < l->n; k++) a->share_first[k + 2] += a->share_first[k + 1];
     for (int64_t c = 0; c < a->corners; c++)
         for (int64_t q = a->first[c]; q < a->first[c + 1]; q++) {
             const int64_t at = a->share_first[place[a->particle[q]] + 1]++;
-            a->share_corner[at] = (int32_t)c, a->share_weight[at] = a->weight[q];
+            a->share_corner[at] = (int32_t)c, a->share_weight[at] = a->weight[q], a->share_turned[at] = a->turned[q];
         }
     memory_free(place);
 }
@@ -307,13 +366,15 @@ static void surface_fill(struct surface *a, struct load *l, const struct sites *
     memory_free(all);
 }
 
-status load_surface_make(struct load *l, const struct surface_faces *faces, struct particles *p, real spacing)
+status load_surface_make(struct load *l, const struct surface_faces *faces, const struct boundary *all, int n,
+                         struct particles *p, real spacing)
 {
-    struct sites s = {.p = p, .spacing = spacing};
+    struct sites s = {.p = p, .all = all, .boundaries = n, .spacing = spacing};
     if (faces->n == 0)
         return status_set(REFUSED, "boundary %s: no particle in its region has a free face; let the region hold some "
                           "of the body's surface", l->boundary->name);
     status made = sites_make(&s, faces);
+    if (made == OK) made = mirrors_between(&s, faces);
     if (made == OK) {
         l->surface = NEW("loads.surface", 1, struct surface);
         *l->surface = (struct surface){.dim = p->dim, .section = l->boundary->section > 0 ? l->boundary->section : 1,
@@ -329,7 +390,8 @@ void load_surface_free(struct surface *s)
     if (!s) return;
     memory_free(s->corner), memory_free(s->sign), memory_free(s->first), memory_free(s->face_first);
     memory_free(s->share_first), memory_free(s->particle), memory_free(s->weight), memory_free(s->part);
-    memory_free(s->share_corner), memory_free(s->share_weight);
+    memory_free(s->share_corner), memory_free(s->share_weight), memory_free(s->turned), memory_free(s->share_turned);
+    memory_free(s->place);
     memory_free(s->x), memory_free(s->face_area), memory_free(s->area);
     memory_free(s);
 }
@@ -392,8 +454,11 @@ static void surface_face_area(struct surface *s, int64_t q)
 static void surface_corner_place(struct surface *s, const struct particles *p, int64_t c)
 {
     for (int d = 0; d < s->dim; d++) {
-        real x = 0;
-        for (int64_t q = s->first[c]; q < s->first[c + 1]; q++) x += s->weight[q] * p->x[d][s->particle[q]];
+        real x = s->place[c * s->dim + d];
+        for (int64_t q = s->first[c]; q < s->first[c + 1]; q++) {
+            const int32_t i = s->particle[q];
+            x += (s->turned[q] >> d & 1 ? -1 : 1) * s->weight[q] * (p->x[d][i] - p->X[d][i]);
+        }
         s->x[c * s->dim + d] = x;
     }
 }
@@ -412,7 +477,8 @@ static real surface_share(const struct surface *s, int64_t k, int d)
 {
     real area = 0;
     for (int64_t q = s->share_first[k]; q < s->share_first[k + 1]; q++)
-        area -= s->share_weight[q] * s->area[(int64_t)s->share_corner[q] * s->dim + d];
+        area -= (s->share_turned[q] >> d & 1 ? -1 : 1) * s->share_weight[q] *
+                s->area[(int64_t)s->share_corner[q] * s->dim + d];
     return area;
 }
 

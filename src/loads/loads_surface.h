@@ -10,12 +10,12 @@ struct surface_faces {
     int64_t n, room;
     struct surface_face *face;
 };
-void surface_face_add(struct surface_faces *f, int32_t particle, int axis, int side);
-void surface_faces_free(struct surface_faces *f);
 
 /* The load acts on the particles that the corners of these faces go with: takes them, their shares being the areas of
- * the reference state. REFUSED where bodies are no lattice. */
-status load_surface_make(struct load *l, const struct surface_faces *faces, struct particles *p, real spacing);
+ * the reference state. all: the n boundaries of the scene, with the mirrors. REFUSED where bodies are no lattice, or
+ * mirrors do not stand half-way between its sites. */
+status load_surface_make(struct load *l, const struct surface_faces *faces, const struct boundary *all, int n,
+                         struct particles *p, real spacing);
 /* Areas at present places that the particles of the load bear, inwards, by component [load->n] [m^2]. */
 void surface_areas(struct surface *s, const struct particles *p, real *const *area);
 void load_surface_free(struct surface *s);

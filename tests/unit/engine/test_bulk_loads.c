@@ -257,6 +257,40 @@ static void pressure_follows_a_turning_body(void **state)
     run_end(&a);
 }
 
+/* A quarter of a tube between two mirrors does what it does as part of the whole tube. */
+static void pressure_follows_beside_mirrors(void **state)
+{
+    (void)state;
+    static const char load[] = "{pressure: 20 kPa, follow: true, region: {disc: {centre: [0, 0], radius: 25 mm}}}";
+    static const char tube[] =
+        "{disc: {centre: [0, 0], radius: 40 mm}}, {subtract: {disc: {centre: [0, 0], radius: 20 mm}}}";
+    char whole[200], quarter[300], alone[200], mirrors[300];
+    snprintf(whole, sizeof whole, "body=[%s]", tube), snprintf(alone, sizeof alone, "boundary=[%s]", load);
+    snprintf(quarter, sizeof quarter, "body=[%s, {intersect: {box: {from: [0, 0], to: [1, 1]}}}]", tube);
+    snprintf(mirrors, sizeof mirrors, "boundary=[%s, {mirror: {axis: x, at: 0}}, {mirror: {axis: y, at: 0}}]", load);
+    for (size_t k = 0; k < 2; k++) {                     /* bonds; the mesh of the reference frame */
+        struct run a, b;
+        real most = 0, off = 0;
+        run(&a, SQUARE, frames[k][0], frames[k][1], quarter, mirrors, "duration=2 ms", NULL);
+        run(&b, SQUARE, frames[k][0], frames[k][1], whole, alone, "duration=2 ms", NULL);
+        engine_sync(&a.e), engine_sync(&b.e);
+        for (int64_t i = 0; i < a.e.part.n; i++) {
+            const struct particles *p = &a.e.part, *q = &b.e.part;
+            real X[DIM_MAX];
+            int32_t j = -1;
+            particle_place(p, i, X);
+            assert_int_equal(cells_near(&b.e.cells, q, X, 1e-4, -1, &j, 1), 1);
+            for (int d = 0; d < 2; d++) {
+                most = real_max(most, fabs(p->x[d][i] - p->X[d][i]));
+                off = real_max(off, fabs(p->x[d][i] - p->X[d][i] - (q->x[d][j] - q->X[d][j])));
+            }
+        }
+        if (!(most > 1e-4 && off < 1e-9 * most)) fail_msg("%s: off by %g of %g m", frames[k][0], off, most);
+        balanced(&a, 1e-2);
+        run_end(&a), run_end(&b);
+    }
+}
+
 /* ---- rotation and formulas --------------------------------------------------------------------------------------- */
 
 /* What is driven stays on its circle, in every frame; the work goes into the spin. */
@@ -345,6 +379,7 @@ int main(void)
         cmocka_unit_test(damping_is_that_of_an_oscillator), cmocka_unit_test(damping_bears_a_steady_force),
         cmocka_unit_test(any_damping_only_takes),           cmocka_unit_test(pressure_all_round_is_balanced),
         cmocka_unit_test(pressure_shrinks_a_body),          cmocka_unit_test(pressure_follows_a_turning_body),
+        cmocka_unit_test(pressure_follows_beside_mirrors),
         cmocka_unit_test(rotation_drives_on_circles),       cmocka_unit_test(formulas_are_what_they_say),
         cmocka_unit_test(initial_velocities_are_formulas),
     };
