@@ -9,10 +9,13 @@
  *     weight                a mass or a volume, as its unit says
  *     vx, vy, vz            default: the velocity of the body
  *     material              number from 0 in the order of the scene, or name; default: that of the body
+ *     block_id, block       the material, as Peridigm and PeriLab count it: from 1
  *     body                  number from 0
  *
- * What else there is is not read, and said. HDF5: datasets positions (n x dim; in 1D also n), volumes, mass, density
- * (n), velocities (n x dim), material, body (n), of which positions must be there, with attributes `unit`. */
+ * What else there is is not read, and said. Points:0 .. Points:2 of ParaView are x, y, z. Names may stand in quotes,
+ * behind `header:` (PeriLab), or in a comment (Peridigm, whose five columns need none). HDF5: datasets positions
+ * (n x dim; in 1D also n), volumes, mass, density (n), velocities (n x dim), material, body (n), of which positions must
+ * be there, with attributes `unit`. */
 #ifndef CLEAVE_PARTICLE_LIST
 #define CLEAVE_PARTICLE_LIST
 
@@ -21,6 +24,8 @@
 /* What is known of a list from its columns. */
 struct particle_list_head {
     bool material, mass;                 /* it says the material, the mass or density of particles */
+    bool block;                          /* its material is the block of Peridigm, counted from 1 */
+    bool unnamed;                        /* its columns have no names: they are those of Peridigm's text mesh */
     char note[256];                      /* what is not read, or missing and has a default; "": nothing */
 };
 
@@ -35,6 +40,7 @@ struct particle_list {
     int names;
     char (*name)[NAME_MAX_LENGTH];
     int64_t *line;                       /* where an entry stands in a CSV; NULL for HDF5 */
+    int16_t *material_at;                /* where its material stands in the line; NULL as before */
 };
 
 /* Reads a file by its ending: .csv, .tsv, .txt, .dat, or .h5, .hdf5, .hdf. REFUSED names file and line, or file and

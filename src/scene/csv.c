@@ -16,7 +16,7 @@ void csv_close(struct csv_file *c)
     c->file = NULL;
 }
 
-status csv_line(struct csv_file *c, bool *more)
+status csv_text(struct csv_file *c, bool *more, bool *comment)
 {
     while ((*more = fgets(c->text, sizeof c->text, c->file) != NULL)) {
         c->line++;
@@ -25,9 +25,18 @@ status csv_line(struct csv_file *c, bool *more)
             return status_set(REFUSED, "%s:%lld: not a line of text; %s", c->path, (long long)c->line, c->holds);
         if (c->line == 1 && strncmp(c->text, "\xEF\xBB\xBF", 3) == 0) memmove(c->text, c->text + 3, length - 2);
         size_t blank = strspn(c->text, " \t\r\n");
-        if (c->text[blank] != '\0' && c->text[blank] != '#') return OK;
+        *comment = c->text[blank] == '#';
+        if (c->text[blank] != '\0') return OK;
     }
-    if (ferror(c->file)) return status_set(REFUSED, "%s: cannot be read", c->path);
+    *comment = false;
+    return ferror(c->file) ? status_set(REFUSED, "%s: cannot be read", c->path) : OK;
+}
+
+status csv_line(struct csv_file *c, bool *more)
+{
+    bool comment = true;
+    *more = true;
+    while (comment) TRY(csv_text(c, more, &comment));
     return OK;
 }
 
@@ -36,14 +45,34 @@ void csv_separate(struct csv_file *c)
     c->separator = strchr(c->text, ';') ? ';' : strchr(c->text, '\t') ? '\t' : ',';
 }
 
+/* A field without blanks round it, and without double quotes. */
+static char *csv_trim(char *field)
+{
+    size_t n = strlen(field);
+    while (n > 0 && strchr(" \t\r\n", field[n - 1]) != NULL) field[--n] = '\0';
+    const size_t blank = strspn(field, " \t");
+    field += blank, n -= blank;
+    if (n < 2 || field[0] != '"' || field[n - 1] != '"') return field;
+    field[n - 1] = '\0';
+    return csv_trim(field + 1);
+}
+
+/* Where a separator may stand first: behind a text in quotes. */
+static char *csv_behind_quotes(char *field)
+{
+    char *start = field + strspn(field, " "), *close = *start == '"' ? strchr(start + 1, '"') : NULL;
+    return close ? close : field;
+}
+
 /* The same where blanks separate: as many as there are. */
 static char *csv_word(char *field, char **rest)
 {
-    field += strspn(field, " \t\r\n");
-    char *end = field + strcspn(field, " \t\r\n"), *next = end + strspn(end, " \t\r\n");
+    static const char blanks[] = " \t\r\n";
+    field += strspn(field, blanks);
+    char *behind = csv_behind_quotes(field), *end = behind + strcspn(behind, blanks), *next = end + strspn(end, blanks);
     *rest = *next ? next : NULL;
     *end = '\0';
-    return field;
+    return csv_trim(field);
 }
 
 char *csv_field(const struct csv_file *c, char **rest)
@@ -51,18 +80,18 @@ char *csv_field(const struct csv_file *c, char **rest)
     char *field = *rest;
     if (field == NULL) return NULL;
     if (c->separator == ' ') return csv_word(field, rest);
-    char *end = strchr(field, c->separator);
+    char *end = strchr(csv_behind_quotes(field), c->separator);
     *rest = end != NULL ? end + 1 : NULL;
     if (end != NULL) *end = '\0';
-    field += strspn(field, " \t");
-    for (size_t n = strlen(field); n > 0 && strchr(" \t\r\n", field[n - 1]) != NULL; n--) field[n - 1] = '\0';
-    return field;
+    return csv_trim(field);
 }
 
 char *csv_unit(char *name)
 {
-    char *open = strchr(name, '['), *end = name + strlen(name);
-    if (!open || end[-1] != ']') return end;
+    char *end = name + strlen(name), *open = end;
+    if (end > name && end[-1] == ']') open = strchr(name, '[');
+    if (end > name && end[-1] == ')') open = strchr(name, '(');
+    if (!open || open == end) return end;
     end[-1] = '\0';
     *open = '\0';
     for (char *c = open; c > name && strchr(" \t", c[-1]) != NULL; c--) c[-1] = '\0';

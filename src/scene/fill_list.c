@@ -1,16 +1,44 @@
 /* Particles of a body from its list: what entries say goes before what the body says. */
+#include <stdio.h>
 #include <string.h>
 
 #include "data/particles.h"
 #include "fill_draft.h"
 #include "scene/particle_list.h"
 
-/* REFUSED with a message that begins with `file:line` of entry i (CSV) or `file: entry i` (HDF5). */
-static status refuse_entry(const struct particle_list *l, const char *path, int64_t i, const char *what, int number)
+/* Where entry i stands: `file:line`, with the column of its material, or `file: entry i` (HDF5). */
+static const char *entry_place(char *text, const struct particle_list *l, const char *path, int64_t i, bool material)
 {
-    bool csv = l->line != NULL;
-    return status_set(REFUSED, "%s:%s%lld: %s %d (numbered from 0 in the order of the scene)", path,
-                      csv ? "" : " entry ", (long long)(csv ? l->line[i] : i), what, number);
+    int used = snprintf(text, PLACE_LENGTH, "%.460s:%s%lld", path, l->line ? "" : " entry ",
+                        (long long)(l->line ? l->line[i] : i));
+    if (material && l->material_at) snprintf(text + used, (size_t)(PLACE_LENGTH - used), ":%d", l->material_at[i]);
+    return text;
+}
+
+/* The materials that a scene has, in words; of many the first. */
+static const char *materials_in_words(char *text, size_t room, const struct scene *s)
+{
+    enum { NAMED = 4 };
+    size_t used = 0;
+    for (int m = 0; m < s->materials && m < NAMED; m++)
+        used += (size_t)snprintf(text + used, room - used, "%s%.40s",
+                                 m == 0 ? "" : m + 1 == s->materials ? " and " : ", ", s->material[m].name);
+    if (s->materials > NAMED) snprintf(text + used, room - used, " and %d more", s->materials - NAMED);
+    return text;
+}
+
+/* REFUSED: entry i has a material that the scene does not have; `given` as the list has it. */
+static status refuse_material(const struct scene *s, const struct particle_list *l, const char *path, int64_t i,
+                              real given)
+{
+    char place[PLACE_LENGTH], names[256];
+    entry_place(place, l, path, i, true);
+    materials_in_words(names, sizeof names, s);
+    if (given < 0)
+        return status_set(REFUSED, "%s: the scene has no material %s; it has %s", place, l->name[-1 - (int)given],
+                          names);
+    return status_set(REFUSED, "%s: the scene has no material %s%d (numbered from %d in its order); it has %s", place,
+                      l->head.block ? "of block_id " : "", (int)given + l->head.block, l->head.block, names);
 }
 
 /* True if body number k takes its particles from this file. */
@@ -24,14 +52,10 @@ static status entry_material(const struct scene *s, const struct particle_list *
                              int64_t i, int *material)
 {
     const real given = l->material ? l->material[i] : b->material;
-    *material = (int)given;
-    if (given < 0) {
-        const char *name = l->name[-1 - *material];
-        for (*material = 0; *material < s->materials; ++*material)
-            if (strcmp(s->material[*material].name, name) == 0) return OK;
-        return status_set(REFUSED, "%s:%lld: the scene has no material %s", b->file, (long long)l->line[i], name);
-    }
-    return *material < s->materials ? OK : refuse_entry(l, b->file, i, "the scene has no material", *material);
+    *material = given < 0 ? 0 : (int)given;
+    while (given < 0 && *material < s->materials && strcmp(s->material[*material].name, l->name[-1 - (int)given]) != 0)
+        ++*material;
+    return *material < s->materials ? OK : refuse_material(s, l, b->file, i, given);
 }
 
 /* Adds entry i, which is of this body; `volume` where the list has none [m^3]. */
@@ -58,12 +82,15 @@ static status take_list(struct draft *d, int body, const struct particle_list *l
 {
     const struct scene *s = d->scene;
     const char *path = s->body[body].file;
+    char place[PLACE_LENGTH];
     const real volume = lattice_volume(scene_section(s), s->spacing, s->dim);
     if (!l->volume && !(volume > 0))
         return draft_refuse(d, body, "its list has no column volume, and there is no particles.spacing that says it");
     for (int64_t i = 0; i < l->n; i++) {
         const int owner = l->body != NULL ? (int)l->body[i] : body;
-        if (!shares_file(s, owner, path)) return refuse_entry(l, path, i, "this file is not that of body", owner);
+        if (!shares_file(s, owner, path))
+            return status_set(REFUSED, "%s: this file is not that of body %d (numbered from 0 in the order of the "
+                              "scene)", entry_place(place, l, path, i, false), owner);
         if (owner == body) TRY(take_entry(d, body, l, i, volume));
     }
     return OK;

@@ -1,4 +1,4 @@
-/* Reads lists of particles from CSV and HDF5 files; every refusal names the line or entry. */
+/* Reads lists of particles: their columns, those of HDF5 files, and the format; every refusal names the entry. */
 #include "scene/particle_list.h"
 
 #include <hdf5.h>
@@ -12,23 +12,16 @@
 #include "base/last_words.h"
 #include "base/memory.h"
 #include "base/team.h"
-#include "csv.h"
+#include "particle_list_parts.h"
 #include "scene_internal.h"
 
-enum { PARTICLES_MAX = INT32_MAX - 64, FIELDS_MAX = 256, NAMES_MAX = 256, UNIT_TEXT = 40 };
-
-/* Columns of a list; coordinates come first. */
-enum list_column {
-    COLUMN_X, COLUMN_Y, COLUMN_Z, COLUMN_VX, COLUMN_VY, COLUMN_VZ, COLUMN_VOLUME, COLUMN_MASS, COLUMN_DENSITY,
-    COLUMN_MATERIAL, COLUMN_BODY, COLUMNS, COLUMN_NONE
-};
-static const struct { const char *name; enum unit unit; } columns[COLUMNS] = {
+const struct list_quantity list_quantity[COLUMNS] = {
     {"x", UNIT_LENGTH}, {"y", UNIT_LENGTH}, {"z", UNIT_LENGTH}, {"vx", UNIT_SPEED}, {"vy", UNIT_SPEED},
     {"vz", UNIT_SPEED}, {"volume", UNIT_VOLUME}, {"mass", UNIT_MASS}, {"density", UNIT_DENSITY},
     {"material", UNIT_NONE}, {"body", UNIT_NONE},
 };
 
-static real **column_array(struct particle_list *l, int column)
+real **column_array(struct particle_list *l, int column)
 {
     switch (column) {
     case COLUMN_VX: case COLUMN_VY: case COLUMN_VZ: return &l->v[column - COLUMN_VX];
@@ -41,24 +34,23 @@ static real **column_array(struct particle_list *l, int column)
     }
 }
 
-/* Has a list in so many dimensions no use for a column? */
-static bool column_idle(int column, int dim)
+bool column_idle(int column, int dim)
 {
     return column <= COLUMN_VZ && column % DIM_MAX >= dim;       /* x, y, z, vx, vy, vz */
 }
 
-/* Appends to the note on a list. */
-static void note_add(struct particle_list_head *head, const char *between, const char *what)
+void note_add(struct particle_list_head *head, const char *between, const char *what)
 {
     const size_t used = strlen(head->note);
     snprintf(head->note + used, sizeof head->note - used, "%s%.40s", used ? between : "", what);
 }
 
-/* What the columns found say about the list: `has` [COLUMNS]. */
-static void note_columns(struct particle_list_head *head, const bool *has)
+void note_columns(struct particle_list_head *head, const bool *has)
 {
     head->material = has[COLUMN_MATERIAL], head->mass = has[COLUMN_MASS] || has[COLUMN_DENSITY];
     if (head->note[0]) note_add(head, " ", "not read");
+    if (head->unnamed) note_add(head, "; ", "read as x y z block_id volume");
+    if (head->block) note_add(head, "; ", "block_id is the material, counted from 1");
     if (!has[COLUMN_VOLUME]) note_add(head, "; ", "no volumes: each that of the spacing");
 }
 
@@ -66,12 +58,12 @@ void particle_list_free(struct particle_list *l)
 {
     for (int c = 0; c < COLUMNS; c++) memory_free(*column_array(l, c));
     memory_free(l->line);
+    memory_free(l->material_at);
     memory_free(l->name);
     *l = (struct particle_list){0};
 }
 
-/* Fault of a value in a column, as the end of a sentence; NULL: none. */
-static const char *value_fault(int column, real value)
+const char *value_fault(int column, real value)
 {
     if (!isfinite(value)) return "is not a finite number";
     if (column >= COLUMN_VOLUME && column <= COLUMN_DENSITY && value <= 0) return "must be larger than 0";
@@ -80,44 +72,7 @@ static const char *value_fault(int column, real value)
     return NULL;
 }
 
-enum { PARTICLE_NUMBERS = 40 };     /* memory of a particle of a run without its bonds [numbers] */
-
-/* REFUSED if n particles of a run need more memory than the machine has. */
-static status list_affordable(const char *path, int64_t n)
-{
-    const real bytes = (real)n * PARTICLE_NUMBERS * sizeof(real);
-    if (team_memory() <= 0 || bytes <= (real)team_memory()) return OK;
-    return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB, and %.2g can be had (%s)", path, (real)n,
-                      1e-9 * bytes, 1e-9 * (real)team_memory(), team_memory_limit());
-}
-
-/* ---- CSV --------------------------------------------------------------------------------------------------------- */
-
-struct csv {
-    struct csv_file in;
-    int fields, column[FIELDS_MAX];      /* enum list_column of each field of a line */
-    real factor[FIELDS_MAX];             /* of its unit */
-    int64_t room;
-};
-
-/* What a header that is no list of names is likely to be, as the end of a sentence. */
-static const char *header_guess(const char *name)
-{
-    if (strchr(name, '\r')) return "; its lines end in carriage returns alone, line feeds are expected";
-    if (strpbrk(name, "\"'")) return "; names without quotes are expected";
-    return "";
-}
-
-/* Which column a name is; COLUMN_NONE: none that is read. */
-static int column_named(const char *name, int dim)
-{
-    for (int k = 0; k < COLUMNS; k++)
-        if (strcasecmp(name, columns[k].name) == 0 && !column_idle(k, dim)) return k;
-    return COLUMN_NONE;
-}
-
-/* The factor of a unit of this kind; false with the rest of a sentence: it is none. */
-static bool unit_factor(real *factor, const char *unit, enum unit of, char *what, size_t room)
+bool unit_factor(real *factor, const char *unit, enum unit of, char *what, size_t room)
 {
     char number[UNIT_TEXT + 2];
     *factor = 1;
@@ -126,153 +81,14 @@ static bool unit_factor(real *factor, const char *unit, enum unit of, char *what
     return number_read(factor, number, of, false, what, room);
 }
 
-/* A column `weight`: a mass or a volume, by its unit. REFUSED without one of these. */
-static status weight_column(struct csv *c, const char *name, const char *unit, int *column)
-{
-    char what[160];
-    real one;
-    *column = unit_factor(&one, unit, UNIT_MASS, what, sizeof what) ? COLUMN_MASS : COLUMN_VOLUME;
-    if (*unit && unit_factor(&one, unit, columns[*column].unit, what, sizeof what)) return OK;
-    return csv_fault(&c->in, name, "weight: a mass or a volume? its unit says it, as weight [kg]");
-}
+enum { PARTICLE_NUMBERS = 40 };     /* memory of a particle of a run without its bonds [numbers] */
 
-/* Appends a column named in the header. REFUSED if it is given twice, or its unit is of another quantity. */
-static status csv_column(struct csv *c, char *name, struct particle_list *l, bool *has)
+status list_affordable(const char *path, int64_t n)
 {
-    char what[160];
-    const char *unit = csv_unit(name);
-    int k = column_named(name, l->dim);
-    if (c->fields == FIELDS_MAX) return csv_fault(&c->in, name, "more than %d columns", FIELDS_MAX);
-    if (*header_guess(name))
-        return csv_fault(&c->in, name, "unknown column '%.*s'%s", (int)strcspn(name, "\r") < 40
-                         ? (int)strcspn(name, "\r") : 40, name, header_guess(name));
-    if (strcasecmp(name, "weight") == 0) TRY(weight_column(c, name, unit, &k));
-    if (k == COLUMN_NONE) note_add(&l->head, ", ", *name ? name : "a column without a name");
-    else if (has[k]) return csv_fault(&c->in, name, "column %s is named twice", columns[k].name);
-    else if (!unit_factor(&c->factor[c->fields], unit, columns[k].unit, what, sizeof what))
-        return csv_fault(&c->in, unit, "%s: [%.40s] %s", columns[k].name, unit, what);
-    else has[k] = true;
-    c->column[c->fields++] = k;
-    return OK;
-}
-
-/* Takes a blank for the separator where there is no other; then none stands before and in a unit: `x [mm] y [mm]`. */
-static void header_separate(struct csv *c)
-{
-    char *text = c->in.text, *to = text;
-    csv_separate(&c->in);
-    if (strchr(text, c->in.separator) || !strpbrk(text + strspn(text, " "), " ")) return;
-    c->in.separator = ' ';
-    bool inside = false;
-    for (const char *from = text; *from; from++) {
-        const char *next = from + strspn(from, " ");
-        inside = *from == '[' || (inside && *from != ']');
-        if (*from != ' ' || !(inside || *next == '[')) *to++ = *from;
-    }
-    *to = '\0';
-}
-
-/* Reads the header. REFUSED if a required column is missing. */
-static status csv_header(struct csv *c, struct particle_list *l)
-{
-    bool more, has[COLUMNS] = {false};
-    TRY(csv_line(&c->in, &more));
-    if (!more) return status_set(REFUSED, "%s: empty; the first line names the columns: x,y,z,volume", c->in.path);
-    header_separate(c);
-    char *rest = c->in.text;
-    for (char *name; (name = csv_field(&c->in, &rest)) != NULL;) TRY(csv_column(c, name, l, has));
-    for (int k = 0; k < l->dim; k++)
-        if (!has[k])
-            return csv_fault(&c->in, c->in.text, "column %s is missing; the first line names the columns, as %s",
-                             columns[k].name, l->dim == 1 ? "x,volume" : l->dim == 2 ? "x,y,volume" : "x,y,z,volume");
-    if (has[COLUMN_MASS] && has[COLUMN_DENSITY])
-        return csv_fault(&c->in, c->in.text, "mass beside density; one of the two fixes the other");
-    note_columns(&l->head, has);
-    return OK;
-}
-
-/* Makes room for one more entry, doubling. */
-static status csv_grow(struct csv *c, struct particle_list *l)
-{
-    if (l->n < c->room) return OK;
-    int64_t room = c->room > 0 ? 2 * c->room : 1024;
-    TRY(list_affordable(c->in.path, room / 2));
-    for (int k = 0; k < c->fields; k++) {
-        if (c->column[k] == COLUMN_NONE) continue;
-        real **array = column_array(l, c->column[k]);
-        *array = memory_resize("list.column", *array, c->room, room, sizeof(real));
-    }
-    l->line = memory_resize("list.line", l->line, c->room, room, sizeof *l->line);
-    c->room = room;
-    return OK;
-}
-
-/* A material by its name: -1 - its number in the list of names. REFUSED for more than there can be. */
-static status csv_name(const struct csv *c, struct particle_list *l, const char *field, real *value)
-{
-    int k = 0;
-    if (!l->name) l->name = memory_new("list.name", NAMES_MAX, sizeof *l->name);
-    if (strlen(field) >= NAME_MAX_LENGTH) return csv_fault(&c->in, field, "material: its name is too long");
-    while (k < l->names && strcmp(l->name[k], field) != 0) k++;
-    if (k == NAMES_MAX) return csv_fault(&c->in, field, "material: more than %d names", NAMES_MAX);
-    if (k == l->names) strcpy(l->name[l->names++], field);
-    *value = -1 - k;
-    return OK;
-}
-
-/* Reads a field of a column. */
-static status csv_value(const struct csv *c, struct particle_list *l, int k, const char *field)
-{
-    const int column = c->column[k];
-    char *end;
-    real value = strtod(field, &end), *to = *column_array(l, column) + l->n;
-    if (column == COLUMN_MATERIAL && end == field && *field) return csv_name(c, l, field, to);
-    if (end == field || *end != '\0' || strpbrk(field, "xX"))
-        return csv_fault(&c->in, field, "%s: '%.40s' is not a number", columns[column].name, field);
-    const char *fault = value_fault(column, value * c->factor[k]);
-    if (fault != NULL) return csv_fault(&c->in, field, "%s: %.40s %s", columns[column].name, field, fault);
-    *to = value * c->factor[k];
-    return OK;
-}
-
-/* Reads one particle from the current line. */
-static status csv_entry(struct csv *c, struct particle_list *l)
-{
-    char *rest = c->in.text;
-    for (int k = 0; k < c->fields; k++) {
-        const char *field = csv_field(&c->in, &rest);
-        if (field == NULL)
-            return csv_fault(&c->in, c->in.text, "%d values; the header names %d columns", k, c->fields);
-        if (c->column[k] != COLUMN_NONE) TRY(csv_value(c, l, k, field));
-    }
-    if (rest != NULL)
-        return csv_fault(&c->in, rest,
-                         "more values than the %d columns of the header; numbers have a point, not a comma",
-                         c->fields);
-    l->line[l->n++] = c->in.line;
-    return OK;
-}
-
-static status csv_entries(struct csv *c, struct particle_list *l, bool head)
-{
-    TRY(csv_header(c, l));
-    if (head) return OK;
-    for (bool more;;) {
-        TRY(csv_line(&c->in, &more));
-        if (!more) return OK;
-        if (l->n >= PARTICLES_MAX) return status_set(REFUSED, "%s: more than %d particles", c->in.path, PARTICLES_MAX);
-        TRY(csv_grow(c, l));
-        TRY(csv_entry(c, l));
-    }
-}
-
-static status csv_read(struct particle_list *l, const char *path, bool head)
-{
-    struct csv c = {0};
-    TRY(csv_open(&c.in, path, "a particle list has one particle a line"));
-    status s = csv_entries(&c, l, head);
-    csv_close(&c.in);
-    return s;
+    const real bytes = (real)n * PARTICLE_NUMBERS * sizeof(real);
+    if (team_memory() <= 0 || bytes <= (real)team_memory()) return OK;
+    return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB, and %.2g can be had (%s)", path, (real)n,
+                      1e-9 * bytes, 1e-9 * (real)team_memory(), team_memory_limit());
 }
 
 /* ---- HDF5 -------------------------------------------------------------------------------------------------------- */
@@ -365,8 +181,8 @@ static status table_take(struct particle_list *l, int column, const struct table
         array[i] = t->value[i * t->columns + k] * t->factor;
         const char *fault = value_fault(column, array[i]);
         if (fault != NULL)
-            return status_set(REFUSED, "%s: entry %lld: %s: %g %s", path, (long long)i, columns[column].name, array[i],
-                              fault);
+            return status_set(REFUSED, "%s: entry %lld: %s: %g %s", path, (long long)i, list_quantity[column].name,
+                              array[i], fault);
     }
     return OK;
 }
@@ -404,7 +220,7 @@ static status hdf5_column(struct particle_list *l, hid_t file, const char *path,
     if (t.rows != l->n || (count > 1 || column < COLUMN_VOLUME ? t.columns < count : t.columns != count))
         s = status_set(REFUSED, "%s: %s has %lld x %lld numbers; %lld x %d are wanted", path, name, (long long)t.rows,
                        (long long)t.columns, (long long)l->n, count);
-    else if (!unit_factor(&t.factor, unit, columns[column].unit, what, sizeof what))
+    else if (!unit_factor(&t.factor, unit, list_quantity[column].unit, what, sizeof what))
         s = status_set(REFUSED, "%s: %s: its unit %s %s", path, name, unit, what);
     if (t.columns > count) note_add(&l->head, ", ", column == COLUMN_X ? "further positions" : "further velocities");
     for (int k = 0; k < count && s == OK; k++) s = table_take(l, column + k, &t, k, path);
@@ -475,7 +291,7 @@ static status list_read(struct particle_list *l, const char *path, int dim, bool
     if (format == NO_LIST) return status_set(REFUSED, "%s: a particle list is a .csv or an .h5 file", path);
     if (stat(path, &about) != 0) return status_set(REFUSED, "%s: there is no such file", path);
     if (!S_ISREG(about.st_mode)) return status_set(REFUSED, "%s: not a plain file", path);
-    status s = format == LIST_CSV ? csv_read(l, path, head) : hdf5_read(l, path);
+    status s = format == LIST_CSV ? list_csv_read(l, path, head) : hdf5_read(l, path);
     if (s != OK) particle_list_free(l);
     return s;
 }

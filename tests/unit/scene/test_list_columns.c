@@ -51,6 +51,38 @@ static void lists_of_others_are_read(void **state)
     }
 }
 
+/* Files of ParaView, R, pandas, Peridigm and PeriLab as they are. */
+static void lists_of_programs_are_read(void **state)
+{
+    (void)state;
+    static const char *const text[] = {
+        "\"Points:0\",\"Points:1\",\"Points:2\",\"volume\",\"block_id\"\n0.5,1,0,\"2e-3\",2\n",
+        "\"volume (mm^3)\";\"Points_0 (mm)\";\"Points_1\";\"a; b\";\"material\"\n\" 2e6 \";500;1;\"c; d\";\"hard\"\n",
+        "\"x [mm]\" \"y (m)\" \"volume\" \"a name\" \"material\"\n500 1 2e-3 \"of it\" \"1\"\n",
+        "# of mesh 7\n# x y z block_id volume\n# 1 particle\n0.5 1 0 2 2e-3\n",
+        "\t5e-1 1.0 0 2 2e-3 \r\n",
+        "# nodes\nheader: x y block_id volume\n0.5 1 2 2e-3\n"};
+    for (size_t k = 0; k < COUNT_OF(text); k++) {
+        struct setting s;
+        struct particles p;
+        struct particle_list_head head;
+        char name[] = "program.txt";
+        setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
+        strcpy(s.material[1].name, "hard");
+        list_written(&s, name, text[k]);
+        assert_ok(particle_list_look(&head, name, 2));
+        assert_true(head.material && head.block == (k != 1 && k != 2) && head.unnamed == (k == 4));
+        assert_ok(fill_particles(&p, &s.scene, NULL, 0));
+        assert_int_equal(p.n, 1);
+        assert_close(p.X[0][0], 0.5, 1e-15);
+        assert_close(p.X[1][0], 1, 1e-15);
+        assert_close(p.volume0[0], 2e-3, 1e-15);
+        assert_int_equal(p.material[0], 1);
+        particles_free(&p);
+        remove(name);
+    }
+}
+
 /* Without volumes each particle has that of the lattice, and it is said. */
 static void volumes_have_a_default(void **state)
 {
@@ -77,7 +109,7 @@ static void volumes_have_a_default(void **state)
 static void mutated_lists_are_bounded(void **state)
 {
     (void)state;
-    static const char good[] = "id; x [mm]; y [cm]; z; volume [mm^3]; vx [m/s]; weight [g]; material\n"
+    static const char good[] = "# x y z\n\"id\"; x [mm]; y [cm]; z; volume [mm^3]; vx [m/s]; weight [g]; material\n"
                                "7; 500; 100; 3; 2e6; 8; 4; hard\n8; 600; 1e2; 3; 2; 8; 4; soft\n";
     static const char bytes[] = ";,\t []^#-+.eExz0123456789\n\r\"\0\xFF";
     char name[] = "mutated.csv";
@@ -116,6 +148,7 @@ static int leave_columns(void **state) { return chdir("/") != 0 || rmdir(*state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(lists_of_others_are_read),
+                                       cmocka_unit_test(lists_of_programs_are_read),
                                        cmocka_unit_test(volumes_have_a_default),
                                        cmocka_unit_test(mutated_lists_are_bounded)};
     return cmocka_run_group_tests(tests, enter_columns, leave_columns);

@@ -1,0 +1,296 @@
+/* Reads lists of particles from CSV files, as other programs write them; every refusal names line and column. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/memory.h"
+#include "csv.h"
+#include "particle_list_parts.h"
+
+enum { FIELDS_MAX = 256 };
+
+struct csv {
+    struct csv_file in;
+    int fields, column[FIELDS_MAX];      /* enum list_column of each field of a line */
+    real factor[FIELDS_MAX];             /* of its unit */
+    int first[FIELDS_MAX];               /* the number of the first: 1 of blocks, or 0 */
+    bool pending;                        /* the current line is the first entry: the names of columns lie elsewhere */
+    int64_t room;
+};
+
+/* What a header that is no list of names is likely to be, as the end of a sentence. */
+static const char *header_guess(const char *name)
+{
+    if (strchr(name, '\r')) return "; its lines end in carriage returns alone, line feeds are expected";
+    if (strpbrk(name, "\"'")) return "; names without quotes, or in double ones, are expected";
+    return "";
+}
+
+/* The component of a vector that ParaView writes as `Points:0`, earlier and later versions as `Points_0`: -1 for other
+ * names. */
+static int component_named(const char *name, const char *vector)
+{
+    const size_t length = strlen(vector);
+    if (strncasecmp(name, vector, length) != 0 || strlen(name) != length + 2) return -1;
+    if (name[length] != ':' && name[length] != '_') return -1;
+    return name[length + 1] >= '0' && name[length + 1] < '0' + DIM_MAX ? name[length + 1] - '0' : -1;
+}
+
+/* The block of Peridigm and PeriLab, which counts from 1, is the material here: bonds join blocks, and not bodies. */
+static bool names_block(const char *name)
+{
+    return strcasecmp(name, "block_id") == 0 || strcasecmp(name, "block") == 0;
+}
+
+/* Which column a name is; COLUMN_NONE: none that is read. */
+static int column_named(const char *name, int dim)
+{
+    const int place = component_named(name, "points"), velocity = component_named(name, "velocity");
+    int found = names_block(name) ? COLUMN_MATERIAL : place >= 0 ? COLUMN_X + place
+              : velocity >= 0 ? COLUMN_VX + velocity : COLUMN_NONE;
+    for (int k = 0; k < COLUMNS; k++)
+        if (strcasecmp(name, list_quantity[k].name) == 0) found = k;
+    return found == COLUMN_NONE || column_idle(found, dim) ? COLUMN_NONE : found;
+}
+
+/* A column `weight`: a mass or a volume, by its unit. REFUSED without one of these. */
+static status weight_column(struct csv *c, const char *name, const char *unit, int *column)
+{
+    char what[160];
+    real one;
+    *column = unit_factor(&one, unit, UNIT_MASS, what, sizeof what) ? COLUMN_MASS : COLUMN_VOLUME;
+    if (*unit && unit_factor(&one, unit, list_quantity[*column].unit, what, sizeof what)) return OK;
+    return csv_fault(&c->in, name, "weight: a mass or a volume? its unit says it, as weight [kg]");
+}
+
+/* Appends a column named in the header. REFUSED if it is given twice, or its unit is of another quantity. */
+static status csv_column(struct csv *c, char *name, struct particle_list *l, bool *has)
+{
+    char what[160];
+    const char *unit = csv_unit(name);
+    int k = column_named(name, l->dim);
+    if (c->fields == FIELDS_MAX) return csv_fault(&c->in, name, "more than %d columns", FIELDS_MAX);
+    if (*header_guess(name))
+        return csv_fault(&c->in, name, "unknown column '%.*s'%s", (int)strcspn(name, "\r") < 40
+                         ? (int)strcspn(name, "\r") : 40, name, header_guess(name));
+    if (strcasecmp(name, "weight") == 0) TRY(weight_column(c, name, unit, &k));
+    if (k == COLUMN_NONE) note_add(&l->head, ", ", *name ? name : "a column without a name");
+    else if (has[k]) return csv_fault(&c->in, name, "column %s is named twice", list_quantity[k].name);
+    else if (!unit_factor(&c->factor[c->fields], unit, list_quantity[k].unit, what, sizeof what))
+        return csv_fault(&c->in, unit, "%s: [%.40s] %s", list_quantity[k].name, unit, what);
+    else has[k] = true;
+    if (k == COLUMN_MATERIAL && names_block(name)) l->head.block = true, c->first[c->fields] = 1;
+    c->column[c->fields++] = k;
+    return OK;
+}
+
+/* Takes a blank for the separator where there is no other; then none stands before and in a unit: `x [mm] y [mm]`. */
+static void header_separate(struct csv *c)
+{
+    char *text = c->in.text, *to = text;
+    csv_separate(&c->in);
+    if (strchr(text, c->in.separator) || !strpbrk(text + strspn(text, " "), " ")) return;
+    c->in.separator = ' ';
+    bool inside = false;
+    for (const char *from = text; *from; from++) {
+        const char *next = from + strspn(from, " ");
+        inside = strchr("[(", *from) || (inside && !strchr("])", *from));
+        if (*from != ' ' || !(inside || strchr("[(", *next))) *to++ = *from;
+    }
+    *to = '\0';
+}
+
+/* Reads the names of columns from the current line. REFUSED if a required one is missing. */
+static status header_read(struct csv *c, struct particle_list *l)
+{
+    bool has[COLUMNS] = {false};
+    const char *const names = l->dim == 1 ? "x,volume" : l->dim == 2 ? "x,y,volume" : "x,y,z,volume";
+    header_separate(c);
+    char *rest = c->in.text;
+    for (char *name; (name = csv_field(&c->in, &rest)) != NULL;) TRY(csv_column(c, name, l, has));
+    for (int k = 0; k < l->dim; k++)
+        if (!has[k])
+            return csv_fault(&c->in, c->in.text, "column %s is missing; the first line names the columns, as %s",
+                             list_quantity[k].name, names);
+    if (has[COLUMN_MASS] && has[COLUMN_DENSITY])
+        return csv_fault(&c->in, c->in.text, "mass beside density; one of the two fixes the other");
+    note_columns(&l->head, has);
+    return OK;
+}
+
+/* Blanks over what stands before the names of columns: the # of a comment (Peridigm), `header:` (PeriLab). */
+static void header_bare(char *text)
+{
+    static const char word[] = "header:";
+    for (; *text == '#' || *text == ' ' || *text == '\t'; text++) *text = ' ';
+    if (strncasecmp(text, word, sizeof word - 1) == 0) memset(text, ' ', sizeof word - 1);
+}
+
+/* Does a comment name all coordinates, so that it is a header? */
+static bool comment_names(const char *comment, int dim)
+{
+    struct csv trial = {0};
+    bool has[COLUMNS + 2] = {false};
+    strcpy(trial.in.text, comment);
+    header_separate(&trial);
+    char *rest = trial.in.text;
+    for (char *name; (name = csv_field(&trial.in, &rest)) != NULL;) {
+        csv_unit(name);
+        has[column_named(name, dim)] = true;
+    }
+    for (int k = 0; k < dim; k++)
+        if (!has[k]) return false;
+    return true;
+}
+
+/* True of a line whose first field is a number. */
+static bool line_of_numbers(const char *text)
+{
+    char *end;
+    strtod(text, &end);
+    return end != text && strchr(" \t,;\r\n", *end);
+}
+
+/* True of a line of five numbers with blanks between them: of Peridigm's text mesh without names. */
+static bool line_of_mesh(const char *text)
+{
+    int n = 0;
+    for (char *end; line_of_numbers(text); n++, text = end) strtod(text, &end);
+    return n == 5 && text[strspn(text, " \t\r\n")] == '\0';
+}
+
+/* Reads the header from `names`, which stand in another line than the entries, whose first is the current line. */
+static status header_elsewhere(struct csv *c, struct particle_list *l, const char *names, int64_t line)
+{
+    char entry[CSV_LINE_LENGTH];
+    const int64_t entry_line = c->in.line;
+    strcpy(entry, c->in.text);
+    strcpy(c->in.text, names);
+    c->in.line = line;
+    TRY(header_read(c, l));
+    strcpy(c->in.text, entry);
+    c->in.line = entry_line;
+    c->pending = true;
+    return OK;
+}
+
+/* Reads the header: the first line that is no comment; where that holds numbers, the first comment that names columns;
+ * where there is none, that of Peridigm's text mesh. */
+static status csv_header(struct csv *c, struct particle_list *l)
+{
+    static const char mesh[] = "x y z block_id volume";
+    char names[CSV_LINE_LENGTH] = "";
+    int64_t line = 0;
+    bool more, comment = true;
+    while (comment) {
+        TRY(csv_text(&c->in, &more, &comment));
+        if (!more) return status_set(REFUSED, "%s: empty; the first line names the columns: x,y,z,volume", c->in.path);
+        if (!comment || *names) continue;
+        header_bare(c->in.text);
+        if (comment_names(c->in.text, l->dim)) strcpy(names, c->in.text), line = c->in.line;
+    }
+    if (*names && line_of_numbers(c->in.text)) return header_elsewhere(c, l, names, line);
+    if (line_of_mesh(c->in.text)) {
+        l->head.unnamed = true;
+        return header_elsewhere(c, l, mesh, c->in.line);
+    }
+    if (line_of_numbers(c->in.text))
+        return csv_fault(&c->in, c->in.text, "numbers, and no line before them names the columns, as x,y,volume");
+    header_bare(c->in.text);
+    return header_read(c, l);
+}
+
+/* Makes room for one more entry, doubling. */
+static status csv_grow(struct csv *c, struct particle_list *l)
+{
+    if (l->n < c->room) return OK;
+    int64_t room = c->room > 0 ? 2 * c->room : 1024;
+    TRY(list_affordable(c->in.path, room / 2));
+    for (int k = 0; k < c->fields; k++) {
+        if (c->column[k] == COLUMN_NONE) continue;
+        real **array = column_array(l, c->column[k]);
+        *array = memory_resize("list.column", *array, c->room, room, sizeof(real));
+        if (c->column[k] == COLUMN_MATERIAL)
+            l->material_at = memory_resize("list.at", l->material_at, c->room, room, sizeof *l->material_at);
+    }
+    l->line = memory_resize("list.line", l->line, c->room, room, sizeof *l->line);
+    c->room = room;
+    return OK;
+}
+
+/* A material by its name: -1 - its number in the list of names. REFUSED for more than there can be. */
+static status csv_name(const struct csv *c, struct particle_list *l, const char *field, real *value)
+{
+    int k = 0;
+    if (!l->name) l->name = memory_new("list.name", NAMES_MAX, sizeof *l->name);
+    if (strlen(field) >= NAME_MAX_LENGTH) return csv_fault(&c->in, field, "material: its name is too long");
+    while (k < l->names && strcmp(l->name[k], field) != 0) k++;
+    if (k == NAMES_MAX) return csv_fault(&c->in, field, "material: more than %d names", NAMES_MAX);
+    if (k == l->names) strcpy(l->name[l->names++], field);
+    *value = -1 - k;
+    return OK;
+}
+
+/* Reads a field of a column. */
+static status csv_value(const struct csv *c, struct particle_list *l, int k, const char *field)
+{
+    const int column = c->column[k];
+    const char *name = c->first[k] ? "block_id" : list_quantity[column].name;
+    char *end;
+    real value = strtod(field, &end), *to = *column_array(l, column) + l->n;
+    if (column == COLUMN_MATERIAL) l->material_at[l->n] = (int16_t)(field - c->in.text + 1);
+    if (column == COLUMN_MATERIAL && end == field && *field) return csv_name(c, l, field, to);
+    if (end == field || *end != '\0' || strpbrk(field, "xX"))
+        return csv_fault(&c->in, field, "%s: '%.40s' is not a number%s", name, field,
+                         strchr(field, ',') ? "; numbers have a point, not a comma" : "");
+    value = value * c->factor[k] - c->first[k];
+    const char *fault = value_fault(column, value);
+    if (fault != NULL)
+        return csv_fault(&c->in, field, "%s: %.40s %s", name, field,
+                         c->first[k] ? "must be a whole number from 1 to 256" : fault);
+    *to = value;
+    return OK;
+}
+
+/* Reads one particle from the current line. */
+static status csv_entry(struct csv *c, struct particle_list *l)
+{
+    char *rest = c->in.text;
+    for (int k = 0; k < c->fields; k++) {
+        const char *field = csv_field(&c->in, &rest);
+        if (field == NULL)
+            return csv_fault(&c->in, c->in.text, "%d values; the header names %d columns", k, c->fields);
+        if (c->column[k] != COLUMN_NONE) TRY(csv_value(c, l, k, field));
+    }
+    if (rest != NULL)
+        return csv_fault(&c->in, rest,
+                         "more values than the %d columns of the header; numbers have a point, not a comma",
+                         c->fields);
+    l->line[l->n++] = c->in.line;
+    return OK;
+}
+
+static status csv_entries(struct csv *c, struct particle_list *l, bool head)
+{
+    TRY(csv_header(c, l));
+    if (head) return OK;
+    for (bool more = true;; c->pending = false) {
+        if (!c->pending) TRY(csv_line(&c->in, &more));
+        if (!more) return OK;
+        if (l->n >= PARTICLES_MAX) return status_set(REFUSED, "%s: more than %d particles", c->in.path, PARTICLES_MAX);
+        TRY(csv_grow(c, l));
+        TRY(csv_entry(c, l));
+    }
+}
+
+status list_csv_read(struct particle_list *l, const char *path, bool head)
+{
+    struct csv c = {0};
+    TRY(csv_open(&c.in, path, "a particle list has one particle a line"));
+    status s = csv_entries(&c, l, head);
+    csv_close(&c.in);
+    return s;
+}
+
