@@ -13,9 +13,10 @@
  *     body                  number from 0
  *
  * What else there is is not read, and said. Points:0 .. Points:2 of ParaView are x, y, z. Names may stand in quotes,
- * behind `header:` (PeriLab), or in a comment (Peridigm, whose five columns need none). HDF5: datasets positions
- * (n x dim; in 1D also n), volumes, mass, density (n), velocities (n x dim), material, body (n), of which positions must
- * be there, with attributes `unit`. */
+ * behind `header:` (PeriLab), or in a comment (Peridigm, whose five columns need none).
+ *
+ * HDF5: datasets positions (n x dim; in 1D also n), volumes, mass, density (n), velocities (n x dim), material, body
+ * (n), of which positions must be there, with attributes `unit`. */
 #ifndef CLEAVE_PARTICLE_LIST
 #define CLEAVE_PARTICLE_LIST
 

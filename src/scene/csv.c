@@ -20,7 +20,10 @@ status csv_text(struct csv_file *c, bool *more, bool *comment)
 {
     while ((*more = fgets(c->text, sizeof c->text, c->file) != NULL)) {
         c->line++;
-        size_t length = strlen(c->text);
+        const size_t length = strlen(c->text), first = strcspn(c->text, "\r");
+        if (c->text[first] && c->text[first + 1 + strspn(c->text + first + 1, "\r\n")])
+            return status_set(REFUSED, "%s:%lld: its lines end in carriage returns alone, line feeds are expected",
+                              c->path, (long long)c->line);
         if (length == 0 || (c->text[length - 1] != '\n' && !feof(c->file)))
             return status_set(REFUSED, "%s:%lld: not a line of text; %s", c->path, (long long)c->line, c->holds);
         if (c->line == 1 && strncmp(c->text, "\xEF\xBB\xBF", 3) == 0) memmove(c->text, c->text + 3, length - 2);

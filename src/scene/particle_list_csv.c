@@ -20,14 +20,6 @@ struct csv {
     int64_t room;
 };
 
-/* What a header that is no list of names is likely to be, as the end of a sentence. */
-static const char *header_guess(const char *name)
-{
-    if (strchr(name, '\r')) return "; its lines end in carriage returns alone, line feeds are expected";
-    if (strpbrk(name, "\"'")) return "; names without quotes, or in double ones, are expected";
-    return "";
-}
-
 /* The component of a vector that ParaView writes as `Points:0`, earlier and later versions as `Points_0`: -1 for other
  * names. */
 static int component_named(const char *name, const char *vector)
@@ -72,9 +64,9 @@ static status csv_column(struct csv *c, char *name, struct particle_list *l, boo
     const char *unit = csv_unit(name);
     int k = column_named(name, l->dim);
     if (c->fields == FIELDS_MAX) return csv_fault(&c->in, name, "more than %d columns", FIELDS_MAX);
-    if (*header_guess(name))
-        return csv_fault(&c->in, name, "unknown column '%.*s'%s", (int)strcspn(name, "\r") < 40
-                         ? (int)strcspn(name, "\r") : 40, name, header_guess(name));
+    if (strpbrk(name, "\"'"))
+        return csv_fault(&c->in, name, "unknown column '%.40s'; names without quotes, or in double ones, are expected",
+                         name);
     if (strcasecmp(name, "weight") == 0) TRY(weight_column(c, name, unit, &k));
     if (k == COLUMN_NONE) note_add(&l->head, ", ", *name ? name : "a column without a name");
     else if (has[k]) return csv_fault(&c->in, name, "column %s is named twice", list_quantity[k].name);

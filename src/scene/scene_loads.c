@@ -203,12 +203,28 @@ static status kind_of_boundary(struct reader *r, const struct node *map, const s
     return *kind ? OK : fault(r, map, "does nothing; %s is expected", word_list(r, words));
 }
 
+/* Does a value that is not 0 carry a unit? */
+static bool carries_unit(struct reader *r, const struct node *n, real value)
+{
+    struct key plain = *key_find("boundary", "traction");
+    struct expression e = {0};
+    plain.unit = UNIT_NONE;
+    if (!n || n->kind != NODE_SCALAR || value == 0) return false;
+    const bool unit = read_expression(r, &plain, n, EXPRESS_SPACE | EXPRESS_TIME, &e) != OK;
+    expression_free(&e);
+    return unit;
+}
+
 /* REFUSED for a value beside a column of a file that has its unit: one of both says how large the load is. */
 static status check_time_unit(struct reader *r, const struct node *kind, const struct boundary *b)
 {
     real most = 0;
+    bool unit = carries_unit(r, kind->kind == NODE_MAP ? node_find(kind, "rate") : kind, b->value[0]);
+    int k = 0;
     for (int d = 0; d < r->dim; d++) most = real_max(most, fabs(b->value[d]));
-    if (!b->time_unit || most <= 1) return OK;
+    for (const struct node *c = kind->kind == NODE_LIST ? kind->first : NULL; c && k < r->dim; c = c->next)
+        unit = carries_unit(r, c, b->value[k++]) || unit;
+    if (!b->time_unit || (most <= 1 && !unit)) return OK;
     return fault(r, kind, "%s times a column that has a unit itself; a direction such as [0, -1], or a column without "
                  "unit, is expected", shown(r, kind));
 }

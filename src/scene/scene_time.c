@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/memory.h"
 #include "csv.h"
@@ -38,7 +39,7 @@ enum { TIMES_MAX = 1000000, UNIT_LONGEST_NAME = 40 };
 /* The two columns of a file that make a function of time. */
 struct time_columns {
     struct csv_file in;
-    int time, value;                     /* from 0; -1: not found */
+    int time, value, all;                /* from 0; -1: not found; all there are */
     char time_unit[UNIT_LONGEST_NAME], value_unit[UNIT_LONGEST_NAME]; /* "": none */
     enum unit unit;                      /* of the values */
     const char *second;                  /* name of another column of values; NULL: none */
@@ -61,7 +62,7 @@ static status column_take(struct time_columns *c, int k, char *name, const char 
     char what[160];
     real one;
     char *unit = csv_unit(name), number[UNIT_LONGEST_NAME + 2];
-    const bool time = strcmp(name, "time") == 0 || strcmp(name, "t") == 0;
+    const bool time = strcasecmp(name, "time") == 0 || strcasecmp(name, "t") == 0;
     if (!time && *wanted && strcmp(name, wanted) != 0) return OK;
     if (strlen(unit) >= UNIT_LONGEST_NAME) return csv_fault(&c->in, name, "its unit is too long");
     if (time && c->time >= 0) return csv_fault(&c->in, name, "column %.40s stands there twice", name);
@@ -88,6 +89,7 @@ static status time_columns_find(struct time_columns *c, const char *wanted)
     if (!more) return status_set(REFUSED, "%s: empty; a header such as time [us], value is expected", c->in.path);
     csv_separate(&c->in);
     for (char *name; (name = csv_field(&c->in, &rest)) != NULL; k++) TRY(column_take(c, k, name, wanted));
+    c->all = k;
     if (c->time < 0)
         return csv_fault(&c->in, c->in.text, "no column is called time; a header such as time [us], value is expected");
     if (c->second)
@@ -115,6 +117,9 @@ static status time_entry(const struct time_columns *c, char *line, struct time_f
     int k = 0, found = 0;
     char *rest = line, *time = line;
     for (char *field; (field = csv_field(&c->in, &rest)) != NULL; k++) {
+        if (k == c->all)
+            return csv_fault(&c->in, field, "more values than the %d columns of the header; numbers have a point, not "
+                             "a comma", c->all);
         if (k != c->time && k != c->value) continue;
         found++;
         if (k == c->time) {

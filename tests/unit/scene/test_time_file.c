@@ -38,7 +38,7 @@ static void columns_are_read_with_their_units(void **state)
     (void)state;
     static const struct { const char *time, *csv; real t, value; bool unit; } c[] = {
         {"{file: blast.csv}", "time [us], value\n1, 2\n3, -4.5\n", 3e-6, -4.5, false},
-        {"{file: blast.csv}", "\xEF\xBB\xBF# blast\r\n\r\nvalue;time\r\n2 ; 1e-6\r\n #\n-4.5;\t3e-6", 3e-6, -4.5,
+        {"{file: blast.csv}", "\xEF\xBB\xBF# blast\r\n\r\nvalue;\"Time\"\r\n2 ; 1e-6\r\n #\n-4.5;\t3e-6", 3e-6, -4.5,
          false},
         {"{file: blast.csv}", "t [ms]\tp [MPa]\n0.001\t2\n0.003\t-4.5\n", 3e-6, -4.5e6, true},
         {"{file: blast.csv, column: outer wall}", "time [us], inner, outer wall [bar?], n\n1,2,3,4\n", 0, 0, false},
@@ -78,6 +78,8 @@ static void bad_files_are_refused(void **state)
         {"time [m], b\n", "blast.csv:1:7: column time: [m] is a length; a time is expected"},
         {"time, v [m/s]\n", "blast.csv:1:10: column v: [m/s] is a velocity; a stress is expected"},
         {"time, v\n0, 1\n2, 1\n2, 3\n", "blast.csv:4:1: time 2 does not lie after the time before; times ascend"},
+        {"time [us],p\n0,0,0,0\n", "blast.csv:2:5: more values than the 2 columns of the header; numbers have a point"},
+        {"time,v\r0,1\r", "blast.csv:1: its lines end in carriage returns alone, line feeds are expected"},
         {"time, v\n0, x\n", "blast.csv:2:4: 'x' is no"},
         {"time; v\n0; 1,5\n", "blast.csv:2:4: '1,5' is not a number here: the decimal sign is a point; write 1.5"},
         {"time, v\n0, nan\n", "blast.csv:2:4: 'nan' is no"},
