@@ -172,6 +172,9 @@ static status check_folder(const char *folder)
     if (path_exists(folder) && !path_is_folder(folder))
         return status_set(REFUSED, "%s is a file: the folder of a run is expected; a scene is drawn by `cleave plot "
                           "--scene %s`", shown_name(folder).text, shown_name(folder).text);
+    if (run_holds(folder, "sweep.csv") || run_holds(folder, "converge.csv"))
+        return status_set(REFUSED, "%s holds a study: its pictures are in %s/pictures; `cleave plot` draws one of its "
+                          "runs", shown_name(folder).text, shown_name(folder).text);
     if (!run_holds(folder, "frames.hdf.series") && !run_holds(folder, "history.csv"))
         return status_set(REFUSED, "%s: no run there: neither frames nor history.csv", folder);
     return strlen(folder) + PATH_NAME_ROOM < PATH_ROOM ? OK : status_set(FAILED, "%s: the name is too long", folder);

@@ -159,6 +159,8 @@ static void export_print(const struct exported *x, const struct lammps_types *t)
     lammps_cost_write(stdout, x);
     for (int k = 0; k < x->settings.n; k++)
         printf("differs from the scene: %s: %s\n", x->settings.of[k].key, x->settings.of[k].value);
+    if (lammps_families_differ(x->s))
+        puts("differs from Cleave once bonds break: families of peri/lps keep the weight that they had whole");
 }
 
 static status export_write(struct exported *x)

@@ -76,10 +76,28 @@ static void nearest_frames(struct run_frames *r, const double *time, int times)
     }
 }
 
+/* REFUSED for a time that is farther from the frames than they are from each other. */
+static status times_within(const struct run_frames *f, const double *time, int times)
+{
+    if (f->listed == 0) return OK;
+    const double first = f->list[0].time, last = f->list[f->listed - 1].time;
+    const double beside = f->listed > 1 ? (last - first) / (f->listed - 1) : INFINITY;
+    const struct unit second = unit_for(last, "s");
+    for (int k = 0; k < times; k++)
+        if (time[k] < fmin(first - beside, 0) || time[k] > last + beside)
+            return status_set(REFUSED, "plot: --times: %.4g %s is not in the run: its frames go from %.4g to %.4g %s",
+                              time[k] / second.factor, second.name, first / second.factor, last / second.factor,
+                              second.name);
+    return OK;
+}
+
 status run_frames_choose(struct run_frames *f, const struct plot_request *r)
 {
     *f = (struct run_frames){0};
     TRY(frames_list(r->folder, &f->listed, &f->list));
+    const status within = times_within(f, r->time, r->times);
+    if (within != OK) run_frames_free(f);
+    TRY(within);
     if (r->times > 0) nearest_frames(f, r->time, r->times);
     else spread_frames(f, r->panels);
     return OK;

@@ -172,6 +172,18 @@ static struct bar_scale bar_scale_of(const struct view *view, enum map map)
     return s;
 }
 
+/* Pixels that the longest number beside the bar takes. */
+static double bar_numbers_width(const struct bar_scale *scale, const char *format)
+{
+    int longest = 0;
+    for (double k = ceil(scale->low / scale->tics); k * scale->tics <= scale->high; k++) {
+        char number[32];
+        const int length = snprintf(number, sizeof number, format, k * scale->tics);
+        if (length > longest) longest = length;
+    }
+    return 10.0 * longest;
+}
+
 /* The colours as a narrow panel on the right, at most a panel's height, beside the first row. */
 static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct view *view, enum map map)
 {
@@ -182,12 +194,15 @@ static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct vi
     for (int k = 0; k < BAR_STEPS * BAR_COLUMNS; k++)
         pixel[k] = map_colour(view, map, (k / BAR_COLUMNS + 0.5) / BAR_STEPS);
     int shown = height < 360 ? height : 360;
+    const char *format = map == MAP_FIELD ? "%g" : "%.1f";
+    const double beside = l->width - l->right + BAR_FROM + BAR_WIDTH + 30;
     set_box(to, l, l->width - l->right + BAR_FROM, ABOVE, BAR_WIDTH, shown);
     fprintf(to, "unset arrow\nunset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\nset border 15\n"
                 "unset grid\nunset label\n"
                 "set xrange [0:1]\nset yrange [%.9g:%.9g]\nset y2range [%.9g:%.9g]\nset y2tics out %.9g format '%s'\n"
-                "set y2label '%s' offset -1,0\n",
-            scale.low, scale.high, scale.low, scale.high, scale.tics, map == MAP_FIELD ? "%g" : "%.1f", scale.label);
+                "set label '%s' at screen %.6g,%.6g center rotate by 90 textcolor rgb '#333333'\n",
+            scale.low, scale.high, scale.low, scale.high, scale.tics, format, scale.label,
+            (beside + bar_numbers_width(&scale, format)) / l->width, 1 - (ABOVE + 0.5 * shown) / l->height);
     panel_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step, "");
 }
 

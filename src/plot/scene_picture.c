@@ -223,7 +223,7 @@ static void set_panel(FILE *to, const struct layout *l, const struct view *v, co
     if (c->place[2]) panel_directions(to, l, v, c, metre);
     else panel_axes(to, l, v, c, metre, 0, true);
     if (c->tall > 0) fputs("unset ytics\nset ylabel ''\nset border 1\n", to);
-    fprintf(to, "set key at screen %.6g,%.6g left top Left reverse vertical maxrows 60 samplen 2 spacing 1.15 "
+    fprintf(to, "set key at screen %.6g,%.6g left top Left reverse horizontal maxcols 1 samplen 2 spacing 1.15 "
                 "font ',12'\n",
             (PICTURE_LEFT + l->panel_width + 14.0) / l->width, 1 - 58.0 / l->height);
 }

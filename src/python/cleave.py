@@ -251,8 +251,10 @@ class Frame:
             raise ImportError("frames are read by h5py, which is missing (Debian: apt-get install python3-h5py)") from None
         try:
             return h5py.File(self.path, "r")
+        except FileNotFoundError:
+            raise Error("%s: there is no such file" % self.path) from None
         except OSError as fault:
-            raise Error("%s cannot be read: %s" % (self.path, fault)) from None
+            raise Error("%s cannot be read: %s" % (self.path, str(fault).split(" (", 1)[0])) from None
 
     @property
     def names(self):
@@ -398,8 +400,11 @@ class Run:
 
     @staticmethod
     def _json(path):
-        with builtins.open(path, encoding="utf-8") as file:
-            return json.load(file)
+        try:
+            with builtins.open(path, encoding="utf-8") as file:
+                return json.load(file)
+        except ValueError as fault:
+            raise Error("%s is not whole: %s" % (path, fault)) from None
 
     @property
     def summary(self):

@@ -127,6 +127,12 @@ with open(work + "/half/history.csv", "a") as file:
     file.write("5\n")
 holds("the line whole", half.history["kinetic"][-1] == 25)
 
+with open(work + "/half/summary.json", "w") as file:
+    file.write('{"status": ')
+refused("half a summary", None, lambda: half.status)
+os.remove(run.frames[1].path)
+refused("a frame that is lost", None, lambda: run.frames[1]["stress"])
+
 # tables of studies: text where cells are words, nan where they are empty
 os.mkdir(work + "/study")
 with open(work + "/study/sweep.csv", "w") as file:
