@@ -201,6 +201,20 @@ status fill_place(const struct scene *s, int body, real *X)
 
 /* ---- all ------------------------------------------------------------------------------------------------------- */
 
+static status draft_empty(const struct draft *d, int body, bool listed)
+{
+    real from[DIM_MAX], to[DIM_MAX];
+    char why[200] = "its list holds no particle of it";
+    size_t used = 0;
+    if (listed) return draft_refuse(d, body, why);
+    region_bounds(&d->scene->body[body].shape, d->scene->dim, from, to);
+    for (int a = 0; a < d->scene->dim; a++)
+        used += (size_t)snprintf(why + used, sizeof why - used, "%s%.4g", a ? " x " : "", to[a] - from[a]);
+    snprintf(why + used, sizeof why - used,
+             " m at the most, holds no particle; is it thinner than the spacing, or another unit meant?");
+    return draft_refuse(d, body, why);
+}
+
 /* Makes the particles of all bodies. REFUSED for a body without particles. */
 static status draft_make(struct draft *d)
 {
@@ -208,9 +222,7 @@ static status draft_make(struct draft *d)
         const bool listed = d->scene->body[body].file != NULL;
         int64_t before = d->n;
         TRY(listed ? fill_list(d, body) : fill_lattice(d, body));
-        if (d->n == before && d->skipped == 0)
-            return draft_refuse(d, body, listed ? "its list holds no particle of it"
-                                                : "holds no particle; is it thinner than the spacing?");
+        if (d->n == before && d->skipped == 0) return draft_empty(d, body, listed);
     }
     return OK;
 }

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PRESSURE_SHAKEN 0.7              /* irregularity: beyond, gaps and faces look alike (loads_columns.c) */
+#define PRESSURE_SHAKEN 0.7 /* irregularity: beyond, gaps and faces look alike (loads_columns.c) */
 
 static const struct node *scene_check_below(const struct node *root, const char *group, const char *leaf)
 {
@@ -27,21 +27,39 @@ static status check_measure(struct reader *r, const struct node *root)
     return OK;
 }
 
+static real longest_side(const real *from, const real *to, int dim)
+{
+    real longest = 0;
+    for (int d = 0; d < dim; d++) longest = real_max(longest, to[d] - from[d]);
+    return longest;
+}
+
+/* Places of the lattice that a surface is asked about take 5 us each. */
+#define PLACES_OF_FILES 1e8
+
 /* REFUSED if the bounding boxes of the bodies, filled at the spacing, hold more than 2e9 particles: the limit of 32-bit
  * indices and of memory. */
 status check_size(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
-    real total = 0, from[DIM_MAX], to[DIM_MAX];
+    real total = 0, longest = 0, from[DIM_MAX], to[DIM_MAX];
     for (int b = 0; b < s->bodies; b++) {
         real count = 1;
         if (s->body[b].file || !region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
         for (int d = 0; d < s->dim; d++) count *= real_max(1, (to[d] - from[d]) / s->spacing);
-        total += count;
+        if (count > PLACES_OF_FILES && s->body[b].shape.n > 0 && s->body[b].shape.solid[0].hull)
+            return status_at(
+                s->body[b].place,
+                status_set(REFUSED,
+                           "body %s: a box %.4g m long round its file holds %.1e places, 1e8 is the most; has "
+                           "it faces far from the others, or another unit?",
+                           s->body[b].name, longest_side(from, to, s->dim), count));
+        total += count, longest = real_max(longest, longest_side(from, to, s->dim));
     }
     if (total <= 2e9) return OK;
     const struct node *spacing = scene_check_below(root, "particles", "spacing");
-    return fault(r, spacing, "%s would make about %.1e particles; 2e9 is the most", shown(r, spacing), total);
+    return fault(r, spacing, "%s would make about %.1e particles in a box of %.4g m and more; 2e9 is the most",
+                 shown(r, spacing), total, longest);
 }
 
 /* REFUSED for friction where there is none. */
@@ -51,7 +69,8 @@ status check_friction(struct reader *r, const struct node *root)
     const struct node *friction = scene_check_below(root, "contact", "friction");
     if (!(s->contact_friction > 0)) return OK;
     if (s->contact_form == CONTACT_PAIR)
-        return fault(r, friction, "pairs of particles mesh like gears, which is rougher than friction; contact.law: "
+        return fault(r, friction,
+                     "pairs of particles mesh like gears, which is rougher than friction; contact.law: "
                      "surface is expected");
     for (int b = 0; b < s->boundaries; b++)
         if (s->boundary[b].kind == BOUNDARY_MIRROR)
@@ -95,17 +114,22 @@ status check_bearing(struct reader *r, const struct node *root)
         const struct boundary *load = &s->boundary[b];
         const bool formula = load->formula[0].n + load->formula[1].n + load->formula[2].n > 0;
         if (load->kind == BOUNDARY_PRESSURE && s->irregularity > PRESSURE_SHAKEN)
-            return fault(r, node_find(n, "pressure"), "lattices shaken by more than %g of a spacing do not say where "
-                         "faces are; a traction, or less particles.irregularity, is expected", PRESSURE_SHAKEN);
+            return fault(r, node_find(n, "pressure"),
+                         "lattices shaken by more than %g of a spacing do not say where "
+                         "faces are; a traction, or less particles.irregularity, is expected",
+                         PRESSURE_SHAKEN);
         if (s->solver == SOLVER_EXPLICIT) continue;
         if (load->follow)
-            return fault(r, node_find(n, "follow"), "a static equilibrium is found under loads on the reference state; "
+            return fault(r, node_find(n, "follow"),
+                         "a static equilibrium is found under loads on the reference state; "
                          "solver: explicit with damping is expected");
         if (load->rotates)
-            return fault(r, node_find(n, "rotation"), "static solvers drive along straight lines; solver: explicit is "
+            return fault(r, node_find(n, "rotation"),
+                         "static solvers drive along straight lines; solver: explicit is "
                          "expected");
         if (load->kind == BOUNDARY_VELOCITY && formula)
-            return fault(r, node_find(n, "velocity"), "static solvers drive by numbers and a function of time; solver: "
+            return fault(r, node_find(n, "velocity"),
+                         "static solvers drive by numbers and a function of time; solver: "
                          "explicit is expected with formulas");
     }
     return OK;
@@ -128,7 +152,8 @@ static status check_origin(struct reader *r, const struct node *root)
         if (!(fabs(s->grid_origin[a]) <= FILL_FARTHEST * s->spacing))
             return fault(r, scene_check_below(root, "mpm", "origin"),
                          "%.3g m is more than 1e7 spacings away, where doubles no longer resolve strains; a place near "
-                         "the body is expected", s->grid_origin[a]);
+                         "the body is expected",
+                         s->grid_origin[a]);
     return OK;
 }
 
@@ -137,8 +162,9 @@ static status check_transfer(struct reader *r, const struct node *root)
 {
     const struct node *transfer = scene_check_below(root, "mpm", "transfer");
     if (!transfer || r->scene->shape != SHAPE_LINEAR || r->scene->transfer != TRANSFER_APIC) return OK;
-    return fault(r, transfer, "apic with shape linear was measured unstable (strains from velocities that are not "
-                              "mapped again); flip, or shape gimp, is expected");
+    return fault(r, transfer,
+                 "apic with shape linear was measured unstable (strains from velocities that are not "
+                 "mapped again); flip, or shape gimp, is expected");
 }
 
 /* Default of time.safety: 0.5 where bonds may break, else 0.8. Lengths of cracks are the same at both, and most
@@ -175,7 +201,7 @@ status resolve_contact(struct reader *r, const struct node *root)
 static enum surface_rule surface_by_default(const struct scene *s, const struct node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
-    for (int b = 0; b < s->bodies; b++) lattice = lattice && !s->body[b].file;      /* known from resolve_lists on */
+    for (int b = 0; b < s->bodies; b++) lattice = lattice && !s->body[b].file; /* known from resolve_lists on */
     if (s->method != METHOD_PD) return SURFACE_NONE;
     if (lattice) return SURFACE_MOMENTS;
     return s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
@@ -185,7 +211,7 @@ static enum surface_rule surface_by_default(const struct scene *s, const struct 
 static void resolve_surface(struct scene *s, const struct node *root)
 {
     if (!scene_check_below(root, "pd", "surface")) s->surface = surface_by_default(s, root);
-    if (!scene_check_below(root, "pd", "normalisation"))   /* an irregular lattice has no full families */
+    if (!scene_check_below(root, "pd", "normalisation")) /* an irregular lattice has no full families */
         s->bulk = (s->model == MODEL_MOSPD && s->irregularity == 0) || s->surface == SURFACE_MOMENTS;
 }
 
@@ -327,8 +353,9 @@ status check_solver(struct reader *r, const struct node *root)
     if (s->solver == SOLVER_CG && s->method != METHOD_PD)
         return fault(r, solver, "cg is for method pd; relaxation is expected with material points");
     if (s->method != METHOD_PD && s->transfer == TRANSFER_FLIP)
-        return fault(r, solver, "relaxation with transfer flip was measured to creep (light nodes at the border never "
-                                "come to rest); mpm.transfer apic, with a shape that is not linear, is expected");
+        return fault(r, solver,
+                     "relaxation with transfer flip was measured to creep (light nodes at the border never "
+                     "come to rest); mpm.transfer apic, with a shape that is not linear, is expected");
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
             return fault(r, solver, "%s is for elastic materials, and %s yields; explicit is expected",

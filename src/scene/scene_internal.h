@@ -167,7 +167,8 @@ struct key {
     struct range range;
     const char *fallback;                /* as text; "required"; "-": none; "(..)": explained, set by code */
     const char *help;
-    const char *words;                   /* CHOICE: a|b|c in the order of the enum; REAL: word allowed; HAND: form */
+    /* CHOICE: a|b|c in the order of the enum; REAL: word allowed; NAME: any text is one; HAND: form */
+    const char *words;
     const char *low;                     /* complaint about a value below the range */
     size_t has;                          /* 1 + offset of the bool that is set if the key is given */
     real word_value;                     /* REAL: value of the word */

@@ -74,7 +74,7 @@
     KEY("solid.mesh.scale", KEY_REAL, UNIT_LENGTH, AT(shape_words, scale), ABOVE(0), "(required, or unit)",
         "length that the number 1 in it is"),
     KEY("solid.mesh.set", KEY_NAME, UNIT_NONE, AT(shape_words, set), ANY, "(all)",
-        "a physical group, element or node set of it"),
+        "a physical group, element or node set of it", .words = "text"),
     KEY("solid.mesh.within", KEY_REAL, UNIT_LENGTH, AT(shape_words, within), ABOVE(0), "(one spacing)",
         "of a set of nodes or faces: how far from them it reaches"),
     KEY("solid.mesh.contents", KEY_NAME, UNIT_NONE, AT(shape_words, contents), ANY, NONE,

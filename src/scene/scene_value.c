@@ -327,20 +327,25 @@ static status read_set(struct reader *r, const struct key *k, const struct node 
     return OK;
 }
 
+/* Reads any text into a name, [NAME_MAX_LENGTH]: what others have called so. */
+static status read_any_text(struct reader *r, const struct node *n, char *name)
+{
+    const size_t length = strlen(n->text);
+    if (n->kind != NODE_SCALAR || length == 0) return fault(r, n, "%s is no text", shown(r, n));
+    if (length >= NAME_MAX_LENGTH)
+        return fault(r, n, "%s is too long; at most %d characters are expected", shown(r, n), NAME_MAX_LENGTH - 1);
+    memset(name, 0, NAME_MAX_LENGTH);
+    memcpy(name, n->text, length);
+    return OK;
+}
+
 /* Reads a name of letters, digits, _ and - into name, [NAME_MAX_LENGTH]. */
 static status read_name(struct reader *r, const struct node *n, char *name)
 {
     size_t length = strlen(n->text), fine = 0;
     while (isalnum((unsigned char)n->text[fine]) || n->text[fine] == '_' || n->text[fine] == '-') fine++;
-    if (n->kind != NODE_SCALAR || length == 0 || fine != length || n->text[0] == '-')
-        return fault(r, n, "%s is no name; letters, digits, _ and - are expected, and no - first",
-                     shown(r, n));
-    if (length >= NAME_MAX_LENGTH)
-        return fault(r, n, "%s is too long; at most %d characters are expected", shown(r, n),
-                     NAME_MAX_LENGTH - 1);
-    memset(name, 0, NAME_MAX_LENGTH);
-    memcpy(name, n->text, length);
-    return OK;
+    if (n->kind == NODE_SCALAR && length > 0 && fine == length && n->text[0] != '-') return read_any_text(r, n, name);
+    return fault(r, n, "%s is no name; letters, digits, _ and - are expected, and no - first", shown(r, n));
 }
 
 /* ---- lists of numbers -------------------------------------------------------------------------------------------- */
@@ -452,7 +457,7 @@ status read_key(struct reader *r, const struct key *k, const struct node *n, voi
     case KEY_CHOICE: return read_choice(r, k, n, place);
     case KEY_SET: return read_set(r, k, n, place);
     case KEY_SERIES: return read_series(r, k, n, place);
-    case KEY_NAME: return read_name(r, n, place);
+    case KEY_NAME: return k->words ? read_any_text(r, n, place) : read_name(r, n, place);
     case KEY_POINT: return k->place ? read_point(r, k, n, place) : OK;
     case KEY_MATRIX: return read_matrix(r, k, n, place);
     case KEY_REGION: return read_region(r, n, place);
