@@ -58,7 +58,7 @@ status check_size(struct reader *r, const struct node *root)
     }
     if (total <= 2e9) return OK;
     const struct node *spacing = scene_check_below(root, "particles", "spacing");
-    return fault(r, spacing, "%s would make about %.1e particles in a box of %.4g m and more; 2e9 is the most",
+    return fault(r, spacing, "%s would make about %.1e particles; 2e9 is the most (a body is %.4g m long)",
                  shown(r, spacing), total, longest);
 }
 

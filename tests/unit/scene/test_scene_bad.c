@@ -132,7 +132,7 @@ static const struct { const char *piece, *instead, *message;
     {"horizon: 3.015", "horizon: 0.8", "16:3: horizon: 0.8 is smaller than one spacing; 3.015 is usual"},
     {"horizon: 3.015", "horizon: 12", "16:3: horizon: 12 is out of range; a plain number from 1 to 10.5 is expected"},
     {"horizon: 3.015", "horizon: yes", "16:3: horizon: yes is not a number; a plain number is expected, as 0.25"},
-    {"spacing: 1 mm", "spacing: 1 nm", "15:3: spacing: 1 nm would make about 2.0e+16 particles; 2e9 is the most"},
+    {"spacing: 1 mm", "spacing: 1 nm", "15:3: spacing: 1 nm would make about 2.0e+16 particles; 2e9 is the most (a body is 0.2 m long)"},
     {"seed: 7", "seed: -1", "17:3: seed: -1 is no seed; a whole number from 0 to 18446744073709551615 is expected"},
     {"seed: 7", "irregularity: 1.5", "17:3: irregularity: 1.5 is out of range; a plain number from 0 to 1 is expected"},
     {"block: true", "block: yes", "22:3: block: yes is neither true nor false; write true or false"},
