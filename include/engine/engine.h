@@ -170,6 +170,7 @@ struct run_report {
     struct particles more;               /* points of coarse cells in the last frame, and their spacings [m] */
     real *more_spacing;
     real *more_gradient[DIM_MAX * DIM_MAX]; /* of their displacement, where frames are asked for strain [1] */
+    bool excerpt;                        /* the first steps of a run, for the export: no word on its balance */
     bool quiet;
     const struct error_bar *bar;         /* borrowed, for the summary; NULL: no study is at hand */
     int bars;

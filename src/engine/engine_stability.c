@@ -412,6 +412,7 @@ static void say_released(struct engine *e)
 
 void engine_say_balance(struct engine *e)
 {
+    if (e->report.excerpt) return;
     say_released(e);
     const real error = e->diagnostics.now.balance_error;
     const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;

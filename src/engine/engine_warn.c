@@ -122,8 +122,19 @@ static void warn_of_lists(const struct scene *s, struct warnings *to)
             warnings_add(to, "%.200s: %s", s->body[b].file, s->body[b].list.note);
 }
 
+/* A field that is asked for by name, and that no frame will have. */
+static void warn_of_fields(const struct engine *e, struct warnings *to)
+{
+    enum { ASK_PLASTIC_STRAIN = 1 << 4, ASK_OTHERS = ASK_LEVEL | ASK_STRAIN | ASK_PLASTIC_WORK };
+    const unsigned asked = e->scene->fields;
+    if (asked & ASK_PLASTIC_STRAIN && (asked & ASK_OTHERS) != ASK_OTHERS && !e->part.plastic_strain)
+        warnings_add(to, "output.fields: no material point here can yield, and frames will have no plastic_strain; "
+                     "plastic_work is that of bonds, too");
+}
+
 static void warn_of_empty(const struct engine *e, struct warnings *to)
 {
+    warn_of_fields(e, to);
     for (int k = 0; k < e->scene->n_series; k++)
         if (!region_is_met(e, &e->scene->series[k].region))
             warnings_add(to, "output.regions: %s holds no particle: its frames will be empty",

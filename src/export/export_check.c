@@ -40,7 +40,7 @@ status lammps_check_write(FILE *to, struct exported *x)
          *damage = NEW("check.damage", n, real);
     joined_volume(before, e);
     memcpy(damage, e->part.damage, (size_t)n * sizeof *damage);
-    e->report.quiet = true;
+    e->report.quiet = e->report.excerpt = true;
     e->clock.steps = lammps_check_steps(x);
     const status ran = engine_run(e);
     e->clock.steps = steps;

@@ -100,7 +100,8 @@ static void readme_write(FILE *to, const struct exported *x)
         fputs("\nPieces that meet push each other, by the same rule in both programs.\n", to);
     fputs("\nBonds compressed below 0.7 of their length repel in Cleave, which those of LAMMPS do not. One rank and "
           "several\n"
-          "differ in the last digits.\n",
+          "differ in the last digits. Frames of Cleave have velocities half a step older than those of LAMMPS, and\n"
+          "damage without the bonds that break at their positions.\n",
           to);
 }
 

@@ -253,7 +253,7 @@ static void room_find(struct study_picture *p, const struct varied_key *up)
     const struct varied_key *across = &p->key[p->across];
     const int along = study_values_longest(across) * CHARACTER;
     const bool words = up || !p->numbers;
-    p->left = up ? (study_values_longest(up) + 5) * CHARACTER : NUMBERS;
+    p->left = up ? (study_values_longest(up) + 7) * CHARACTER : NUMBERS;
     p->right = up ? COLOURS : words ? 2 * CHARACTER + along / 2 : 3 * CHARACTER;
     p->below = BELOW;
     if (words && words_touch(across)) {
