@@ -33,7 +33,7 @@ static int64_t frame_step(const struct scene *s, const struct run_clock *clock, 
 {
     const struct number_list *times = &s->times;
     if ((times->n == 0 && s->every == 0) || k < 1) return due_step(clock, k, n);
-    const real time = k > n ? 0 : s->every > 0 ? (real)k * s->every : times->value[k - 1];
+    const real time = k > n ? 0 : s->every > 0 ? real_min((real)k * s->every, s->duration) : times->value[k - 1];
     int64_t step = k <= n ? (int64_t)floor(time / clock->dt + 0.5) : clock->steps,
             last = clock->steps - (n - k);
     return common_step(clock, step < k ? k : step > last ? last : step);
@@ -86,12 +86,15 @@ static bool body_frame_due(const struct engine *e, int64_t step)
     return frames <= engine_frames_number(e) && step >= engine_frame_step(e, frames);
 }
 
-/* Is the next frame of a region due? Where its time passes more than once in a step, a step writes one. */
+/* Is the next frame of a region due? Where its time passes more than once in a step, a step writes one; the last one is
+ * that of the end. */
 static bool region_frame_due(const struct engine *e, int k, int64_t step)
 {
-    const real time = (real)e->report.out->series[k].frames * e->scene->series[k - 1].every;
-    if (time > e->scene->duration * (1 + 1e-12)) return false;
-    return step >= common_step(&e->clock, (int64_t)floor(time / e->clock.dt + 0.5));
+    const real every = e->scene->series[k - 1].every, duration = e->scene->duration;
+    const int frames = e->report.out->series[k].frames;
+    if (frames > (int64_t)ceil(duration / every * (1 - 1e-12))) return false;
+    const int64_t due = (int64_t)floor(real_min((real)frames * every, duration) / e->clock.dt + 0.5);
+    return step >= (due < e->clock.steps ? common_step(&e->clock, due) : e->clock.steps);
 }
 
 /* Bits of the series, 0 the body's, of which a frame is due once so many steps are done. Those of solvers that are not

@@ -303,7 +303,7 @@ static status check_times(struct reader *r, const struct node *root)
     if (every && s->duration / s->every > FRAMES_MOST)
         return fault(r, every, "%s makes more than %d frames; at least %.3g s is expected", shown(r, every),
                      FRAMES_MOST, s->duration / FRAMES_MOST);
-    if (every) s->frames = (int)floor(s->duration / s->every * (1 + 1e-12));
+    if (every) s->frames = (int)ceil(s->duration / s->every * (1 - 1e-12));    /* the last one at the end */
     if (s->times.n == 0) return OK;
     if (frames) return fault_both(r, frames, times);
     for (s->frames = 0; s->frames < s->times.n && s->times.value[s->frames] <= s->duration * (1 + 1e-12);) s->frames++;
