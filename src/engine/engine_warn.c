@@ -94,6 +94,9 @@ static void warn_of_solver(const struct engine *e, struct warnings *to)
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
             warnings_add(to, "a static equilibrium has no velocities: those of `initial` are left out");
+    for (int b = 0; b < s->bodies; b++)
+        if (dot(s->body[b].velocity, s->body[b].velocity, s->dim) > 0)
+            warnings_add(to, "a static equilibrium has no velocities: that of body %s is left out", s->body[b].name);
     if (s->bodies > 1 || s->cracks > 0)
         warnings_add(to, "bodies and faces of cracks do not meet in a static equilibrium: they pass through each other "
                      "where they close");

@@ -446,6 +446,13 @@ static void start_particle(struct particles *p, int64_t i, const struct scene *s
     }
 }
 
+/* A static equilibrium knows no velocities, nor their gradients (APIC). */
+static void start_at_rest(struct particles *p, int64_t i)
+{
+    for (int a = 0; a < p->dim; a++) p->v[a][i] = 0;
+    for (int k = 0; k < p->dim * p->dim && p->gradient[k] != NULL; k++) p->gradient[k][i] = 0;
+}
+
 /* Makes the particles of a draft, checks them, applies the initial state and sorts them. */
 static status fill_made(struct particles *p, const struct draft *d, int optional)
 {
@@ -458,7 +465,10 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     TRY(check_values(p, d, spacing));
     TRY(fill_check_lists(p, s));
 #pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < p->n; i++) start_particle(p, i, s, spacing);
+    for (int64_t i = 0; i < p->n; i++) {
+        start_particle(p, i, s, spacing);
+        if (s->solver != SOLVER_EXPLICIT) start_at_rest(p, i);
+    }
     TRY(check_start(p, d, spacing));
     particles_sort(p, spacing, optional);
     TRY(check_distances(p, d, spacing));

@@ -54,6 +54,15 @@ for shape in gimp quadratic; do
     between "cantilever, $shape: balance" "$(figure "$work/$shape" energy.balance_error)" -1e-4 1e-4
 done
 
+# Velocities at the start and their gradients are left out: the same equilibrium, and none at once without a load.
+spun="$work/cantilever.yaml -s particles.spacing=10mm -s solver_tolerance=1e-3"
+spin='initial=[{velocity: [0, 100 m/s]}, {rotation: {centre: [0.15, 0.01], rate: 1e5 1/s}}]'
+calm "$work/rested" -t 2 $spun
+calm "$work/spun" -t 2 $spun -s "$spin"
+calm "$work/idle" -t 2 $spun -s "$spin" -s 'boundary=[{mirror: {axis: x, at: 0, tangential: held}}]'
+is "with velocities" "$(figure "$work/spun" probes.end.displacement_y)" "$(figure "$work/rested" probes.end.displacement_y)"
+is "with velocities alone" "$(figure "$work/idle" probes.end.displacement_y)" 0
+
 # ---- the same bits ---------------------------------------------------------------------------------------------------
 
 plate="$crack -s output.checkpoint=0.02"
