@@ -113,6 +113,13 @@ static void write_probe(FILE *out)
     fputs("]}", out);
 }
 
+/* Entries of `parts` have the keys of `bodies.parts`, those of `materials` the keys of `material`. */
+static const char *items_group(const struct key *k)
+{
+    if (strcmp(k->path, "materials") == 0) return "material";
+    return strcmp(k->path, "parts") == 0 ? "bodies.parts" : k->path;
+}
+
 static void write_list_items(FILE *out, const struct key *k)
 {
     char least[32], most[32];
@@ -122,7 +129,7 @@ static void write_list_items(FILE *out, const struct key *k)
                 number_text(most, k->range.most));
     fputs(", \"items\": ", out);
     if (strcmp(k->path, "probes") == 0) write_probe(out);
-    else write_object(out, strcmp(k->path, "materials") == 0 ? "material" : k->path);
+    else write_object(out, items_group(k));
     fputc('}', out);
 }
 

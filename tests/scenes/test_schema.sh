@@ -40,6 +40,7 @@ method: mpm
 material: {young: 190 GPa, density: 7800, critical_stretch: inf}
 body: {box: {from: [0, 0], to: [a, "max(a, 2 mm)"]}}
 particles: {spacing: a/n, seed: 2*n}
+parts: [{region: {box: {from: [0, 0], to: [a, 1 mm]}}, material: glass}]
 mpm: {levels: 2}
 boundary:
   - {fixed: [x], region: {half-space: {point: [0, 0], normal: [1, 0]}}}
@@ -51,7 +52,7 @@ mistakes = ["duration:|duraton:", "plane stress|plain stress", "method: mpm|meth
             "spacing|spacin", "box|bix", "from:|form:", "to: [a|too: [a", "[0, 0], to|[], to", "levels: 2|levels: 9", "ramp|rampp",
             "until|untill", "normal: [1, 0]|normall: [1, 0]", "frames: 3|frames: -1", "frames: 3|frames: 3.5", "true|maybe", "tip|tips",
             "point: {at|point: {att", "probes: [|probes: {a: ", "fixed: [x]|fixd: [x]", "space: plane stress|", "variables: {a: 3 mm|variables: {a: {}",
-            "seed: 2*n|seed: -1", ", normal: [1, 0]|", "a/n|\"a/n!\""]
+            "seed: 2*n|seed: -1", ", normal: [1, 0]|", "a/n|\"a/n!\"", "material: glass|stuff: glass"]
 expect("the good scene", yaml.safe_load(good), True)
 expect("a scene with an include alone", {"include": "base.yaml"}, True)
 expect("an include that takes keys away", {"include": ["a", "b"], "cracks": None, "material": {"toughness": None}}, True)
