@@ -130,6 +130,9 @@ typedef real bond_energy_fn(const struct bonds *b, const struct particles *p);
 KERNEL(real, bond_plastic_work, (const struct bonds *b));
 /* The same of one row, where bonds yield. */
 KERNEL(real, bond_row_plastic_work, (const struct bonds *b, int64_t row));
+/* Mean plastic path of the intact bonds of a row, each by its energy at one stretch [1]: of flow along a line the
+ * plastic strain, and of a point that has just converted that which it had. */
+KERNEL(real, bond_row_plastic_path, (const struct bonds *b, int64_t row));
 
 /* Bond virial (1/2V) sum F (x) (x_j - x_i) of every peridynamic row into stress [Pa]; when: particles.stress. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);

@@ -88,6 +88,7 @@ enum { ASK_STRAIN = 1 << 17, ASK_DENSITY = 1 << 18, ASK_PLASTIC_WORK = 1 << 19, 
 struct frame_state {
     real *gradient[DIM_MAX * DIM_MAX];   /* du_a/dX_b at [a dim + b]; for strain and density [1] */
     real *plastic_work;                  /* per volume [J/m^3] */
+    real *plastic_strain;                /* of points, and of bonds in the mean; NULL: that of the particles [1] */
     uint8_t *level;                      /* of the coarse cell that a material point is part of; 0: none */
 };
 

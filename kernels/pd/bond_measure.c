@@ -88,6 +88,17 @@ real bond_row_plastic_work(const struct bonds *b, int64_t row)
     return sum;
 }
 
+real bond_row_plastic_path(const struct bonds *b, int64_t row)
+{
+    real sum = 0, all = 0;
+    for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+        if (it.bond.w == 0) continue;
+        const real weight = it.bond.w / it.bond.inverse_length;
+        sum += weight * b->plastic_path[it.bond.entry], all += weight;
+    }
+    return all > 0 ? sum / all : 0;
+}
+
 static real bond_measure_plastic_term(const void *context, int64_t row) { return bond_row_plastic_work(context, row); }
 
 real bond_plastic_work(const struct bonds *b)

@@ -114,6 +114,21 @@ static real *plastic_work_make(const struct engine *e)
     return work;
 }
 
+/* The equivalent plastic strain: of points their own, of peridynamic particles the mean plastic path of their bonds.
+ * NULL: no bond yields. */
+static real *plastic_strain_make(const struct engine *e)
+{
+    const struct particles *p = &e->part;
+    if (!e->bonds.plastic_path) return NULL;
+    real *strain = NEW("report.plastic_strain", p->n, real);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++)
+        if (p->kind[i] == KIND_PD && e->bonds.row_of[i] >= 0)
+            strain[i] = bond_row_plastic_path(&e->bonds, e->bonds.row_of[i]);
+        else if (p->plastic_strain) strain[i] = p->plastic_strain[i];
+    return strain;
+}
+
 static uint8_t *cell_levels_make(const struct engine *e)
 {
     const struct mesh *mesh = &e->reference.mesh;
@@ -139,6 +154,7 @@ void engine_fields_make(struct engine *e, unsigned asked, struct frame_extra *ex
     extra->asked = asked, extra->material = e->scene->material, extra->space = e->scene->space;
     if (asked & (ASK_STRAIN | ASK_DENSITY)) gradients_make(e, extra->state.gradient);
     if (asked & ASK_PLASTIC_WORK) extra->state.plastic_work = plastic_work_make(e);
+    extra->state.plastic_strain = plastic_strain_make(e);
     if (asked & ASK_LEVEL) extra->state.level = cell_levels_make(e);
     if (!extra->more) return;
     for (int k = 0; k < DIM_MAX * DIM_MAX; k++) extra->more_state.gradient[k] = e->report.more_gradient[k];
@@ -149,6 +165,7 @@ void engine_fields_free(struct frame_extra *extra)
 {
     for (int k = 0; k < DIM_MAX * DIM_MAX; k++) memory_free(extra->state.gradient[k]);
     memory_free(extra->state.plastic_work);
+    memory_free(extra->state.plastic_strain);
     memory_free(extra->state.level);
     memory_free(extra->more_state.level);
 }

@@ -142,7 +142,8 @@ static void copy_damage(const struct frame_source *s, int64_t first, int64_t end
 
 static void copy_plastic_strain(const struct frame_source *s, int64_t first, int64_t end, void *rows)
 {
-    copy_scalars(rows, first, end, s->p->plastic_strain, 1);
+    const real *strain = s->extra.state.plastic_strain ? s->extra.state.plastic_strain : s->p->plastic_strain;
+    copy_scalars(rows, first, end, strain, 1);
 }
 
 static void copy_kind(const struct frame_source *s, int64_t first, int64_t end, void *rows)
@@ -215,7 +216,7 @@ static bool field_exists(const struct frame_field *field, const struct frame_sou
 {
     const int64_t k = field - frame_fields;
     if (k >= FIELD_ON_DEMAND && k <= FIELD_ON_DEMAND_LAST) return s->extra.asked >> (k - 1) & 1;
-    if (field->copy == copy_plastic_strain) return s->p->plastic_strain != NULL;
+    if (field->copy == copy_plastic_strain) return s->p->plastic_strain || s->extra.state.plastic_strain;
     if (field->copy == copy_strength) return s->p->strength != NULL;
     if (field->copy == copy_push) return s->extra.push != NULL;
     if (field->copy == copy_fragment) return s->extra.fragment != NULL;

@@ -257,16 +257,17 @@ static void yielding_bar(void **state)
         shown_open(&a, 1, 1);
         float *stress = shown_field(&a, "stress", 6), *work = shown_field(&a, "plastic_work", 1),
               *strain = shown_field(&a, "strain", 6), *speed = shown_field(&a, "speed", 1),
-              *velocity = shown_field(&a, "velocity", 3);
+              *velocity = shown_field(&a, "velocity", 3), *plastic = shown_field(&a, "plastic_strain", 1);
         for (int64_t i = 0; i < a.n; i++) {
             assert_true(speed[i] == fabsf(velocity[3 * i]));
             if (!shown_inside(&a, i, 1, 0.2)) continue;
             const double S = stress[6 * i], exact = (S * S - yield * yield) / (2 * hardening);
+            assert_near(plastic[i], (S - yield) / hardening, 0.01 * plastic[i]);
             assert_near(work[i], exact, 0.015 * exact);              /* finite strain of 0.4 % */
             assert_near(strain[6 * i], S / YOUNG + (S - yield) / hardening, 0.01 * strain[6 * i]);
             assert_near(strain[6 * i], 100 * 40e-6, 0.01 * strain[6 * i]);
         }
-        free(stress), free(work), free(strain), free(speed), free(velocity);
+        free(stress), free(work), free(strain), free(speed), free(velocity), free(plastic);
         shown_close(&a);
     }
 }
