@@ -55,7 +55,7 @@ help:
 	@echo 'make test       installs what is missing, builds, runs every test on $(THREADS) threads; test-long: longer ones, too'
 	@echo 'make bench      measures kernels and efficiency (all: build/cleave bench --help)'
 	@echo 'make fuzz       feeds scenes and files of all kinds to the readers'
-	@echo 'make install    below PREFIX ($(PREFIX)): program, manual page, completion for bash and zsh; uninstall removes them'
+	@echo 'make install    below PREFIX ($(PREFIX)): program, manual page, Python module, completion; uninstall removes them'
 	@echo 'make dist deb   a tarball, a Debian package; inputs/packaging has recipes for Docker and Spack'
 	@echo 'make clean      removes build'
 

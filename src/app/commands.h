@@ -62,6 +62,9 @@ status manual_print(FILE *out);
 /* The schema of scenes beside the program, installed or built; false: it is not there (schema_path.c). */
 bool schema_path(char *path, size_t room);
 
+/* The kinds of `cleave new`, with blanks between them. */
+void new_kinds_print(FILE *out);
+
 /* Completion of commands, options, keys and words for `bash` or `zsh`, as a script. REFUSED for another shell. */
 status completion_print(FILE *out, const char *shell);
 

@@ -53,8 +53,12 @@ static const char rest_of_bash[] =
     "    esac\n"
     "    case $word in -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")); return ;; esac\n"
     "    case $command in\n"
-    "        help) COMPREPLY=($(compgen -W \"units run theory trust $_cleave_keys\" -- \"$word\")) ;;\n"
-    "        plot|compare) COMPREPLY=($(compgen -d -- \"$word\")) ;;\n"
+    "        help) COMPREPLY=($(compgen -W \"scene units expression run theory trust $_cleave_keys\" -- \"$word\")) "
+    ";;\n"
+    "        compare) COMPREPLY=($(compgen -d -- \"$word\")) ;;\n"
+    "        new) COMPREPLY=($(compgen -W \"$kinds\" -- \"$word\")) ;;\n"
+    "        export)\n"
+    "            COMPREPLY=($(compgen -f -X '!*.yaml' -W lammps -- \"$word\") $(compgen -d -- \"$word\")) ;;\n"
     "        *) compopt -o filenames 2>/dev/null; COMPREPLY=($(compgen -f -X '!*.yaml' -- \"$word\") $(compgen -d -- "
     "\"$word\")) ;;\n"
     "    esac\n"
@@ -64,20 +68,23 @@ static const char rest_of_bash[] =
 static const char words_of_zsh[] =
     "_cleave() {\n"
     "    local word=$words[CURRENT] before=$words[CURRENT-1] command=$words[2] options\n";
-static const char rest_of_zsh[] = "    if (( CURRENT == 2 )); then compadd -- ${=commands} --help; return; fi\n"
-                                  "    case $before in\n"
-                                  "        -s) compadd -S = -- ${=_cleave_keys}; return ;;\n"
-                                  "        -o) _files -/; return ;;\n"
-                                  "        -t|-j|--of|--budget|--levels|--runs) return ;;\n"
-                                  "    esac\n"
-                                  "    case $word in -*) compadd -- ${=options}; return ;; esac\n"
-                                  "    case $command in\n"
-                                  "        help) compadd -- units run theory trust ${=_cleave_keys} ;;\n"
-                                  "        plot|compare) _files -/ ;;\n"
-                                  "        *) _files -g '*.yaml' ;;\n"
-                                  "    esac\n"
-                                  "}\n"
-                                  "compdef _cleave cleave\n";
+static const char rest_of_zsh[] =
+    "    if (( CURRENT == 2 )); then compadd -- ${=commands} --help; return; fi\n"
+    "    case $before in\n"
+    "        -s) compadd -S = -- ${=_cleave_keys}; return ;;\n"
+    "        -o) _files -/; return ;;\n"
+    "        -t|-j|--of|--budget|--levels|--runs) return ;;\n"
+    "    esac\n"
+    "    case $word in -*) compadd -- ${=options}; return ;; esac\n"
+    "    case $command in\n"
+    "        help) compadd -- scene units expression run theory trust ${=_cleave_keys} ;;\n"
+    "        compare) _files -/ ;;\n"
+    "        new) compadd -- ${=kinds} ;;\n"
+    "        export) compadd -- lammps; _files -g '*.yaml' ;;\n"
+    "        *) _files -g '*.yaml' ;;\n"
+    "    esac\n"
+    "}\n"
+    "compdef _cleave cleave\n";
 
 status completion_print(FILE *out, const char *shell)
 {
@@ -91,6 +98,8 @@ status completion_print(FILE *out, const char *shell)
     fputs(bash ? words_of_bash : words_of_zsh, out);
     fputs("    local commands='", out);
     names_print(out);
+    fputs("' kinds='", out);
+    new_kinds_print(out);
     fputs("'\n", out);
     cases_print(out);
     fputs(bash ? rest_of_bash : rest_of_zsh, out);

@@ -47,7 +47,7 @@ static const struct entry options[] = {
     {"--of FIGURE", "a figure of summary.json, its names joined by points, as crack.start_time; several may be named.",
      NULL},
     {"--budget TIME", "time for the runs of a study, as 5min.", NULL},
-    {"--levels COUNT", "number of spacings, from 2 on.", NULL},
+    {"--levels COUNT", "number of spacings, from 3 to 6.", NULL},
     {"--runs COUNT", "number of runs at each spacing.", NULL},
     {"--horizon", "keeps the length of the horizon while the spacing varies.", NULL},
     {"--field NAME", "draws this field of the frames: displacement, velocity_y, von_mises, ...", NULL},

@@ -99,6 +99,11 @@ static status part_write(const struct kind *k, const char *path)
     return file_close(out, file);
 }
 
+void new_kinds_print(FILE *out)
+{
+    for (size_t k = 0; k < COUNT_OF(kinds); k++) fprintf(out, "%s%s", k ? " " : "", kinds[k].name);
+}
+
 status command_new(int argc, char **argv)
 {
     char path[PATH_LONGEST + 8];
