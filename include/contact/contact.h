@@ -62,7 +62,7 @@ struct contact_spring {
 struct contact_face {
     real zero;                           /* height of its own surface, where contact begins [spacings] */
     real stiffness;                      /* k [J] */
-    real far;                            /* gap at the search, 0 or more [spacings] */
+    real far;                            /* least gap at the search, 0 or more [spacings] */
     real push, lift, mean;               /* derivative of its energy by the density; by the mean rise, over the density
                                             [J]; mean rise [spacings] */
 };

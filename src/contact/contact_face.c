@@ -2,16 +2,18 @@
  * lattice, and from it how deep the face below it lies.
  *
  *     density_i = sum_j m_j W(r_ij/(2 D_ij)),   W(q) = (1 - q)^4 (1 + 4 q)       (Wendland 1995: C2, 0 from q = 1 on)
- *     gap_i     = depth(density_i) - mean_i - zero_i,   mean_i = sum_j m_j W rise_j/density_i
+ *     gap_i     = depth(density_i) - mean_i - zero_i,   mean_i = sum_j m_j W rise_j/density_i,
+ *                 depth(density_i) - 1.9 at least
  *     energy    = sum_i 1/4 k_i gap_i^2  where gap < 0
  *
  * D_ij: mean of the two spacings, m_j = (D_j/D_ij)^(dim-1). depth is the function that finds the height s, in
  * spacings, of a particle above the first layer of a lattice. rise_j: how much higher than half a spacing above
  * particle j the surface of its body is (a curved face has steps on a lattice, this one not). zero = 1 + rise_i, or
- * less for particles that the reference state has closer. Each face of two that meet feels the other: together 1/2 k
- * g^2, that of the pair law. Energies depend on distances alone: forces are central, momentum and angular momentum are
- * kept, and along a flat face of a square lattice nothing above 0.7 % of the pressure resists (0.54 of it with the
- * pair law). */
+ * less for particles that the reference state has closer. Where both surfaces stand high above their particles,
+ * contact would begin farther off than the field reaches, with a finite overlap as soon as a particle enters it: the
+ * least gap lets it begin with none. Each face of two that meet feels the other: together 1/2 k g^2, that of the pair
+ * law. Energies depend on distances alone: forces are central, momentum and angular momentum are kept, and along a
+ * flat face of a square lattice nothing above 0.7 % of the pressure resists (0.54 of it with the pair law). */
 #include <math.h>
 
 #include "contact_internal.h"
@@ -97,10 +99,18 @@ static struct felt felt_by(const struct contact *c, const struct particles *p, r
     return felt;
 }
 
-/* Height of the particle above the surface that it feels [spacings]; its derivative by the density. */
-static real height_of(const struct contact *c, const struct felt *felt, real *slope)
+/* Height of a particle above the surface that it feels, and the gap to its own [spacings]; derivative of both by the
+ * density. leans: the gap falls by as much as the mean rise grows, else not at all. */
+struct face_gap { real height, gap, slope; bool leans; };
+
+static struct face_gap face_gap(const struct contact *c, const struct felt *felt, real zero)
 {
-    return table_depth(&c->law.profile, felt->density, slope) - felt->mean;
+    struct face_gap at;
+    const real depth = table_depth(&c->law.profile, felt->density, &at.slope), least = depth - DEPTH_MOST;
+    at.height = depth - felt->mean;
+    at.leans = at.height - zero >= least;
+    at.gap = at.leans ? at.height - zero : least;
+    return at;
 }
 
 void contact_face_feel(struct contact *c, const struct particles *p, int64_t row, real dt,
@@ -108,22 +118,20 @@ void contact_face_feel(struct contact *c, const struct particles *p, int64_t row
 {
     struct contact_face *face = &c->face[row];
     const struct felt felt = felt_by(c, p, p->x, row);
-    real slope;
-    const real gap = height_of(c, &felt, &slope) - face->zero;
-    const real force = 0.5 * face->stiffness * real_min(gap, 0)
-                     + contact_balance(&c->balance[row], face->stiffness, gap, dt > 0);
+    const struct face_gap at = face_gap(c, &felt, face->zero);
+    const real force = 0.5 * face->stiffness * real_min(at.gap, 0)
+                     + contact_balance(&c->balance[row], face->stiffness, at.gap, dt > 0);
     face->push = face->lift = 0, face->mean = felt.mean;
-    if (!(gap < 0)) return;
-    face->push = force * slope;
-    face->lift = force / felt.density;
-    contact_found_add(found, -gap * c->size[row], c->particle[row]);
+    if (!(at.gap < 0)) return;
+    face->push = force * at.slope;
+    face->lift = at.leans ? force / felt.density : 0;
+    contact_found_add(found, -at.gap * c->size[row], c->particle[row]);
 }
 
 real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row)
 {
     const struct felt felt = felt_by(c, p, p->x, row);
-    real slope;
-    const real gap = height_of(c, &felt, &slope) - c->face[row].zero;
+    const real gap = face_gap(c, &felt, c->face[row].zero).gap;
     return gap < 0 ? 0.25 * c->face[row].stiffness * square(gap) : 0;
 }
 
@@ -191,6 +199,16 @@ static real face_notch(const struct contact *c, const struct particles *p, int64
     return widest / c->size[row];
 }
 
+/* Least gap of a row in the density that it feels now, whichever of its pairs it comes from: the mean rise changes at
+ * once where a particle enters a field that is empty [spacings]. */
+static real least_gap(const struct contact *c, const struct felt *felt, int64_t row)
+{
+    struct felt highest = *felt;
+    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++)
+        highest.mean = real_max(highest.mean, c->rise[c->other[q]]);
+    return face_gap(c, &highest, c->face[row].zero).gap;
+}
+
 /* Has a row the pairs that it had as row `was` of the list before? Then it feels the same. */
 static bool same_pairs(const struct contact *c, const struct contact *before, int64_t was, int64_t row)
 {
@@ -209,17 +227,18 @@ void contact_face_begin(struct contact *c, const struct contact *before, int64_t
     struct contact_face *face = &c->face[row];
     const bool pairs = c->first[row + 1] > c->first[row];
     const struct felt now = felt_by(c, p, p->x, row), reference = pairs ? felt_by(c, p, p->X, row) : now;
-    real slope, overlap = 0;
+    real overlap = 0;
     face->stiffness = face_stiffness(c, p, row);
     face->push = face->lift = 0, face->mean = now.mean;
     if (was >= 0) {
         const struct felt then = same_pairs(c, before, was, row) ? now : felt_by(before, p, p->x, was);
-        overlap = real_max(0, before->face[was].zero - height_of(before, &then, &slope));
+        overlap = real_max(0, -face_gap(before, &then, before->face[was].zero).gap);
         overlap *= sqrt(before->face[was].stiffness / face->stiffness);
     }
-    const real height = height_of(c, &now, &slope), least = height_of(c, &reference, &slope);
+    const real height = face_gap(c, &now, 0).height, least = face_gap(c, &reference, 0).height;
     const real zero = real_min(1 + c->rise[row], least) - face_notch(c, p, row);
     face->zero = overlap > 0 ? height + overlap : real_min(zero, height);
-    face->far = real_max(0, height - face->zero);
-    c->balance[row] = contact_balance_begin(was < 0 ? NULL : &before->balance[was], height - face->zero);
+    face->far = real_max(0, least_gap(c, &now, row));
+    c->balance[row] = contact_balance_begin(was < 0 ? NULL : &before->balance[was],
+                                            face_gap(c, &now, face->zero).gap);
 }
