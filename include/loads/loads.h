@@ -179,6 +179,8 @@ void loads_moving_work(struct loads *l, const struct particles *p, real t, real 
 void load_moving_free(struct load *l);
 /* Force of a load on its k-th particle at t, at reference places; static: once it has grown [dim, N]. */
 void load_force_at(const struct load *l, const struct particles *p, int64_t k, real t, real *force);
+/* Its value there, without areas and profile [dim, as boundary.value]. Not of what rotates. */
+void load_value_at(const struct load *l, const struct particles *p, int64_t k, real t, real *value);
 
 /* Finds the particles of every boundary and marks FLAG_DRIVEN; appends mirror images within `reach` of
  * mirror planes to the particles (so bonds must be made after it). `spacing` [m] is that of the columns that bear

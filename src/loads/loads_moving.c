@@ -122,3 +122,11 @@ void load_force_at(const struct load *l, const struct particles *p, int64_t k, r
         force[d] = factor * b->value[d] * share;
     }
 }
+
+void load_value_at(const struct load *l, const struct particles *p, int64_t k, real t, real *value)
+{
+    const struct boundary *b = l->boundary;
+    const real factor = b->frozen ? 1 : time_function_at(&b->time, t);
+    for (int d = 0; d < p->dim; d++)
+        value[d] = factor * b->value[d] * formula_at(b, d, p, l->particle[k], b->frozen ? b->frozen_at : t);
+}

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 enum { ARROWS_MOST = 22, ARROWS_FIELD = 60, ARROWS_BAR = 4, HOW = 160, TEXT = 160 };
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
@@ -32,17 +34,116 @@ static double value_size(const real *value, int dim)
 
 static bool is_support(const struct boundary *b, int dim)
 {
-    return b->kind == BOUNDARY_VELOCITY && value_size(b->value, dim) == 0;
+    return b->kind == BOUNDARY_VELOCITY && !b->rotates && value_size(b->value, dim) == 0;
 }
 
 static const char *unit_of_value(const struct boundary *b)
 {
     if (b->kind == BOUNDARY_BODY_FORCE) return b->by_mass ? "m/s²" : "N/m³";
-    return b->kind == BOUNDARY_TRACTION ? "Pa" : b->kind == BOUNDARY_VELOCITY ? "m/s" : "";
+    if (b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_PRESSURE) return "Pa";
+    return b->kind == BOUNDARY_VELOCITY ? "m/s" : "";
+}
+
+/* ---- what acts --------------------------------------------------------------------------------------------------- */
+
+/* A load at the moment at which it is largest: its largest value [unit_of_value], on how many particles; whether other
+ * particles or moments have another one. */
+struct acting { double t, most; int64_t particles; bool varies; };
+
+/* Static solvers have boundaries of their own, whose velocities are those of their ramp. */
+static const struct boundary *boundary_of(const struct engine *e, const struct load *l)
+{
+    const int64_t number = l - e->loads.load;
+    return number < e->scene->boundaries ? &e->scene->boundary[number] : l->boundary;
+}
+
+/* What a load does to its k-th particle at t; returns the size [unit_of_value]. */
+static double vector_at(const struct engine *e, const struct load *l, int64_t k, double t, real *vector)
+{
+    const struct particles *p = &e->part;
+    const struct boundary *b = boundary_of(e, l);
+    const int32_t i = l->particle[k];
+    if (b->kind == BOUNDARY_VELOCITY) {
+        real X[DIM_MAX];
+        particle_place(p, i, X);
+        const struct driving driving = driving_make(b, p->dim, t, e->clock.dt);
+        for (int d = 0; d < p->dim; d++) vector[d] = b->components >> d & 1 ? driving_at(&driving, X, d, true) : 0;
+    } else if (b->kind == BOUNDARY_BODY_FORCE) {
+        load_force_at(l, p, k, t, vector);
+        for (int d = 0; d < p->dim; d++) vector[d] /= b->by_mass ? p->mass[i] : p->volume0[i];
+    } else {
+        load_value_at(l, p, k, t, vector);
+    }
+    if (b->kind != BOUNDARY_PRESSURE) return value_size(vector, p->dim);
+    const double pressure = fabs(vector[0]);
+    load_force_at(l, p, k, t, vector);                   /* the normal, from corners between two of them */
+    const double force = value_size(vector, p->dim);
+    for (int d = 0; d < p->dim && force > 0; d++) vector[d] *= pressure / force;
+    return force > 0 ? pressure : 0;
+}
+
+/* Looks at a load at t; at every n-th particle. */
+static struct acting acting_at(const struct engine *e, const struct load *l, const uint8_t *on, double t, int64_t every)
+{
+    struct acting a = {.t = t};
+    double least = INFINITY;
+    for (int64_t k = 0; k < l->n; k += every) {
+        real vector[DIM_MAX] = {0};
+        if (on && !on[l->particle[k]]) continue;
+        const double size = vector_at(e, l, k, t, vector);
+        if (!isfinite(size)) continue;
+        a.particles += size > 0;
+        a.most = fmax(a.most, size);
+        if (size > 0) least = fmin(least, size);
+    }
+    a.varies = least < (1 - 1e-6) * a.most;
+    return a;
+}
+
+static void face_on(void *context, int32_t particle, int axis, int side, real area)
+{
+    (void)axis, (void)side;
+    ((uint8_t *)context)[particle] |= area > 0;
+}
+
+/* Which particles have a face on which a pressure acts: the layer behind bears a share, too, that is none [n]. */
+static uint8_t *faces_of_pressure(const struct engine *e, const struct load *l)
+{
+    const struct particles *p = &e->part;
+    uint8_t *selected = NEW("plot.selected", p->n, uint8_t), *on = NEW("plot.on", p->n, uint8_t);
+    load_region(l->boundary, p, e->scene->spacing, selected);
+    const struct boundary *all = e->boundary ? e->boundary : e->scene->boundary;
+    pressure_faces(all, e->scene->boundaries, (int)(l - e->loads.load), p, e->scene->spacing, selected, face_on, on);
+    memory_free(selected);
+    return on;
+}
+
+/* Moments at which a load is looked at: those of its function of time, and MOMENTS even ones. */
+static struct acting acting_of(const struct engine *e, const struct load *l, const uint8_t *on)
+{
+    enum { MOMENTS = 32, LOOKED_AT = 400 };
+    const struct time_function *f = &boundary_of(e, l)->time;
+    const bool fixed = l->boundary->frozen && boundary_is_force(l->boundary);
+    const int64_t every = 1 + l->n / LOOKED_AT;
+    struct acting most = acting_at(e, l, on, fixed ? e->scene->duration : 0, every);
+    bool changes = false;
+    for (int k = 0; k < MOMENTS + f->n + 3 && !fixed; k++) {
+        const double own[] = {f->from, 0.5 * (f->from + f->until), f->until};
+        const double t = k < MOMENTS          ? (k + 1) * e->scene->duration / MOMENTS
+                         : k < MOMENTS + f->n ? f->t[k - MOMENTS]
+                                              : own[k - MOMENTS - f->n];
+        if (!(t >= 0 && t <= e->scene->duration)) continue;
+        const struct acting now = acting_at(e, l, on, t, every);
+        changes = changes || fabs(now.most - most.most) > 1e-6 * most.most;
+        if (now.most > (1 + 1e-6) * most.most) most = now;
+    }
+    most = acting_at(e, l, on, most.t, 1);
+    most.varies = most.varies || changes;
+    return most;
 }
 
 /* What a boundary condition does, for the key. */
-static void describe_boundary(char *text, const struct boundary *b, int dim, int64_t particles)
+static void describe_boundary(char *text, const struct boundary *b, int dim, const struct acting *acting)
 {
     char face[16], many[48];
     int length = snprintf(text, TEXT, "%.40s:", b->name);
@@ -56,15 +157,18 @@ static void describe_boundary(char *text, const struct boundary *b, int dim, int
     }
     if (b->kind == BOUNDARY_TRACTION) length = add_words(text, length, " traction");
     if (b->kind == BOUNDARY_BODY_FORCE) length = add_words(text, length, b->by_mass ? " gravity" : " body force");
+    if (b->kind == BOUNDARY_PRESSURE) length = add_words(text, length, " pressure");
     if (b->kind == BOUNDARY_ABSORBING) length = add_words(text, length, " absorbing");
-    if (b->kind == BOUNDARY_VELOCITY) length = add_words(text, length, is_support(b, dim) ? " held" : " driven");
-    if (b->time_unit) length = add_words(text, length, " by its file");
-    else if (*unit_of_value(b) && !is_support(b, dim))
-        length = add_value(text, length, value_size(b->value, dim), unit_of_value(b));
-    for (int d = 0; d < dim && b->kind == BOUNDARY_VELOCITY; d++)
+    if (b->kind == BOUNDARY_VELOCITY)
+        length = add_words(text, length, b->rotates ? " turning" : is_support(b, dim) ? " held" : " driven");
+    if (*unit_of_value(b) && !is_support(b, dim)) {
+        if (acting->varies) length = add_words(text, length, " up to");
+        length = add_value(text, length, acting->most, unit_of_value(b));
+    }
+    for (int d = 0; d < dim && b->kind == BOUNDARY_VELOCITY && !b->rotates; d++)
         if (b->components >> d & 1) length = add_words(text, length, (const char *[]){" x", " y", " z"}[d]);
     if (b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING) length = add_words(text, length, face);
-    snprintf(many, sizeof many, " (%lld)", (long long)particles);
+    snprintf(many, sizeof many, " (%lld)", (long long)acting->particles);
     add_words(text, length, many);
 }
 
@@ -116,18 +220,20 @@ static struct chosen choose_particles(const struct marks *m, const struct load *
 }
 
 /* Arrows of a load: pulling ones begin at the particle, pushing ones end there. */
-static void arrows_of_load(struct marks *m, const struct load *l, const struct boundary *b)
+static void arrows_of_load(struct marks *m, const struct load *l, const uint8_t *on, const struct acting *acting)
 {
     const struct particles *p = &m->engine->part;
-    const double size = value_size(b->value, p->dim);
-    const bool inward = b->kind != BOUNDARY_TRACTION || b->value[b->face] * b->side <= 0;
+    const struct boundary *b = l->boundary;
     const struct chosen chosen = choose_particles(m, l, b->kind == BOUNDARY_BODY_FORCE ? ARROWS_FIELD : ARROWS_MOST);
-    double vector[DIM_MAX] = {0};
-    for (int d = 0; d < p->dim; d++) vector[d] = size > 0 ? m->arrow * b->value[d] / size : 0;
     for (int64_t k = 0; k < l->n; k++) {
-        real X[DIM_MAX];
-        if (!chosen_has(&chosen, p, l->particle[k])) continue;
+        real X[DIM_MAX], acts[DIM_MAX] = {0};
+        double vector[DIM_MAX] = {0};
+        if (!chosen_has(&chosen, p, l->particle[k]) || (on && !on[l->particle[k]])) continue;
+        const double size = vector_at(m->engine, l, k, acting->t, acts);
+        if (!(size > 0 && isfinite(size))) continue;
+        const bool inward = b->kind != BOUNDARY_TRACTION || acts[b->face] * b->side <= 0;
         particle_place(p, l->particle[k], X);
+        for (int d = 0; d < p->dim; d++) vector[d] = m->arrow * acts[d] / acting->most;
         for (int d = 0; d < p->dim && inward; d++) X[d] -= vector[d];
         mark_place(m, X, vector);
     }
@@ -165,10 +271,13 @@ static void boundary_mark(struct marks *m, int number)
 {
     const struct scene *s = m->engine->scene;
     const struct load *l = &m->engine->loads.load[number];
-    const struct boundary *b = number < s->boundaries ? &s->boundary[number] : l->boundary;
+    const struct boundary *b = boundary_of(m->engine, l);
     const char *colour = curve_colour[number % CURVE_COLOURS];
     char text[TEXT], how[HOW];
-    describe_boundary(text, b, s->dim, l->n);
+    struct acting acting = {.particles = l->n};
+    uint8_t *on = b->kind == BOUNDARY_PRESSURE ? faces_of_pressure(m->engine, l) : NULL;
+    if (*unit_of_value(b) && !is_support(b, s->dim)) acting = acting_of(m->engine, l, on);
+    describe_boundary(text, b, s->dim, &acting);
     mark_begin(m);
     if (b->kind == BOUNDARY_MIRROR) {
         mirror_plane_mark(m, b);
@@ -178,11 +287,12 @@ static void boundary_mark(struct marks *m, int number)
         const int point = b->kind == BOUNDARY_ABSORBING ? 6 : 9;
         snprintf(how, sizeof how, "with points pt %d ps 1.1 lc rgb '%s'", point, colour);
     } else {
-        arrows_of_load(m, l, b);
+        arrows_of_load(m, l, on, &acting);
         snprintf(how, sizeof how, "using 1:2:3:4 with vectors %s size screen 0.012,22 lw 1.8 lc rgb '%s'",
                  b->kind == BOUNDARY_VELOCITY ? "head empty" : "head filled", colour);
     }
     mark_end(m, how, text);
+    memory_free(on);
 }
 
 /* Points over arrows, which would hide them. */

@@ -55,6 +55,13 @@ drawn "the load and how many bear it" "title 'pull: traction 20 MPa, y+ (20)'"
 drawn "the support" "title 'grip: held x y (20)'"
 drawn "the pre-crack" "title '1 pre-crack'"
 drawn "the probe" "title 'probe gauge'"
+"$cleave" plot --scene strip.yaml -o loads.png -s 'boundary=[
+    {name: wave, traction: [0, "-20 MPa*pulse(t/us)"], face: y+}, {name: press, pressure: 3 MPa},
+    {name: hub, rotation: {centre: [0, 0], rate: 1000 1/s}, time: {ramp: {until: 1 us}}}]' >out 2>err
+is "plot --scene of other loads: $(cat err)" $? 0
+drawn "a formula of time at its largest" "title 'wave: traction up to 20 MPa, y+ (20)'"
+drawn "a pressure" "title 'press: pressure 3 MPa ("
+drawn "a rotation" "title 'hub: turning up to [0-9.]* m/s (200)'"
 "$cleave" plot --scene strip.yaml -s particles.spacing=2mm -o new/folder/coarse.svg >out 2>err
 is "plot --scene -s: exit status" $? 0
 made new/folder/coarse.svg
