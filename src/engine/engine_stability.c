@@ -90,6 +90,21 @@ static real engine_stability_start_strain(const struct scene *s)
     return most;
 }
 
+/* Writes to `text` which load has a formula without a finite value now; false if none has. */
+static bool formula_explanation(const struct engine *e, char *text, size_t room)
+{
+    for (int b = 0; b < e->loads.n; b++)
+        for (int64_t k = 0; k < e->loads.load[b].n && !e->loads.load[b].boundary->rotates; k++) {
+            real value[DIM_MAX] = {0};
+            load_value_at(&e->loads.load[b], &e->part, k, e->clock.t, value);
+            if (isfinite(value[0] + value[1] + value[2])) continue;
+            snprintf(text, room, "no smaller time step helps: %.300sboundary %s: its formula has no finite value at "
+                     "%.4g s", e->loads.load[b].boundary->place, e->loads.load[b].boundary->name, e->clock.t);
+            return true;
+        }
+    return false;
+}
+
 /* Writes to `text` which load or initial state explains the motion; false if none does. steps: of the last tenfold
  * rise. */
 static bool load_explanation(const struct engine *e, real steps, char *text, size_t room)
@@ -209,7 +224,7 @@ void engine_remedy(const struct engine *e, const struct rise *rise, real value, 
     real steps;
     char others[256];
     const enum rise_rate rate = rise_rate(rise, e->clock.step, value, &steps);
-    if (load_explanation(e, steps, text, room)) return;
+    if (formula_explanation(e, text, room) || load_explanation(e, steps, text, room)) return;
     if (e->clock.dt <= e->clock.dt_critical && squeeze_explanation(e, text, room)) return;
     if (rate == RISE_FAST || e->clock.dt > e->clock.dt_critical || e->scene->solver != SOLVER_EXPLICIT) {
         say_step(e->scene, &e->clock, text, room);
