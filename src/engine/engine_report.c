@@ -186,7 +186,7 @@ status engine_report_start(struct engine *e)
     contact_record(&e->contact, &e->part);
     if (resumed) return say_lost(e);
     engine_profiles_remove(e);
-    TRY(write_frames(e, frames_due(e, 0)));
+    TRY(write_frames(e, frames_due(e, 0) | 1));      /* the body's, also where it is the only one */
     return write_checkpoint(e);
 }
 
