@@ -2,8 +2,7 @@
  *
  * With the moments M4 = sum f w r nnnn and M3 = sum f w nnn of a class of particles, the factors f minimise
  *
- *     sum_classes members [ |M4 - (1 + tau) M|^2 + |M3 + M A/2|^2 ] + PRIOR sum_bonds (f - 1)^2,
- *     SURFACE_LEAST <= f <= SURFACE_MOST
+ *     sum_classes members [ |M4 - (1 + tau) M|^2 + |M3 + M A/2|^2 ] + PRIOR sum_bonds (f - 1)^2,   LEAST <= f <= MOST
  *
  * where |T|^2 = sum_k (T:B_k) P (T:B_k) over a basis B of strains, and P = (1 + STIFF Q)^-1 weighs strains by the
  * traction that they leave on faces nearby, Q(e, e') = (M:e) : N (x) N : (M:e'). */
@@ -21,11 +20,13 @@
 /* Over the mean square of a bond in its moments: with a twentieth of it frequencies of beams of 10 layers are nearer by
  * 0.1 %, and steps shorter by a fifth. So with wider bounds. */
 #define PRIOR 2e-2
+#define LEAST 0.2
+#define MOST 3.0
 #define CLOSE 1e-12                      /* share of the gradient that is left */
-#define PRODUCTS 5000                    /* at most; solids take 2000, bodies of the plane 250 */
-#define WORK 5e10                        /* multiplications at most: some 20 s of one core */
-/* Moments of a bond side by side: third, then fourth, each with nothing up to an even number. */
-enum { STRAINS = 6, THIRDS_2D = 4, FOURTHS_2D = 6, THIRDS = 10, FOURTHS = 16, MOMENTS = THIRDS + FOURTHS };
+#define PRODUCTS 1000                    /* at most; in space 800 are enough, in the plane 250 */
+#define WORK 5e10                        /* multiplications at most: 10 s of two cores */
+/* Moments of a bond side by side: third, then fourth, then nothing. */
+enum { STRAINS = 6, THIRDS = 10, FOURTHS = 15, MOMENTS_2D = 16, MOMENTS = 32 };
 
 /* Components of symmetric tensors of rank `rank`: axes in ascending order. */
 struct components { int n, rank, axis[FOURTHS][4]; };
@@ -69,7 +70,7 @@ static real component_value(const struct components *c, int k, const real *n)
 struct moments {
     int dim, strains;
     struct components third, fourth;
-    int width, fourth_at;                                        /* of what a bond adds; where its fourth begin */
+    int width;                                                   /* of what a bond adds: MOMENTS_2D or MOMENTS */
     real *of;                                                    /* [offsets width] that, over M_1111 */
     real full[FOURTHS];                                          /* M over M_1111 */
     real strain[STRAINS][DIM_MAX][DIM_MAX], stress[STRAINS][DIM_MAX][DIM_MAX];   /* B_k, M:B_k */
@@ -113,11 +114,10 @@ static void moments_make(struct moments *m, const struct offsets *o)
         for (int c = 0; c < m->fourth.n; c++)
             sum[c] += o->weight[k] * o->length[k] * component_value(&m->fourth, c, o->direction[k]);
     for (int c = 0; c < m->fourth.n; c++) m->full[c] = sum[c] / sum[0];
-    m->fourth_at = o->dim < 3 ? THIRDS_2D : THIRDS;
-    m->width = m->fourth_at + (o->dim < 3 ? FOURTHS_2D : FOURTHS);
+    m->width = o->dim < 3 ? MOMENTS_2D : MOMENTS;
     m->of = NEW("surface.moments", (int64_t)o->n * m->width, real);
     for (int k = 0; k < o->n; k++) {
-        real *third = m->of + (int64_t)k * m->width, *fourth = third + m->fourth_at;
+        real *third = m->of + (int64_t)k * m->width, *fourth = third + m->third.n;
         for (int c = 0; c < m->third.n; c++)
             third[c] = o->weight[k] * component_value(&m->third, c, o->direction[k]) / sum[0];
         for (int c = 0; c < m->fourth.n; c++)
@@ -142,9 +142,6 @@ static real face_moment(const struct moments *m, const struct offsets *o)
 }
 
 /* ---- a class ----------------------------------------------------------------------------------------------------- */
-
-/* Factors of groups that are not fitted. */
-struct given { const real *factor; const uint8_t *fixed; };
 
 /* Weights of the squares of its moments, times its members, and what the bonds that may change ought to add to them. */
 struct class_fit { real third[THIRDS][THIRDS], fourth[FOURTHS][FOURTHS], goal[MOMENTS]; };
@@ -219,19 +216,8 @@ static void class_goals(struct class_goal *goal, int dim, const struct near_face
     }
 }
 
-/* Its goal for the bonds that may change: less what those add that stay, or whose factors are given. */
-static void class_goal_rest(struct class_fit *c, const struct moments *m, const struct near_faces *b,
-                            const struct alike *a, int32_t class, const struct given *given)
-{
-    for (int k = 0; k < b->offset.n; k++) {
-        const int64_t group = a->group_of[(int64_t)class * b->offset.n + k];
-        if (alike_neighbour(a, b, class, k) < 0 || (group >= 0 && !given->fixed[group])) continue;
-        const real factor = group < 0 ? 1 : given->factor[group];
-        for (int x = 0; x < m->width; x++) c->goal[x] -= factor * m->of[(int64_t)k * m->width + x];
-    }
-}
-
-static void class_make(struct class_fit *c, const struct moments *m, struct class_goal *goal, real members, real alpha)
+static void class_make(struct class_fit *c, const struct moments *m, const struct near_faces *b,
+                       struct class_goal *goal, const struct alike *a, int32_t class, real alpha)
 {
     real P[STRAINS][STRAINS];
     strain_weights(m, goal->normal2, P);
@@ -239,262 +225,244 @@ static void class_make(struct class_fit *c, const struct moments *m, struct clas
     quadratic(&m->fourth_by[0][0][0], m->strains, m->strains, m->fourth.n, FOURTHS, P, &c->fourth[0][0]);
     quadratic(&m->third_by[0][0][0], m->dim, m->strains, m->third.n, THIRDS, P, &c->third[0][0]);
     for (int x = 0; x < THIRDS; x++)
-        for (int y = 0; y < THIRDS; y++) c->third[x][y] *= members;
+        for (int y = 0; y < THIRDS; y++) c->third[x][y] *= a->members[class];
     for (int x = 0; x < FOURTHS; x++)
-        for (int y = 0; y < FOURTHS; y++) c->fourth[x][y] *= members;
+        for (int y = 0; y < FOURTHS; y++) c->fourth[x][y] *= a->members[class];
     for (int x = 0; x < m->third.n; x++)
         for (int d = 0; d < m->dim; d++) {
             const int *axis = m->third.axis[x];
             c->goal[x] -= 0.5 * full_of(m, axis[0], axis[1], axis[2], d) * goal->area[d];
         }
-    for (int x = 0; x < m->fourth.n; x++) c->goal[m->fourth_at + x] = (1 + alpha * goal->dipole) * m->full[x];
+    for (int x = 0; x < m->fourth.n; x++) c->goal[m->third.n + x] = (1 + alpha * goal->dipole) * m->full[x];
+    for (int k = 0; k < b->offset.n; k++) {              /* less those that stay */
+        if (alike_neighbour(a, b, class, k) < 0 || a->group_of[(int64_t)class * b->offset.n + k] >= 0) continue;
+        for (int x = 0; x < m->width; x++) c->goal[x] -= m->of[(int64_t)k * m->width + x];
+    }
 }
 
 /* to = the squares' weights of a class times its moments. */
-static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *moment, real *to, const int thirds,
-                                      const int fourths)
+static void class_weigh(const struct moments *m, const struct class_fit *c, const real *moment, real *to)
 {
-    for (int x = 0; x < thirds + fourths; x++) to[x] = 0;
-    for (int y = 0; y < thirds; y++)                     /* symmetric: by rows */
-        for (int x = 0; x < thirds; x++) to[x] += c->third[y][x] * moment[y];
-    for (int y = 0; y < fourths; y++)
-        for (int x = 0; x < fourths; x++) to[thirds + x] += c->fourth[y][x] * moment[thirds + y];
+    const int thirds = m->third.n, fourths = m->fourth.n;
+    for (int x = 0; x < MOMENTS; x++) to[x] = 0;
+    for (int x = 0; x < thirds; x++)
+        for (int y = 0; y < thirds; y++) to[x] += c->third[x][y] * moment[y];
+    for (int x = 0; x < fourths; x++)
+        for (int y = 0; y < fourths; y++) to[thirds + x] += c->fourth[x][y] * moment[thirds + y];
 }
 
 /* ---- the problem ------------------------------------------------------------------------------------------------- */
 
-/* Two bonds of a class in opposite directions, of which one may change: the difference of their factors makes third
- * moments, the sum fourth ones. Number of the first one's offset; their unknowns, -1: none. */
-struct opposites { int offset; int64_t unknown[2]; };
-
-/* Unknowns are the factors of the groups that may change. */
 struct problem {
     const struct alike *alike;
     int offsets;
     struct moments moments;
     struct class_fit *class;
-    int64_t unknowns, *unknown_of;       /* [groups] -1: its factor is given */
-    int64_t *pairs;                      /* [classes + 1] first pair of a class */
-    struct opposites *pair;
-    int64_t *first, *entry;              /* [unknowns + 1], its places in `value` */
-    real *value;                         /* [2 pairs] of bonds, room */
-    real *bonds;                         /* [unknowns] its bonds: half of what its entries count */
-    real *diagonal, *goal, prior;        /* [unknowns] of the matrix; the right side; times bonds */
+    int64_t *first, *entry;              /* [groups + 1], entries of a group */
+    real *bonds;                         /* [groups] its bonds: half of what its entries count */
+    real *diagonal, *goal, prior;        /* [groups] of the matrix; the right side; times bonds */
+    real *value;                         /* [entries] room */
 };
 
-static int64_t unknown_at(const struct problem *q, int32_t class, int k)
-{
-    const int64_t group = q->alike->group_of[(int64_t)class * q->offsets + k];
-    return group < 0 ? -1 : q->unknown_of[group];
-}
-
-static void opposites_make(struct problem *q, const struct given *given)
+static void group_entries(struct problem *q)
 {
     const struct alike *a = q->alike;
-    int64_t n = 0;
-    q->unknown_of = NEW("surface.unknown", a->groups, int64_t);
-    for (int64_t g = 0; g < a->groups; g++) q->unknown_of[g] = given->fixed[g] ? -1 : q->unknowns++;
-    q->pairs = NEW("surface.pairs", a->classes + 1, int64_t);
-    for (int fill = 0; fill < 2; fill++) {
-        n = 0;
-        for (int32_t class = 1; class < a->classes; class++) {
-            for (int k = 0; k < q->offsets / 2; k++) {
-                const struct opposites pair = {k, {unknown_at(q, class, k), unknown_at(q, class, q->offsets - 1 - k)}};
-                if (pair.unknown[0] < 0 && pair.unknown[1] < 0) continue;
-                if (fill) q->pair[n] = pair;
-                n++;
-            }
-            q->pairs[class + 1] = n;
-        }
-        if (!fill) q->pair = NEW("surface.pair", n, struct opposites);
+    const int64_t entries = (int64_t)a->classes * q->offsets;
+    q->first = NEW("surface.first", a->groups + 1, int64_t);
+    q->bonds = NEW("surface.bonds", a->groups, real);
+    for (int64_t k = 0; k < entries; k++)
+        if (a->group_of[k] >= 0) q->first[a->group_of[k] + 1]++;
+    for (int64_t g = 0; g < a->groups; g++) q->first[g + 1] += q->first[g];
+    q->entry = NEW("surface.entry", q->first[a->groups], int64_t);
+    int64_t *next = NEW("surface.next", a->groups, int64_t);
+    memcpy(next, q->first, (size_t)a->groups * sizeof *next);
+    for (int64_t k = 0; k < entries; k++) {
+        const int64_t g = a->group_of[k];
+        if (g < 0) continue;
+        q->entry[next[g]++] = k, q->bonds[g] += 0.5 * a->members[k / q->offsets];
     }
-    q->value = NEW("surface.value", 2 * n, real);
-}
-
-/* The places of each unknown. */
-static void places_make(struct problem *q)
-{
-    const struct alike *a = q->alike;
-    const int64_t n = q->unknowns, places = 2 * q->pairs[a->classes];
-    q->first = NEW("surface.first", n + 1, int64_t);
-    q->bonds = NEW("surface.bonds", n, real);
-    for (int64_t k = 0; k < places; k++) {
-        const int64_t u = q->pair[k / 2].unknown[k % 2];
-        if (u >= 0) q->first[u + 1]++;
-    }
-    for (int64_t u = 0; u < n; u++) q->first[u + 1] += q->first[u];
-    q->entry = NEW("surface.entry", q->first[n], int64_t);
-    int64_t *next = NEW("surface.next", n, int64_t);
-    memcpy(next, q->first, (size_t)n * sizeof *next);
-    for (int32_t class = 1; class < a->classes; class++)
-        for (int64_t k = 2 * q->pairs[class]; k < 2 * q->pairs[class + 1]; k++) {
-            const int64_t u = q->pair[k / 2].unknown[k % 2];
-            if (u >= 0) q->entry[next[u]++] = k, q->bonds[u] += 0.5 * a->members[class];
-        }
     memory_free(next);
 }
 
-/* to = sum over the entries of each unknown of `value`, plus prior times bonds times x. */
-static void unknown_sums(const struct problem *q, const real *x, real *to)
+/* to_g = sum over the entries of g of `value`. */
+static void group_sums(const struct problem *q, real *to)
 {
 #pragma omp parallel for schedule(static)
-    for (int64_t u = 0; u < q->unknowns; u++) {
+    for (int64_t g = 0; g < q->alike->groups; g++) {
         real sum = 0;
-        for (int64_t k = q->first[u]; k < q->first[u + 1]; k++) sum += q->value[q->entry[k]];
-        to[u] = sum + q->prior * q->bonds[u] * (x ? x[u] : 1);
+        for (int64_t k = q->first[g]; k < q->first[g + 1]; k++) sum += q->value[q->entry[k]];
+        to[g] = sum;
     }
 }
 
-/* Values of the bonds of a class from its moments. */
-static ALWAYS_INLINE void class_back(const struct problem *q, int32_t class, const real *moment, const int thirds,
-                                     const int fourths)
+/* Values of the entries of a class from its moments. */
+static ALWAYS_INLINE void class_back(const struct problem *q, int32_t class, const real *moment, const int width)
 {
     real by[MOMENTS];
-    class_weigh(&q->class[class], moment, by, thirds, fourths);
-    for (int64_t k = q->pairs[class]; k < q->pairs[class + 1]; k++) {
-        const real *of = q->moments.of + (int64_t)q->pair[k].offset * (thirds + fourths);
-        real odd[2] = {0}, even[2] = {0};
-        for (int x = 0; x < thirds; x += 2)
-            for (int l = 0; l < 2; l++) odd[l] += of[x + l] * by[x + l];
-        for (int x = thirds; x < thirds + fourths; x += 2)
-            for (int l = 0; l < 2; l++) even[l] += of[x + l] * by[x + l];
-        q->value[2 * k] = (even[0] + even[1]) + (odd[0] + odd[1]);
-        q->value[2 * k + 1] = (even[0] + even[1]) - (odd[0] + odd[1]);
+    real *value = q->value + (int64_t)class * q->offsets;
+    class_weigh(&q->moments, &q->class[class], moment, by);
+    for (int k = 0; k < q->offsets; k++) {
+        const real *of = q->moments.of + (int64_t)k * width;
+        real sum[LANES] = {0};
+        for (int x = 0; x < width; x += LANES)
+            for (int l = 0; l < LANES; l++) sum[l] += of[x + l] * by[x + l];
+        value[k] = (sum[0] + sum[1] + sum[2] + sum[3]) + (sum[4] + sum[5] + sum[6] + sum[7]);
     }
 }
 
-static ALWAYS_INLINE void class_product(const struct problem *q, int32_t class, const real *x, const int thirds,
-                                        const int fourths)
+static ALWAYS_INLINE void class_product(const struct problem *q, int32_t class, const real *x, const int width)
 {
+    const int64_t *group = q->alike->group_of + (int64_t)class * q->offsets;
     real moment[MOMENTS] = {0};
-    for (int64_t k = q->pairs[class]; k < q->pairs[class + 1]; k++) {
-        const int64_t *u = q->pair[k].unknown;
-        const real one = u[0] < 0 ? 0 : x[u[0]], other = u[1] < 0 ? 0 : x[u[1]];
-        const real *of = q->moments.of + (int64_t)q->pair[k].offset * (thirds + fourths);
-        if (one == 0 && other == 0) continue;            /* at bounds: most directions leave them there */
-        for (int c = 0; c < thirds; c++) moment[c] += (one - other) * of[c];
-        for (int c = thirds; c < thirds + fourths; c++) moment[c] += (one + other) * of[c];
+    for (int k = 0; k < q->offsets; k++) {
+        if (group[k] < 0) continue;
+        const real factor = x[group[k]], *of = q->moments.of + (int64_t)k * width;
+        for (int c = 0; c < width; c++) moment[c] += factor * of[c];
     }
-    class_back(q, class, moment, thirds, fourths);
+    class_back(q, class, moment, width);
 }
 
 /* y = H x. */
 static void fit_product(void *context, const real *x, real *y)
 {
     const struct problem *q = context;
-    const bool plane = q->moments.fourth_at == THIRDS_2D;
-#pragma omp parallel for schedule(static, 8)
-    for (int32_t class = 1; class < q->alike->classes; class++) {
-        if (q->pairs[class] == q->pairs[class + 1]) continue;
-        if (plane) class_product(q, class, x, THIRDS_2D, FOURTHS_2D);
-        else class_product(q, class, x, THIRDS, FOURTHS);
-    }
-    unknown_sums(q, x, y);
-}
-
-/* What a bond alone adds to the diagonal. */
-static real bond_square(const struct problem *q, int32_t class, int k)
-{
-    const real *of = q->moments.of + (int64_t)k * q->moments.width;
-    real by[MOMENTS], sum = 0;
-    if (q->moments.fourth_at == THIRDS_2D) class_weigh(&q->class[class], of, by, THIRDS_2D, FOURTHS_2D);
-    else class_weigh(&q->class[class], of, by, THIRDS, FOURTHS);
-    for (int x = 0; x < q->moments.width; x++) sum += of[x] * by[x];
-    return sum;
-}
-
-/* The weight of the prior: over the mean of the diagonal of all bonds, also of those whose factors are given. */
-static void prior_make(struct problem *q)
-{
-    const struct alike *a = q->alike;
-    real *square_of = NEW("surface.square", a->classes, real), sum = 0, bonds = 0;
+    const bool plane = q->moments.width == MOMENTS_2D;
 #pragma omp parallel for schedule(static)
-    for (int32_t class = 1; class < a->classes; class++)
-        for (int k = 0; k < q->offsets; k++)
-            if (a->group_of[(int64_t)class * q->offsets + k] >= 0) square_of[class] += bond_square(q, class, k);
-    for (int32_t class = 1; class < a->classes; class++) {
-        sum += square_of[class];
-        for (int k = 0; k < q->offsets; k++)
-            bonds += a->group_of[(int64_t)class * q->offsets + k] >= 0 ? 0.5 * a->members[class] : 0;
+    for (int32_t class = 1; class < q->alike->classes; class++) {
+        if (plane) class_product(q, class, x, MOMENTS_2D);
+        else class_product(q, class, x, MOMENTS);
     }
-    q->prior = bonds > 0 ? PRIOR * sum / bonds : 0;
-    memory_free(square_of);
+    group_sums(q, y);
+    for (int64_t g = 0; g < q->alike->groups; g++) y[g] += q->prior * q->bonds[g] * x[g];
 }
 
-/* Diagonal of the matrix, and right side. */
+/* Diagonal of the matrix, prior and right side. */
 static void diagonal_make(struct problem *q)
 {
-    const struct alike *a = q->alike;
+    const struct moments *m = &q->moments;
+    const int64_t groups = q->alike->groups;
+    real sum = 0, bonds = 0;
 #pragma omp parallel for schedule(static)
-    for (int32_t class = 1; class < a->classes; class++)
-        for (int64_t k = q->pairs[class]; k < q->pairs[class + 1]; k++)
-            q->value[2 * k] = q->value[2 * k + 1] = bond_square(q, class, q->pair[k].offset);
-    q->diagonal = NEW("surface.diagonal", q->unknowns, real);
-    unknown_sums(q, NULL, q->diagonal);
-    q->goal = NEW("surface.goal", q->unknowns, real);
+    for (int32_t class = 1; class < q->alike->classes; class++)
+        for (int k = 0; k < q->offsets; k++) {
+            const real *of = m->of + (int64_t)k * m->width;
+            real by[MOMENTS], value = 0;
+            class_weigh(m, &q->class[class], of, by);
+            for (int x = 0; x < m->width; x++) value += of[x] * by[x];
+            q->value[(int64_t)class * q->offsets + k] = value;
+        }
+    q->diagonal = NEW("surface.diagonal", groups, real);
+    group_sums(q, q->diagonal);
+    for (int64_t g = 0; g < groups; g++) sum += q->diagonal[g], bonds += q->bonds[g];
+    q->prior = bonds > 0 ? PRIOR * sum / bonds : 0;
+    for (int64_t g = 0; g < groups; g++) q->diagonal[g] += q->prior * q->bonds[g];
+    q->goal = NEW("surface.goal", groups, real);
 #pragma omp parallel for schedule(static)
-    for (int32_t class = 1; class < a->classes; class++) {
-        if (q->moments.fourth_at == THIRDS_2D) class_back(q, class, q->class[class].goal, THIRDS_2D, FOURTHS_2D);
-        else class_back(q, class, q->class[class].goal, THIRDS, FOURTHS);
-    }
-    unknown_sums(q, NULL, q->goal);
+    for (int32_t class = 1; class < q->alike->classes; class++)
+        class_back(q, class, q->class[class].goal, m->width);
+    group_sums(q, q->goal);
+    for (int64_t g = 0; g < groups; g++) q->goal[g] += q->prior * q->bonds[g];
 }
 
-/* Factors of the groups that may change. */
-static void solve(struct problem *q, real *factor)
+/* Factors from where they are; `fixed` ones stay. */
+static void solve(struct problem *q, real *factor, const uint8_t *fixed)
 {
-    const int64_t n = q->unknowns;
-    const real work = 2.0 * (real)q->pairs[q->alike->classes] * q->moments.width;
-    real *low = NEW("surface.low", n, real), *high = NEW("surface.high", n, real), *x = NEW("surface.x", n, real);
-    for (int64_t u = 0; u < n; u++) low[u] = SURFACE_LEAST, high[u] = SURFACE_MOST, x[u] = 1;
+    const int64_t n = q->alike->groups;
+    const real work = 4.0 * q->alike->classes * q->offsets * q->moments.width;
+    real *low = NEW("surface.low", n, real), *high = NEW("surface.high", n, real);
+    for (int64_t k = 0; k < n; k++) low[k] = fixed[k] ? factor[k] : LEAST, high[k] = fixed[k] ? factor[k] : MOST;
     const struct quadratic f = {fit_product, q, n, q->goal, q->diagonal, low, high};
-    quadratic_descend(&f, x, CLOSE, (int)fmin(PRODUCTS, WORK / fmax(work, 1)));
-    for (int64_t g = 0; g < q->alike->groups; g++)
-        if (q->unknown_of[g] >= 0) factor[g] = x[q->unknown_of[g]];
+    quadratic_descend(&f, factor, CLOSE, (int)fmin(PRODUCTS, WORK / work));
     memory_free(low);
     memory_free(high);
-    memory_free(x);
 }
 
-static void problem_free(struct problem *q)
+/* Is the particle beside the end of a crack: cut from one that a neighbour of its still reaches? */
+static bool at_crack_end(const struct near_faces *b, int64_t t)
 {
-    memory_free(q->moments.of);
-    memory_free(q->class);
-    memory_free(q->unknown_of);
-    memory_free(q->pairs);
-    memory_free(q->pair);
-    memory_free(q->first);
-    memory_free(q->entry);
-    memory_free(q->value);
-    memory_free(q->bonds);
-    memory_free(q->diagonal);
-    memory_free(q->goal);
+    const struct offsets *o = &b->offset;
+    const struct particles *p = b->p;
+    if (!cracks_near(b->source, p, b->particle[t])) return false;
+    for (int k = 0; k < o->n; k++) {
+        const int32_t j = neighbour_of(b, t, k);
+        if (j < 0) continue;
+        const struct seen seen = seen_of(b, j);
+        for (int l = 0; l < o->n && b->place[seen.particle] >= 0; l++) {
+            int place = 0;
+            bool within = seen_beyond(b, &seen, l).particle >= 0;
+            for (int d = o->dim - 1; d >= 0; d--) {
+                const int at = o->at[k][d] + o->at[l][d];
+                within = within && abs(at) <= o->reach;
+                place = place * (2 * o->reach + 1) + o->reach + at;
+            }
+            if (within && o->number[place] >= 0 && neighbour_of(b, t, o->number[place]) < 0) return true;
+        }
+    }
+    return false;
+}
+
+static int neighbours(const struct near_faces *b, int64_t t)
+{
+    int n = 0;
+    for (int k = 0; k < b->offset.n; k++) n += neighbour_of(b, t, k) >= 0;
+    return n;
+}
+
+static bool may_break(const struct bond_limit *limit)
+{
+    bool breaks = false;
+    for (int k = 0; k < limit->materials * limit->materials; k++) breaks |= isfinite(limit->critical_stretch[k]);
+    return breaks;
+}
+
+/* Bonds of thin parts, for which there are too few layers, and at the ends of cracks take the factor of the volume
+ * method (Le & Bobaru 2018), in models with rotations none. Where bonds may break those at the ends of cracks are next:
+ * they keep their weights, for which G_c is calibrated (else Kalthoff's crack turns to 61 degrees at 1 mm). */
+static void plain_parts(real *x, uint8_t *fixed, const struct near_faces *b, const struct faces *f,
+                        const struct alike *a, bool rotates)
+{
+    const int n = b->offset.n;
+    const bool breaks = may_break(&b->source->limit);
+    for (int32_t class = 1; class < a->classes; class++) {
+        const int64_t t = a->member[class];
+        const bool end = at_crack_end(b, t), plain = f->thin[t] || end;
+        for (int k = 0; k < n && plain; k++) {
+            const int64_t g = a->group_of[(int64_t)class * n + k];
+            if (g < 0) continue;
+            const int64_t other = b->place[seen_of(b, alike_neighbour(a, b, class, k)).particle];
+            const real both = neighbours(b, t) + neighbours(b, other);
+            x[g] = rotates || (end && breaks) ? 1 : fmin(fmax(2.0 * n / both, LEAST), MOST), fixed[g] = 1;
+        }
+    }
 }
 
 void surface_fit(real *factor, const struct near_faces *b, const struct faces *f, const struct alike *a,
                  bool rotates)
 {
     struct problem q = {.alike = a, .offsets = b->offset.n};
-    uint8_t *fixed = NEW("surface.fixed", a->groups, uint8_t);
-    const struct given given = {factor, fixed};
-    for (int64_t g = 0; g < a->groups; g++) factor[g] = 1;
-    surface_plain(factor, fixed, b, f, a, rotates);
     moments_make(&q.moments, &b->offset);
     const real alpha = rotates ? ROTATIONS : face_moment(&q.moments, &b->offset);
     q.class = BARE("surface.class", a->classes, struct class_fit);
     struct class_goal *goal = NEW("surface.goal", a->classes, struct class_goal);
     class_goals(goal, b->offset.dim, b, f, a);
 #pragma omp parallel for schedule(static)
-    for (int32_t class = 1; class < a->classes; class++) {
-        class_make(&q.class[class], &q.moments, &goal[class], a->members[class], alpha);
-        class_goal_rest(&q.class[class], &q.moments, b, a, class, &given);
-    }
+    for (int32_t class = 1; class < a->classes; class++)
+        class_make(&q.class[class], &q.moments, b, &goal[class], a, class, alpha);
     memory_free(goal);
-    opposites_make(&q, &given);
-    places_make(&q);
-    prior_make(&q);
+    group_entries(&q);
+    q.value = NEW("surface.value", (int64_t)a->classes * q.offsets, real);
     diagonal_make(&q);
-    solve(&q, factor);
+    uint8_t *fixed = NEW("surface.fixed", a->groups, uint8_t);
+    for (int64_t g = 0; g < a->groups; g++) factor[g] = 1;
+    plain_parts(factor, fixed, b, f, a, rotates);
+    solve(&q, factor, fixed);
     memory_free(fixed);
-    problem_free(&q);
+    memory_free(q.class);
+    memory_free(q.moments.of);
+    memory_free(q.first);
+    memory_free(q.entry);
+    memory_free(q.bonds);
+    memory_free(q.value);
+    memory_free(q.diagonal);
+    memory_free(q.goal);
 }

@@ -81,13 +81,6 @@ static inline int32_t alike_neighbour(const struct alike *a, const struct near_f
 }
 void alike_free(struct alike *a);
 
-/* Bounds of factors. */
-#define SURFACE_LEAST 0.2
-#define SURFACE_MOST 3.0
-
-/* Sets the factors of groups that are given, and marks these groups (surface_plain.c). */
-void surface_plain(real *x, uint8_t *fixed, const struct near_faces *b, const struct faces *f, const struct alike *a,
-                   bool rotates);
 /* Factors of all groups of bonds (surface_fit.c). */
 void surface_fit(real *factor, const struct near_faces *b, const struct faces *f, const struct alike *a,
                  bool rotates);
