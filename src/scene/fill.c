@@ -204,14 +204,13 @@ status fill_place(const struct scene *s, int body, real *X)
 static status draft_empty(const struct draft *d, int body, bool listed)
 {
     real from[DIM_MAX], to[DIM_MAX];
-    char why[200] = "its list holds no particle of it";
-    size_t used = 0;
-    if (listed) return draft_refuse(d, body, why);
+    char why[200] = "holds no particle; is it, with ";
+    size_t used = strlen(why);
+    if (listed) return draft_refuse(d, body, "its list holds no particle of it");
     region_bounds(&d->scene->body[body].shape, d->scene->dim, from, to);
     for (int a = 0; a < d->scene->dim; a++)
         used += (size_t)snprintf(why + used, sizeof why - used, "%s%.4g", a ? " x " : "", to[a] - from[a]);
-    snprintf(why + used, sizeof why - used,
-             " m at the most, holds no particle; is it thinner than the spacing, or another unit meant?");
+    snprintf(why + used, sizeof why - used, " m at the most, thinner than the spacing, or another unit meant?");
     return draft_refuse(d, body, why);
 }
 
