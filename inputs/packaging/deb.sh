@@ -42,9 +42,9 @@ Version: $version
 Architecture: $architecture
 Maintainer: Cleave maintainers <maintainers@cleave.example>
 Installed-Size: $(du -sk "$root/usr" | cut -f 1)
-Depends: $libraries
-Recommends: gnuplot-nox
-Suggests: ffmpeg, paraview, python3-h5py
+Depends: $libraries, python3:any
+Recommends: gnuplot-nox, python3-h5py, python3-numpy
+Suggests: ffmpeg, paraview
 Section: science
 Priority: optional
 Description: dynamic fracture by peridynamics and material points
