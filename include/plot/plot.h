@@ -16,10 +16,10 @@
 
 enum { PANELS = 6, PANELS_MAX = 24 };
 
-/* Directions of a view in space: unit vectors to the right, upwards and to who looks. */
+/* Directions of a view in space: unit vectors to the right, upwards and to the viewer. */
 struct camera { double right[3], up[3], towards[3]; };
 extern const struct camera camera_isometric;
-/* Along an axis; side: +1, who looks stands on its upper side. */
+/* Along an axis; side: +1, the viewer is on its upper side. */
 struct camera camera_along(int axis, int side);
 
 struct plot_field;
@@ -113,7 +113,7 @@ status plot_field_read(float **value, const struct plot_field *field, const stru
 struct cloud {
     int64_t n;
     float *place[DIM_MAX];               /* current positions along the axes of the map [m]; [2] NULL: it is flat, else
-                                          * towards who looks */
+                                          * towards the viewer */
     float *damage;                       /* [1] */
     uint8_t *kind;
     int32_t *fragment;                   /* NULL: not known */
@@ -179,7 +179,7 @@ struct colour map_colour(const struct view *v, enum map map, double a);
  * width x height pixels, row 0 at the bottom; white and transparent where there is no body. */
 void raster_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
                   enum map map);
-/* The same of a cloud that is not flat: cubes, the nearest to who looks on top. Of MAP_CRACKS those of the cracks, in
+/* The same of a cloud that is not flat: cubes, the nearest to the viewer on top. Of MAP_CRACKS those of the cracks, in
  * front of the faded rest. */
 void boxes_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
                  enum map map);

@@ -85,7 +85,7 @@ static bool loads_agree(const struct engine *e, int axis, const int32_t *twin)
     real *ask = NEW("check.ask", p->n, real), *held = NEW("check.held", p->n, real);
     bool same = true;
     for (int b = 0; b < e->loads.n; b++) {
-        const struct boundary *l = e->loads.load[b].boundary;    /* of formulas nobody knows */
+        const struct boundary *l = e->loads.load[b].boundary;    /* a formula's symmetry is unknown */
         same &= !l->rotates && l->formula[0].n + l->formula[1].n + l->formula[2].n == 0;
     }
     for (int d = 0; d < p->dim && same; d++) {

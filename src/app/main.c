@@ -57,7 +57,7 @@ static void keep_descriptors(void)
     if (fd > STDERR_FILENO) close(fd);
 }
 
-/* Has who read standard output left? */
+/* Is the other end of standard output closed? */
 static bool reader_gone(void)
 {
     struct pollfd output = {STDOUT_FILENO, POLLOUT, 0};

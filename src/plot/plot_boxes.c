@@ -1,5 +1,5 @@
 /* A solid as pixels: every particle is a cube of the lattice, seen along parallel lines; of those that cover a pixel
- * the one nearest to who looks is shown. A face of the body is then an even colour, as its cubes show the same face,
+ * the one nearest to the viewer is shown. A face of the body is then an even colour, as its cubes show the same face,
  * and the three faces are told apart by their shade. No light is needed, nor any search for the surface. */
 #include <math.h>
 
@@ -16,14 +16,14 @@ static const double GHOST = 0.45;
 
 struct scene_canvas {
     struct colour *pixel;
-    float *depth;                        /* of what is painted there, towards who looks [m] */
+    float *depth;                        /* of what is painted there, towards the viewer [m] */
     int size[2];
     double per_metre[2];                 /* pixels */
     const struct view *view;
 };
 
 /* Where the line of sight through `at` (in the plane of the picture, from the middle of the cube) leaves the cube of
- * this half size, towards who looks [m], and the axis of the face there; -1: it misses the cube. */
+ * this half size, towards the viewer [m], and the axis of the face there; -1: it misses the cube. */
 static int leaves_cube(const struct camera *eye, const double *half, const double *at, double *depth)
 {
     double enters = -INFINITY, leaves = INFINITY;

@@ -111,7 +111,7 @@ between "weak: peridynamic" "$(f weak conversion.x)" 0 0.1
 sound weak 0.05
 if cmp "$work/weak/history.csv" "$work/weak_again/history.csv"; then pass; else fail "weak: scene.yaml is another scene"; fi
 
-# A list of two materials by name, as another program writes it: nobody asks for the body's, what is not read is said, and a
+# A list of two materials by name, as another program writes it: the body's is not asked for, what is not read is said, and a
 # checkpoint goes on to the same end.
 awk 'BEGIN { print "id; x [mm]; y [mm]; z; vx [m/s]; weight [g]; material"
     for (j = 0; j < 8; j++) for (i = 0; i < 20; i++) printf "%d; %g; %g; 0; %g; 2.5e-3; %s\n", 20 * j + i, i, j, i < 10 ? 1 : -1, i < 10 ? "left" : "right" }' \
