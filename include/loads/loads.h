@@ -16,7 +16,7 @@
 #include "absorbing.h"
 
 enum boundary_kind {
-    BOUNDARY_VELOCITY,       /* holds components of the velocity (`fixed` is this with value 0) */
+    BOUNDARY_VELOCITY,       /* drives components: velocity, displacement, rotation (`fixed` is a velocity of 0) */
     BOUNDARY_TRACTION,       /* surface force on the face that a body shows along an axis [Pa] */
     BOUNDARY_BODY_FORCE,     /* [N/m^3] */
     BOUNDARY_MIRROR,         /* plane of symmetry (roller) or of antisymmetry (fixed end) */
@@ -41,10 +41,12 @@ struct boundary {
     struct region region;                /* of reference positions; empty: everywhere */
     int body;                            /* -1: any */
     uint8_t components;                  /* bit d: component d is held (VELOCITY) */
-    real value[DIM_MAX];                 /* [m/s], [Pa] or [N/m^3]; PRESSURE: the same in all; 1 beside a formula */
+    real value[DIM_MAX];                 /* [m/s], [m], [Pa] or [N/m^3]; PRESSURE: the same in all; 1 beside a
+                                            formula */
     struct expression formula[DIM_MAX];  /* of a component in X and t, PRESSURE: the first for all; none: value */
     bool frozen;                         /* static: formulas have their value at `frozen_at` [s] */
     real frozen_at;
+    bool displaces;                      /* VELOCITY: value, factor and formula are displacements; the value in [m] */
     bool rotates;                        /* VELOCITY: all components, on circles about an axis through `centre` */
     real centre[DIM_MAX], axis_of[DIM_MAX], rate; /* [m], of any length, z in the plane; times the factor [1/s] */
     bool follow;                         /* PRESSURE: normals and areas are those of the deformed body */
@@ -231,6 +233,25 @@ static inline bool drives_by_place(const struct boundary *b)
 {
     return b->rotates || b->formula[0].in_space || b->formula[1].in_space || b->formula[2].in_space;
 }
+
+/* Where a boundary of kind VELOCITY has its particles at a (pseudo-)time t >= 0: displacements from reference places.
+ * That of `displacement` is its value there, of a velocity the integral from 0, of a rotation the rotation by the
+ * angle until then; formulas of a static problem are those at `frozen_at`. Made once for a load and a time, cheap to
+ * ask for many places; pure. Not of a velocity by a formula of t, of which no integral is known in closed form:
+ * load_displacement_known refuses it. */
+struct displacing {
+    const struct boundary *boundary;
+    int dim;
+    real t, factor;                      /* of value and formula at t: [1], of a velocity [s] */
+    real turned[DIM_MAX * DIM_MAX];      /* rotates: the rotation at t, row major */
+};
+struct displacing displacing_make(const struct boundary *b, int dim, real t);
+/* Component d of the displacement at the reference place X [dim, m]; d is one of boundary->components [m]. */
+real displacing_at(const struct displacing *s, const real *X, int d);
+/* All components of that of a load's k-th particle at t, 0 where it drives none [dim, m]. */
+void load_displacement_at(const struct load *l, const struct particles *p, int64_t k, real t, real *u);
+/* REFUSED for a boundary of kind VELOCITY whose displacements are not known ahead. OK for all others. */
+status load_displacement_known(const struct boundary *b);
 
 #define LOADS_TOLERANCE ON_SURFACE       /* of a spacing: points on a region's border belong to it    */
 

@@ -1,0 +1,128 @@
+/* Displacements that boundaries prescribe: of `displacement` itself, of velocities their integral, of rotations. */
+#include <stdarg.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "tests/support/cloud.h"
+#include "loads/loads.h"
+#include "tests/support/near.h"
+#include "base/team.h"
+
+/* x^2/(1 m) and, with t, x t/(1 s) [m, or m/s]. */
+static void by_x(struct expression *e, bool with_time)
+{
+    const struct expression_step step[] = {
+        {EXPRESSION_X, 0}, {with_time ? EXPRESSION_T : EXPRESSION_X, 0}, {EXPRESSION_TIMES, 0}};
+    expression_make(e, step, 3, with_time ? "x*t" : "x*x");
+    e->in_space = true, e->in_time = with_time;
+}
+
+/* Displacement of the particle k of a body under one boundary. */
+struct displaced {
+    struct cloud c;
+    struct loads l;
+};
+static void displaced_make(struct displaced *m, const struct boundary *b)
+{
+    cloud_make(&m->c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {7, 5}, .horizon = 3});
+    assert_ok(loads_make(&m->l, b, 1, &m->c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+    assert_true(m->l.load[0].n == m->c.p.n);
+}
+
+static void displaced_free(struct displaced *m)
+{
+    loads_free(&m->l);
+    cloud_free(&m->c);
+}
+
+/* A component that is free is 0, whatever its value; numbers and formulas times a function of time. */
+static void test_values(void **state)
+{
+    (void)state;
+    struct boundary b = {.name = "grip",
+                         .kind = BOUNDARY_VELOCITY,
+                         .body = -1,
+                         .components = 1,
+                         .value = {3, 7},
+                         .time = {.kind = TIME_RAMP, .until = 4}};
+    struct displaced m;
+    for (int kind = 0; kind < 4; kind++) {
+        const bool displaces = kind % 2 == 1, formula = kind >= 2;
+        b.displaces = displaces;
+        if (formula) by_x(&b.formula[0], false);
+        displaced_make(&m, &b);
+        for (int64_t k = 0; k < m.c.p.n; k += 11) {
+            real u[DIM_MAX];
+            const real place = formula ? square(m.c.p.X[0][k]) : 1;
+            load_displacement_at(&m.l.load[0], &m.c.p, k, 2, u);
+            assert_near(u[0], 0.5 * 3 * place, 1e-15 * 3); /* t/4 at 2 is 1/2, and so is its integral */
+            load_displacement_at(&m.l.load[0], &m.c.p, k, 6, u);
+            assert_near(u[0], (displaces ? 1 : 4) * 3 * place, 1e-15 * 12);
+            assert_true(u[1] == 0);
+        }
+        assert_ok(load_displacement_known(&b));
+        displaced_free(&m);
+    }
+    expression_free(&b.formula[0]);
+}
+
+/* A quarter of a turn about (1, 2) spacings, at a rate that grows evenly. */
+static void test_turn(void **state)
+{
+    (void)state;
+    const struct boundary b = {.name = "grip",
+                               .kind = BOUNDARY_VELOCITY,
+                               .body = -1,
+                               .components = 3,
+                               .rotates = true,
+                               .value = {1, 1},
+                               .centre = {CLOUD_SPACING, 2 * CLOUD_SPACING},
+                               .rate = M_PI / 4,
+                               .time = {.kind = TIME_RAMP, .until = 4}};
+    struct displaced m;
+    displaced_make(&m, &b);
+    for (int64_t k = 0; k < m.c.p.n; k++) {
+        real u[DIM_MAX];
+        const real x = m.c.p.X[0][k] - b.centre[0], y = m.c.p.X[1][k] - b.centre[1];
+        load_displacement_at(&m.l.load[0], &m.c.p, k, 4, u); /* the integral of t/4 to 4 is 2 */
+        assert_near(u[0], -y - x, 1e-15 * 10 * CLOUD_SPACING);
+        assert_near(u[1], x - y, 1e-15 * 10 * CLOUD_SPACING);
+    }
+    displaced_free(&m);
+}
+
+/* Formulas of t: of a displacement its value then, of a velocity none is known; of a static problem that of its end. */
+static void test_formula_of_time(void **state)
+{
+    (void)state;
+    struct boundary b = {
+        .name = "grip", .kind = BOUNDARY_VELOCITY, .body = -1, .components = 1, .value = {1}, .displaces = true};
+    struct displaced m;
+    real u[DIM_MAX];
+    by_x(&b.formula[0], true);
+    displaced_make(&m, &b);
+    load_displacement_at(&m.l.load[0], &m.c.p, 3, 5, u);
+    assert_true(m.c.p.X[0][3] != 0 && u[0] == 5 * m.c.p.X[0][3]);
+    assert_ok(load_displacement_known(&b));
+    displaced_free(&m);
+    b.displaces = false;
+    assert_true(load_displacement_known(&b) == REFUSED);
+    assert_non_null(strstr(status_message(), "boundary grip: a velocity by a formula of t"));
+    b.frozen = true, b.frozen_at = 2, b.time = (struct time_function){.kind = TIME_STEP, .until = 1};
+    assert_ok(load_displacement_known(&b));
+    displaced_make(&m, &b);
+    load_displacement_at(&m.l.load[0], &m.c.p, 3, 1, u);
+    assert_true(u[0] == 2 * m.c.p.X[0][3]);
+    displaced_free(&m);
+    expression_free(&b.formula[0]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_turn),
+                                       cmocka_unit_test(test_formula_of_time)};
+    team_make(2);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
