@@ -1,0 +1,221 @@
+/* Making, applying and freeing the multigrid preconditioner. */
+#include "solver/multigrid.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "multigrid_parts.h"
+
+/* Unknowns from which on a level is solved as a dense matrix; steps of relaxation before and after the coarser levels,
+ * on the finest level, where products with its matrix take most of the time, and on coarser ones; the part of the
+ * spectrum that relaxation is for. */
+enum { DENSE = 600, DEGREE = 1, DEGREE_COARSE = 2 };
+#define RANGE 4.0
+
+/* ---- the finest level -------------------------------------------------------------------------------------------- */
+
+/* What rounding of floats leaves of the sum of a row of a body that moves as a whole, over its diagonal. */
+#define ROUND_OFF 1e-6
+/* A node with less stiffness than this over the largest has none. */
+#define STIFFNESS_LEAST 1e-12
+
+/* The diagonal of row i as minus the sum of the others, to which rounding to floats has added: a body that moves as a
+ * whole then has no energy, however large it is. Parts that are not rounding (supports, foundations) stay. */
+static void diagonal_exact(const struct level *l, int64_t i)
+{
+    const int size = l->width * l->width;
+    real sum[9] = {0}, own[9] = {0}, trace = 0;
+    l->loose[i] = 1;
+    for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
+        if (l->held[l->column[q]] != 0) l->loose[i] = 0;
+        for (int k = 0; k < size; k++) *(l->column[q] == i ? own + k : sum + k) += (real)l->single[q * size + k];
+    }
+    for (int k = 0; k < size; k += l->width + 1) trace += own[k];
+    for (int k = 0; k < size; k++) {
+        const real rest = own[k] + sum[k];
+        l->diagonal[i * size + k] = fabs(rest) <= ROUND_OFF * trace ? -sum[k] : own[k];
+        if (fabs(rest) > ROUND_OFF * trace) l->loose[i] = 0;
+        l->rounding[i * size + k] = (float)(l->diagonal[i * size + k] - own[k]);
+    }
+    l->scale[i] = trace / l->width;
+}
+
+static status finest_make(struct level *l, const struct block_matrix *a, const uint8_t *held)
+{
+    const unsigned all = (1u << a->dim) - 1;
+    real most = 0;
+    *l = (struct level){.width = a->dim, .modes = a->dim * (a->dim + 1) / 2, .n = a->n};
+    l->first = a->first, l->column = a->column, l->single = a->block;
+    l->diagonal = NEW("multigrid.diagonal", l->n * a->dim * a->dim, real);
+    l->rounding = NEW("multigrid.rounding", l->n * a->dim * a->dim, float);
+    l->scale = NEW("multigrid.scale", l->n, real);
+    l->loose = NEW("multigrid.loose", l->n, uint8_t);
+    l->held = NEW("multigrid.held", l->n, uint8_t);
+    memcpy(l->held, held, (size_t)l->n);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < l->n; i++) diagonal_exact(l, i);
+    for (int64_t i = 0; i < l->n; i++) {
+        if (!(l->scale[i] >= 0) || isinf(l->scale[i]))
+            return status_set(FAILED, "multigrid: the stiffness of node %lld is %g N/m, where it is to be 0 or more",
+                              (long long)i, l->scale[i]);
+        most = real_max(most, l->scale[i]);
+    }
+    for (int64_t i = 0; i < l->n; i++)
+        if (l->scale[i] <= STIFFNESS_LEAST * most || (held[i] & all) == all) l->scale[i] = 0;
+    level_invert(l);
+    return OK;
+}
+
+/* Translations, then rotations, as velocities at distance X from the middle. */
+static void finest_modes(struct level *l, real *const *place)
+{
+    const int w = l->width, m = l->modes;
+    real middle[DIM_MAX] = {0};
+    for (int d = 0; d < w; d++) {
+        for (int64_t i = 0; i < l->n; i++) middle[d] += place[d][i];
+        middle[d] /= (real)(l->n > 0 ? l->n : 1);
+    }
+    l->mode = NEW("multigrid.mode", l->n * w * m, real);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < l->n; i++) {
+        real *mode = l->mode + i * w * m;
+        for (int d = 0; d < w; d++) mode[d * m + d] = 1;
+        for (int r = 0; r < m - w; r++) {
+            const int a = w == 2 ? 0 : (r + 1) % 3, b = w == 2 ? 1 : (r + 2) % 3;
+            mode[a * m + w + r] = -(place[b][i] - middle[b]);
+            mode[b * m + w + r] = place[a][i] - middle[a];
+        }
+        for (int d = 0; d < w; d++)
+            for (int e = 0; e < m; e++)
+                if (l->held[i] >> d & 1) mode[d * m + e] = 0;
+    }
+}
+
+/* ---- all levels -------------------------------------------------------------------------------------------------- */
+
+static void level_vectors(struct level *l)
+{
+    real **vector[] = {&l->b, &l->x, &l->y, &l->d, &l->t};
+    for (size_t k = 0; k < COUNT_OF(vector); k++) *vector[k] = NEW("multigrid.vector", l->n * l->width, real);
+}
+
+/* Blocks of the diagonal and their inverses. */
+static void coarse_diagonal(struct level *l)
+{
+    const int size = l->width * l->width;
+    l->diagonal = NEW("multigrid.diagonal", l->n * size, real);
+    for (int64_t i = 0; i < l->n; i++)
+        for (int64_t q = l->first[i]; q < l->first[i + 1]; q++)
+            if (l->column[q] == i) memcpy(l->diagonal + i * size, l->block + q * size, (size_t)size * sizeof(real));
+    level_invert(l);
+}
+
+/* The next level; false: nodes do not become fewer. */
+static bool coarsen(struct multigrid *m)
+{
+    struct level *l = &m->level[m->levels - 1], *next = l + 1;
+    level_aggregate(l);
+    if (l->coarse == 0 || l->coarse > 0.7 * (real)l->n) return false;
+    *next = (struct level){0};
+    level_modes(l, next);
+    level_transfer(l);
+    level_galerkin(l, next);
+    level_loose(l, next);
+    coarse_diagonal(next);
+    level_vectors(next);
+    level_largest(next);
+    m->levels++;
+    return true;
+}
+
+status multigrid_make(struct multigrid **out, const struct block_matrix *a, real *const *place, const uint8_t *held)
+{
+    struct multigrid *m = *out = NEW("multigrid", 1, struct multigrid);
+    m->levels = 1;
+    const status made = finest_make(&m->level[0], a, held);
+    if (made != OK) {
+        multigrid_free(m);
+        *out = NULL;
+        return made;
+    }
+    finest_modes(&m->level[0], place);
+    level_vectors(&m->level[0]);
+    level_largest(&m->level[0]);
+    while (m->levels < LEVELS_MOST) {
+        const struct level *l = &m->level[m->levels - 1];
+        if (m->levels > 1 && l->n * l->width <= DENSE) break;
+        if (!coarsen(m)) break;
+    }
+    const struct level *last = &m->level[m->levels - 1];
+    if (m->levels > 1 && last->n * last->width <= 4 * DENSE) dense_make(&m->dense, last);
+    return OK;
+}
+
+static void level_free(struct level *l)
+{
+    void *owned[] = {l->rounding,   l->loose,    l->block,     l->diagonal,  l->inverse,    l->scale,
+                     l->held,       l->mode,     l->aggregate, l->tentative, l->down.first, l->down.column,
+                     l->down.block, l->up.first, l->up.column, l->up.block,  l->b,          l->x,
+                     l->y,          l->d,        l->t};
+    for (size_t k = 0; k < COUNT_OF(owned); k++) memory_free(owned[k]);
+    if (l->single) return;
+    memory_free((void *)l->first);
+    memory_free((void *)l->column);
+}
+
+void multigrid_free(struct multigrid *m)
+{
+    if (m == NULL) return;
+    for (int k = 0; k < m->levels; k++) level_free(&m->level[k]);
+    dense_free(&m->dense);
+    memory_free(m);
+}
+
+/* ---- the cycle --------------------------------------------------------------------------------------------------- */
+
+/* Relaxation by the polynomial of Chebyshev that is small from largest / RANGE to largest (Saad, Iterative Methods for
+ * Sparse Linear Systems, algorithm 12.1). `zero`: x is taken for 0. */
+static void level_smooth(struct level *l, int degree, bool zero)
+{
+    const real theta = 0.5 * l->largest * (1 + 1 / RANGE), delta = 0.5 * l->largest * (1 - 1 / RANGE);
+    const real sigma = theta / delta;
+    real rho = 1 / sigma;
+    level_relax(l, 0, 1 / theta, zero);
+    for (int k = 1; k < degree; k++) {
+        const real next = 1 / (2 * sigma - rho);
+        level_relax(l, next * rho, 2 * next / delta, false);
+        rho = next;
+    }
+}
+
+/* x of level k from its b. */
+static void cycle(struct multigrid *m, int k)
+{
+    struct level *l = &m->level[k];
+    if (k == m->levels - 1 && m->dense.n > 0) {
+        dense_solve(&m->dense, l->b, l->x);
+        return;
+    }
+    const int degree = k == 0 ? DEGREE : DEGREE_COARSE;
+    level_smooth(l, degree, true);
+    if (k < m->levels - 1) {
+        level_residual(l);
+        level_restrict(l, l + 1);
+        cycle(m, k + 1);
+        level_prolong(l, l + 1);
+    }
+    level_smooth(l, degree, false);
+}
+
+void multigrid_apply(struct multigrid *m, real *const *r, real *const *z)
+{
+    struct level *l = &m->level[0];
+    const int w = l->width;
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < l->n; i++)
+        for (int d = 0; d < w; d++) l->b[i * w + d] = r[d][i];
+    cycle(m, 0);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < l->n; i++)
+        for (int d = 0; d < w; d++) z[d][i] = l->x[i * w + d];
+}

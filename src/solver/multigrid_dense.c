@@ -1,0 +1,62 @@
+/* The coarsest level: U'DU of its whole matrix, which is dense. */
+#include "base/memory.h"
+#include "multigrid_parts.h"
+
+/* Rows below j less their part of row j. */
+static void dense_eliminate(real *u, int64_t n, int64_t j, real inverse)
+{
+    const real *restrict pivot = u + j * n;
+    for (int64_t i = j + 1; i < n; i++) {
+        const real part = pivot[i] * inverse;
+        real *restrict row = u + i * n;
+        if (part == 0) continue;
+        for (int64_t k = i; k < n; k++) row[k] -= part * pivot[k];
+    }
+}
+
+void dense_make(struct dense *d, const struct level *l)
+{
+    const int w = l->width;
+    const int64_t n = l->n * w;
+    *d = (struct dense){n, NEW("multigrid.dense", n * n, real), NEW("multigrid.dense", n, real)};
+    for (int64_t i = 0; i < l->n; i++)
+        for (int64_t q = l->first[i]; q < l->first[i + 1]; q++)
+            for (int k = 0; k < w * w; k++)
+                d->upper[(i * w + k / w) * n + l->column[q] * w + k % w] =
+                    l->column[q] == i ? l->diagonal[i * w * w + k] : l->block[q * w * w + k];
+    for (int64_t j = 0; j < n; j++) {
+        const real pivot = d->upper[j * n + j], scale = l->scale[j / w];
+        d->inverse[j] = scale <= 0 ? 0 : 1 / (pivot > pivot_least(l, j / w) * scale ? pivot : scale);
+        dense_eliminate(d->upper, n, j, d->inverse[j]);
+    }
+    for (int64_t j = 0; j < n; j++)
+        for (int64_t k = j + 1; k < n; k++) d->upper[j * n + k] *= d->inverse[j];
+}
+
+void dense_solve(const struct dense *d, const real *b, real *x)
+{
+    const int64_t n = d->n;
+    memcpy(x, b, (size_t)n * sizeof *x);
+    for (int64_t j = 0; j < n; j++) {
+        const real *restrict row = d->upper + j * n;
+        const real y = x[j];
+        if (y != 0)
+            for (int64_t k = j + 1; k < n; k++) x[k] -= row[k] * y;
+        x[j] = y * d->inverse[j];
+    }
+    for (int64_t j = n - 1; j >= 0; j--) {
+        const real *row = d->upper + j * n;
+        real sum[4] = {0};
+        int64_t k = j + 1;
+        for (; k + 4 <= n; k += 4)
+            for (int s = 0; s < 4; s++) sum[s] += row[k + s] * x[k + s];
+        for (; k < n; k++) sum[0] += row[k] * x[k];
+        x[j] -= (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
+}
+
+void dense_free(struct dense *d)
+{
+    memory_free(d->upper);
+    memory_free(d->inverse);
+}

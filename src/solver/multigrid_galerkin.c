@@ -1,0 +1,192 @@
+/* The matrix of a coarser level: up x matrix x down, in slabs of rows so that matrix x down is never there as a whole.
+ * In a slab every row of matrix x down has one writer, and then every row of the coarser matrix, which adds rows of the
+ * slab in their order. */
+#include <omp.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "multigrid_parts.h"
+
+enum { SLAB = 4096 };
+
+/* Lists of columns, one for each row, and for each thread a table of columns: -1, or where one stands in a list. */
+struct pattern {
+    int64_t *first;
+    int32_t *column;
+};
+struct tables {
+    int64_t n;
+    int32_t *where;
+};
+
+static int32_t *table_own(const struct tables *t) { return t->where + omp_get_thread_num() * t->n; }
+
+/* matrix x down of a slab, and the pattern of all of it. */
+struct product {
+    const struct level *l;
+    struct level *next;
+    struct tables tables;
+    struct pattern product; /* of matrix x down */
+    int64_t *cursor;        /* [coarse] first entry of each row of `up` that is not added yet */
+    real *block;            /* of the slab */
+    int64_t first, end;     /* rows of the slab */
+};
+
+/* ---- patterns ---------------------------------------------------------------------------------------------------- */
+
+static int compare_columns(const void *a, const void *b)
+{
+    const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* Columns of row i of the product of the pattern a x b, ascending if `list` is not NULL; returns their number. */
+static int64_t product_row(const int64_t *a_first, const int32_t *a_column, const int64_t *b_first,
+                           const int32_t *b_column, int64_t i, int32_t *where, int32_t *list)
+{
+    int64_t n = 0;
+    for (int64_t q = a_first[i]; q < a_first[i + 1]; q++)
+        for (int64_t p = b_first[a_column[q]]; p < b_first[a_column[q] + 1]; p++) {
+            const int32_t c = b_column[p];
+            if (where[c] == (int32_t)i) continue;
+            where[c] = (int32_t)i;
+            if (list) list[n] = c;
+            n++;
+        }
+    if (list) qsort(list, (size_t)n, sizeof *list, compare_columns);
+    return n;
+}
+
+static void pattern_make(struct pattern *out, int64_t n, const int64_t *a_first, const int32_t *a_column,
+                         const int64_t *b_first, const int32_t *b_column, const struct tables *t)
+{
+    out->first = NEW("multigrid.pattern", n + 1, int64_t);
+    for (int pass = 0; pass < 2; pass++) {
+        for (int64_t k = 0; k < t->n * omp_get_max_threads(); k++) t->where[k] = -1;
+#pragma omp parallel for schedule(dynamic, 256)
+        for (int64_t i = 0; i < n; i++) {
+            int32_t *list = pass ? out->column + out->first[i] : NULL;
+            const int64_t found = product_row(a_first, a_column, b_first, b_column, i, table_own(t), list);
+            if (!pass) out->first[i + 1] = found;
+        }
+        if (pass) break;
+        for (int64_t i = 0; i < n; i++) out->first[i + 1] += out->first[i];
+        out->column = BARE("multigrid.pattern", out->first[n], int32_t);
+    }
+}
+
+/* ---- entries ----------------------------------------------------------------------------------------------------- */
+
+/* out += a b for blocks [r][k] and [k][c]. */
+static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, const float *restrict b, const int r,
+                                    const int k, const int c)
+{
+    for (int x = 0; x < r; x++)
+        for (int y = 0; y < k; y++)
+            for (int z = 0; z < c; z++) out[x * c + z] += a[x * k + y] * (real)b[y * c + z];
+}
+
+/* Row i of matrix x down. */
+static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int w, const int m)
+{
+    const struct level *l = p->l;
+    const struct transfer *down = &l->down;
+    const struct pattern *to = &p->product;
+    int32_t *where = table_own(&p->tables);
+    real *row = p->block + (to->first[i] - to->first[p->first]) * w * m;
+    for (int64_t k = to->first[i]; k < to->first[i + 1]; k++) where[to->column[k]] = (int32_t)(k - to->first[i]);
+    memset(row, 0, (size_t)((to->first[i + 1] - to->first[i]) * w * m) * sizeof *row);
+    for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
+        const int64_t j = l->column[q];
+        real a[WIDTH_MOST * WIDTH_MOST];
+        for (int k = 0; k < w * w; k++)
+            a[k] = j == i      ? l->diagonal[i * w * w + k]
+                   : l->single ? (real)l->single[q * w * w + k]
+                               : l->block[q * w * w + k];
+        for (int64_t s = down->first[j]; s < down->first[j + 1]; s++)
+            block_add(row + where[down->column[s]] * w * m, a, down->block + s * w * m, w, w, m);
+    }
+}
+
+/* Adds the rows of the slab to row `c` of the coarser matrix. */
+static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int w, const int m)
+{
+    const struct transfer *up = &p->l->up;
+    const struct level *next = p->next;
+    int32_t *where = table_own(&p->tables);
+    int64_t q = p->cursor[c];
+    if (q >= up->first[c + 1] || up->column[q] >= p->end) return;
+    for (int64_t k = next->first[c]; k < next->first[c + 1]; k++)
+        where[next->column[k]] = (int32_t)(k - next->first[c]);
+    for (; q < up->first[c + 1] && up->column[q] < p->end; q++) {
+        const int64_t i = up->column[q], base = p->product.first[p->first];
+        const float *t = up->block + q * m * w;
+        for (int64_t s = p->product.first[i]; s < p->product.first[i + 1]; s++) {
+            real *restrict out = next->block + (next->first[c] + where[p->product.column[s]]) * m * m;
+            const real *restrict in = p->block + (s - base) * w * m;
+            for (int x = 0; x < m; x++)
+                for (int y = 0; y < w; y++)
+                    for (int z = 0; z < m; z++) out[x * m + z] += (real)t[x * w + y] * in[y * m + z];
+        }
+    }
+    p->cursor[c] = q;
+}
+
+#define SLABS(W, M)                                                                                                    \
+    do {                                                                                                               \
+        _Pragma("omp parallel")                                                                                        \
+        {                                                                                                              \
+            _Pragma("omp for schedule(dynamic, 64)") for (int64_t i = p->first; i < p->end; i++) slab_row(p, i, W, M); \
+            _Pragma("omp for schedule(dynamic, 64)") for (int64_t c = 0; c < p->next->n; c++) slab_add(p, c, W, M);    \
+        }                                                                                                              \
+    } while (0)
+
+static void slab_product(const struct product *p)
+{
+    const int kind = 10 * p->l->width + p->l->modes;
+    if (kind == 11)
+        SLABS(1, 1);
+    else if (kind == 23)
+        SLABS(2, 3);
+    else if (kind == 36)
+        SLABS(3, 6);
+    else if (kind == 33)
+        SLABS(3, 3);
+    else
+        SLABS(6, 6);
+}
+
+/* Largest number of entries of a slab. */
+static int64_t slab_largest(const struct product *p)
+{
+    int64_t most = 0;
+    for (int64_t i = 0; i < p->l->n; i += SLAB) {
+        const int64_t end = i + SLAB < p->l->n ? i + SLAB : p->l->n;
+        const int64_t entries = p->product.first[end] - p->product.first[i];
+        if (entries > most) most = entries;
+    }
+    return most;
+}
+
+void level_galerkin(const struct level *l, struct level *next)
+{
+    struct product p = {.l = l, .next = next};
+    struct pattern coarse;
+    p.tables = (struct tables){l->coarse, BARE("multigrid.tables", l->coarse * omp_get_max_threads(), int32_t)};
+    pattern_make(&p.product, l->n, l->first, l->column, l->down.first, l->down.column, &p.tables);
+    pattern_make(&coarse, l->coarse, l->up.first, l->up.column, p.product.first, p.product.column, &p.tables);
+    next->first = coarse.first, next->column = coarse.column;
+    next->block = NEW("multigrid.block", coarse.first[l->coarse] * l->modes * l->modes, real);
+    p.block = BARE("multigrid.slab", slab_largest(&p) * l->width * l->modes, real);
+    p.cursor = BARE("multigrid.cursor", l->coarse, int64_t);
+    memcpy(p.cursor, l->up.first, (size_t)l->coarse * sizeof *p.cursor);
+    for (p.first = 0; p.first < l->n; p.first = p.end) {
+        p.end = p.first + SLAB < l->n ? p.first + SLAB : l->n;
+        slab_product(&p);
+    }
+    memory_free(p.tables.where);
+    memory_free(p.product.first);
+    memory_free(p.product.column);
+    memory_free(p.cursor);
+    memory_free(p.block);
+}

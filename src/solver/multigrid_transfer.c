@@ -1,0 +1,108 @@
+/* The smoothed prolongator and its transpose. */
+#include "base/memory.h"
+#include "multigrid_parts.h"
+
+/* ---- pattern ----------------------------------------------------------------------------------------------------- */
+
+/* Puts `value` into the ascending list of *n, unless it is there. */
+static void sorted_add(int32_t *list, int *n, int32_t value)
+{
+    int k = *n;
+    while (k > 0 && list[k - 1] > value) k--;
+    if (k > 0 && list[k - 1] == value) return;
+    memmove(list + k + 1, list + k, (size_t)(*n - k) * sizeof *list);
+    list[k] = value, ++*n;
+}
+
+/* Aggregates to which the neighbours of node i belong, at most as many as it has neighbours. */
+static int row_aggregates(const struct level *l, int64_t i, int32_t *list)
+{
+    int n = 0;
+    if (l->scale[i] > 0)
+        for (int64_t q = l->first[i]; q < l->first[i + 1]; q++)
+            if (l->aggregate[l->column[q]] >= 0) sorted_add(list, &n, l->aggregate[l->column[q]]);
+    return n;
+}
+
+static void down_pattern(struct level *l)
+{
+    int32_t *list = BARE("multigrid.pattern", l->first[l->n], int32_t);
+    struct transfer *p = &l->down;
+    p->first = NEW("multigrid.down", l->n + 1, int64_t);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < l->n; i++) p->first[i + 1] = row_aggregates(l, i, list + l->first[i]);
+    for (int64_t i = 0; i < l->n; i++) p->first[i + 1] += p->first[i];
+    p->column = BARE("multigrid.down", p->first[l->n], int32_t);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < l->n; i++)
+        memcpy(p->column + p->first[i], list + l->first[i], (size_t)(p->first[i + 1] - p->first[i]) * sizeof *list);
+    memory_free(list);
+}
+
+/* ---- entries ----------------------------------------------------------------------------------------------------- */
+
+enum { BLOCK_MOST = WIDTH_MOST * WIDTH_MOST };
+
+/* The block of row i of the prolongator in column `name`: the tentative motions less a step of D^-1 K of them. */
+static void down_block(const struct level *l, int64_t i, int32_t name, real step, float *block)
+{
+    const int w = l->width, m = l->modes;
+    real force[BLOCK_MOST] = {0};
+    for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
+        const int64_t j = l->column[q];
+        if (l->aggregate[j] != name) continue;
+        const real *motion = l->tentative + j * w * m;
+        for (int a = 0; a < w; a++)
+            for (int c = 0; c < w; c++) {
+                const int64_t at = a * w + c;
+                const real k = j == i      ? l->diagonal[i * w * w + at]
+                               : l->single ? (real)l->single[q * w * w + at]
+                                           : l->block[q * w * w + at];
+                for (int e = 0; e < m; e++) force[a * m + e] += k * motion[c * m + e];
+            }
+    }
+    for (int a = 0; a < w; a++)
+        for (int e = 0; e < m; e++) {
+            real v = l->aggregate[i] == name ? l->tentative[(i * w + a) * m + e] : 0;
+            for (int c = 0; c < w; c++) v -= step * l->inverse[(i * w + a) * w + c] * force[c * m + e];
+            block[a * m + e] = (float)v;
+        }
+}
+
+static void transfer_transpose(const struct level *l, const struct transfer *p, struct transfer *up)
+{
+    const int w = l->width, m = l->modes;
+    up->first = NEW("multigrid.up", l->coarse + 1, int64_t);
+    up->column = BARE("multigrid.up", p->first[l->n], int32_t);
+    up->block = BARE("multigrid.up", p->first[l->n] * w * m, float);
+    int64_t *at = NEW("multigrid.up", l->coarse + 1, int64_t);
+    int64_t *from = BARE("multigrid.up", p->first[l->n], int64_t);
+    for (int64_t q = 0; q < p->first[l->n]; q++) up->first[p->column[q] + 1]++;
+    for (int64_t a = 0; a < l->coarse; a++) up->first[a + 1] += up->first[a];
+    memcpy(at, up->first, (size_t)l->coarse * sizeof *at);
+    for (int64_t i = 0; i < l->n; i++)
+        for (int64_t q = p->first[i]; q < p->first[i + 1]; q++) {
+            const int64_t k = at[p->column[q]]++;
+            up->column[k] = (int32_t)i, from[k] = q;
+        }
+#pragma omp parallel for schedule(static)
+    for (int64_t k = 0; k < p->first[l->n]; k++)
+        for (int a = 0; a < w; a++)
+            for (int e = 0; e < m; e++) up->block[(k * m + e) * w + a] = p->block[(from[k] * w + a) * m + e];
+    memory_free(at);
+    memory_free(from);
+}
+
+void level_transfer(struct level *l)
+{
+    const real step = 4 / (3 * l->largest);
+    const int size = l->width * l->modes;
+    struct transfer *p = &l->down;
+    down_pattern(l);
+    p->block = BARE("multigrid.down", p->first[l->n] * size, float);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < l->n; i++)
+        for (int64_t q = p->first[i]; q < p->first[i + 1]; q++)
+            down_block(l, i, p->column[q], step, p->block + q * size);
+    transfer_transpose(l, p, &l->up);
+}
