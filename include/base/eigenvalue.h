@@ -12,4 +12,7 @@ typedef void operator_fn(void *context, const real *x, real *y);
  * to 40 iterations, where powers take three times as many. 0 if A is 0 or n is. */
 real largest_eigenvalue(int64_t n, operator_fn *apply, void *context);
 
+/* The same of the symmetric tridiagonal matrix with a[n] on its diagonal and b[k] between a[k] and a[k + 1]; n > 0. */
+real largest_of_tridiagonal(const real *a, const real *b, int n);
+
 #endif

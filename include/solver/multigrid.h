@@ -19,8 +19,10 @@ struct multigrid;
 
 /* `place` [dim][n] of the nodes [m]; `held` [n] bit d: component d is constrained, and so are nodes without stiffness:
  * their rows and columns do not count. Pieces that nothing holds are allowed: their rigid motions have no or little
- * resistance, and get none from here. The matrix is borrowed until multigrid_free; `place` and `held` are not. FAILED:
- * an entry is not finite or stiffness on the diagonal negative. */
+ * resistance, and get none from here. The matrix is borrowed until multigrid_free; `place` and `held` are not. Where
+ * bonds break, their entries may become 0 in place (and leave the diagonal): M stays positive definite, and needs some
+ * more iterations, 3 for a crack that is 8 spacings longer, until it is made anew. FAILED: an entry is not finite or
+ * stiffness on the diagonal negative. */
 status multigrid_make(struct multigrid **m, const struct block_matrix *a, real *const *place, const uint8_t *held);
 
 /* z = M^-1 r: a cycle, the same bits on any number of threads; M is symmetric and, on components that are not held,

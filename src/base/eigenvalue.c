@@ -66,7 +66,7 @@ static bool above_all(const real *a, const real *b, int n, real x)
     return pivot > 0;
 }
 
-static real largest_of_tridiagonal(const real *a, const real *b, int n)
+real largest_of_tridiagonal(const real *a, const real *b, int n)
 {
     real low = a[0], high = 0;
     for (int k = 0; k < n; k++) {

@@ -9,7 +9,7 @@
 /* Unknowns from which on a level is solved as a dense matrix; steps of relaxation before and after the coarser levels,
  * on the finest level, where products with its matrix take most of the time, and on coarser ones; the part of the
  * spectrum that relaxation is for. */
-enum { DENSE = 600, DEGREE = 1, DEGREE_COARSE = 2 };
+enum { DENSE = 700, DEGREE = 1, DEGREE_COARSE = 2 };
 #define RANGE 4.0
 
 /* ---- the finest level -------------------------------------------------------------------------------------------- */
@@ -33,9 +33,10 @@ static void diagonal_exact(const struct level *l, int64_t i)
     for (int k = 0; k < size; k += l->width + 1) trace += own[k];
     for (int k = 0; k < size; k++) {
         const real rest = own[k] + sum[k];
-        l->diagonal[i * size + k] = fabs(rest) <= ROUND_OFF * trace ? -sum[k] : own[k];
-        if (fabs(rest) > ROUND_OFF * trace) l->loose[i] = 0;
-        l->rounding[i * size + k] = (float)(l->diagonal[i * size + k] - own[k]);
+        const bool rounding = fabs(rest) <= ROUND_OFF * trace;
+        l->diagonal[i * size + k] = rounding ? -sum[k] : own[k];
+        l->rest[i * size + k] = rounding ? 0 : (float)rest;
+        if (!rounding) l->loose[i] = 0;
     }
     l->scale[i] = trace / l->width;
 }
@@ -47,7 +48,7 @@ static status finest_make(struct level *l, const struct block_matrix *a, const u
     *l = (struct level){.width = a->dim, .modes = a->dim * (a->dim + 1) / 2, .n = a->n};
     l->first = a->first, l->column = a->column, l->single = a->block;
     l->diagonal = NEW("multigrid.diagonal", l->n * a->dim * a->dim, real);
-    l->rounding = NEW("multigrid.rounding", l->n * a->dim * a->dim, float);
+    l->rest = NEW("multigrid.rest", l->n * a->dim * a->dim, float);
     l->scale = NEW("multigrid.scale", l->n, real);
     l->loose = NEW("multigrid.loose", l->n, uint8_t);
     l->held = NEW("multigrid.held", l->n, uint8_t);
@@ -153,7 +154,7 @@ status multigrid_make(struct multigrid **out, const struct block_matrix *a, real
 
 static void level_free(struct level *l)
 {
-    void *owned[] = {l->rounding,   l->loose,    l->block,     l->diagonal,  l->inverse,    l->scale,
+    void *owned[] = {l->rest,       l->loose,    l->block,     l->diagonal,  l->inverse,    l->scale,
                      l->held,       l->mode,     l->aggregate, l->tentative, l->down.first, l->down.column,
                      l->down.block, l->up.first, l->up.column, l->up.block,  l->b,          l->x,
                      l->y,          l->d,        l->t};

@@ -5,7 +5,7 @@
 #include "multigrid_parts.h"
 
 /* An entry counts as a connection if its norm is this part of the largest of its two rows, of their geometric mean. */
-#define WEAK 0.02
+#define WEAK 0.1
 
 /* Square of the norm of entry q. */
 static real entry_square(const struct level *l, int64_t q)

@@ -1,18 +1,93 @@
 /* Sweeps over the rows of a level: residuals, relaxation, motion to the next level and back. A row has one writer. */
 #include "multigrid_parts.h"
 
+typedef real pair __attribute__((vector_size(16)));
+typedef float four __attribute__((vector_size(16)));
+typedef float two __attribute__((vector_size(8)));
+
+static ALWAYS_INLINE pair pair_load(const real *from)
+{
+    pair a;
+    memcpy(&a, from, sizeof a);
+    return a;
+}
+
+static ALWAYS_INLINE four four_load(const float *from)
+{
+    four a;
+    memcpy(&a, from, sizeof a);
+    return a;
+}
+
+/* sum -= K x of row i of the finest level, from differences of motions: a body that moves as a whole has no forces
+ * however far it moves, and what `rest` has is not from bonds. */
+static ALWAYS_INLINE void row_single_1(const struct level *l, int64_t i, const real *x, real *sum)
+{
+    real force = 0;
+    for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) force += l->single[q] * (x[l->column[q]] - x[i]);
+    sum[0] -= force + l->rest[i] * x[i];
+}
+
+static ALWAYS_INLINE four single_2(const struct level *l, int64_t q, pair own, const real *x)
+{
+    const two u = __builtin_convertvector(pair_load(x + (int64_t)l->column[q] * 2) - own, two);
+    return four_load(l->single + q * 4) * (four){u[0], u[1], u[0], u[1]};
+}
+
+static ALWAYS_INLINE void row_single_2(const struct level *l, int64_t i, const real *x, real *sum)
+{
+    const int64_t end = l->first[i + 1];
+    const pair own = pair_load(x + i * 2);
+    four even = {0}, odd = {0};
+    int64_t q = l->first[i];
+    for (; q + 2 <= end; q += 2) even += single_2(l, q, own, x), odd += single_2(l, q + 1, own, x);
+    if (q < end) even += single_2(l, q, own, x);
+    even += odd;
+    for (int a = 0; a < 2; a++) {
+        sum[a] -= (real)even[2 * a] + even[2 * a + 1];
+        for (int c = 0; c < 2; c++) sum[a] -= (real)l->rest[(i * 2 + a) * 2 + c] * own[c];
+    }
+}
+
+static ALWAYS_INLINE void row_single_3(const struct level *l, int64_t i, const real *x, real *sum)
+{
+    const pair own = pair_load(x + i * 3);
+    const real own_z = x[i * 3 + 2];
+    four head = {0}, middle = {0};
+    float tail = 0;
+    for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
+        const real *to = x + (int64_t)l->column[q] * 3;
+        const float *k = l->single + q * 9;
+        const two u = __builtin_convertvector(pair_load(to) - own, two);
+        const float z = (float)(to[2] - own_z);
+        head += four_load(k) * (four){u[0], u[1], z, u[0]};
+        middle += four_load(k + 4) * (four){u[1], z, u[0], u[1]};
+        tail += k[8] * z;
+    }
+    sum[0] -= (real)head[0] + head[1] + head[2];
+    sum[1] -= (real)head[3] + middle[0] + middle[1];
+    sum[2] -= (real)middle[2] + middle[3] + tail;
+    for (int a = 0; a < 3; a++)
+        for (int c = 0; c < 3; c++) sum[a] -= (real)l->rest[(i * 3 + a) * 3 + c] * x[i * 3 + c];
+}
+
 /* sum[0..w-1] -= (K x) of row i. */
 static ALWAYS_INLINE void row_times(const struct level *l, int64_t i, const real *x, real *sum, const int w,
                                     const bool single)
 {
-    const real *own = x + i * w;
-    for (int a = 0; a < w && single; a++)
-        for (int c = 0; c < w; c++) sum[a] -= (real)l->rounding[(i * w + a) * w + c] * own[c];
+    if (single) {
+        if (w == 1)
+            row_single_1(l, i, x, sum);
+        else if (w == 2)
+            row_single_2(l, i, x, sum);
+        else
+            row_single_3(l, i, x, sum);
+        return;
+    }
     for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
         const real *v = x + (int64_t)l->column[q] * w;
         for (int a = 0; a < w; a++)
-            for (int c = 0; c < w; c++)
-                sum[a] -= (single ? (real)l->single[q * w * w + a * w + c] : l->block[q * w * w + a * w + c]) * v[c];
+            for (int c = 0; c < w; c++) sum[a] -= l->block[q * w * w + a * w + c] * v[c];
     }
 }
 
@@ -62,15 +137,6 @@ static ALWAYS_INLINE void row_prolong(struct level *l, const struct level *next,
     for (int a = 0; a < w; a++) l->x[i * w + a] += sum[a];
 }
 
-/* Rows from which on calling a team takes less time than it saves. */
-enum { ROWS_MANY = 200 };
-
-/* The loop over rows stands in the instance, so that widths are literals there. */
-#define ROWS(N, CALL)                                                                                                  \
-    do {                                                                                                               \
-        TEAM_LOOP((N) > ROWS_MANY, for (int64_t i = 0; i < (N); i++) CALL;);                                           \
-    } while (0)
-
 #define BY_WIDTH(N, NAME, ...)                                                                                         \
     do {                                                                                                               \
         const int kind_ = l->width + (l->single ? 10 : 0);                                                             \
@@ -86,21 +152,6 @@ enum { ROWS_MANY = 200 };
             ROWS(N, NAME(__VA_ARGS__, 3, false));                                                                      \
         else                                                                                                           \
             ROWS(N, NAME(__VA_ARGS__, 6, false));                                                                      \
-    } while (0)
-
-#define BY_WIDTHS(N, NAME, ...)                                                                                        \
-    do {                                                                                                               \
-        const int kind_ = 10 * l->width + l->modes;                                                                    \
-        if (kind_ == 11)                                                                                               \
-            ROWS(N, NAME(__VA_ARGS__, 1, 1));                                                                          \
-        else if (kind_ == 23)                                                                                          \
-            ROWS(N, NAME(__VA_ARGS__, 2, 3));                                                                          \
-        else if (kind_ == 36)                                                                                          \
-            ROWS(N, NAME(__VA_ARGS__, 3, 6));                                                                          \
-        else if (kind_ == 33)                                                                                          \
-            ROWS(N, NAME(__VA_ARGS__, 3, 3));                                                                          \
-        else                                                                                                           \
-            ROWS(N, NAME(__VA_ARGS__, 6, 6));                                                                          \
     } while (0)
 
 void level_residual(struct level *l) { BY_WIDTH(l->n, row_residual, l, i); }

@@ -99,10 +99,7 @@ static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int
     for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
         const int64_t j = l->column[q];
         real a[WIDTH_MOST * WIDTH_MOST];
-        for (int k = 0; k < w * w; k++)
-            a[k] = j == i      ? l->diagonal[i * w * w + k]
-                   : l->single ? (real)l->single[q * w * w + k]
-                               : l->block[q * w * w + k];
+        level_entry(l, i, q, w, a);
         for (int64_t s = down->first[j]; s < down->first[j + 1]; s++)
             block_add(row + where[down->column[s]] * w * m, a, down->block + s * w * m, w, w, m);
     }

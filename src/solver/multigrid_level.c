@@ -1,6 +1,7 @@
 /* Diagonals of a level, their inverses, and the largest eigenvalue of the scaled matrix. */
 #include <math.h>
 
+#include "base/eigenvalue.h"
 #include "base/memory.h"
 #include "base/team.h"
 #include "multigrid_parts.h"
@@ -90,51 +91,66 @@ void level_loose(const struct level *l, struct level *next)
 
 /* ---- the largest eigenvalue -------------------------------------------------------------------------------------- */
 
-/* Powers reach a tenth below the largest eigenvalue; the relaxation allows for as much above it. */
-enum { POWERS = 8 };
-#define POWERS_SHORT 1.1
+/* Iterations of Lanczos: they find single stiff places, of which powers need many more, and reach some hundredths below
+ * the largest eigenvalue of a lattice, where the relaxation allows for a quarter (RANGE in multigrid.c). */
+enum { LANCZOS = 8 };
+#define LANCZOS_SHORT 1.05
 
-/* sum[0]: d . t. */
-static void power_block(const void *context, int64_t first, int64_t end, real *sum)
+/* Sums of a b and of b c. */
+struct three_vectors {
+    const real *a, *b, *c;
+};
+
+static void three_vectors_block(const void *context, int64_t first, int64_t end, real *sum)
 {
-    const struct level *l = context;
-    for (int64_t k = first; k < end; k++) sum[0] += l->d[k] * l->t[k];
+    const struct three_vectors *v = context;
+    for (int64_t k = first; k < end; k++) {
+        sum[0] += v->a[k] * v->b[k];
+        sum[1] += v->b[k] * v->c[k];
+    }
 }
 
-/* With b = 0, d = D^-1 (K x) and t = K x, x . K x over x . D x is the quotient of Rayleigh, where x . D x = d . t of
- * the step before. */
-void level_largest(struct level *l)
+/* d = D^-1 t; sum[0]: x . t; sum[1]: t . d. */
+static void lanczos_scale(struct level *l, real *sum)
 {
     const int w = l->width;
-    real quotient = 1, size = 0;
-    for (int64_t k = 0; k < l->n * w; k++) {
-        const uint32_t mixed = (uint32_t)k * 2654435761u; /* Knuth's multiplicative hash, in place of random numbers */
-        l->d[k] = (real)((mixed ^ mixed >> 15) & 0xffff) / 65536 - 0.5;
-        l->b[k] = 0;
-    }
-    for (int step = 0; step <= POWERS; step++) {
-        real sum;
-        const real scale = size > 0 ? 1 / sqrt(size) : 1;
 #pragma omp parallel for schedule(static)
-        for (int64_t i = 0; i < l->n; i++)
-            for (int a = 0; a < w; a++)
-                l->x[i * w + a] = l->scale[i] > 0 && !(l->held && l->held[i] >> a & 1) ? l->d[i * w + a] * scale : 0;
-        level_residual(l);
-        if (step > 1) {
-            const real *d = l->d;
-            l->d = l->x;
-            team_sums(l->n * w, 1, power_block, l, &sum);
-            l->d = (real *)d;
-            quotient = -sum;
+    for (int64_t i = 0; i < l->n; i++)
+        for (int a = 0; a < w; a++) {
+            real d = 0;
+            for (int c = 0; c < w; c++) d += l->inverse[(i * w + a) * w + c] * l->t[i * w + c];
+            l->d[i * w + a] = d;
         }
+    team_sums(l->n * w, 2, three_vectors_block, &(struct three_vectors){l->x, l->t, l->d}, sum);
+}
+
+/* y = -(d + a x + b y) / length, swapped with x. */
+static void lanczos_turn(struct level *l, real a, real b, real length)
+{
 #pragma omp parallel for schedule(static)
-        for (int64_t i = 0; i < l->n; i++)
-            for (int a = 0; a < w; a++) {
-                real d = 0;
-                for (int c = 0; c < w; c++) d += l->inverse[(i * w + a) * w + c] * l->t[i * w + c];
-                l->d[i * w + a] = d;
-            }
-        team_sums(l->n * w, 1, power_block, l, &size);
+    for (int64_t k = 0; k < l->n * l->width; k++) l->y[k] = -(l->d[k] + a * l->x[k] + b * l->y[k]) / length;
+    real *x = l->x;
+    l->x = l->y, l->y = x;
+}
+
+/* Vectors x are orthonormal in the product with D, in which D^-1 K is symmetric: x . D D^-1 K x is x . t of t = K x. */
+void level_largest(struct level *l)
+{
+    real a[LANCZOS], b[LANCZOS + 1] = {0}, sum[2];
+    int n = 0;
+    for (int64_t k = 0; k < l->n * l->width; k++) {
+        const uint32_t mixed = (uint32_t)k * 2654435761u; /* Knuth's multiplicative hash, in place of random numbers */
+        l->t[k] = (real)((mixed ^ mixed >> 15) & 0xffff) / 65536 - 0.5;
+        l->b[k] = l->x[k] = l->y[k] = 0;
     }
-    l->largest = real_max(1, quotient * POWERS_SHORT);
+    lanczos_scale(l, sum);
+    real length = sqrt(sum[1]);
+    for (real along = 0; n < LANCZOS && length > 1e-6; n++) {
+        lanczos_turn(l, along, n > 1 ? b[n - 2] : 0, length);
+        level_residual(l); /* t = -K x, as b is 0 */
+        lanczos_scale(l, sum);
+        a[n] = along = -sum[0];
+        b[n] = length = sqrt(real_max(0, sum[1] - square(a[n]) - (n > 0 ? square(b[n - 1]) : 0)));
+    }
+    l->largest = n > 0 ? real_max(1, LANCZOS_SHORT * largest_of_tridiagonal(a, b, n)) : 1;
 }

@@ -19,7 +19,7 @@ struct level {
     const int64_t *first; /* [n + 1] */
     const int32_t *column;
     const float *single;      /* [first[n]][width width] finest level: borrowed [N/m]                 */
-    float *rounding;          /* [n][width width] what `diagonal` has beyond its entries in `single` [N/m] */
+    float *rest;              /* [n][width width] sum of a row of the finest level, but for rounding [N/m] */
     real *block;              /* [first[n]][width width] coarser levels: the matrix [N/m]             */
     real *diagonal;           /* [n][width width] blocks of the diagonal [N/m]                        */
     real *inverse;            /* [n][width width] their inverses, 0 where held [m/N]                  */
@@ -46,6 +46,41 @@ struct multigrid {
     struct level level[LEVELS_MOST];
     struct dense dense;
 };
+
+/* The block of entry q of row i, [w][w]. */
+static ALWAYS_INLINE void level_entry(const struct level *l, int64_t i, int64_t q, const int w, real *entry)
+{
+    const bool own = l->column[q] == i;
+    for (int k = 0; k < w * w; k++)
+        entry[k] = own         ? l->diagonal[i * w * w + k]
+                   : l->single ? (real)l->single[q * w * w + k]
+                               : l->block[q * w * w + k];
+}
+
+/* Rows from which on calling a team takes less time than it saves. */
+enum { ROWS_MANY = 200 };
+
+/* The loop over rows stands in the instance, so that widths are literals there. */
+#define ROWS(N, CALL)                                                                                                  \
+    do {                                                                                                               \
+        TEAM_LOOP((N) > ROWS_MANY, for (int64_t i = 0; i < (N); i++) CALL;);                                           \
+    } while (0)
+
+/* The same for every pair of widths of `l` and the next level, as the last two arguments. */
+#define BY_WIDTHS(N, NAME, ...)                                                                                        \
+    do {                                                                                                               \
+        const int kind_ = 10 * l->width + l->modes;                                                                    \
+        if (kind_ == 11)                                                                                               \
+            ROWS(N, NAME(__VA_ARGS__, 1, 1));                                                                          \
+        else if (kind_ == 23)                                                                                          \
+            ROWS(N, NAME(__VA_ARGS__, 2, 3));                                                                          \
+        else if (kind_ == 36)                                                                                          \
+            ROWS(N, NAME(__VA_ARGS__, 3, 6));                                                                          \
+        else if (kind_ == 33)                                                                                          \
+            ROWS(N, NAME(__VA_ARGS__, 3, 3));                                                                          \
+        else                                                                                                           \
+            ROWS(N, NAME(__VA_ARGS__, 6, 6));                                                                          \
+    } while (0)
 
 /* A pivot that is not above this part of `scale` is a motion without stiffness: of pieces that nothing holds more, as
  * springs rounded to floats resist rotations by 6e-8 of their stiffness. */

@@ -41,32 +41,44 @@ static void down_pattern(struct level *l)
 
 /* ---- entries ----------------------------------------------------------------------------------------------------- */
 
-enum { BLOCK_MOST = WIDTH_MOST * WIDTH_MOST };
+enum { BLOCK_MOST = WIDTH_MOST * WIDTH_MOST, AT_ONCE = 16 };
 
-/* The block of row i of the prolongator in column `name`: the tentative motions less a step of D^-1 K of them. */
-static void down_block(const struct level *l, int64_t i, int32_t name, real step, float *block)
+/* force[k][w][m] = K of the tentative motions of the aggregate name[k], in row i. */
+static ALWAYS_INLINE void down_forces(const struct level *l, int64_t i, const int32_t *name, int n, real *force,
+                                      const int w, const int m)
 {
-    const int w = l->width, m = l->modes;
-    real force[BLOCK_MOST] = {0};
+    memset(force, 0, (size_t)(n * w * m) * sizeof *force);
     for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
         const int64_t j = l->column[q];
-        if (l->aggregate[j] != name) continue;
+        int k = 0;
+        while (k < n && name[k] != l->aggregate[j]) k++;
+        if (k == n) continue;
+        real entry[BLOCK_MOST];
+        level_entry(l, i, q, w, entry);
         const real *motion = l->tentative + j * w * m;
         for (int a = 0; a < w; a++)
-            for (int c = 0; c < w; c++) {
-                const int64_t at = a * w + c;
-                const real k = j == i      ? l->diagonal[i * w * w + at]
-                               : l->single ? (real)l->single[q * w * w + at]
-                                           : l->block[q * w * w + at];
-                for (int e = 0; e < m; e++) force[a * m + e] += k * motion[c * m + e];
-            }
+            for (int c = 0; c < w; c++)
+                for (int e = 0; e < m; e++) force[(k * w + a) * m + e] += entry[a * w + c] * motion[c * m + e];
     }
-    for (int a = 0; a < w; a++)
-        for (int e = 0; e < m; e++) {
-            real v = l->aggregate[i] == name ? l->tentative[(i * w + a) * m + e] : 0;
-            for (int c = 0; c < w; c++) v -= step * l->inverse[(i * w + a) * w + c] * force[c * m + e];
-            block[a * m + e] = (float)v;
-        }
+}
+
+/* Row i of the prolongator: the tentative motions less a step of D^-1 K of them. */
+static ALWAYS_INLINE void down_row(const struct level *l, int64_t i, real step, const int w, const int m)
+{
+    const struct transfer *p = &l->down;
+    real force[AT_ONCE * BLOCK_MOST];
+    for (int64_t q = p->first[i]; q < p->first[i + 1]; q += AT_ONCE) {
+        const int n = (int)(p->first[i + 1] - q < AT_ONCE ? p->first[i + 1] - q : AT_ONCE);
+        down_forces(l, i, p->column + q, n, force, w, m);
+        for (int k = 0; k < n; k++)
+            for (int a = 0; a < w; a++)
+                for (int e = 0; e < m; e++) {
+                    real v = l->aggregate[i] == p->column[q + k] ? l->tentative[(i * w + a) * m + e] : 0;
+                    for (int c = 0; c < w; c++)
+                        v -= step * l->inverse[(i * w + a) * w + c] * force[(k * w + c) * m + e];
+                    p->block[((q + k) * w + a) * m + e] = (float)v;
+                }
+    }
 }
 
 static void transfer_transpose(const struct level *l, const struct transfer *p, struct transfer *up)
@@ -96,13 +108,8 @@ static void transfer_transpose(const struct level *l, const struct transfer *p, 
 void level_transfer(struct level *l)
 {
     const real step = 4 / (3 * l->largest);
-    const int size = l->width * l->modes;
-    struct transfer *p = &l->down;
     down_pattern(l);
-    p->block = BARE("multigrid.down", p->first[l->n] * size, float);
-#pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < l->n; i++)
-        for (int64_t q = p->first[i]; q < p->first[i + 1]; q++)
-            down_block(l, i, p->column[q], step, p->block + q * size);
-    transfer_transpose(l, p, &l->up);
+    l->down.block = BARE("multigrid.down", l->down.first[l->n] * l->width * l->modes, float);
+    BY_WIDTHS(l->n, down_row, l, i, step);
+    transfer_transpose(l, &l->down, &l->up);
 }

@@ -8,7 +8,16 @@
 #include "base/memory.h"
 #include "solver/multigrid.h"
 
-enum { MESH_CELLS = 1, CRACK = 2, HOLE = 4, FREE_PIECE = 8, SHIFTED = 16, LOOSE = 32 };
+enum {
+    MESH_CELLS = 1,
+    CRACK = 2,
+    HOLE = 4,
+    FREE_PIECE = 8,
+    SHIFTED = 16,
+    LOOSE = 32,
+    DAMAGED = 64,
+    TWO_MATERIALS = 128
+};
 
 /* A lattice of particles with springs of stiffness 1/|xi| within 3.015 spacings, or to the nearest 3^dim - 1 as in a
  * mesh of cells; those with x < 3 are held. */
@@ -42,7 +51,18 @@ static bool joined(const struct body *b, const int *from, const int *to)
     const real middle = b->size[1] / 2 - 0.5;
     if (b->kind & FREE_PIECE && in_piece(b, from) != in_piece(b, to)) return false;
     if (b->kind & CRACK && (from[1] > middle) != (to[1] > middle) && from[0] + to[0] > b->size[0] / 2) return false;
+    if (b->kind & DAMAGED) {
+        const uint64_t one = (uint64_t)(from[1] * b->size[0] + from[0]), other = (uint64_t)(to[1] * b->size[0] + to[0]);
+        if (one != other && mixed(one * other + one + other) < -0.1) return false;
+    }
     return true;
+}
+
+/* Of two materials one is a thousand times as stiff; bonds between them have the harmonic mean. */
+static real bond_factor(const struct body *b, const int *from, const int *to)
+{
+    const int stiff = (from[0] > b->size[0] / 2) + (to[0] > b->size[0] / 2);
+    return !(b->kind & TWO_MATERIALS) || stiff == 0 ? 1 : stiff == 2 ? 1000 : 2;
 }
 
 static bool is_material(const struct body *b, const int *at)
@@ -84,7 +104,8 @@ static int64_t row_make(struct body *b, int64_t k, int64_t first)
             own = q;
         else
             for (int c = 0; c < size; c++)
-                b->a.block[q * size + c] = (float)(-xi[c / dim] * xi[c % dim] / (length * sqrt(length)));
+                b->a.block[q * size + c] =
+                    (float)(-bond_factor(b, at, to) * xi[c / dim] * xi[c % dim] / (length * sqrt(length)));
         q++;
     }
     for (int64_t p = first; p < q; p++)
@@ -184,15 +205,13 @@ static void stiffness(const struct body *b, const struct vectors *x, struct vect
     }
 }
 
-/* Solves K u = load by preconditioned conjugate gradients to 1e-8; returns the iterations. */
-static int solve(const struct body *b, const struct vectors *load, struct vectors *u)
+/* Solves K u = load by conjugate gradients with the preconditioner m to 1e-8; returns the iterations. */
+static int solve_with(struct multigrid *m, const struct body *b, const struct vectors *load, struct vectors *u)
 {
     enum { MOST = 200 };
-    struct multigrid *m;
     struct vectors r = vectors_make(b), z = vectors_make(b), d = vectors_make(b), q = vectors_make(b);
     real rz = 0;
     int k = 0;
-    assert_ok(multigrid_make(&m, &b->a, b->place, b->held));
     for (int c = 0; c < b->dim; c++) memcpy(r.of[c], load->of[c], (size_t)b->a.n * sizeof(real));
     for (; k < MOST && product(b, &r, &r) > 1e-16 * product(b, load, load); k++) {
         multigrid_apply(m, r.of, z.of);
@@ -205,8 +224,16 @@ static int solve(const struct body *b, const struct vectors *load, struct vector
         for (int c = 0; c < b->dim; c++)
             for (int64_t i = 0; i < b->a.n; i++) u->of[c][i] += alpha * d.of[c][i], r.of[c][i] -= alpha * q.of[c][i];
     }
-    multigrid_free(m);
     vectors_free(&r), vectors_free(&z), vectors_free(&d), vectors_free(&q);
+    return k;
+}
+
+static int solve(const struct body *b, const struct vectors *load, struct vectors *u)
+{
+    struct multigrid *m;
+    assert_ok(multigrid_make(&m, &b->a, b->place, b->held));
+    const int k = solve_with(m, b, load, u);
+    multigrid_free(m);
     return k;
 }
 
@@ -288,18 +315,19 @@ static void solutions_are_those_of_elimination(void **state)
     }
 }
 
-/* The iterations found, and some on top: a weaker smoother or coarse motions that leave out rotations double them. */
+/* The iterations found and three on top: they are the same on every machine but for round-off; coarse motions without
+ * rotations, or aggregates across cracks, take twice as many. */
 static void iterations_do_not_grow(void **state)
 {
     (void)state;
     const struct {
         int dim, size[DIM_MAX], kind, most;
     } body[] = {
-        {1, {2000, 1, 1}, 0, 20},          {2, {40, 40, 1}, 0, 20},          {2, {120, 120, 1}, 0, 20},
-        {2, {60, 60, 1}, CRACK, 20},       {2, {60, 60, 1}, HOLE, 20},       {2, {60, 60, 1}, SHIFTED, 22},
-        {2, {300, 8, 1}, 0, 22},           {2, {60, 60, 1}, FREE_PIECE, 22}, {2, {60, 60, 1}, LOOSE, 20},
-        {2, {60, 60, 1}, MESH_CELLS, 24},  {3, {11, 11, 11}, 0, 20},         {3, {11, 11, 11}, CRACK | SHIFTED, 24},
-        {3, {11, 11, 11}, FREE_PIECE, 22},
+        {1, {2000, 1, 1}, 0, 14},          {2, {40, 40, 1}, 0, 16},          {2, {120, 120, 1}, 0, 17},
+        {2, {60, 60, 1}, CRACK, 18},       {2, {60, 60, 1}, HOLE, 17},       {2, {60, 60, 1}, SHIFTED, 18},
+        {2, {300, 8, 1}, 0, 18},           {2, {60, 60, 1}, FREE_PIECE, 18}, {2, {60, 60, 1}, LOOSE, 18},
+        {2, {60, 60, 1}, MESH_CELLS, 17},  {3, {11, 11, 11}, 0, 14},         {3, {11, 11, 11}, CRACK | SHIFTED, 15},
+        {3, {11, 11, 11}, FREE_PIECE, 16}, {2, {60, 60, 1}, DAMAGED, 20},    {2, {60, 60, 1}, TWO_MATERIALS, 18},
     };
     for (size_t c = 0; c < COUNT_OF(body); c++) {
         const int n = iterations(body[c].dim, body[c].size[0], body[c].size[1], body[c].size[2], body[c].kind);
@@ -351,10 +379,44 @@ static void free_body_stays_bounded(void **state)
     memset(b.held, 0, (size_t)b.a.n);
     struct vectors load = vectors_make(&b), u = vectors_make(&b);
     for (int64_t i = 0; i < b.a.n; i++) load.of[0][i] = b.place[0][i] < 1 ? -1 : b.place[0][i] > 58 ? 1 : 0;
-    assert_true(solve(&b, &load, &u) <= 22);
+    assert_true(solve(&b, &load, &u) <= 17);
     real most = 0;
     for (int64_t i = 0; i < b.a.n; i++) most = real_max(most, fabs(u.of[0][i] - u.of[0][0]));
     for (int64_t i = 0; i < b.a.n; i++) assert_true(fabs(u.of[0][i]) < 10 * most && fabs(u.of[1][i]) < 10 * most);
+    vectors_free(&load), vectors_free(&u);
+    body_free(&b);
+}
+
+/* Breaks the bonds across the middle of a plate from x0 to x1: entries become 0 in place. */
+static void bonds_break(struct body *b, real x0, real x1)
+{
+    const real middle = b->size[1] / 2 - 0.5;
+    for (int64_t i = 0; i < b->a.n; i++)
+        for (int64_t q = b->a.first[i], own = q; q < b->a.first[i + 1]; q++) {
+            const int64_t j = b->a.column[q];
+            const real x = 0.5 * (b->place[0][i] + b->place[0][j]);
+            if ((b->place[1][i] > middle) == (b->place[1][j] > middle) || x < x0 || x > x1) continue;
+            while (b->a.column[own] != i) own++;
+            for (int c = 0; c < 4; c++) b->a.block[own * 4 + c] += b->a.block[q * 4 + c], b->a.block[q * 4 + c] = 0;
+        }
+}
+
+/* The preconditioner of a body serves on while a crack runs through it, and one made anew takes broken bonds for none.
+ */
+static void broken_bonds_cost_few_iterations(void **state)
+{
+    (void)state;
+    struct body b;
+    struct multigrid *m;
+    body_make(&b, 2, 70, 70, 1, 0);
+    struct vectors load = load_make(&b), u = vectors_make(&b);
+    assert_ok(multigrid_make(&m, &b.a, b.place, b.held));
+    const int whole = solve_with(m, &b, &load, &u);
+    bonds_break(&b, 30, 38);
+    assert_in_range(solve_with(m, &b, &load, &u), whole, whole + 6);
+    multigrid_free(m);
+    bonds_break(&b, 30, 70);
+    assert_true(solve(&b, &load, &u) <= 17);
     vectors_free(&load), vectors_free(&u);
     body_free(&b);
 }
@@ -407,6 +469,7 @@ int main(void)
         cmocka_unit_test(iterations_do_not_grow),
         cmocka_unit_test(operator_is_symmetric_and_positive),
         cmocka_unit_test(free_body_stays_bounded),
+        cmocka_unit_test(broken_bonds_cost_few_iterations),
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(bad_stiffness_fails),
     };
