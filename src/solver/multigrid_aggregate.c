@@ -7,8 +7,8 @@
 /* An entry counts as a connection if its norm is this part of the largest of its two rows, of their geometric mean. */
 #define WEAK 0.1
 
-/* Square of the norm of entry q. */
-static real entry_square(const struct level *l, int64_t q)
+/* Norm of entry q. */
+static float entry_norm(const struct level *l, int64_t q)
 {
     const int size = l->width * l->width;
     real sum = 0;
@@ -16,90 +16,64 @@ static real entry_square(const struct level *l, int64_t q)
         for (int k = 0; k < size; k++) sum += square((real)l->single[q * size + k]);
     else
         for (int k = 0; k < size; k++) sum += square(l->block[q * size + k]);
-    return sum;
+    return (float)sqrt(sum);
 }
 
-/* What is to be aggregated. */
-struct graph {
-    int64_t *first;  /* [n + 1] */
-    int32_t *column; /* strong connections, without the node itself */
-    float *strength; /* squares of norms */
-};
-
-/* Strong connections of free nodes. */
-static void graph_make(struct graph *g, const struct level *l)
+/* [first[n]] norms of the connections of free nodes; 0 for other entries. */
+static float *strengths_make(const struct level *l)
 {
-    real *most = NEW("multigrid.strength", l->n, real);
-    int32_t *count = NEW("multigrid.strength", l->n, int32_t);
-    float *all = BARE("multigrid.strength", l->first[l->n], float);
+    float *strength = BARE("multigrid.strength", l->first[l->n], float), *most = NEW("multigrid.strength", l->n, float);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < l->n; i++)
         for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
-            all[q] = (float)entry_square(l, q);
-            if (l->column[q] != i) most[i] = real_max(most[i], all[q]);
+            const int64_t j = l->column[q];
+            strength[q] = j == i || l->scale[i] <= 0 || l->scale[j] <= 0 ? 0 : entry_norm(l, q);
+            if (strength[q] > most[i]) most[i] = strength[q];
         }
-    for (int pass = 0; pass < 2; pass++) {
 #pragma omp parallel for schedule(static)
-        for (int64_t i = 0; i < l->n; i++) {
-            int64_t at = pass ? g->first[i] : 0;
-            for (int64_t q = l->first[i]; q < l->first[i + 1] && l->scale[i] > 0; q++) {
-                const int64_t j = l->column[q];
-                if (j == i || l->scale[j] <= 0 || !(all[q] > 0)) continue;
-                if ((real)all[q] < WEAK * WEAK * sqrt(most[i]) * sqrt(most[j])) continue;
-                if (pass) g->column[at] = (int32_t)j, g->strength[at] = all[q];
-                at++;
-            }
-            if (!pass) count[i] = (int32_t)at;
-        }
-        if (pass) break;
-        g->first = NEW("multigrid.graph", l->n + 1, int64_t);
-        for (int64_t i = 0; i < l->n; i++) g->first[i + 1] = g->first[i] + count[i];
-        g->column = BARE("multigrid.graph", g->first[l->n], int32_t);
-        g->strength = BARE("multigrid.graph", g->first[l->n], float);
-    }
+    for (int64_t i = 0; i < l->n; i++)
+        for (int64_t q = l->first[i]; q < l->first[i + 1]; q++)
+            if (square((real)strength[q]) < square(WEAK) * most[i] * most[l->column[q]]) strength[q] = 0;
     memory_free(most);
-    memory_free(count);
-    memory_free(all);
-}
-
-static void graph_free(struct graph *g)
-{
-    memory_free(g->first);
-    memory_free(g->column);
-    memory_free(g->strength);
+    return strength;
 }
 
 /* Takes node i and those of its neighbours that are free into a new aggregate. */
-static void aggregate_found(struct level *l, const struct graph *g, int64_t i)
+static void aggregate_found(struct level *l, const float *strength, int64_t i)
 {
     const int32_t name = (int32_t)l->coarse++;
     l->aggregate[i] = name;
-    for (int64_t q = g->first[i]; q < g->first[i + 1]; q++)
-        if (l->aggregate[g->column[q]] < 0) l->aggregate[g->column[q]] = name;
+    for (int64_t q = l->first[i]; q < l->first[i + 1]; q++)
+        if (strength[q] > 0 && l->aggregate[l->column[q]] < 0) l->aggregate[l->column[q]] = name;
 }
 
-static bool neighbours_free(const struct level *l, const struct graph *g, int64_t i)
+/* Has node i neighbours, all of which belong to no aggregate? */
+static bool neighbours_free(const struct level *l, const float *strength, int64_t i)
 {
-    for (int64_t q = g->first[i]; q < g->first[i + 1]; q++)
-        if (l->aggregate[g->column[q]] >= 0) return false;
-    return true;
+    bool any = false;
+    for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
+        if (!(strength[q] > 0)) continue;
+        if (l->aggregate[l->column[q]] >= 0) return false;
+        any = true;
+    }
+    return any;
 }
 
 /* The aggregate of the neighbours of node i to which it is most strongly connected; -1: there is none. */
-static int32_t aggregate_nearest(const struct level *l, const struct graph *g, int64_t i)
+static int32_t aggregate_nearest(const struct level *l, const float *strength, int64_t i)
 {
     enum { CANDIDATES = 16 };
     int32_t name[CANDIDATES], best = -1;
     float sum[CANDIDATES], most = 0;
     int n = 0;
-    for (int64_t q = g->first[i]; q < g->first[i + 1]; q++) {
-        const int32_t a = l->aggregate[g->column[q]];
-        if (a < 0) continue;
+    for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
+        const int32_t a = l->aggregate[l->column[q]];
+        if (a < 0 || !(strength[q] > 0)) continue;
         int k = 0;
         while (k < n && name[k] != a) k++;
         if (k == CANDIDATES) continue;
         if (k == n) name[n] = a, sum[n++] = 0;
-        sum[k] += g->strength[q];
+        sum[k] += strength[q];
     }
     for (int k = 0; k < n; k++)
         if (sum[k] > most) most = sum[k], best = name[k];
@@ -108,20 +82,20 @@ static int32_t aggregate_nearest(const struct level *l, const struct graph *g, i
 
 void level_aggregate(struct level *l)
 {
-    struct graph g;
-    int32_t *joins = NEW("multigrid.joins", l->n, int32_t);
-    graph_make(&g, l);
+    float *strength = strengths_make(l);
+    int32_t *joins = BARE("multigrid.joins", l->n, int32_t);
     l->aggregate = BARE("multigrid.aggregate", l->n, int32_t);
     l->coarse = 0;
     for (int64_t i = 0; i < l->n; i++) l->aggregate[i] = -1;
     for (int64_t i = 0; i < l->n; i++)
-        if (l->aggregate[i] < 0 && g.first[i + 1] > g.first[i] && neighbours_free(l, &g, i)) aggregate_found(l, &g, i);
+        if (l->aggregate[i] < 0 && neighbours_free(l, strength, i)) aggregate_found(l, strength, i);
 #pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < l->n; i++) joins[i] = l->aggregate[i] < 0 ? aggregate_nearest(l, &g, i) : l->aggregate[i];
+    for (int64_t i = 0; i < l->n; i++)
+        joins[i] = l->aggregate[i] < 0 ? aggregate_nearest(l, strength, i) : l->aggregate[i];
     memcpy(l->aggregate, joins, (size_t)l->n * sizeof *joins);
     for (int64_t i = 0; i < l->n; i++)
-        if (l->aggregate[i] < 0 && g.first[i + 1] > g.first[i]) aggregate_found(l, &g, i);
-    graph_free(&g);
+        if (l->aggregate[i] < 0 && neighbours_free(l, strength, i)) aggregate_found(l, strength, i);
+    memory_free(strength);
     memory_free(joins);
 }
 

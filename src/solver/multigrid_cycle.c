@@ -1,16 +1,8 @@
 /* Sweeps over the rows of a level: residuals, relaxation, motion to the next level and back. A row has one writer. */
 #include "multigrid_parts.h"
 
-typedef real pair __attribute__((vector_size(16)));
 typedef float four __attribute__((vector_size(16)));
 typedef float two __attribute__((vector_size(8)));
-
-static ALWAYS_INLINE pair pair_load(const real *from)
-{
-    pair a;
-    memcpy(&a, from, sizeof a);
-    return a;
-}
 
 static ALWAYS_INLINE four four_load(const float *from)
 {

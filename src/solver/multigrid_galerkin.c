@@ -77,13 +77,21 @@ static void pattern_make(struct pattern *out, int64_t n, const int64_t *a_first,
 
 /* ---- entries ----------------------------------------------------------------------------------------------------- */
 
-/* out += a b for blocks [r][k] and [k][c]. */
-static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, const float *restrict b, const int r,
+/* out += a b for blocks [r][k] and [k][c]; r, k and c are literals. */
+static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, const real *restrict b, const int r,
                                     const int k, const int c)
 {
-    for (int x = 0; x < r; x++)
-        for (int y = 0; y < k; y++)
-            for (int z = 0; z < c; z++) out[x * c + z] += a[x * k + y] * (real)b[y * c + z];
+    for (int x = 0; x < r; x++) {
+        if (c == 6) {
+            pair sum[3];
+            for (int z = 0; z < 3; z++) sum[z] = pair_load(out + x * c + 2 * z);
+            for (int y = 0; y < k; y++)
+                for (int z = 0; z < 3; z++) sum[z] += a[x * k + y] * pair_load(b + y * c + 2 * z);
+            for (int z = 0; z < 3; z++) memcpy(out + x * c + 2 * z, &sum[z], sizeof sum[z]);
+        } else
+            for (int y = 0; y < k; y++)
+                for (int z = 0; z < c; z++) out[x * c + z] += a[x * k + y] * b[y * c + z];
+    }
 }
 
 /* Row i of matrix x down. */
@@ -100,8 +108,11 @@ static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int
         const int64_t j = l->column[q];
         real a[WIDTH_MOST * WIDTH_MOST];
         level_entry(l, i, q, w, a);
-        for (int64_t s = down->first[j]; s < down->first[j + 1]; s++)
-            block_add(row + where[down->column[s]] * w * m, a, down->block + s * w * m, w, w, m);
+        for (int64_t s = down->first[j]; s < down->first[j + 1]; s++) {
+            real motion[WIDTH_MOST * WIDTH_MOST];
+            for (int k = 0; k < w * m; k++) motion[k] = down->block[s * w * m + k];
+            block_add(row + where[down->column[s]] * w * m, a, motion, w, w, m);
+        }
     }
 }
 
@@ -117,13 +128,11 @@ static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int
         where[next->column[k]] = (int32_t)(k - next->first[c]);
     for (; q < up->first[c + 1] && up->column[q] < p->end; q++) {
         const int64_t i = up->column[q], base = p->product.first[p->first];
-        const float *t = up->block + q * m * w;
+        real t[WIDTH_MOST * WIDTH_MOST];
+        for (int k = 0; k < m * w; k++) t[k] = up->block[q * m * w + k];
         for (int64_t s = p->product.first[i]; s < p->product.first[i + 1]; s++) {
-            real *restrict out = next->block + (next->first[c] + where[p->product.column[s]]) * m * m;
-            const real *restrict in = p->block + (s - base) * w * m;
-            for (int x = 0; x < m; x++)
-                for (int y = 0; y < w; y++)
-                    for (int z = 0; z < m; z++) out[x * m + z] += (real)t[x * w + y] * in[y * m + z];
+            real *out = next->block + (next->first[c] + where[p->product.column[s]]) * m * m;
+            block_add(out, t, p->block + (s - base) * w * m, m, w, m);
         }
     }
     p->cursor[c] = q;

@@ -47,6 +47,15 @@ struct multigrid {
     struct dense dense;
 };
 
+typedef real pair __attribute__((vector_size(16)));
+
+static ALWAYS_INLINE pair pair_load(const real *from)
+{
+    pair a;
+    memcpy(&a, from, sizeof a);
+    return a;
+}
+
 /* The block of entry q of row i, [w][w]. */
 static ALWAYS_INLINE void level_entry(const struct level *l, int64_t i, int64_t q, const int w, real *entry)
 {
