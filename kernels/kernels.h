@@ -118,6 +118,15 @@ KERNEL(int64_t, bond_break_row_block,
  * next positions. The other entry of the bond has to fade alike. */
 KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
+/* Ends entry q of a row at the present places, whatever its stretch, and books its energy. The other entry of the bond
+ * has to end alike. */
+KERNEL(void, bond_part,
+       (struct bonds * b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q));
+
+/* Makes entry q of a row, which a trial has broken, whole again, with the weight that it had. What the row has booked
+ * as fracture, and damage and flags of its particle, are the caller's to restore. */
+KERNEL(void, bond_mend, (struct bonds * b, struct particles *p, int64_t row, int64_t q, real w));
+
 /* Elastic energy of a row of a state-based model by its present weights and places, `ago` before the present [s],
  * whatever the last sweep left [J]. */
 KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p, int64_t row, real ago));

@@ -97,6 +97,9 @@ void family_constants(const struct family *f, const struct material *m, real *c1
 /* Work that separates a lattice of the model with rotations normal to a plane, over the square of the stretch at
  * which its bonds break [N/m] (separation.c). */
 real family_separation(const struct family *f, const struct state_modulus *m, bool local);
+/* Energy of the bonds that cross a plane of the lattice along its axes, each at the critical stretch, per area
+ * [J/m^2]; bond-based models. */
+real family_crossing_energy(const struct family *f, const struct material *m);
 /* Most scenes: all bonds weigh shell_weight[0], nothing to work out. */
 static inline bool family_plain(const struct family *f)
 {

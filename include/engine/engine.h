@@ -31,6 +31,7 @@
 #include "base/rise.h"
 #include "scene/scene.h"
 #include "solver/solver.h"
+#include "engine/statics.h"
 #include "base/team.h"
 #include "fracture/tips.h"
 #include "base/warnings.h"
@@ -202,6 +203,7 @@ struct engine {
     struct boundary *boundary;           /* of a static problem, in its pseudo-time (loads_static.c) */
     struct damping_state damping;
     struct solver solver;
+    struct statics statics;              /* of load steps (engine_steps.c) */
     struct fracture_state fracture;
     struct diagnostics diagnostics;
     struct probing probing;
@@ -251,6 +253,11 @@ real engine_memory_peridynamic(const struct engine *e);
 status engine_run(struct engine *e);
 /* The same with a solver that is not explicit (engine_solve.c), and what that needs. */
 status engine_solve(struct engine *e);
+/* The same in load steps (engine_steps.c), and conversion between them, after so many directed bonds have broken: true
+ * if particles have. */
+bool engine_convert(struct engine *e, int64_t broken);
+status engine_steps(struct engine *e);
+void statics_free(struct engine *e);
 status engine_solver_make(struct engine *e);
 /* One step in time. */
 status engine_step(struct engine *e);

@@ -62,6 +62,11 @@ void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struc
  * with (`any`) or only for the cells there are [s]. */
 real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density, bool any);
 
+/* Stiffness of cell I by the displacements of its corners at rest, column by column, component fastest
+ * [(dim 2^dim)^2, N/m]: of all the stress of its points, whatever they leave to bonds; false: it has none. */
+bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p, int64_t I,
+                         real *K);
+
 /* First particle at which the mesh is squeezed to nothing or through itself, p->n: none. */
 int64_t mesh_inverted(const struct mesh *mesh, const struct particles *p);
 

@@ -19,7 +19,8 @@
 #include "data/region.h"
 #include "particle_list.h"
 
-/* METHOD_AUTO, FRAME_AUTO and SOLVER_STATIC are requests: reading a scene resolves them. */
+/* METHOD_AUTO and FRAME_AUTO are requests, and SOLVER_STATIC with METHOD_AUTO: reading a scene resolves them. Otherwise
+ * SOLVER_STATIC is that of load steps. */
 enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE, METHOD_AUTO };
 enum { FILL_AUTO, FILL_ALL, FILL_NEEDED };   /* mpm.fill */
 enum { LEVELS_AUTO = 5 };                /* mpm.levels: auto */
@@ -104,6 +105,18 @@ struct scene_series {
     unsigned fields;                     /* bits of FRAME_FIELD_WORDS; 0: those of the scene */
 };
 
+/* Load steps of solver static (engine_steps.c). */
+enum steps_control { CONTROL_LOAD, CONTROL_ENERGY, CONTROL_OPENING };
+struct scene_steps {
+    int number;                          /* of steps: of the duration, or at the most */
+    enum steps_control control;          /* what a step goes by: pseudo-time, energy released, an opening */
+    real energy;                         /* of the bonds of an advance; 0: by toughness and spacing [J] */
+    real from[DIM_MAX], to[DIM_MAX], opening; /* places whose distance is the opening, and how far it grows [m] */
+    bool has_from, has_to;
+    int breaks;                          /* most pairs of bonds that break between two equilibria */
+    real within;                         /* those that break are overloaded like the first, up to this share [1] */
+};
+
 struct scene {
     char *path;                          /* file it came from, as given on the command line */
     char name[NAME_MAX_LENGTH];          /* default: the file's name without folder and ending */
@@ -119,6 +132,7 @@ struct scene {
     enum solver_kind solver;             /* other than explicit: static equilibrium (solver.h) */
     real solver_tolerance;               /* relative residual [1] */
     int solver_steps;                    /* at the most */
+    struct scene_steps steps;            /* of solver static */
 
     int materials;  struct material *material;
     int bodies;     struct scene_body *body;   /* deformable ones; behind them `rigids` rigid ones */
@@ -191,6 +205,14 @@ struct scene {
 };
 
 struct scene_override { const char *key, *value; };    /* of `-s key=value` */
+
+/* Does a run move in time? Else: one equilibrium, or load steps. */
+static inline bool scene_moves(const struct scene *s) { return s->solver == SOLVER_EXPLICIT; }
+static inline bool scene_at_rest(const struct scene *s)
+{
+    return s->solver == SOLVER_RELAXATION || s->solver == SOLVER_CG;
+}
+static inline bool scene_in_steps(const struct scene *s) { return s->solver == SOLVER_STATIC; }
 
 /* Has a material, or an interface, a limit of its bonds? */
 static inline bool scene_bonds_break(const struct scene *s)

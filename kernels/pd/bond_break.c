@@ -91,6 +91,22 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
     b->fracture_energy[row] += 0.5 * (before - (state ? state_row_energy(b, p, row, 0) : half_energy(b, q, stretch)));
 }
 
+void bond_part(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
+{
+    bond_break(b, p, limit, row, q);
+}
+
+void bond_mend(struct bonds *b, struct particles *p, int64_t row, int64_t q, real w)
+{
+    assert(b->w[q] == 0 && b->inverse_length[q] < 0);
+    b->w[q] = w;
+    b->inverse_length[q] = -b->inverse_length[q];
+    b->broken[row]--;
+    b->broken_volume[row] -= (float)p->volume0[b->nbr[q]];
+    bonds_changed(b, row, q);
+    row_changed(b, row);
+}
+
 /* The rule of breaking on one row. */
 static int64_t break_row(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row)
 {

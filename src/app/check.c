@@ -114,7 +114,7 @@ static void say_notches(const struct engine *e)
 
 static void say_time_step(const struct engine *e)
 {
-    if (e->scene->solver != SOLVER_EXPLICIT)
+    if (scene_at_rest(e->scene))
         printf("solver         static equilibrium to a residual of %.3g of the load, in %lld steps at the most\n",
                e->scene->solver_tolerance, (long long)e->clock.steps);
     else
@@ -138,7 +138,7 @@ static void say_basis(const struct engine *e, const struct cost *c)
 static void say_cost(const struct engine *e, const struct cost *c, int threads)
 {
     const char *many = threads > 1 ? "s" : "";
-    if (e->scene->solver != SOLVER_EXPLICIT)
+    if (scene_at_rest(e->scene))
         printf("run time       about %.2g s for 1000 steps on %d thread%s", 1e3 * c->step, threads, many);
     else {
         printf("run time       %s %.2g s on %d thread%s, %.1g s of it to write: %.3g ns a particle and step at first",

@@ -184,7 +184,7 @@ static real rise_time(const struct time_function *f)
 static void advise_waves(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
-    for (int b = 0; b < s->boundaries && s->solver == SOLVER_EXPLICIT; b++) {
+    for (int b = 0; b < s->boundaries && scene_moves(s); b++) {
         const real length = e->tables.wave_speed * rise_time(&s->boundary[b].time) / s->spacing;
         if (s->boundary[b].kind != BOUNDARY_MIRROR && length < WAVE)
             fprintf(
@@ -347,7 +347,7 @@ static void advise_method(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
     real weakest = INFINITY;
-    if (s->method == METHOD_MPM || s->solver != SOLVER_EXPLICIT || has_notch(s)) return;
+    if (s->method == METHOD_MPM || !scene_moves(s) || has_notch(s)) return;
     if (s->bodies > 1 || s->rigids > 0) return;
     for (int m = 0; m < s->materials; m++)
         weakest = real_min(weakest, s->material[m].young * s->material[m].critical_stretch);

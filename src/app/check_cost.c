@@ -215,7 +215,7 @@ static double output_bytes(const struct engine *e)
 status cost_measure(struct cost *c, struct engine *e, const struct run_arguments *a)
 {
     c->all_peridynamic = NAN;
-    if (e->scene->solver != SOLVER_EXPLICIT) {
+    if (scene_at_rest(e->scene)) {
         /* conjugate gradients difference forces centrally: two evaluations per iteration (solver_tangent) */
         c->step = (e->scene->solver == SOLVER_CG ? 2 : 1) * time_force(e);
         c->bytes = (double)memory_peak() + output_bytes(e);

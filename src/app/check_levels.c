@@ -8,7 +8,7 @@ void say_levels(const struct engine *e)
 {
     const struct mesh_levels *l = &e->reference.levels;
     char text[1024];
-    if (e->reference.mesh.points == 0 || e->scene->solver != SOLVER_EXPLICIT) return;
+    if (e->reference.mesh.points == 0 || scene_at_rest(e->scene)) return;
     engine_levels_text(e, text, sizeof text);
     if (!e->scene->choice.made) printf("levels         %s\n", text);       /* else engine_choice_print has said it */
     for (int level = 0; level <= l->n && l->n > 0; level++)

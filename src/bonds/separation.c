@@ -68,3 +68,19 @@ real family_separation(const struct family *f, const struct state_modulus *m, bo
     memory_free(c);
     return 2 * f->spacing * work;
 }
+
+/* A bond vector whose part normal to the plane is n spacings stands across it n times in each column of the lattice. */
+real family_crossing_energy(const struct family *f, const struct material *m)
+{
+    const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing);
+    const int width = dim > 1 ? reach : 0, depth = dim > 2 ? reach : 0;
+    real sum = 0;
+    for (int x = 1; x <= reach; x++)
+        for (int y = -width; y <= width; y++)
+            for (int z = -depth; z <= depth; z++) {
+                const real xi[DIM_MAX] = {x * f->spacing, y * f->spacing, z * f->spacing}, r = sqrt(dot(xi, xi, dim));
+                if (r <= f->cutoff) sum += x * family_weight(f, xi, r) * r;
+            }
+    const real energy = 0.5 * family_micro_modulus(f, m) * square(m->critical_stretch) * square(f->cell_volume) * sum;
+    return energy * f->spacing / f->cell_volume;
+}

@@ -68,7 +68,7 @@ static status points_sort(struct engine *e)
 static void update_active_points(struct engine *e)
 {
     if (!e->scene->active_set || e->mpm.active.over || e->mpm.fields > 1 || coupling_moves_by_grid(e->coupling.kind) ||
-        e->scene->solver != SOLVER_EXPLICIT)
+        !scene_moves(e->scene))
         return;
     e->mpm.transfer.order =
         active_points_update(&e->mpm.active, &e->mpm.field[0].order, e->mpm.transfer.order, &e->part,
@@ -305,6 +305,16 @@ static void convert_points(struct engine *e, struct step *now)
     lap(&e->report.laps, LAP_CONVERT);
 }
 
+/* Conversion between load steps: a step without motion. True if particles have converted. */
+bool engine_convert(struct engine *e, int64_t broken)
+{
+    struct step now = {.broken = broken};
+    if (e->reference.mesh.points > 0 && e->scene->method == METHOD_ADAPTIVE)
+        mesh_points_mark(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain);
+    convert_points(e, &now);
+    return now.converted > 0;
+}
+
 /* Particles that revert, the velocities of a sample, the cells of material points, the first half of the interface
  * damping. */
 static status prepare(struct engine *e, struct step *now)
@@ -416,7 +426,8 @@ status engine_step(struct engine *e)
 status engine_run(struct engine *e)
 {
     memory_reuse(true);
-    if (e->scene->solver != SOLVER_EXPLICIT) return engine_solve(e);
+    if (scene_at_rest(e->scene)) return engine_solve(e);
+    if (scene_in_steps(e->scene)) return engine_steps(e);
     TRY(engine_report_start(e));
     laps_start(&e->report.laps);
     while (e->clock.step < e->clock.steps) {

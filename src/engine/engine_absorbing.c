@@ -25,7 +25,7 @@ void engine_absorbing_make(struct engine *e)
     const struct impedance *all[MOVERS];
     bool any = false;
     for (int b = 0; b < s->boundaries; b++) any = any || s->boundary[b].kind == BOUNDARY_ABSORBING;
-    if (!any || s->solver != SOLVER_EXPLICIT) return;
+    if (!any || scene_at_rest(s)) return;
     e->tables.impedance = NEW("engine.impedance", (int64_t)MOVERS * s->materials, struct impedance);
     for (int by = 0; by < MOVERS; by++) {
         struct impedance *z = e->tables.impedance + by * s->materials;

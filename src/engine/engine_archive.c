@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "engine/engine.h"
+#include "engine_statics.h"
 #include "base/memory.h"
 #include "simd/simd.h"
 
@@ -113,6 +114,7 @@ status engine_archive(void *engine, struct archive *a)
     if (!a->saving && e->contact.made) contact_follow(&e->contact, &e->part, &e->bonds, &e->loads);
     if (e->mpm.fields > 1) TRY(grid_contact_archive(&e->mpm.contact, a));
     TRY(solver_archive(&e->solver, a));
+    TRY(statics_archive(e, a));
     TRY(conversion_archive(&e->coupling.conversion, a));
     TRY(diagnostics_archive(&e->diagnostics, a));
     ARCHIVE_VALUE(a, "engine/speed_rise", e->stability.speed);

@@ -41,7 +41,7 @@ int engine_body_apart(const struct scene *s, int k)
 static void make_fields(struct engine *e)
 {
     const struct scene *s = e->scene;
-    const bool meet = s->solver == SOLVER_EXPLICIT && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
+    const bool meet = !scene_at_rest(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
                       !coupling_moves_by_grid(s->coupling);
     e->mpm.fields = 1;
     while (meet && engine_body_apart(s, e->mpm.fields) >= 0) e->mpm.fields++;
@@ -76,7 +76,7 @@ void engine_grid_make(struct engine *e)
     engine_grid_anchor(s, from, site, engine_has_mesh(e), g->anchor);
     real section = scene_section(s), lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
-    const real light = s->solver == SOLVER_EXPLICIT ? GRID_MASS_LIGHT : GRID_MASS_STATIC;
+    const real light = !scene_at_rest(s) ? GRID_MASS_LIGHT : GRID_MASS_STATIC;
     const real full = lightest * pow(g->h, s->dim) * section;
     e->mpm.smallest_mass = GRID_MASS_SMALLEST * full;
     g->light_mass = s->transfer == TRANSFER_APIC ? light * full : 0;

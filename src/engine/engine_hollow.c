@@ -15,7 +15,7 @@ enum { AHEAD = 4 };                      /* cells beyond those of level 0 that h
 const char *engine_hollow_obstacle(const struct scene *s)
 {
     if (s->fill == FILL_ALL) return "the scene says so";
-    if (s->method == METHOD_PD || s->solver != SOLVER_EXPLICIT || s->levels == 0) return "there are no coarse cells";
+    if (s->method == METHOD_PD || scene_at_rest(s) || s->levels == 0) return "there are no coarse cells";
     if (s->bodies != 1 || s->rigids > 0) return "bodies may meet";
     if (s->body[0].file) return "they come from a list";
     if (scene_scatters(s)) return "strength scatters from place to place";

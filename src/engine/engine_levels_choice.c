@@ -102,7 +102,7 @@ struct levels_choice engine_levels_choice(const struct engine *e)
     const struct scene *s = e->scene;
     struct levels_choice c = {.given = s->levels != LEVELS_AUTO, .across = spacings_across(e)};
     c.rise = sharpest_rise(e, c.across);
-    if (s->solver != SOLVER_EXPLICIT) c.why = LEVELS_AT_REST;
+    if (!scene_moves(s)) c.why = LEVELS_AT_REST;
     else if (e->reference.mesh.points == 0) c.why = LEVELS_NO_MESH;
     else if (e->part.n_body < PAYS) c.why = LEVELS_FEW;
     else if (s->damping > 0) c.why = LEVELS_DAMPED;
@@ -185,7 +185,7 @@ void engine_choice_print(const struct engine *e, FILE *out)
 {
     char text[1024];
     scene_choice_print(e->scene, out);
-    if (!e->scene->choice.made || e->reference.mesh.points == 0 || e->scene->solver != SOLVER_EXPLICIT) return;
+    if (!e->scene->choice.made || e->reference.mesh.points == 0 || scene_at_rest(e->scene)) return;
     engine_levels_text(e, text, sizeof text);
     fprintf(out, "auto           levels: %s\n", text);
 }

@@ -24,7 +24,7 @@ static void make_limits(const struct scene *s, struct material_tables *tables, s
         tables->pair_stretch[b * s->materials + a] = face->critical_stretch;
     }
     source->limit = (struct bond_limit){tables->pair_stretch, s->materials, s->last_force, 0};
-    if (s->solver != SOLVER_EXPLICIT) source->limit = bond_limit_never;    /* no bond breaks in a static solution */
+    if (scene_at_rest(s)) source->limit = bond_limit_never;    /* no bond breaks in a static solution */
 }
 
 /* Yield of bonds by the material that yields at the smaller strain: s_y = sigma_y/E and H_b/k_e = H/E, which is the
@@ -280,7 +280,7 @@ struct observed engine_observed(const struct engine *e)
         .strain_stress = e->probing.strain_stress,
         .residual_step0 = e->probing.residual_step0,
         .t = e->clock.t,
-        .t_velocity = e->clock.step > 0 && s->solver == SOLVER_EXPLICIT ? e->clock.t - 0.5 * e->clock.dt : e->clock.t,
+        .t_velocity = e->clock.step > 0 && scene_moves(s) ? e->clock.t - 0.5 * e->clock.dt : e->clock.t,
         .pulse = e->probing.pulse,
         .pulses = e->probing.pulses,
         .space = s->space,
@@ -344,7 +344,7 @@ static void make_contact(struct engine *e)
     const struct scene *s = e->scene;
     const struct contact_law law = {
         .form = s->contact_form, .distance = s->contact_distance, .friction = s->contact_friction};
-    contact_make(&e->contact, s->solver == SOLVER_EXPLICIT && has_peridynamics(s) ? s->contact_between : CONTACT_NONE,
+    contact_make(&e->contact, !scene_at_rest(s) && has_peridynamics(s) ? s->contact_between : CONTACT_NONE,
                  law, s->contact_stiffness, &e->source, e->shape, e->rigid, s->rigids);
 }
 
@@ -372,7 +372,7 @@ static status make_probes(struct engine *e)
     engine_notch_tips(e);
     e->fracture.growth = NEW("engine.growth", s->growths, struct growth);
     for (int k = 0; k < s->growths; k++) growth_make(&e->fracture.growth[k], &s->growth[k]);
-    if (s->solver != SOLVER_EXPLICIT) TRY(named(s, engine_solver_make(e)));
+    if (scene_at_rest(s)) TRY(named(s, engine_solver_make(e)));
     diagnostics_make(&e->diagnostics);
     make_pulses(e->scene, &e->probing);
     struct observed o = engine_observed(e);
@@ -384,7 +384,7 @@ static status make_forces(struct engine *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
     TRY(named(s, engine_frames(e)));
-    if (s->solver != SOLVER_EXPLICIT) {
+    if (scene_at_rest(s)) {
         e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
         loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
     }
@@ -473,7 +473,7 @@ void engine_free(struct engine *e)
     particles_free(&e->part);
     memory_free(e->coupling.start_region.solid);
     notches_free(&e->coupling.notches);
-    solver_free(&e->solver);
+    solver_free(&e->solver), statics_free(e);
     memory_free(e->boundary);
     memory_free(e->tables.pair_stretch);
     memory_free(e->tables.impedance);

@@ -42,7 +42,7 @@ static int64_t frame_step(const struct scene *s, const struct run_clock *clock, 
 bool engine_sample_due(const struct scene *s, const struct run_clock *clock)
 {
     const int64_t most = clock->steps / clock->stride, n = s->samples < most ? s->samples : most;
-    if (s->solver != SOLVER_EXPLICIT) return clock->step == 0;    /* and the equilibrium, at the end */
+    if (!scene_moves(s)) return clock->step == 0;    /* and the equilibrium, at the end */
     return due_step(clock, (clock->step * n + clock->steps / 2) / clock->steps, n) == clock->step;
 }
 
@@ -101,7 +101,7 @@ static bool region_frame_due(const struct engine *e, int k, int64_t step)
  * explicit: at the start and at the end. */
 static unsigned frames_due(const struct engine *e, int64_t step)
 {
-    const bool at_rest = e->scene->solver != SOLVER_EXPLICIT, last = step == e->clock.steps;
+    const bool at_rest = scene_at_rest(e->scene), last = step == e->clock.steps;
     unsigned due = 0;
     if (!e->report.out || (at_rest && step > 0 && !last)) return 0;
     for (int k = 0; k <= e->report.out->n_series; k++)
@@ -238,7 +238,7 @@ status engine_report(struct engine *e)
     e->report.inactive += engine_inactive_share(e);
     lap(&e->report.laps, LAP_SAMPLE);
     /* before any checkpoint, so that a finished run has nothing left to write */
-    if (e->clock.step == e->clock.steps) engine_sample_last(e);
+    if (e->clock.step == e->clock.steps && !scene_in_steps(e->scene)) engine_sample_last(e);
     TRY(e->report.history_status);
     TRY(engine_energy_check(e));
     if (e->clock.step == e->clock.steps) engine_say_balance(e);
@@ -246,7 +246,9 @@ status engine_report(struct engine *e)
         const unsigned due = frames_due(e, e->clock.step);
         if (due) TRY(write_frames(e, due));
         const bool late = wall_is_over(e->scene, &e->report), stop = late || (e->report.stop && *e->report.stop);
-        if (stop || team_clock() - e->report.last_checkpoint > e->scene->checkpoint_interval) TRY(write_checkpoint(e));
+        if (stop || scene_in_steps(e->scene) ||
+            team_clock() - e->report.last_checkpoint > e->scene->checkpoint_interval)
+            TRY(write_checkpoint(e));
         if (stop && e->clock.step < e->clock.steps)
             return status_set(INTERRUPTED, "%s at step %lld of %lld; go on with --resume",
                               late ? "time.wall is over" : "interrupted", (long long)e->clock.step,

@@ -23,7 +23,7 @@ status engine_reversion_check(const struct scene *s)
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
         why = "coupling partial stress or handshake";
     if (s->growths > 0) why = "no growth, whose bonds fade";
-    if (s->solver != SOLVER_EXPLICIT) why = "solver explicit";
+    if (scene_at_rest(s)) why = "solver explicit";
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m])) why = "materials that do not yield";
     return why ? status_set(REFUSED, "conversion.reversion: true goes with %s", why) : OK;

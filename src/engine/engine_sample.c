@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "engine_report.h"
+#include "engine_statics.h"
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
@@ -44,20 +45,24 @@ static void fill_record(struct engine *e)
         u->contact, u->absorbed};
     memcpy(r, fixed, sizeof fixed);
     for (int c = 0; c < e->probing.probes.columns; c++) r[RECORD_FIXED + c] = e->probing.probes.value[c];
-    engine_rigid_record(e, r + RECORD_FIXED + e->probing.probes.columns);
+    r += RECORD_FIXED + e->probing.probes.columns;
+    engine_rigid_record(e, r);
+    statics_record(e, r + engine_rigid_columns(e, NULL));
 }
 
 status engine_history_start(struct engine *e, bool resume)
 {
     struct run_report *report = &e->report;
     const struct probes *probes = &e->probing.probes;
-    const int columns = RECORD_FIXED + probes->columns + engine_rigid_columns(e, NULL);
+    const int rigid = RECORD_FIXED + probes->columns, own = rigid + engine_rigid_columns(e, NULL);
+    const int columns = own + statics_columns(e, NULL);
     report->record = NEW("report.record", columns, real);
     if (!report->out) return OK;
     struct column *column = NEW("report.columns", columns, struct column);
     memcpy(column, fixed_columns, sizeof fixed_columns);
     for (int c = 0; c < probes->columns; c++) column[RECORD_FIXED + c] = probes->column[c];
-    engine_rigid_columns(e, column + RECORD_FIXED + probes->columns);
+    engine_rigid_columns(e, column + rigid);
+    statics_columns(e, column + own);
     status s = output_history_open(report->out, column, columns, resume);
     memory_free(column);
     return s;
@@ -244,6 +249,13 @@ void engine_sample_rest(struct engine *e)
     sample_write(e, e->clock.t, 0, 0);
 }
 
+void engine_sample_equilibrium(struct engine *e)
+{
+    sample_state(e);
+    sample_energies(e);
+    sample_write(e, e->clock.t, 0, e->loads.work + e->loads.constraint_work);
+}
+
 /* Sum of v . f of particles that bonds move and of nodes in the reference frame [W]; serial, as calls are few. */
 static real power_now(const struct particles *p, const struct reference_frame *reference)
 {
@@ -295,7 +307,7 @@ void engine_sample_last(struct engine *e)
     real kinetic = kinetic_now(&e->part, &e->reference);
     const real before = kinetic;
     const real kick = e->clock.dt * engine_damping_share(e);
-    if (e->scene->solver == SOLVER_EXPLICIT) kinetic += 0.5 * kick * power_last(e, &held);
+    if (scene_moves(e->scene)) kinetic += 0.5 * kick * power_last(e, &held);
     e->report.sampling.energy.damped += engine_damping_last(e, before, kinetic);
     e->report.sampling.energy.damped += e->mpm.contact.begun;
     const struct rigid_energy rigid = engine_rigid_energy(e);
@@ -312,5 +324,5 @@ void engine_probes_step(struct engine *e)
 void engine_breaks(struct engine *e, int64_t broken)
 {
     if (broken > 0) diagnostics_breaks(&e->diagnostics, &e->part, broken, e->clock.t);
-    if (e->scene->solver == SOLVER_EXPLICIT) engine_probes_step(e);
+    if (scene_moves(e->scene)) engine_probes_step(e);
 }

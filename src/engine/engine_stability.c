@@ -226,7 +226,7 @@ void engine_remedy(const struct engine *e, const struct rise *rise, real value, 
     const enum rise_rate rate = rise_rate(rise, e->clock.step, value, &steps);
     if (formula_explanation(e, text, room) || load_explanation(e, steps, text, room)) return;
     if (e->clock.dt <= e->clock.dt_critical && squeeze_explanation(e, text, room)) return;
-    if (rate == RISE_FAST || e->clock.dt > e->clock.dt_critical || e->scene->solver != SOLVER_EXPLICIT) {
+    if (rate == RISE_FAST || e->clock.dt > e->clock.dt_critical || !scene_moves(e->scene)) {
         say_step(e->scene, &e->clock, text, room);
         return;
     }
@@ -397,7 +397,7 @@ status engine_energy_check(struct engine *e)
             (long long)e->clock.step, e->clock.t);
     const struct diagnostics *w = &e->diagnostics;
     const real excess = w->now.balance_error * w->energy_scale + energy_released(w);
-    const bool last = e->clock.step == e->clock.steps && e->scene->solver == SOLVER_EXPLICIT;
+    const bool last = e->clock.step == e->clock.steps && !scene_at_rest(e->scene);
     char what[96], remedy[ENGINE_REMEDY];
     if (!e->report.sampling.due && !last) return OK;
     rise_note(&e->stability.excess, e->clock.step, excess);
@@ -417,7 +417,7 @@ static void say_released(struct engine *e)
 {
     char text[320];
     const real released = energy_released(&e->diagnostics);
-    if (e->scene->solver != SOLVER_EXPLICIT || released <= ENERGY_DOUBTFUL * e->diagnostics.energy_scale) return;
+    if (scene_at_rest(e->scene) || released <= ENERGY_DOUBTFUL * e->diagnostics.energy_scale) return;
     snprintf(text, sizeof text,
              "bonds released %.3g J as they broke that they had not held (energy.fracture %.3g): families of model %s "
              "under pressure gain energy where they lose bonds; compare with model: bond, do not trust what came after",
@@ -432,7 +432,7 @@ void engine_say_balance(struct engine *e)
     const real error = e->diagnostics.now.balance_error;
     const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
     char text[320];
-    if (e->scene->solver != SOLVER_EXPLICIT || fabs(error) <= ENERGY_DOUBTFUL || is_round_off(e)) return;
+    if (scene_at_rest(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || is_round_off(e)) return;
     snprintf(
         text, sizeof text,
         "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows when: do not trust what came after",

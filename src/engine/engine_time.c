@@ -154,7 +154,7 @@ static real damping_step(const struct scene *s) { return s->damping > 0 ? 0.5 / 
 /* Stiffness of the cores of bonds that the step bears, as kernels/pd/bond_core.h has it; of no step: the most. */
 static real core_stiffness(const struct engine *e)
 {
-    if (e->scene->solver != SOLVER_EXPLICIT) return CORE_STIFFNESS;
+    if (!scene_moves(e->scene)) return CORE_STIFFNESS;
     return real_max(0, real_min(CORE_STIFFNESS, square(e->clock.dt_critical / e->clock.dt) - 1));
 }
 
@@ -187,9 +187,11 @@ status engine_time_make(struct engine *e)
         return status_set(REFUSED,
                           "time.step: %.4g s is more than mpm.levels above 0 bears, %.4g s (%.2f of the critical step)",
                           dt, LEVELS_STEP_MOST * e->clock.dt_critical, LEVELS_STEP_MOST);
-    if (s->solver == SOLVER_EXPLICIT) TRY(make_steps(e->scene, &e->clock, dt));
+    e->statics.dt = dt;
+    if (scene_in_steps(s)) e->clock.steps = s->steps.number, e->clock.dt = s->duration / s->steps.number;
+    else if (scene_moves(s)) TRY(make_steps(e->scene, &e->clock, dt));
     else e->clock.steps = s->solver_steps, e->clock.dt = dt;
-    e->source.limit.dt = e->clock.dt;
+    e->source.limit.dt = scene_in_steps(s) ? dt : e->clock.dt;
     e->source.core = e->bonds.core = core_stiffness(e);
     return OK;
 }

@@ -45,7 +45,7 @@ static bool spins(const struct scene *s)
 static void warn_of_spin(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
-    if (s->solver == SOLVER_EXPLICIT && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 && spins(s))
+    if (scene_moves(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 && spins(s))
         warnings_add(to, "mpm.transfer flip does not keep the spin of bodies in mpm.frame current: a plate of 20 x 10 "
                      "points loses 7 %% of its angular momentum in 0.3 rad, 28 %% in half a turn, under stresses 100 "
                      "times too large; apic loses 2e-5");
@@ -55,7 +55,7 @@ static void warn_of_spin(const struct engine *e, struct warnings *to)
 static void warn_of_method(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
-    if (s->solver == SOLVER_EXPLICIT && e->clock.dt > e->clock.dt_critical)
+    if (scene_moves(s) && e->clock.dt > e->clock.dt_critical)
         warnings_add(to, "the time step is above the critical one: expect a run that blows up");
     if (s->method == METHOD_MPM && s->cracks > 0)
         warnings_add(to, "method mpm has one velocity field and ignores the pre-cracks; pd or adaptive represent them");
@@ -84,7 +84,7 @@ static void warn_of_idle_keys(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
     const char *why = s->method == METHOD_PD              ? "method pd has no cells"
-                      : s->solver != SOLVER_EXPLICIT      ? "a static solver has no use for coarse cells"
+                      : !scene_moves(s)      ? "a static solver has no use for coarse cells"
                       : e->reference.mesh.points == 0     ? "no material points are in the reference frame"
                                                           : NULL;
     const char *all = engine_hollow_obstacle(s);
@@ -114,7 +114,7 @@ static void warn_of_materials(const struct scene *s, const struct material_table
 static void warn_of_solver(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
-    if (s->solver == SOLVER_EXPLICIT) return;
+    if (!scene_at_rest(s)) return;
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
             warnings_add(to, "a static equilibrium has no velocities: those of `initial` are left out");
@@ -226,7 +226,7 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
     bool current = false;
     for (int b = 0; b < s->bodies; b++) current |= !reference->choice[b].reference;
     if (!scene_bodies_meet(s) || coupling->approaches) return;
-    if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || s->solver != SOLVER_EXPLICIT)) return;
+    if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_at_rest(s))) return;
     if (s->method == METHOD_PD)
         warnings_add(to, "peridynamic bodies pass through each other%s without contact.between: bodies or all",
                      s->rigids > 0 ? " (rigid ones they meet)" : "");

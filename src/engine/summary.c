@@ -129,7 +129,7 @@ static void put_warnings(struct json *j, const struct warnings *w)
 static void put_solver(struct json *j, const struct engine *e)
 {
     static const char *const name[] = {[SOLVER_RELAXATION] = "relaxation", [SOLVER_CG] = "cg"};
-    if (e->scene->solver == SOLVER_EXPLICIT) return;
+    if (!scene_at_rest(e->scene)) return;
     json_open(j, "solver", '{');
     json_text(j, "name", name[e->scene->solver]);
     json_count(j, "steps", e->clock.step);
@@ -218,7 +218,7 @@ static void put_rigid(struct json *j, const struct engine *e)
 /* Bodies of bonds that have lost some. */
 static bool has_fragments(const struct engine *e)
 {
-    return e->scene->method == METHOD_PD && e->scene->solver == SOLVER_EXPLICIT &&
+    return e->scene->method == METHOD_PD && !scene_at_rest(e->scene) &&
            (e->diagnostics.bonds_broken > 0 || e->scene->cracks > 0);
 }
 

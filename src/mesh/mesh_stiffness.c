@@ -27,6 +27,21 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
     }
 }
 
+bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p, int64_t I,
+                         real *K)
+{
+    const int dim = mesh->grid.dim, n = dim << dim;
+    bool any = false;
+    memset(K, 0, (size_t)(n * n) * sizeof *K);
+    for (int q = 0; q < 1 << dim; q++) {
+        const int32_t i = mesh->point[(I << dim) + q];
+        if (i < 0) continue;
+        point_stiffness(K, &elastic[p->material[i]], dim, mesh->grid.h, mesh->volume, q);
+        any = true;
+    }
+    return any;
+}
+
 /* ---- time step --------------------------------------------------------------------------------------------------- */
 
 struct scaled_cell { const real *K; int n; };

@@ -466,7 +466,7 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
         start_particle(p, i, s, spacing);
-        if (s->solver != SOLVER_EXPLICIT) start_at_rest(p, i);
+        if (!scene_moves(s)) start_at_rest(p, i);
     }
     TRY(check_start(p, d, spacing));
     particles_sort(p, spacing, optional);

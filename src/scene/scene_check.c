@@ -84,7 +84,7 @@ status check_absorbing(struct reader *r, const struct node *root)
     const struct scene *s = r->scene;
     const struct node *list = node_find(root, "boundary"), *n = list ? list->first : NULL;
     for (int b = 0; b < s->boundaries && n; b++, n = n->next)
-        if (s->boundary[b].kind == BOUNDARY_ABSORBING && s->solver != SOLVER_EXPLICIT)
+        if (s->boundary[b].kind == BOUNDARY_ABSORBING && !scene_moves(s))
             return fault(r, node_find(n, "absorbing"),
                          "a static equilibrium knows no waves, and nothing holds the body there; solver: explicit is "
                          "expected");
@@ -97,7 +97,7 @@ static status check_damping(struct reader *r, const struct node *root)
     const struct scene *s = r->scene;
     const struct node *damping = node_find(root, "damping"), *levels = scene_check_below(root, "mpm", "levels");
     if (!(s->damping > 0)) return OK;
-    if (s->solver != SOLVER_EXPLICIT)
+    if (!scene_moves(s))
         return fault(r, damping, "a static equilibrium knows no velocities; solver: explicit is expected");
     if (levels && s->levels != LEVELS_AUTO && s->levels > 0)
         return fault(r, levels, "%s levels have time steps of their own, damping knows one; 0 is expected",
@@ -118,7 +118,7 @@ status check_bearing(struct reader *r, const struct node *root)
                          "lattices shaken by more than %g of a spacing do not say where "
                          "faces are; a traction, or less particles.irregularity, is expected",
                          PRESSURE_SHAKEN);
-        if (s->solver == SOLVER_EXPLICIT) continue;
+        if (!scene_at_rest(s)) continue;
         if (load->follow)
             return fault(r, node_find(n, "follow"),
                          "a static equilibrium is found under loads on the reference state; "
@@ -184,12 +184,12 @@ status resolve_contact(struct reader *r, const struct node *root)
     const struct node *between = scene_check_below(root, "contact", "between");
     const struct node *friction = scene_check_below(root, "contact", "friction");
     const bool faces = s->bodies + s->rigids > 1 || (scene_cracks(s) && s->method != METHOD_MPM);
-    const bool meet = s->solver == SOLVER_EXPLICIT && faces;
+    const bool meet = !scene_at_rest(s) && faces;
     if (!between) s->contact_between = !meet ? CONTACT_NONE : s->method == METHOD_MPM ? CONTACT_BODIES : CONTACT_ALL;
     if (s->contact_distance == DISTANCE_LAMMPS && (s->contact_form != CONTACT_PAIR || s->model != MODEL_BOND))
         return fault(r, scene_check_below(root, "contact", "distance"),
                      "lammps is the rule of its peri/pmb; contact.law: pair and model: bond are expected");
-    if (s->contact_between != CONTACT_NONE && s->solver != SOLVER_EXPLICIT)
+    if (s->contact_between != CONTACT_NONE && scene_at_rest(s))
         return fault(r, between, "a static equilibrium knows no contact; solver: explicit is expected");
     if (s->contact_friction > 0 && s->contact_between == CONTACT_NONE && s->rigids == 0)
         return fault(r, friction, "nothing meets (contact.between: none), so nothing rubs");
@@ -228,7 +228,7 @@ static void resolve_defaults(struct reader *r, const struct node *root)
         s->influence = s->model == MODEL_BOND ? INFLUENCE_ONE : INFLUENCE_INVERSE;
     if (!scene_check_below(root, "mpm", "shape"))
         s->shape = s->coupling == COUPLING_PM || s->coupling == COUPLING_PMG ? SHAPE_LINEAR : SHAPE_GIMP;
-    if (!scene_check_below(root, "mpm", "transfer") && s->solver != SOLVER_EXPLICIT && s->shape != SHAPE_LINEAR)
+    if (!scene_check_below(root, "mpm", "transfer") && scene_at_rest(s) && s->shape != SHAPE_LINEAR)
         s->transfer = TRANSFER_APIC;
     if (!scene_check_below(root, "crack", "speed_window")) s->speed_window = s->duration / 10;
 }
@@ -238,7 +238,7 @@ static void resolve_defaults(struct reader *r, const struct node *root)
 const char *scene_frame_unsupported(const struct scene *s, int body)
 {
     if (s->method == METHOD_PD) return "method pd has no material points";
-    if (s->solver != SOLVER_EXPLICIT) return "static solvers want frame current";
+    if (scene_at_rest(s)) return "static solvers want frame current";
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
         return "couplings pm to pgg carry bonds on the grid of frame current";
     if (s->cell != 2) return "it wants mpm.cell 2";
@@ -346,10 +346,9 @@ status check_solver(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
     const struct node *solver = node_find(root, "solver");
-    if (!solver || s->solver == SOLVER_EXPLICIT) return OK;
-    if (s->solver == SOLVER_STATIC)
-        return fault(r, solver, "static leaves the choice to method auto; %s is expected",
-                     s->method == METHOD_PD ? "cg" : "relaxation");
+    TRY(check_steps_given(r, root));
+    if (!solver || scene_moves(s)) return OK;
+    if (scene_in_steps(s)) return check_load_steps(r, root);
     if (s->solver == SOLVER_CG && s->method != METHOD_PD)
         return fault(r, solver, "cg is for method pd; relaxation is expected with material points");
     if (s->method != METHOD_PD && s->transfer == TRANSFER_FLIP)

@@ -92,7 +92,8 @@ status scene_from_tree(struct reader *r, const struct node *root);
 
 enum unit {
     UNIT_NONE, UNIT_LENGTH, UNIT_AREA, UNIT_TIME, UNIT_SPEED, UNIT_DENSITY, UNIT_PRESSURE, UNIT_SURFACE_ENERGY,
-    UNIT_TOUGHNESS, UNIT_BODY_FORCE, UNIT_RATE, UNIT_MASS, UNIT_FORCE, UNIT_VOLUME, UNIT_ACCELERATION, UNIT_ANGLE,
+    UNIT_TOUGHNESS, UNIT_BODY_FORCE, UNIT_RATE, UNIT_MASS, UNIT_FORCE, UNIT_VOLUME, UNIT_ACCELERATION, UNIT_ENERGY,
+    UNIT_ANGLE,
     UNITS
 };
 struct unit_row { const char *name, *symbol, *example; signed char twice[3]; }; /* twice the powers of m, kg, s */
@@ -277,6 +278,9 @@ void resolve_frames(struct scene *s);
 /* Surfaces of bodies again once they are known: those of lists need not be lattices. */
 void resolve_lists(struct reader *r, const struct node *root);
 status check_solver(struct reader *r, const struct node *root);
+/* scene_steps.c: conditions on load steps; REFUSED for keys of them in other scenes. */
+status check_load_steps(struct reader *r, const struct node *root);
+status check_steps_given(struct reader *r, const struct node *root);
 
 /* The words of enum space and enum probe_kind. */
 extern const char *const space_names[];

@@ -49,12 +49,35 @@ const struct key keys[] = {
     KEY("solver", KEY_CHOICE, UNIT_NONE, AT(scene, solver), ANY, "explicit",
         "explicit: steps in time; relaxation, cg: the static equilibrium under the loads at the end of the duration, "
         "with supports where they have then moved to, by adaptive dynamic relaxation or (method pd, small strains) "
-        "conjugate gradients; bonds do not break in it; static (method auto): one of these, whichever is cheapest",
+        "conjugate gradients; bonds do not break in it; static: load steps of the duration (steps), in which bonds "
+        "break and equilibrium is found again; with method auto: relaxation or cg, whichever is cheaper",
         .words = "explicit|relaxation|cg|static"),
     KEY("solver_tolerance", KEY_REAL, UNIT_NONE, AT(scene, solver_tolerance), BETWEEN(1e-12, 0.1), "1e-5",
-        "largest residual force over the applied force or the reactions (relaxation, cg)"),
+        "largest residual force over the applied force or the reactions (relaxation, cg, static)"),
     KEY("solver_steps", KEY_INT, UNIT_NONE, AT(scene, solver_steps), BETWEEN(1, 1000000000), "200000",
         "most steps (relaxation, cg); a run that needs more fails"),
+    KEY("steps", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE,
+        "load steps of solver static: loads and supports are functions of a pseudo-time, which goes to duration"),
+    KEY("steps.number", KEY_INT, UNIT_NONE, AT(scene, steps.number), BETWEEN(1, 1000000), "100",
+        "load steps of the duration; with control energy or opening: the most that are made"),
+    KEY("steps.control", KEY_CHOICE, UNIT_NONE, AT(scene, steps.control), ANY, "load",
+        "what a step goes by: pseudo-time alone; energy: pseudo-time grows until a bond is at its limit, and goes back "
+        "where the body releases more than steps.energy, so that snap-back is followed; opening: the distance of two "
+        "places grows evenly, and pseudo-time follows",
+        .words = "load|energy|opening"),
+    KEY("steps.energy", KEY_REAL, UNIT_ENERGY, AT(scene, steps.energy), ABOVE(0), "auto",
+        "of an advance of the crack: what its bonds cost", .words = "auto", .word_value = 0),
+    KEY("steps.from", KEY_POINT, UNIT_LENGTH, AT(scene, steps.from), ANY, "(required with control opening)",
+        "one of the two places; the particle nearest to it is followed", .has = FLAG(scene, steps.has_from)),
+    KEY("steps.to", KEY_POINT, UNIT_LENGTH, AT(scene, steps.to), ANY, "(required with control opening)",
+        "the other one", .has = FLAG(scene, steps.has_to)),
+    KEY("steps.opening", KEY_REAL, UNIT_LENGTH, AT(scene, steps.opening), ABOVE(0), "(required with control opening)",
+        "how far they are moved apart in all steps together", .words = "none", .word_value = 0),
+    KEY("steps.breaks", KEY_INT, UNIT_NONE, AT(scene, steps.breaks), BETWEEN(1, 1000000), "8",
+        "most bonds that break before equilibrium is found again, the most overloaded first; those that are alike "
+        "break together"),
+    KEY("steps.within", KEY_REAL, UNIT_NONE, AT(scene, steps.within), BETWEEN(0, 1), "1 %",
+        "of these only such as are overloaded like the first, up to this share"),
     KEY("accuracy", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(1 % with method auto)",
         "method auto: largest error, by the cost-accuracy table, or by pilot runs where it has no such problem",
         .words = "a share, as 2 %, or {of: figure, within: share, budget: time}"),

@@ -26,6 +26,7 @@ const struct unit_row unit_rows[UNITS] = {
     [UNIT_VOLUME] = {"a volume", "m^3", "2 mm^3", {6, 0, 0}},
     [UNIT_FORCE] = {"a force", "N", "20 N", {2, 2, -4}},
     [UNIT_ACCELERATION] = {"an acceleration", "m/s^2", "-9.81 m/s^2", {2, 0, -4}},
+    [UNIT_ENERGY] = {"an energy", "J", "2 mJ", {4, 2, -4}},
     [UNIT_ANGLE] = {"an angle", "rad", "30 deg", {0, 0, 0}},
 };
 

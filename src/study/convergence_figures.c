@@ -20,7 +20,7 @@ enum { PRINTED_MOST = 24 };
 static double step_moves(const struct convergence_study *s, const struct convergence *c, const double *value)
 {
     double xx = 0, xy = 0;
-    if (s->scene.solver != SOLVER_EXPLICIT) return NAN;
+    if (!scene_moves(&s->scene)) return NAN;
     for (int k = 0; k < s->study.n; k++) {
         const struct study_point *p = &s->point[k];
         if (p->level < 0 || !isfinite(value[k]) || c->level[p->level].runs < 2) continue;

@@ -62,7 +62,7 @@ static void point_add(struct convergence_study *s, struct study_point p)
     if (has_bonds(scene) && p.horizon != scene->horizon) value_put(own, &n, value, "particles.horizon", p.horizon);
     if (scene->time_step > 0)
         value_put(own, &n, value, "time.step", scene->time_step * p.step * p.spacing / scene->spacing);
-    else if (scene->solver == SOLVER_EXPLICIT)
+    else if (scene_moves(scene))
         value_put(own, &n, value, "time.safety", scene->safety * p.step);
     if (scene->irregularity > 0) value_put(own, &n, value, "particles.seed", (double)scene->seed + p.run);
     if (scene->times.n == 0 && scene->every == 0) value_put(own, &n, value, "output.frames", 0);
@@ -112,7 +112,7 @@ static double cost_of_all(const struct convergence_study *s, int jobs)
 /* Runs that would differ in nothing are left out: without steps or random numbers each spacing is run once. */
 static void runs_set(struct convergence_study *s, int runs, int finest)
 {
-    const bool steps = s->scene.solver == SOLVER_EXPLICIT && step_of(s, 1, 3) != step_of(s, 2, 3);
+    const bool steps = scene_moves(&s->scene) && step_of(s, 1, 3) != step_of(s, 2, 3);
     const bool differ = steps || s->scene.irregularity > 0;
     for (int level = 0; level < s->spacings.levels; level++) {
         const int wanted = level == 0 ? finest : runs, most = differ ? wanted : s->spacings.n[level];

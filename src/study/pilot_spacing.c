@@ -63,7 +63,7 @@ static double load_spacing(const struct scene *s)
         const struct boundary *b = &s->boundary[k];
         if (b->kind == BOUNDARY_BODY_FORCE && b->profile.kind == PROFILE_SINE)
             least = fmin(least, b->profile.wavelength / IN_PULSE);
-        if (s->solver == SOLVER_EXPLICIT && b->time.kind == TIME_PULSE)
+        if (scene_moves(s) && b->time.kind == TIME_PULSE)
             least = fmin(least, s->material[0].wave_speed * (b->time.until - b->time.from) / IN_PULSE);
     }
     return least;

@@ -134,7 +134,6 @@ outside "large strains" "the table's problems are linear" "$work/pulse.yaml" -s 
 outside "large strains of a spall" "the table.s problems are linear" inputs/hopkinson_bar.yaml -s method=auto -s particles= -s time= -s accuracy=5%
 outside "a spacing too wide" "fits the keys of pd, mpm, model and spacing that it fixes" "$work/pulse.yaml" -s particles.spacing=0.1
 outside "what no method is" "no method of the cost-accuracy table for" "$work/pulse.yaml" -s particles.horizon=7.3 -s method=auto -s mpm.frame=current -s mpm.transfer=flip -s mpm.cell=3 -s accuracy=5%
-refused "static alone" "static leaves the choice to method auto" "$work/crack.yaml" -s method=pd -s model=mospd -s particles.spacing=1mm
 refused "no chart" "no such file" "$work/pulse.yaml" -s accuracy_table=nowhere.csv
 printf 'problem\nbar\n' >"$work/bad.csv"
 refused "a bad chart" "bad.csv:1:1: no cost-accuracy table" "$work/pulse.yaml" -s "accuracy_table=$work/bad.csv"

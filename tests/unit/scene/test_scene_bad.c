@@ -113,8 +113,11 @@ static const struct { const char *piece, *instead, *message;
      "6:1: rim_damping: given beside interface_damping; keep one of the two"},
     {"method: adaptive", "accuracy_table: cost_accuracy.csv",
      "5:1: accuracy_table: has no meaning without method: auto"},
-    {"method: adaptive", "solver: static",
-     "5:1: solver: static leaves the choice to method auto; relaxation is expected"},
+    {"method: adaptive", "steps: {number: 50}",
+     "5:1: steps: load steps belong to solver: static, which is expected beside them"},
+    {"method: adaptive", "solver: static\nsteps: {control: opening}",
+     "6:1: steps: control opening wants steps.from and steps.to, two places, and steps.opening, how far they "
+     "are moved apart"},
     {"method: adaptive", "coupling: glue",
      "5:1: coupling: glue is unknown; partial stress, handshake, pm, pg, pmg or pgg is expected"},
     {"method: adaptive", "horizon: 3", "5:1: horizon: does not belong here; it is the key particles.horizon"},

@@ -1,0 +1,51 @@
+/* Load steps (`solver: static` with `steps`): the body is led through states of equilibrium, and bonds break between
+ * them. Time is a pseudo-time of which loads and supports are functions; nothing has inertia. */
+#ifndef CLEAVE_STATICS
+#define CLEAVE_STATICS
+
+#include "solver/equilibrium.h"
+
+/* A directed bond that was broken on trial, and what its row and its particle had. */
+struct broken_bond {
+    int32_t i, j;                        /* of the row; the other end */
+    int64_t row, entry;
+    real w, fracture, damage;            /* weight; of the row so far [J]; of the particle */
+    real held;                           /* half of what the bond holds at its limit [J] */
+    uint8_t flag;
+};
+struct break_list {
+    int64_t n, room;
+    struct broken_bond *bond;            /* in the order in which they broke */
+};
+
+/* An advance of the crack: what its bonds hold at their limits [J], and what the body releases by it over the square
+ * of the size of its loads. */
+struct advance { real cost, release; };
+
+/* State of a body between two load steps, and what equilibrium works on. Nodes of the unknowns are the peridynamic
+ * particles, then the nodes of the mesh. */
+struct statics {
+    int64_t particles;                   /* of the nodes, the first ones */
+    int32_t *node;                       /* [nodes] particle, or node of the mesh */
+    real *weight;                        /* [nodes] 1/2 for every plane of symmetry that a particle lies on */
+    int16_t *load;                       /* [nodes DIM_MAX] boundary that holds a component, -1: none or a mirror */
+    struct equilibrium balance;
+    struct field way;                    /* [nodes] of the next step: supports, and a guess of the rest [m] */
+    real *applied[DIM_MAX];              /* [particles of the body] applied forces now [N] */
+    struct block_matrix *matrix;         /* springs of bonds and cells, for the preconditioner */
+    struct multigrid *precondition;
+    int64_t directions;                  /* that the first solution with it took; 0: none yet */
+    real *plastic[2];                    /* stretch and path of bonds at the last equilibrium; NULL: none yields */
+    real t;                              /* pseudo-time of loads and supports [s] */
+    real dt;                             /* step in time that the body would bear [s] */
+    real overload;                       /* largest stretch over its limit of the last equilibrium [1] */
+    struct break_list next;              /* bonds of the next advance; none: it has not been looked for */
+    struct advance ahead, behind;        /* the next advance, and the last; cost 0: none */
+    real due;                            /* size of the loads at which the next one comes, INFINITY: at none */
+    bool advances;                       /* the next load step begins with it */
+    bool stale;                          /* bonds have broken since the preconditioner was made */
+    int64_t opens[2];                    /* particles whose distance is the opening */
+    int64_t solutions;                   /* equilibria found so far */
+};
+
+#endif

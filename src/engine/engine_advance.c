@@ -1,0 +1,187 @@
+/* Advances of a crack.
+ *
+ * A lattice holds a crack back: bond by bond, the load at which its most overloaded bond passes its limit swings by 30
+ * % while the tip goes on by a spacing, and its mean and its envelope stay above what Griffith's balance of energies
+ * asks, on any lattice (lattice trapping: Thomson, Hsieh & Rana 1971); with a horizon of 3 spacings by 18 % and 50 % of
+ * G_c. A crack therefore advances by some spacings at once: the most overloaded bonds break, first come first, until
+ * they have cost as much as their crossing bonds hold. The advance comes at the load at which the body releases what it
+ * costs: Griffith's criterion for finite growth (as in Leguillon 2002, with a stress near the limit as the second
+ * condition), with the path left to the bonds. Between two advances, the mean of both releases counts. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "engine_statics.h"
+
+#define STRESSED 0.85        /* overload below which no first advance is looked for */
+#define STRESSED_FURTHER 0.5 /* nor one after others: between two, a lattice lets bonds off */
+#define LEFT 0.3             /* overload at which an advance ends, whatever it has cost */
+enum { ADVANCE_SPACINGS = 2 };
+
+/* ---- what a body releases ---------------------------------------------------------------------------------------- */
+
+real statics_released(const struct engine *e) { return bonds_fracture_energy(&e->bonds) + e->statics.balance.lost; }
+
+/* Energy per area of the bonds that cross a plane of the lattice, each at its limit; of state-based models, whose bonds
+ * have no energy of their own, G_c as given [J/m^2]. */
+static real toughness_of(const struct engine *e, const struct material *m)
+{
+    const bool given = e->scene->model != MODEL_BOND && !isnan(m->energy_release_rate);
+    return given ? m->energy_release_rate : family_crossing_energy(&e->source.family, m);
+}
+
+/* What an advance costs [J]: in space as wide as the body's shortest side. */
+static real advance_cost(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    real least = INFINITY, width = s->dim == 3 ? INFINITY : scene_section(s), low, high;
+    if (s->steps.energy > 0) return s->steps.energy;
+    for (int m = 0; m < s->materials; m++) least = real_min(least, toughness_of(e, &s->material[m]));
+    for (int d = 0; d < s->dim && s->dim == 3; d++) {
+        particles_extent(&e->part, e->part.n, d, &low, &high);
+        width = real_min(width, high - low + s->spacing);
+    }
+    return ADVANCE_SPACINGS * (s->dim > 1 ? s->spacing : 1) * width * least;
+}
+
+/* ---- size of loads ----------------------------------------------------------------------------------------------- */
+
+/* Sum of squares of what supports prescribe at t; where they do not move, of applied forces. */
+real statics_load_size(const struct engine *e, real t)
+{
+    real sum = 0, forces = 0;
+    for (int b = 0; b < e->loads.n; b++) {
+        const struct load *l = &e->loads.load[b];
+        const struct displacing by = displacing_make(l->boundary, e->part.dim, t);
+        for (int64_t k = 0; k < l->n; k++) {
+            real X[DIM_MAX], f[DIM_MAX];
+            particle_place(&e->part, l->particle[k], X);
+            for (int d = 0; d < e->part.dim && l->boundary->kind == BOUNDARY_VELOCITY; d++)
+                if (l->boundary->components >> d & 1) sum += square(displacing_at(&by, X, d));
+            if (!boundary_is_force(l->boundary)) continue;
+            load_force_at(l, &e->part, k, t, f);
+            forces += dot(f, f, e->part.dim);
+        }
+    }
+    return sqrt(sum > 0 ? sum : forces);
+}
+
+enum { SECANTS_MOST = 30 };
+
+real statics_time_of_size(const struct engine *e, real size)
+{
+    real from = e->statics.t, at_from = statics_load_size(e, from);
+    real t = at_from > 0 ? from * size / at_from : from;
+    for (int k = 0; k < SECANTS_MOST; k++) {
+        const real at = statics_load_size(e, t), slope = (at - at_from) / (t - from);
+        if (fabs(at - size) <= 1e-9 * size || !(slope != 0) || t == from) return t;
+        from = t, at_from = at;
+        t = real_max(0, from + (size - at) / slope);
+    }
+    return t;
+}
+
+/* ---- advances ---------------------------------------------------------------------------------------------------- */
+
+status statics_go(struct engine *e, real t)
+{
+    TRY(statics_solve(e, t));
+    e->statics.overload = statics_overload(e);
+    return OK;
+}
+
+/* Bonds break at this pseudo-time, onto the list. */
+static status advance_try(struct engine *e)
+{
+    struct statics *s = &e->statics;
+    const real before = statics_released(e), cost = advance_cost(e) * (1 - 1e-3);
+    s->next.n = 0;
+    s->ahead = (struct advance){0};
+    while (s->ahead.cost < cost && s->overload > LEFT) {
+        if (statics_break(e, e->scene->steps.within, e->scene->steps.breaks, &s->ahead.cost) == 0) break;
+        TRY(statics_go(e, s->t));
+    }
+    s->ahead.release = (statics_released(e) - before) / square(statics_load_size(e, s->t));
+    return OK;
+}
+
+/* What a trial has to give back. */
+struct stand {
+    real overload, lost, damped, work, constraint_work;
+    struct field u, f;
+};
+
+static void stand_take(struct stand *k, const struct engine *e)
+{
+    const struct equilibrium *q = &e->statics.balance;
+    *k = (struct stand){
+        e->statics.overload, q->lost, e->coupling.damped, e->loads.work, e->loads.constraint_work, {{0}}, {{0}}};
+    for (int d = 0; d < q->dim; d++) {
+        k->u.of[d] = BARE("advance.stand", q->n, real);
+        k->f.of[d] = BARE("advance.stand", q->n, real);
+        memcpy(k->u.of[d], q->u.of[d], (size_t)q->n * sizeof(real));
+        memcpy(k->f.of[d], q->f.of[d], (size_t)q->n * sizeof(real));
+    }
+}
+
+static void stand_give(struct stand *k, struct engine *e)
+{
+    struct equilibrium *q = &e->statics.balance;
+    statics_mend(e);
+    e->statics.overload = k->overload;
+    q->lost = k->lost, e->coupling.damped = k->damped;
+    e->loads.work = k->work, e->loads.constraint_work = k->constraint_work;
+    for (int d = 0; d < q->dim; d++) {
+        memcpy(q->u.of[d], k->u.of[d], (size_t)q->n * sizeof(real));
+        memcpy(q->f.of[d], k->f.of[d], (size_t)q->n * sizeof(real));
+        memory_free(k->u.of[d]);
+        memory_free(k->f.of[d]);
+    }
+    statics_place(e, &q->u);
+    engine_mesh_sync(e);
+    statics_react(e);
+}
+
+/* Size of loads at which costs and releases balance. */
+static real size_of_balance(const struct advance *a, const struct advance *b)
+{
+    const real release = a->release + b->release;
+    return a->cost > 0 && release > 0 ? sqrt((a->cost + b->cost) / release) : INFINITY;
+}
+
+status statics_look_ahead(struct engine *e)
+{
+    struct statics *s = &e->statics;
+    struct stand stand;
+    if (s->next.n > 0 || s->overload < (s->behind.cost > 0 ? STRESSED_FURTHER : STRESSED)) return OK;
+    stand_take(&stand, e);
+    const status tried = advance_try(e);
+    stand_give(&stand, e);
+    s->due = size_of_balance(&s->ahead, &s->behind);
+    return tried;
+}
+
+status statics_advance(struct engine *e)
+{
+    struct statics *s = &e->statics;
+    statics_break_listed(e);
+    const int64_t broken = s->next.n;
+    s->behind = s->ahead, s->ahead = (struct advance){0};
+    s->next.n = 0;
+    TRY(statics_go(e, s->t));
+    statics_plastic_keep(e);
+    return statics_convert(e, broken);
+}
+
+status statics_convert(struct engine *e, int64_t broken)
+{
+    while (engine_convert(e, broken)) {
+        broken = 0;
+        statics_precondition_free(e);
+        statics_unknowns_free(e);
+        statics_unknowns_make(e);
+        e->statics.next.n = 0;
+        TRY(statics_go(e, e->statics.t));
+    }
+    return OK;
+}

@@ -1,0 +1,186 @@
+/* Bonds over their limit in an equilibrium, and those that break: the most overloaded ones first. */
+#include "engine_statics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "kernels/kernels.h"
+#include "kernels/pd/bond_last.h"
+
+#define ALIKE 1e-7 /* bonds whose loads differ by less break together: round-off decides no order */
+
+/* Stretch of a bond over its limit. A limit of 0 or less is passed by any stretch above it. */
+static real overload_of(const struct engine *e, const struct bond *bond, int32_t i)
+{
+    const real stretch = stretch_ago(&e->part, bond->inverse_length, i, bond->nbr, 0);
+    return stretch / stretch_limit(&e->part, &e->source.limit, i, bond->nbr);
+}
+
+/* Largest of a row block. */
+static real row_block_overload(const struct engine *e, int64_t g)
+{
+    real most = 0;
+    for (int64_t r = g * LANES; r < (g + 1) * LANES && r < e->bonds.rows; r++)
+        for (struct bond_iterator it = bonds_of_row(&e->bonds, r); bond_next(&it);)
+            if (it.bond.w != 0) most = real_max(most, overload_of(e, &it.bond, e->bonds.particle[r]));
+    return most;
+}
+
+real statics_overload(const struct engine *e)
+{
+    real most = 0;
+#pragma omp parallel for schedule(static) reduction(max : most)
+    for (int64_t g = 0; g < e->bonds.row_blocks; g++) most = real_max(most, row_block_overload(e, g));
+    return most;
+}
+
+static int descending(const void *a, const void *b)
+{
+    const real x = *(const real *)a, y = *(const real *)b;
+    return (x < y) - (x > y);
+}
+
+/* Directed bonds whose overload is above `least`, in the order of rows: their overloads, or records of them. */
+static int64_t overloaded(const struct engine *e, real least, real **load, struct broken_bond **record)
+{
+    const struct bonds *b = &e->bonds;
+    int64_t n = 0, room = 64;
+    *load = BARE("statics.overloads", room, real);
+    *record = BARE("statics.records", room, struct broken_bond);
+    for (int64_t r = 0; r < b->rows; r++)
+        for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);) {
+            const int32_t i = b->particle[r];
+            if (it.bond.w == 0) continue;
+            const real over = overload_of(e, &it.bond, i);
+            if (!(over > least)) continue;
+            if (n == room) {
+                *load = memory_resize("statics.overloads", *load, room, 2 * room, sizeof **load);
+                *record = memory_resize("statics.records", *record, room, 2 * room, sizeof **record);
+                room *= 2;
+            }
+            (*load)[n] = over;
+            (*record)[n++] = (struct broken_bond){
+                i, it.bond.nbr,    r, it.bond.entry, it.bond.w, b->fracture_energy[r], e->part.damage[i],
+                0, e->part.flag[i]};
+        }
+    return n;
+}
+
+/* The overload down to which bonds break: of the first `most` pairs in order of their loads. */
+static real least_to_break(const real *load, int64_t n, real least, int64_t most)
+{
+    if (n <= 2 * most) return least;
+    real *sorted = BARE("statics.sorted", n, real);
+    memcpy(sorted, load, (size_t)n * sizeof *load);
+    qsort(sorted, (size_t)n, sizeof *sorted, descending);
+    const real down_to = sorted[2 * most - 1] * (1 - ALIKE);
+    memory_free(sorted);
+    return real_max(least, down_to);
+}
+
+/* Adds those above `down_to` to the list of the advance; returns the mean square of their overloads. */
+static real broken_add(struct break_list *l, const real *load, const struct broken_bond *record, int64_t n,
+                       real down_to)
+{
+    real sum = 0;
+    int64_t added = 0;
+    if (l->room < l->n + n) {
+        l->bond = memory_resize("statics.broken", l->bond, l->room, 2 * (l->n + n), sizeof *l->bond);
+        l->room = 2 * (l->n + n);
+    }
+    for (int64_t k = 0; k < n; k++)
+        if (load[k] > down_to) l->bond[l->n++] = record[k], sum += square(load[k]), added++;
+    return added > 0 ? sum / (real)added : 1;
+}
+
+/* Breaks all bonds beyond `down_to` times their limit. */
+static int64_t break_beyond(struct engine *e, real down_to)
+{
+    const struct bond_limit *own = &e->source.limit;
+    const int pairs = own->materials * own->materials;
+    real *scaled = NEW("statics.limit", pairs, real);
+    const struct bond_limit limit = {scaled, own->materials, LAST_FORCE_NONE, 0};
+    int64_t broken = 0;
+    for (int k = 0; k < pairs; k++) scaled[k] = own->critical_stretch[k] * down_to;
+#pragma omp parallel for schedule(static) reduction(+ : broken)
+    for (int64_t g = 0; g < e->bonds.row_blocks; g++) broken += bond_break_row_block(&e->bonds, &e->part, &limit, g);
+    memory_free(scaled);
+    return broken;
+}
+
+/* In a linear body the energy of a bond is that at its limit times the square of its overload. */
+int64_t statics_break(struct engine *e, real share, int64_t most, real *cost)
+{
+    struct break_list *l = &e->statics.next;
+    const real least = e->statics.overload * (1 - real_max(share, ALIKE)), before = bonds_fracture_energy(&e->bonds);
+    real *load;
+    struct broken_bond *record;
+    const int64_t n = overloaded(e, least, &load, &record);
+    const real down_to = least_to_break(load, n, least, most);
+    const int64_t had = l->n;
+    const real square_mean = broken_add(l, load, record, n, down_to);
+    const int64_t broken = break_beyond(e, down_to);
+    e->statics.stale = true;
+    const real held = (bonds_fracture_energy(&e->bonds) - before) / square_mean;
+    for (int64_t k = had; k < l->n; k++) l->bond[k].held = held / (real)(l->n - had);
+    *cost += held;
+    memory_free(load);
+    memory_free(record);
+    return broken;
+}
+
+/* All at once: what the later ones of the list hold at their limits shows only as the first are gone. */
+void statics_break_listed(struct engine *e)
+{
+    struct break_list *l = &e->statics.next;
+    struct bond_limit limit = e->source.limit;
+    limit.last_force = LAST_FORCE_NONE;
+    real more = 0;
+    for (int64_t k = 0; k < l->n; k++) {
+        const struct broken_bond *record = &l->bond[k];
+        real *booked = &e->bonds.fracture_energy[record->row];
+        const real before = *booked;
+        bond_part(&e->bonds, &e->part, &limit, record->row, record->entry);
+        more += *booked - before - record->held;
+        *booked = before + record->held;
+    }
+    e->statics.balance.lost += more, e->coupling.damped += more;
+    e->statics.stale = true;
+}
+
+void statics_mend(struct engine *e)
+{
+    const struct break_list *l = &e->statics.next;
+    for (int64_t k = l->n; k-- > 0;) {
+        const struct broken_bond *record = &l->bond[k];
+        bond_mend(&e->bonds, &e->part, record->row, record->entry, record->w);
+        e->bonds.fracture_energy[record->row] = record->fracture;
+        e->part.damage[record->i] = record->damage, e->part.flag[record->i] = record->flag;
+    }
+}
+
+/* Finds the bonds of a list by their particles: rows have been made anew. */
+static void list_find(const struct engine *e, struct break_list *l)
+{
+    for (int64_t k = 0; k < l->n; k++) {
+        struct broken_bond *record = &l->bond[k];
+        record->row = e->bonds.row_of[record->i];
+        for (struct bond_iterator it = bonds_of_row(&e->bonds, record->row); bond_next(&it);)
+            if (it.bond.nbr == record->j && it.bond.w != 0) record->entry = it.bond.entry, record->w = it.bond.w;
+    }
+}
+
+status statics_list_archive(struct engine *e, struct archive *a)
+{
+    struct break_list *l = &e->statics.next;
+    ARCHIVE_VALUE(a, "statics/next", l->n);
+    if (!a->saving && l->n > l->room) {
+        l->bond = memory_resize("statics.broken", l->bond, l->room, l->n, sizeof *l->bond);
+        l->room = l->n;
+    }
+    if (l->n > 0) TRY(a->exchange(a, "statics/bonds", l->bond, (size_t)l->n * sizeof *l->bond));
+    if (!a->saving) list_find(e, l);
+    return OK;
+}

@@ -1,0 +1,57 @@
+/* Parts of the load steps (engine/statics.h) that the engine's files share. */
+#ifndef CLEAVE_ENGINE_STATICS
+#define CLEAVE_ENGINE_STATICS
+
+#include "engine/engine.h"
+
+/* Unknowns of the particles and nodes that there are, where they are; to be made anew after conversion. */
+void statics_unknowns_make(struct engine *e);
+void statics_unknowns_free(struct engine *e);
+/* Reference place of a node of the unknowns [m]. */
+void statics_node_place(const struct engine *e, int64_t k, real *X);
+/* Particles, nodes and their images go to these displacements [nodes, m]. */
+void statics_place(struct engine *e, const struct field *u);
+/* Books the forces on supports, and where they are. */
+void statics_react(struct engine *e);
+/* State between two load steps. */
+status statics_archive(struct engine *e, struct archive *a);
+/* Bonds have yielded as they have now: trials of the next step begin from here. */
+void statics_plastic_keep(struct engine *e);
+/* Equilibrium under loads and supports of pseudo-time t [s], which becomes the time of the run; books work, what was
+ * lost on the way, and reactions. FAILED with the place of the residual. */
+status statics_solve(struct engine *e, real t);
+
+/* Columns of history.csv; column NULL: only their number; and their values. */
+int statics_columns(const struct engine *e, struct column *column);
+void statics_record(const struct engine *e, real *record);
+
+/* Preconditioner (engine_springs.c): z = M^-1 r of equilibrium.h; it is made anew once solutions take too many
+ * directions, or when it is to (`free`). */
+void statics_precondition(void *engine, const struct field *r, struct field *z);
+void statics_precondition_watch(struct engine *e, int64_t directions);
+void statics_precondition_free(struct engine *e);
+
+/* Bonds over their limit (engine_overload.c): the largest stretch of an intact bond over its limit [1]; breaks those
+ * within `share` of the largest, `most` pairs or a few more that are alike, adds them to the list of the next advance
+ * and what they hold at their limits to *cost [J]; returns directed bonds broken. */
+real statics_overload(const struct engine *e);
+int64_t statics_break(struct engine *e, real share, int64_t most, real *cost);
+/* Breaks the bonds of the list; makes them whole again; saves or restores it. */
+void statics_break_listed(struct engine *e);
+void statics_mend(struct engine *e);
+status statics_list_archive(struct engine *e, struct archive *a);
+
+/* Advances (engine_advance.c). Equilibrium at pseudo-time t, with the overload there. Looks for the next advance unless
+ * it is known: its bonds, and the size of loads at which it comes. Lets it come. Size of loads and supports at a
+ * pseudo-time, which scales as they do; the pseudo-time near this one at which loads have a size; energy released so
+ * far [J]. */
+status statics_go(struct engine *e, real t);
+status statics_look_ahead(struct engine *e);
+/* Material points that have to become peridynamic do, until none has to; so many directed bonds have broken. */
+status statics_convert(struct engine *e, int64_t broken);
+status statics_advance(struct engine *e);
+real statics_load_size(const struct engine *e, real t);
+real statics_time_of_size(const struct engine *e, real size);
+real statics_released(const struct engine *e);
+
+#endif

@@ -1,0 +1,168 @@
+/* Load steps: the body is led through states of equilibrium, and its crack advances between them (engine_advance.c). */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "engine_report.h"
+#include "engine_statics.h"
+
+#define OPENING_ERROR 1e-4 /* of an opening that is prescribed */
+enum { SECANTS_MOST = 12 };
+
+/* ---- control ----------------------------------------------------------------------------------------------------- */
+
+/* Is an advance due under the present loads? */
+static bool advance_due(const struct engine *e)
+{
+    return e->statics.next.n > 0 && statics_load_size(e, e->statics.t) >= e->statics.due * (1 - 1e-9);
+}
+
+/* The crack advances as long as that pays. */
+static status settle(struct engine *e)
+{
+    TRY(statics_convert(e, 0));
+    TRY(statics_look_ahead(e));
+    while (advance_due(e)) {
+        TRY(statics_advance(e));
+        TRY(statics_look_ahead(e));
+    }
+    return OK;
+}
+
+static status step_by_load(struct engine *e, real t)
+{
+    TRY(statics_go(e, t));
+    return settle(e);
+}
+
+/* One advance of the crack, then the pseudo-time at which the next one is due; as long as none is, as much pseudo-time
+ * as the duration has for a step. */
+static status step_by_energy(struct engine *e, real most)
+{
+    struct statics *s = &e->statics;
+    const real t = real_min(s->t + most, e->scene->duration);
+    if (s->advances) TRY(statics_advance(e));
+    TRY(statics_look_ahead(e));
+    if (s->next.n == 0) {
+        TRY(statics_go(e, t));
+        TRY(statics_convert(e, 0));
+        TRY(statics_look_ahead(e));
+    }
+    s->advances = s->next.n > 0 && statics_load_size(e, t) >= s->due;
+    return statics_go(e, s->advances ? statics_time_of_size(e, s->due) : t);
+}
+
+/* Goes to the pseudo-time at which a measure of the state has this value, by secants from `t` [s] on. */
+typedef real measure_fn(const struct engine *e);
+static status go_to(struct engine *e, measure_fn *measure, real value, real error, real t)
+{
+    real from = e->statics.t, at_from = measure(e);
+    for (int k = 0; k < SECANTS_MOST; k++) {
+        TRY(statics_go(e, real_max(t, 0)));
+        const real at = measure(e), slope = (at - at_from) / (e->statics.t - from);
+        if (fabs(at - value) <= error * fabs(value) || e->statics.t == from || !(slope != 0)) return OK;
+        from = e->statics.t, at_from = at;
+        t = from + (value - at) / slope;
+    }
+    return OK;
+}
+
+/* How far the places of control opening have moved apart [m]. */
+static real opening_measure(const struct engine *e)
+{
+    real now = 0, was = 0;
+    for (int d = 0; d < e->part.dim; d++) {
+        const int64_t a = e->statics.opens[0], b = e->statics.opens[1];
+        now += square(e->part.x[d][b] - e->part.x[d][a]);
+        was += square(e->part.X[d][b] - e->part.X[d][a]);
+    }
+    return sqrt(now) - sqrt(was);
+}
+
+/* The opening grows by a step; pseudo-time follows, and bonds break until no advance pays any more. */
+static status step_by_opening(struct engine *e)
+{
+    const struct scene_steps *s = &e->scene->steps;
+    const real wanted = s->opening * (real)(e->clock.step + 1) / (real)s->number, now = opening_measure(e);
+    const real first = e->scene->duration / (real)s->number;
+    TRY(go_to(e, opening_measure, wanted, OPENING_ERROR, now > 0 ? e->statics.t * wanted / now : e->statics.t + first));
+    TRY(statics_convert(e, 0));
+    TRY(statics_look_ahead(e));
+    while (advance_due(e)) {
+        TRY(statics_advance(e));
+        TRY(go_to(e, opening_measure, wanted, OPENING_ERROR, e->statics.t * wanted / opening_measure(e)));
+        TRY(statics_look_ahead(e));
+    }
+    return OK;
+}
+
+/* The particle nearest to a place. */
+static int64_t nearest(const struct particles *p, const real *X)
+{
+    int64_t at = 0;
+    real least = INFINITY;
+    for (int64_t i = 0; i < p->n; i++) {
+        real away = 0;
+        for (int d = 0; d < p->dim; d++) away += square(p->X[d][i] - X[d]);
+        if (away < least) least = away, at = i;
+    }
+    return at;
+}
+
+/* ---- columns of history.csv -------------------------------------------------------------------------------------- */
+
+enum { STATICS_COLUMNS = 3 };
+
+int statics_columns(const struct engine *e, struct column *column)
+{
+    static const struct column own[STATICS_COLUMNS] = {{"load_time", "s"}, {"overload", ""}, {"released", "J"}};
+    if (!scene_in_steps(e->scene)) return 0;
+    if (column) memcpy(column, own, sizeof own);
+    return STATICS_COLUMNS;
+}
+
+void statics_record(const struct engine *e, real *record)
+{
+    if (!scene_in_steps(e->scene)) return;
+    record[0] = e->statics.t, record[1] = e->statics.overload, record[2] = statics_released(e);
+}
+
+/* ---- the loop ---------------------------------------------------------------------------------------------------- */
+
+static status load_step(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    const real most = s->duration / (real)s->steps.number;
+    if (e->statics.precondition && e->statics.stale) statics_precondition_free(e);
+    switch (s->steps.control) {
+    case CONTROL_LOAD:
+        return step_by_load(e, most * (real)(e->clock.step + 1));
+    case CONTROL_ENERGY:
+        return step_by_energy(e, most);
+    case CONTROL_OPENING:
+        return step_by_opening(e);
+    }
+    return OK;
+}
+
+status engine_steps(struct engine *e)
+{
+    TRY(engine_report_start(e));
+    laps_start(&e->report.laps);
+    statics_unknowns_make(e);
+    for (int k = 0; k < 2; k++) e->statics.opens[k] = nearest(&e->part, k ? e->scene->steps.to : e->scene->steps.from);
+    if (e->clock.step == 0) engine_sample_rest(e);
+    while (e->clock.step < e->clock.steps) {
+        TRY(load_step(e));
+        statics_plastic_keep(e);
+        e->clock.step++;
+        e->clock.t = e->clock.dt * (real)e->clock.step;
+        engine_probes_step(e);
+        engine_sample_equilibrium(e);
+        if (e->statics.t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
+        lap(&e->report.laps, LAP_BONDS);
+        TRY(engine_report(e));
+    }
+    statics_free(e);
+    return engine_report_end(e);
+}

@@ -1,0 +1,66 @@
+/* Conditions on load steps (solver static, steps). */
+#include <stdlib.h>
+
+#include "scene_internal.h"
+
+/* REFUSED for what only a run in time has. */
+static status check_steps_motion(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *solver = node_find(root, "solver"), *cracks = node_find(root, "growth");
+    if (s->rigids > 0)
+        return fault(r, solver,
+                     "rigid bodies move in steps of time; supports of the body, or solver: explicit, are "
+                     "expected");
+    if (s->growths > 0)
+        return fault(r, cracks ? cracks : solver, "cracks with a prescribed speed want solver explicit");
+    if (s->contact_friction > 0)
+        return fault(r, tree_at(root, "contact.friction"),
+                     "friction has no energy to be in equilibrium with; 0, or "
+                     "solver: explicit, is expected");
+    for (int k = 0; k < s->probes; k++)
+        if (s->probe[k].kind == PROBE_PULSE)
+            return fault(r, solver, "static has no waves for probe %s to measure; explicit is expected",
+                         s->probe[k].name);
+    return OK;
+}
+
+/* REFUSED for loads of which load steps do not know where they lead. */
+static status check_steps_loads(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *list = node_find(root, "boundary"), *n = list ? list->first : NULL;
+    for (int b = 0; b < s->boundaries && n; b++, n = n->next) {
+        if (s->boundary[b].follow)
+            return fault(r, node_find(n, "follow"),
+                         "load steps know loads on the reference state only; false, or "
+                         "solver: explicit, is expected");
+        TRY(status_at(s->boundary[b].place, load_displacement_known(&s->boundary[b])));
+    }
+    return OK;
+}
+
+status check_load_steps(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    const struct node *steps = node_find(root, "steps");
+    const bool opening = s->steps.control == CONTROL_OPENING;
+    TRY(check_steps_motion(r, root));
+    TRY(check_steps_loads(r, root));
+    if (!opening || (s->steps.has_from && s->steps.has_to && s->steps.opening > 0)) return OK;
+    return fault(r, steps,
+                 "control opening wants steps.from and steps.to, two places, and steps.opening, how far they "
+                 "are moved apart");
+}
+
+/* The echo of a scene has all keys, with their defaults. */
+status check_steps_given(struct reader *r, const struct node *root)
+{
+    const struct scene_steps *s = &r->scene->steps;
+    const struct node *steps = node_find(root, "steps");
+    const struct key *number = key_find("steps", "number"), *breaks = key_find("steps", "breaks");
+    const bool usual = s->number == atoi(number->fallback) && s->control == CONTROL_LOAD && s->energy == 0 &&
+                       s->opening == 0 && s->breaks == atoi(breaks->fallback);
+    if (!steps || scene_in_steps(r->scene) || usual) return OK;
+    return fault(r, steps, "load steps belong to solver: static, which is expected beside them");
+}

@@ -1,0 +1,212 @@
+/* Newton's method with conjugate gradients, without a matrix. */
+#include "solver/equilibrium.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "base/team.h"
+#include "solver_parts.h"
+
+enum { CORRECTIONS_MOST = 40 };  /* of Newton's method; linear bodies need two or three */
+enum { DIRECTIONS_MOST = 2000 }; /* of conjugate gradients in a correction */
+enum { HALVINGS_MOST = 8 };      /* of a correction that leads away from equilibrium */
+
+/* Largest strain of the way over which forces are differenced: second-order terms are of its size, and the round-off of
+ * forces, 1e-14 of a strain in a body of 100 spacings, is 1e-8 of the difference. */
+#define DIFFERENCE_STRAIN 1e-6
+
+/* Share of the residual that a correction leaves: the least is what one-sided differences resolve. */
+#define FORCING_MOST 0.1
+#define FORCING_LEAST 1e-4
+
+/* ---- vectors ----------------------------------------------------------------------------------------------------- */
+
+static struct field *const *all_fields(struct equilibrium *q, struct field **list)
+{
+    struct field *const fields[] = {&q->u, &q->f, &q->d, &q->q, &q->r, &q->z, &q->x, &q->at, &q->before};
+    memcpy(list, fields, sizeof fields);
+    return list;
+}
+enum { FIELDS = 9 };
+
+void equilibrium_make(struct equilibrium *q, int dim, int64_t n)
+{
+    struct field *list[FIELDS];
+    q->dim = dim, q->n = n;
+    q->strain_ratio = 0;
+    q->held = NEW("equilibrium.held", n, uint8_t);
+    all_fields(q, list);
+    for (int k = 0; k < FIELDS; k++)
+        for (int d = 0; d < dim; d++) list[k]->of[d] = NEW("equilibrium.field", n, real);
+}
+
+void equilibrium_free(struct equilibrium *q)
+{
+    struct field *list[FIELDS];
+    all_fields(q, list);
+    for (int k = 0; k < FIELDS; k++)
+        for (int d = 0; d < DIM_MAX; d++) memory_free(list[k]->of[d]);
+    memory_free(q->held);
+    *q = (struct equilibrium){0};
+}
+
+static bool is_held(const struct equilibrium *q, int64_t i, int d) { return q->held[i] >> d & 1; }
+
+/* to = a x + b y. */
+static void combine(const struct equilibrium *q, struct field *to, real a, const struct field *x, real b,
+                    const struct field *y)
+{
+    for (int d = 0; d < q->dim; d++) {
+        real *t = to->of[d];
+        const real *v = x->of[d], *w = y->of[d];
+#pragma omp parallel for schedule(static)
+        for (int64_t i = 0; i < q->n; i++) t[i] = a * v[i] + b * w[i];
+    }
+}
+
+/* What dot_block reads: two vectors, of which free components count. */
+struct product {
+    const struct equilibrium *q;
+    const struct field *a, *b;
+};
+
+static void dot_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct product *s = context;
+    for (int d = 0; d < s->q->dim; d++)
+        for (int64_t i = first; i < end; i++) sum[is_held(s->q, i, d)] += s->a->of[d][i] * s->b->of[d][i];
+}
+
+/* Sums over free components, and over held ones. */
+static void dots(const struct equilibrium *q, const struct field *a, const struct field *b, real sum[2])
+{
+    team_sums(q->n, 2, dot_block, &(struct product){q, a, b}, sum);
+}
+
+static real dot_free(const struct equilibrium *q, const struct field *a, const struct field *b)
+{
+    real sum[2];
+    dots(q, a, b, sum);
+    return sum[0];
+}
+
+/* ---- forces ------------------------------------------------------------------------------------------------------ */
+
+static void forces_at(struct equilibrium *q, const struct field *u, struct field *f)
+{
+    q->force(q->context, u, f);
+    q->forces++;
+}
+
+/* out = K in at u, where the forces are f: the decrease of forces along `in`, over its length. */
+static void stiffness(struct equilibrium *q, const struct field *in, struct field *out)
+{
+    const real most = solver_largest(in, q->dim, q->n);
+    const real step = most > 0 ? DIFFERENCE_STRAIN / (q->strain_ratio * most) : 0;
+    combine(q, &q->at, 1, &q->u, step, in);
+    forces_at(q, &q->at, out);
+    if (most > 0)
+        combine(q, out, -1 / step, out, 1 / step, &q->f);
+    else
+        combine(q, out, 0, out, 0, out);
+}
+
+/* Strain of a direction with this curvature d . K d, over its largest component: sets the next difference. */
+static void strain_note(struct equilibrium *q, const struct field *d, real curvature)
+{
+    const real most = solver_largest(d, q->dim, q->n);
+    if (curvature > 0 && most > 0) q->strain_ratio = sqrt(curvature / q->unit_energy) / most;
+}
+
+void equilibrium_measure(struct equilibrium *q)
+{
+    real sum[2], most = -1;
+    dots(q, &q->f, &q->f, sum);
+    q->scale = real_max(real_max(q->applied, sqrt(sum[1])), q->noise);
+    q->residual = q->scale > 0 ? sqrt(sum[0]) / q->scale : 0;
+    for (int64_t i = 0; i < q->n; i++) {
+        real size = 0;
+        for (int d = 0; d < q->dim; d++) size += is_held(q, i, d) ? 0 : square(q->f.of[d][i]);
+        if (size > most) most = size, q->worst = i;
+    }
+}
+
+/* ---- one correction ---------------------------------------------------------------------------------------------- */
+
+/* r = what supports and the guess x leave of the forces: f - K x, of free components. */
+static void residual_of_guess(struct equilibrium *q)
+{
+    if (solver_largest(&q->x, q->dim, q->n) == 0) {
+        combine(q, &q->r, 1, &q->f, 0, &q->f);
+    } else {
+        stiffness(q, &q->x, &q->q);
+        combine(q, &q->r, 1, &q->f, -1, &q->q);
+    }
+    for (int d = 0; d < q->dim; d++)
+        for (int64_t i = 0; i < q->n; i++)
+            if (is_held(q, i, d)) q->r.of[d][i] = 0;
+}
+
+/* x: the correction K x = f of free components, from the x that it holds; its held components stay. Residual down to
+ * `wanted` [N], or to FORCING_LEAST of what the guess leaves. */
+static void correction(struct equilibrium *q, real wanted)
+{
+    real rz = 0;
+    residual_of_guess(q);
+    real left = sqrt(dot_free(q, &q->r, &q->r));
+    wanted = real_max(wanted, FORCING_LEAST * left);
+    for (int k = 0; k < DIRECTIONS_MOST && left > wanted; k++) {
+        q->precondition(q->context, &q->r, &q->z);
+        const real next = dot_free(q, &q->r, &q->z), beta = k > 0 ? next / rz : 0;
+        if (!(next > 0)) break;
+        rz = next;
+        combine(q, &q->d, 1, &q->z, beta, &q->d);
+        stiffness(q, &q->d, &q->q);
+        const real curvature = dot_free(q, &q->d, &q->q);
+        q->directions++;
+        if (!(curvature > 0)) break; /* the body gives way: what has been found so far may lead on */
+        strain_note(q, &q->d, curvature);
+        combine(q, &q->x, 1, &q->x, rz / curvature, &q->d);
+        combine(q, &q->r, 1, &q->r, -rz / curvature, &q->q);
+        left = sqrt(dot_free(q, &q->r, &q->r));
+    }
+}
+
+/* Moves by x, or by half of it, a quarter, ..., where forces on free components would grow; a `prescribed` way is gone
+ * whole. The work of forces that are not in balance is that of their mean. */
+static void advance(struct equilibrium *q, real left, bool prescribed)
+{
+    real share = 1;
+    for (int k = 0;; k++, share *= 0.5) {
+        combine(q, &q->z, 1, &q->u, share, &q->x);
+        forces_at(q, &q->z, &q->q);
+        const real after = sqrt(dot_free(q, &q->q, &q->q));
+        if ((isfinite(after) && after <= 2 * left) || prescribed || k == HALVINGS_MOST) break;
+    }
+    q->lost += 0.5 * share * (dot_free(q, &q->before, &q->x) + dot_free(q, &q->q, &q->x));
+    combine(q, &q->u, 1, &q->z, 0, &q->z);
+    combine(q, &q->f, 1, &q->q, 0, &q->q);
+    combine(q, &q->before, 1, &q->q, 0, &q->q);
+}
+
+status equilibrium_find(struct equilibrium *q, const struct field *way, bool moved)
+{
+    bool prescribed = solver_largest(way, q->dim, q->n) > 0;
+    combine(q, &q->x, 1, way, 0, way);
+    combine(q, &q->before, 1, &q->f, 0, &q->f);
+    forces_at(q, &q->u, &q->f);
+    if (!moved) combine(q, &q->before, 1, &q->f, 0, &q->f);
+    if (!(q->strain_ratio > 0)) q->strain_ratio = 1;
+    for (int k = 0; k < CORRECTIONS_MOST; k++) {
+        equilibrium_measure(q);
+        const real left = q->residual * q->scale, goal = 0.5 * q->tolerance * q->scale;
+        if (!isfinite(left)) break;
+        if (!prescribed && (q->residual <= q->tolerance || left <= q->noise)) return OK;
+        correction(q, prescribed ? goal : real_min(FORCING_MOST * left, real_max(goal, FORCING_LEAST * left)));
+        advance(q, left, prescribed);
+        combine(q, &q->x, 0, &q->x, 0, &q->x);
+        prescribed = false;
+    }
+    return status_set(FAILED, "no equilibrium within %d corrections", CORRECTIONS_MOST);
+}
