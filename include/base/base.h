@@ -22,6 +22,7 @@ typedef double real;
 enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 
 #define ALWAYS_INLINE inline __attribute__((always_inline))
+#define NEVER_INLINE __attribute__((noinline))   /* large and called from several places: compiled once */
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
 
 /* Shuffle of the entries of vectors a and b of n entries; indices from n on refer to b. MASK: the integer vector type

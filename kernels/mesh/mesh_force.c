@@ -58,17 +58,21 @@ static ALWAYS_INLINE void band_force(const struct mesh *mesh, int64_t band, cons
         run_force(mesh, &mesh->run[r], &m[mesh->run[r].material], dim, finite);
 }
 
-/* Forces of all bands, in two colours. The parallel region is inside each instance, where dimension and strain measure
- * are literals. */
+/* Forces of all bands, in two colours, which share the code of a band. The parallel region is inside each instance,
+ * where dimension and strain measure are literals. */
 #define BANDS(D, FINITE)                                                                                               \
+    static NEVER_INLINE void band_force_##D##_##FINITE(const struct mesh *mesh, int64_t band, const struct elastic *m) \
+    {                                                                                                                  \
+        band_force(mesh, band, m, D, FINITE);                                                                          \
+    }                                                                                                                  \
     static void bands_force_##D##_##FINITE(struct mesh *mesh, const struct elastic *m)                                 \
     {                                                                                                                  \
         _Pragma("omp parallel")                                                                                        \
         {                                                                                                              \
             _Pragma("omp for schedule(static)") for (int64_t b = 0; b < mesh->bands; b += 2)                           \
-                band_force(mesh, b, m, D, FINITE);                                                                     \
+                band_force_##D##_##FINITE(mesh, b, m);                                                                 \
             _Pragma("omp for schedule(static) nowait") for (int64_t b = 1; b < mesh->bands; b += 2)                    \
-                band_force(mesh, b, m, D, FINITE);                                                                     \
+                band_force_##D##_##FINITE(mesh, b, m);                                                                 \
         }                                                                                                              \
     }
 
@@ -143,11 +147,15 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 enum { FEW = 16 };                       /* groups that one thread computes in less time than a team */
 
 #define CUTS(D, FINITE)                                                                                                \
+    static NEVER_INLINE void cut_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p,                    \
+                                                      const struct elastic *m, int64_t k)                              \
+    {                                                                                                                  \
+        if (!partial_inactive(mesh, k)) partial_force(mesh, p, m, k, D, FINITE);                                       \
+    }                                                                                                                  \
     static void cuts_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)       \
     {                                                                                                                  \
         TEAM_LOOP(mesh_groups(mesh) > FEW,                                                                             \
-                  for (int64_t k = 0; k < mesh_groups(mesh); k++) if (!partial_inactive(mesh, k))                      \
-                      partial_force(mesh, p, m, k, D, FINITE););                                                       \
+                  for (int64_t k = 0; k < mesh_groups(mesh); k++) cut_force_##D##_##FINITE(mesh, p, m, k););           \
         cuts_add(mesh, D);                                                                                             \
     }
 

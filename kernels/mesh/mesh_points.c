@@ -147,10 +147,14 @@ static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct part
 }
 
 #define ENDS(D, FINITE)                                                                                                \
+    static NEVER_INLINE void group_ends_##D##_##FINITE(const struct mesh *mesh, struct particles *p, int64_t k)        \
+    {                                                                                                                  \
+        group_ends_update(mesh, p, k, D, FINITE);                                                                      \
+    }                                                                                                                  \
     static void ends_update_##D##_##FINITE(const struct mesh *mesh, struct particles *p)                               \
     {                                                                                                                  \
         TEAM_LOOP(mesh_groups(mesh) > FEW / LANES, for (int64_t k = 0; k < mesh_groups(mesh); k++)                     \
-            group_ends_update(mesh, p, k, D, FINITE););                                                                \
+            group_ends_##D##_##FINITE(mesh, p, k););                                                                   \
     }
 ENDS(2, false)
 ENDS(2, true)
@@ -283,8 +287,8 @@ void mesh_points_gradient(const struct mesh *mesh, real *const *to)
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
 /* Marks the points of a cell whose largest principal stress passes the trigger. */
-static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
-                                    const int dim, bool finite)
+static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
+                                           int64_t I, const int dim, bool finite)
 {
     real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX], s[SYM_MAX];
     mesh_strains(mesh, I, R, e, dim, finite);
@@ -296,6 +300,22 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
         const real most = point_trigger(own, p, i);
         if (stress_bound(s, dim) > most && stress_principal(s, dim) > most) p->flag[i] |= FLAG_STRESSED;
     }
+}
+
+#define CELL_MARK(D)                                                                                                   \
+    static NEVER_INLINE void cell_mark_##D(const struct mesh *mesh, struct particles *p, const struct elastic *m,      \
+                                           int64_t I, bool finite)                                                     \
+    {                                                                                                                  \
+        cell_points_mark(mesh, p, m, I, D, finite);                                                                    \
+    }
+DIMENSIONS(CELL_MARK)
+
+static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
+                                    const int dim, bool finite)
+{
+    if (dim == 1) cell_mark_1(mesh, p, m, I, finite);
+    else if (dim == 2) cell_mark_2(mesh, p, m, I, finite);
+    else cell_mark_3(mesh, p, m, I, finite);
 }
 
 /* Strain of eight cells at place q: the mean strain, plus the bending modes times the coordinates +-1/4 of the
@@ -317,8 +337,8 @@ static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q
 
 /* Bound of the largest principal stress [Pa], closer than that of mesh_force: place by place, where `there` is set
  * (NULL: at all places). */
-static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
-                                         const int dim)
+static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
+                                          const int dim)
 {
     lanes most = lanes_of(-INFINITY), e[3][3], P[3][3];
     SETS for (int q = 0; q < 1 << dim; q++) {
@@ -331,6 +351,22 @@ static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct m
         most = lanes_max(most, there ? lanes_choose(there[q], bound, most) : bound);
     }
     return most;
+}
+
+#define TENSION(D)                                                                                                     \
+    static NEVER_INLINE lanes cells_tension_##D(const struct elastic *m, const struct mesh_cell *s,                    \
+                                                const lanes_mask *there)                                               \
+    {                                                                                                                  \
+        return places_tension(m, s, there, D);                                                                         \
+    }
+DIMENSIONS(TENSION)
+
+static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
+                                         const int dim)
+{
+    return dim == 1   ? cells_tension_1(m, s, there)
+           : dim == 2 ? cells_tension_2(m, s, there)
+                      : cells_tension_3(m, s, there);
 }
 
 /* Does cell I hold points of another material than `material`? */
