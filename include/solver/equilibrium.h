@@ -28,7 +28,9 @@ struct equilibrium {
 
     /* Since equilibrium_make or the caller has set them to 0: */
     int64_t forces, directions;          /* evaluations of all forces; directions of conjugate gradients */
-    real lost;                           /* work of forces that were not in balance, on the way to balance [J] */
+    real lost;                           /* work of forces that were not in balance, on the way to balance, where that
+                                          * of supports is the mean of their forces in both equilibria times their way,
+                                          * not that on the way [J] */
 
     real residual;                       /* what is left, over `scale` [1] */
     real scale;                          /* larger one of the norms of applied forces and reactions [N] */

@@ -190,9 +190,18 @@ static void advance(struct equilibrium *q, real left, bool prescribed)
     combine(q, &q->before, 1, &q->q, 0, &q->q);
 }
 
+/* Forces on supports, times the way that these go [J]. */
+static real dot_held(const struct equilibrium *q, const struct field *way)
+{
+    real sum[2];
+    dots(q, &q->f, way, sum);
+    return sum[1];
+}
+
 status equilibrium_find(struct equilibrium *q, const struct field *way, bool moved)
 {
     bool prescribed = solver_largest(way, q->dim, q->n) > 0;
+    real by_supports = 0;
     combine(q, &q->x, 1, way, 0, way);
     combine(q, &q->before, 1, &q->f, 0, &q->f);
     forces_at(q, &q->u, &q->f);
@@ -202,9 +211,13 @@ status equilibrium_find(struct equilibrium *q, const struct field *way, bool mov
         equilibrium_measure(q);
         const real left = q->residual * q->scale, goal = 0.5 * q->tolerance * q->scale;
         if (!isfinite(left)) break;
-        if (!prescribed && (q->residual <= q->tolerance || left <= q->noise)) return OK;
+        if (!prescribed && (q->residual <= q->tolerance || left <= q->noise)) {
+            q->lost += 0.5 * (by_supports - dot_held(q, way));
+            return OK;
+        }
         correction(q, prescribed ? goal : real_min(FORCING_MOST * left, real_max(goal, FORCING_LEAST * left)));
         advance(q, left, prescribed);
+        if (k == 0) by_supports = dot_held(q, way);
         combine(q, &q->x, 0, &q->x, 0, &q->x);
         prescribed = false;
     }
