@@ -118,6 +118,9 @@ KERNEL(int64_t, bond_break_row_block,
  * next positions. The other entry of the bond has to fade alike. */
 KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
+/* A bound, close above, of the largest stretch of the bonds of a row block [1]. */
+KERNEL(real, bond_row_block_stretch, (const struct bonds *b, const struct particles *p, int64_t row_block));
+
 /* Ends entry q of a row at the present places, whatever its stretch, and books its energy. The other entry of the bond
  * has to end alike. */
 KERNEL(void, bond_part,

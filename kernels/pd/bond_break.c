@@ -145,9 +145,8 @@ static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct par
     return column_largest(s, largest, distance2 * (inverse * lanes_size(inverse)));
 }
 
-/* Which rows of a row block have a bond beyond this stretch, row by row. */
-static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, lanes least,
-                                          const int dim)
+/* The largest of all bonds, row by row. */
+static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct particles *p, int64_t g, const int dim)
 {
     const int32_t *row = b->particle + g * LANES;
     lanes x[DIM_MAX], largest = lanes_of(0);
@@ -155,7 +154,24 @@ static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct pa
 #define VISIT(COLUMN) largest = bond_break_largest_of(largest, p, x, COLUMN, dim)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
-    return largest > (1.0 + least) * (1.0 + least) * (1 - ROUND_OFF);
+    return largest;
+}
+
+/* Which rows of a row block have a bond beyond this stretch, row by row. */
+static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, lanes least,
+                                          const int dim)
+{
+    return rows_largest(b, p, g, dim) > (1.0 + least) * (1.0 + least) * (1 - ROUND_OFF);
+}
+
+real bond_row_block_stretch(const struct bonds *b, const struct particles *p, int64_t row_block)
+{
+    const lanes largest = p->dim == 1   ? rows_largest(b, p, row_block, 1)
+                          : p->dim == 2 ? rows_largest(b, p, row_block, 2)
+                                        : rows_largest(b, p, row_block, 3);
+    real most = 0;
+    for (int l = 0; l < LANES; l++) most = real_max(most, largest[l]);
+    return sqrt(most) * (1 + ROUND_OFF) - 1 + LIMIT_MARGIN;
 }
 
 /* The same in the body's dimension. */

@@ -18,10 +18,20 @@ static real overload_of(const struct engine *e, const struct bond *bond, int32_t
     return stretch / stretch_limit(&e->part, &e->source.limit, i, bond->nbr);
 }
 
-/* Largest of a row block. */
-static real row_block_overload(const struct engine *e, int64_t g)
+/* No bond stands below this stretch at its limit. */
+static real limit_least(const struct engine *e)
 {
-    real most = 0;
+    const struct bond_limit *limit = &e->source.limit;
+    real least = INFINITY, weakest = 1;
+    for (int k = 0; k < limit->materials * limit->materials; k++) least = real_min(least, limit->critical_stretch[k]);
+    for (int64_t i = 0; e->part.strength && i < e->part.n; i++) weakest = real_min(weakest, e->part.strength[i]);
+    return least * weakest;
+}
+
+/* The larger of `most` and the largest of a row block. */
+static real row_block_overload(const struct engine *e, int64_t g, real weakest, real most)
+{
+    if (bond_row_block_stretch(&e->bonds, &e->part, g) <= most * weakest) return most;
     for (int64_t r = g * LANES; r < (g + 1) * LANES && r < e->bonds.rows; r++)
         for (struct bond_iterator it = bonds_of_row(&e->bonds, r); bond_next(&it);)
             if (it.bond.w != 0) most = real_max(most, overload_of(e, &it.bond, e->bonds.particle[r]));
@@ -30,9 +40,10 @@ static real row_block_overload(const struct engine *e, int64_t g)
 
 real statics_overload(const struct engine *e)
 {
+    const real weakest = limit_least(e);
     real most = 0;
 #pragma omp parallel for schedule(static) reduction(max : most)
-    for (int64_t g = 0; g < e->bonds.row_blocks; g++) most = real_max(most, row_block_overload(e, g));
+    for (int64_t g = 0; g < e->bonds.row_blocks; g++) most = row_block_overload(e, g, weakest, most);
     return most;
 }
 
@@ -42,30 +53,41 @@ static int descending(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* Directed bonds whose overload is above `least`, in the order of rows: their overloads, or records of them. */
-static int64_t overloaded(const struct engine *e, real least, real **load, struct broken_bond **record)
+/* Overloaded directed bonds: their overloads, and records of them. */
+struct overloads {
+    int64_t n, room;
+    real *load;
+    struct broken_bond *record;
+};
+
+static void overloads_add(struct overloads *o, const struct engine *e, const struct bond *bond, int64_t r, real over)
 {
-    const struct bonds *b = &e->bonds;
-    int64_t n = 0, room = 64;
-    *load = BARE("statics.overloads", room, real);
-    *record = BARE("statics.records", room, struct broken_bond);
-    for (int64_t r = 0; r < b->rows; r++)
-        for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);) {
-            const int32_t i = b->particle[r];
-            if (it.bond.w == 0) continue;
-            const real over = overload_of(e, &it.bond, i);
-            if (!(over > least)) continue;
-            if (n == room) {
-                *load = memory_resize("statics.overloads", *load, room, 2 * room, sizeof **load);
-                *record = memory_resize("statics.records", *record, room, 2 * room, sizeof **record);
-                room *= 2;
-            }
-            (*load)[n] = over;
-            (*record)[n++] = (struct broken_bond){
-                i, it.bond.nbr,    r, it.bond.entry, it.bond.w, b->fracture_energy[r], e->part.damage[i],
-                0, e->part.flag[i]};
+    const int32_t i = e->bonds.particle[r];
+    if (o->n == o->room) {
+        const int64_t room = o->room ? 2 * o->room : 64;
+        o->load = memory_resize("statics.overloads", o->load, o->room, room, sizeof *o->load);
+        o->record = memory_resize("statics.records", o->record, o->room, room, sizeof *o->record);
+        o->room = room;
+    }
+    o->load[o->n] = over;
+    o->record[o->n++] = (struct broken_bond){.i = i,
+                                             .j = bond->nbr,
+                                             .row = r,
+                                             .entry = bond->entry,
+                                             .w = bond->w,
+                                             .fracture = e->bonds.fracture_energy[r],
+                                             .damage = e->part.damage[i],
+                                             .flag = e->part.flag[i]};
+}
+
+/* Adds those of a row block whose overload is above `least`, in the order of rows. */
+static void row_block_overloads(struct overloads *o, const struct engine *e, int64_t g, real least)
+{
+    for (int64_t r = g * LANES; r < (g + 1) * LANES && r < e->bonds.rows; r++)
+        for (struct bond_iterator it = bonds_of_row(&e->bonds, r); bond_next(&it);) {
+            const real over = it.bond.w == 0 ? 0 : overload_of(e, &it.bond, e->bonds.particle[r]);
+            if (over > least) overloads_add(o, e, &it.bond, r, over);
         }
-    return n;
 }
 
 /* The overload down to which bonds break: of the first `most` pairs in order of their loads. */
@@ -115,19 +137,20 @@ int64_t statics_break(struct engine *e, real share, int64_t most, real *cost)
 {
     struct break_list *l = &e->statics.next;
     const real least = e->statics.overload * (1 - real_max(share, ALIKE)), before = bonds_fracture_energy(&e->bonds);
-    real *load;
-    struct broken_bond *record;
-    const int64_t n = overloaded(e, least, &load, &record);
-    const real down_to = least_to_break(load, n, least, most);
+    const real weakest = limit_least(e);
+    struct overloads o = {0};
+    for (int64_t g = 0; g < e->bonds.row_blocks; g++)
+        if (bond_row_block_stretch(&e->bonds, &e->part, g) > least * weakest) row_block_overloads(&o, e, g, least);
+    const real down_to = least_to_break(o.load, o.n, least, most);
     const int64_t had = l->n;
-    const real square_mean = broken_add(l, load, record, n, down_to);
+    const real square_mean = broken_add(l, o.load, o.record, o.n, down_to);
     const int64_t broken = break_beyond(e, down_to);
     e->statics.stale = true;
     const real held = (bonds_fracture_energy(&e->bonds) - before) / square_mean;
     for (int64_t k = had; k < l->n; k++) l->bond[k].held = held / (real)(l->n - had);
     *cost += held;
-    memory_free(load);
-    memory_free(record);
+    memory_free(o.load);
+    memory_free(o.record);
     return broken;
 }
 

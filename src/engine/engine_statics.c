@@ -465,7 +465,7 @@ status statics_solve(struct engine *e, real t)
     applied_make(e, t);
     way_make(e, t, account.applied);
     s->balance.applied = applied_norm(e);
-    s->balance.noise = round_off_of(e);
+    if (!s->precondition) s->balance.noise = round_off_of(e);
     const int64_t asked = s->balance.directions;
     const real lost = s->balance.lost;
     const status found = equilibrium_find(&s->balance, &s->way, t != s->t);

@@ -148,28 +148,75 @@ static void residual_of_guess(struct equilibrium *q)
             if (is_held(q, i, d)) q->r.of[d][i] = 0;
 }
 
+/* What a pass over vectors reads and writes. */
+struct step {
+    struct equilibrium *q;
+    real scale;
+};
+
+/* Plain products: vectors whose held components are 0. */
+static void stiff_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct equilibrium *q = context;
+    for (int d = 0; d < q->dim; d++) {
+        const real *a = q->d.of[d], *b = q->q.of[d];
+        real part = 0;
+#pragma omp simd reduction(+ : part)
+        for (int64_t i = first; i < end; i++) part += a[i] * b[i];
+        *sum += part;
+    }
+}
+
+static void preconditioned_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct equilibrium *q = context;
+    for (int d = 0; d < q->dim; d++) {
+        const real *a = q->r.of[d], *b = q->z.of[d];
+        real part = 0;
+#pragma omp simd reduction(+ : part)
+        for (int64_t i = first; i < end; i++) part += a[i] * b[i];
+        *sum += part;
+    }
+}
+
+/* x += scale d, r -= scale K d of free components; adds up r . r. */
+static void advance_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct step *s = context;
+    const struct equilibrium *q = s->q;
+    for (int d = 0; d < q->dim; d++) {
+        real *x = q->x.of[d], *r = q->r.of[d], part = 0;
+        const real *way = q->d.of[d], *force = q->q.of[d];
+#pragma omp simd reduction(+ : part)
+        for (int64_t i = first; i < end; i++) {
+            x[i] += s->scale * way[i];
+            r[i] = q->held[i] >> d & 1 ? 0 : r[i] - s->scale * force[i];
+            part += r[i] * r[i];
+        }
+        *sum += part;
+    }
+}
+
 /* x: the correction K x = f of free components, from the x that it holds; its held components stay. Residual down to
  * `wanted` [N], or to FORCING_LEAST of what the guess leaves. */
 static void correction(struct equilibrium *q, real wanted)
 {
-    real rz = 0;
+    real rz = 0, next, curvature, left2;
     residual_of_guess(q);
-    real left = sqrt(dot_free(q, &q->r, &q->r));
-    wanted = real_max(wanted, FORCING_LEAST * left);
-    for (int k = 0; k < DIRECTIONS_MOST && left > wanted; k++) {
+    left2 = dot_free(q, &q->r, &q->r);
+    wanted = real_max(wanted, FORCING_LEAST * sqrt(left2));
+    for (int k = 0; k < DIRECTIONS_MOST && left2 > square(wanted); k++) {
         q->precondition(q->context, &q->r, &q->z);
-        const real next = dot_free(q, &q->r, &q->z), beta = k > 0 ? next / rz : 0;
+        team_sums(q->n, 1, preconditioned_block, q, &next);
         if (!(next > 0)) break;
+        combine(q, &q->d, 1, &q->z, k > 0 ? next / rz : 0, &q->d);
         rz = next;
-        combine(q, &q->d, 1, &q->z, beta, &q->d);
         stiffness(q, &q->d, &q->q);
-        const real curvature = dot_free(q, &q->d, &q->q);
+        team_sums(q->n, 1, stiff_block, q, &curvature);
         q->directions++;
         if (!(curvature > 0)) break; /* the body gives way: what has been found so far may lead on */
         strain_note(q, &q->d, curvature);
-        combine(q, &q->x, 1, &q->x, rz / curvature, &q->d);
-        combine(q, &q->r, 1, &q->r, -rz / curvature, &q->q);
-        left = sqrt(dot_free(q, &q->r, &q->r));
+        team_sums(q->n, 1, advance_block, &(struct step){q, rz / curvature}, &left2);
     }
 }
 
