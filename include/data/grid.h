@@ -62,6 +62,7 @@ struct wall {
     int32_t node;
     int16_t component, load;             /* load: the boundary condition that constrains it */
     real velocity, change;               /* in this step; since the step before [m/s] */
+    real place;                          /* displacement at the end of the step, NAN: what the velocity makes [m] */
     real reaction;                       /* impulse of this step, without that of the prescribed change [N s] */
 };
 
@@ -70,7 +71,7 @@ struct wall {
  * need more than `most` nodes. */
 status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed);
 void grid_free(struct grid *g);
-void grid_add_wall(struct grid *g, int64_t node, int component, real velocity, real change, int load);
+void grid_add_wall(struct grid *g, const struct wall *wall);
 void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node);
 void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot);
 /* Nothing is on the grid in this step: no node is constrained. */

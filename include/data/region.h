@@ -55,6 +55,8 @@ struct time_function {
 real time_function_at(const struct time_function *f, real t);
 /* Its integral from 0 to t >= 0 [s]. */
 real time_function_integral(const struct time_function *f, real t);
+/* Its largest slope between 0 and t, INFINITY where it jumps there [1/s]. */
+real time_function_steepest(const struct time_function *f, real t);
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 

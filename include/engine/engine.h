@@ -287,8 +287,9 @@ void engine_ends_update(struct engine *e);
 /* Sum of v . f over points on the grid where they are now, without any motion [W]; accounts of loads change.
  * `middle`: half a step later [s]. */
 real engine_grid_power(struct engine *e, real middle);
-/* REFUSED for prescribed velocities by place on a grid that knows no reference places (engine_driving.c). */
-status engine_driving_check(const struct engine *e);
+/* REFUSED for what is driven by place on a grid that knows no reference places, and for displacements that jump or, at
+ * the `start` of a run, are not from where particles are (engine_driving.c). */
+status engine_driving_check(const struct engine *e, bool start);
 
 /* Bulk damping (engine_damping.c): keeps velocities before a step moves them; its loss since the step before, once it
  * has [J]; slows all for the next step. The loss of the last kick, which nothing follows, by the kinetic energies

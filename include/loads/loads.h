@@ -57,9 +57,10 @@ struct boundary {
     bool time_unit;                      /* the column has the unit of the value, which then says the direction alone */
     struct profile profile;              /* BODY_FORCE: factor on value */
     bool by_mass;                        /* BODY_FORCE: gravity; value is an acceleration [m/s^2] */
-    int face;                            /* TRACTION, ABSORBING: axis of the face's normal */
-    int side;                            /* TRACTION, ABSORBING: +1 upper face, -1 lower face */
-    real section;                        /* TRACTION, ABSORBING: of all bodies, in line [m^2], in the plane [m], 1 in
+    int face;                            /* TRACTION, ABSORBING, VELOCITY: axis of the face's normal */
+    int side;                            /* +1 upper face, -1 lower face; VELOCITY: 0, no face */
+    real depth;                          /* VELOCITY: of the layer behind its face [m] */
+    real section;                        /* beside a face: of all bodies, in line [m^2], in the plane [m], 1 in
                                             space; 0: a particle's area is its volume over the spacing */
     int axis;                            /* MIRROR: normal of the plane ... */
     real at;                             /*         ... and where it is [m] */
@@ -88,7 +89,8 @@ struct load {
     real *before[DIM_MAX];
     real reaction[DIM_MAX];              /* VELOCITY: force of the support on the body in the last step, without what
                                             moves the driven particles themselves [N] */
-    real displacement[DIM_MAX];          /* of the driven particles, accumulated [m] */
+    real displacement[DIM_MAX];          /* of the driven particles, their mean; of velocities accumulated [m] */
+    real held_work;                      /* static, drives by place: forces of the support times displacements [J] */
     int outside;                         /* MIRROR: side of the plane without body, -1 or +1 */
 };
 
@@ -123,6 +125,7 @@ struct loads {
                                             loads' moment [1/s^2], 0: none */
     real place_step[DIM_MAX];            /* positions across mirrors are rounded to multiples of it; 0: not [m] */
     struct absorbing absorbing;
+    bool ended;                          /* forces are asked for that no step follows */
     real *share;                         /* scratch: driven mass of the grid's nodes [kg] */
     int64_t share_room;
     struct constrained_set constrained_mesh; /* nodes of the mesh in driven regions, on mirrors, and driven ones */
@@ -157,6 +160,10 @@ struct face {
 void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
                real spacing, bool two);
 void face_free(struct face *f);
+/* Marks the selected particles of the face of b and of the layer of depth b->depth behind it, as far as nothing parts
+ * them [particles]. */
+void face_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
+                uint8_t *taken);
 /* Calls `found` for every free end of a column along the normal of b's face, the walls of holes too, with the area of
  * the column [m^2]. */
 typedef void face_found_fn(void *context, int32_t particle, real area);
@@ -218,22 +225,6 @@ void loads_dashpots(struct loads *l, struct grid *g, const struct particles *p, 
 void loads_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
 void loads_absorbed(struct loads *l, const struct absorbed *by);
 
-/* What a boundary prescribes in a step from t - dt/2 to t + dt/2 (loads_driving.c). */
-struct driving {
-    const struct boundary *boundary;
-    int dim;
-    real t, dt, factor;                  /* of its function of time, at t */
-    real from[DIM_MAX * DIM_MAX], to[DIM_MAX * DIM_MAX]; /* rotates: rotations at the step's ends, row major */
-};
-struct driving driving_make(const struct boundary *b, int dim, real t, real dt);
-/* Velocity of component d at the reference place X; `placed`: of what is at X when the step begins [m/s]. */
-real driving_at(const struct driving *s, const real *X, int d, bool placed);
-/* Does it depend on the place? */
-static inline bool drives_by_place(const struct boundary *b)
-{
-    return b->rotates || b->formula[0].in_space || b->formula[1].in_space || b->formula[2].in_space;
-}
-
 /* Where a boundary of kind VELOCITY has its particles at a (pseudo-)time t >= 0: displacements from reference places.
  * That of `displacement` is its value there, of a velocity the integral from 0, of a rotation the rotation by the
  * angle until then; formulas of a static problem are those at `frozen_at`. Made once for a load and a time, cheap to
@@ -252,6 +243,29 @@ real displacing_at(const struct displacing *s, const real *X, int d);
 void load_displacement_at(const struct load *l, const struct particles *p, int64_t k, real t, real *u);
 /* REFUSED for a boundary of kind VELOCITY whose displacements are not known ahead. OK for all others. */
 status load_displacement_known(const struct boundary *b);
+
+/* What a boundary prescribes in a step from t - dt/2 to t + dt/2 (loads_driving.c). */
+struct driving {
+    const struct boundary *boundary;
+    int dim;
+    real t, dt, factor;                  /* of its function of time, at t */
+    struct displacing from, to;          /* displaces, rotates: at the step's ends */
+};
+struct driving driving_make(const struct boundary *b, int dim, real t, real dt);
+/* That of boundary `which` in a step; where none follows, what is displaced goes on as in the step before: how its
+ * motion changes after the end is nothing of the run, whose work would have half of it. */
+struct driving loads_driving(const struct loads *l, int which, int dim, real t, real dt);
+/* Velocity of component d at the reference place X; `placed`: of what is at X when the step begins [m/s]. That of a
+ * displacement is its difference over the step. */
+real driving_at(const struct driving *s, const real *X, int d, bool placed);
+/* Does it depend on the place? */
+static inline bool drives_by_place(const struct boundary *b)
+{
+    return b->rotates || b->formula[0].in_space || b->formula[1].in_space || b->formula[2].in_space;
+}
+/* Largest speed that a displacement prescribes between the times 0 and t, INFINITY where it jumps: of formulas that at
+ * MOMENTS of them, and at some places [m/s]. */
+real load_displacing_speed(const struct load *l, const struct particles *p, real t);
 
 #define LOADS_TOLERANCE ON_SURFACE       /* of a spacing: points on a region's border belong to it    */
 
@@ -286,8 +300,9 @@ void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt)
 void loads_level_find(const struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p);
 void loads_level_walls(const struct loads *l, const struct constrained_set *held, struct grid *g, real t, real dt);
 
-/* After the gather: driven material points take their velocity exactly; books the work of applied forces. */
-void loads_hold(struct loads *l, struct particles *p, real t, real dt);
+/* After the gather: driven material points take their velocity exactly, and displaced particles their place; books the
+ * work of applied forces. Returns whether points on a grid are elsewhere than it has moved them. */
+bool loads_hold(struct loads *l, struct particles *p, real t, real dt);
 /* Reactions of the walls of one grid, or of the mesh. */
 void loads_react(struct loads *l, const struct grid *g, real dt_velocity);
 

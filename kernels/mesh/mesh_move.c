@@ -19,7 +19,7 @@ static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MA
             struct wall *w = &g->wall[k];
             const real before = velocity[w->node], needed = mass[w->node] * (w->velocity - before);
             const real given = needed - dt_velocity * force[w->node];
-            w->reaction = given - mass[w->node] * w->change;
+            w->reaction = -dt_velocity * force[w->node];
             sum += given;
             all += given * 0.5 * (before + w->velocity);
             force[w->node] = needed * inverse;
@@ -45,15 +45,18 @@ static void dashpots_force(struct mesh *mesh, real dt_velocity)
     }
 }
 
+#define OFF_PLACE 1e-6                   /* a node so much beside its place is not there by round-off [cells] */
+
 /* Sets constrained components to the prescribed velocity exactly: removes what round-off left in velocity and
- * displacement. */
+ * displacement. What is displaced takes its place, unless it has begun elsewhere. */
 static void walls_move(struct mesh *mesh, real dt)
 {
     const struct grid *g = &mesh->grid;
     for (int64_t k = 0; k < g->walls; k++) {
         const struct wall *w = &g->wall[k];
-        real *velocity = &g->velocity[w->component][w->node];
-        mesh->displacement[w->component][w->node] += dt * (w->velocity - *velocity);
+        real *velocity = &g->velocity[w->component][w->node], *u = &mesh->displacement[w->component][w->node];
+        *u += dt * (w->velocity - *velocity);
+        if (fabs(*u - w->place) <= OFF_PLACE * g->h) *u = w->place;      /* never where it is none */
         *velocity = w->velocity;
         if (mesh->matched) g->momentum[w->component][w->node] = w->velocity;     /* no matched cell has held nodes */
     }

@@ -264,7 +264,7 @@ static void advise_separation(const struct engine *e, FILE *out)
             const struct boundary *a = &s->boundary[b];
             if (a->kind != BOUNDARY_VELOCITY || !(a->components & 1 << d)) continue;
             if (a->rotates || a->formula[d].n > 0) continue;
-            const real way = a->value[d] * time_function_integral(&a->time, s->duration);
+            const real way = a->value[d] * displacing_make(a, s->dim, s->duration).factor;
             least = real_min(least, way), most = real_max(most, way);
         }
         const real stretch = 1 + (most - least) / (high - low);
@@ -308,8 +308,11 @@ static real stress_reached(const struct engine *e)
         const bool formula = a->formula[0].n + a->formula[1].n + a->formula[2].n > 0;
         if (a->kind == BOUNDARY_BODY_FORCE || a->time.kind == TIME_TABLE || formula || a->rotates) return INFINITY;
         for (int d = 0; d < s->dim && a->kind == BOUNDARY_VELOCITY; d++)
-            if (a->components & 1 << d)
-                low[d] = real_min(low[d], a->value[d]), high[d] = real_max(high[d], a->value[d]);
+            if (a->components & 1 << d) {
+                const real steep = a->displaces ? time_function_steepest(&a->time, s->duration) : 1;
+                const real speed = a->value[d] == 0 ? 0 : steep * a->value[d];
+                low[d] = real_min(low[d], speed), high[d] = real_max(high[d], speed);
+            }
         for (int d = 0; d < s->dim && a->kind == BOUNDARY_TRACTION; d++) traction += fabs(a->value[d]);
         if (a->kind == BOUNDARY_PRESSURE) traction += fabs(a->value[0]);
     }

@@ -208,6 +208,21 @@ static void say_support(const struct engine *e, const struct load *l)
     printf(b->rotates ? "on circles" : moves ? " driven" : " held");
 }
 
+/* Mean displacement at the end, and how fast it grows in time. */
+static void say_displacement(const struct engine *e, const struct load *l)
+{
+    const bool explicit = e->scene->solver == SOLVER_EXPLICIT;
+    real mean[DIM_MAX] = {0}, u[DIM_MAX];
+    for (int64_t k = 0; k < l->n; k++) {
+        load_displacement_at(l, &e->part, k, explicit ? e->scene->duration : INFINITY, u);
+        for (int d = 0; d < e->part.dim; d++) mean[d] += u[d] / (real)l->n;
+    }
+    printf("; by ");
+    say_vector(mean, e->part.dim);
+    printf(" m%s at the end", drives_by_place(l->boundary) ? " in the mean" : "");
+    if (explicit) printf(", at most %.3g m/s", load_displacing_speed(l, &e->part, e->scene->duration));
+}
+
 static void say_load(const struct engine *e, int which)
 {
     static const char *const words[] = {[BOUNDARY_TRACTION] = "traction",
@@ -216,7 +231,7 @@ static void say_load(const struct engine *e, int which)
                                         [BOUNDARY_PRESSURE] = "pressure"};
     const struct load *l = &e->loads.load[which];
     const struct boundary *b = l->boundary;
-    const bool force = boundary_is_force(b), faces = b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING;
+    const bool force = boundary_is_force(b), faces = b->side != 0;
     printf("%-15s%s: ", force ? "load" : "support", b->name);
     if (b->kind == BOUNDARY_VELOCITY || b->kind == BOUNDARY_MIRROR)
         say_support(e, l);
@@ -224,9 +239,10 @@ static void say_load(const struct engine *e, int which)
         printf("%s", b->by_mass ? "weight" : words[b->kind]);
     if (faces) printf(" on %c%c", "xyz"[b->face], b -> side > 0 ? '+' : '-');
     if (b->kind != BOUNDARY_MIRROR) printf(", %lld particle%s", (long long)l->n, l->n == 1 ? "" : "s");
-    if (faces) say_traction_area(e, l);
+    if (faces && b->kind != BOUNDARY_VELOCITY) say_traction_area(e, l);
     if (b->kind == BOUNDARY_PRESSURE) say_pressed(e, which);
     if (force) say_force(e, l);
+    if (b->displaces) say_displacement(e, l);
     putchar('\n');
 }
 

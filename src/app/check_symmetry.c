@@ -49,7 +49,7 @@ static bool matter_agrees(const struct engine *e, const int32_t *twin)
 static real load_mark(const struct boundary *b)
 {
     const struct time_function *t = &b->time;
-    real mark = 1 + b->kind + 10.0 * t->kind;
+    real mark = 1 + b->kind + 10.0 * t->kind + (b->displaces ? 0.377 : 0);
     if (t->kind != TIME_CONSTANT && t->kind != TIME_TABLE)
         mark += 0.1234 * t->from / (t->from + t->until + 1e-300) + 1e6 * t->until;
     for (int k = 0; k < t->n; k++) mark += (k + 1.618) * (t->t[k] * 1e6 + t->value[k]);

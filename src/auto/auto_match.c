@@ -372,6 +372,9 @@ static status check_ordinary(const struct scene *s)
                 return no_match("a body of other solids than boxes, balls and half-spaces where they are");
     }
     if (material_yields(&s->material[0])) return no_match("a material that yields");
+    for (int k = 0; k < s->boundaries; k++)
+        if (s->boundary[k].displaces && is_load(&s->boundary[k], s->dim))
+            return no_match("a prescribed displacement; nearest is a velocity");
     if (scales_by_formula(s)) return no_match("a load or an initial velocity by a formula");
     return OK;
 }

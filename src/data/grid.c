@@ -94,14 +94,14 @@ bool grid_box(struct grid *g, const real *from, const real *to, int64_t most)
     return true;
 }
 
-void grid_add_wall(struct grid *g, int64_t node, int component, real velocity, real change, int load)
+void grid_add_wall(struct grid *g, const struct wall *wall)
 {
     if (g->walls == g->walls_room) {
         int64_t room = g->walls_room ? 2 * g->walls_room : 256;
         g->wall = memory_resize("grid.wall", g->wall, g->walls_room, room, sizeof *g->wall);
         g->walls_room = room;
     }
-    g->wall[g->walls++] = (struct wall){(int32_t)node, (int16_t)component, (int16_t)load, velocity, change, 0};
+    g->wall[g->walls++] = *wall;
 }
 
 void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node)

@@ -139,6 +139,29 @@ real time_function_integral(const struct time_function *f, real t)
     }
 }
 
+/* Of the pieces of a table that begin before t and end after 0. */
+static real table_steepest(const struct time_function *f, real t)
+{
+    real most = 0;
+    for (int k = 1; k < f->n; k++)
+        if (f->t[k] > 0 && f->t[k - 1] < t)
+            most = real_max(most, fabs(f->value[k] - f->value[k - 1]) / (f->t[k] - f->t[k - 1]));
+    return most;
+}
+
+real time_function_steepest(const struct time_function *f, real t)
+{
+    static const real pi = 3.14159265358979323846;
+    const bool meets = f->from < t && f->until > 0;
+    switch (f->kind) {
+    case TIME_STEP: return (f->from > 0 && f->from <= t) || (f->until > 0 && f->until <= t) ? INFINITY : 0;
+    case TIME_PULSE: return meets ? pi / (f->until - f->from) : 0;
+    case TIME_RAMP: return meets ? 1 / (f->until - f->from) : 0;
+    case TIME_TABLE: return table_steepest(f, t);
+    default: return 0;
+    }
+}
+
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
 /* What counts as touching, in lengths of the crack. */

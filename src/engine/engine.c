@@ -382,7 +382,7 @@ static void move(struct engine *e, struct step *now)
     if (now->damps) e->coupling.damped += interface_damp_end(&e->coupling.zone, p);
     engine_mesh_move(e, now->middle, now->dt_velocity);
     for (int k = 0; k < e->mpm.fields; k++) loads_react(&e->loads, &e->mpm.field[k].grid, now->dt_velocity);
-    loads_hold(&e->loads, p, now->middle, e->clock.dt);
+    if (loads_hold(&e->loads, p, now->middle, e->clock.dt)) e->mpm.sort_needed = true;
     loads_mirror(&e->loads, p);
     lap(&e->report.laps, LAP_GRID);
 }

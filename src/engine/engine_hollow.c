@@ -72,23 +72,27 @@ static bool loads_reach(const struct scene *s, const real *X, real tolerance)
 {
     for (int b = 0; b < s->boundaries; b++) {
         const struct boundary *load = &s->boundary[b];
-        if (load->kind != BOUNDARY_MIRROR && load->kind != BOUNDARY_TRACTION && load->kind != BOUNDARY_ABSORBING &&
+        if (load->kind != BOUNDARY_MIRROR && load->side == 0 &&
             region_contains(&load->region, X, s->dim, tolerance))
             return true;
     }
     return false;
 }
 
-/* Does a load act on the face of cell I, which it has where the cell beside it is not whole? */
+/* Does a load act on the face of cell I, which it has where the cell beside it is not whole, or on the layer behind
+ * such a face? */
 static bool face_loaded(const struct scene *s, const struct hollow *h, int64_t I, const real *X)
 {
     for (int b = 0; b < s->boundaries; b++) {
         const struct boundary *load = &s->boundary[b];
-        if (load->kind != BOUNDARY_TRACTION && load->kind != BOUNDARY_ABSORBING) continue;
-        const int64_t beside = I + (load->side > 0 ? 1 : -1) * h->box.stride[load->face];
-        if ((beside < 0 || beside >= h->box.n || !h->whole[beside]) &&
-            region_contains(&load->region, X, s->dim, h->box.h))
-            return true;
+        if (load->side == 0) continue;
+        const int64_t deep = load->kind == BOUNDARY_VELOCITY ? (int64_t)ceil(load->depth / h->box.h) : 1;
+        for (int64_t k = 1; k <= deep; k++) {
+            const int64_t beside = I + k * load->side * h->box.stride[load->face];
+            if ((beside < 0 || beside >= h->box.n || !h->whole[beside]) &&
+                region_contains(&load->region, X, s->dim, h->box.h))
+                return true;
+        }
     }
     return false;
 }

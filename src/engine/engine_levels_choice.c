@@ -18,10 +18,13 @@ enum { CARRIED_BY_ANY = 1 };             /* levels that carry all but pulses */
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* Shortest time in which a function of time rises, as for a ramp [s]. */
-static real rise_of(const struct time_function *f)
+/* Shortest time in which what a boundary does rises, as for a ramp [s]: of a displacement its velocity, which is that
+ * of a pulse or jumps. */
+static real rise_of(const struct boundary *b)
 {
+    const struct time_function *f = &b->time;
     real most = 0, steepest = 0;
+    if (b->displaces) return f->kind == TIME_PULSE ? 0.125 * (f->until - f->from) : 0;
     if (f->kind == TIME_RAMP) return f->until - f->from;
     if (f->kind == TIME_PULSE) return 0.25 * (f->until - f->from);
     if (f->kind != TIME_TABLE) return 0;
@@ -61,7 +64,7 @@ static struct load_rise sharpest_rise(const struct engine *e, real across)
     for (int b = 0; b < s->boundaries; b++) {
         const struct boundary *load = &s->boundary[b];
         const bool moves = load->kind != BOUNDARY_MIRROR && load->kind != BOUNDARY_ABSORBING;
-        const real rise = rise_of(&load->time);
+        const real rise = rise_of(load);
         const struct load_rise one = {RISE_BOUNDARY, b, load->time.kind == TIME_PULSE, rise, rise * c / D};
         if (moves && dot(load->value, load->value, s->dim) > 0) rise_take(&least, &one, across);
     }

@@ -400,7 +400,7 @@ static status make_forces(struct engine *e, struct predecessor *before)
     make_contact(e);
     engine_partial_make(e);
     TRY(named(s, engine_mesh_make(e, before != NULL)));
-    TRY(engine_driving_check(e));
+    TRY(engine_driving_check(e, before == NULL));
     engine_ends_update(e);
     engine_stability_check_make(e);
     return make_time(e, before);

@@ -153,13 +153,16 @@ void engine_nodes_force(struct engine *e)
     levels_force(levels, &e->part, e->reference.coarse, finite, levels_due(levels, e->clock.step));
 }
 
-/* Walls of the mesh and of the coarse cells that move in this step. */
+/* Walls of the mesh and of the coarse cells that move in this step, these by longer ones. */
 static void nodes_walls(struct engine *e, real middle, int due)
 {
     struct mesh_levels *levels = &e->reference.levels;
     loads_mesh_walls(&e->loads, &e->reference.mesh, middle, e->clock.dt);
-    for (int level = 1; level <= due; level++)
-        loads_level_walls(&e->loads, &levels->at[level].held, &levels->at[level].mesh.grid, middle, e->clock.dt);
+    for (int level = 1; level <= due; level++) {
+        const real dt = (real)(1 << level) * e->clock.dt;
+        loads_level_walls(&e->loads, &levels->at[level].held, &levels->at[level].mesh.grid,
+                          middle + 0.5 * (dt - e->clock.dt), dt);
+    }
 }
 
 static void nodes_react(struct engine *e, real dt_velocity, int due)

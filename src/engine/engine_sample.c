@@ -279,7 +279,7 @@ static real power_last(struct engine *e, real *held)
     struct load *own = BARE("report.load", e->loads.n, struct load);
     if (e->loads.n > 0) memcpy(own, e->loads.load, (size_t)e->loads.n * sizeof *own);
     const real dt_velocity = e->clock.dt * engine_damping_share(e);
-    e->loads.absorbing.idle = true;
+    e->loads.absorbing.idle = e->loads.ended = true;
     loads_clear(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_force(&e->contact, &e->part, 0);
@@ -290,7 +290,7 @@ static real power_last(struct engine *e, real *held)
     if (e->loads.n > 0) memcpy(e->loads.load, own, (size_t)e->loads.n * sizeof *own);
     memcpy(e->loads.impulse, account.impulse, sizeof account.impulse);      /* arrays may have grown with the grid */
     e->loads.work = account.work, e->loads.constraint_work = account.constraint_work;
-    e->loads.absorbing.idle = false;
+    e->loads.absorbing.idle = e->loads.ended = false;
     memory_free(own);
     return power;
 }

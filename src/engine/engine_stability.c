@@ -62,6 +62,7 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     real most, mean, fast2 = 0;
     if (b->kind == BOUNDARY_MIRROR || b->kind == BOUNDARY_ABSORBING) return 0;
     factors(&b->time, from, clock->t, &most, &mean);
+    if (b->displaces) return load_displacing_speed(load, p, clock->t + clock->dt);
     if (drives) return most * sqrt(dot(b->value, b->value, p->dim));
     for (int64_t k = 0; k < load->n; k++) {
         real a2 = 0;
@@ -148,7 +149,8 @@ static bool load_explanation(const struct engine *e, real steps, char *text, siz
         "no smaller time step helps: boundary %s, a %s of %.3g %s, %s its particles %.3g m/s%s, %.3g times the wave "
         "speed, and loads "
         "have done %.3g J of work; see whether its value is meant, and in which unit",
-        b->name, word[b->kind], value, b->by_mass ? "N/kg" : unit[b->kind],
+        b->name, b->displaces ? "displacement" : word[b->kind], value,
+        b->displaces ? "m" : b->by_mass ? "N/kg" : unit[b->kind],
         b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed, within,
         speed / e->tables.wave_speed, e->loads.work + e->loads.constraint_work);
     return true;

@@ -39,12 +39,15 @@ static real volume_share(const struct scene *s, const struct material_tables *ta
     return sqrt(observed / most);
 }
 
-static real engine_time_fastest(const struct scene *s, const struct particles *p, const struct stability *stability)
+static real engine_time_fastest(const struct engine *e)
 {
-    real speed = stability->start_speed;
+    const struct scene *s = e->scene;
+    real speed = e->stability.start_speed;
     for (int b = 0; b < s->boundaries; b++)
-        if (s->boundary[b].kind == BOUNDARY_VELOCITY)
-            speed = real_max(speed, sqrt(dot(s->boundary[b].value, s->boundary[b].value, p->dim)));
+        if (s->boundary[b].displaces && s->solver == SOLVER_EXPLICIT)
+            speed = real_max(speed, load_displacing_speed(&e->loads.load[b], &e->part, s->duration));
+        else if (s->boundary[b].kind == BOUNDARY_VELOCITY && !s->boundary[b].displaces)
+            speed = real_max(speed, sqrt(dot(s->boundary[b].value, s->boundary[b].value, s->dim)));
     return speed;
 }
 
@@ -52,7 +55,7 @@ static real critical_of_points(const struct engine *e)
 {
     if (e->part.n_free + e->part.n_grid_coupled == 0) return INFINITY;
     return points_share(e->scene) * volume_share(e->scene, &e->tables, &e->part) * e->mpm.field[0].grid.h /
-           (e->tables.wave_speed + engine_time_fastest(e->scene, &e->part, &e->stability));
+           (e->tables.wave_speed + engine_time_fastest(e));
 }
 
 /* ---- bonds ------------------------------------------------------------------------------------------------------- */

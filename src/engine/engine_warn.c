@@ -111,6 +111,23 @@ static void warn_of_materials(const struct scene *s, const struct material_table
     }
 }
 
+/* A face that is moved at v strains what is behind it by v/c at once. */
+static void warn_of_speed(const struct engine *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    real bears = INFINITY;
+    for (int m = 0; m < s->materials; m++)
+        bears = real_min(bears, s->material[m].critical_stretch * s->material[m].wave_speed);
+    for (int b = 0; b < e->loads.n && s->solver == SOLVER_EXPLICIT && s->method != METHOD_MPM; b++) {
+        const real speed = load_displacing_speed(&e->loads.load[b], &e->part, s->duration);
+        if (speed > bears)
+            warnings_add(to,
+                         "boundary %s: its displacement grows by up to %.3g m/s; bonds beside it break at %.3g m/s, "
+                         "the critical stretch times the wave speed: a longer time is expected, if it is no blow",
+                         s->boundary[b].name, speed, bears);
+    }
+}
+
 static void warn_of_solver(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -302,6 +319,7 @@ void engine_warn(struct engine *e)
     warn_of_idle_keys(e, to);
     warn_of_materials(e->scene, &e->tables, to);
     warn_of_lists(e->scene, to);
+    warn_of_speed(e, to);
     warn_of_solver(e, to);
     warn_of_empty(e, to);
     warn_of_mirrors(e->scene, &e->mpm, to);

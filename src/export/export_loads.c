@@ -1,6 +1,7 @@
 /* Loads in LAMMPS' words: what is driven has its force replaced (fix setforce) so that its velocity is the prescribed
- * one in the middle of each step; forces are added (fix addforce), as means over the kick that they act in. Both give
- * the steps of this program to round-off, for any function of time. */
+ * one in the middle of each step, and what is displaced so that the step ends at its place; forces are added (fix
+ * addforce), as means over the kick that they act in. Both give the steps of this program to round-off, for any
+ * function of time. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -74,8 +75,9 @@ void lammps_velocity(const struct exported *x, int64_t i, real v[DIM_MAX])
     for (int k = 0; k < l->n; k++) {
         const struct boundary *b = l->load[k].boundary;
         if (is_force(&l->load[k]) || !(x->loads[i] >> k & 1)) continue;
+        const struct driving by = driving_make(b, dim, 0.5 * x->e->clock.dt, x->e->clock.dt);
         for (int d = 0; d < dim; d++)
-            if (b->components >> d & 1) v[d] = b->value[d] * time_function_at(&b->time, 0.5 * x->e->clock.dt);
+            if (b->components >> d & 1) v[d] = driving_at(&by, NULL, d, false);
     }
 }
 
@@ -269,13 +271,25 @@ static void force_write(FILE *to, const struct exported *x, int k)
     fprintf(to, "fix load%d load%d addforce %s %s %s\n", k + 1, k + 1, w[0].text, w[1].text, w[2].text);
 }
 
+/* Component d of the force on what is displaced: from its velocity in the middle of the last step to the one that takes
+ * it from where it is to where it has to be. */
+static void place_write(FILE *to, const struct exported *x, int k, int d)
+{
+    const struct boundary *b = x->e->loads.load[k].boundary;
+    fprintf(to, "variable drive%d%c atom \"(step>0)*mass*((", k + 1, axis_name[d]);
+    put(to, b->value[d]);
+    fputc('*', to);
+    put_function(to, &b->time, "v_next");
+    fprintf(to, "-c_placed[%d])/%.17g-v%c)/%.17g\"\n", d + 1, x->e->clock.dt, axis_name[d], x->e->clock.dt);
+}
+
 /* The force that takes what is driven from its velocity in the middle of the last step to that in this one. */
 static void drive_write(FILE *to, const struct exported *x, int k)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;
     const bool varies = !is_constant(&x->e->loads.load[k]);
     struct word w[DIM_MAX] = {{"NULL"}, {"NULL"}, {"NULL"}};
-    if (varies) {
+    if (varies && !b->displaces) {
         fprintf(to, "variable rate%d equal \"(step>0)*(", k + 1);
         put_function(to, &b->time, "v_kick");
         fputc('-', to);
@@ -287,6 +301,10 @@ static void drive_write(FILE *to, const struct exported *x, int k)
         strcpy(w[d].text, "0.0");
         if (!varies || b->value[d] == 0) continue;
         snprintf(w[d].text, sizeof w[d].text, "v_drive%d%c", k + 1, axis_name[d]);
+        if (b->displaces) {
+            place_write(to, x, k, d);
+            continue;
+        }
         fprintf(to, "variable drive%d%c atom \"mass*", k + 1, axis_name[d]);
         put(to, b->value[d]);
         fprintf(to, "*v_rate%d\"\n", k + 1);
@@ -297,11 +315,15 @@ static void drive_write(FILE *to, const struct exported *x, int k)
 void lammps_loads_write(FILE *to, const struct exported *x, const struct lammps_types *t)
 {
     const struct loads *l = &x->e->loads;
+    bool places = false;
     if (l->n == 0) return;
+    for (int k = 0; k < l->n; k++) places |= l->load[k].boundary->displaces;
     fprintf(to,
             "\n# Loads; the kick of a step begins and ends at these times, in the middles of steps\n"
             "variable kick equal \"(step+0.5)*%.17g\"\nvariable kicked equal \"(step-0.5*(step>0))*%.17g\"\n",
             x->e->clock.dt, x->e->clock.dt);
+    if (places)
+        fprintf(to, "variable next equal \"(step+1)*%.17g\"\ncompute placed all displace/atom\n", x->e->clock.dt);
     for (int k = 0; k < l->n; k++) {
         if (l->load[k].n == 0) continue;
         fprintf(to, "# %s\n", l->load[k].boundary->name);

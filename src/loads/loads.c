@@ -99,6 +99,7 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
             const real target = driving_at(by, X, d, false), before = p->v[d][i];
             real needed = p->mass[i] * (target - before) / dt_velocity, reaction = needed - p->f[d][i];
             load->reaction[d] -= p->f[d][i];     /* without the driven particles' own inertia: what a load cell reads */
+            if (b->frozen && drives_by_place(b)) load->held_work -= p->f[d][i] * (p->x[d][i] - p->X[d][i]);
             p->f[d][i] = needed;
             given[d] += reaction * dt_velocity;
             work += reaction * dt_velocity * 0.5 * (before + target);
@@ -141,9 +142,11 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
     }
 }
 
-/* Adds the way of a step to the displacement of what a load drives: of its particles the mean, where they differ. */
+/* Adds the way of a step to the displacement of what a load drives: of its particles the mean, where they differ. A
+ * prescribed displacement is what it says. */
 static void way_add(struct load *load, const struct particles *p, const struct driving *by)
 {
+    const bool displaces = load->boundary->displaces;
     const int64_t n = drives_by_place(load->boundary) ? load->n : 1;
     for (int d = 0; d < p->dim; d++) {
         real sum = 0;
@@ -151,9 +154,9 @@ static void way_add(struct load *load, const struct particles *p, const struct d
         for (int64_t k = 0; k < n; k++) {
             real X[DIM_MAX] = {0};
             if (load->n > 0) particle_place(p, load->particle[k], X);
-            sum += driving_at(by, X, d, false);
+            sum += displaces ? displacing_at(&by->to, X, d) : driving_at(by, X, d, false);
         }
-        if (n > 0) load->displacement[d] += sum / (real)n * by->dt;
+        if (n > 0) load->displacement[d] = displaces ? sum / (real)n : load->displacement[d] + sum / (real)n * by->dt;
     }
 }
 
@@ -163,13 +166,14 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
         memset(load->reaction, 0, sizeof load->reaction);
+        load->held_work = 0;
     }
     loads_push(l, p, t, dt_velocity);
     loads_absorb(l, p, dt_velocity);
     for (int c = 0; c < l->n; c++) {         /* after all forces, which reactions contain */
         struct load *load = &l->load[c];
         if (load->boundary->kind != BOUNDARY_VELOCITY && load->boundary->kind != BOUNDARY_MIRROR) continue;
-        const struct driving by = driving_make(load->boundary, p->dim, t, dt);
+        const struct driving by = loads_driving(l, c, p->dim, t, dt);
         way_add(load, p, &by);
         drive(l, load, p, &by, dt_velocity);
     }
@@ -196,6 +200,32 @@ static void hold(struct loads *l, const struct load *load, struct particles *p, 
     }
 }
 
+/* A particle that is so much beside its place has been a point between nodes that are not all driven, and keeps what it
+ * is off [spacings]. */
+#define OFF_PLACE 1e-6
+
+/* Puts displaced particles where they have to be at the end of the step, but for those that nodes of a mesh move.
+ * Returns whether that has moved points on a grid. */
+static bool place(const struct load *load, struct particles *p, const struct driving *by, real spacing)
+{
+    bool moved = false;
+    for (int64_t k = 0; k < load->n; k++) {
+        const int32_t i = load->particle[k];
+        const bool on_grid = particle_on_grid(p, i);
+        real X[DIM_MAX];
+        if (on_grid && p->flag[i] & FLAG_MESHED) continue;
+        particle_place(p, i, X);
+        for (int d = 0; d < p->dim; d++) {
+            if (!(load->boundary->components >> d & 1)) continue;
+            const real at = X[d] + displacing_at(&by->to, X, d), off = p->x[d][i] - at;
+            if (!on_grid && !(fabs(off) <= OFF_PLACE * spacing)) continue;
+            moved = moved || (on_grid && off != 0);
+            p->x[d][i] = at;
+        }
+    }
+    return moved;
+}
+
 void loads_react(struct loads *l, const struct grid *g, real dt_velocity)
 {
     const real inverse = 1 / dt_velocity;
@@ -212,14 +242,18 @@ void loads_react(struct loads *l, const struct grid *g, real dt_velocity)
             l->load[g->mirror_node[q].load].reaction[d] += g->mirror_node[q].reaction[d] / dt_velocity;
 }
 
-void loads_hold(struct loads *l, struct particles *p, real t, real dt)
+bool loads_hold(struct loads *l, struct particles *p, real t, real dt)
 {
+    bool moved = false;
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
         const struct driving by = driving_make(load->boundary, p->dim, t, dt);
-        if (load->boundary->kind == BOUNDARY_VELOCITY) hold(l, load, p, &by);
+        if (load->boundary->kind != BOUNDARY_VELOCITY) continue;
+        hold(l, load, p, &by);
+        if (load->boundary->displaces) moved = place(load, p, &by, l->spacing) || moved;
     }
     loads_push_work(l, p, t, dt);
+    return moved;
 }
 
 void loads_take(struct loads *l, const struct loads *old)

@@ -332,6 +332,27 @@ void face_make(struct face *f, const struct boundary *b, const struct particles 
     }
 }
 
+void face_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
+                uint8_t *taken)
+{
+    bool has[UINT8_MAX + 1] = {false};
+    for (int64_t i = 0; i < p->n; i++) has[p->body[i]] |= selected[i];
+    for (int body = 0; body <= UINT8_MAX; body++) {
+        struct columns c;
+        if (!has[body]) continue;
+        loads_columns_make(&c, b, p, body, spacing);
+        for (int64_t column = 0; column < c.n; column++) {
+            const int64_t first = loads_columns_shown(&c, column, b, p, selected);
+            for (int64_t k = first; k >= 0; k = beneath(&c, column, k, b, p)) {
+                const real deep = loads_columns_height(b, p, c.order[first]) - loads_columns_height(b, p, c.order[k]);
+                if (k != first && deep + 0.5 * c.width > b->depth + LOADS_TOLERANCE * spacing) break;
+                taken[c.order[k]] |= selected[c.order[k]];
+            }
+        }
+        loads_columns_free(&c);
+    }
+}
+
 void face_free(struct face *f)
 {
     memory_free(f->normal);

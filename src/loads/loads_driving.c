@@ -1,7 +1,8 @@
 /* Prescribed velocities and displacements: numbers and formulas times a function of time, and rotations.
  *
  * What rotates moves on circles: its velocity in a step is the difference of its places at both ends over the step, so
- * that no step leaves the circle, however long it is. */
+ * that no step leaves the circle, however long it is. So does what is displaced; it takes its place at the end exactly
+ * (loads_hold, walls of the mesh), so that no round-off adds up. */
 #include <math.h>
 
 #include "loads/loads.h"
@@ -17,38 +18,6 @@ static void rotation_matrix(const struct boundary *b, int dim, real angle, real 
                                         {z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c)}};
     for (int r = 0; r < dim; r++)
         for (int k = 0; k < dim; k++) R[r * dim + k] = all[r][k];
-}
-
-struct driving driving_make(const struct boundary *b, int dim, real t, real dt)
-{
-    struct driving s = {.boundary = b, .dim = dim, .t = t, .dt = dt, .factor = time_function_at(&b->time, t)};
-    if (!b->rotates) return s;
-    const real before = real_max(0, t - 0.5 * dt), after = t + 0.5 * dt;
-    rotation_matrix(b, dim, b->rate * time_function_integral(&b->time, before), s.from);
-    rotation_matrix(b, dim, b->rate * time_function_integral(&b->time, after), s.to);
-    return s;
-}
-
-/* Component d of the rotation from the first end of the step to the second, minus one, of an arm. */
-static real turned_further(const struct driving *s, const real *arm, int d)
-{
-    real own[DIM_MAX] = {0}, sum = -arm[d];
-    for (int k = 0; k < s->dim; k++)                     /* back to the reference, then on */
-        for (int m = 0; m < s->dim; m++) own[k] += s->from[m * s->dim + k] * arm[m];
-    for (int k = 0; k < s->dim; k++) sum += s->to[d * s->dim + k] * own[k];
-    return sum;
-}
-
-real driving_at(const struct driving *s, const real *X, int d, bool placed)
-{
-    const struct boundary *b = s->boundary;
-    real arm[DIM_MAX] = {0}, way = 0;
-    if (!b->rotates)
-        return s->factor * b->value[d] * (b->formula[d].n > 0 ? expression_at(&b->formula[d], X, s->dim, s->t) : 1);
-    for (int k = 0; k < s->dim; k++) arm[k] = X[k] - b->centre[k];
-    if (placed) return turned_further(s, arm, d) / s->dt;
-    for (int k = 0; k < s->dim; k++) way += (s->to[d * s->dim + k] - s->from[d * s->dim + k]) * arm[k];
-    return way / s->dt;
 }
 
 /* ---- displacements ----------------------------------------------------------------------------------------------- */
@@ -89,4 +58,74 @@ status load_displacement_known(const struct boundary *b)
                       "boundary %s: a velocity by a formula of t does not tell how far it goes; displacement by a "
                       "formula of t, or velocity times a function of time, is expected",
                       b->name);
+}
+
+/* ---- a step ------------------------------------------------------------------------------------------------------ */
+
+struct driving driving_make(const struct boundary *b, int dim, real t, real dt)
+{
+    struct driving s = {.boundary = b, .dim = dim, .t = t, .dt = dt, .factor = time_function_at(&b->time, t)};
+    if (!b->rotates && !b->displaces) return s;
+    s.from = displacing_make(b, dim, real_max(0, t - 0.5 * dt));
+    s.to = displacing_make(b, dim, t + 0.5 * dt);
+    return s;
+}
+
+struct driving loads_driving(const struct loads *l, int which, int dim, real t, real dt)
+{
+    const struct boundary *b = l->load[which].boundary;
+    return driving_make(b, dim, l->ended && b->displaces && t > dt ? t - dt : t, dt);
+}
+
+/* Component d of the rotation from the first end of the step to the second, minus one, of an arm. */
+static real turned_further(const struct driving *s, const real *arm, int d)
+{
+    real own[DIM_MAX] = {0}, sum = -arm[d];
+    for (int k = 0; k < s->dim; k++)                     /* back to the reference, then on */
+        for (int m = 0; m < s->dim; m++) own[k] += s->from.turned[m * s->dim + k] * arm[m];
+    for (int k = 0; k < s->dim; k++) sum += s->to.turned[d * s->dim + k] * own[k];
+    return sum;
+}
+
+real driving_at(const struct driving *s, const real *X, int d, bool placed)
+{
+    const struct boundary *b = s->boundary;
+    real arm[DIM_MAX] = {0}, way = 0;
+    if (b->displaces) return (displacing_at(&s->to, X, d) - displacing_at(&s->from, X, d)) / s->dt;
+    if (!b->rotates)
+        return s->factor * b->value[d] * (b->formula[d].n > 0 ? expression_at(&b->formula[d], X, s->dim, s->t) : 1);
+    for (int k = 0; k < s->dim; k++) arm[k] = X[k] - b->centre[k];
+    if (placed) return turned_further(s, arm, d) / s->dt;
+    for (int k = 0; k < s->dim; k++) way += (s->to.turned[d * s->dim + k] - s->from.turned[d * s->dim + k]) * arm[k];
+    return way / s->dt;
+}
+
+/* ---- speeds ------------------------------------------------------------------------------------------------------ */
+
+enum { MOMENTS = 1000, PLACES = 64 };
+
+/* Of one particle, by differences between moments. */
+static real formula_speed(const struct load *l, const struct particles *p, int64_t k, real t)
+{
+    real before[DIM_MAX], u[DIM_MAX], most = 0;
+    load_displacement_at(l, p, k, 0, before);
+    for (int m = 1; m <= MOMENTS; m++) {
+        real way2 = 0;
+        load_displacement_at(l, p, k, t * m / MOMENTS, u);
+        for (int d = 0; d < p->dim; d++) way2 += square(u[d] - before[d]), before[d] = u[d];
+        most = real_max(most, sqrt(way2) / (t / MOMENTS));
+    }
+    return most;
+}
+
+real load_displacing_speed(const struct load *l, const struct particles *p, real t)
+{
+    const struct boundary *b = l->boundary;
+    const bool formula = b->formula[0].n + b->formula[1].n + b->formula[2].n > 0;
+    const real slope = time_function_steepest(&b->time, t), size = sqrt(dot(b->value, b->value, p->dim));
+    real most = 0;
+    if (!b->displaces || size == 0) return 0;
+    if (!formula || isinf(slope)) return slope * size;
+    for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES) most = real_max(most, formula_speed(l, p, k, t));
+    return most;
 }

@@ -47,7 +47,8 @@ static void shares_allocate(struct load *l, int dim)
 
 static bool wants_face(const struct boundary *b)
 {
-    return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING;
+    return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING ||
+           (b->kind == BOUNDARY_VELOCITY && b->side != 0);
 }
 
 void load_take(struct load *l, const uint8_t *taken, struct particles *p)
@@ -92,6 +93,15 @@ static void select_absorbing(struct load *l, const uint8_t *selected, struct par
     face_free(&face);
 }
 
+/* The layer of a face that is driven. */
+static void select_layer(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
+{
+    uint8_t *taken = NEW("loads.layer", p->n, uint8_t);
+    face_layer(l->boundary, p, selected, spacing, taken);
+    load_take(l, taken, p);
+    memory_free(taken);
+}
+
 bool load_region(const struct boundary *b, const struct particles *p, real spacing, uint8_t *selected)
 {
     bool any = false;
@@ -121,6 +131,7 @@ status load_select(struct load *l, const struct boundary *b, struct particles *p
     }
     if (b->kind == BOUNDARY_TRACTION) select_face(l, selected, p, spacing);
     else if (b->kind == BOUNDARY_ABSORBING) select_absorbing(l, selected, p, spacing);
+    else if (wants_face(b)) select_layer(l, selected, p, spacing);
     else load_take(l, selected, p);
     if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
     memory_free(selected);

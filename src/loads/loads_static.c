@@ -12,7 +12,7 @@ void loads_static_boundaries(struct boundary *to, const struct boundary *from, i
         real factor = 1;
         to[b] = from[b];
         to[b].frozen = true, to[b].frozen_at = duration;
-        if (boundary_is_force(&from[b])) {
+        if (boundary_is_force(&from[b]) || from[b].displaces) {
             factor = time_function_at(&from[b].time, duration);
             to[b].time = (struct time_function){.kind = TIME_RAMP, .until = ramp};
         } else if (from[b].kind == BOUNDARY_VELOCITY) {
@@ -23,6 +23,18 @@ void loads_static_boundaries(struct boundary *to, const struct boundary *from, i
     }
 }
 
+/* Work of its support is summed by particles: a sum of forces times one displacement would not be it. */
+static bool works_by_place(const struct boundary *b) { return b->frozen && drives_by_place(b); }
+
+/* Displacement of component d that the k-th particle of a load has in the end; k < 0: of a load that has none [m]. */
+static real static_displacement(const struct displacing *by, const struct load *l, const struct particles *p, int64_t k,
+                                int d)
+{
+    real X[DIM_MAX] = {0};
+    if (k >= 0) particle_place(p, l->particle[k], X);
+    return displacing_at(by, X, d);
+}
+
 void loads_static_driven(struct loads *l, const struct particles *p, real ramp, real *const *displacement,
                          uint8_t *held)
 {
@@ -30,13 +42,17 @@ void loads_static_driven(struct loads *l, const struct particles *p, real ramp, 
         struct load *load = &l->load[c];
         const struct boundary *b = load->boundary;
         if (b->kind != BOUNDARY_VELOCITY) continue;
+        const struct displacing by = displacing_make(b, p->dim, ramp);
         for (int d = 0; d < p->dim; d++) {
+            real sum = 0;
             if (!(b->components >> d & 1)) continue;
-            load->displacement[d] = ramp * b->value[d];
             for (int64_t k = 0; k < load->n; k++) {
-                displacement[d][load->particle[k]] = load->displacement[d];
-                held[load->particle[k]] |= (uint8_t)(1 << d);
+                const int32_t i = load->particle[k];
+                sum += displacement[d][i] = static_displacement(&by, load, p, k, d);
+                held[i] |= (uint8_t)(1 << d);
             }
+            load->displacement[d] = drives_by_place(b) && load->n > 0 ? sum / (real)load->n
+                                                                      : static_displacement(&by, load, p, -1, d);
         }
     }
 }
@@ -95,12 +111,17 @@ void loads_static_hold(struct loads *l, struct particles *p)
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
         memset(load->reaction, 0, sizeof load->reaction);
+        load->held_work = 0;
         if (load->boundary->kind != BOUNDARY_VELOCITY) continue;
+        const struct displacing by = displacing_make(load->boundary, p->dim, INFINITY);
+        const bool by_place = works_by_place(load->boundary);
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++) {
                 if (!(load->boundary->components >> d & 1)) continue;
-                load->reaction[d] -= p->f[d][load->particle[k]];
-                p->f[d][load->particle[k]] = 0;
+                real *f = &p->f[d][load->particle[k]];
+                load->reaction[d] -= *f;
+                if (by_place) load->held_work -= *f * static_displacement(&by, load, p, k, d);
+                *f = 0;
             }
     }
 }
@@ -112,7 +133,9 @@ void loads_static_work(struct loads *l, const struct particles *p)
         const struct load *load = &l->load[c];
         const struct boundary *b = load->boundary;
         for (int d = 0; d < p->dim; d++)
-            if (b->kind == BOUNDARY_VELOCITY) l->constraint_work += 0.5 * load->reaction[d] * load->displacement[d];
+            if (b->kind == BOUNDARY_VELOCITY && !works_by_place(b))
+                l->constraint_work += 0.5 * load->reaction[d] * load->displacement[d];
+        l->constraint_work += 0.5 * load->held_work;
         if (!boundary_is_force(b)) continue;
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++) {

@@ -19,14 +19,15 @@ static void constrained_add(struct constrained_set *s, int64_t node, int compone
 }
 
 /* Does a load constrain this component of any node at position x: in a driven region, on a mirror plane or beyond
- * it? */
+ * it? Not behind a face: the particles of its layer say which nodes they drive. */
 static bool node_constrained(const struct load *load, const struct grid *g, const real *x, real tolerance,
                              int component)
 {
     const struct boundary *b = load->boundary;
     const int dim = g->dim;
     if (b->kind == BOUNDARY_VELOCITY)
-        return b->body < 0 && (b->components >> component & 1) && region_contains(&b->region, x, dim, tolerance);
+        return b->body < 0 && b->side == 0 && (b->components >> component & 1) &&
+               region_contains(&b->region, x, dim, tolerance);
     return b->kind == BOUNDARY_MIRROR && (component == b->axis || b->hold_tangential) &&
            load->outside * (x[b->axis] - b->at) >= -tolerance;
 }
@@ -178,18 +179,20 @@ static int64_t driven_share(struct loads *l, const struct load *load, const stru
 /* What a load prescribes in this step and did in the step before. */
 struct driven_by { struct driving now, before; };
 
-/* A wall of component d of node I, at x. The change is that of what is at the node: a rotation carries it away. */
+/* A wall of component d of node I, at x. The change is that of what is at the node: a rotation carries it away. A
+ * displacement says where nodes of a mesh are at the end of the step. */
 static void wall_add(struct grid *g, const struct driven_by *by, int64_t I, const real *x, int d, int which,
                      bool reference)
 {
     const struct boundary *b = by->now.boundary;
     const bool drives = b->kind == BOUNDARY_VELOCITY, first = by->now.t <= by->now.dt;
     const real velocity = drives ? driving_at(&by->now, x, d, !reference) : 0;
+    const real place = b->displaces && reference ? displacing_at(&by->now.to, x, d) : NAN;
     real change = 0;
-    if (drives && !first && (b->rotates || b->formula[d].n > 0))
+    if (drives && !first && (b->rotates || b->displaces || b->formula[d].n > 0))
         change = velocity - driving_at(&by->before, x, d, !reference);
     else if (drives && !first) change = (by->now.factor - by->before.factor) * b->value[d];
-    grid_add_wall(g, I, d, velocity, change, which);
+    grid_add_wall(g, &(struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity, change, place, 0});
 }
 
 /* Adds walls at the nodes that have at least half of their mass from driven points. */
@@ -209,7 +212,7 @@ static void driven_walls(struct loads *l, int which, struct grid *g, const struc
 static void driven_by_all(const struct loads *l, int dim, real t, real dt, struct driven_by *by)
 {
     for (int b = 0; b < l->n; b++) {
-        by[b].now = driving_make(l->load[b].boundary, dim, t, dt);
+        by[b].now = loads_driving(l, b, dim, t, dt);
         by[b].before = t > dt ? driving_make(l->load[b].boundary, dim, t - dt, dt) : by[b].now;
     }
 }

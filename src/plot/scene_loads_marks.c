@@ -41,7 +41,7 @@ static const char *unit_of_value(const struct boundary *b)
 {
     if (b->kind == BOUNDARY_BODY_FORCE) return b->by_mass ? "m/s²" : "N/m³";
     if (b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_PRESSURE) return "Pa";
-    return b->kind == BOUNDARY_VELOCITY ? "m/s" : "";
+    return b->displaces ? "m" : b->kind == BOUNDARY_VELOCITY ? "m/s" : "";
 }
 
 /* ---- what acts --------------------------------------------------------------------------------------------------- */
@@ -63,7 +63,9 @@ static double vector_at(const struct engine *e, const struct load *l, int64_t k,
     const struct particles *p = &e->part;
     const struct boundary *b = boundary_of(e, l);
     const int32_t i = l->particle[k];
-    if (b->kind == BOUNDARY_VELOCITY) {
+    if (b->displaces) {
+        load_displacement_at(&(struct load){.boundary = b, .particle = l->particle}, p, k, t, vector);
+    } else if (b->kind == BOUNDARY_VELOCITY) {
         real X[DIM_MAX];
         particle_place(p, i, X);
         const struct driving driving = driving_make(b, p->dim, t, e->clock.dt);

@@ -127,10 +127,10 @@ status check_bearing(struct reader *r, const struct node *root)
             return fault(r, node_find(n, "rotation"),
                          "static solvers drive along straight lines; solver: explicit is "
                          "expected");
-        if (load->kind == BOUNDARY_VELOCITY && formula)
+        if (formula && load_displacement_known(load) != OK)
             return fault(r, node_find(n, "velocity"),
-                         "static solvers drive by numbers and a function of time; solver: "
-                         "explicit is expected with formulas");
+                         "static solvers drive as far as a velocity goes, which is not known of formulas of t; "
+                         "displacement is expected in its place");
     }
     return OK;
 }

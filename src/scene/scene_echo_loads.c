@@ -88,7 +88,7 @@ static void write_rotation(struct writer *w, const struct boundary *b)
 
 static void write_velocity(struct writer *w, const struct boundary *b)
 {
-    begin(w, "velocity");
+    begin(w, b->displaces ? "displacement" : "velocity");
     for (int d = 0; d < w->scene->dim; d++) {
         fputs(d ? ", " : " [", w->out);
         if (b->components >> d & 1) write_formula(w, b->value, b->formula, d);
@@ -120,9 +120,15 @@ static void write_boundary(struct writer *w, const struct boundary *b)
     } else {
         write_formulas(w, b->kind == BOUNDARY_TRACTION ? "traction" : "body_force", b->value, b->formula);
     }
-    if (b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING) {
+    if (b->side != 0) {
         begin(w, "face");
         fprintf(w->out, " %c%c\n", 'x' + b->face, b->side > 0 ? '+' : '-');
+    }
+    if (b->side != 0 && b->kind == BOUNDARY_VELOCITY) {
+        begin(w, "depth");
+        fputc(' ', w->out);
+        write_real(w, b->depth);
+        fputc('\n', w->out);
     }
     if (b->kind == BOUNDARY_BODY_FORCE) write_profile(w, &b->profile);
     if (b->kind != BOUNDARY_ABSORBING) write_time(w, b);

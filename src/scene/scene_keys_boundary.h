@@ -1,7 +1,7 @@
 /* Keys of boundary conditions: rows of the table in scene_keys.c. */
     KEY("boundary", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 255), NONE,
-        "boundary conditions; each has one kind: fixed, velocity, rotation, traction, pressure, body_force, mirror or "
-        "absorbing"),
+        "boundary conditions; each has one kind: fixed, velocity, displacement, rotation, traction, pressure, "
+        "body_force, mirror or absorbing"),
     KEY("boundary.name", KEY_NAME, UNIT_NONE, AT(boundary, name), ANY, "(boundary0, boundary1, ..)",
         "what probes call it"),
     KEY("boundary.region", KEY_REGION, UNIT_NONE, AT(boundary, region), ANY, "(everywhere)",
@@ -10,6 +10,10 @@
     KEY("boundary.fixed", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE, "components held at rest",
         .words = "all or list of x|y|z"),
     KEY("boundary.velocity", KEY_HAND, UNIT_SPEED, NOWHERE, ANY, NONE, "components driven; free ones are left alone",
+        .words = "list of number, formula or free"),
+    KEY("boundary.displacement", KEY_HAND, UNIT_LENGTH, NOWHERE, ANY, NONE,
+        "components driven to reference place + value x time, exactly; free ones are left alone; explicit: from 0 at "
+        "t = 0, static: the value at the end",
         .words = "list of number, formula or free"),
     KEY("boundary.rotation", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
         "all components driven on circles; 2D and 3D, explicit; time is a factor on its rate"),
@@ -29,8 +33,11 @@
     KEY("boundary.follow", KEY_FLAG, UNIT_NONE, AT(boundary, follow), ANY, "false",
         "pressure acts along normals and on areas of the deformed body; a regular lattice, explicit"),
     KEY("boundary.face", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
-        "outward normal of the face (with traction, absorbing); what region and body show to who looks from there",
+        "outward normal of the face (with traction, absorbing; fixed, velocity, displacement and rotation may have "
+        "one); what region and body show to who looks from there",
         .words = "x+|x-|y+|y-|z+|z-"),
+    KEY("boundary.depth", KEY_HAND, UNIT_LENGTH, NOWHERE, ABOVE(0), "(a horizon; method mpm: a spacing)",
+        "of the layer behind the face that fixed, velocity, displacement or rotation drives", .words = "number"),
     KEY("boundary.absorbing", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
         "waves leave the body through the face: tractions -rho c_p v across it, -rho c_s v along it; nothing holds the "
         "body there, so that steady loads move it",

@@ -98,12 +98,16 @@ static status read_component(struct reader *r, const struct node *n, struct boun
 {
     if (n->kind == NODE_SCALAR && strcmp(n->text, "free") == 0) return OK;
     b->components |= (uint8_t)(1 << d);
-    return read_load_value(r, key_find("boundary", "velocity"), n, b, d);
+    return read_load_value(r, key_find("boundary", b->displaces ? "displacement" : "velocity"), n, b, d);
 }
 
-/* Reads prescribed velocities, one number or `free` per component, into b->value [m/s] and b->components. */
+/* Reads prescribed velocities or displacements, one number or `free` per component, into b->value [m/s, m] and
+ * b->components. */
 static status read_velocity(struct reader *r, const struct node *n, struct boundary *b)
 {
+    const char *const examples[2][DIM_MAX] = {
+        {"[22 m/s]", "[22 m/s, free]", "[22 m/s, free, free]"},
+        {"[0.1 mm]", "[0.1 mm, free]", "[0.1 mm, free, free]"}};
     int d = 0;
     if (n->kind == NODE_LIST && n->n == r->dim) {
         for (const struct node *c = n->first; c; c = c->next) TRY(read_component(r, c, b, d++));
@@ -111,10 +115,11 @@ static status read_velocity(struct reader *r, const struct node *n, struct bound
         TRY(read_component(r, n, b, 0));
     } else {
         return fault(r, n, "%s does not fit space %s; a list of %d is expected, as %s", shown(r, n),
-                     space_names[r->scene->space], r->dim,
-                     r->dim == 1 ? "[22 m/s]" : r->dim == 2 ? "[22 m/s, free]" : "[22 m/s, free, free]");
+                     space_names[r->scene->space], r->dim, examples[b->displaces][r->dim - 1]);
     }
-    return b->components ? OK : fault(r, n, "every component is free; at least one velocity is expected");
+    return b->components ? OK
+                         : fault(r, n, "every component is free; at least one %s is expected",
+                                 b->displaces ? "displacement" : "velocity");
 }
 
 status read_axis_of(struct reader *r, const struct node *n, const char *group, real *axis)
@@ -172,7 +177,7 @@ static status read_absorbing(struct reader *r, const struct node *map, const str
     return fault(r, n, "%s is not true; leave the boundary out where no wave shall leave", shown(r, n));
 }
 
-/* Reads the face of a traction or an absorbing face into b->face (axis) and b->side (+1 or -1). */
+/* Reads the face of a boundary into b->face (axis) and b->side (+1 or -1). */
 static status read_face(struct reader *r, const struct node *map, struct boundary *b)
 {
     const struct node *n = node_find(map, "face");
@@ -190,10 +195,22 @@ static status read_face(struct reader *r, const struct node *map, struct boundar
     return OK;
 }
 
+/* Reads the face and the depth of what is driven, where it has them. */
+static status read_layer(struct reader *r, const struct node *map, struct boundary *b)
+{
+    const struct node *depth = node_find(map, "depth");
+    const struct scene *s = r->scene;
+    if (!node_find(map, "face"))
+        return depth ? fault(r, depth, "has no meaning without face; x+ for instance is expected") : OK;
+    b->depth = (s->method == METHOD_MPM ? 1 : s->horizon) * s->spacing;
+    if (depth) TRY(read_number(r, key_find("boundary", "depth"), depth, &b->depth));
+    return read_face(r, map, b);
+}
+
 /* Finds the one key that gives the kind of a boundary condition. REFUSED for none or two. */
 static status kind_of_boundary(struct reader *r, const struct node *map, const struct node **kind)
 {
-    const char *const words = "fixed|velocity|rotation|traction|pressure|body_force|mirror|absorbing";
+    const char *const words = "fixed|velocity|displacement|rotation|traction|pressure|body_force|mirror|absorbing";
     *kind = NULL;
     for (const struct node *n = map->first; n; n = n->next) {
         if (word_index(words, n->key) < 0) continue;
@@ -232,7 +249,7 @@ static status check_time_unit(struct reader *r, const struct node *kind, const s
 /* Reads the value of a boundary condition by its kind. REFUSED for keys that have no meaning with its kind. */
 static status read_kind(struct reader *r, const struct node *n, const struct node *kind, struct boundary *b)
 {
-    const struct node *face = NULL, *profile = node_find(n, "profile");
+    const struct node *face = NULL, *depth = NULL, *profile = node_find(n, "profile");
     TRY(expect(r, n, NODE_MAP, "a mapping of keys to values"));
     TRY(check_keys(r, n, "boundary"));
     TRY(kind_of_boundary(r, n, &kind));
@@ -243,8 +260,11 @@ static status read_kind(struct reader *r, const struct node *n, const struct nod
               : *kind->key == 'm' ? BOUNDARY_MIRROR
               : *kind->key == 'a' ? BOUNDARY_ABSORBING
                                   : BOUNDARY_VELOCITY;
-    if (b->kind != BOUNDARY_TRACTION && b->kind != BOUNDARY_ABSORBING) face = node_find(n, "face");
-    if (face) return fault(r, face, "has no meaning without traction or absorbing; leave it out");
+    if (b->kind == BOUNDARY_VELOCITY) TRY(read_layer(r, n, b));
+    else depth = node_find(n, "depth");
+    if (depth) return fault(r, depth, "has no meaning without fixed, velocity, displacement or rotation; leave it out");
+    if (boundary_is_force(b) || b->kind == BOUNDARY_MIRROR) face = node_find(n, "face");
+    if (face && b->kind != BOUNDARY_TRACTION) return fault(r, face, "has no meaning with %s; leave it out", kind->key);
     if (b->follow && b->kind != BOUNDARY_PRESSURE)
         return fault(r, node_find(n, "follow"), "has no meaning without pressure; leave it out");
     if (profile && b->kind != BOUNDARY_BODY_FORCE)
@@ -256,7 +276,8 @@ static status read_kind(struct reader *r, const struct node *n, const struct nod
         return read_face(r, n, b);
     }
     if (*kind->key == 'f') return read_fixed(r, kind, b);
-    if (*kind->key == 'v') return read_velocity(r, kind, b);
+    b->displaces = *kind->key == 'd';
+    if (*kind->key == 'v' || b->displaces) return read_velocity(r, kind, b);
     if (*kind->key == 'r') return read_rotation(r, kind, b);
     if (*kind->key == 'p') return read_pressure(r, kind, b);
     TRY(read_formulas(r, key_find("boundary", kind->key), kind, EXPRESS_SPACE | EXPRESS_TIME, b->value, b->formula));

@@ -52,7 +52,7 @@ static enum unit unit_of_boundary(const struct boundary *b)
     case BOUNDARY_TRACTION:
     case BOUNDARY_PRESSURE: return UNIT_PRESSURE;
     case BOUNDARY_BODY_FORCE: return UNIT_BODY_FORCE;
-    default: return b->rotates ? UNIT_RATE : UNIT_SPEED;
+    default: return b->rotates ? UNIT_RATE : b->displaces ? UNIT_LENGTH : UNIT_SPEED;
     }
 }
 

@@ -119,10 +119,70 @@ static void test_formula_of_time(void **state)
     expression_free(&b.formula[0]);
 }
 
+/* The steepest slope of a function of time, against differences; infinite where it jumps, 0 where it is not yet. */
+static void test_steepest(void **state)
+{
+    (void)state;
+    enum { PIECES = 20000 };
+    real t[] = {-1, 0.5, 1.5, 2}, value[] = {0, 3, 1, 1.5};
+    const struct time_function f[] = {{.kind = TIME_CONSTANT},
+                                      {.kind = TIME_RAMP, .from = 0.3, .until = 1.1},
+                                      {.kind = TIME_PULSE, .from = 0.1, .until = 1.9},
+                                      {.kind = TIME_TABLE, .n = 4, .t = t, .value = value}};
+    for (size_t k = 0; k < sizeof f / sizeof *f; k++) {
+        real most = 0;
+        for (int p = 0; p < PIECES; p++)
+            most = real_max(most, fabs(time_function_at(&f[k], 2.0 * (p + 1) / PIECES) -
+                                       time_function_at(&f[k], 2.0 * p / PIECES)) /
+                                      (2.0 / PIECES));
+        assert_close(time_function_steepest(&f[k], 2), most, 1e-6);
+    }
+    assert_true(time_function_steepest(&f[1], 0.2) == 0 && time_function_steepest(&f[2], 0.05) == 0);
+    const struct time_function step = {.kind = TIME_STEP, .from = 0, .until = 1};
+    assert_true(time_function_steepest(&step, 0.9) == 0 && isinf(time_function_steepest(&step, 1.1)));
+}
+
+/* Static: displacements at the end, by particle; half the forces on supports times them is the work. */
+static void test_static(void **state)
+{
+    (void)state;
+    struct boundary b = {.name = "grip",
+                         .kind = BOUNDARY_VELOCITY,
+                         .body = -1,
+                         .components = 1,
+                         .value = {2},
+                         .displaces = true,
+                         .time = {.kind = TIME_RAMP, .until = 8}},
+                    end;
+    struct displaced m;
+    by_x(&b.formula[0], true);
+    loads_static_boundaries(&end, &b, 1, 4, 0.1); /* 2 x t at t = 4, by a factor 1/2 */
+    displaced_make(&m, &end);
+    struct particles *p = &m.c.p;
+    real *u[2] = {NEW("test.u", p->n, real), NEW("test.u", p->n, real)}, work = 0, mean = 0;
+    uint8_t *held = NEW("test.held", p->n, uint8_t);
+    loads_static_driven(&m.l, p, 0.1, u, held);
+    for (int64_t i = 0; i < p->n; i++) {
+        assert_true(held[i] == 1 && u[1][i] == 0);
+        assert_close(u[0][i], 4 * p->X[0][i], 1e-15);
+        p->f[0][i] = 3 + (real)i, p->f[1][i] = 5;
+        work -= 0.5 * (3 + (real)i) * u[0][i], mean += u[0][i] / (real)p->n;
+    }
+    loads_static_hold(&m.l, p);
+    loads_static_work(&m.l, p);
+    assert_close(m.l.constraint_work, work, 1e-13);
+    assert_close(m.l.load[0].displacement[0], mean, 1e-14);
+    assert_true(p->f[0][3] == 0 && p->f[1][3] == 5);
+    memory_free(u[0]), memory_free(u[1]), memory_free(held);
+    displaced_free(&m);
+    expression_free(&b.formula[0]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_turn),
-                                       cmocka_unit_test(test_formula_of_time)};
+                                       cmocka_unit_test(test_formula_of_time), cmocka_unit_test(test_steepest),
+                                       cmocka_unit_test(test_static)};
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -186,8 +186,8 @@ static const struct { const char *piece, *instead, *message;
     {"velocity: [22 m/s, free]\n", "velocity: [22 m/s, free]\n    fixed: all\n",
      "29:5: fixed: given beside velocity; two conditions are two items of the list"},
     {"    velocity: [22 m/s, free]\n", "",
-     "26:5: boundary[0]: does nothing; fixed, velocity, rotation, traction, pressure, body_force, mirror or absorbing "
-     "is expected"},
+     "26:5: boundary[0]: does nothing; fixed, velocity, displacement, rotation, traction, pressure, body_force, mirror "
+     "or absorbing is expected"},
     {"velocity: [22 m/s, free]", "mirror: {axis: z, at: 0}",
      "27:5: region: has no meaning with mirror, which always acts on every body; leave it out"},
     {"until: 5 us", "from: 9 us, until: 5 us",

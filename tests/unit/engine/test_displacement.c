@@ -1,0 +1,377 @@
+/* Prescribed displacements: places to round-off in every method, reactions and stresses against Hooke's law, layers
+ * behind faces, what is refused. */
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "auto/scene_read.h"
+#include "engine/engine.h"
+#include "src/engine/engine_report.h"
+#include "tests/support/near.h"
+
+#define BAR                                                                                                            \
+    "space: line\nsection: 1 cm^2\nduration: 0.5 ms\nmethod: pd\n"                                                     \
+    "material: {young: 72 GPa, poisson: 0, density: 2440}\nbody: {box: {from: [0], to: [1 m]}}\n"                      \
+    "particles: {spacing: 20 mm}\n"
+#define PLATE                                                                                                          \
+    "space: plane stress\nthickness: 1 mm\nduration: 10 us\nmethod: pd\n"                                              \
+    "material: {young: 72 GPa, poisson: 1/3, density: 2440}\nbody: {box: {from: [0, 0], to: [24 mm, 16 mm]}}\n"        \
+    "particles: {spacing: 1 mm}\n"
+#define BLOCK                                                                                                          \
+    "space: solid\nduration: 5 us\nmethod: pd\n"                                                                       \
+    "material: {young: 72 GPa, poisson: 1/4, density: 2440}\n"                                                         \
+    "body: {box: {from: [0, 0, 0], to: [10 mm, 8 mm, 8 mm]}}\nparticles: {spacing: 1 mm, horizon: 2.015}\npd: "        \
+    "{surface: none}\n"
+
+struct run {
+    struct scene s;
+    struct engine e;
+};
+
+/* Makes the engine of a scene with the overrides `key=value`, up to NULL. */
+static status run_make(struct run *a, const char *text, va_list list)
+{
+    enum { MOST = 8 };
+    static char key[MOST][64];
+    struct scene_override override[MOST];
+    int n = 0;
+    for (const char *one; (one = va_arg(list, const char *)) != NULL; n++) {
+        const char *equal = strchr(one, '=');
+        snprintf(key[n], sizeof key[n], "%.*s", (int)(equal - one), one);
+        override[n] = (struct scene_override){key[n], equal + 1};
+    }
+    memset(a, 0, sizeof *a);
+    TRY(scene_read_text(&a->s, text, strlen(text), "test.yaml", override, n));
+    a->e.report.quiet = true;
+    const status s = engine_make(&a->e, &a->s, NULL);
+    a->e.report.quiet = true;
+    return s;
+}
+
+static void make(struct run *a, const char *text, ...)
+{
+    va_list list;
+    va_start(list, text);
+    const status s = run_make(a, text, list);
+    va_end(list);
+    if (s != OK) fail_msg("%s", status_message());
+}
+
+static void run_all(struct run *a)
+{
+    if (engine_run(&a->e) != OK) fail_msg("%s", status_message());
+}
+
+static void run_end(struct run *a)
+{
+    engine_free(&a->e);
+    scene_free(&a->s);
+}
+
+/* ---- places ------------------------------------------------------------------------------------------------------ */
+
+/* Everything that moves particles: bonds, the mesh, the grid with both transfers, both beside each other. */
+static const char *const ways[][3] = {{"method=pd", "mpm.frame=auto", "mpm.transfer=flip"},
+                                      {"method=mpm", "mpm.frame=reference", "mpm.levels=0"},
+                                      {"method=mpm", "mpm.frame=current", "mpm.transfer=flip"},
+                                      {"method=mpm", "mpm.frame=current", "mpm.transfer=apic"},
+                                      {"method=adaptive", "mpm.frame=reference", "mpm.levels=0"},
+                                      {"method=adaptive", "mpm.frame=current", "mpm.transfer=flip"}};
+enum { WAYS = sizeof ways / sizeof *ways };
+
+/* Worst distance of the particles beyond `from` along x from reference place plus u along x, over the last bit of the
+ * farthest place [1]. */
+static real off_place(const struct run *a, real from, real u)
+{
+    const struct particles *p = &a->e.part;
+    real most = 0, far = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        far = real_max(far, fabs(p->X[0][i]));
+        if (p->X[0][i] > from) most = real_max(most, fabs(p->x[0][i] - (p->X[0][i] + u)));
+    }
+    return most / (far * DBL_EPSILON);
+}
+
+/* At every step driven particles are where they have to be, to the last bit or two: the time in the middle of a step
+ * plus half of it is rounded. Nodes of the mesh are, and points between them are sums of four to eight terms. */
+static void check_places(const char *scene, real from, real size, real duration)
+{
+    char boundary[300];
+    snprintf(boundary, sizeof boundary,
+             "boundary=[{name: grip, displacement: [%.9g%s], region: {box: {from: [%.9g%s], to: [1%s]}}, "
+             "time: {pulse: {until: %.9g}}}]",
+             size,
+             strstr(scene, "line")    ? ""
+             : strstr(scene, "plane") ? ", free"
+                                      : ", free, free",
+             from,
+             strstr(scene, "line")    ? ""
+             : strstr(scene, "plane") ? ", -1"
+                                      : ", -1, -1",
+             strstr(scene, "line")    ? ""
+             : strstr(scene, "plane") ? ", 1"
+                                      : ", 1, 1",
+             1.7 * duration);
+    for (int way = 0; way < WAYS; way++) {
+        struct run a;
+        make(&a, scene, ways[way][0], ways[way][1], ways[way][2], boundary, NULL);
+        assert_ok(engine_report_start(&a.e));
+        const real within = from + 2 * a.s.spacing; /* cells of which all nodes are driven */
+        real most = 0, far = 0;
+        int64_t steps = 0;
+        for (; a.e.clock.t < duration; steps++) {
+            if (engine_step(&a.e) != OK) fail_msg("%s", status_message());
+            const real u = size * square(sin(acos(-1) * a.e.clock.t / (1.7 * duration)));
+            engine_sync(&a.e);
+            far = real_max(far, fabs(u));
+            most = real_max(most, off_place(&a, strstr(ways[way][1], "current") ? from : within, u));
+            assert_close(a.e.loads.load[0].displacement[0], u, 1e-12);
+        }
+        if (!(most <= 4)) fail_msg("%s %s: %g bits off", ways[way][0], ways[way][1], most);
+        assert_true(steps > 10 && far > 0.5 * size);
+        run_end(&a);
+    }
+}
+
+static void displaced_is_in_place(void **state)
+{
+    (void)state;
+    check_places(BAR, 0.8, 2e-5, 3e-4);
+    check_places(PLATE, 18e-3, 5e-6, 1e-5);
+    check_places(BLOCK, 6e-3, 2e-6, 5e-6);
+}
+
+/* A formula of place and time, of all components: what bonds and the mesh move is there at the end. */
+static void formulas_are_in_place(void **state)
+{
+    (void)state;
+    static const char *const drive =
+        "boundary=[{displacement: [\"0.01*x*(t/(10 us))^2\", \"(0.002*x - 0.003*y)*ramp(t/(10 us))\"]}]";
+    for (int way = 0; way < 2; way++) {
+        struct run a;
+        make(&a, PLATE, ways[way][0], ways[way][1], drive, NULL);
+        run_all(&a);
+        engine_sync(&a.e);
+        const struct particles *p = &a.e.part;
+        for (int64_t i = 0; i < p->n; i++) {
+            const real X = p->X[0][i], Y = p->X[1][i];
+            assert_true(fabs(p->x[0][i] - 1.01 * X) <= 4 * DBL_EPSILON * 0.024);
+            assert_true(fabs(p->x[1][i] - (Y + 0.002 * X - 0.003 * Y)) <= 4 * DBL_EPSILON * 0.024);
+        }
+        run_end(&a);
+    }
+}
+
+/* A bar pulled by u (1 - cos omega t)/2: at its end it bears E A u/L (1 + k L cot(k L))/2, k = omega/c, and the work
+ * is in the body. Nodes are held to the ends of the regions, between which L = 0.76 m; bonds are as stiff as in
+ * equilibrium. Free waves of the start are 2 % of it. */
+static void reaction_is_hookes(void **state)
+{
+    (void)state;
+    static const char *const pulled =
+        "boundary=[{fixed: all, region: {box: {from: [0], to: [0.12]}}}, {displacement: [1e-4], "
+        "region: {box: {from: [0.88], to: [1]}}, time: {pulse: {until: 2.4 ms}}}]";
+    const real kL = acos(-1) / 1.2e-3 / sqrt(72e9 / 2440) * 0.76, inertia = 0.5 * (1 + kL / tan(kL));
+    static const real balance[WAYS] = {1e-9, 1e-9, 2e-3, 2e-3, 1e-9, 2e-3};
+    struct run a;
+    make(&a, BAR, "solver=cg", "duration=1.2 ms", pulled, NULL);
+    run_all(&a);
+    const real bonds = a.e.loads.load[1].reaction[0], nodes = 72e9 * 1e-4 * 1e-4 / 0.76;
+    assert_true(bonds < nodes && bonds > 0.9 * nodes);
+    run_end(&a);
+    for (int way = 0; way < WAYS; way++) {
+        make(&a, BAR, ways[way][0], ways[way][1], ways[way][2], "duration=1.2 ms", pulled, NULL);
+        run_all(&a);
+        const struct load *grip = &a.e.loads.load[1];
+        assert_close(grip->displacement[0], 1e-4, 1e-12);
+        assert_close(grip->reaction[0], (way == 0 ? bonds : nodes) * inertia, 0.03);
+        const struct energy_balance *now = &a.e.diagnostics.now;
+        assert_close(now->external_work, 0.5 * (way == 0 ? bonds : nodes) * 1e-4, 0.02);
+        if (!(fabs(now->balance_error) <= balance[way])) fail_msg("way %d: balance %g", way, now->balance_error);
+        assert_true(now->momentum_error <= 1e-12);
+        run_end(&a);
+    }
+}
+
+/* ---- statics ----------------------------------------------------------------------------------------------------- */
+
+/* Uniform strain: the ends, or a frame, driven by formulas, as deep as bonds reach; what is free follows, the stress is
+ * Hooke's, and half the forces of the supports times displacements is the strain energy. Strains of 1e-6 are linear to
+ * 1e-5. Relaxation moves supports in steps, each with its round-off. */
+static void check_patch(const char *scene, const char *solver, const char *model, const char *drive, const real *strain,
+                        const real *stress)
+{
+    struct run a;
+    make(&a, scene, solver, model, drive, "solver_tolerance=1e-7", "duration=1 s", NULL);
+    run_all(&a);
+    engine_stress(&a.e);
+    const struct particles *p = &a.e.part;
+    const real far = particles_longest(p), within = 1e-4 * fabs(strain[0]) * far;
+    int64_t free = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        const bool driven = p->flag[i] & FLAG_DRIVEN;
+        for (int d = 0; d < p->dim; d++) {
+            const real off = p->x[d][i] - p->X[d][i] - strain[d] * p->X[d][i];
+            if (!(fabs(off) <= (driven ? 50 * DBL_EPSILON * far : within)))
+                fail_msg("%s %s: %g m off, driven %d", solver, model, off, driven);
+            if (!driven) assert_close(p->stress[d][i], stress[d], 1e-3);
+        }
+        free += !driven;
+    }
+    assert_true(free >= 24);
+    const struct energy_balance *now = &a.e.diagnostics.now;
+    assert_close(now->external_work, now->energy.strain, 1e-4);
+    run_end(&a);
+}
+
+static void uniform_strain_is_uniform_stress(void **state)
+{
+    (void)state;
+    const real E = 72e9, e = 1e-6;
+    for (int k = 0; k < 2; k++) {
+        const char *solver = k == 0 ? "solver=cg" : "solver=relaxation";
+        check_patch(BAR, solver, "model=bond",
+                    "boundary=[{displacement: [\"2e-6*x*t/s\"], region: [{box: {from: [0], to: [0.13]}}, "
+                    "{box: {from: [0.87], to: [1]}}], time: {ramp: {until: 2 s}}}]",
+                    (real[]){e}, (real[]){E * e});
+        for (int model = 0; model < 2; model++)
+            check_patch(PLATE, solver, model == 0 ? "model=bond" : "model=ospd",
+                        "boundary=[{displacement: [\"1e-6*x\", \"-2e-7*y\"], region: [{box: {from: [0, 0], to: [7 mm, "
+                        "16 mm]}}, {box: {from: [17 mm, 0], to: [24 mm, 16 mm]}}, {box: {from: [0, 0], to: [24 mm, 6 "
+                        "mm]}}, {box: {from: [0, 10 mm], to: [24 mm, 16 mm]}}]}]",
+                        (real[]){e, -0.2 * e},
+                        (real[]){E / (1 - 1.0 / 9) * (e - 0.2 * e / 3), E / (1 - 1.0 / 9) * (e / 3 - 0.2 * e)});
+    }
+    check_patch(BLOCK, "solver=cg", "model=bond",
+                "boundary=[{displacement: [\"1e-6*x\", 0, \"-2e-7*z\"], region: [{box: {from: [0, 0, 0], to: [3 mm, 8 "
+                "mm, 8 mm]}}, {box: {from: [7 mm, 0, 0], to: [10 mm, 8 mm, 8 mm]}}, {box: {from: [0, 0, 0], to: [10 "
+                "mm, 2.1 mm, 8 mm]}}, {box: {from: [0, 5.9 mm, 0], to: [10 mm, 8 mm, 8 mm]}}, {box: {from: [0, 0, 0], "
+                "to: [10 mm, 8 mm, 2.1 mm]}}, {box: {from: [0, 0, 5.9 mm], to: [10 mm, 8 mm, 8 mm]}}]}]",
+                (real[]){e, 0, -0.2 * e},
+                (real[]){0.4 * E * (3 * e - 0.2 * e), 0.4 * E * (e - 0.2 * e), 0.4 * E * (e - 0.6 * e)});
+}
+
+/* ---- layers behind faces ----------------------------------------------------------------------------------------- */
+
+/* Number of driven particles. */
+static int64_t layer_of(const char *scene, const char *method, const char *body, const char *boundary)
+{
+    struct run a;
+    make(&a, scene, method, body, boundary, NULL);
+    const int64_t n = a.e.loads.load[0].n;
+    run_end(&a);
+    return n;
+}
+
+/* As deep as it says, from the outside to the first gap, in the region only; whole columns of a curved face. */
+static void faces_have_layers(void **state)
+{
+    (void)state;
+    static const char *const box = "body=[{box: {from: [0, 0], to: [24 mm, 16 mm]}}]",
+                             *const hole = "body=[{box: {from: [0, 0], to: [24 mm, 16 mm]}}, "
+                                           "{subtract: {box: {from: [0, 4 mm], to: [12 mm, 14 mm]}}}]",
+                             *const disc = "body=[{disc: {centre: [0, 0], radius: 8 mm}}]",
+                             *const fixed = "boundary=[{fixed: all, face: y+}]",
+                             *const deep = "boundary=[{fixed: all, face: y+, depth: 6 mm}]";
+    assert_int_equal(layer_of(PLATE, "method=pd", box, fixed), 3 * 24); /* a horizon of 3.015 spacings */
+    assert_int_equal(layer_of(PLATE, "method=adaptive", box, fixed), 3 * 24);
+    assert_int_equal(layer_of(PLATE, "method=mpm", box, fixed), 24);
+    assert_int_equal(layer_of(PLATE, "method=pd", box, deep), 6 * 24);
+    assert_int_equal(layer_of(PLATE, "method=pd", hole, deep), 2 * 12 + 6 * 12);
+    assert_int_equal(layer_of(PLATE, "method=pd", box,
+                              "boundary=[{fixed: all, face: x-, region: {box: {from: [0, 0], "
+                              "to: [2 mm, 8 mm]}}}]"),
+                     2 * 8);
+    assert_int_equal(layer_of(PLATE, "method=pd", disc, "boundary=[{fixed: all, face: y+, depth: 1 mm}]"), 16);
+    assert_int_equal(layer_of(BAR, "method=pd", "body=[{box: {from: 0, to: 1}}]", "boundary=[{fixed: all, face: x-}]"),
+                     3);
+    assert_int_equal(layer_of(BLOCK, "method=pd", "body=[{box: {from: [0, 0, 0], to: [10 mm, 8 mm, 6 mm]}}]",
+                              "boundary=[{displacement: [0, 0, free], face: z-}]"),
+                     2 * 80);
+}
+
+/* Ends held by their faces: nodes stand there, and all of the bar is free. */
+static void faces_hold_nodes(void **state)
+{
+    (void)state;
+    for (int way = 1; way < 4; way++) {
+        struct run a;
+        make(&a, BAR, ways[way][0], ways[way][1], ways[way][2], "duration=3 ms",
+             "boundary=[{fixed: all, face: x-}, {displacement: [1e-4], face: x+, time: {pulse: {until: 6 ms}}}]", NULL);
+        run_all(&a);
+        assert_close(a.e.loads.load[1].reaction[0], 72e9 * 1e-4 * 1e-4, 0.02); /* waves of 16 passages */
+        run_end(&a);
+    }
+}
+
+/* ---- what is refused --------------------------------------------------------------------------------------------- */
+
+static status refusal(const char *scene, ...)
+{
+    struct run a;
+    va_list list;
+    va_start(list, scene);
+    const status s = run_make(&a, scene, list);
+    va_end(list);
+    run_end(&a);
+    return s;
+}
+
+#define GRIP(text) "boundary=[{name: grip, " text "}]"
+
+/* Jumps and speeds beyond waves, which the run would not follow; places that are none; keys without meaning. */
+static void jumps_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *keys, *boundary, *part;
+    } bad[] = {
+        {"method=pd", GRIP("displacement: [1 um, free], face: x+"),
+         "boundary grip: its displacement is 1e-06 m at t = 0 already, a jump within the first step; one that grows "
+         "from "
+         "0 is expected, as with time: {ramp: {until: 100 us}}"},
+        {"method=pd", GRIP("displacement: [\"1 um*cos(t/(1 us))\", free], face: x+"), "is 1e-06 m at t = 0 already"},
+        {"method=pd", GRIP("displacement: [1 um, free], face: x+, time: {step: {from: 1 us, until: 1}}"),
+         "boundary grip: its displacement jumps, which no body follows; a ramp, a pulse or a table is expected"},
+        {"method=pd", GRIP("displacement: [1 mm, free], face: x+, time: {ramp: {until: 0.1 us}}"),
+         "its displacement grows by 1e+04 m/s, faster than the waves"},
+        {"method=pd", GRIP("displacement: [1 mm*ramp(t/(0.1 us)), free], face: x+"), "faster than the waves"},
+        {"method=pd", GRIP("displacement: [1 um, free], depth: 1 mm"), "depth: has no meaning without face"},
+        {"method=pd", GRIP("displacement: [1 um, free], face: x+, depth: 0"), "depth"},
+        {"method=pd", GRIP("displacement: [1 um, free], face: z+"), "z+ is no face in space plane stress"},
+        {"method=pd", GRIP("displacement: [free, free]"),
+         "every component is free; at least one displacement is expected"},
+        {"method=pd", GRIP("displacement: [1 m/s, free]"), "a length is expected"},
+        {"method=pd", GRIP("displacement: 1 um"), "a list of 2 is expected, as [0.1 mm, free]"},
+        {"method=pd", GRIP("displacement: [1 um, free], velocity: [0, 0]"), "given beside displacement"},
+        {"method=pd", GRIP("pressure: 1 MPa, face: x+"), "face: has no meaning with pressure; leave it out"},
+        {"method=pd", GRIP("traction: [1 MPa, 0], face: x+, depth: 1 mm"),
+         "depth: has no meaning without fixed, velocity, displacement or rotation; leave it out"},
+        {"solver=cg", GRIP("velocity: [\"t*1 m/s^2\", free], face: x+"), "displacement is expected in its place"},
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
+        assert_refused(refusal(PLATE, bad[k].keys, bad[k].boundary, NULL), bad[k].part);
+    assert_refused(
+        refusal(PLATE, "method=mpm", "mpm.frame=current", GRIP("displacement: [1e-3*x*ramp(t/(10 us)), free]"), NULL),
+        "a displacement by x, y, z is that of reference places");
+    assert_refused(refusal(PLATE, "method=pd", "initial=[{displacement_gradient: [[1e-3, 0], [0, 0]]}]",
+                           GRIP("displacement: [1 um, free], face: x+, time: {ramp: {until: 10 us}}"), NULL),
+                   "a displacement is from the reference place, and `initial` begins with one of");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(displaced_is_in_place), cmocka_unit_test(formulas_are_in_place),
+        cmocka_unit_test(reaction_is_hookes),    cmocka_unit_test(uniform_strain_is_uniform_stress),
+        cmocka_unit_test(faces_have_layers),     cmocka_unit_test(faces_hold_nodes),
+        cmocka_unit_test(jumps_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
