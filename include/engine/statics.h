@@ -44,6 +44,7 @@ struct statics {
     real due;                            /* size of the loads at which the next one comes, INFINITY: at none */
     bool advances;                       /* the next load step begins with it */
     bool stale;                          /* bonds have broken since the preconditioner was made */
+    real released_time;                  /* that releases in time have taken so far [s] */
     int64_t opens[2];                    /* particles whose distance is the opening */
     int64_t solutions;                   /* equilibria found so far */
 };

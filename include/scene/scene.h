@@ -107,12 +107,14 @@ struct scene_series {
 
 /* Load steps of solver static (engine_steps.c). */
 enum steps_control { CONTROL_LOAD, CONTROL_ENERGY, CONTROL_OPENING };
+enum steps_then { THEN_EQUILIBRIUM, THEN_EXPLICIT };
 struct scene_steps {
     int number;                          /* of steps: of the duration, or at the most */
     enum steps_control control;          /* what a step goes by: pseudo-time, energy released, an opening */
     real energy;                         /* of the bonds of an advance; 0: by toughness and spacing [J] */
     real from[DIM_MAX], to[DIM_MAX], opening; /* places whose distance is the opening, and how far it grows [m] */
     bool has_from, has_to;
+    enum steps_then then;                /* what follows an advance that another one follows at once */
     int breaks;                          /* most pairs of bonds that break between two equilibria */
     real within;                         /* those that break are overloaded like the first, up to this share [1] */
 };

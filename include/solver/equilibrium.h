@@ -34,6 +34,7 @@ struct equilibrium {
 
     real residual;                       /* what is left, over `scale` [1] */
     real scale;                          /* larger one of the norms of applied forces and reactions [N] */
+    real largest;                        /* the largest of these so far [N] */
     real applied;                        /* norm of the applied forces, set by the caller [N] */
     real strain_ratio;                   /* strain of the last direction over its largest component [1/m] */
     int64_t worst;                       /* node with the largest residual */

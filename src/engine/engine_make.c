@@ -384,10 +384,9 @@ static status make_forces(struct engine *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
     TRY(named(s, engine_frames(e)));
-    if (scene_at_rest(s)) {
-        e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
-        loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
-    }
+    if (!scene_moves(s)) e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
+    if (scene_at_rest(s)) loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
+    else if (e->boundary) memcpy(e->boundary, s->boundary, (size_t)s->boundaries * sizeof *e->boundary);
     TRY(named(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part, s->spacing,
                             e->source.family.cutoff, e->optional)));
     engine_absorbing_make(e);

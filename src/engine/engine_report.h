@@ -22,6 +22,8 @@ void engine_sample_end(struct engine *e);
 
 /* A sample of a body at rest on which nothing has done work. */
 void engine_sample_rest(struct engine *e);
+/* Elastic energy of all particles and cells where they are [J]. */
+real engine_strain_energy(struct engine *e);
 /* A sample of a body at rest after a load step. */
 void engine_sample_equilibrium(struct engine *e);
 /* The last sample, after the last step. All particles are up to date after it, but for the stress of peridynamic ones

@@ -124,13 +124,18 @@ static void sample_state(struct engine *e)
     probes_sample(&e->probing.probes, &o);
 }
 
+real engine_strain_energy(struct engine *e)
+{
+    return e->kernels.bond_energy(&e->bonds, &e->part) +
+           diagnostics_strain(&e->part, e->scene->material, &e->coupling.partial) + engine_mesh_strain(e);
+}
+
 /* Energies of a sample at the current positions, but the kinetic energy [J]. */
 static void sample_energies(struct engine *e)
 {
     const struct material *m = e->scene->material;
     e->report.sampling.energy = (struct energy){
-        .strain = e->kernels.bond_energy(&e->bonds, &e->part) + diagnostics_strain(&e->part, m, &e->coupling.partial) +
-                  engine_mesh_strain(e),
+        .strain = engine_strain_energy(e),
         .plastic = bond_plastic_work(&e->bonds) + diagnostics_plastic(&e->part, m, &e->coupling.partial),
         .fracture = bonds_fracture_energy(&e->bonds),
         .contact = contact_energy(&e->contact, &e->part),

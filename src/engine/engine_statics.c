@@ -1,8 +1,6 @@
-/* Load steps: the unknowns of a body, the forces on them, and what supports and loads do from one pseudo-time to the
- * next. */
+/* Load steps: the unknowns of a body, and the forces on them. */
 #include "engine_statics.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -105,7 +103,6 @@ static real energy_at_unit_strain(const struct engine *e)
 }
 
 static void statics_forces(void *context, const struct field *u, struct field *f);
-static void applied_make(struct engine *e, real t);
 
 void statics_unknowns_make(struct engine *e)
 {
@@ -126,7 +123,8 @@ void statics_unknowns_make(struct engine *e)
                                       .unit_energy = energy_at_unit_strain(e),
                                       .forces = kept.forces,
                                       .directions = kept.directions,
-                                      .lost = kept.lost};
+                                      .lost = kept.lost,
+                                      .largest = kept.largest};
     equilibrium_make(&s->balance, e->part.dim, n);
     for (int d = 0; d < e->part.dim; d++) {
         s->way.of[d] = NEW("statics.way", n, real);
@@ -151,6 +149,7 @@ void statics_unknowns_free(struct engine *e)
     const struct equilibrium kept = s->balance;
     equilibrium_free(&s->balance);
     s->balance.forces = kept.forces, s->balance.directions = kept.directions, s->balance.lost = kept.lost;
+    s->balance.largest = kept.largest;
     memory_free(s->node);
     memory_free(s->weight);
     memory_free(s->load);
@@ -185,16 +184,18 @@ status statics_archive(struct engine *e, struct archive *a)
     }
     ARCHIVE_VALUE(a, "statics/t", s->t);
     ARCHIVE_VALUE(a, "statics/overload", s->overload);
+    ARCHIVE_VALUE(a, "statics/released_time", s->released_time);
     ARCHIVE_VALUE(a, "statics/due", s->due);
     ARCHIVE_VALUE(a, "statics/advances", s->advances);
     ARCHIVE_VALUE(a, "statics/ahead", s->ahead);
     ARCHIVE_VALUE(a, "statics/behind", s->behind);
     TRY(statics_list_archive(e, a));
     ARCHIVE_VALUE(a, "statics/lost", q->lost);
+    ARCHIVE_VALUE(a, "statics/largest", q->largest);
     ARCHIVE_VALUE(a, "statics/strain_ratio", q->strain_ratio);
     ARCHIVE_VALUE(a, "statics/forces", q->forces);
     ARCHIVE_VALUE(a, "statics/directions", q->directions);
-    if (!a->saving) applied_make(e, e->statics.t), statics_plastic_keep(e);
+    if (!a->saving) statics_applied_make(e, e->statics.t), statics_plastic_keep(e);
     return OK;
 }
 
@@ -290,208 +291,4 @@ static void statics_forces(void *context, const struct field *u, struct field *f
         for (int64_t k = 0; k < s->balance.n; k++)
             f->of[d][k] = k < s->particles ? s->weight[k] * part[s->node[k]] : node[s->node[k]];
     }
-}
-
-/* ---- loads and supports ------------------------------------------------------------------------------------------ */
-
-/* Applied forces at t, into `applied` [dim][particles of the body]. */
-static void applied_make(struct engine *e, real t)
-{
-    const struct particles *p = &e->part;
-    for (int d = 0; d < p->dim; d++) {
-        if (!e->statics.applied[d]) e->statics.applied[d] = NEW("statics.applied", p->n, real);
-        memset(e->statics.applied[d], 0, (size_t)p->n * sizeof(real));
-    }
-    for (int b = 0; b < e->loads.n; b++) {
-        const struct load *l = &e->loads.load[b];
-        for (int64_t k = 0; boundary_is_force(l->boundary) && k < l->n; k++) {
-            real force[DIM_MAX];
-            load_force_at(l, p, k, t, force);
-            for (int d = 0; d < p->dim; d++) e->statics.applied[d][l->particle[k]] += force[d];
-        }
-    }
-}
-
-/* Place of a node of the unknowns [m]. */
-void statics_node_place(const struct engine *e, int64_t k, real *X)
-{
-    const struct mesh *mesh = &e->reference.mesh;
-    const int32_t i = e->statics.node[k];
-    if (k < e->statics.particles) {
-        particle_place(&e->part, i, X);
-        return;
-    }
-    const int64_t at = mesh_base(mesh, i);
-    for (int d = 0; d < e->part.dim; d++)
-        X[d] = grid_position(&mesh->grid, d, at / mesh->grid.stride[d] % mesh->grid.count[d]);
-}
-
-/* How much more of the same t makes of supports and loads, of which `before` were there; 0 where it makes others. */
-static real growth_to(const struct engine *e, real t, real *const *before)
-{
-    const struct statics *s = &e->statics;
-    real now = 0, was = 0;
-    for (int64_t k = 0; k < s->balance.n; k++)
-        for (int d = 0; d < e->part.dim; d++) {
-            const real u = s->balance.u.of[d][k];
-            if (s->load[k * DIM_MAX + d] >= 0) now += u * (u + s->way.of[d][k]), was += u * u;
-        }
-    for (int d = 0; d < e->part.dim && was == 0; d++)
-        for (int64_t i = 0; i < e->part.n; i++) now += s->applied[d][i] * before[d][i], was += square(before[d][i]);
-    return was > 0 && t != e->statics.t ? now / was - 1 : 0;
-}
-
-/* The way to pseudo-time t: of supports what is prescribed, of the rest what a linear body does under proportional
- * loads. `before`: the applied forces until now. */
-static void way_make(struct engine *e, real t, real *const *before)
-{
-    struct statics *s = &e->statics;
-    struct displacing by[BOUNDARIES_MAX];
-    for (int b = 0; b < e->loads.n; b++) by[b] = displacing_make(e->loads.load[b].boundary, e->part.dim, t);
-    for (int64_t k = 0; k < s->balance.n; k++) {
-        real X[DIM_MAX] = {0};
-        if (s->balance.held[k]) statics_node_place(e, k, X);
-        for (int d = 0; d < e->part.dim; d++) {
-            const int load = s->load[k * DIM_MAX + d];
-            const real u = s->balance.u.of[d][k];
-            if (s->balance.held[k] >> d & 1) s->way.of[d][k] = (load < 0 ? 0 : displacing_at(&by[load], X, d)) - u;
-        }
-    }
-    const real growth = growth_to(e, t, before);
-    for (int d = 0; d < e->part.dim; d++)
-        for (int64_t k = 0; k < s->balance.n; k++)
-            if (!(s->balance.held[k] >> d & 1)) s->way.of[d][k] = growth * s->balance.u.of[d][k];
-}
-
-/* Norm of applied forces on free components [N]. */
-static real applied_norm(const struct engine *e)
-{
-    const struct statics *s = &e->statics;
-    real sum = 0;
-    for (int d = 0; d < e->part.dim; d++)
-        for (int64_t k = 0; k < s->particles; k++)
-            if (!(s->balance.held[k] >> d & 1)) sum += square(s->weight[k] * s->applied[d][s->node[k]]);
-    return sqrt(sum);
-}
-
-/* Norm of the forces that the round-off of positions makes, with a margin of ten [N]. */
-static real round_off_of(const struct engine *e)
-{
-    real sum = 0;
-    for (int64_t r = 0; r < e->bonds.rows; r++) {
-        const int32_t i = e->bonds.particle[r];
-        const real spring = 0.25 * bonds_row_bound(&e->bonds, &e->part, r);
-        for (int d = 0; d < e->part.dim; d++) sum += square(spring * e->part.X[d][i] * DBL_EPSILON);
-    }
-    return 10 * sqrt(sum);
-}
-
-/* Books the force on supports, and their displacement. */
-void statics_react(struct engine *e)
-{
-    const struct statics *s = &e->statics;
-    for (int b = 0; b < e->loads.n; b++) {
-        struct load *l = &e->loads.load[b];
-        if (l->boundary->kind != BOUNDARY_VELOCITY) continue;
-        const struct displacing by = displacing_make(l->boundary, e->part.dim, e->statics.t);
-        memset(l->reaction, 0, sizeof l->reaction);
-        for (int d = 0; d < e->part.dim; d++) {
-            real sum = 0, X[DIM_MAX] = {0};
-            if (!(l->boundary->components >> d & 1)) continue;
-            for (int64_t q = 0; q < l->n; q++)
-                particle_place(&e->part, l->particle[q], X), sum += displacing_at(&by, X, d);
-            l->displacement[d] = l->n > 0 ? sum / (real)l->n : 0;
-        }
-    }
-    for (int64_t k = 0; k < s->balance.n; k++)
-        for (int d = 0; d < e->part.dim; d++) {
-            const int load = s->load[k * DIM_MAX + d];
-            if (load >= 0) e->loads.load[load].reaction[d] -= s->balance.f.of[d][k] / s->weight[k];
-        }
-}
-
-/* What the work of a step adds up from: forces before it, and displacements. */
-struct account {
-    struct field u, f;
-    real *applied[DIM_MAX];
-};
-
-static void account_begin(struct account *a, const struct engine *e)
-{
-    const struct statics *s = &e->statics;
-    for (int d = 0; d < e->part.dim; d++) {
-        a->u.of[d] = BARE("statics.account", s->balance.n, real);
-        a->f.of[d] = BARE("statics.account", s->balance.n, real);
-        a->applied[d] = BARE("statics.account", e->part.n, real);
-        memcpy(a->u.of[d], s->balance.u.of[d], (size_t)s->balance.n * sizeof(real));
-        memcpy(a->f.of[d], s->balance.f.of[d], (size_t)s->balance.n * sizeof(real));
-        if (s->applied[d])
-            memcpy(a->applied[d], s->applied[d], (size_t)e->part.n * sizeof(real));
-        else
-            memset(a->applied[d], 0, (size_t)e->part.n * sizeof(real));
-    }
-}
-
-/* Work of supports and of applied forces over the step, each by the mean of its forces at both ends; *before holds
- * where loaded particles were. */
-static void account_end(struct account *a, struct engine *e, real *const *before)
-{
-    struct statics *s = &e->statics;
-    for (int d = 0; d < e->part.dim; d++) {
-        for (int64_t k = 0; k < s->balance.n; k++)
-            if (s->balance.held[k] >> d & 1)
-                e->loads.constraint_work -=
-                    0.5 * (a->f.of[d][k] + s->balance.f.of[d][k]) * (s->balance.u.of[d][k] - a->u.of[d][k]);
-        for (int64_t i = 0; i < e->part.n; i++)
-            e->loads.work += 0.5 * (a->applied[d][i] + s->applied[d][i]) * (e->part.x[d][i] - before[d][i]);
-        memory_free(a->u.of[d]);
-        memory_free(a->f.of[d]);
-        memory_free(a->applied[d]);
-    }
-}
-
-static status unbalanced(const struct engine *e);
-
-status statics_solve(struct engine *e, real t)
-{
-    struct statics *s = &e->statics;
-    struct account account;
-    real *before[DIM_MAX] = {0};
-    account_begin(&account, e);
-    for (int d = 0; d < e->part.dim; d++) {
-        before[d] = BARE("statics.before", e->part.n, real);
-        memcpy(before[d], e->part.x[d], (size_t)e->part.n * sizeof(real));
-    }
-    applied_make(e, t);
-    way_make(e, t, account.applied);
-    s->balance.applied = applied_norm(e);
-    if (!s->precondition) s->balance.noise = round_off_of(e);
-    const int64_t asked = s->balance.directions;
-    const real lost = s->balance.lost;
-    const status found = equilibrium_find(&s->balance, &s->way, t != s->t);
-    statics_place(e, &s->balance.u);
-    engine_mesh_sync(e);
-    e->statics.t = t;
-    account_end(&account, e, before);
-    e->coupling.damped += s->balance.lost - lost;
-    for (int d = 0; d < e->part.dim; d++) memory_free(before[d]);
-    statics_react(e);
-    s->solutions++;
-    statics_precondition_watch(e, s->balance.directions - asked);
-    return found == OK ? OK : unbalanced(e);
-}
-
-/* FAILED, with the place of the largest residual and what helps. */
-static status unbalanced(const struct engine *e)
-{
-    const struct statics *s = &e->statics;
-    real X[DIM_MAX] = {0};
-    if (s->balance.n > 0) statics_node_place(e, s->balance.worst, X);
-    return status_set(FAILED,
-                      "load step %lld, t = %.6g s: no equilibrium, the residual stays at %.3g of the load (%.3g is "
-                      "wanted), most of it near x = %.6g, y = %.6g, z = %.6g m; see whether every part is held and "
-                      "loads are what the body bears, or choose steps.control energy, more steps, or a larger "
-                      "solver_tolerance",
-                      (long long)e->clock.step + 1, e->statics.t, s->balance.residual, e->scene->solver_tolerance, X[0],
-                      X[1], X[2]);
 }

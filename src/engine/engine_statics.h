@@ -17,6 +17,8 @@ void statics_react(struct engine *e);
 status statics_archive(struct engine *e, struct archive *a);
 /* Bonds have yielded as they have now: trials of the next step begin from here. */
 void statics_plastic_keep(struct engine *e);
+/* Applied forces at pseudo-time t become those that act (engine_balance.c). */
+void statics_applied_make(struct engine *e, real t);
 /* Equilibrium under loads and supports of pseudo-time t [s], which becomes the time of the run; books work, what was
  * lost on the way, and reactions. FAILED with the place of the residual. */
 status statics_solve(struct engine *e, real t);
@@ -50,6 +52,8 @@ status statics_look_ahead(struct engine *e);
 /* Material points that have to become peridynamic do, until none has to; so many directed bonds have broken. */
 status statics_convert(struct engine *e, int64_t broken);
 status statics_advance(struct engine *e);
+/* Lets the body go at the next advance, in time, until it is at rest again (engine_release.c). */
+status statics_release(struct engine *e);
 real statics_load_size(const struct engine *e, real t);
 real statics_time_of_size(const struct engine *e, real size);
 real statics_released(const struct engine *e);

@@ -22,8 +22,8 @@ static status settle(struct engine *e)
 {
     TRY(statics_convert(e, 0));
     TRY(statics_look_ahead(e));
-    while (advance_due(e)) {
-        TRY(statics_advance(e));
+    for (int k = 0; advance_due(e); k++) {
+        TRY(k > 0 && e->scene->steps.then == THEN_EXPLICIT ? statics_release(e) : statics_advance(e));
         TRY(statics_look_ahead(e));
     }
     return OK;

@@ -73,6 +73,10 @@ const struct key keys[] = {
         "the other one", .has = FLAG(scene, steps.has_to)),
     KEY("steps.opening", KEY_REAL, UNIT_LENGTH, AT(scene, steps.opening), ABOVE(0), "(required with control opening)",
         "how far they are moved apart in all steps together", .words = "none", .word_value = 0),
+    KEY("steps.then", KEY_CHOICE, UNIT_NONE, AT(scene, steps.then), ANY, "equilibrium",
+        "control load: what follows an advance of the crack that another one follows under the same loads; explicit: "
+        "the body is let go and moves in time until it is at rest, then load steps go on",
+        .words = "equilibrium|explicit"),
     KEY("steps.breaks", KEY_INT, UNIT_NONE, AT(scene, steps.breaks), BETWEEN(1, 1000000), "8",
         "most bonds that break before equilibrium is found again, the most overloaded first; those that are alike "
         "break together"),

@@ -20,6 +20,9 @@ enum { HALVINGS_MOST = 8 };      /* of a correction that leads away from equilib
 #define FORCING_MOST 0.1
 #define FORCING_LEAST 1e-4
 
+/* Share of the largest loads so far that a body is still measured by once it has broken and bears nothing. */
+#define SCALE_LEAST 1e-2
+
 /* ---- vectors ----------------------------------------------------------------------------------------------------- */
 
 static struct field *const *all_fields(struct equilibrium *q, struct field **list)
@@ -123,7 +126,8 @@ void equilibrium_measure(struct equilibrium *q)
 {
     real sum[2], most = -1;
     dots(q, &q->f, &q->f, sum);
-    q->scale = real_max(real_max(q->applied, sqrt(sum[1])), q->noise);
+    q->scale = real_max(real_max(q->applied, sqrt(sum[1])), real_max(q->noise, SCALE_LEAST * q->largest));
+    q->largest = real_max(q->largest, q->scale);
     q->residual = q->scale > 0 ? sqrt(sum[0]) / q->scale : 0;
     for (int64_t i = 0; i < q->n; i++) {
         real size = 0;

@@ -1,0 +1,118 @@
+/* Unstable release in time (steps.then explicit): where an advance under fixed loads is followed by another, the body
+ * is let go. It moves by its own inertia, with loads and supports as they are, until no bond has broken for as long as
+ * waves need to cross it a few times; then its motion is damped, and equilibrium is found from where it has come. */
+#include <math.h>
+#include <string.h>
+
+#include "engine_report.h"
+#include "engine_statics.h"
+
+#define CROSSINGS_QUIET 3.0   /* crossings of the body by waves, without a bond that breaks, to be quiet */
+#define CROSSINGS_DAMPED 40.0 /* the same, that damping may take at the most */
+#define CROSSINGS_MOST 200.0  /* of all the release */
+#define MOTION_SMALL 1e-5     /* kinetic over strain energy of a body that is taken to be at rest */
+enum { LOOK_STEPS = 20 };     /* steps between looks at its energies */
+
+/* Loads and supports stay as they are at pseudo-time t. */
+static void boundaries_hold(struct engine *e, real t)
+{
+    for (int b = 0; b < e->scene->boundaries; b++) {
+        const struct boundary *from = &e->scene->boundary[b];
+        struct boundary *to = &e->boundary[b];
+        real factor = 1;
+        *to = *from;
+        if (boundary_is_force(from)) factor = time_function_at(&from->time, t), to->frozen = true, to->frozen_at = t;
+        if (from->kind == BOUNDARY_VELOCITY) {
+            factor = 0;
+            memset(to->formula, 0, sizeof to->formula);
+            to->rotates = to->displaces = false;
+        }
+        if (boundary_is_force(from) || from->kind == BOUNDARY_VELOCITY)
+            to->time = (struct time_function){TIME_CONSTANT};
+        for (int d = 0; d < DIM_MAX; d++) to->value[d] = factor * from->value[d];
+    }
+}
+
+static void boundaries_follow(struct engine *e)
+{
+    memcpy(e->boundary, e->scene->boundary, (size_t)e->scene->boundaries * sizeof *e->boundary);
+}
+
+/* All that moves keeps this share of its velocity. */
+static void velocities_scale(struct engine *e, real share)
+{
+    struct particles *p = &e->part;
+    const struct grid *g = &e->reference.mesh.grid;
+    for (int d = 0; d < p->dim; d++) {
+        for (int64_t i = 0; i < p->n; i++) p->v[d][i] *= share;
+        for (int64_t I = 0; e->reference.mesh.points > 0 && I < g->n; I++) g->velocity[d][I] *= share;
+    }
+    loads_mirror(&e->loads, p);
+}
+
+static real motion_of(const struct engine *e)
+{
+    return diagnostics_kinetic(&e->part) + engine_mesh_kinetic(&e->reference);
+}
+
+/* Time that waves need across the body [s]. */
+static real crossing_time(const struct engine *e)
+{
+    return (particles_longest(&e->part) + e->scene->spacing) / e->tables.wave_speed;
+}
+
+/* Steps in time until the body is at rest. Its clock is that of the release. */
+static status steps_in_time(struct engine *e, int64_t *broken)
+{
+    const real quiet = CROSSINGS_QUIET * crossing_time(e), damping = 2 / crossing_time(e);
+    const int64_t most = (int64_t)ceil(CROSSINGS_MOST * crossing_time(e) / e->clock.dt);
+    const int64_t damped_most = (int64_t)ceil(CROSSINGS_DAMPED * crossing_time(e) / e->clock.dt);
+    int64_t last = 0, damped = 0, had = e->diagnostics.bonds_broken;
+    *broken = 0;
+    for (int64_t k = 0; k < most && damped < damped_most; k++) {
+        TRY(engine_step(e));
+        TRY(engine_divergence_check(e, true, true));
+        if (e->diagnostics.bonds_broken > had) *broken += e->diagnostics.bonds_broken - had, last = k, damped = 0;
+        had = e->diagnostics.bonds_broken;
+        if ((real)(k - last) * e->clock.dt < quiet) continue;
+        velocities_scale(e, 1 - damping * e->clock.dt);
+        damped++;
+        if (k % LOOK_STEPS == 0 && motion_of(e) <= MOTION_SMALL * engine_strain_energy(e)) break;
+    }
+    return OK;
+}
+
+/* Energy that the body has and that bonds have taken, less the work of loads [J]. */
+static real energy_held(struct engine *e)
+{
+    return engine_strain_energy(e) + bonds_fracture_energy(&e->bonds) - e->loads.work - e->loads.constraint_work;
+}
+
+status statics_release(struct engine *e)
+{
+    struct statics *s = &e->statics;
+    const struct run_clock clock = e->clock;
+    const real before = energy_held(e), damped = e->coupling.damped;
+    int64_t broken = s->next.n, more;
+    statics_break_listed(e);
+    s->behind = s->ahead, s->ahead = (struct advance){0};
+    s->next.n = 0;
+    velocities_scale(e, 0);
+    boundaries_hold(e, s->t);
+    e->clock = (struct run_clock){clock.t, s->dt, clock.dt_critical, 1, INT64_MAX, 1};
+    e->mpm.transfer.dt = s->dt;
+    const status moved = steps_in_time(e, &more);
+    s->released_time += (real)(e->clock.step - 1) * s->dt;
+    e->clock = clock;
+    boundaries_follow(e);
+    velocities_scale(e, 0);
+    TRY(moved);
+    const real lost = before - energy_held(e);
+    s->balance.lost += lost, e->coupling.damped = damped + lost;
+    statics_precondition_free(e);
+    statics_unknowns_free(e);
+    statics_unknowns_make(e);
+    TRY(statics_go(e, s->t));
+    statics_plastic_keep(e);
+    return statics_convert(e, broken + more);
+}
