@@ -24,6 +24,7 @@ struct equilibrium {
 
     real tolerance;                      /* of the residual: its norm over that of loads or reactions [1] */
     real noise;                          /* norm of forces below which nothing is resolved [N] */
+    real length;                         /* between neighbours [m] */
     real unit_energy;                    /* of the body at unit strain [J], which sets the steps of differences */
 
     /* Since equilibrium_make or the caller has set them to 0: */

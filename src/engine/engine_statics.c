@@ -120,6 +120,7 @@ void statics_unknowns_make(struct engine *e)
                                       .precondition = statics_precondition,
                                       .context = e,
                                       .tolerance = e->scene->solver_tolerance,
+                                      .length = e->scene->spacing,
                                       .unit_energy = energy_at_unit_strain(e),
                                       .forces = kept.forces,
                                       .directions = kept.directions,

@@ -15,6 +15,8 @@ enum { HALVINGS_MOST = 8 };      /* of a correction that leads away from equilib
 /* Largest strain of the way over which forces are differenced: second-order terms are of its size, and the round-off of
  * forces, 1e-14 of a strain in a body of 100 spacings, is 1e-8 of the difference. */
 #define DIFFERENCE_STRAIN 1e-6
+/* Largest turn of bonds over it. What hangs on a bond or two turns and is hardly strained. */
+#define DIFFERENCE_TURN 1e-5
 
 /* Share of the residual that a correction leaves: the least is what one-sided differences resolve. */
 #define FORCING_MOST 0.1
@@ -102,11 +104,32 @@ static void forces_at(struct equilibrium *q, const struct field *u, struct field
     q->forces++;
 }
 
+static void square_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct product *s = context;
+    for (int d = 0; d < s->q->dim; d++) {
+        real part = 0;
+#pragma omp simd reduction(+ : part)
+        for (int64_t i = first; i < end; i++) part += s->a->of[d][i] * s->a->of[d][i];
+        *sum += part;
+    }
+}
+
+/* Share of a way over which forces are differenced: a limit to strains, and one to turns where only few nodes move; as
+ * many as move span a region as wide as the way's gradient needs. `most`: its largest component [m]. */
+static real difference_step(const struct equilibrium *q, const struct field *way, real most)
+{
+    real square_sum;
+    team_sums(q->n, 1, square_block, &(struct product){q, way, way}, &square_sum);
+    const real width = q->length * pow(real_max(1, square_sum / square(most)), 1.0 / q->dim);
+    return real_min(DIFFERENCE_STRAIN / q->strain_ratio, DIFFERENCE_TURN * width) / most;
+}
+
 /* out = K in at u, where the forces are f: the decrease of forces along `in`, over its length. */
 static void stiffness(struct equilibrium *q, const struct field *in, struct field *out)
 {
     const real most = solver_largest(in, q->dim, q->n);
-    const real step = most > 0 ? DIFFERENCE_STRAIN / (q->strain_ratio * most) : 0;
+    const real step = most > 0 ? difference_step(q, in, most) : 0;
     combine(q, &q->at, 1, &q->u, step, in);
     forces_at(q, &q->at, out);
     if (most > 0)
@@ -257,7 +280,7 @@ status equilibrium_find(struct equilibrium *q, const struct field *way, bool mov
     combine(q, &q->before, 1, &q->f, 0, &q->f);
     forces_at(q, &q->u, &q->f);
     if (!moved) combine(q, &q->before, 1, &q->f, 0, &q->f);
-    if (!(q->strain_ratio > 0)) q->strain_ratio = 1;
+    if (!(q->strain_ratio > 0)) q->strain_ratio = 1 / q->length;
     for (int k = 0; k < CORRECTIONS_MOST; k++) {
         equilibrium_measure(q);
         const real left = q->residual * q->scale, goal = 0.5 * q->tolerance * q->scale;
