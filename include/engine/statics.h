@@ -22,6 +22,32 @@ struct break_list {
  * of the size of its loads. */
 struct advance { real cost, release; };
 
+/* A crack tip that is led (engine_led.c). */
+struct led_tip {
+    real start[2], place[2];             /* where it started, where it is: reference positions [m] */
+    real along[2], heading[2];           /* unit vectors: frame of its factors; where it goes */
+    real last[2];                        /* unit vector: of the last stretch behind it */
+    real straight;                       /* length of the crack since it has turned sharply [m] */
+    real grown;                          /* length so far [m] */
+    bool reversed;                       /* its pre-crack has its first corner here */
+    bool ended;                          /* it has reached a surface or another crack */
+    bool comes;                          /* it takes part in the next advance */
+    int body;
+    real K[2];                           /* factors of the last measurement [Pa m^(1/2)] */
+    struct advance ahead, behind;        /* the stretch ahead, and the last one; cost 0: none */
+    real due;                            /* size of the loads at which the stretch ahead comes */
+};
+enum { LED_MAX = 64 };
+struct led_stretch { real at[2][DIM_MAX]; int tip; };
+struct led {
+    bool known;                          /* tips have been looked for */
+    int n;
+    struct led_tip tip[LED_MAX];
+    real tried;                          /* size of the loads at which the next advance was tried */
+    int64_t stretches, room;
+    struct led_stretch *path;            /* [stretches] what they have cut, in its order */
+};
+
 /* State of a body between two load steps, and what equilibrium works on. Nodes of the unknowns are the peridynamic
  * particles, then the nodes of the mesh. */
 struct statics {
@@ -45,6 +71,7 @@ struct statics {
     bool advances;                       /* the next load step begins with it */
     bool stale;                          /* bonds have broken since the preconditioner was made */
     real released_time;                  /* that releases in time have taken so far [s] */
+    struct led led;
     int64_t opens[2];                    /* particles whose distance is the opening */
     int64_t solutions;                   /* equilibria found so far */
 };

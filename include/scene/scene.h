@@ -108,9 +108,11 @@ struct scene_series {
 /* Load steps of solver static (engine_steps.c). */
 enum steps_control { CONTROL_LOAD, CONTROL_ENERGY, CONTROL_OPENING };
 enum steps_then { THEN_EQUILIBRIUM, THEN_EXPLICIT };
+enum steps_path { PATH_AUTO, PATH_BONDS, PATH_HOOP };
 struct scene_steps {
     int number;                          /* of steps: of the duration, or at the most */
     enum steps_control control;          /* what a step goes by: pseudo-time, energy released, an opening */
+    enum steps_path path;                /* what leads a crack: its most overloaded bonds, or its largest hoop stress */
     real energy;                         /* of the bonds of an advance; 0: by toughness and spacing [J] */
     real from[DIM_MAX], to[DIM_MAX], opening; /* places whose distance is the opening, and how far it grows [m] */
     bool has_from, has_to;

@@ -93,6 +93,7 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
 
 void bond_part(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
+    if (__atomic_load_n(&b->implicit[row / LANES], __ATOMIC_ACQUIRE)) row_block_expand(b, row / LANES);
     bond_break(b, p, limit, row, q);
 }
 

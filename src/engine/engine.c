@@ -273,7 +273,7 @@ static void approach(struct engine *e)
 static bool may_convert(const struct engine *e, const struct step *now)
 {
     return now->broken > 0 || e->coupling.approaches || e->part.n_free > 0 || e->part.n_grid_coupled > 0 ||
-           e->scene->growths > 0 || e->part.low_since || e->reference.levels.returned ||
+           e->scene->growths > 0 || scene_in_steps(e->scene) || e->part.low_since || e->reference.levels.returned ||
            mesh_stressed(&e->reference.mesh);
 }
 

@@ -24,7 +24,7 @@ real statics_released(const struct engine *e) { return bonds_fracture_energy(&e-
 
 /* Energy per area of the bonds that cross a plane of the lattice, each at its limit; of state-based models, whose bonds
  * have no energy of their own, G_c as given [J/m^2]. */
-static real toughness_of(const struct engine *e, const struct material *m)
+real toughness_of(const struct engine *e, const struct material *m)
 {
     const bool given = e->scene->model != MODEL_BOND && !isnan(m->energy_release_rate);
     return given ? m->energy_release_rate : family_crossing_energy(&e->source.family, m);
@@ -105,13 +105,7 @@ static status advance_try(struct engine *e)
     return OK;
 }
 
-/* What a trial has to give back. */
-struct stand {
-    real overload, lost, damped, work, constraint_work;
-    struct field u, f;
-};
-
-static void stand_take(struct stand *k, const struct engine *e)
+void stand_take(struct stand *k, const struct engine *e)
 {
     const struct equilibrium *q = &e->statics.balance;
     *k = (struct stand){
@@ -124,10 +118,10 @@ static void stand_take(struct stand *k, const struct engine *e)
     }
 }
 
-static void stand_give(struct stand *k, struct engine *e)
+void stand_give(struct stand *k, struct engine *e, const struct break_list *broken)
 {
     struct equilibrium *q = &e->statics.balance;
-    statics_mend(e);
+    statics_mend(e, broken);
     e->statics.overload = k->overload;
     q->lost = k->lost, e->coupling.damped = k->damped;
     e->loads.work = k->work, e->loads.constraint_work = k->constraint_work;
@@ -142,8 +136,7 @@ static void stand_give(struct stand *k, struct engine *e)
     statics_react(e);
 }
 
-/* Size of loads at which costs and releases balance. */
-static real size_of_balance(const struct advance *a, const struct advance *b)
+real size_of_balance(const struct advance *a, const struct advance *b)
 {
     const real release = a->release + b->release;
     return a->cost > 0 && release > 0 ? sqrt((a->cost + b->cost) / release) : INFINITY;
@@ -153,10 +146,11 @@ status statics_look_ahead(struct engine *e)
 {
     struct statics *s = &e->statics;
     struct stand stand;
+    if (led_leads(e)) return led_look_ahead(e);
     if (s->next.n > 0 || s->overload < (s->behind.cost > 0 ? STRESSED_FURTHER : STRESSED)) return OK;
     stand_take(&stand, e);
     const status tried = advance_try(e);
-    stand_give(&stand, e);
+    stand_give(&stand, e, &s->next);
     s->due = size_of_balance(&s->ahead, &s->behind);
     return tried;
 }
@@ -164,7 +158,8 @@ status statics_look_ahead(struct engine *e)
 status statics_advance(struct engine *e)
 {
     struct statics *s = &e->statics;
-    statics_break_listed(e);
+    statics_break_listed(e, &s->next);
+    led_advance(e);
     const int64_t broken = s->next.n;
     s->behind = s->ahead, s->ahead = (struct advance){0};
     s->next.n = 0;

@@ -155,9 +155,8 @@ int64_t statics_break(struct engine *e, real share, int64_t most, real *cost)
 }
 
 /* All at once: what the later ones of the list hold at their limits shows only as the first are gone. */
-void statics_break_listed(struct engine *e)
+void statics_break_listed(struct engine *e, const struct break_list *l)
 {
-    struct break_list *l = &e->statics.next;
     struct bond_limit limit = e->source.limit;
     limit.last_force = LAST_FORCE_NONE;
     real more = 0;
@@ -173,9 +172,8 @@ void statics_break_listed(struct engine *e)
     e->statics.stale = true;
 }
 
-void statics_mend(struct engine *e)
+void statics_mend(struct engine *e, const struct break_list *l)
 {
-    const struct break_list *l = &e->statics.next;
     for (int64_t k = l->n; k-- > 0;) {
         const struct broken_bond *record = &l->bond[k];
         bond_mend(&e->bonds, &e->part, record->row, record->entry, record->w);

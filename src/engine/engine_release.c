@@ -94,7 +94,8 @@ status statics_release(struct engine *e)
     const struct run_clock clock = e->clock;
     const real before = energy_held(e), damped = e->coupling.damped;
     int64_t broken = s->next.n, more;
-    statics_break_listed(e);
+    statics_break_listed(e, &s->next);
+    led_advance(e);
     s->behind = s->ahead, s->ahead = (struct advance){0};
     s->next.n = 0;
     velocities_scale(e, 0);
@@ -107,6 +108,7 @@ status statics_release(struct engine *e)
     boundaries_follow(e);
     velocities_scale(e, 0);
     TRY(moved);
+    if (more > 0) led_lose(e);
     const real lost = before - energy_held(e);
     s->balance.lost += lost, e->coupling.damped = damped + lost;
     statics_precondition_free(e);

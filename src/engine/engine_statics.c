@@ -167,6 +167,7 @@ void statics_free(struct engine *e)
     for (int d = 0; d < DIM_MAX; d++) memory_free(s->applied[d]), s->applied[d] = NULL;
     for (int k = 0; k < 2; k++) memory_free(s->plastic[k]), s->plastic[k] = NULL;
     memory_free(s->next.bond);
+    led_free(&s->led);
     s->next = (struct break_list){0};
 }
 
@@ -191,6 +192,7 @@ status statics_archive(struct engine *e, struct archive *a)
     ARCHIVE_VALUE(a, "statics/ahead", s->ahead);
     ARCHIVE_VALUE(a, "statics/behind", s->behind);
     TRY(statics_list_archive(e, a));
+    TRY(led_archive(e, a));
     ARCHIVE_VALUE(a, "statics/lost", q->lost);
     ARCHIVE_VALUE(a, "statics/largest", q->largest);
     ARCHIVE_VALUE(a, "statics/strain_ratio", q->strain_ratio);

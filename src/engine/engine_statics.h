@@ -25,7 +25,7 @@ status statics_solve(struct engine *e, real t);
 
 /* Columns of history.csv; column NULL: only their number; and their values. */
 int statics_columns(const struct engine *e, struct column *column);
-void statics_record(const struct engine *e, real *record);
+void statics_record(struct engine *e, real *record);
 
 /* Preconditioner (engine_springs.c): z = M^-1 r of equilibrium.h; it is made anew once solutions take too many
  * directions, or when it is to (`free`). */
@@ -38,9 +38,9 @@ void statics_precondition_free(struct engine *e);
  * and what they hold at their limits to *cost [J]; returns directed bonds broken. */
 real statics_overload(const struct engine *e);
 int64_t statics_break(struct engine *e, real share, int64_t most, real *cost);
-/* Breaks the bonds of the list; makes them whole again; saves or restores it. */
-void statics_break_listed(struct engine *e);
-void statics_mend(struct engine *e);
+/* Breaks the bonds of a list; makes them whole again. Saves or restores that of the next advance. */
+void statics_break_listed(struct engine *e, const struct break_list *l);
+void statics_mend(struct engine *e, const struct break_list *l);
 status statics_list_archive(struct engine *e, struct archive *a);
 
 /* Advances (engine_advance.c). Equilibrium at pseudo-time t, with the overload there. Looks for the next advance unless
@@ -57,5 +57,39 @@ status statics_release(struct engine *e);
 real statics_load_size(const struct engine *e, real t);
 real statics_time_of_size(const struct engine *e, real size);
 real statics_released(const struct engine *e);
+
+/* What a trial has to give back. */
+struct stand {
+    real overload, lost, damped, work, constraint_work;
+    struct field u, f;
+};
+void stand_take(struct stand *k, const struct engine *e);
+void stand_give(struct stand *k, struct engine *e, const struct break_list *broken);
+/* Size of loads at which the costs and releases of two advances balance; INFINITY: at none. */
+real size_of_balance(const struct advance *a, const struct advance *b);
+/* Energy per area that a crack takes: of bonds at their limits, or of state-based models G_c as given [J/m^2]. */
+real toughness_of(const struct engine *e, const struct material *m);
+
+/* Cracks that are led by their stress-intensity factors (engine_led.c, engine_led_cut.c). Is there a tip to lead? */
+bool led_leads(struct engine *e);
+/* Measures factors at a tip, in its frame; false: it sees too little. */
+bool led_measure(const struct engine *e, const struct led_tip *tip, real K[2]);
+/* Where its next stretch ends [m]. */
+void led_next_place(const struct engine *e, const struct led_tip *tip, real place[2]);
+/* Its area [m^2], and what it costs [J/m^2]. */
+real led_area(const struct engine *e, const struct led_tip *tip);
+real led_toughness(const struct engine *e, const struct led_tip *tip);
+/* Turns the tips to where they go next; moves one along its next stretch. */
+void led_turn(const struct engine *e, struct led_tip *tip);
+void led_move(struct engine *e, int tip);
+/* Factors of the leading tip; NAN where there is none. */
+void led_factors(struct engine *e, real K[2]);
+void led_free(struct led *l);
+status led_archive(struct engine *e, struct archive *a);
+/* The next advance of led cracks, and what follows it. */
+status led_look_ahead(struct engine *e);
+void led_advance(struct engine *e);
+/* Bonds have broken by themselves: no tip is led from here on. */
+void led_lose(struct engine *e);
 
 #endif

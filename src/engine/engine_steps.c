@@ -111,20 +111,25 @@ static int64_t nearest(const struct particles *p, const real *X)
 
 /* ---- columns of history.csv -------------------------------------------------------------------------------------- */
 
-enum { STATICS_COLUMNS = 3 };
+enum { STATICS_COLUMNS = 5 };
 
 int statics_columns(const struct engine *e, struct column *column)
 {
-    static const struct column own[STATICS_COLUMNS] = {{"load_time", "s"}, {"overload", ""}, {"released", "J"}};
+    static const struct column own[STATICS_COLUMNS] = {{"load_time", "s"},
+                                                       {"overload", ""},
+                                                       {"released", "J"},
+                                                       {"K_I", "Pa m^(1/2)"},
+                                                       {"K_II", "Pa m^(1/2)"}};
     if (!scene_in_steps(e->scene)) return 0;
     if (column) memcpy(column, own, sizeof own);
     return STATICS_COLUMNS;
 }
 
-void statics_record(const struct engine *e, real *record)
+void statics_record(struct engine *e, real *record)
 {
     if (!scene_in_steps(e->scene)) return;
     record[0] = e->statics.t, record[1] = e->statics.overload, record[2] = statics_released(e);
+    led_factors(e, record + 3);
 }
 
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */

@@ -65,6 +65,11 @@ const struct key keys[] = {
         "where the body releases more than steps.energy, so that snap-back is followed; opening: the distance of two "
         "places grows evenly, and pseudo-time follows",
         .words = "load|energy|opening"),
+    KEY("steps.path", KEY_CHOICE, UNIT_NONE, AT(scene, steps.path), ANY, "auto",
+        "how a crack finds its way: bonds: its most overloaded bonds break; hoop (in the plane): its tip cuts what is "
+        "on the next two spacings in the direction of the largest hoop stress, by its stress-intensity factors; where "
+        "no tip is left, bonds; auto: hoop where the scene is plane and pre-cracks end inside the body",
+        .words = "auto|bonds|hoop"),
     KEY("steps.energy", KEY_REAL, UNIT_ENERGY, AT(scene, steps.energy), ABOVE(0), "auto",
         "of an advance of the crack: what its bonds cost", .words = "auto", .word_value = 0),
     KEY("steps.from", KEY_POINT, UNIT_LENGTH, AT(scene, steps.from), ANY, "(required with control opening)",

@@ -47,6 +47,9 @@ status check_load_steps(struct reader *r, const struct node *root)
     const bool opening = s->steps.control == CONTROL_OPENING;
     TRY(check_steps_motion(r, root));
     TRY(check_steps_loads(r, root));
+    if (s->steps.path == PATH_HOOP && s->dim != 2)
+        return fault(r, tree_at(root, "steps.path"),
+                     "hoop leads the tips of cracks in a plane; bonds, or auto, is expected in space and on a line");
     if (!opening || (s->steps.has_from && s->steps.has_to && s->steps.opening > 0)) return OK;
     return fault(r, steps,
                  "control opening wants steps.from and steps.to, two places, and steps.opening, how far they "
@@ -60,7 +63,7 @@ status check_steps_given(struct reader *r, const struct node *root)
     const struct node *steps = node_find(root, "steps");
     const struct key *number = key_find("steps", "number"), *breaks = key_find("steps", "breaks");
     const bool usual = s->number == atoi(number->fallback) && s->control == CONTROL_LOAD && s->energy == 0 &&
-                       s->opening == 0 && s->breaks == atoi(breaks->fallback);
+                       s->opening == 0 && s->path == PATH_AUTO && s->breaks == atoi(breaks->fallback);
     if (!steps || scene_in_steps(r->scene) || usual) return OK;
     return fault(r, steps, "load steps belong to solver: static, which is expected beside them");
 }

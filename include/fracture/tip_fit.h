@@ -1,0 +1,32 @@
+/* Stress-intensity factors of a crack at rest from the displacements round its tip, by a least-squares fit of the
+ * series of Williams (1957) up to r^(terms/2), both modes, with a translation (its term n = 2 of mode II is the
+ * rotation):
+ *
+ *   2 G u_I  = r^(n/2) [(kappa + n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]      s = (-1)^n
+ *   2 G v_I  = r^(n/2) [(kappa - n/2 - s) sin(n t/2) + n/2 sin((n/2 - 2) t)]
+ *   2 G u_II = r^(n/2) [(kappa + n/2 - s) sin(n t/2) - n/2 sin((n/2 - 2) t)]
+ *   2 G v_II = r^(n/2) [-(kappa - n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]
+ *
+ * K_I and K_II are the coefficients of n = 1 times sqrt(2 pi). Particles that the tip does not see, since a crack lies
+ * between, do not count. */
+#ifndef CLEAVE_TIP_FIT
+#define CLEAVE_TIP_FIT
+
+#include "data/particles.h"
+#include "data/region.h"
+#include "sif_fields.h"
+
+struct tip_view {
+    struct crack_medium medium;
+    real place[2];             /* of the tip, reference position [m] */
+    real along[2], last[2];    /* unit vectors: of the frame, and of the last stretch of the crack */
+    real inner, outer;         /* particles between these radii count [m] */
+    int body;                  /* of this body */
+    const struct crack *crack; /* what hides particles from the tip */
+    int cracks;
+};
+
+/* Factors in the frame; false, and 0, where the tip sees too few particles. */
+bool tip_fit(const struct tip_view *view, const struct particles *p, real K[MODES]);
+
+#endif

@@ -1,0 +1,198 @@
+/* Advances of led cracks: the bonds that the next stretches of their tips cut, and the loads at which they come. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "engine_statics.h"
+#include "kernels/kernels.h"
+#include "kernels/pd/bond_last.h"
+
+#define STRESSED 0.5  /* overload below which nothing is tried */
+#define AGAIN 1.25    /* growth of loads after which what is not due is tried anew */
+#define TOGETHER 0.02 /* tips whose loads differ by less come together */
+enum { CLAIMS_MOST = 4 };
+
+/* ---- bonds that a stretch cuts ----------------------------------------------------------------------------------- */
+
+/* Half of what a bond of a row holds elastically at its limit [J]. */
+static real half_at_limit(const struct engine *e, const struct bond *bond, int32_t i)
+{
+    const struct bonds *b = &e->bonds;
+    real most = stretch_limit(&e->part, &e->source.limit, i, bond->nbr);
+    if (b->plastic_stretch) {
+        const real yield = b->yield.stretch[b->pair[bond->entry]], hardening = b->yield.hardening[b->pair[bond->entry]];
+        if (most > yield) most = yield + hardening * (most - yield) / (1 + hardening);
+    }
+    return 0.25 * b->stiffness * bond->w * square(most) / bond->inverse_length;
+}
+
+static void record_add(struct break_list *l, const struct broken_bond *record)
+{
+    if (l->n == l->room) {
+        const int64_t larger = l->room ? 2 * l->room : 64;
+        l->bond = memory_resize("statics.broken", l->bond, l->room, larger, sizeof *l->bond);
+        l->room = larger;
+    }
+    l->bond[l->n++] = *record;
+}
+
+/* Adds the bonds of a row that one of the ways cuts. */
+static void cut_row(const struct engine *e, const struct crack_list *ways, int64_t r, struct break_list *l)
+{
+    const int32_t i = e->bonds.particle[r];
+    real X[DIM_MAX] = {0}, Y[DIM_MAX] = {0};
+    bool close = false;
+    particle_place(&e->part, i, X);
+    for (int w = 0; w < ways->n; w++) close |= crack_near(&ways->crack[w], X, e->source.family.cutoff, 2);
+    for (struct bond_iterator it = bonds_of_row(&e->bonds, r); close && bond_next(&it);) {
+        bool cut = false;
+        if (it.bond.w == 0) continue;
+        particle_place(&e->part, it.bond.nbr, Y);
+        for (int w = 0; w < ways->n; w++) cut |= crack_cuts(&ways->crack[w], X, Y, 2);
+        if (!cut) continue;
+        record_add(l, &(struct broken_bond){i, it.bond.nbr, r, it.bond.entry, it.bond.w, e->bonds.fracture_energy[r],
+                                            e->part.damage[i], half_at_limit(e, &it.bond, i), e->part.flag[i]});
+    }
+}
+
+/* The next stretch of a tip, and its images in planes of symmetry. */
+static void ways_of(const struct engine *e, const struct led_tip *tip, struct crack_list *ways)
+{
+    real corner[2][DIM_MAX] = {{0}}, to[2];
+    led_next_place(e, tip, to);
+    for (int d = 0; d < 2; d++) corner[tip->reversed][d] = tip->place[d], corner[!tip->reversed][d] = to[d];
+    const struct crack path = {.n = 2, .corner = corner};
+    cracks_mirrored(ways, &path, 1, e->source.mirror, e->source.mirrors, e->source.family.cutoff,
+                    ON_SURFACE * e->scene->spacing);
+}
+
+/* All of what the next stretch of a tip cuts; returns what it costs [J]. State-based bonds have no energy of their own:
+ * G_c of the area. */
+static real stretch_list(const struct engine *e, const struct led_tip *tip, struct break_list *l)
+{
+    struct crack_list ways;
+    real cost = 0;
+    ways_of(e, tip, &ways);
+    for (int64_t r = 0; r < e->bonds.rows; r++) cut_row(e, &ways, r, l);
+    crack_list_free(&ways);
+    if (e->scene->model != MODEL_BOND) {
+        const real whole = led_area(e, tip) * led_toughness(e, tip);
+        for (int64_t k = 0; k < l->n; k++) l->bond[k].held = whole / (real)l->n;
+    }
+    for (int64_t k = 0; k < l->n; k++) cost += l->bond[k].held;
+    return cost;
+}
+
+/* ---- trials ------------------------------------------------------------------------------------------------------ */
+
+/* Marks material points round the next stretch for conversion, since cracks need bonds. Returns their number. */
+static int64_t stretch_claim(struct engine *e, const struct led_tip *tip)
+{
+    struct particles *p = &e->part;
+    real to[DIM_MAX] = {0}, from[DIM_MAX] = {tip->place[0], tip->place[1]};
+    int64_t claimed = 0;
+    led_next_place(e, tip, to);
+    for (int64_t i = 0; i < p->n; i++) {
+        real X[DIM_MAX] = {0};
+        if (p->kind[i] != KIND_MPM || p->body[i] != tip->body) continue;
+        particle_place(p, i, X);
+        if (segment_distance(from, to, X, 2) > e->source.family.cutoff) continue;
+        p->flag[i] |= FLAG_LOST_BOND;
+        claimed++;
+    }
+    return claimed;
+}
+
+/* Tips turn to where they go; what they are to cut becomes peridynamic. */
+static status tips_turn(struct engine *e)
+{
+    struct led *l = &e->statics.led;
+    int64_t claimed = 1;
+    for (int round = 0; round < CLAIMS_MOST && claimed > 0; round++) {
+        claimed = 0;
+        for (int k = 0; k < l->n; k++)
+            if (!l->tip[k].ended) led_turn(e, &l->tip[k]), claimed += stretch_claim(e, &l->tip[k]);
+        if (claimed > 0) TRY(statics_convert(e, 0));
+    }
+    return OK;
+}
+
+/* Breaks the bonds of a tip's next stretch on trial. */
+static status stretch_try(struct engine *e, struct led_tip *tip, const struct break_list *l)
+{
+    struct stand stand;
+    const real before = statics_released(e);
+    stand_take(&stand, e);
+    statics_break_listed(e, l);
+    const status tried = statics_go(e, e->statics.t);
+    tip->ahead.release = (statics_released(e) - before) / square(statics_load_size(e, e->statics.t));
+    stand_give(&stand, e, l);
+    return tried;
+}
+
+static bool list_has(const struct break_list *l, const struct broken_bond *record)
+{
+    for (int64_t k = 0; k < l->n; k++)
+        if (l->bond[k].row == record->row && l->bond[k].entry == record->entry) return true;
+    return false;
+}
+
+/* The next advance: the tip whose stretch comes first, and those that come with it. */
+static void advance_choose(struct engine *e, struct break_list *list)
+{
+    struct statics *s = &e->statics;
+    struct led *l = &s->led;
+    real first = INFINITY;
+    s->ahead = s->behind = (struct advance){0};
+    for (int k = 0; k < l->n; k++) first = real_min(first, l->tip[k].due);
+    for (int k = 0; k < l->n; k++) {
+        struct led_tip *tip = &l->tip[k];
+        tip->comes = isfinite(tip->due) && tip->due <= first * (1 + TOGETHER);
+        if (!tip->comes) continue;
+        for (int64_t q = 0; q < list[k].n; q++)
+            if (!list_has(&s->next, &list[k].bond[q])) record_add(&s->next, &list[k].bond[q]);
+        s->ahead.cost += tip->ahead.cost, s->ahead.release += tip->ahead.release;
+        s->behind.cost += tip->behind.cost, s->behind.release += tip->behind.release;
+    }
+    s->due = size_of_balance(&s->ahead, &s->behind);
+}
+
+/* Compressed tips do not advance; one that has nothing to cut has arrived. */
+static status tip_try(struct engine *e, struct led_tip *tip, struct break_list *list)
+{
+    tip->ahead = (struct advance){0}, tip->due = INFINITY;
+    if (tip->ended || !(tip->K[0] > 0)) return OK;
+    tip->ahead.cost = stretch_list(e, tip, list);
+    tip->ended = list->n == 0;
+    if (tip->ended) return OK;
+    TRY(stretch_try(e, tip, list));
+    tip->due = size_of_balance(&tip->ahead, &tip->behind);
+    return OK;
+}
+
+status led_look_ahead(struct engine *e)
+{
+    struct statics *s = &e->statics;
+    struct break_list list[LED_MAX] = {{0}};
+    status tried = OK;
+    const real size = statics_load_size(e, s->t);
+    if (s->overload < STRESSED || (s->next.n > 0 && (size >= s->due || size < AGAIN * s->led.tried))) return OK;
+    s->led.tried = size;
+    TRY(tips_turn(e));
+    for (int k = 0; k < s->led.n && tried == OK; k++) tried = tip_try(e, &s->led.tip[k], &list[k]);
+    s->next.n = 0;
+    if (tried == OK) advance_choose(e, list);
+    for (int k = 0; k < s->led.n; k++) memory_free(list[k].bond);
+    return tried;
+}
+
+void led_advance(struct engine *e)
+{
+    struct led *l = &e->statics.led;
+    for (int k = 0; k < l->n; k++) {
+        struct led_tip *tip = &l->tip[k];
+        tip->behind = tip->comes ? tip->ahead : (struct advance){0};
+        if (tip->comes) led_move(e, k);
+        tip->comes = false;
+    }
+}

@@ -1,0 +1,101 @@
+/* Stress-intensity factors by a fit of displacements. */
+#include "fracture/tip_fit.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { TERMS = 4, UNKNOWNS = MODES * TERMS + 2 };
+
+#define AHEAD 1e-3     /* of the inner radius: from there the tip looks round, as its own crack ends in it */
+#define SINGULAR 1e-12 /* pivot over the diagonal's entry */
+
+/* Displacements of a unit coefficient at (r/outer, theta) in the frame, times 2 G [1]. */
+static void fit_term(real kappa, int n, real r, real theta, real mode_1[2], real mode_2[2])
+{
+    const real half = 0.5 * n, s = n % 2 ? -1 : 1, q = pow(r, half);
+    const real c = cos(half * theta), d = cos((half - 2) * theta), a = sin(half * theta), b = sin((half - 2) * theta);
+    mode_1[0] = q * ((kappa + half + s) * c - half * d);
+    mode_1[1] = q * ((kappa - half - s) * a + half * b);
+    mode_2[0] = q * ((kappa + half - s) * a - half * b);
+    mode_2[1] = -q * ((kappa - half + s) * c + half * d);
+}
+
+/* Normal equations. */
+struct fit {
+    real A[UNKNOWNS][UNKNOWNS], y[UNKNOWNS];
+    int particles;
+};
+
+static void fit_add(struct fit *f, const real *row, real value)
+{
+    for (int m = 0; m < UNKNOWNS; m++) {
+        for (int l = 0; l <= m; l++) f->A[m][l] += row[m] * row[l];
+        f->y[m] += row[m] * value;
+    }
+}
+
+/* A particle at X [m] in the plane from the tip, with its displacement u [m]. */
+static void fit_particle(struct fit *f, const struct tip_view *v, const real X[2], const real u[2])
+{
+    const real *a = v->along, *l = v->last;
+    const real theta = atan2(l[0] * X[1] - l[1] * X[0], l[0] * X[0] + l[1] * X[1]) +
+                       atan2(a[0] * l[1] - a[1] * l[0], a[0] * l[0] + a[1] * l[1]);
+    real row[2][UNKNOWNS] = {{0}}, one[2], two[2];
+    for (int n = 1; n <= TERMS; n++) {
+        fit_term(v->medium.kappa, n, hypot(X[0], X[1]) / v->outer, theta, one, two);
+        for (int d = 0; d < 2; d++) row[d][2 * n - 2] = one[d], row[d][2 * n - 1] = two[d];
+    }
+    for (int d = 0; d < 2; d++) row[d][UNKNOWNS - 2 + d] = 1;
+    fit_add(f, row[0], u[0] * a[0] + u[1] * a[1]);
+    fit_add(f, row[1], u[1] * a[0] - u[0] * a[1]);
+    f->particles++;
+}
+
+/* Solves A x = y in place of y by L D L^T; false: singular. */
+static bool fit_solve(struct fit *f)
+{
+    real(*A)[UNKNOWNS] = f->A, *y = f->y;
+    for (int k = 0; k < UNKNOWNS; k++) {
+        const real whole = A[k][k];
+        for (int m = 0; m < k; m++) A[k][k] -= square(A[k][m]) * A[m][m];
+        if (!(A[k][k] > SINGULAR * whole)) return false;
+        for (int i = k + 1; i < UNKNOWNS; i++) {
+            for (int m = 0; m < k; m++) A[i][k] -= A[i][m] * A[k][m] * A[m][m];
+            A[i][k] /= A[k][k];
+        }
+    }
+    for (int k = 0; k < UNKNOWNS; k++)
+        for (int m = 0; m < k; m++) y[k] -= A[k][m] * y[m];
+    for (int k = 0; k < UNKNOWNS; k++) y[k] /= A[k][k];
+    for (int k = UNKNOWNS - 1; k >= 0; k--)
+        for (int m = k + 1; m < UNKNOWNS; m++) y[k] -= A[m][k] * y[m];
+    return true;
+}
+
+static bool seen(const struct tip_view *v, const real *X)
+{
+    real eye[DIM_MAX] = {0};
+    for (int d = 0; d < 2; d++) eye[d] = v->place[d] + AHEAD * v->inner * v->last[d];
+    for (int k = 0; k < v->cracks; k++)
+        if (crack_cuts(&v->crack[k], eye, X, 2)) return false;
+    return true;
+}
+
+bool tip_fit(const struct tip_view *v, const struct particles *p, real K[MODES])
+{
+    struct fit f = {.particles = 0};
+    K[MODE_I] = K[MODE_II] = 0;
+    for (int64_t i = 0; i < p->n_all; i++) {
+        real X[DIM_MAX] = {0}, from[2], u[2];
+        for (int d = 0; d < 2; d++) {
+            X[d] = p->X[d][i], from[d] = X[d] - v->place[d], u[d] = p->x[d][i] - X[d];
+        }
+        const real r2 = square(from[0]) + square(from[1]);
+        if (r2 < square(v->inner) || r2 > square(v->outer) || p->body[i] != v->body || !seen(v, X)) continue;
+        fit_particle(&f, v, from, u);
+    }
+    if (f.particles < UNKNOWNS || !fit_solve(&f)) return false;
+    const real size = 2 * v->medium.shear * sqrt(2 * 3.14159265358979323846 / v->outer);
+    for (int m = 0; m < MODES; m++) K[m] = size * f.y[m];
+    return true;
+}

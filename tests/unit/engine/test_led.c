@@ -1,0 +1,74 @@
+/* Load steps in which cracks are led: the kink of an inclined crack. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "auto/scene_read.h"
+#include "engine/engine.h"
+#include "fracture/sif_fields.h"
+
+static const real degree = 3.14159265358979323846 / 180;
+
+struct solution { struct scene s; struct engine e; };
+
+/* A plate of 64 spacings, with a crack of 2 x 12 at `angle` to the normal of the load. It lies a quarter of a spacing
+ * off the rows' symmetry, so that no particle is on it. */
+static void plate(struct solution *a, real angle, int steps, const char *more)
+{
+    static char text[2000];
+    const real c = 12 * cos(angle * degree), s = 12 * sin(angle * degree);
+    snprintf(text, sizeof text,
+             "space: plane stress\nthickness: 1 mm\nduration: 1 s\nmethod: pd\nsolver: static\nsolver_tolerance: 1e-6\n"
+             "steps: {number: %d, control: energy%s}\n"
+             "material: {young: 200 GPa, poisson: 1/3, density: 7850 kg/m^3, energy_release_rate: 100 J/m^2}\n"
+             "body: {box: {from: [-32 mm, -32 mm], to: [32 mm, 32 mm]}}\n"
+             "particles: {spacing: 1 mm, horizon: 3.015}\n"
+             "cracks:\n  - {from: [%.9g mm, %.9g mm], to: [%.9g mm, %.9g mm]}\n"
+             "boundary:\n  - {traction: [0, 100 MPa], face: y+, time: {ramp: {until: 1 s}}}\n"
+             "  - {traction: [0, -100 MPa], face: y-, time: {ramp: {until: 1 s}}}\n",
+             steps, more, -c, -s + 0.25, c, s + 0.25);
+    memset(a, 0, sizeof *a);
+    if (scene_read_text(&a->s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    a->e.report.quiet = true;
+    if (engine_make(&a->e, &a->s, NULL) != OK || engine_run(&a->e) != OK) fail_msg("%s", status_message());
+}
+
+static void solution_free(struct solution *a)
+{
+    engine_free(&a->e);
+    scene_free(&a->s);
+}
+
+/* The first stretches lead away at the angle of the largest hoop stress (Erdogan & Sih 1963). K_II/K_I is tan(angle) in
+ * a wide plate; here, with a crack of 3/8 of the width, within 8 %, which turns the kink by 2 degrees. */
+static void test_kink(void **state)
+{
+    (void)state;
+    for (real angle = 15; angle < 80; angle += 30) {
+        struct solution a;
+        plate(&a, angle, 4, "");
+        const struct led *l = &a.e.statics.led;
+        const real K[MODES] = {cos(angle * degree), sin(angle * degree)}, expected = crack_direction(K) / degree;
+        assert_int_equal(l->n, 2);
+        for (int k = 0; k < 2; k++) {
+            const struct led_tip *tip = &l->tip[k];
+            const real way[2] = {tip->place[0] - tip->start[0], tip->place[1] - tip->start[1]};
+            const real along = angle * degree + (k == 0 ? 3.14159265358979323846 : 0);
+            const real turn = remainder(atan2(way[1], way[0]) - along, 360 * degree) / degree;
+            if (tip->grown > 0 && fabs(turn - expected) > 3)
+                fail_msg("tip %d at %g: %g degrees, %g are expected", k, angle, turn, expected);
+        }
+        assert_true(l->tip[0].grown + l->tip[1].grown >= 2 * 0.001);
+        solution_free(&a);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kink)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
