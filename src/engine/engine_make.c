@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "engine/engine.h"
+#include "engine_statics.h"
 #include "base/memory.h"
 
 static bool has_peridynamics(const struct scene *s) { return s->method != METHOD_MPM; }
@@ -472,7 +472,7 @@ void engine_free(struct engine *e)
     particles_free(&e->part);
     memory_free(e->coupling.start_region.solid);
     notches_free(&e->coupling.notches);
-    solver_free(&e->solver), statics_free(e);
+    solver_free(&e->solver), statics_free(e), led_free(&e->statics.led);
     memory_free(e->boundary);
     memory_free(e->tables.pair_stretch);
     memory_free(e->tables.impedance);

@@ -167,7 +167,6 @@ void statics_free(struct engine *e)
     for (int d = 0; d < DIM_MAX; d++) memory_free(s->applied[d]), s->applied[d] = NULL;
     for (int k = 0; k < 2; k++) memory_free(s->plastic[k]), s->plastic[k] = NULL;
     memory_free(s->next.bond);
-    led_free(&s->led);
     s->next = (struct break_list){0};
 }
 
