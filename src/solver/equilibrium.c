@@ -175,6 +175,20 @@ static void residual_of_guess(struct equilibrium *q)
             if (is_held(q, i, d)) q->r.of[d][i] = 0;
 }
 
+/* Leaves the guess of free components out where forces are nearer to balance without it: what has broken off, and
+ * turned, is not where proportional loads would have it. */
+static void guess_check(struct equilibrium *q)
+{
+    residual_of_guess(q);
+    const real with = dot_free(q, &q->r, &q->r);
+    combine(q, &q->z, 1, &q->x, 0, &q->x);
+    for (int d = 0; d < q->dim; d++)
+        for (int64_t i = 0; i < q->n; i++)
+            if (!is_held(q, i, d)) q->x.of[d][i] = 0;
+    residual_of_guess(q);
+    if (with < dot_free(q, &q->r, &q->r)) combine(q, &q->x, 1, &q->z, 0, &q->z);
+}
+
 /* What a pass over vectors reads and writes. */
 struct step {
     struct equilibrium *q;
@@ -274,13 +288,14 @@ static real dot_held(const struct equilibrium *q, const struct field *way)
 
 status equilibrium_find(struct equilibrium *q, const struct field *way, bool moved)
 {
-    bool prescribed = solver_largest(way, q->dim, q->n) > 0;
+    bool prescribed = moved && solver_largest(way, q->dim, q->n) > 0;
     real by_supports = 0;
-    combine(q, &q->x, 1, way, 0, way);
+    combine(q, &q->x, prescribed, way, 0, way);
     combine(q, &q->before, 1, &q->f, 0, &q->f);
     forces_at(q, &q->u, &q->f);
     if (!moved) combine(q, &q->before, 1, &q->f, 0, &q->f);
     if (!(q->strain_ratio > 0)) q->strain_ratio = 1 / q->length;
+    if (prescribed) guess_check(q);
     for (int k = 0; k < CORRECTIONS_MOST; k++) {
         equilibrium_measure(q);
         const real left = q->residual * q->scale, goal = 0.5 * q->tolerance * q->scale;
