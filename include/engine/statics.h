@@ -27,7 +27,8 @@ struct led_tip {
     real start[2], place[2];             /* where it started, where it is: reference positions [m] */
     real along[2], heading[2];           /* unit vectors: frame of its factors; where it goes */
     real last[2];                        /* unit vector: of the last stretch behind it */
-    real straight;                       /* length of the crack since it has turned sharply [m] */
+    real hold;                           /* length for which it still goes straight on [m] */
+    real sees;                           /* length of the crack behind the tip or its kink [m] */
     real grown;                          /* length so far [m] */
     bool reversed;                       /* its pre-crack has its first corner here */
     bool ended;                          /* it has reached a surface or another crack */

@@ -1,14 +1,14 @@
 /* Stress-intensity factors of a crack at rest from the displacements round its tip, by a least-squares fit of the
- * series of Williams (1957) up to r^(terms/2), both modes, with a translation (its term n = 2 of mode II is the
- * rotation):
+ * series of Williams (1957), both modes, with a translation (its term n = 2 of mode II is the rotation):
  *
  *   2 G u_I  = r^(n/2) [(kappa + n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]      s = (-1)^n
  *   2 G v_I  = r^(n/2) [(kappa - n/2 - s) sin(n t/2) + n/2 sin((n/2 - 2) t)]
  *   2 G u_II = r^(n/2) [(kappa + n/2 - s) sin(n t/2) - n/2 sin((n/2 - 2) t)]
  *   2 G v_II = r^(n/2) [-(kappa - n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]
  *
- * K_I and K_II are the coefficients of n = 1 times sqrt(2 pi). Particles that the tip does not see, since a crack lies
- * between, do not count. */
+ * K_I and K_II are the coefficients of n = 1 times sqrt(2 pi). Up to n = 5, and n = -1 for the zone round the tip and
+ * along the faces in which bonds are not a continuum: without it K_II is 7 to 10 % too large at three to ten spacings,
+ * with it 3 %. Particles that the tip does not see, since a crack lies between, do not count. */
 #ifndef CLEAVE_TIP_FIT
 #define CLEAVE_TIP_FIT
 

@@ -2,8 +2,8 @@
  *
  * A tip goes in the direction of the largest hoop stress of its stress-intensity factors (crack_direction). They are
  * fitted in a frame that follows the heading over a smoothing length: a tip that turns at once, and is measured in its
- * new frame round a ring that its kink has not crossed, would swing (fracture/growth.h). After a sharp turn the crack
- * goes straight on until its new stretch fills the ring. */
+ * new frame round a ring that its kink has not crossed, would swing (fracture/growth.h). Where a pre-crack kinks, the
+ * crack goes straight on until the ring sees no more than the kink. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,11 +13,13 @@
 #include "fracture/tip_fit.h"
 
 #define INNER 1.0     /* of the ring of the fit [horizons] */
-#define WIDTH 7.0     /* of the ring [spacings] */
+#define WIDTH 9.0     /* of the ring [spacings] */
 #define SMOOTHING 3.5 /* of the frame [spacings] */
-#define SHARP 0.17    /* turn that is no curve [rad] */
-#define HOLD 6.0      /* straight on after it [spacings] */
+#define KINK 0.17     /* turn at the end of a pre-crack that is no curve [rad] */
+#define HOLD 8.0      /* straight on after it [spacings] */
+#define LEAST 6.0     /* outer radius [spacings] */
 #define AHEAD 1e-3    /* [spacings] */
+#define REST 0.1      /* way to another crack that is none [spacings] */
 #define REACH 1.2     /* of the search for a body ahead [spacings] */
 
 enum { ADVANCE_SPACINGS = 2 };
@@ -34,6 +36,17 @@ static bool crack_begins(const struct scene *s, const real *X)
     return false;
 }
 
+/* Length of the longest pre-crack that ends here [m]. */
+static real length_behind(const struct scene *s, const real *X)
+{
+    real length = 0;
+    for (int k = 0; k < s->cracks; k++)
+        for (int end = 0; end < 2; end++)
+            if (led_distance(s->crack[k].corner[end], X) <= ON_SURFACE * s->spacing)
+                length = real_max(length, led_distance(s->crack[k].corner[0], s->crack[k].corner[1]));
+    return length;
+}
+
 static void led_start(struct engine *e)
 {
     struct led *l = &e->statics.led;
@@ -43,7 +56,7 @@ static void led_start(struct engine *e)
         const struct tip *from = &t->tip[k];
         if (!from->from_crack) continue;
         struct led_tip *tip = &l->tip[l->n++];
-        *tip = (struct led_tip){.straight = INFINITY, .body = from->body};
+        *tip = (struct led_tip){.sees = length_behind(e->scene, from->origin), .body = from->body};
         for (int d = 0; d < 2; d++) {
             tip->start[d] = tip->place[d] = from->origin[d];
             tip->along[d] = tip->heading[d] = tip->last[d] = from->along[d];
@@ -109,7 +122,7 @@ bool led_measure(const struct engine *e, const struct led_tip *tip, real K[MODES
                             .body = tip->body};
     for (int d = 0; d < 2; d++)
         view.place[d] = tip->place[d], view.along[d] = tip->along[d], view.last[d] = tip->last[d];
-    if (tip->straight >= HOLD * h) view.outer = real_min(view.outer, tip->straight);
+    view.outer = real_min(view.outer, real_max(tip->sees, LEAST * h));
     struct crack *crack = cracks_now(e, &view.cracks);
     view.crack = crack;
     const bool seen = tip_fit(&view, &e->part, K);
@@ -120,7 +133,7 @@ bool led_measure(const struct engine *e, const struct led_tip *tip, real K[MODES
 
 void led_turn(const struct engine *e, struct led_tip *tip)
 {
-    if (tip->straight < HOLD * e->scene->spacing || !led_measure(e, tip, tip->K)) {
+    if (tip->hold > AHEAD * e->scene->spacing || !led_measure(e, tip, tip->K)) {
         for (int d = 0; d < 2; d++) tip->heading[d] = tip->last[d];
         return;
     }
@@ -206,28 +219,32 @@ static void led_path_add(struct led *l, int k, const real *to)
     for (int d = 0; d < 2; d++) s->at[tip->reversed][d] = tip->place[d], s->at[!tip->reversed][d] = to[d];
 }
 
+/* The frame follows the heading; at a kink it is the heading. */
+static void frame_follow(struct led_tip *tip, real way, real h)
+{
+    const real *a = tip->last, *b = tip->heading, share = -expm1(-way / (SMOOTHING * h));
+    const bool kink = tip->grown == 0 && fabs(atan2(a[0] * b[1] - a[1] * b[0], dot(a, b, 2))) > KINK;
+    if (kink) tip->hold = HOLD * h, tip->sees = 0;
+    const bool straight = tip->hold > 0;
+    for (int d = 0; d < 2; d++) tip->along[d] += (straight ? 1 : share) * (b[d] - tip->along[d]);
+    const real length = hypot(tip->along[0], tip->along[1]);
+    for (int d = 0; d < 2; d++) tip->along[d] /= length;
+    tip->hold = real_max(0, tip->hold - way);
+}
+
 void led_move(struct engine *e, int k)
 {
     struct led_tip *tip = &e->statics.led.tip[k];
     const real h = e->scene->spacing;
-    real to[2], along[2];
+    real to[2];
     led_next_place(e, tip, to);
-    const real way = led_distance(to, tip->place), share = -expm1(-way / (SMOOTHING * h));
-    const real turn =
-        atan2(tip->last[0] * tip->heading[1] - tip->last[1] * tip->heading[0], dot(tip->last, tip->heading, 2));
-    const bool sharp = fabs(turn) > SHARP;
+    const real way = led_distance(to, tip->place);
     led_path_add(&e->statics.led, k, to);
-    for (int d = 0; d < 2; d++) {
-        along[d] = tip->along[d] + (sharp || tip->straight < HOLD * h ? 1 : share) * (tip->heading[d] - tip->along[d]);
-        tip->last[d] = tip->heading[d], tip->place[d] = to[d];
-    }
-    for (int d = 0; d < 2; d++) tip->along[d] = along[d] / hypot(along[0], along[1]);
-    tip->straight = sharp ? way : tip->straight + way;
-    tip->grown += way;
-    tip->ended = !body_is_ahead(e, tip) || way < AHEAD * h;
-    real next[2];
-    led_next_place(e, tip, next);
-    if (led_distance(next, tip->place) < 0.1 * h) tip->ended = true;
+    frame_follow(tip, way, h);
+    for (int d = 0; d < 2; d++) tip->last[d] = tip->heading[d], tip->place[d] = to[d];
+    tip->grown += way, tip->sees += way;
+    led_next_place(e, tip, to);
+    tip->ended = !body_is_ahead(e, tip) || led_distance(to, tip->place) < REST * h;
 }
 
 void led_lose(struct engine *e)

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { TERMS = 4, UNKNOWNS = MODES * TERMS + 2 };
+enum { TERMS = 6, UNKNOWNS = MODES * TERMS + 2 };
 
 #define AHEAD 1e-3     /* of the inner radius: from there the tip looks round, as its own crack ends in it */
 #define SINGULAR 1e-12 /* pivot over the diagonal's entry */
@@ -41,9 +41,9 @@ static void fit_particle(struct fit *f, const struct tip_view *v, const real X[2
     const real theta = atan2(l[0] * X[1] - l[1] * X[0], l[0] * X[0] + l[1] * X[1]) +
                        atan2(a[0] * l[1] - a[1] * l[0], a[0] * l[0] + a[1] * l[1]);
     real row[2][UNKNOWNS] = {{0}}, one[2], two[2];
-    for (int n = 1; n <= TERMS; n++) {
-        fit_term(v->medium.kappa, n, hypot(X[0], X[1]) / v->outer, theta, one, two);
-        for (int d = 0; d < 2; d++) row[d][2 * n - 2] = one[d], row[d][2 * n - 1] = two[d];
+    for (int k = 0; k < TERMS; k++) {
+        fit_term(v->medium.kappa, k < TERMS - 1 ? k + 1 : -1, hypot(X[0], X[1]) / v->outer, theta, one, two);
+        for (int d = 0; d < 2; d++) row[d][2 * k] = one[d], row[d][2 * k + 1] = two[d];
     }
     for (int d = 0; d < 2; d++) row[d][UNKNOWNS - 2 + d] = 1;
     fit_add(f, row[0], u[0] * a[0] + u[1] * a[1]);
