@@ -49,6 +49,15 @@ struct led {
     struct led_stretch *path;            /* [stretches] what they have cut, in its order */
 };
 
+/* What history.csv says of a load step beside what it says of all runs (engine_steps_record.c). */
+struct release_mark { real area, released; };    /* [m^2], [J] */
+struct steps_record {
+    struct release_mark mark[2];         /* the release rate is that of the growth since the first one */
+    real released, area, rate;           /* at the last record [J], [m^2]; over the last growth, 0 before any [J/m^2] */
+    int64_t step;                        /* the load step at hand or just done; 0: none yet */
+    int64_t directions, solutions;       /* of all load steps before */
+};
+
 /* State of a body between two load steps, and what equilibrium works on. Nodes of the unknowns are the peridynamic
  * particles, then the nodes of the mesh. */
 struct statics {
@@ -75,6 +84,7 @@ struct statics {
     struct led led;
     int64_t opens[2];                    /* particles whose distance is the opening */
     int64_t solutions;                   /* equilibria found so far */
+    struct steps_record record;
 };
 
 #endif

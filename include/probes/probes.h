@@ -93,6 +93,7 @@ struct observed {
     real strain_stress;                  /* largest |component| of the initial stress [Pa], for PATCH */
     real residual_step0;                 /* largest nodal |force| of the first step (grid and PD), for PATCH [N] */
     real t;                              /* [s] */
+    int64_t load_step;                   /* so many done, that at hand included; 0: the run has none */
     real energy_change;                  /* (E - E_0 - work)/E_0 at the last sample; NAN without E_0 [1] */
     const struct growth *growth;         /* cracks with prescribed or SIF-controlled growth */
     int growths;
@@ -132,6 +133,8 @@ void probes_sample_end(struct probes *s, const struct observed *o, real t_veloci
 /* Called every step, before the flags of the step are cleared: BREAK and SPALL look where FLAG_LOST_BOND marks that
  * bonds broke, REACTION adds up its largest and rms force. */
 void probes_step(struct probes *s, const struct observed *o);
+/* The part of it that looks for broken bonds. */
+void probes_breaks(struct probes *s, const struct observed *o);
 /* Calls `emit` for every figure of every probe: probe name, quantity, value (SI). Figures a run does not have
  * (NAN) are left out. */
 void probes_figures(const struct probes *s, const struct observed *o,

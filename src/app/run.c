@@ -16,14 +16,23 @@ static void print_summary(const struct engine *e, const char *folder, double wal
 {
     const struct shown_name shown = shown_name(folder);
     const struct tip *tip = tips_longest(&e->fracture.tips);
-    printf("%s: %lld particles, %lld steps of %.4g s, %.1f s\n", e->scene->name, (long long)e->part.n_body,
-           (long long)e->clock.step, e->clock.dt, wall);
+    const bool in_steps = scene_in_steps(e->scene);
+    printf("%s: %lld particles, ", e->scene->name, (long long)e->part.n_body);
+    if (in_steps)
+        printf("%lld load steps, %lld equilibria, %.1f s\n", (long long)e->clock.step, (long long)e->statics.solutions,
+               wall);
+    else
+        printf("%lld steps of %.4g s, %.1f s\n", (long long)e->clock.step, e->clock.dt, wall);
     bool broke = !isnan(e->diagnostics.break_time);
-    if (broke) printf("  first bond broken at %.4g s", e->diagnostics.break_time);
+    if (broke && in_steps) printf("  first bond broken in load step %.0f", e->diagnostics.break_time / e->clock.dt);
+    else if (broke) printf("  first bond broken at %.4g s", e->diagnostics.break_time);
     if (tip)
         printf("%slongest crack grew %.4g mm at %.3g degrees", broke ? ", " : "  ", 1e3 * tip->growth,
                tip_angle(tip, e->part.dim));
     if (broke || tip) printf("\n");
+    if (in_steps && e->statics.record.area > 0)
+        printf("  released %.4g J over %.4g m^2 of new crack: %.4g J/m^2\n", e->statics.record.released,
+               e->statics.record.area, e->statics.record.released / e->statics.record.area);
     printf("  peridynamic share %.2f %% at the start, %.2f %% at the end\n",
            100.0 * (double)e->coupling.conversion.start / (double)e->part.n_body,
            100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n_body);

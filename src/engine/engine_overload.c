@@ -180,6 +180,7 @@ void statics_mend(struct engine *e, const struct break_list *l)
         e->bonds.fracture_energy[record->row] = record->fracture;
         e->part.damage[record->i] = record->damage, e->part.flag[record->i] = record->flag;
     }
+    if (l->n > 0) e->statics.stale = true;
 }
 
 /* Finds the bonds of a list by their particles: rows have been made anew. */

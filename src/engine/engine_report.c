@@ -213,9 +213,15 @@ static void progress(struct engine *e, bool last)
     char left[32];
     duration_text(left, sizeof left, rate > 0 ? (double)(e->clock.steps - e->clock.step) / rate : 0);
     const struct tip *tip = tips_longest(&e->fracture.tips);
-    fprintf(stderr, "%sstep %lld/%lld  t = %.4g s  %.0f steps/s  %s left  PD %.1f %%  crack %.3g mm%s",
-            terminal ? "\r" : "", (long long)e->clock.step, (long long)e->clock.steps, e->clock.t, rate, left,
-            100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n_body,
+    const char *const from = terminal ? "\r" : "";
+    if (scene_in_steps(e->scene))
+        fprintf(stderr, "%sload step %lld/%lld  load time %.4g s  %lld equilibria  at most %s left", from,
+                (long long)e->clock.step, (long long)e->clock.steps, e->statics.t, (long long)e->statics.solutions,
+                left);
+    else
+        fprintf(stderr, "%sstep %lld/%lld  t = %.4g s  %.0f steps/s  %s left", from, (long long)e->clock.step,
+                (long long)e->clock.steps, e->clock.t, rate, left);
+    fprintf(stderr, "  PD %.1f %%  crack %.3g mm%s", 100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n_body,
             tip ? 1e3 * tip->growth : 0.0, terminal && !last ? "\033[K" : "\n");
     fflush(stderr);
 }

@@ -328,6 +328,12 @@ void engine_probes_step(struct engine *e)
 
 void engine_breaks(struct engine *e, int64_t broken)
 {
-    if (broken > 0) diagnostics_breaks(&e->diagnostics, &e->part, broken, e->clock.t);
+    const bool in_steps = scene_in_steps(e->scene);  /* whose bonds break before its end, which is its time */
+    const real step = e->scene->duration / (real)e->scene->steps.number;
+    const real t = in_steps ? step * (real)e->statics.record.step : e->clock.t;
+    struct observed o = engine_observed(e);
+    if (broken > 0) diagnostics_breaks(&e->diagnostics, &e->part, broken, t);
     if (scene_moves(e->scene)) engine_probes_step(e);
+    o.t = t;
+    if (in_steps && broken > 0) probes_breaks(&e->probing.probes, &o);
 }

@@ -197,6 +197,8 @@ status statics_archive(struct engine *e, struct archive *a)
     ARCHIVE_VALUE(a, "statics/strain_ratio", q->strain_ratio);
     ARCHIVE_VALUE(a, "statics/forces", q->forces);
     ARCHIVE_VALUE(a, "statics/directions", q->directions);
+    ARCHIVE_VALUE(a, "statics/solutions", s->solutions);
+    ARCHIVE_VALUE(a, "statics/record", s->record);
     if (!a->saving) statics_applied_make(e, e->statics.t), statics_plastic_keep(e);
     return OK;
 }

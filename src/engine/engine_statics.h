@@ -23,9 +23,11 @@ void statics_applied_make(struct engine *e, real t);
  * lost on the way, and reactions. FAILED with the place of the residual. */
 status statics_solve(struct engine *e, real t);
 
-/* Columns of history.csv; column NULL: only their number; and their values. */
+/* Columns of history.csv (engine_steps_record.c); column NULL: only their number; their values, of a load step that has
+ * just been sampled; and what the next one goes on from. */
 int statics_columns(const struct engine *e, struct column *column);
 void statics_record(struct engine *e, real *record);
+void statics_record_keep(struct engine *e);
 
 /* Preconditioner (engine_springs.c): z = M^-1 r of equilibrium.h; it is made anew once solutions take too many
  * directions, or when it is to (`free`). */

@@ -1,8 +1,6 @@
 /* Load steps: the body is led through states of equilibrium, and its crack advances between them (engine_advance.c). */
 #include <math.h>
-#include <string.h>
 
-#include "base/memory.h"
 #include "engine_report.h"
 #include "engine_statics.h"
 
@@ -109,29 +107,6 @@ static int64_t nearest(const struct particles *p, const real *X)
     return at;
 }
 
-/* ---- columns of history.csv -------------------------------------------------------------------------------------- */
-
-enum { STATICS_COLUMNS = 5 };
-
-int statics_columns(const struct engine *e, struct column *column)
-{
-    static const struct column own[STATICS_COLUMNS] = {{"load_time", "s"},
-                                                       {"overload", ""},
-                                                       {"released", "J"},
-                                                       {"K_I", "Pa m^(1/2)"},
-                                                       {"K_II", "Pa m^(1/2)"}};
-    if (!scene_in_steps(e->scene)) return 0;
-    if (column) memcpy(column, own, sizeof own);
-    return STATICS_COLUMNS;
-}
-
-void statics_record(struct engine *e, real *record)
-{
-    if (!scene_in_steps(e->scene)) return;
-    record[0] = e->statics.t, record[1] = e->statics.overload, record[2] = statics_released(e);
-    led_factors(e, record + 3);
-}
-
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
 static status load_step(struct engine *e)
@@ -139,6 +114,7 @@ static status load_step(struct engine *e)
     const struct scene *s = e->scene;
     const real most = s->duration / (real)s->steps.number;
     if (e->statics.precondition && e->statics.stale) statics_precondition_free(e);
+    e->statics.directions = 0;           /* as in a run that goes on from here, which makes one for the same bonds */
     switch (s->steps.control) {
     case CONTROL_LOAD:
         return step_by_load(e, most * (real)(e->clock.step + 1));
@@ -154,16 +130,18 @@ status engine_steps(struct engine *e)
 {
     TRY(engine_report_start(e));
     laps_start(&e->report.laps);
-    statics_unknowns_make(e);
+    if (!e->statics.node) statics_unknowns_make(e);  /* a run that goes on has them */
     for (int k = 0; k < 2; k++) e->statics.opens[k] = nearest(&e->part, k ? e->scene->steps.to : e->scene->steps.from);
     if (e->clock.step == 0) engine_sample_rest(e);
     while (e->clock.step < e->clock.steps) {
+        e->statics.record.step = e->clock.step + 1;
         TRY(load_step(e));
         statics_plastic_keep(e);
         e->clock.step++;
         e->clock.t = e->clock.dt * (real)e->clock.step;
         engine_probes_step(e);
         engine_sample_equilibrium(e);
+        statics_record_keep(e);
         if (e->statics.t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
         lap(&e->report.laps, LAP_BONDS);
         TRY(engine_report(e));

@@ -138,6 +138,27 @@ static void put_solver(struct json *j, const struct engine *e)
     json_close(j, '}');
 }
 
+/* Load steps, what they took and what they released. */
+static void put_load_steps(struct json *j, const struct engine *e)
+{
+    static const char *const control[] = {
+        [CONTROL_LOAD] = "load", [CONTROL_ENERGY] = "energy", [CONTROL_OPENING] = "opening"};
+    const struct statics *s = &e->statics;
+    if (!scene_in_steps(e->scene)) return;
+    json_open(j, "load_steps", '{');
+    json_text(j, "control", control[e->scene->steps.control]);
+    json_count(j, "steps", e->clock.step);
+    json_real(j, "load_time", s->t);
+    json_count(j, "equilibria", s->solutions);
+    json_count(j, "directions", s->balance.directions);
+    json_real(j, "overload", s->overload);
+    json_count(j, "bonds_broken", e->diagnostics.bonds_broken / 2);
+    json_real(j, "released", s->record.released);
+    json_real(j, "crack_area", s->record.area);
+    json_real(j, "release_rate", s->record.area > 0 ? s->record.released / s->record.area : NAN);
+    json_close(j, '}');
+}
+
 /* The choice of `method: auto`, and the error and time that it expects. */
 static void put_choice(struct json *j, const struct scene_choice *c)
 {
@@ -266,18 +287,29 @@ static status fragments_write(const struct engine *e, const struct fragments *f)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-static void put_tip(struct json *j, const struct tip *tip, int dim)
+/* When something was: the time, in load steps their number. */
+static void put_when(struct json *j, const struct engine *e, const char *what, real t)
 {
+    char key[NAME_MAX_LENGTH];
+    const bool in_steps = scene_in_steps(e->scene);
+    snprintf(key, sizeof key, "%s_%s", what, in_steps ? "step" : "time");
+    if (!in_steps) json_real(j, key, t);
+    else if (!isnan(t)) json_count(j, key, (int64_t)floor(t / e->clock.dt + 0.5));
+}
+
+static void put_tip(struct json *j, const struct engine *e, const struct tip *tip)
+{
+    const int dim = e->part.dim;
     json_open(j, NULL, '{');
     json_count(j, "body", tip->body);
     json_point(j, "origin_", tip->origin, dim);
     json_point(j, "", tip->place, dim);
     json_real(j, "growth", tip->growth);
     json_real(j, "angle_deg", tip_angle(tip, dim));
-    json_real(j, "start_time", tip->start_time);
-    json_real(j, "arrest_time", tip->arrest_time);
-    json_real(j, "speed_max", tip->speed_max);
-    json_real(j, "speed_mean", tip->speed_mean);
+    put_when(j, e, "start", tip->start_time);
+    put_when(j, e, "arrest", tip->arrest_time);
+    if (!scene_in_steps(e->scene)) json_real(j, "speed_max", tip->speed_max);
+    if (!scene_in_steps(e->scene)) json_real(j, "speed_mean", tip->speed_mean);
     json_close(j, '}');
 }
 
@@ -286,17 +318,19 @@ static void put_crack(struct json *j, const struct engine *e)
     const struct tip *longest = tips_longest(&e->fracture.tips);
     int dim = e->part.dim;
     json_open(j, "crack", '{');
-    json_real(j, "start_time", e->diagnostics.break_time);
+    put_when(j, e, "start", e->diagnostics.break_time);
     if (longest) {
-        json_real(j, "tip_start_time", longest->start_time);
-        json_real(j, "arrest_time", longest->arrest_time);
+        put_when(j, e, "tip_start", longest->start_time);
+        put_when(j, e, "arrest", longest->arrest_time);
         json_real(j, "length_end", longest->growth);
         json_real(j, "angle_deg", tip_angle(longest, dim));
+    }
+    if (longest && !scene_in_steps(e->scene)) {
         json_real(j, "tip_speed_max", longest->speed_max);
         json_real(j, "tip_speed_mean", longest->speed_mean);
     }
     json_open(j, "tips", '[');
-    for (int k = 0; k < e->fracture.tips.n; k++) put_tip(j, &e->fracture.tips.tip[k], dim);
+    for (int k = 0; k < e->fracture.tips.n; k++) put_tip(j, e, &e->fracture.tips.tip[k]);
     json_close(j, ']');
     json_close(j, '}');
 }
@@ -409,6 +443,7 @@ static void summary_print(FILE *file, const struct engine *e, const struct fragm
     put_run(&j, e, s, message);
     put_warnings(&j, &e->report.warnings);
     put_solver(&j, e);
+    put_load_steps(&j, e);
     put_choice(&j, &e->scene->choice);
     put_energy_balance(&j, &e->diagnostics.now);
     put_contact(&j, &e->contact, &e->mpm);

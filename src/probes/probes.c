@@ -39,7 +39,10 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
         columns_by_axis(s, q, "", dim, "m");
         column_add(s, q, "growth", "m");
         break;
-    case PROBE_REACTION: columns_by_axis(s, q, "force_", dim, "N"); break;
+    case PROBE_REACTION:
+        columns_by_axis(s, q, "force_", dim, "N");
+        columns_by_axis(s, q, "displacement_", dim, "m");
+        break;
     case PROBE_POINT:
         for (int k = 0; k < readings_count(p); k++) {
             struct column c = reading_column(p, k);
@@ -241,15 +244,19 @@ static void step_break(struct probe *q, const struct observed *o)
     }
     if (cut == 0) return;
     q->memory.first_time = o->t;
+    q->memory.first_step = o->load_step;
     for (int d = 0; d < p->dim; d++) q->memory.place[d] = place[d] / (real)cut;
 }
 
 static void step_reaction(struct probe *q, const struct observed *o)
 {
+    const int dim = o->part->dim;
     real force[DIM_MAX], displacement[DIM_MAX], square_sum;
-    probe_reaction(q, o->loads, o->part->dim, force, displacement);
-    square_sum = dot(force, force, o->part->dim);
-    q->memory.force_max = real_max(q->memory.force_max, sqrt(square_sum));
+    probe_reaction(q, o->loads, dim, force, displacement);
+    square_sum = dot(force, force, dim);
+    if (sqrt(square_sum) > q->memory.force_max)
+        q->memory.force_max = sqrt(square_sum), q->memory.force_max_step = o->load_step,
+        q->memory.force_max_displacement = sqrt(dot(displacement, displacement, dim));
     q->memory.force_square += square_sum;
     q->memory.steps++;
 }
@@ -261,12 +268,11 @@ static bool any_cut(const struct particles *p)
     return any & FLAG_LOST_BOND;
 }
 
-void probes_step(struct probes *s, const struct observed *o)
+void probes_breaks(struct probes *s, const struct observed *o)
 {
     bool waits_for_break = false;
     for (int k = 0; k < s->n; k++) {
         struct probe *q = &s->probe[k];
-        if (q->request.kind == PROBE_REACTION) step_reaction(q, o);
         if (q->request.kind == PROBE_BREAK || q->request.kind == PROBE_SPALL)
             waits_for_break = waits_for_break || isnan(q->memory.first_time);
     }
@@ -277,6 +283,13 @@ void probes_step(struct probes *s, const struct observed *o)
         if (q->request.kind == PROBE_BREAK) step_break(q, o);
         if (q->request.kind == PROBE_SPALL) spall_sample(q, o);
     }
+}
+
+void probes_step(struct probes *s, const struct observed *o)
+{
+    for (int k = 0; k < s->n; k++)
+        if (s->probe[k].request.kind == PROBE_REACTION) step_reaction(&s->probe[k], o);
+    probes_breaks(s, o);
 }
 
 /* ---- every sample ------------------------------------------------------------------------------------------------ */
@@ -297,13 +310,13 @@ static void probes_sample_energy(const struct probe *q, const struct observed *o
 
 void probes_sample(struct probes *s, const struct observed *o)
 {
-    real displacement[DIM_MAX];
+    const int dim = o->part->dim;
     for (int k = 0; k < s->n; k++) {
         struct probe *q = &s->probe[k];
         real *value = s->value + q->first;
         switch (q->request.kind) {
         case PROBE_TIP: sample_tip(q, o, value); break;
-        case PROBE_REACTION: probe_reaction(q, o->loads, o->part->dim, value, displacement); break;
+        case PROBE_REACTION: probe_reaction(q, o->loads, dim, value, value + dim); break;
         case PROBE_POINT: readings_of(o->part, q->list[0], value); break;
         case PROBE_ENERGY: probes_sample_energy(q, o, value); break;
         case PROBE_MOMENTUM: probe_momentum(q, o->part, value); break;

@@ -189,12 +189,13 @@ static void figures_tip(const struct emitter *e)
 {
     const struct tip *tip = probe_tip(e->q, e->o->tips);
     if (!tip) return;
-    probes_figures_put(e, "start_time", tip->start_time);
-    probes_figures_put(e, "arrest_time", tip->arrest_time);
+    const bool moves = e->o->load_step == 0;
+    if (moves) probes_figures_put(e, "start_time", tip->start_time);
+    if (moves) probes_figures_put(e, "arrest_time", tip->arrest_time);
     probes_figures_put(e, "length_end", tip->growth);
     probes_figures_put(e, "angle_deg", tip_angle(tip, e->o->part->dim));
-    probes_figures_put(e, "speed_max", tip->speed_max);
-    probes_figures_put(e, "speed_mean", tip->speed_mean);
+    if (moves) probes_figures_put(e, "speed_max", tip->speed_max);
+    if (moves) probes_figures_put(e, "speed_mean", tip->speed_mean);
     put_place(e, tip->place);
 }
 
@@ -202,7 +203,8 @@ static void figures_tip(const struct emitter *e)
 static void figures_break(const struct emitter *e)
 {
     if (isnan(e->q->memory.first_time)) return;
-    probes_figures_put(e, "first_time", e->q->memory.first_time);
+    if (e->o->load_step > 0) probes_figures_put(e, "first_step", (real)e->q->memory.first_step);
+    else probes_figures_put(e, "first_time", e->q->memory.first_time);
     put_place(e, e->q->memory.place);
     probes_figures_put(e, "bonds", 0.5 * team_sum(e->q->n, broken_term, &(struct region_sum){.q = e->q, .o = e->o}));
 }
@@ -214,6 +216,10 @@ static void figures_reaction(const struct emitter *e)
     int dim = e->o->part->dim;
     probe_reaction(e->q, e->o->loads, dim, force, displacement);
     probes_figures_put(e, "force_max", m->steps > 0 ? m->force_max : NAN);
+    if (e->o->load_step > 0 && m->force_max > 0) {
+        probes_figures_put(e, "force_max_displacement", m->force_max_displacement);
+        probes_figures_put(e, "force_max_step", (real)m->force_max_step);
+    }
     probes_figures_put(e, "force_rms", m->steps > 0 ? sqrt(m->force_square / (real)m->steps) : NAN);
     probes_figures_put(e, "displacement", sqrt(dot(displacement, displacement, dim)));
 }

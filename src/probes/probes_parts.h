@@ -20,6 +20,8 @@ struct probe_memory {
     real incident;                       /* PULSE: largest speed at the start [m/s] */
     real force_max, force_square;        /* REACTION: largest |F|; sum of F^2 [N], [N^2] */
     int64_t steps;                       /* REACTION: in that sum */
+    real force_max_displacement;         /* REACTION: then [m] */
+    int64_t force_max_step, first_step;  /* load steps of these: REACTION, BREAK */
     int64_t body;                        /* SPALL: the bar that broke */
     real trail[2][2];                    /* SIF: earlier places of the tip, for its direction [m] */
     real factors[4];                     /* SIF: K_I, K_II, J, contour_spread at the last sample */

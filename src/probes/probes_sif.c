@@ -232,8 +232,8 @@ void sif_free(struct sif_tracked *w)
 
 /* ---- present tip ------------------------------------------------------------------------------------------------- */
 
-/* Updates place, speed and direction of the tip, if it has grown. */
-static void probes_sif_follow(struct probe *q, const struct observed *o)
+/* Updates place, speed and direction of the tip; has it grown? */
+static bool probes_sif_follow(struct probe *q, const struct observed *o)
 {
     struct sif_tracked *w = q->sif;
     const struct tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
@@ -243,17 +243,18 @@ static void probes_sif_follow(struct probe *q, const struct observed *o)
         const struct growth *g = &o->growth[w->growth];
         for (int d = 0; d < 2; d++) w->tip.place[d] = g->place[d], w->tip.along[d] = g->along[d];
         w->tip.speed = real_min(g->speed, FASTEST * w->tip.medium.rayleigh);
-        return;
+        return false;
     }
-    if (!tip || !(tip->growth > 0)) return;
+    if (!tip || !(tip->growth > 0)) return false;
     for (int d = 0; d < 2; d++) w->tip.place[d] = tip->place[d];
     const real speed = given(q->request.speed) ? q->request.speed : tips_speed(o->tips, w->follows);
     w->tip.speed = real_max(0, real_min(speed, FASTEST * w->tip.medium.rayleigh));
     if (hypot(w->tip.place[0] - trail[1][0], w->tip.place[1] - trail[1][1]) >= STEP_BACK * o->spacing)
         for (int d = 0; d < 2; d++) trail[0][d] = trail[1][d], trail[1][d] = w->tip.place[d];
-    if (q->request.has_direction) return;
+    if (q->request.has_direction) return true;
     const real way[2] = {w->tip.place[0] - trail[0][0], w->tip.place[1] - trail[0][1]}, length = hypot(way[0], way[1]);
     for (int d = 0; d < 2; d++) w->tip.along[d] = way[d] / length;
+    return true;
 }
 
 /* ---- samples ----------------------------------------------------------------------------------------------------- */
@@ -307,12 +308,12 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
     const bool moves = w->kept && t_velocity > w->t_velocity;
     struct sif found[SIF_CONTOURS_MAX + 1];
     real place[2];
-    probes_sif_follow(q, o);
-    if (!moves) keep_displacement(w, p);
+    const bool grew = probes_sif_follow(q, o);
+    if (!moves) keep_displacement(w, p), w->tip.speed = 0;
     if (moves) find_inertia(w, p, t_velocity);
     w->kept = false;
     for (int k = 0; k < SIF_FIGURES; k++) q->memory.factors[k] = NAN;
-    if (w->tip.speed > 0 && ring_leaves(&w->tip, w->reach, o, place)) return;
+    if ((w->tip.speed > 0 || (grew && !moves)) && ring_leaves(&w->tip, w->reach, o, place)) return;
     for (int d = 0; d < 2; d++) w->rule.tip[d] = w->tip.place[d];
     struct sif_motion m = {.displacement = {w->u[0], w->u[1]}, .stress = {w->stress[0], w->stress[1], w->stress[2]}};
     for (int d = 0; d < 2 && moves; d++) m.velocity[d] = w->mean[d], m.acceleration[d] = w->acceleration[d];

@@ -197,6 +197,50 @@ static void tip_of_a_front(void **state)
     notched_free(&b, &t);
 }
 
+/* Both faces of five spacings from a pre-crack; a slanting path; a crack of its own, half of whose particles count; in
+ * a plane of symmetry half of it. */
+static void tips_area_in_the_plane(void **state)
+{
+    (void)state;
+    struct body b;
+    struct tips t;
+    const struct mirror_plane along = {.axis = 1, .outside = -1, .at = 10.5}, across = {.axis = 0, .at = 10};
+    notched_make(&b, &t, 4);
+    tips_sample(&t, &b.p, &b.c, 0);
+    assert_near(tips_area(&t, &b.p, NULL, 0, 2), 0, 0);
+    for (real x = 10.5; x < 15; x++) hurt(&b, x, 10.5, 0), hurt(&b, x, 9.5, 0), hurt(&b, x, 11.5, 0);
+    tips_sample(&t, &b.p, &b.c, 1);
+    assert_near(tips_area(&t, &b.p, NULL, 0, 2), 2 * 5, ROUND_OFF);
+    assert_near(tips_area(&t, &b.p, &along, 1, 2), 5, ROUND_OFF);
+    assert_near(tips_area(&t, &b.p, &across, 1, 2), 2 * 5, ROUND_OFF);
+    hurt(&b, 15.5, 12.5, 0), hurt(&b, 16.5, 13.5, 0);
+    for (real x = 30.5; x < 33; x++) hurt(&b, x, 4.5, 0), hurt(&b, x, 3.5, 0);
+    tips_sample(&t, &b.p, &b.c, 2);
+    assert_int_equal(t.n, 2);
+    assert_near(tips_area(&t, &b.p, NULL, 0, 2), 2 * (hypot(6.5, 3) + 0.5 + 3), ROUND_OFF);
+    notched_free(&b, &t);
+}
+
+/* A front that has grown by 3 spacings on one half of its width, by one on the other. */
+static void tips_area_of_a_front(void **state)
+{
+    (void)state;
+    struct body b;
+    struct tips t;
+    body_make(&b, 3, (const int[]){12, 6, 6});
+    real corner[4][DIM_MAX] = {{-1, 3, -20}, {5, 3, -20}, {5, 3, 20}, {-1, 3, 20}};
+    struct crack crack = {4, corner};
+    tips_make(&t, &b.p, &b.c, &crack, 1, 1, 4);
+    assert_int_equal(t.n, 1);
+    assert_near(2 * t.tip[0].edge[2], 6, 1);             /* ends are found in steps of a spacing */
+    for (real z = 0.5; z < 6; z++)
+        for (real x = 5.5; x < (z < 3 ? 8 : 6); x++) hurt(&b, x, 3.5, z), hurt(&b, x, 2.5, z);
+    tips_sample(&t, &b.p, &b.c, 0);
+    const real strip = 2 * fabs(t.tip[0].edge[2]) / 6;
+    assert_near(tips_area(&t, &b.p, NULL, 0, 1), (3 * 3 + 3 * 1) * strip, ROUND_OFF);
+    notched_free(&b, &t);
+}
+
 static void tips_never_outgrow_their_list(void **state)
 {
     (void)state;
@@ -253,6 +297,8 @@ int main(void)
         cmocka_unit_test(tip_growth_leaves_out),
         cmocka_unit_test(tip_joins_a_crack_ahead),
         cmocka_unit_test(tip_of_a_front),
+        cmocka_unit_test(tips_area_in_the_plane),
+        cmocka_unit_test(tips_area_of_a_front),
         cmocka_unit_test(tips_never_outgrow_their_list),
         cmocka_unit_test(tips_survive_a_restart),
     };

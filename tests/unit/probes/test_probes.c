@@ -132,6 +132,7 @@ static void probe_of_a_support(void **state)
     for (int k = 0; k < 4; k++) {
         load[0].reaction[0] = force[k][0], load[0].reaction[1] = force[k][1];
         load[0].displacement[1] = -0.25 * k;
+        o.load_step = k + 1;
         probes_step(&s, &o);
     }
     struct store store = {0};
@@ -142,10 +143,13 @@ static void probe_of_a_support(void **state)
     assert_ok(probes_archive(&again, &a));
     probes_sample(&again, &o);
     assert_near(again.value[column_named(&again, "reaction.force_x")], -6, 0);
+    assert_near(again.value[column_named(&again, "reaction.displacement_y")], -0.75, 0);
     probes_figures(&again, &o, figure_keep, &l);
     assert_near(figure(&l, "reaction", "force_max"), 10, ROUND_OFF);
     assert_near(figure(&l, "reaction", "force_rms"), sqrt((25 + 1 + 100) / 4.0), ROUND_OFF);
     assert_near(figure(&l, "reaction", "displacement"), 0.75, ROUND_OFF);
+    assert_near(figure(&l, "reaction", "force_max_displacement"), 0.75, ROUND_OFF);
+    assert_near(figure(&l, "reaction", "force_max_step"), 4, 0);
     store_free(&store);
     probes_free(&s);
     probes_free(&again);

@@ -1,0 +1,97 @@
+/* Columns of history.csv that load steps have beside those of all runs. */
+#include <math.h>
+#include <string.h>
+
+#include "engine_statics.h"
+
+#define GROWTH 4 /* spacings of growth over which a release rate is taken: a length comes in steps of one */
+
+enum { STATICS_COLUMNS = 10 };
+
+int statics_columns(const struct engine *e, struct column *column)
+{
+    static const struct column own[STATICS_COLUMNS] = {
+        {"load_time", "s"},        {"overload", ""},     {"released", "J"},  {"crack_area", "m^2"},
+        {"release_rate", "J/m^2"}, {"bonds_broken", ""}, {"directions", ""}, {"equilibria", ""},
+        {"K_I", "Pa m^(1/2)"},     {"K_II", "Pa m^(1/2)"}};
+    if (!scene_in_steps(e->scene)) return 0;
+    if (column) memcpy(column, own, sizeof own);
+    return STATICS_COLUMNS;
+}
+
+/* Area by which the cracks grow over a spacing: as wide as all fronts of pre-cracks, else as one spacing [m^2]; in line
+ * the section. */
+static real growth_by_spacing(const struct engine *e)
+{
+    const struct tips *t = &e->fracture.tips;
+    const real section = scene_section(e->scene);
+    real wide = 0;
+    if (t->dim == 1) return section;
+    for (int k = 0; k < t->n; k++)
+        if (t->tip[k].from_crack)
+            wide += t->dim == 2 ? section : 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, t->dim));
+    if (wide == 0) wide = t->dim == 2 ? section : t->spacing;
+    return t->spacing * wide;
+}
+
+/* Area of the paths of tips that are led; of one along a plane of symmetry half of it [m^2]. */
+static real led_paths_area(const struct engine *e)
+{
+    const struct led *l = &e->statics.led;
+    const real near = 0.5 * e->scene->spacing;
+    real length = 0;
+    for (int64_t k = 0; k < l->stretches; k++) {
+        const real *a = l->path[k].at[0], *b = l->path[k].at[1];
+        bool halved = false;
+        for (int m = 0; m < e->source.mirrors; m++) {
+            const struct mirror_plane *p = &e->source.mirror[m];
+            halved |= fabs(a[p->axis] - p->at) < near && fabs(b[p->axis] - p->at) < near;
+        }
+        length += (halved ? 0.5 : 1) * hypot(b[0] - a[0], b[1] - a[1]);
+    }
+    return length * scene_section(e->scene);
+}
+
+/* Area so far, of what tips have been led along, or where damaged particles say that more than another spacing has
+ * come, of these; and the release rate over the last two growths. Of damaged particles, whose lengths come in steps of
+ * a spacing, a growth is some spacings. A load step without growth changes no rate. */
+static void measure(struct engine *e)
+{
+    struct steps_record *r = &e->statics.record;
+    const struct bond_source *source = &e->source;
+    const real led = led_paths_area(e), spacing = growth_by_spacing(e);
+    const real damaged =
+        tips_area(&e->fracture.tips, &e->part, source->mirror, source->mirrors, scene_section(e->scene));
+    const bool by_paths = led > 0 && damaged <= led + spacing;
+    const real area = by_paths ? led : damaged, growth = by_paths ? 0 : GROWTH * spacing;
+    r->released = statics_released(e);
+    if (!(area > r->area)) return;
+    r->area = area;
+    r->rate = (r->released - r->mark[0].released) / (area - r->mark[0].area);
+    if (area - r->mark[1].area < growth * (1 - 1e-9)) return;
+    r->mark[0] = r->mark[1];
+    r->mark[1] = (struct release_mark){area, r->released};
+}
+
+void statics_record(struct engine *e, real *record)
+{
+    const struct statics *s = &e->statics;
+    if (!scene_in_steps(e->scene)) return;
+    measure(e);
+    const real own[STATICS_COLUMNS] = {s->t,
+                                       s->overload,
+                                       s->record.released,
+                                       s->record.area,
+                                       s->record.area > 0 ? s->record.rate : NAN,
+                                       0.5 * (real)e->diagnostics.bonds_broken,
+                                       (real)(s->balance.directions - s->record.directions),
+                                       (real)(s->solutions - s->record.solutions)};
+    memcpy(record, own, sizeof own);
+    led_factors(e, record + STATICS_COLUMNS - MODES);
+}
+
+void statics_record_keep(struct engine *e)
+{
+    struct statics *s = &e->statics;
+    s->record.directions = s->balance.directions, s->record.solutions = s->solutions;
+}
