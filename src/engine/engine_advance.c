@@ -30,18 +30,33 @@ real toughness_of(const struct engine *e, const struct material *m)
     return given ? m->energy_release_rate : family_crossing_energy(&e->source.family, m);
 }
 
-/* What an advance costs [J]: in space as wide as the body's shortest side. */
+/* Length of a crack's front in space, where it is as long as the body's shortest side [m]; 1 in the plane. */
+static real front_length(const struct engine *e)
+{
+    real length = INFINITY, low, high;
+    if (e->part.dim < 3) return 1;
+    for (int d = 0; d < 3; d++) {
+        particles_extent(&e->part, e->part.n, d, &low, &high);
+        length = real_min(length, high - low + e->scene->spacing);
+    }
+    return length;
+}
+
+/* What an advance costs [J]. */
 static real advance_cost(const struct engine *e)
 {
     const struct scene *s = e->scene;
-    real least = INFINITY, width = s->dim == 3 ? INFINITY : scene_section(s), low, high;
+    real least = INFINITY;
     if (s->steps.energy > 0) return s->steps.energy;
     for (int m = 0; m < s->materials; m++) least = real_min(least, toughness_of(e, &s->material[m]));
-    for (int d = 0; d < s->dim && s->dim == 3; d++) {
-        particles_extent(&e->part, e->part.n, d, &low, &high);
-        width = real_min(width, high - low + s->spacing);
-    }
-    return ADVANCE_SPACINGS * (s->dim > 1 ? s->spacing : 1) * width * least;
+    return ADVANCE_SPACINGS * (s->dim > 1 ? s->spacing : 1) * scene_section(s) * front_length(e) * least;
+}
+
+/* Pairs of bonds that may break between two equilibria: along a front, of each spacing of it. */
+static int64_t breaks_most(const struct engine *e)
+{
+    const real along = e->part.dim < 3 ? 1 : front_length(e) / e->scene->spacing;
+    return (int64_t)(e->scene->steps.breaks * real_max(1, along));
 }
 
 /* ---- size of loads ----------------------------------------------------------------------------------------------- */
@@ -95,10 +110,11 @@ static status advance_try(struct engine *e)
 {
     struct statics *s = &e->statics;
     const real before = statics_released(e), cost = advance_cost(e) * (1 - 1e-3);
+    const int64_t most = breaks_most(e);
     s->next.n = 0;
     s->ahead = (struct advance){0};
     while (s->ahead.cost < cost && s->overload > LEFT) {
-        if (statics_break(e, e->scene->steps.within, e->scene->steps.breaks, &s->ahead.cost) == 0) break;
+        if (statics_break(e, e->scene->steps.within, most, &s->ahead.cost) == 0) break;
         TRY(statics_go(e, s->t));
     }
     s->ahead.release = (statics_released(e) - before) / square(statics_load_size(e, s->t));

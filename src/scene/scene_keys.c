@@ -83,9 +83,9 @@ const struct key keys[] = {
         "the body is let go and moves in time until it is at rest, then load steps go on",
         .words = "equilibrium|explicit"),
     KEY("steps.breaks", KEY_INT, UNIT_NONE, AT(scene, steps.breaks), BETWEEN(1, 1000000), "8",
-        "most bonds that break before equilibrium is found again, the most overloaded first; those that are alike "
-        "break together"),
-    KEY("steps.within", KEY_REAL, UNIT_NONE, AT(scene, steps.within), BETWEEN(0, 1), "1 %",
+        "path bonds: most bonds that break before equilibrium is found again, the most overloaded first, in space for "
+        "each spacing of the front; those that are alike break together"),
+    KEY("steps.within", KEY_REAL, UNIT_NONE, AT(scene, steps.within), BETWEEN(0, 1), "2 %",
         "of these only such as are overloaded like the first, up to this share"),
     KEY("accuracy", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(1 % with method auto)",
         "method auto: largest error, by the cost-accuracy table, or by pilot runs where it has no such problem",
