@@ -250,10 +250,6 @@ static status check_time_unit(struct reader *r, const struct node *kind, const s
 static status read_kind(struct reader *r, const struct node *n, const struct node *kind, struct boundary *b)
 {
     const struct node *face = NULL, *depth = NULL, *profile = node_find(n, "profile");
-    TRY(expect(r, n, NODE_MAP, "a mapping of keys to values"));
-    TRY(check_keys(r, n, "boundary"));
-    TRY(kind_of_boundary(r, n, &kind));
-    TRY(read_group(r, n, n, "boundary", b));
     b->kind = *kind->key == 't'   ? BOUNDARY_TRACTION
               : *kind->key == 'b' ? BOUNDARY_BODY_FORCE
               : *kind->key == 'p' ? BOUNDARY_PRESSURE

@@ -13,7 +13,7 @@ static const char good[] =
     "body:\n  - box: {from: [0, 0], to: [20 mm, 10 mm]}\n  - subtract: {disc: {centre: [5 mm, 5 mm], radius: 2 mm}}\n"
     "particles: {spacing: 1 mm}\nmpm: {shape: gimp}\ncracks: [{from: [10 mm, 5 mm], to: [20 mm, 5 mm]}]\n"
     "boundary: [{name: pull, velocity: [free, 1], region: {box: {from: [0, 9 mm], to: [20 mm, 10 mm]}}, time: {step: "
-    "{until: 5 us}}}]\n"
+    "{until: 5 us}}}, {displacement: [free, 1e-3*y*t/(1 us)], face: y-, depth: 2 mm}]\n"
     "probes: [tip, point: {at: [1 mm, 1 mm]}, reaction: {boundary: pull}]\n";
 
 static void judge(struct scene *s, status read)

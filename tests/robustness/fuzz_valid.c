@@ -127,8 +127,9 @@ static void add_loads(struct maker *m, const double *edge)
     const double low[DIM_MAX] = {-1, -1, -1}, high[DIM_MAX] = {1.5, edge[1] + 1, edge[2] + 1};
     add(m, "boundary:\n  - {name: c0, fixed: all, region: "), add_box(m, low, high), add(m, "}\n");
     if (choose(m, 2)) {
-        add(m, "  - {name: c1, "), add_one(m, "traction: |velocity: |body_force: "), add_vector(m, -0.05, 0.05);
-        add_one(m, ", face: x+|, face: y-|");
+        add(m, "  - {name: c1, "), add_one(m, "traction: |velocity: |displacement: |body_force: ");
+        add_vector(m, -0.05, 0.05);
+        add_one(m, ", face: x+|, face: y-|, face: x+, depth: 1|");
         add_one(m, "|, time: {step: {until: 2}}|, time: {ramp: {until: 5}}|, time: {pulse: {from: 0, until: 3}}"),
             add(m, "}\n");
     }
