@@ -18,6 +18,9 @@ static status check_steps_motion(struct reader *r, const struct node *root)
         return fault(r, tree_at(root, "contact.friction"),
                      "friction has no energy to be in equilibrium with; 0, or "
                      "solver: explicit, is expected");
+    for (int k = 0; k < s->initials; k++)
+        if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
+            return fault(r, node_find(root, "initial"), "load steps know no velocities; solver: explicit is expected");
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE)
             return fault(r, solver, "static has no waves for probe %s to measure; explicit is expected",
@@ -40,6 +43,23 @@ static status check_steps_loads(struct reader *r, const struct node *root)
     return OK;
 }
 
+/* REFUSED where no boundary loads or moves anything. */
+static status check_steps_loaded(struct reader *r, const struct node *root)
+{
+    const struct scene *s = r->scene;
+    bool loaded = dot(s->gravity, s->gravity, DIM_MAX) > 0;
+    for (int b = 0; b < s->boundaries; b++) {
+        const struct boundary *load = &s->boundary[b];
+        const bool varies = load->formula[0].n + load->formula[1].n + load->formula[2].n > 0 || load->rotates;
+        loaded |= load->kind != BOUNDARY_MIRROR && (varies || dot(load->value, load->value, DIM_MAX) > 0);
+    }
+    if (loaded) return OK;
+    return fault(
+        r, node_find(root, "solver"),
+        "nothing loads the body: a boundary with a displacement, velocity, traction, pressure or body force is "
+        "expected");
+}
+
 status check_load_steps(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -47,10 +67,15 @@ status check_load_steps(struct reader *r, const struct node *root)
     const bool opening = s->steps.control == CONTROL_OPENING;
     TRY(check_steps_motion(r, root));
     TRY(check_steps_loads(r, root));
+    if (s->steps.then == THEN_EXPLICIT && s->steps.control != CONTROL_LOAD)
+        return fault(r, tree_at(root, "steps.then"),
+                     "a release in time belongs to control load: %s follows the crack while it is unstable",
+                     opening ? "opening" : "energy");
     if (s->steps.path == PATH_HOOP && s->dim != 2)
         return fault(r, tree_at(root, "steps.path"),
                      "hoop leads the tips of cracks in a plane; bonds, or auto, is expected in space and on a line");
-    if (!opening || (s->steps.has_from && s->steps.has_to && s->steps.opening > 0)) return OK;
+    if (!opening || (s->steps.has_from && s->steps.has_to && s->steps.opening > 0))
+        return check_steps_loaded(r, root);
     return fault(r, steps,
                  "control opening wants steps.from and steps.to, two places, and steps.opening, how far they "
                  "are moved apart");
