@@ -13,6 +13,8 @@ enum picture {
     DRAWN_ENERGY,
     DRAWN_SIF,
     DRAWN_PATH,
+    DRAWN_LOAD,
+    DRAWN_R_CURVE,
     DRAWN_FRAGMENTS,
     DRAWN_SURFACE,
     DRAWN_CRACKS,

@@ -31,6 +31,7 @@ struct look {
     bool placed; double layer;           /* where it is [m]; else where most damage is */
     const struct plot_field *field;      /* NULL: none but damage, kind and fragment */
     const float *value;                  /* its values in the frame at hand */
+    bool in_steps;                       /* frames are those of load steps */
 };
 
 struct plot_request {
@@ -124,6 +125,7 @@ struct cloud {
     struct camera camera;                /* of a map that is not flat */
     double layer;                        /* where the layer is along the normal [m] */
     double t;                            /* [s] */
+    bool in_steps; int64_t step;         /* is it that of a load step, and of which? */
     double spacing;                      /* of the particles [m] */
     double tall;                         /* half height of a particle of a bar [m]; 0: as wide as high */
     float *size;                         /* [n] of particles and points of coarse cells; NULL: all that spacing [m] */
@@ -195,8 +197,8 @@ status maps_draw(struct sheet sheet, const char *title, enum map map, const stru
 /* What is drawn over time: one row a sample, sent as the gnuplot data block $data. */
 struct series {
     const struct history *h;
-    int time;                            /* column */
-    struct unit second;
+    int time;                            /* column; of a run in load steps that of their numbers */
+    struct unit second;                  /* factor 1, no name, of load steps */
     enum picture_format format;
 };
 /* Largest |value| of a column; 0 where there is none. */
@@ -213,7 +215,15 @@ status sif_bench_draw(const char *folder, const char *title, const struct series
  * tells one; nothing without such probes. */
 status paths_draw(const char *folder, const char *title, const struct series *s);
 
-/* history.csv: crack.png, energy.png, sif.png and path.png (output/pictures.h), in any format of stills. */
+/* Has a run gone in load steps? */
+bool run_in_steps(const char *folder);
+/* Of load steps: force over displacement of each reaction probe, with its peak; release rate over the new area of
+ * cracks, beside G_c. */
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h);
+status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *h);
+
+/* history.csv: crack.png, energy.png, sif.png and path.png (output/pictures.h), in any format of stills; of load steps
+ * load_displacement.png and r_curve.png. */
 status curves_draw(const char *folder, const char *title, enum picture_format format);
 
 /* One-dimensional frames: velocity, stress, damage along the bar; of a field that alone, with its

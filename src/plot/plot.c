@@ -185,6 +185,7 @@ status run_pictures(const struct plot_request *request)
     struct plot_request r = *request;
     char title[TITLE_LENGTH];
     if (r.panels == 0) r.panels = PANELS;
+    r.look.in_steps = run_in_steps(r.folder);
     const bool frames = run_holds(r.folder, "frames.hdf.series"), history = run_holds(r.folder, "history.csv");
     const struct path pictures = pictures_folder(r.folder);
     TRY(pictures_folder_make(pictures.text));

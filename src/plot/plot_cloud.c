@@ -234,6 +234,7 @@ void cloud_make(struct cloud *c, const struct frame *f, const struct look *look)
     struct look open = {.normal = -1};
     if (!look) (void)look_settle(&open, f), look = &open;
     *c = (struct cloud){.axis = {0, 1}, .normal = -1, .t = f->t, .spacing = frame_spacing(f),
+                        .in_steps = look->in_steps, .step = f->step,
                         .from = {INFINITY, INFINITY}, .to = {-INFINITY, -INFINITY}};
     cloud_axes(c, f, look);
     cloud_allocate(c, f, look);

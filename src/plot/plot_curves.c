@@ -49,8 +49,9 @@ void curves_title(FILE *to, const char *title, const char *what)
 void curves_time_axis(FILE *to, const struct series *s)
 {
     double end = history_at(s->h, s->h->rows - 1, s->time) / s->second.factor;
-    fprintf(to, "set xrange [0:%.9g]\nset xlabel 'time [%s]' textcolor rgb '#333333'\n", end > 0 ? end : 1,
-            s->second.name);
+    const bool in_time = s->second.name[0] != 0;
+    fprintf(to, "set xrange [0:%.9g]\nset xlabel '%s%s%s' textcolor rgb '#333333'\n", end > 0 ? end : 1,
+            in_time ? "time [" : "load step", s->second.name, in_time ? "]" : "");
 }
 
 /* ---- crack ------------------------------------------------------------------------------------------------------- */
@@ -189,16 +190,23 @@ status curves_draw(const char *folder, const char *title, enum picture_format fo
 {
     struct history h;
     TRY(history_read(&h, folder));
-    struct series s = {.h = &h, .time = history_column(&h, "time"), .format = format};
+    const bool in_steps = history_column(&h, "load_time") >= 0;
+    struct series s = {.h = &h, .time = history_column(&h, in_steps ? "step" : "time"), .format = format};
     const char *ending = picture_ending[format];
     status result = OK;
     if (s.time >= 0 && h.rows > 1) {
-        s.second = unit_for(history_at(&h, h.rows - 1, s.time), "s");
+        s.second = in_steps ? (struct unit){1, ""} : unit_for(history_at(&h, h.rows - 1, s.time), "s");
         result = draw_crack((struct sheet){picture_path(folder, DRAWN_CRACK, ending).text, format}, title, &s);
         if (result == OK)
             result = draw_energy((struct sheet){picture_path(folder, DRAWN_ENERGY, ending).text, format}, title, &s);
         if (result == OK) result = sif_bench_draw(folder, title, &s);
         if (result == OK) result = paths_draw(folder, title, &s);
+        if (result == OK && in_steps)
+            result = load_displacement_draw((struct sheet){picture_path(folder, DRAWN_LOAD, ending).text, format},
+                                            title, &h);
+        if (result == OK && in_steps)
+            result = r_curve_draw((struct sheet){picture_path(folder, DRAWN_R_CURVE, ending).text, format}, folder,
+                                  title, &h);
     }
     history_free(&h);
     return result;

@@ -170,6 +170,7 @@ status field_picture(const struct plot_request *request)
     struct run_frames frames;
     if (picture_moves(r.format)) TRY(film_possible());
     if (r.panels == 0) r.panels = picture_moves(r.format) ? INT_MAX : r.every ? PANELS_MAX : PANELS;
+    r.look.in_steps = run_in_steps(r.folder);
     TRY(run_frames_choose(&frames, &r));
     const status s = field_of_frames(&r, &frames);
     run_frames_free(&frames);

@@ -143,7 +143,10 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
         step[k] = (view->to[k] - view->from[k]) / metre.factor / size[k];
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + k, from[k], view->to[k] / metre.factor);
     }
-    fprintf(to, "set title 't = %.3g %s' font ',13' offset 0,-0.5\n", c->t / second->factor, second->name);
+    fputs("set title '", to);
+    if (c->in_steps) fprintf(to, "load step %lld", (long long)c->step);
+    else fprintf(to, "t = %.3g %s", c->t / second->factor, second->name);
+    fputs("' font ',13' offset 0,-0.5\n", to);
     if (map == MAP_DAMAGE) draw_notches(to, view, metre.factor);
     if (c->place[2]) panel_directions(to, l, view, c, &metre);
     else panel_axes(to, l, view, c, &metre, column, lowest);

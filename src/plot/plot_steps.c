@@ -1,0 +1,246 @@
+/* Pictures of load steps: load over displacement, and what a crack releases as it grows (R-curve). */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "auto/scene_read.h"
+#include "base/memory.h"
+#include "output/pictures.h"
+#include "plot/plot.h"
+
+/* Least part of the largest force that an axis of displacements shows: a body that is broken is only pulled apart. */
+#define FORCE_LEFT 0.01
+enum { REACTIONS_SHOWN = CURVE_COLOURS - 1, TOUGHNESSES_SHOWN = 3 };
+
+bool run_in_steps(const char *folder)
+{
+    struct history h;
+    if (!run_holds(folder, "history.csv") || history_read(&h, folder) != OK) return false;
+    const bool in_steps = history_column(&h, "load_time") >= 0;
+    history_free(&h);
+    return in_steps;
+}
+
+/* ---- load over displacement -------------------------------------------------------------------------------------- */
+
+/* Columns of the components of a vector, as NAME.force_x; none: of a name that has no such columns. */
+struct components { int n, column[3]; };
+
+static struct components components_of(const struct history *h, const char *probe, const char *quantity)
+{
+    struct components c = {0};
+    for (int d = 0; d < 3; d++) {
+        char name[3 * NAME_MAX_LENGTH];
+        snprintf(name, sizeof name, "%.63s.%.63s_%c", probe, quantity, 'x' + d);
+        const int column = history_column(h, name);
+        if (column >= 0) c.column[c.n++] = column;
+    }
+    return c;
+}
+
+static double length_at(const struct history *h, int64_t row, const struct components *c)
+{
+    double sum = 0;
+    for (int d = 0; d < c->n; d++) sum += history_at(h, row, c->column[d]) * history_at(h, row, c->column[d]);
+    return sqrt(sum);
+}
+
+static double longest_of(const struct history *h, const struct components *c)
+{
+    double most = 0;
+    for (int64_t i = 0; i < h->rows; i++) most = fmax(most, length_at(h, i, c));
+    return most;
+}
+
+/* A curve: the force of a reaction probe, and what it is drawn over. */
+struct reaction {
+    char name[NAME_MAX_LENGTH];
+    struct components force, way;
+    int64_t peak;                        /* row of the largest force */
+};
+struct reactions {
+    int n;
+    struct reaction of[REACTIONS_SHOWN];
+    char over[NAME_MAX_LENGTH];          /* probe whose displacement all are drawn over; "": each over its own */
+    double force, way;                   /* largest [N]; largest while there is a force [m] */
+};
+
+static int64_t peak_of(const struct history *h, const struct components *force)
+{
+    int64_t at = 0;
+    for (int64_t i = 1; i < h->rows; i++)
+        if (length_at(h, i, force) > length_at(h, at, force)) at = i;
+    return at;
+}
+
+/* The probe, named before a point in a column, of the first column from `from` on that ends in `quantity`; -1: none. */
+static int probe_from(const struct history *h, int from, const char *quantity, char name[NAME_MAX_LENGTH])
+{
+    const size_t tail = strlen(quantity);
+    for (int k = from; k < h->columns; k++) {
+        const size_t length = strlen(h->name[k]);
+        if (length <= tail || length - tail >= NAME_MAX_LENGTH) continue;
+        if (strcmp(h->name[k] + length - tail, quantity) != 0) continue;
+        snprintf(name, NAME_MAX_LENGTH, "%.*s", (int)(length - tail), h->name[k]);
+        return k;
+    }
+    return -1;
+}
+
+/* Reaction probes whose supports move; where none does, all of them, over the displacement of the first point probe. */
+static void reactions_find(struct reactions *r, const struct history *h)
+{
+    char name[NAME_MAX_LENGTH];
+    bool moving = false;
+    *r = (struct reactions){0};
+    for (int pass = 0; pass < 2 && r->n == 0; pass++)
+        for (int k = 0; (k = probe_from(h, k, ".force_x", name)) >= 0 && r->n < REACTIONS_SHOWN; k++) {
+            struct reaction a = {.force = components_of(h, name, "force"),
+                                 .way = components_of(h, name, "displacement")};
+            const bool moves = longest_of(h, &a.way) > 0;
+            moving |= moves;
+            if (a.way.n == 0 || (pass == 0 && !moves)) continue;
+            memcpy(a.name, name, sizeof name);
+            a.peak = peak_of(h, &a.force);
+            r->of[r->n++] = a;
+        }
+    for (int k = 0; !moving && (k = probe_from(h, k, ".displacement_x", name)) >= 0 && !r->over[0]; k++) {
+        const struct components way = components_of(h, name, "displacement");
+        if (!(longest_of(h, &way) > 0)) continue;
+        memcpy(r->over, name, sizeof name);
+        for (int m = 0; m < r->n; m++) r->of[m].way = way;
+    }
+    for (int m = 0; m < r->n; m++) {
+        const double most = longest_of(h, &r->of[m].force);
+        r->force = fmax(r->force, most);
+        for (int64_t i = 0; i < h->rows; i++)
+            if (length_at(h, i, &r->of[m].force) > FORCE_LEFT * most)
+                r->way = fmax(r->way, length_at(h, i, &r->of[m].way));
+    }
+}
+
+static void reactions_send(FILE *to, const struct history *h, const struct reactions *r, struct unit newton,
+                           struct unit metre)
+{
+    for (int m = 0; m < r->n; m++) {
+        fprintf(to, "$f%d << EOD\n", m);
+        for (int64_t i = 0; i < h->rows; i++)
+            fprintf(to, "%.9g %.9g\n", length_at(h, i, &r->of[m].way) / metre.factor,
+                    length_at(h, i, &r->of[m].force) / newton.factor);
+        fputs("EOD\n", to);
+    }
+}
+
+/* Curves, and on each a ring at its peak. */
+static void reactions_plot(FILE *to, const struct history *h, const struct reactions *r, struct unit newton,
+                           struct unit metre)
+{
+    for (int m = 0; m < r->n; m++) {
+        const struct reaction *a = &r->of[m];
+        char text[3 * NAME_MAX_LENGTH];
+        fprintf(to, "%s$f%d with linespoints lw 2 pt 7 ps 0.5 lc rgb '%s' title ", m == 0 ? "plot " : ", ", m,
+                curve_colour[m]);
+        gnuplot_quote(to, a->name);
+        snprintf(text, sizeof text, "%.4g %s at %.4g %s", length_at(h, a->peak, &a->force) / newton.factor,
+                 newton.name, length_at(h, a->peak, &a->way) / metre.factor, metre.name);
+        fprintf(to, ", $f%d every ::%lld::%lld with points pt 6 ps 2 lw 2 lc rgb '%s' title ", m, (long long)a->peak,
+                (long long)a->peak, curve_colour[CURVE_COLOURS - 1]);
+        gnuplot_quote(to, text);
+    }
+    putc('\n', to);
+}
+
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h)
+{
+    struct reactions r;
+    struct gnuplot g;
+    reactions_find(&r, h);
+    if (r.n == 0) return nothing_to_draw(sheet.path, "no reaction probe says what a support bears");
+    if (!(r.way > 0)) return nothing_to_draw(sheet.path, "no support with a reaction probe and no point probe moves");
+    const struct unit newton = unit_for(r.force, "N"), metre = unit_for_length(r.way);
+    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
+    reactions_send(g.to, h, &r, newton, metre);
+    curves_title(g.to, title, "load and displacement");
+    fprintf(g.to, "set lmargin at screen 0.1\nset rmargin at screen 0.72\nset tmargin at screen 0.9\n"
+                  "set bmargin at screen 0.13\nset key at screen 0.735,0.895 left top\nset xrange [0:%.9g]\n"
+                  "set yrange [0:%.9g]\nset ylabel 'force [%s]'\nset xlabel ",
+            1.15 * r.way / metre.factor, r.force > 0 ? 1.08 * r.force / newton.factor : 1, newton.name);
+    char label[3 * NAME_MAX_LENGTH];
+    snprintf(label, sizeof label, "displacement%s%.63s [%s]", r.over[0] ? " of " : "", r.over, metre.name);
+    gnuplot_quote(g.to, label);
+    putc('\n', g.to);
+    reactions_plot(g.to, h, &r, newton, metre);
+    return gnuplot_close(&g);
+}
+
+/* ---- R-curve ----------------------------------------------------------------------------------------------------- */
+
+/* G_c of the materials that have been given one, each value once; their number. */
+static int toughnesses_of(const char *folder, double value[TOUGHNESSES_SHOWN])
+{
+    struct scene s;
+    int n = 0;
+    if (scene_read(&s, path_join(folder, "scene.yaml").text, NULL, 0) != OK) return 0;
+    for (int m = 0; m < s.materials && n < TOUGHNESSES_SHOWN; m++) {
+        const double own = s.material[m].energy_release_rate;
+        bool known = !(own > 0) || !isfinite(own);
+        for (int k = 0; k < n; k++) known |= value[k] == own;
+        if (!known) value[n++] = own;
+    }
+    scene_free(&s);
+    return n;
+}
+
+/* Square millimetres for anything between 0.01 and 100,000 of them. */
+static struct unit unit_for_area(double largest)
+{
+    return largest > 1e-8 && largest < 0.1 ? (struct unit){1e-6, "mm²"} : (struct unit){1, "m²"};
+}
+
+/* The data block $data: area and release rate of each load step in which the crack has grown. */
+static void release_send(FILE *to, const struct history *h, int area, int rate, struct unit square, double factor)
+{
+    double before = 0;
+    fputs("$data << EOD\n", to);
+    for (int64_t i = 0; i < h->rows; i++) {
+        const double now = history_at(h, i, area);
+        if (now > before && isfinite(history_at(h, i, rate)))
+            fprintf(to, "%.9g %.9g\n", now / square.factor, history_at(h, i, rate) / factor);
+        before = fmax(before, now);
+    }
+    fputs("EOD\n", to);
+}
+
+static void release_plot(FILE *to, const double *toughness, int n, double mean, struct unit rate)
+{
+    fprintf(to, "plot $data with linespoints lw 2 pt 7 ps 0.7 lc rgb '%s' title 'release rate', %.9g with lines lw 1.6 "
+                "dt (3,4) lc rgb '%s' title 'mean %.4g %s'",
+            curve_colour[0], mean / rate.factor, curve_colour[0], mean / rate.factor, rate.name);
+    for (int k = 0; k < n; k++)
+        fprintf(to, ", %.9g with lines lw 1.8 dt (10,6) lc rgb '%s' title 'G_c = %.4g %s'", toughness[k] / rate.factor,
+                curve_colour[1 + k], toughness[k] / rate.factor, rate.name);
+    putc('\n', to);
+}
+
+status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *h)
+{
+    const int area = history_column(h, "crack_area"), rate = history_column(h, "release_rate"),
+              released = history_column(h, "released");
+    const double grown = curves_largest(h, area);
+    double toughness[TOUGHNESSES_SHOWN] = {0}, top = curves_largest(h, rate);
+    struct gnuplot g;
+    if (!(grown > 0)) return nothing_to_draw(sheet.path, "no crack has grown");
+    const int n = toughnesses_of(folder, toughness);
+    for (int k = 0; k < n; k++) top = fmax(top, toughness[k]);
+    const struct unit square = unit_for_area(grown), joule = unit_for(top, "J/m²");
+    const double mean = history_at(h, h->rows - 1, released) / history_at(h, h->rows - 1, area);
+    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
+    release_send(g.to, h, area, rate, square, joule.factor);
+    curves_title(g.to, title, "energy released by the growing crack");
+    fprintf(g.to, "set lmargin at screen 0.1\nset rmargin at screen 0.76\nset tmargin at screen 0.9\n"
+                  "set bmargin at screen 0.13\nset key at screen 0.775,0.895 left top\nset xrange [0:%.9g]\n"
+                  "set yrange [0:%.9g]\nset ylabel 'released over new area [%s]'\nset xlabel 'new crack area [%s]'\n",
+            1.03 * grown / square.factor, 1.15 * top / joule.factor, joule.name, square.name);
+    release_plot(g.to, toughness, n, mean, joule);
+    return gnuplot_close(&g);
+}
