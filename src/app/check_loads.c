@@ -214,7 +214,7 @@ static void say_displacement(const struct engine *e, const struct load *l)
     const bool explicit = e->scene->solver == SOLVER_EXPLICIT;
     real mean[DIM_MAX] = {0}, u[DIM_MAX];
     for (int64_t k = 0; k < l->n; k++) {
-        load_displacement_at(l, &e->part, k, explicit ? e->scene->duration : INFINITY, u);
+        load_displacement_at(l, &e->part, k, l->boundary->frozen ? INFINITY : e->scene->duration, u);
         for (int d = 0; d < e->part.dim; d++) mean[d] += u[d] / (real)l->n;
     }
     printf("; by ");

@@ -61,11 +61,13 @@ silent "filled: boxes" '^filled' "$work/disc.yaml" -s 'body={box: {from: [0, 0],
 # spacing does not divide; a circle of radius 20, on which steps lie nearer than a tenth of a spacing.
 checked "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}' -s 'gravity=[0, -10 m/s^2]' -s 'boundary=[
     {traction: [0, 3 Pa], face: y+, region: {box: {from: [10, 0], to: [20, 20]}}, time: {pulse: {until: 1 ms}}, name: a},
-    {traction: ["2 Pa*x/(1 m)*t/(1 ms)", 0], face: x+, name: b}, {fixed: [y], region: {box: {from: [0, 0], to: [20, 1]}}, name: c}]'
+    {traction: ["2 Pa*x/(1 m)*t/(1 ms)", 0], face: x+, name: b}, {fixed: [y], region: {box: {from: [0, 0], to: [20, 1]}}, name: c},
+    {displacement: [2 mm, free], face: x-, time: {ramp: {until: 1 ms}}, name: d}]'
 amounts() { holds "$1" grep -qxF "$1" "$work/said"; }
 amounts 'load           a: traction on y+, 10 particles, 10 m^2; force (0, 30) N, moment about the origin 450 N m when it is largest, at 0.0005 s'
 amounts 'load           b: traction on x+, 20 particles, 20 m^2; force (780, 0) N, moment about the origin -7800 N m at the end'
 amounts 'support        c: y held, 20 particles'
+amounts 'support        d: x driven on x-, 20 particles; by (0.002, 0) m at the end, at most 2 m/s'
 amounts 'load           gravity: weight, 400 particles; force (0, -4e+06) N, moment about the origin -4e+07 N m at all times'
 says "area" '20 m^2 (2.56 % more than the face of its box)' "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [19.5, 19.5]}}' \
     -s 'boundary=[{traction: [0, 3 Pa], face: y+}]'
