@@ -98,8 +98,12 @@ real statics_time_of_size(const struct engine *e, real size)
 
 /* ---- advances ---------------------------------------------------------------------------------------------------- */
 
+/* A step that is broken off leaves the checkpoint of the one before it. */
 status statics_go(struct engine *e, real t)
 {
+    if (e->report.stop && *e->report.stop)
+        return status_set(INTERRUPTED, "interrupted in load step %lld of %lld; go on with --resume",
+                          (long long)e->clock.step + 1, (long long)e->clock.steps);
     TRY(statics_solve(e, t));
     e->statics.overload = statics_overload(e);
     return OK;
