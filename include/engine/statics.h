@@ -10,6 +10,8 @@ struct broken_bond {
     int32_t i, j;                        /* of the row; the other end */
     int64_t row, entry;
     real w, fracture, damage;            /* weight; of the row so far [J]; of the particle */
+    real plastic;                        /* plastic work of bonds that the row has lost [J] */
+    float volume;                        /* of those [m^3] */
     real held;                           /* half of what the bond holds at its limit [J] */
     uint8_t flag;
 };
@@ -58,6 +60,15 @@ struct steps_record {
     int64_t directions, solutions;       /* of all load steps before */
 };
 
+/* A piece of the body that nothing holds in some rigid motions: its nodes, and these motions there [n dim][6], of which
+ * the first `motions` are orthonormal [1]. */
+struct free_piece {
+    int64_t n;
+    int32_t *node;
+    int motions;
+    real *motion;
+};
+
 /* State of a body between two load steps, and what equilibrium works on. Nodes of the unknowns are the peridynamic
  * particles, then the nodes of the mesh. */
 struct statics {
@@ -68,6 +79,8 @@ struct statics {
     struct equilibrium balance;
     struct field way;                    /* [nodes] of the next step: supports, and a guess of the rest [m] */
     real *applied[DIM_MAX];              /* [particles of the body] applied forces now [N] */
+    int64_t pieces;                      /* that nothing holds */
+    struct free_piece *piece;
     struct block_matrix *matrix;         /* springs of bonds and cells, for the preconditioner */
     struct multigrid *precondition;
     int64_t directions;                  /* that the first solution with it took; 0: none yet */
@@ -80,6 +93,7 @@ struct statics {
     real due;                            /* size of the loads at which the next one comes, INFINITY: at none */
     bool advances;                       /* the next load step begins with it */
     bool stale;                          /* bonds have broken since the preconditioner was made */
+    bool parted;                         /* and since pieces were looked for */
     real released_time;                  /* that releases in time have taken so far [s] */
     struct led led;
     int64_t opens[2];                    /* particles whose distance is the opening */

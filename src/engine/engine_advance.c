@@ -125,9 +125,10 @@ static status advance_try(struct engine *e)
     return OK;
 }
 
-void stand_take(struct stand *k, const struct engine *e)
+void stand_take(struct stand *k, struct engine *e)
 {
     const struct equilibrium *q = &e->statics.balance;
+    statics_plastic_keep(e);
     *k = (struct stand){
         e->statics.overload, q->lost, e->coupling.damped, e->loads.work, e->loads.constraint_work, {{0}}, {{0}}};
     for (int d = 0; d < q->dim; d++) {
@@ -142,6 +143,7 @@ void stand_give(struct stand *k, struct engine *e, const struct break_list *brok
 {
     struct equilibrium *q = &e->statics.balance;
     statics_mend(e, broken);
+    statics_plastic_restore(e);
     e->statics.overload = k->overload;
     q->lost = k->lost, e->coupling.damped = k->damped;
     e->loads.work = k->work, e->loads.constraint_work = k->constraint_work;

@@ -77,16 +77,21 @@ static void way_make(struct engine *e, real t, real *const *before)
     for (int d = 0; d < e->part.dim; d++)
         for (int64_t k = 0; k < s->balance.n; k++)
             if (!(s->balance.held[k] >> d & 1)) s->way.of[d][k] = growth * s->balance.u.of[d][k];
+    statics_pieces_hold(e, &s->way);
 }
 
-/* Norm of applied forces on free components [N]. */
+/* Norm of applied forces on free components of particles, and on points of the mesh that nothing drives [N]. */
 static real applied_norm(const struct engine *e)
 {
     const struct statics *s = &e->statics;
+    const struct particles *p = &e->part;
     real sum = 0;
-    for (int d = 0; d < e->part.dim; d++)
+    for (int d = 0; d < p->dim; d++) {
         for (int64_t k = 0; k < s->particles; k++)
             if (!(s->balance.held[k] >> d & 1)) sum += square(s->weight[k] * s->applied[d][s->node[k]]);
+        for (int64_t i = 0; i < p->n; i++)
+            if (p->kind[i] != KIND_PD && !(p->flag[i] & FLAG_DRIVEN)) sum += square(s->applied[d][i]);
+    }
     return sqrt(sum);
 }
 
@@ -179,6 +184,7 @@ status statics_solve(struct engine *e, real t)
         memcpy(before[d], e->part.x[d], (size_t)e->part.n * sizeof(real));
     }
     statics_applied_make(e, t);
+    if (s->parted) statics_pieces_make(e);
     way_make(e, t, account.applied);
     s->balance.applied = applied_norm(e);
     if (!s->precondition) s->balance.noise = round_off_of(e);

@@ -14,18 +14,6 @@ enum { CLAIMS_MOST = 4 };
 
 /* ---- bonds that a stretch cuts ----------------------------------------------------------------------------------- */
 
-/* Half of what a bond of a row holds elastically at its limit [J]. */
-static real half_at_limit(const struct engine *e, const struct bond *bond, int32_t i)
-{
-    const struct bonds *b = &e->bonds;
-    real most = stretch_limit(&e->part, &e->source.limit, i, bond->nbr);
-    if (b->plastic_stretch) {
-        const real yield = b->yield.stretch[b->pair[bond->entry]], hardening = b->yield.hardening[b->pair[bond->entry]];
-        if (most > yield) most = yield + hardening * (most - yield) / (1 + hardening);
-    }
-    return 0.25 * b->stiffness * bond->w * square(most) / bond->inverse_length;
-}
-
 static void record_add(struct break_list *l, const struct broken_bond *record)
 {
     if (l->n == l->room) {
@@ -50,8 +38,8 @@ static void cut_row(const struct engine *e, const struct crack_list *ways, int64
         particle_place(&e->part, it.bond.nbr, Y);
         for (int w = 0; w < ways->n; w++) cut |= crack_cuts(&ways->crack[w], X, Y, 2);
         if (!cut) continue;
-        record_add(l, &(struct broken_bond){i, it.bond.nbr, r, it.bond.entry, it.bond.w, e->bonds.fracture_energy[r],
-                                            e->part.damage[i], half_at_limit(e, &it.bond, i), e->part.flag[i]});
+        const struct broken_bond record = statics_bond_record(e, &it.bond, r);
+        record_add(l, &record);
     }
 }
 

@@ -53,6 +53,35 @@ static int descending(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
+/* Half of what a bond of particle i holds elastically at its limit [J]. */
+static real half_at_limit(const struct engine *e, const struct bond *bond, int32_t i)
+{
+    const struct bonds *b = &e->bonds;
+    real most = stretch_limit(&e->part, &e->source.limit, i, bond->nbr);
+    if (b->plastic_stretch) {
+        const real yield = b->yield.stretch[b->pair[bond->entry]], hardening = b->yield.hardening[b->pair[bond->entry]];
+        if (most > yield) most = yield + hardening * (most - yield) / (1 + hardening);
+    }
+    return 0.25 * b->stiffness * bond->w * square(most) / bond->inverse_length;
+}
+
+struct broken_bond statics_bond_record(const struct engine *e, const struct bond *bond, int64_t row)
+{
+    const struct bonds *b = &e->bonds;
+    const int32_t i = b->particle[row];
+    return (struct broken_bond){.i = i,
+                                .j = bond->nbr,
+                                .row = row,
+                                .entry = bond->entry,
+                                .w = bond->w,
+                                .fracture = b->fracture_energy[row],
+                                .damage = e->part.damage[i],
+                                .plastic = b->plastic_stretch ? b->plastic_work[row] : 0,
+                                .volume = b->broken_volume[row],
+                                .held = half_at_limit(e, bond, i),
+                                .flag = e->part.flag[i]};
+}
+
 /* Overloaded directed bonds: their overloads, and records of them. */
 struct overloads {
     int64_t n, room;
@@ -62,7 +91,6 @@ struct overloads {
 
 static void overloads_add(struct overloads *o, const struct engine *e, const struct bond *bond, int64_t r, real over)
 {
-    const int32_t i = e->bonds.particle[r];
     if (o->n == o->room) {
         const int64_t room = o->room ? 2 * o->room : 64;
         o->load = memory_resize("statics.overloads", o->load, o->room, room, sizeof *o->load);
@@ -70,14 +98,7 @@ static void overloads_add(struct overloads *o, const struct engine *e, const str
         o->room = room;
     }
     o->load[o->n] = over;
-    o->record[o->n++] = (struct broken_bond){.i = i,
-                                             .j = bond->nbr,
-                                             .row = r,
-                                             .entry = bond->entry,
-                                             .w = bond->w,
-                                             .fracture = e->bonds.fracture_energy[r],
-                                             .damage = e->part.damage[i],
-                                             .flag = e->part.flag[i]};
+    o->record[o->n++] = statics_bond_record(e, bond, r);
 }
 
 /* Adds those of a row block whose overload is above `least`, in the order of rows. */
@@ -132,7 +153,8 @@ static int64_t break_beyond(struct engine *e, real down_to)
     return broken;
 }
 
-/* In a linear body the energy of a bond is that at its limit times the square of its overload. */
+/* State-based bonds have no energy of their own: in a linear body, what a break takes is what it takes at the limit
+ * times the square of the overload. */
 int64_t statics_break(struct engine *e, real share, int64_t most, real *cost)
 {
     struct break_list *l = &e->statics.next;
@@ -145,10 +167,10 @@ int64_t statics_break(struct engine *e, real share, int64_t most, real *cost)
     const int64_t had = l->n;
     const real square_mean = broken_add(l, o.load, o.record, o.n, down_to);
     const int64_t broken = break_beyond(e, down_to);
-    e->statics.stale = true;
+    e->statics.stale = e->statics.parted = true;
     const real held = (bonds_fracture_energy(&e->bonds) - before) / square_mean;
-    for (int64_t k = had; k < l->n; k++) l->bond[k].held = held / (real)(l->n - had);
-    *cost += held;
+    for (int64_t k = had; k < l->n && e->scene->model != MODEL_BOND; k++) l->bond[k].held = held / (real)(l->n - had);
+    for (int64_t k = had; k < l->n; k++) *cost += l->bond[k].held;
     memory_free(o.load);
     memory_free(o.record);
     return broken;
@@ -169,7 +191,7 @@ void statics_break_listed(struct engine *e, const struct break_list *l)
         *booked = before + record->held;
     }
     e->statics.balance.lost += more, e->coupling.damped += more;
-    e->statics.stale = true;
+    e->statics.stale = e->statics.parted = true;
 }
 
 void statics_mend(struct engine *e, const struct break_list *l)
@@ -178,9 +200,11 @@ void statics_mend(struct engine *e, const struct break_list *l)
         const struct broken_bond *record = &l->bond[k];
         bond_mend(&e->bonds, &e->part, record->row, record->entry, record->w);
         e->bonds.fracture_energy[record->row] = record->fracture;
+        e->bonds.broken_volume[record->row] = record->volume;
+        if (e->bonds.plastic_stretch) e->bonds.plastic_work[record->row] = record->plastic;
         e->part.damage[record->i] = record->damage, e->part.flag[record->i] = record->flag;
     }
-    if (l->n > 0) e->statics.stale = true;
+    if (l->n > 0) e->statics.stale = e->statics.parted = true;
 }
 
 /* Finds the bonds of a list by their particles: rows have been made anew. */

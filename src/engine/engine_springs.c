@@ -242,6 +242,7 @@ void statics_precondition(void *engine, const struct field *r, struct field *z)
     struct engine *e = engine;
     if (!e->statics.precondition) precondition_make(e);
     multigrid_apply(e->statics.precondition, r->of, z->of);
+    statics_pieces_hold(e, z);
 }
 
 /* Bonds that have broken since are in it still: it is made anew once a solution takes half as many directions again as

@@ -140,6 +140,8 @@ void statics_unknowns_make(struct engine *e)
     particles_on_mirrors(e);
     supports_hold(e, particle_at, node_at);
     displacements_take(e);
+    statics_pieces_make(e);
+    statics_plastic_keep(e);
     memory_free(particle_at);
     memory_free(node_at);
 }
@@ -148,6 +150,7 @@ void statics_unknowns_free(struct engine *e)
 {
     struct statics *s = &e->statics;
     const struct equilibrium kept = s->balance;
+    statics_pieces_free(e);
     equilibrium_free(&s->balance);
     s->balance.forces = kept.forces, s->balance.directions = kept.directions, s->balance.lost = kept.lost;
     s->balance.largest = kept.largest;
@@ -234,8 +237,7 @@ static void mirror_nodes_give(struct mesh *mesh)
     }
 }
 
-/* Yielding of bonds begins anew from the last equilibrium, whatever has been tried since. */
-static void plastic_restore(struct engine *e)
+void statics_plastic_restore(struct engine *e)
 {
     const size_t size = (size_t)(e->bonds.columns * LANES) * sizeof(real);
     if (!e->statics.plastic[0]) return;
@@ -276,7 +278,7 @@ static void forces_here(struct engine *e)
     }
     loads_mirror(&e->loads, &e->part);
     loads_clear(&e->loads, &e->part);
-    plastic_restore(e);
+    statics_plastic_restore(e); /* whatever has been tried since the last equilibrium */
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_force(&e->contact, &e->part, 0);
     applied_add(e);
@@ -295,4 +297,5 @@ static void statics_forces(void *context, const struct field *u, struct field *f
         for (int64_t k = 0; k < s->balance.n; k++)
             f->of[d][k] = k < s->particles ? s->weight[k] * part[s->node[k]] : node[s->node[k]];
     }
+    statics_pieces_hold(e, f);
 }

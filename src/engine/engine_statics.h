@@ -15,13 +15,20 @@ void statics_place(struct engine *e, const struct field *u);
 void statics_react(struct engine *e);
 /* State between two load steps. */
 status statics_archive(struct engine *e, struct archive *a);
-/* Bonds have yielded as they have now: trials of the next step begin from here. */
+/* Bonds have yielded as they have now: trials of the next step begin from here; they have as they had then. */
 void statics_plastic_keep(struct engine *e);
+void statics_plastic_restore(struct engine *e);
 /* Applied forces at pseudo-time t become those that act (engine_balance.c). */
 void statics_applied_make(struct engine *e, real t);
 /* Equilibrium under loads and supports of pseudo-time t [s], which becomes the time of the run; books work, what was
  * lost on the way, and reactions. FAILED with the place of the residual. */
 status statics_solve(struct engine *e, real t);
+
+/* Pieces that nothing holds (engine_pieces.c): finds them, by the bonds and supports of now; takes out of forces, or of
+ * a way, what belongs to their motions as a whole. */
+void statics_pieces_make(struct engine *e);
+void statics_pieces_free(struct engine *e);
+void statics_pieces_hold(const struct engine *e, struct field *v);
 
 /* Columns of history.csv (engine_steps_record.c); column NULL: only their number; their values, of a load step that has
  * just been sampled; and what the next one goes on from. */
@@ -43,6 +50,8 @@ int64_t statics_break(struct engine *e, real share, int64_t most, real *cost);
 /* Breaks the bonds of a list; makes them whole again. Saves or restores that of the next advance. */
 void statics_break_listed(struct engine *e, const struct break_list *l);
 void statics_mend(struct engine *e, const struct break_list *l);
+/* Record of a bond of a row for such a list, with half of what a bond of a bond-based model holds at its limit [J]. */
+struct broken_bond statics_bond_record(const struct engine *e, const struct bond *bond, int64_t row);
 status statics_list_archive(struct engine *e, struct archive *a);
 
 /* Advances (engine_advance.c). Equilibrium at pseudo-time t, with the overload there. Looks for the next advance unless
@@ -65,7 +74,7 @@ struct stand {
     real overload, lost, damped, work, constraint_work;
     struct field u, f;
 };
-void stand_take(struct stand *k, const struct engine *e);
+void stand_take(struct stand *k, struct engine *e);
 void stand_give(struct stand *k, struct engine *e, const struct break_list *broken);
 /* Size of loads at which the costs and releases of two advances balance; INFINITY: at none. */
 real size_of_balance(const struct advance *a, const struct advance *b);

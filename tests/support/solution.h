@@ -1,0 +1,113 @@
+/* Runs of scenes as text with overrides, and what their particles do. */
+#ifndef CLEAVE_TESTS_SOLUTION
+#define CLEAVE_TESTS_SOLUTION
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "auto/scene_read.h"
+#include "engine/engine.h"
+
+struct solution {
+    struct scene s;
+    struct engine e;
+    status made, ran;
+};
+
+/* Makes a run of a scene with the overrides `key=value`, up to NULL. */
+static inline void solution_make_list(struct solution *a, const char *text, va_list list)
+{
+    enum { MOST = 16 };
+    static char key[MOST][64];
+    struct scene_override override[MOST];
+    int n = 0;
+    for (const char *one; (one = va_arg(list, const char *)) != NULL; n++) {
+        const char *equal = strchr(one, '=');
+        snprintf(key[n], sizeof key[n], "%.*s", (int)(equal - one), one);
+        override[n] = (struct scene_override){key[n], equal + 1};
+    }
+    memset(a, 0, sizeof *a);
+    a->made = scene_read_text(&a->s, text, strlen(text), "test.yaml", override, n);
+    a->e.report.quiet = true;
+    if (a->made == OK) a->made = engine_make(&a->e, &a->s, NULL);
+    a->e.report.quiet = true;
+    a->ran = a->made;
+}
+
+static inline void solution_make(struct solution *a, const char *text, ...)
+{
+    va_list list;
+    va_start(list, text);
+    solution_make_list(a, text, list);
+    va_end(list);
+}
+
+/* The same, to its end. */
+static inline void solution_run(struct solution *a, const char *text, ...)
+{
+    va_list list;
+    va_start(list, text);
+    solution_make_list(a, text, list);
+    va_end(list);
+    if (a->made == OK) a->ran = engine_run(&a->e);
+}
+
+static inline void solution_done(const struct solution *a)
+{
+    if (a->ran != OK) fail_msg("%s", status_message());
+}
+
+static inline void solution_free(struct solution *a)
+{
+    engine_free(&a->e);
+    scene_free(&a->s);
+}
+
+static inline void near_to(const char *what, real value, real expected, real tolerance)
+{
+    if (!(fabs(value - expected) <= tolerance * fabs(expected)))
+        fail_msg("%s: %.9g where %.9g +- %.2g is expected", what, value, expected, tolerance * fabs(expected));
+}
+
+/* The particle nearest to a place. */
+static inline int64_t solution_at(const struct solution *a, real x, real y, real z)
+{
+    const struct particles *p = &a->e.part;
+    const real X[DIM_MAX] = {x, y, z};
+    int64_t nearest = 0;
+    real least = INFINITY;
+    for (int64_t i = 0; i < p->n; i++) {
+        real r2 = 0;
+        for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - X[d]);
+        if (r2 < least) least = r2, nearest = i;
+    }
+    return nearest;
+}
+
+static inline real solution_moved(const struct solution *a, int d, real x, real y, real z)
+{
+    const int64_t i = solution_at(a, x, y, z);
+    return a->e.part.x[d][i] - a->e.part.X[d][i];
+}
+
+/* Largest difference of two solutions over the largest displacement, at the particles of the second. */
+static inline real solution_difference(const struct solution *a, const struct solution *b)
+{
+    const struct particles *p = &b->e.part;
+    real most = 0, largest = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        const int64_t j = a->e.part.n == p->n
+                              ? i
+                              : solution_at(a, p->X[0][i], p->dim > 1 ? p->X[1][i] : 0, p->dim > 2 ? p->X[2][i] : 0);
+        for (int d = 0; d < p->dim; d++) {
+            const real u = p->x[d][i] - p->X[d][i];
+            most = real_max(most, fabs(u - (a->e.part.x[d][j] - a->e.part.X[d][j])));
+            largest = real_max(largest, fabs(u));
+        }
+    }
+    return most / largest;
+}
+
+#endif

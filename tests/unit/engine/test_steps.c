@@ -1,0 +1,247 @@
+/* Load steps: equilibria against the static solvers of elastic bodies, mirrors against wholes, pieces that nothing
+ * holds, trials that leave no trace. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "src/engine/engine_statics.h"
+#include "tests/support/solution.h"
+
+/* Strains are 1e-6 and less: what is linear in the solution is so to 1e-5. */
+#define PLATE                                                                                                          \
+    "space: plane stress\nthickness: 1 mm\nduration: 1 s\nmethod: pd\n"                                                \
+    "material: {young: 20000 GPa, density: 1000}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
+#define WHOLE PLATE "body: {box: {from: [-5 mm, -5 mm], to: [5 mm, 5 mm]}}\n"
+#define CRACK "cracks:\n  - {from: [-6 mm, 0.1 mm], to: [0, 0.1 mm]}\n"
+#define PULLED "boundary:\n  - {traction: [0, 1 MPa], face: y+}\n  - {traction: [0, -1 MPa], face: y-}\n"
+#define FOOT "  - {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, -4 mm]}}}\n"
+#define HELD WHOLE CRACK "boundary:\n  - {traction: [0, 1 MPa], face: y+}\n" FOOT
+#define DRIVEN                                                                                                         \
+    WHOLE CRACK "boundary:\n  - {velocity: [0, 1 nm/s], region: {box: {from: [-inf, 4 mm], to: [inf, inf]}}}\n" FOOT
+#define QUARTER(from, to)                                                                                              \
+    PLATE "body: {box: {from: [" from ", " from "], to: [" to ", " to "]}}\n"                                          \
+          "boundary:\n  - {mirror: {axis: x, at: 0}}\n  - {mirror: {axis: y, at: 0}}\n"                                \
+          "  - {traction: [0, 1 MPa], face: y+}\n"
+#define BLOCK                                                                                                          \
+    "space: solid\nduration: 1 s\nmethod: pd\nmaterial: {young: 20000 GPa, density: 1000}\n"                           \
+    "particles: {spacing: 1 mm, horizon: 2.015}\nbody: {box: {from: [0, 0, 0], to: [6 mm, 6 mm, 12 mm]}}\n"            \
+    "boundary:\n  - {name: foot, fixed: all, region: {box: {from: [-inf, -inf, -inf], to: [inf, inf, 2 mm]}}}\n"       \
+    "  - {traction: [1 MPa, 0, 1 MPa], face: z+}\n"
+
+#define STATIC "solver=static", "steps.number=1"
+#define EXACT "solver_tolerance=1e-7"
+
+/* ---- against the static solvers ---------------------------------------------------------------------------------- */
+
+/* Every model of bonds, in the plane and in space, with loads and with what is driven: the same up to what a residual
+ * of 1e-7 and the square of strains leave. */
+static void test_models(void **state)
+{
+    (void)state;
+    static const char *const model[] = {"model=bond", "model=ospd", "model=mospd"};
+    static const char *const scene[] = {HELD, DRIVEN, BLOCK};
+    for (int m = 0; m < 3; m++)
+        for (size_t k = 0; k < COUNT_OF(scene); k++) {
+            struct solution a, b;
+            const char *poisson = m == 0 ? "name=same" : "material.poisson=0.2";
+            solution_run(&a, scene[k], STATIC, EXACT, model[m], poisson, NULL);
+            solution_run(&b, scene[k], "solver=cg", EXACT, model[m], poisson, NULL);
+            solution_done(&a), solution_done(&b);
+            assert_true(solution_difference(&a, &b) < 5e-6);
+            near_to("energy", a.e.diagnostics.now.energy.strain, a.e.diagnostics.now.external_work, 1e-6);
+            assert_true(a.e.statics.balance.directions < 40);
+            solution_free(&a), solution_free(&b);
+        }
+}
+
+/* Lattices that are shaken, weights of bonds near faces, plane strain. */
+static void test_variants(void **state)
+{
+    (void)state;
+    static const char *const variant[][2] = {{"particles.irregularity=0.5", "pd.surface=volume"},
+                                             {"pd.surface=volume", "name=same"},
+                                             {"space=plane strain", "name=same"}};
+    for (size_t k = 0; k < COUNT_OF(variant); k++) {
+        struct solution a, b;
+        solution_run(&a, HELD, STATIC, EXACT, variant[k][0], variant[k][1], NULL);
+        solution_run(&b, HELD, "solver=cg", EXACT, variant[k][0], variant[k][1], NULL);
+        solution_done(&a), solution_done(&b);
+        assert_true(solution_difference(&a, &b) < 5e-6);
+        near_to("reaction", a.e.loads.load[1].reaction[1], -10, 1e-6);
+        solution_free(&a), solution_free(&b);
+    }
+}
+
+/* Material points: cells of the reference frame against themselves in the current one, far from free faces, where the
+ * shape functions of points differ. */
+static void test_points(void **state)
+{
+    (void)state;
+    struct solution a, b;
+    solution_run(&a, HELD, STATIC, EXACT, "method=mpm", "mpm.frame=reference", NULL);
+    solution_run(&b, HELD, "solver=relaxation", "solver_tolerance=1e-5", "method=mpm", NULL);
+    solution_done(&a), solution_done(&b);
+    assert_true(solution_difference(&a, &b) < 5e-5);
+    near_to("reaction", a.e.loads.load[1].reaction[1], -10, 1e-6);
+    near_to("energy", a.e.diagnostics.now.energy.strain, a.e.diagnostics.now.external_work, 1e-6);
+    solution_free(&a), solution_free(&b);
+}
+
+/* ---- mirrors ----------------------------------------------------------------------------------------------------- */
+
+/* A quarter is a quarter of the whole, which nothing holds; of particles and of points. */
+static void test_quarter(void **state)
+{
+    (void)state;
+    static const char *const method[][2] = {
+        {"method=pd", "model=bond"}, {"method=pd", "model=ospd"}, {"method=mpm", "mpm.frame=reference"}};
+    for (size_t k = 0; k < COUNT_OF(method); k++) {
+        struct solution whole, part;
+        solution_run(&whole, WHOLE PULLED, STATIC, EXACT, method[k][0], method[k][1], NULL);
+        solution_run(&part, QUARTER("0", "5 mm"), STATIC, EXACT, method[k][0], method[k][1], NULL);
+        solution_done(&whole), solution_done(&part);
+        assert_true(solution_difference(&whole, &part) < 1e-6);
+        near_to("energy", 4 * part.e.diagnostics.now.energy.strain, whole.e.diagnostics.now.energy.strain, 1e-6);
+        solution_free(&whole), solution_free(&part);
+    }
+}
+
+/* ---- pieces ------------------------------------------------------------------------------------------------------ */
+
+/* A crack through all of the plate: what is above it is loaded in balance, and is strained as a free plate is, while
+ * supports pull at the part below. */
+static void test_parted(void **state)
+{
+    (void)state;
+    struct solution a;
+    static const char parted[] =
+        WHOLE "cracks:\n  - {from: [-6 mm, 0.1 mm], to: [6 mm, 0.1 mm]}\ncontact: {between: none}\nboundary:\n"
+              "  - {traction: [1 MPa, 0], face: x+}\n  - {traction: [-1 MPa, 0], face: x-}\n" FOOT;
+    solution_run(&a, parted, STATIC, EXACT, NULL);
+    solution_done(&a);
+    const real along = solution_moved(&a, 0, 4.25e-3, 2.75e-3, 0) - solution_moved(&a, 0, -4.25e-3, 2.75e-3, 0);
+    near_to("strain", along / 8.5e-3, 5e-8, 0.02); /* the lattice along its axes, and faces */
+    const real aside = solution_moved(&a, 0, 4.25e-3, 2.75e-3, 0) + solution_moved(&a, 0, -4.25e-3, 2.75e-3, 0);
+    assert_true(fabs(aside) < 1e-6 * along);
+    solution_free(&a);
+}
+
+/* Motions that are left to pieces: by mirrors between particles and on them, of particles and of cells. */
+static void test_motions(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *scene, *method, *frame;
+        int pieces, motions;
+    } body[] = {
+        {WHOLE PULLED, "method=pd", "name=same", 1, 3},
+        {WHOLE PULLED, "method=mpm", "mpm.frame=reference", 1, 3},
+        {HELD, "method=pd", "name=same", 0, 0},
+        {QUARTER("0", "5 mm"), "method=pd", "name=same", 0, 0},
+        {QUARTER("-0.25 mm", "4.75 mm"), "method=pd", "name=same", 0, 0},
+        {QUARTER("0", "5 mm"), "method=mpm", "mpm.frame=reference", 0, 0},
+        {WHOLE PULLED "  - {mirror: {axis: x, at: -5 mm}}\n", "method=pd", "name=same", 1, 1},
+        {WHOLE PULLED "  - {mirror: {axis: x, at: -4.75 mm}}\n", "method=pd", "name=same", 1, 1},
+        {WHOLE PULLED "  - {mirror: {axis: x, at: -5 mm}}\n", "method=mpm", "mpm.frame=reference", 1, 1},
+        {WHOLE PULLED "  - {mirror: {axis: x, at: -5 mm, tangential: held}}\n", "method=pd", "name=same", 0, 0},
+    };
+    for (size_t k = 0; k < COUNT_OF(body); k++) {
+        struct solution a;
+        solution_make(&a, body[k].scene, STATIC, body[k].method, body[k].frame, NULL);
+        solution_done(&a);
+        statics_unknowns_make(&a.e);
+        assert_int_equal(a.e.statics.pieces, body[k].pieces);
+        if (body[k].pieces > 0) assert_int_equal(a.e.statics.piece[0].motions, body[k].motions);
+        statics_free(&a.e);
+        solution_free(&a);
+    }
+}
+
+/* ---- trials ------------------------------------------------------------------------------------------------------ */
+
+#define YIELDS                                                                                                         \
+    "space: plane stress\nthickness: 1 mm\nduration: 1 s\nmethod: pd\nsolver: static\nsteps: {number: 4}\n"            \
+    "material: {young: 200 GPa, density: 7850, critical_stretch: 2e-3, yield_stress: 200 MPa, yield_tangent: 20 "      \
+    "GPa}\n"                                                                                                           \
+    "particles: {spacing: 0.5 mm, horizon: 3.015}\n"                                                                   \
+    "body: {box: {from: [-5 mm, -5 mm], to: [5 mm, 5 mm]}}\n" CRACK                                                    \
+    "boundary:\n  - {velocity: [0, 12 um/s], region: {box: {from: [-inf, 4 mm], to: [inf, inf]}}}\n" FOOT
+
+/* Copies of what a trial must give back. */
+struct trace {
+    size_t size;
+    char *data;
+};
+static void trace_add(struct trace *t, const void *data, size_t size)
+{
+    t->data = realloc(t->data, t->size + size);
+    memcpy(t->data + t->size, data, size);
+    t->size += size;
+}
+static void trace_take(struct trace *t, const struct engine *e)
+{
+    const struct bonds *b = &e->bonds;
+    const real energy[] = {bonds_fracture_energy(b),
+                           b->plastic_stretch ? bond_plastic_work(b) : 0,
+                           e->loads.work,
+                           e->loads.constraint_work,
+                           e->statics.balance.lost,
+                           e->coupling.damped,
+                           e->loads.load[0].reaction[1],
+                           e->statics.overload};
+    *t = (struct trace){0};
+    trace_add(t, energy, sizeof energy);
+    trace_add(t, b->broken_volume, (size_t)b->rows * sizeof *b->broken_volume);
+    for (int d = 0; d < e->part.dim; d++) {
+        trace_add(t, e->part.x[d], (size_t)e->part.n * sizeof(real));
+        trace_add(t, e->statics.balance.u.of[d], (size_t)e->statics.balance.n * sizeof(real));
+        trace_add(t, e->statics.balance.f.of[d], (size_t)e->statics.balance.n * sizeof(real));
+    }
+    trace_add(t, e->part.damage, (size_t)e->part.n * sizeof(real));
+    trace_add(t, e->part.flag, (size_t)e->part.n);
+}
+
+/* A trial of an advance, in bodies whose bonds yield and in such as do not. */
+static void test_trial(void **state)
+{
+    (void)state;
+    static const char *const variant[][2] = {{"steps.path=bonds", "name=same"},
+                                             {"steps.path=bonds", "material.yield_stress=inf"},
+                                             {"model=ospd", "material.yield_stress=inf"},
+                                             {"method=adaptive", "material.yield_stress=inf"}};
+    for (size_t k = 0; k < COUNT_OF(variant); k++) {
+        struct solution a;
+        struct trace before, after;
+        solution_make(&a, YIELDS, variant[k][0], variant[k][1], k == 3 ? "steps.path=bonds" : "name=same", NULL);
+        solution_done(&a);
+        statics_unknowns_make(&a.e);
+        assert_int_equal(statics_go(&a.e, 0.25), OK);
+        assert_int_equal(statics_go(&a.e, 0.9), OK);
+        assert_int_equal(statics_convert(&a.e, 0), OK);
+        if (k == 0) assert_true(bond_plastic_work(&a.e.bonds) > 0);
+        trace_take(&before, &a.e);
+        assert_int_equal(statics_look_ahead(&a.e), OK);
+        assert_true(a.e.statics.next.n > 0 || a.e.statics.led.n > 0);
+        trace_take(&after, &a.e);
+        assert_int_equal(before.size, after.size);
+        assert_memory_equal(before.data, after.data, before.size);
+        free(before.data), free(after.data);
+        statics_free(&a.e);
+        solution_free(&a);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_models),  cmocka_unit_test(test_variants), cmocka_unit_test(test_points),
+        cmocka_unit_test(test_quarter), cmocka_unit_test(test_parted),   cmocka_unit_test(test_motions),
+        cmocka_unit_test(test_trial),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
