@@ -6,7 +6,12 @@
  * G_c. A crack therefore advances by some spacings at once: the most overloaded bonds break, first come first, until
  * they have cost as much as their crossing bonds hold. The advance comes at the load at which the body releases what it
  * costs: Griffith's criterion for finite growth (as in Leguillon 2002, with a stress near the limit as the second
- * condition), with the path left to the bonds. Between two advances, the mean of both releases counts. */
+ * condition), with the path left to the bonds.
+ *
+ * What an advance releases is that of its middle. Between two of them the mean of both counts, and at the tip of a
+ * pre-crack that of the first one and one before it, of which the first two tell the release: the load of a state is
+ * that of its own crack to the second order of an advance. The advance itself comes where it pays for itself, so that
+ * no energy is left over; where loads only grow, at the larger one of both. */
 #include <math.h>
 #include <string.h>
 
@@ -109,19 +114,18 @@ status statics_go(struct engine *e, real t)
     return OK;
 }
 
-/* Bonds break at this pseudo-time, onto the list. */
-static status advance_try(struct engine *e)
+/* An advance more: bonds break at this pseudo-time, onto the end of the list. */
+static status advance_try(struct engine *e, struct advance *a)
 {
     struct statics *s = &e->statics;
     const real before = statics_released(e), cost = advance_cost(e) * (1 - 1e-3);
     const int64_t most = breaks_most(e);
-    s->next.n = 0;
-    s->ahead = (struct advance){0};
-    while (s->ahead.cost < cost && s->overload > LEFT) {
-        if (statics_break(e, e->scene->steps.within, most, &s->ahead.cost) == 0) break;
+    *a = (struct advance){0};
+    while (a->cost < cost && s->overload > LEFT) {
+        if (statics_break(e, e->scene->steps.within, most, &a->cost) == 0) break;
         TRY(statics_go(e, s->t));
     }
-    s->ahead.release = (statics_released(e) - before) / square(statics_load_size(e, s->t));
+    a->release = (statics_released(e) - before) / square(statics_load_size(e, s->t));
     return OK;
 }
 
@@ -164,17 +168,49 @@ real size_of_balance(const struct advance *a, const struct advance *b)
     return a->cost > 0 && release > 0 ? sqrt((a->cost + b->cost) / release) : INFINITY;
 }
 
+real size_of_advance(const struct advance *a) { return size_of_balance(a, &(struct advance){0}); }
+
+struct advance advance_before(const struct advance *first, const struct advance *second)
+{
+    const real rate = first->release / first->cost, growth = second->release / second->cost - rate;
+    const real release = first->release - 2 * growth * square(first->cost) / (first->cost + second->cost);
+    return (struct advance){first->cost, real_max(0, release)};
+}
+
+/* Has nothing advanced yet, and is there a pre-crack? */
+static bool pre_crack_stands(const struct engine *e)
+{
+    bool stands = false;
+    for (int k = 0; k < e->fracture.tips.n; k++) stands |= e->fracture.tips.tip[k].from_crack;
+    return stands && e->statics.behind.cost == 0;
+}
+
 status statics_look_ahead(struct engine *e)
 {
     struct statics *s = &e->statics;
     struct stand stand;
+    struct advance second;
     if (led_leads(e)) return led_look_ahead(e);
     if (s->next.n > 0 || s->overload < (s->behind.cost > 0 ? STRESSED_FURTHER : STRESSED)) return OK;
     stand_take(&stand, e);
-    const status tried = advance_try(e);
+    s->next.n = 0;
+    status tried = advance_try(e, &s->ahead);
+    const int64_t bonds = s->next.n;
+    if (tried == OK && bonds > 0 && pre_crack_stands(e)) {
+        tried = advance_try(e, &second);
+        if (second.cost > 0) s->behind = advance_before(&s->ahead, &second);
+    }
     stand_give(&stand, e, &s->next);
+    s->next.n = bonds;
     s->due = size_of_balance(&s->ahead, &s->behind);
     return tried;
+}
+
+status statics_advance_balanced(struct engine *e)
+{
+    const real size = size_of_advance(&e->statics.ahead);
+    if (isfinite(size)) TRY(statics_go(e, statics_time_of_size(e, size)));
+    return statics_advance(e);
 }
 
 status statics_advance(struct engine *e)

@@ -10,6 +10,7 @@
 #define STRESSED 0.5  /* overload below which nothing is tried */
 #define AGAIN 1.25    /* growth of loads after which what is not due is tried anew */
 #define TOGETHER 0.02 /* tips whose loads differ by less come together */
+#define BEYOND 0.01   /* of a stretch that is cut: bonds through its very end count as cut on either side [spacings] */
 enum { CLAIMS_MOST = 4 };
 
 /* ---- bonds that a stretch cuts ----------------------------------------------------------------------------------- */
@@ -47,8 +48,10 @@ static void cut_row(const struct engine *e, const struct crack_list *ways, int64
 static void ways_of(const struct engine *e, const struct led_tip *tip, struct crack_list *ways)
 {
     real corner[2][DIM_MAX] = {{0}}, to[2];
+    const real beyond = BEYOND * e->scene->spacing;
     led_next_place(e, tip, to);
-    for (int d = 0; d < 2; d++) corner[tip->reversed][d] = tip->place[d], corner[!tip->reversed][d] = to[d];
+    for (int d = 0; d < 2; d++)
+        corner[tip->reversed][d] = tip->place[d], corner[!tip->reversed][d] = to[d] + beyond * tip->heading[d];
     const struct crack path = {.n = 2, .corner = corner};
     cracks_mirrored(ways, &path, 1, e->source.mirror, e->source.mirrors, e->source.family.cutoff,
                     ON_SURFACE * e->scene->spacing);
@@ -105,15 +108,42 @@ static status tips_turn(struct engine *e)
     return OK;
 }
 
+/* Breaks bonds, and says what the body releases by it. */
+static status list_try(struct engine *e, const struct break_list *l, struct advance *a)
+{
+    const real before = statics_released(e);
+    statics_break_listed(e, l);
+    const status tried = statics_go(e, e->statics.t);
+    a->release = (statics_released(e) - before) / square(statics_load_size(e, e->statics.t));
+    return tried;
+}
+
+/* The stretch behind the tip of a pre-crack that has not grown, by the next one and the one after it, straight on. The
+ * next one is broken. */
+static status behind_first_find(struct engine *e, struct led_tip *tip)
+{
+    struct led_tip beyond = *tip;
+    struct break_list list = {0};
+    struct advance second = {0};
+    status tried = OK;
+    led_next_place(e, tip, beyond.place);
+    second.cost = stretch_list(e, &beyond, &list);
+    if (list.n > 0) {
+        tried = list_try(e, &list, &second);
+        statics_mend(e, &list);
+        tip->behind = advance_before(&tip->ahead, &second);
+    }
+    memory_free(list.bond);
+    return tried;
+}
+
 /* Breaks the bonds of a tip's next stretch on trial. */
 static status stretch_try(struct engine *e, struct led_tip *tip, const struct break_list *l)
 {
     struct stand stand;
-    const real before = statics_released(e);
     stand_take(&stand, e);
-    statics_break_listed(e, l);
-    const status tried = statics_go(e, e->statics.t);
-    tip->ahead.release = (statics_released(e) - before) / square(statics_load_size(e, e->statics.t));
+    status tried = list_try(e, l, &tip->ahead);
+    if (tried == OK && tip->grown == 0) tried = behind_first_find(e, tip);
     stand_give(&stand, e, l);
     return tried;
 }

@@ -63,6 +63,8 @@ status statics_look_ahead(struct engine *e);
 /* Material points that have to become peridynamic do, until none has to; so many directed bonds have broken. */
 status statics_convert(struct engine *e, int64_t broken);
 status statics_advance(struct engine *e);
+/* The same where it pays for itself, which loads go to first. */
+status statics_advance_balanced(struct engine *e);
 /* Lets the body go at the next advance, in time, until it is at rest again (engine_release.c). */
 status statics_release(struct engine *e);
 real statics_load_size(const struct engine *e, real t);
@@ -78,6 +80,11 @@ void stand_take(struct stand *k, struct engine *e);
 void stand_give(struct stand *k, struct engine *e, const struct break_list *broken);
 /* Size of loads at which the costs and releases of two advances balance; INFINITY: at none. */
 real size_of_balance(const struct advance *a, const struct advance *b);
+/* The same of one: there it pays for itself. */
+real size_of_advance(const struct advance *a);
+/* The advance before the first one of a pre-crack, as if that had grown there: its release goes on as that of the
+ * first two; none is less than 0. */
+struct advance advance_before(const struct advance *first, const struct advance *second);
 /* Energy per area that a crack takes: of bonds at their limits, or of state-based models G_c as given [J/m^2]. */
 real toughness_of(const struct engine *e, const struct material *m);
 

@@ -12,7 +12,9 @@ enum { SECANTS_MOST = 12 };
 /* Is an advance due under the present loads? */
 static bool advance_due(const struct engine *e)
 {
-    return e->statics.next.n > 0 && statics_load_size(e, e->statics.t) >= e->statics.due * (1 - 1e-9);
+    const struct statics *s = &e->statics;
+    const real size = real_max(s->due, size_of_advance(&s->ahead));
+    return s->next.n > 0 && statics_load_size(e, s->t) >= size * (1 - 1e-9);
 }
 
 /* The crack advances as long as that pays. */
@@ -39,7 +41,7 @@ static status step_by_energy(struct engine *e, real most)
 {
     struct statics *s = &e->statics;
     const real t = real_min(s->t + most, e->scene->duration);
-    if (s->advances) TRY(statics_advance(e));
+    if (s->advances) TRY(statics_advance_balanced(e));
     TRY(statics_look_ahead(e));
     if (s->next.n == 0) {
         TRY(statics_go(e, t));
@@ -87,7 +89,7 @@ static status step_by_opening(struct engine *e)
     TRY(statics_convert(e, 0));
     TRY(statics_look_ahead(e));
     while (advance_due(e)) {
-        TRY(statics_advance(e));
+        TRY(statics_advance_balanced(e));
         TRY(go_to(e, opening_measure, wanted, OPENING_ERROR, e->statics.t * wanted / opening_measure(e)));
         TRY(statics_look_ahead(e));
     }
