@@ -190,7 +190,10 @@ status statics_look_ahead(struct engine *e)
     struct statics *s = &e->statics;
     struct stand stand;
     struct advance second;
-    if (led_leads(e)) return led_look_ahead(e);
+    if (led_leads(e)) {
+        TRY(led_look_ahead(e));
+        if (s->next.n > 0 || s->overload <= 1) return OK;        /* else bonds break where no tip leads to */
+    }
     if (s->next.n > 0 || s->overload < (s->behind.cost > 0 ? STRESSED_FURTHER : STRESSED)) return OK;
     stand_take(&stand, e);
     s->next.n = 0;

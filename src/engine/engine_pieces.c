@@ -9,9 +9,11 @@
 #include "base/memory.h"
 #include "engine_statics.h"
 
-enum { MODES_MOST = 6 }; /* rigid motions of a piece in space */
-#define HELD_LEAST 1e-9  /* resistance of a motion, over the largest, from which on it is held */
-#define DROPPED 1e-6     /* what is left of a motion beside those before it, below which it is none of its own */
+enum { MODES_MOST = 6 };  /* rigid motions of a piece in space */
+#define HELD_LEAST 1e-9   /* resistance of a motion, over the largest, from which on it is held */
+#define UNHELD_MOST 0.05  /* share of loads on a free piece that need not cancel: faces of lattices are not even */
+#define UNHELD_SMALL 0.01 /* share of all loads that is too small to end a run */
+#define DROPPED 1e-6      /* what is left of a motion beside those before it, below which it is none of its own */
 
 /* ---- which nodes hang together ----------------------------------------------------------------------------------- */
 
@@ -367,4 +369,56 @@ void statics_pieces_hold(const struct engine *e, struct field *v)
                 for (int d = 0; d < dim; d++) v->of[d][f->node[k]] -= sum * f->motion[(k * dim + d) * MODES_MOST + a];
         }
     }
+}
+
+/* ---- loads that nothing holds ------------------------------------------------------------------------------------ */
+
+/* Of the loads on a piece along its free motions: the largest share that does not cancel [1], that motion, and the sum
+ * of their sizes there. */
+static real unheld_share(const struct engine *e, const struct free_piece *f, real *size)
+{
+    const struct statics *s = &e->statics;
+    real most = 0;
+    *size = 0;
+    for (int a = 0; a < f->motions; a++) {
+        real sum = 0, all = 0;
+        for (int64_t k = 0; k < f->n && f->node[k] < s->particles; k++)
+            for (int d = 0; d < e->part.dim; d++) {
+                const real along = f->motion[(k * e->part.dim + d) * MODES_MOST + a] *
+                                   s->applied[d][s->node[f->node[k]]] * s->weight[f->node[k]];
+                sum += along, all += fabs(along);
+            }
+        if (all > 0 && fabs(sum) / all * (all > *size * UNHELD_SMALL) > most) most = fabs(sum) / all, *size = all;
+    }
+    return most;
+}
+
+/* Sum of all applied forces, each by its size, over the root of the number of nodes of a piece: as unheld_share adds.
+ */
+static real applied_sum(const struct engine *e, int64_t nodes)
+{
+    real sum = 0;
+    for (int d = 0; d < e->part.dim; d++)
+        for (int64_t i = 0; i < e->part.n; i++) sum += fabs(e->statics.applied[d][i]);
+    return sum / sqrt((real)nodes);
+}
+
+status statics_unheld(const struct engine *e)
+{
+    const struct statics *s = &e->statics;
+    for (int64_t q = 0; q < s->pieces && s->applied[0]; q++) {
+        const struct free_piece *f = &s->piece[q];
+        real size, X[DIM_MAX] = {0};
+        const real share = unheld_share(e, f, &size);
+        if (share <= UNHELD_MOST || size <= UNHELD_SMALL * applied_sum(e, f->n)) continue;
+        statics_node_place(e, f->node[f->n / 2], X);
+        return status_set(FAILED,
+                          "load step %lld, t = %.6g s: nothing holds %s (%.3g %% of it, round x = %.6g, y = %.6g, "
+                          "z = %.6g m): %.0f %% of the loads on it are not balanced; hold it there, balance its "
+                          "loads, or choose steps.control energy, which goes back with the loads while a crack runs",
+                          (long long)e->clock.step + 1, s->t,
+                          f->n == s->balance.n ? "the body" : "a piece of the body",
+                          100 * (real)f->n / (real)s->balance.n, X[0], X[1], X[2], 100 * share);
+    }
+    return OK;
 }

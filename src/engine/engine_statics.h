@@ -28,6 +28,8 @@ status statics_solve(struct engine *e, real t);
  * a way, what belongs to their motions as a whole. */
 void statics_pieces_make(struct engine *e);
 void statics_pieces_free(struct engine *e);
+/* FAILED if loads would carry away a piece that nothing holds. */
+status statics_unheld(const struct engine *e);
 void statics_pieces_hold(const struct engine *e, struct field *v);
 
 /* Columns of history.csv (engine_steps_record.c); column NULL: only their number; their values, of a load step that has

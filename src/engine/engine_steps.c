@@ -138,6 +138,7 @@ status engine_steps(struct engine *e)
     while (e->clock.step < e->clock.steps) {
         e->statics.record.step = e->clock.step + 1;
         TRY(load_step(e));
+        TRY(statics_unheld(e));
         statics_plastic_keep(e);
         e->clock.step++;
         e->clock.t = e->clock.dt * (real)e->clock.step;
