@@ -257,6 +257,10 @@ status engine_solve(struct engine *e);
  * if particles have. */
 bool engine_convert(struct engine *e, int64_t broken);
 status engine_steps(struct engine *e);
+/* The first equilibrium, for an estimate of cost: the engine has then taken no load step, and cannot. Size of what
+ * loads and supports prescribe at a load time, which scales as they do. */
+status engine_equilibrium_try(struct engine *e, real t);
+real engine_load_size(const struct engine *e, real t);
 void statics_free(struct engine *e);
 status engine_solver_make(struct engine *e);
 /* One step in time. */

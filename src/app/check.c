@@ -73,7 +73,7 @@ static void say_contact_cost(const struct engine *e, const struct cost *c)
 {
     const struct run_clock *clock = &e->clock;
     const double shorter = clock->dt / (e->scene->safety * clock->dt_critical);
-    if (!(c->contact > 0) || e->contact.rows == 0) return;
+    if (scene_in_steps(e->scene) || !(c->contact > 0) || e->contact.rows == 0) return;
     printf("contact        looks at %lld of %lld particles, those near a face: %.1f %% of a step at first",
            (long long)e->contact.rows, (long long)e->part.n, 1e2 * c->contact);
     if (e->scene->time_step == 0 && shorter < 0.999) printf("; steps are %.2f times as long as without", shorter);
@@ -114,7 +114,9 @@ static void say_notches(const struct engine *e)
 
 static void say_time_step(const struct engine *e)
 {
-    if (scene_at_rest(e->scene))
+    if (scene_in_steps(e->scene))
+        say_load_steps(e);
+    else if (scene_at_rest(e->scene))
         printf("solver         static equilibrium to a residual of %.3g of the load, in %lld steps at the most\n",
                e->scene->solver_tolerance, (long long)e->clock.steps);
     else
@@ -138,7 +140,9 @@ static void say_basis(const struct engine *e, const struct cost *c)
 static void say_cost(const struct engine *e, const struct cost *c, int threads)
 {
     const char *many = threads > 1 ? "s" : "";
-    if (scene_at_rest(e->scene))
+    if (scene_in_steps(e->scene))
+        say_load_steps_cost(e, c, threads);
+    else if (scene_at_rest(e->scene))
         printf("run time       about %.2g s for 1000 steps on %d thread%s", 1e3 * c->step, threads, many);
     else {
         printf("run time       %s %.2g s on %d thread%s, %.1g s of it to write: %.3g ns a particle and step at first",
@@ -164,8 +168,10 @@ static void say_materials(const struct engine *e)
 {
     for (int m = 0; m < e->scene->materials; m++) {
         const struct material *a = &e->scene->material[m];
-        printf("material       %s: waves at %.4g m/s", a->name, a->wave_speed);
-        if (a->rayleigh_speed > 0) printf(", Rayleigh %.4g m/s", a->rayleigh_speed);
+        const bool in_steps = scene_in_steps(e->scene);
+        if (in_steps) printf("material       %s: Young's modulus %.4g Pa", a->name, a->young);
+        else printf("material       %s: waves at %.4g m/s", a->name, a->wave_speed);
+        if (!in_steps && a->rayleigh_speed > 0) printf(", Rayleigh %.4g m/s", a->rayleigh_speed);
         if (isfinite(a->critical_stretch)) printf(", bonds break at a stretch of %.4g", a->critical_stretch);
         else printf("; its bonds never break: neither energy_release_rate nor critical_stretch is given");
         const real most = e->tables.elastic[m].trigger_mean;

@@ -385,6 +385,7 @@ void advise(const struct engine *e, FILE *out)
     advise_cracks(e, out);
     advise_incompressible(e, out);
     advise_waves(e, out);
+    advise_load_steps(e, out);
     advise_levels(e, out);
     advise_ties(e, out);
     advise_separation(e, out);

@@ -215,6 +215,12 @@ static double output_bytes(const struct engine *e)
 status cost_measure(struct cost *c, struct engine *e, const struct run_arguments *a)
 {
     c->all_peridynamic = NAN;
+    if (scene_in_steps(e->scene)) {
+        c->output = output_seconds(e) + FILE_SECONDS * e->scene->steps.number; /* a checkpoint after each load step */
+        TRY(cost_load_steps(c, e));
+        c->bytes = (double)memory_peak() + output_bytes(e);
+        return OK;
+    }
     if (scene_at_rest(e->scene)) {
         /* conjugate gradients difference forces centrally: two evaluations per iteration (solver_tangent) */
         c->step = (e->scene->solver == SOLVER_CG ? 2 : 1) * time_force(e);

@@ -16,10 +16,12 @@ enum cost_basis { COST_TRIED, COST_SCALED, COST_FIRST };
 
 struct cost {
     double make;                         /* from the scene to step 0; by the caller [s] */
-    double step; /* a first step, samples included, whole body active; static: an iteration [s] */
+    double step;                         /* a first step, samples included, whole body active; static: an iteration;
+                                            load steps: an equilibrium [s] */
     double contact;                      /* share of contact in such a step, whatever touches then */
     double output;                       /* frames and checkpoints, on an idle disk [s] */
     double run;                          /* whole run [s] */
+    double equilibria, overload;         /* load steps: how many at the most; of bonds at the end, were none broken */
     enum cost_basis basis;
     double coarser, growth;              /* SCALED: factor on the spacing; all steps over first ones [1] */
     double all_peridynamic;              /* a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
@@ -29,6 +31,15 @@ struct cost {
 /* Takes steps and times them, with the current team; the engine cannot be used afterwards. `a`: the arguments of its
  * scene. FAILED if one of the first steps fails. */
 status cost_measure(struct cost *c, struct engine *e, const struct run_arguments *a);
+
+/* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
+
+/* Load steps: the solver and what leads cracks; advice; the cost, by the first equilibrium: FAILED where there is none;
+ * the line about it. */
+void say_load_steps(const struct engine *e);
+void advise_load_steps(const struct engine *e, FILE *out);
+status cost_load_steps(struct cost *c, struct engine *e);
+void say_load_steps_cost(const struct engine *e, const struct cost *c, int threads);
 
 /* ---- check_shapes.c ---------------------------------------------------------------------------------------------- */
 

@@ -1,4 +1,4 @@
-/* Columns of history.csv that load steps have beside those of all runs. */
+/* Columns of history.csv that load steps have beside those of all runs; what is asked of them before they begin. */
 #include <math.h>
 #include <string.h>
 
@@ -88,6 +88,14 @@ void statics_record(struct engine *e, real *record)
                                        (real)(s->solutions - s->record.solutions)};
     memcpy(record, own, sizeof own);
     led_factors(e, record + STATICS_COLUMNS - MODES);
+}
+
+real engine_load_size(const struct engine *e, real t) { return statics_load_size(e, t); }
+
+status engine_equilibrium_try(struct engine *e, real t)
+{
+    statics_unknowns_make(e);
+    return statics_go(e, t);
 }
 
 void statics_record_keep(struct engine *e)

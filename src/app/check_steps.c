@@ -1,0 +1,178 @@
+/* What `cleave check` says of load steps: what leads them, how well the crack is resolved, what they take. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "check_parts.h"
+
+#define AT_ONCE 1e-3   /* share of the largest loads that is there before the first load step */
+#define FALLS 1e-6     /* share by which loads fall that is no round-off */
+#define LOADS_LOOKS 64 /* moments at which loads are looked at */
+#define FEW 20.0       /* spacings of crack, or ahead of it: errors of loads, measured beside handbooks */
+#define NOTHING_BREAKS 0.8 /* overload at a crack tip below which no advance comes: Griffith's load is at 0.9 */
+#define SPACINGS 2.0   /* of an advance */
+enum { LED_EQUILIBRIA = 3, PAIRS_AT_ONCE = 2 };
+
+/* ---- cracks ------------------------------------------------------------------------------------------------------ */
+
+/* Tips of pre-cracks. */
+static int tips_of_cracks(const struct engine *e)
+{
+    int n = 0;
+    for (int k = 0; k < e->fracture.tips.n; k++) n += e->fracture.tips.tip[k].from_crack;
+    return n;
+}
+
+static bool is_led(const struct engine *e)
+{
+    return e->scene->dim == 2 && e->scene->steps.path != PATH_BONDS && tips_of_cracks(e) > 0;
+}
+
+/* How far bodies go on from a tip, straight ahead (side 1) or back (-1) [m]; 0 where they are lists of particles. */
+static real way_within(const struct engine *e, const struct tip *tip, int side)
+{
+    const struct scene *s = e->scene;
+    const real most = 2 * (particles_longest(&e->part) + s->spacing), step = 0.5 * s->spacing;
+    real way = 0;
+    for (bool within = true; within && way < most; way += within ? step : 0) {
+        real X[DIM_MAX] = {0};
+        for (int d = 0; d < s->dim; d++) X[d] = tip->origin[d] + side * (way + 0.5 * step) * tip->along[d];
+        within = false;
+        for (int b = 0; b < s->bodies && !within; b++)
+            within = !s->body[b].file && region_contains(&s->body[b].shape, X, s->dim, 0);
+    }
+    return way;
+}
+
+/* Length of the pre-crack that ends at a tip, as far as it lies in bodies; INFINITY: not known [m]. */
+static real crack_behind(const struct engine *e, const struct tip *tip)
+{
+    const struct scene *s = e->scene;
+    for (int k = 0; k < s->cracks && s->dim == 2; k++)
+        for (int end = 0; end < 2; end++) {
+            const real *here = s->crack[k].corner[end], *there = s->crack[k].corner[1 - end];
+            if (hypot(here[0] - tip->origin[0], here[1] - tip->origin[1]) > ON_SURFACE * s->spacing) continue;
+            const real way = way_within(e, tip, -1);
+            return s->crack[k].n == 2 && way > 0 ? real_min(way, hypot(here[0] - there[0], here[1] - there[1]))
+                                                 : INFINITY;
+        }
+    return INFINITY;
+}
+
+void say_load_steps(const struct engine *e)
+{
+    static const char *const by[] = {[CONTROL_LOAD] = "by load time", [CONTROL_ENERGY] = "at the most, by energy",
+                                     [CONTROL_OPENING] = "by an opening"};
+    const struct scene *s = e->scene;
+    const int tips = tips_of_cracks(e);
+    printf("solver         static: %d load steps %s, load time to %.4g s, each in equilibrium to a residual of %.3g of "
+           "the load\n",
+           s->steps.number, by[s->steps.control], s->duration, s->solver_tolerance);
+    if (!scene_bonds_break(s)) return;
+    if (is_led(e))
+        printf("cracks         %d tip%s led by the hoop stress round %s, 2 spacings in an advance\n", tips,
+               tips > 1 ? "s are" : " is", tips > 1 ? "them" : "it");
+    else
+        printf("cracks         grow by their most overloaded bonds, some 2 spacings in an advance%s\n",
+               tips == 0 ? "; there is no pre-crack whose load theory knows" : "");
+}
+
+/* ---- advice ------------------------------------------------------------------------------------------------------ */
+
+/* Loads that do not grow from nothing. */
+static void advise_growth(const struct engine *e, FILE *out)
+{
+    const struct scene *s = e->scene;
+    real most = 0, before = 0, falls = NAN;
+    for (int k = 0; k <= LOADS_LOOKS; k++) {
+        const real t = s->duration * k / LOADS_LOOKS, now = engine_load_size(e, t);
+        if (isnan(falls) && now < before - FALLS * most) falls = t;
+        most = real_max(most, now), before = now;
+    }
+    const real first = engine_load_size(e, 0);
+    if (most > 0 && first > AT_ONCE * most)
+        fprintf(out,
+                "unresolved: %.3g %% of the largest loads are there before the first load step: loads of load steps "
+                "grow from nothing, by time: {ramp: {until: %.4g s}} or a formula with t\n",
+                100 * first / most, s->duration);
+    if (!isnan(falls) && s->steps.control != CONTROL_LOAD)
+        fprintf(out, "unresolved: loads fall before t = %.4g s: control %s looks for the load time at which the crack "
+                "advances, and wants loads that grow all the time\n", falls,
+                s->steps.control == CONTROL_ENERGY ? "energy" : "opening");
+}
+
+/* Tips with little crack behind them or little body ahead. */
+static void advise_lengths(const struct engine *e, FILE *out)
+{
+    const real h = e->scene->spacing;
+    for (int k = 0; k < e->fracture.tips.n; k++) {
+        const struct tip *tip = &e->fracture.tips.tip[k];
+        const real ahead = way_within(e, tip, 1) / h, behind = crack_behind(e, tip) / h;
+        const bool short_crack = behind < FEW, short_way = ahead > 0 && ahead < FEW;
+        if (!tip->from_crack || (!short_crack && !short_way)) continue;
+        fprintf(out,
+                "unresolved: tip at (%.4g, %.4g) m: %.0f spacings of %s: loads at which a crack grows are some 2 %% "
+                "off at 20, 0.5 %% at 40, more below\n",
+                tip->origin[0], tip->origin[1], short_crack ? behind : ahead,
+                short_crack ? "crack behind it" : "body ahead of it");
+    }
+}
+
+void advise_load_steps(const struct engine *e, FILE *out)
+{
+    if (!scene_in_steps(e->scene)) return;
+    advise_growth(e, out);
+    if (scene_bonds_break(e->scene)) advise_lengths(e, out);
+}
+
+/* ---- cost -------------------------------------------------------------------------------------------------------- */
+
+/* Equilibria of an advance: of bonds that break one pair after another, or as many as the scene lets break at once. */
+static double equilibria_of_advance(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    const struct family *f = &e->source.family;
+    const double neighbours = f->full / f->cell_volume, reach = 0.4 * f->horizon / s->spacing;
+    double wide = 1, at_once = PAIRS_AT_ONCE;
+    if (is_led(e)) return LED_EQUILIBRIA;
+    for (int d = 0; d < s->dim && s->dim == 3; d++) {
+        real low, high;
+        particles_extent(&e->part, e->part.n, d, &low, &high);
+        wide = d == 0 ? (high - low) / s->spacing + 1 : fmin(wide, (high - low) / s->spacing + 1);
+        at_once = s->steps.breaks;
+    }
+    return 1 + SPACINGS * 0.5 * neighbours * reach * wide / at_once;
+}
+
+/* Advances of all cracks, at the most. */
+static double advances_of(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    double way = 0;
+    if (!scene_bonds_break(s)) return 0;
+    if (s->steps.control == CONTROL_ENERGY) return s->steps.number;
+    for (int k = 0; k < e->fracture.tips.n; k++) way += way_within(e, &e->fracture.tips.tip[k], 1);
+    if (way == 0) way = particles_longest(&e->part);
+    return way / (SPACINGS * s->spacing);
+}
+
+status cost_load_steps(struct cost *c, struct engine *e)
+{
+    const double began = team_clock();
+    const real first = e->scene->duration / e->scene->steps.number;
+    TRY(engine_equilibrium_try(e, first));
+    c->step = team_clock() - began;
+    c->equilibria = e->scene->steps.number + advances_of(e) * equilibria_of_advance(e);
+    c->overload = e->statics.overload * engine_load_size(e, e->scene->duration) / engine_load_size(e, first);
+    c->run = c->make + c->step * c->equilibria + c->output;
+    return OK;
+}
+
+void say_load_steps_cost(const struct engine *e, const struct cost *c, int threads)
+{
+    printf("run time       up to about %.2g s on %d thread%s: at most some %.2g equilibria of %.2g s", c->run, threads,
+           threads > 1 ? "s" : "", c->equilibria, c->step);
+    if (c->overload > 0 && c->overload < NOTHING_BREAKS && e->scene->steps.control == CONTROL_LOAD)
+        printf("\nunresolved: the most stretched bond reaches %.2g of its limit at the end: nothing breaks below %.1f; "
+               "larger loads are expected", c->overload, NOTHING_BREAKS);
+}
