@@ -8,15 +8,23 @@
 #include "base/team.h"
 #include "solver_parts.h"
 
-enum { CORRECTIONS_MOST = 40 };  /* of Newton's method; linear bodies need two or three */
+enum { CORRECTIONS_MOST = 80 };  /* of Newton's method; linear bodies need two or three */
 enum { DIRECTIONS_MOST = 2000 }; /* of conjugate gradients in a correction */
-enum { HALVINGS_MOST = 8 };      /* of a correction that leads away from equilibrium */
+enum { DIRECTIONS_IDLE = 100 };  /* without progress, after which a correction ends: nearly singular, or round-off */
+enum { LOOKS_MOST = 10 };        /* for the length of a correction */
 
 /* Largest strain of the way over which forces are differenced: second-order terms are of its size, and the round-off of
  * forces, 1e-14 of a strain in a body of 100 spacings, is 1e-8 of the difference. */
 #define DIFFERENCE_STRAIN 1e-6
 /* Largest turn of bonds over it. What hangs on a bond or two turns and is hardly strained. */
 #define DIFFERENCE_TURN 1e-5
+/* Turn of bonds up to which a body that gives way is followed in one correction. */
+#define WAY_TURN 0.1
+
+/* A correction has the right length where forces along it have fallen to this share of what they were, and work along
+ * it is taken from the middle, too, where forces after it are more than this share of those before. */
+#define PUSH_LEFT 0.8
+#define WORK_CURVED 0.01
 
 /* Share of the residual that a correction leaves: the least is what one-sided differences resolve. */
 #define FORCING_MOST 0.1
@@ -115,14 +123,20 @@ static void square_block(const void *context, int64_t first, int64_t end, real *
     }
 }
 
-/* Share of a way over which forces are differenced: a limit to strains, and one to turns where only few nodes move; as
- * many as move span a region as wide as the way's gradient needs. `most`: its largest component [m]. */
-static real difference_step(const struct equilibrium *q, const struct field *way, real most)
+/* Widths over which the largest component `most` of a way [m] stands for a turn of bonds: as wide as the region of the
+ * nodes that move [m]. */
+static real turning_width(const struct equilibrium *q, const struct field *way, real most)
 {
     real square_sum;
     team_sums(q->n, 1, square_block, &(struct product){q, way, way}, &square_sum);
-    const real width = q->length * pow(real_max(1, square_sum / square(most)), 1.0 / q->dim);
-    return real_min(DIFFERENCE_STRAIN / q->strain_ratio, DIFFERENCE_TURN * width) / most;
+    return q->length * pow(real_max(1, square_sum / square(most)), 1.0 / q->dim);
+}
+
+/* Share of a way over which forces are differenced: limits to strains, and to turns where only few nodes move. `most`:
+ * its largest component [m]. */
+static real difference_step(const struct equilibrium *q, const struct field *way, real most)
+{
+    return real_min(DIFFERENCE_STRAIN / q->strain_ratio, DIFFERENCE_TURN * turning_width(q, way, most)) / most;
 }
 
 /* out = K in at u, where the forces are f: the decrease of forces along `in`, over its length. */
@@ -238,15 +252,25 @@ static void advance_block(const void *context, int64_t first, int64_t end, real 
     }
 }
 
-/* x: the correction K x = f of free components, from the x that it holds; its held components stay. Residual down to
- * `wanted` [N], or to FORCING_LEAST of what the guess leaves. */
-static void correction(struct equilibrium *q, real wanted)
+/* The body gives way along d: x goes on as far as that may be followed. */
+static void give_way(struct equilibrium *q)
 {
-    real rz = 0, next, curvature, left2;
+    const real most = solver_largest(&q->d, q->dim, q->n);
+    if (most > 0) combine(q, &q->x, 1, &q->x, WAY_TURN * turning_width(q, &q->d, most) / most, &q->d);
+}
+
+/* x: the correction K x = f of free components, from the x that it holds; its held components stay. Residual down to
+ * `wanted` [N], or to FORCING_LEAST of what the guess leaves. Where stiffness along a direction is negative, x goes on
+ * there as a body does that gives way (Steihaug 1983); not if supports are on their way. */
+static void correction(struct equilibrium *q, real wanted, bool prescribed)
+{
+    real rz = 0, next, curvature, left2, best2 = INFINITY;
+    int best = 0;
     residual_of_guess(q);
     left2 = dot_free(q, &q->r, &q->r);
     wanted = real_max(wanted, FORCING_LEAST * sqrt(left2));
-    for (int k = 0; k < DIRECTIONS_MOST && left2 > square(wanted); k++) {
+    for (int k = 0; k < DIRECTIONS_MOST && left2 > square(wanted) && k - best < DIRECTIONS_IDLE; k++) {
+        if (left2 < 0.5 * best2) best2 = left2, best = k;
         q->precondition(q->context, &q->r, &q->z);
         team_sums(q->n, 1, preconditioned_block, q, &next);
         if (!(next > 0)) break;
@@ -255,27 +279,74 @@ static void correction(struct equilibrium *q, real wanted)
         stiffness(q, &q->d, &q->q);
         team_sums(q->n, 1, stiff_block, q, &curvature);
         q->directions++;
-        if (!(curvature > 0)) break; /* the body gives way: what has been found so far may lead on */
+        if (!(curvature > 0)) {
+            if (!prescribed) give_way(q);
+            break;
+        }
         strain_note(q, &q->d, curvature);
         team_sums(q->n, 1, advance_block, &(struct step){q, rz / curvature}, &left2);
     }
 }
 
-/* Moves by x, or by half of it, a quarter, ..., where forces on free components would grow; a `prescribed` way is gone
- * whole. The work of forces that are not in balance is that of their mean. */
-static void advance(struct equilibrium *q, real left, bool prescribed)
+/* ---- its length -------------------------------------------------------------------------------------------------- */
+
+/* Forces at u + share x, into q, of the place z. */
+static void forces_along(struct equilibrium *q, real share)
 {
-    real share = 1;
-    for (int k = 0;; k++, share *= 0.5) {
-        combine(q, &q->z, 1, &q->u, share, &q->x);
-        forces_at(q, &q->z, &q->q);
-        const real after = sqrt(dot_free(q, &q->q, &q->q));
-        if ((isfinite(after) && after <= 2 * left) || prescribed || k == HALVINGS_MOST) break;
+    combine(q, &q->z, 1, &q->u, share, &q->x);
+    forces_at(q, &q->z, &q->q);
+}
+
+/* Share of the correction x after which forces push on no more: 1 in linear bodies. Energy falls until then: less where
+ * they push back as hard, more where they still push as hard. A `prescribed` way is gone whole. Leaves in z and q the
+ * place and the forces there. */
+static real way_length(struct equilibrium *q, real left, bool prescribed)
+{
+    const real push = dot_free(q, &q->f, &q->x);
+    real share = 1, low = 0, high = 0, at_low = push;
+    for (int k = 0; k < LOOKS_MOST; k++) {
+        forces_along(q, share);
+        const real after = sqrt(dot_free(q, &q->q, &q->q)), at = dot_free(q, &q->q, &q->x);
+        if (prescribed || !(push > 0) || after <= 0.5 * left) break;
+        if (fabs(at) <= PUSH_LEFT * push) break;
+        if (at > 0) {
+            if (high == 0 && k == LOOKS_MOST / 2) break;
+            low = share, at_low = at;
+            share = high > 0 ? 0.5 * (low + high) : 2 * share;
+        } else {
+            high = share;
+            const real zero = isfinite(at) ? low + (share - low) * at_low / (at_low - at) : low;
+            share = real_max(real_min(zero, low + 0.9 * (high - low)), low + 0.1 * (high - low));
+        }
     }
-    q->lost += 0.5 * share * (dot_free(q, &q->before, &q->x) + dot_free(q, &q->q, &q->x));
+    return share;
+}
+
+/* Work of all forces over the way `share` x, by Simpson's rule where forces change other than evenly [J]. Forces in the
+ * middle are under half of what loads have grown by since `before`. Uses at and r. */
+static real work_along(struct equilibrium *q, real share, real left)
+{
+    real ends[2], after[2], middle[2], grown[2];
+    dots(q, &q->before, &q->x, ends);
+    dots(q, &q->q, &q->x, after);
+    const real even = 0.5 * share * (ends[0] + ends[1] + after[0] + after[1]);
+    if (sqrt(dot_free(q, &q->q, &q->q)) <= WORK_CURVED * left) return even;
+    combine(q, &q->at, 1, &q->u, 0.5 * share, &q->x);
+    forces_at(q, &q->at, &q->r);
+    dots(q, &q->r, &q->x, middle);
+    dots(q, &q->f, &q->x, grown);
+    const real half = middle[0] + middle[1] - 0.5 * (grown[0] + grown[1] - ends[0] - ends[1]);
+    return even / 3 + share * 2 / 3 * half;
+}
+
+/* Moves by x, or by what of it leads to equilibrium; returns the work of all forces on the way [J]. */
+static real advance(struct equilibrium *q, real left, bool prescribed)
+{
+    const real share = way_length(q, left, prescribed), work = work_along(q, share, left);
     combine(q, &q->u, 1, &q->z, 0, &q->z);
     combine(q, &q->f, 1, &q->q, 0, &q->q);
     combine(q, &q->before, 1, &q->q, 0, &q->q);
+    return work;
 }
 
 /* Forces on supports, times the way that these go [J]. */
@@ -289,24 +360,26 @@ static real dot_held(const struct equilibrium *q, const struct field *way)
 status equilibrium_find(struct equilibrium *q, const struct field *way, bool moved)
 {
     bool prescribed = moved && solver_largest(way, q->dim, q->n) > 0;
-    real by_supports = 0;
     combine(q, &q->x, prescribed, way, 0, way);
     combine(q, &q->before, 1, &q->f, 0, &q->f);
+    real supports = prescribed ? 0.5 * dot_held(q, way) : 0;
     forces_at(q, &q->u, &q->f);
     if (!moved) combine(q, &q->before, 1, &q->f, 0, &q->f);
     if (!(q->strain_ratio > 0)) q->strain_ratio = 1 / q->length;
+    const bool driven = prescribed;
     if (prescribed) guess_check(q);
     for (int k = 0; k < CORRECTIONS_MOST; k++) {
         equilibrium_measure(q);
         const real left = q->residual * q->scale, goal = 0.5 * q->tolerance * q->scale;
         if (!isfinite(left)) break;
         if (!prescribed && (q->residual <= q->tolerance || left <= q->noise)) {
-            q->lost += 0.5 * (by_supports - dot_held(q, way));
+            if (driven) supports += 0.5 * dot_held(q, way);
+            q->lost -= supports;
             return OK;
         }
-        correction(q, prescribed ? goal : real_min(FORCING_MOST * left, real_max(goal, FORCING_LEAST * left)));
-        advance(q, left, prescribed);
-        if (k == 0) by_supports = dot_held(q, way);
+        correction(q, prescribed ? goal : real_min(FORCING_MOST * left, real_max(goal, FORCING_LEAST * left)),
+                   prescribed);
+        q->lost += advance(q, left, prescribed);
         combine(q, &q->x, 0, &q->x, 0, &q->x);
         prescribed = false;
     }
