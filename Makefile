@@ -54,7 +54,7 @@ LONG     := $(sort $(shell find tests -name 'long_*.sh'))
 help:
 	@echo 'make            builds build/cleave (options: PREFIX, CC, OPTIMISE, ARCH=native, BUILD)'
 	@echo 'make run        installs what is missing, builds what a first run needs, breaks a plate, draws it'
-	@echo 'make test       installs what is missing, builds, runs every test on $(THREADS) threads; test-long: longer ones, too'
+	@echo 'make test       installs what is missing, builds, runs every test, on $(THREADS) threads; test-long: longer ones, too'
 	@echo 'make bench      measures kernels and efficiency (all: build/cleave bench --help)'
 	@echo 'make fuzz       feeds scenes and files of all kinds to the readers'
 	@echo 'make install    below PREFIX ($(PREFIX)): program, manual page, Python module, completion; uninstall removes them'
@@ -139,7 +139,7 @@ run: packages
 
 test: packages-tests
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) all $(PROGRAMS)
-	@BUILD=$(BUILD) OMP_NUM_THREADS=$(THREADS) sh tests/support/run.sh $(PROGRAMS) $(SCRIPTS)
+	@BUILD=$(BUILD) OMP_NUM_THREADS=$(THREADS) sh tests/support/run.sh $(SCRIPTS) $(PROGRAMS)
 
 test-long: test
 	@BUILD=$(BUILD) OMP_NUM_THREADS=$(THREADS) sh tests/support/run.sh $(LONG)

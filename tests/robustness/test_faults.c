@@ -1,6 +1,7 @@
 /* Nothing is lost: every call of ours fails once, runs are stopped and killed in the midst of what they do,
  * checkpoints are damaged; --resume always gets to the bits of an undisturbed run. `test_faults whole` does
- * the same with the calls of the whole process, libraries included (tests/robustness/long_faults.sh). */
+ * the same with the calls of the whole process, libraries included (tests/robustness/long_faults.sh).
+ * Runs alone: it is two processes, and takes a run that is not over within PATIENCE for one that hangs. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -437,10 +438,12 @@ static void damaged_checkpoints_are_found(void **state)
     assert_int_equal(in_two(flip_share), 0);
 }
 
-/* All files of the tests lie beside the program. */
-static int enter(char *program, const char *name)
+/* All files of the tests lie in a folder of this process in TMPDIR, else beside the program. */
+static int enter(char *program, char *folder)
 {
-    return chdir(dirname(program)) != 0 || (mkdir(name, 0777) != 0 && errno != EEXIST) || chdir(name) != 0;
+    const char *place = getenv("TMPDIR");
+    snprintf(folder, NAME, "test_faults.%ld", (long)getpid());
+    return chdir(place ? place : dirname(program)) != 0 || mkdir(folder, 0777) != 0 || chdir(folder) != 0;
 }
 
 int __wrap_main(int argc, char **argv)
@@ -453,7 +456,7 @@ int __wrap_main(int argc, char **argv)
     };
     const bool of_all = argc > 1 && strcmp(argv[1], "whole") == 0;
     if (argc > 1 && !of_all) cmocka_set_test_filter(argv[1]);        /* one of them: its name */
-    const char *folder = of_all ? "long_faults.files" : "test_faults.files";
+    char folder[NAME];
     if (enter(argv[0], folder) != 0) return 1;
     setenv("GOMP_SPINCOUNT", "2000", 1);             /* the program would run itself again */
     setenv("HWLOC_SYNTHETIC", "core:2 pu:1", 1);     /* to look at the machine takes longer than these runs */

@@ -1,5 +1,6 @@
 #!/bin/sh
 # Results can be trusted: the same bits on any number of threads and after any interruption, and no silent failure.
+# Runs alone: it stops and kills runs of several threads in the midst of what they do.
 test_name=test_trust
 . tests/support/summary.sh
 . tests/support/trust.sh

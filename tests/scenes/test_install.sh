@@ -1,6 +1,6 @@
 #!/bin/sh
 # What `make install` lays down and `make uninstall` takes away; completion as bash has it; the tarball of `make dist`; help behind
-# every command.
+# every command. Runs alone: the folder of the build, into which `make install` writes, is that of all tests.
 test_name=install
 . tests/support/summary.sh
 build=${BUILD:-build}

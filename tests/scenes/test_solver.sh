@@ -10,8 +10,8 @@ crack="inputs/edge_crack_k1.yaml -s particles.spacing=0.2mm -s model=bond -s mat
 
 # ---- the edge crack ------------------------------------------------------------------------------------------------
 
-calm "$work/cg" -t 2 $crack
-calm "$work/relaxation" -t 2 $crack -s solver=relaxation
+calm "$work/cg" $crack
+calm "$work/relaxation" $crack -s solver=relaxation
 for solver in cg relaxation; do
     is "$solver: status" "$(figure "$work/$solver" status)" done
     is "$solver: name" "$(figure "$work/$solver" solver.name)" $solver
@@ -48,7 +48,7 @@ probes: [point: {name: end, at: [300 mm, 10 mm]}]
 END
 deflection=$(compute "-4 * 0.3^4 / (8 * 5e9/(1 - 0.0625) * 0.01 * 0.02^3 / 12) * 1.001")
 for shape in gimp quadratic; do
-    "$cleave" run -q -t 2 -o "$work/$shape" "$work/cantilever.yaml" -s mpm.shape=$shape 2>"$work/err"
+    "$cleave" run -q -o "$work/$shape" "$work/cantilever.yaml" -s mpm.shape=$shape 2>"$work/err"
     is "cantilever, $shape: $(cat "$work/err")" $? 0
     near "cantilever, $shape: deflection" "$(figure "$work/$shape" probes.end.displacement_y)" "$deflection" 0.02
     between "cantilever, $shape: balance" "$(figure "$work/$shape" energy.balance_error)" -1e-4 1e-4
@@ -58,9 +58,9 @@ done
 spun="$work/stub.yaml -s solver_tolerance=1e-2"
 sed 's/300 mm/60 mm/g; s/2.5 mm/10 mm/' "$work/cantilever.yaml" >"$work/stub.yaml"
 spin='initial=[{velocity: [0, 100 m/s]}, {rotation: {centre: [30 mm, 10 mm], rate: 1e5 1/s}}]'
-calm "$work/rested" -t 2 $spun
-calm "$work/spun" -t 2 $spun -s "$spin"
-calm "$work/idle" -t 2 $spun -s "$spin" -s 'boundary=[{mirror: {axis: x, at: 0, tangential: held}}]'
+calm "$work/rested" $spun
+calm "$work/spun" $spun -s "$spin"
+calm "$work/idle" $spun -s "$spin" -s 'boundary=[{mirror: {axis: x, at: 0, tangential: held}}]'
 is "with velocities" "$(figure "$work/spun" probes.end.displacement_y)" "$(figure "$work/rested" probes.end.displacement_y)"
 is "with velocities alone" "$(figure "$work/idle" probes.end.displacement_y)" 0
 

@@ -1,27 +1,74 @@
 #!/bin/sh
-# Runs test programs and scripts one after the other; prints a line for each, the output of those that fail, and a count.
+# Runs test programs and scripts on as many threads as OMP_NUM_THREADS says: side by side on one thread each, then one after the
+# other on all threads those whose source says `Runs alone`. Prints a line for each, the output of those that fail, and a count.
 # A script that cannot run here exits 77 after a line that says why: SKIPPED.
-# Threads that wait must not starve the others of a busy machine: rounds of gcc's library, milliseconds of clang's.
-export GOMP_SPINCOUNT=2000 KMP_BLOCKTIME=1
-passed=0 failed=0 skipped=0
-log=$(mktemp)
-for test in "$@"; do
-    start=$(date +%s)
-    case $test in
-        *.sh) sh "$test" >"$log" 2>&1 ;;
-        *) "$test" >"$log" 2>&1 ;;
+lanes=${OMP_NUM_THREADS:-$(getconf _NPROCESSORS_ONLN)}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+trap 'trap "" TERM; kill 0; exit 1' INT TERM HUP
+
+# Files of tests in memory, where it has room for them (0.3 GB is the most of one): every frame and checkpoint waits for a disk.
+[ ! -w /dev/shm ] || [ "$(df -Pk /dev/shm | awk 'END { print $4 }')" -lt 2000000 ] || export TMPDIR="${TMPDIR:-/dev/shm}"
+
+# What a shell starts beside itself is deaf to SIGINT, which tests raise: env gives it its hearing back.
+hearing="env --default-signal=INT,QUIT"
+$hearing true 2>/dev/null || hearing=
+
+# alone TEST: must it have the machine for itself?
+alone()
+{
+    source=${1#"${BUILD:-build}/"}
+    case $source in
+        */long_*) return 0 ;;
+        *.sh) ;;
+        *) source=$source.c ;;
+    esac
+    grep -q 'Runs alone' "$source"
+}
+
+# try TEST LANE: runs it and tells.
+try()
+{
+    log=$folder/log$2 said=$folder/said$2 start=$(date +%s)
+    case $1 in
+        *.sh) $hearing sh "$1" >"$log" 2>&1 ;;
+        *) $hearing "$1" >"$log" 2>&1 ;;
     esac
     result=$?
     seconds=$(($(date +%s) - start))
-    name=$(basename "$test")
-    if [ $result = 0 ]; then
-        passed=$((passed + 1)); echo "ok       $name (${seconds} s)"
-    elif [ $result = 77 ]; then
-        skipped=$((skipped + 1)); echo "SKIPPED  $name: $(tail -n 1 "$log")"
-    else
-        failed=$((failed + 1)); echo "FAILED   $name (${seconds} s, status $result)"; cat "$log"
-    fi
+    name=$(basename "$1")
+    case $result in
+        0) echo "ok       $name (${seconds} s)" ;;
+        77) echo "SKIPPED  $name: $(tail -n 1 "$log")" ;;
+        *) echo "FAILED   $name (${seconds} s, status $result)"; cat "$log" ;;
+    esac >"$said"
+    cat "$said"
+    head -n 1 "$said" >>"$folder/results"
+}
+
+# lane NUMBER: tries the tests of the list `beside` that no other lane has begun. Threads that a test starts by itself do not spin
+# while they wait: the other lanes have work for the processors.
+lane()
+{
+    export OMP_NUM_THREADS=1 GOMP_SPINCOUNT=0 KMP_BLOCKTIME=0
+    while read -r test; do
+        ! mkdir "$folder/begun_$(echo "$test" | tr / _)" 2>/dev/null || try "$test" "$1" </dev/null
+    done <"$folder/beside"
+}
+
+: >"$folder/results"
+for test in "$@"; do
+    if [ "$lanes" -gt 1 ] && ! alone "$test"; then echo "$test" >>"$folder/beside"; else echo "$test" >>"$folder/alone"; fi
 done
-rm -f "$log"
-echo "$passed passed, $failed failed, $skipped skipped"
-[ $failed = 0 ]
+if [ -f "$folder/beside" ]; then
+    for number in $(seq "$lanes"); do lane "$number" & done
+    wait
+fi
+
+# Threads that wait must not starve the others of a busy machine: rounds of gcc's library, milliseconds of clang's.
+export GOMP_SPINCOUNT=2000 KMP_BLOCKTIME=1
+[ ! -f "$folder/alone" ] || while read -r test; do try "$test" 0 </dev/null; done <"$folder/alone"
+
+count() { grep -c "^$1" "$folder/results"; }
+echo "$(count ok) passed, $(count FAILED) failed, $(count SKIPPED) skipped"
+[ "$(count FAILED)" = 0 ]

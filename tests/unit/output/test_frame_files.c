@@ -1,5 +1,7 @@
 /* Tests of how frames are read: fields by name, all frames as one file, frames of regions. */
+#include <errno.h>
 #include <ftw.h>
+#include <libgen.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -187,13 +189,17 @@ static void frames_of_a_region(void **state)
     particles_free(&p);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    /* All files of the tests lie beside the program. */
+    static const char folder[] = "test_frame_files.files";
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fields_are_read_by_name),
         cmocka_unit_test(frames_in_one_file),
         cmocka_unit_test(frames_of_a_region),
     };
+    (void)argc;
+    if (chdir(dirname(argv[0])) != 0 || (mkdir(folder, 0777) != 0 && errno != EEXIST) || chdir(folder) != 0) return 1;
     output_start();
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
