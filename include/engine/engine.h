@@ -262,6 +262,8 @@ status engine_steps(struct engine *e);
 status engine_equilibrium_try(struct engine *e, real t);
 real engine_load_size(const struct engine *e, real t);
 void statics_free(struct engine *e);
+/* REFUSED for bodies that load steps do not know. */
+status statics_check(const struct engine *e);
 status engine_solver_make(struct engine *e);
 /* One step in time. */
 status engine_step(struct engine *e);

@@ -68,7 +68,9 @@ static void led_start(struct engine *e)
 bool led_leads(struct engine *e)
 {
     struct led *l = &e->statics.led;
-    if (e->scene->steps.path == PATH_BONDS || e->scene->dim != 2) return false;
+    const struct scene *s = e->scene;
+    const bool one = s->bodies == 1 && s->materials == 1;    /* hoop stress knows no toughness */
+    if (s->steps.path == PATH_BONDS || s->dim != 2 || (s->steps.path == PATH_AUTO && !one)) return false;
     if (!l->known) led_start(e);
     for (int k = 0; k < l->n; k++)
         if (!l->tip[k].ended) return true;

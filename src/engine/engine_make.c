@@ -396,6 +396,7 @@ static status make_forces(struct engine *e, struct predecessor *before)
     TRY(engine_rigid_make(e));
     TRY(engine_rigid_check(e));
     TRY(named(s, engine_joined_check(e)));
+    TRY(named(s, statics_check(e)));
     make_contact(e);
     engine_partial_make(e);
     TRY(named(s, engine_mesh_make(e, before != NULL)));
