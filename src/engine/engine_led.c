@@ -13,12 +13,13 @@
 #include "fracture/tip_fit.h"
 
 #define INNER 1.0     /* of the ring of the fit [horizons] */
-#define WIDTH 9.0     /* of the ring [spacings] */
-#define SMOOTHING 3.5 /* of the frame [spacings] */
+#define WIDTH 7.0     /* of the ring [spacings] */
+#define SMOOTHING 2.0 /* of the frame [spacings] */
 #define KINK 0.17     /* turn at the end of a pre-crack that is no curve [rad] */
 #define HOLD 8.0      /* straight on after it [spacings] */
 #define LEAST 6.0     /* outer radius [spacings] */
 #define AHEAD 1e-3    /* [spacings] */
+#define PARALLEL 1e-6 /* sine of an angle that is none */
 #define REST 0.1      /* way to another crack that is none [spacings] */
 #define REACH 1.2     /* of the search for a body ahead [spacings] */
 
@@ -162,9 +163,16 @@ static real meeting_share(const struct crack *c, const real *a, const real *b)
     const real *p = c->corner[0], *q = c->corner[1];
     const real way[2] = {b[0] - a[0], b[1] - a[1]}, wall[2] = {q[0] - p[0], q[1] - p[1]};
     const real across = way[0] * wall[1] - way[1] * wall[0], gap[2] = {p[0] - a[0], p[1] - a[1]};
+    const bool parallel = fabs(across) <= PARALLEL * hypot(way[0], way[1]) * hypot(wall[0], wall[1]);
     const real share = (gap[0] * wall[1] - gap[1] * wall[0]) / across,
                at = (gap[0] * way[1] - gap[1] * way[0]) / across;
-    return across != 0 && share >= 0 && share < 1 && at >= 0 && at <= 1 ? share : 1;
+    return !parallel && share >= 0 && share < 1 && at >= 0 && at <= 1 ? share : 1;
+}
+
+/* Does a crack end at the tip, as its own last stretch does? */
+static bool ends_here(const struct crack *c, const struct led_tip *tip, real within)
+{
+    return led_distance(c->corner[0], tip->place) <= within || led_distance(c->corner[1], tip->place) <= within;
 }
 
 void led_next_place(const struct engine *e, const struct led_tip *tip, real place[2])
@@ -179,7 +187,8 @@ void led_next_place(const struct engine *e, const struct led_tip *tip, real plac
     for (int d = 0; d < 2; d++) {
         from[d] = tip->place[d] + AHEAD * h * tip->heading[d], to[d] = tip->place[d] + way * tip->heading[d];
     }
-    for (int k = 0; k < cracks; k++) share = real_min(share, meeting_share(&crack[k], from, to));
+    for (int k = 0; k < cracks; k++)
+        if (!ends_here(&crack[k], tip, AHEAD * h)) share = real_min(share, meeting_share(&crack[k], from, to));
     for (int d = 0; d < 2; d++) place[d] = share < 1 ? from[d] + share * (to[d] - from[d]) : to[d];
     memory_free(crack);
 }

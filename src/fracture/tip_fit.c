@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { TERMS = 6, UNKNOWNS = MODES * TERMS + 2 };
+enum { TERMS = 9, UNKNOWNS = MODES * TERMS + 2 };
 
 #define AHEAD 1e-3     /* of the inner radius: from there the tip looks round, as its own crack ends in it */
 #define SINGULAR 1e-12 /* pivot over the diagonal's entry */
