@@ -178,6 +178,16 @@ static void matrix_fill(struct springs *s)
     memory_free(s->next);
 }
 
+/* Makes the largest entry 1: floats do not bear products of stiffnesses of thick bodies, and conjugate gradients do not
+ * ask for the scale of their preconditioner. */
+static void matrix_scale(struct block_matrix *a)
+{
+    const int64_t n = a->first[a->n] * a->dim * a->dim;
+    float most = 0;
+    for (int64_t k = 0; k < n; k++) most = fmaxf(most, fabsf(a->block[k]));
+    for (int64_t k = 0; k < n && most > 0; k++) a->block[k] /= most;
+}
+
 static struct block_matrix *matrix_make(const struct engine *e)
 {
     const struct statics *s = &e->statics;
@@ -200,6 +210,7 @@ static struct block_matrix *matrix_make(const struct engine *e)
     }
     struct springs springs = {e, particle_at, node_at, (const int8_t(*)[DIM_MAX])sign, a, NULL};
     matrix_fill(&springs);
+    matrix_scale(a);
     memory_free(particle_at);
     memory_free(node_at);
     memory_free(sign);

@@ -134,9 +134,10 @@ status statics_check(const struct engine *e)
     for (int b = 0; b < s->bodies && scene_in_steps(s) && s->method != METHOD_PD; b++)
         if (!e->reference.choice[b].reference)
             return status_set(REFUSED,
-                              "solver: load steps want material points in the reference frame, and body %s is not in it "
-                              "(%s); method: pd, or solver: explicit, is expected",
-                              s->body[b].name, e->reference.choice[b].reason);
+                              "solver: load steps want material points in the reference frame, and body %s is not in "
+                              "it%s%s; method: pd, or solver: explicit, is expected",
+                              s->body[b].name, e->reference.choice[b].reason ? ": " : "",
+                              e->reference.choice[b].reason ? e->reference.choice[b].reason : "");
     return OK;
 }
 
