@@ -60,12 +60,17 @@ real tip_angle(const struct tip *tip, int dim);
 real tips_speed(const struct tips *t, int k);
 /* The tip that grew longest, NULL if none has grown. */
 const struct tip *tips_longest(const struct tips *t);
+/* What areas depend on beside tips. */
+struct tip_surroundings {
+    const struct mirror_plane *mirror;   /* planes of symmetry */
+    int mirrors;
+    real section;                        /* what a length in the plane, a place in line is multiplied with [m], [m^2] */
+    real half;                           /* half of the damage of particles beside a plane cut [1] */
+};
 /* Area of the faces that cracks have made, as measured at the last sample [m^2]: along the front of a pre-crack, in
- * strips a spacing wide, how far the cell of the farthest particle reaches from the front, branches left out; of other
- * cracks half the particles; of a crack in a plane of symmetry half of it, as of its energy. `section`: what a length
- * in the plane or a place in line is multiplied with, 1 in space. */
-real tips_area(const struct tips *t, const struct particles *p, const struct mirror_plane *mirror, int mirrors,
-               real section);
+ * strips a spacing wide, how far it has come from there, a spacing being the least, branches left out; of other cracks
+ * half the particles; of a crack in a plane of symmetry half of it, as of its energy. */
+real tips_area(const struct tips *t, const struct particles *p, const struct tip_surroundings *s);
 void tips_free(struct tips *t);
 /* Takes what `old` knows of other particles of the same body, whose numbers here are `now`, -1: none. */
 void tips_take(struct tips *t, struct tips *old, const int32_t *now);

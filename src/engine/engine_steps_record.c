@@ -34,6 +34,20 @@ static real growth_by_spacing(const struct engine *e)
     return t->spacing * wide;
 }
 
+/* Damage of particles of a lattice beside a cut between two of its planes: half of their bonds but those along it. */
+static real damage_beside_cut(const struct scene *s)
+{
+    const int reach = (int)s->horizon, wide = s->dim > 1 ? reach : 0, deep = s->dim > 2 ? reach : 0;
+    int64_t all = -1, along = -1;
+    for (int x = -reach; x <= reach; x++)
+        for (int y = -wide; y <= wide; y++)
+            for (int z = -deep; z <= deep; z++) {
+                const bool near = (real)(x * x + y * y + z * z) <= s->horizon * s->horizon;
+                all += near, along += near && x == 0;
+            }
+    return 0.5 * (real)(all - along) / (real)all;
+}
+
 /* Area of the paths of tips that are led; of one along a plane of symmetry half of it [m^2]. */
 static real led_paths_area(const struct engine *e)
 {
@@ -58,10 +72,10 @@ static real led_paths_area(const struct engine *e)
 static void measure(struct engine *e)
 {
     struct steps_record *r = &e->statics.record;
-    const struct bond_source *source = &e->source;
+    const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, scene_section(e->scene),
+                                            0.5 * damage_beside_cut(e->scene)};
     const real led = led_paths_area(e), spacing = growth_by_spacing(e);
-    const real damaged =
-        tips_area(&e->fracture.tips, &e->part, source->mirror, source->mirrors, scene_section(e->scene));
+    const real damaged = tips_area(&e->fracture.tips, &e->part, &around);
     const bool by_paths = led > 0 && damaged <= led + spacing;
     const real area = by_paths ? led : damaged, growth = by_paths ? 0 : GROWTH * spacing;
     r->released = statics_released(e);

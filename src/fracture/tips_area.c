@@ -1,18 +1,14 @@
 /* Area of the faces that cracks have made. The front of a pre-crack is looked at in strips a spacing wide: in each the
- * crack reaches as far as the cell of its farthest particle goes, which is one that has lost nearly all bonds across
- * the crack. Of cracks that began elsewhere, half of the particles count, as each has one on the other side. */
+ * crack has come as far as particles go, one after another, that have lost half of what a plane cut takes, which is
+ * where a spread-out front has its middle. Of cracks that began elsewhere, half of the particles count, as each has one
+ * on the other side. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "tips_parts.h"
 
 #define EQUAL 1e-6 /* lengths that differ by less are equal [spacings] */
-
-/* A strip of a front: its farthest particles, and the sum of their offsets from the front's edge. */
-struct strip {
-    real farthest, offset[DIM_MAX];
-    int64_t equals;
-};
+enum { GAP = 2 };  /* empty cells after which a strip has ended */
 
 static real front_width(const struct tip *tip, int dim) { return 2 * sqrt(dot(tip->edge, tip->edge, dim)); }
 
@@ -32,34 +28,52 @@ static int64_t strip_at(const struct tips *t, const struct tip *tip, const real 
     return at > 0 ? (int64_t)real_min(at, (real)(n - 1)) : 0;
 }
 
-/* Looks at the particles of cracks that began at a front; the second pass adds up those that are equally far. */
-static void strips_measure(const struct tips *t, const struct particles *p, const int64_t *first, struct strip *strip,
-                           bool second)
+/* A damaged particle: the front of a pre-crack that is nearest to it, and how many spacings it is ahead; -1: none. */
+struct ahead { int tip; int64_t cell; };
+
+static struct ahead ahead_of(const struct tips *t, int body, const real *X)
 {
-    for (int64_t i = 0; i < t->count; i++) {
-        real X[DIM_MAX], offset[DIM_MAX];
-        if (t->label[i] == 0 || t->label[i] == TIP_BEFORE) continue;
-        const struct tip *tip = &t->tip[t->label[i] - 1];
-        if (!tip->from_crack) continue;
-        particle_place(p, i, X);
-        struct strip *s = &strip[first[t->label[i] - 1] + strip_at(t, tip, X)];
+    struct ahead found = {-1, 0};
+    real least = INFINITY;
+    for (int k = 0; k < t->n; k++) {
+        const struct tip *tip = &t->tip[k];
+        real offset[DIM_MAX];
+        if (!tip->from_crack || tip->body != body) continue;
         const real reach = tip_offset(tip->origin, tip->edge, X, t->dim, offset);
-        const bool ahead = dot(offset, tip->along, t->dim) > -EQUAL * t->spacing;
-        if (!second && ahead) s->farthest = real_max(s->farthest, reach);
-        if (!second || !ahead || reach < s->farthest - EQUAL * t->spacing) continue;
-        for (int d = 0; d < t->dim; d++) s->offset[d] += offset[d];
-        s->equals++;
+        if (reach >= least * (1 - EQUAL)) continue;
+        const bool ahead = dot(offset, tip->along, t->dim) > EQUAL * t->spacing;
+        least = reach;
+        found = (struct ahead){ahead ? k : -1, (int64_t)(reach / t->spacing)};
     }
+    return found;
 }
 
-/* Length of the strips of a front, summed up [m]. */
-static real strips_length(const struct tips *t, const struct strip *strip, int64_t n)
+/* Marks the cells of strips in which there are particles with more damage than `least`. `deepest` [cells] of a strip;
+ * cell NULL: it is only looked for, and returned. */
+static int64_t strips_mark(const struct tips *t, const struct particles *p, real least, const int64_t *first,
+                           int64_t deepest, uint8_t *cell)
 {
-    real sum = 0;
-    for (int64_t k = 0; k < n; k++)
-        if (strip[k].equals > 0)
-            sum += sqrt(dot(strip[k].offset, strip[k].offset, t->dim)) / (real)strip[k].equals + 0.5 * t->spacing;
-    return sum;
+    int64_t deep = 0;
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
+        const int32_t i = p->list[KIND_PD][k];
+        real X[DIM_MAX];
+        if (!(p->damage[i] > least) || t->label[i] == TIP_BEFORE || p->flag[i] & FLAG_DRIVEN) continue;
+        particle_place(p, i, X);
+        const struct ahead a = ahead_of(t, p->body[i], X);
+        if (a.tip < 0) continue;
+        if (cell) cell[(first[a.tip] + strip_at(t, &t->tip[a.tip], X)) * deepest + a.cell] = 1;
+        if (a.cell > deep) deep = a.cell;
+    }
+    return deep;
+}
+
+/* Cells of a strip up to the first gap. */
+static int64_t strip_length(const uint8_t *cell, int64_t deepest)
+{
+    int64_t end = 0;
+    for (int64_t m = 0; m < deepest && m < end + GAP; m++)
+        if (cell[m]) end = m + 1;
+    return end;
 }
 
 /* Does a crack run along a plane of symmetry, so that the body has one of its faces? */
@@ -74,24 +88,23 @@ static bool tip_on_mirror(const struct tips *t, const struct tip *tip, const str
     return on;
 }
 
-real tips_area(const struct tips *t, const struct particles *p, const struct mirror_plane *mirror, int mirrors,
-               real section)
+real tips_area(const struct tips *t, const struct particles *p, const struct tip_surroundings *s)
 {
     int64_t first[TIPS_MAX + 1] = {0};
     real area = 0;
     for (int k = 0; k < t->n; k++) first[k + 1] = first[k] + strips_of(t, &t->tip[k]);
-    struct strip *strip = NEW("tips.strip", first[t->n], struct strip);
-    strips_measure(t, p, first, strip, false);
-    strips_measure(t, p, first, strip, true);
+    const int64_t deepest = strips_mark(t, p, s->half, first, 0, NULL) + 1;
+    uint8_t *cell = NEW("tips.cell", first[t->n] * deepest, uint8_t);
+    strips_mark(t, p, s->half, first, deepest, cell);
     for (int k = 0; k < t->n; k++) {
         const struct tip *tip = &t->tip[k];
         const int64_t n = first[k + 1] - first[k];
-        const real wide = t->dim == 3 ? front_width(tip, 3) / (real)n : section;
-        if (tip->from_crack)
-            area += strips_length(t, strip + first[k], n) * wide * (tip_on_mirror(t, tip, mirror, mirrors) ? 0.5 : 1);
-        else
-            area += 0.5 * (real)tip->particles * pow(t->spacing, t->dim - 1) * section;
+        const real wide = t->dim == 3 ? front_width(tip, 3) / (real)n : s->section;
+        const real part = tip_on_mirror(t, tip, s->mirror, s->mirrors) ? 0.5 : 1;
+        for (int64_t b = first[k]; b < first[k + 1] && tip->from_crack; b++)
+            area += part * wide * t->spacing * (real)strip_length(cell + b * deepest, deepest);
+        if (!tip->from_crack) area += 0.5 * (real)tip->particles * pow(t->spacing, t->dim - 1) * s->section;
     }
-    memory_free(strip);
+    memory_free(cell);
     return area;
 }

@@ -205,19 +205,20 @@ static void tips_area_in_the_plane(void **state)
     struct body b;
     struct tips t;
     const struct mirror_plane along = {.axis = 1, .outside = -1, .at = 10.5}, across = {.axis = 0, .at = 10};
+    const struct tip_surroundings around = {NULL, 0, 2, 0.2}, on = {&along, 1, 2, 0.2}, beside = {&across, 1, 2, 0.2};
     notched_make(&b, &t, 4);
     tips_sample(&t, &b.p, &b.c, 0);
-    assert_near(tips_area(&t, &b.p, NULL, 0, 2), 0, 0);
+    assert_near(tips_area(&t, &b.p, &around), 0, 0);
     for (real x = 10.5; x < 15; x++) hurt(&b, x, 10.5, 0), hurt(&b, x, 9.5, 0), hurt(&b, x, 11.5, 0);
     tips_sample(&t, &b.p, &b.c, 1);
-    assert_near(tips_area(&t, &b.p, NULL, 0, 2), 2 * 5, ROUND_OFF);
-    assert_near(tips_area(&t, &b.p, &along, 1, 2), 5, ROUND_OFF);
-    assert_near(tips_area(&t, &b.p, &across, 1, 2), 2 * 5, ROUND_OFF);
+    assert_near(tips_area(&t, &b.p, &around), 2 * 5, ROUND_OFF);
+    assert_near(tips_area(&t, &b.p, &on), 5, ROUND_OFF);
+    assert_near(tips_area(&t, &b.p, &beside), 2 * 5, ROUND_OFF);
     hurt(&b, 15.5, 12.5, 0), hurt(&b, 16.5, 13.5, 0);
     for (real x = 30.5; x < 33; x++) hurt(&b, x, 4.5, 0), hurt(&b, x, 3.5, 0);
     tips_sample(&t, &b.p, &b.c, 2);
     assert_int_equal(t.n, 2);
-    assert_near(tips_area(&t, &b.p, NULL, 0, 2), 2 * (hypot(6.5, 3) + 0.5 + 3), ROUND_OFF);
+    assert_near(tips_area(&t, &b.p, &around), 2 * (ceil(hypot(6.5, 3)) + 3), ROUND_OFF);
     notched_free(&b, &t);
 }
 
@@ -237,7 +238,7 @@ static void tips_area_of_a_front(void **state)
         for (real x = 5.5; x < (z < 3 ? 8 : 6); x++) hurt(&b, x, 3.5, z), hurt(&b, x, 2.5, z);
     tips_sample(&t, &b.p, &b.c, 0);
     const real strip = 2 * fabs(t.tip[0].edge[2]) / 6;
-    assert_near(tips_area(&t, &b.p, NULL, 0, 1), (3 * 3 + 3 * 1) * strip, ROUND_OFF);
+    assert_near(tips_area(&t, &b.p, &(struct tip_surroundings){NULL, 0, 1, 0.2}), (3 * 3 + 3 * 1) * strip, ROUND_OFF);
     notched_free(&b, &t);
 }
 
