@@ -173,14 +173,6 @@ static void account_end(struct account *a, struct engine *e, real *const *before
 
 static status unbalanced(const struct engine *e);
 
-/* What may meet, by where particles and bonds are now: trials break bonds and mend them. */
-static void statics_contact_search(struct engine *e)
-{
-    e->contact.due = true;
-    contact_update(&e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->statics.solutions,
-                   e->diagnostics.bonds_broken, e->coupling.conversion.converted + e->coupling.conversion.reverted);
-}
-
 status statics_solve(struct engine *e, real t)
 {
     struct statics *s = &e->statics;
@@ -194,7 +186,6 @@ status statics_solve(struct engine *e, real t)
     statics_applied_make(e, t);
     if (s->parted) statics_pieces_make(e);
     way_make(e, t, account.applied);
-    statics_contact_search(e);
     s->balance.applied = applied_norm(e);
     if (!s->precondition) s->balance.noise = round_off_of(e);
     const int64_t asked = s->balance.directions;

@@ -268,7 +268,7 @@ static void applied_add(struct engine *e)
     }
 }
 
-/* The forces of a step (engine.c) without motion: of bonds, contact, loads and cells. */
+/* The forces of a step (engine.c) without motion and contact: of bonds, loads and cells. */
 static void forces_here(struct engine *e)
 {
     const bool has_mesh = e->reference.mesh.points > 0;
@@ -280,7 +280,6 @@ static void forces_here(struct engine *e)
     loads_clear(&e->loads, &e->part);
     statics_plastic_restore(e); /* whatever has been tried since the last equilibrium */
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
-    contact_force(&e->contact, &e->part, 0);
     applied_add(e);
     if (has_mesh) engine_nodes_force(e), mirror_nodes_give(&e->reference.mesh);
 }

@@ -116,7 +116,7 @@ static status load_step(struct engine *e)
     const struct scene *s = e->scene;
     const real most = s->duration / (real)s->steps.number;
     if (e->statics.precondition && e->statics.stale) statics_precondition_free(e);
-    e->statics.directions = 0;           /* as in a run that goes on from here, which makes one for the same bonds */
+    e->statics.directions = 0; /* as in a run that goes on from here, which makes one for the same bonds */
     switch (s->steps.control) {
     case CONTROL_LOAD:
         return step_by_load(e, most * (real)(e->clock.step + 1));
@@ -141,11 +141,21 @@ status statics_check(const struct engine *e)
     return OK;
 }
 
+/* Says that a crack has been pressed shut. */
+static void say_closed(struct engine *e)
+{
+    real K[MODES];
+    led_factors(e, K);
+    if (K[MODE_I] < 0)
+        engine_say(e, "K_I of a crack is negative: its faces are pressed together, and do not meet in load steps; they "
+                      "pass through each other");
+}
+
 status engine_steps(struct engine *e)
 {
     TRY(engine_report_start(e));
     laps_start(&e->report.laps);
-    if (!e->statics.node) statics_unknowns_make(e);  /* a run that goes on has them */
+    if (!e->statics.node) statics_unknowns_make(e); /* a run that goes on has them */
     for (int k = 0; k < 2; k++) e->statics.opens[k] = nearest(&e->part, k ? e->scene->steps.to : e->scene->steps.from);
     if (e->clock.step == 0) engine_sample_rest(e);
     while (e->clock.step < e->clock.steps) {
@@ -160,6 +170,7 @@ status engine_steps(struct engine *e)
         statics_record_keep(e);
         if (e->statics.t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
         lap(&e->report.laps, LAP_BONDS);
+        if (e->clock.step == e->clock.steps) say_closed(e);
         TRY(engine_report(e));
     }
     statics_free(e);

@@ -131,6 +131,12 @@ static void warn_of_speed(const struct engine *e, struct warnings *to)
 static void warn_of_solver(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
+    if (scene_in_steps(s) && scene_bodies_meet(s))
+        warnings_add(to, "bodies do not meet in load steps: they pass through each other where they close");
+    for (int m = 0; m < s->materials && scene_in_steps(s); m++)
+        if (material_yields(&s->material[m]) && isfinite(s->material[m].critical_stretch))
+            warnings_add(to, "bonds of %s yield: load steps charge a crack with what they hold elastically at their "
+                         "limit, not with plastic work, so that it comes too early", s->material[m].name);
     if (!scene_at_rest(s)) return;
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)

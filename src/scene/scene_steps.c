@@ -18,12 +18,6 @@ static status check_steps_motion(struct reader *r, const struct node *root)
         return fault(r, tree_at(root, "contact.friction"),
                      "friction has no energy to be in equilibrium with; 0, or "
                      "solver: explicit, is expected");
-    for (int m = 0; m < s->materials; m++)
-        if (material_yields(&s->material[m]) && isfinite(s->material[m].critical_stretch))
-            return fault(r, solver,
-                         "what a crack costs where bonds yield is not known to load steps: %s, which yields, without a "
-                         "limit of its bonds, or solver: explicit, is expected",
-                         s->material[m].name);
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
             return fault(r, node_find(root, "initial"), "load steps know no velocities; solver: explicit is expected");

@@ -92,7 +92,8 @@ wait
 shaking()
 {
     awk -F, '
-        NR > 1 { t[NR - 1] = $1; force[NR - 1] = $NF; n = NR - 1 }
+        NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /force_y/) column = i }
+        NR > 1 { t[NR - 1] = $1; force[NR - 1] = $column; n = NR - 1 }
         END {
             for (j = -12; j <= 12; j++) { s0++; s2 += j * j; s4 += j ^ 4 }
             for (i = 13; i <= n - 12; i++) {
