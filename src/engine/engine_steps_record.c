@@ -109,7 +109,8 @@ real engine_load_size(const struct engine *e, real t) { return statics_load_size
 status engine_equilibrium_try(struct engine *e, real t)
 {
     statics_unknowns_make(e);
-    return statics_go(e, t);
+    TRY(statics_go(e, t));
+    return statics_unheld(e);
 }
 
 void statics_record_keep(struct engine *e)

@@ -1,0 +1,146 @@
+#!/bin/sh
+# Load steps from the command line: what a run leaves, pictures, the same bits on any number of threads and after stops between any
+# two load steps, what `cleave check` says, what is refused, and a run that finds no equilibrium.
+test_name=test_steps
+. tests/support/summary.sh
+. tests/support/trust.sh
+seed=5
+export OMP_WAIT_POLICY=passive
+
+# A notched plate between grips, of 400 particles.
+cat >"$work/pulled.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 1 s
+method: pd
+solver: static
+steps: {number: 6, control: energy}
+material: {young: 200 GPa, poisson: 1/3, density: 7850 kg/m^3, energy_release_rate: 100 J/m^2}
+body: {box: {from: [0, 0], to: [20 mm, 20 mm]}}
+particles: {spacing: 1 mm, horizon: 3.015}
+cracks: [{from: [-1 mm, 10 mm], to: [8 mm, 10 mm]}]
+boundary:
+  - {name: top, displacement: [0, 0.05 mm], time: {ramp: {until: 1 s}}, region: {box: {from: [0, 17 mm], to: [20 mm, 21 mm]}}}
+  - {name: bottom, fixed: [x, y], region: {box: {from: [0, -1 mm], to: [20 mm, 3 mm]}}}
+probes: [{reaction: {boundary: top}}, {reaction: {name: below, boundary: bottom}}, tip, break, {point: {name: gauge, at: [10 mm, 15 mm]}}]
+output: {frames: 3}
+END
+pulled=$work/pulled.yaml
+grips='boundary=[{name: top, traction: [0, 100 MPa], face: y+, time: {ramp: {until: 1 s}}},'
+last() { column "$1" "$2" 9; }
+
+# ---- what a run leaves ---------------------------------------------------------------------------------------------
+
+calm "$work/led" $pulled -t 1
+led=$work/led
+is "lines of history" "$(wc -l <"$led/history.csv")" 8
+is "frames, one at the start" "$(ls "$led/frames" | wc -l)" 4
+is "steps" "$(figure "$led" load_steps.steps)" 6
+is "control" "$(figure "$led" load_steps.control)" energy
+is "the first break" "$(figure "$led" crack.start_step)" 2
+is "the tip grows" "$(figure "$led" crack.tip_start_step)" 2
+is "a break probe sees it" "$(figure "$led" probes.break.first_step)" 2
+absent "no time of a break" "$(figure "$led" crack.start_time)"
+absent "no speed of a tip" "$(figure "$led" crack.tip_speed_max)"
+absent "nor of a probe's" "$(figure "$led" probes.tip.speed_mean)"
+is "the peak is at the first" "$(figure "$led" probes.reaction.force_max_step)" 1
+near "its displacement is that of the grip" "$(figure "$led" probes.reaction.force_max_displacement)" "$(column "$led" reaction.displacement_y 0.17)" 1e-8
+near "both grips bear the same" "$(last "$led" reaction.force_y)" "$(compute "-($(last "$led" below.force_y))")" 1e-5
+is "five advances of two spacings" "$(last "$led" crack_area)" 1e-05
+is "in the summary, too" "$(compute "$(figure "$led" load_steps.crack_area)")" 1e-05
+# bonds across a line of the lattice hold 0.987 G_c; the last advance, near the edge, is 1 % off that
+between "release rate" "$(figure "$led" load_steps.release_rate)" 97 101
+between "release rate of the fourth" "$(column "$led" release_rate 0.7)" 98 99.5
+near "released is what bonds held and what was lost" "$(last "$led" released)" "$(compute "$(last "$led" fracture) + $(last "$led" damped)")" 1e-6
+# work of supports by the mean of two equilibria: second order in strains of 1e-3
+between "balance" "$(figure "$led" energy.balance_error)" -3e-4 3e-4
+is "nothing moves" "$(last "$led" gauge.velocity_y)$(last "$led" kinetic)" 00
+between "equilibria of a step" "$(last "$led" equilibria)" 2 10
+between "directions of a step" "$(last "$led" directions)" 5 200
+
+# the J-integral round a tip that has moved, of another kind, is what was released; 4 % by bonds of a horizon of 3
+calm "$work/sif" $pulled -t 1 -s particles.spacing=0.5mm -s steps.number=5 -s 'probes=[{sif: {outer: 5 mm, contours: [4 mm, 5 mm]}}]'
+between "J of the grown crack" "$(last "$work/sif" sif.J)" 94 103
+near "K_I fits it" "$(last "$work/sif" sif.K_I)" "$(compute "sqrt(200e9 * $(last "$work/sif" sif.J))")" 0.05
+
+# ---- pictures ------------------------------------------------------------------------------------------------------
+
+if command -v gnuplot >/dev/null; then
+    "$cleave" plot "$led" >"$work/out" 2>"$work/err"
+    is "plot: status" $? 0
+    for picture in load_displacement r_curve crack energy damage; do
+        holds "$picture.png is made" test -s "$led/pictures/$picture.png"
+    done
+    "$cleave" run -q -o "$work/blind" $pulled -s 'probes=[]' -s steps.number=1 2>"$work/err"
+    "$cleave" plot "$work/blind" >"$work/out" 2>&1
+    holds "without probes there is no such curve" grep -q 'load_displacement.png is not drawn: no reaction probe' "$work/out"
+    holds "without growth no R-curve" grep -q 'r_curve.png is not drawn: no crack has grown' "$work/out"
+fi
+
+# ---- the same bits -------------------------------------------------------------------------------------------------
+
+# piecewise FOLDER ARGUMENTS: a run that stops after every load step, and goes on.
+piecewise()
+{
+    to=$1 parts=0 status=130; shift
+    while [ $status -eq 130 ] && [ $parts -lt 40 ]; do
+        "$cleave" run -q -o "$to" "$@" -s time.wall=1us --resume 2>"$work/err"
+        status=$?
+        parts=$((parts + 1))
+    done
+    is "$to: status, $(cat "$work/err")" $status 0
+}
+
+# bits WHAT ARGUMENTS: on 1 and 2 threads, and stopped after every load step.
+bits()
+{
+    what=$1; shift
+    "$cleave" run -q -o "$work/$what" "$pulled" -t 1 "$@" 2>"$work/err" || fail "$what: $(cat "$work/err")"
+    "$cleave" run -q -o "$work/${what}_2" "$pulled" -t 2 "$@" 2>"$work/err"
+    same "$what: 1 and 2 threads" "$work/$what" "$work/${what}_2"
+    piecewise "$work/${what}_parts" "$pulled" -t 1 "$@"
+    between "$what: stops" $parts 4 9
+    same "$what: in pieces" "$work/$what" "$work/${what}_parts"
+}
+
+bits hoop
+bits bonds -s steps.path=bonds -s steps.number=4
+bits opened -s steps.control=opening -s 'steps.from=[0, 9 mm]' -s 'steps.to=[0, 11 mm]' -s steps.opening=6um -s steps.number=5
+bits adaptive -s method=adaptive -s mpm.frame=reference -s steps.number=4
+bits states -s model=ospd -s steps.number=4
+
+# killed, whatever it is at
+kills 3 "$led" $pulled
+
+# ---- check -----------------------------------------------------------------------------------------------------------
+
+"$cleave" check $pulled >"$work/out" 2>&1
+is "check: status" $? 0
+holds "check: solver" grep -q '^solver  *static: 6 load steps at the most, by energy' "$work/out"
+holds "check: what leads the crack" grep -q '^cracks  *1 tip is led' "$work/out"
+holds "check: spacings" grep -q 'unresolved: tip at (0.008, 0.01) m: 8 spacings of crack behind it' "$work/out"
+holds "check: cost" grep -q '^run time  *up to about .* equilibria' "$work/out"
+holds "check: no word of time steps and waves" sh -c "! grep -q 'time step\|wave' '$work/out'"
+"$cleave" check $pulled -s 'probes=[]' -s 'boundary=[{traction: [0, "1 MPa*cos(t/s)"], face: y+}, {fixed: [x, y], face: y-}]' >"$work/out" 2>&1
+holds "check: loads that are there at once" grep -q 'unresolved: 100 % of the largest loads are there before' "$work/out"
+holds "check: loads that fall" grep -q 'unresolved: loads fall before' "$work/out"
+"$cleave" check $pulled -s "$grips]" -s 'probes=[]' >"$work/out" 2>"$work/err"
+is "check: nothing holds it: status" $? 1
+holds "check: nothing holds it" grep -q 'nothing holds the body' "$work/err"
+
+# ---- what is refused, what fails -----------------------------------------------------------------------------------
+
+no() { what=$1 text=$2; shift 2; refused "$what" "$work/no" "$text" $pulled "$@"; holds "$what: no folder" test ! -e "$work/no"; }
+no "a control that is none" 'control' -s steps.control=crack
+no "opening of nothing" 'steps.from and steps.to' -s steps.control=opening
+no "friction" 'friction' -s contact.friction=0.3
+no "a release in time under energy" 'control load' -s steps.then=explicit
+no "no load" 'nothing loads the body' -s 'boundary=[{name: top, fixed: [x], face: y+}, {name: bottom, fixed: [x, y], face: y-}]'
+no "waves" 'initial' -s 'initial=[{velocity: [1, 0]}]'
+no "no load step" 'number' -s steps.number=0
+
+stopped "nothing holds it" "$work/loose" 'load step 1, .*nothing holds the body .*, round x = .* hold it there' $pulled -s "$grips]" -s 'probes=[]'
+is "nothing holds it: summary" "$(figure "$work/loose" status)" failed
+holds "nothing holds it: a checkpoint" test -s "$work/loose/checkpoint.h5"
+
+finish
