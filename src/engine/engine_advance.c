@@ -216,18 +216,25 @@ status statics_advance_balanced(struct engine *e)
     return statics_advance(e);
 }
 
-status statics_advance(struct engine *e)
+int64_t statics_advance_break(struct engine *e)
 {
     struct statics *s = &e->statics;
+    const int64_t broken = s->next.n;
     statics_break_listed(e, &s->next);
     led_advance(e);
-    const int64_t broken = s->next.n;
     s->behind = s->ahead, s->ahead = (struct advance){0};
     s->next.n = 0;
-    TRY(statics_go(e, s->t));
+    return broken;
+}
+
+status statics_advance_settle(struct engine *e, int64_t broken)
+{
+    TRY(statics_go(e, e->statics.t));
     statics_plastic_keep(e);
     return statics_convert(e, broken);
 }
+
+status statics_advance(struct engine *e) { return statics_advance_settle(e, statics_advance_break(e)); }
 
 status statics_convert(struct engine *e, int64_t broken)
 {

@@ -15,16 +15,6 @@ enum { CLAIMS_MOST = 4 };
 
 /* ---- bonds that a stretch cuts ----------------------------------------------------------------------------------- */
 
-static void record_add(struct break_list *l, const struct broken_bond *record)
-{
-    if (l->n == l->room) {
-        const int64_t larger = l->room ? 2 * l->room : 64;
-        l->bond = memory_resize("statics.broken", l->bond, l->room, larger, sizeof *l->bond);
-        l->room = larger;
-    }
-    l->bond[l->n++] = *record;
-}
-
 /* Adds the bonds of a row that one of the ways cuts. */
 static void cut_row(const struct engine *e, const struct crack_list *ways, int64_t r, struct break_list *l)
 {
@@ -40,7 +30,7 @@ static void cut_row(const struct engine *e, const struct crack_list *ways, int64
         for (int w = 0; w < ways->n; w++) cut |= crack_cuts(&ways->crack[w], X, Y, 2);
         if (!cut) continue;
         const struct broken_bond record = statics_bond_record(e, &it.bond, r);
-        record_add(l, &record);
+        break_list_add(l, &record);
     }
 }
 
@@ -168,7 +158,7 @@ static void advance_choose(struct engine *e, struct break_list *list)
         tip->comes = isfinite(tip->due) && tip->due <= first * (1 + TOGETHER);
         if (!tip->comes) continue;
         for (int64_t q = 0; q < list[k].n; q++)
-            if (!list_has(&s->next, &list[k].bond[q])) record_add(&s->next, &list[k].bond[q]);
+            if (!list_has(&s->next, &list[k].bond[q])) break_list_add(&s->next, &list[k].bond[q]);
         s->ahead.cost += tip->ahead.cost, s->ahead.release += tip->ahead.release;
         s->behind.cost += tip->behind.cost, s->behind.release += tip->behind.release;
     }

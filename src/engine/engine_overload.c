@@ -123,18 +123,24 @@ static real least_to_break(const real *load, int64_t n, real least, int64_t most
     return real_max(least, down_to);
 }
 
+void break_list_add(struct break_list *l, const struct broken_bond *record)
+{
+    if (l->n == l->room) {
+        const int64_t larger = l->room ? 2 * l->room : 64;
+        l->bond = memory_resize("statics.broken", l->bond, l->room, larger, sizeof *l->bond);
+        l->room = larger;
+    }
+    l->bond[l->n++] = *record;
+}
+
 /* Adds those above `down_to` to the list of the advance; returns the mean square of their overloads. */
 static real broken_add(struct break_list *l, const real *load, const struct broken_bond *record, int64_t n,
                        real down_to)
 {
     real sum = 0;
     int64_t added = 0;
-    if (l->room < l->n + n) {
-        l->bond = memory_resize("statics.broken", l->bond, l->room, 2 * (l->n + n), sizeof *l->bond);
-        l->room = 2 * (l->n + n);
-    }
     for (int64_t k = 0; k < n; k++)
-        if (load[k] > down_to) l->bond[l->n++] = record[k], sum += square(load[k]), added++;
+        if (load[k] > down_to) break_list_add(l, &record[k]), sum += square(load[k]), added++;
     return added > 0 ? sum / (real)added : 1;
 }
 

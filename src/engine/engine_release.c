@@ -93,11 +93,8 @@ status statics_release(struct engine *e)
     struct statics *s = &e->statics;
     const struct run_clock clock = e->clock;
     const real before = energy_held(e), damped = e->coupling.damped;
-    int64_t broken = s->next.n, more;
-    statics_break_listed(e, &s->next);
-    led_advance(e);
-    s->behind = s->ahead, s->ahead = (struct advance){0};
-    s->next.n = 0;
+    const int64_t broken = statics_advance_break(e);
+    int64_t more;
     velocities_scale(e, 0);
     boundaries_hold(e, s->t);
     e->clock = (struct run_clock){clock.t, s->dt, clock.dt_critical, 1, INT64_MAX, 1};
@@ -114,7 +111,5 @@ status statics_release(struct engine *e)
     statics_precondition_free(e);
     statics_unknowns_free(e);
     statics_unknowns_make(e);
-    TRY(statics_go(e, s->t));
-    statics_plastic_keep(e);
-    return statics_convert(e, broken + more);
+    return statics_advance_settle(e, broken + more);
 }

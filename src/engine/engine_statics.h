@@ -53,6 +53,7 @@ int64_t statics_break(struct engine *e, real share, int64_t most, real *cost);
 void statics_break_listed(struct engine *e, const struct break_list *l);
 void statics_mend(struct engine *e, const struct break_list *l);
 /* Record of a bond of a row for such a list, with half of what a bond of a bond-based model holds at its limit [J]. */
+void break_list_add(struct break_list *l, const struct broken_bond *record);
 struct broken_bond statics_bond_record(const struct engine *e, const struct bond *bond, int64_t row);
 status statics_list_archive(struct engine *e, struct archive *a);
 
@@ -65,6 +66,9 @@ status statics_look_ahead(struct engine *e);
 /* Material points that have to become peridynamic do, until none has to; so many directed bonds have broken. */
 status statics_convert(struct engine *e, int64_t broken);
 status statics_advance(struct engine *e);
+/* Its two parts: its bonds break, directed ones are counted; equilibrium, and conversion after so many. */
+int64_t statics_advance_break(struct engine *e);
+status statics_advance_settle(struct engine *e, int64_t broken);
 /* The same where it pays for itself, which loads go to first. */
 status statics_advance_balanced(struct engine *e);
 /* Lets the body go at the next advance, in time, until it is at rest again (engine_release.c). */

@@ -52,23 +52,8 @@ static status step_by_energy(struct engine *e, real most)
     return statics_go(e, s->advances ? statics_time_of_size(e, s->due) : t);
 }
 
-/* Goes to the pseudo-time at which a measure of the state has this value, by secants from `t` [s] on. */
-typedef real measure_fn(const struct engine *e);
-static status go_to(struct engine *e, measure_fn *measure, real value, real error, real t)
-{
-    real from = e->statics.t, at_from = measure(e);
-    for (int k = 0; k < SECANTS_MOST; k++) {
-        TRY(statics_go(e, real_max(t, 0)));
-        const real at = measure(e), slope = (at - at_from) / (e->statics.t - from);
-        if (fabs(at - value) <= error * fabs(value) || e->statics.t == from || !(slope != 0)) return OK;
-        from = e->statics.t, at_from = at;
-        t = from + (value - at) / slope;
-    }
-    return OK;
-}
-
 /* How far the places of control opening have moved apart [m]. */
-static real opening_measure(const struct engine *e)
+static real opening_now(const struct engine *e)
 {
     real now = 0, was = 0;
     for (int d = 0; d < e->part.dim; d++) {
@@ -79,18 +64,32 @@ static real opening_measure(const struct engine *e)
     return sqrt(now) - sqrt(was);
 }
 
+/* Goes to the pseudo-time at which the opening has this width [m], by secants from `t` [s] on. */
+static status open_to(struct engine *e, real wanted, real t)
+{
+    real from = e->statics.t, at_from = opening_now(e);
+    for (int k = 0; k < SECANTS_MOST; k++) {
+        TRY(statics_go(e, real_max(t, 0)));
+        const real at = opening_now(e), slope = (at - at_from) / (e->statics.t - from);
+        if (fabs(at - wanted) <= OPENING_ERROR * fabs(wanted) || e->statics.t == from || !(slope != 0)) return OK;
+        from = e->statics.t, at_from = at;
+        t = from + (wanted - at) / slope;
+    }
+    return OK;
+}
+
 /* The opening grows by a step; pseudo-time follows, and bonds break until no advance pays any more. */
 static status step_by_opening(struct engine *e)
 {
     const struct scene_steps *s = &e->scene->steps;
-    const real wanted = s->opening * (real)(e->clock.step + 1) / (real)s->number, now = opening_measure(e);
+    const real wanted = s->opening * (real)(e->clock.step + 1) / (real)s->number, now = opening_now(e);
     const real first = e->scene->duration / (real)s->number;
-    TRY(go_to(e, opening_measure, wanted, OPENING_ERROR, now > 0 ? e->statics.t * wanted / now : e->statics.t + first));
+    TRY(open_to(e, wanted, now > 0 ? e->statics.t * wanted / now : e->statics.t + first));
     TRY(statics_convert(e, 0));
     TRY(statics_look_ahead(e));
     while (advance_due(e)) {
         TRY(statics_advance_balanced(e));
-        TRY(go_to(e, opening_measure, wanted, OPENING_ERROR, e->statics.t * wanted / opening_measure(e)));
+        TRY(open_to(e, wanted, e->statics.t * wanted / opening_now(e)));
         TRY(statics_look_ahead(e));
     }
     return OK;

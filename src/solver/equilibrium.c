@@ -35,11 +35,10 @@ enum { LOOKS_MOST = 10 };        /* for the length of a correction */
 
 /* ---- vectors ----------------------------------------------------------------------------------------------------- */
 
-static struct field *const *all_fields(struct equilibrium *q, struct field **list)
+static void all_fields(struct equilibrium *q, struct field **list)
 {
     struct field *const fields[] = {&q->u, &q->f, &q->d, &q->q, &q->r, &q->z, &q->x, &q->at, &q->before};
     memcpy(list, fields, sizeof fields);
-    return list;
 }
 enum { FIELDS = 9 };
 
@@ -112,24 +111,31 @@ static void forces_at(struct equilibrium *q, const struct field *u, struct field
     q->forces++;
 }
 
-static void square_block(const void *context, int64_t first, int64_t end, real *sum)
+/* Plain products: vectors whose held components are 0, or count, too. */
+static void plain_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct product *s = context;
     for (int d = 0; d < s->q->dim; d++) {
+        const real *a = s->a->of[d], *b = s->b->of[d];
         real part = 0;
 #pragma omp simd reduction(+ : part)
-        for (int64_t i = first; i < end; i++) part += s->a->of[d][i] * s->a->of[d][i];
+        for (int64_t i = first; i < end; i++) part += a[i] * b[i];
         *sum += part;
     }
+}
+
+static real dot_all(const struct equilibrium *q, const struct field *a, const struct field *b)
+{
+    real sum;
+    team_sums(q->n, 1, plain_block, &(struct product){q, a, b}, &sum);
+    return sum;
 }
 
 /* Widths over which the largest component `most` of a way [m] stands for a turn of bonds: as wide as the region of the
  * nodes that move [m]. */
 static real turning_width(const struct equilibrium *q, const struct field *way, real most)
 {
-    real square_sum;
-    team_sums(q->n, 1, square_block, &(struct product){q, way, way}, &square_sum);
-    return q->length * pow(real_max(1, square_sum / square(most)), 1.0 / q->dim);
+    return q->length * pow(real_max(1, dot_all(q, way, way) / square(most)), 1.0 / q->dim);
 }
 
 /* Share of a way over which forces are differenced: limits to strains, and to turns where only few nodes move. `most`:
@@ -209,31 +215,6 @@ struct step {
     real scale;
 };
 
-/* Plain products: vectors whose held components are 0. */
-static void stiff_block(const void *context, int64_t first, int64_t end, real *sum)
-{
-    const struct equilibrium *q = context;
-    for (int d = 0; d < q->dim; d++) {
-        const real *a = q->d.of[d], *b = q->q.of[d];
-        real part = 0;
-#pragma omp simd reduction(+ : part)
-        for (int64_t i = first; i < end; i++) part += a[i] * b[i];
-        *sum += part;
-    }
-}
-
-static void preconditioned_block(const void *context, int64_t first, int64_t end, real *sum)
-{
-    const struct equilibrium *q = context;
-    for (int d = 0; d < q->dim; d++) {
-        const real *a = q->r.of[d], *b = q->z.of[d];
-        real part = 0;
-#pragma omp simd reduction(+ : part)
-        for (int64_t i = first; i < end; i++) part += a[i] * b[i];
-        *sum += part;
-    }
-}
-
 /* x += scale d, r -= scale K d of free components; adds up r . r. */
 static void advance_block(const void *context, int64_t first, int64_t end, real *sum)
 {
@@ -264,7 +245,7 @@ static void give_way(struct equilibrium *q)
  * there as a body does that gives way (Steihaug 1983); not if supports are on their way. */
 static void correction(struct equilibrium *q, real wanted, bool prescribed)
 {
-    real rz = 0, next, curvature, left2, best2 = INFINITY;
+    real rz = 0, left2, best2 = INFINITY;
     int best = 0;
     residual_of_guess(q);
     left2 = dot_free(q, &q->r, &q->r);
@@ -272,12 +253,12 @@ static void correction(struct equilibrium *q, real wanted, bool prescribed)
     for (int k = 0; k < DIRECTIONS_MOST && left2 > square(wanted) && k - best < DIRECTIONS_IDLE; k++) {
         if (left2 < 0.5 * best2) best2 = left2, best = k;
         q->precondition(q->context, &q->r, &q->z);
-        team_sums(q->n, 1, preconditioned_block, q, &next);
+        const real next = dot_all(q, &q->r, &q->z);
         if (!(next > 0)) break;
         combine(q, &q->d, 1, &q->z, k > 0 ? next / rz : 0, &q->d);
         rz = next;
         stiffness(q, &q->d, &q->q);
-        team_sums(q->n, 1, stiff_block, q, &curvature);
+        const real curvature = dot_all(q, &q->d, &q->q);
         q->directions++;
         if (!(curvature > 0)) {
             if (!prescribed) give_way(q);
