@@ -184,6 +184,8 @@ void particles_sort(struct particles *p, real spacing, int optional);
 /* Least and largest reference position along d of the first n particles [m]; INFINITY, -INFINITY of none. Of the body:
  * those that are not made count. */
 void particles_extent(const struct particles *p, int64_t n, int d, real *low, real *high);
+/* The particle of the body whose reference position is nearest to X; the first of equals. */
+int64_t particles_nearest(const struct particles *p, const real *X);
 /* Longest edge of the box round the body's particles [m]. */
 real particles_longest(const struct particles *p);
 

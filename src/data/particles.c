@@ -153,6 +153,18 @@ void particles_extent(const struct particles *p, int64_t n, int d, real *low, re
     *low = least, *high = most;
 }
 
+int64_t particles_nearest(const struct particles *p, const real *X)
+{
+    int64_t nearest = 0;
+    real least = INFINITY;
+    for (int64_t i = 0; i < p->n; i++) {
+        real away = 0;
+        for (int d = 0; d < p->dim; d++) away += square(p->X[d][i] - X[d]);
+        if (away < least) least = away, nearest = i;
+    }
+    return nearest;
+}
+
 real particles_longest(const struct particles *p)
 {
     real low, high, longest = 0;

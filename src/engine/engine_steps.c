@@ -95,19 +95,6 @@ static status step_by_opening(struct engine *e)
     return OK;
 }
 
-/* The particle nearest to a place. */
-static int64_t nearest(const struct particles *p, const real *X)
-{
-    int64_t at = 0;
-    real least = INFINITY;
-    for (int64_t i = 0; i < p->n; i++) {
-        real away = 0;
-        for (int d = 0; d < p->dim; d++) away += square(p->X[d][i] - X[d]);
-        if (away < least) least = away, at = i;
-    }
-    return at;
-}
-
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
 static status load_step(struct engine *e)
@@ -155,7 +142,8 @@ status engine_steps(struct engine *e)
     TRY(engine_report_start(e));
     laps_start(&e->report.laps);
     if (!e->statics.node) statics_unknowns_make(e); /* a run that goes on has them */
-    for (int k = 0; k < 2; k++) e->statics.opens[k] = nearest(&e->part, k ? e->scene->steps.to : e->scene->steps.from);
+    e->statics.opens[0] = particles_nearest(&e->part, e->scene->steps.from);
+    e->statics.opens[1] = particles_nearest(&e->part, e->scene->steps.to);
     if (e->clock.step == 0) engine_sample_rest(e);
     while (e->clock.step < e->clock.steps) {
         e->statics.record.step = e->clock.step + 1;

@@ -299,57 +299,63 @@ static real column_area(const struct columns *c, const struct boundary *b, int d
     return c->step == c->width ? area : area * pow(c->step / c->width, dim - 1);
 }
 
+/* Columns of one body after the other, of those with a selected particle:
+ *
+ *     for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) ... f.columns ... */
+struct faced {
+    bool known, has[UINT8_MAX + 1];
+    int next, body;                      /* the next body to look at, and the one at hand */
+    struct columns columns;
+};
+
+static bool faced_next(struct faced *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
+                       real spacing)
+{
+    if (f->next > 0) loads_columns_free(&f->columns);
+    for (int64_t i = 0; !f->known && i < p->n; i++) f->has[p->body[i]] |= selected[i];
+    f->known = true;
+    while (f->next <= UINT8_MAX && !f->has[f->next]) f->next++;
+    if (f->next > UINT8_MAX) return false;
+    f->body = f->next++;
+    loads_columns_make(&f->columns, b, p, f->body, spacing);
+    return true;
+}
+
 void face_every(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
                 face_found_fn *found, void *context)
 {
-    bool has[UINT8_MAX + 1] = {false};
-    for (int64_t i = 0; i < p->n; i++) has[p->body[i]] |= selected[i];
-    for (int body = 0; body <= UINT8_MAX; body++) {
-        struct columns c;
-        if (!has[body]) continue;
-        loads_columns_make(&c, b, p, body, spacing);
-        const real area = column_area(&c, b, p->dim);
-        for (int64_t column = 0; column < c.n; column++)
-            for (int64_t k = c.start[column + 1]; (k = exposed_below(&c, column, k, b, p, selected)) >= 0;)
-                if (p->body[c.order[k]] == body)
-                    found(context, c.order[k], area > 0 ? area : p->volume0[c.order[k]] / c.width);
-        loads_columns_free(&c);
+    for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) {
+        const struct columns *c = &f.columns;
+        const real area = column_area(c, b, p->dim);
+        for (int64_t column = 0; column < c->n; column++)
+            for (int64_t k = c->start[column + 1]; (k = exposed_below(c, column, k, b, p, selected)) >= 0;)
+                if (p->body[c->order[k]] == f.body)
+                    found(context, c->order[k], area > 0 ? area : p->volume0[c->order[k]] / c->width);
     }
 }
 
 void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
                real spacing, bool two)
 {
-    bool has[UINT8_MAX + 1] = {false};
     *f = (struct face){NEW("loads.normal", p->n, real), NEW("loads.along", p->n, real)};
-    for (int64_t i = 0; i < p->n; i++) has[p->body[i]] |= selected[i];
-    for (int body = 0; body <= UINT8_MAX; body++) {
-        struct columns c;
-        if (!has[body]) continue;
-        loads_columns_make(&c, b, p, body, spacing);
-        for (int64_t k = 0; k < c.n; k++) show(f, &c, k, b, p, selected, column_area(&c, b, p->dim), two);
-        loads_columns_free(&c);
-    }
+    for (struct faced of = {0}; faced_next(&of, b, p, selected, spacing);)
+        for (int64_t k = 0; k < of.columns.n; k++)
+            show(f, &of.columns, k, b, p, selected, column_area(&of.columns, b, p->dim), two);
 }
 
 void face_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
                 uint8_t *taken)
 {
-    bool has[UINT8_MAX + 1] = {false};
-    for (int64_t i = 0; i < p->n; i++) has[p->body[i]] |= selected[i];
-    for (int body = 0; body <= UINT8_MAX; body++) {
-        struct columns c;
-        if (!has[body]) continue;
-        loads_columns_make(&c, b, p, body, spacing);
-        for (int64_t column = 0; column < c.n; column++) {
-            const int64_t first = loads_columns_shown(&c, column, b, p, selected);
-            for (int64_t k = first; k >= 0; k = beneath(&c, column, k, b, p)) {
-                const real deep = loads_columns_height(b, p, c.order[first]) - loads_columns_height(b, p, c.order[k]);
-                if (k != first && deep + 0.5 * c.width > b->depth + LOADS_TOLERANCE * spacing) break;
-                taken[c.order[k]] |= selected[c.order[k]];
+    for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) {
+        const struct columns *c = &f.columns;
+        for (int64_t column = 0; column < c->n; column++) {
+            const int64_t first = loads_columns_shown(c, column, b, p, selected);
+            for (int64_t k = first; k >= 0; k = beneath(c, column, k, b, p)) {
+                const real deep = loads_columns_height(b, p, c->order[first]) - loads_columns_height(b, p, c->order[k]);
+                if (k != first && deep + 0.5 * c->width > b->depth + LOADS_TOLERANCE * spacing) break;
+                taken[c->order[k]] |= selected[c->order[k]];
             }
         }
-        loads_columns_free(&c);
     }
 }
 

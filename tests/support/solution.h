@@ -9,6 +9,7 @@
 
 #include "auto/scene_read.h"
 #include "engine/engine.h"
+#include "tests/support/scene_with.h"
 
 struct solution {
     struct scene s;
@@ -19,17 +20,8 @@ struct solution {
 /* Makes a run of a scene with the overrides `key=value`, up to NULL. */
 static inline void solution_make_list(struct solution *a, const char *text, va_list list)
 {
-    enum { MOST = 16 };
-    static char key[MOST][64];
-    struct scene_override override[MOST];
-    int n = 0;
-    for (const char *one; (one = va_arg(list, const char *)) != NULL; n++) {
-        const char *equal = strchr(one, '=');
-        snprintf(key[n], sizeof key[n], "%.*s", (int)(equal - one), one);
-        override[n] = (struct scene_override){key[n], equal + 1};
-    }
     memset(a, 0, sizeof *a);
-    a->made = scene_read_text(&a->s, text, strlen(text), "test.yaml", override, n);
+    a->made = scene_with(&a->s, text, list);
     a->e.report.quiet = true;
     if (a->made == OK) a->made = engine_make(&a->e, &a->s, NULL);
     a->e.report.quiet = true;
@@ -74,16 +66,7 @@ static inline void near_to(const char *what, real value, real expected, real tol
 /* The particle nearest to a place. */
 static inline int64_t solution_at(const struct solution *a, real x, real y, real z)
 {
-    const struct particles *p = &a->e.part;
-    const real X[DIM_MAX] = {x, y, z};
-    int64_t nearest = 0;
-    real least = INFINITY;
-    for (int64_t i = 0; i < p->n; i++) {
-        real r2 = 0;
-        for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - X[d]);
-        if (r2 < least) least = r2, nearest = i;
-    }
-    return nearest;
+    return particles_nearest(&a->e.part, (const real[DIM_MAX]){x, y, z});
 }
 
 static inline real solution_moved(const struct solution *a, int d, real x, real y, real z)

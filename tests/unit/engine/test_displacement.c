@@ -10,9 +10,9 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "engine/engine.h"
 #include "src/engine/engine_report.h"
+#include "tests/support/scene_with.h"
 #include "tests/support/near.h"
 
 #define BAR                                                                                                            \
@@ -37,17 +37,8 @@ struct run {
 /* Makes the engine of a scene with the overrides `key=value`, up to NULL. */
 static status run_make(struct run *a, const char *text, va_list list)
 {
-    enum { MOST = 8 };
-    static char key[MOST][64];
-    struct scene_override override[MOST];
-    int n = 0;
-    for (const char *one; (one = va_arg(list, const char *)) != NULL; n++) {
-        const char *equal = strchr(one, '=');
-        snprintf(key[n], sizeof key[n], "%.*s", (int)(equal - one), one);
-        override[n] = (struct scene_override){key[n], equal + 1};
-    }
     memset(a, 0, sizeof *a);
-    TRY(scene_read_text(&a->s, text, strlen(text), "test.yaml", override, n));
+    TRY(scene_with(&a->s, text, list));
     a->e.report.quiet = true;
     const status s = engine_make(&a->e, &a->s, NULL);
     a->e.report.quiet = true;

@@ -76,13 +76,9 @@ static int64_t at(const struct solution *a, real x, real y)
 {
     const struct particles *p = &a->e.part;
     const real X[2] = {x, y};
-    int64_t nearest = 0;
-    real least = INFINITY;
-    for (int64_t i = 0; i < p->n; i++) {
-        real r2 = 0;
-        for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - X[d]);
-        if (r2 < least) least = r2, nearest = i;
-    }
+    const int64_t nearest = particles_nearest(p, X);
+    real least = 0;
+    for (int d = 0; d < p->dim; d++) least += square(p->X[d][nearest] - X[d]);
     assert_true(least < square(0.51 * a->s.spacing) * p->dim);
     return nearest;
 }
