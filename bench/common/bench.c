@@ -21,6 +21,7 @@ static const struct bench benches[] = {
     {"sensitivity", bench_sensitivity, false}, {"steps", bench_steps, false},
     {"contact", bench_contact, false},         {"absorbing", bench_absorbing, false},
     {"uncertainty", bench_uncertainty, false}, {"pilot", bench_pilot, false},
+    {"slow", bench_slow, false},
     {"experiments", bench_experiments, true}};
 enum { BENCHES = COUNT_OF(benches) };
 
@@ -50,7 +51,7 @@ static status bench_mark(const char *word, bool *asked)
                       "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [sif] [threads] "
                       "[scale[=growth|=finest|=field]] [peers] [accuracy[=PROBLEM|=chart|=auto]] "
                       "[stability[=lasting|=CASE]] [sensitivity] [steps] [contact] [absorbing] [uncertainty] [pilot] "
-                      "[experiments] "
+                      "[slow] [experiments] "
                       "[--quick] [--readme]",
                       word);
 }

@@ -198,6 +198,9 @@ status bench_pilot(bool quick);
 /* bench_experiments.c: cracks beside laboratories and other codes. */
 status bench_experiments(bool quick);
 
+/* bench_slow.c: load steps beside linear elastic fracture mechanics. */
+status bench_slow(bool quick);
+
 /* bench_steps.c: start, length, angle and energy of cracks over the time step. */
 status bench_steps(bool quick);
 

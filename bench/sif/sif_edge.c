@@ -63,15 +63,15 @@ static void sif_edge_print_row(const struct edge_row *r)
 static status sif_edge_take_row(void *row, const char *folder)
 {
     struct edge_row *r = row;
-    r->K = sif_bench_figure(folder, "probes.sif.K_I");
-    r->spread = sif_bench_figure(folder, "probes.sif.contour_spread");
-    r->steps = sif_bench_figure(folder, "steps");
-    r->seconds = sif_bench_figure(folder, "loop_seconds");
-    r->peak = sif_bench_figure(folder, "memory_peak_bytes");
+    r->K = bench_summary_figure(folder, "probes.sif.K_I");
+    r->spread = bench_summary_figure(folder, "probes.sif.contour_spread");
+    r->steps = bench_summary_figure(folder, "steps");
+    r->seconds = bench_summary_figure(folder, "loop_seconds");
+    r->peak = bench_summary_figure(folder, "memory_peak_bytes");
     for (int k = 0; k < EDGE_RINGS; k++) {
         char key[64];
         snprintf(key, sizeof key, "probes.ring%g.K_I", paper_radius[k]);
-        r->ring[k] = sif_bench_figure(folder, key);
+        r->ring[k] = bench_summary_figure(folder, key);
     }
     sif_edge_print_row(r);
     return OK;
@@ -91,7 +91,7 @@ static status edge_add(struct edge_table *t, int model, int side, bool relaxed)
 {
     assert(t->n < EDGE_ROWS_MAX);
     struct edge_row *r = &t->row[t->n++];
-    struct sif_bench_job job = {.path = "inputs/edge_crack_k1.yaml", .row = r, .take = sif_edge_take_row};
+    struct bench_job job = {.path = "inputs/edge_crack_k1.yaml", .row = r, .take = sif_edge_take_row};
     *r = (struct edge_row){.model = model, .side = side, .relaxed = relaxed};
     bench_override(&job.overrides, "model", "%s", edge_model[model].model);
     if (edge_model[model].normalisation)
@@ -101,7 +101,7 @@ static status edge_add(struct edge_table *t, int model, int side, bool relaxed)
     bench_override(&job.overrides, "solver", "%s", relaxed ? "relaxation" : "cg");
     bench_override(&job.overrides, "output.frames", "0");
     override_probes(&job.overrides, side);
-    return sif_bench_run(&job, 1, 1);
+    return bench_jobs_run(&job, 1, 1);
 }
 
 static void sif_edge_print_header(void)
@@ -241,23 +241,23 @@ static status sif_edge_write_tables(const struct edge_table *t)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-static void sif_edge_ask(struct sif_bench_targets *asked, const struct edge_table *t)
+static void sif_edge_ask(struct bench_goals *asked, const struct edge_table *t)
 {
     for (int k = 0; k < t->n; k++) {
         const struct edge_row *r = &t->row[k];
         if (r->relaxed || r->side < 100) continue;
         if (r->model == MOSPD)
-            sif_bench_ask(asked, fabs(error_of(r->K)), 0.003, "edge crack, mospd bulk, %d a side", r->side);
+            bench_ask(asked, "%", fabs(error_of(r->K)), 0.003, "edge crack, mospd bulk, %d a side", r->side);
         if (r->model == OSPD)
-            sif_bench_ask(asked, fabs(error_of(r->K)), r->side == 100 ? 0.01 : 0.005,
+            bench_ask(asked, "%", fabs(error_of(r->K)), r->side == 100 ? 0.01 : 0.005,
                           "edge crack, ospd local, %d a side", r->side);
         if (r->side == 200 && (r->model == MOSPD || r->model == OSPD))
-            sif_bench_ask(asked, r->spread, 0.003, "edge crack, %s, 200 a side: between contours",
+            bench_ask(asked, "%", r->spread, 0.003, "edge crack, %s, 200 a side: between contours",
                         edge_model[r->model].name);
     }
 }
 
-status edge_bench(struct sif_bench_targets *asked, bool quick)
+status edge_bench(struct bench_goals *asked, bool quick)
 {
     struct edge_table t = {0};
     sif_edge_print_header();

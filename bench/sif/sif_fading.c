@@ -98,19 +98,19 @@ static status write_reactions(const struct reaction_table *t)
     return s == OK ? bench_draw("load_displacement", 1000, 560, draw_reactions, t) : s;
 }
 
-static status sif_fading_reactions(struct sif_bench_targets *asked)
+static status sif_fading_reactions(struct bench_goals *asked)
 {
     struct reaction_table t = {
         {{.name = "fading bonds", .damping = "half"}, {.name = "sudden release", .damping = "0 mm"}}};
-    struct sif_bench_job job[RELEASES];
+    struct bench_job job[RELEASES];
     printf("\n  reaction of a plate whose crack runs slowly, about a parabola that moves along\n");
     for (int k = 0; k < RELEASES; k++) {
         job[k] =
-            (struct sif_bench_job){.path = "inputs/load_displacement.yaml", .row = &t.row[k], .take = take_reaction};
+            (struct bench_job){.path = "inputs/load_displacement.yaml", .row = &t.row[k], .take = take_reaction};
         bench_override(&job[k].overrides, "growth[0].damping", "%s", t.row[k].damping);
     }
-    status s = sif_bench_run(job, RELEASES, team_make(0));
-    if (s == OK) sif_bench_ask(asked, t.row[0].rough / t.row[1].rough, 1.0 / 3, "reaction, fading over sudden");
+    status s = bench_jobs_run(job, RELEASES, team_make(0));
+    if (s == OK) bench_ask(asked, "%", t.row[0].rough / t.row[1].rough, 1.0 / 3, "reaction, fading over sudden");
     if (s == OK) s = write_reactions(&t);
     for (int k = 0; k < RELEASES; k++) memory_free(t.row[k].t), memory_free(t.row[k].force);
     return s;
@@ -153,10 +153,10 @@ static status take_path(void *row, const char *folder)
     TRY(history_read(&h, folder));
     r->ratio = modes_ratio(&h);
     history_free(&h);
-    r->angle = sif_bench_figure(folder, "probes.growth.angle_deg");
-    r->length = sif_bench_figure(folder, "probes.growth.length_end");
-    r->start = sif_bench_figure(folder, "probes.growth.start_time");
-    r->seconds = sif_bench_figure(folder, "loop_seconds");
+    r->angle = bench_summary_figure(folder, "probes.growth.angle_deg");
+    r->length = bench_summary_figure(folder, "probes.growth.length_end");
+    r->start = bench_summary_figure(folder, "probes.growth.start_time");
+    r->seconds = bench_summary_figure(folder, "loop_seconds");
     printf("  %-34s %7.1f %10.1f %10.1f %9.1f %% %8.1f\n", r->name, r->angle, 1e3 * r->length, 1e6 * r->start,
            100 * r->ratio, r->seconds);
     return OK;
@@ -165,7 +165,7 @@ static status take_path(void *row, const char *folder)
 static status paths(void)
 {
     struct path_row row[PATHS];
-    struct sif_bench_job job[PATHS];
+    struct bench_job job[PATHS];
     struct bench_table rows;
     printf(
         "\n  Kalthoff's plate, led by its factors (Imachi et al. 2019: 73.6 degrees; experiment: 70); one thread each\n"
@@ -173,11 +173,11 @@ static status paths(void)
         "", "angle", "length mm", "start us", "K_II/K_I", "s");
     for (int k = 0; k < PATHS; k++) {
         row[k] = path_row[k];
-        job[k] = (struct sif_bench_job){.path = "inputs/kalthoff_sif.yaml", .row = &row[k], .take = take_path};
+        job[k] = (struct bench_job){.path = "inputs/kalthoff_sif.yaml", .row = &row[k], .take = take_path};
         bench_override(&job[k].overrides, "output.frames", "0");
         if (row[k].key) bench_override(&job[k].overrides, row[k].key, "%s", row[k].value);
     }
-    TRY(sif_bench_run(job, PATHS, team_make(0)));
+    TRY(bench_jobs_run(job, PATHS, team_make(0)));
     bench_table_make(&rows, "", "name,angle_deg,length,start_time,K_II_over_K_I,seconds");
     for (int k = 0; k < PATHS; k++) {
         bench_text(&rows, row[k].name);
@@ -189,7 +189,7 @@ static status paths(void)
     return s;
 }
 
-status cracks_bench(struct sif_bench_targets *asked)
+status cracks_bench(struct bench_goals *asked)
 {
     TRY(sif_fading_reactions(asked));
     return paths();

@@ -44,10 +44,10 @@ static status sif_inclined_take_row(void *row, const char *folder)
     static const char *const key[INCLINED_MODES] = {"probes.sif.K_I", "probes.sif.K_II"};
     const double size = 1e6 * sqrt(3.14159265358979 * 3e-3);
     struct inclined_row *r = row;
-    for (int m = 0; m < INCLINED_MODES; m++) r->F[m] = fabs(sif_bench_figure(folder, key[m])) / size;
-    r->spread = sif_bench_figure(folder, "probes.sif.contour_spread");
-    r->steps = sif_bench_figure(folder, "steps");
-    r->seconds = sif_bench_figure(folder, "loop_seconds");
+    for (int m = 0; m < INCLINED_MODES; m++) r->F[m] = fabs(bench_summary_figure(folder, key[m])) / size;
+    r->spread = bench_summary_figure(folder, "probes.sif.contour_spread");
+    r->steps = bench_summary_figure(folder, "steps");
+    r->seconds = bench_summary_figure(folder, "loop_seconds");
     printf("  %2d  %-20s %7.4f %7.4f   %7.4f %7.4f   %+6.2f %+6.2f   ", r->at->angle, variant[r->variant].name,
            r->at->exact[0], r->at->exact[1], r->F[0], r->F[1], 100 * sif_inclined_off(r->at, r->F, 0),
            100 * sif_inclined_off(r->at, r->F, 1));
@@ -62,7 +62,7 @@ static status inclined_add(struct inclined_table *t, const struct inclined_case 
 {
     const double phi = c->angle * 3.14159265358979 / 180, x = 3 * sin(phi), y = 3 * cos(phi);
     struct inclined_row *r = &t->row[t->n++];
-    struct sif_bench_job job = {.path = "inputs/inclined_crack.yaml", .row = r, .take = sif_inclined_take_row};
+    struct bench_job job = {.path = "inputs/inclined_crack.yaml", .row = r, .take = sif_inclined_take_row};
     *r = (struct inclined_row){.at = c, .variant = v};
     bench_override(&job.overrides, "cracks", "[{from: [%.6f mm, %.6f mm], to: [%.6f mm, %.6f mm]}]", 10 - x, 5 - y,
                    10 + x, 5 + y);
@@ -71,7 +71,7 @@ static status inclined_add(struct inclined_table *t, const struct inclined_case 
     bench_override(&job.overrides, "particles.horizon", "%s", variant[v].horizon);
     bench_override(&job.overrides, "particles.spacing", "%s", quick ? "0.1 mm" : "0.05 mm");
     bench_override(&job.overrides, "output.frames", "0");
-    return sif_bench_run(&job, 1, 1);
+    return bench_jobs_run(&job, 1, 1);
 }
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
@@ -140,7 +140,7 @@ static status sif_inclined_write_tables(const struct inclined_table *t)
     return s == OK ? bench_draw("inclined_crack", 1000, 560, sif_inclined_draw, t) : s;
 }
 
-status inclined_bench(struct sif_bench_targets *asked, bool quick)
+status inclined_bench(struct bench_goals *asked, bool quick)
 {
     struct inclined_table t = {0};
     double worst[INCLINED_MODES] = {0};
@@ -155,8 +155,8 @@ status inclined_bench(struct sif_bench_targets *asked, bool quick)
         for (int m = 0; m < INCLINED_MODES && t.row[k].variant == LOCAL; m++)
             worst[m] = fmax(worst[m], fabs(sif_inclined_off(t.row[k].at, t.row[k].F, m)));
     if (!quick) {
-        sif_bench_ask(asked, worst[0], 0.01, "inclined crack, K_I, worst angle");
-        sif_bench_ask(asked, worst[1], 0.015, "inclined crack, K_II, worst angle");
+        bench_ask(asked, "%", worst[0], 0.01, "inclined crack, K_I, worst angle");
+        bench_ask(asked, "%", worst[1], 0.015, "inclined crack, K_II, worst angle");
     }
     return sif_inclined_write_tables(&t);
 }

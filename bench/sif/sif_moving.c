@@ -168,15 +168,15 @@ static status sif_moving_take_row(void *row, const char *folder)
     struct moving_row *r = row;
     TRY(read_curves(r, folder));
     find_figures(r, table);
-    r->seconds = sif_bench_figure(folder, "loop_seconds");
+    r->seconds = bench_summary_figure(folder, "loop_seconds");
     printf("  %-34s %6.3f .. %5.3f  %6.3f  %6.2f %% %6.2f %% %8.1f\n", r->at->name, r->low, r->high, r->mean,
            100 * r->ripple[0], 100 * r->ripple[1], r->seconds);
     return OK;
 }
 
-static struct sif_bench_job job_of(struct moving_row *r, const struct moving_case *c)
+static struct bench_job job_of(struct moving_row *r, const struct moving_case *c)
 {
-    struct sif_bench_job job = {.path = SCENE, .row = r, .take = sif_moving_take_row};
+    struct bench_job job = {.path = SCENE, .row = r, .take = sif_moving_take_row};
     *r = (struct moving_row){.at = c, .moves = !c->pair[0].key || strcmp(c->pair[0].key, "growth") != 0};
     for (int k = 0; k < PAIRS && c->pair[k].key; k++)
         bench_override(&job.overrides, c->pair[k].key, "%s", c->pair[k].value);
@@ -186,11 +186,11 @@ static struct sif_bench_job job_of(struct moving_row *r, const struct moving_cas
 /* As many runs at once as there are threads, each on one: seconds are those of such a run. */
 static status sif_moving_run_all(struct moving_table *t, bool quick)
 {
-    struct sif_bench_job job[CASES];
+    struct bench_job job[CASES];
     t->n = quick ? QUICK : CASES;
     for (int k = 0; k < t->n; k++) job[k] = job_of(&t->row[k], &moving_case[k]);
     table = t;
-    return sif_bench_run(job, t->n, team_make(0));
+    return bench_jobs_run(job, t->n, team_make(0));
 }
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
@@ -324,11 +324,11 @@ static double farthest(const struct moving_row *r) { return fmax(r->high - 1, 1 
 
 /* What is said of a moving crack holds for spacings of 0.25 mm and less. Bonds that fade over a whole horizon hold the
  * crack back: it starts late. */
-static void sif_moving_ask(struct sif_bench_targets *asked, const struct moving_table *t)
+static void sif_moving_ask(struct bench_goals *asked, const struct moving_table *t)
 {
     double worst = 0, slow = 0;
-    sif_bench_ask(asked, farthest(&t->row[0]), 0.03, "crack at rest under waves, 5 to 9 us");
-    sif_bench_ask(asked, farthest(&t->row[1]), 0.05, "moving crack, 5.5 to 9 us");
+    bench_ask(asked, "%", farthest(&t->row[0]), 0.03, "crack at rest under waves, 5 to 9 us");
+    bench_ask(asked, "%", farthest(&t->row[1]), 0.05, "moving crack, 5.5 to 9 us");
     if (t->n <= 2) return;
     for (int k = 2; k < t->n; k++) {
         const char *name = t->row[k].at->name;
@@ -336,12 +336,12 @@ static void sif_moving_ask(struct sif_bench_targets *asked, const struct moving_
         double *most = strstr(name, "of a horizon") ? &slow : &worst;
         *most = fmax(*most, farthest(&t->row[k]));
     }
-    sif_bench_ask(asked, worst, 0.05, "moving crack, worst of all ways to 0.25 mm");
-    sif_bench_ask(asked, slow, 0.05, "moving crack, damping of a whole horizon");
-    sif_bench_ask(asked, t->row[1].ripple[1] / t->row[2].ripple[1], 1.0 / 3, "ripple, fading over sudden, whole disc");
+    bench_ask(asked, "%", worst, 0.05, "moving crack, worst of all ways to 0.25 mm");
+    bench_ask(asked, "%", slow, 0.05, "moving crack, damping of a whole horizon");
+    bench_ask(asked, "%", t->row[1].ripple[1] / t->row[2].ripple[1], 1.0 / 3, "ripple, fading over sudden, whole disc");
 }
 
-status moving_bench(struct sif_bench_targets *asked, bool quick)
+status moving_bench(struct bench_goals *asked, bool quick)
 {
     struct moving_table *t = NEW("bench.moving", 1, struct moving_table);
     status s = closed_form(t);

@@ -88,7 +88,7 @@ struct load {
     /* [n] of a load without leader, components with a value: positions before this step [m] */
     real *before[DIM_MAX];
     real reaction[DIM_MAX];              /* VELOCITY: force of the support on the body in the last step, without what
-                                            moves the driven particles themselves [N] */
+                                            moves the driven particles themselves; load steps: forces, too [N] */
     real displacement[DIM_MAX];          /* of the driven particles, their mean; of velocities accumulated [m] */
     real held_work;                      /* static, drives by place: forces of the support times displacements [J] */
     int outside;                         /* MIRROR: side of the plane without body, -1 or +1 */
@@ -188,6 +188,9 @@ void loads_moving_work(struct loads *l, const struct particles *p, real t, real 
 void load_moving_free(struct load *l);
 /* Force of a load on its k-th particle at t, at reference places; static: once it has grown [dim, N]. */
 void load_force_at(const struct load *l, const struct particles *p, int64_t k, real t, real *force);
+/* Sets `reaction` of a load that is a force to all of it at time t, and `displacement` to that of its particles: their
+ * mean by what they bear, so that force times displacement is the work; of a load without resultant their mean. */
+void load_applied_sum(struct load *l, const struct particles *p, real t);
 /* Its value there, without areas and profile [dim, as boundary.value]. Not of what rotates. */
 void load_value_at(const struct load *l, const struct particles *p, int64_t k, real t, real *value);
 

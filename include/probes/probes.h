@@ -93,6 +93,7 @@ struct observed {
     real strain_stress;                  /* largest |component| of the initial stress [Pa], for PATCH */
     real residual_step0;                 /* largest nodal |force| of the first step (grid and PD), for PATCH [N] */
     real t;                              /* [s] */
+    bool in_steps;                       /* load steps, in which applied forces are known as reactions are */
     int64_t load_step;                   /* so many done, that at hand included; 0: the run has none */
     real energy_change;                  /* (E - E_0 - work)/E_0 at the last sample; NAN without E_0 [1] */
     const struct growth *growth;         /* cracks with prescribed or SIF-controlled growth */

@@ -107,12 +107,13 @@ static real round_off_of(const struct engine *e)
     return 10 * sqrt(sum);
 }
 
-/* Books the force on supports, and their displacement. */
+/* Books the forces of supports and loads, and their displacements. */
 void statics_react(struct engine *e)
 {
     const struct statics *s = &e->statics;
     for (int b = 0; b < e->loads.n; b++) {
         struct load *l = &e->loads.load[b];
+        if (boundary_is_force(l->boundary)) load_applied_sum(l, &e->part, e->statics.t);
         if (l->boundary->kind != BOUNDARY_VELOCITY) continue;
         const struct displacing by = displacing_make(l->boundary, e->part.dim, e->statics.t);
         memset(l->reaction, 0, sizeof l->reaction);

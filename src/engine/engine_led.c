@@ -144,15 +144,28 @@ void led_turn(const struct engine *e, struct led_tip *tip)
     tip->heading[0] = c * a[0] - s * a[1], tip->heading[1] = s * a[0] + c * a[1];
 }
 
-void led_factors(struct engine *e, real K[MODES])
+/* The tip that has gone farthest, among those that go on if `on`; NULL: there is none. */
+static const struct led_tip *tip_farthest(const struct led *l, bool on)
 {
     const struct led_tip *first = NULL;
-    const bool leads = led_leads(e);
-    const struct led *l = &e->statics.led;
+    for (int k = 0; k < l->n; k++) {
+        const struct led_tip *tip = &l->tip[k];
+        if (!(on && tip->ended) && (!first || tip->grown > first->grown * (1 + ON_SURFACE))) first = tip;
+    }
+    return first;
+}
+
+void led_factors(struct engine *e, real K[MODES])
+{
+    const struct led_tip *first = led_leads(e) ? tip_farthest(&e->statics.led, true) : NULL;
     K[MODE_I] = K[MODE_II] = NAN;
-    for (int k = 0; k < l->n && leads; k++)
-        if (!l->tip[k].ended && (!first || l->tip[k].grown > first->grown * (1 + ON_SURFACE))) first = &l->tip[k];
     if (first) led_measure(e, first, K);
+}
+
+void led_place(const struct engine *e, real place[2])
+{
+    const struct led_tip *first = tip_farthest(&e->statics.led, false);
+    for (int d = 0; d < 2; d++) place[d] = first ? first->place[d] : NAN;
 }
 
 /* ---- the way ahead ----------------------------------------------------------------------------------------------- */

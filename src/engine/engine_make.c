@@ -279,7 +279,7 @@ struct observed engine_observed(const struct engine *e)
         .strain_stress = e->probing.strain_stress,
         .residual_step0 = e->probing.residual_step0,
         .t = e->clock.t,
-        .load_step = e->statics.record.step,
+        .in_steps = scene_in_steps(s), .load_step = e->statics.record.step,
         .t_velocity = e->clock.step > 0 && scene_moves(s) ? e->clock.t - 0.5 * e->clock.dt : e->clock.t,
         .pulse = e->probing.pulse,
         .pulses = e->probing.pulses,

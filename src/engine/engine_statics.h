@@ -108,6 +108,8 @@ void led_turn(const struct engine *e, struct led_tip *tip);
 void led_move(struct engine *e, int tip);
 /* Factors of the leading tip; NAN where there is none. */
 void led_factors(struct engine *e, real K[2]);
+/* Where the tip that has gone farthest is, in the reference frame [m]; NAN: none is led. */
+void led_place(const struct engine *e, real place[2]);
 void led_free(struct led *l);
 status led_archive(struct engine *e, struct archive *a);
 /* The next advance of led cracks, and what follows it. */

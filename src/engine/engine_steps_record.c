@@ -6,14 +6,14 @@
 
 #define GROWTH 4 /* spacings of growth over which a release rate is taken: a length comes in steps of one */
 
-enum { STATICS_COLUMNS = 10 };
+enum { STATICS_COLUMNS = 12 };
 
 int statics_columns(const struct engine *e, struct column *column)
 {
     static const struct column own[STATICS_COLUMNS] = {
-        {"load_time", "s"},        {"overload", ""},     {"released", "J"},  {"crack_area", "m^2"},
-        {"release_rate", "J/m^2"}, {"bonds_broken", ""}, {"directions", ""}, {"equilibria", ""},
-        {"K_I", "Pa m^(1/2)"},     {"K_II", "Pa m^(1/2)"}};
+        {"load_time", "s"},        {"overload", ""},       {"released", "J"},  {"crack_area", "m^2"},
+        {"release_rate", "J/m^2"}, {"bonds_broken", ""},   {"directions", ""}, {"equilibria", ""},
+        {"K_I", "Pa m^(1/2)"},     {"K_II", "Pa m^(1/2)"}, {"path_x", "m"},    {"path_y", "m"}};
     if (!scene_in_steps(e->scene)) return 0;
     if (column) memcpy(column, own, sizeof own);
     return STATICS_COLUMNS;
@@ -28,8 +28,7 @@ static real growth_by_spacing(const struct engine *e)
     real wide = 0;
     if (t->dim == 1) return section;
     for (int k = 0; k < t->n; k++)
-        if (t->tip[k].from_crack)
-            wide += t->dim == 2 ? section : 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, t->dim));
+        if (t->tip[k].from_crack) wide += t->dim == 2 ? section : 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, t->dim));
     if (wide == 0) wide = t->dim == 2 ? section : t->spacing;
     return t->spacing * wide;
 }
@@ -92,16 +91,17 @@ void statics_record(struct engine *e, real *record)
     const struct statics *s = &e->statics;
     if (!scene_in_steps(e->scene)) return;
     measure(e);
-    const real own[STATICS_COLUMNS] = {s->t,
-                                       s->overload,
-                                       s->record.released,
-                                       s->record.area,
-                                       s->record.area > 0 ? s->record.rate : NAN,
-                                       0.5 * (real)e->diagnostics.bonds_broken,
-                                       (real)(s->balance.directions - s->record.directions),
-                                       (real)(s->solutions - s->record.solutions)};
+    const real own[STATICS_COLUMNS - MODES - 2] = {s->t,
+                                                   s->overload,
+                                                   s->record.released,
+                                                   s->record.area,
+                                                   s->record.area > 0 ? s->record.rate : NAN,
+                                                   0.5 * (real)e->diagnostics.bonds_broken,
+                                                   (real)(s->balance.directions - s->record.directions),
+                                                   (real)(s->solutions - s->record.solutions)};
     memcpy(record, own, sizeof own);
-    led_factors(e, record + STATICS_COLUMNS - MODES);
+    led_factors(e, record + COUNT_OF(own));
+    led_place(e, record + COUNT_OF(own) + MODES);
 }
 
 real engine_load_size(const struct engine *e, real t) { return statics_load_size(e, t); }

@@ -1,6 +1,7 @@
 /* Loads whose shares change from step to step: formulas of time, and pressure that follows its surface. Their shares
  * contain functions of time and formulas; all that comes after is that of other loads. */
 #include <math.h>
+#include <string.h>
 
 #include "loads/loads.h"
 #include "loads_surface.h"
@@ -120,6 +121,24 @@ void load_force_at(const struct load *l, const struct particles *p, int64_t k, r
     for (int d = 0; d < p->dim; d++) {
         const real share = l->moving ? l->base[d][k] * formula_at(b, d, p, l->particle[k], t) : l->share[d][k];
         force[d] = factor * b->value[d] * share;
+    }
+}
+
+void load_applied_sum(struct load *l, const struct particles *p, real t)
+{
+    real force[DIM_MAX], *const *share = l->moving ? l->base : l->share;
+    memset(l->reaction, 0, sizeof l->reaction);
+    for (int64_t k = 0; k < l->n; k++) {
+        load_force_at(l, p, k, t, force);
+        for (int d = 0; d < p->dim; d++) l->reaction[d] += force[d];
+    }
+    for (int d = 0; d < p->dim && l->n > 0; d++) {
+        real total = 0, size = 0, moved = 0, mean = 0;
+        for (int64_t k = 0; k < l->n; k++) {
+            const real u = p->x[d][l->particle[k]] - p->X[d][l->particle[k]];
+            total += share[d][k], size += fabs(share[d][k]), moved += share[d][k] * u, mean += u;
+        }
+        l->displacement[d] = fabs(total) > 1e-6 * size ? moved / total : mean / (real)l->n;
     }
 }
 

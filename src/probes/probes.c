@@ -152,22 +152,25 @@ static status bind_region(struct probe *q, const struct observed *o)
     return status_set(REFUSED, "probe \"%s\": its region holds no particle", q->request.name);
 }
 
-/* REFUSED unless the named boundary is one that prescribes a velocity; the refusal lists those that do. */
+/* REFUSED unless the named boundary prescribes a motion or, in load steps, a force; the refusal lists those that do. */
 static status bind_support(const struct probe *q, const struct observed *o)
 {
     char known[512] = "";
     size_t used = 0;
     for (int k = 0; k < o->loads->n; k++) {
         const struct boundary *b = o->loads->load[k].boundary;
-        bool has_reaction = b->kind == BOUNDARY_VELOCITY;
+        bool has_reaction = b->kind == BOUNDARY_VELOCITY || (o->in_steps && boundary_is_force(b));
         if (strcmp(b->name, q->request.boundary) == 0 && has_reaction) return OK;
         if (strcmp(b->name, q->request.boundary) == 0)
-            return status_set(REFUSED, "probe \"%s\": boundary \"%s\" holds no velocity and has no reaction",
-                              q->request.name, b->name);
+            return status_set(REFUSED, "probe \"%s\": boundary \"%s\" prescribes no motion%s, and has no reaction",
+                              q->request.name, b->name,
+                              o->in_steps            ? " and no force"
+                              : boundary_is_force(b) ? " (its force is that of the scene)"
+                                                     : "");
         if (has_reaction && used < sizeof known)
             used += (size_t)snprintf(known + used, sizeof known - used, "%s\"%s\"", used > 0 ? ", " : "", b->name);
     }
-    return status_set(REFUSED, "probe \"%s\": no boundary is named \"%s\"; fixed or driven are: %s", q->request.name,
+    return status_set(REFUSED, "probe \"%s\": no boundary is named \"%s\"; there are: %s", q->request.name,
                       q->request.boundary, used > 0 ? known : "none");
 }
 

@@ -197,12 +197,15 @@ status resolve_contact(struct reader *r, const struct node *root)
 }
 
 /* Only with `method: pd` whole bodies consist of bonds, whose surfaces need the correction; families that are told
- * their normalisation have one already. */
+ * their normalisation have one already. Faces that a crack makes as it grows get no weights: in load steps, where loads
+ * of pre-crack and grown crack are compared, bonds take the rule that does not see pre-cracks either (`cleave bench
+ * slow`: double cantilevers of 10 layers 1 % off, 5 % with moments). */
 static enum surface_rule surface_by_default(const struct scene *s, const struct node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
     for (int b = 0; b < s->bodies; b++) lattice = lattice && !s->body[b].file; /* known from resolve_lists on */
     if (s->method != METHOD_PD) return SURFACE_NONE;
+    if (scene_in_steps(s) && scene_bonds_break(s) && s->model == MODEL_BOND) return SURFACE_VOLUME;
     if (lattice) return SURFACE_MOMENTS;
     return s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
 }

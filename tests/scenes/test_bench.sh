@@ -11,7 +11,7 @@ cd "$work"
 fail() { echo "test_bench: $1" >&2; exit 1; }
 
 # Refused in one line, exit status 2, nothing written.
-for words in nonsense accuracy=nonsense stability=nonsense "--slow" "kernels nonsense" coupling factors sif efficiency scatter sensitivity; do
+for words in nonsense accuracy=nonsense stability=nonsense "--slow" "kernels nonsense" coupling factors sif efficiency scatter sensitivity slow; do
     set +e
     "$cleave" bench $words >out 2>err
     ended=$?
@@ -217,4 +217,16 @@ line inclined_crack.csv '45,local 1.5,' 8 -0.02 0.02
 line moving_crack.csv 'at rest,' 4 0.97 1.03
 line moving_crack.csv 'moving: as it stands,' 4 0.95 1.05
 [ -z "$(ls -d run-* 2>/dev/null)" ] || fail "factors leaves runs behind"
+cd ../..
+for scene in compact_tension edge_crack_grips cantilevers bend_offset_notch mixed_mode; do cp "$inputs/$scene.yaml" inputs; done
+"$cleave" bench slow --quick >out 2>err || fail "slow failed: $(cat err)"
+cd results/bench
+for file in slow.csv slow.png slow_specimens.csv slow_specimens.png slow_paths.csv slow_speed.csv; do
+    [ -s $file ] || fail "$file is missing"
+done
+line slow_specimens.csv 'three-point bend,bond,40,' 6 -0.03 0.03
+line slow_specimens.csv 'double cantilever,bond,10,' 9 -0.03 0.03
+line slow_paths.csv 'inclined crack,0.001,45,' 6 0 3
+line slow_paths.csv 'notch beside middle,' 6 0 3
+[ -z "$(ls -d run-* 2>/dev/null)" ] || fail "slow leaves runs behind"
 echo "test_bench: ok"

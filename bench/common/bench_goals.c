@@ -1,0 +1,107 @@
+/* Runs as processes of their own, side by side; figures beside what is asked of them. */
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include "bench_goals.h"
+#include "base/memory.h"
+#include "output/summary_read.h"
+
+/* ---- runs -------------------------------------------------------------------------------------------------------- */
+
+static status job_start(struct bench_job *job, struct bench_child *child, int threads)
+{
+    return bench_child_start(child, job->path, bench_overrides_ready(&job->overrides), job->overrides.n, threads);
+}
+
+static status job_end(struct bench_job *job, struct bench_child *child)
+{
+    TRY(bench_child_wait(child));
+    TRY(job->take(job->row, child->folder));
+    fflush(stdout);
+    return OK;
+}
+
+status bench_jobs_run(struct bench_job *job, int n, int at_once)
+{
+    const int threads = at_once > 1 ? 1 : team_make(0);
+    struct bench_child *child = NEW("bench.children", n, struct bench_child);
+    status s = OK;
+    int started = 0;
+    for (int k = 0; k < n && s == OK; k++) {
+        while (started < n && started < k + at_once && s == OK)
+            s = job_start(&job[started], &child[started], threads), started++;
+        if (s == OK) s = job_end(&job[k], &child[k]);
+        bench_child_free(&child[k]);
+    }
+    for (int k = 0; k < started; k++) bench_child_free(&child[k]);
+    memory_free(child);
+    return s;
+}
+
+double bench_summary_figure(const char *folder, const char *key)
+{
+    double value;
+    return summary_number(folder, key, &value) == OK ? value : NAN;
+}
+
+/* ---- goals ------------------------------------------------------------------------------------------------------ */
+
+void bench_ask(struct bench_goals *t, const char *unit, double measured, double asked, const char *name, ...)
+{
+    va_list more;
+    assert(t->n < BENCH_GOALS_MAX);
+    struct bench_goal *new = &t->goal[t->n++];
+    va_start(more, name);
+    vsnprintf(new->name, sizeof new->name, name, more);
+    va_end(more);
+    snprintf(new->unit, sizeof new->unit, "%s", unit);
+    new->measured = measured, new->asked = asked;
+}
+
+void bench_goals_print(const struct bench_goals *t)
+{
+    printf("\n  what is asked%-46s %10s %10s\n", "", "measured", "at most");
+    for (int k = 0; k < t->n; k++) {
+        const struct bench_goal *g = &t->goal[k];
+        const double factor = strcmp(g->unit, "%") == 0 ? 100 : 1;
+        printf("  %-59s %8.2f %s %8.2f %s%s\n", g->name, factor * g->measured, g->unit, factor * g->asked, g->unit,
+               g->measured <= g->asked ? "" : "   missed");
+    }
+}
+
+static status goals_write(const char *name, const struct bench_goals *t)
+{
+    struct bench_table rows;
+    bench_table_make(&rows, "", "figure,unit,measured,asked_at_most");
+    for (int k = 0; k < t->n; k++) {
+        bench_text(&rows, t->goal[k].name);
+        bench_text(&rows, strcmp(t->goal[k].unit, "%") == 0 ? "1" : t->goal[k].unit);
+        bench_number(&rows, t->goal[k].measured);
+        bench_number(&rows, t->goal[k].asked);
+    }
+    status s = bench_write(name, &rows, 1);
+    bench_table_free(&rows);
+    return s;
+}
+
+/* Bars of measured over target. */
+static void goals_draw(FILE *to, const void *context)
+{
+    const struct bench_goals *t = context;
+    fputs("$bars << EOD\n", to);
+    for (int k = 0; k < t->n; k++)
+        fprintf(to, "%d %.6g \"%s\"\n", t->n - k, t->goal[k].measured / t->goal[k].asked, t->goal[k].name);
+    fprintf(to,
+            "EOD\nset lmargin at screen 0.5\nset xrange [0:1.6]\nset yrange [0.3:%g]\nset boxwidth 0.6\nset key off\n"
+            "set ytics scale 0\nset xlabel 'deviation over what is asked'\n"
+            "set arrow 1 from 1, graph 0 to 1, graph 1 nohead lw 2 lc rgb '#3d3d3d' front\n"
+            "plot $bars using (0.5*$2):1:(0.5*$2):(0.3):ytic(3) with boxxy fs solid 0.85 noborder lc rgb '#0072b2'\n",
+            t->n + 0.7);
+}
+
+status bench_goals_write(const char *name, const struct bench_goals *t)
+{
+    TRY(goals_write(name, t));
+    return bench_draw(name, 1100, 120 + 32 * t->n, goals_draw, t);
+}

@@ -1,0 +1,27 @@
+/* `cleave bench slow`: load steps beside linear elastic fracture mechanics, the criterion of the largest hoop stress,
+ * finite elements, and a clock. */
+#include "slow.h"
+
+static bool slow_scenes_here(void)
+{
+    static const char *const scene[] = {"inputs/compact_tension.yaml", "inputs/edge_crack_grips.yaml",
+                                        "inputs/cantilevers.yaml", "inputs/bend_offset_notch.yaml",
+                                        "inputs/mixed_mode.yaml"};
+    for (size_t k = 0; k < COUNT_OF(scene); k++)
+        if (!bench_scene_exists(scene[k])) return false;
+    return true;
+}
+
+status bench_slow(bool quick)
+{
+    struct bench_goals asked = {0};
+    if (!slow_scenes_here())
+        return status_set(REFUSED, "bench slow: its scenes are not here; start it where the folder inputs is");
+    printf("load steps\n");
+    bench_print_machine(team_make(0));
+    TRY(slow_specimens(&asked, quick));
+    TRY(slow_paths(&asked, quick));
+    TRY(slow_speed(&asked, quick));
+    bench_goals_print(&asked);
+    return bench_goals_write("slow", &asked);
+}

@@ -1,0 +1,140 @@
+/* Where load steps lead cracks: the first kink of an inclined crack beside the criterion of the largest hoop stress,
+ * and the path from a notch beside the middle of a beam, beside finite elements. */
+#include <math.h>
+
+#include "bench/common/handbook.h"
+#include "fracture/sif_fields.h"
+#include "output/history.h"
+#include "slow.h"
+
+static const double degree = 3.14159265358979323846 / 180;
+static const double half = 10e-3;                  /* of the inclined crack [m] */
+static const double notch[2] = {-31.75e-3, 16e-3}; /* its tip [m] */
+
+struct path_row {
+    double spacing, angle;         /* [m]; of the crack to the normal of the load [degree], beam: NAN */
+    double found, expected, apart; /* [degree] */
+};
+
+/* The place of the crack's farthest tip in the first line, from `from` on, in which it is elsewhere; false: in none. */
+static bool path_next(const struct history *h, int64_t *from, double place[2])
+{
+    const int x = history_column(h, "path_x"), y = history_column(h, "path_y");
+    const double was[2] = {place[0], place[1]};
+    for (; *from < h->rows; ++*from) {
+        place[0] = history_at(h, *from, x), place[1] = history_at(h, *from, y);
+        if (hypot(place[0] - was[0], place[1] - was[1]) > 1e-9) return true;
+    }
+    return false;
+}
+
+/* ---- kinks ------------------------------------------------------------------------------------------------------- */
+
+/* In a wide plate K_II/K_I is tan(angle); in this one, five times as wide as the crack is long, within 1 %. */
+static status kink_take(void *row, const char *folder)
+{
+    struct path_row *r = row;
+    struct history h = {0};
+    TRY(history_read(&h, folder));
+    const double K[MODES] = {cos(r->angle * degree), sin(r->angle * degree)};
+    double start[2] = {half * cos(r->angle * degree), half * sin(r->angle * degree)}, place[2];
+    int64_t line = 1;
+    place[0] = history_at(&h, 1, history_column(&h, "path_x"));
+    place[1] = history_at(&h, 1, history_column(&h, "path_y"));
+    const double side = place[0] * start[0] + place[1] * start[1] > 0 ? 1 : -1;
+    start[0] *= side, start[1] *= side;
+    place[0] = start[0], place[1] = start[1];
+    r->expected = crack_direction(K) / degree, r->found = NAN;
+    if (path_next(&h, &line, place))
+        r->found =
+            remainder(atan2(side * (place[1] - start[1]), side * (place[0] - start[0])) / degree - r->angle, 360);
+    history_free(&h);
+    r->apart = fabs(r->found - r->expected);
+    printf("  %-20s %7.0f %9.0f %9.1f %9.1f %8.1f\n", "inclined crack", 2 * half / r->spacing, r->angle, r->found,
+           r->expected, r->apart);
+    return OK;
+}
+
+/* Adds a row to the table, and takes the larger deviation. */
+static void path_put(struct bench_table *t, const char *name, const struct path_row *r, double *worst)
+{
+    bench_text(t, name);
+    const double number[] = {r->spacing, r->angle, r->found, r->expected, r->apart};
+    for (size_t k = 0; k < COUNT_OF(number); k++) bench_number(t, number[k]);
+    if (!(r->apart <= *worst)) *worst = r->apart;
+}
+
+static status kinks(struct bench_table *t, struct bench_goals *asked, bool quick)
+{
+    double worst = 0;
+    printf("\n  %-20s %7s %9s %9s %9s %8s\n", "path", "across", "angle", "found", "expected", "apart");
+    for (int fine = 1; fine <= (quick ? 1 : 4); fine *= 2) {
+        worst = 0;
+        for (int angle = 15; angle <= 75; angle += quick ? 30 : 15) {
+            struct path_row r = {.spacing = 1e-3 / fine, .angle = angle};
+            struct bench_job job = {.path = "inputs/mixed_mode.yaml", .row = &r, .take = kink_take};
+            bench_override(&job.overrides, "variables.angle", "%d deg", angle);
+            bench_override(&job.overrides, "particles.spacing", "%.9g mm", 1.0 / fine);
+            bench_override(&job.overrides, "steps.number", "6");
+            bench_override(&job.overrides, "probes", "[]");
+            bench_override(&job.overrides, "output.frames", "0");
+            TRY(bench_jobs_run(&job, 1, 1));
+            path_put(t, "inclined crack", &r, &worst);
+        }
+    }
+    bench_ask(asked, "degrees", worst, 3, "inclined crack, kinks at 15 to 75 degrees, worst");
+    return OK;
+}
+
+/* ---- a notch beside the middle of a beam ------------------------------------------------------------------------- */
+
+/* Chords from the notch to the tip, as far as the finite elements go: the one that is farthest from theirs. */
+static status bend_take(void *row, const char *folder)
+{
+    struct path_row *r = row;
+    struct history h = {0};
+    double place[2] = {notch[0], notch[1]};
+    TRY(history_read(&h, folder));
+    r->apart = 0;
+    for (int64_t line = 1; path_next(&h, &line, place);) {
+        const double along[2] = {place[0] - notch[0], place[1] - notch[1]}, length = hypot(along[0], along[1]);
+        const double expected = bend_chord(length), found = atan2(along[0], along[1]) / degree;
+        if (isnan(expected)) break;
+        if (fabs(found - expected) >= r->apart)
+            r->found = found, r->expected = expected, r->apart = fabs(found - expected);
+    }
+    history_free(&h);
+    printf("  %-20s %7.0f %9s %9.1f %9.1f %8.1f\n", "notch beside middle", 40e-3 / r->spacing, "", r->found,
+           r->expected, r->apart);
+    return OK;
+}
+
+static status bends(struct bench_table *t, struct bench_goals *asked, bool quick)
+{
+    double worst = 0;
+    for (int fine = 1; fine <= (quick ? 1 : 4); fine *= 2) {
+        struct path_row r = {.spacing = 1e-3 / fine, .angle = NAN};
+        struct bench_job job = {.path = "inputs/bend_offset_notch.yaml", .row = &r, .take = bend_take};
+        bench_override(&job.overrides, "variables.h", "%.9g mm", 1.0 / fine);
+        bench_override(&job.overrides, "cracks.0", "{from: [%g mm, -1 mm], to: [%g mm, %g mm]}", 1e3 * notch[0],
+                       1e3 * notch[0], 1e3 * notch[1]);
+        bench_override(&job.overrides, "steps.number", "%d", 12 * fine);
+        bench_override(&job.overrides, "output.frames", "0");
+        TRY(bench_jobs_run(&job, 1, 1));
+        worst = 0;
+        path_put(t, "notch beside middle", &r, &worst);
+    }
+    bench_ask(asked, "degrees", worst, 3, "notch beside the middle of a beam, worst chord");
+    return OK;
+}
+
+status slow_paths(struct bench_goals *asked, bool quick)
+{
+    struct bench_table t;
+    bench_table_make(&t, "", "case,spacing,angle,found,expected,apart");
+    status s = kinks(&t, asked, quick);
+    if (s == OK) s = bends(&t, asked, quick);
+    if (s == OK) s = bench_write("slow_paths", &t, 1);
+    bench_table_free(&t);
+    return s;
+}

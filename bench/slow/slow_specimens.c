@@ -1,0 +1,243 @@
+/* Specimens whose cracks grow through half of them and more, on finer and finer particles: the largest load, later
+ * loads at the crack length of each load step, and the energy that is released, beside linear elastic fracture
+ * mechanics. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "bench/common/handbook.h"
+#include "output/history.h"
+#include "plot/gnuplot.h"
+#include "slow.h"
+
+static const double young = 3e9, toughness = 300; /* of the scenes [Pa], [J/m^2] */
+static const double long_crack = 0.7;             /* a/W up to which loads count: beyond, the formulas are less sure */
+
+static const struct slow_case {
+    const char *name, *scene, *size, *crack; /* key of the spacing; in place of its pre-crack, NULL: that stays */
+    struct specimen specimen;
+    double spacing;    /* of the scene [m] */
+    int across, steps; /* spacings of the specimen's width there, load steps */
+    const char *colour;
+} slow_case[] = {{"compact tension",
+                  "inputs/compact_tension.yaml",
+                  "particles.spacing",
+                  NULL,
+                  {COMPACT_TENSION, 50e-3, 0, 10e-3, 25e-3, young, toughness},
+                  0.625e-3,
+                  80,
+                  14,
+                  "#0072b2"},
+                 {"edge crack in grips",
+                  "inputs/edge_crack_grips.yaml",
+                  "particles.spacing",
+                  NULL,
+                  {EDGE_CRACK_IN_GRIPS, 40e-3, 120e-3, 5e-3, 12e-3, young, toughness},
+                  0.5e-3,
+                  80,
+                  20,
+                  "#d55e00"},
+                 {"three-point bend",
+                  "inputs/bend_offset_notch.yaml",
+                  "variables.h",
+                  "{from: [0, -1 mm], to: [0, 16 mm]}",
+                  {THREE_POINT_BEND, 40e-3, 160e-3, 10e-3, 16e-3, young, toughness},
+                  0.5e-3,
+                  80,
+                  16,
+                  "#009e73"},
+                 {"double cantilever",
+                  "inputs/cantilevers.yaml",
+                  "variables.h",
+                  NULL,
+                  {DOUBLE_CANTILEVER, 10e-3, 0, 10e-3, 40e-3, young, toughness},
+                  0.5e-3,
+                  20,
+                  30,
+                  "#cc79a7"}};
+enum { SLOW_CASES = COUNT_OF(slow_case), POINTS_MOST = 100 };
+static const char *const slow_model[] = {"bond", "ospd", "mospd"};
+enum { SLOW_MODELS = COUNT_OF(slow_model) };
+static const double refined[SLOW_SPACINGS] = {0.5, 1, 2};
+
+struct slow_row {
+    const struct slow_case *of;
+    int model;   /* slow_model */
+    double fine; /* spacings across over those of the scene */
+    double particles, seconds;
+    double peak, mean, farthest, opening; /* load over that of the reference - 1: the largest, later ones; at equal
+                                            opening, cantilevers; NAN: none */
+    double released;                      /* over new area and G_c */
+    int n;
+    double crack[POINTS_MOST], load[POINTS_MOST]; /* a/W; over the reference's largest load */
+};
+struct slow_table {
+    int n;
+    struct slow_row row[SLOW_CASES * (SLOW_SPACINGS + SLOW_MODELS)];
+};
+
+/* ---- runs -------------------------------------------------------------------------------------------------------- */
+
+static double longest_crack(const struct slow_case *c)
+{
+    return c->specimen.kind == DOUBLE_CANTILEVER ? INFINITY : long_crack * c->specimen.width;
+}
+
+/* Load over that of cantilevers at the same opening (load and opening at a length follow from each other). */
+static double cantilever_at_opening(const struct specimen *s, double load, double opening)
+{
+    const double unit = specimen_load(s, 0) * 0.673 * s->width; /* load times (a + 0.673 h) */
+    const double squared = opening * s->modulus * s->thickness * pow(s->width, 3) / (8 * unit);
+    return load / (unit / sqrt(squared));
+}
+
+static void slow_row_read(struct slow_row *r, const struct history *h)
+{
+    const struct specimen *s = &r->of->specimen;
+    const int force = history_column(h, "reaction.force_y"), way = history_column(h, "reaction.displacement_y");
+    const int area = history_column(h, "crack_area"), lost = history_column(h, "released");
+    double sum = 0, largest = 0;
+    int later = 0;
+    r->mean = r->farthest = 0, r->opening = s->kind == DOUBLE_CANTILEVER ? 0 : NAN;
+    for (int64_t k = 1; k < h->rows && r->n < POINTS_MOST; k++) {
+        const double load = fabs(history_at(h, k, force)), grown = history_at(h, k, area) / s->thickness;
+        const double a = s->crack + grown, off = load / specimen_load(s, a) - 1;
+        r->crack[r->n] = a / s->width, r->load[r->n++] = load / specimen_load(s, s->crack);
+        largest = fmax(largest, load);
+        if (!(grown > 0) || a > longest_crack(r->of)) continue;
+        sum += off, later++;
+        if (fabs(off) > fabs(r->farthest)) r->farthest = off;
+        if (s->kind != DOUBLE_CANTILEVER) continue;
+        const double apart = cantilever_at_opening(s, load, 2 * fabs(history_at(h, k, way))) - 1;
+        if (fabs(apart) > fabs(r->opening)) r->opening = apart;
+    }
+    r->peak = largest / specimen_load(s, s->crack) - 1;
+    r->mean = later > 0 ? sum / later : NAN;
+    r->released = history_at(h, h->rows - 1, lost) / history_at(h, h->rows - 1, area) / toughness;
+}
+
+static void slow_row_print(const struct slow_row *r)
+{
+    printf("  %-20s %-6s %7.0f %9.0f %8.1f %+8.1f %% %+8.1f %% %+8.1f %%", r->of->name, slow_model[r->model],
+           r->of->across * r->fine, r->particles, r->seconds, 100 * r->peak, 100 * r->mean, 100 * r->farthest);
+    if (isnan(r->opening))
+        printf(" %10s", "");
+    else
+        printf(" %+8.1f %%", 100 * r->opening);
+    printf(" %9.3f\n", r->released);
+}
+
+static status slow_row_take(void *row, const char *folder)
+{
+    struct slow_row *r = row;
+    struct history h = {0};
+    TRY(history_read(&h, folder));
+    slow_row_read(r, &h);
+    history_free(&h);
+    r->particles = bench_summary_figure(folder, "particles");
+    r->seconds = bench_summary_figure(folder, "loop_seconds");
+    slow_row_print(r);
+    return OK;
+}
+
+static status slow_add(struct slow_table *t, int of, int model, double fine)
+{
+    const struct slow_case *c = &slow_case[of];
+    struct slow_row *r = &t->row[t->n++];
+    *r = (struct slow_row){.of = c, .model = model, .fine = fine};
+    struct bench_job job = {.path = c->scene, .row = r, .take = slow_row_take};
+    bench_override(&job.overrides, c->size, "%.9g mm", 1e3 * c->spacing / fine);
+    bench_override(&job.overrides, "steps.number", "%.0f", c->steps * fine);
+    bench_override(&job.overrides, "output.frames", "0");
+    bench_override(&job.overrides, "model", "%s", slow_model[model]);
+    if (model > 0) bench_override(&job.overrides, "material.poisson", "0.3");
+    if (c->crack) bench_override(&job.overrides, "cracks.0", "%s", c->crack);
+    return bench_jobs_run(&job, 1, 1);
+}
+
+/* ---- files ------------------------------------------------------------------------------------------------------- */
+
+static status slow_rows_write(const struct slow_table *t)
+{
+    struct bench_table rows;
+    bench_table_make(&rows, "",
+                     "specimen,model,spacings_across,particles,loop_seconds,peak_error,later_mean_error,"
+                     "later_farthest_error,opening_farthest_error,released_over_G_c");
+    for (int k = 0; k < t->n; k++) {
+        const struct slow_row *r = &t->row[k];
+        const double number[] = {
+            r->of->across * r->fine, r->particles, r->seconds, r->peak, r->mean, r->farthest, r->opening, r->released};
+        bench_text(&rows, r->of->name), bench_text(&rows, slow_model[r->model]);
+        for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(&rows, number[c]);
+    }
+    const status s = bench_write("slow_specimens", &rows, 1);
+    bench_table_free(&rows);
+    return s;
+}
+
+/* Loads over crack lengths; lines: the reference. Of cantilevers, whose cracks have no width to be measured by, a/h. */
+static void slow_curves_draw(FILE *to, const void *context)
+{
+    const struct slow_table *t = context;
+    fprintf(to, "set multiplot layout 2,2\nset xlabel 'crack length over width'\nset ylabel 'load over largest'\n"
+                "set yrange [0:1.15]\nset key bottom left\n");
+    for (int c = 0; c < SLOW_CASES; c++) {
+        const struct specimen *s = &slow_case[c].specimen;
+        const double from = s->crack / s->width, end = s->kind == DOUBLE_CANTILEVER ? 12 : 0.8;
+        fprintf(to, "set title '%s'\n$exact << EOD\n", slow_case[c].name);
+        for (int k = 0; k <= 100; k++) {
+            const double x = from + (end - from) * k / 100;
+            fprintf(to, "%.6g %.6g\n", x, specimen_load(s, x * s->width) / specimen_load(s, s->crack));
+        }
+        fputs("EOD\n", to);
+        for (int k = 0; k < t->n; k++) {
+            if (t->row[k].of != &slow_case[c]) continue;
+            fprintf(to, "$row%d << EOD\n", k);
+            for (int p = 0; p < t->row[k].n; p++) fprintf(to, "%.6g %.6g\n", t->row[k].crack[p], t->row[k].load[p]);
+            fputs("EOD\n", to);
+        }
+        fprintf(to, "set xrange [%g:%g]\nplot $exact with lines lw 3 lc rgb '#3d3d3d' title 'linear elastic'", from,
+                end);
+        for (int k = 0, style = 0; k < t->n; k++)
+            if (t->row[k].of == &slow_case[c])
+                fprintf(to, ", $row%d with points pt %d lc rgb '%s' title '%s, %.0f across'", k, 4 + style++,
+                        slow_case[c].colour, slow_model[t->row[k].model], slow_case[c].across * t->row[k].fine);
+        putc('\n', to);
+    }
+    fputs("unset multiplot\n", to);
+}
+
+/* ---- all --------------------------------------------------------------------------------------------------------- */
+
+static void slow_ask(struct bench_goals *asked, const struct slow_row *r)
+{
+    const char *name = r->of->name, *model = slow_model[r->model];
+    const double across = r->of->across * r->fine;
+    bench_ask(asked, "%", fabs(r->peak), 0.03, "%s, %s, %.0f across: largest load", name, model, across);
+    bench_ask(asked, "%", fabs(r->farthest), 0.03, "%s, %s, %.0f across: later loads", name, model, across);
+    if (r->of->specimen.kind == DOUBLE_CANTILEVER)
+        bench_ask(asked, "%", fabs(r->opening), 0.03, "%s, %s, %.0f across: load by opening", name, model, across);
+    bench_ask(asked, "%", fabs(r->released - 1), 0.03, "%s, %s, %.0f across: released over area", name, model, across);
+}
+
+static status slow_rows(struct slow_table *t, struct bench_goals *asked, bool quick)
+{
+    for (int c = 0; c < SLOW_CASES; c++) {
+        const int last = quick ? 0 : SLOW_SPACINGS - 1;
+        for (int k = 0; k <= last; k++) TRY(slow_add(t, c, 0, refined[k]));
+        slow_ask(asked, &t->row[t->n - 1]);
+        for (int model = 1; model < SLOW_MODELS && !quick; model++) TRY(slow_add(t, c, model, 1));
+    }
+    return OK;
+}
+
+status slow_specimens(struct bench_goals *asked, bool quick)
+{
+    struct slow_table *t = calloc(1, sizeof *t);
+    printf("\n  %-20s %-6s %7s %9s %8s %10s %10s %10s %10s %9s\n", "load beside LEFM", "model", "across", "particles",
+           "s", "largest", "later mean", "farthest", "by opening", "G/G_c");
+    status s = t ? slow_rows(t, asked, quick) : status_set(FAILED, "bench slow: no memory");
+    if (s == OK) s = slow_rows_write(t);
+    if (s == OK) s = bench_draw("slow_specimens", 1200, 900, slow_curves_draw, t);
+    free(t);
+    return s;
+}
