@@ -12,6 +12,7 @@
 #define NOTHING_BREAKS 0.8 /* overload at a crack tip below which no advance comes: Griffith's load is at 0.9 */
 #define SPACINGS 2.0   /* of an advance */
 enum { LED_EQUILIBRIA = 3, PAIRS_AT_ONCE = 2 };
+enum { PIN_MOST = 2, GRIP_LEAST = 12 }; /* widths of supports on which bodies turn, of grips [spacings] */
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
@@ -68,7 +69,7 @@ void say_load_steps(const struct engine *e)
     printf("solver         static: %d load steps %s, load time to %.4g s, each in equilibrium to a residual of %.3g of "
            "the load\n",
            s->steps.number, by[s->steps.control], s->duration, s->solver_tolerance);
-    if (!scene_bonds_break(s)) return;
+    if (!scene_bonds_break(s) || s->method == METHOD_MPM) return;
     if (is_led(e))
         printf("cracks         %d tip%s led by the hoop stress round %s, 2 spacings in an advance\n", tips,
                tips > 1 ? "s are" : " is", tips > 1 ? "them" : "it");
@@ -118,10 +119,43 @@ static void advise_lengths(const struct engine *e, FILE *out)
     }
 }
 
+/* Spacings over which particles of a load lie along an axis; 0: over all of the bodies. */
+static int support_width(const struct engine *e, const struct load *l, int axis)
+{
+    const real h = e->scene->spacing;
+    real low = INFINITY, high = -INFINITY, from, to;
+    particles_extent(&e->part, e->part.n, axis, &from, &to);
+    for (int64_t k = 0; k < l->n; k++) {
+        const real X = e->part.X[axis][l->particle[k]];
+        low = real_min(low, X), high = real_max(high, X);
+    }
+    return high - low > to - from - 0.5 * h ? 0 : (int)lround((high - low) / h) + 1;
+}
+
+/* Pins and rollers that hold the rotation of the body on them: some columns of particles, too few for a grip. */
+static void advise_supports(const struct engine *e, FILE *out)
+{
+    for (int b = 0; b < e->loads.n; b++) {
+        const struct load *l = &e->loads.load[b];
+        const struct boundary *by = l->boundary;
+        if (by->kind != BOUNDARY_VELOCITY || by->side != 0 || by->rotates || l->n == 0) continue;
+        for (int across = 0; across < e->part.dim; across++) {
+            const int columns = support_width(e, l, across);
+            const bool turns_it = by->components & ~(1 << across); /* held along another axis */
+            if (!turns_it || columns <= PIN_MOST || columns > GRIP_LEAST) continue;
+            fprintf(out,
+                    "unresolved: boundary %s holds particles over %d spacings of %c: the body cannot turn on it; a pin or "
+                    "roller is one or two particles wide, a grip more than %d\n",
+                    by->name, columns, "xyz"[across], GRIP_LEAST);
+        }
+    }
+}
+
 void advise_load_steps(const struct engine *e, FILE *out)
 {
     if (!scene_in_steps(e->scene)) return;
     advise_growth(e, out);
+    advise_supports(e, out);
     if (scene_bonds_break(e->scene)) advise_lengths(e, out);
 }
 

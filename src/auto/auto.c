@@ -344,6 +344,8 @@ status auto_resolve(struct reader *r, struct node *root, const char *text, size_
     struct scene first = {0};
     struct pilot_wish wish = {0};
     if (!method || strcmp(method->text, "auto") != 0) return OK;
+    if (tree_at(root, "steps"))
+        return fault(r, method, "auto knows no load steps (steps); pd, or adaptive, is expected beside them");
     struct ask a = {.scene = &first, .root = root};
     status s = read_first(r, text, length, &first);
     if (s == OK) s = wish_read(r, root, &wish);

@@ -100,6 +100,7 @@ done <<'END'
 5|method: magic|5:1|pd, mpm, adaptive or auto
 5|method: auto^accuracy: 0.7|6:1|out of range
 5|method: auto^accuracy: {of: tip, withn: 2 %}|6:21|the nearest is within
+5|method: auto^solver: static^steps: {number: 3}|5:1|pd, or adaptive, is expected
 5|method: adaptive^accuracy: 1 %|6:1|no meaning without method: auto
 5|model: lps|5:1|bond, ospd or mospd
 5|solver: cg|5:1|cg is for method pd
