@@ -144,8 +144,8 @@ static void advise_supports(const struct engine *e, FILE *out)
             const bool turns_it = by->components & ~(1 << across); /* held along another axis */
             if (!turns_it || columns <= PIN_MOST || columns > GRIP_LEAST) continue;
             fprintf(out,
-                    "unresolved: boundary %s holds particles over %d spacings of %c: the body cannot turn on it; a pin or "
-                    "roller is one or two particles wide, a grip more than %d\n",
+                    "unresolved: boundary %s holds particles over %d spacings of %c: the body cannot turn on it; a pin "
+                    "or roller is one or two particles wide, a grip more than %d\n",
                     by->name, columns, "xyz"[across], GRIP_LEAST);
         }
     }

@@ -9,30 +9,55 @@ enum { SECANTS_MOST = 12 };
 
 /* ---- control ----------------------------------------------------------------------------------------------------- */
 
+/* Size of the loads at which the advance ahead comes while they grow: of the first one that at which a pre-crack is in
+ * balance; of later ones that at which they pay for themselves, so that loads swing about those of a crack that grows
+ * evenly. */
+static real size_to_come(const struct engine *e)
+{
+    const struct statics *s = &e->statics;
+    return e->diagnostics.bonds_broken > 0 ? real_max(s->due, size_of_advance(&s->ahead)) : s->due;
+}
+
 /* Is an advance due under the present loads? */
 static bool advance_due(const struct engine *e)
 {
     const struct statics *s = &e->statics;
-    const real size = real_max(s->due, size_of_advance(&s->ahead));
-    return s->next.n > 0 && statics_load_size(e, s->t) >= size * (1 - 1e-9);
+    return s->next.n > 0 && statics_load_size(e, s->t) >= size_to_come(e) * (1 - 1e-9);
 }
 
-/* The crack advances as long as that pays. */
-static status settle(struct engine *e)
+/* Goes to loads of this size, between two pseudo-times. */
+static status go_to_size(struct engine *e, real size, real least, real most)
 {
+    return statics_go(e, real_min(real_max(statics_time_of_size(e, size), least), most));
+}
+
+/* Pseudo-time grows to t; on the way each advance comes at its own loads, where what supports bear counts for their
+ * largest force, or, if it would have come under less, under those of the one before it. Of loads that fall there is no
+ * way back. */
+static status step_by_load(struct engine *e, real t)
+{
+    struct statics *s = &e->statics;
+    const real from = s->t, loads = statics_load_size(e, t);
+    real size = statics_load_size(e, from);
+    TRY(statics_go(e, t));
     TRY(statics_convert(e, 0));
     TRY(statics_look_ahead(e));
-    for (int k = 0; advance_due(e); k++) {
-        TRY(k > 0 && e->scene->steps.then == THEN_EXPLICIT ? statics_release(e) : statics_advance(e));
+    while (advance_due(e)) {
+        const bool follows = size_to_come(e) <= size;
+        size = real_max(size, size_to_come(e));
+        const bool pays = size_of_advance(&s->ahead) <= size;
+        if (size < loads) TRY(go_to_size(e, size, from, t));
+        engine_probes_step(e);
+        if (follows && e->scene->steps.then == THEN_EXPLICIT) TRY(statics_release(e));
+        else TRY(pays ? statics_advance(e) : statics_advance_balanced(e));
+        if (!pays) TRY(size < loads ? go_to_size(e, size, from, t) : statics_go(e, t));
+        TRY(statics_look_ahead(e));
+        if (advance_due(e) || s->t >= t) continue;
+        TRY(statics_go(e, t));
+        TRY(statics_convert(e, 0));
         TRY(statics_look_ahead(e));
     }
     return OK;
-}
-
-static status step_by_load(struct engine *e, real t)
-{
-    TRY(statics_go(e, t));
-    return settle(e);
 }
 
 /* One advance of the crack, then the pseudo-time at which the next one is due; as long as none is, as much pseudo-time
@@ -88,6 +113,8 @@ static status step_by_opening(struct engine *e)
     TRY(statics_convert(e, 0));
     TRY(statics_look_ahead(e));
     while (advance_due(e)) {
+        TRY(go_to_size(e, size_to_come(e), 0, INFINITY));
+        engine_probes_step(e);
         TRY(statics_advance_balanced(e));
         TRY(open_to(e, wanted, e->statics.t * wanted / opening_now(e)));
         TRY(statics_look_ahead(e));

@@ -39,8 +39,8 @@ static struct outcome outcome_of(const char *scene, struct bench_overrides *o, c
 }
 
 /* Largest and last load, and G, beside the reference: to 3 %, to `last`, to 3 % (bonds of a lattice that cross a plane
- * hold 0.987 G_c, and the first advance counts with the one that would have come before it). */
-static void check(const char *scene, struct bench_overrides *o, const struct specimen *specimen, double last)
+ * hold 0.987 G_c, and the first advance counts with the one that would have come before it). Returns the largest. */
+static double check(const char *scene, struct bench_overrides *o, const struct specimen *specimen, double last)
 {
     const struct outcome found = outcome_of(scene, o, specimen);
     const double peak = found.peak / specimen_load(specimen, specimen->crack) - 1;
@@ -49,6 +49,7 @@ static void check(const char *scene, struct bench_overrides *o, const struct spe
     if (!(fabs(end) < last)) fail_msg("%s: at a = %.4g m the load is off by %.3g", scene, found.crack, end);
     if (!(fabs(found.released / toughness - 1) < 0.03)) fail_msg("%s: released over area %.5g", scene, found.released);
     assert_true(found.crack > 1.1 * specimen->crack);
+    return found.peak;
 }
 
 /* To a/W = 0.65; measured +1.8, -5.1 %: of first order in the spacing, with 80 across 0.0 and -1.6. */
@@ -92,10 +93,30 @@ static void test_double_cantilever(void **state)
     check("inputs/cantilevers.yaml", &o, &specimen, 0.03);
 }
 
+/* Opened by 4 mm in load steps of any size: the same largest load, at which the crack begins, and no energy left over
+ * by coming late. In between loads swing by half an advance, 4 % in arms of ten spacings. */
+static void test_control_load(void **state)
+{
+    const struct specimen specimen = {DOUBLE_CANTILEVER, 10e-3, 0, 10e-3, 40e-3, young, toughness};
+    const char *const control[] = {"{number: 3, control: load}", "{number: 20, control: load}",
+                                   "{number: 3, control: opening, from: [0, 5 mm], to: [0, -5 mm], opening: 4 mm}"};
+    double peak[3];
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        struct bench_overrides o = {0};
+        bench_override(&o, "variables.h", "1 mm"), bench_override(&o, "steps", "%s", control[k]);
+        bench_override(&o, "boundary.0.displacement", "[free, 2 mm]");
+        bench_override(&o, "boundary.1.displacement", "[free, -2 mm]");
+        peak[k] = check("inputs/cantilevers.yaml", &o, &specimen, 0.06);
+    }
+    assert_true(fabs(peak[1] / peak[0] - 1) < 0.005 && fabs(peak[2] / peak[0] - 1) < 0.005);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_compact_tension), cmocka_unit_test(test_edge_crack_in_grips),
-        cmocka_unit_test(test_three_point_bend), cmocka_unit_test(test_double_cantilever)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_compact_tension),
+                                       cmocka_unit_test(test_edge_crack_in_grips),
+                                       cmocka_unit_test(test_three_point_bend),
+                                       cmocka_unit_test(test_double_cantilever), cmocka_unit_test(test_control_load)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
