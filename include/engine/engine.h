@@ -261,6 +261,8 @@ status engine_steps(struct engine *e);
  * loads and supports prescribe at a load time, which scales as they do. */
 status engine_equilibrium_try(struct engine *e, real t);
 real engine_load_size(const struct engine *e, real t);
+/* Why the tips of pre-cracks are not led in load steps (steps.path); NULL: they are, if there are any. */
+const char *engine_led_fault(const struct engine *e);
 void statics_free(struct engine *e);
 /* REFUSED for bodies that load steps do not know. */
 status statics_check(const struct engine *e);

@@ -24,7 +24,7 @@ struct break_list {
  * of the size of its loads. */
 struct advance { real cost, release; };
 
-/* A crack tip that is led (engine_led.c). */
+/* A crack tip that is led (engine_led.c); in space a front, by its place in the plane across it. */
 struct led_tip {
     real start[2], place[2];             /* where it started, where it is: reference positions [m] */
     real along[2], heading[2];           /* unit vectors: frame of its factors; where it goes */
@@ -40,9 +40,20 @@ struct led_tip {
     struct advance ahead, behind;        /* the stretch ahead, and the last one; cost 0: none */
     real due;                            /* size of the loads at which the stretch ahead comes */
 };
+/* The plane in which tips are led: of the body, or in space the one across the fronts of its cracks, which are
+ * straight, parallel, and go through the body (engine_led_plane.c). */
+struct led_plane {
+    bool made;
+    real axis[2][DIM_MAX], front[DIM_MAX]; /* unit vectors: of the plane; along the fronts, 0 in a plane body */
+    real middle;                           /* of a front, along it [m] */
+    int mirrors;
+    struct mirror_plane mirror[2 * DIM_MAX]; /* of the body, by axes of the plane */
+};
 enum { LED_MAX = 64 };
 struct led_stretch { real at[2][DIM_MAX]; int tip; };
 struct led {
+    struct led_plane plane;
+    const char *fault;                   /* why there is none; NULL: there is */
     bool known;                          /* tips have been looked for */
     int n;
     struct led_tip tip[LED_MAX];
@@ -93,6 +104,7 @@ struct statics {
     real due;                            /* size of the loads at which the next one comes, INFINITY: at none */
     bool advances;                       /* the next load step begins with it */
     bool stale;                          /* bonds have broken since the preconditioner was made */
+    bool kept;                           /* at a checkpoint: there is one, and the next load step goes on with it */
     bool parted;                         /* and since pieces were looked for */
     real released_time;                  /* that releases in time have taken so far [s] */
     struct led led;

@@ -14,7 +14,7 @@ struct equilibrium {
     struct field u, f;                   /* [n] displacement [m]; force there [N]. Of held components: on the support */
     uint8_t *held;                       /* [n] bit d: component d is prescribed */
     struct field d, q, r, z, x, at;      /* [n] of conjugate gradients; displacement where forces are asked for [m] */
-    struct field before;                 /* [n] forces at u of the loads that acted there before [N] */
+    struct field before, grown;          /* [n] forces at u of the loads that acted there before; their growth [N] */
 
     /* Forces at u, into f: all but those of supports. Twice at one u they are the same. */
     void (*force)(void *context, const struct field *u, struct field *f);
@@ -33,6 +33,7 @@ struct equilibrium {
                                           * of supports is the mean of their forces in both equilibria times their way,
                                           * not that on the way [J] */
 
+    real bent;                           /* work of loads on the last way beyond the mean of both ends times it [J] */
     real residual;                       /* what is left, over `scale` [1] */
     real scale;                          /* larger one of the norms of applied forces and reactions [N] */
     real largest;                        /* the largest of these so far [N] */

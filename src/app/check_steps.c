@@ -26,7 +26,7 @@ static int tips_of_cracks(const struct engine *e)
 
 static bool is_led(const struct engine *e)
 {
-    return e->scene->dim == 2 && e->scene->steps.path != PATH_BONDS && tips_of_cracks(e) > 0;
+    return tips_of_cracks(e) > 0 && engine_led_fault(e) == NULL;
 }
 
 /* How far bodies go on from a tip, straight ahead (side 1) or back (-1) [m]; 0 where they are lists of particles. */
@@ -71,11 +71,13 @@ void say_load_steps(const struct engine *e)
            s->steps.number, by[s->steps.control], s->duration, s->solver_tolerance);
     if (!scene_bonds_break(s) || s->method == METHOD_MPM) return;
     if (is_led(e))
-        printf("cracks         %d tip%s led by the hoop stress round %s, 2 spacings in an advance\n", tips,
-               tips > 1 ? "s are" : " is", tips > 1 ? "them" : "it");
+        printf("cracks         %d %s%s led by the hoop stress round %s, 2 spacings in an advance%s\n", tips,
+               s->dim == 3 ? "front" : "tip", tips > 1 ? "s are" : " is", tips > 1 ? "them" : "it",
+               s->dim == 3 ? ", straight through the body" : "");
     else
-        printf("cracks         grow by their most overloaded bonds, some 2 spacings in an advance%s\n",
-               tips == 0 ? "; there is no pre-crack whose load theory knows" : "");
+        printf("cracks         grow by their most overloaded bonds, some 2 spacings in an advance%s%s\n",
+               tips == 0 ? "; there is no pre-crack whose load theory knows" : "; they are not led: ",
+               tips == 0 ? "" : engine_led_fault(e));
 }
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */

@@ -154,11 +154,12 @@ static void account_begin(struct account *a, const struct engine *e)
     }
 }
 
-/* Work of supports and of applied forces over the step, each by the mean of its forces at both ends; *before holds
- * where loaded particles were. */
+/* Work of supports and of applied forces over the step, each by the mean of its forces at both ends, and what the bend
+ * of the way adds; *before holds where loaded particles were. */
 static void account_end(struct account *a, struct engine *e, real *const *before)
 {
     struct statics *s = &e->statics;
+    e->loads.work += s->balance.bent;
     for (int d = 0; d < e->part.dim; d++) {
         for (int64_t k = 0; k < s->balance.n; k++)
             if (s->balance.held[k] >> d & 1)

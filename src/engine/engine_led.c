@@ -19,6 +19,7 @@
 #define HOLD 8.0      /* straight on after it [spacings] */
 #define LEAST 6.0     /* outer radius [spacings] */
 #define AHEAD 1e-3    /* [spacings] */
+#define HERE 1e-6     /* from the end of a pre-crack to the tip there [spacings] */
 #define PARALLEL 1e-6 /* sine of an angle that is none */
 #define REST 0.1      /* way to another crack that is none [spacings] */
 #define REACH 1.2     /* of the search for a body ahead [spacings] */
@@ -29,23 +30,19 @@ enum { ADVANCE_SPACINGS = 2 };
 
 static real led_distance(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
 
-/* Does a pre-crack begin here? */
-static bool crack_begins(const struct scene *s, const real *X)
+/* Length of the longest pre-crack that ends at the tip, and whether one begins there. */
+static void cracks_behind(const struct engine *e, struct led_tip *tip)
 {
-    for (int k = 0; k < s->cracks; k++)
-        if (led_distance(s->crack[k].corner[0], X) <= ON_SURFACE * s->spacing) return true;
-    return false;
-}
-
-/* Length of the longest pre-crack that ends here [m]. */
-static real length_behind(const struct scene *s, const real *X)
-{
-    real length = 0;
-    for (int k = 0; k < s->cracks; k++)
-        for (int end = 0; end < 2; end++)
-            if (led_distance(s->crack[k].corner[end], X) <= ON_SURFACE * s->spacing)
-                length = real_max(length, led_distance(s->crack[k].corner[0], s->crack[k].corner[1]));
-    return length;
+    const struct scene *s = e->scene;
+    for (int k = 0; k < s->cracks; k++) {
+        real at[2][DIM_MAX] = {{0}};
+        led_segment(&e->statics.led.plane, &s->crack[k], s->dim, at);
+        for (int end = 0; end < 2; end++) {
+            if (led_distance(at[end], tip->place) > HERE * s->spacing) continue;
+            tip->sees = real_max(tip->sees, led_distance(at[0], at[1]));
+            tip->reversed |= end == 0;
+        }
+    }
 }
 
 static void led_start(struct engine *e)
@@ -55,23 +52,49 @@ static void led_start(struct engine *e)
     l->known = true;
     for (int k = 0; k < t->n; k++) {
         const struct tip *from = &t->tip[k];
+        real place[2], along[2];
         if (!from->from_crack) continue;
         struct led_tip *tip = &l->tip[l->n++];
-        *tip = (struct led_tip){.sees = length_behind(e->scene, from->origin), .body = from->body};
+        *tip = (struct led_tip){.body = from->body};
+        led_project(&l->plane, from->origin, e->part.dim, place);
+        led_project(&l->plane, from->along, e->part.dim, along);
         for (int d = 0; d < 2; d++) {
-            tip->start[d] = tip->place[d] = from->origin[d];
-            tip->along[d] = tip->heading[d] = tip->last[d] = from->along[d];
+            tip->start[d] = tip->place[d] = place[d];
+            tip->along[d] = tip->heading[d] = tip->last[d] = along[d];
         }
-        tip->reversed = crack_begins(e->scene, from->origin);
+        cracks_behind(e, tip);
     }
+}
+
+/* Why no tip is led, else NULL. */
+static const char *led_fault(const struct engine *e, struct led_plane *plane)
+{
+    const struct scene *s = e->scene;
+    const bool one = s->bodies == 1 && s->materials == 1;    /* hoop stress knows no toughness */
+    *plane = (struct led_plane){.made = true};
+    if (s->steps.path == PATH_BONDS) return "steps.path is bonds";
+    return s->steps.path == PATH_AUTO && !one ? "there are several bodies or materials" : led_plane_find(e, plane);
+}
+
+const char *engine_led_fault(const struct engine *e) { return led_fault(e, &(struct led_plane){0}); }
+
+status led_check(const struct engine *e)
+{
+    const char *fault = NULL;
+    if (!scene_in_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
+    fault = engine_led_fault(e);
+    return fault ? status_set(REFUSED,
+                              "steps.path: hoop leads straight fronts that go through the body, and %s; bonds, or "
+                              "auto, is expected",
+                              fault)
+                 : OK;
 }
 
 bool led_leads(struct engine *e)
 {
     struct led *l = &e->statics.led;
-    const struct scene *s = e->scene;
-    const bool one = s->bodies == 1 && s->materials == 1;    /* hoop stress knows no toughness */
-    if (s->steps.path == PATH_BONDS || s->dim != 2 || (s->steps.path == PATH_AUTO && !one)) return false;
+    if (!l->plane.made) l->fault = led_fault(e, &l->plane);
+    if (l->fault) return false;
     if (!l->known) led_start(e);
     for (int k = 0; k < l->n; k++)
         if (!l->tip[k].ended) return true;
@@ -84,11 +107,11 @@ static const struct material *material_at(const struct engine *e, const struct l
 {
     const struct particles *p = &e->part;
     int64_t nearest = 0;
-    real least = INFINITY;
+    real least = INFINITY, X[2];
     for (int64_t i = 0; i < p->n; i++) {
-        const real r =
-            p->body[i] == tip->body ? hypot(p->X[0][i] - tip->place[0], p->X[1][i] - tip->place[1]) : INFINITY;
-        if (r < least) least = r, nearest = i;
+        if (p->body[i] != tip->body) continue;
+        led_project_particle(e, i, X);
+        if (led_distance(X, tip->place) < least) least = led_distance(X, tip->place), nearest = i;
     }
     return &e->scene->material[p->material[nearest]];
 }
@@ -96,40 +119,60 @@ static const struct material *material_at(const struct engine *e, const struct l
 /* Is the tip on a plane of symmetry, and goes along it? */
 static bool on_mirror(const struct engine *e, const struct led_tip *tip)
 {
-    for (int k = 0; k < e->source.mirrors; k++) {
-        const struct mirror_plane *m = &e->source.mirror[k];
-        if (fabs(tip->place[m->axis] - m->at) <= AHEAD * e->scene->spacing && fabs(tip->last[m->axis]) <= AHEAD)
-            return true;
-    }
-    return false;
+    const real h = e->scene->spacing, ahead[2] = {tip->place[0] + h * tip->last[0], tip->place[1] + h * tip->last[1]};
+    return led_on_mirror(e, &e->statics.led.plane, tip->place, ahead);
 }
 
-/* Pre-cracks, and what tips have cut; the caller frees the list. */
+/* Pre-cracks, and what tips have cut, in the plane of the tips; cracks_now_free frees the list. */
 static struct crack *cracks_now(const struct engine *e, int *n)
 {
     const struct led *l = &e->statics.led;
     const struct crack_list *before = &e->tables.cracks;
-    struct crack *crack = NEW("led.cracks", before->n + l->stretches, struct crack);
-    for (int k = 0; k < before->n; k++) crack[k] = before->crack[k];
+    struct crack *crack = NEW("led.cracks", before->n + l->stretches + 1, struct crack);
+    real(*corner)[DIM_MAX] = memory_new("led.corners", 2 * (before->n + 1), sizeof *corner);
+    for (int k = 0; k < before->n; k++) {
+        led_segment(&l->plane, &before->crack[k], e->part.dim, corner + 2 * k);
+        crack[k] = (struct crack){.n = 2, .corner = corner + 2 * k};
+    }
     for (int64_t k = 0; k < l->stretches; k++) crack[before->n + k] = (struct crack){.n = 2, .corner = l->path[k].at};
     *n = before->n + (int)l->stretches;
+    crack[*n].corner = corner;
     return crack;
+}
+
+static void cracks_now_free(struct crack *crack, int n)
+{
+    memory_free(crack[n].corner);
+    memory_free(crack);
+}
+
+/* The medium round a tip. In space, at a radius of half of the thickness and more, sides have let the stress along the
+ * front go (Nakamura & Parks 1988), which a ring's mean radius decides. */
+static struct crack_medium medium_at(const struct engine *e, const struct led_tip *tip, real radius)
+{
+    enum space space = e->scene->space;
+    if (e->part.dim == 3) {
+        const real h = e->scene->spacing, *along = tip->last;
+        const real ahead[2] = {tip->place[0] + h * along[0], tip->place[1] + h * along[1]};
+        const bool thin = led_width(e, &e->statics.led.plane, tip->place, ahead) < 2 * radius;
+        space = thin ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN;
+    }
+    return crack_medium_of(material_at(e, tip), space);
 }
 
 bool led_measure(const struct engine *e, const struct led_tip *tip, real K[MODES])
 {
     const real h = e->scene->spacing, inner = real_max(3 * h, INNER * e->source.family.horizon);
-    struct tip_view view = {.medium = crack_medium_of(material_at(e, tip), e->scene->space),
-                            .inner = inner,
-                            .outer = inner + WIDTH * h,
-                            .body = tip->body};
+    struct tip_view view = {.inner = inner, .outer = inner + WIDTH * h, .body = tip->body};
     for (int d = 0; d < 2; d++)
         view.place[d] = tip->place[d], view.along[d] = tip->along[d], view.last[d] = tip->last[d];
+    memcpy(view.axis, e->statics.led.plane.axis, sizeof view.axis);
     view.outer = real_min(view.outer, real_max(tip->sees, LEAST * h));
+    view.medium = medium_at(e, tip, 0.5 * (view.inner + view.outer));
     struct crack *crack = cracks_now(e, &view.cracks);
     view.crack = crack;
     const bool seen = tip_fit(&view, &e->part, K);
-    memory_free(crack);
+    cracks_now_free(crack, view.cracks);
     if (on_mirror(e, tip)) K[MODE_II] = 0;
     return seen;
 }
@@ -162,10 +205,14 @@ void led_factors(struct engine *e, real K[MODES])
     if (first) led_measure(e, first, K);
 }
 
-void led_place(const struct engine *e, real place[2])
+void led_place(const struct engine *e, real place[DIM_MAX])
 {
+    const struct led_plane *plane = &e->statics.led.plane;
     const struct led_tip *first = tip_farthest(&e->statics.led, false);
-    for (int d = 0; d < 2; d++) place[d] = first ? first->place[d] : NAN;
+    for (int d = 0; d < DIM_MAX; d++)
+        place[d] = first ? first->place[0] * plane->axis[0][d] + first->place[1] * plane->axis[1][d] +
+                               plane->middle * plane->front[d]
+                         : NAN;
 }
 
 /* ---- the way ahead ----------------------------------------------------------------------------------------------- */
@@ -191,27 +238,20 @@ static bool ends_here(const struct crack *c, const struct led_tip *tip, real wit
 void led_next_place(const struct engine *e, const struct led_tip *tip, real place[2])
 {
     const struct scene *s = e->scene;
-    const real h = s->spacing, width = scene_section(s);
-    const real way =
-        s->steps.energy > 0 ? s->steps.energy / (toughness_of(e, material_at(e, tip)) * width) : ADVANCE_SPACINGS * h;
-    real from[2], to[2], share = 1;
+    const real h = s->spacing;
+    real from[2], to[2], way = ADVANCE_SPACINGS * h, share = 1;
     int cracks;
+    for (int d = 0; d < 2; d++)
+        from[d] = tip->place[d] + AHEAD * h * tip->heading[d], to[d] = tip->place[d] + h * tip->heading[d];
+    if (s->steps.energy > 0)
+        way = s->steps.energy /
+              (led_toughness(e, tip) * real_max(h, led_width(e, &e->statics.led.plane, tip->place, to)));
     struct crack *crack = cracks_now(e, &cracks);
-    for (int d = 0; d < 2; d++) {
-        from[d] = tip->place[d] + AHEAD * h * tip->heading[d], to[d] = tip->place[d] + way * tip->heading[d];
-    }
+    for (int d = 0; d < 2; d++) to[d] = tip->place[d] + way * tip->heading[d];
     for (int k = 0; k < cracks; k++)
         if (!ends_here(&crack[k], tip, AHEAD * h)) share = real_min(share, meeting_share(&crack[k], from, to));
     for (int d = 0; d < 2; d++) place[d] = share < 1 ? from[d] + share * (to[d] - from[d]) : to[d];
-    memory_free(crack);
-}
-
-/* Area of the next stretch: half of it belongs to a body that ends at a plane of symmetry there [m^2]. */
-real led_area(const struct engine *e, const struct led_tip *tip)
-{
-    real to[2];
-    led_next_place(e, tip, to);
-    return led_distance(to, tip->place) * scene_section(e->scene) * (on_mirror(e, tip) ? 0.5 : 1);
+    cracks_now_free(crack, cracks);
 }
 
 real led_toughness(const struct engine *e, const struct led_tip *tip) { return toughness_of(e, material_at(e, tip)); }
@@ -222,12 +262,14 @@ static bool body_is_ahead(const struct engine *e, const struct led_tip *tip)
     const struct particles *p = &e->part;
     const real h = e->scene->spacing,
                ahead[2] = {tip->place[0] + h * tip->heading[0], tip->place[1] + h * tip->heading[1]};
+    const real wide = p->dim == 2 ? 1 : led_width(e, &e->statics.led.plane, tip->place, ahead) / h;
     int free_ones = 0;
     for (int64_t i = 0; i < p->n_all; i++) {
-        const real X[2] = {p->X[0][i], p->X[1][i]};
+        real X[2];
+        led_project_particle(e, i, X);
         free_ones += p->body[i] == tip->body && !(p->flag[i] & FLAG_DRIVEN) && led_distance(X, ahead) <= REACH * h;
     }
-    return free_ones >= 2;
+    return wide > 0 && free_ones >= 2 * floor(wide);
 }
 
 static void led_path_add(struct led *l, int k, const real *to)

@@ -18,15 +18,14 @@ enum { CLAIMS_MOST = 4 };
 /* Adds the bonds of a row that one of the ways cuts. */
 static void cut_row(const struct engine *e, const struct crack_list *ways, int64_t r, struct break_list *l)
 {
-    const int32_t i = e->bonds.particle[r];
     real X[DIM_MAX] = {0}, Y[DIM_MAX] = {0};
     bool close = false;
-    particle_place(&e->part, i, X);
+    led_project_particle(e, e->bonds.particle[r], X);
     for (int w = 0; w < ways->n; w++) close |= crack_near(&ways->crack[w], X, e->source.family.cutoff, 2);
     for (struct bond_iterator it = bonds_of_row(&e->bonds, r); close && bond_next(&it);) {
         bool cut = false;
         if (it.bond.w == 0) continue;
-        particle_place(&e->part, it.bond.nbr, Y);
+        led_project_particle(e, it.bond.nbr, Y);
         for (int w = 0; w < ways->n; w++) cut |= crack_cuts(&ways->crack[w], X, Y, 2);
         if (!cut) continue;
         const struct broken_bond record = statics_bond_record(e, &it.bond, r);
@@ -43,12 +42,24 @@ static void ways_of(const struct engine *e, const struct led_tip *tip, struct cr
     for (int d = 0; d < 2; d++)
         corner[tip->reversed][d] = tip->place[d], corner[!tip->reversed][d] = to[d] + beyond * tip->heading[d];
     const struct crack path = {.n = 2, .corner = corner};
-    cracks_mirrored(ways, &path, 1, e->source.mirror, e->source.mirrors, e->source.family.cutoff,
-                    ON_SURFACE * e->scene->spacing);
+    cracks_mirrored(ways, &path, 1, e->statics.led.plane.mirror, e->statics.led.plane.mirrors,
+                    e->source.family.cutoff, ON_SURFACE * e->scene->spacing);
 }
 
-/* All of what the next stretch of a tip cuts; returns what it costs [J]. State-based bonds have no energy of their own:
- * G_c of the area. */
+/* What the bonds of a stretch cost is that of its area [J]: state-based bonds have no energy of their own, and in space
+ * those of the sides of a body have weights of faces, and some at the tip of a pre-crack have been cut with it. */
+static void stretch_price(const struct engine *e, const struct led_tip *tip, struct break_list *l)
+{
+    const bool state_based = e->scene->model != MODEL_BOND;
+    real to[2], sum = 0;
+    led_next_place(e, tip, to);
+    const real whole = led_face_area(e, tip->place, to) * led_toughness(e, tip);
+    for (int64_t k = 0; k < l->n; k++) sum += l->bond[k].held;
+    for (int64_t k = 0; k < l->n; k++)
+        l->bond[k].held = state_based ? whole / (real)l->n : l->bond[k].held * whole / sum;
+}
+
+/* All of what the next stretch of a tip cuts; returns what it costs [J]. */
 static real stretch_list(const struct engine *e, const struct led_tip *tip, struct break_list *l)
 {
     struct crack_list ways;
@@ -56,10 +67,7 @@ static real stretch_list(const struct engine *e, const struct led_tip *tip, stru
     ways_of(e, tip, &ways);
     for (int64_t r = 0; r < e->bonds.rows; r++) cut_row(e, &ways, r, l);
     crack_list_free(&ways);
-    if (e->scene->model != MODEL_BOND) {
-        const real whole = led_area(e, tip) * led_toughness(e, tip);
-        for (int64_t k = 0; k < l->n; k++) l->bond[k].held = whole / (real)l->n;
-    }
+    if (e->scene->model != MODEL_BOND || e->part.dim == 3) stretch_price(e, tip, l);
     for (int64_t k = 0; k < l->n; k++) cost += l->bond[k].held;
     return cost;
 }
@@ -76,7 +84,7 @@ static int64_t stretch_claim(struct engine *e, const struct led_tip *tip)
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX] = {0};
         if (p->kind[i] != KIND_MPM || p->body[i] != tip->body) continue;
-        particle_place(p, i, X);
+        led_project_particle(e, i, X);
         if (segment_distance(from, to, X, 2) > e->source.family.cutoff) continue;
         p->flag[i] |= FLAG_LOST_BOND;
         claimed++;

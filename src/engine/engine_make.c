@@ -27,8 +27,7 @@ static void make_limits(const struct scene *s, struct material_tables *tables, s
     if (scene_at_rest(s)) source->limit = bond_limit_never;    /* no bond breaks in a static solution */
 }
 
-/* Yield of bonds by the material that yields at the smaller strain: s_y = sigma_y/E and H_b/k_e = H/E, which is the
- * material's own curve in a bar. */
+/* Yield of bonds by the material that yields first: s_y = sigma_y/E and H_b/k_e = H/E, its own curve in a bar. */
 static void make_yields(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     bool any = false;
@@ -370,6 +369,7 @@ static status make_probes(struct engine *e)
     e->probing.strain_stress = largest_stress(&e->part);
     tips_make(&e->fracture.tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
     engine_notch_tips(e);
+    TRY(named(s, led_check(e)));
     e->fracture.growth = NEW("engine.growth", s->growths, struct growth);
     for (int k = 0; k < s->growths; k++) growth_make(&e->fracture.growth[k], &s->growth[k]);
     if (scene_at_rest(s)) TRY(named(s, engine_solver_make(e)));

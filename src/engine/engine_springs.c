@@ -232,7 +232,7 @@ void statics_precondition_free(struct engine *e)
     s->matrix = NULL;
 }
 
-static void precondition_make(struct engine *e)
+void statics_precondition_make(struct engine *e)
 {
     struct statics *s = &e->statics;
     real *place[DIM_MAX] = {0};
@@ -251,7 +251,7 @@ static void precondition_make(struct engine *e)
 void statics_precondition(void *engine, const struct field *r, struct field *z)
 {
     struct engine *e = engine;
-    if (!e->statics.precondition) precondition_make(e);
+    if (!e->statics.precondition) statics_precondition_make(e);
     multigrid_apply(e->statics.precondition, r->of, z->of);
     statics_pieces_hold(e, z);
 }

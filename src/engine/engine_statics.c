@@ -198,6 +198,9 @@ status statics_archive(struct engine *e, struct archive *a)
     ARCHIVE_VALUE(a, "statics/lost", q->lost);
     ARCHIVE_VALUE(a, "statics/largest", q->largest);
     ARCHIVE_VALUE(a, "statics/strain_ratio", q->strain_ratio);
+    ARCHIVE_VALUE(a, "statics/noise", q->noise);
+    s->kept = s->precondition && !s->stale;
+    ARCHIVE_VALUE(a, "statics/kept", s->kept);
     ARCHIVE_VALUE(a, "statics/forces", q->forces);
     ARCHIVE_VALUE(a, "statics/directions", q->directions);
     ARCHIVE_VALUE(a, "statics/solutions", s->solutions);

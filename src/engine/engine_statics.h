@@ -41,6 +41,7 @@ void statics_record_keep(struct engine *e);
 /* Preconditioner (engine_springs.c): z = M^-1 r of equilibrium.h; it is made anew once solutions take too many
  * directions, or when it is to (`free`). */
 void statics_precondition(void *engine, const struct field *r, struct field *z);
+void statics_precondition_make(struct engine *e);
 void statics_precondition_watch(struct engine *e, int64_t directions);
 void statics_precondition_free(struct engine *e);
 
@@ -94,22 +95,33 @@ struct advance advance_before(const struct advance *first, const struct advance 
 /* Energy per area that a crack takes: of bonds at their limits, or of state-based models G_c as given [J/m^2]. */
 real toughness_of(const struct engine *e, const struct material *m);
 
-/* Cracks that are led by their stress-intensity factors (engine_led.c, engine_led_cut.c). Is there a tip to lead? */
+/* Cracks that are led by their stress-intensity factors (engine_led.c, engine_led_cut.c), in a plane
+ * (engine_led_plane.c): finds it, and says why there is none, else NULL; where X of `dim` components lies in it [m]; a
+ * pre-crack there, false: askew. Mean width of the body across it along a way [m]; area of a new face there [m^2]. Does
+ * the way lie on a plane of symmetry? */
+const char *led_plane_find(const struct engine *e, struct led_plane *plane);
+void led_project(const struct led_plane *plane, const real *X, int dim, real to[2]);
+void led_project_particle(const struct engine *e, int64_t i, real to[2]);
+bool led_segment(const struct led_plane *plane, const struct crack *c, int dim, real at[2][DIM_MAX]);
+real led_width(const struct engine *e, const struct led_plane *plane, const real *from, const real *to);
+real led_face_area(const struct engine *e, const real *from, const real *to);
+bool led_on_mirror(const struct engine *e, const struct led_plane *plane, const real *from, const real *to);
+/* REFUSED where a scene in space asks for what there is not. Is there a tip to lead? */
+status led_check(const struct engine *e);
 bool led_leads(struct engine *e);
 /* Measures factors at a tip, in its frame; false: it sees too little. */
 bool led_measure(const struct engine *e, const struct led_tip *tip, real K[2]);
 /* Where its next stretch ends [m]. */
 void led_next_place(const struct engine *e, const struct led_tip *tip, real place[2]);
-/* Its area [m^2], and what it costs [J/m^2]. */
-real led_area(const struct engine *e, const struct led_tip *tip);
+/* What it costs [J/m^2]. */
 real led_toughness(const struct engine *e, const struct led_tip *tip);
 /* Turns the tips to where they go next; moves one along its next stretch. */
 void led_turn(const struct engine *e, struct led_tip *tip);
 void led_move(struct engine *e, int tip);
 /* Factors of the leading tip; NAN where there is none. */
 void led_factors(struct engine *e, real K[2]);
-/* Where the tip that has gone farthest is, in the reference frame [m]; NAN: none is led. */
-void led_place(const struct engine *e, real place[2]);
+/* Where the tip that has gone farthest is, or the middle of its front, in the reference frame [m]; NAN: none is led. */
+void led_place(const struct engine *e, real place[DIM_MAX]);
 void led_free(struct led *l);
 status led_archive(struct engine *e, struct archive *a);
 /* The next advance of led cracks, and what follows it. */

@@ -129,7 +129,9 @@ static status load_step(struct engine *e)
     const struct scene *s = e->scene;
     const real most = s->duration / (real)s->steps.number;
     if (e->statics.precondition && e->statics.stale) statics_precondition_free(e);
-    e->statics.directions = 0; /* as in a run that goes on from here, which makes one for the same bonds */
+    if (e->statics.kept && !e->statics.precondition) statics_precondition_make(e); /* a run that goes on from here */
+    e->statics.kept = false;
+    e->statics.directions = 0; /* as in such a run, which has one made for the same bonds */
     switch (s->steps.control) {
     case CONTROL_LOAD:
         return step_by_load(e, most * (real)(e->clock.step + 1));
@@ -171,6 +173,7 @@ status engine_steps(struct engine *e)
     if (!e->statics.node) statics_unknowns_make(e); /* a run that goes on has them */
     e->statics.opens[0] = particles_nearest(&e->part, e->scene->steps.from);
     e->statics.opens[1] = particles_nearest(&e->part, e->scene->steps.to);
+    led_leads(e);                                   /* of a run that goes on, too: finds the plane of its tips */
     if (e->clock.step == 0) engine_sample_rest(e);
     while (e->clock.step < e->clock.steps) {
         e->statics.record.step = e->clock.step + 1;

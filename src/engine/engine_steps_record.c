@@ -6,17 +6,19 @@
 
 #define GROWTH 4 /* spacings of growth over which a release rate is taken: a length comes in steps of one */
 
-enum { STATICS_COLUMNS = 12 };
+enum { STATICS_COLUMNS = 13 };                    /* in the plane one less */
 
 int statics_columns(const struct engine *e, struct column *column)
 {
     static const struct column own[STATICS_COLUMNS] = {
         {"load_time", "s"},        {"overload", ""},       {"released", "J"},  {"crack_area", "m^2"},
         {"release_rate", "J/m^2"}, {"bonds_broken", ""},   {"directions", ""}, {"equilibria", ""},
-        {"K_I", "Pa m^(1/2)"},     {"K_II", "Pa m^(1/2)"}, {"path_x", "m"},    {"path_y", "m"}};
+        {"K_I", "Pa m^(1/2)"},     {"K_II", "Pa m^(1/2)"}, {"path_x", "m"},    {"path_y", "m"},
+        {"path_z", "m"}};
     if (!scene_in_steps(e->scene)) return 0;
-    if (column) memcpy(column, own, sizeof own);
-    return STATICS_COLUMNS;
+    const int n = STATICS_COLUMNS - (e->part.dim < 3);
+    if (column) memcpy(column, own, (size_t)n * sizeof *own);
+    return n;
 }
 
 /* Area by which the cracks grow over a spacing: as wide as all fronts of pre-cracks, else as one spacing [m^2]; in line
@@ -47,22 +49,13 @@ static real damage_beside_cut(const struct scene *s)
     return 0.5 * (real)(all - along) / (real)all;
 }
 
-/* Area of the paths of tips that are led; of one along a plane of symmetry half of it [m^2]. */
+/* Area of the paths of tips that are led [m^2]. */
 static real led_paths_area(const struct engine *e)
 {
     const struct led *l = &e->statics.led;
-    const real near = 0.5 * e->scene->spacing;
-    real length = 0;
-    for (int64_t k = 0; k < l->stretches; k++) {
-        const real *a = l->path[k].at[0], *b = l->path[k].at[1];
-        bool halved = false;
-        for (int m = 0; m < e->source.mirrors; m++) {
-            const struct mirror_plane *p = &e->source.mirror[m];
-            halved |= fabs(a[p->axis] - p->at) < near && fabs(b[p->axis] - p->at) < near;
-        }
-        length += (halved ? 0.5 : 1) * hypot(b[0] - a[0], b[1] - a[1]);
-    }
-    return length * scene_section(e->scene);
+    real area = 0;
+    for (int64_t k = 0; k < l->stretches; k++) area += led_face_area(e, l->path[k].at[0], l->path[k].at[1]);
+    return area;
 }
 
 /* Area so far, of what tips have been led along, or where damaged particles say that more than another spacing has
@@ -89,19 +82,17 @@ static void measure(struct engine *e)
 void statics_record(struct engine *e, real *record)
 {
     const struct statics *s = &e->statics;
+    real place[DIM_MAX];
     if (!scene_in_steps(e->scene)) return;
     measure(e);
-    const real own[STATICS_COLUMNS - MODES - 2] = {s->t,
-                                                   s->overload,
-                                                   s->record.released,
-                                                   s->record.area,
-                                                   s->record.area > 0 ? s->record.rate : NAN,
-                                                   0.5 * (real)e->diagnostics.bonds_broken,
-                                                   (real)(s->balance.directions - s->record.directions),
-                                                   (real)(s->solutions - s->record.solutions)};
+    const real rate = s->record.area > 0 ? s->record.rate : NAN, bonds = 0.5 * (real)e->diagnostics.bonds_broken;
+    const real own[STATICS_COLUMNS - MODES - DIM_MAX] = {
+        s->t, s->overload, s->record.released, s->record.area, rate, bonds,
+        (real)(s->balance.directions - s->record.directions), (real)(s->solutions - s->record.solutions)};
     memcpy(record, own, sizeof own);
     led_factors(e, record + COUNT_OF(own));
-    led_place(e, record + COUNT_OF(own) + MODES);
+    led_place(e, place);
+    memcpy(record + COUNT_OF(own) + MODES, place, (size_t)(e->part.dim < 3 ? 2 : 3) * sizeof *place);
 }
 
 real engine_load_size(const struct engine *e, real t) { return statics_load_size(e, t); }

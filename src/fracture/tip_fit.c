@@ -87,8 +87,11 @@ bool tip_fit(const struct tip_view *v, const struct particles *p, real K[MODES])
     K[MODE_I] = K[MODE_II] = 0;
     for (int64_t i = 0; i < p->n_all; i++) {
         real X[DIM_MAX] = {0}, from[2], u[2];
-        for (int d = 0; d < 2; d++) {
-            X[d] = p->X[d][i], from[d] = X[d] - v->place[d], u[d] = p->x[d][i] - X[d];
+        for (int a = 0; a < 2; a++) {
+            real way = 0;
+            for (int d = 0; d < p->dim; d++)
+                X[a] += v->axis[a][d] * p->X[d][i], way += v->axis[a][d] * (p->x[d][i] - p->X[d][i]);
+            from[a] = X[a] - v->place[a], u[a] = way;
         }
         const real r2 = square(from[0]) + square(from[1]);
         if (r2 < square(v->inner) || r2 > square(v->outer) || p->body[i] != v->body || !seen(v, X)) continue;

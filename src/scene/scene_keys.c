@@ -66,9 +66,10 @@ const struct key keys[] = {
         "places grows evenly, and pseudo-time follows",
         .words = "load|energy|opening"),
     KEY("steps.path", KEY_CHOICE, UNIT_NONE, AT(scene, steps.path), ANY, "auto",
-        "how a crack finds its way: bonds: its most overloaded bonds break; hoop (in the plane): its tip cuts what is "
-        "on the next two spacings in the direction of the largest hoop stress, by its stress-intensity factors; where "
-        "no tip is left, bonds; auto: hoop where a plane body of one material has pre-cracks that end in it",
+        "how a crack finds its way: bonds: its most overloaded bonds break; hoop: its tip, in space its straight front "
+        "through the body, cuts what is on the next two spacings in the direction of the largest hoop stress, by its "
+        "stress-intensity factors; where no tip is left, bonds; auto: hoop where a body of one material has pre-cracks "
+        "that end in it, in space with such fronts",
         .words = "auto|bonds|hoop"),
     KEY("steps.energy", KEY_REAL, UNIT_ENERGY, AT(scene, steps.energy), ABOVE(0), "auto",
         "of an advance of the crack: what its bonds cost", .words = "auto", .word_value = 0),

@@ -71,9 +71,9 @@ status check_load_steps(struct reader *r, const struct node *root)
         return fault(r, tree_at(root, "steps.then"),
                      "a release in time belongs to control load: %s follows the crack while it is unstable",
                      opening ? "opening" : "energy");
-    if (s->steps.path == PATH_HOOP && s->dim != 2)
+    if (s->steps.path == PATH_HOOP && s->dim == 1)
         return fault(r, tree_at(root, "steps.path"),
-                     "hoop leads the tips of cracks in a plane; bonds, or auto, is expected in space and on a line");
+                     "hoop leads the tips of cracks; bonds, or auto, is expected on a line");
     if (!opening || (s->steps.has_from && s->steps.has_to && s->steps.opening > 0))
         return check_steps_loaded(r, root);
     return fault(r, steps,

@@ -26,6 +26,12 @@ probes: [{reaction: {boundary: top}}, {reaction: {name: below, boundary: bottom}
 output: {frames: 3}
 END
 pulled=$work/pulled.yaml
+
+# The same in space, 4 particles thick, with a crack plane that lies askew to the sides.
+sed -e 's/^space: .*/space: solid/; /^thickness/d; s/\(\[[^],]*, [^],]*\)\], to: \(\[[^],]*, [^],]*\)\]/\1, -1 mm], to: \2, 5 mm]/g' \
+    -e 's/^body: .*/body: {box: {from: [0, 0, 0], to: [20 mm, 20 mm, 4 mm]}}/; s/poisson: 1.3/poisson: 1\/4/' \
+    -e 's/displacement: \[0, 0.05 mm\]/displacement: [0, 0.05 mm, 0]/; s/\[x, y\]/[x, y, z]/; s/at: \[10 mm, 15 mm\]/at: [10 mm, 15 mm, 2 mm]/' \
+    -e 's/^cracks: .*/cracks: [{polygon: [[-1 mm, 9 mm, -1 mm], [8 mm, 9 mm, -1 mm], [8 mm, 11 mm, 5 mm], [-1 mm, 11 mm, 5 mm]]}]/' "$work/pulled.yaml" >"$work/space.yaml"
 grips='boundary=[{name: top, traction: [0, 100 MPa], face: y+, time: {ramp: {until: 1 s}}},'
 last() { column "$1" "$2" 9; }
 
@@ -109,6 +115,16 @@ bits opened -s steps.control=opening -s 'steps.from=[0, 9 mm]' -s 'steps.to=[0, 
 bits adaptive -s method=adaptive -s mpm.frame=reference -s steps.number=4
 bits states -s model=ospd -s steps.number=4
 
+plane=$pulled pulled=$work/space.yaml
+bits space
+pulled=$plane
+# five advances of two spacings, the width along the front 4 mm (1 + (2/6)^2)^1/2; bonds across a plane hold 0.98 G_c
+near "space: area" "$(last "$work/space" crack_area)" "$(compute "5*2e-3*4e-3*sqrt(10)/3")" 1e-6
+between "space: release rate" "$(figure "$work/space" load_steps.release_rate)" 97 101
+# grips hold one end more than the other once the crack is askew
+near "space: the front stays in its plane" "$(last "$work/space" path_y)" 0.01 2e-2
+near "space: and goes on" "$(last "$work/space" path_x)" 0.018 2e-3
+
 # killed, whatever it is at
 kills 3 "$led" $pulled
 
@@ -118,6 +134,11 @@ kills 3 "$led" $pulled
 is "check: status" $? 0
 holds "check: solver" grep -q '^solver  *static: 6 load steps at the most, by energy' "$work/out"
 holds "check: what leads the crack" grep -q '^cracks  *1 tip is led' "$work/out"
+"$cleave" check "$work/space.yaml" >"$work/solid" 2>&1
+holds "check: what leads it in space" grep -q '^cracks  *1 front is led .* straight through the body' "$work/solid"
+ends='cracks=[{polygon: [[-1 mm, 10 mm, -1 mm], [8 mm, 10 mm, -1 mm], [8 mm, 10 mm, 2 mm], [-1 mm, 10 mm, 2 mm]]}]'
+"$cleave" check "$work/space.yaml" -s "$ends" >"$work/solid" 2>&1
+holds "check: why it is not led" grep -q '^cracks  *grow by their most overloaded bonds.* not led: fronts are not parallel' "$work/solid"
 holds "check: spacings" grep -q 'unresolved: tip at (0.008, 0.01) m: 8 spacings of crack behind it' "$work/out"
 holds "check: cost" grep -q '^run time  *up to about .* equilibria' "$work/out"
 holds "check: no word of time steps and waves" sh -c "! grep -q 'time step\|wave' '$work/out'"
@@ -133,6 +154,7 @@ holds "check: nothing holds it" grep -q 'nothing holds the body' "$work/err"
 no() { what=$1 text=$2; shift 2; refused "$what" "$work/no" "$text" $pulled "$@"; holds "$what: no folder" test ! -e "$work/no"; }
 no "a control that is none" 'control' -s steps.control=crack
 no "opening of nothing" 'steps.from and steps.to' -s steps.control=opening
+refused "a front within the body" "$work/no" 'hoop leads straight fronts.*bonds, or auto, is expected' "$work/space.yaml" -s "$ends" -s steps.path=hoop
 no "friction" 'friction' -s contact.friction=0.3
 no "a release in time under energy" 'control load' -s steps.then=explicit
 no "no load" 'nothing loads the body' -s 'boundary=[{name: top, fixed: [x], face: y+}, {name: bottom, fixed: [x, y], face: y-}]'

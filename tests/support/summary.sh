@@ -22,7 +22,7 @@ numbers()
     none=$(find "$1" -name history.csv -exec awk -F, '
         FNR == 1 { for (k = 1; k <= NF; k++) name[k] = $k; next }
         { for (k = 1; k <= NF; k++)
-            if ($k ~ /inf/ || $k ~ /nan/ && name[k] !~ /^tip_[xyz]|\.[xyz] |\.(front|plateau)|\.contour_spread|\.K_eq|\.strain_(elastic|plastic)|^release_rate|^K_I|^path_[xy]|\.K_I|\.J /)
+            if ($k ~ /inf/ || $k ~ /nan/ && name[k] !~ /^tip_[xyz]|\.[xyz] |\.(front|plateau)|\.contour_spread|\.K_eq|\.strain_(elastic|plastic)|^release_rate|^K_I|^path_[xyz]|\.K_I|\.J /)
                 none[FILENAME ": " name[k] ": " $k]++ }
         END { for (what in none) print what }' {} +)
     is "$1: histories" "$none" ""
