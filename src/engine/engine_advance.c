@@ -134,7 +134,7 @@ void stand_take(struct stand *k, struct engine *e)
     const struct equilibrium *q = &e->statics.balance;
     statics_plastic_keep(e);
     *k = (struct stand){
-        e->statics.overload, q->lost, e->coupling.damped, e->loads.work, e->loads.constraint_work, {{0}}, {{0}}};
+        e->statics.t, e->statics.overload, q->lost, e->coupling.damped, e->loads.work, e->loads.constraint_work, {{0}}, {{0}}};
     for (int d = 0; d < q->dim; d++) {
         k->u.of[d] = BARE("advance.stand", q->n, real);
         k->f.of[d] = BARE("advance.stand", q->n, real);
@@ -143,20 +143,26 @@ void stand_take(struct stand *k, struct engine *e)
     }
 }
 
+void stand_free(struct stand *k, const struct engine *e)
+{
+    for (int d = 0; d < e->part.dim; d++) memory_free(k->u.of[d]), memory_free(k->f.of[d]);
+}
+
 void stand_give(struct stand *k, struct engine *e, const struct break_list *broken)
 {
     struct equilibrium *q = &e->statics.balance;
-    statics_mend(e, broken);
+    if (broken) statics_mend(e, broken);
     statics_plastic_restore(e);
+    if (e->statics.t != k->t) statics_applied_make(e, k->t);
+    e->statics.t = k->t;
     e->statics.overload = k->overload;
     q->lost = k->lost, e->coupling.damped = k->damped;
     e->loads.work = k->work, e->loads.constraint_work = k->constraint_work;
     for (int d = 0; d < q->dim; d++) {
         memcpy(q->u.of[d], k->u.of[d], (size_t)q->n * sizeof(real));
         memcpy(q->f.of[d], k->f.of[d], (size_t)q->n * sizeof(real));
-        memory_free(k->u.of[d]);
-        memory_free(k->f.of[d]);
     }
+    stand_free(k, e);
     statics_place(e, &q->u);
     engine_mesh_sync(e);
     statics_react(e);

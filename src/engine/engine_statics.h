@@ -80,11 +80,13 @@ real statics_released(const struct engine *e);
 
 /* What a trial has to give back. */
 struct stand {
-    real overload, lost, damped, work, constraint_work;
+    real t, overload, lost, damped, work, constraint_work;
     struct field u, f;
 };
 void stand_take(struct stand *k, struct engine *e);
+/* Gives it back, mends the bonds of a list (NULL: none are broken), and frees it. */
 void stand_give(struct stand *k, struct engine *e, const struct break_list *broken);
+void stand_free(struct stand *k, const struct engine *e);
 /* Size of loads at which the costs and releases of two advances balance; INFINITY: at none. */
 real size_of_balance(const struct advance *a, const struct advance *b);
 /* The same of one: there it pays for itself. */

@@ -5,6 +5,9 @@
 #include "engine_statics.h"
 
 #define OPENING_ERROR 1e-4 /* of an opening that is prescribed */
+#define FAR_BEYOND 1.2     /* overload from which on loads are too large to begin with */
+#define NEAR_LIMIT 0.95    /* overload at which an advance is looked for instead */
+#define LEAST_GROWTH 1e-6  /* of loads, below which they have come no nearer */
 enum { SECANTS_MOST = 12 };
 
 /* ---- control ----------------------------------------------------------------------------------------------------- */
@@ -31,33 +34,56 @@ static status go_to_size(struct engine *e, real size, real least, real most)
     return statics_go(e, real_min(real_max(statics_time_of_size(e, size), least), most));
 }
 
-/* Pseudo-time grows to t; on the way each advance comes at its own loads, where what supports bear counts for their
- * largest force, or, if it would have come under less, under those of the one before it. Of loads that fall there is no
- * way back. */
+/* Goes to t, or where bonds come near their limits before it, there: far beyond them energies are those of a body that
+ * would long have broken, and what an advance releases drowns in their round-off. Looks for what advances. */
+static status approach_loads(struct engine *e, real t)
+{
+    struct statics *s = &e->statics;
+    const real from = s->t, loads = statics_load_size(e, t);
+    struct stand stand;
+    stand_take(&stand, e);
+    const status gone = statics_go(e, t);
+    const real near = NEAR_LIMIT / s->overload * loads;
+    const bool far = gone == OK && s->overload > FAR_BEYOND && near > statics_load_size(e, from) * (1 + LEAST_GROWTH);
+    const real back = far ? real_max(from, statics_time_of_size(e, near)) : t;
+    if (far) stand_give(&stand, e, NULL);
+    else stand_free(&stand, e);
+    TRY(far ? statics_go(e, back) : gone);
+    TRY(statics_convert(e, 0));
+    return statics_look_ahead(e);
+}
+
+/* The advance ahead, at the loads at which it comes or, where it would have come under less, under those of the one
+ * before it, *size; what supports bear there counts for their largest force. Before the pseudo-time t, if loads get
+ * there. */
+static status advance_under_loads(struct engine *e, real *size, real from, real t)
+{
+    struct statics *s = &e->statics;
+    const bool follows = size_to_come(e) <= *size;
+    *size = real_max(*size, size_to_come(e));
+    const real loads = statics_load_size(e, t);
+    const bool pays = size_of_advance(&s->ahead) <= *size, within = *size < loads;
+    if (within) TRY(go_to_size(e, *size, from, t));
+    else if (s->t < t && loads >= *size * (1 - LEAST_GROWTH)) TRY(statics_go(e, t));
+    engine_probes_step(e);
+    if (follows && e->scene->steps.then == THEN_EXPLICIT) TRY(statics_release(e));
+    else TRY(pays ? statics_advance(e) : statics_advance_balanced(e));
+    if (!pays) TRY(within ? go_to_size(e, *size, from, t) : statics_go(e, t));
+    return statics_look_ahead(e);
+}
+
+/* Pseudo-time grows to t; on the way the crack advances as long as that pays. Of loads that fall there is no way back. */
 static status step_by_load(struct engine *e, real t)
 {
     struct statics *s = &e->statics;
     const real from = s->t, loads = statics_load_size(e, t);
     real size = statics_load_size(e, from);
-    TRY(statics_go(e, t));
-    TRY(statics_convert(e, 0));
-    TRY(statics_look_ahead(e));
-    while (advance_due(e)) {
-        const bool follows = size_to_come(e) <= size;
-        size = real_max(size, size_to_come(e));
-        const bool pays = size_of_advance(&s->ahead) <= size;
-        if (size < loads) TRY(go_to_size(e, size, from, t));
-        engine_probes_step(e);
-        if (follows && e->scene->steps.then == THEN_EXPLICIT) TRY(statics_release(e));
-        else TRY(pays ? statics_advance(e) : statics_advance_balanced(e));
-        if (!pays) TRY(size < loads ? go_to_size(e, size, from, t) : statics_go(e, t));
-        TRY(statics_look_ahead(e));
-        if (advance_due(e) || s->t >= t) continue;
-        TRY(statics_go(e, t));
-        TRY(statics_convert(e, 0));
-        TRY(statics_look_ahead(e));
+    for (;;) {
+        const bool due = s->next.n > 0 && size_to_come(e) <= real_max(loads, s->t >= t ? 0 : size) * (1 + 1e-9);
+        if (due) TRY(advance_under_loads(e, &size, from, t));
+        else if (s->t < t) TRY(approach_loads(e, t));
+        else return OK;
     }
-    return OK;
 }
 
 /* One advance of the crack, then the pseudo-time at which the next one is due; as long as none is, as much pseudo-time
@@ -68,13 +94,9 @@ static status step_by_energy(struct engine *e, real most)
     const real t = real_min(s->t + most, e->scene->duration);
     if (s->advances) TRY(statics_advance_balanced(e));
     TRY(statics_look_ahead(e));
-    if (s->next.n == 0) {
-        TRY(statics_go(e, t));
-        TRY(statics_convert(e, 0));
-        TRY(statics_look_ahead(e));
-    }
+    if (s->next.n == 0) TRY(approach_loads(e, t));
     s->advances = s->next.n > 0 && statics_load_size(e, t) >= s->due;
-    return statics_go(e, s->advances ? statics_time_of_size(e, s->due) : t);
+    return s->next.n > 0 || s->t >= t ? statics_go(e, s->advances ? statics_time_of_size(e, s->due) : t) : OK;
 }
 
 /* How far the places of control opening have moved apart [m]. */
