@@ -133,8 +133,8 @@ void stand_take(struct stand *k, struct engine *e)
 {
     const struct equilibrium *q = &e->statics.balance;
     statics_plastic_keep(e);
-    *k = (struct stand){
-        e->statics.t, e->statics.overload, q->lost, e->coupling.damped, e->loads.work, e->loads.constraint_work, {{0}}, {{0}}};
+    *k = (struct stand){e->statics.t,  e->statics.overload, q->lost, e->coupling.damped,
+                        e->loads.work, e->loads.constraint_work, {{0}}, {{0}}};
     for (int d = 0; d < q->dim; d++) {
         k->u.of[d] = BARE("advance.stand", q->n, real);
         k->f.of[d] = BARE("advance.stand", q->n, real);

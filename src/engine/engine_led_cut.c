@@ -173,6 +173,27 @@ static void advance_choose(struct engine *e, struct break_list *list)
     s->due = size_of_balance(&s->ahead, &s->behind);
 }
 
+/* Tips that come together release more than each of them beside the others as they are. What they release at once is
+ * shared among them; the stretches behind them are such shares, too, but before the first advance. */
+static status together_try(struct engine *e)
+{
+    struct statics *s = &e->statics;
+    struct stand stand;
+    const real apart = s->ahead.release;
+    int comes = 0;
+    bool grown = true;
+    for (int k = 0; k < s->led.n; k++)
+        if (s->led.tip[k].comes) comes++, grown = grown && s->led.tip[k].grown > 0;
+    if (comes < 2) return OK;
+    stand_take(&stand, e);
+    const status tried = list_try(e, &s->next, &s->ahead);
+    stand_give(&stand, e, &s->next);
+    for (int k = 0; k < s->led.n && apart > 0; k++)
+        if (s->led.tip[k].comes) s->led.tip[k].ahead.release *= s->ahead.release / apart;
+    if (grown) s->due = size_of_balance(&s->ahead, &s->behind);
+    return tried;
+}
+
 /* Compressed tips do not advance; one that has nothing to cut has arrived. */
 static status tip_try(struct engine *e, struct led_tip *tip, struct break_list *list)
 {
@@ -198,6 +219,7 @@ status led_look_ahead(struct engine *e)
     for (int k = 0; k < s->led.n && tried == OK; k++) tried = tip_try(e, &s->led.tip[k], &list[k]);
     s->next.n = 0;
     if (tried == OK) advance_choose(e, list);
+    if (tried == OK) tried = together_try(e);
     for (int k = 0; k < s->led.n; k++) memory_free(list[k].bond);
     return tried;
 }

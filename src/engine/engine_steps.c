@@ -44,7 +44,8 @@ static status approach_loads(struct engine *e, real t)
     stand_take(&stand, e);
     const status gone = statics_go(e, t);
     const real near = NEAR_LIMIT / s->overload * loads;
-    const bool far = gone == OK && s->overload > FAR_BEYOND && near > statics_load_size(e, from) * (1 + LEAST_GROWTH);
+    const real growth = near / statics_load_size(e, from) - 1;
+    const bool far = gone == OK && s->overload > FAR_BEYOND && growth > LEAST_GROWTH;
     const real back = far ? real_max(from, statics_time_of_size(e, near)) : t;
     if (far) stand_give(&stand, e, NULL);
     else stand_free(&stand, e);
