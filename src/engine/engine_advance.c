@@ -21,6 +21,7 @@
 #define STRESSED 0.85        /* overload below which no first advance is looked for */
 #define STRESSED_FURTHER 0.5 /* nor one after others: between two, a lattice lets bonds off */
 #define LEFT 0.3             /* overload at which an advance ends, whatever it has cost */
+#define REMNANT 0.3          /* share of the largest overload within which bonds break that led fronts have left */
 enum { ADVANCE_SPACINGS = 2 };
 
 /* ---- what a body releases ---------------------------------------------------------------------------------------- */
@@ -114,15 +115,18 @@ status statics_go(struct engine *e, real t)
     return OK;
 }
 
-/* An advance more: bonds break at this pseudo-time, onto the end of the list. */
+/* An advance more: bonds break at this pseudo-time, onto the end of the list. What fronts in space have left of a body as
+ * they reached its other side tears in larger pieces: no load hangs on its way. */
 static status advance_try(struct engine *e, struct advance *a)
 {
     struct statics *s = &e->statics;
     const real before = statics_released(e), cost = advance_cost(e) * (1 - 1e-3);
     const int64_t most = breaks_most(e);
+    const bool remnant = e->part.dim == 3 && s->led.stretches > 0;
+    const real within = remnant ? real_max(REMNANT, e->scene->steps.within) : e->scene->steps.within;
     *a = (struct advance){0};
     while (a->cost < cost && s->overload > LEFT) {
-        if (statics_break(e, e->scene->steps.within, most, &a->cost) == 0) break;
+        if (statics_break(e, within, most, &a->cost) == 0) break;
         TRY(statics_go(e, s->t));
     }
     a->release = (statics_released(e) - before) / square(statics_load_size(e, s->t));

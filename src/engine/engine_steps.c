@@ -73,7 +73,7 @@ static status advance_under_loads(struct engine *e, real *size, real from, real 
     return statics_look_ahead(e);
 }
 
-/* Pseudo-time grows to t; on the way the crack advances as long as that pays. Of loads that fall there is no way back. */
+/* Pseudo-time grows to t; on the way the crack advances as long as that pays. Loads that fall have no way back. */
 static status step_by_load(struct engine *e, real t)
 {
     struct statics *s = &e->statics;
