@@ -115,8 +115,8 @@ status statics_go(struct engine *e, real t)
     return OK;
 }
 
-/* An advance more: bonds break at this pseudo-time, onto the end of the list. What fronts in space have left of a body as
- * they reached its other side tears in larger pieces: no load hangs on its way. */
+/* An advance more: bonds break at this pseudo-time, onto the end of the list. What fronts in space have left of a body
+ * as they reached its other side tears in larger pieces: no load hangs on its way. */
 static status advance_try(struct engine *e, struct advance *a)
 {
     struct statics *s = &e->statics;
