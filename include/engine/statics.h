@@ -12,7 +12,7 @@ struct broken_bond {
     real w, fracture, damage;            /* weight; of the row so far [J]; of the particle */
     real plastic;                        /* plastic work of bonds that the row has lost [J] */
     float volume;                        /* of those [m^3] */
-    real held;                           /* half of what the bond holds at its limit [J] */
+    real held;                           /* half of what the bond takes to its limit [J] */
     uint8_t flag;
 };
 struct break_list {

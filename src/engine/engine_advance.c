@@ -28,12 +28,16 @@ enum { ADVANCE_SPACINGS = 2 };
 
 real statics_released(const struct engine *e) { return bonds_fracture_energy(&e->bonds) + e->statics.balance.lost; }
 
-/* Energy per area of the bonds that cross a plane of the lattice, each at its limit; of state-based models, whose bonds
+/* Energy per area that the bonds across a plane of the lattice take to their limits; of state-based models, whose bonds
  * have no energy of their own, G_c as given [J/m^2]. */
 real toughness_of(const struct engine *e, const struct material *m)
 {
     const bool given = e->scene->model != MODEL_BOND && !isnan(m->energy_release_rate);
-    return given ? m->energy_release_rate : family_crossing_energy(&e->source.family, m);
+    if (given) return m->energy_release_rate;
+    const real elastic = family_crossing_energy(&e->source.family, m), limit = m->critical_stretch;
+    if (!material_yields(m) || !isfinite(limit)) return elastic;
+    const real taken = stretch_work(limit, m->yield_stress / m->young, m->yield_hardening / m->young);
+    return elastic * taken / (0.5 * square(limit));
 }
 
 /* Length of a crack's front in space, where it is as long as the body's shortest side [m]; 1 in the plane. */

@@ -53,16 +53,27 @@ static int descending(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* Half of what a bond of particle i holds elastically at its limit [J]. */
-static real half_at_limit(const struct engine *e, const struct bond *bond, int32_t i)
+/* Work on a bond of unit stiffness from where it bears nothing to a stretch `elastic` beyond its plastic one: its force
+ * goes with the stretch up to `yield`, then on with the slope of hardening; INFINITY: it never yields. */
+real stretch_work(real elastic, real yield, real hardening)
+{
+    const real beyond = real_max(0, elastic - yield), slope = hardening / (1 + hardening);
+    return 0.5 * square(elastic - beyond) + (beyond > 0 ? beyond * (yield + 0.5 * slope * beyond) : 0);
+}
+
+/* Half of what a bond of particle i takes to its limit from where it bears nothing: what it holds, and the work that is
+ * left to be done on it [J]. Of one that yields, what it has dissipated before is gone and costs no more. */
+static real half_to_limit(const struct engine *e, const struct bond *bond, int32_t i)
 {
     const struct bonds *b = &e->bonds;
-    real most = stretch_limit(&e->part, &e->source.limit, i, bond->nbr);
+    const real limit = stretch_limit(&e->part, &e->source.limit, i, bond->nbr);
+    real work = stretch_work(real_max(0, limit), INFINITY, 0);
     if (b->plastic_stretch) {
-        const real yield = b->yield.stretch[b->pair[bond->entry]], hardening = b->yield.hardening[b->pair[bond->entry]];
-        if (most > yield) most = yield + hardening * (most - yield) / (1 + hardening);
+        const real hardening = b->yield.hardening[b->pair[bond->entry]];
+        const real yield = b->yield.stretch[b->pair[bond->entry]] + hardening * b->plastic_path[bond->entry];
+        work = stretch_work(real_max(0, limit - b->plastic_stretch[bond->entry]), yield, hardening);
     }
-    return 0.25 * b->stiffness * bond->w * square(most) / bond->inverse_length;
+    return 0.5 * b->stiffness * bond->w * work / bond->inverse_length;
 }
 
 struct broken_bond statics_bond_record(const struct engine *e, const struct bond *bond, int64_t row)
@@ -78,7 +89,7 @@ struct broken_bond statics_bond_record(const struct engine *e, const struct bond
                                 .damage = e->part.damage[i],
                                 .plastic = b->plastic_stretch ? b->plastic_work[row] : 0,
                                 .volume = b->broken_volume[row],
-                                .held = half_at_limit(e, bond, i),
+                                .held = half_to_limit(e, bond, i),
                                 .flag = e->part.flag[i]};
 }
 

@@ -76,6 +76,7 @@ status statics_advance_balanced(struct engine *e);
 status statics_release(struct engine *e);
 real statics_load_size(const struct engine *e, real t);
 real statics_time_of_size(const struct engine *e, real size);
+real stretch_work(real elastic, real yield, real hardening);
 real statics_released(const struct engine *e);
 
 /* What a trial has to give back. */

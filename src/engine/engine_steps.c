@@ -7,8 +7,9 @@
 #define OPENING_ERROR 1e-4 /* of an opening that is prescribed */
 #define FAR_BEYOND 1.2     /* overload from which on loads are too large to begin with */
 #define NEAR_LIMIT 0.95    /* overload at which an advance is looked for instead */
-#define LEAST_GROWTH 1e-6  /* of loads, below which they have come no nearer */
-enum { SECANTS_MOST = 12 };
+#define NEAR_LEAST 0.85    /* overload from which on loads cannot come much nearer */
+#define ROUND_OFF 1e-6     /* of loads that are the same */
+enum { SECANTS_MOST = 12, APPROACHES_MOST = 12 };
 
 /* ---- control ----------------------------------------------------------------------------------------------------- */
 
@@ -35,21 +36,27 @@ static status go_to_size(struct engine *e, real size, real least, real most)
 }
 
 /* Goes to t, or where bonds come near their limits before it, there: far beyond them energies are those of a body that
- * would long have broken, and what an advance releases drowns in their round-off. Looks for what advances. */
+ * would long have broken, what an advance releases drowns in their round-off, and bonds have yielded that never would.
+ * Looks for what advances. */
 static status approach_loads(struct engine *e, real t)
 {
     struct statics *s = &e->statics;
-    const real from = s->t, loads = statics_load_size(e, t);
-    struct stand stand;
-    stand_take(&stand, e);
-    const status gone = statics_go(e, t);
-    const real near = NEAR_LIMIT / s->overload * loads;
-    const real growth = near / statics_load_size(e, from) - 1;
-    const bool far = gone == OK && s->overload > FAR_BEYOND && growth > LEAST_GROWTH;
-    const real back = far ? real_max(from, statics_time_of_size(e, near)) : t;
-    if (far) stand_give(&stand, e, NULL);
-    else stand_free(&stand, e);
-    TRY(far ? statics_go(e, back) : gone);
+    const real from = s->t, low = statics_load_size(e, from), at_low = s->overload;
+    bool far = true;
+    for (int k = 0; k < APPROACHES_MOST && far; k++) {
+        struct stand stand;
+        stand_take(&stand, e);
+        const status gone = statics_go(e, t);
+        far = gone == OK && s->overload > FAR_BEYOND && at_low < NEAR_LEAST;
+        if (far) {
+            const real share = (NEAR_LIMIT - at_low) / (s->overload - at_low);
+            t = real_max(from, statics_time_of_size(e, low + share * (statics_load_size(e, t) - low)));
+            stand_give(&stand, e, NULL);
+        } else
+            stand_free(&stand, e);
+        TRY(gone);
+    }
+    if (far) TRY(statics_go(e, t));
     TRY(statics_convert(e, 0));
     return statics_look_ahead(e);
 }
@@ -65,7 +72,7 @@ static status advance_under_loads(struct engine *e, real *size, real from, real 
     const real loads = statics_load_size(e, t);
     const bool pays = size_of_advance(&s->ahead) <= *size, within = *size < loads;
     if (within) TRY(go_to_size(e, *size, from, t));
-    else if (s->t < t && loads >= *size * (1 - LEAST_GROWTH)) TRY(statics_go(e, t));
+    else if (s->t < t && loads >= *size * (1 - ROUND_OFF)) TRY(statics_go(e, t));
     engine_probes_step(e);
     if (follows && e->scene->steps.then == THEN_EXPLICIT) TRY(statics_release(e));
     else TRY(pays ? statics_advance(e) : statics_advance_balanced(e));

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "engine/engine.h"
+#include "engine_statics.h"
 
 /* True if pre-cracks have cut a bond. */
 static bool bonds_are_cut(const struct bonds *b)
@@ -134,9 +135,10 @@ static void warn_of_solver(const struct engine *e, struct warnings *to)
     if (scene_in_steps(s) && scene_bodies_meet(s))
         warnings_add(to, "bodies do not meet in load steps: they pass through each other where they close");
     for (int m = 0; m < s->materials && scene_in_steps(s); m++)
-        if (material_yields(&s->material[m]) && isfinite(s->material[m].critical_stretch))
-            warnings_add(to, "bonds of %s yield: load steps charge a crack with what they hold elastically at their "
-                         "limit, not with plastic work, so that it comes too early", s->material[m].name);
+        if (s->model == MODEL_BOND && material_yields(&s->material[m]) && isfinite(s->material[m].critical_stretch))
+            warnings_add(to, "bonds of %s yield before they break: the work that separates it is %.3g J/m^2; elastic "
+                         "ones would take %.3g", s->material[m].name, toughness_of(e, &s->material[m]),
+                         family_crossing_energy(&e->source.family, &s->material[m]));
     if (!scene_at_rest(s)) return;
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
