@@ -4,9 +4,9 @@
 
 static bool slow_scenes_here(void)
 {
-    static const char *const scene[] = {"inputs/compact_tension.yaml", "inputs/edge_crack_grips.yaml",
-                                        "inputs/cantilevers.yaml", "inputs/bend_offset_notch.yaml",
-                                        "inputs/mixed_mode.yaml"};
+    static const char *const scene[] = {"inputs/compact_tension.yaml",   "inputs/edge_crack_grips.yaml",
+                                        "inputs/cantilevers.yaml",       "inputs/cantilevers_3d.yaml",
+                                        "inputs/bend_offset_notch.yaml", "inputs/mixed_mode.yaml"};
     for (size_t k = 0; k < COUNT_OF(scene); k++)
         if (!bench_scene_exists(scene[k])) return false;
     return true;

@@ -17,7 +17,6 @@ static const struct slow_case {
     struct specimen specimen;
     double spacing;    /* of the scene [m] */
     int across, steps; /* spacings of the specimen's width there, load steps */
-    const char *colour;
 } slow_case[] = {{"compact tension",
                   "inputs/compact_tension.yaml",
                   "particles.spacing",
@@ -25,8 +24,7 @@ static const struct slow_case {
                   {COMPACT_TENSION, 50e-3, 0, 10e-3, 25e-3, young, toughness},
                   0.625e-3,
                   80,
-                  14,
-                  "#0072b2"},
+                  14},
                  {"edge crack in grips",
                   "inputs/edge_crack_grips.yaml",
                   "particles.spacing",
@@ -34,8 +32,7 @@ static const struct slow_case {
                   {EDGE_CRACK_IN_GRIPS, 40e-3, 120e-3, 5e-3, 12e-3, young, toughness},
                   0.5e-3,
                   80,
-                  20,
-                  "#d55e00"},
+                  20},
                  {"three-point bend",
                   "inputs/bend_offset_notch.yaml",
                   "variables.h",
@@ -43,8 +40,7 @@ static const struct slow_case {
                   {THREE_POINT_BEND, 40e-3, 160e-3, 10e-3, 16e-3, young, toughness},
                   0.5e-3,
                   80,
-                  16,
-                  "#009e73"},
+                  16},
                  {"double cantilever",
                   "inputs/cantilevers.yaml",
                   "variables.h",
@@ -52,11 +48,19 @@ static const struct slow_case {
                   {DOUBLE_CANTILEVER, 10e-3, 0, 10e-3, 40e-3, young, toughness},
                   0.5e-3,
                   20,
-                  30,
-                  "#cc79a7"}};
-enum { SLOW_CASES = COUNT_OF(slow_case), POINTS_MOST = 100 };
+                  30},
+                 {"cantilever in space",
+                  "inputs/cantilevers_3d.yaml",
+                  "particles.spacing",
+                  NULL,
+                  {DOUBLE_CANTILEVER, 10e-3, 0, 4e-3, 40e-3, young, toughness},
+                  1e-3,
+                  10,
+                  12}};
+enum { SLOW_CASES = COUNT_OF(slow_case), IN_SPACE = SLOW_CASES - 1, POINTS_MOST = 100 };
 static const char *const slow_model[] = {"bond", "ospd", "mospd"};
 enum { SLOW_MODELS = COUNT_OF(slow_model) };
+static const char *const row_colour[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00"};
 static const double refined[SLOW_SPACINGS] = {0.5, 1, 2};
 
 struct slow_row {
@@ -178,11 +182,12 @@ static status slow_rows_write(const struct slow_table *t)
 static void slow_curves_draw(FILE *to, const void *context)
 {
     const struct slow_table *t = context;
-    fprintf(to, "set multiplot layout 2,2\nset xlabel 'crack length over width'\nset ylabel 'load over largest'\n"
-                "set yrange [0:1.15]\nset key bottom left\n");
+    fprintf(to, "set multiplot layout 2,3\nset xtics autofreq\nset xlabel 'crack length over width'\nset ylabel 'load "
+                "over largest'\n"
+                "set yrange [0:1.15]\nset key inside top right font ',9'\n");
     for (int c = 0; c < SLOW_CASES; c++) {
         const struct specimen *s = &slow_case[c].specimen;
-        const double from = s->crack / s->width, end = s->kind == DOUBLE_CANTILEVER ? 12 : 0.8;
+        const double from = s->crack / s->width, end = s->kind == DOUBLE_CANTILEVER ? 8 : 0.8;
         fprintf(to, "set title '%s'\n$exact << EOD\n", slow_case[c].name);
         for (int k = 0; k <= 100; k++) {
             const double x = from + (end - from) * k / 100;
@@ -199,8 +204,9 @@ static void slow_curves_draw(FILE *to, const void *context)
                 end);
         for (int k = 0, style = 0; k < t->n; k++)
             if (t->row[k].of == &slow_case[c])
-                fprintf(to, ", $row%d with points pt %d lc rgb '%s' title '%s, %.0f across'", k, 4 + style++,
-                        slow_case[c].colour, slow_model[t->row[k].model], slow_case[c].across * t->row[k].fine);
+                fprintf(to, ", $row%d with points pt %d lc rgb '%s' title '%s, %.0f across'", k, 4 + style,
+                        row_colour[style], slow_model[t->row[k].model], slow_case[c].across * t->row[k].fine),
+                    style++;
         putc('\n', to);
     }
     fputs("unset multiplot\n", to);
@@ -222,10 +228,10 @@ static void slow_ask(struct bench_goals *asked, const struct slow_row *r)
 static status slow_rows(struct slow_table *t, struct bench_goals *asked, bool quick)
 {
     for (int c = 0; c < SLOW_CASES; c++) {
-        const int last = quick ? 0 : SLOW_SPACINGS - 1;
-        for (int k = 0; k <= last; k++) TRY(slow_add(t, c, 0, refined[k]));
+        const int first = c == IN_SPACE ? 1 : 0, last = quick || c == IN_SPACE ? first : SLOW_SPACINGS - 1;
+        for (int k = first; k <= last; k++) TRY(slow_add(t, c, 0, refined[k]));
         slow_ask(asked, &t->row[t->n - 1]);
-        for (int model = 1; model < SLOW_MODELS && !quick; model++) TRY(slow_add(t, c, model, 1));
+        for (int model = 1; model < SLOW_MODELS && !quick && c != IN_SPACE; model++) TRY(slow_add(t, c, model, 1));
     }
     return OK;
 }

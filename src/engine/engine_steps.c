@@ -22,13 +22,6 @@ static real size_to_come(const struct engine *e)
     return e->diagnostics.bonds_broken > 0 ? real_max(s->due, size_of_advance(&s->ahead)) : s->due;
 }
 
-/* Is an advance due under the present loads? */
-static bool advance_due(const struct engine *e)
-{
-    const struct statics *s = &e->statics;
-    return s->next.n > 0 && statics_load_size(e, s->t) >= size_to_come(e) * (1 - 1e-9);
-}
-
 /* Goes to loads of this size, between two pseudo-times. */
 static status go_to_size(struct engine *e, real size, real least, real most)
 {
@@ -133,20 +126,32 @@ static status open_to(struct engine *e, real wanted, real t)
     return OK;
 }
 
-/* The opening grows by a step; pseudo-time follows, and bonds break until no advance pays any more. */
+/* Does the advance ahead come before the opening is as wide as wanted? Both grow with the loads. */
+static bool comes_before(const struct engine *e, real wanted)
+{
+    const struct statics *s = &e->statics;
+    const real now = opening_now(e), size = statics_load_size(e, s->t);
+    return s->next.n > 0 && now > 0 && now / size * size_to_come(e) < wanted;
+}
+
+/* The opening grows by a step; pseudo-time follows, and on the way the crack advances as long as that pays. */
 static status step_by_opening(struct engine *e)
 {
     const struct scene_steps *s = &e->scene->steps;
     const real wanted = s->opening * (real)(e->clock.step + 1) / (real)s->number, now = opening_now(e);
-    const real first = e->scene->duration / (real)s->number;
-    TRY(open_to(e, wanted, now > 0 ? e->statics.t * wanted / now : e->statics.t + first));
-    TRY(statics_convert(e, 0));
-    TRY(statics_look_ahead(e));
-    while (advance_due(e)) {
-        TRY(go_to_size(e, size_to_come(e), 0, INFINITY));
-        engine_probes_step(e);
-        TRY(statics_advance_balanced(e));
-        TRY(open_to(e, wanted, e->statics.t * wanted / opening_now(e)));
+    const real first = e->statics.t + e->scene->duration / (real)s->number;
+    bool open = false;
+    if (e->statics.next.n == 0) TRY(approach_loads(e, now > 0 ? e->statics.t * wanted / now : first));
+    while (!open || comes_before(e, wanted)) {
+        open = !comes_before(e, wanted);
+        if (open) {
+            TRY(open_to(e, wanted, opening_now(e) > 0 ? e->statics.t * wanted / opening_now(e) : first));
+            TRY(statics_convert(e, 0));
+        } else {
+            TRY(go_to_size(e, size_to_come(e), 0, INFINITY));
+            engine_probes_step(e);
+            TRY(statics_advance_balanced(e));
+        }
         TRY(statics_look_ahead(e));
     }
     return OK;

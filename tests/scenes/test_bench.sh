@@ -218,7 +218,7 @@ line moving_crack.csv 'at rest,' 4 0.97 1.03
 line moving_crack.csv 'moving: as it stands,' 4 0.95 1.05
 [ -z "$(ls -d run-* 2>/dev/null)" ] || fail "factors leaves runs behind"
 cd ../..
-for scene in compact_tension edge_crack_grips cantilevers bend_offset_notch mixed_mode; do cp "$inputs/$scene.yaml" inputs; done
+for scene in compact_tension edge_crack_grips cantilevers cantilevers_3d bend_offset_notch mixed_mode; do cp "$inputs/$scene.yaml" inputs; done
 "$cleave" bench slow --quick >out 2>err || fail "slow failed: $(cat err)"
 cd results/bench
 for file in slow.csv slow.png slow_specimens.csv slow_specimens.png slow_paths.csv slow_speed.csv; do
