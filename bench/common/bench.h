@@ -84,6 +84,8 @@ void bench_figures_take(const struct engine *e, struct bench_figure *figure, int
 status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n);
 /* Says in one line that there is no such scene here, if so. */
 bool bench_scene_exists(const char *path);
+/* REFUSED unless all scenes that a bench needs are here. */
+status bench_scenes_needed(const char *bench, const char *const *path, size_t n);
 /* Removes a folder and all that is in it. */
 void bench_folder_remove(const char *folder);
 /* A scene run as a process of its own (`cleave run`); what it leaves lies in `folder` until bench_child_free. */

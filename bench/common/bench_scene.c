@@ -28,6 +28,14 @@ bool bench_scene_exists(const char *path)
     return false;
 }
 
+status bench_scenes_needed(const char *bench, const char *const *path, size_t n)
+{
+    for (size_t k = 0; k < n; k++)
+        if (!bench_scene_exists(path[k]))
+            return status_set(REFUSED, "bench %s: its scenes are not here; start it where the folder inputs is", bench);
+    return OK;
+}
+
 status bench_engine_make(struct engine *e, struct scene *s, const char *path, const char *text,
                          const struct scene_override *override, int overrides)
 {

@@ -2,23 +2,14 @@
  * inclined one, a crack that waves meet, one that runs, and what growing cracks make of reactions and paths. */
 #include "sif_bench.h"
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
-
-static bool scenes_here(void)
-{
-    static const char *const scene[] = {"inputs/edge_crack_k1.yaml", "inputs/inclined_crack.yaml",
-                                        "inputs/semi_infinite_crack.yaml", "inputs/load_displacement.yaml",
-                                        "inputs/kalthoff_sif.yaml"};
-    for (size_t k = 0; k < COUNT_OF(scene); k++)
-        if (!bench_scene_exists(scene[k])) return false;
-    return true;
-}
+static const char *const needed[] = {"inputs/edge_crack_k1.yaml", "inputs/inclined_crack.yaml",
+                                     "inputs/semi_infinite_crack.yaml", "inputs/load_displacement.yaml",
+                                     "inputs/kalthoff_sif.yaml"};
 
 status bench_sif(bool quick)
 {
     struct bench_goals asked = {0};
-    if (!scenes_here())
-        return status_set(REFUSED, "bench sif: its scenes are not here; start it where the folder inputs is");
+    TRY(bench_scenes_needed("sif", needed, COUNT_OF(needed)));
     printf("stress-intensity factors\n");
     bench_print_machine(team_make(0));
     TRY(edge_bench(&asked, quick));

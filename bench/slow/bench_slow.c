@@ -2,21 +2,14 @@
  * finite elements, and a clock. */
 #include "slow.h"
 
-static bool slow_scenes_here(void)
-{
-    static const char *const scene[] = {"inputs/compact_tension.yaml",   "inputs/edge_crack_grips.yaml",
-                                        "inputs/cantilevers.yaml",       "inputs/cantilevers_3d.yaml",
-                                        "inputs/bend_offset_notch.yaml", "inputs/mixed_mode.yaml"};
-    for (size_t k = 0; k < COUNT_OF(scene); k++)
-        if (!bench_scene_exists(scene[k])) return false;
-    return true;
-}
+static const char *const needed[] = {"inputs/compact_tension.yaml",   "inputs/edge_crack_grips.yaml",
+                                     "inputs/cantilevers.yaml",       "inputs/cantilevers_3d.yaml",
+                                     "inputs/bend_offset_notch.yaml", "inputs/mixed_mode.yaml"};
 
 status bench_slow(bool quick)
 {
     struct bench_goals asked = {0};
-    if (!slow_scenes_here())
-        return status_set(REFUSED, "bench slow: its scenes are not here; start it where the folder inputs is");
+    TRY(bench_scenes_needed("slow", needed, COUNT_OF(needed)));
     printf("load steps\n");
     bench_print_machine(team_make(0));
     TRY(slow_specimens(&asked, quick));

@@ -94,18 +94,25 @@ static double cantilever_at_opening(const struct specimen *s, double load, doubl
     return load / (unit / sqrt(squared));
 }
 
+/* Cantilevers are opened at their first column of particles, which is half a spacing from their end [m]. */
+static double load_offset(const struct slow_row *r)
+{
+    return r->of->specimen.kind == DOUBLE_CANTILEVER ? 0.5 * r->of->spacing / r->fine : 0;
+}
+
 static void slow_row_read(struct slow_row *r, const struct history *h)
 {
     const struct specimen *s = &r->of->specimen;
     const int force = history_column(h, "reaction.force_y"), way = history_column(h, "reaction.displacement_y");
     const int area = history_column(h, "crack_area"), lost = history_column(h, "released");
+    const double crack = s->crack - load_offset(r);
     double sum = 0, largest = 0;
     int later = 0;
     r->mean = r->farthest = 0, r->opening = s->kind == DOUBLE_CANTILEVER ? 0 : NAN;
     for (int64_t k = 1; k < h->rows && r->n < POINTS_MOST; k++) {
         const double load = fabs(history_at(h, k, force)), grown = history_at(h, k, area) / s->thickness;
-        const double a = s->crack + grown, off = load / specimen_load(s, a) - 1;
-        r->crack[r->n] = a / s->width, r->load[r->n++] = load / specimen_load(s, s->crack);
+        const double a = crack + grown, off = load / specimen_load(s, a) - 1;
+        r->crack[r->n] = a / s->width, r->load[r->n++] = load / specimen_load(s, crack);
         largest = fmax(largest, load);
         if (!(grown > 0) || a > longest_crack(r->of)) continue;
         sum += off, later++;
@@ -114,7 +121,7 @@ static void slow_row_read(struct slow_row *r, const struct history *h)
         const double apart = cantilever_at_opening(s, load, 2 * fabs(history_at(h, k, way))) - 1;
         if (fabs(apart) > fabs(r->opening)) r->opening = apart;
     }
-    r->peak = largest / specimen_load(s, s->crack) - 1;
+    r->peak = largest / specimen_load(s, crack) - 1;
     r->mean = later > 0 ? sum / later : NAN;
     r->released = history_at(h, h->rows - 1, lost) / history_at(h, h->rows - 1, area) / toughness;
 }
