@@ -112,7 +112,7 @@ static void slow_row_read(struct slow_row *r, const struct history *h)
     for (int64_t k = 1; k < h->rows && r->n < POINTS_MOST; k++) {
         const double load = fabs(history_at(h, k, force)), grown = history_at(h, k, area) / s->thickness;
         const double a = crack + grown, off = load / specimen_load(s, a) - 1;
-        r->crack[r->n] = a / s->width, r->load[r->n++] = load / specimen_load(s, crack);
+        r->crack[r->n] = a / s->width, r->load[r->n++] = load / specimen_load(s, s->crack);
         largest = fmax(largest, load);
         if (!(grown > 0) || a > longest_crack(r->of)) continue;
         sum += off, later++;
