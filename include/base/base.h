@@ -93,5 +93,10 @@ static inline real dot(const real *a, const real *b, int dim)
     for (int d = 0; d < dim; d++) sum += a[d] * b[d];
     return sum;
 }
+/* to = a x b, of three components each; `to` is neither of them. */
+static inline void vector_product(const real *a, const real *b, real *to)
+{
+    for (int d = 0; d < 3; d++) to[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
+}
 
 #endif

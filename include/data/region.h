@@ -75,6 +75,10 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim);
  * away. */
 bool crack_near(const struct crack *c, const real *X, real reach, int dim);
 
+/* Area of a crack in space as a vector along its normal: half of the sum of the cross products of the ways to its
+ * corners from the first one (Newell) [m^2]. */
+void crack_area_vector(const struct crack *c, real area[DIM_MAX]);
+
 /* A plane of symmetry; the body is on one side of it. */
 struct mirror_plane {
     int axis, outside;                   /* of its normal; side without body, -1 or +1 */

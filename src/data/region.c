@@ -172,22 +172,28 @@ struct crack_plane {
     real normal[DIM_MAX], length;
 };
 
-/* Sum of the cross products of corner vectors: twice the polygon's area along its normal (Newell). */
-static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
+void crack_area_vector(const struct crack *c, real area[DIM_MAX])
 {
-    real sum[DIM_MAX] = {0}, zero[DIM_MAX] = {0};
+    for (int d = 0; d < 3; d++) area[d] = 0;
     for (int k = 1; k + 1 < c->n; k++) {
-        real u[DIM_MAX], w[DIM_MAX];
+        real u[DIM_MAX], w[DIM_MAX], twice[DIM_MAX];
         for (int d = 0; d < 3; d++) {
             u[d] = c->corner[k][d] - c->corner[0][d];
             w[d] = c->corner[k + 1][d] - c->corner[0][d];
         }
-        for (int d = 0; d < 3; d++) sum[d] += u[(d + 1) % 3] * w[(d + 2) % 3] - u[(d + 2) % 3] * w[(d + 1) % 3];
+        vector_product(u, w, twice);
+        for (int d = 0; d < 3; d++) area[d] += 0.5 * twice[d];
     }
+}
+
+static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
+{
+    real area[DIM_MAX], zero[DIM_MAX] = {0};
+    crack_area_vector(c, area);
     plane->length = 0;
     for (int k = 1; k < c->n; k++)
         plane->length = real_max(plane->length, distance_to(c->corner[0], c->corner[k], 3));
-    return direction(zero, sum, 3, plane->normal) > 0;
+    return direction(zero, area, 3, plane->normal) > 0;
 }
 
 /* False: not a crack (no extent). */
@@ -213,12 +219,10 @@ static bool polygon_holds(const struct crack *c, const struct crack_plane *plane
 {
     for (int k = 0; k < c->n; k++) {
         const real *from = c->corner[k], *to = c->corner[(k + 1) % c->n], *m = plane->normal;
-        real edge[DIM_MAX], inward = 0;
+        real edge[DIM_MAX], across[DIM_MAX], inward = 0;
         direction(from, to, 3, edge);
-        for (int d = 0; d < 3; d++) {
-            int e = (d + 1) % 3, f = (d + 2) % 3;
-            inward += (m[e] * edge[f] - m[f] * edge[e]) * (P[d] - from[d]);
-        }
+        vector_product(m, edge, across);
+        for (int d = 0; d < 3; d++) inward += across[d] * (P[d] - from[d]);
         if (inward < -touch * plane->length) return false;
     }
     return true;

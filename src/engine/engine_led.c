@@ -119,7 +119,8 @@ static const struct material *material_at(const struct engine *e, const struct l
 /* Is the tip on a plane of symmetry, and goes along it? */
 static bool on_mirror(const struct engine *e, const struct led_tip *tip)
 {
-    const real h = e->scene->spacing, ahead[2] = {tip->place[0] + h * tip->last[0], tip->place[1] + h * tip->last[1]};
+    real ahead[2];
+    led_ahead(tip->place, e->scene->spacing, tip->last, ahead);
     return led_on_mirror(e, &e->statics.led.plane, tip->place, ahead);
 }
 
@@ -152,8 +153,8 @@ static struct crack_medium medium_at(const struct engine *e, const struct led_ti
 {
     enum space space = e->scene->space;
     if (e->part.dim == 3) {
-        const real h = e->scene->spacing, *along = tip->last;
-        const real ahead[2] = {tip->place[0] + h * along[0], tip->place[1] + h * along[1]};
+        real ahead[2];
+        led_ahead(tip->place, e->scene->spacing, tip->last, ahead);
         const bool thin = led_width(e, &e->statics.led.plane, tip->place, ahead) < 2 * radius;
         space = thin ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN;
     }
@@ -241,13 +242,13 @@ void led_next_place(const struct engine *e, const struct led_tip *tip, real plac
     const real h = s->spacing;
     real from[2], to[2], way = ADVANCE_SPACINGS * h, share = 1;
     int cracks;
-    for (int d = 0; d < 2; d++)
-        from[d] = tip->place[d] + AHEAD * h * tip->heading[d], to[d] = tip->place[d] + h * tip->heading[d];
+    led_ahead(tip->place, AHEAD * h, tip->heading, from);
+    led_ahead(tip->place, h, tip->heading, to);
     if (s->steps.energy > 0)
         way = s->steps.energy /
               (led_toughness(e, tip) * real_max(h, led_width(e, &e->statics.led.plane, tip->place, to)));
     struct crack *crack = cracks_now(e, &cracks);
-    for (int d = 0; d < 2; d++) to[d] = tip->place[d] + way * tip->heading[d];
+    led_ahead(tip->place, way, tip->heading, to);
     for (int k = 0; k < cracks; k++)
         if (!ends_here(&crack[k], tip, AHEAD * h)) share = real_min(share, meeting_share(&crack[k], from, to));
     for (int d = 0; d < 2; d++) place[d] = share < 1 ? from[d] + share * (to[d] - from[d]) : to[d];
@@ -260,8 +261,9 @@ real led_toughness(const struct engine *e, const struct led_tip *tip) { return t
 static bool body_is_ahead(const struct engine *e, const struct led_tip *tip)
 {
     const struct particles *p = &e->part;
-    const real h = e->scene->spacing,
-               ahead[2] = {tip->place[0] + h * tip->heading[0], tip->place[1] + h * tip->heading[1]};
+    const real h = e->scene->spacing;
+    real ahead[2];
+    led_ahead(tip->place, h, tip->heading, ahead);
     const real wide = p->dim == 2 ? 1 : led_width(e, &e->statics.led.plane, tip->place, ahead) / h;
     int free_ones = 0;
     for (int64_t i = 0; i < p->n_all; i++) {

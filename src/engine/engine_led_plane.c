@@ -17,11 +17,6 @@ enum { SAMPLES = 16 }; /* of the width along a stretch */
 
 /* ---- axes -------------------------------------------------------------------------------------------------------- */
 
-static void vector_product(const real *a, const real *b, real *to)
-{
-    for (int d = 0; d < 3; d++) to[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
-}
-
 static void make_unit(real *a)
 {
     const real length = sqrt(dot(a, a, 3));
@@ -99,26 +94,13 @@ static const char *mirrors_find(const struct engine *e, struct led_plane *plane)
     return NULL;
 }
 
-/* The normal of a polygon, as long as its area is large. */
-static void polygon_normal(const struct crack *c, real *normal)
-{
-    memset(normal, 0, DIM_MAX * sizeof *normal);
-    for (int k = 1; k + 1 < c->n; k++) {
-        real u[DIM_MAX], w[DIM_MAX], area[DIM_MAX];
-        for (int d = 0; d < 3; d++)
-            u[d] = c->corner[k][d] - c->corner[0][d], w[d] = c->corner[k + 1][d] - c->corner[0][d];
-        vector_product(u, w, area);
-        for (int d = 0; d < 3; d++) normal[d] += area[d];
-    }
-}
-
 /* In space the segment has its normal on the side of the polygon's. */
 bool led_segment(const struct led_plane *plane, const struct crack *c, int dim, real at[2][DIM_MAX])
 {
-    real normal[DIM_MAX], across[2], least = INFINITY, most = -INFINITY;
+    real area[DIM_MAX], across[2], least = INFINITY, most = -INFINITY;
     if (dim == 2) return memcpy(at, c->corner, 2 * sizeof *at), true;
-    polygon_normal(c, normal);
-    led_project(plane, normal, 3, across);
+    crack_area_vector(c, area);
+    led_project(plane, area, 3, across);
     const real size = hypot(across[0], across[1]), along[2] = {across[1] / size, -across[0] / size};
     for (int k = 0; k < c->n; k++) {
         real P[2];
@@ -129,7 +111,7 @@ bool led_segment(const struct led_plane *plane, const struct crack *c, int dim, 
         least = real_min(least, s), most = real_max(most, s);
     }
     at[0][2] = at[1][2] = 0;
-    return fabs(dot(normal, plane->front, 3)) <= STRAIGHT * size;
+    return fabs(dot(area, plane->front, 3)) <= STRAIGHT * size;
 }
 
 static const char *cracks_check(const struct engine *e, const struct led_plane *plane)
@@ -158,7 +140,7 @@ static const char *fronts_check(const struct engine *e, const struct led_plane *
         if (!t->tip[k].from_crack) continue;
         led_project(plane, t->tip[k].origin, 3, at[0]);
         led_project(plane, t->tip[k].along, 3, along);
-        for (int d = 0; d < 2; d++) at[1][d] = at[0][d] + h * along[d];
+        led_ahead(at[0], h, along, at[1]);
         const real width = led_width(e, plane, at[0], at[1]);
         if (width > 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, 3)) + h) return "a front ends within the body";
     }

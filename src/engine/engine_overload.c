@@ -53,8 +53,6 @@ static int descending(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* Work on a bond of unit stiffness from where it bears nothing to a stretch `elastic` beyond its plastic one: its force
- * goes with the stretch up to `yield`, then on with the slope of hardening; INFINITY: it never yields. */
 real stretch_work(real elastic, real yield, real hardening)
 {
     const real beyond = real_max(0, elastic - yield), slope = hardening / (1 + hardening);
@@ -67,12 +65,13 @@ static real half_to_limit(const struct engine *e, const struct bond *bond, int32
 {
     const struct bonds *b = &e->bonds;
     const real limit = stretch_limit(&e->part, &e->source.limit, i, bond->nbr);
-    real work = stretch_work(real_max(0, limit), INFINITY, 0);
+    real elastic = limit, yield = INFINITY, hardening = 0;
     if (b->plastic_stretch) {
-        const real hardening = b->yield.hardening[b->pair[bond->entry]];
-        const real yield = b->yield.stretch[b->pair[bond->entry]] + hardening * b->plastic_path[bond->entry];
-        work = stretch_work(real_max(0, limit - b->plastic_stretch[bond->entry]), yield, hardening);
+        elastic = limit - b->plastic_stretch[bond->entry];
+        hardening = b->yield.hardening[b->pair[bond->entry]];
+        yield = b->yield.stretch[b->pair[bond->entry]] + hardening * b->plastic_path[bond->entry];
     }
+    const real work = stretch_work(real_max(0, elastic), yield, hardening);
     return 0.5 * b->stiffness * bond->w * work / bond->inverse_length;
 }
 

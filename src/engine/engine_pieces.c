@@ -144,8 +144,7 @@ static void supports_resist(const struct engine *e, struct candidate *of, const 
     }
 }
 
-/* Signs of the components of an image's motion against that of the particle it comes from. */
-static void image_signs(const struct engine *e, int64_t i, real *sign)
+void statics_image_signs(const struct engine *e, int64_t i, real sign[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++) sign[d] = 1;
     for (; i >= e->part.n; i = e->loads.image[i - e->part.n].source) {
@@ -163,7 +162,7 @@ static void image_resists(const struct engine *e, struct candidate *c, int64_t i
     const int64_t j = image_root(p, e->loads.image, image);
     real sign[DIM_MAX], x[DIM_MAX], y[DIM_MAX], u[DIM_MAX], v[DIM_MAX], along[MODES_MOST] = {0}, length2 = 0;
     for (int d = 0; d < dim; d++) x[d] = p->x[d][i], y[d] = p->x[d][j], length2 += square(p->x[d][image] - p->x[d][i]);
-    image_signs(e, image, sign);
+    statics_image_signs(e, image, sign);
     for (int a = 0; a < m; a++) {
         motion_at(c, dim, a, x, u);
         motion_at(c, dim, a, y, v);

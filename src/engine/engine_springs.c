@@ -54,26 +54,13 @@ static struct movers movers_of(const struct springs *s, int64_t i)
     return m;
 }
 
-/* The particle of which j is an image, or j itself, and how its components move with those of that. */
-static int64_t source_of(const struct engine *e, int64_t j, real sign[DIM_MAX])
-{
-    for (int d = 0; d < DIM_MAX; d++) sign[d] = 1;
-    while (j >= e->part.n) {
-        const struct image *image = &e->loads.image[j - e->part.n];
-        const struct boundary *mirror = e->loads.load[image->load].boundary;
-        for (int d = 0; d < DIM_MAX; d++)
-            if (d == mirror->axis || mirror->hold_tangential) sign[d] = -sign[d];
-        j = image->source;
-    }
-    return j;
-}
-
 /* The spring of a bond from particle i: what it adds to the rows of i. */
 static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &s->e->part;
     real n[DIM_MAX] = {0}, K[DIM_MAX][DIM_MAX], sign[DIM_MAX];
-    const struct movers own = movers_of(s, i), other = movers_of(s, source_of(s->e, bond->nbr, sign));
+    const struct movers own = movers_of(s, i), other = movers_of(s, image_root(p, s->e->loads.image, bond->nbr));
+    statics_image_signs(s->e, bond->nbr, sign);
     for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][bond->nbr] - p->X[d][i]) * bond->inverse_length;
     for (int k = 0; k < own.n; k++) {
         const real stiffness =

@@ -31,6 +31,9 @@ void statics_pieces_free(struct engine *e);
 /* FAILED if loads would carry away a piece that nothing holds. */
 status statics_unheld(const struct engine *e);
 void statics_pieces_hold(const struct engine *e, struct field *v);
+/* Signs of the components of an image's motion against those of the particle that it comes from, which is its
+ * image_root; +1 of a particle that is none. */
+void statics_image_signs(const struct engine *e, int64_t i, real sign[DIM_MAX]);
 
 /* Columns of history.csv (engine_steps_record.c); column NULL: only their number; their values, of a load step that has
  * just been sampled; and what the next one goes on from. */
@@ -76,6 +79,10 @@ status statics_advance_balanced(struct engine *e);
 status statics_release(struct engine *e);
 real statics_load_size(const struct engine *e, real t);
 real statics_time_of_size(const struct engine *e, real size);
+/* Work on a bond from where it bears nothing to a stretch `elastic` beyond its plastic one, over its stiffness and
+ * length (the integral of its force over its stiffness by the stretch) [1]: the force goes with the stretch up to
+ * `yield` [1], then on with the slope h/(1 + h) of the ratio h of `hardening` (plastic modulus over stiffness) [1], as
+ * in a bar with linear isotropic hardening (Simo & Hughes 1998, 1.2). INFINITY: it never yields. */
 real stretch_work(real elastic, real yield, real hardening);
 real statics_released(const struct engine *e);
 
@@ -114,6 +121,11 @@ status led_check(const struct engine *e);
 bool led_leads(struct engine *e);
 /* Measures factors at a tip, in its frame; false: it sees too little. */
 bool led_measure(const struct engine *e, const struct led_tip *tip, real K[2]);
+/* The place `way` ahead of another one in the plane of the tips, along a unit vector [m]. */
+static inline void led_ahead(const real *place, real way, const real *along, real ahead[2])
+{
+    for (int d = 0; d < 2; d++) ahead[d] = place[d] + way * along[d];
+}
 /* Where its next stretch ends [m]. */
 void led_next_place(const struct engine *e, const struct led_tip *tip, real place[2]);
 /* What it costs [J/m^2]. */

@@ -97,7 +97,8 @@ static status step_by_energy(struct engine *e, real most)
     TRY(statics_look_ahead(e));
     if (s->next.n == 0) TRY(approach_loads(e, t));
     s->advances = s->next.n > 0 && statics_load_size(e, t) >= s->due;
-    return s->next.n > 0 || s->t >= t ? statics_go(e, s->advances ? statics_time_of_size(e, s->due) : t) : OK;
+    if (s->next.n == 0) return OK; /* in balance there already */
+    return statics_go(e, s->advances ? statics_time_of_size(e, s->due) : t);
 }
 
 /* How far the places of control opening have moved apart [m]. */
