@@ -228,7 +228,8 @@ KERNEL(void, mesh_clear, (struct mesh *mesh));
 
 /* Adds the internal forces of the active cells (active_set.h) to the nodes; runs whose points may be past their
  * trigger are marked `stressed`. `finite`: Biot strain in axes that rotate with the cell, else the symmetric
- * gradient (mesh_law.h). Of the particles only the reactions of bonds on the points at their ends are read. */
+ * gradient (mesh_law.h). Of the particles only the reactions of bonds on the points at their ends are read; where they
+ * have a relief, points that yield flow from the state that they have, which moves on (mesh_flow.h). */
 KERNEL(void, mesh_force, (struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
 
 /* v += dt_velocity f/m, u += dt v of the active nodes, u rounded to multiples of mesh->rounding; walls prescribe

@@ -57,6 +57,9 @@ struct particles {
     real *stretch[DIM_MAX];              /* axial stretch, only cpGIMP [1] */
     real *plastic_strain;                /* accumulated, equivalent; only where a material yields [1] */
     real *out_of_plane;                  /* sigma_zz - nu (sigma_xx + sigma_yy), only with WITH_OUT_OF_PLANE [Pa] */
+    /* of points of a mesh: what flow has taken off the stress C : strain, in the axes of their cell; only with
+     * WITH_RELIEF [Pa] */
+    real *relief[SYM_MAX];
     /* material points at the end of state-based bonds: what their cells add to the mean strain S of their family,
      * and ... [1] */
     real *end_strain;
@@ -123,7 +126,8 @@ enum {
     WITH_ENDS = 32,
     WITH_ROTATIONS = 64,
     WITH_STRENGTH = 128,
-    WITH_EVERYTHING = 255
+    WITH_RELIEF = 256,
+    WITH_EVERYTHING = 511
 };
 
 /* One line per array: name, unit, what it is, where it lives. `size` is the bytes of one entry; `count` the

@@ -80,6 +80,9 @@ struct free_piece {
     real *motion;
 };
 
+/* Arrays of what yields: stretch and path of bonds; strain, stress across and relief of points. */
+enum { PLASTIC_MOST = 4 + SYM_MAX };
+
 /* State of a body between two load steps, and what equilibrium works on. Nodes of the unknowns are the peridynamic
  * particles, then the nodes of the mesh. */
 struct statics {
@@ -95,7 +98,7 @@ struct statics {
     struct block_matrix *matrix;         /* springs of bonds and cells, for the preconditioner */
     struct multigrid *precondition;
     int64_t directions;                  /* that the first solution with it took; 0: none yet */
-    real *plastic[2];                    /* stretch and path of bonds at the last equilibrium; NULL: none yields */
+    real *plastic[PLASTIC_MOST];         /* what yields, at the last equilibrium (plastic_state); NULL: no more */
     real t;                              /* pseudo-time of loads and supports [s] */
     real dt;                             /* step in time that the body would bear [s] */
     real overload;                       /* largest stretch over its limit of the last equilibrium [1] */

@@ -26,6 +26,7 @@ struct equilibrium {
     real noise;                          /* norm of forces below which nothing is resolved [N] */
     real length;                         /* between neighbours [m] */
     real unit_energy;                    /* of the body at unit strain [J], which sets the steps of differences */
+    bool kinked;                         /* forces change their slope suddenly, as where points yield */
 
     /* Since equilibrium_make or the caller has set them to 0: */
     int64_t forces, directions;          /* evaluations of all forces; directions of conjugate gradients */

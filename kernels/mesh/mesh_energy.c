@@ -1,4 +1,5 @@
 /* Kinetic and elastic energy of the mesh, for the energy balance. */
+#include "mesh_flow.h"
 #include "mesh_inertia.h"
 #include "mesh_partial.h"
 #include "mesh_run.h"
@@ -86,6 +87,11 @@ static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t gro
     lanes u[CORNERS_MAX][3];
     mesh_partial_load(mesh, group, u, dim);
     cell_strain(&cell, mesh->grid.h, u, dim, finite && dim > 1);
+    if (mesh_flows(s->p)) {
+        int32_t eight[LANES];
+        group_cells(mesh, group, eight);
+        return cells_flow_energy(mesh, s->p, s->elastic, eight, &cell, dim);
+    }
     partial_law(mesh, s->p, group, &cell, dim);
     return lanes_sum(cell_energy(&cell, mesh->volume * (1 << dim), dim));
 }
@@ -95,16 +101,24 @@ static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct me
                                      const bool finite)
 {
     const struct mesh *mesh = s->mesh;
+    const bool flows = mesh_flows(s->p) && s->elastic[run->material].yield > 0;
     lanes sum = lanes_of(0);
+    real flowed = 0;
     for (int64_t k = 0; k < run->cells; k += LANES) {
         struct mesh_cell cell;
         lanes u[CORNERS_MAX][3];
         mesh_run_load(mesh, run, k, u, dim);
         cell_strain(&cell, mesh->grid.h, u, dim, finite && dim > 1);
+        if (flows) {
+            int32_t eight[LANES];
+            run_cells(run, k, eight);
+            flowed += cells_flow_energy(mesh, s->p, s->elastic, eight, &cell, dim);
+            continue;
+        }
         cell_law(&s->elastic[run->material], &cell, dim);
         sum += cell_energy(&cell, mesh->volume * (1 << dim), dim);
     }
-    return lanes_sum(sum);
+    return lanes_sum(sum) + flowed;
 }
 
 #define TERM(D, FINITE)                                                                                                \

@@ -4,6 +4,7 @@
  * node: two colours give the same bits on any number of threads. */
 #include <string.h>
 
+#include "mesh_flow.h"
 #include "mesh_partial.h"
 #include "mesh_run.h"
 
@@ -15,13 +16,46 @@ static ALWAYS_INLINE lanes shifted(lanes before, lanes now)
     return VECTOR_PICK(lanes_mask, before, now, 7, 8, 9, 10, 11, 12, 13, 14);
 }
 
+#define FLOW(D)                                                                                                        \
+    static NEVER_INLINE void cells_flow_##D(const struct mesh *mesh, const struct particles *p,                        \
+                                            const struct elastic *m, const int32_t *cell, struct mesh_cell *s)         \
+    {                                                                                                                  \
+        cells_flow(mesh, p, m, cell, s, D);                                                                            \
+    }
+FLOW(1)
+FLOW(2)
+FLOW(3)
+
+static ALWAYS_INLINE void cells_flow_of(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
+                                        const int32_t *cell, struct mesh_cell *s, const int dim)
+{
+    (dim == 1 ? cells_flow_1 : dim == 2 ? cells_flow_2 : cells_flow_3)(mesh, p, m, cell, s);
+}
+
+/* Forces f [N] on the corners of eight cells of a run, from its k-th on, whose points yield. */
+static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
+                                   const struct mesh_run *run, int64_t k, lanes u[CORNERS_MAX][3],
+                                   lanes f[CORNERS_MAX][3], const int dim, const bool finite)
+{
+    const bool rotates = finite && dim > 1;
+    struct mesh_cell s;
+    int32_t cell[LANES];
+    cell_strain(&s, mesh->grid.h, u, dim, rotates);
+    run_cells(run, k, cell);
+    cells_flow_of(mesh, p, m, cell, &s, dim);
+    if (rotates) cell_balance(&s, (lanes[3]){{0}}, dim);
+    cell_corners(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
+}
+
 /* Adds the forces of a run to the nodes, and sets run->stressed. Cells side by side share nodes: the forces of a vector
  * of cells on their upper corners along x are shifted by one lane and joined with those on the lower corners of the
  * next cells, so that each node of the row is added to once. */
-static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *run, const struct elastic *m,
-                                    const int dim, const bool finite)
+static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct particles *p, struct mesh_run *run,
+                                    const struct elastic *all, const int dim, const bool finite)
 {
     const struct grid *g = &mesh->grid;
+    const struct elastic *m = &all[run->material];
+    const bool flows = mesh_flows(p) && m->yield > 0;
     const real volume = mesh->volume * (1 << dim);
     const bool balanced = mesh_balanced(m, dim);
     const int64_t row = run->cell / g->count[0], start = run->cell - row * g->count[0];
@@ -34,7 +68,8 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
         lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3];
         if (mesh_inactive(levels, start + k)) continue;      /* forces carried from the cells before are 0 */
         mesh_run_load(mesh, run, k, u, dim);
-        mesh_run_force(m, g->h, volume, u, f, &tension, dim, finite, balanced);
+        if (flows) run_flow(mesh, p, all, run, k, u, f, dim, finite);
+        else mesh_run_force(m, g->h, volume, u, f, &tension, dim, finite, balanced);
         for (int c = 0; c < 1 << dim; c += 2)
             for (int i = 0; i < dim; i++) {
                 real *to = g->force[i] + I + mesh->corner[c];
@@ -51,28 +86,29 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, struct mesh_run *ru
 }
 
 /* Forces of all runs of a band. */
-static ALWAYS_INLINE void band_force(const struct mesh *mesh, int64_t band, const struct elastic *m, const int dim,
-                                     const bool finite)
+static ALWAYS_INLINE void band_force(const struct mesh *mesh, const struct particles *p, int64_t band,
+                                     const struct elastic *m, const int dim, const bool finite)
 {
     for (int64_t r = mesh->band[band]; r < mesh->band[band + 1]; r++)
-        run_force(mesh, &mesh->run[r], &m[mesh->run[r].material], dim, finite);
+        run_force(mesh, p, &mesh->run[r], m, dim, finite);
 }
 
 /* Forces of all bands, in two colours, which share the code of a band. The parallel region is inside each instance,
  * where dimension and strain measure are literals. */
 #define BANDS(D, FINITE)                                                                                               \
-    static NEVER_INLINE void band_force_##D##_##FINITE(const struct mesh *mesh, int64_t band, const struct elastic *m) \
+    static NEVER_INLINE void band_force_##D##_##FINITE(const struct mesh *mesh, const struct particles *p,             \
+                                                       int64_t band, const struct elastic *m)                          \
     {                                                                                                                  \
-        band_force(mesh, band, m, D, FINITE);                                                                          \
+        band_force(mesh, p, band, m, D, FINITE);                                                                       \
     }                                                                                                                  \
-    static void bands_force_##D##_##FINITE(struct mesh *mesh, const struct elastic *m)                                 \
+    static void bands_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)      \
     {                                                                                                                  \
         _Pragma("omp parallel")                                                                                        \
         {                                                                                                              \
             _Pragma("omp for schedule(static)") for (int64_t b = 0; b < mesh->bands; b += 2)                           \
-                band_force_##D##_##FINITE(mesh, b, m);                                                                 \
+                band_force_##D##_##FINITE(mesh, p, b, m);                                                              \
             _Pragma("omp for schedule(static) nowait") for (int64_t b = 1; b < mesh->bands; b += 2)                    \
-                band_force_##D##_##FINITE(mesh, b, m);                                                                 \
+                band_force_##D##_##FINITE(mesh, p, b, m);                                                              \
         }                                                                                                              \
     }
 
@@ -112,7 +148,12 @@ static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particle
     mesh_partial_load(mesh, group, u, dim);
     cell_strain(&s, mesh->grid.h, u, dim, rotates);
     partial_mark(mesh, m, group, &s, dim);
-    partial_law(mesh, p, group, &s, dim);
+    if (mesh_flows(p)) {
+        int32_t cell[LANES];
+        group_cells(mesh, group, cell);
+        cells_flow_of(mesh, p, m, cell, &s, dim);
+    } else
+        partial_law(mesh, p, group, &s, dim);
     if (mesh->ends && p->end_rotation[0]) partial_add_moments(mesh, p, group, moment, dim);
     if (rotates) cell_balance(&s, moment, dim);
     else if (dim > 1 && mesh->ends && p->end_rotation[0]) cell_skew(&s, moment, dim);
@@ -169,7 +210,7 @@ void mesh_force(struct mesh *mesh, const struct particles *p, const struct elast
 {
 #define CASE(D, FINITE)                                                                                                \
     if (mesh->grid.dim == D && (D == 1 || finite == FINITE)) {                                                         \
-        bands_force_##D##_##FINITE(mesh, m);                                                                           \
+        bands_force_##D##_##FINITE(mesh, p, m);                                                                        \
         cuts_force_##D##_##FINITE(mesh, p, m);                                                                         \
     }
     MESH_FORCES(CASE)

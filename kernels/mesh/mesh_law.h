@@ -191,6 +191,27 @@ static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNE
         if (M & (M - 1)) rotate_vector(s->R, s->mode[M], false, dim);
 }
 
+/* Product of the coordinates of place q along the axes of a set, +-1/4 each [1]. */
+static ALWAYS_INLINE real place_along(const int set, const int q)
+{
+    const int axes = __builtin_popcount(set), below = __builtin_popcount(set & ~q);
+    return (below & 1 ? -1.0 : 1.0) / (1 << 2 * axes);
+}
+
+/* Strain of eight cells at place q: the mean strain, plus the bending modes times the coordinates +-1/4 of the
+ * place. */
+static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q, lanes e[3][3], const int dim)
+{
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) {
+            e[i][j] = s->e[i][j];
+            SETS for (int M = 3; M < 1 << dim; M++)
+                if (M & (M - 1) && M >> j & 1) {
+                    e[i][j] += place_along(M & ~(1 << j), q) * s->mode[M][i];
+                }
+        }
+}
+
 /* Stress and forces on the bending modes of whole cells [Pa]. */
 static ALWAYS_INLINE void cell_law(const struct elastic *m, struct mesh_cell *s, const int dim)
 {

@@ -1,4 +1,5 @@
 /* The material points of a mesh: their motion, their stress, and the mark for conversion. */
+#include "mesh_flow.h"
 #include "mesh_partial.h"
 #include "mesh_point.h"
 #include "mesh_run.h"
@@ -201,7 +202,8 @@ static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct e
 {
     const int n = symmetric_count(dim);
     real s[SYM_MAX], S[9], T[9], det = 1;
-    mesh_point_stress(m, e, s, dim);
+    if (mesh_flows(p)) point_stress(p, m, i, e, s, dim, false);
+    else mesh_point_stress(m, e, s, dim);
     if (!finite) {
         for (int k = 0; k < n; k++) p->stress[k][i] = s[k];
         return;
@@ -316,23 +318,6 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
     if (dim == 1) cell_mark_1(mesh, p, m, I, finite);
     else if (dim == 2) cell_mark_2(mesh, p, m, I, finite);
     else cell_mark_3(mesh, p, m, I, finite);
-}
-
-/* Strain of eight cells at place q: the mean strain, plus the bending modes times the coordinates +-1/4 of the
- * place. */
-static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q, lanes e[3][3], const int dim)
-{
-    for (int i = 0; i < dim; i++)
-        for (int j = 0; j < dim; j++) {
-            e[i][j] = s->e[i][j];
-            SETS for (int M = 3; M < 1 << dim; M++)
-                if (M & (M - 1) && M >> j & 1) {
-                    real x = 1;
-                    for (int d = 0; d < dim; d++)
-                        if (d != j && M >> d & 1) x *= q >> d & 1 ? 0.25 : -0.25;
-                    e[i][j] += x * s->mode[M][i];
-                }
-        }
 }
 
 /* Bound of the largest principal stress [Pa], closer than that of mesh_force: place by place, where `there` is set

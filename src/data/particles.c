@@ -19,6 +19,7 @@ static int if_ends(int dim, int optional) { return (void)dim, optional & WITH_EN
 static int if_rotates(int dim, int optional) { return optional & WITH_ROTATIONS ? (dim > 2 ? ROTATION : 2) : 0; }
 static int if_moment(int dim, int optional) { return optional & WITH_ROTATIONS ? (dim > 2 ? 3 : 1) : 0; }
 static int if_strength(int dim, int optional) { return (void)dim, optional & WITH_STRENGTH ? 1 : 0; }
+static int if_relief(int dim, int optional) { return optional & WITH_RELIEF ? symmetric_count(dim) : 0; }
 static int if_return(int dim, int optional) { return (void)dim, optional & WITH_REVERSION ? 1 : 0; }
 
 #define FIELD(member, type, count, unit, meaning) \
@@ -37,6 +38,7 @@ const struct particle_field particle_fields[] = {
     FIELD(stretch, real, if_stretch, "1", "axial stretch"),
     FIELD(plastic_strain, real, if_plastic, "1", "accumulated equivalent plastic strain"),
     FIELD(out_of_plane, real, if_out_of_plane, "Pa", "sigma_zz - nu (sigma_xx + sigma_yy)"),
+    FIELD(relief, real, if_relief, "Pa", "what flow has taken off the elastic stress of points of a mesh"),
     FIELD(end_strain, real, if_ends, "1", "what cells add to the mean strain of a point at the end of bonds"),
     FIELD(end_rotation, real, if_rotates, "1", "rotation of a point at the end of bonds"),
     FIELD(end_pull, real, if_ends, "J", "derivative of its family's energy by that strain"),
@@ -53,10 +55,10 @@ const struct particle_field particle_fields[] = {
 };
 const int particle_fields_count = COUNT_OF(particle_fields);
 
-/* 4 vectors, 3 scalars, 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, 2 of return, strength, damage,
- * 4 indices, id; 2 scalars, a rotation and a moment of ends. */
+/* 4 vectors, 3 scalars, 6 + 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, 2 of return, strength,
+ * damage, 4 indices, id; 2 scalars, a rotation and a moment of ends. */
 _Static_assert(sizeof(struct particles) ==
-                   offsetof(struct particles, X) + (5 * DIM_MAX + 34 + ROTATION) * sizeof(void *),
+                   offsetof(struct particles, X) + (5 * DIM_MAX + 40 + ROTATION) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");
 
 /* Through bytes: a `real *` must not be read as a `void *`. */

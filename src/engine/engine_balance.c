@@ -173,6 +173,15 @@ static void account_end(struct account *a, struct engine *e, real *const *before
     }
 }
 
+/* Books what was lost on the way since `lost` [J]. Where points yield, loads and supports work more than the mean of
+ * their forces at both ends times the way: what would be less than nothing is their work. */
+static void lost_book(struct engine *e, real lost)
+{
+    real *now = &e->statics.balance.lost;
+    if (e->part.relief[0] && *now < lost) e->loads.work += lost - *now, *now = lost;
+    e->coupling.damped += *now - lost;
+}
+
 static status unbalanced(const struct engine *e);
 
 status statics_solve(struct engine *e, real t)
@@ -193,11 +202,11 @@ status statics_solve(struct engine *e, real t)
     const int64_t asked = s->balance.directions;
     const real lost = s->balance.lost;
     const status found = equilibrium_find(&s->balance, &s->way, t != s->t);
-    statics_place(e, &s->balance.u);
+    statics_flow(e);
     engine_mesh_sync(e);
     e->statics.t = t;
     account_end(&account, e, before);
-    e->coupling.damped += s->balance.lost - lost;
+    lost_book(e, lost);
     for (int d = 0; d < e->part.dim; d++) memory_free(before[d]);
     statics_react(e);
     s->solutions++;

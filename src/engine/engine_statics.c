@@ -122,6 +122,7 @@ void statics_unknowns_make(struct engine *e)
                                       .tolerance = e->scene->solver_tolerance,
                                       .length = e->scene->spacing,
                                       .unit_energy = energy_at_unit_strain(e),
+                                      .kinked = e->part.relief[0] != NULL,
                                       .forces = kept.forces,
                                       .directions = kept.directions,
                                       .lost = kept.lost,
@@ -168,7 +169,7 @@ void statics_free(struct engine *e)
     statics_precondition_free(e);
     statics_unknowns_free(e);
     for (int d = 0; d < DIM_MAX; d++) memory_free(s->applied[d]), s->applied[d] = NULL;
-    for (int k = 0; k < 2; k++) memory_free(s->plastic[k]), s->plastic[k] = NULL;
+    for (int k = 0; k < PLASTIC_MOST; k++) memory_free(s->plastic[k]), s->plastic[k] = NULL;
     memory_free(s->next.bond);
     s->next = (struct break_list){0};
 }
@@ -240,23 +241,40 @@ static void mirror_nodes_give(struct mesh *mesh)
     }
 }
 
+/* The arrays of what yields, and how many bytes they are; returns their number. */
+static int plastic_state(const struct engine *e, real *array[PLASTIC_MOST], size_t size[PLASTIC_MOST])
+{
+    const struct particles *p = &e->part;
+    real *const of_bonds[] = {e->bonds.plastic_stretch, e->bonds.plastic_path};
+    real *const of_points[] = {p->plastic_strain, p->out_of_plane};
+    int n = 0;
+    for (int k = 0; k < 2; k++)
+        if (of_bonds[k]) size[n] = (size_t)(e->bonds.columns * LANES) * sizeof(real), array[n++] = of_bonds[k];
+    for (int k = 0; k < 2 && p->relief[0]; k++)
+        if (of_points[k]) size[n] = (size_t)p->n * sizeof(real), array[n++] = of_points[k];
+    for (int k = 0; k < symmetric_count(p->dim) && p->relief[0]; k++)
+        size[n] = (size_t)p->n * sizeof(real), array[n++] = p->relief[k];
+    return n;
+}
+
 void statics_plastic_restore(struct engine *e)
 {
-    const size_t size = (size_t)(e->bonds.columns * LANES) * sizeof(real);
-    if (!e->statics.plastic[0]) return;
-    memcpy(e->bonds.plastic_stretch, e->statics.plastic[0], size);
-    memcpy(e->bonds.plastic_path, e->statics.plastic[1], size);
+    real *array[PLASTIC_MOST];
+    size_t size[PLASTIC_MOST];
+    const int n = plastic_state(e, array, size);
+    for (int k = 0; k < n && e->statics.plastic[k]; k++) memcpy(array[k], e->statics.plastic[k], size[k]);
 }
 
 void statics_plastic_keep(struct engine *e)
 {
     struct statics *s = &e->statics;
-    const int64_t n = e->bonds.columns * LANES;
-    if (!e->bonds.plastic_stretch) return;
-    for (int k = 0; k < 2; k++) {
+    real *array[PLASTIC_MOST];
+    size_t size[PLASTIC_MOST];
+    const int n = plastic_state(e, array, size);
+    for (int k = 0; k < n; k++) {
         memory_free(s->plastic[k]);
-        s->plastic[k] = BARE("statics.plastic", n, real);
-        memcpy(s->plastic[k], k == 0 ? e->bonds.plastic_stretch : e->bonds.plastic_path, (size_t)n * sizeof(real));
+        s->plastic[k] = BARE("statics.plastic", (int64_t)(size[k] / sizeof(real)), real);
+        memcpy(s->plastic[k], array[k], size[k]);
     }
 }
 
@@ -300,4 +318,10 @@ static void statics_forces(void *context, const struct field *u, struct field *f
             f->of[d][k] = k < s->particles ? s->weight[k] * part[s->node[k]] : node[s->node[k]];
     }
     statics_pieces_hold(e, f);
+}
+
+void statics_flow(struct engine *e)
+{
+    statics_place(e, &e->statics.balance.u);
+    if (e->statics.plastic[0]) forces_here(e);
 }

@@ -15,9 +15,12 @@ void statics_place(struct engine *e, const struct field *u);
 void statics_react(struct engine *e);
 /* State between two load steps. */
 status statics_archive(struct engine *e, struct archive *a);
-/* Bonds have yielded as they have now: trials of the next step begin from here; they have as they had then. */
+/* Bonds and points have yielded as they have now: trials of the next step begin from here; they have as they had
+ * then. */
 void statics_plastic_keep(struct engine *e);
 void statics_plastic_restore(struct engine *e);
+/* Particles and nodes, and what yields, are as in the equilibrium that has been found. */
+void statics_flow(struct engine *e);
 /* Applied forces at pseudo-time t become those that act (engine_balance.c). */
 void statics_applied_make(struct engine *e, real t);
 /* Equilibrium under loads and supports of pseudo-time t [s], which becomes the time of the run; books work, what was

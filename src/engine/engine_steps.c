@@ -1,5 +1,6 @@
 /* Load steps: the body is led through states of equilibrium, and its crack advances between them (engine_advance.c). */
 #include <math.h>
+#include <stdio.h>
 
 #include "engine_report.h"
 #include "engine_statics.h"
@@ -202,6 +203,21 @@ static void say_closed(struct engine *e)
                       "pass through each other");
 }
 
+#define FLOW_LARGE 0.1 /* plastic strain beyond which strains are no small ones */
+
+/* Says that points have flowed farther than strains that add up describe: without hardening, beyond a limit load. */
+static void say_flowed(struct engine *e)
+{
+    real most = 0;
+    char text[200];
+    for (int64_t i = 0; i < e->part.n && e->part.relief[0]; i++) most = real_max(most, e->part.plastic_strain[i]);
+    snprintf(text, sizeof text,
+             "points have flowed by a plastic strain of %.2g, and load steps know that of a few per cent: see whether "
+             "the body bears its loads, or choose smaller ones, or solver explicit",
+             most);
+    if (most > FLOW_LARGE) engine_say(e, text);
+}
+
 status engine_steps(struct engine *e)
 {
     TRY(engine_report_start(e));
@@ -223,7 +239,7 @@ status engine_steps(struct engine *e)
         statics_record_keep(e);
         if (e->statics.t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
         lap(&e->report.laps, LAP_BONDS);
-        if (e->clock.step == e->clock.steps) say_closed(e);
+        if (e->clock.step == e->clock.steps) say_closed(e), say_flowed(e);
         TRY(engine_report(e));
     }
     statics_free(e);

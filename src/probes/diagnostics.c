@@ -230,7 +230,8 @@ static real diagnostics_plastic_term(const void *context, int64_t k)
     const struct material *m = &s->m[p->material[i]];
     const real a = p->plastic_strain[i];
     if (a == 0) return 0;
-    return own_share(s, i) * p->volume[i] * (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
+    const real volume = p->flag[i] & FLAG_MESHED ? p->volume0[i] : p->volume[i];
+    return own_share(s, i) * volume * (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
 }
 
 real diagnostics_plastic(const struct particles *p, const struct material *m, const struct partial_stress *partial)

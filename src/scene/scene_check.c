@@ -248,8 +248,12 @@ const char *scene_frame_unsupported(const struct scene *s, int body)
     if (s->irregularity > 0) return "it wants a regular lattice";
     if (s->body[body].list.mass) return "particles with masses of their own want frame current";
     for (int m = 0; m < s->materials; m++)
-        if (scene_body_has(&s->body[body], m) && material_yields(&s->material[m]))
-            return "materials that yield want frame current";
+        if (scene_body_has(&s->body[body], m) && material_yields(&s->material[m])) {
+            if (!scene_in_steps(s)) return "materials that yield want frame current";
+            if (s->method != METHOD_MPM)
+                return "its points yield, which load steps know with method mpm or pd";
+            if (s->lattice_constants) return "materials that yield there want mpm.constants isotropic";
+        }
     return NULL;
 }
 

@@ -25,6 +25,7 @@ enum { LOOKS_MOST = 10 };        /* for the length of a correction */
  * it is taken from the middle, too, where forces after it are more than this share of those before. */
 #define PUSH_LEFT 0.8
 #define WORK_CURVED 0.01
+enum { WORK_PARTS = 16 };        /* of that way where forces have kinks: 2 leave a 24th of the work beyond one */
 
 /* Share of the residual that a correction leaves: the least is what one-sided differences resolve. */
 #define FORCING_MOST 0.1
@@ -303,21 +304,25 @@ static real way_length(struct equilibrium *q, real left, bool prescribed)
     return share;
 }
 
-/* Work of all forces over the way `share` x, by Simpson's rule where forces change other than evenly [J]. Forces in the
- * middle are under half of what loads have grown by since `before`. Uses at and r. */
+/* Work of all forces over the way `share` x, by Simpson's rule where forces change other than evenly [J]. Forces on the
+ * way are under that part of what loads have grown by since `before`. Uses at and r. */
 static real work_along(struct equilibrium *q, real share, real left)
 {
-    real ends[2], after[2], middle[2], grown[2];
+    real ends[2], after[2], middle[2], grown[2], sum = 0;
     dots(q, &q->before, &q->x, ends);
     dots(q, &q->q, &q->x, after);
     const real even = 0.5 * share * (ends[0] + ends[1] + after[0] + after[1]);
     if (sqrt(dot_free(q, &q->q, &q->q)) <= WORK_CURVED * left) return even;
-    combine(q, &q->at, 1, &q->u, 0.5 * share, &q->x);
-    forces_at(q, &q->at, &q->r);
-    dots(q, &q->r, &q->x, middle);
+    const int parts = q->kinked ? WORK_PARTS : 2;
     dots(q, &q->f, &q->x, grown);
-    const real half = middle[0] + middle[1] - 0.5 * (grown[0] + grown[1] - ends[0] - ends[1]);
-    return even / 3 + share * 2 / 3 * half;
+    for (int k = 1; k < parts; k++) {
+        const real part = (real)k / parts;
+        combine(q, &q->at, 1, &q->u, part * share, &q->x);
+        forces_at(q, &q->at, &q->r);
+        dots(q, &q->r, &q->x, middle);
+        sum += (k % 2 ? 4 : 2) * (middle[0] + middle[1] - (1 - part) * (grown[0] + grown[1] - ends[0] - ends[1]));
+    }
+    return (2 * even + share * sum) / (3 * parts);
 }
 
 /* Moves by x, or by what of it leads to equilibrium; returns the work of all forces on the way [J]. */

@@ -19,10 +19,10 @@ struct block {
     struct mesh_source source;
 };
 
-static void block_make(struct block *b, enum space space, bool hole, bool cubic)
+static void block_make_with(struct block *b, enum space space, bool hole, bool cubic, int optional)
 {
     static const int size[DIM_MAX + 1][DIM_MAX] = {{0}, {27, 0, 0}, {23, 12, 0}, {21, 6, 6}};
-    struct cloud_plan plan = {.space = space, .horizon = 3};
+    struct cloud_plan plan = {.space = space, .horizon = 3, .optional = optional};
     const int dim = space_dim(space);
     struct grid like = {.dim = dim, .h = 2 * CLOUD_SPACING};
     memset(b, 0, sizeof *b);
@@ -47,6 +47,11 @@ static void block_make(struct block *b, enum space space, bool hole, bool cubic)
     }
     assert_ok(mesh_make(&b->mesh, p, &like, &b->source));
     assert_true(b->mesh.runs > 0 && b->mesh.partial_cells > 0);
+}
+
+static inline void block_make(struct block *b, enum space space, bool hole, bool cubic)
+{
+    block_make_with(b, space, hole, cubic, 0);
 }
 
 static void block_free(struct block *b)

@@ -1,0 +1,135 @@
+/* Cells of points that yield, point by point (plastic.h), as part of one incremental energy.
+ *
+ * With a, r as they were at the last equilibrium, the strain e of a point has the energy per volume
+ *
+ *     w(e) = min over dp, da >= |dp|_eq of  1/2 s : C^-1 : s + (sigma_y + H a) da + H da^2/2,   s = C : (e - dp) - r
+ *
+ * (Ortiz & Stainier 1999, rate independent), whose derivative by e is the stress that return mapping leaves: s at the
+ * end of the step. r, the relief, is what flow has taken off C : e, in the axes of the cell, where Biot's strain is
+ * split into parts that add. Sums over points take the place of the closed forms of mesh_law.h; the moment of the
+ * stresses is balanced as there. */
+#ifndef CLEAVE_KERNELS_MESH_FLOW
+#define CLEAVE_KERNELS_MESH_FLOW
+
+#include "kernels/mpm/plastic.h"
+#include "mesh_law.h"
+#include "mesh_point.h"
+
+static ALWAYS_INLINE bool mesh_flows(const struct particles *p) { return p && p->relief[0]; }
+
+/* Point i flows from the stress s = C : e - r [symmetric, Pa], which becomes that on the yield surface. */
+static ALWAYS_INLINE void point_flow(const struct particles *p, const struct elastic *m, int64_t i, real *s,
+                                     const int dim)
+{
+    real trial[SYM_MAX], zz = p->out_of_plane ? p->out_of_plane[i] : 0;
+    for (int k = 0; k < symmetric_count(dim); k++) trial[k] = s[k];
+    const real more = plastic_return(m, s, p->plastic_strain[i], &zz);
+    if (more == 0) return;
+    p->plastic_strain[i] += more;
+    for (int k = 0; k < symmetric_count(dim); k++) p->relief[k][i] += trial[k] - s[k];
+    if (p->out_of_plane) p->out_of_plane[i] = zz;
+}
+
+/* Stress s [symmetric, Pa] of point i at the strain e [row major]; `flows`: it yields, and its state moves on. */
+static ALWAYS_INLINE void point_stress(const struct particles *p, const struct elastic *m, int64_t i, const real *e,
+                                       real *s, const int dim, const bool flows)
+{
+    mesh_point_stress(m, e, s, dim);
+    for (int k = 0; k < symmetric_count(dim); k++) s[k] -= p->relief[k][i];
+    if (flows && m->yield > 0) point_flow(p, m, i, s, dim);
+}
+
+/* Elastic energy per volume of a point under the stress s, and in plane strain under the stress sigma_zz - nu
+ * (sigma_xx + sigma_yy) across it [J/m^3]. */
+static ALWAYS_INLINE real point_energy_of(const struct particles *p, const struct elastic *m, int64_t i, const real *s,
+                                          const int dim)
+{
+    real sum = 0, squares = 0, shears = 0;
+    for (int k = 0; k < dim; k++) sum += s[k], squares += s[k] * s[k];
+    for (int k = dim; k < symmetric_count(dim); k++) shears += s[k] * s[k];
+    const real mean = m->c12 / (m->c11 + (dim - 1) * m->c12);
+    const real across = p->out_of_plane && m->yield > 0 ? p->out_of_plane[i] : 0;
+    return 0.5 * (squares - mean * sum * sum) / (m->c11 - m->c12) + (dim > 1 ? 0.5 * shears / m->shear : 0) +
+           (across != 0 ? across * across / (4 * m->shear * (1 + m->poisson)) : 0);
+}
+
+/* Stresses [symmetric, Pa] of the points at place q of eight cells, -1: none; as of now, or if it `flows` after the
+ * state has moved on. Returns their elastic energy per volume of a point if it does not [J/m^3]. */
+static ALWAYS_INLINE real place_stress(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
+                                       const int32_t *cell, const struct mesh_cell *s, const int q, lanes *stress,
+                                       const int dim, const bool flows)
+{
+    lanes e[3][3];
+    real sum = 0;
+    cells_strain_at(s, q, e, dim);
+    for (int k = 0; k < symmetric_count(dim); k++) stress[k] = lanes_of(0);
+    for (int l = 0; l < LANES; l++) {
+        const int64_t i = cell[l] < 0 ? -1 : mesh->point[((int64_t)cell[l] << dim) + q];
+        real own[SYM_MAX], strain[DIM_MAX * DIM_MAX];
+        if (i < 0) continue;
+        for (int a = 0; a < dim; a++)
+            for (int b = 0; b < dim; b++) strain[a * dim + b] = e[a][b][l];
+        point_stress(p, &m[p->material[i]], i, strain, own, dim, flows);
+        for (int k = 0; k < symmetric_count(dim); k++) stress[k][l] = own[k];
+        if (!flows) sum += point_energy_of(p, &m[p->material[i]], i, own, dim);
+    }
+    return sum;
+}
+
+/* Adds the stresses [symmetric] of the points at place q to sums over places: of stresses, and of their parts in the
+ * bending modes. */
+static ALWAYS_INLINE void place_stress_add(struct mesh_cell *s, const lanes *stress, const int q, const int dim)
+{
+    for (int k = 0; k < symmetric_count(dim); k++) {
+        int a, b;
+        symmetric_axes(dim, k, &a, &b);
+        s->P[a][b] += stress[k];
+        if (a != b) s->P[b][a] += stress[k];
+        for (int M = 3; M < 1 << dim; M++) {
+            if (!(M & (M - 1))) continue;
+            if (M >> b & 1) s->force[M][a] += place_along(M & ~(1 << b), q) * stress[k];
+            if (a != b && M >> a & 1) s->force[M][b] += place_along(M & ~(1 << a), q) * stress[k];
+        }
+    }
+}
+
+/* Stress of the mean strain and forces on the bending modes of eight cells [Pa], -1: none, whose points yield. */
+static ALWAYS_INLINE void cells_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
+                                     const int32_t *cell, struct mesh_cell *s, const int dim)
+{
+    const real share = 1.0 / (1 << dim);
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b < dim; b++) s->P[a][b] = lanes_of(0);
+    for (int M = 0; M < 1 << dim; M++)
+        for (int a = 0; a < dim; a++) s->force[M][a] = lanes_of(0);
+    for (int q = 0; q < 1 << dim; q++) {
+        lanes stress[SYM_MAX];
+        place_stress(mesh, p, m, cell, s, q, stress, dim, true);
+        for (int k = 0; k < symmetric_count(dim); k++) stress[k] *= share;
+        place_stress_add(s, stress, q, dim);
+    }
+}
+
+/* Elastic energy of eight cells at the state that their points have [J]. */
+static ALWAYS_INLINE real cells_flow_energy(const struct mesh *mesh, const struct particles *p,
+                                            const struct elastic *m, const int32_t *cell, const struct mesh_cell *s,
+                                            const int dim)
+{
+    lanes stress[SYM_MAX];
+    real sum = 0;
+    for (int q = 0; q < 1 << dim; q++) sum += place_stress(mesh, p, m, cell, s, q, stress, dim, false);
+    return sum * mesh->volume;
+}
+
+/* The eight cells of a run from its k-th on; of a group of partial cells. */
+static ALWAYS_INLINE void run_cells(const struct mesh_run *run, int64_t k, int32_t *cell)
+{
+    for (int l = 0; l < LANES; l++) cell[l] = k + l < run->cells ? (int32_t)(run->cell + k + l) : -1;
+}
+static ALWAYS_INLINE void group_cells(const struct mesh *mesh, int64_t group, int32_t *cell)
+{
+    for (int64_t l = 0; l < LANES; l++)
+        cell[l] = group * LANES + l < mesh->partial_cells ? mesh->partial_cell[group * LANES + l] : -1;
+}
+
+#endif

@@ -1,0 +1,138 @@
+#!/bin/sh
+# Load steps of material points that yield, beside closed forms: the bilinear curve of a bar with its permanent set and reversed flow, the
+# moment of a beam, a thick-walled cylinder; their energies, whatever the number of steps, the same bits on any number of threads and
+# after stops between any two load steps, and what is refused.
+test_name=test_steps_yield
+. tests/support/summary.sh
+. tests/support/trust.sh
+export OMP_WAIT_POLICY=passive
+
+# A bar of 20 by 8 mm, pulled evenly to a strain of 0.006, three times that at which it yields, and then pressed.
+cat >"$work/bar.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 1 s
+method: mpm
+solver: static
+steps: {number: 12}
+material: {young: 200 GPa, poisson: 0.3, density: 7850 kg/m^3, yield_stress: 400 MPa, yield_tangent: 20 GPa}
+body: {box: {from: [0, 0], to: [20 mm, 8 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {name: right, displacement: ["0.006*x", free], face: x+, time: {table: [[0 s, 0], [0.5 s, 1], [1 s, -1]]}}
+  - {name: left, mirror: {axis: x, at: 0}}
+  - {name: below, mirror: {axis: y, at: 0}}
+probes: [{reaction: {boundary: right}}]
+output: {frames: 2}
+END
+bar=$work/bar.yaml
+sed -e 's/^space: .*/space: solid/; /^thickness/d; s/poisson: 0.3/poisson: 1\/4/; s/free\]/free, free]/; s/from: \[0, 0\], to: \[20 mm, 8 mm\]/from: [0, 0, 0], to: [20 mm, 8 mm, 6 mm]/' \
+    -e 's/^  - {name: below.*/&\n  - {name: back, mirror: {axis: z, at: 0}}/' "$bar" >"$work/solid.yaml"
+sed -e 's/^space: .*/space: line/; /^thickness/d; s/poisson: 0.3, //; s/, free\]/]/; s/\[0, 0\]/[0]/; s/, 8 mm\]/]/; /below/d' "$bar" >"$work/line.yaml"
+
+# ---- the bilinear curve ----------------------------------------------------------------------------------------------
+
+# curve WHAT SCENE AREA VOLUME: up to 480 MPa, back, and from -480 MPa on with the same slope to -624 MPa.
+curve()
+{
+    to=$work/$1
+    calm "$to" "$2" -t 1
+    for point in 0.0833333334,200e6 0.25,420e6 0.333333334,440e6 0.5,480e6 0.583333334,80e6 0.66666667,-320e6 0.75,-504e6 1,-624e6; do
+        near "$1: stress at ${point%,*}" "$(column "$to" reaction.force_x "${point%,*}")" "$(compute "${point#*,}*$3")" 1e-5
+    done
+    # plastic work sigma_y a + H a^2/2 with H = E E_t/(E - E_t); a = 0.0036 at 480 MPa, 0.01008 at 624 MPa
+    near "$1: strain energy" "$(column "$to" strain 0.5)" "$(compute "480e6^2/400e9*$4")" 1e-5
+    near "$1: plastic work" "$(column "$to" plastic 0.5)" "$(compute "(400e6*0.0036 + 20e9/1.8*0.0036^2)*$4")" 1e-5
+    near "$1: plastic work at the end" "$(column "$to" plastic 1)" "$(compute "(400e6*0.01008 + 20e9/1.8*0.01008^2)*$4")" 1e-5
+    apart "$1: balance" "$(figure "$to" energy.balance_error)" 0 1e-3
+}
+curve plane "$bar" 8e-6 160e-9
+curve solid "$work/solid.yaml" 48e-6 960e-9
+curve line "$work/line.yaml" 1 0.02
+
+# The same states in any number of steps; with 4 of them the first one ends beyond yield.
+for steps in 4 60; do
+    calm "$work/bar$steps" "$bar" -t 1 -s steps.number=$steps
+    near "$steps steps: stress" "$(column "$work/bar$steps" reaction.force_x 0.5)" 3840 1e-5
+    near "$steps steps: at the end" "$(column "$work/bar$steps" reaction.force_x 1)" -4992 1e-5
+    near "$steps steps: plastic work" "$(column "$work/bar$steps" plastic 1)" "$(column "$work/plane" plastic 1)" 1e-5
+    apart "$steps steps: balance" "$(figure "$work/bar$steps" energy.balance_error)" 0 1e-3
+done
+
+# The permanent set: no stress at a strain of 0.006 - 480 MPa/E.
+calm "$work/set" "$bar" -t 1 -s steps.number=20
+apart "permanent set" "$(column "$work/set" reaction.force_x 0.6)" 0 1e-2
+
+# ---- a beam and a cylinder ---------------------------------------------------------------------------------------------
+
+# Half of a beam, 16 mm high, bent without hardening to four times the curvature 1/4 m at which its edges yield: M/M_y = 3/2 - (1/4)^2/2.
+sed -e 's/, yield_tangent: 20 GPa//; s/to: \[20 mm, 8 mm\]/to: [40 mm, 8 mm]/; s/from: \[0, 0\]/from: [0, -8 mm]/; s/number: 12/number: 40/' \
+    -e 's/displacement: .*/displacement: ["-x*y\/(1 m)", free], face: x+, time: {ramp: {until: 1 s}}}/; s/^  - {name: below.*/  - {name: pin, fixed: [y], region: {box: {from: [0, -0.9 mm], to: [1 mm, 0.9 mm]}}}/' "$bar" >"$work/beam.yaml"
+calm "$work/beam" "$work/beam.yaml" -t 1
+# moment: work over the angle; of the curvature in the middle of the step
+moment() { compute "($(column "$work/beam" external_work "$2") - $(column "$work/beam" external_work "$1"))/(0.04*($2 - $1))/(400e6*1e-3*0.016^2/6)"; }
+near "beam: elastic moment" "$(moment 0.1 0.125)" 0.45 5e-3
+near "beam: moment" "$(moment 0.475 0.5)" "$(compute "1.5 - 0.5/1.95^2")" 1e-2
+near "beam: towards the plastic moment" "$(moment 0.975 1)" "$(compute "1.5 - 0.5/3.95^2")" 1.2e-2
+apart "beam: balance" "$(figure "$work/beam" energy.balance_error)" 0 1e-3
+
+# A quarter of a cylinder with radii of 20 and 40 mm under pressure, plane strain: elastic up to 173.2 MPa; at 240 and 300 MPa yielded to
+# the radii c = 26.03 and 33.71 mm with p = s/2 (1 - c^2/b^2 + 2 ln(c/a)), s = 2 sigma_y/3^(1/2), u(b) = (1 - nu^2) s c^2/(E b) (Hill 1950).
+# Steps of the lattice take 4 % off its wall at 1 mm, 2 % at 0.5 mm.
+cat >"$work/cylinder.yaml" <<'END'
+space: plane strain
+thickness: 1 mm
+duration: 1 s
+method: mpm
+solver: static
+steps: {number: 10}
+material: {young: 200 GPa, poisson: 0.3, density: 7850 kg/m^3, yield_stress: 400 MPa}
+body: [{ring: {centre: [0, 0], radius: 40 mm, inner: 20 mm}}, {intersect: {box: {from: [0, 0], to: [50 mm, 50 mm]}}}]
+particles: {spacing: 0.5 mm}
+boundary:
+  - {name: inner, pressure: 300 MPa, region: {disc: {centre: [0, 0], radius: 30 mm}}, time: {ramp: {until: 1 s}}}
+  - {name: left, mirror: {axis: x, at: 0}}
+  - {name: below, mirror: {axis: y, at: 0}}
+probes: [{point: {name: outer, at: [39.75 mm, 0.25 mm]}}]
+output: {frames: 2}
+END
+calm "$work/cylinder" "$work/cylinder.yaml" -t 1
+near "cylinder: elastic" "$(column "$work/cylinder" outer.displacement_x 0.5)" 1.82e-5 3e-2
+near "cylinder: half through" "$(column "$work/cylinder" outer.displacement_x 0.8)" 3.197e-5 4e-2
+near "cylinder: nearly through" "$(column "$work/cylinder" outer.displacement_x 1)" 5.366e-5 6e-2
+apart "cylinder: balance" "$(figure "$work/cylinder" energy.balance_error)" 0 1e-3
+
+# It bears no more than s ln 2 = 320 MPa. Beyond, it opens until strains are no small ones any more, which a run says.
+sed -e 's/pressure: 300/pressure: 330/; s/number: 10/number: 11/; s/spacing: 0.5/spacing: 1/' "$work/cylinder.yaml" >"$work/limit.yaml"
+warned "beyond the limit load" "$work/limit" 'have flowed by a plastic strain of' "$work/limit.yaml" -t 1
+between "cylinder: 300 MPa" "$(column "$work/limit" outer.displacement_x 0.91)" 5.3e-5 6.2e-5
+between "cylinder: 330 MPa" "$(column "$work/limit" outer.displacement_x 1)" 1e-3 1e-1
+
+# ---- the same bits -----------------------------------------------------------------------------------------------------
+
+# bits WHAT SCENE ARGUMENTS: on 1 and 2 threads, and stopped after every load step.
+bits()
+{
+    what=$1; shift
+    for threads in 1 2; do "$cleave" run -q -o "$work/$what$threads" "$@" -t $threads 2>"$work/err" || fail "$what: $(cat "$work/err")"; done
+    same "$what: 1 and 2 threads" "$work/${what}1" "$work/${what}2"
+    parts=0 status=130
+    while [ $status -eq 130 ] && [ $parts -lt 40 ]; do
+        "$cleave" run -q -o "$work/${what}_parts" "$@" -t 1 -s time.wall=1us --resume 2>"$work/err"
+        status=$?
+        parts=$((parts + 1))
+    done
+    is "$what: status, $(cat "$work/err")" $status 0
+    between "$what: stops" $parts 7 13
+    same "$what: in pieces" "$work/${what}1" "$work/${what}_parts"
+}
+bits bits_plane "$bar"
+bits bits_solid "$work/solid.yaml" -s steps.number=8
+bits bits_cylinder "$work/cylinder.yaml" -s 'particles.spacing=1 mm'
+
+# ---- what is refused ---------------------------------------------------------------------------------------
+
+refused "conversion" "$work/no" 'its points yield, which load steps know with method mpm or pd' "$bar" -s method=adaptive -s material.poisson=1/3
+refused "constants of a lattice" "$work/no" 'mpm.constants isotropic' "$bar" -s mpm.constants=lattice -s material.poisson=1/3
+
+finish

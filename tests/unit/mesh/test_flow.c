@@ -1,0 +1,161 @@
+/* Points of a mesh that yield (mesh_flow.h): forces are the gradient of one incremental energy from any state of flow,
+ * that energy is what the accounts of strain and plastic work hold, and where nothing yields all is as elastic. */
+#include "tests/support/mesh_block.h"
+
+#include "data/material.h"
+
+enum { FLOWS = WITH_PLASTIC | WITH_OUT_OF_PLANE | WITH_RELIEF };
+enum { STATES = 2 + SYM_MAX };
+static const enum space flow_spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
+
+/* A block whose points yield at this share of the shear modulus, material 1 hardening; 0: no point does. */
+static void flow_block_make(struct block *b, enum space space, real yield)
+{
+    block_make_with(b, space, true, false, FLOWS);
+    if (space != SPACE_PLANE_STRAIN) memory_free(b->c.p.out_of_plane), b->c.p.out_of_plane = NULL;
+    for (int m = 0; m < CLOUD_MATERIALS; m++) {
+        struct elastic *k = &b->elastic[m];
+        const real shear = space == SPACE_LINE ? 0.4 * k->c11 : k->shear;
+        k->yield = yield * shear, k->hardening = m > 0 ? 0.1 * shear : 0;
+        k->poisson = b->c.material[m].poisson;
+    }
+}
+
+/* The arrays of flow of a block. */
+static int states_of(const struct block *b, real *array[STATES])
+{
+    int n = 0;
+    array[n++] = b->c.p.plastic_strain;
+    if (b->c.p.out_of_plane) array[n++] = b->c.p.out_of_plane;
+    for (int k = 0; k < symmetric_count(b->c.p.dim); k++) array[n++] = b->c.p.relief[k];
+    return n;
+}
+
+static void states_copy(const struct block *b, real *kept, bool back)
+{
+    real *array[STATES];
+    const int64_t n = b->c.p.n;
+    for (int k = 0, all = states_of(b, array); k < all; k++)
+        memcpy(back ? array[k] : kept + k * n, back ? kept + k * n : array[k], (size_t)n * sizeof(real));
+}
+
+/* Incremental energy of the block from the state `kept`, less what is constant; moves the state on [J]. */
+static real incremental_energy(struct block *b, real *kept, bool finite)
+{
+    real sum = 0;
+    states_copy(b, kept, true);
+    forces(b, finite);
+    for (int64_t i = 0; i < b->c.p.n; i++) {
+        const struct elastic *m = &b->elastic[b->c.p.material[i]];
+        const real a = b->c.p.plastic_strain[i];
+        if (b->mesh.place[i] >= 0) sum += b->mesh.volume * (m->yield + 0.5 * m->hardening * a) * a;
+    }
+    return sum + mesh_strain(&b->mesh, &b->c.p, b->elastic, finite);
+}
+
+static int64_t flowed(const struct block *b)
+{
+    int64_t n = 0;
+    for (int64_t i = 0; i < b->c.p.n; i++) n += b->c.p.plastic_strain[i] > 0;
+    return n;
+}
+
+/* f = -dW/du by central differences at some nodes, from a state of flow that another way has left. Where a point begins
+ * to yield within the step, its second derivative jumps: that adds 1e-6 of the largest force. */
+static void flow_gradient_of(enum space space, bool finite)
+{
+    struct block b;
+    flow_block_make(&b, space, 0.05);
+    const int64_t n = b.c.p.n;
+    real *kept = NEW("test.kept", STATES * n, real), *force[DIM_MAX];
+    shake(&b, 0.15, 5);
+    incremental_energy(&b, kept, finite);
+    assert_true(flowed(&b) > n / 4);
+    states_copy(&b, kept, false);
+    shake(&b, 0.17, 9);
+    incremental_energy(&b, kept, finite);
+    const real scale = largest_force(&b), step = 1e-5 * CLOUD_SPACING;
+    for (int d = 0; d < b.c.p.dim; d++) {
+        force[d] = NEW("test.force", b.mesh.grid.n, real);
+        memcpy(force[d], b.mesh.grid.force[d], (size_t)b.mesh.grid.n * sizeof(real));
+    }
+    for (int64_t I = 0, checked = 0; I < b.mesh.grid.n && checked < 12; I += b.mesh.grid.n / 20 + 1)
+        for (int d = 0; d < b.c.p.dim && b.mesh.grid.mass[I] > 0; d++, checked++) {
+            real *u = &b.mesh.displacement[d][I];
+            *u += step;
+            const real more = incremental_energy(&b, kept, finite);
+            *u -= 2 * step;
+            const real less = incremental_energy(&b, kept, finite);
+            *u += step;
+            assert_near(force[d][I], -(more - less) / (2 * step), 1e-5 * scale);
+        }
+    for (int d = 0; d < b.c.p.dim; d++) memory_free(force[d]);
+    memory_free(kept);
+    block_free(&b);
+}
+
+static void test_flow_gradient(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(flow_spaces); s++)
+        for (int finite = 0; finite < 2; finite++) flow_gradient_of(flow_spaces[s], finite);
+}
+
+/* Points that never reach their yield stress give the forces and energies of the closed forms, by which elastic cells
+ * are computed. */
+static void test_flow_elastic(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(flow_spaces); s++)
+        for (int finite = 0; finite < 2; finite++) {
+            struct block by_points, closed;
+            flow_block_make(&by_points, flow_spaces[s], 1e6);
+            block_make(&closed, flow_spaces[s], true, false);
+            shake(&by_points, 0.15, 5), shake(&closed, 0.15, 5);
+            forces(&by_points, finite), forces(&closed, finite);
+            assert_int_equal(flowed(&by_points), 0);
+            const real scale = largest_force(&closed);
+            for (int64_t I = 0; I < closed.mesh.grid.n; I++)
+                for (int d = 0; d < closed.c.p.dim; d++)
+                    assert_near(by_points.mesh.grid.force[d][I], closed.mesh.grid.force[d][I], 1e-12 * scale);
+            assert_close(mesh_strain(&by_points.mesh, &by_points.c.p, by_points.elastic, finite),
+                         mesh_strain(&closed.mesh, &closed.c.p, closed.elastic, finite), 1e-12);
+            block_free(&by_points), block_free(&closed);
+        }
+}
+
+/* A way and its repetition: the second time all points are on the yield surface and flow no further; the way back is
+ * elastic, and what is left are stresses and the same plastic work. */
+static void test_flow_state(void **state)
+{
+    (void)state;
+    struct block b;
+    flow_block_make(&b, SPACE_PLANE_STRAIN, 0.05);
+    real *kept = NEW("test.kept", STATES * b.c.p.n, real);
+    rotation(&b, 0.3, 0.2);
+    const real first = incremental_energy(&b, kept, true);
+    const real most = largest_force(&b), strain = b.c.p.plastic_strain[b.c.p.n - 1];
+    assert_true(strain > 0.05);
+    states_copy(&b, kept, false);
+    assert_close(incremental_energy(&b, kept, true), first, 1e-12);
+    assert_close(largest_force(&b), most, 1e-12);
+    rotation(&b, 0.9, 0.2);
+    assert_close(incremental_energy(&b, kept, true), first, 1e-12);        /* rotation changes nothing */
+    rotation(&b, 0.3, 0.19);
+    incremental_energy(&b, kept, true);
+    assert_close(b.c.p.plastic_strain[b.c.p.n - 1], strain, 1e-12);
+    memory_free(kept);
+    block_free(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_flow_gradient),
+        cmocka_unit_test(test_flow_elastic),
+        cmocka_unit_test(test_flow_state),
+    };
+    int failures = 0;
+    FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
+    return failures;
+}
