@@ -155,30 +155,40 @@ static void account_begin(struct account *a, const struct engine *e)
 }
 
 /* Work of supports and of applied forces over the step, each by the mean of its forces at both ends, and what the bend
- * of the way adds; *before holds where loaded particles were. */
-static void account_end(struct account *a, struct engine *e, real *const *before)
+ * of the way adds; *before holds where loaded particles were. Returns how far that is from the work of loads that are
+ * there as in the end, or as in the beginning, on the whole way [J]. */
+static real account_end(struct account *a, struct engine *e, real *const *before)
 {
     struct statics *s = &e->statics;
+    real range[2] = {0};
     e->loads.work += s->balance.bent;
     for (int d = 0; d < e->part.dim; d++) {
-        for (int64_t k = 0; k < s->balance.n; k++)
-            if (s->balance.held[k] >> d & 1)
-                e->loads.constraint_work -=
-                    0.5 * (a->f.of[d][k] + s->balance.f.of[d][k]) * (s->balance.u.of[d][k] - a->u.of[d][k]);
-        for (int64_t i = 0; i < e->part.n; i++)
-            e->loads.work += 0.5 * (a->applied[d][i] + s->applied[d][i]) * (e->part.x[d][i] - before[d][i]);
+        for (int64_t k = 0; k < s->balance.n; k++) {
+            const real way = s->balance.u.of[d][k] - a->u.of[d][k], now = s->balance.f.of[d][k], was = a->f.of[d][k];
+            if (!(s->balance.held[k] >> d & 1)) continue;
+            e->loads.constraint_work -= 0.5 * (was + now) * way;
+            range[0] += 0.5 * (now - was) * way;
+        }
+        for (int64_t i = 0; i < e->part.n; i++) {
+            const real way = e->part.x[d][i] - before[d][i], now = s->applied[d][i], was = a->applied[d][i];
+            e->loads.work += 0.5 * (was + now) * way;
+            range[1] += 0.5 * (now - was) * way;
+        }
         memory_free(a->u.of[d]);
         memory_free(a->f.of[d]);
         memory_free(a->applied[d]);
     }
+    return fabs(range[0]) + fabs(range[1]);
 }
 
-/* Books what was lost on the way since `lost` [J]. Where points yield, loads and supports work more than the mean of
- * their forces at both ends times the way: what would be less than nothing is their work. */
-static void lost_book(struct engine *e, real lost)
+/* Books what was lost on the way since `lost` [J]. Where points yield, forces change other than evenly on it, and loads
+ * and supports work other than the mean of both ends times it: less by up to `range` [J], or more, since nothing else
+ * gives energy. Only what is beyond is lost. */
+static void lost_book(struct engine *e, real lost, real range)
 {
     real *now = &e->statics.balance.lost;
-    if (e->part.relief[0] && *now < lost) e->loads.work += lost - *now, *now = lost;
+    const real uneven = e->part.relief[0] ? real_min(*now - lost, range) : 0;
+    e->loads.work -= uneven, *now -= uneven;
     e->coupling.damped += *now - lost;
 }
 
@@ -205,8 +215,7 @@ status statics_solve(struct engine *e, real t)
     statics_flow(e);
     engine_mesh_sync(e);
     e->statics.t = t;
-    account_end(&account, e, before);
-    lost_book(e, lost);
+    lost_book(e, lost, account_end(&account, e, before));
     for (int d = 0; d < e->part.dim; d++) memory_free(before[d]);
     statics_react(e);
     s->solutions++;

@@ -44,6 +44,8 @@ curve()
     near "$1: strain energy" "$(column "$to" strain 0.5)" "$(compute "480e6^2/400e9*$4")" 1e-5
     near "$1: plastic work" "$(column "$to" plastic 0.5)" "$(compute "(400e6*0.0036 + 20e9/1.8*0.0036^2)*$4")" 1e-5
     near "$1: plastic work at the end" "$(column "$to" plastic 1)" "$(compute "(400e6*0.01008 + 20e9/1.8*0.01008^2)*$4")" 1e-5
+    near "$1: work" "$(column "$to" external_work 0.5)" "$(compute "(480e6^2/400e9 + 400e6*0.0036 + 20e9/1.8*0.0036^2)*$4")" 1e-3
+    apart "$1: nothing is lost" "$(figure "$to" energy.damped)" 0 "$(compute "1e-3*$4*400e6*0.01")"
     apart "$1: balance" "$(figure "$to" energy.balance_error)" 0 1e-3
 }
 curve plane "$bar" 8e-6 160e-9
@@ -58,6 +60,15 @@ for steps in 4 60; do
     near "$steps steps: plastic work" "$(column "$work/bar$steps" plastic 1)" "$(column "$work/plane" plastic 1)" 1e-5
     apart "$steps steps: balance" "$(figure "$work/bar$steps" energy.balance_error)" 0 1e-3
 done
+
+# Two materials in series, of which one yields: its end goes by 9.5 mm times 0.0115, the other by 10 mm times that and 7.5 mm times 0.004.
+sed -e 's/^material: .*/materials:\n  - {name: soft, young: 200 GPa, density: 7850, yield_stress: 300 MPa, yield_tangent: 10 GPa}\n  - {name: hard, young: 100 GPa, density: 7850}/' \
+    -e 's/^body: .*/bodies: [{name: bar, material: soft, shape: {box: {from: [0], to: [20 mm]}}, parts: [{region: {box: {from: [10 mm], to: [30 mm]}}, material: hard}]}]/' \
+    -e 's/displacement: .*/traction: [400 MPa], face: x+, time: {ramp: {until: 1 s}}}/; s/^probes.*/probes: [{point: {name: middle, at: [9.5 mm]}}, {point: {name: end, at: [17.5 mm]}}]/; s/number: 12/number: 5/' "$work/line.yaml" >"$work/series.yaml"
+calm "$work/series" "$work/series.yaml" -t 1
+near "series: elastic" "$(column "$work/series" end.displacement_x 0.6)" 3e-5 1e-5
+near "series: the soft half" "$(column "$work/series" middle.displacement_x 1)" 1.0925e-4 1e-5
+near "series: the whole" "$(column "$work/series" end.displacement_x 1)" 1.45e-4 1e-5
 
 # The permanent set: no stress at a strain of 0.006 - 480 MPa/E.
 calm "$work/set" "$bar" -t 1 -s steps.number=20
