@@ -41,6 +41,8 @@ static const char page[] =
     "  linear isotropic hardening by return mapping (Simo 1998).\n"
     "MATERIAL POINT METHOD, reference frame: linear cells of two spacings over X with the points as quadrature;\n"
     "  f_I = -dE/du_I,  E = sum_p V_p W(F_p);  W of the strain of the rotated cell (finite) or of sym grad u.\n"
+    "  load steps, points yield: W(e) = least over flow of elastic energy + (sigma_y + H a) da + H da^2/2 from the\n"
+    "  last equilibrium on (Ortiz 1999); its gradient is the stress that return mapping leaves.\n"
     "\n"
     "COUPLING   bonds join peridynamic particles and points: equal and opposite forces. partial stress: a point keeps\n"
     "  sigma - sum over bonds that cross its cell of their stress there, so that uniform strain crosses the interface\n"

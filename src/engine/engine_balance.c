@@ -232,8 +232,8 @@ static status unbalanced(const struct engine *e)
     return status_set(FAILED,
                       "load step %lld, t = %.6g s: no equilibrium, the residual stays at %.3g of the load (%.3g is "
                       "wanted), most of it near x = %.6g, y = %.6g, z = %.6g m; see whether every part is held and "
-                      "loads are what the body bears, or choose steps.control energy, more steps, or a larger "
+                      "loads are what the body bears, or choose %ssteps.control energy, more steps, or a larger "
                       "solver_tolerance",
                       (long long)e->clock.step + 1, e->statics.t, s->balance.residual, e->scene->solver_tolerance, X[0],
-                      X[1], X[2]);
+                      X[1], X[2], e->part.relief[0] ? "a yield_tangent of a thousandth of young, " : "");
 }
