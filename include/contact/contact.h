@@ -77,7 +77,15 @@ struct contact_balance {
 /* Particles near a rigid body: rows, ascending, and the gap at which contact begins, 0 or less [m]; where the body was
  * at the search. */
 struct contact_near { int64_t n; int32_t *row; real *zero, x[DIM_MAX], turn[DIM_MAX * DIM_MAX];
-                      struct contact_spring *spring; struct contact_balance *balance; };
+                      struct contact_spring *spring; struct contact_balance *balance; uint8_t *touch; };
+
+/* A contact that pushes: the rate of its gap is the sum of along . v of its particles; energy 1/2 stiffness gap^2. */
+struct contact_term {
+    int n;
+    int32_t *particle;                   /* [n] images included */
+    real (*along)[DIM_MAX];              /* [n] derivative of the gap [1], of faces [1/m] */
+    real stiffness;                      /* [N/m], of faces [J] */
+};
 
 /* Pairs near enough to meet before the next search, row by row: each pair stands in the rows of both its particles, so
  * that each row has one owner. */
@@ -98,6 +106,9 @@ struct contact {
     struct contact_balance *balance;     /* faces: [rows] */
     struct contact_spring *spring;       /* [rows], with friction */
     uint8_t *followed;                   /* [rows] what may push it: a row_state of contact_internal.h */
+    bool marked;                         /* in equilibria: what is marked pushes, or pulls, and nothing else does */
+    uint8_t *touch;                      /* marks, of faces [rows], of pairs [pairs]; NULL: none yet */
+    bool by_overlap;                     /* marks are there, and do not count for now */
     int64_t waiting;                     /* rows that may feel something once it has moved */
     real friction_work;                  /* up to the last search [J] */
     int rigids;
@@ -155,6 +166,27 @@ real contact_energy(const struct contact *c, const struct particles *p);
 real contact_patch(const struct contact *c, const struct particles *p, int body);
 /* Work that friction has taken so far [J]. */
 real contact_friction_work(const struct contact *c);
+
+/* Equilibria (contact_touch.c). Under the laws of marks forces are smooth, and an equilibrium is one of contact if what
+ * overlaps there is what is marked. contact_search: pairs anew, as contact_update finds them; then all that overlaps is
+ * marked, and what is closer than `close` to another body [spacings]. contact_mark: the same without a search, which
+ * leaves alone what is within round-off. Both return how many marks have changed; nothing dashes (contact_balance). */
+int64_t contact_search(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
+                       const struct family *family, real close);
+int64_t contact_mark(struct contact *c, const struct particles *p, real close);
+/* Do marks count, or overlaps? */
+void contact_marks_use(struct contact *c, bool use);
+/* The law by overlaps again: marks are gone, and a search is due. */
+void contact_unmark(struct contact *c);
+/* Have particles, or rigid bodies, come too far since the search? */
+bool contact_has_come(struct contact *c, const struct particles *p);
+/* Longest way of a particle at which contact still sees all [m]. */
+real contact_sight(const struct contact *c);
+/* Visits all that is marked, row by row. */
+void contact_terms(const struct contact *c, const struct particles *p,
+                   void (*visit)(void *context, const struct contact_term *term), void *context);
+/* Norm of the forces of rigid bodies on particles [N]. */
+real contact_rigid_norm(const struct contact *c, const struct particles *p);
 
 status contact_archive(struct contact *c, const struct particles *p, struct archive *a);
 

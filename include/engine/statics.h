@@ -111,6 +111,9 @@ struct statics {
     bool parted;                         /* and since pieces were looked for */
     real released_time;                  /* that releases in time have taken so far [s] */
     struct led led;
+    real largest;                        /* of the balance, before the solution at hand [N] */
+    bool touches;                        /* something did after the last solution */
+    real energy;                         /* before it [J] */
     int64_t opens[2];                    /* particles whose distance is the opening */
     int64_t solutions;                   /* equilibria found so far */
     struct steps_record record;

@@ -57,11 +57,15 @@ void rigid_place(const struct rigid_body *r, const real *X, real *x);
 /* Velocity of the body at the point x [m/s]. */
 void rigid_velocity(const struct rigid_body *r, const real *x, real *v);
 
+/* Puts a driven body where it is at time t [s]; its way from where it was is booked with its work. */
+void rigid_put(struct rigid_body *r, real t);
+
 /* One step under `force` and `moment`. middle: t + dt/2 [s]; dt_velocity: since the time of the velocities [s]. */
 void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity);
 
 /* Books the work of what drives it since the last call, up to the force of now. */
 void rigid_book(struct rigid_body *r);
+void rigid_note(struct rigid_body *r);          /* this force counts for the largest so far */
 real rigid_work(const struct rigid_body *r);    /* the same without booking it [J] */
 
 /* Kinetic energy by the velocities of now [J], and what half a step under the force adds to it. */

@@ -20,9 +20,16 @@ struct equilibrium {
     void (*force)(void *context, const struct field *u, struct field *f);
     /* z = M^-1 r, M symmetric and positive definite; held components of z are 0. */
     void (*precondition)(void *context, const struct field *r, struct field *z);
+    /* Laws of forces that are smooth between two settles, as conjugate gradients ask for. Settle: they become those of
+     * where the body is now; true: they were. It may set `applied` anew. Laws: for the length of a correction forces
+     * are by the laws of wherever they are asked for; settled: again by those of the last settle. NULL: laws are the
+     * same everywhere. */
+    bool (*settle)(void *context);
+    void (*laws)(void *context, bool settled);
     void *context;
 
     real tolerance;                      /* of the residual: its norm over that of loads or reactions [1] */
+    real reach;                          /* longest way of a node in a correction [m]; 0: any */
     real noise;                          /* norm of forces below which nothing is resolved [N] */
     real length;                         /* between neighbours [m] */
     real unit_energy;                    /* of the body at unit strain [J], which sets the steps of differences */

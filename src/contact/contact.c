@@ -58,6 +58,7 @@ void contact_free(struct contact *c)
     memory_free(c->face);
     memory_free(c->spring);
     memory_free(c->followed);
+    memory_free(c->touch);
     memory_free(c->balance);
     contact_rigid_free(c);
     for (int d = 0; d < DIM_MAX; d++) memory_free(c->at[d]), memory_free(c->push[d]);
@@ -121,7 +122,7 @@ static void rows_sweep(struct contact *c, struct particles *p, real dt, struct c
         struct contact_found own = {0, 0, INT32_MAX};
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < c->rows; row++) {
-            if (!contact_follows(c, row) || (faces && c->face[row].far > reach)) continue;
+            if (!contact_follows(c, row) || (faces && !c->touch && c->face[row].far > reach)) continue;
             if (faces) contact_face_feel(c, p, row, dt, &own);
             else contact_pair_row(c, p, row, &own);
         }
@@ -266,8 +267,10 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
         TRY(contact_stored(a, "contact/spring", (void **)&c->spring, c->rows, sizeof *c->spring));
     }
     TRY(contact_rigid_archive(c, a));
+    TRY(contact_marks_archive(c, a));
     if (a->saving) return OK;
     TRY(contact_check(c, p));
     contact_list_describe(c, p);
+    if (c->touch) contact_marks_follow(c);
     return OK;
 }

@@ -117,22 +117,30 @@ void contact_face_feel(struct contact *c, const struct particles *p, int64_t row
                        struct contact_found *found)
 {
     struct contact_face *face = &c->face[row];
+    face->push = face->lift = 0;
+    if (!contact_touches(contact_marks(c), row, true)) return;
     const struct felt felt = felt_by(c, p, p->x, row);
     const struct face_gap at = face_gap(c, &felt, face->zero);
-    const real force = 0.5 * face->stiffness * real_min(at.gap, 0)
+    const bool touches = contact_touches(contact_marks(c), row, at.gap < 0);
+    const real force = 0.5 * face->stiffness * (touches ? at.gap : 0)
                      + contact_balance(&c->balance[row], face->stiffness, at.gap, dt > 0);
-    face->push = face->lift = 0, face->mean = felt.mean;
-    if (!(at.gap < 0)) return;
+    face->mean = felt.mean;
+    if (!touches) return;
     face->push = force * at.slope;
     face->lift = at.leans ? force / felt.density : 0;
     contact_found_add(found, -at.gap * c->size[row], c->particle[row]);
 }
 
-real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row)
+real contact_face_gap(const struct contact *c, const struct particles *p, int64_t row)
 {
     const struct felt felt = felt_by(c, p, p->x, row);
-    const real gap = face_gap(c, &felt, c->face[row].zero).gap;
-    return gap < 0 ? 0.25 * c->face[row].stiffness * square(gap) : 0;
+    return face_gap(c, &felt, c->face[row].zero).gap;
+}
+
+real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row)
+{
+    const real gap = contact_face_gap(c, p, row);
+    return contact_touches(contact_marks(c), row, gap < 0) ? 0.25 * c->face[row].stiffness * square(gap) : 0;
 }
 
 /* Derivative of the energy of what entry k feels by the weight of entry l. */
@@ -170,6 +178,29 @@ void contact_face_row(const struct contact *c, struct particles *p, int64_t row)
         for (int d = 0; d < p->dim; d++) f[d] -= pull * apart[d];
     }
     for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
+}
+
+void contact_face_term(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term)
+{
+    const struct felt felt = felt_by(c, p, p->x, row);
+    const struct face_gap at = face_gap(c, &felt, c->face[row].zero);
+    term->n = 1, term->stiffness = 0.5 * c->face[row].stiffness;
+    term->particle[0] = c->particle[row];
+    for (int d = 0; d < DIM_MAX; d++) term->along[0][d] = 0;
+    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
+        const int64_t l = c->other[q];
+        real apart[DIM_MAX], reach;
+        const real share = field_share(c, p->dim, row, l, &reach), r = sqrt(contact_apart(c, p, row, l, apart));
+        if (r >= reach || !(r > 0)) continue;
+        const real by_weight = at.slope - (at.leans ? (c->rise[l] - felt.mean) / felt.density : 0);
+        const real pull = by_weight * share * kernel_slope(r / reach) / (reach * r);
+        term->particle[term->n] = c->particle[l];
+        for (int d = 0; d < p->dim; d++) {
+            term->along[0][d] += pull * apart[d];
+            term->along[term->n][d] = -pull * apart[d];
+        }
+        term->n++;
+    }
 }
 
 /* ---- where contact begins ---------------------------------------------------------------------------------------- */

@@ -6,6 +6,7 @@
 
 #define CONTACT_REACH 2.0                /* of the field of a face [mean spacings] */
 #define CONTACT_SKIN 0.3                 /* beyond the contact distance [spacings]: pairs that may come to it soon */
+#define STATIC_SKIN 1.5                  /* the same for the corrections of an equilibrium [spacings] */
 #define FAR_LAMMPS 1.35                  /* distance of pairs in LAMMPS' rule at the most [mean spacings] and ... */
 #define NEAR_LAMMPS 0.9                  /* ... [their distance in the reference state] */
 #define CONTACT_FLATNESS 3               /* a gap shrinks by this times the way of a particle: of both sides, and more
@@ -49,6 +50,34 @@ static inline bool contact_works(const struct contact *c) { return c->law.betwee
 /* May something push the particle of the row? contact_follow_more, before each step without a search, has marked it. */
 static inline bool contact_follows(const struct contact *c, int64_t row) { return c->followed[row] >= ROW_FELT; }
 void contact_follow_more(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
+
+/* Marks that count: of faces or pairs, of what is near a rigid body; NULL: overlaps do. */
+static inline const uint8_t *contact_marks(const struct contact *c) { return c->by_overlap ? NULL : c->touch; }
+static inline const uint8_t *contact_near_marks(const struct contact *c, int body)
+{
+    return c->by_overlap ? NULL : c->near[body].touch;
+}
+static inline bool contact_touches(const uint8_t *marks, int64_t k, bool overlaps)
+{
+    return marks ? marks[k] != 0 : overlaps;
+}
+
+/* Gaps by which marks are made: of a row of faces [spacings], of a pair, of an entry near a rigid body [m]. */
+real contact_face_gap(const struct contact *c, const struct particles *p, int64_t row);
+real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t q);
+real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal);
+/* The term of a row of faces, with room for all of its pairs. */
+void contact_face_term(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term);
+/* Marks of a new list; all that it has may push. */
+void contact_marks_room(struct contact *c);
+void contact_marks_follow(struct contact *c);
+status contact_marks_archive(struct contact *c, struct archive *a);
+void contact_search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f);
+
+static inline real contact_skin(const struct contact *c)
+{
+    return (c->marked ? STATIC_SKIN : CONTACT_SKIN) * c->law.spacing;
+}
 
 /* Row of particle i, -1: none. */
 int64_t contact_row_of(const struct contact *c, int64_t i);

@@ -10,7 +10,7 @@ static struct contact_pair contact_pair(const struct contact *c, const struct pa
 {
     struct contact_pair pair = {0};
     const real r2 = contact_apart(c, p, row, c->other[q], pair.apart);
-    if (r2 >= square(c->distance[q])) return pair;
+    if (!contact_touches(contact_marks(c), q, r2 < square(c->distance[q]))) return pair;
     pair.r = sqrt(r2);
     pair.overlap = c->distance[q] - pair.r;
     pair.k = contact_stiffness(c, p, row, c->other[q]);
@@ -23,7 +23,7 @@ void contact_pair_row(const struct contact *c, struct particles *p, int64_t row,
     real f[DIM_MAX] = {0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
         const struct contact_pair pair = contact_pair(c, p, row, q);
-        if (!(pair.overlap > 0 && pair.r > 0)) continue;
+        if (pair.overlap == 0 || !(pair.r > 0)) continue;
         for (int d = 0; d < p->dim; d++) f[d] += pair.k * pair.overlap / pair.r * pair.apart[d];
         contact_found_add(found, pair.overlap, i);
     }
@@ -38,6 +38,12 @@ real contact_pair_energy(const struct contact *c, const struct particles *p, int
         energy += 0.25 * pair.k * square(pair.overlap);
     }
     return energy;
+}
+
+real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t q)
+{
+    real apart[DIM_MAX];
+    return sqrt(contact_apart(c, p, row, c->other[q], apart)) - c->distance[q];
 }
 
 /* Least of the distance in the reference state and the mean of the spacings, and for a pair that is met closer, as it

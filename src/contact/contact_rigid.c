@@ -15,6 +15,7 @@ void contact_rigid_free(struct contact *c)
         memory_free(c->near[b].zero);
         memory_free(c->near[b].spring);
         memory_free(c->near[b].balance);
+        memory_free(c->near[b].touch);
     }
     memory_free(c->near);
     c->near = NULL;
@@ -77,7 +78,8 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
         const real gap = gap_of(c, p, r, row, normal), zero = was >= 0 ? before->near[body].zero[was] : -INFINITY;
         if (near->spring) contact_spring_take(&near->spring[near->n], was >= 0 ? before->near[body].spring : NULL, was);
         near->row[near->n] = (int32_t)row;
-        near->zero[near->n] = real_min(0, real_max(zero, gap));
+        const bool deep = c->marked && before->made && was < 0;  /* a correction has gone so far: it is pushed back */
+        near->zero[near->n] = deep ? 0 : real_min(0, real_max(zero, gap));
         near->balance[near->n] = contact_balance_begin(was >= 0 ? &before->near[body].balance[was] : NULL,
                                                        gap - near->zero[near->n]);
         near->n++;
@@ -110,16 +112,20 @@ bool contact_rigid_has_come(const struct contact *c, real far)
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */
 
-/* Overlap of the particle of list entry q [m], negative: none; normal of the surface there. */
-static real depth_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
+/* Gap of the particle of list entry q [m], negative: overlap; normal of the surface there. */
+real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const struct contact_near *near = &c->near[body];
-    return near->zero[q] - gap_of(c, p, &c->rigid[body], near->row[q], normal);
+    return gap_of(c, p, &c->rigid[body], near->row[q], normal) - near->zero[q];
 }
 
+/* Overlap [m] where it pushes, else 0. */
 static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
-    return real_max(0, depth_of(c, p, body, q, normal));
+    const uint8_t *marks = contact_near_marks(c, body);
+    if (marks && !marks[q]) return 0;
+    const real overlap = -contact_rigid_gap(c, p, body, q, normal);
+    return marks ? overlap : real_max(0, overlap);
 }
 
 real contact_patch(const struct contact *c, const struct particles *p, int body)
@@ -141,7 +147,7 @@ static void balance_step(struct contact *c, const struct particles *p, int body,
     const struct contact_near *near = &c->near[body];
     real normal[DIM_MAX];
     const real k = 4 * contact_stiffness(c, p, near->row[q], near->row[q]);
-    contact_balance(&near->balance[q], k, -depth_of(c, p, body, q, normal), true);
+    contact_balance(&near->balance[q], k, contact_rigid_gap(c, p, body, q, normal), true);
 }
 
 /* Its force on the particle [N]; returns the overlap. */
@@ -215,6 +221,15 @@ static void body_force(struct contact *c, struct particles *p, int body, real dt
 void contact_rigid_force(struct contact *c, struct particles *p, real dt, struct contact_found *all)
 {
     for (int b = 0; b < c->rigids && c->near; b++) body_force(c, p, b, dt, all);
+}
+
+real contact_rigid_norm(const struct contact *c, const struct particles *p)
+{
+    real sum = 0, f[DIM_MAX];
+    for (int b = 0; b < c->rigids && c->near; b++)
+        for (int64_t q = 0; q < c->near[b].n; q++)
+            if (push_of(c, p, b, q, f) != 0) sum += dot(f, f, p->dim);
+    return sqrt(sum);
 }
 
 static real near_energy(const void *context, int64_t q)

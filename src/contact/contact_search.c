@@ -235,15 +235,16 @@ static real search_reach(const struct contact *c)
     real most = 0;
     for (int64_t k = 0; k < c->n; k++) most = real_max(most, c->size[k]);
     const real pairs = c->law.distance == DISTANCE_LAMMPS ? FAR_LAMMPS : 1;
-    return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : pairs) + CONTACT_SKIN * c->law.spacing;
+    return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : pairs) + contact_skin(c);
 }
 
-static void search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
+void contact_search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     struct contact before = *c;
     c->particle = NULL, c->root = NULL, c->size = NULL, c->rise = NULL;
     c->first = NULL, c->other = NULL, c->distance = NULL;
     c->face = NULL, c->spring = NULL, c->near = NULL, c->followed = NULL, c->balance = NULL;
+    c->touch = NULL;
     for (int d = 0; d < DIM_MAX; d++) c->at[d] = NULL;
     list_exposed(c, p, b, f);
     struct contact_search s = {&c->law, p, b, {.n = c->n, .n_all = c->n, .dim = p->dim}, {0}, c->particle, 0};
@@ -254,7 +255,7 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     if (c->n > 0) cells_free(&s.cells);
     pairs_begin(c, &before, p);
     contact_springs_begin(c, &before);
-    contact_rigid_find(c, &before, p, CONTACT_SKIN * c->law.spacing);
+    contact_rigid_find(c, &before, p, contact_skin(c));
     contact_friction_settle(c, &before);
     before.law.stiffness = NULL;             /* the new list keeps the law and the record of forces */
     memset(before.push, 0, sizeof before.push);
@@ -279,7 +280,7 @@ static real farthest_way(const struct contact *c, const struct particles *p)
 /* Has one of them, or a rigid body, come half the skin far? */
 static bool has_come_far(const struct contact *c)
 {
-    const real far = 0.5 * CONTACT_SKIN * c->law.spacing;
+    const real far = 0.5 * contact_skin(c);
     return !(c->way < far) || contact_rigid_has_come(c, far);
 }
 
@@ -295,6 +296,12 @@ void contact_add(struct contact *c, const struct bonds *b, const struct family *
     }
 }
 
+bool contact_has_come(struct contact *c, const struct particles *p)
+{
+    if (c->made) c->way = farthest_way(c, p);
+    return !c->made || has_come_far(c);
+}
+
 void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
                     const struct family *family, int64_t step, int64_t broken, int64_t changed)
 {
@@ -302,7 +309,7 @@ void contact_update(struct contact *c, const struct particles *p, struct bonds *
     const bool new_faces = broken != c->broken && step - c->searched >= BREAKS_WAIT;
     if (c->made) c->way = farthest_way(c, p);
     if (!c->made || c->due || new_faces || has_come_far(c)) {
-        search_pairs(c, p, b, family);
+        contact_search_pairs(c, p, b, family);
         c->made = true, c->due = false, c->way = 0;
         c->searched = step, c->broken = broken;
     }

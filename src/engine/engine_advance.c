@@ -22,7 +22,8 @@
 #define STRESSED_FURTHER 0.5 /* nor one after others: between two, a lattice lets bonds off */
 #define LEFT 0.3             /* overload at which an advance ends, whatever it has cost */
 #define REMNANT 0.3          /* share of the largest overload within which bonds break that led fronts have left */
-enum { ADVANCE_SPACINGS = 2 };
+#define DUE_ERROR 2e-3       /* of loads at which an advance comes */
+enum { ADVANCE_SPACINGS = 2, LOOKS_MOST = 6 };
 
 /* ---- what a body releases ---------------------------------------------------------------------------------------- */
 
@@ -71,7 +72,7 @@ static int64_t breaks_most(const struct engine *e)
 
 /* ---- size of loads ----------------------------------------------------------------------------------------------- */
 
-/* Sum of squares of what supports prescribe at t; where they do not move, of applied forces. */
+/* Sum of squares of what supports and rigid bodies go up to t; where they do not move, of applied forces. */
 real statics_load_size(const struct engine *e, real t)
 {
     real sum = 0, forces = 0;
@@ -88,6 +89,7 @@ real statics_load_size(const struct engine *e, real t)
             forces += dot(f, f, e->part.dim);
         }
     }
+    sum += statics_rigid_way2(e, t);
     return sqrt(sum > 0 ? sum : forces);
 }
 
@@ -141,8 +143,14 @@ void stand_take(struct stand *k, struct engine *e)
 {
     const struct equilibrium *q = &e->statics.balance;
     statics_plastic_keep(e);
-    *k = (struct stand){e->statics.t,  e->statics.overload, q->lost, e->coupling.damped,
-                        e->loads.work, e->loads.constraint_work, {{0}}, {{0}}};
+    *k = (struct stand){.t = e->statics.t,
+                        .overload = e->statics.overload,
+                        .lost = q->lost,
+                        .damped = e->coupling.damped,
+                        .touches = e->statics.touches,
+                        .work = e->loads.work,
+                        .constraint_work = e->loads.constraint_work};
+    statics_touch_take(e, &k->touch);
     for (int d = 0; d < q->dim; d++) {
         k->u.of[d] = BARE("advance.stand", q->n, real);
         k->f.of[d] = BARE("advance.stand", q->n, real);
@@ -153,6 +161,7 @@ void stand_take(struct stand *k, struct engine *e)
 
 void stand_free(struct stand *k, const struct engine *e)
 {
+    memory_archive_free(&k->touch);
     for (int d = 0; d < e->part.dim; d++) memory_free(k->u.of[d]), memory_free(k->f.of[d]);
 }
 
@@ -160,10 +169,11 @@ void stand_give(struct stand *k, struct engine *e, const struct break_list *brok
 {
     struct equilibrium *q = &e->statics.balance;
     if (broken) statics_mend(e, broken);
+    statics_touch_give(e, &k->touch);
     statics_plastic_restore(e);
     if (e->statics.t != k->t) statics_applied_make(e, k->t);
     e->statics.t = k->t;
-    e->statics.overload = k->overload;
+    e->statics.overload = k->overload, e->statics.touches = k->touches;
     q->lost = k->lost, e->coupling.damped = k->damped;
     e->loads.work = k->work, e->loads.constraint_work = k->constraint_work;
     for (int d = 0; d < q->dim; d++) {
@@ -199,7 +209,8 @@ static bool pre_crack_stands(const struct engine *e)
     return stands && e->statics.behind.cost == 0;
 }
 
-status statics_look_ahead(struct engine *e)
+/* Looks for the next advance under the loads that there are. */
+static status look_here(struct engine *e)
 {
     struct statics *s = &e->statics;
     struct stand stand;
@@ -221,6 +232,32 @@ status statics_look_ahead(struct engine *e)
     s->next.n = bonds;
     s->due = size_of_balance(&s->ahead, &s->behind);
     return tried;
+}
+
+/* Looks under the loads at which it comes, until these are what it says there. */
+static status look_there(struct engine *e)
+{
+    struct statics *s = &e->statics;
+    struct stand stand;
+    stand_take(&stand, e);
+    status looked = OK;
+    for (int k = 0; k < LOOKS_MOST && looked == OK && s->next.n > 0; k++) {
+        const real size = s->due;
+        if (fabs(size - statics_load_size(e, s->t)) <= DUE_ERROR * size || !isfinite(size)) break;
+        looked = statics_go(e, statics_time_of_size(e, size));
+        s->next.n = 0;
+        if (looked == OK) looked = look_here(e);
+    }
+    stand_give(&stand, e, NULL);
+    return looked;
+}
+
+/* What a body releases goes with the square of its loads where their size is that of its strains: not where a way is
+ * gone before anything touches, or faces close. */
+status statics_look_ahead(struct engine *e)
+{
+    TRY(look_here(e));
+    return e->statics.touches ? look_there(e) : OK;
 }
 
 status statics_advance_balanced(struct engine *e)

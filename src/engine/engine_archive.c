@@ -110,8 +110,9 @@ status engine_archive(void *engine, struct archive *a)
     ARCHIVE_VALUE(a, "engine/loop_seconds", e->report.loop_seconds);
     TRY(loads_archive(&e->loads, a));
     for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_archive(&e->rigid[k], k, a));
+    e->contact.marked = scene_in_steps(e->scene);
     TRY(contact_archive(&e->contact, &e->part, a));
-    if (!a->saving && e->contact.made) contact_follow(&e->contact, &e->part, &e->bonds, &e->loads);
+    if (!a->saving && e->contact.made && !e->contact.touch) contact_follow(&e->contact, &e->part, &e->bonds, &e->loads);
     if (e->mpm.fields > 1) TRY(grid_contact_archive(&e->mpm.contact, a));
     TRY(solver_archive(&e->solver, a));
     TRY(statics_archive(e, a));

@@ -80,8 +80,9 @@ static void way_make(struct engine *e, real t, real *const *before)
     statics_pieces_hold(e, &s->way);
 }
 
-/* Norm of applied forces on free components of particles, and on points of the mesh that nothing drives [N]. */
-static real applied_norm(const struct engine *e)
+/* Norm of applied forces on free components of particles, on points of the mesh that nothing drives, and of what rigid
+ * bodies push [N]. */
+real statics_applied_norm(const struct engine *e)
 {
     const struct statics *s = &e->statics;
     const struct particles *p = &e->part;
@@ -92,7 +93,7 @@ static real applied_norm(const struct engine *e)
         for (int64_t i = 0; i < p->n; i++)
             if (p->kind[i] != KIND_PD && !(p->flag[i] & FLAG_DRIVEN)) sum += square(s->applied[d][i]);
     }
-    return sqrt(sum);
+    return hypot(sqrt(sum), contact_rigid_norm(&e->contact, p));
 }
 
 /* Norm of the forces that the round-off of positions makes, with a margin of ten [N]. */
@@ -194,11 +195,14 @@ static void lost_book(struct engine *e, real lost, real range)
 
 static status unbalanced(const struct engine *e);
 
-status statics_solve(struct engine *e, real t)
+static status solve_at(struct engine *e, real t)
 {
     struct statics *s = &e->statics;
     struct account account;
     real *before[DIM_MAX] = {0};
+    const int64_t asked = s->balance.directions;
+    const real lost = s->balance.lost;
+    statics_touch_begin(e, t);
     account_begin(&account, e);
     for (int d = 0; d < e->part.dim; d++) {
         before[d] = BARE("statics.before", e->part.n, real);
@@ -207,20 +211,28 @@ status statics_solve(struct engine *e, real t)
     statics_applied_make(e, t);
     if (s->parted) statics_pieces_make(e);
     way_make(e, t, account.applied);
-    s->balance.applied = applied_norm(e);
+    s->balance.applied = statics_applied_norm(e);
     if (!s->precondition) s->balance.noise = round_off_of(e);
-    const int64_t asked = s->balance.directions;
-    const real lost = s->balance.lost;
     const status found = equilibrium_find(&s->balance, &s->way, t != s->t);
     statics_flow(e);
     engine_mesh_sync(e);
     e->statics.t = t;
-    lost_book(e, lost, account_end(&account, e, before));
+    const real worked = e->loads.work + e->loads.constraint_work, range = account_end(&account, e, before);
+    statics_touch_end(e, e->loads.work + e->loads.constraint_work - worked, lost);
+    lost_book(e, lost, range);
     for (int d = 0; d < e->part.dim; d++) memory_free(before[d]);
     statics_react(e);
     s->solutions++;
     statics_precondition_watch(e, s->balance.directions - asked);
     return found == OK ? OK : unbalanced(e);
+}
+
+status statics_solve(struct engine *e, real t)
+{
+    const int strides = statics_strides(e, t);
+    const real from = e->statics.t;
+    for (int k = 1; k < strides; k++) TRY(solve_at(e, from + (t - from) * k / strides));
+    return solve_at(e, t);
 }
 
 /* FAILED, with the place of the largest residual and what helps. */

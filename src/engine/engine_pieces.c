@@ -11,6 +11,7 @@
 
 enum { MODES_MOST = 6 };  /* rigid motions of a piece in space */
 #define HELD_LEAST 1e-9   /* resistance of a motion, over the largest, from which on it is held */
+#define RESISTS_LEAST 1e-8 /* rate of a gap under a motion of about 1, below which it is round-off [1] */
 #define UNHELD_MOST 0.05  /* share of loads on a free piece that need not cancel: faces of lattices are not even */
 #define UNHELD_SMALL 0.01 /* share of all loads that is too small to end a run */
 #define DROPPED 1e-6      /* what is left of a motion beside those before it, below which it is none of its own */
@@ -207,6 +208,54 @@ static void mirror_nodes_resist(const struct engine *e, struct candidate *of, co
     }
 }
 
+struct touched {
+    const struct engine *e;
+    struct candidate *of;
+    const int32_t *piece;
+    const struct numbers *number;
+};
+
+/* How motion a of a piece changes the gap of a contact: by those of its particles that belong to it. */
+static real gap_rate(const struct touched *s, const struct contact_term *t, int32_t which, int a)
+{
+    const struct particles *p = &s->e->part;
+    real rate = 0;
+    for (int q = 0; q < t->n; q++) {
+        const int64_t i = image_root(p, s->e->loads.image, t->particle[q]);
+        const int32_t k = number_of(s->e, s->number, i);
+        real sign[DIM_MAX], x[DIM_MAX], u[DIM_MAX];
+        if (k < 0 || s->piece[k] != which) continue;
+        for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
+        statics_image_signs(s->e, t->particle[q], sign);
+        motion_at(&s->of[which], p->dim, a, x, u);
+        for (int d = 0; d < p->dim; d++) rate += sign[d] * t->along[q][d] * u[d];
+    }
+    return rate;
+}
+
+/* A contact resists what changes its gap: each of the pieces that it is of as if the other were held. */
+static void contact_resists(void *context, const struct contact_term *t)
+{
+    const struct touched *s = context;
+    const int dim = s->e->part.dim, m = motions(dim);
+    real length2 = 0, along[MODES_MOST];
+    for (int q = 0; q < t->n; q++) length2 += dot(t->along[q], t->along[q], dim);
+    for (int q = 0; q < t->n && length2 > 0; q++) {
+        const int32_t k = number_of(s->e, s->number, image_root(&s->e->part, s->e->loads.image, t->particle[q]));
+        bool seen = k < 0;
+        for (int b = 0; b < q && !seen; b++) {
+            const int32_t l = number_of(s->e, s->number, image_root(&s->e->part, s->e->loads.image, t->particle[b]));
+            seen = l >= 0 && s->piece[l] == s->piece[k];
+        }
+        if (seen) continue;
+        for (int a = 0; a < m; a++) {
+            along[a] = gap_rate(s, t, s->piece[k], a) / sqrt(length2);
+            if (fabs(along[a]) < RESISTS_LEAST) along[a] = 0;   /* both faces are of the same piece */
+        }
+        resist(&s->of[s->piece[k]], m, along);
+    }
+}
+
 /* Motions that nothing resists, as combinations of the m that there are, by elimination with full pivots. */
 static int motions_free(const struct candidate *c, int m, real free[MODES_MOST][MODES_MOST])
 {
@@ -332,6 +381,7 @@ void statics_pieces_make(struct engine *e)
     supports_resist(e, c, piece);
     images_resist(e, c, piece, &number);
     mirror_nodes_resist(e, c, piece, &number);
+    contact_terms(&e->contact, &e->part, contact_resists, &(struct touched){e, c, piece, &number});
     for (int64_t q = 0; q < n; q++) s->pieces += motions_free(&c[q], m, free) > 0;
     s->piece = NEW("pieces.free", s->pieces, struct free_piece);
     s->pieces = 0;

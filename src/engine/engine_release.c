@@ -38,6 +38,16 @@ static void boundaries_follow(struct engine *e)
     memcpy(e->boundary, e->scene->boundary, (size_t)e->scene->boundaries * sizeof *e->boundary);
 }
 
+/* Rigid bodies stay where they are; those that are driven go on. */
+static void rigids_hold(struct engine *e, bool hold)
+{
+    for (int k = 0; k < e->scene->rigids; k++) {
+        struct rigid_body *r = &e->rigid[k];
+        const bool driven = dot(r->speed, r->speed, r->dim) > 0;
+        r->motion = driven && !hold ? RIGID_DRIVEN : RIGID_FIXED;
+    }
+}
+
 /* All that moves keeps this share of its velocity. */
 static void velocities_scale(struct engine *e, real share)
 {
@@ -85,7 +95,8 @@ static status steps_in_time(struct engine *e, int64_t *broken)
 /* Energy that the body has and that bonds have taken, less the work of loads [J]. */
 static real energy_held(struct engine *e)
 {
-    return engine_strain_energy(e) + bonds_fracture_energy(&e->bonds) - e->loads.work - e->loads.constraint_work;
+    return engine_strain_energy(e) + contact_energy(&e->contact, &e->part) + bonds_fracture_energy(&e->bonds) -
+           e->loads.work - e->loads.constraint_work;
 }
 
 status statics_release(struct engine *e)
@@ -97,12 +108,15 @@ status statics_release(struct engine *e)
     int64_t more;
     velocities_scale(e, 0);
     boundaries_hold(e, s->t);
+    rigids_hold(e, true);
+    contact_unmark(&e->contact);
     e->clock = (struct run_clock){clock.t, s->dt, clock.dt_critical, 1, INT64_MAX, 1};
     e->mpm.transfer.dt = s->dt;
     const status moved = steps_in_time(e, &more);
     s->released_time += (real)(e->clock.step - 1) * s->dt;
     e->clock = clock;
     boundaries_follow(e);
+    rigids_hold(e, false);
     velocities_scale(e, 0);
     TRY(moved);
     if (more > 0) led_lose(e);

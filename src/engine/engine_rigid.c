@@ -30,6 +30,7 @@ void engine_rigid_book(struct engine *e, real dt_velocity)
 {
     for (int k = 0; k < e->scene->rigids; k++) {
         rigid_book(&e->rigid[k]);
+        rigid_note(&e->rigid[k]);
         for (int d = 0; d < e->part.dim; d++) e->loads.impulse[d] -= e->rigid[k].force[d] * dt_velocity;
     }
 }

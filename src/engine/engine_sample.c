@@ -258,7 +258,7 @@ void engine_sample_equilibrium(struct engine *e)
 {
     sample_state(e);
     sample_energies(e);
-    sample_write(e, e->clock.t, 0, e->loads.work + e->loads.constraint_work);
+    sample_write(e, e->clock.t, 0, e->loads.work + e->loads.constraint_work + engine_rigid_energy(e).work);
 }
 
 /* Sum of v . f of particles that bonds move and of nodes in the reference frame [W]; serial, as calls are few. */

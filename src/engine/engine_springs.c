@@ -81,6 +81,37 @@ static void springs_row_add(struct springs *s, int64_t r)
         if (it.bond.w != 0) spring_add(s, s->e->bonds.particle[r], &it.bond);
 }
 
+/* ---- contact ----------------------------------------------------------------------------------------------------- */
+
+/* What moves a particle or an image, and how. */
+static struct movers contact_movers(const struct springs *s, int64_t i, real sign[DIM_MAX])
+{
+    statics_image_signs(s->e, i, sign);
+    return movers_of(s, image_root(&s->e->part, s->e->loads.image, i));
+}
+
+/* What touches: stiffness times both derivatives of its gap. */
+static void contact_add_spring(void *context, const struct contact_term *t)
+{
+    struct springs *s = context;
+    const int dim = s->a->dim;
+    real K[DIM_MAX][DIM_MAX], sign[DIM_MAX], back[DIM_MAX];
+    for (int i = 0; i < t->n; i++) {
+        const struct movers own = contact_movers(s, t->particle[i], sign);
+        for (int j = 0; j < t->n; j++) {
+            const struct movers other = contact_movers(s, t->particle[j], back);
+            for (int k = 0; k < own.n; k++)
+                for (int m = 0; m < other.n; m++) {
+                    const real share = own.share[k] * other.share[m] * s->e->statics.weight[own.node[k]];
+                    for (int a = 0; a < dim; a++)
+                        for (int c = 0; c < dim; c++)
+                            K[a][c] = t->stiffness * share * sign[a] * t->along[i][a] * back[c] * t->along[j][c];
+                    entry_add(s, own.node[k], other.node[m], K);
+                }
+        }
+    }
+}
+
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
 static void cell_add(struct springs *s, int64_t I)
@@ -117,6 +148,7 @@ static void springs_visit(struct springs *s)
         if (s->particle_at[b->particle[r]] < 0) springs_row_add(s, r);
     for (int64_t I = 0; mesh->points > 0 && I < mesh->grid.n; I++)
         if (mesh_cell_holds(mesh, I)) cell_add(s, I);
+    contact_terms(&s->e->contact, &s->e->part, contact_add_spring, s);
 }
 
 /* Sorts the entries of a row by column and adds up those of one column; returns how many are left. */

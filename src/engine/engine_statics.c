@@ -118,6 +118,8 @@ void statics_unknowns_make(struct engine *e)
     nodes_list(e, s->node, &s->particles);
     s->balance = (struct equilibrium){.force = statics_forces,
                                       .precondition = statics_precondition,
+                                      .settle = statics_touch_settle,
+                                      .laws = statics_touch_laws,
                                       .context = e,
                                       .tolerance = e->scene->solver_tolerance,
                                       .length = e->scene->spacing,
@@ -188,6 +190,7 @@ status statics_archive(struct engine *e, struct archive *a)
         TRY(a->exchange(a, name, q->f.of[d], (size_t)q->n * sizeof(real)));
     }
     ARCHIVE_VALUE(a, "statics/t", s->t);
+    ARCHIVE_VALUE(a, "statics/touches", s->touches);
     ARCHIVE_VALUE(a, "statics/overload", s->overload);
     ARCHIVE_VALUE(a, "statics/released_time", s->released_time);
     ARCHIVE_VALUE(a, "statics/due", s->due);
@@ -281,7 +284,7 @@ void statics_plastic_keep(struct engine *e)
 static void applied_add(struct engine *e)
 {
     struct particles *p = &e->part;
-    for (int b = 0; b < e->loads.n; b++) {
+    for (int b = 0; b < e->loads.n && e->statics.applied[0]; b++) {
         const struct load *l = &e->loads.load[b];
         if (!boundary_is_force(l->boundary) || l->leader != b) continue;
         for (int d = 0; d < p->dim; d++)
@@ -289,7 +292,7 @@ static void applied_add(struct engine *e)
     }
 }
 
-/* The forces of a step (engine.c) without motion and contact: of bonds, loads and cells. */
+/* The forces of a step (engine.c) without motion: of bonds, contact, loads and cells. */
 static void forces_here(struct engine *e)
 {
     const bool has_mesh = e->reference.mesh.points > 0;
@@ -301,6 +304,7 @@ static void forces_here(struct engine *e)
     loads_clear(&e->loads, &e->part);
     statics_plastic_restore(e); /* whatever has been tried since the last equilibrium */
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
+    contact_force(&e->contact, &e->part, 0);
     applied_add(e);
     if (has_mesh) engine_nodes_force(e), mirror_nodes_give(&e->reference.mesh);
 }

@@ -2,6 +2,7 @@
 #ifndef CLEAVE_ENGINE_STATICS
 #define CLEAVE_ENGINE_STATICS
 
+#include "base/memory_archive.h"
 #include "engine/engine.h"
 
 /* Unknowns of the particles and nodes that there are, where they are; to be made anew after conversion. */
@@ -26,6 +27,25 @@ void statics_applied_make(struct engine *e, real t);
 /* Equilibrium under loads and supports of pseudo-time t [s], which becomes the time of the run; books work, what was
  * lost on the way, and reactions. FAILED with the place of the residual. */
 status statics_solve(struct engine *e, real t);
+
+/* Norm of all that acts on free components but forces of bonds and cells [N] (engine_balance.c). */
+real statics_applied_norm(const struct engine *e);
+
+/* Contact and rigid bodies (engine_touch.c). Can anything meet? Finds what touches at the start. Solutions on the way
+ * to t without one of which a rigid body would go too far. Before a solution: bodies go to t, and what touches there is
+ * marked. Settle and laws of equilibrium.h. After it: books the work of rigid bodies, and where
+ * something touches what is lost, of `lost` before the solution and the work of loads and supports in it [J]. Square of
+ * the way of rigid bodies up to t [m^2]. What a trial changes, and as it was. */
+bool statics_meets(const struct engine *e);
+void statics_touch_start(struct engine *e);
+int statics_strides(const struct engine *e, real t);
+void statics_touch_begin(struct engine *e, real t);
+bool statics_touch_settle(void *engine);
+void statics_touch_laws(void *engine, bool settled);
+void statics_touch_end(struct engine *e, real work, real lost);
+real statics_rigid_way2(const struct engine *e, real t);
+void statics_touch_take(struct engine *e, struct memory_archive *m);
+void statics_touch_give(struct engine *e, struct memory_archive *m);
 
 /* Pieces that nothing holds (engine_pieces.c): finds them, by the bonds and supports of now; takes out of forces, or of
  * a way, what belongs to their motions as a whole. */
@@ -93,6 +113,8 @@ real statics_released(const struct engine *e);
 struct stand {
     real t, overload, lost, damped, work, constraint_work;
     struct field u, f;
+    bool touches;
+    struct memory_archive touch;
 };
 void stand_take(struct stand *k, struct engine *e);
 /* Gives it back, mends the bonds of a list (NULL: none are broken), and frees it. */

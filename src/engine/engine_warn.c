@@ -132,8 +132,6 @@ static void warn_of_speed(const struct engine *e, struct warnings *to)
 static void warn_of_solver(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
-    if (scene_in_steps(s) && scene_bodies_meet(s))
-        warnings_add(to, "bodies do not meet in load steps: they pass through each other where they close");
     for (int m = 0; m < s->materials && scene_in_steps(s); m++)
         if (s->model == MODEL_BOND && material_yields(&s->material[m]) && isfinite(s->material[m].critical_stretch))
             warnings_add(to, "bonds of %s yield before they break: the work that separates it is %.3g J/m^2; elastic "

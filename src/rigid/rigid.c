@@ -202,6 +202,16 @@ void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity)
     r->kinetic = kinetic;
 }
 
+void rigid_put(struct rigid_body *r, real t)
+{
+    const real full = t < r->ramp ? 0.5 * square(t) / r->ramp : t - 0.5 * real_max(0, r->ramp);
+    for (int d = 0; d < r->dim && r->motion == RIGID_DRIVEN; d++) {
+        const real x = r->centre[d] + r->speed[d] * full;
+        r->way[d] += x - r->x[d];
+        r->x[d] = x;
+    }
+}
+
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
 /* Work of what drives it in the last step [J]. */
@@ -220,10 +230,14 @@ real rigid_work(const struct rigid_body *r)
     return r->work + work_of_step(r) + fallen;
 }
 
+void rigid_note(struct rigid_body *r)
+{
+    r->force_most = real_max(r->force_most, sqrt(dot(r->force, r->force, r->dim)));
+}
+
 void rigid_book(struct rigid_body *r)
 {
     r->work += work_of_step(r);
-    r->force_most = real_max(r->force_most, sqrt(dot(r->force, r->force, r->dim)));
     memcpy(r->force_before, r->force, sizeof r->force_before);
     memset(r->way, 0, sizeof r->way);
 }

@@ -239,7 +239,7 @@ status read_bodies(struct reader *r, const struct node *root)
     if (s->bodies == 0) return fault(r, many, "only rigid bodies; one with a material is expected");
     if (s->rigids > 0 && s->method == METHOD_MPM)
         return fault(r, many, "rigid bodies meet peridynamic particles only; method: pd or adaptive is expected");
-    if (s->rigids > 0 && !scene_moves(s))
+    if (s->rigids > 0 && scene_at_rest(s))
         return fault(r, many, "rigid bodies move in steps of time; solver: explicit is expected");
     return OK;
 }

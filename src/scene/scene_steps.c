@@ -8,10 +8,11 @@ static status check_steps_motion(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
     const struct node *solver = node_find(root, "solver"), *cracks = node_find(root, "growth");
-    if (s->rigids > 0)
-        return fault(r, solver,
-                     "rigid bodies move in steps of time; supports of the body, or solver: explicit, are "
-                     "expected");
+    for (int k = 0; k < s->rigids; k++)
+        if (s->body[s->bodies + k].mass > 0)
+            return status_at(s->body[s->bodies + k].place,
+                             status_set(REFUSED, "rigid body %s flies (it has a mass), and load steps know no inertia; "
+                                        "a velocity, or solver: explicit, is expected", s->body[s->bodies + k].name));
     if (s->growths > 0)
         return fault(r, cracks ? cracks : solver, "cracks with a prescribed speed want solver explicit");
     if (s->contact_friction > 0)
@@ -53,11 +54,13 @@ static status check_steps_loaded(struct reader *r, const struct node *root)
         const bool varies = load->formula[0].n + load->formula[1].n + load->formula[2].n > 0 || load->rotates;
         loaded |= load->kind != BOUNDARY_MIRROR && (varies || dot(load->value, load->value, DIM_MAX) > 0);
     }
+    for (int k = s->bodies; k < s->bodies + s->rigids; k++)
+        loaded |= dot(s->body[k].velocity, s->body[k].velocity, DIM_MAX) > 0;
     if (loaded) return OK;
     return fault(
         r, node_find(root, "solver"),
-        "nothing loads the body: a boundary with a displacement, velocity, traction, pressure or body force is "
-        "expected");
+        "nothing loads the body: a boundary with a displacement, velocity, traction, pressure or body force, or a "
+        "rigid body with a velocity, is expected");
 }
 
 status check_load_steps(struct reader *r, const struct node *root)

@@ -284,8 +284,8 @@ static void forces_along(struct equilibrium *q, real share)
  * place and the forces there. */
 static real way_length(struct equilibrium *q, real left, bool prescribed)
 {
-    const real push = dot_free(q, &q->f, &q->x);
-    real share = 1, low = 0, high = 0, at_low = push;
+    const real push = dot_free(q, &q->f, &q->x), most = solver_largest(&q->x, q->dim, q->n);
+    real share = q->reach > 0 && !prescribed && most > q->reach ? q->reach / most : 1, low = 0, high = 0, at_low = push;
     for (int k = 0; k < LOOKS_MOST; k++) {
         forces_along(q, share);
         const real after = sqrt(dot_free(q, &q->q, &q->q)), at = dot_free(q, &q->q, &q->x);
@@ -328,7 +328,9 @@ static real work_along(struct equilibrium *q, real share, real left)
 /* Moves by x, or by what of it leads to equilibrium; returns the work of all forces on the way [J]. */
 static real advance(struct equilibrium *q, real left, bool prescribed)
 {
+    if (q->laws) q->laws(q->context, false);
     const real share = way_length(q, left, prescribed), work = work_along(q, share, left);
+    if (q->laws) q->laws(q->context, true);
     combine(q, &q->u, 1, &q->z, 0, &q->z);
     combine(q, &q->f, 1, &q->q, 0, &q->q);
     combine(q, &q->before, 1, &q->q, 0, &q->q);
@@ -352,6 +354,21 @@ static void loads_bend(struct equilibrium *q, real more)
     q->lost -= more / 3;
 }
 
+static bool is_balanced(const struct equilibrium *q)
+{
+    return q->residual <= q->tolerance || q->residual * q->scale <= q->noise;
+}
+
+/* Laws become those of where the body is, with other forces by round-off and by what is held of them. True: they stand.
+ */
+static bool laws_settle(struct equilibrium *q)
+{
+    if (!q->settle || q->settle(q->context)) return true;
+    forces_at(q, &q->u, &q->f);
+    combine(q, &q->before, 1, &q->f, 0, &q->f);
+    return false;
+}
+
 status equilibrium_find(struct equilibrium *q, const struct field *way, bool moved)
 {
     bool prescribed = moved && solver_largest(way, q->dim, q->n) > 0;
@@ -364,22 +381,26 @@ status equilibrium_find(struct equilibrium *q, const struct field *way, bool mov
     q->bent = 0;
     if (!(q->strain_ratio > 0)) q->strain_ratio = 1 / q->length;
     const bool driven = prescribed;
-    real straight = 0;
+    real straight = NAN;             /* of the growth of loads along the first correction */
     if (prescribed) guess_check(q);
     for (int k = 0; k < CORRECTIONS_MOST; k++) {
         equilibrium_measure(q);
         const real left = q->residual * q->scale, goal = 0.5 * q->tolerance * q->scale;
         if (!isfinite(left)) break;
-        if (!prescribed && (q->residual <= q->tolerance || left <= q->noise)) {
+        if (!prescribed && is_balanced(q)) {
+            if (!laws_settle(q)) continue;
+            equilibrium_measure(q);      /* loads may have another norm now */
+            if (!is_balanced(q)) continue;
             if (driven) supports += 0.5 * dot_held(q, way);
-            if (k > 0) loads_bend(q, dot_free(q, &q->grown, &q->u) - straight);
+            if (!isnan(straight)) loads_bend(q, dot_free(q, &q->grown, &q->u) - straight);
             q->lost -= supports;
             return OK;
         }
         correction(q, prescribed ? goal : real_min(FORCING_MOST * left, real_max(goal, FORCING_LEAST * left)),
                    prescribed);
         q->lost += advance(q, left, prescribed);
-        if (k == 0) straight = dot_free(q, &q->grown, &q->u);
+        laws_settle(q);
+        if (isnan(straight)) straight = dot_free(q, &q->grown, &q->u);
         combine(q, &q->x, 0, &q->x, 0, &q->x);
         prescribed = false;
     }

@@ -1,0 +1,47 @@
+/* State in memory. */
+#include "base/memory_archive.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+
+static status exchange(struct archive *a, const char *name, void *data, size_t size)
+{
+    struct memory_archive *m = (struct memory_archive *)a;
+    if (a->saving) {
+        if (m->n == m->room) {
+            const int64_t room = 2 * m->room + 64;
+            m->entry = memory_resize("archive.entries", m->entry, m->room, room, sizeof *m->entry);
+            m->room = room;
+        }
+        struct memory_entry *to = &m->entry[m->n++];
+        *to = (struct memory_entry){memory_bare("archive.entry", (int64_t)size, 1), size};
+        memcpy(to->data, data, size);
+        return OK;
+    }
+    if (m->next >= m->n || m->entry[m->next].size != size)
+        return status_set(FAILED, "%s: what was kept of it has another size", name);
+    memcpy(data, m->entry[m->next++].data, size);
+    return OK;
+}
+
+static int64_t stored_size(struct archive *a, const char *name)
+{
+    const struct memory_archive *m = (const struct memory_archive *)a;
+    (void)name;
+    return m->next < m->n ? (int64_t)m->entry[m->next].size : -1;
+}
+
+void memory_archive_make(struct memory_archive *m)
+{
+    *m = (struct memory_archive){.archive = {.saving = true, .exchange = exchange, .stored_size = stored_size}};
+}
+
+void memory_archive_rewind(struct memory_archive *m) { m->archive.saving = false, m->next = 0; }
+
+void memory_archive_free(struct memory_archive *m)
+{
+    for (int64_t k = 0; k < m->n; k++) memory_free(m->entry[k].data);
+    memory_free(m->entry);
+    *m = (struct memory_archive){0};
+}

@@ -1,0 +1,186 @@
+/* Contact in equilibria: which gaps are closed is found in turns with equilibrium (active sets: Hintermueller, Ito &
+ * Kunisch 2003). While forces are in search of it, what is marked pushes or pulls, k times its overlap of either sign,
+ * and nothing else does; then it is marked anew by what overlaps. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "contact_internal.h"
+
+#define KEPT 1e-10 /* gaps and overlaps that change no mark [spacings] */
+
+void contact_marks_room(struct contact *c)
+{
+    memory_free(c->touch);
+    c->touch = NEW("contact.touch", c->law.form == CONTACT_SURFACE ? c->rows : c->pairs, uint8_t);
+    for (int b = 0; b < c->rigids; b++) {
+        memory_free(c->near[b].touch);
+        c->near[b].touch = NEW("contact.touch", c->near[b].n, uint8_t);
+    }
+}
+
+void contact_marks_follow(struct contact *c)
+{
+    memory_free(c->followed);
+    c->followed = BARE("contact.followed", c->rows, uint8_t);
+    memset(c->followed, ROW_FEELS, (size_t)c->rows);
+    c->waiting = 0;
+}
+
+/* Sets a mark by its gap and where contact begins, both in spacings; returns whether it has changed. */
+static bool mark_set(uint8_t *touch, real gap, real close)
+{
+    const uint8_t was = *touch;
+    *touch = gap < (was ? real_max(close, KEPT) : close > 0 ? close : -KEPT);
+    return *touch != was;
+}
+
+/* `close` counts for what another body may carry; the faces of a crack lie on each other and bear nothing. */
+static real close_of(const struct contact *c, const struct particles *p, int64_t row, int64_t l, real close)
+{
+    return p->body[c->particle[row]] != p->body[image_root(p, c->law.image, c->particle[l])] ? close : 0;
+}
+
+static int64_t mark_row(struct contact *c, const struct particles *p, int64_t row, real close)
+{
+    int64_t changed = 0;
+    real most = 0;
+    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
+        const real apart = close_of(c, p, row, c->other[q], close);
+        most = real_max(most, apart);
+        if (c->law.form == CONTACT_PAIR)
+            changed += mark_set(&c->touch[q], contact_pair_gap(c, p, row, q) / c->law.spacing, apart);
+    }
+    if (c->law.form == CONTACT_SURFACE && c->first[row + 1] > c->first[row])
+        changed += mark_set(&c->touch[row], contact_face_gap(c, p, row), most);
+    return changed;
+}
+
+/* What a step in time has left of its balance acts no more. */
+static void balances_rest(struct contact *c)
+{
+    for (int64_t row = 0; row < c->rows && c->balance; row++) c->balance[row].drag = 0;
+    for (int b = 0; b < c->rigids; b++)
+        for (int64_t q = 0; q < c->near[b].n; q++) c->near[b].balance[q].drag = 0;
+}
+
+int64_t contact_mark(struct contact *c, const struct particles *p, real close)
+{
+    int64_t changed = 0;
+    real normal[DIM_MAX];
+#pragma omp parallel for schedule(static) reduction(+ : changed)
+    for (int64_t row = 0; row < c->rows; row++) changed += mark_row(c, p, row, close);
+    for (int b = 0; b < c->rigids; b++)
+        for (int64_t q = 0; q < c->near[b].n; q++)
+            changed += mark_set(&c->near[b].touch[q], contact_rigid_gap(c, p, b, q, normal) / c->law.spacing, close);
+    return changed;
+}
+
+int64_t contact_search(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
+                       const struct family *family, real close)
+{
+    c->due = true;
+    contact_update(c, p, b, l, family, c->searched, c->broken, c->changed);
+    contact_marks_room(c);
+    contact_marks_follow(c);
+    balances_rest(c);
+    return contact_mark(c, p, close);
+}
+
+real contact_sight(const struct contact *c) { return 0.5 * contact_skin(c); }
+
+void contact_marks_use(struct contact *c, bool use)
+{
+    c->by_overlap = !use;
+    if (!use) c->way = INFINITY; /* no row is too far to be looked at */
+}
+
+void contact_unmark(struct contact *c)
+{
+    memory_free(c->touch);
+    c->touch = NULL;
+    for (int b = 0; b < c->rigids && c->near; b++) {
+        memory_free(c->near[b].touch);
+        c->near[b].touch = NULL;
+    }
+    c->due = true;
+}
+
+/* ---- terms ------------------------------------------------------------------------------------------------------- */
+
+struct visit {
+    const struct contact *c;
+    const struct particles *p;
+    void (*visit)(void *context, const struct contact_term *term);
+    void *context;
+    struct contact_term term;
+};
+
+static void pair_terms(struct visit *v, int64_t row)
+{
+    const struct contact *c = v->c;
+    struct contact_term *t = &v->term;
+    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
+        const int64_t l = c->other[q];
+        real apart[DIM_MAX] = {0};
+        const real r = sqrt(contact_apart(c, v->p, row, l, apart));
+        if (!c->touch[q] || !(r > 0)) continue;
+        t->n = 2, t->stiffness = 0.5 * contact_stiffness(c, v->p, row, l);
+        t->particle[0] = c->particle[row], t->particle[1] = c->particle[l];
+        for (int d = 0; d < DIM_MAX; d++) t->along[0][d] = apart[d] / r, t->along[1][d] = -apart[d] / r;
+        v->visit(v->context, t);
+    }
+}
+
+static void rigid_terms(struct visit *v, int body)
+{
+    const struct contact *c = v->c;
+    const struct contact_near *near = &c->near[body];
+    for (int64_t q = 0; q < near->n; q++) {
+        if (!near->touch[q]) continue;
+        v->term.n = 1, v->term.stiffness = 2 * contact_stiffness(c, v->p, near->row[q], near->row[q]);
+        v->term.particle[0] = c->particle[near->row[q]];
+        contact_rigid_gap(c, v->p, body, q, v->term.along[0]);
+        v->visit(v->context, &v->term);
+    }
+}
+
+void contact_terms(const struct contact *c, const struct particles *p,
+                   void (*visit)(void *context, const struct contact_term *term), void *context)
+{
+    int64_t most = 1;
+    if (!c->touch) return;
+    for (int64_t row = 0; row < c->rows; row++)
+        most = c->first[row + 1] - c->first[row] > most ? c->first[row + 1] - c->first[row] : most;
+    struct visit v = {c, p, visit, context, {0}};
+    v.term.particle = BARE("contact.term", most + 1, int32_t);
+    v.term.along = memory_new("contact.term", most + 1, sizeof *v.term.along);
+    for (int64_t row = 0; row < c->rows; row++) {
+        if (c->law.form == CONTACT_PAIR) pair_terms(&v, row);
+        if (c->law.form == CONTACT_PAIR || !c->touch[row]) continue;
+        contact_face_term(c, p, row, &v.term);
+        visit(context, &v.term);
+    }
+    for (int b = 0; b < c->rigids; b++) rigid_terms(&v, b);
+    memory_free(v.term.particle);
+    memory_free(v.term.along);
+}
+
+/* ---- state ------------------------------------------------------------------------------------------------------- */
+
+status contact_marks_archive(struct contact *c, struct archive *a)
+{
+    bool marks = c->touch != NULL;
+    if (!c->marked) return OK;
+    ARCHIVE_VALUE(a, "contact/marks", marks);
+    if (!a->saving) memory_free(c->touch), c->touch = NULL;
+    if (!marks) return OK;
+    TRY(contact_stored(a, "contact/touch", (void **)&c->touch, c->law.form == CONTACT_SURFACE ? c->rows : c->pairs, 1));
+    for (int b = 0; b < c->rigids; b++) {
+        char name[64];
+        snprintf(name, sizeof name, "contact/near_touch_%d", b);
+        TRY(contact_stored(a, name, (void **)&c->near[b].touch, c->near[b].n, 1));
+    }
+    return OK;
+}
