@@ -51,11 +51,10 @@ static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particl
  * of cells on their upper corners along x are shifted by one lane and joined with those on the lower corners of the
  * next cells, so that each node of the row is added to once. */
 static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct particles *p, struct mesh_run *run,
-                                    const struct elastic *all, const int dim, const bool finite)
+                                    const struct elastic *all, const int dim, const bool finite, const bool flows)
 {
     const struct grid *g = &mesh->grid;
     const struct elastic *m = &all[run->material];
-    const bool flows = mesh_flows(p) && m->yield > 0;
     const real volume = mesh->volume * (1 << dim);
     const bool balanced = mesh_balanced(m, dim);
     const int64_t row = run->cell / g->count[0], start = run->cell - row * g->count[0];
@@ -85,21 +84,23 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
     for (int l = 0; l < LANES; l++) run->stressed |= tension[l] > m->trigger;
 }
 
-/* Forces of all runs of a band. */
-static ALWAYS_INLINE void band_force(const struct mesh *mesh, const struct particles *p, int64_t band,
-                                     const struct elastic *m, const int dim, const bool finite)
-{
-    for (int64_t r = mesh->band[band]; r < mesh->band[band + 1]; r++)
-        run_force(mesh, p, &mesh->run[r], m, dim, finite);
-}
-
-/* Forces of all bands, in two colours, which share the code of a band. The parallel region is inside each instance,
+/* Forces of the runs of a band, and of all bands, in two colours, which share the code of a band. Runs that flow have
+ * their own: what elastic ones keep in registers suffers from it. The parallel region is inside each instance,
  * where dimension and strain measure are literals. */
 #define BANDS(D, FINITE)                                                                                               \
+    static NEVER_INLINE void run_flow_##D##_##FINITE(const struct mesh *mesh, const struct particles *p,               \
+                                                     struct mesh_run *run, const struct elastic *m)                    \
+    {                                                                                                                  \
+        run_force(mesh, p, run, m, D, FINITE, true);                                                                   \
+    }                                                                                                                  \
     static NEVER_INLINE void band_force_##D##_##FINITE(const struct mesh *mesh, const struct particles *p,             \
                                                        int64_t band, const struct elastic *m)                          \
     {                                                                                                                  \
-        band_force(mesh, p, band, m, D, FINITE);                                                                       \
+        for (int64_t r = mesh->band[band]; r < mesh->band[band + 1]; r++)                                              \
+            if (mesh_flows(p) && m[mesh->run[r].material].yield > 0)                                                   \
+                run_flow_##D##_##FINITE(mesh, p, &mesh->run[r], m);                                                    \
+            else                                                                                                       \
+                run_force(mesh, p, &mesh->run[r], m, D, FINITE, false);                                                \
     }                                                                                                                  \
     static void bands_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p, const struct elastic *m)      \
     {                                                                                                                  \
