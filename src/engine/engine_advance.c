@@ -183,6 +183,7 @@ void stand_give(struct stand *k, struct engine *e, const struct break_list *brok
     stand_free(k, e);
     statics_place(e, &q->u);
     engine_mesh_sync(e);
+    loads_mirror(&e->loads, &e->part);       /* bonds to images break by where these are */
     statics_react(e);
 }
 

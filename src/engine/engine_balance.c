@@ -216,6 +216,7 @@ static status solve_at(struct engine *e, real t)
     const status found = equilibrium_find(&s->balance, &s->way, t != s->t);
     statics_flow(e);
     engine_mesh_sync(e);
+    loads_mirror(&e->loads, &e->part);
     e->statics.t = t;
     const real worked = e->loads.work + e->loads.constraint_work, range = account_end(&account, e, before);
     statics_touch_end(e, e->loads.work + e->loads.constraint_work - worked, lost);

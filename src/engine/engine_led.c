@@ -22,9 +22,12 @@
 #define HERE 1e-6     /* from the end of a pre-crack to the tip there [spacings] */
 #define PARALLEL 1e-6 /* sine of an angle that is none */
 #define REST 0.1      /* way to another crack that is none [spacings] */
+#define ON_ROW 0.05   /* from a row of the lattice to a crack along it [spacings] */
+#define ROW_SEEN 8.0  /* length of a row that is looked at [spacings] */
+#define ROWS_APART 0.6 /* rows that a crack goes along: of the axes and diagonals of the lattice [spacings] */
 #define REACH 1.2     /* of the search for a body ahead [spacings] */
 
-enum { ADVANCE_SPACINGS = 2 };
+enum { ADVANCE_SPACINGS = 2, ROW_LEAST = 4 };
 
 /* ---- tips -------------------------------------------------------------------------------------------------------- */
 
@@ -45,6 +48,31 @@ static void cracks_behind(const struct engine *e, struct led_tip *tip)
     }
 }
 
+/* Rows of a lattice lie on one face of a crack that goes along them, as crack_cuts counts them. The tip begins halfway
+ * to the next row, where bonds have been cut, and stays clear of what round-off would say of the row. */
+static bool on_mirror(const struct engine *e, const struct led_tip *tip);
+
+static void leave_row(struct engine *e, struct led_tip *tip)
+{
+    const real h = e->scene->spacing, *along = tip->along;
+    real next = h;
+    int64_t on = 0;
+    for (int64_t i = 0; i < e->part.n; i++) {
+        real X[2];
+        led_project_particle(e, i, X);
+        for (int d = 0; d < 2; d++) X[d] -= tip->place[d];
+        const real ahead = dot(along, X, 2), aside = fabs(along[0] * X[1] - along[1] * X[0]);
+        if (e->part.body[i] != tip->body || !(ahead > 0 && ahead < ROW_SEEN * h)) continue;
+        on += aside < ON_ROW * h;
+        next = aside < ON_ROW * h ? next : real_min(next, aside);
+    }
+    const real below = (tip->reversed ? 0.5 : -0.5) * next;
+    if (on < ROW_LEAST || next < ROWS_APART * h || on_mirror(e, tip)) return;
+    tip->place[0] -= below * along[1], tip->place[1] += below * along[0];
+    memcpy(tip->start, tip->place, sizeof tip->start);
+    led_free_behind(e, tip);
+}
+
 static void led_start(struct engine *e)
 {
     struct led *l = &e->statics.led;
@@ -63,6 +91,7 @@ static void led_start(struct engine *e)
             tip->along[d] = tip->heading[d] = tip->last[d] = along[d];
         }
         cracks_behind(e, tip);
+        leave_row(e, tip);
     }
 }
 

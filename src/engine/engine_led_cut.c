@@ -33,14 +33,14 @@ static void cut_row(const struct engine *e, const struct crack_list *ways, int64
     }
 }
 
-/* The next stretch of a tip, and its images in planes of symmetry. */
-static void ways_of(const struct engine *e, const struct led_tip *tip, struct crack_list *ways)
+/* A stretch of a tip's way, and its images in planes of symmetry. */
+static void ways_of(const struct engine *e, const struct led_tip *tip, const real from[2], const real to[2],
+                    struct crack_list *ways)
 {
-    real corner[2][DIM_MAX] = {{0}}, to[2];
+    real corner[2][DIM_MAX] = {{0}};
     const real beyond = BEYOND * e->scene->spacing;
-    led_next_place(e, tip, to);
     for (int d = 0; d < 2; d++)
-        corner[tip->reversed][d] = tip->place[d], corner[!tip->reversed][d] = to[d] + beyond * tip->heading[d];
+        corner[tip->reversed][d] = from[d], corner[!tip->reversed][d] = to[d] + beyond * tip->heading[d];
     const struct crack path = {.n = 2, .corner = corner};
     cracks_mirrored(ways, &path, 1, e->statics.led.plane.mirror, e->statics.led.plane.mirrors,
                     e->source.family.cutoff, ON_SURFACE * e->scene->spacing);
@@ -63,13 +63,29 @@ static void stretch_price(const struct engine *e, const struct led_tip *tip, str
 static real stretch_list(const struct engine *e, const struct led_tip *tip, struct break_list *l)
 {
     struct crack_list ways;
-    real cost = 0;
-    ways_of(e, tip, &ways);
+    real cost = 0, to[2];
+    led_next_place(e, tip, to);
+    ways_of(e, tip, tip->place, to, &ways);
     for (int64_t r = 0; r < e->bonds.rows; r++) cut_row(e, &ways, r, l);
     crack_list_free(&ways);
     if (e->scene->model != MODEL_BOND || e->part.dim == 3) stretch_price(e, tip, l);
     for (int64_t k = 0; k < l->n; k++) cost += l->bond[k].held;
     return cost;
+}
+
+void led_free_behind(struct engine *e, const struct led_tip *tip)
+{
+    const real length = real_min(tip->sees, e->source.family.cutoff + 2 * e->scene->spacing);
+    struct break_list list = {0};
+    struct crack_list ways;
+    real from[2];
+    for (int d = 0; d < 2; d++) from[d] = tip->place[d] - length * tip->along[d];
+    ways_of(e, tip, from, tip->place, &ways);
+    for (int64_t r = 0; r < e->bonds.rows; r++) cut_row(e, &ways, r, &list);
+    crack_list_free(&ways);
+    for (int64_t k = 0; k < list.n; k++) list.bond[k].held = 0;
+    statics_break_listed(e, &list);
+    memory_free(list.bond);
 }
 
 /* ---- trials ------------------------------------------------------------------------------------------------------ */
@@ -198,7 +214,7 @@ static status together_try(struct engine *e)
 static status tip_try(struct engine *e, struct led_tip *tip, struct break_list *list)
 {
     tip->ahead = (struct advance){0}, tip->due = INFINITY;
-    if (tip->ended || !(tip->K[0] > 0)) return OK;
+    if (tip->ended || !(tip->K[0] >= 0)) return OK;
     tip->ahead.cost = stretch_list(e, tip, list);
     tip->ended = list->n == 0;
     if (tip->ended) return OK;

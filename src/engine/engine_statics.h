@@ -151,6 +151,8 @@ static inline void led_ahead(const real *place, real way, const real *along, rea
 {
     for (int d = 0; d < 2; d++) ahead[d] = place[d] + way * along[d];
 }
+/* Cuts what is left of bonds behind a tip that has been set beside its pre-crack, before anything is loaded. */
+void led_free_behind(struct engine *e, const struct led_tip *tip);
 /* Where its next stretch ends [m]. */
 void led_next_place(const struct engine *e, const struct led_tip *tip, real place[2]);
 /* What it costs [J/m^2]. */

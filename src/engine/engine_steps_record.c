@@ -68,7 +68,7 @@ static void measure(struct engine *e)
                                             0.5 * damage_beside_cut(e->scene)};
     const real led = led_paths_area(e), spacing = growth_by_spacing(e);
     const real damaged = tips_area(&e->fracture.tips, &e->part, &around);
-    const bool by_paths = led > 0 && damaged <= led + spacing;
+    const bool by_paths = led > 0 && damaged <= led + 1.5 * spacing;
     const real area = by_paths ? led : damaged, growth = by_paths ? 0 : GROWTH * spacing;
     r->released = statics_released(e);
     if (!(area > r->area)) return;

@@ -7,6 +7,7 @@
 enum { TERMS = 9, UNKNOWNS = MODES * TERMS + 2 };
 
 #define AHEAD 1e-3     /* of the inner radius: from there the tip looks round, as its own crack ends in it */
+#define ON_FACE 0.03   /* of the inner radius: nearer to the line of the last stretch a particle is on neither side */
 #define SINGULAR 1e-12 /* pivot over the diagonal's entry */
 
 /* Displacements of a unit coefficient at (r/outer, theta) in the frame, times 2 G [1]. */
@@ -32,6 +33,12 @@ static void fit_add(struct fit *f, const real *row, real value)
         for (int l = 0; l <= m; l++) f->A[m][l] += row[m] * row[l];
         f->y[m] += row[m] * value;
     }
+}
+
+/* Is it a particle of a row of the lattice along which the crack goes? Which face it belongs to is round-off. */
+static bool on_face(const struct tip_view *v, const real X[2])
+{
+    return dot(v->last, X, 2) < 0 && fabs(v->last[0] * X[1] - v->last[1] * X[0]) < ON_FACE * v->inner;
 }
 
 /* A particle at X [m] in the plane from the tip, with its displacement u [m]. */
@@ -94,7 +101,8 @@ bool tip_fit(const struct tip_view *v, const struct particles *p, real K[MODES])
             from[a] = X[a] - v->place[a], u[a] = way;
         }
         const real r2 = square(from[0]) + square(from[1]);
-        if (r2 < square(v->inner) || r2 > square(v->outer) || p->body[i] != v->body || !seen(v, X)) continue;
+        if (r2 < square(v->inner) || r2 > square(v->outer) || p->body[i] != v->body) continue;
+        if (on_face(v, from) || !seen(v, X)) continue;
         fit_particle(&f, v, from, u);
     }
     if (f.particles < UNKNOWNS || !fit_solve(&f)) return false;
