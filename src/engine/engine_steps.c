@@ -10,6 +10,7 @@
 #define NEAR_LIMIT 0.95    /* overload at which an advance is looked for instead */
 #define NEAR_LEAST 0.85    /* overload from which on loads cannot come much nearer */
 #define ROUND_OFF 1e-6     /* of loads that are the same */
+#define FAR_OFF 2.0        /* from the place of an opening to the body [spacings] */
 enum { SECANTS_MOST = 12, APPROACHES_MOST = 12 };
 
 /* ---- control ----------------------------------------------------------------------------------------------------- */
@@ -187,10 +188,45 @@ static status load_step(struct engine *e)
     return OK;
 }
 
+/* REFUSED where the opening is that of one place, or of none in the body. */
+static status check_opening(const struct engine *e)
+{
+    const struct scene_steps *s = &e->scene->steps;
+    const real *const at[] = {s->from, s->to};
+    const int64_t nearest[] = {particles_nearest(&e->part, s->from), particles_nearest(&e->part, s->to)};
+    for (int k = 0; k < 2; k++) {
+        real X[DIM_MAX], away = 0;
+        particle_place(&e->part, nearest[k], X);
+        for (int d = 0; d < e->part.dim; d++) away += square(X[d] - at[k][d]);
+        if (sqrt(away) > FAR_OFF * e->scene->spacing)
+            return status_set(REFUSED,
+                              "steps.%s: the body is %.3g m away from there; a place on it, where the gauge is clipped "
+                              "on, is expected",
+                              k ? "to" : "from", sqrt(away));
+    }
+    if (nearest[0] != nearest[1]) return OK;
+    return status_set(REFUSED, "steps.from and steps.to are at one particle, which opens nothing; two places, on both "
+                               "sides of the crack, are expected");
+}
+
+/* REFUSED where loads and supports do not follow the pseudo-time: the crack would wait for others in vain. */
+static status check_growth(const struct engine *e)
+{
+    const real whole = e->scene->duration, size = statics_load_size(e, whole);
+    const real half = statics_load_size(e, 0.5 * whole), quarter = statics_load_size(e, 0.25 * whole);
+    if (e->scene->steps.control == CONTROL_LOAD || half != size || quarter != size) return OK;
+    return status_set(REFUSED, "steps.control: loads and supports are the same at all times, and the crack decides how "
+                               "large they are; time: {ramp: {until: %.3g s}} of what loads the body is expected",
+                      whole);
+}
+
 status statics_check(const struct engine *e)
 {
     const struct scene *s = e->scene;
-    for (int b = 0; b < s->bodies && scene_in_steps(s) && s->method != METHOD_PD; b++)
+    if (!scene_in_steps(s)) return OK;
+    if (s->steps.control == CONTROL_OPENING) TRY(check_opening(e));
+    TRY(check_growth(e));
+    for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++)
         if (!e->reference.choice[b].reference)
             return status_set(REFUSED,
                               "solver: load steps want material points in the reference frame, and body %s is not in "
@@ -225,6 +261,16 @@ static void say_flowed(struct engine *e)
     if (most > FLOW_LARGE) engine_say(e, text);
 }
 
+/* Where a crack has gone through under control energy, loads have gone back as far as they can: the curve is whole. */
+static bool has_parted(struct engine *e)
+{
+    const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics.bonds_broken > 0;
+    if (!parts || statics_unheld(e) == OK) return false;
+    engine_say(e, "the crack has gone through: nothing holds a piece of the body under its loads, and the run ends "
+                  "with this load step");
+    return true;
+}
+
 status engine_steps(struct engine *e)
 {
     TRY(engine_report_start(e));
@@ -238,9 +284,11 @@ status engine_steps(struct engine *e)
     while (e->clock.step < e->clock.steps) {
         e->statics.record.step = e->clock.step + 1;
         TRY(load_step(e));
-        TRY(statics_unheld(e));
+        const bool apart = has_parted(e);
+        if (!apart) TRY(statics_unheld(e));
         statics_plastic_keep(e);
         e->clock.step++;
+        if (apart) e->clock.steps = e->clock.step;
         e->clock.t = e->clock.dt * (real)e->clock.step;
         state_note(e);
         engine_sample_equilibrium(e);

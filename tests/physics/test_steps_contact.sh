@@ -107,9 +107,9 @@ near "disc: stress across the middle" "$(last disc centre.stress_xx)" "$(compute
 near "disc: jaws" "$(last disc lower_force_y)" "-$force" 1e-4
 between "disc: nothing is lost but that" "$(compute "$(last disc damped)/$(last disc external_work)")" -1e-3 5e-2
 
-# K_II = tau sqrt(pi a) = 0.1253 MPa m^(1/2) in a plate without end; sides at 4 lengths add 7 %, as they do to the open one. Closing
-# takes the half of the energy of the crack that belongs to mode I: sigma^2 pi a^2 t/(4 E) = 1.05 mJ.
-between "shut: K_II" "$(compute "-($(last shut K_II))")" 1.22e5 1.37e5
+# K_II = tau sqrt(pi a) = 0.1253 MPa m^(1/2) in a plate without end; here it is 10 % more: sides at 4 lengths add 3 %, tips of cut
+# bonds act 0.4 spacings longer, 2 %, and the fit is 4 % high, as of the open crack (1.49). Closing takes the half of the energy of the crack that belongs to mode I: sigma^2 pi a^2 t/(4 E) = 1.05 mJ.
+between "shut: K_II" "$(compute "-($(last shut K_II))")" 1.25e5 1.42e5
 is "shut: K_I" "$(last shut K_I)" 0
 between "open: K_I" "$(last open K_I)" -1.5e5 -1.2e5
 stored() { compute "$(last "$1" strain) + $(last "$1" contact)"; }
