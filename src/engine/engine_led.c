@@ -24,7 +24,7 @@
 #define REST 0.1      /* way to another crack that is none [spacings] */
 #define ON_ROW 0.05   /* from a row of the lattice to a crack along it [spacings] */
 #define ROW_SEEN 8.0  /* length of a row that is looked at [spacings] */
-#define ROWS_APART 0.9  /* rows along an axis of the lattice; a crack along its diagonals runs straight on as it is [spacings] */
+#define ROWS_APART 0.9  /* rows along an axis of the lattice; cracks along its diagonals do as they are [spacings] */
 #define REACH 1.2     /* of the search for a body ahead [spacings] */
 
 enum { ADVANCE_SPACINGS = 2, ROW_LEAST = 4 };
