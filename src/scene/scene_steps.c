@@ -70,6 +70,7 @@ status check_load_steps(struct reader *r, const struct node *root)
     const bool opening = s->steps.control == CONTROL_OPENING;
     TRY(check_steps_motion(r, root));
     TRY(check_steps_loads(r, root));
+    r->scene->active_set = false;        /* an equilibrium reaches the whole body at once */
     if (s->steps.then == THEN_EXPLICIT && s->steps.control != CONTROL_LOAD)
         return fault(r, tree_at(root, "steps.then"),
                      "a release in time belongs to control load: %s follows the crack while it is unstable",

@@ -119,6 +119,10 @@ between "shut: its energy" "$(compute "$(stored open) - $(stored shut)")" 0.99e-
 near "stack: what carries it" "$(last stack reaction.force_y)" 160 1e-4
 between "stack: nothing is lost" "$(compute "$(last stack damped)/$(last stack external_work)")" -1e-5 1e-5
 
+# Supports that have stood still at first: what presses is what carries from the first step in which they move.
+calm "$work/late" "$work/stack.yaml" -s boundary.1='{name: top, body: high, traction: [0, -1 MPa], face: y+, time: {table: [[0 s, 0], [0.5 s, 0], [1 s, 1]]}}'
+near "late: what carries" "$(column "$work/late" reaction.force_y 0.67)" "$(compute 160/3)" 1e-4
+
 calm "$work/whole" "$work/bend.yaml" -s steps.number=8 -t 1
 calm "$work/two" "$work/bend.yaml" -s steps.number=8 -t 2
 same "threads" "$work/whole" "$work/two"
