@@ -235,17 +235,21 @@ static status look_here(struct engine *e)
     return tried;
 }
 
-/* Looks under the loads at which it comes, until these are what it says there. */
+/* Looks under the loads at which it comes, until these are what it says there. What it releases grows with the square
+ * of what loads strain, which may be their size less a way on which nothing touches: secants of its root. */
 static status look_there(struct engine *e)
 {
     struct statics *s = &e->statics;
     struct stand stand;
     stand_take(&stand, e);
     status looked = OK;
+    real was = 0, share_was = NAN;
     for (int k = 0; k < LOOKS_MOST && looked == OK && s->next.n > 0; k++) {
-        const real size = s->due;
-        if (fabs(size - statics_load_size(e, s->t)) <= DUE_ERROR * size || !isfinite(size)) break;
-        looked = statics_go(e, statics_time_of_size(e, size));
+        const real size = statics_load_size(e, s->t), share = size / s->due;
+        if (fabs(share - 1) <= DUE_ERROR || !isfinite(s->due)) break;
+        const real secant = size + (1 - share) * (size - was) / (share - share_was);
+        looked = statics_go(e, statics_time_of_size(e, secant > 0 ? secant : s->due));
+        was = size, share_was = share;
         s->next.n = 0;
         if (looked == OK) looked = look_here(e);
     }
