@@ -182,13 +182,13 @@ static real account_end(struct account *a, struct engine *e, real *const *before
     return fabs(range[0]) + fabs(range[1]);
 }
 
-/* Books what was lost on the way since `lost` [J]. Where points yield, forces change other than evenly on it, and loads
- * and supports work other than the mean of both ends times it: less by up to `range` [J], or more, since nothing else
- * gives energy. Only what is beyond is lost. */
-static void lost_book(struct engine *e, real lost, real range)
+/* Books what was lost on the way since `lost` [J]. Where points yield or faces close, forces change other than evenly on
+ * it, and loads and supports work other than the mean of both ends times it: less by up to `range` [J], or more, since
+ * nothing else gives energy. Only what is beyond is lost. */
+static void lost_book(struct engine *e, real lost, real range, bool touches)
 {
     real *now = &e->statics.balance.lost;
-    const real uneven = e->part.relief[0] ? real_min(*now - lost, range) : 0;
+    const real uneven = e->part.relief[0] || touches ? real_min(*now - lost, range) : 0;
     e->loads.work -= uneven, *now -= uneven;
     e->coupling.damped += *now - lost;
 }
@@ -219,8 +219,9 @@ static status solve_at(struct engine *e, real t)
     loads_mirror(&e->loads, &e->part);
     e->statics.t = t;
     const real worked = e->loads.work + e->loads.constraint_work, range = account_end(&account, e, before);
-    statics_touch_end(e, e->loads.work + e->loads.constraint_work - worked, lost);
-    lost_book(e, lost, range);
+    const bool touched = s->touches;
+    const real rigids = statics_touch_end(e, e->loads.work + e->loads.constraint_work - worked, lost);
+    lost_book(e, lost, range + rigids, touched || s->touches);
     for (int d = 0; d < e->part.dim; d++) memory_free(before[d]);
     statics_react(e);
     s->solutions++;

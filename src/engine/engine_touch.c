@@ -104,19 +104,23 @@ void statics_touch_laws(void *engine, bool settled)
     if (statics_meets(e)) contact_marks_use(&e->contact, settled);
 }
 
-void statics_touch_end(struct engine *e, real work, real lost)
+real statics_touch_end(struct engine *e, real work, real lost)
 {
     struct statics *s = &e->statics;
     struct equilibrium *q = &s->balance;
-    if (!statics_meets(e)) return;
+    real range = 0;
+    if (!statics_meets(e)) return 0;
     if (s->touches || e->contact.touching > 0) q->force(e, &q->u, &q->f);
     for (int k = 0; k < e->scene->rigids; k++) {
         const real before = e->rigid[k].work;
+        for (int d = 0; d < e->part.dim; d++)
+            range += 0.5 * fabs((e->rigid[k].force[d] - e->rigid[k].force_before[d]) * e->rigid[k].way[d]);
         rigid_book(&e->rigid[k]);
         work += e->rigid[k].work - before;
     }
     if (s->touches) q->lost = lost + work - (energy_here(e) - s->energy);
     s->touches = e->contact.touching > 0;
+    return range;
 }
 
 real statics_rigid_way2(const struct engine *e, real t)
