@@ -182,9 +182,9 @@ static real account_end(struct account *a, struct engine *e, real *const *before
     return fabs(range[0]) + fabs(range[1]);
 }
 
-/* Books what was lost on the way since `lost` [J]. Where points yield or faces close, forces change other than evenly on
- * it, and loads and supports work other than the mean of both ends times it: less by up to `range` [J], or more, since
- * nothing else gives energy. Only what is beyond is lost. */
+/* Books what was lost on the way since `lost` [J]. Where points yield or faces close, forces change other than evenly
+ * on it, and loads and supports work other than the mean of both ends times it: less by up to `range` [J], or more,
+ * since nothing else gives energy. Only what is beyond is lost. */
 static void lost_book(struct engine *e, real lost, real range, bool touches)
 {
     real *now = &e->statics.balance.lost;

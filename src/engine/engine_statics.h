@@ -32,11 +32,11 @@ status statics_solve(struct engine *e, real t);
 real statics_applied_norm(const struct engine *e);
 
 /* Contact and rigid bodies (engine_touch.c). Can anything meet? Finds what touches at the start. Solutions on the way
- * to t without one of which a rigid body would go too far. Before a solution: bodies go to t, and what touches there is
- * marked. Settle and laws of equilibrium.h. After it: books the work of rigid bodies, and where something touches what
- * is lost, of `lost` before the solution and the work of loads and supports in it [J]; returns how far the work of rigid
- * bodies is from that by one of both forces [J]. Square of their way up to t [m^2]. What a trial changes, and as it was.
- */
+ * to t without one of which a rigid body would go too far. Before a solution: bodies go to t, and what touches there
+ * is marked. Settle and laws of equilibrium.h. After it: books the work of rigid bodies, and where something touches
+ * what is lost, of `lost` before the solution and the work of loads and supports in it [J]; returns how far the work of
+ * rigid bodies is from that by one of both forces [J]. Square of their way up to t [m^2]. What a trial changes, and as
+ * it was. */
 bool statics_meets(const struct engine *e);
 void statics_touch_start(struct engine *e);
 int statics_strides(const struct engine *e, real t);
