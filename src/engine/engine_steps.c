@@ -261,7 +261,28 @@ static void say_flowed(struct engine *e)
     if (most > FLOW_LARGE) engine_say(e, text);
 }
 
-/* Where a crack has gone through under control energy, loads have gone back as far as they can: the curve is whole. */
+/* Says that a rigid body has gone its way and pushed nothing: past the body, or a body that nothing holds before it. */
+static void say_missed(struct engine *e)
+{
+    for (int k = 0; k < e->scene->rigids; k++) {
+        const struct rigid_body *r = &e->rigid[k];
+        char text[160];
+        snprintf(text, sizeof text,
+                 "rigid body %.60s went its way and pushed nothing: see whether it meets a body, and what holds that",
+                 r->name);
+        if (r->motion == RIGID_DRIVEN && r->force_most <= ROUND_OFF * e->statics.balance.largest) engine_say(e, text);
+    }
+}
+
+static void say_at_end(struct engine *e)
+{
+    say_closed(e);
+    say_flowed(e);
+    say_missed(e);
+}
+
+/* Where a crack has gone through under control energy, loads have gone back as far as they can: the curve is
+ * whole. */
 static bool has_parted(struct engine *e)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics.bonds_broken > 0;
@@ -295,7 +316,7 @@ status engine_steps(struct engine *e)
         statics_record_keep(e);
         if (e->statics.t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
         lap(&e->report.laps, LAP_BONDS);
-        if (e->clock.step == e->clock.steps) say_closed(e), say_flowed(e);
+        if (e->clock.step == e->clock.steps) say_at_end(e);
         TRY(engine_report(e));
     }
     statics_free(e);
