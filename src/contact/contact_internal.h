@@ -68,11 +68,9 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
 real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal);
 /* The term of a row of faces, with room for all of its pairs. */
 void contact_face_term(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term);
-/* Marks of a new list; all that it has may push. */
-void contact_marks_room(struct contact *c);
+/* All that the list has may push. */
 void contact_marks_follow(struct contact *c);
 status contact_marks_archive(struct contact *c, struct archive *a);
-void contact_search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f);
 
 static inline real contact_skin(const struct contact *c)
 {

@@ -238,7 +238,7 @@ static real search_reach(const struct contact *c)
     return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : pairs) + contact_skin(c);
 }
 
-void contact_search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
+static void search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     struct contact before = *c;
     c->particle = NULL, c->root = NULL, c->size = NULL, c->rise = NULL;
@@ -307,9 +307,9 @@ void contact_update(struct contact *c, const struct particles *p, struct bonds *
 {
     if (!contact_works(c)) return;
     const bool new_faces = broken != c->broken && step - c->searched >= BREAKS_WAIT;
-    if (c->made) c->way = farthest_way(c, p);
-    if (!c->made || c->due || new_faces || has_come_far(c)) {
-        contact_search_pairs(c, p, b, family);
+    const bool come = contact_has_come(c, p);
+    if (c->due || new_faces || come) {
+        search_pairs(c, p, b, family);
         c->made = true, c->due = false, c->way = 0;
         c->searched = step, c->broken = broken;
     }

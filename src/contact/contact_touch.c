@@ -10,7 +10,8 @@
 
 #define KEPT 1e-10 /* gaps and overlaps that change no mark [spacings] */
 
-void contact_marks_room(struct contact *c)
+/* Room for the marks of a new list. */
+static void marks_room(struct contact *c)
 {
     memory_free(c->touch);
     c->touch = NEW("contact.touch", c->law.form == CONTACT_SURFACE ? c->rows : c->pairs, uint8_t);
@@ -82,7 +83,7 @@ int64_t contact_search(struct contact *c, const struct particles *p, struct bond
 {
     c->due = true;
     contact_update(c, p, b, l, family, c->searched, c->broken, c->changed);
-    contact_marks_room(c);
+    marks_room(c);
     contact_marks_follow(c);
     balances_rest(c);
     return contact_mark(c, p, close);
@@ -90,11 +91,7 @@ int64_t contact_search(struct contact *c, const struct particles *p, struct bond
 
 real contact_sight(const struct contact *c) { return 0.5 * contact_skin(c); }
 
-void contact_marks_use(struct contact *c, bool use)
-{
-    c->by_overlap = !use;
-    if (!use) c->way = INFINITY; /* no row is too far to be looked at */
-}
+void contact_marks_use(struct contact *c, bool use) { c->by_overlap = !use; }
 
 void contact_unmark(struct contact *c)
 {

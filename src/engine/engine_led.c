@@ -24,7 +24,7 @@
 #define REST 0.1      /* way to another crack that is none [spacings] */
 #define ON_ROW 0.05   /* from a row of the lattice to a crack along it [spacings] */
 #define ROW_SEEN 8.0  /* length of a row that is looked at [spacings] */
-#define ROWS_APART 0.9  /* rows along an axis of the lattice; cracks along its diagonals do as they are [spacings] */
+#define ROWS_APART 0.9 /* rows along an axis of the lattice; cracks along its diagonals do as they are [spacings] */
 #define REACH 1.2     /* of the search for a body ahead [spacings] */
 
 enum { ADVANCE_SPACINGS = 2, ROW_LEAST = 4 };
@@ -48,10 +48,16 @@ static void cracks_behind(const struct engine *e, struct led_tip *tip)
     }
 }
 
+/* Is the tip on a plane of symmetry, and goes along it? */
+static bool on_mirror(const struct engine *e, const struct led_tip *tip)
+{
+    real ahead[2];
+    led_ahead(tip->place, e->scene->spacing, tip->last, ahead);
+    return led_on_mirror(e, &e->statics.led.plane, tip->place, ahead);
+}
+
 /* Rows of a lattice lie on one face of a crack that goes along them, as crack_cuts counts them. The tip begins halfway
  * to the next row, where bonds have been cut, and stays clear of what round-off would say of the row. */
-static bool on_mirror(const struct engine *e, const struct led_tip *tip);
-
 static void leave_row(struct engine *e, struct led_tip *tip)
 {
     const real h = e->scene->spacing, *along = tip->along;
@@ -143,14 +149,6 @@ static const struct material *material_at(const struct engine *e, const struct l
         if (led_distance(X, tip->place) < least) least = led_distance(X, tip->place), nearest = i;
     }
     return &e->scene->material[p->material[nearest]];
-}
-
-/* Is the tip on a plane of symmetry, and goes along it? */
-static bool on_mirror(const struct engine *e, const struct led_tip *tip)
-{
-    real ahead[2];
-    led_ahead(tip->place, e->scene->spacing, tip->last, ahead);
-    return led_on_mirror(e, &e->statics.led.plane, tip->place, ahead);
 }
 
 /* Pre-cracks, and what tips have cut, in the plane of the tips; cracks_now_free frees the list. */

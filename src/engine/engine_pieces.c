@@ -215,6 +215,13 @@ struct touched {
     const struct numbers *number;
 };
 
+/* The piece of a particle or an image, -1: of none. */
+static int32_t piece_of(const struct touched *s, int32_t particle)
+{
+    const int32_t k = number_of(s->e, s->number, image_root(&s->e->part, s->e->loads.image, particle));
+    return k < 0 ? -1 : s->piece[k];
+}
+
 /* How motion a of a piece changes the gap of a contact: by those of its particles that belong to it. */
 static real gap_rate(const struct touched *s, const struct contact_term *t, int32_t which, int a)
 {
@@ -222,9 +229,8 @@ static real gap_rate(const struct touched *s, const struct contact_term *t, int3
     real rate = 0;
     for (int q = 0; q < t->n; q++) {
         const int64_t i = image_root(p, s->e->loads.image, t->particle[q]);
-        const int32_t k = number_of(s->e, s->number, i);
         real sign[DIM_MAX], x[DIM_MAX], u[DIM_MAX];
-        if (k < 0 || s->piece[k] != which) continue;
+        if (piece_of(s, t->particle[q]) != which) continue;
         for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
         statics_image_signs(s->e, t->particle[q], sign);
         motion_at(&s->of[which], p->dim, a, x, u);
@@ -241,18 +247,15 @@ static void contact_resists(void *context, const struct contact_term *t)
     real length2 = 0, along[MODES_MOST];
     for (int q = 0; q < t->n; q++) length2 += dot(t->along[q], t->along[q], dim);
     for (int q = 0; q < t->n && length2 > 0; q++) {
-        const int32_t k = number_of(s->e, s->number, image_root(&s->e->part, s->e->loads.image, t->particle[q]));
-        bool seen = k < 0;
-        for (int b = 0; b < q && !seen; b++) {
-            const int32_t l = number_of(s->e, s->number, image_root(&s->e->part, s->e->loads.image, t->particle[b]));
-            seen = l >= 0 && s->piece[l] == s->piece[k];
-        }
+        const int32_t which = piece_of(s, t->particle[q]);
+        bool seen = which < 0;
+        for (int b = 0; b < q && !seen; b++) seen = piece_of(s, t->particle[b]) == which;
         if (seen) continue;
         for (int a = 0; a < m; a++) {
-            along[a] = gap_rate(s, t, s->piece[k], a) / sqrt(length2);
+            along[a] = gap_rate(s, t, which, a) / sqrt(length2);
             if (fabs(along[a]) < RESISTS_LEAST) along[a] = 0;   /* both faces are of the same piece */
         }
-        resist(&s->of[s->piece[k]], m, along);
+        resist(&s->of[which], m, along);
     }
 }
 

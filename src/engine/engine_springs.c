@@ -54,13 +54,19 @@ static struct movers movers_of(const struct springs *s, int64_t i)
     return m;
 }
 
+/* What moves a particle or an image, and the signs of its components against theirs. */
+static struct movers movers_of_end(const struct springs *s, int64_t i, real sign[DIM_MAX])
+{
+    statics_image_signs(s->e, i, sign);
+    return movers_of(s, image_root(&s->e->part, s->e->loads.image, i));
+}
+
 /* The spring of a bond from particle i: what it adds to the rows of i. */
 static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &s->e->part;
     real n[DIM_MAX] = {0}, K[DIM_MAX][DIM_MAX], sign[DIM_MAX];
-    const struct movers own = movers_of(s, i), other = movers_of(s, image_root(p, s->e->loads.image, bond->nbr));
-    statics_image_signs(s->e, bond->nbr, sign);
+    const struct movers own = movers_of(s, i), other = movers_of_end(s, bond->nbr, sign);
     for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][bond->nbr] - p->X[d][i]) * bond->inverse_length;
     for (int k = 0; k < own.n; k++) {
         const real stiffness =
@@ -83,13 +89,6 @@ static void springs_row_add(struct springs *s, int64_t r)
 
 /* ---- contact ----------------------------------------------------------------------------------------------------- */
 
-/* What moves a particle or an image, and how. */
-static struct movers contact_movers(const struct springs *s, int64_t i, real sign[DIM_MAX])
-{
-    statics_image_signs(s->e, i, sign);
-    return movers_of(s, image_root(&s->e->part, s->e->loads.image, i));
-}
-
 /* What touches: stiffness times both derivatives of its gap. */
 static void contact_add_spring(void *context, const struct contact_term *t)
 {
@@ -97,9 +96,9 @@ static void contact_add_spring(void *context, const struct contact_term *t)
     const int dim = s->a->dim;
     real K[DIM_MAX][DIM_MAX], sign[DIM_MAX], back[DIM_MAX];
     for (int i = 0; i < t->n; i++) {
-        const struct movers own = contact_movers(s, t->particle[i], sign);
+        const struct movers own = movers_of_end(s, t->particle[i], sign);
         for (int j = 0; j < t->n; j++) {
-            const struct movers other = contact_movers(s, t->particle[j], back);
+            const struct movers other = movers_of_end(s, t->particle[j], back);
             for (int k = 0; k < own.n; k++)
                 for (int m = 0; m < other.n; m++) {
                     const real share = own.share[k] * other.share[m] * s->e->statics.weight[own.node[k]];

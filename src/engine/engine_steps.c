@@ -281,15 +281,17 @@ static void say_at_end(struct engine *e)
     say_missed(e);
 }
 
-/* Where a crack has gone through under control energy, loads have gone back as far as they can: the curve is
- * whole. */
-static bool has_parted(struct engine *e)
+/* FAILED if loads carry a piece away. Where a crack has gone through under control energy, they have gone back as far
+ * as they can, and the curve is whole: *apart. */
+static status check_held(struct engine *e, bool *apart)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics.bonds_broken > 0;
-    if (!parts || statics_unheld(e) == OK) return false;
-    engine_say(e, "the crack has gone through: nothing holds a piece of the body under its loads, and the run ends "
-                  "with this load step");
-    return true;
+    const status held = statics_unheld(e);
+    *apart = held != OK && parts;
+    if (*apart)
+        engine_say(e, "the crack has gone through: nothing holds a piece of the body under its loads, and the run ends "
+                      "with this load step");
+    return parts ? OK : held;
 }
 
 status engine_steps(struct engine *e)
@@ -304,9 +306,9 @@ status engine_steps(struct engine *e)
     if (e->clock.step == 0) engine_sample_rest(e);
     while (e->clock.step < e->clock.steps) {
         e->statics.record.step = e->clock.step + 1;
+        bool apart;
         TRY(load_step(e));
-        const bool apart = has_parted(e);
-        if (!apart) TRY(statics_unheld(e));
+        TRY(check_held(e, &apart));
         statics_plastic_keep(e);
         e->clock.step++;
         if (apart) e->clock.steps = e->clock.step;

@@ -49,9 +49,10 @@ int statics_strides(const struct engine *e, real t)
 {
     real most = 0;
     for (int k = 0; k < e->scene->rigids; k++) {
-        struct rigid_body r = e->rigid[k];
-        rigid_put(&r, t);
-        for (int d = 0; d < r.dim; d++) most = real_max(most, fabs(r.x[d] - e->rigid[k].x[d]));
+        const struct rigid_body *r = &e->rigid[k];
+        real way[DIM_MAX];
+        rigid_shift(r, t, way);
+        for (int d = 0; d < r->dim; d++) most = real_max(most, fabs(r->centre[d] + way[d] - r->x[d]));
     }
     return (int)real_min(STRIDES_MOST, real_max(1, ceil(most / (STRIDE_MOST * e->scene->spacing))));
 }
@@ -125,12 +126,8 @@ real statics_touch_end(struct engine *e, real work, real lost)
 
 real statics_rigid_way2(const struct engine *e, real t)
 {
-    real sum = 0;
-    for (int k = 0; k < e->scene->rigids; k++) {
-        struct rigid_body r = e->rigid[k];
-        rigid_put(&r, t);
-        for (int d = 0; d < r.dim; d++) sum += square(r.x[d] - r.centre[d]);
-    }
+    real sum = 0, way[DIM_MAX];
+    for (int k = 0; k < e->scene->rigids; k++) sum += square(rigid_shift(&e->rigid[k], t, way));
     return sum;
 }
 

@@ -202,11 +202,19 @@ void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity)
     r->kinetic = kinetic;
 }
 
-void rigid_put(struct rigid_body *r, real t)
+real rigid_shift(const struct rigid_body *r, real t, real *way)
 {
     const real full = t < r->ramp ? 0.5 * square(t) / r->ramp : t - 0.5 * real_max(0, r->ramp);
+    for (int d = 0; d < DIM_MAX; d++) way[d] = r->motion == RIGID_DRIVEN ? r->speed[d] * full : 0;
+    return sqrt(dot(way, way, r->dim));
+}
+
+void rigid_put(struct rigid_body *r, real t)
+{
+    real way[DIM_MAX];
+    rigid_shift(r, t, way);
     for (int d = 0; d < r->dim && r->motion == RIGID_DRIVEN; d++) {
-        const real x = r->centre[d] + r->speed[d] * full;
+        const real x = r->centre[d] + way[d];
         r->way[d] += x - r->x[d];
         r->x[d] = x;
     }

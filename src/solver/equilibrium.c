@@ -381,6 +381,7 @@ status equilibrium_find(struct equilibrium *q, const struct field *way, bool mov
     q->bent = 0;
     if (!(q->strain_ratio > 0)) q->strain_ratio = 1 / q->length;
     const bool driven = prescribed;
+    bool settled = false;            /* laws are those of u */
     real straight = NAN;             /* of the growth of loads along the first correction */
     if (prescribed) guess_check(q);
     for (int k = 0; k < CORRECTIONS_MOST; k++) {
@@ -388,9 +389,11 @@ status equilibrium_find(struct equilibrium *q, const struct field *way, bool mov
         const real left = q->residual * q->scale, goal = 0.5 * q->tolerance * q->scale;
         if (!isfinite(left)) break;
         if (!prescribed && is_balanced(q)) {
-            if (!laws_settle(q)) continue;
-            equilibrium_measure(q);      /* loads may have another norm now */
-            if (!is_balanced(q)) continue;
+            if (!settled) {
+                settled = true;
+                laws_settle(q);
+                continue;                /* with these laws, and the norm that loads have now */
+            }
             if (driven) supports += 0.5 * dot_held(q, way);
             if (!isnan(straight)) loads_bend(q, dot_free(q, &q->grown, &q->u) - straight);
             q->lost -= supports;
@@ -400,6 +403,7 @@ status equilibrium_find(struct equilibrium *q, const struct field *way, bool mov
                    prescribed);
         q->lost += advance(q, left, prescribed);
         laws_settle(q);
+        settled = true;
         if (isnan(straight)) straight = dot_free(q, &q->grown, &q->u);
         combine(q, &q->x, 0, &q->x, 0, &q->x);
         prescribed = false;
