@@ -202,7 +202,8 @@ bool led_measure(const struct engine *e, const struct led_tip *tip, real K[MODES
     const bool seen = tip_fit(&view, &e->part, K);
     cracks_now_free(crack, view.cracks);
     if (on_mirror(e, tip)) K[MODE_II] = 0;
-    if (e->contact.touching > 0) K[MODE_I] = real_max(K[MODE_I], 0); /* closed: the forces between its faces show */
+    const bool meets = e->contact.law.between == CONTACT_ALL && e->contact.touching > 0;
+    if (meets) K[MODE_I] = real_max(K[MODE_I], 0); /* closed: the forces between its faces show */
     return seen;
 }
 
