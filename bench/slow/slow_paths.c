@@ -1,6 +1,7 @@
 /* Where load steps lead cracks: the first kink of an inclined crack beside the criterion of the largest hoop stress,
  * and the path from a notch beside the middle of a beam, beside finite elements. */
 #include <math.h>
+#include <string.h>
 
 #include "bench/common/handbook.h"
 #include "fracture/sif_fields.h"
@@ -30,6 +31,13 @@ static bool path_next(const struct history *h, int64_t *from, double place[2])
 
 /* ---- kinks ------------------------------------------------------------------------------------------------------- */
 
+/* Where the tip is before it grows [m]. */
+static void path_start(const struct history *h, double place[2])
+{
+    place[0] = history_at(h, 1, history_column(h, "path_x"));
+    place[1] = history_at(h, 1, history_column(h, "path_y"));
+}
+
 /* In a wide plate K_II/K_I is tan(angle); in this one, five times as wide as the crack is long, within 1 %. */
 static status kink_take(void *row, const char *folder)
 {
@@ -39,8 +47,7 @@ static status kink_take(void *row, const char *folder)
     const double K[MODES] = {cos(r->angle * degree), sin(r->angle * degree)};
     double start[2] = {half * cos(r->angle * degree), half * sin(r->angle * degree)}, place[2];
     int64_t line = 1;
-    place[0] = history_at(&h, 1, history_column(&h, "path_x"));
-    place[1] = history_at(&h, 1, history_column(&h, "path_y"));
+    path_start(&h, place);
     const double side = place[0] * start[0] + place[1] * start[1] > 0 ? 1 : -1;
     start[0] *= side, start[1] *= side;
     place[0] = start[0], place[1] = start[1];
@@ -88,16 +95,19 @@ static status kinks(struct bench_table *t, struct bench_goals *asked, bool quick
 
 /* ---- a notch beside the middle of a beam ------------------------------------------------------------------------- */
 
-/* Chords from the notch to the tip, as far as the finite elements go: the one that is farthest from theirs. */
+/* Chords from where the tip begins, which is beside a column of particles that the notch lies on, as far as the finite
+ * elements go: the one that is farthest from theirs. */
 static status bend_take(void *row, const char *folder)
 {
     struct path_row *r = row;
     struct history h = {0};
-    double place[2] = {notch[0], notch[1]};
+    double start[2], place[2];
     TRY(history_read(&h, folder));
+    path_start(&h, start);
+    memcpy(place, start, sizeof place);
     r->apart = 0;
     for (int64_t line = 1; path_next(&h, &line, place);) {
-        const double along[2] = {place[0] - notch[0], place[1] - notch[1]}, length = hypot(along[0], along[1]);
+        const double along[2] = {place[0] - start[0], place[1] - start[1]}, length = hypot(along[0], along[1]);
         const double expected = bend_chord(length), found = atan2(along[0], along[1]) / degree;
         if (isnan(expected)) break;
         if (fabs(found - expected) >= r->apart)
