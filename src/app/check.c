@@ -1,6 +1,7 @@
-/* `cleave check`: checks a scene and estimates the cost of its run; nothing is written. */
+/* `cleave check`: checks a scene and estimates the cost of its run by trial steps; nothing is written. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "auto/scene_read.h"
 #include "check_parts.h"
@@ -192,14 +193,25 @@ static void say_pilot(const struct pilot_wish *w, const char *scene)
            100 * w->within);
 }
 
-/* `start`: when its reading began, on team_clock. */
-static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start)
+/* Estimates run time and memory by trial steps and prints both. start: time on team_clock when the reading of the scene
+ * began [s]. The engine cannot be used afterwards. FAILED if one of the first steps fails. */
+static status check_cost(struct engine *e, const struct run_arguments *a, int threads, double start)
+{
+    struct cost cost = {.make = team_clock() - start};
+    TRY(cost_measure(&cost, e, a));
+    say_contact_cost(e, &cost);
+    say_cost(e, &cost, threads);
+    say_levels_saving(e, &cost);
+    return OK;
+}
+
+/* Sets up the scene, prints what it resolves and needs, and its cost unless `trial` is false. threads, start: of
+ * check_cost. REFUSED or FAILED if the set-up or a trial step is. */
+static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
     struct engine e = {0};
-    struct cost cost = {0};
     s->active_set = false;                             /* cost with the whole body active */
     status result = engine_make(&e, s, NULL);
-    cost.make = team_clock() - start;
     if (result == OK) {
         printf("%s is sound\n", shown_name(a->scene).text);
         engine_choice_print(&e, stdout);
@@ -216,20 +228,29 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
         engine_warn(&e);
         warnings_print(&e.report.warnings, 0, stdout);
         advise(&e, stdout);
-        result = cost_measure(&cost, &e, a);
-        if (result == OK) say_contact_cost(&e, &cost);
-        if (result == OK) say_cost(&e, &cost, threads);
-        if (result == OK) say_levels_saving(&e, &cost);
+        if (trial) result = check_cost(&e, a, threads, start);
     }
     engine_free(&e);
     return result;
+}
+
+/* Removes the word from argv if it is there. Returns true if it was. */
+static bool word_removed(int *argc, char **argv, const char *word)
+{
+    int kept = 0;
+    for (int k = 0; k < *argc; k++)
+        if (strcmp(argv[k], word) || (k > 0 && !strcmp(argv[k - 1], "-s"))) argv[kept++] = argv[k];
+    const bool removed = kept < *argc;
+    *argc = kept;
+    return removed;
 }
 
 status command_check(int argc, char **argv)
 {
     struct run_arguments a;
     struct pilot_wish pilot;
-    TRY(arguments_read(&a, argc, argv, "check SCENE [-s KEY=VALUE]... [-t THREADS]"));
+    const bool trial = !word_removed(&argc, argv, "--no-trial");
+    TRY(arguments_read(&a, argc, argv, "check " CHECK_WORDS));
     const int threads = team_make(a.threads);
     const double start = team_clock();
     struct scene s = {0};
@@ -238,7 +259,7 @@ status command_check(int argc, char **argv)
         say_pilot(&pilot, a.scene);
         scene_free(&pilot.first);
     } else if (result == OK) {
-        result = check_sound(&s, &a, threads, start);
+        result = check_sound(&s, &a, threads, start, trial);
         scene_free(&s);
     }
     arguments_free(&a);

@@ -18,7 +18,7 @@ static status no_benches(int argc, char **argv)
 
 const struct command commands[] = {
     {"run", "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]", "runs a scene", command_run},
-    {"check", "SCENE [-s KEY=VALUE]... [-t THREADS]", "what a scene would cost and whether it is sound", command_check},
+    {"check", CHECK_WORDS, "what a scene would cost and whether it is sound", command_check},
     {"new", "NAME [KIND]", "writes a commented scene to begin with, of a kind; alone it lists the kinds", command_new},
     {"sweep", SWEEP_WORDS, "a study: runs, or lists, every combination", command_sweep},
     {"converge", CONVERGE_WORDS, "every figure of a scene with its error bar", command_converge},

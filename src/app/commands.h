@@ -15,6 +15,7 @@ extern const struct command commands[];
 extern const int commands_count;
 
 /* Forms of commands that say them when a word is wrong, too. */
+#define CHECK_WORDS "SCENE [-s KEY=VALUE]... [-t THREADS] [--no-trial]"
 #define SWEEP_WORDS                                                                                                    \
     "SCENE -s KEY=VALUE,...|FROM:TO:STEP... [-o DIR] [-j RUNS] [-t THREADS] [--list] [--collect] [--overwrite] [-q]"
 #define CONVERGE_WORDS                                                                                                 \

@@ -57,6 +57,7 @@ static const struct entry options[] = {
     {"--view iso", "a solid from outside: iso, x+, x-, y+, y-, z+, z-.", NULL},
     {"--format png", "png, svg, pdf; mp4, gif (films of all frames, by ffmpeg). The ending of -o says the same.", NULL},
     {"--scene SCENE", "draws a scene before it runs: particles, cracks, loads, supports, probes.", NULL},
+    {"--no-trial", "check: leaves out run time and memory, for which it takes trial steps.", NULL},
     {"--style peri", "peri: pair_style peri of every LAMMPS; bpm: bond_style bpm/peri of 2026.", NULL},
     {"--allow-different", "exports what differs in LAMMPS, too; README.txt there says in what.", NULL},
     {"--quick", "smaller cases.", NULL},
