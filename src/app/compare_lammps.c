@@ -18,7 +18,7 @@ static status lammps_time_step(const char *folder, double *dt)
 {
     struct path path = path_join(folder, "in.lammps");
     char line[256];
-    FILE *from = fopen(path.text, "r");
+    FILE *from = path_is_file(path.text) ? fopen(path.text, "r") : NULL;
     *dt = 0;
     while (from && *dt == 0 && fgets(line, sizeof line, from))
         if (sscanf(line, "timestep %lf", dt) != 1) *dt = 0;

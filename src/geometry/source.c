@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/input.h"
 #include "base/memory.h"
 #include "base/team.h"
 
@@ -13,9 +14,9 @@ enum { FILE_SHARE = 8 }; /* a file takes an eighth of the memory at the most: wh
 
 status source_open(struct source *s, const char *path)
 {
-    FILE *file = fopen(path, "rb");
+    FILE *file;
     *s = (struct source){.path = path};
-    if (!file) return status_set(REFUSED, "%s: cannot be opened", path);
+    TRY(input_open(&file, path, NULL));
     const bool sized = fseeko(file, 0, SEEK_END) == 0;
     const int64_t length = sized ? (int64_t)ftello(file) : -1, memory = team_memory();
     const bool fits = memory <= 0 || length <= memory / FILE_SHARE;

@@ -4,10 +4,12 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/input.h"
+
 status csv_open(struct csv_file *c, const char *path, const char *holds)
 {
-    *c = (struct csv_file){.path = path, .holds = holds, .file = fopen(path, "r"), .separator = ','};
-    return c->file ? OK : status_set(REFUSED, "%s: cannot be opened", path);
+    *c = (struct csv_file){.path = path, .holds = holds, .separator = ','};
+    return input_open(&c->file, path, NULL);
 }
 
 void csv_close(struct csv_file *c)

@@ -9,6 +9,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "base/input.h"
 #include "base/last_words.h"
 #include "base/memory.h"
 #include "base/team.h"
@@ -249,6 +250,7 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
 static status hdf5_read(struct particle_list *l, const char *path)
 {
     status s;
+    input_remember(path);
     last_words_reading(path);
     H5E_BEGIN_TRY                        /* one message per fault: the error stack of HDF5 is not printed */
     {

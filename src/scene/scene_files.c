@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/input.h"
 #include "output/checksum.h"
 #include "base/memory.h"
 
@@ -13,8 +14,8 @@ enum { FILE_LONGEST = 16 * 1024 * 1024 };    /* [byte]; 1e5 events take far less
 
 status file_bytes(const char *path, char **bytes, size_t *length)
 {
-    FILE *in = fopen(path, "rb");
-    if (!in) return status_set(REFUSED, "%s: %s; a scene file is expected", path, strerror(errno));
+    FILE *in;
+    TRY(input_open(&in, path, "a scene file"));
     size_t room = 65536, used = 0, got;
     char *text = NEW("scene file", room, char);
     while ((got = fread(text + used, 1, room - used, in)) > 0 && used <= FILE_LONGEST) {

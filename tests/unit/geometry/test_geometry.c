@@ -96,7 +96,7 @@ static void bad_stl(void **state)
     (void)state;
     unsigned char bytes[84 + 12 * 50];
     const float none = NAN;
-    refused("none.stl", 3, "none.stl: cannot be opened");
+    refused("none.stl", 3, "none.stl: No such file or directory");
     write_words("c.stl", "");
     refused("c.stl", 3, "c.stl: empty");
     write_words("c.stl", "PK\3\4");

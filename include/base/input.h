@@ -1,0 +1,22 @@
+/* Files that a command reads as its input: scenes, lists of particles, tables, meshes, images. All of them are opened
+ * or remembered here, so that no command waits at a pipe or writes over what it reads. */
+#ifndef CLEAVE_INPUT
+#define CLEAVE_INPUT
+
+#include <stdio.h>
+
+#include "base.h"
+
+/* Opens a regular file for reading and remembers it as an input of this command. The caller closes *file. expected:
+ * what the file should be, for the message; NULL: the message says no more. REFUSED with `PATH: cause; EXPECTED is
+ * expected` if the file cannot be opened or is a folder, pipe, socket or device. */
+status input_open(FILE **file, const char *path, const char *expected);
+
+/* Remembers the file at `path`, which a library opens, as an input of this command.
+ * A missing file is not remembered. */
+void input_remember(const char *path);
+
+/* Returns true if `path` leads to a file that this command has read as an input, also by a link or a second name. */
+bool input_was_read(const char *path);
+
+#endif

@@ -1,0 +1,90 @@
+/* Opens the files that a command reads as its input, and keeps their identities until the process ends. */
+#include "base/input.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Identity of a file. A file that is written later may have the number of one that was removed, but not its time. */
+struct identity {
+    dev_t device;
+    ino_t number;
+    struct timespec changed;
+};
+
+static struct identity *inputs;
+static int input_count, input_room;
+
+static struct identity identity_of(const struct stat *s)
+{
+#ifdef __APPLE__
+    return (struct identity){s->st_dev, s->st_ino, s->st_mtimespec};
+#else
+    return (struct identity){s->st_dev, s->st_ino, s->st_mtim};
+#endif
+}
+
+static bool identity_is_known(const struct identity *one)
+{
+    bool known = false;
+    for (int k = 0; k < input_count; k++)
+        known |= inputs[k].device == one->device && inputs[k].number == one->number &&
+                 inputs[k].changed.tv_sec == one->changed.tv_sec && inputs[k].changed.tv_nsec == one->changed.tv_nsec;
+    return known;
+}
+
+/* Adds a file to the list of inputs. Without memory the file stays unknown; the next allocation ends the program. */
+static void input_add(const struct stat *s)
+{
+    const struct identity one = identity_of(s);
+    if (identity_is_known(&one)) return;
+    if (input_count == input_room) {
+        const int room = 2 * input_room + 16;
+        struct identity *more = realloc(inputs, (size_t)room * sizeof *more);
+        if (!more) return;
+        inputs = more;
+        input_room = room;
+    }
+    inputs[input_count++] = one;
+}
+
+void input_remember(const char *path)
+{
+    struct stat s;
+    if (stat(path, &s) == 0) input_add(&s);
+}
+
+bool input_was_read(const char *path)
+{
+    struct stat s;
+    if (input_count == 0 || stat(path, &s) != 0) return false;
+    const struct identity one = identity_of(&s);
+    return identity_is_known(&one);
+}
+
+/* Returns why the open file `fd` (-1: it was not opened) cannot be read as an input; NULL: it can. */
+static const char *input_fault(int fd, const char *path, struct stat *s)
+{
+    const int cause = errno;
+    if ((fd < 0 ? stat(path, s) : fstat(fd, s)) == 0 && !S_ISREG(s->st_mode)) return "is no regular file";
+    return fd < 0 ? strerror(cause) : NULL;
+}
+
+status input_open(FILE **file, const char *path, const char *expected)
+{
+    struct stat s;
+    /* a pipe would keep a blocking call waiting for its writer */
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    const char *fault = input_fault(fd, path, &s);
+    *file = fault ? NULL : fdopen(fd, "rb");
+    if (*file) {
+        input_add(&s);
+        return OK;
+    }
+    if (!fault) fault = strerror(errno);
+    if (fd >= 0) close(fd);
+    return status_set(REFUSED, "%s: %s%s%s%s", path, fault, expected ? "; " : "", expected ? expected : "",
+                      expected ? " is expected" : "");
+}
