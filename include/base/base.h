@@ -57,6 +57,8 @@ status status_at(const char *place, status s);
 /* Makes text from outside (names of files, columns, scenes) harmless to a terminal: `?` in place of every control
  * character. */
 void text_harmless(char *text);
+/* The same for `length` bytes, which may have zeros among them. */
+void bytes_harmless(char *text, size_t length);
 /* A name to print, harmless, and cut if it is very long: `shown_name(folder).text`, good until the end of the
  * statement. */
 struct shown_name { char text[512]; };

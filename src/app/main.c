@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "base/harmless.h"
 #include "base/last_words.h"
 #include "output/output.h"
 #include "simd/simd.h"
@@ -69,6 +70,7 @@ int main(int argc, char **argv)
     keep_descriptors();
     limit_spin(argv);
     last_words_start();
+    harmless_output_start();
     status result = call(argc, argv);
     const bool lost = fflush(stdout) != 0 || ferror(stdout);
     if (lost && reader_gone()) LEAVE(FAILED);        /* `cleave help | head` */

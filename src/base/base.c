@@ -34,22 +34,27 @@ status status_at(const char *place, status s)
 
 const char *status_message(void) { return message; }
 
-/* Bytes of a character that a terminal acts on instead of showing it; 0: it shows it. Control characters: a byte
- * below a blank, 127, and U+0080 to U+009F, in UTF-8 C2 80 to C2 9F. What turns the direction of writing or ends
- * lines: U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069, in UTF-8 E2 80 8E, and so on. */
-static int harmful_bytes(const unsigned char *c)
+/* Returns the number of bytes of a character that a terminal acts on instead of showing it; 0: it shows it. left: bytes
+ * from c on, at least 1. Control characters: a byte below a blank, 127, and U+0080 to U+009F, in UTF-8 C2 80 to C2 9F.
+ * What turns the direction of writing or ends lines: U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069, in UTF-8
+ * E2 80 8E, and so on. */
+static int harmful_bytes(const unsigned char *c, size_t left)
 {
     if (*c < ' ' || *c == 127) return 1;
-    if (c[0] == 0xC2 && c[1] >= 0x80 && c[1] < 0xA0) return 2;
-    if (c[0] == 0xE2 && c[1] == 0x80 && (c[2] == 0x8E || c[2] == 0x8F || (c[2] >= 0xA8 && c[2] <= 0xAE))) return 3;
-    return c[0] == 0xE2 && c[1] == 0x81 && c[2] >= 0xA6 && c[2] <= 0xA9 ? 3 : 0;
+    if (left >= 2 && c[0] == 0xC2 && c[1] >= 0x80 && c[1] < 0xA0) return 2;
+    if (left < 3 || c[0] != 0xE2) return 0;
+    if (c[1] == 0x80 && (c[2] == 0x8E || c[2] == 0x8F || (c[2] >= 0xA8 && c[2] <= 0xAE))) return 3;
+    return c[1] == 0x81 && c[2] >= 0xA6 && c[2] <= 0xA9 ? 3 : 0;
 }
 
-void text_harmless(char *text)
+void bytes_harmless(char *text, size_t length)
 {
-    for (unsigned char *c = (unsigned char *)text; *c; c++)
-        for (int n = harmful_bytes(c); n > 0; n--) c[n - 1] = '?';
+    unsigned char *c = (unsigned char *)text;
+    for (size_t k = 0; k < length; k++)
+        for (int n = harmful_bytes(c + k, length - k); n > 0; n--) c[k + (size_t)n - 1] = '?';
 }
+
+void text_harmless(char *text) { bytes_harmless(text, strlen(text)); }
 
 struct shown_name shown_name(const char *name)
 {

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/base.h"
 #include "base/memory.h"
 
 enum { WARNING_LONGEST = 1024 };
@@ -15,6 +16,7 @@ bool warnings_add(struct warnings *w, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    text_harmless(text);
     for (int k = 0; k < w->n; k++)
         if (strcmp(w->text[k], text) == 0) return false;
     w->text = memory_resize("warnings", w->text, w->n, w->n + 1, sizeof *w->text);

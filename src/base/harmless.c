@@ -1,0 +1,81 @@
+/* Standard output and error as streams of the C library whose writer replaces what a terminal would act on. Where the
+ * library has no such streams (neither glibc nor that of BSD) messages are harmless as far as status_set makes them. */
+#include "base/harmless.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/base.h"
+
+enum { CHUNK = 4096 };
+
+static const char erase_line[] = "\033[K";
+
+/* Makes bytes harmless but for what the program itself sends to a terminal. */
+static void chunk_harmless(char *to, const char *from, size_t length, bool first)
+{
+    memcpy(to, from, length);
+    bytes_harmless(to, length);
+    for (size_t k = 0; k < length; k++)
+        if (from[k] == '\n' || from[k] == '\t' || (from[k] == '\r' && first && k == 0)) to[k] = from[k];
+        else if (length - k >= sizeof erase_line - 1 && !memcmp(from + k, erase_line, sizeof erase_line - 1))
+            memcpy(to + k, erase_line, sizeof erase_line - 1);
+}
+
+/* Writes all bytes to a descriptor; returns how many were written. */
+static size_t harmless_write(int fd, const char *bytes, size_t length)
+{
+    char text[CHUNK];
+    size_t done = 0;
+    while (done < length) {
+        const size_t n = length - done < CHUNK ? length - done : CHUNK;
+        chunk_harmless(text, bytes + done, n, done == 0 && fd == STDERR_FILENO);
+        for (size_t sent = 0; sent < n;) {
+            const ssize_t more = write(fd, text + sent, n - sent);
+            if (more < 0 && errno == EINTR) continue;
+            if (more <= 0) return done + sent;
+            sent += (size_t)more;
+        }
+        done += n;
+    }
+    return done;
+}
+
+static const int output_fd = STDOUT_FILENO, error_fd = STDERR_FILENO;
+
+#if defined __GLIBC__
+static ssize_t stream_write(void *fd, const char *bytes, size_t length)
+{
+    return (ssize_t)harmless_write(*(const int *)fd, bytes, length);
+}
+
+static FILE *stream_open(const int *fd)
+{
+    return fopencookie((void *)(uintptr_t)fd, "w", (cookie_io_functions_t){.write = stream_write});
+}
+#elif defined __APPLE__
+static int stream_write(void *fd, const char *bytes, int length)
+{
+    const size_t done = harmless_write(*(const int *)fd, bytes, (size_t)length);
+    return done > 0 || length == 0 ? (int)done : -1;
+}
+
+static FILE *stream_open(const int *fd) { return fwopen((const void *)fd, stream_write); }
+#else
+static FILE *stream_open(const int *fd) { return (void)fd, NULL; }
+#endif
+
+void harmless_output_start(void)
+{
+    FILE *output = stream_open(&output_fd), *error = stream_open(&error_fd);
+    if (output) {
+        setvbuf(output, NULL, isatty(STDOUT_FILENO) ? _IOLBF : _IOFBF, BUFSIZ);
+        stdout = output;
+    }
+    if (error) {
+        setvbuf(error, NULL, _IONBF, 0);
+        stderr = error;
+    }
+}
