@@ -115,6 +115,8 @@ status study_table_read(struct study_table *t, const struct study *s);
 void study_table_free(struct study_table *t);
 /* Index of a figure; -1: there is none. */
 int study_figure(const struct study_table *t, const char *name);
+/* REFUSED with the nearest name if no run of this scene can have a figure of this name (figure_names.c). */
+status figure_name_check(const struct scene *s, const char *name);
 /* Is a figure about the computer or about how the body was divided, not about the body? */
 bool study_figure_is_technical(const char *name);
 

@@ -35,7 +35,7 @@ static status carries_method(const struct scene *s)
                                 "adaptive is expected");
     if (s->dim == 1)
         return lammps_refuse(s, "space: line is not in LAMMPS, whose particles lie in a plane or in space");
-    if (scene_at_rest(s))
+    if (!scene_moves(s))
         return lammps_refuse(s, "solver: LAMMPS' peridynamics has steps in time only; explicit is expected");
     if (s->model == MODEL_MOSPD)
         return lammps_refuse(s, "model: mospd is not in LAMMPS, which has bond (peri/pmb) and ospd (peri/lps)");

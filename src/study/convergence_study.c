@@ -299,7 +299,9 @@ status convergence_study_run(struct convergence_study *s, const struct convergen
                                     .study.lock.fd = -1};
     TRY(scene_read(&s->scene, w->scene, w->override, w->overrides));
     const char *refusal = study_refusal(&s->scene, w);
-    const status done = refusal ? status_set(REFUSED, "%s: %s", w->scene, refusal) : study_go(s, w);
+    status done = refusal ? status_set(REFUSED, "%s: %s", w->scene, refusal) : OK;
+    for (int k = 0; k < w->wanteds && done == OK; k++) done = figure_name_check(&s->scene, w->wanted[k]);
+    if (done == OK) done = study_go(s, w);
     if (done != OK) convergence_study_free(s);
     return done;
 }

@@ -256,6 +256,7 @@ static status pilot_choose(struct pilot *to, struct pilot_search *p, const char 
     snprintf(p->folder, sizeof p->folder, "%s", pilot_folder(folder ? folder : run).text);
     if (strlen(p->folder) + CASE_NAME_ROOM + 2 * PATH_NAME_ROOM >= PATH_ROOM)
         return status_set(REFUSED, "-o: the folder's name is too long");
+    if (p->wish.figure[0]) TRY(figure_name_check(&p->wish.first, p->wish.figure));
     return pilot_kept(to, p) ? OK : pilot_search_all(to, p);
 }
 

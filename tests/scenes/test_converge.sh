@@ -150,7 +150,21 @@ refused "cleave sweep varies keys" bar.yaml -s method=pd,mpm -o none
 refused "unknown option" bar.yaml --list -o none
 refused "unknown key" bar.yaml -s nonsense=1 -o none
 holds "nothing is left behind" test ! -e none
-refused "summary.json has no such figure" bar.yaml --of nonsense -o bar
+# A wrong figure is refused before anything runs; the nearest is named.
+refused "summary.json has no such figure" bar.yaml --of nonsense -o none
+refused "the nearest is crack.angle_deg" bar.yaml --of crack.angel_deg -o none
+refused "no such figure" bar.yaml --of probes.tip.x -o none
+holds "nothing has run" test ! -e none
+# The names that are known are those that summaries are written with.
+grep -ho 'json_\(real\|count\|number\)(j, "[a-z_]*"' "$root/src/engine/summary.c" | sed 's/.*"\(.*\)"/\1/' >written
+grep -ho 'probes_figures_put(e, "[a-z_]*"' "$root/src/probes/probes_figures.c" | sed 's/.*"\(.*\)"/\1/' >>written
+cat "$root"/src/probes/*.c | tr '\n' ' ' | grep -o 'struct column \(sif\|rigid\)_figure\[[^;]*;' | grep -o '{"[A-Za-z_0-9]*"' | tr -d '{"' >>written
+grep -o '\] = {"[A-Za-z_0-9]*"' "$root/src/probes/probes_bar.c" | sed 's/.*"\(.*\)"/\1/' >>written
+sed '/^static void put_choice/,/^}/d' "$root/src/engine/summary.c" >without_choice
+for name in $(sort -u written); do
+    grep -q "\"$name\"" without_choice "$root"/src/probes/*.c || continue     # of `auto`, which converge refuses
+    grep -q "[\" ]$name[\" ]" "$root/src/study/figure_names.c" || fail "figure_names.c has no $name"
+done
 awk 'BEGIN { print "x,volume"; for (i = 0; i < 20; i++) printf "%.4f,1e-3\n", 0.0005 + i * 0.001 }' >points.csv
 sed 's/^body:.*/bodies: [{name: bar, particles: points.csv}]/; s/0.2 mm/1 mm/' bar.yaml >list.yaml
 refused "nothing can be refined" list.yaml -o none

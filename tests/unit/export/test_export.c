@@ -33,7 +33,7 @@ static const char scene_crack[] = "cracks: [{from: [-2.1 mm, -1.3 mm], to: [2.7 
 
 static status export_text(const char *a, const char *b, const char *c, bool bond_style, bool allow)
 {
-    const struct export_request r = {"scene.yaml", "out", NULL, 0, bond_style, allow};
+    const struct export_request r = {"scene.yaml", "out", NULL, 0, bond_style, allow, false};
     FILE *to = fopen("scene.yaml", "w");
     assert_non_null(to);
     fprintf(to, "%s%s%s", a, b, c);
@@ -180,6 +180,7 @@ static void what_lammps_cannot(void **state)
             "formulas and rotation are not");
     refused(scene_equal, "boundary: [{pressure: 1 MPa}]\n", false, "this kind of load is not exported");
     refused(scene_equal, "solver: relaxation\n", false, "solver: ");
+    refused(scene_equal, "solver: static\n", false, "solver: ");
     refused("", "model: mospd\n", false, "model: mospd is not in LAMMPS");
     refused("pd: {volume: cut-ramp, surface: none, weights: uniform, last_force: whole, influence: inverse, "
             "normalisation: local}\n"
