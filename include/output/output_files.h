@@ -23,7 +23,14 @@ bool path_is_folder(const char *path);
 /* FAILED with `cannot write PATH: cause; remedy`; `cause` is an errno, 0 if it is not known. */
 status file_fault(const char *path, int cause);
 
-/* Writes `length` bytes as the whole file `path`: aside, sync, rename, sync of the folder. */
+/* REFUSED if a file of this name must be neither replaced nor removed: it is an input of this command, or a pipe,
+ * socket or device. OK if there is no such file. */
+status file_guard(const char *path);
+/* Returns true if the file has exactly these bytes. */
+bool file_holds(const char *path, const void *bytes, size_t length);
+
+/* Writes `length` bytes as the whole file `path`: aside, sync, rename, sync of the folder. An input of this command is
+ * left as it is: OK if it has these bytes, else REFUSED. */
 status file_put(const char *path, const void *bytes, size_t length);
 /* The same for one of many: the folder is synced once, by file_settle for any of them. */
 status file_put_unsettled(const char *path, const void *bytes, size_t length);

@@ -16,6 +16,7 @@ struct gnuplot {
     FILE *to;                            /* its standard input */
     FILE *complaints;                    /* its standard error */
     int process;
+    enum picture_format format;
     char *aside, *path;                  /* name while it is drawn, name when it is whole */
 };
 
@@ -28,8 +29,13 @@ extern const char *const curve_colour[CURVE_COLOURS];
  * cannot be started. */
 status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
-/* Waits for the picture. FAILED with gnuplot's own complaint if there is none. */
+/* Waits for the picture, syncs it and gives it its name. FAILED with gnuplot's own complaint if there is none, or if it
+ * is cut short; an older picture stays then. */
 status gnuplot_close(struct gnuplot *g);
+
+/* Reads the last line that is not blank of what a program has printed to `from`; if there is none, `it gave no reason`.
+ */
+void complaint_read(FILE *from, char *text, size_t size);
 
 /* Writes `text` as a gnuplot string of its own: nothing in it is interpreted. */
 void gnuplot_quote(FILE *to, const char *text);

@@ -43,6 +43,7 @@ struct plot_request {
     struct look look;
     enum picture_format format;
     const char *out;                     /* file or folder; NULL: DIR/pictures */
+    bool overwrite;                      /* `out` may be a file that Cleave has not drawn */
 };
 
 /* All pictures of a run, or one of a field; what was made is printed. */
@@ -72,9 +73,10 @@ void frames_free(struct frame *f, int n);
 
 /* DIR/pictures. REFUSED where it is a link. */
 status pictures_folder_make(const char *path);
-/* The file that -o names, or one of this name in the folder that it names; folders that are missing are made. */
-status picture_destination(struct path *path, const char *out, const char *name);
-/* Says why a picture is not drawn, and removes what an earlier time has left. */
+/* Finds the file that -o names, or one of this name in the folder that it names, and makes missing folders. REFUSED if
+ * the file is there already and is no picture of Cleave, unless `overwrite` is set. */
+status picture_destination(struct path *path, const char *out, const char *name, bool overwrite);
+/* Prints why a picture is not drawn, and removes the picture of Cleave that an earlier command has left there. */
 status nothing_to_draw(const char *path, const char *why);
 
 enum { TITLE_LENGTH = 256 };

@@ -156,7 +156,9 @@ static status plot_words_read(struct plot_words *w, int argc, char **argv)
 {
     w->request = (struct plot_request){.look = {.normal = -1, .camera = camera_isometric}};
     for (int k = 1; k < argc; k++) {
-        if (argv[k][0] == '-') {
+        if (strcmp(argv[k], "--overwrite") == 0) {
+            w->request.overwrite = true;
+        } else if (argv[k][0] == '-') {
             TRY(read_option(w, argv[k], k + 1 < argc ? argv[k + 1] : NULL));
             k++;
         } else if (w->request.folder) {

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/input.h"
 #include "base/memory.h"
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
@@ -83,6 +84,28 @@ void file_discard(const char *path)
     unlink(aside.text);
 }
 
+/* ---- what is not replaced ---------------------------------------------------------------------------------------- */
+
+status file_guard(const char *path)
+{
+    struct stat s;
+    if (lstat(path, &s) != 0) return OK;
+    if (!S_ISREG(s.st_mode) && !S_ISLNK(s.st_mode) && !S_ISDIR(s.st_mode))
+        return status_set(REFUSED, "%s is no regular file and is not replaced; choose another -o", path);
+    if (!input_was_read(path)) return OK;
+    return status_set(REFUSED, "%s is read by this command and never written over; choose another -o", path);
+}
+
+bool file_holds(const char *path, const void *bytes, size_t length)
+{
+    char *text;
+    size_t there;
+    if (!path_is_file(path) || file_get(path, &text, &there) != OK) return false;
+    const bool same = there == length && memcmp(text, bytes, length) == 0;
+    memory_free(text);
+    return same;
+}
+
 /* ---- whole files ------------------------------------------------------------------------------------------------- */
 
 /* Writes all bytes; returns 0 or an errno. */
@@ -142,6 +165,9 @@ status file_seal(const char *path, const void *tail, size_t length)
 
 static status file_rename(const char *path)
 {
+    const status free = file_guard(path);
+    if (free != OK) file_discard(path);
+    TRY(free);
     return outcome(path, rename(path_aside(path).text, path) != 0 ? errno : 0);
 }
 
@@ -159,6 +185,7 @@ status file_publish(const char *path)
 
 status file_put_unsettled(const char *path, const void *bytes, size_t length)
 {
+    if (input_was_read(path) && file_holds(path, bytes, length)) return OK;
     TRY(outcome(path, write_synced(path_aside(path).text, O_CREAT | O_EXCL, bytes, length)));
     return file_rename(path);
 }

@@ -1,87 +1,140 @@
-/* Films by ffmpeg, which is started without a shell. */
+/* Films by ffmpeg, which is started without a shell and reads its pictures from a pipe, one after the other: no folder
+ * of pictures is left behind, and no name of a file is taken for a pattern or an address. */
 #include "plot/film.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/leavings.h"
+#include "base/memory.h"
 #include "output/output_files.h"
+#include "plot/picture_file.h"
 
 enum { NOT_FOUND = 127, FILM_WORDS = 24 };
 static const char *const FRAMES_PER_SECOND = "8";
 
-/* Child process: nothing on its streams but its complaints. */
-static _Noreturn void become_ffmpeg(char *const *word)
+/* An ffmpeg that reads pictures. */
+struct ffmpeg {
+    int to, process;  /* its standard input; -1: closed */
+    FILE *complaints; /* its standard error */
+};
+
+/* Child process: standard input is `from` (-1: nothing), output and errors go to the file `complaints` (-1: nowhere).
+ */
+static _Noreturn void become_ffmpeg(char *const *word, int from, int complaints)
 {
     const int nothing = open("/dev/null", O_RDWR);
-    dup2(nothing, STDIN_FILENO);
-    dup2(nothing, STDOUT_FILENO);
-    dup2(nothing, STDERR_FILENO);
+    signal(SIGPIPE, SIG_DFL);
+    dup2(from < 0 ? nothing : from, STDIN_FILENO);
+    dup2(complaints < 0 ? nothing : complaints, STDOUT_FILENO);
+    dup2(complaints < 0 ? nothing : complaints, STDERR_FILENO);
     execvp("ffmpeg", word);
     _exit(NOT_FOUND);
-}
-
-/* Exit status of ffmpeg with these words; -1: it cannot be started, or a signal has ended it. */
-static int ffmpeg_ends(char *const *word)
-{
-    int ended = 0;
-    const pid_t process = fork();
-    if (process == 0) become_ffmpeg(word);
-    if (process < 0 || waitpid(process, &ended, 0) < 0) return -1;
-    return WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
 }
 
 status film_possible(void)
 {
     char *word[] = {"ffmpeg", "-version", NULL};
-    return ffmpeg_ends(word) == 0 ? OK
-                                  : status_set(REFUSED, "plot: films are made by ffmpeg, which is missing: install the "
-                                                        "package ffmpeg, or take --format png");
+    int ended = 0;
+    const pid_t process = fork();
+    if (process == 0) become_ffmpeg(word, -1, -1);
+    const bool there = process > 0 && waitpid(process, &ended, 0) == process && WIFEXITED(ended) && !WEXITSTATUS(ended);
+    return there ? OK
+                 : status_set(REFUSED, "plot: films are made by ffmpeg, which is missing: install the package ffmpeg, "
+                                       "or take --format png");
 }
 
-/* Joins the pictures: of a film that plays everywhere (H.264, even sizes), or of a GIF by a palette of its own. */
-static status join_pictures(struct sheet sheet, const char *pattern)
+/* A pipe whose ends no program that is started later keeps open; false: none, with errno. */
+static bool pipe_make(int *ends)
 {
+    if (pipe(ends) != 0) return false;
+    for (int k = 0; k < 2; k++) fcntl(ends[k], F_SETFD, FD_CLOEXEC);
+    return true;
+}
+
+/* Starts ffmpeg on the film PATH.tmp: one that plays everywhere (H.264, even sizes), or a GIF by a palette of its own.
+ */
+static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet)
+{
+    struct path to;
     const struct path aside = path_aside(sheet.path);
-    char *mp4[] = {"ffmpeg", "-y", "-framerate", (char *)FRAMES_PER_SECOND, "-i", (char *)pattern, "-vf",
-                   "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-c:v", "libx264", "-pix_fmt", "yuv420p", "-bitexact",
-                   "-f", "mp4", (char *)aside.text, NULL};
-    char *gif[] = {"ffmpeg", "-y", "-framerate", (char *)FRAMES_PER_SECOND, "-i", (char *)pattern, "-vf",
-                   "split[a][b];[a]palettegen[p];[b][p]paletteuse", "-bitexact", "-f", "gif", (char *)aside.text, NULL};
-    const int ended = ffmpeg_ends(sheet.format == PICTURE_GIF ? gif : mp4);
-    if (ended == 0 && rename(aside.text, sheet.path) == 0) return OK;
-    remove(aside.text);
-    return ended == 0 ? status_set(FAILED, "%s: %s", sheet.path, strerror(errno))
-                      : status_set(FAILED, "%s: ffmpeg made no film of the pictures (status %d)", sheet.path, ended);
+    const bool gif = sheet.format == PICTURE_GIF;
+    int ends[2];
+    snprintf(to.text, sizeof to.text, "file:%.*s", (int)sizeof to.text - 6, aside.text);
+    char *filter = gif ? "split[a][b];[a]palettegen[p];[b][p]paletteuse" : "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
+    char *word[FILM_WORDS] = {"ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-f", "image2pipe", "-framerate",
+                              (char *)FRAMES_PER_SECOND, "-c:v", "png", "-i", "pipe:0", "-vf", filter, "-bitexact",
+                              "-f", gif ? "gif" : "mp4", to.text, NULL};
+    char *h264[] = {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-f", "mp4", to.text, NULL};
+    if (!gif) memcpy(word + 16, h264, sizeof h264);
+    *f = (struct ffmpeg){.to = -1, .complaints = tmpfile()};
+    if (!pipe_make(ends)) return status_set(FAILED, "%s: no pipe to ffmpeg: %s", sheet.path, strerror(errno));
+    f->process = (int)fork();
+    if (f->process == 0) become_ffmpeg(word, ends[0], f->complaints ? fileno(f->complaints) : -1);
+    const int cause = errno;
+    close(ends[0]);
+    f->to = ends[1];
+    if (f->process < 0) return status_set(FAILED, "%s: ffmpeg cannot be started: %s", sheet.path, strerror(cause));
+    leaving_set(LEAVING_FILM, aside.text, f->process);
+    return OK;
 }
 
-static void picture_of_film(char *path, size_t room, const char *folder, int k)
+/* Writes a file into the pipe. FAILED without a message if ffmpeg reads no more: it says why. */
+static status ffmpeg_feed(struct ffmpeg *f, const char *picture)
 {
-    snprintf(path, room, "%s/%06d.png", folder, k);
+    char *bytes;
+    size_t length, sent = 0;
+    TRY(file_get(picture, &bytes, &length));
+    while (sent < length) {
+        const ssize_t done = write(f->to, bytes + sent, length - sent);
+        if (done < 0 && errno == EINTR) continue;
+        if (done <= 0) break;
+        sent += (size_t)done;
+    }
+    memory_free(bytes);
+    return sent == length ? OK : status_set(FAILED, "%s", "");
+}
+
+/* Ends the input of ffmpeg and waits for the film. `fed`: of the pictures. FAILED with ffmpeg's own words. */
+static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
+{
+    char reason[256];
+    int ended = 0;
+    if (f->to >= 0) close(f->to);
+    if (f->process > 0) waitpid((pid_t)f->process, &ended, 0);
+    const bool made = f->process > 0 && WIFEXITED(ended) && WEXITSTATUS(ended) == 0;
+    if (fed == OK && made) fed = picture_publish(sheet.path, sheet.format);
+    else if (f->process > 0 && f->complaints && (fed == OK || !status_message()[0])) {
+        complaint_read(f->complaints, reason, sizeof reason);
+        fed = status_set(FAILED, "%s: ffmpeg made no film: %s", sheet.path, reason);
+    }
+    if (fed != OK) file_discard(sheet.path);
+    leaving_set(LEAVING_FILM, NULL, 0);
+    if (f->complaints) fclose(f->complaints);
+    return fed;
 }
 
 status film_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
                  const struct cloud *cloud, int clouds)
 {
-    char folder[PATH_ROOM], picture[PATH_ROOM + 32], pattern[PATH_ROOM + 32];
-    if (snprintf(folder, sizeof folder, "%s.frames.XXXXXX", sheet.path) >= (int)sizeof folder)
+    struct ffmpeg f;
+    struct path picture;
+    if (snprintf(picture.text, sizeof picture.text, "%s.tmp.png", sheet.path) >= (int)sizeof picture.text - 8)
         return status_set(FAILED, "%s: the name is too long", sheet.path);
-    if (!mkdtemp(folder)) return status_set(FAILED, "%s: %s", folder, strerror(errno));
-    snprintf(pattern, sizeof pattern, "%s/%%06d.png", folder);
-    status s = strchr(folder, '%') ? status_set(REFUSED, "%s: ffmpeg takes no name with %%", sheet.path) : OK;
+    TRY(file_guard(sheet.path));
+    unlink(path_aside(sheet.path).text); /* links of this name are not followed */
+    status s = ffmpeg_start(&f, sheet);
     for (int k = 0; s == OK && k < clouds; k++) {
-        picture_of_film(picture, sizeof picture, folder, k);
-        s = maps_draw((struct sheet){picture, PICTURE_PNG}, title, map, view, &cloud[k], 1);
+        leaving_set(LEAVING_FRAME, picture.text, 0);
+        s = maps_draw((struct sheet){picture.text, PICTURE_PNG}, title, map, view, &cloud[k], 1);
+        if (s == OK) s = ffmpeg_feed(&f, picture.text);
+        unlink(picture.text);
+        leaving_set(LEAVING_FRAME, NULL, 0);
     }
-    if (s == OK) s = join_pictures(sheet, pattern);
-    for (int k = 0; k < clouds; k++) {
-        picture_of_film(picture, sizeof picture, folder, k);
-        remove(picture);
-    }
-    rmdir(folder);
-    return s;
+    return ffmpeg_end(&f, sheet, s);
 }

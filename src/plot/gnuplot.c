@@ -10,6 +10,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/leavings.h"
+#include "output/output_files.h"
+#include "plot/picture_file.h"
+
 /* Exit status of a child whose program does not exist, as in shells. */
 enum { NOT_FOUND = 127 };
 
@@ -132,18 +136,20 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
         gnuplot_release(g);
         return status_set(FAILED, "%s: out of memory", path);
     }
-    status s = gnuplot_start(g);
+    g->format = format;
+    status s = file_guard(path);
+    if (s == OK) s = gnuplot_start(g);
     if (s != OK) {
         gnuplot_release(g);
         return s;
     }
+    leaving_set(LEAVING_PICTURE, g->aside, g->process);
     set_terminal(g, format, width, height);
     set_style(g->to);
     return OK;
 }
 
-/* Message of gnuplot: the last line that is not blank. */
-static void complaint(FILE *from, char *text, size_t size)
+void complaint_read(FILE *from, char *text, size_t size)
 {
     char line[256];
     snprintf(text, size, "it gave no reason");
@@ -168,12 +174,13 @@ status gnuplot_close(struct gnuplot *g)
                                "(Fedora, macOS)");
     } else if (!sent || !WIFEXITED(ended) || WEXITSTATUS(ended) != 0) {
         char reason[256];
-        complaint(g->complaints, reason, sizeof reason);
+        complaint_read(g->complaints, reason, sizeof reason);
         s = status_set(FAILED, "%s: gnuplot drew nothing: %s", g->path, reason);
-    } else if (rename(g->aside, g->path) != 0) {
-        s = status_set(FAILED, "%s: %s", g->path, strerror(errno));
+    } else {
+        s = picture_publish(g->path, g->format);
     }
     if (s != OK) remove(g->aside);
+    leaving_set(LEAVING_PICTURE, NULL, 0);
     gnuplot_release(g);
     return s;
 }

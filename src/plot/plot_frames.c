@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "output/output_files.h"
 #include "output/summary_read.h"
+#include "plot/picture_file.h"
 #include "plot/plot.h"
 
 enum { PATH_LENGTH = 4096 };
@@ -136,7 +137,7 @@ status pictures_folder_make(const char *path)
     return OK;
 }
 
-status picture_destination(struct path *path, const char *out, const char *name)
+status picture_destination(struct path *path, const char *out, const char *name, bool overwrite)
 {
     const char *end = strrchr(out, '/');
     struct path above = {{0}};
@@ -147,7 +148,13 @@ status picture_destination(struct path *path, const char *out, const char *name)
     if (end > out && !end[1]) *path = path_join(above.text, name);
     else if (path_is_folder(out)) *path = path_join(out, name);
     else snprintf(path->text, sizeof path->text, "%s", out);
-    return path->text[0] ? OK : status_set(REFUSED, "%s: the name is too long", shown_name(out).text);
+    if (!path->text[0]) return status_set(REFUSED, "%s: the name is too long", shown_name(out).text);
+    TRY(file_guard(path->text));
+    if (overwrite || !path_exists(path->text) || picture_is_ours(path->text)) return OK;
+    return status_set(REFUSED,
+                      "plot: %s is there already and was not drawn by cleave; choose another -o, or replace it with "
+                      "--overwrite",
+                      path->text);
 }
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
@@ -155,7 +162,7 @@ status picture_destination(struct path *path, const char *out, const char *name)
 status nothing_to_draw(const char *path, const char *why)
 {
     const char *slash = strrchr(path, '/');
-    remove(path);                                    /* of an earlier time */
+    if (picture_is_ours(path)) remove(path);
     return printf("%s is not drawn: %s\n", slash ? slash + 1 : path, why) < 0
                ? status_set(FAILED, "cannot write to standard output")
                : OK;

@@ -274,11 +274,11 @@ static status draw_scene(struct sheet sheet, struct engine *e, struct cloud *c)
 
 /* ---- command ----------------------------------------------------------------------------------------------------- */
 
-static status scene_sheet(struct path *path, const struct scene *s, const char *out, enum picture_format format)
+static status scene_sheet(struct path *path, const struct scene *s, const struct plot_request *r)
 {
     char name[sizeof s->name + 16];
-    snprintf(name, sizeof name, "%s_scene.%s", s->name, picture_ending[format]);
-    return picture_destination(path, out ? out : "results/", name);
+    snprintf(name, sizeof name, "%s_scene.%s", s->name, picture_ending[r->format]);
+    return picture_destination(path, r->out ? r->out : "results/", name, r->overwrite);
 }
 
 static status draw_made(struct engine *e, const struct scene *s, const struct plot_request *r)
@@ -289,7 +289,7 @@ static status draw_made(struct engine *e, const struct scene *s, const struct pl
         return status_set(REFUSED, "plot: --view is for scenes in space; this one has %d dimension%s", s->dim,
                           s->dim > 1 ? "s" : "");
     TRY(engine_make(e, s, NULL));
-    TRY(scene_sheet(&path, s, r->out, r->format));
+    TRY(scene_sheet(&path, s, r));
     scene_cloud(&c, e, &r->look.camera);
     const int64_t drawn = c.n;
     const status drew = draw_scene((struct sheet){path.text, r->format}, e, &c);

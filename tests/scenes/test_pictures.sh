@@ -150,4 +150,64 @@ holds "what is the same everywhere is not drawn" grep -q "speed is 0 m/s everywh
 refused "no particle is there; they lie from 0.5 to 5.5 mm" results/block --slice z=9mm
 refused "one of them" results/block --slice z=3mm --view iso
 
+
+# ---- files of others, a disk that is full, films that are stopped ----------------------------------------------------
+
+echo mine >photo.png
+refused "photo.png is there already and was not drawn by cleave" results/strip --field speed -o photo.png
+refused "photo.png is there already" --scene strip.yaml -o photo.png
+is "a picture of others" "$(cat photo.png)" mine
+"$cleave" plot results/strip --field body -o photo.png --overwrite >out 2>err
+is "nothing is drawn, and nothing removed" "$(cat photo.png)" mine
+for format in png svg pdf; do
+    echo mine >"photo.$format"
+    "$cleave" plot results/strip --field speed -o "photo.$format" --overwrite >out 2>err
+    "$cleave" plot results/strip --field speed -o "photo.$format" >out 2>err
+    is "$format: a picture of cleave is replaced: $(cat err)" $? 0
+done
+"$cleave" plot --scene strip.yaml -o photo.svg >out 2>err
+is "by any picture of cleave" $? 0
+mkfifo pipe.png
+refused "no regular file" results/strip --field speed -o pipe.png
+"$cleave" plot results/strip --field speed -o full.png >out 2>err
+cp full.png before.png
+# a limit of a file's length acts as a full disk: gnuplot's picture is cut short
+(ulimit -f $(($(wc -c <full.png) / 1024)) && exec "$cleave" plot results/strip --field speed -o full.png) >out 2>err
+is "a picture that is cut short: exit status" $? 1
+is "a picture that is cut short: lines" "$(wc -l <err)" 1
+holds "a picture that is cut short: $(cat err)" grep -q "full.png" err
+holds "the whole one stays" cmp full.png before.png
+is "nothing half drawn" "$(echo full*)" full.png
+
+# ffmpeg as far as it matters here: it reads pictures, writes a film of one box, and can fail or wait.
+cat >bin/ffmpeg <<'END'
+#!/bin/sh
+[ "$1" = -version ] && exit 0
+for last; do :; done
+case $last in file:*) film=${last#file:} ;; *) echo "$last: no protocol" >&2; exit 1 ;; esac
+case $film in *wait*) echo >"$film"; touch waits; exec sleep 20 ;; *fail*) cat >/dev/null; echo "broken: of the test" >&2; exit 1 ;; esac
+cat >pictures
+printf '\000\000\000\010free' >"$film"
+END
+chmod +x bin/ffmpeg
+mkdir 'a:%d'
+"$cleave" plot results/strip --field speed -o 'a:%d/film.mp4' >out 2>err
+is "a film in a folder with a colon: $(cat err)" $? 0
+is "the film" "$(echo a:*/*)" "a:%d/film.mp4"
+is "it had all pictures" "$(grep -a -c IEND pictures)" 5
+"$cleave" plot results/strip --field speed -o fail.mp4 >out 2>err
+is "a film that fails: exit status" $? 1
+holds "and says why: $(cat err)" grep -q "^fail.mp4: ffmpeg made no film: broken: of the test$" err
+for signal in INT TERM HUP; do
+    rm -f waits
+    env --default-signal=INT "$cleave" plot results/strip --field speed -o wait.mp4 >out 2>err &
+    film=$!
+    tries=0
+    while [ ! -e waits ] && [ $tries -lt 200 ]; do sleep 0.02; tries=$((tries + 1)); done
+    kill -$signal $film
+    wait $film
+    holds "a film that is stopped by $signal: exit status" test $? -gt 128
+    is "$signal: what it leaves" "$(echo fail* wait.*)" "fail* wait.*"
+done
+
 finish

@@ -1,0 +1,50 @@
+/* What a process that a signal ends takes with it. */
+#include "base/leavings.h"
+
+#include <signal.h>
+#include <stdbool.h>
+#include <string.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { PATH_LONGEST = 4200 };
+
+/* Read by a signal handler: the path is empty while it is written. */
+static struct {
+    volatile sig_atomic_t process;
+    char path[PATH_LONGEST];
+} leavings[LEAVINGS];
+
+/* Only calls that a signal handler may make. The child is waited for, since it could make its file once more. */
+static void on_end(int number)
+{
+    for (int k = 0; k < LEAVINGS; k++) {
+        if (leavings[k].process > 0 && kill((pid_t)leavings[k].process, SIGKILL) == 0)
+            waitpid((pid_t)leavings[k].process, NULL, 0);
+        if (leavings[k].path[0]) unlink(leavings[k].path);
+    }
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+/* Sets the handler where a signal would end the process. */
+static void leavings_watch(void)
+{
+    static const int ends[] = {SIGINT, SIGTERM, SIGHUP};
+    static bool watched;
+    for (size_t k = 0; k < sizeof ends / sizeof *ends && !watched; k++) {
+        struct sigaction action;
+        if (sigaction(ends[k], NULL, &action) == 0 && action.sa_handler == SIG_DFL) signal(ends[k], on_end);
+    }
+    watched = true;
+}
+
+void leaving_set(enum leaving which, const char *path, int process)
+{
+    leavings_watch();
+    leavings[which].process = 0;
+    leavings[which].path[0] = '\0';
+    if (path && strlen(path) < PATH_LONGEST) strcpy(leavings[which].path, path);
+    leavings[which].process = process;
+}

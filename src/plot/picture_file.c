@@ -1,0 +1,109 @@
+/* The end of a picture's file says whether it is whole; the mark of Cleave stands there, where viewers ignore it. */
+#include "plot/picture_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "output/output_files.h"
+
+enum { END_LENGTH = 64, END_SLACK = 3 }; /* searched for the mark; most line feeds behind an end [byte] */
+
+#define BYTES(text) text, sizeof text - 1
+
+/* How a format ends and what marks it: a chunk, comment, box or extension that the format has for such things. */
+static const struct picture_end {
+    const char *end; /* of a whole file; "": boxes up to its length */
+    size_t end_length;
+    const char *mark;
+    size_t mark_length;
+    bool before; /* the mark stands before the end, else behind it */
+} ends[PICTURE_FORMATS] = {
+    [PICTURE_PNG] = {BYTES("\0\0\0\0IEND\xAE\x42\x60\x82"), BYTES("\0\0\0\x0FtEXtSoftware\0cleave\x02\xEE\x55\xA2"),
+                     true},
+    [PICTURE_SVG] = {BYTES("</svg>"), BYTES("<!-- drawn by cleave -->\n"), false},
+    [PICTURE_PDF] = {BYTES("%%EOF"), BYTES("% drawn by cleave\n"), false},
+    [PICTURE_MP4] = {BYTES(""), BYTES("\0\0\0\x17" "freedrawn by cleave"), false},
+    [PICTURE_GIF] = {BYTES(";"), BYTES("!\xFE\x0F" "drawn by cleave\0"), true},
+};
+
+/* Reads the last bytes of an open file; returns their number. */
+static size_t read_end(int fd, int64_t length, char *to, size_t room)
+{
+    const size_t wanted = length < (int64_t)room ? (size_t)length : room;
+    const ssize_t have = pread(fd, to, wanted, (off_t)(length - (int64_t)wanted));
+    return have < 0 ? 0 : (size_t)have;
+}
+
+/* True if the lengths that the boxes of a film state add up to that of the file. */
+static bool boxes_are_whole(int fd, int64_t length)
+{
+    int64_t at = 0;
+    while (at < length) {
+        unsigned char head[16];
+        if (pread(fd, head, sizeof head, (off_t)at) < 8) return false;
+        int64_t size = 0;
+        for (int k = 0; k < 4; k++) size = size << 8 | head[k];
+        if (size == 1)
+            for (int k = 8; k < 16; k++) size = size << 8 | head[k];
+        if (size < 8 || size > length - at) return false;
+        at += size;
+    }
+    return length > 0;
+}
+
+/* Returns the place of the end in a whole file [byte]; -1: the file is cut short. */
+static int64_t find_end(int fd, int64_t length, const struct picture_end *e)
+{
+    char last[END_LENGTH];
+    if (e->end_length == 0) return boxes_are_whole(fd, length) ? length : -1;
+    const size_t have = read_end(fd, length, last, e->end_length + END_SLACK);
+    size_t own = have;
+    while (own > 0 && last[own - 1] == '\n') own--;
+    if (own < e->end_length || memcmp(last + own - e->end_length, e->end, e->end_length) != 0) return -1;
+    return length - (int64_t)(have - own + e->end_length);
+}
+
+/* Writes the mark and syncs the file. Returns 0, an errno, or -1 if the picture is cut short. */
+static int mark_and_sync(int fd, const struct picture_end *e)
+{
+    char bytes[2 * END_LENGTH];
+    struct stat s;
+    if (fstat(fd, &s) != 0) return errno;
+    const int64_t end = find_end(fd, s.st_size, e), at = e->before ? end : s.st_size;
+    if (end < 0) return -1;
+    size_t length = e->mark_length;
+    memcpy(bytes, e->mark, length);
+    if (e->before) memcpy(bytes + length, e->end, e->end_length), length += e->end_length;
+    const ssize_t done = pwrite(fd, bytes, length, (off_t)at);
+    if (done != (ssize_t)length) return done < 0 ? errno : ENOSPC;
+    return fsync(fd) != 0 ? errno : 0;
+}
+
+status picture_publish(const char *path, enum picture_format format)
+{
+    const int fd = open(path_aside(path).text, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+    int fault = fd < 0 ? errno : mark_and_sync(fd, &ends[format]);
+    if (fd >= 0 && close(fd) != 0 && !fault) fault = errno;
+    if (!fault) return file_publish(path);
+    file_discard(path);
+    if (fault > 0) return file_fault(path, fault);
+    return status_set(FAILED, "cannot write %s: the picture is cut short, as on a full disk; free space or choose "
+                      "another -o", path);
+}
+
+bool picture_is_ours(const char *path)
+{
+    char last[END_LENGTH];
+    struct stat s;
+    bool ours = false;
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0) return false;
+    const size_t have =
+        fstat(fd, &s) == 0 && S_ISREG(s.st_mode) ? read_end(fd, s.st_size, last, sizeof last) : 0;
+    close(fd);
+    for (int k = 0; k < PICTURE_FORMATS; k++) ours |= memmem(last, have, ends[k].mark, ends[k].mark_length) != NULL;
+    return ours;
+}
