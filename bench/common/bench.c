@@ -60,6 +60,7 @@ static status bench_mark(const char *word, bool *asked)
 static status bench_call(const struct bench *b, bool quick, bool readme)
 {
     struct bench_readme r;
+    TRY(bench_guard(b->name)); /* before it measures for minutes */
     if (!readme) return b->call(quick);
     TRY(bench_readme_begin(&r, b->name));
     return bench_readme_end(&r, b->name, quick, b->call(quick));

@@ -35,6 +35,8 @@ void bench_number(struct bench_table *t, double number);
 void bench_table_free(struct bench_table *t);
 
 status bench_folder_make(void); /* results/bench */
+/* REFUSED if results/bench has a file NAME.json, or without it a table or picture of this name, that no bench wrote. */
+status bench_guard(const char *name);
 /* Writes results/bench/NAME.csv (the table named ""), NAME_<table>.csv and, with all tables, NAME.json. */
 status bench_write(const char *name, const struct bench_table *table, int tables);
 /* Draws results/bench/NAME.png and .svg; `draw` sends gnuplot its commands. */

@@ -7,6 +7,7 @@
 
 #include "bench.h"
 #include "plot/gnuplot.h"
+#include "plot/picture_file.h"
 #include "base/memory.h"
 #include "output/output_files.h"
 #include "simd/simd.h"
@@ -114,6 +115,31 @@ status bench_folder_make(void)
     return OK;
 }
 
+/* First bytes of NAME.json, by which the files of a bench are recognised. */
+static void json_begin(char *text, size_t room, const char *name)
+{
+    snprintf(text, room, "{\n  \"name\": \"%s\",\n  \"version\"", name);
+}
+
+status bench_guard(const char *name)
+{
+    static const char *const ending[] = {"csv", "png", "svg"};
+    char path[256], begin[128], *text;
+    size_t length;
+    snprintf(path, sizeof path, BENCH_FOLDER "/%s.json", name);
+    bool ours = true;
+    if (path_exists(path)) {
+        json_begin(begin, sizeof begin, name);
+        ours = file_get(path, &text, &length) == OK;
+        if (ours) ours = strncmp(text, begin, strlen(begin)) == 0, memory_free(text);
+    } else
+        for (size_t k = 0; k < COUNT_OF(ending) && ours; k++) {
+            snprintf(path, sizeof path, BENCH_FOLDER "/%s.%s", name, ending[k]);
+            ours = !path_exists(path) || picture_is_ours(path);
+        }
+    return ours ? OK : status_set(REFUSED, "%s is there already and not of cleave bench; move it away", path);
+}
+
 /* One file, composed in memory: json of all tables, or csv of one. */
 static status write_file(const char *path, const char *json, const struct bench_table *table, int tables)
 {
@@ -135,6 +161,7 @@ status bench_write(const char *name, const struct bench_table *table, int tables
 {
     char path[256];
     TRY(bench_folder_make());
+    TRY(bench_guard(name));
     for (int k = 0; k < tables; k++) {
         snprintf(path, sizeof path, BENCH_FOLDER "/%s%s%s.csv", name, table[k].name[0] ? "_" : "", table[k].name);
         TRY(write_file(path, NULL, &table[k], 1));

@@ -137,6 +137,7 @@ status experiment_study(struct experiments *x, const struct experiment_case *c)
                                           .way.quiet = true};
     if (x->quick && !c->quick) return OK;
     if (c->path && !bench_scene_exists(c->path)) return OK;
+    if (!c->path) remove(text.text); /* that of the case before, which this process has read */
     if (!c->path) TRY(file_put(text.text, c->text, strlen(c->text)));
     TRY(convergence_study_run(&s, &wish));
     for (int f = 0; f < EXPERIMENT_FIGURES_MOST && c->figure[f].name; f++) figure_take(x, c, &s, &c->figure[f]);

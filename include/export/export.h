@@ -16,11 +16,12 @@ struct export_request {
     int overrides;
     bool bond_style;      /* for bond_style bpm/peri (2026), else pair_style peri/pmb, peri/lps (2021) */
     bool allow_different; /* what LAMMPS has otherwise is exported LAMMPS' way */
+    bool overwrite;       /* replaces an older export in the folder */
 };
 
-/* Writes in.lammps, plate.data, README.txt, scene.yaml and check.csv into the folder, and says on standard output what
- * the run there costs. REFUSED, in a line with the reason, where LAMMPS cannot run the scene, or not to the same
- * result; nothing is written then. */
+/* Writes in.lammps, plate.data, README.txt, scene.yaml and check.csv into the folder, and prints what the run there
+ * costs. REFUSED, in a line with the reason, if LAMMPS cannot run the scene, or not to the same result, or if the
+ * folder holds files of others, or an export and `overwrite` is not set; nothing is written then. */
 status export_lammps(const struct export_request *request);
 
 #endif

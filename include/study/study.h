@@ -62,6 +62,15 @@ status study_make_of(struct study *s, const char *scene, const char *folder, con
 void study_place(char *to, size_t room, const struct scene *scene, const char *kind);
 /* REFUSED if the folder holds a study of another scene. */
 status study_folder_fits(const char *folder, const char *text);
+/* Takes the folder for a study: writes STUDY_SCENE without a scene unless the folder has one. REFUSED if the folder
+ * holds files of others, or `logs` or `pictures` in it is a link. */
+status study_folder_claim(const char *folder);
+/* REFUSED as study_folder_claim; writes nothing. */
+status study_folder_guard(const char *folder);
+/* Returns true if the folder is that of a finished study of this scene. */
+bool study_scene_same(const char *folder, const char *text);
+/* Writes STUDY_SCENE: a first line by which Cleave recognises it, then the scene. */
+status study_scene_put(const char *folder, const char *text);
 void study_free(struct study *s);
 /* Adds a run; copies its overrides. The name is made unique and harmless to file systems: one that is too long or
  * taken becomes case-HASH of the overrides, whatever their order. */

@@ -23,8 +23,10 @@ extern const int commands_count;
     "[-j RUNS] [-t THREADS] [--overwrite] [-q]"
 #define PLOT_WORDS                                                                                                     \
     "DIR [--field NAME] [--times T,...|all|last] [--frames all|last|N] [--slice z=4mm] [--view iso|x+|x-|...|z-] "     \
-    "[--format png|svg|pdf|mp4|gif] [-o FILE], or --scene SCENE [-s KEY=VALUE]... [--view V] [-o FILE]"
-#define EXPORT_WORDS "lammps SCENE -o DIR [-s KEY=VALUE]... [-t THREADS] [--style peri|bpm] [--allow-different]"
+    "[--format png|svg|pdf|mp4|gif] [-o FILE] [--overwrite], or --scene SCENE [-s KEY=VALUE]... [--view V] "           \
+    "[-o FILE] [--overwrite]"
+#define EXPORT_WORDS "lammps SCENE -o DIR [-s KEY=VALUE]... [-t THREADS] [--style peri|bpm] [--allow-different] " \
+    "[--overwrite]"
 
 status command_run(int argc, char **argv);
 status command_sweep(int argc, char **argv);

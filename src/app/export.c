@@ -22,7 +22,9 @@ static status export_words(struct export_request *r, int *argc, char **argv)
             return status_set(REFUSED, "--style: peri or bpm is expected; usage: cleave %s", usage);
         else if (!strcmp(argv[k], "--allow-different"))
             r->allow_different = true;
-        else if (!strcmp(argv[k], "--resume") || !strcmp(argv[k], "--overwrite") || !strcmp(argv[k], "-q"))
+        else if (!strcmp(argv[k], "--overwrite"))
+            r->overwrite = true;
+        else if (!strcmp(argv[k], "--resume") || !strcmp(argv[k], "-q"))
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", argv[k], usage);
         else
             argv[kept++] = argv[k];

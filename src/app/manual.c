@@ -39,7 +39,10 @@ static const struct entry options[] = {
      NULL},
     {"-t THREADS", "number of threads. The results do not depend on it.", NULL},
     {"--resume", "goes on from the newest checkpoint.", NULL},
-    {"--overwrite", "replaces an older run, or study, which is left alone otherwise.", NULL},
+    {"--overwrite",
+     "replaces an older run, study or export, which is left alone otherwise; with plot, a file that cleave has not "
+     "drawn.",
+     NULL},
     {"-q", "no progress and no figures at the end; warnings are still said, and stand in summary.json.", NULL},
     {"-j RUNS", "runs of a study at once (default: as many as there are cores).", NULL},
     {"--list", "runs nothing and prints the command of each run, a line each.", NULL},

@@ -101,7 +101,7 @@ static status sweep_collect(const struct study *s, const struct sweep_arguments 
 /* The commands of the runs that are not the same as others. */
 static status sweep_list(const struct study *s, const struct sweep_arguments *a)
 {
-    if (!a->way.overwrite) TRY(study_folder_fits(s->folder, s->text));
+    TRY(a->way.overwrite ? study_folder_guard(s->folder) : study_folder_fits(s->folder, s->text));
     for (int k = 0; k < s->n; k++)
         if (s->at[k].state != CASE_SAME) study_print_command(s, &s->at[k], a->way, stdout);
     return OK;

@@ -3,11 +3,15 @@
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "auto/scene_read.h"
 #include "base/memory.h"
 #include "export_parts.h"
+#include "output/folder_guard.h"
 #include "output/output_files.h"
+#include "output/output_lock.h"
 
 /* ---- the scene --------------------------------------------------------------------------------------------------- */
 
@@ -105,48 +109,114 @@ static void readme_write(FILE *to, const struct exported *x)
           to);
 }
 
-struct writing {
-    FILE *to;
-    struct path path;
+/* One file of an export and the function that writes it. */
+struct export_file {
+    const char *name;
+    status (*write)(FILE *to, struct exported *x, const struct lammps_types *t);
 };
 
-static status writing_begin(struct writing *w, const struct exported *x, const char *name)
+static status put_data(FILE *to, struct exported *x, const struct lammps_types *t)
 {
-    w->path = path_join(x->request->folder, name);
-    w->to = fopen(path_aside(w->path.text).text, "w");
-    return w->to ? OK : file_fault(w->path.text, errno);
+    return lammps_data_write(to, x, t), OK;
 }
 
-static status writing_end(struct writing *w, status s)
+static status put_readme(FILE *to, struct exported *x, const struct lammps_types *t)
 {
-    const bool whole = !ferror(w->to);
-    const bool closed = fclose(w->to) == 0;
-    if (s == OK && !(whole && closed)) s = file_fault(w->path.text, errno);
-    if (s == OK) s = file_seal(w->path.text, NULL, 0);
-    if (s == OK) return file_publish(w->path.text);
-    file_discard(w->path.text);
+    (void)t;
+    return readme_write(to, x), OK;
+}
+
+static status put_scene_text(FILE *to, struct exported *x, const struct lammps_types *t)
+{
+    (void)t;
+    return fputs(x->s->text, to), OK;
+}
+
+static status put_check(FILE *to, struct exported *x, const struct lammps_types *t)
+{
+    (void)t;
+    return lammps_check_write(to, x);
+}
+
+static status put_script(FILE *to, struct exported *x, const struct lammps_types *t)
+{
+    return lammps_script_write(to, x, t), OK;
+}
+
+/* In the order of writing: the check runs steps, and so comes after the data; a folder with the script is whole. */
+static const struct export_file files[] = {{"plate.data", put_data},
+                                           {"README.txt", put_readme},
+                                           {"scene.yaml", put_scene_text},
+                                           {"check.csv", put_check},
+                                           {"in.lammps", put_script}};
+
+static status file_export(const struct export_file *f, struct exported *x, const struct lammps_types *t)
+{
+    const struct path path = path_join(x->request->folder, f->name), aside = path_aside(path.text);
+    unlink(aside.text); /* links of this name are not followed */
+    FILE *to = fopen(aside.text, "wx");
+    if (!to) return file_fault(path.text, errno);
+    status s = f->write(to, x, t);
+    const bool whole = !ferror(to);
+    const bool closed = fclose(to) == 0;
+    if (s == OK && !(whole && closed)) s = file_fault(path.text, errno);
+    if (s == OK) s = file_seal(path.text, NULL, 0);
+    if (s == OK) return file_publish(path.text);
+    file_discard(path.text);
     return s;
 }
 
-/* The check runs steps, and so comes after the data; the script comes last: a folder with it is whole. */
+/* ---- the folder -------------------------------------------------------------------------------------------------- */
+
+#define SIGN_OF_EXPORT ", exported by Cleave " /* in the first line of in.lammps */
+
+static bool is_script_of_export(const char *path, const char *scene_text)
+{
+    (void)scene_text;
+    char *text;
+    size_t length;
+    if (file_get(path, &text, &length) != OK) return false;
+    text[strcspn(text, "\n")] = '\0';
+    const bool is = strstr(text, SIGN_OF_EXPORT) != NULL;
+    memory_free(text);
+    return is;
+}
+
+/* REFUSED if the folder holds files of others or an older export that is not to be replaced, or if the export would
+ * write over a file that it reads. */
+static status export_guard(const struct export_request *r)
+{
+    static const struct folder_kind kind = {.what = "export", .sign = "in.lammps", .is_sign = is_script_of_export};
+    bool there;
+    TRY(folder_guard(&kind, r->folder, NULL, &there));
+    if (there && !r->overwrite)
+        return status_set(REFUSED, "%s holds an export; choose another -o, or replace it with --overwrite", r->folder);
+    for (size_t k = 0; k < COUNT_OF(files); k++) TRY(file_guard(path_join(r->folder, files[k].name).text));
+    return OK;
+}
+
+/* Writes the files into a folder that is locked. An older script goes first, and after a fault the files that have been
+ * written: without the script nobody takes the rest for an export. */
+static status files_write_locked(struct exported *x, const struct lammps_types *t)
+{
+    const char *folder = x->request->folder;
+    status s = export_guard(x->request);
+    if (s == OK) unlink(path_join(folder, "in.lammps").text);
+    for (size_t k = 0; s == OK && k < COUNT_OF(files); k++) {
+        s = file_export(&files[k], x, t);
+        for (size_t written = 0; s != OK && written < k; written++) unlink(path_join(folder, files[written].name).text);
+    }
+    return s;
+}
+
 static status files_write(struct exported *x, const struct lammps_types *t)
 {
-    struct writing w;
+    struct folder_lock lock;
     TRY(folder_make(x->request->folder));
-    TRY(writing_begin(&w, x, "plate.data"));
-    lammps_data_write(w.to, x, t);
-    TRY(writing_end(&w, OK));
-    TRY(writing_begin(&w, x, "README.txt"));
-    readme_write(w.to, x);
-    TRY(writing_end(&w, OK));
-    TRY(writing_begin(&w, x, "scene.yaml"));
-    fputs(x->s->text, w.to);
-    TRY(writing_end(&w, OK));
-    TRY(writing_begin(&w, x, "check.csv"));
-    TRY(writing_end(&w, lammps_check_write(w.to, x)));
-    TRY(writing_begin(&w, x, "in.lammps"));
-    lammps_script_write(w.to, x, t);
-    return writing_end(&w, OK);
+    TRY(folder_lock(&lock, x->request->folder));
+    const status s = files_write_locked(x, t);
+    folder_unlock(&lock, x->request->folder);
+    return s;
 }
 
 /* ---- the export -------------------------------------------------------------------------------------------------- */
@@ -185,10 +255,9 @@ status export_lammps(const struct export_request *request)
     struct scene s = {0};
     struct engine *e = NEW("export.engine", 1, struct engine);
     struct exported *x = NEW("export", 1, struct exported);
-    if (path_exists(path_join(request->folder, "in.lammps").text))
-        return status_set(REFUSED, "%s holds an export; choose another -o, or remove it", request->folder);
     x->s = &s, x->e = e, x->request = request, x->bond_style = request->bond_style;
     status result = scene_to_export(&s, &x->settings, request);
+    if (result == OK) result = export_guard(request);
     if (result == OK) result = engine_make(e, &s, NULL);
     if (result == OK) result = export_write(x);
     engine_free(e);

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "output/folder_guard.h"
 #include "output/output_files.h"
 #include "output/pictures.h"
 #include "output/summary_read.h"
@@ -42,14 +43,22 @@ static bool is_frame(const char *name, const char *end)
     return digits >= 6 && strncmp(name + digits, ".hdf", 4) == 0 && strcmp(name + digits + 4, end) == 0;
 }
 
-/* Removes the files of a folder that `chosen` names, with `end` after their names. */
-static void files_remove(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end)
+/* What is done with each file of an older run: file_guard, or file_remove. */
+typedef status each_file(const char *path);
+
+static status file_remove(const char *path) { return (void)unlink(path), OK; }
+
+/* Calls `each` for the files of a folder that `chosen` names, with `end` after their names. A link is left alone. */
+static status files_each(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end,
+                         each_file *each)
 {
+    status s = OK;
     DIR *d = path_is_link(folder) ? NULL : opendir(folder);
-    if (!d) return;
-    for (struct dirent *e; (e = readdir(d));)
-        if (chosen(e->d_name, end)) unlink(path_join(folder, e->d_name).text);
+    if (!d) return OK;
+    for (struct dirent *e; s == OK && (e = readdir(d));)
+        if (chosen(e->d_name, end)) s = each(path_join(folder, e->d_name).text);
     closedir(d);
+    return s;
 }
 
 static bool has_frames(const char *folder)
@@ -60,26 +69,6 @@ static bool has_frames(const char *folder)
     for (struct dirent *e; !any && (e = readdir(d));) any = is_frame(e->d_name, "");
     closedir(d);
     return any;
-}
-
-/* True if the folder holds only hidden files, temporary files and a folder named `allowed`; otherwise the name of the
- * first other entry goes to `found`. */
-static bool folder_is_bare(const char *folder, const char *allowed, char *found, size_t room)
-{
-    bool bare = true;
-    DIR *d = opendir(folder);
-    if (!d) return true;
-    for (struct dirent *e; bare && (e = readdir(d));) {
-        const size_t length = strlen(e->d_name);
-        const bool temporary = length > 4 && strcmp(e->d_name + length - 4, ".tmp") == 0;
-        const bool is_allowed =
-            allowed && strcmp(e->d_name, allowed) == 0 && path_is_folder(path_join(folder, allowed).text);
-        if (e->d_name[0] == '.' || temporary || is_allowed) continue;
-        snprintf(found, room, "%s", e->d_name);
-        bare = false;
-    }
-    closedir(d);
-    return bare;
 }
 
 /* ---- check of the folder ----------------------------------------------------------------------------------------- */
@@ -137,30 +126,46 @@ static void difference_text(const char *a, const char *b, char *text, size_t roo
              b);
 }
 
+/* A run makes its folder of frames before it writes scene.yaml. */
+static bool is_scene_of_run(const char *path, const char *scene_text)
+{
+    struct path frames;
+    snprintf(frames.text, sizeof frames.text, "%.*s/frames", (int)(strrchr(path, '/') - path), path);
+    return path_is_folder(frames.text) || scene_file_same(path, scene_text);
+}
+
+/* A run that was killed before it wrote scene.yaml leaves a folder of frames without any. */
+static bool is_frames_folder(const char *folder, const char *name)
+{
+    const struct path frames = path_join(folder, name);
+    bool bare = strcmp(name, "frames") == 0 && path_is_folder(frames.text);
+    DIR *d = bare ? opendir(frames.text) : NULL;
+    if (!d) return bare;
+    for (struct dirent *e; bare && (e = readdir(d));) bare = entry_is_ignored(e->d_name);
+    closedir(d);
+    return bare;
+}
+
+static const struct folder_kind run_kind = {
+    .what = "run", .sign = "scene.yaml", .is_sign = is_scene_of_run, .is_early = is_frames_folder, .inner = {"frames"}};
+
 /* REFUSED for a folder that holds anything but a run of this scene. */
 static status folder_check(const char *folder, const char *scene_text, enum output_mode mode)
 {
-    struct path scene = path_join(folder, "scene.yaml"), frames = path_join(folder, "frames");
-    char found[PATH_NAME_ROOM], difference[500], *text = NULL;
+    char difference[500], *text = NULL;
     size_t length = 0;
-    if (path_is_link(frames.text))
-        return status_set(REFUSED,
-                          "%s is a link: what a run removes and makes there would be somewhere else; choose another -o",
-                          frames.text);
-    if (path_exists(scene.text)) {
-        TRY(file_get(scene.text, &text, &length));
-        const bool same = length == strlen(text) && scene_text_same(text, scene_text);
-        difference_text(text, scene_text, difference, sizeof difference);
-        memory_free(text);
-        if (same || mode == OUTPUT_OVERWRITE) return OK;
-        return status_set(REFUSED,
-                          "%s holds the run of another scene (scene.yaml: %s); choose another -o or replace it with "
-                          "--overwrite",
-                          folder, difference);
-    }
-    if (folder_is_bare(folder, "frames", found, sizeof found) &&
-        folder_is_bare(frames.text, NULL, found, sizeof found)) return OK;
-    return status_set(REFUSED, "%s holds files, for instance %s, but no run; choose another -o", folder, found);
+    bool there;
+    TRY(folder_guard(&run_kind, folder, scene_text, &there));
+    if (!there) return OK;
+    TRY(file_get(path_join(folder, "scene.yaml").text, &text, &length));
+    const bool same = length == strlen(text) && scene_text_same(text, scene_text);
+    difference_text(text, scene_text, difference, sizeof difference);
+    memory_free(text);
+    if (same || mode == OUTPUT_OVERWRITE) return OK;
+    return status_set(REFUSED,
+                      "%s holds the run of another scene (scene.yaml: %s); choose another -o or replace it with "
+                      "--overwrite",
+                      folder, difference);
 }
 
 /* True if the folder holds any file of a run but scene.yaml. */
@@ -210,33 +215,47 @@ static status mode_check(const char *folder, enum output_mode mode)
     return OK;
 }
 
-/* Frames of regions in folders frames_NAME, and their indices; `end` as in files_remove. */
-static void series_remove(const char *folder, const char *end)
+/* Calls `each` for a file of this name in the folder, if there is one. */
+static status file_each(const char *folder, const char *name, each_file *each)
 {
-    static const char *const index[] = {".hdf.series", ".xdmf", ".vtkhdf"};
-    DIR *d = opendir(folder);
-    if (!d) return;
-    for (struct dirent *e; (e = readdir(d));) {
-        char name[PATH_NAME_ROOM];
-        const struct path inner = path_join(folder, e->d_name);
-        if (strncmp(e->d_name, "frames_", 7) != 0 || path_is_link(inner.text) || !path_is_folder(inner.text)) continue;
-        files_remove(inner.text, is_frame, end);
-        for (size_t k = 0; k < COUNT_OF(index); k++) {
-            snprintf(name, sizeof name, "%.250s%s%s", e->d_name + 7, index[k], end);
-            unlink(path_join(folder, name).text);
-        }
-        if (!end[0]) rmdir(inner.text);  /* unless it holds what is no run's */
-    }
-    closedir(d);
+    const struct path path = path_join(folder, name);
+    return path_exists(path.text) ? each(path.text) : OK;
 }
 
-static void run_remove(const char *folder)
+/* Calls `each` for the frames of a region in the folder frames_NAME, and for their indices; `end` as in files_each. */
+static status region_each(const char *folder, const char *inner, const char *end, each_file *each)
 {
-    for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_join(folder, made[k]).text);
-    files_remove(path_join(folder, "frames").text, is_frame, "");
-    series_remove(folder, "");
-    files_remove(pictures_folder(folder).text, is_picture, "");
-    files_remove(pictures_folder(folder).text, is_picture, ".tmp");
+    static const char *const index[] = {".hdf.series", ".xdmf", ".vtkhdf"};
+    char name[PATH_NAME_ROOM];
+    const struct path path = path_join(folder, inner);
+    if (strncmp(inner, "frames_", 7) != 0 || path_is_link(path.text) || !path_is_folder(path.text)) return OK;
+    TRY(files_each(path.text, is_frame, end, each));
+    for (size_t k = 0; k < COUNT_OF(index); k++) {
+        snprintf(name, sizeof name, "%.250s%s%s", inner + 7, index[k], end);
+        TRY(file_each(folder, name, each));
+    }
+    if (!end[0] && each == file_remove) rmdir(path.text); /* unless it holds what is no run's */
+    return OK;
+}
+
+static status regions_each(const char *folder, const char *end, each_file *each)
+{
+    status s = OK;
+    DIR *d = opendir(folder);
+    if (!d) return OK;
+    for (struct dirent *e; s == OK && (e = readdir(d));) s = region_each(folder, e->d_name, end, each);
+    closedir(d);
+    return s;
+}
+
+/* Calls `each` for every file that a run replaces; stops at the first fault. */
+static status run_each(const char *folder, each_file *each)
+{
+    for (size_t k = 0; k < COUNT_OF(made); k++) TRY(file_each(folder, made[k], each));
+    TRY(files_each(path_join(folder, "frames").text, is_frame, "", each));
+    TRY(regions_each(folder, "", each));
+    TRY(files_each(pictures_folder(folder).text, is_picture, "", each));
+    return files_each(pictures_folder(folder).text, is_picture, ".tmp", each);
 }
 
 /* Temporary files of the run itself; those of pictures may be of a `cleave plot` that draws a run to be resumed. */
@@ -244,19 +263,21 @@ static void temporary_remove(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_aside(path_join(folder, made[k]).text).text);
     unlink(path_aside(path_join(folder, "scene.yaml").text).text);
-    files_remove(path_join(folder, "frames").text, is_frame, ".tmp");
-    series_remove(folder, ".tmp");
+    files_each(path_join(folder, "frames").text, is_frame, ".tmp", file_remove);
+    regions_each(folder, ".tmp", file_remove);
 }
 
 static status folder_prepare(const char *folder, const char *scene_text, enum output_mode mode)
 {
-    struct path frames = path_join(folder, "frames");
+    const struct path frames = path_join(folder, "frames"), scene = path_join(folder, "scene.yaml");
     TRY(folder_check(folder, scene_text, mode));
     TRY(mode_check(folder, mode));
+    TRY(run_each(folder, file_guard));
+    if (!file_holds(scene.text, scene_text, strlen(scene_text))) TRY(file_guard(scene.text));
     TRY(folder_make(frames.text));
     temporary_remove(folder);
-    if (mode != OUTPUT_RESUME) run_remove(folder);
-    return file_put(path_join(folder, "scene.yaml").text, scene_text, strlen(scene_text));
+    if (mode != OUTPUT_RESUME) run_each(folder, file_remove);
+    return file_put(scene.text, scene_text, strlen(scene_text));
 }
 
 status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress)

@@ -1,5 +1,6 @@
 /* Writes history.csv: one line per sample; the file is cut back to the checkpoint when a run is resumed. */
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -60,7 +61,8 @@ static status history_header(struct output *o, const struct column *column)
     return line_end(o, &l);
 }
 
-/* Cuts the file to its length at the checkpoint. FAILED if this part is missing or has changed. */
+/* Cuts the file to its length at the checkpoint. The file is made anew, so that what a link or a second name leads to
+ * stays as it is. FAILED if this part is missing or has changed. */
 static status history_cut(const struct output *o)
 {
     struct path path = history_path(o);
@@ -71,12 +73,21 @@ static status history_cut(const struct output *o)
     TRY(file_get(path.text, &text, &length));
     const bool shorter = (int64_t)length < o->history_bytes;
     const bool same = !shorter && hash_bytes(HASH_START, text, (size_t)o->history_bytes) == o->history_hash;
+    const status cut = same ? file_put(path.text, text, (size_t)o->history_bytes) : OK;
     memory_free(text);
-    if (!same)
-        return status_set(FAILED, "cannot resume: %s is %s at the checkpoint (%lld bytes); begin anew with --overwrite",
-                          path.text, shorter ? "shorter than" : "not what it was", (long long)o->history_bytes);
-    if (truncate(path.text, o->history_bytes) != 0) return file_fault(path.text, errno);
-    return OK;
+    if (same) return cut;
+    return status_set(FAILED, "cannot resume: %s is %s at the checkpoint (%lld bytes); begin anew with --overwrite",
+                      path.text, shorter ? "shorter than" : "not what it was", (long long)o->history_bytes);
+}
+
+/* Opens a file without following a link. NULL with errno on a fault. */
+static FILE *history_file(const char *path, bool resume)
+{
+    if (!resume) unlink(path);
+    const int fd = open(path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW | (resume ? O_APPEND : O_CREAT | O_EXCL), 0666);
+    FILE *to = fd < 0 ? NULL : fdopen(fd, resume ? "a" : "w");
+    if (fd >= 0 && !to) close(fd);
+    return to;
 }
 
 status output_history_open(struct output *o, const struct column *column, int columns, bool resume)
@@ -85,7 +96,8 @@ status output_history_open(struct output *o, const struct column *column, int co
     struct path path = history_path(o);
     o->columns = columns;
     if (resume) TRY(history_cut(o));
-    o->history = fopen(path.text, resume ? "a" : "w");
+    TRY(file_guard(path.text));
+    o->history = history_file(path.text, resume);
     if (!o->history) return file_fault(path.text, errno);
     if (resume) return OK;
     o->history_bytes = 0, o->history_hash = HASH_START;

@@ -11,7 +11,7 @@
 
 #include "output/output_files.h"
 
-static const char lock_name[] = ".running";
+static const char lock_name[] = ".running", lock_begin[] = "process ";
 
 enum { TRIES = 100 };                    /* a lock file may be removed between open and lock */
 
@@ -27,6 +27,16 @@ static bool has_other_names(int fd)
 {
     struct stat own;
     return fstat(fd, &own) == 0 && own.st_nlink > 1;
+}
+
+/* REFUSED for an open file that is neither empty nor begins as sign() begins it; FAILED if it cannot be read. */
+static status lock_file_check(int fd, const char *path)
+{
+    char begin[sizeof lock_begin - 1];
+    const ssize_t length = pread(fd, begin, sizeof begin, 0);
+    if (length < 0) return file_fault(path, errno);
+    if (length == 0 || (length == (ssize_t)sizeof begin && memcmp(begin, lock_begin, sizeof begin) == 0)) return OK;
+    return status_set(REFUSED, "%s is no lock of a run; choose another -o", path);
 }
 
 /* Locks an open file. Returns 0, EAGAIN if another process holds the lock, or another errno. */
@@ -55,7 +65,7 @@ static void sign(int fd)
 {
     char host[64] = "this machine", text[128];
     if (gethostname(host, sizeof host - 1) != 0) strcpy(host, "this machine");
-    const int length = snprintf(text, sizeof text, "process %ld on %s\n", (long)getpid(), host);
+    const int length = snprintf(text, sizeof text, "%s%ld on %s\n", lock_begin, (long)getpid(), host);
     /* for messages only: faults are ignored */
     if (ftruncate(fd, 0) != 0 || pwrite(fd, text, (size_t)length, 0) != length) errno = 0;
 }
@@ -80,8 +90,10 @@ status folder_lock(struct folder_lock *l, const char *folder)
             return OK;
         }
         const bool shared = has_other_names(fd);
-        if (!shared && is_still_there(fd, path.text)) l->fd = fd;
+        const status own = shared ? OK : lock_file_check(fd, path.text);
+        if (!shared && own == OK && is_still_there(fd, path.text)) l->fd = fd;
         else close(fd);
+        TRY(own);
         if (shared)
             return status_set(REFUSED,
                               "%s has another name elsewhere (a hard link), where a run would write too; remove it",

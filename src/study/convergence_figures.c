@@ -189,7 +189,7 @@ status figures_write(const struct convergence_study *s, const struct figure_stud
     FILE *to = open_memstream(&text, &length);
     if (to) figures_table(to, s, figure, figures);
     TRY(study_put(&s->study, "converge.csv", to, &text, &length));
-    return file_put(path_join(s->study.folder, STUDY_SCENE).text, s->scene.text, strlen(s->scene.text));
+    return study_scene_put(s->study.folder, s->scene.text);
 }
 
 /* ---- what is printed --------------------------------------------------------------------------------------------- */

@@ -62,7 +62,7 @@ static status bars_keep(const struct pilot *to, const struct pilot_search *p, co
     struct scene s;
     char table[CASE_NAME_ROOM];
     TRY(scene_read(&s, p->scene, to->override, to->overrides));
-    const status put = file_put(path_join(p->folder, STUDY_SCENE).text, s.text, strlen(s.text));
+    const status put = study_scene_put(p->folder, s.text);
     scene_free(&s);
     TRY(put);
     snprintf(table, sizeof table, "%s/converge.csv", best->name);

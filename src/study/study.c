@@ -7,6 +7,7 @@
 
 #include "auto/scene_read.h"
 #include "base/memory.h"
+#include "output/folder_guard.h"
 #include "output/output.h"
 #include "output/output_files.h"
 #include "output/summary_read.h"
@@ -92,10 +93,85 @@ status study_make_of(struct study *s, const char *scene, const char *folder, con
     return done;
 }
 
+/* First line of STUDY_SCENE. */
+static const char study_mark[] = "# study by cleave: the scene without what varies\n";
+
+/* Reads the scene of a study without its first line. Returns NULL if there is no such file, or it has another first
+ * line. The caller frees the text with memory_free. */
+static char *study_scene_read(const char *path)
+{
+    char *text;
+    size_t length;
+    const size_t mark = sizeof study_mark - 1;
+    if (!path_is_file(path) || file_get(path, &text, &length) != OK) return NULL;
+    if (length == strlen(text) && strncmp(text, study_mark, mark) == 0) {
+        memmove(text, text + mark, length - mark + 1);
+        return text;
+    }
+    memory_free(text);
+    return NULL;
+}
+
+static bool is_scene_of_study(const char *path, const char *scene_text)
+{
+    (void)scene_text;
+    char *text = study_scene_read(path);
+    memory_free(text);
+    return text != NULL;
+}
+
+bool study_scene_same(const char *folder, const char *text)
+{
+    char *own = study_scene_read(path_join(folder, STUDY_SCENE).text);
+    const bool same = own && scene_text_same(own, text);
+    memory_free(own);
+    return same;
+}
+
+status study_scene_put(const char *folder, const char *text)
+{
+    const size_t mark = sizeof study_mark - 1, length = strlen(text);
+    char *all = NEW("study.scene", (int64_t)(mark + length + 1), char);
+    memcpy(all, study_mark, mark);
+    memcpy(all + mark, text, length);
+    const status put = file_put(path_join(folder, STUDY_SCENE).text, all, mark + length);
+    memory_free(all);
+    return put;
+}
+
+/* Folders of runs that were started one by one, as `--list` prints them, and of the studies of pilot runs. */
+static bool is_run_or_study(const char *folder, const char *name)
+{
+    const struct path inner = path_join(folder, name);
+    return path_is_file(path_join(inner.text, "scene.yaml").text) ||
+           is_scene_of_study(path_join(inner.text, STUDY_SCENE).text, NULL);
+}
+
+static const struct folder_kind study_kind = {.what = "study",
+                                              .sign = STUDY_SCENE,
+                                              .is_sign = is_scene_of_study,
+                                              .is_early = is_run_or_study,
+                                              .inner = {"logs", "pictures"}};
+
+status study_folder_guard(const char *folder)
+{
+    bool there;
+    return folder_guard(&study_kind, folder, NULL, &there);
+}
+
+status study_folder_claim(const char *folder)
+{
+    bool there;
+    TRY(folder_guard(&study_kind, folder, NULL, &there));
+    return there ? OK : study_scene_put(folder, "");
+}
+
 status study_folder_fits(const char *folder, const char *text)
 {
-    const struct path own = path_join(folder, STUDY_SCENE);
-    if (!path_exists(own.text) || scene_file_same(own.text, text)) return OK;
+    char *own = study_scene_read(path_join(folder, STUDY_SCENE).text);
+    const bool fits = !own || !*own || scene_text_same(own, text);
+    memory_free(own);
+    if (fits) return study_folder_guard(folder);
     return status_set(REFUSED,
                       "%s holds a study of another scene (%s there); choose another -o or replace it with --overwrite",
                       shown_name(folder).text, STUDY_SCENE);

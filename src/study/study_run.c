@@ -135,6 +135,7 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
     struct path folder = study_folder(r->study, c), log = log_path(r->study, c);
     const bool there = path_exists(path_join(folder.text, "scene.yaml").text);
     snprintf(threads, sizeof threads, "%d", r->how.threads);
+    TRY(file_guard(log.text));
     unlink(log.text); /* links of this name are not followed */
     const int fd = open(log.text, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (fd < 0) return file_fault(log.text, errno);
@@ -273,13 +274,13 @@ static struct study_way way_filled(struct study_way how, const struct study *s)
     return how;
 }
 
-/* Refuses the study of another scene, and says in the folder what is in it now. */
+/* Refuses a folder of others or of the study of another scene, and writes into the folder which study it holds now. */
 static status scene_put(const struct study *s, bool overwrite)
 {
-    const struct path own = path_join(s->folder, STUDY_SCENE);
+    TRY(study_folder_claim(s->folder));
     if (!s->text) return OK;
     if (!overwrite) TRY(study_folder_fits(s->folder, s->text));
-    return scene_file_same(own.text, s->text) ? OK : file_put(own.text, s->text, strlen(s->text));
+    return study_scene_same(s->folder, s->text) ? OK : study_scene_put(s->folder, s->text);
 }
 
 status study_take(struct study *s, bool overwrite)
@@ -288,6 +289,7 @@ status study_take(struct study *s, bool overwrite)
         return status_set(REFUSED, "%s holds a run, not a study; choose another -o", s->folder);
     if (!path_is_folder(s->folder)) return status_set(REFUSED, "%s: no study there", s->folder);
     if (s->lock.fd >= 0) return OK;
+    TRY(study_folder_guard(s->folder));
     TRY(folder_lock(&s->lock, s->folder));
     return scene_put(s, overwrite);
 }

@@ -90,9 +90,9 @@ int error_bars_at_hand(struct error_bar *bar, int most, const struct scene *s, c
     char *text, *rest;
     size_t length;
     int n = 0;
-    if (!scene_file_same(path_join(study.text, STUDY_SCENE).text, s->text)) {
+    if (!study_scene_same(study.text, s->text)) {
         study = pilot_folder(folder);
-        if (!scene_file_same(path_join(study.text, STUDY_SCENE).text, s->text)) return 0;
+        if (!study_scene_same(study.text, s->text)) return 0;
     }
     if (file_get(path_join(study.text, "converge.csv").text, &text, &length) != OK) return 0;
     char *line = strtok_r(text, "\n", &rest);

@@ -250,4 +250,125 @@ interrupted "$work/load_stopped" 300 $load
 calm "$work/load_stopped" $load --resume
 same "reactions, interrupted" "$work/load" "$work/load_stopped"
 
+
+# ---- all commands that write ---------------------------------------------------------------------------------------
+
+# declined WHAT TEXT COMMAND...: exit status 2 and one line with this text, within seconds.
+declined()
+{
+    what=$1 text=$2; shift 2
+    timeout 20 "$cleave" "$@" >"$work/out" 2>"$work/err"
+    is "$what: exit status" $? 2
+    is "$what: lines" "$(grep -c -v '^warning: ' "$work/err")" 1
+    holds "$what: $(cat "$work/err")" grep -q -e "$text" "$work/err"
+}
+# kept WHAT FOLDER: it holds what `desk` made in it.
+kept() { is "$1: files of others" "$(cat "$2"/* 2>/dev/null)" "$(cat "$work/papers"/*)"; }
+cat >"$work/strip.yaml" <<'END'
+# comments of the user
+space: plane stress
+thickness: 1 mm
+duration: 1 us
+method: pd
+material: {young: 72 GPa, density: 2440}
+body: {box: {from: [0, 0], to: [10 mm, 5 mm]}}
+particles: {spacing: 1 mm}
+boundary: [{name: pull, traction: [0, 1 MPa], face: y+}]
+output: {frames: 1, samples: 4}
+END
+mkdir "$work/papers"
+for name in README.txt plate.data sweep.csv converge.csv study.yaml history.csv; do echo "$name of mine" >"$work/papers/$name"; done
+cp "$work/strip.yaml" "$work/papers/scene.yaml"
+for command in "export lammps $work/papers/scene.yaml --allow-different" "sweep $work/papers/scene.yaml -s method=pd,mpm" \
+    "sweep $work/papers/scene.yaml -s method=pd,mpm --overwrite --collect" "converge $work/papers/scene.yaml" \
+    "converge $work/strip.yaml --overwrite" "run $work/papers/scene.yaml" "run $work/strip.yaml --overwrite" \
+    "run $work/strip.yaml -s duration=2us --overwrite"; do
+    rm -rf "$work/desk"
+    cp -r "$work/papers" "$work/desk"
+    declined "$command" "holds" $(echo "$command" | sed "s#/papers/#/desk/#") -o "$work/desk"
+    kept "$command" "$work/desk"
+done
+
+# an export: once, again only with --overwrite, never over the scene that it reads
+"$cleave" export lammps "$work/strip.yaml" -o "$work/there" --allow-different >"$work/out" 2>&1
+is "an export: $(cat "$work/out")" $? 0
+declined "an export that is there" "holds an export; .*--overwrite" export lammps "$work/strip.yaml" -o "$work/there" --allow-different
+"$cleave" export lammps "$work/strip.yaml" -o "$work/there" --allow-different --overwrite -s duration=2us >"$work/out" 2>&1
+is "an export that is replaced" $? 0
+cksum "$work/there"/* >"$work/sums"
+declined "an export over its own scene" "scene.yaml is read by this command" \
+    export lammps "$work/there/scene.yaml" -o "$work/there" --allow-different --overwrite -s duration=3us
+holds "it stays" sh -c "cksum '$work/there'/* | cmp - '$work/sums'"
+
+# a run: not over its own scene, its list of particles, its table of loads
+"$cleave" run -q "$work/strip.yaml" -o "$work/own" 2>"$work/err"
+declined "a run over its own scene" "scene.yaml is read by this command" run -q "$work/own/scene.yaml" -o "$work/own" -s duration=2us --overwrite
+"$cleave" run -q "$work/own/scene.yaml" -o "$work/own" --overwrite 2>"$work/err"
+is "the same scene once more" $? 0
+sed "s#face: y+#face: y+, time: {file: own/history.csv, column: step}#" "$work/strip.yaml" >"$work/driven.yaml"
+cp "$work/own/history.csv" "$work/before.csv"
+declined "a run over its own table" "history.csv is read by this command" run -q "$work/driven.yaml" -o "$work/own" --overwrite
+holds "the table stays" cmp "$work/before.csv" "$work/own/history.csv"
+
+# links: folders in a study, a history with a second name
+"$cleave" sweep "$work/strip.yaml" -s material.density=2440,2500 -o "$work/study" -q >"$work/out" 2>&1
+is "a study" $? 0
+for name in pictures logs; do
+    rm -rf "$work/study/$name" "$work/far"
+    mkdir "$work/far"
+    ln -s "$work/far" "$work/study/$name"
+    declined "$name of a study that are a link" "$name is a link" sweep "$work/strip.yaml" -s material.density=2440,2600 -o "$work/study" -q
+    is "$name: nothing is written there" "$(ls "$work/far")" ""
+    rm "$work/study/$name"
+done
+interrupted "$work/twin" 20 $small
+ln "$work/twin/history.csv" "$work/backup.csv"
+cp "$work/backup.csv" "$work/backup_then.csv"
+calm "$work/twin" $small --resume
+holds "a second name of a history" cmp "$work/backup.csv" "$work/backup_then.csv"
+same "a history with a second name" "$work/once" "$work/twin"
+mkdir -p "$work/results/bench"
+echo mine >"$work/results/bench/threads.csv"
+(cd "$work" && timeout 20 "$cleave" bench threads --quick >out 2>err)
+is "a table of others beside those of benches: exit status" $? 2
+is "and it stays" "$(cat "$work/results/bench/threads.csv")" mine
+rm -r "$work/results"
+
+# ---- what is read is a file ----------------------------------------------------------------------------------------
+
+mkfifo "$work/pipe.yaml" "$work/pipe.csv" "$work/pipe.stl"
+for place in "$work/pipe.yaml" "$work" /dev/zero; do declined "a scene: $place" "no regular file" check "$place"; done
+head_of() { sed '/^body\|^boundary/d' "$work/strip.yaml"; }
+sed 's/^space:/include: pipe.yaml\nspace:/' "$work/strip.yaml" >"$work/a.yaml"
+(head_of; echo 'bodies: [{particles: pipe.csv}]') >"$work/b.yaml"
+(head_of; echo 'body: {box: {from: [0, 0], to: [10 mm, 5 mm]}}
+boundary: [{traction: [0, 1 MPa], face: y+, time: {file: pipe.csv}}]') >"$work/c.yaml"
+(head_of; echo 'body: {stl: {file: pipe.stl, unit: mm}}') >"$work/d.yaml"
+(head_of; echo 'body: {image: {file: pipe.stl, pixel: 1 mm, above: 100}}') >"$work/e.yaml"
+for scene in a b c d e; do declined "a pipe in scene $scene" "$scene.yaml\|pipe" check "$work/$scene.yaml"; done
+declined "a pipe for a run to plot" "is a file" plot "$work/pipe.yaml"
+declined "a pipe for a run to compare" "no run there" compare "$work/pipe.yaml" "$work/once"
+
+# ---- what is printed acts on no terminal ---------------------------------------------------------------------------
+
+escape=$(printf '\033')
+red=$(printf '\033[31mred\302\233')
+# silent WHAT COMMAND...: neither output has an escape sequence, and one of them has the word.
+silent()
+{
+    what=$1; shift
+    timeout 20 "$cleave" "$@" >"$work/out" 2>"$work/err"
+    holds "$what: is said: $(cat "$work/err")" grep -q "red" "$work/out" "$work/err"
+    is "$what: escape sequences" "$(cat "$work/out" "$work/err" | grep -c "$escape\|$(printf '\302\233')")" 0
+}
+awk -v red="$red" 'BEGIN { print "x,y,volume," red; for (k = 0; k < 400; k++) print (k % 20 + 0.5) * 1e-3 "," (int(k / 20) + 0.5) * 1e-3 ",1e-9,7" }' >"$work/red.csv"
+(head_of; echo 'bodies: [{particles: red.csv}]') >"$work/red.yaml"
+silent "a column" check "$work/red.yaml"
+sed "s/name: pull/name: \"\\\\e[31mred\"/" "$work/strip.yaml" >"$work/named.yaml"
+silent "a name" check "$work/named.yaml"
+silent "a figure" converge "$work/strip.yaml" --of "$red" -o "$work/none"
+silent "a field" plot "$work/once" --field "$red"
+silent "a folder" compare "$work/once" "$work/$red"
+silent "a command" "$red"
+
 finish

@@ -1,0 +1,45 @@
+/* Guard of the folders that commands write into. */
+#include "output/folder_guard.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "output/output_files.h"
+
+bool entry_is_ignored(const char *name)
+{
+    const size_t length = strlen(name);
+    return name[0] == '.' || (length > 4 && strcmp(name + length - 4, ".tmp") == 0);
+}
+
+/* REFUSED with the first entry of the folder that is neither hidden nor temporary nor an early one of this kind. */
+static status entries_guard(const struct folder_kind *kind, const char *folder)
+{
+    char found[PATH_NAME_ROOM] = "";
+    DIR *d = opendir(folder);
+    if (!d) return OK;
+    for (struct dirent *e; !*found && (e = readdir(d));)
+        if (!entry_is_ignored(e->d_name) && !(kind->is_early && kind->is_early(folder, e->d_name)))
+            snprintf(found, sizeof found, "%s", e->d_name);
+    closedir(d);
+    if (!*found) return OK;
+    return status_set(REFUSED, "%s holds files, for instance %s, but no %s; choose another -o", folder, found,
+                      kind->what);
+}
+
+status folder_guard(const struct folder_kind *kind, const char *folder, const char *text, bool *there)
+{
+    const struct path sign = path_join(folder, kind->sign);
+    *there = false;
+    for (size_t k = 0; k < COUNT_OF(kind->inner) && kind->inner[k]; k++) {
+        const struct path inner = path_join(folder, kind->inner[k]);
+        if (path_is_link(inner.text))
+            return status_set(REFUSED,
+                              "%s is a link: what a %s removes and makes there would be somewhere else; choose another "
+                              "-o",
+                              inner.text, kind->what);
+    }
+    *there = path_is_file(sign.text) && kind->is_sign(sign.text, text);
+    return *there ? OK : entries_guard(kind, folder);
+}
