@@ -67,6 +67,14 @@ static status scene_to_export(struct scene *s, struct lammps_settings *settings,
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
+/* Prints which requests of the scene for output the script of LAMMPS does not have; nothing if it has all. */
+static void left_out_write(FILE *to, const struct scene *s)
+{
+    if (s->probes == 0 && s->n_series == 0) return;
+    fprintf(to, "left out: %d probes, frames of %d regions; plate.dump has positions, velocities and damage\n",
+            s->probes, s->n_series);
+}
+
 static void readme_write(FILE *to, const struct exported *x)
 {
     const char *style = x->bond_style ? "bond_style bpm/peri" : x->s->model == MODEL_BOND ? "peri/pmb" : "peri/lps";
@@ -84,6 +92,7 @@ static void readme_write(FILE *to, const struct exported *x)
         "            damage at the start, by pre-cracks: in all d = start + (1 - start) damage\n\n",
         x->s->name, style, CLEAVE_VERSION, steps, x->bond_style ? " and bonds" : "", steps);
     lammps_cost_write(to, x);
+    left_out_write(to, x->s);
     fprintf(to, "\nThe method is `pd`: what a scene of `adaptive` leaves to material points has bonds here, too.\n");
     for (int k = 0; k < x->settings.n; k++)
         fprintf(to, "%s%s: %s   %s\n",
@@ -228,6 +237,7 @@ static void export_print(const struct exported *x, const struct lammps_types *t)
         printf("%lld bonds cut, by %lld exclusions among %d types of particles\n", (long long)x->cut,
                (long long)t->pairs, t->n);
     lammps_cost_write(stdout, x);
+    left_out_write(stdout, x->s);
     for (int k = 0; k < x->settings.n; k++)
         printf("differs from the scene: %s: %s\n", x->settings.of[k].key, x->settings.of[k].value);
     if (lammps_families_differ(x->s))

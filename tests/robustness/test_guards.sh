@@ -274,6 +274,7 @@ material: {young: 72 GPa, density: 2440}
 body: {box: {from: [0, 0], to: [10 mm, 5 mm]}}
 particles: {spacing: 1 mm}
 boundary: [{name: pull, traction: [0, 1 MPa], face: y+}]
+probes: [tip]
 output: {frames: 1, samples: 4}
 END
 mkdir "$work/papers"
@@ -292,6 +293,7 @@ done
 # an export: once, again only with --overwrite, never over the scene that it reads
 "$cleave" export lammps "$work/strip.yaml" -o "$work/there" --allow-different >"$work/out" 2>&1
 is "an export: $(cat "$work/out")" $? 0
+holds "what it leaves out is said" grep -q "^left out: 1 probes, frames of 0 regions" "$work/out"
 declined "an export that is there" "holds an export; .*--overwrite" export lammps "$work/strip.yaml" -o "$work/there" --allow-different
 "$cleave" export lammps "$work/strip.yaml" -o "$work/there" --allow-different --overwrite -s duration=2us >"$work/out" 2>&1
 is "an export that is replaced" $? 0

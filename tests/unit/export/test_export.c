@@ -183,7 +183,8 @@ static void what_lammps_cannot(void **state)
     refused(scene_equal, "solver: static\n", false, "solver: ");
     refused(scene_equal, "solver: cg\n", false, "solver: ");
     refused(scene_equal, "damping: 10 1/s\n", false, "damping is not exported");
-    refused(scene_equal, "boundary: [{rotation: {centre: [0, 0], rate: 10 1/s}}]\n", false, "rotation are not exported");
+    refused(scene_equal, "boundary: [{rotation: {centre: [0, 0], rate: 10 1/s}}]\n", false,
+            "rotation are not exported");
     refused(scene_equal, "growth: [{at: [0, 0], direction: [1, 0], speed: 100 m/s}]\n", false, "growth: LAMMPS");
     refused("", "model: mospd\n", false, "model: mospd is not in LAMMPS");
     refused("pd: {volume: cut-ramp, surface: none, weights: uniform, last_force: whole, influence: inverse, "
