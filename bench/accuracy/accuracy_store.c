@@ -78,7 +78,7 @@ static void put_line(FILE *to, const struct accuracy_entry *entry)
 
 status accuracy_store_append(const struct accuracy_entry *entry)
 {
-    TRY(bench_folder_make());
+    TRY(bench_begin("accuracy"));
     const bool fresh = !path_is_file(STORE);
     FILE *to = fopen(STORE, "a");
     if (!to) return file_fault(STORE, errno);

@@ -157,11 +157,19 @@ static status write_file(const char *path, const char *json, const struct bench_
     return s;
 }
 
-status bench_write(const char *name, const struct bench_table *table, int tables)
+status bench_begin(const char *name)
 {
     char path[256];
     TRY(bench_folder_make());
     TRY(bench_guard(name));
+    snprintf(path, sizeof path, BENCH_FOLDER "/%s.json", name);
+    return path_exists(path) ? OK : write_file(path, name, NULL, 0);
+}
+
+status bench_write(const char *name, const struct bench_table *table, int tables)
+{
+    char path[256];
+    TRY(bench_begin(name));
     for (int k = 0; k < tables; k++) {
         snprintf(path, sizeof path, BENCH_FOLDER "/%s%s%s.csv", name, table[k].name[0] ? "_" : "", table[k].name);
         TRY(write_file(path, NULL, &table[k], 1));

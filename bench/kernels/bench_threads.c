@@ -59,11 +59,11 @@ static status time_block(struct threads_bench *b, int way, int scaling, int t, d
 
 static status threads_time_way(struct threads_bench *b, int way, bool quick)
 {
-    const double whole = quick ? 4e4 : 1e6, each = quick ? 2e4 : 2.5e5;
+    const double whole = quick ? 1e4 : 1e6, each = quick ? 5e3 : 2.5e5;
     for (int r = 0; r < (quick ? 1 : 2); r++)
         for (int t = 0; t < b->teams; t++) {
-            TRY(time_block(b, way, 0, t, whole, quick ? 10 : 5));
-            TRY(time_block(b, way, 1, t, each * b->team[t], 10));
+            TRY(time_block(b, way, 0, t, whole, quick ? 2 : 5));
+            TRY(time_block(b, way, 1, t, each * b->team[t], quick ? 2 : 10));
         }
     for (int c = 0; c < SCALINGS; c++) {
         printf("  %-20s %-7s", bench_blocks[way].name, scaling_name[c]);
@@ -146,8 +146,8 @@ static status threads_measure(struct threads_bench *b, bool quick)
 {
     printf("  time of a step and efficiency, 2D, on");
     for (int t = 0; t < b->teams; t++) printf(" %d", b->team[t]);
-    printf(" threads; strong: %s particles, weak: %s for each thread\n", quick ? "4e4" : "1e6",
-           quick ? "2e4" : "2.5e5");
+    printf(" threads; strong: %s particles, weak: %s for each thread\n", quick ? "1e4" : "1e6",
+           quick ? "5e3" : "2.5e5");
     time_memory(b);
     for (int way = 0; way < BENCH_BLOCKS; way++)
         if (is_way(way)) TRY(threads_time_way(b, way, quick));

@@ -271,7 +271,7 @@ status bench_far_field(bool quick)
     struct field_bench *b = NEW("bench.field", 1, struct field_bench);
     printf("scale: a far field\n");
     bench_print_machine(1);
-    b->spacing = quick ? 0.5 : 0.25;
+    b->spacing = quick ? 0.625 : 0.25;
     b->speed = sqrt(young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson) * density));
     b->pulse = 1e-6 * PULSE_SPACINGS * b->spacing;
     status s = field_measure(b);

@@ -13,12 +13,14 @@
 #include <string.h>
 
 #include "bench/common/bench.h"
+#include "bench/common/bench_goals.h"
 #include "base/memory.h"
 #include "output/summary_read.h"
 #include "plot/gnuplot.h"
 
 enum { SPACINGS = 5, LAPS_SHOWN = LAP_OUTPUT, SERIES = 4, AIMS = 3, REPEATED = 3 };
 #define SHORT 3.0       /* [s] */
+#define QUICK_DURATION 6.0 /* [us] */
 #define STEP_PER_MM 0.05 /* [us] at a spacing of 1 mm */
 
 /* A method on a plate, from coarse to fine. */
@@ -67,9 +69,11 @@ static int levels_of(double spacing)
     return levels;
 }
 
-static void growth_overrides(struct bench_overrides *o, const struct growth_series *s, double spacing)
+/* until: end of the run [us]; 0: that of the scene. */
+static void growth_overrides(struct bench_overrides *o, const struct growth_series *s, double spacing, double until)
 {
     const double width = 3 * spacing;
+    if (until > 0) bench_override(o, "duration", "%g us", until);
     bench_override(o, "method", "%s", s->method);
     bench_override(o, "particles.spacing", "%g mm", spacing);
     bench_override(o, "time.step", "%.9g us", STEP_PER_MM * spacing);
@@ -97,9 +101,9 @@ static status growth_read(struct growth_row *r, const char *folder, double proce
     const struct { const char *key; double *value; } figure[] = {
         {"particles_made", &r->made}, {"particles", &r->body}, {"particles_pd_end", &r->bonded},
         {"memory_peak_bytes", &r->bytes}, {"loop_seconds", &r->seconds}, {"time_step", &step},
-        {"time_step_critical", &critical}, {"crack.start_time", &r->start}, {"crack.angle_deg", &r->angle},
-        {"wall_seconds", &wall}};
+        {"time_step_critical", &critical}, {"wall_seconds", &wall}};
     for (size_t k = 0; k < COUNT_OF(figure); k++) TRY(summary_number(folder, figure[k].key, figure[k].value));
+    r->start = bench_summary_figure(folder, "crack.start_time"), r->angle = bench_summary_figure(folder, "crack.angle_deg");
     share = r->seconds < SHORT ? 1 : fmin(1, processor / wall);      /* short ones are repeated instead */
     for (int k = 0; k < LAPS_SHOWN; k++) {
         snprintf(key, sizeof key, "laps.%s", lap_name[k]);
@@ -111,12 +115,12 @@ static status growth_read(struct growth_row *r, const char *folder, double proce
     return OK;
 }
 
-static status growth_run(struct growth_row *r, const struct growth_series *s, double spacing)
+static status growth_run(struct growth_row *r, const struct growth_series *s, double spacing, double until)
 {
     struct bench_overrides o = {0};
     struct bench_child c;
     r->spacing = spacing;
-    growth_overrides(&o, s, spacing);
+    growth_overrides(&o, s, spacing, until);
     status ran = bench_child_start(&c, s->path, bench_overrides_ready(&o), o.n, 1);
     if (ran == OK) ran = bench_child_wait(&c);
     if (ran == OK) ran = growth_read(r, c.folder, c.processor);
@@ -124,12 +128,14 @@ static status growth_run(struct growth_row *r, const struct growth_series *s, do
     return ran;
 }
 
-/* Short runs may be repeated: the least time counts. */
-static status growth_time(struct growth_row *least, const struct growth_series *s, double spacing, int repeated)
+/* Measures a run at this spacing [mm] and keeps the one of least time; runs below SHORT are repeated. With `quick` one run of the
+ * first microseconds. FAILED if a run is. */
+static status growth_time(struct growth_row *least, const struct growth_series *s, double spacing, bool quick)
 {
+    const int repeated = quick ? 1 : REPEATED;
     for (int k = 0; k < repeated && (k == 0 || least->seconds < SHORT); k++) {
         struct growth_row r = {0};
-        TRY(growth_run(&r, s, spacing));
+        TRY(growth_run(&r, s, spacing, quick ? QUICK_DURATION : 0));
         if (k == 0 || r.seconds < least->seconds) *least = r;
     }
     return OK;
@@ -296,7 +302,7 @@ static status growth_measure(struct growth_bench *b, bool quick, bool finest)
         const int rows = quick ? s->quick : finest ? SPACINGS : s->usual;
         if (!bench_scene_exists(s->path)) continue;
         for (int j = 0; j < rows && j < SPACINGS && s->spacing[j] > 0; j++) {
-            TRY(growth_time(&b->at[k][j], s, s->spacing[j], quick ? 1 : REPEATED));
+            TRY(growth_time(&b->at[k][j], s, s->spacing[j], quick));
             growth_print_row(s, &b->at[k][j]);
         }
         growth_fit_make(&b->fit[k], b->at[k], s);

@@ -149,8 +149,8 @@ status inclined_bench(struct bench_goals *asked, bool quick)
            "  %2s  %-20s %15s   %15s   %13s   %13s   %13s   %6s %6s %6s\n",
            quick ? "200 x 100" : "400 x 200", "", "", "collocation", "I, II", "I, II", "paper, MOSPD", "paper, OSPD",
            "spread", "steps", "s");
-    for (int k = 0; k < INCLINED_ANGLES; k += quick ? 2 : 1)
-        for (int v = 0; v < VARIANTS && !(quick && k > 2); v++) TRY(inclined_add(&t, &inclined_case[k], v, quick));
+    for (int k = quick ? 2 : 0; k < (quick ? 3 : INCLINED_ANGLES); k++)
+        for (int v = 0; v < VARIANTS; v++) TRY(inclined_add(&t, &inclined_case[k], v, quick));
     for (int k = 0; k < t.n; k++)
         for (int m = 0; m < INCLINED_MODES && t.row[k].variant == LOCAL; m++)
             worst[m] = fmax(worst[m], fabs(sif_inclined_off(t.row[k].at, t.row[k].F, m)));

@@ -79,7 +79,7 @@ cd results/bench
 [ "$(wc -l <threads.csv)" -eq 21 ] || fail "five methods, two scalings, two teams give 20 lines"
 awk -F, 'NR > 1 { if ($3 == 1) one = $6; d = $7 * $3 * $6 / one - 1; if (d > 1e-6 || d < -1e-6) bad = 1 }
     END { exit bad }' threads.csv || fail "the efficiency of threads.csv"
-[ "$(wc -l <scale.csv)" -eq 21 ] || fail "ten methods at two sizes give 20 lines"
+[ "$(wc -l <scale.csv)" -eq 16 ] || fail "five methods, in the plane at two sizes, in space at one, give 15 lines"
 awk -F, 'NR > 1 && !($3 > 2000 && $5 > 0 && $6 > 0 && $8 > 0 && $9 > 0) { bad = 1 } END { exit bad }' scale.csv ||
     fail "figures of scale.csv"
 [ "$(awk -F, 'NR > 1 && $12 > 0' scale.csv | wc -l)" -eq 5 ] || fail "output is measured for five methods"
@@ -228,5 +228,6 @@ line slow_specimens.csv 'three-point bend,bond,40,' 6 -0.03 0.03
 line slow_specimens.csv 'double cantilever,bond,10,' 9 -0.03 0.03
 line slow_paths.csv 'inclined crack,0.001,45,' 6 0 3
 line slow_paths.csv 'notch beside middle,' 6 0 3
+[ "$(wc -l <slow_specimens.csv) $(wc -l <slow_paths.csv)" = "3 3" ] || fail "two specimens and two paths"
 [ -z "$(ls -d run-* 2>/dev/null)" ] || fail "slow leaves runs behind"
 echo "test_bench: ok"
