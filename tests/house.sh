@@ -60,6 +60,10 @@ for room in $rooms; do
 done >"$found"
 nothing "rooms that do not say what they are for"
 
+# Counted arrays may have no elements and no storage, which the C library's functions do not allow (include/base/arrays.h).
+grep -nE "\\bqsort\(|\\bmem(cpy|move|set|cmp)\(.*(, |\* )\(size_t\)[^,]*\)" $(echo "$program" | grep -v '/base/') >"$found"
+nothing "arrays that are copied, filled, compared or sorted without array_copy, array_fill_bytes, arrays_equal or array_sort"
+
 # ---- size ------------------------------------------------------------------------------------------------------------
 
 width=$(sed -n 's/^ColumnLimit: *//p' .clang-format)

@@ -57,7 +57,7 @@ static status normal_run(const struct absorbing_method *m, int dim, int width, i
     figure->back /= e.diagnostics.energy_start;
     engine_mesh_sync(&e);
     *v = BARE("bench.v", e.part.n, real);
-    memcpy(*v, e.part.v[0], (size_t)e.part.n * sizeof(real));
+    array_copy(*v, e.part.v[0], e.part.n, sizeof(real));
     bench_engine_free(&e, &s);
     return ran;
 }

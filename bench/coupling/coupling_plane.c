@@ -69,7 +69,7 @@ static status plain_make(struct plain *b, const struct strip *s, struct plane_ro
     status ran = engine_run(&e);
     for (int d = 0; d < 2 && ran == OK; d++) {
         b->v[d] = NEW("bench.plain", e.part.n, real);
-        memcpy(b->v[d], e.part.v[d], (size_t)e.part.n * sizeof(real));
+        array_copy(b->v[d], e.part.v[d], e.part.n, sizeof(real));
     }
     if (ran == OK) b->energy_change = engine_observed(&e).energy_change;
     bench_engine_free(&e, &scene);

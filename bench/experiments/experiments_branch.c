@@ -40,7 +40,7 @@ static struct branch_column *columns_of(const struct frame *f, double spacing, i
         longest = fmax(longest, f->X[0][i]);
         if (f->damage[i] > 0.01 * EXPERIMENT_DAMAGED) point[n++] = (struct branch_point){f->X[0][i], f->X[1][i]};
     }
-    qsort(point, (size_t)n, sizeof *point, by_y);
+    array_sort(point, n, sizeof *point, by_y);
     *columns = (int)(longest / spacing) + 1;
     struct branch_column *column = NEW("bench.columns", *columns, struct branch_column);
     for (int64_t k = 0; k < n; k++) {

@@ -300,7 +300,7 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
     double spent = 0;
     TRY(peer_engine(&e, &s, c, edge));
     real *damage = NEW("peers.damage", e.part.n, real);
-    memcpy(damage, e.part.damage, (size_t)e.part.n * sizeof *damage);
+    array_copy(damage, e.part.damage, e.part.n, sizeof *damage);
     for (int d = 0; d < DIM_MAX; d++) peer->place[d] = NEW("peers.place", e.part.n, double);
     peer->damage = NEW("peers.damage", e.part.n, double);
     r->particles = (double)e.part.n;

@@ -131,9 +131,9 @@ static void earlier_free(struct earlier *b)
 static void earlier_take(struct earlier *b, const struct engine *e)
 {
     for (int d = 0; d < e->part.dim; d++) {
-        memcpy(b->v[0][d], e->part.v[d], (size_t)e->part.n * sizeof(real));
+        array_copy(b->v[0][d], e->part.v[d], e->part.n, sizeof(real));
         if (e->reference.mesh.points > 0)
-            memcpy(b->v[1][d], e->reference.mesh.grid.velocity[d], (size_t)e->reference.mesh.grid.n * sizeof(real));
+            array_copy(b->v[1][d], e->reference.mesh.grid.velocity[d], e->reference.mesh.grid.n, sizeof(real));
     }
 }
 

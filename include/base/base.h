@@ -17,6 +17,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "arrays.h"
+
 typedef double real;
 
 enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };

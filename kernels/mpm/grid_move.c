@@ -138,7 +138,7 @@ static void followers_find(struct grid *g, real smallest_mass)
         g->follower[at] = (struct follower){(int32_t)I, (int32_t)leader, (int32_t)behind};
     }
     g->followers = n;
-    qsort(g->follower, (size_t)n, sizeof *g->follower, by_node);
+    array_sort(g->follower, n, sizeof *g->follower, by_node);
 }
 
 /* Adds `times` the force and the mass of node I to node J, for its acceleration; the velocity of J stays. */

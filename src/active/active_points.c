@@ -59,7 +59,7 @@ static int64_t active_points_reach_of(const struct grid *g, enum shape shape, en
 static void active_points_mark(struct active_points *r, const struct transfer_order *now, const struct particles *p,
                                const struct grid *g, const struct bonds *b, const struct loads *l, bool has_gradient)
 {
-    memset(r->active_cell, 0, (size_t)g->n);
+    array_fill_bytes(r->active_cell, 0, g->n, 1);
 #pragma omp parallel for schedule(static)
     for (int32_t c = 0; c < now->cells; c++) {
         bool inactive = true;
@@ -93,7 +93,7 @@ static void active_points_take(struct active_points *r, const struct transfer_or
             const int32_t *list = all->particle + all->cell_start[c], n = all->cell_start[c + 1] - all->cell_start[c];
             if (!r->active_cell[active_points_cell_of(g, p, list[0])]) continue;
             a->cell_start[a->cells++] = (int32_t)a->n;
-            memcpy(a->particle + a->n, list, (size_t)n * sizeof *list);
+            array_copy(a->particle + a->n, list, n, sizeof *list);
             a->n += n;
         }
     }

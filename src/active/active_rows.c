@@ -79,7 +79,7 @@ static void row_levels_find(struct bonds *b, const struct particles *p, const st
         for (int64_t k = 0; k < r->blocks; k++)
             if (r->moved[k]) r->level[k] = (uint8_t)level;
     }
-    memset(r->moved, 0, (size_t)r->blocks);
+    array_fill_bytes(r->moved, 0, r->blocks, 1);
     r->is_current = true;
 }
 

@@ -135,7 +135,7 @@ static bool is_tip(const struct engine *e, const real *end)
 {
     const struct tips *t = &e->fracture.tips;
     for (int k = 0; k < t->n; k++)
-        if (t->tip[k].from_crack && memcmp(t->tip[k].origin, end, (size_t)t->dim * sizeof *end) == 0) return true;
+        if (t->tip[k].from_crack && arrays_equal(t->tip[k].origin, end, t->dim, sizeof *end)) return true;
     return false;
 }
 

@@ -87,7 +87,7 @@ static status make_other(struct scene *s, struct engine *e, const struct run_arg
                          const char *value, bool rest)
 {
     struct scene_override *override = NEW("check.override", a->overrides + 1, struct scene_override);
-    memcpy(override, a->override, (size_t)a->overrides * sizeof *override);
+    array_copy(override, a->override, a->overrides, sizeof *override);
     override[a->overrides] = (struct scene_override){key, value};
     const status read = scene_read(s, a->scene, override, key ? a->overrides + 1 : a->overrides);
     memory_free(override);
@@ -183,7 +183,7 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     char value[32];
     snprintf(value, sizeof value, "%.17g", spacing);
     coarse.override = NEW("check.coarse", a->overrides + 1, struct scene_override);
-    memcpy(coarse.override, a->override, (size_t)a->overrides * sizeof *a->override);
+    array_copy(coarse.override, a->override, a->overrides, sizeof *a->override);
     coarse.override[coarse.overrides++] = (struct scene_override){"particles.spacing", value};
     if (make_other(&s, &e, &coarse, "method", "pd", false) != OK || time_steps(&e, &seconds) != OK) seconds = NAN;
     else seconds /= (double)e.part.n;

@@ -60,8 +60,8 @@ static real load_mark(const struct boundary *b)
  * `held`, [n]. */
 static void loads_ask(const struct engine *e, int d, real *ask, real *held)
 {
-    memset(ask, 0, (size_t)e->part.n * sizeof *ask);
-    memset(held, 0, (size_t)e->part.n * sizeof *held);
+    array_fill_bytes(ask, 0, e->part.n, sizeof *ask);
+    array_fill_bytes(held, 0, e->part.n, sizeof *held);
     for (int b = 0; b < e->loads.n; b++) {
         const struct load *l = &e->loads.load[b];
         const struct boundary *a = l->boundary;

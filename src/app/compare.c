@@ -139,7 +139,7 @@ static const char *particles_differ(const struct frame *a, const struct frame *b
 {
     if (a->dim != b->dim) return "the dimensions differ";
     if (a->n != b->n) return "the numbers of particles differ";
-    if (memcmp(a->id, b->id, (size_t)a->n * sizeof *a->id) != 0) return "the particles are numbered differently";
+    if (!arrays_equal(a->id, b->id, a->n, sizeof *a->id)) return "the particles are numbered differently";
     return NULL;
 }
 

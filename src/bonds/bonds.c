@@ -46,9 +46,9 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
                       const struct site_map *map, int room, uint8_t *wanted, uint8_t *fresh)
 {
     const bool last = rows_reusable(old, p);
-    if (!last) memset(fresh, 1, (size_t)p->n);
+    if (!last) array_fill_bytes(fresh, 1, p->n, 1);
     if (p->n_of[KIND_PD] == p->n && !last) {
-        memset(wanted, 1, (size_t)(p->n + LANES - 1) / LANES);
+        array_fill_bytes(wanted, 1, (p->n + LANES - 1) / LANES, 1);
         return;
     }
     for (int64_t r = 0; last && r < old->rows; r += LANES) wanted[old->particle[r] / LANES] = 1;
@@ -87,7 +87,7 @@ static int32_t *row_of_make(struct bonds *old, int64_t n)
         return row_of;
     }
     row_of = BARE("bonds.row_of", n, int32_t);
-    memset(row_of, 0xff, (size_t)n * sizeof *row_of);
+    array_fill_bytes(row_of, 0xff, n, sizeof *row_of);
     return row_of;
 }
 

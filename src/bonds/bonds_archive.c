@@ -12,7 +12,7 @@ static void changed_weights(struct bonds *b, real *w, bool saving)
     for (int64_t g = 0; g < b->row_blocks; g++) {
         if (!b->changed[g]) continue;
         const int64_t from = bond_to_write(b, g, 0, 0), n = b->column_count[g] * LANES;
-        memcpy(saving ? w : b->w + from, saving ? b->w + from : w, (size_t)n * sizeof *w);
+        array_copy(saving ? w : b->w + from, saving ? b->w + from : w, n, sizeof *w);
         w += n;
         if (saving) continue;
         for (int64_t q = from; q < from + n; q++)

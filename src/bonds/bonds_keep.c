@@ -20,8 +20,8 @@ int64_t row_block_kept(const struct bonds *b, const struct row_maker *m, int64_t
 static void columns_copy(void *to, const void *from, size_t each, const struct bonds *b, const struct bonds *old,
                          int64_t g, int64_t of)
 {
-    memcpy((char *)to + (size_t)b->column[g] * each, (const char *)from + (size_t)old->column[of] * each,
-           (size_t)b->column_count[g] * each);
+    array_copy((char *)to + (size_t)b->column[g] * each, (const char *)from + (size_t)old->column[of] * each,
+               b->column_count[g], each);
 }
 
 static void columns_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
@@ -60,7 +60,7 @@ struct row_block_found *row_block_found_make(const struct row *row, int rows)
     int32_t *to = found->nbr;
     for (int l = 0; l < rows; l++) {
         found->n[l] = row[l].n, found->family_volume[l] = row[l].family_volume;
-        memcpy(to, row[l].nbr, (size_t)row[l].n * sizeof *to);
+        array_copy(to, row[l].nbr, row[l].n, sizeof *to);
         to += row[l].n;
     }
     return found;
@@ -71,7 +71,7 @@ void row_block_found_take(const struct row_block_found *found, struct row *row, 
     const int32_t *from = found->nbr;
     for (int l = 0; l < rows; l++) {
         row[l].n = found->n[l], row[l].family_volume = found->family_volume[l];
-        memcpy(row[l].nbr, from, (size_t)row[l].n * sizeof *from);
+        array_copy(row[l].nbr, from, row[l].n, sizeof *from);
         from += row[l].n;
     }
 }

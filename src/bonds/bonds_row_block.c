@@ -24,7 +24,7 @@ static int row_block_offsets(struct row_block_room *g, const int32_t *particle, 
             int32_t offset = g->row[l].nbr[k] - particle[l];
             while (at < n && g->offset[at] < offset) at++;
             if (at < n && g->offset[at] == offset) continue;
-            memmove(g->offset + at + 1, g->offset + at, (size_t)(n - at) * sizeof *g->offset);
+            array_copy(g->offset + at + 1, g->offset + at, n - at, sizeof *g->offset);
             g->offset[at] = offset, n++;
         }
     return n;
@@ -140,7 +140,7 @@ bool row_block_regular(const struct site_map *map, const struct bond_source *s, 
         if (cracks_near(s, p, i + l)) return false;
     const uint8_t own = peridynamic(p, i);
     if (own == UINT8_MAX && to->full) {
-        memset(to->bonds, UINT8_MAX, (size_t)to->n);
+        array_fill_bytes(to->bonds, UINT8_MAX, to->n, 1);
         return columns_by_offset(to->n, to->n);
     }
     for (int k = 0; k < to->n; k++) {

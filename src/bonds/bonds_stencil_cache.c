@@ -33,9 +33,8 @@ void stencil_cache_free(struct stencil_cache *t)
 
 static bool same_sites(const struct regular_bonds *a, const struct regular_bonds *b)
 {
-    const size_t n = (size_t)a->n;
-    return a->n == b->n && memcmp(a->offset, b->offset, n * sizeof *a->offset) == 0 &&
-           memcmp(a->from, b->from, n) == 0 && memcmp(a->to, b->to, n) == 0;
+    return a->n == b->n && arrays_equal(a->offset, b->offset, a->n, sizeof *a->offset) &&
+           arrays_equal(a->from, b->from, a->n, 1) && arrays_equal(a->to, b->to, a->n, 1);
 }
 
 /* Are the entries of all neighbours of i .. i + 7 those of the neighbours of j .. j + 7? Index distances come in
@@ -46,7 +45,7 @@ static bool same_around(const real *around, const struct regular_bonds *b, int64
     for (int k = 0, run; k < b->n; k += run) {
         const int64_t offset = b->offset[k];
         for (run = 1; k + run < b->n && b->offset[k + run] == offset + run;) run++;
-        if (memcmp(around + i + offset, around + j + offset, (size_t)(run + LANES - 1) * sizeof *around) != 0)
+        if (!arrays_equal(around + i + offset, around + j + offset, run + LANES - 1, sizeof *around))
             return false;
     }
     return true;
@@ -62,9 +61,9 @@ static void remember(struct stencil_cache *t, const struct regular_bonds *b, int
         to->bonds.to = NEW("bonds.stencil_cache", t->map->most, uint8_t);
     }
     to->i = i, to->bonds.n = b->n;
-    memcpy(to->bonds.offset, b->offset, (size_t)b->n * sizeof *b->offset);
-    memcpy(to->bonds.from, b->from, (size_t)b->n);
-    memcpy(to->bonds.to, b->to, (size_t)b->n);
+    array_copy(to->bonds.offset, b->offset, b->n, sizeof *b->offset);
+    array_copy(to->bonds.from, b->from, b->n, 1);
+    array_copy(to->bonds.to, b->to, b->n, 1);
     t->last = t->next;
     t->next = (t->next + 1) % REMEMBERED;
 }

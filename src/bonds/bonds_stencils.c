@@ -86,8 +86,8 @@ bool stencil_add(struct stencil *to, const struct bonds *b, const struct particl
 
 static bool stencils_equal(const struct stencil *a, const struct stencil *b)
 {
-    return a->columns == b->columns && memcmp(a->column, b->column, (size_t)a->columns * sizeof *a->column) == 0 &&
-           memcmp(a->w, b->w, (size_t)a->columns * sizeof *a->w) == 0;
+    return a->columns == b->columns && arrays_equal(a->column, b->column, a->columns, sizeof *a->column) &&
+           arrays_equal(a->w, b->w, a->columns, sizeof *a->w);
 }
 
 /* The hash of Fowler, Noll and Vo over words, of what distinguishes most stencils: neighbours and weights. */
@@ -113,8 +113,8 @@ static const struct stencil *stencil_store(struct stencils *all, const struct st
     if (all->n == STENCILS_MOST) return NULL;
     struct stencil *stored = &all->stencil[all->n];
     stencil_make(stored, stencil->columns);
-    memcpy(stored->column, stencil->column, (size_t)stencil->columns * sizeof *stored->column);
-    memcpy(stored->w, stencil->w, (size_t)stencil->columns * sizeof *stored->w);
+    array_copy(stored->column, stencil->column, stencil->columns, sizeof *stored->column);
+    array_copy(stored->w, stencil->w, stencil->columns, sizeof *stored->w);
     stored->columns = stencil->columns, stored->whole = stencil->whole, stored->unit = stencil->unit;
     stored->next = all->first[hash] - 1;
     all->first[hash] = ++all->n;

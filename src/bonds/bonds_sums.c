@@ -191,7 +191,7 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
     struct pair_table pairs = pairs_make(s);
     uint8_t *kind = NEW("bonds.kind", p->n_all, uint8_t);
     struct particles all = *p;
-    memset(kind, KIND_PD, (size_t)p->n_all);
+    array_fill_bytes(kind, KIND_PD, p->n_all, 1);
     all.kind = kind;
     struct site_map map;
     const struct row_maker maker = {

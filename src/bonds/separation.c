@@ -47,7 +47,7 @@ static real layer_work(const struct state_modulus *m, const struct family *f, re
 {
     const int n = crossings(f, height, c);
     real Q = f->weighted, sum = 0, energy = 0, work = 0;
-    qsort(c, (size_t)n, sizeof *c, later);
+    array_sort(c, n, sizeof *c, later);
     for (int k = 0; k < n && local; k++) Q -= c[k].weighted;
     for (int k = 0; k < n; k++) {
         const real before = k + 1 < n ? c[k + 1].breaks : 0;

@@ -36,7 +36,7 @@ static void colours(const struct near_faces *b, uint64_t *colour)
     uint64_t *before = NEW("surface.colour", all, uint64_t);
     for (int64_t k = 0; k < all; k++) colour[k] = HASH_START;
     for (int round = 0; round < RADIUS; round++) {
-        memcpy(before, colour, (size_t)all * sizeof *colour);
+        array_copy(before, colour, all, sizeof *colour);
 #pragma omp parallel for schedule(static)
         for (int64_t at = 0; at < all; at++) {
             const int mirrors = (int)(at & ((1 << o->dim) - 1));

@@ -48,14 +48,14 @@ static void components_make(struct components *c, int rank, int dim)
 static int component_of(const struct components *c, const int *any)
 {
     int axis[4];
-    memcpy(axis, any, (size_t)c->rank * sizeof *axis);
+    array_copy(axis, any, c->rank, sizeof *axis);
     for (int a = 1; a < c->rank; a++)
         for (int b = a; b > 0 && axis[b - 1] > axis[b]; b--) {
             const int swap = axis[b];
             axis[b] = axis[b - 1], axis[b - 1] = swap;
         }
     for (int k = 0; k < c->n; k++)
-        if (memcmp(c->axis[k], axis, (size_t)c->rank * sizeof *axis) == 0) return k;
+        if (arrays_equal(c->axis[k], axis, c->rank, sizeof *axis)) return k;
     return -1;
 }
 
@@ -275,7 +275,7 @@ static void group_entries(struct problem *q)
     for (int64_t g = 0; g < a->groups; g++) q->first[g + 1] += q->first[g];
     q->entry = NEW("surface.entry", q->first[a->groups], int64_t);
     int64_t *next = NEW("surface.next", a->groups, int64_t);
-    memcpy(next, q->first, (size_t)a->groups * sizeof *next);
+    array_copy(next, q->first, a->groups, sizeof *next);
     for (int64_t k = 0; k < entries; k++) {
         const int64_t g = a->group_of[k];
         if (g < 0) continue;

@@ -192,7 +192,7 @@ static void pairs_find(struct contact *c, const struct contact_search *s)
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < c->rows; k++) {
             const int64_t n = c->first[k + 1] - c->first[k];
-            if (n > 0) memcpy(c->other + c->first[k], own.other + put, (size_t)n * sizeof *own.other);
+            array_copy(c->other + c->first[k], own.other + put, n, sizeof *own.other);
             put += n;
         }
         memory_free(near.at);

@@ -25,7 +25,7 @@ void contact_marks_follow(struct contact *c)
 {
     memory_free(c->followed);
     c->followed = BARE("contact.followed", c->rows, uint8_t);
-    memset(c->followed, ROW_FEELS, (size_t)c->rows);
+    array_fill_bytes(c->followed, ROW_FEELS, c->rows, 1);
     c->waiting = 0;
 }
 

@@ -19,7 +19,7 @@ static struct body_box *body_boxes(const struct particles *p, int bodies)
     {
         struct body_box *own = BARE("approach.boxes", bodies, struct body_box);
 #pragma omp critical
-        memcpy(own, all, (size_t)bodies * sizeof *own);
+        array_copy(own, all, bodies, sizeof *own);
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
             for (int d = 0; d < p->dim; d++) {

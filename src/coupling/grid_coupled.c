@@ -26,7 +26,7 @@ static void mark_occupied(struct grid_coupled *c, const struct particles *p, con
         c->occupied = memory_resize("grid_coupled.occupied", c->occupied, c->cells_room, g->n, sizeof *c->occupied);
         c->cells_room = g->n;
     }
-    memset(c->occupied, 0, (size_t)g->n);
+    array_fill_bytes(c->occupied, 0, g->n, 1);
     for (int64_t m = 0; m < p->n_of[KIND_MPM]; m++) {
         int64_t cell = grid_coupled_cell_of(p, g, p->list[KIND_MPM][m], k);
         if (cell >= 0) c->occupied[cell] = 1;

@@ -71,7 +71,7 @@ static void make_positive(real *M, int n)
     if (is_positive(M, n)) return;
     enum { SWEEPS = 12 };                /* six unknowns: quadratic convergence ends far earlier */
     real D[SYM_MAX * SYM_MAX], Z[SYM_MAX * SYM_MAX] = {0};
-    memcpy(D, M, sizeof *M * (size_t)(n * n));
+    array_copy(D, M, n * n, sizeof *M);
     for (int a = 0; a < n; a++) Z[a * n + a] = 1;
     for (int sweep = 0; sweep < SWEEPS; sweep++)
         for (int a = 0; a < n; a++)
@@ -124,7 +124,7 @@ bool partial_positive(real *T, real *L, const struct particles *p, const struct 
             const real one = c < dim ? 1.0 / dim : 0, other = d < dim ? 1.0 / dim : 0;
             wanted[c * n + d] = 0.5 * (T[c * n + d] + T[d * n + c]) + 0.5 * V * m->A * (L[c] * other + one * L[d]);
         }
-    memcpy(T, wanted, sizeof *T * (size_t)(n * n));
+    array_copy(T, wanted, n * n, sizeof *T);
     stay_below(T, material, dim, V, q, L);
     return end;
 }

@@ -200,7 +200,7 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
     const int n = symmetric_count(p->dim);
     const bool end = partial_positive(T, entry + n * n, p, b, s, i);
     if (!partial->gives_all) return partial_matrix(entry, T, p, s, i);
-    memset(entry, 0, sizeof *entry * (size_t)partial_stress_entry_size(s, p->dim));
+    array_fill_bytes(entry, 0, partial_stress_entry_size(s, p->dim), sizeof *entry);
     return end;
 }
 
@@ -311,8 +311,8 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
         }
         partial->index[i] = (int32_t)partial->entries++;
     }
-    memcpy(partial->matrix + (int64_t)partial->index[i] * size, M, (size_t)size * sizeof *M);
-    if (local) memcpy(partial->local + (int64_t)partial->index[i] * local, M + size, (size_t)local * sizeof *M);
+    array_copy(partial->matrix + (int64_t)partial->index[i] * size, M, size, sizeof *M);
+    array_copy(partial->local + (int64_t)partial->index[i] * local, M + size, local, sizeof *M);
 }
 
 /* Removes unused entries once they are the majority: conversion and reversion make and abandon entries. */
@@ -328,8 +328,8 @@ static void entries_squeeze(struct partial_stress *partial, const struct particl
         const int64_t at = partial->index[i];
         real M[ENTRY_MOST];
         if (at < 0) continue;
-        memcpy(M, old.matrix + at * size, (size_t)size * sizeof *M);
-        if (local) memcpy(M + size, old.local + at * local, (size_t)local * sizeof *M);
+        array_copy(M, old.matrix + at * size, size, sizeof *M);
+        array_copy(M + size, old.local + at * local, local, sizeof *M);
         partial->index[i] = -1;
         entry_put(partial, i, M, size, local);
     }
@@ -341,8 +341,8 @@ static void entries_squeeze(struct partial_stress *partial, const struct particl
 static bool entry_is(const struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     const int64_t at = partial->index[i];
-    return at >= 0 && memcmp(partial->matrix + at * size, M, (size_t)size * sizeof *M) == 0 &&
-           (local == 0 || memcmp(partial->local + at * local, M + size, (size_t)local * sizeof *M) == 0);
+    return at >= 0 && arrays_equal(partial->matrix + at * size, M, size, sizeof *M) &&
+           arrays_equal(partial->local + at * local, M + size, local, sizeof *M);
 }
 
 /* Adds particle i to partial->touched. */

@@ -263,7 +263,7 @@ static void responses_room(struct partial_table *t, int64_t open)
     if (open <= a->room) return;
     const int64_t room = open + open / 4;
     real *response = BARE("partial.answer", room * each, real);
-    if (a->n > 0) memcpy(response, a->response, (size_t)(a->n * each) * sizeof *response);
+    array_copy(response, a->response, a->n * each, sizeof *response);
     memory_free(a->response);
     a->response = response;
     a->free = memory_resize("partial.free", a->free, a->room, room, sizeof *a->free);
@@ -290,7 +290,7 @@ static void response_make(const struct partial_table *t, const struct particles 
                           const struct bond_source *s, int64_t row, real *response)
 {
     real X[DIM_MAX];
-    memset(response, 0, sizeof *response * (size_t)(t->vectors * t->parts));
+    array_fill_bytes(response, 0, t->vectors * t->parts, sizeof *response);
     particle_place(p, b->particle[row], X);
     for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
         const struct bond bond = it.bond;
@@ -439,7 +439,7 @@ void partial_table_sum(const struct partial_table *t, const struct particles *p,
     const bool mapped = b->site_map && b->site_map->at;
     const int rows =
         mapped ? crossing_rows_by_site(t, b->site_map, p, s, i, row) : crossing_rows_by_search(t, p, s, i, near, row);
-    memset(sum, 0, sizeof *sum * (size_t)(t->directions * t->parts));
+    array_fill_bytes(sum, 0, t->directions * t->parts, sizeof *sum);
     for (int k = 0; k < rows; k++) {
         const real *response = response_at(t, row[k].response);
         if (k + ROWS_AHEAD < rows) row_fetch(t, &row[k + ROWS_AHEAD]);

@@ -12,7 +12,7 @@ void active_set_make(struct active_set *r, int64_t blocks)
     r->level = NEW("active_set.level", blocks, uint8_t);
     r->moved = NEW("active_set.moved", blocks, uint8_t);
     r->list = NEW("active_set.list", blocks, int32_t);
-    memset(r->level, 1, (size_t)blocks);
+    array_fill_bytes(r->level, 1, blocks, 1);
     active_set_list(r);
 }
 

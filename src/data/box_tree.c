@@ -52,7 +52,7 @@ static void boxes_halve(struct box_tree *t, int32_t at, int32_t *nodes, struct b
     if (n == 1) return;
     const int d = widest_spread(list, n, box, dim);
     for (int k = 0; k < n; k++) list[k].middle = middle_of(&box[list[k].item], d);
-    qsort(list, (size_t)n, sizeof *list, boxed_order);
+    array_sort(list, n, sizeof *list, boxed_order);
     const int32_t left = *nodes;
     *nodes += 2, node->left = left;
     boxes_halve(t, left, nodes, list, n / 2, box, dim);

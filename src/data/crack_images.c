@@ -39,7 +39,7 @@ static void crack_clip(struct crack *c, const struct mirror_plane *m, real toler
         if (inside) memcpy(corner[n++], a, sizeof *corner);
         if (inside != next && (c->n > 2 || k == 0)) meeting_place(m, a, b, corner[n++]);
     }
-    memcpy(c->corner, corner, (size_t)n * sizeof *corner);
+    array_copy(c->corner, corner, n, sizeof *corner);
     c->n = n;
     memory_free(corner);
 }
@@ -56,7 +56,7 @@ static struct crack *crack_add(struct crack_list *to, const struct crack *c, int
     struct crack *new = &to->crack[to->n];
     *new = *c;
     new->corner = memory_new("crack.corners", c->n + more, sizeof *new->corner);
-    memcpy(new->corner, c->corner, (size_t)c->n * sizeof *c->corner);
+    array_copy(new->corner, c->corner, c->n, sizeof *c->corner);
     to->of[to->n++] = of;
     return new;
 }

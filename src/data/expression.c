@@ -83,7 +83,7 @@ void expression_make(struct expression *e, const struct expression_step *step, i
     const size_t length = strlen(text) + 1;
     *e = (struct expression){.n = n, .step = NEW("expression", n, struct expression_step),
                              .text = NEW("expression", length, char)};
-    memcpy(e->step, step, (size_t)n * sizeof *step);
+    array_copy(e->step, step, n, sizeof *step);
     memcpy(e->text, text, length);
     for (int k = 0; k < n; k++) {
         e->in_time |= step[k].op == EXPRESSION_T;

@@ -55,7 +55,7 @@ static void faces_cancel(struct hull *s)
         for (int c = 0; c < s->dim; c++) p->corner[c] = s->face[k][c];
         piece_sort(p, s->dim);
     }
-    qsort(piece, (size_t)n, sizeof *piece, piece_order);
+    array_sort(piece, n, sizeof *piece, piece_order);
     s->dropped = s->faces - n;
     for (int64_t k = 0, end; k < n; k = end) {
         int sum = 0;
@@ -82,7 +82,7 @@ static int64_t sides_make(const struct hull *s, struct piece *side)
             if (s->dim == 3) p->corner[1] = s->face[k][(c + 1) % 3];
             piece_sort(p, s->dim - 1);
         }
-    qsort(side, (size_t)n, sizeof *side, piece_order);
+    array_sort(side, n, sizeof *side, piece_order);
     return n;
 }
 

@@ -59,7 +59,7 @@ static void node_split(struct hull *s, int32_t at, struct leaflet *leaf)
     if (n->count <= LEAF) return;
     for (int d = 1; d < s->dim; d++)
         if (n->high[d] - n->low[d] > n->high[axis] - n->low[axis]) axis = d;
-    qsort(leaf + n->first, (size_t)n->count, sizeof *leaf, order[axis]);
+    array_sort(leaf + n->first, n->count, sizeof *leaf, order[axis]);
     const int32_t half = n->count / 2, left = s->nodes;
     n->left = left;
     s->nodes += 2;

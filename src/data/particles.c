@@ -196,7 +196,7 @@ static void permute(char *array, size_t size, const struct place *place, int64_t
 {
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < n; i++) memcpy(scratch + (size_t)i * size, array + (size_t)place[i].index * size, size);
-    memcpy(array, scratch, (size_t)n * size);
+    array_copy(array, scratch, n, size);
 }
 
 static bool in_order(const struct place *place, int64_t n)
@@ -218,7 +218,7 @@ void particles_sort(struct particles *p, real spacing, int optional)
         return;
     }
     char *scratch = NEW("particles.scratch", p->n * (int64_t)sizeof(real), char);
-    qsort(place, (size_t)p->n, sizeof *place, compare_places);
+    array_sort(place, p->n, sizeof *place, compare_places);
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
         for (int k = 0; k < f->count(p->dim, optional); k++) permute(get(p, f, k), f->size, place, p->n, scratch);
     memory_free(scratch);

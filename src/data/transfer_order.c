@@ -115,7 +115,7 @@ static ALWAYS_INLINE int32_t find_block(const struct sorting *s, int32_t i, uint
 static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const int dim)
 {
     int32_t *count = s->fill + chunk * s->shape.n, key = 0;
-    memset(count, 0, (size_t)s->shape.n * sizeof *count);
+    array_fill_bytes(count, 0, s->shape.n, sizeof *count);
     int64_t from = chunk_start(s, chunk);
     for (int64_t k = from; k < chunk_start(s, chunk + 1); k++) {
         const int32_t own = s->key[k] = find_block(s, s->list[k], &s->inside[k], dim);
@@ -170,7 +170,7 @@ static int32_t sort_in_block(int32_t *particle, uint16_t *inside, int32_t n, int
 {
     int32_t at[CELLS_IN_BLOCK_MOST], cells = 0, next = 0;
     if (n == 0) return 0;
-    memset(at, 0, (size_t)cells_in_block * sizeof *at);
+    array_fill_bytes(at, 0, cells_in_block, sizeof *at);
     for (int32_t k = 0; k < n; k++) at[inside[k]]++;
     for (int64_t c = 0; c < cells_in_block; c++) {
         const int32_t count = at[c];

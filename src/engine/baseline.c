@@ -20,7 +20,7 @@ static void baseline_keep(struct engine *e, const struct engine *twin)
     const struct particles *p = &twin->part;
     for (int d = 0; d < p->dim; d++) {
         e->probing.baseline.v[d] = NEW("baseline.v", p->n, real);
-        memcpy(e->probing.baseline.v[d], p->v[d], (size_t)p->n * sizeof *p->v[d]);
+        array_copy(e->probing.baseline.v[d], p->v[d], p->n, sizeof *p->v[d]);
     }
     e->probing.baseline.energy_change = engine_observed(twin).energy_change;
     e->probing.has_baseline = true;

@@ -56,11 +56,11 @@ real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force
     real *x[DIM_MAX];
     for (int a = 0; a < p->dim; a++) {
         x[a] = NEW("critical.x", p->n_all, real);
-        memcpy(x[a], p->x[a], (size_t)p->n_all * sizeof *x[a]);
+        array_copy(x[a], p->x[a], p->n_all, sizeof *x[a]);
     }
     const real omega2 = largest_eigenvalue(p->dim * p->n, bond_body_stiffness, &body);
     for (int a = 0; a < p->dim; a++) {
-        memcpy(p->x[a], x[a], (size_t)p->n_all * sizeof *x[a]);
+        array_copy(p->x[a], x[a], p->n_all, sizeof *x[a]);
         memory_free(x[a]);
     }
     bond_body_free(&body);

@@ -197,7 +197,7 @@ real engine_grid_power(struct engine *e, real middle)
     for (int k = 0; k < e->mpm.fields; k++) {
         const struct grid *g = &e->mpm.field[k].grid;
         momentum[k] = BARE("engine.momentum", g->n * g->dim, real);
-        for (int d = 0; d < g->dim; d++) memcpy(momentum[k] + d * g->n, g->momentum[d], (size_t)g->n * sizeof(real));
+        for (int d = 0; d < g->dim; d++) array_copy(momentum[k] + d * g->n, g->momentum[d], g->n, sizeof(real));
     }
     struct grid_side *side = meeting_find(e);
     const real damped = e->coupling.damped;

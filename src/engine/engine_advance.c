@@ -154,8 +154,8 @@ void stand_take(struct stand *k, struct engine *e)
     for (int d = 0; d < q->dim; d++) {
         k->u.of[d] = BARE("advance.stand", q->n, real);
         k->f.of[d] = BARE("advance.stand", q->n, real);
-        memcpy(k->u.of[d], q->u.of[d], (size_t)q->n * sizeof(real));
-        memcpy(k->f.of[d], q->f.of[d], (size_t)q->n * sizeof(real));
+        array_copy(k->u.of[d], q->u.of[d], q->n, sizeof(real));
+        array_copy(k->f.of[d], q->f.of[d], q->n, sizeof(real));
     }
 }
 
@@ -177,8 +177,8 @@ void stand_give(struct stand *k, struct engine *e, const struct break_list *brok
     q->lost = k->lost, e->coupling.damped = k->damped;
     e->loads.work = k->work, e->loads.constraint_work = k->constraint_work;
     for (int d = 0; d < q->dim; d++) {
-        memcpy(q->u.of[d], k->u.of[d], (size_t)q->n * sizeof(real));
-        memcpy(q->f.of[d], k->f.of[d], (size_t)q->n * sizeof(real));
+        array_copy(q->u.of[d], k->u.of[d], q->n, sizeof(real));
+        array_copy(q->f.of[d], k->f.of[d], q->n, sizeof(real));
     }
     stand_free(k, e);
     statics_place(e, &q->u);

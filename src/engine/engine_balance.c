@@ -16,7 +16,7 @@ void statics_applied_make(struct engine *e, real t)
     const struct particles *p = &e->part;
     for (int d = 0; d < p->dim; d++) {
         if (!e->statics.applied[d]) e->statics.applied[d] = NEW("statics.applied", p->n, real);
-        memset(e->statics.applied[d], 0, (size_t)p->n * sizeof(real));
+        array_fill_bytes(e->statics.applied[d], 0, p->n, sizeof(real));
     }
     for (int b = 0; b < e->loads.n; b++) {
         const struct load *l = &e->loads.load[b];
@@ -146,12 +146,12 @@ static void account_begin(struct account *a, const struct engine *e)
         a->u.of[d] = BARE("statics.account", s->balance.n, real);
         a->f.of[d] = BARE("statics.account", s->balance.n, real);
         a->applied[d] = BARE("statics.account", e->part.n, real);
-        memcpy(a->u.of[d], s->balance.u.of[d], (size_t)s->balance.n * sizeof(real));
-        memcpy(a->f.of[d], s->balance.f.of[d], (size_t)s->balance.n * sizeof(real));
+        array_copy(a->u.of[d], s->balance.u.of[d], s->balance.n, sizeof(real));
+        array_copy(a->f.of[d], s->balance.f.of[d], s->balance.n, sizeof(real));
         if (s->applied[d])
-            memcpy(a->applied[d], s->applied[d], (size_t)e->part.n * sizeof(real));
+            array_copy(a->applied[d], s->applied[d], e->part.n, sizeof(real));
         else
-            memset(a->applied[d], 0, (size_t)e->part.n * sizeof(real));
+            array_fill_bytes(a->applied[d], 0, e->part.n, sizeof(real));
     }
 }
 
@@ -206,7 +206,7 @@ static status solve_at(struct engine *e, real t)
     account_begin(&account, e);
     for (int d = 0; d < e->part.dim; d++) {
         before[d] = BARE("statics.before", e->part.n, real);
-        memcpy(before[d], e->part.x[d], (size_t)e->part.n * sizeof(real));
+        array_copy(before[d], e->part.x[d], e->part.n, sizeof(real));
     }
     statics_applied_make(e, t);
     if (s->parted) statics_pieces_make(e);

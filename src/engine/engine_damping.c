@@ -114,7 +114,7 @@ void engine_damping_begin(struct engine *e)
     for (int k = 0; k < kinds; k++)
         for (int d = 0; d < e->part.dim; d++) {
             if (!e->damping.before[k][d]) e->damping.before[k][d] = NEW("engine.damping", n[k], real);
-            memcpy(e->damping.before[k][d], all[k].v[d], (size_t)n[k] * sizeof(real));
+            array_copy(e->damping.before[k][d], all[k].v[d], n[k], sizeof(real));
         }
 }
 

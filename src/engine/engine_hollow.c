@@ -150,7 +150,7 @@ status engine_hollow_plan(struct engine *e)
         h->absent[I] = h->whole[I] && !cell_needed(e, h, I);
         absent += h->absent[I];
     }
-    memcpy(h->whole, h->absent, (size_t)h->box.n);       /* loads, faces of pre-cracks and probes stay where they are */
+    array_copy(h->whole, h->absent, h->box.n, 1);       /* loads, faces of pre-cracks and probes stay where they are */
     if (absent > least) return OK;
     memory_free(h->absent);
     h->absent = NULL;

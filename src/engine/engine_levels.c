@@ -247,7 +247,7 @@ status engine_levels_make(struct engine *e, bool restored)
     uint8_t *stressed = stressed_cells(e, SPLITS, true);
     marks_add(&r->levels, stressed, demand);
     uint8_t *limit = NEW("levels.limit", r->mesh.grid.n, uint8_t);
-    memset(limit, r->levels.n, (size_t)r->mesh.grid.n);
+    array_fill_bytes(limit, r->levels.n, r->mesh.grid.n, 1);
     next_levels(e, demand, limit, level);
     if (engine_hollow_start(e, level)) change(e, level);
     memory_free(limit);
@@ -274,7 +274,7 @@ static void limits_find(struct engine *e, bool looks, uint8_t *limit)
 {
     struct mesh_levels *l = &e->reference.levels;
     const int64_t n = l->fine->grid.n;
-    memcpy(limit, l->level, (size_t)n);
+    array_copy(limit, l->level, n, 1);
     if (!looks) return;
     uint8_t *late = demand_make(e, ZONE_MORE + ZONE_LATE), *stressed = stressed_cells(e, MERGES, true);
     marks_add(l, stressed, late);
@@ -296,7 +296,7 @@ static void lost_bonds_return(struct engine *e)
         const int32_t i = p->list[KIND_MPM][k];
         if (l->wanted[cell_of(l->fine, p, i)] == WANTED_LOST_BOND) p->flag[i] |= FLAG_LOST_BOND, l->returned = true;
     }
-    memset(l->wanted, WANTED_NOT, (size_t)l->fine->grid.n);
+    array_fill_bytes(l->wanted, WANTED_NOT, l->fine->grid.n, 1);
 }
 
 status engine_levels_follow(struct engine *e)
@@ -313,7 +313,7 @@ status engine_levels_follow(struct engine *e)
     limits_find(e, looks, limit);
     next_levels(e, demand, limit, level);
     const status s = engine_hollow_follow(e, level);
-    if (s == OK && memcmp(level, l->level, (size_t)n) != 0) change(e, level);
+    if (s == OK && !arrays_equal(level, l->level, n, 1)) change(e, level);
     if (s == OK) lost_bonds_return(e);
     l->any_wanted = false;
     memory_free(demand);

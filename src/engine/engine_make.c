@@ -386,7 +386,7 @@ static status make_forces(struct engine *e, struct predecessor *before)
     TRY(named(s, engine_frames(e)));
     if (!scene_moves(s)) e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
     if (scene_at_rest(s)) loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
-    else if (e->boundary) memcpy(e->boundary, s->boundary, (size_t)s->boundaries * sizeof *e->boundary);
+    else if (e->boundary) array_copy(e->boundary, s->boundary, s->boundaries, sizeof *e->boundary);
     TRY(named(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part, s->spacing,
                             e->source.family.cutoff, e->optional)));
     engine_absorbing_make(e);

@@ -126,8 +126,8 @@ static real least_to_break(const real *load, int64_t n, real least, int64_t most
 {
     if (n <= 2 * most) return least;
     real *sorted = BARE("statics.sorted", n, real);
-    memcpy(sorted, load, (size_t)n * sizeof *load);
-    qsort(sorted, (size_t)n, sizeof *sorted, descending);
+    array_copy(sorted, load, n, sizeof *load);
+    array_sort(sorted, n, sizeof *sorted, descending);
     const real down_to = sorted[2 * most - 1] * (1 - ALIKE);
     memory_free(sorted);
     return real_max(least, down_to);

@@ -81,8 +81,8 @@ static struct numbers unknowns_number(const struct engine *e)
     const struct mesh *mesh = &e->reference.mesh;
     const int64_t places = mesh->points > 0 ? mesh->grid.n : 0;
     struct numbers n = {BARE("pieces.particle", e->part.n, int32_t), BARE("pieces.node", places, int32_t)};
-    memset(n.particle, -1, (size_t)e->part.n * sizeof *n.particle);
-    memset(n.node, -1, (size_t)places * sizeof *n.node);
+    array_fill_bytes(n.particle, -1, e->part.n, sizeof *n.particle);
+    array_fill_bytes(n.node, -1, places, sizeof *n.node);
     for (int64_t k = 0; k < s->balance.n; k++) (k < s->particles ? n.particle : n.node)[s->node[k]] = (int32_t)k;
     for (int64_t k = 0; k < places && k < mesh->grid.mirror_nodes; k++)
         n.node[mesh->grid.mirror_node[k].node] = n.node[mesh->grid.mirror_node[k].image];

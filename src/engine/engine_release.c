@@ -35,7 +35,7 @@ static void boundaries_hold(struct engine *e, real t)
 
 static void boundaries_follow(struct engine *e)
 {
-    memcpy(e->boundary, e->scene->boundary, (size_t)e->scene->boundaries * sizeof *e->boundary);
+    array_copy(e->boundary, e->scene->boundary, e->scene->boundaries, sizeof *e->boundary);
 }
 
 /* Rigid bodies stay where they are; those that are driven go on. */

@@ -168,7 +168,7 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
     if (p->n_free == 0 && !coupling_moves_by_grid(kind)) return;
     for (int d = 0; d < p->dim; d++) {
         if (!sampling->before[d]) sampling->before[d] = BARE("report.before", p->n, real);
-        memcpy(sampling->before[d], p->v[d], (size_t)p->n * sizeof(real));
+        array_copy(sampling->before[d], p->v[d], p->n, sizeof(real));
     }
 }
 
@@ -282,7 +282,7 @@ static real power_last(struct engine *e, real *held)
 {
     const struct loads account = e->loads;
     struct load *own = BARE("report.load", e->loads.n, struct load);
-    if (e->loads.n > 0) memcpy(own, e->loads.load, (size_t)e->loads.n * sizeof *own);
+    array_copy(own, e->loads.load, e->loads.n, sizeof *own);
     const real dt_velocity = e->clock.dt * engine_damping_share(e);
     e->loads.absorbing.idle = e->loads.ended = true;
     loads_clear(&e->loads, &e->part);
@@ -292,7 +292,7 @@ static real power_last(struct engine *e, real *held)
     if (e->reference.mesh.points > 0) engine_nodes_force(e);
     const real power = power_now(&e->part, &e->reference) + engine_grid_power(e, e->clock.t + 0.5 * e->clock.dt);
     *held = e->loads.constraint_work - account.constraint_work;
-    if (e->loads.n > 0) memcpy(e->loads.load, own, (size_t)e->loads.n * sizeof *own);
+    array_copy(e->loads.load, own, e->loads.n, sizeof *own);
     memcpy(e->loads.impulse, account.impulse, sizeof account.impulse);      /* arrays may have grown with the grid */
     e->loads.work = account.work, e->loads.constraint_work = account.constraint_work;
     e->loads.absorbing.idle = e->loads.ended = false;

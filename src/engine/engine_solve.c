@@ -77,9 +77,9 @@ static void say_large_strain(struct engine *e)
 static void solver_finish(struct engine *e)
 {
     struct particles *p = &e->part;
-    for (int d = 0; d < p->dim; d++) memset(p->v[d], 0, (size_t)p->n_all * sizeof(real));
+    for (int d = 0; d < p->dim; d++) array_fill_bytes(p->v[d], 0, p->n_all, sizeof(real));
     for (int k = 0; k < p->dim * p->dim && (e->optional & WITH_GRADIENT); k++)
-        memset(p->gradient[k], 0, (size_t)p->n_all * sizeof(real));
+        array_fill_bytes(p->gradient[k], 0, p->n_all, sizeof(real));
     loads_mirror(&e->loads, p);
     loads_static_work(&e->loads, p);
     memset(e->loads.impulse, 0, sizeof e->loads.impulse);
@@ -130,7 +130,7 @@ static void solve_start(struct engine *e)
     if (e->scene->method != METHOD_PD) return;
     if (e->clock.step == 0) engine_sample_rest(e);
     for (int d = 0; d < e->part.dim; d++)
-        memcpy(e->solver.before.of[d], e->part.f[d], (size_t)e->part.n * sizeof(real));
+        array_copy(e->solver.before.of[d], e->part.f[d], e->part.n, sizeof(real));
 }
 
 status engine_solve(struct engine *e)

@@ -159,16 +159,16 @@ static int64_t row_sort(struct block_matrix *a, int64_t first, int64_t end)
         const int32_t column = a->column[q];
         float block[DIM_MAX * DIM_MAX];
         int64_t at = kept;
-        memcpy(block, a->block + q * size, (size_t)size * sizeof(float));
+        array_copy(block, a->block + q * size, size, sizeof(float));
         while (at > first && a->column[at - 1] >= column) at--;
         if (at < kept && a->column[at] == column) {
             for (int k = 0; k < size; k++) a->block[at * size + k] += block[k];
             continue;
         }
-        memmove(a->column + at + 1, a->column + at, (size_t)(kept - at) * sizeof *a->column);
-        memmove(a->block + (at + 1) * size, a->block + at * size, (size_t)((kept - at) * size) * sizeof(float));
+        array_copy(a->column + at + 1, a->column + at, kept - at, sizeof *a->column);
+        array_copy(a->block + (at + 1) * size, a->block + at * size, (kept - at) * size, sizeof(float));
         a->column[at] = column;
-        memcpy(a->block + at * size, block, (size_t)size * sizeof(float));
+        array_copy(a->block + at * size, block, size, sizeof(float));
         kept++;
     }
     return kept - first;
@@ -181,8 +181,8 @@ static void rows_close(struct block_matrix *a, const int64_t *kept)
     int64_t to = 0;
     for (int64_t row = 0; row < a->n; row++) {
         const int64_t from = a->first[row];
-        memmove(a->column + to, a->column + from, (size_t)kept[row] * sizeof *a->column);
-        memmove(a->block + to * size, a->block + from * size, (size_t)(kept[row] * size) * sizeof(float));
+        array_copy(a->column + to, a->column + from, kept[row], sizeof *a->column);
+        array_copy(a->block + to * size, a->block + from * size, kept[row] * size, sizeof(float));
         a->first[row] = to;
         to += kept[row];
     }
@@ -200,7 +200,7 @@ static void matrix_fill(struct springs *s)
     a->column = BARE("springs.column", a->first[a->n], int32_t);
     a->block = BARE("springs.block", a->first[a->n] * a->dim * a->dim, float);
     s->next = BARE("springs.next", a->n, int64_t);
-    memcpy(s->next, a->first, (size_t)a->n * sizeof *s->next);
+    array_copy(s->next, a->first, a->n, sizeof *s->next);
     for (int64_t k = 0; k < a->n; k++) entry_add(s, k, k, none);
     springs_visit(s);
 #pragma omp parallel for schedule(static)
@@ -230,8 +230,8 @@ static struct block_matrix *matrix_make(const struct engine *e)
         mesh->points > 0 && mesh->grid.mirror_nodes > 0 ? memory_new("springs.sign", nodes, sizeof *sign) : NULL;
     struct block_matrix *a = NEW("springs.matrix", 1, struct block_matrix);
     a->dim = e->part.dim, a->n = s->balance.n;
-    memset(particle_at, -1, (size_t)e->part.n * sizeof *particle_at);
-    memset(node_at, -1, (size_t)nodes * sizeof *node_at);
+    array_fill_bytes(particle_at, -1, e->part.n, sizeof *particle_at);
+    array_fill_bytes(node_at, -1, nodes, sizeof *node_at);
     for (int64_t k = 0; k < a->n; k++) (k < s->particles ? particle_at : node_at)[s->node[k]] = (int32_t)k;
     for (int64_t I = 0; sign && I < nodes; I++) memset(sign[I], 1, sizeof sign[I]);
     for (int64_t k = 0; sign && k < mesh->grid.mirror_nodes; k++) {

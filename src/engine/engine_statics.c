@@ -133,8 +133,8 @@ void statics_unknowns_make(struct engine *e)
     for (int d = 0; d < e->part.dim; d++) {
         s->way.of[d] = NEW("statics.way", n, real);
     }
-    memset(particle_at, -1, (size_t)e->part.n * sizeof *particle_at);
-    memset(node_at, -1, (size_t)places * sizeof *node_at);
+    array_fill_bytes(particle_at, -1, e->part.n, sizeof *particle_at);
+    array_fill_bytes(node_at, -1, places, sizeof *node_at);
     for (int64_t k = 0; k < n; k++) {
         (k < s->particles ? particle_at : node_at)[s->node[k]] = (int32_t)k;
         s->weight[k] = 1;
@@ -265,7 +265,7 @@ void statics_plastic_restore(struct engine *e)
     real *array[PLASTIC_MOST];
     size_t size[PLASTIC_MOST];
     const int n = plastic_state(e, array, size);
-    for (int k = 0; k < n && e->statics.plastic[k]; k++) memcpy(array[k], e->statics.plastic[k], size[k]);
+    for (int k = 0; k < n && e->statics.plastic[k]; k++) array_copy(array[k], e->statics.plastic[k], 1, size[k]);
 }
 
 void statics_plastic_keep(struct engine *e)
@@ -277,7 +277,7 @@ void statics_plastic_keep(struct engine *e)
     for (int k = 0; k < n; k++) {
         memory_free(s->plastic[k]);
         s->plastic[k] = BARE("statics.plastic", (int64_t)(size[k] / sizeof(real)), real);
-        memcpy(s->plastic[k], array[k], size[k]);
+        array_copy(s->plastic[k], array[k], 1, size[k]);
     }
 }
 

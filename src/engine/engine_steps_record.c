@@ -17,7 +17,7 @@ int statics_columns(const struct engine *e, struct column *column)
         {"path_z", "m"}};
     if (!scene_in_steps(e->scene)) return 0;
     const int n = STATICS_COLUMNS - (e->part.dim < 3);
-    if (column) memcpy(column, own, (size_t)n * sizeof *own);
+    if (column) array_copy(column, own, n, sizeof *own);
     return n;
 }
 
@@ -92,7 +92,7 @@ void statics_record(struct engine *e, real *record)
     memcpy(record, own, sizeof own);
     led_factors(e, record + COUNT_OF(own));
     led_place(e, place);
-    memcpy(record + COUNT_OF(own) + MODES, place, (size_t)(e->part.dim < 3 ? 2 : 3) * sizeof *place);
+    array_copy(record + COUNT_OF(own) + MODES, place, e->part.dim < 3 ? 2 : 3, sizeof *place);
 }
 
 real engine_load_size(const struct engine *e, real t) { return statics_load_size(e, t); }

@@ -39,7 +39,7 @@ status lammps_check_write(FILE *to, struct exported *x)
     real *before = NEW("check.before", n, real), *after = NEW("check.after", n, real),
          *damage = NEW("check.damage", n, real);
     joined_volume(before, e);
-    memcpy(damage, e->part.damage, (size_t)n * sizeof *damage);
+    array_copy(damage, e->part.damage, n, sizeof *damage);
     e->report.quiet = e->report.excerpt = true;
     e->clock.steps = lammps_check_steps(x);
     const status ran = engine_run(e);

@@ -84,7 +84,7 @@ void fragments_find(struct fragments *f, const struct bonds *b, const struct par
         add_particle(g, p, i);
     }
     leave_singles(f);
-    qsort(f->fragment, (size_t)f->n, sizeof *f->fragment, heavier_first);
+    array_sort(f->fragment, f->n, sizeof *f->fragment, heavier_first);
     number_particles(f, leader, p->n);
     memory_free(leader);
     memory_free(place);

@@ -69,9 +69,9 @@ struct tip *tip_add(struct tips *t, int body, const real *origin, const real *al
     struct tip *tip = &t->tip[t->n++];
     *tip = (struct tip){.body = body, .first_time = NAN, .start_time = NAN, .arrest_time = NAN,
                         .speed_max = NAN, .speed_mean = NAN};
-    memcpy(tip->origin, origin, (size_t)t->dim * sizeof *origin);
-    memcpy(tip->place, origin, (size_t)t->dim * sizeof *origin);
-    if (along) memcpy(tip->along, along, (size_t)t->dim * sizeof *along);
+    array_copy(tip->origin, origin, t->dim, sizeof *origin);
+    array_copy(tip->place, origin, t->dim, sizeof *origin);
+    if (along) array_copy(tip->along, along, t->dim, sizeof *along);
     else tip->along[0] = 1;
     return tip;
 }

@@ -92,7 +92,7 @@ void label_map_make(struct label_map *map, const int64_t *label, int64_t first, 
     map->n = n;
     map->entry = NEW("mesh.labels", n, struct label_entry);
     for (int64_t k = 0; k < n; k++) map->entry[k] = (struct label_entry){label[k], first + k};
-    qsort(map->entry, (size_t)n, sizeof *map->entry, label_entry_order);
+    array_sort(map->entry, n, sizeof *map->entry, label_entry_order);
 }
 
 int64_t label_find(const struct label_map *map, int64_t label)

@@ -12,7 +12,7 @@ static tmsize_t tiff_take(thandle_t handle, void *to, tmsize_t n)
     struct source *s = handle;
     const int64_t rest = s->length - s->at, taken = n < rest ? n : rest;
     if (taken <= 0) return 0;
-    memcpy(to, s->text + s->at, (size_t)taken);
+    array_copy(to, s->text + s->at, taken, 1);
     s->at += taken;
     return taken;
 }

@@ -88,7 +88,7 @@ static status text_real(struct source *s, const char *what, real *value)
 static status bytes_take(struct source *s, const char *what, void *value, int64_t size)
 {
     if (s->length - s->at < size) return source_fault(s, "ends where %s is expected: it is cut off", what);
-    memcpy(value, s->text + s->at, (size_t)size);
+    array_copy(value, s->text + s->at, size, 1);
     s->at += size;
     return OK;
 }

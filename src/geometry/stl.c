@@ -113,7 +113,7 @@ static void corners_weld(struct element_mesh *m)
         for (int d = 0; d < DIM_MAX; d++) key[k].X[d] = nearbyint(m->node[k][d] / step);
         key[k].at = (int32_t)k;
     }
-    qsort(key, (size_t)m->nodes, sizeof *key, corner_order);
+    array_sort(key, m->nodes, sizeof *key, corner_order);
     for (int64_t k = 0; k < m->nodes; k++) {
         const real *X = key[k].X, *before = key[k > 0 ? k - 1 : 0].X;
         if (k == 0 || X[0] != before[0] || X[1] != before[1] || X[2] != before[2]) first = key[k].at;

@@ -218,7 +218,7 @@ static real *field_of(struct absorbing *a, int64_t n)
         a->field = memory_resize("loads.field", a->field, a->field_room, n, sizeof *a->field);
         a->field_room = n;
     }
-    memset(a->field, 0, (size_t)n * sizeof *a->field);
+    array_fill_bytes(a->field, 0, n, sizeof *a->field);
     return a->field;
 }
 

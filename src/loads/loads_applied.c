@@ -14,7 +14,7 @@
 static bool same_particles(const struct load *a, const struct load *b)
 {
     return !a->moving && !b->moving && a->n == b->n &&
-           memcmp(a->particle, b->particle, (size_t)a->n * sizeof *a->particle) == 0;
+           arrays_equal(a->particle, b->particle, a->n, sizeof *a->particle);
 }
 
 /* Replaces the share of component d of load b by an equal one that the same leader's earlier loads have, if there is
@@ -25,7 +25,7 @@ static void share_join(struct loads *l, int b, int d, int dim)
     for (int c = load->leader; c < b; c++)
         for (int a = 0; a < dim && l->load[c].leader == load->leader; a++) {
             real *other = l->load[c].share[a];
-            if (other == load->share[d] || memcmp(other, load->share[d], (size_t)load->n * sizeof(real)) != 0) continue;
+            if (other == load->share[d] || !arrays_equal(other, load->share[d], load->n, sizeof(real))) continue;
             memory_free(load->share[d]);
             load->share[d] = other;
             return;
@@ -225,7 +225,7 @@ static void clear_run(const struct load *load, struct particles *p, int64_t firs
 {
     const bool dense = follow_each_other(load->particle, first, end);
     for (int d = 0; d < p->dim; d++)
-        if (dense) memset(p->f[d] + load->particle[first], 0, (size_t)(end - first) * sizeof(real));
+        if (dense) array_fill_bytes(p->f[d] + load->particle[first], 0, end - first, sizeof(real));
         else
             for (int64_t k = first; k < end; k++) p->f[d][load->particle[k]] = 0;
 }

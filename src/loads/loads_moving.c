@@ -64,7 +64,7 @@ status load_formula_make(struct load *l, const struct particles *p)
     if (any) shares_part(l, p, !l->moving, b->frozen_at);
     for (int d = 0; d < p->dim && l->moving; d++) {
         l->base[d] = NEW("loads.base", l->n, real);
-        memcpy(l->base[d], l->share[d], (size_t)l->n * sizeof(real));
+        array_copy(l->base[d], l->share[d], l->n, sizeof(real));
     }
     return OK;
 }

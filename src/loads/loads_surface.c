@@ -116,7 +116,7 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
             return status_set(REFUSED, "pressure that follows wants particles on a regular lattice of the spacing; "
                               "follow: false, or particles.irregularity 0 and no list, is expected");
     }
-    qsort(s->site, (size_t)s->n, sizeof *s->site, by_key);
+    array_sort(s->site, s->n, sizeof *s->site, by_key);
     return OK;
 }
 
@@ -183,7 +183,7 @@ static struct site *corners_number(struct surface *a, const struct sites *s, con
             all[q * each + c] = (struct site){site_key(s->p->body[f->face[q].particle], k, a->dim),
                                               (int32_t)(q * FACE_CORNERS + c)};
         }
-    qsort(all, (size_t)(f->n * each), sizeof *all, by_key);
+    array_sort(all, f->n * each, sizeof *all, by_key);
     a->corner = NEW("loads.corner", f->n * FACE_CORNERS, int32_t);
     for (int64_t q = 0; q < f->n * each; q++) {
         if (q == 0 || all[q].key != all[q - 1].key) a->corners++;
@@ -250,7 +250,7 @@ static void corner_around(struct around *t, const struct sites *s, int body, con
 /* Solves C y = b, symmetric and positive once SINGULAR is on its diagonal, by elimination. */
 static void solve_small(real C[DIM_MAX][DIM_MAX], const real *b, int n, real *y)
 {
-    memcpy(y, b, (size_t)n * sizeof *y);
+    array_copy(y, b, n, sizeof *y);
     for (int k = 0; k < n; k++)
         for (int m = k + 1; m < n; m++) {
             const real share = C[m][k] / C[k][k];
@@ -317,8 +317,8 @@ static void corners_make(struct surface *a, const struct sites *s, const struct 
         corner_site(s, face, one->value % FACE_CORNERS, site);
         corner_around(&t, s, s->p->body[face->particle], site);
         corner_weights(&t, a->dim, a->weight + a->first[c]);
-        memcpy(a->particle + a->first[c], t.particle, (size_t)t.n * sizeof *t.particle);
-        memcpy(a->turned + a->first[c], t.turned, (size_t)t.n * sizeof *t.turned);
+        array_copy(a->particle + a->first[c], t.particle, t.n, sizeof *t.particle);
+        array_copy(a->turned + a->first[c], t.turned, t.n, sizeof *t.turned);
         corner_place_make(a, c, s, s->first[s->p->body[face->particle]], site, &t);
         a->first[c + 1] = a->first[c] + t.n;
     }
@@ -445,7 +445,7 @@ static void surface_face_area(struct surface *s, int64_t q)
     const real *x[FACE_CORNERS];
     real *to = s->face_area + q * FACE_CORNERS * s->dim;
     for (int c = 0; c < corners; c++) x[c] = s->x + (int64_t)s->corner[q * FACE_CORNERS + c] * s->dim;
-    memset(to, 0, (size_t)(FACE_CORNERS * s->dim) * sizeof *to);
+    array_fill_bytes(to, 0, FACE_CORNERS * s->dim, sizeof *to);
     if (is_torn(s, x, corners)) return;
     if (s->dim == 2) segment_area(s, x, s->sign[q], to);
     else quadrilateral_area(x, s->sign[q], to);

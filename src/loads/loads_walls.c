@@ -168,7 +168,7 @@ static int64_t driven_share(struct loads *l, const struct load *load, const stru
             l->share = memory_resize("loads.share", l->share, l->share_room, g->n, sizeof *l->share);
             l->share_room = g->n;
         }
-        memset(l->share, 0, (size_t)g->n * sizeof *l->share);
+        array_fill_bytes(l->share, 0, g->n, sizeof *l->share);
         k->spread(g, p, half_width, list, n, mass, l->share);
     }
     memory_free(list);

@@ -93,7 +93,7 @@ void active_nodes_add_exposed(struct mesh *mesh)
 void active_nodes_all(struct mesh *mesh)
 {
     mesh->active.is_current = false;
-    memset(mesh->active.level, 1, (size_t)mesh->active.blocks);
+    array_fill_bytes(mesh->active.level, 1, mesh->active.blocks, 1);
 }
 
 /* Finds the levels of all blocks anew. */
@@ -102,7 +102,7 @@ static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
     struct active_set *r = &mesh->active;
 #pragma omp parallel for schedule(static)
     for (int64_t k = 0; k < r->blocks; k++) r->moved[k] = !nodes_inactive(mesh, k);
-    memset(r->level, 0, (size_t)r->blocks);
+    array_fill_bytes(r->level, 0, r->blocks, 1);
     r->is_current = true, r->empty = 0;
     for (int64_t k = 0; k < r->blocks; k++) r->empty += nodes_empty(mesh, k);
     for (int64_t k = 0; k < r->blocks; k++)

@@ -13,8 +13,8 @@ void levels_cells_make(struct mesh_levels *l, const struct particles *p)
     int64_t k[DIM_MAX] = {0};
     for (int level = 1; level <= l->n; level++) {
         struct mesh *mesh = &l->at[level].mesh;
-        memset(mesh->kind, CELL_EMPTY, (size_t)mesh->grid.n);
-        memset(mesh->grid.mass, 0, (size_t)mesh->grid.n * sizeof(real));
+        array_fill_bytes(mesh->kind, CELL_EMPTY, mesh->grid.n, 1);
+        array_fill_bytes(mesh->grid.mass, 0, mesh->grid.n, sizeof(real));
         l->at[level].cells = 0;
     }
     for (int64_t I = 0; I < fine->grid.n; I++, walk_on(&fine->grid, k)) {
@@ -118,7 +118,7 @@ static void matched_find(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;
     const int dim = g->dim, around = dim == 1 ? 3 : dim == 2 ? 9 : 27;
-    memset(mesh->matched, 0, (size_t)g->n);
+    array_fill_bytes(mesh->matched, 0, g->n, 1);
     for (int64_t I = 0; I < g->n; I++) {
         bool alike = mesh->kind[I] == CELL_WHOLE;
         for (int q = 0; q < around && alike; q++) {

@@ -179,7 +179,7 @@ void levels_momenta_find(struct mesh_levels *l)
         struct grid *g = &l->at[level].mesh.grid;
         real *now[DIM_MAX];                      /* B w; nothing else uses momenta of level 0 or forces now */
         for (int d = 0; d < g->dim; d++) {
-            memcpy(g->momentum[d], g->velocity[d], (size_t)g->n * sizeof(real));
+            array_copy(g->momentum[d], g->velocity[d], g->n, sizeof(real));
             now[d] = g->force[d];
         }
         real left = INFINITY, most = 0;
@@ -196,7 +196,7 @@ void levels_momenta_find(struct mesh_levels *l)
                 }
         }
         mesh_velocity(&l->at[level].mesh, g->momentum, g->velocity);
-        for (int d = 0; d < g->dim; d++) memset(now[d], 0, (size_t)g->n * sizeof(real));
+        for (int d = 0; d < g->dim; d++) array_fill_bytes(now[d], 0, g->n, sizeof(real));
     }
 }
 
@@ -222,13 +222,13 @@ void levels_half_kick(struct mesh_levels *l, const struct particles *p, const st
 void levels_change(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                    const uint8_t *level)
 {
-    const size_t cells = (size_t)l->fine->grid.n;
-    uint8_t *before = NEW("levels.before", 2 * l->fine->grid.n + LANES, uint8_t), *dirty = before + cells;
+    const int64_t cells = l->fine->grid.n;
+    uint8_t *before = NEW("levels.before", 2 * cells + LANES, uint8_t), *dirty = before + cells;
     levels_sync(l);
     levels_interpolate(l, true);
-    memcpy(before, l->level, cells);
-    for (size_t I = 0; I < cells; I++) dirty[I] = before[I] != level[I];
-    memcpy(l->level, level, cells);
+    array_copy(before, l->level, cells, 1);
+    for (int64_t I = 0; I < cells; I++) dirty[I] = before[I] != level[I];
+    array_copy(l->level, level, cells, 1);
     mesh_cells_again(l->fine, p, source, dirty);
     levels_cells_make(l, p);
     levels_link(l);

@@ -113,7 +113,7 @@ static void level_map_find(struct level_map *map, const struct mesh_levels *l, i
         if (inside[I]) gather_parts(map, l, level, I, q);
     for (int64_t I = 0; I < g->n; I++, walk_on(g, q))
         good[I] = map[level].ok[I] && (level > 1 ? ring_allows(map, l, level, q) : ring_of_first(map, l, q));
-    memcpy(map[level].ok, good, (size_t)g->n);
+    array_copy(map[level].ok, good, g->n, 1);
     memory_free(good);
     memory_free(inside);
 }

@@ -197,7 +197,7 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
 void mesh_blocks_activate(struct mesh *mesh)
 {
     struct active_set *r = &mesh->active;
-    memset(r->level, 0, (size_t)r->blocks);
+    array_fill_bytes(r->level, 0, r->blocks, 1);
     for (int64_t I = 0; I < mesh->grid.n; I++)
         for (int c = 0; c < 1 << mesh->grid.dim && (mesh->kind[I] == CELL_WHOLE || mesh->kind[I] == CELL_PARTIAL); c++)
             r->level[mesh_block(mesh, mesh_node(mesh, I, c))] = 1;

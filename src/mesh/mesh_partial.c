@@ -86,7 +86,7 @@ static void point_constants(const struct cell_maker *c, int32_t i, real *D)
     const struct partial_stress *partial = c->source->partial;
     const int64_t entry = partial && partial->index ? partial->index[i] : -1;
     const real *isotropic = c->isotropic[c->p->material[i]];
-    memcpy(D, c->whole[c->p->material[i]], sizeof *D * (size_t)(n * n));
+    array_copy(D, c->whole[c->p->material[i]], n * n, sizeof *D);
     if (entry < 0) return;
     for (int row = 0; row < n; row++) {
         const real *M = partial->matrix + (entry * n + row) * n;
@@ -103,7 +103,7 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
     for (int q = 0; q < corners; q++) {
         const int32_t i = c->mesh->point[(I << c->dim) + q];
         if (i >= 0) point_constants(c, i, sum[q]);
-        else memset(sum[q], 0, sizeof(real) * (size_t)size);
+        else array_fill_bytes(sum[q], 0, size, sizeof(real));
     }
     for (int d = 0; d < c->dim; d++)
         for (int q = 0; q < corners; q++)
@@ -298,14 +298,14 @@ static real *numbers_make(const char *label, const struct mesh *mesh, int64_t ea
 {
     const int64_t groups = mesh_groups(mesh), size = each * LANES;
     real *numbers = memory_bare(label, groups * size, sizeof *numbers);
-    if (groups > 0) memset(numbers + (groups - 1) * size, 0, (size_t)size * sizeof *numbers);
+    if (groups > 0) array_fill_bytes(numbers + (groups - 1) * size, 0, size, sizeof *numbers);
     return numbers;
 }
 
 static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
 {
-    const size_t size = (size_t)each * LANES;
-    return memcmp(of + g * (int64_t)size, of + h * (int64_t)size, size * sizeof *of) == 0;
+    const int64_t size = (int64_t)each * LANES;
+    return arrays_equal(of + g * size, of + h * size, size, sizeof *of);
 }
 
 /* Finds groups of equal stiffness (mesh->alike). Cells that an edge of the body cuts in the same way follow each other,

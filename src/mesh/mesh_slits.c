@@ -309,8 +309,8 @@ static void slits_tables_make(struct mesh *mesh, const struct slit_maker *m)
     s->split = NEW("slits.split", n, uint8_t);
     s->corner = BARE("slits.corner", most << mesh->grid.dim, int32_t);
     s->open = NEW("slits.open", n, uint8_t);
-    memcpy(s->split, m->split, (size_t)s->first);
-    memcpy(s->open, m->open, (size_t)s->first);
+    array_copy(s->split, m->split, s->first, 1);
+    array_copy(s->open, m->open, s->first, 1);
     tables_cells(mesh, m);
     tables_nodes(mesh, m);
 }

@@ -32,7 +32,7 @@ bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic,
 {
     const int dim = mesh->grid.dim, n = dim << dim;
     bool any = false;
-    memset(K, 0, (size_t)(n * n) * sizeof *K);
+    array_fill_bytes(K, 0, n * n, sizeof *K);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
         if (i < 0) continue;

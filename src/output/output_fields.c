@@ -130,7 +130,7 @@ static void copy_plastic_work(const struct frame_source *s, int64_t first, int64
 
 static void copy_level(const struct frame_source *s, int64_t first, int64_t end, void *rows)
 {
-    memcpy((uint8_t *)rows + first, s->extra.state.level + first, (size_t)(end - first));
+    array_copy((uint8_t *)rows + first, s->extra.state.level + first, end - first, 1);
 }
 
 /* ---- further fields ---------------------------------------------------------------------------------------------- */
@@ -148,7 +148,7 @@ static void copy_plastic_strain(const struct frame_source *s, int64_t first, int
 
 static void copy_kind(const struct frame_source *s, int64_t first, int64_t end, void *rows)
 {
-    memcpy((uint8_t *)rows + first, s->p->kind + first, (size_t)(end - first));
+    array_copy((uint8_t *)rows + first, s->p->kind + first, end - first, 1);
 }
 
 static void copy_strength(const struct frame_source *s, int64_t first, int64_t end, void *rows)
@@ -163,7 +163,7 @@ static void copy_push(const struct frame_source *s, int64_t first, int64_t end, 
 
 static void copy_fragment(const struct frame_source *s, int64_t first, int64_t end, void *rows)
 {
-    memcpy((int32_t *)rows + first, s->extra.fragment + first, (size_t)(end - first) * sizeof(int32_t));
+    array_copy((int32_t *)rows + first, s->extra.fragment + first, end - first, sizeof(int32_t));
 }
 
 static void copy_spacing(const struct frame_source *s, int64_t first, int64_t end, void *rows)
@@ -249,7 +249,7 @@ void frame_field_copy_more(const struct frame_field *field, const struct frame_s
     struct frame_source more = {source->extra.more, source->extra};
     more.extra.push = NULL, more.extra.fragment = NULL, more.extra.state = source->extra.more_state;
     if (field_exists(field, &more)) frame_field_copy(field, &more, 0, more.p->n, rows);
-    else memset(rows, 0, (size_t)more.p->n * frame_field_row(field, more.p->dim));
+    else array_fill_bytes(rows, 0, more.p->n, frame_field_row(field, more.p->dim));
 }
 
 void frame_units_text(unsigned fields, char *text, size_t room)

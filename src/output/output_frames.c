@@ -143,7 +143,7 @@ static void write_cells(struct hdf *f, int64_t n, char *room)
     hdf_rows(f, "/VTKHDF/NumberOfConnectivityIds", HDF_I64, 1, 1, &n);
     hdf_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, 1, number);
     hdf_rows(f, "/VTKHDF/Offsets", HDF_I64, n + 1, 1, number);
-    memset(room, VTK_VERTEX, (size_t)n);
+    array_fill_bytes(room, VTK_VERTEX, n, 1);
     hdf_rows(f, "/VTKHDF/Types", HDF_U8, n, 1, room);
 }
 

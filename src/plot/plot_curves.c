@@ -251,7 +251,7 @@ static void send_profile(FILE *to, const struct frame *f, int k, double spacing,
     struct station *s = NEW("plot.profile", f->n, struct station);
     for (int64_t i = 0; i < f->n; i++)
         s[i] = (struct station){f->X[0][i] + f->u[0][i], f->v[0][i], f->stress[0][i], f->damage[i]};
-    qsort(s, (size_t)f->n, sizeof *s, plot_curves_by_place);
+    array_sort(s, f->n, sizeof *s, plot_curves_by_place);
     fprintf(to, "$f%d << EOD\n", k);
     for (int64_t i = 0; i < f->n; i++) {
         if (i > 0 && s[i].x - s[i - 1].x > 1.5 * spacing) putc('\n', to);
@@ -341,7 +341,7 @@ static void send_field(FILE *to, const struct frame *f, int k, const float *valu
     struct station *s = NEW("plot.profile", f->n, struct station);
     for (int64_t i = 0; i < f->n; i++)
         s[i] = (struct station){.x = f->X[0][i] + f->u[0][i], .velocity = value[i]};
-    qsort(s, (size_t)f->n, sizeof *s, plot_curves_by_place);
+    array_sort(s, f->n, sizeof *s, plot_curves_by_place);
     fprintf(to, "$f%d << EOD\n", k);
     for (int64_t i = 0; i < f->n; i++) {
         if (i > 0 && s[i].x - s[i - 1].x > 1.5 * spacing) putc('\n', to);

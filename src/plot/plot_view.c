@@ -20,7 +20,7 @@ static int64_t sample_sorted(float *sample, const float *value, int64_t n)
     int64_t kept = 0;
     for (int64_t i = 0; i < n; i += stride)
         if (isfinite(value[i])) sample[kept++] = value[i];
-    qsort(sample, (size_t)kept, sizeof *sample, plot_view_ascending);
+    array_sort(sample, kept, sizeof *sample, plot_view_ascending);
     return kept;
 }
 

@@ -352,7 +352,7 @@ void probes_sample_end(struct probes *s, const struct observed *o, real t_veloci
 void probes_take(struct probes *s, const struct probes *old)
 {
     for (int k = 0; k < s->n; k++) s->probe[k].memory = old->probe[k].memory;
-    if (s->columns > 0) memcpy(s->value, old->value, (size_t)s->columns * sizeof *s->value);
+    array_copy(s->value, old->value, s->columns, sizeof *s->value);
 }
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */

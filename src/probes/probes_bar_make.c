@@ -30,7 +30,7 @@ static void find_order(struct bar *b, const struct particles *p)
 {
     struct place *place = NEW("probes.place", p->n, struct place);
     for (int64_t i = 0; i < p->n; i++) place[i] = (struct place){p->X[0][i], (int32_t)i};
-    qsort(place, (size_t)p->n, sizeof *place, probes_bar_make_by_place);
+    array_sort(place, p->n, sizeof *place, probes_bar_make_by_place);
     for (int64_t k = 0; k < p->n; k++) b->order[k] = place[k].i, b->rank[place[k].i] = (int32_t)k;
     memory_free(place);
 }

@@ -272,7 +272,7 @@ static void keep_displacement(struct sif_tracked *w, const struct particles *p)
     }
     for (int k = 0; k < 3 && w->tip.stress == SIF_PARTICLE; k++) {
         room(&w->stress[k], p->n_all);
-        memcpy(w->stress[k], p->stress[k], (size_t)p->n_all * sizeof(real));
+        array_copy(w->stress[k], p->stress[k], p->n_all, sizeof(real));
     }
 }
 
@@ -284,7 +284,7 @@ void sif_keep(struct probe *q, const struct observed *o)
     keep_displacement(w, p);
     for (int d = 0; d < 2; d++) {
         room(&w->v[d], p->n_all), room(&w->mean[d], p->n_all), room(&w->acceleration[d], p->n_all);
-        memcpy(w->v[d], p->v[d], (size_t)p->n_all * sizeof(real));
+        array_copy(w->v[d], p->v[d], p->n_all, sizeof(real));
     }
 }
 

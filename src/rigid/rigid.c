@@ -111,7 +111,7 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
     const bool bounded = region_bounds(shape, dim, box.from, box.to);
     r->shape = shape, r->dim = dim, r->mass = mass;
     r->motion = mass > 0 ? RIGID_FREE : dot(velocity, velocity, dim) > 0 ? RIGID_DRIVEN : RIGID_FIXED;
-    memcpy(r->motion == RIGID_DRIVEN ? r->speed : r->v, velocity, (size_t)dim * sizeof *velocity);
+    array_copy(r->motion == RIGID_DRIVEN ? r->speed : r->v, velocity, dim, sizeof *velocity);
     for (int d = 0; d < DIM_MAX; d++) r->turn[d][d] = 1;
     if (!bounded && r->motion != RIGID_FIXED)
         return status_set(REFUSED, "rigid body %s moves, and its shape has no end; a shape of boxes, balls, discs and "

@@ -121,8 +121,8 @@ static struct verdict crowd_look(const struct crowd *c)
         if (within[k] < 2 && c->s->method != METHOD_PD) nearest_of(c, p->X, p->n, X, &within[k]);
     }
     for (int64_t k = 0; k < looked; k++) lone += within[k] < 2, family += (real)(within[k] - 1);
-    qsort(apart, (size_t)looked, sizeof *apart, ascending);
-    qsort(filled, (size_t)looked, sizeof *filled, ascending);
+    array_sort(apart, looked, sizeof *apart, ascending);
+    array_sort(filled, looked, sizeof *filled, ascending);
     return (struct verdict){(real)lone / (real)looked, apart[looked / 2], family / (real)looked, filled[looked / 2]};
 }
 

@@ -197,7 +197,7 @@ status tree_set(struct reader *r, struct node *root, const char *key, const char
 {
     const int n = r->overrides;
     struct scene_override *more = arena_new(r, (size_t)(n + 1) * sizeof *more);
-    if (n > 0) memcpy(more, r->override, (size_t)n * sizeof *more);
+    array_copy(more, r->override, n, sizeof *more);
     more[n].key = arena_text(r, key, strlen(key));
     more[n].value = arena_text(r, value, strlen(value));
     r->override = more;

@@ -51,7 +51,7 @@ static status pattern_add(struct reader *r, const struct node *n, struct shape_f
         return fault(r, n, "no file is called so; slices such as slice_*.png are expected");
     }
     if (found.gl_pathc > SLICES_MOST) s = fault(r, n, "more than %d files", SLICES_MOST);
-    qsort(found.gl_pathv, found.gl_pathc, sizeof *found.gl_pathv, path_order);
+    array_sort(found.gl_pathv, (int64_t)found.gl_pathc, sizeof *found.gl_pathv, path_order);
     for (size_t k = 0; k < found.gl_pathc && s == OK; k++) {
         struct node one = *n;
         one.text = found.gl_pathv[k];
@@ -243,7 +243,7 @@ static const struct voxel_part *grey_part_of(struct shape_file *f, const struct 
 {
     for (int k = 0; k < f->parts; k++)
         if (f->part[k]->ranges == wanted->ranges &&
-            memcmp(f->part[k]->range, wanted->range, (size_t)wanted->ranges * sizeof *wanted->range) == 0)
+            arrays_equal(f->part[k]->range, wanted->range, wanted->ranges, sizeof *wanted->range))
             return f->part[k];
     f->part = memory_resize("shape parts", f->part, f->parts, f->parts + 1, sizeof *f->part);
     struct voxel_part *part = NEW("shape parts", 1, struct voxel_part);

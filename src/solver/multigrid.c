@@ -52,7 +52,7 @@ static status finest_make(struct level *l, const struct block_matrix *a, const u
     l->scale = NEW("multigrid.scale", l->n, real);
     l->loose = NEW("multigrid.loose", l->n, uint8_t);
     l->held = NEW("multigrid.held", l->n, uint8_t);
-    memcpy(l->held, held, (size_t)l->n);
+    array_copy(l->held, held, l->n, 1);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < l->n; i++) diagonal_exact(l, i);
     for (int64_t i = 0; i < l->n; i++) {
@@ -107,7 +107,7 @@ static void coarse_diagonal(struct level *l)
     l->diagonal = NEW("multigrid.diagonal", l->n * size, real);
     for (int64_t i = 0; i < l->n; i++)
         for (int64_t q = l->first[i]; q < l->first[i + 1]; q++)
-            if (l->column[q] == i) memcpy(l->diagonal + i * size, l->block + q * size, (size_t)size * sizeof(real));
+            if (l->column[q] == i) array_copy(l->diagonal + i * size, l->block + q * size, size, sizeof(real));
     level_invert(l);
 }
 

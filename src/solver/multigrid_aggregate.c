@@ -92,7 +92,7 @@ void level_aggregate(struct level *l)
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < l->n; i++)
         joins[i] = l->aggregate[i] < 0 ? aggregate_nearest(l, strength, i) : l->aggregate[i];
-    memcpy(l->aggregate, joins, (size_t)l->n * sizeof *joins);
+    array_copy(l->aggregate, joins, l->n, sizeof *joins);
     for (int64_t i = 0; i < l->n; i++)
         if (l->aggregate[i] < 0 && neighbours_free(l, strength, i)) aggregate_found(l, strength, i);
     memory_free(strength);
@@ -150,7 +150,7 @@ static void members_list(const struct level *l, int64_t *first, int32_t *member)
         if (l->aggregate[i] >= 0) first[l->aggregate[i] + 1]++;
     for (int64_t a = 0; a < l->coarse; a++) first[a + 1] += first[a];
     int64_t *at = NEW("multigrid.members", l->coarse + 1, int64_t);
-    memcpy(at, first, (size_t)l->coarse * sizeof *at);
+    array_copy(at, first, l->coarse, sizeof *at);
     for (int64_t i = 0; i < l->n; i++)
         if (l->aggregate[i] >= 0) member[at[l->aggregate[i]]++] = (int32_t)i;
     memory_free(at);

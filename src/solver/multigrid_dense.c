@@ -36,7 +36,7 @@ void dense_make(struct dense *d, const struct level *l)
 void dense_solve(const struct dense *d, const real *b, real *x)
 {
     const int64_t n = d->n;
-    memcpy(x, b, (size_t)n * sizeof *x);
+    array_copy(x, b, n, sizeof *x);
     for (int64_t j = 0; j < n; j++) {
         const real *restrict row = d->upper + j * n;
         const real y = x[j];

@@ -53,7 +53,7 @@ static int64_t product_row(const int64_t *a_first, const int32_t *a_column, cons
             if (list) list[n] = c;
             n++;
         }
-    if (list) qsort(list, (size_t)n, sizeof *list, compare_columns);
+    if (list) array_sort(list, n, sizeof *list, compare_columns);
     return n;
 }
 
@@ -103,7 +103,7 @@ static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int
     int32_t *where = table_own(&p->tables);
     real *row = p->block + (to->first[i] - to->first[p->first]) * w * m;
     for (int64_t k = to->first[i]; k < to->first[i + 1]; k++) where[to->column[k]] = (int32_t)(k - to->first[i]);
-    memset(row, 0, (size_t)((to->first[i + 1] - to->first[i]) * w * m) * sizeof *row);
+    array_fill_bytes(row, 0, (to->first[i + 1] - to->first[i]) * w * m, sizeof *row);
     for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
         const int64_t j = l->column[q];
         real a[WIDTH_MOST * WIDTH_MOST];
@@ -185,7 +185,7 @@ void level_galerkin(const struct level *l, struct level *next)
     next->block = NEW("multigrid.block", coarse.first[l->coarse] * l->modes * l->modes, real);
     p.block = BARE("multigrid.slab", slab_largest(&p) * l->width * l->modes, real);
     p.cursor = BARE("multigrid.cursor", l->coarse, int64_t);
-    memcpy(p.cursor, l->up.first, (size_t)l->coarse * sizeof *p.cursor);
+    array_copy(p.cursor, l->up.first, l->coarse, sizeof *p.cursor);
     for (p.first = 0; p.first < l->n; p.first = p.end) {
         p.end = p.first + SLAB < l->n ? p.first + SLAB : l->n;
         slab_product(&p);

@@ -72,7 +72,7 @@ static int64_t piece_list(const struct level *l, int64_t i, uint8_t *seen, int32
 void level_loose(const struct level *l, struct level *next)
 {
     next->loose = NEW("multigrid.loose", next->n, uint8_t);
-    memset(next->loose, 1, (size_t)next->n);
+    array_fill_bytes(next->loose, 1, next->n, 1);
     for (int64_t i = 0; i < l->n; i++)
         if (l->aggregate[i] >= 0 && !l->loose[i]) next->loose[l->aggregate[i]] = 0;
     if (!l->single) return;

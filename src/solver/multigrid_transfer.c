@@ -10,7 +10,7 @@ static void sorted_add(int32_t *list, int *n, int32_t value)
     int k = *n;
     while (k > 0 && list[k - 1] > value) k--;
     if (k > 0 && list[k - 1] == value) return;
-    memmove(list + k + 1, list + k, (size_t)(*n - k) * sizeof *list);
+    array_copy(list + k + 1, list + k, *n - k, sizeof *list);
     list[k] = value, ++*n;
 }
 
@@ -35,7 +35,7 @@ static void down_pattern(struct level *l)
     p->column = BARE("multigrid.down", p->first[l->n], int32_t);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < l->n; i++)
-        memcpy(p->column + p->first[i], list + l->first[i], (size_t)(p->first[i + 1] - p->first[i]) * sizeof *list);
+        array_copy(p->column + p->first[i], list + l->first[i], p->first[i + 1] - p->first[i], sizeof *list);
     memory_free(list);
 }
 
@@ -47,7 +47,7 @@ enum { BLOCK_MOST = WIDTH_MOST * WIDTH_MOST, AT_ONCE = 16 };
 static ALWAYS_INLINE void down_forces(const struct level *l, int64_t i, const int32_t *name, int n, real *force,
                                       const int w, const int m)
 {
-    memset(force, 0, (size_t)(n * w * m) * sizeof *force);
+    array_fill_bytes(force, 0, n * w * m, sizeof *force);
     for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
         const int64_t j = l->column[q];
         int k = 0;
@@ -91,7 +91,7 @@ static void transfer_transpose(const struct level *l, const struct transfer *p, 
     int64_t *from = BARE("multigrid.up", p->first[l->n], int64_t);
     for (int64_t q = 0; q < p->first[l->n]; q++) up->first[p->column[q] + 1]++;
     for (int64_t a = 0; a < l->coarse; a++) up->first[a + 1] += up->first[a];
-    memcpy(at, up->first, (size_t)l->coarse * sizeof *at);
+    array_copy(at, up->first, l->coarse, sizeof *at);
     for (int64_t i = 0; i < l->n; i++)
         for (int64_t q = p->first[i]; q < p->first[i + 1]; q++) {
             const int64_t k = at[p->column[q]]++;

@@ -57,15 +57,15 @@ static void make_diagonal(struct solver *s, const struct static_body *body)
     for (int64_t i = 0; i < p->n; i++)
         if (s->diagonal[i] < 1e-6 * most || most == 0) s->diagonal[i] = most > 0 ? 1e-6 * most : 1;
     field_make(&kept, p->dim, p->n);
-    for (int d = 0; d < p->dim; d++) memcpy(kept.of[d], p->x[d], (size_t)p->n * sizeof(real));
+    for (int d = 0; d < p->dim; d++) array_copy(kept.of[d], p->x[d], p->n, sizeof(real));
     struct scaled scaled = {s, body};
     const real stiffer = MARGIN_OF_EIGENVALUE * largest_eigenvalue(p->dim * p->n, solver_scaled_stiffness, &scaled) / 4;
     for (int64_t i = 0; i < p->n; i++) s->diagonal[i] *= real_max(1, stiffer);
-    for (int d = 0; d < p->dim; d++) memcpy(p->x[d], kept.of[d], (size_t)p->n * sizeof(real));
+    for (int d = 0; d < p->dim; d++) array_copy(p->x[d], kept.of[d], p->n, sizeof(real));
     solver_bond_force(body);              /* energies of state-based models use it */
     for (int d = 0; d < p->dim; d++) {
-        memset(p->v[d], 0, (size_t)p->n * sizeof(real));
-        memset(p->f[d], 0, (size_t)p->n * sizeof(real));
+        array_fill_bytes(p->v[d], 0, p->n, sizeof(real));
+        array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
     }
     field_free(&kept);
 }
@@ -100,11 +100,11 @@ static void make_applied(struct solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
     real norm[2];
-    for (int d = 0; d < p->dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
+    for (int d = 0; d < p->dim; d++) array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
     loads_static_force(body->loads, p);
     solver_norms(s, p, norm);
     s->applied = norm[0];
-    for (int d = 0; d < p->dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
+    for (int d = 0; d < p->dim; d++) array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
 }
 
 /* Norm of the forces that the round-off of positions makes in a body at rest [N], with a margin of ten. */
@@ -168,7 +168,7 @@ status solver_make(struct solver *s, const struct static_body *body, real ramp_t
     s->residual = INFINITY;
     s->ramp_time = ramp_time;
     s->held = NEW("solver.held", s->n, uint8_t);
-    for (int d = 0; d < s->dim; d++) memset(p->v[d], 0, (size_t)s->n * sizeof(real));
+    for (int d = 0; d < s->dim; d++) array_fill_bytes(p->v[d], 0, s->n, sizeof(real));
     field_make(&s->driven, s->dim, s->n);
     loads_static_driven(body->loads, p, s->ramp_time, s->driven.of, s->held);
     TRY(loads_balanced(body));

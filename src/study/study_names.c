@@ -107,7 +107,7 @@ int study_names_order(int *order, const struct varied_key *key, int keys)
     int n = 0;
     for (int k = 0; k < keys; k++)
         if (key[k].values > 1) l[n++] = (struct labelled){key_label(key, keys, k), key[k].key, k};
-    qsort(l, (size_t)n, sizeof *l, label_order);
+    array_sort(l, n, sizeof *l, label_order);
     for (int k = 0; k < n; k++) order[k] = l[k].at;
     memory_free(l);
     return n;

@@ -51,7 +51,7 @@ static char *trimmed(const char *from, const char *to)
     while (from < to && isspace((unsigned char)*from)) from++;
     while (to > from && isspace((unsigned char)to[-1])) to--;
     char *copy = NEW("study.value", to - from + 1, char);
-    memcpy(copy, from, (size_t)(to - from));
+    array_copy(copy, from, to - from, 1);
     return copy;
 }
 

@@ -32,6 +32,25 @@ static void status_keeps_its_message(void **state)
     memory_free(text);
 }
 
+static int ascending_ints(const void *a, const void *b) { return *(const int *)a - *(const int *)b; }
+
+/* Arrays without elements have no storage, others overlap. */
+static void arrays_may_be_empty_or_overlap(void **state)
+{
+    (void)state;
+    int list[] = {5, 3, 4, 1, 2}, *none = NULL;
+    array_copy(none, none, 0, sizeof *none);
+    array_fill_bytes(none, 1, 0, sizeof *none);
+    array_sort(none, 0, sizeof *none, ascending_ints);
+    assert_true(arrays_equal(none, none, 0, sizeof *none) && arrays_equal(none, list, 0, sizeof *none));
+    array_copy(list + 1, list, 4, sizeof *list);
+    assert_true(arrays_equal(list, (int[]){5, 5, 3, 4, 1}, 5, sizeof *list));
+    assert_false(arrays_equal(list, (int[]){5, 5, 3, 4, 2}, 5, sizeof *list));
+    array_sort(list, 5, sizeof *list, ascending_ints);
+    array_fill_bytes(list + 3, 0, 2, sizeof *list);
+    assert_true(arrays_equal(list, (int[]){1, 3, 4, 0, 0}, 5, sizeof *list));
+}
+
 static void refusals_have_one_place(void **state)
 {
     (void)state;
@@ -412,6 +431,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(status_keeps_its_message),
+        cmocka_unit_test(arrays_may_be_empty_or_overlap),
         cmocka_unit_test(refusals_have_one_place),
         cmocka_unit_test(out_of_memory_says_so),
         cmocka_unit_test(memory_is_aligned_and_zero),
