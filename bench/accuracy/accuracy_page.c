@@ -6,6 +6,7 @@
 
 #include "accuracy.h"
 #include "base/memory.h"
+#include "base/memory_stream.h"
 #include "output/output_files.h"
 
 static const double wanted[] = {0.05, 0.01, 0.003};
@@ -124,11 +125,11 @@ status accuracy_page(const struct accuracy_plan *plan)
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *to = open_memstream(&text, &length);
+    FILE *to = memory_stream_open(&text, &length);
     if (!to) return status_set(FAILED, "bench accuracy: out of memory");
     put_page(to, plan);
-    fclose(to);
-    status s = file_put(BENCH_FOLDER "/accuracy.md", text, length);
+    status s = fclose(to) == 0 ? file_put(BENCH_FOLDER "/accuracy.md", text, length)
+                               : status_set(FAILED, "bench accuracy: out of memory");
     free(text);
     puts("\n  the cheapest way to an error: method and resolution, loop time on one thread, error reached\n");
     accuracy_page_put_table(stdout, plan);

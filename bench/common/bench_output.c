@@ -9,6 +9,7 @@
 #include "plot/gnuplot.h"
 #include "plot/picture_file.h"
 #include "base/memory.h"
+#include "base/memory_stream.h"
 #include "output/output_files.h"
 #include "simd/simd.h"
 
@@ -145,7 +146,7 @@ static status write_file(const char *path, const char *json, const struct bench_
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *to = open_memstream(&text, &length);
+    FILE *to = memory_stream_open(&text, &length);
     if (!to) return status_set(FAILED, "cannot write %s: out of memory", path);
     if (json)
         put_json(to, json, table, tables);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "bench.h"
+#include "base/memory_stream.h"
 #include "output/output_files.h"
 
 #define README "bench/README.md"
@@ -70,7 +71,7 @@ static status block_put(const char *name, bool quick, const char *printed)
     const time_t now = time(NULL);
     TRY(readme_text(&text));
     status s = block_find(text, name, &from, &to);
-    FILE *out = s == OK ? open_memstream(&whole, &length) : NULL;
+    FILE *out = s == OK ? memory_stream_open(&whole, &length) : NULL;
     if (s == OK && !out) s = status_set(FAILED, README ": out of memory");
     if (s == OK) {
         strftime(date, sizeof date, "%Y-%m-%d", localtime(&now));

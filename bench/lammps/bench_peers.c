@@ -20,6 +20,7 @@
 #include "bench/common/bench.h"
 #include "plot/gnuplot.h"
 #include "base/memory.h"
+#include "base/memory_stream.h"
 #include "output/output_files.h"
 
 extern char **environ;
@@ -200,7 +201,7 @@ static status write_input(const struct engine *e, const struct peer_case *c, int
     char *exclude = NULL;
     size_t length = 0;
     int types = 1, *type = NEW("peers.type", e->part.n, int);
-    FILE *lines = open_memstream(&exclude, &length), *data = create("particles.data", &s),
+    FILE *lines = memory_stream_open(&exclude, &length), *data = create("particles.data", &s),
          *script = create("in.lammps", &s);
     if (s == OK && lines) {
         r->cut = (double)cut_pairs(e, type, &types, lines);
@@ -208,7 +209,7 @@ static status write_input(const struct engine *e, const struct peer_case *c, int
         write_data(data, e, type, types, 0.5 * edge * SPACING);
         write_script(script, e, c, exclude);
     }
-    if (lines) fclose(lines);
+    if (lines && fclose(lines) != 0 && s == OK) s = status_set(FAILED, "bench peers: out of memory");
     if (data && fclose(data) != 0 && s == OK) s = file_fault(FOLDER "/particles.data", errno);
     if (script && fclose(script) != 0 && s == OK) s = file_fault(FOLDER "/in.lammps", errno);
     free(exclude);

@@ -7,6 +7,7 @@
 #include "engine/engine.h"
 #include "fracture/fragments.h"
 #include "base/memory.h"
+#include "base/memory_stream.h"
 #include "simd/simd.h"
 
 /* ---- JSON -------------------------------------------------------------------------------------------------------- */
@@ -275,10 +276,10 @@ static status fragments_write(const struct engine *e, const struct fragments *f)
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *file = open_memstream(&text, &length);
+    FILE *file = memory_stream_open(&text, &length);
     if (!file) return status_set(FAILED, "cannot write fragments.csv: out of memory");
     fragments_print(file, e, f);
-    const bool whole = !ferror(file) && fclose(file) == 0;
+    const bool whole = fclose(file) == 0;
     const status written = whole ? output_text(e->report.out, "fragments.csv", text, length)
                                  : status_set(FAILED, "cannot write fragments.csv: out of memory");
     free(text);
@@ -469,12 +470,11 @@ status summary_write(const struct engine *e, status s, int threads, double wall_
         fragments_find(&fragments, &e->bonds, &e->part);
         TRY(fragments_write(e, &fragments));
     }
-    FILE *file = open_memstream(&text, &length);
+    FILE *file = memory_stream_open(&text, &length);
     if (!file) return status_set(FAILED, "cannot write summary.json: out of memory");
     summary_print(file, e, &fragments, s, message, threads, wall_seconds);
     fragments_free(&fragments);
-    bool whole = !ferror(file);
-    if (fclose(file) != 0) whole = false;
+    const bool whole = fclose(file) == 0;
     status written = whole ? output_text(e->report.out, "summary.json", text, length)
                            : status_set(FAILED, "cannot write summary.json: out of memory");
     free(text);

@@ -14,6 +14,7 @@
 
 #include "output/checksum.h"
 #include "base/memory.h"
+#include "base/memory_stream.h"
 #include "output/output_files.h"
 
 enum { FRAME_VERSION = 1, VTK_VERTEX = 1 };
@@ -333,10 +334,9 @@ static struct path index_path(const char *folder, const struct frame_series *s, 
 static status index_make(const struct output *o, struct frame_job *job, int which)
 {
     static void (*const print[2])(FILE *, const struct frame_series *) = {series_print, xdmf_print};
-    FILE *out = open_memstream(&job->index[which], &job->index_length[which]);
+    FILE *out = memory_stream_open(&job->index[which], &job->index_length[which]);
     if (out) print[which](out, job->series);
-    bool whole = out && !ferror(out);
-    if (out && fclose(out) != 0) whole = false;
+    const bool whole = out && fclose(out) == 0;
     return whole ? OK : file_fault(index_path(o->folder, job->series, which).text, ENOMEM);
 }
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "base/memory_stream.h"
 #include "output/output.h"
 #include "output/output_files.h"
 
@@ -25,18 +26,16 @@ struct line { char *text; size_t length; FILE *to; };
 static bool line_begin(struct line *l)
 {
     *l = (struct line){0};
-    l->to = open_memstream(&l->text, &l->length);
+    l->to = memory_stream_open(&l->text, &l->length);
     return l->to != NULL;
 }
 
 /* Ends a line; counts and hashes it if all of it reached the file. */
 static status line_end(struct output *o, struct line *l)
 {
-    bool whole = !ferror(l->to);
     errno = 0;
-    if (fclose(l->to) != 0) whole = false;
-    whole = whole && fwrite(l->text, 1, l->length, o->history) == l->length && fflush(o->history) == 0 &&
-            !ferror(o->history);
+    const bool whole = fclose(l->to) == 0 && fwrite(l->text, 1, l->length, o->history) == l->length &&
+                       fflush(o->history) == 0 && !ferror(o->history);
     const status s = whole ? OK : file_fault(history_path(o).text, errno);
     if (whole)
         o->history_bytes += (int64_t)l->length, o->history_hash = hash_bytes(o->history_hash, l->text, l->length);

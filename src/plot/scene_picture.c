@@ -8,6 +8,7 @@
 
 #include "auto/scene_read.h"
 #include "base/memory.h"
+#include "base/memory_stream.h"
 #include "maps_parts.h"
 #include "output/output_files.h"
 #include "scene_marks.h"
@@ -252,7 +253,7 @@ static status draw_scene(struct sheet sheet, struct engine *e, struct cloud *c)
     const struct layout l = scene_layout(&v, key_lines(e->scene));
     const struct unit metre = unit_for_length(fmax(fabs(v.from[0]), fabs(v.to[0])));
     TRY(gnuplot_open(&g, sheet.path, sheet.format, l.width, l.height));
-    FILE *plot = open_memstream(&elements, &length);
+    FILE *plot = memory_stream_open(&elements, &length);
     if (!plot) return (void)gnuplot_close(&g), status_set(FAILED, "%s: out of memory", sheet.path);
     struct marks m = {
         .to = g.to, .plot = plot, .engine = e, .camera = c->camera, .metre = metre.factor, .arrow = arrow};
@@ -265,11 +266,12 @@ static status draw_scene(struct sheet sheet, struct engine *e, struct cloud *c)
     marks_loads(&m);
     marks_motion(&m);
     marks_probes(&m);
-    fclose(plot);
+    const bool whole = fclose(plot) == 0;
     set_panel(g.to, &l, &v, c, &metre);
-    plot_scene(g.to, &l, &v, c, &metre, elements);
+    if (whole) plot_scene(g.to, &l, &v, c, &metre, elements);
     free(elements);
-    return gnuplot_close(&g);
+    const status drawn = gnuplot_close(&g);
+    return whole ? drawn : status_set(FAILED, "%s: out of memory", sheet.path);
 }
 
 /* ---- command ----------------------------------------------------------------------------------------------------- */

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "probes/probes.h"
+#include "base/memory_stream.h"
 #include "probes_parts.h"
 
 static void profile_header(FILE *file, const struct particles *p)
@@ -86,10 +87,9 @@ static status profile_put(const struct probe *q, const struct observed *o, probe
 {
     char name[PROFILE_NAME], *text = NULL;
     size_t length = 0;
-    FILE *file = open_memstream(&text, &length);
+    FILE *file = memory_stream_open(&text, &length);
     if (file) profile_text(file, q, o);
-    bool whole = file && !ferror(file);
-    if (file && fclose(file) != 0) whole = false;
+    const bool whole = file && fclose(file) == 0;
     profile_name(name, q, frame);
     const status s =
         whole ? put(context, name, text, length) : status_set(FAILED, "cannot write %s: out of memory", name);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/memory_stream.h"
 
 void begin(struct writer *w, const char *key)
 {
@@ -345,7 +346,7 @@ char *scene_echo(const struct scene *s)
     if (s->dim != 2) head.thickness = NAN;
     if (s->dim != 1) head.section = NAN;
     head.has_frames = s->times.n == 0 && s->every == 0;
-    struct writer w = {.out = open_memstream(&text, &length), .scene = s, .dim = s->dim};
+    struct writer w = {.out = memory_stream_open(&text, &length), .scene = s, .dim = s->dim};
     if (!w.out) return NULL;
     write_group(&w, "", &head);
     write_materials(&w);
@@ -357,8 +358,7 @@ char *scene_echo(const struct scene *s)
     write_boundaries(&w);
     write_probes(&w);
     write_growths(&w);
-    bool whole = !ferror(w.out);
-    if (fclose(w.out) != 0 || !whole) {
+    if (fclose(w.out) != 0) {
         free(text);
         return NULL;
     }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/memory_stream.h"
 #include "output/output_files.h"
 #include "study/convergence_study.h"
 #include "study/uncertainty.h"
@@ -186,7 +187,7 @@ status figures_write(const struct convergence_study *s, const struct figure_stud
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *to = open_memstream(&text, &length);
+    FILE *to = memory_stream_open(&text, &length);
     if (to) figures_table(to, s, figure, figures);
     TRY(study_put(&s->study, "converge.csv", to, &text, &length));
     return study_scene_put(s->study.folder, s->scene.text);

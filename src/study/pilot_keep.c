@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/memory_stream.h"
 #include "output/output_files.h"
 #include "pilot_parts.h"
 #include "study/uncertainty.h"
@@ -34,11 +35,11 @@ static char *question_text(const struct pilot_search *p)
     char *scene, *text = NULL;
     size_t length, size = 0;
     if (file_get(p->scene, &scene, &length) != OK) return NULL;
-    FILE *to = open_memstream(&text, &size);
+    FILE *to = memory_stream_open(&text, &size);
     if (to) {
         fputs(scene, to);
         for (int k = 0; k < p->overrides; k++) fprintf(to, "\n# -s %s=%s", p->override[k].key, p->override[k].value);
-        fclose(to);
+        if (fclose(to) != 0) free(text), text = NULL;
     }
     memory_free(scene);
     return text;
@@ -75,12 +76,12 @@ status pilot_keep(const struct pilot *to, const struct pilot_search *p, const st
     size_t length = 0;
     if (!asked) return status_set(FAILED, "%s: cannot be read again", p->scene);
     status put = bars_keep(to, p, best);
-    FILE *out = put == OK ? open_memstream(&text, &length) : NULL;
+    FILE *out = put == OK ? memory_stream_open(&text, &length) : NULL;
     if (out) {
         for (int k = p->overrides; k < to->overrides; k++)
             fprintf(out, "%s=%s\n", to->override[k].key, to->override[k].value);
-        fclose(out);
-        put = file_put(path_join(p->folder, CHOSEN).text, text, length);
+        put = fclose(out) == 0 ? file_put(path_join(p->folder, CHOSEN).text, text, length)
+                               : status_set(FAILED, "%s: out of memory", p->folder);
         if (put == OK) put = file_put(path_join(p->folder, ASKED).text, asked, strlen(asked));
     }
     free(text);

@@ -350,10 +350,9 @@ const char *study_value(const struct study_case *c, const char *key)
 
 status study_put(const struct study *s, const char *name, FILE *to, char **text, const size_t *length)
 {
-    const bool whole = to && !ferror(to);
-    const bool closed = to && fclose(to) == 0;
-    const status written = whole && closed ? file_put(path_join(s->folder, name).text, *text, *length)
-                                           : status_set(FAILED, "cannot write %s: out of memory", name);
+    const bool whole = to && fclose(to) == 0;
+    const status written = whole ? file_put(path_join(s->folder, name).text, *text, *length)
+                                 : status_set(FAILED, "cannot write %s: out of memory", name);
     free(*text);
     return written;
 }

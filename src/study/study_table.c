@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/memory_stream.h"
 #include "output/output_files.h"
 #include "output/summary_read.h"
 #include "study/study.h"
@@ -146,7 +147,7 @@ status study_write_table(const struct study_table *t, const struct study *s, con
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *to = open_memstream(&text, &length);
+    FILE *to = memory_stream_open(&text, &length);
     if (to) table_print(to, t, s, key, keys);
     return study_put(s, "sweep.csv", to, &text, &length);
 }

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "auto/scene_read.h"
+#include "base/memory_stream.h"
 #include "faults.h"
 
 #ifndef __linux__
@@ -249,6 +250,33 @@ static void failing_calls_lose_nothing(void **state)
     assert_int_equal(in_two(sweep_share), 0);
 }
 
+/* A text in memory is whole, or its end says that it is not, whichever allocation fails. */
+static void texts_in_memory_are_whole_or_refused(void **state)
+{
+    enum { NUMBERS = 3000, EACH = 7 };
+    static char wanted[NUMBERS * EACH + 1];
+    int refused = 0;
+    (void)state;
+    for (int k = 0; k < NUMBERS; k++) snprintf(wanted + k * EACH, EACH + 1, "%06d,", k);
+    for (long number = 1; number <= 40; number++) {
+        const struct fault_plan plan = {ALL_MALLOC, DO_FAIL, number, ENOMEM, 0};
+        char *text = NULL;
+        size_t length = 0;
+        memset(count, 0, FAULT_CALLS * sizeof *count);
+        faults_arm(&plan, count);
+        FILE *to = memory_stream_open(&text, &length);
+        for (int k = 0; to && k < NUMBERS; k++) fprintf(to, "%06d,", k);
+        const bool whole = to && fclose(to) == 0;
+        faults_arm(&undisturbed, count);
+        refused += !whole;
+        if (whole && (length != sizeof wanted - 1 || strcmp(text, wanted) != 0))
+            complain("allocation %ld fails: %zu bytes of %zu without a word", number, length, sizeof wanted - 1);
+        free(text);
+    }
+    assert_in_range(refused, 3, 39);     /* stream, context, growth; the last allocations of 40 are never reached */
+    assert_int_equal(wrong, 0);
+}
+
 /* ---- stopped and killed ------------------------------------------------------------------------------------------ */
 
 static void every_probe_is_watched(void **state)
@@ -451,6 +479,7 @@ int __wrap_main(int argc, char **argv)
     static const struct CMUnitTest whole[] = {cmocka_unit_test(failing_calls_lose_nothing)};
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_probe_is_watched),     cmocka_unit_test(failing_calls_lose_nothing),
+        cmocka_unit_test(texts_in_memory_are_whole_or_refused),
         cmocka_unit_test(stopped_runs_resume),        cmocka_unit_test(killed_runs_resume),
         cmocka_unit_test(files_are_synced_in_order),  cmocka_unit_test(damaged_checkpoints_are_found),
     };
