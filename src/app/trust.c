@@ -21,7 +21,8 @@ static const struct promise promises[] = {
      "line and status 1; files "
      "that are there are whole, and --resume gets to the same bits.",
      "test_faults.c long_faults.sh"},
-    {"So does a disk that is full, or a file or memory limit; a library without memory leaves one line, too.",
+    {"So does a disk that is full, or a file or memory limit. A library that finds no memory may crash without a line "
+     "while there is some left; --resume gets to the same bits then, too.",
      "test_trust.sh test_little_memory.sh long_faults.sh"},
     {"Files and the folders they are named in are synced before anything counts on them.", "test_faults.c"},
     {"Every changed, lost or added byte of a checkpoint or frame is found; the older checkpoint takes over, a lost "
@@ -39,8 +40,9 @@ static const struct promise promises[] = {
      "test_refusals.sh test_scene_bad.c test_lists.c long_fuzz.sh"},
     {"Forces are the gradient of one energy, whatever is coupled to whatever, but for the couplings that warn.",
      "test_operator.c test_energy_drift.c"},
-    {"No data race, no undefined behaviour, no leak in small scenes of every kind.",
-     "long_races.sh long_sanitizers.sh long_valgrind.sh"},
+    {"No data race, no undefined behaviour, no leak in small scenes; every key and word of scenes stands in one of "
+     "them.",
+     "long_races.sh long_sanitizers.sh long_valgrind.sh test_features.c"},
 };
 
 static const char not_promised[] = "Not promised: the same bits from another build, compiler or set of kernels (they "

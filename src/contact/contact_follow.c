@@ -36,11 +36,17 @@ static bool row_has_moved(const struct contact *c, const struct particles *p, in
     return moved;
 }
 
+/* Returns true if a row near this one is marked ROW_FEELS. Other threads may turn ROW_NEAR of that row into ROW_FELT
+ * meanwhile, which changes no answer; so both sides are atomic. */
 static bool is_felt(const struct contact *c, int64_t row)
 {
     bool felt = false;
-    for (int64_t q = c->first[row]; q < c->first[row + 1] && !felt; q++)
-        felt = c->followed[c->root[c->other[q]]] == ROW_FEELS;
+    for (int64_t q = c->first[row]; q < c->first[row + 1] && !felt; q++) {
+        uint8_t state;
+#pragma omp atomic read
+        state = c->followed[c->root[c->other[q]]];
+        felt = state == ROW_FEELS;
+    }
     return felt;
 }
 
@@ -56,7 +62,10 @@ static bool rows_follow(struct contact *c, const struct particles *p)
                 c->followed[row] = ROW_FEELS, found++;
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < c->rows; row++)
-            if (c->followed[row] == ROW_NEAR && is_felt(c, row)) c->followed[row] = ROW_FELT;
+            if (c->followed[row] == ROW_NEAR && is_felt(c, row)) {
+#pragma omp atomic write
+                c->followed[row] = ROW_FELT;
+            }
     }
     c->waiting -= found;
     return found > 0;

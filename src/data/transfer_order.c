@@ -200,10 +200,10 @@ static void find_cells(struct transfer_order *o, const uint16_t *inside)
     o->cell_start[o->cells] = (int32_t)o->n;
 }
 
-/* All of it is written before it is read. */
+/* All of it is written before it is read. A grid without nodes has no block, and so no chunk that counts points. */
 static void sorting_make(struct sorting *s)
 {
-    s->chunks = omp_get_max_threads();
+    s->chunks = s->shape.n > 0 ? omp_get_max_threads() : 0;
     s->rank = BARE("transfer.rank", s->shape.n, int32_t),
     s->fill = BARE("transfer.fill", s->chunks * s->shape.n, int32_t);
     s->key = BARE("transfer.key", s->n, int32_t), s->bucket = BARE("transfer.bucket", s->n, int32_t);

@@ -59,20 +59,13 @@ clean()
 }
 each_scene "${SCENES:-.}" clean
 
-# what else there is to call, what is refused, and a run that is stopped and goes on
-plate="$kalthoff -s output.checkpoint=0"
-ends 0 "check" "$cleave" check $kalthoff
-ends 0 "a run" "$cleave" run -q -o "$work/one" $plate
-ends 0 "a run like it" "$cleave" run -q -o "$work/two" $plate -s method=pd
-ends 0 "compare" "$cleave" compare "$work/one" "$work/two"
-! command -v gnuplot >/dev/null || ends 0 "plot" "$cleave" plot "$work/one"
-rm "$work/one/summary.json"
-ends 0 "resume" "$cleave" run -q -o "$work/one" --resume $plate
-ends 0 "help" "$cleave" help
-ends 0 "info" "$cleave" info
-ends 2 "a word that is unknown" "$cleave" run "$work/meet.yaml" -o "$work/bad" -s method=none
-ends 2 "a number that is none" "$cleave" check "$work/meet.yaml" -s duration=long
-ends 2 "a file that is none" "$cleave" check "$work/none.yaml"
+# calls STATUS WHAT ARGUMENT...: what else there is to call, what is refused, and a run that is stopped and goes on
+calls()
+{
+    wanted=$1 what=$2; shift 2
+    ends "$wanted" "$what" "$cleave" "$@"
+}
+each_command calls
 printf 'body: [{box: {from: [0, 0]' >"$work/torn.yaml"
 ends 2 "half a file" "$cleave" check "$work/torn.yaml"
 finish

@@ -23,6 +23,7 @@ ${CC:-cc} -g -O0 -o "$work/unset" "$work/unset.c" || fail "unset.c is not built"
 $memcheck "$work/unset" >"$work/out" 2>"$work/err"
 is "a value that is not set: exit status" $? 9
 
+# clean NAME ARGUMENTS: no fault
 clean()
 {
     scene=$1; shift
@@ -33,13 +34,9 @@ clean()
 }
 
 # few particles and few steps: everything takes 30 times as long here
-tiny="-s particles.spacing=8mm -s time.step=0.8us -s duration=24us -s output.samples=4"
-for way in method=adaptive method=pd method=mpm mpm.frame=reference model=ospd model=mospd coupling=handshake mpm.shape=cubic; do
-    clean "plate, $way" $kalthoff $tiny -s $way
-done
-clean "solid" $wedge -s particles.spacing=10mm -s time.step=0.4us -s duration=4us
-clean "meet" "$work/meet.yaml" -s duration=4us
-clean "grow" "$work/grow.yaml" -s duration=6us
-clean "list" "$work/list.yaml" -s duration=2us
-each_scene "relaxed|spin|bar_return" clean
+coarse() { clean "$@" -s particles.spacing=8mm -s time.step=0.8us -s duration=24us -s output.samples=4; }
+short() { clean "$@" -s duration=2us; }
+each_scene "${SCENES:-plate$|plate_(bonds|reference|current|ordinary|turning|handshake)|points_cubic|cells}" coarse
+each_scene "${SCENES:-meet|grow|list|block$|driven|rigid$|led$|bore|weak$|shapes$|absorbing$|grids$|joined}" short
+each_scene "${SCENES:-relaxed|spin|bar_return|steps$|steps_(yield$|contact$|adaptive|solid$)}" clean
 finish
