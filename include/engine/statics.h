@@ -12,9 +12,11 @@ struct broken_bond {
     real w, fracture, damage;            /* weight; of the row so far [J]; of the particle */
     real plastic;                        /* plastic work of bonds that the row has lost [J] */
     float volume;                        /* of those [m^3] */
+    uint32_t gap;                        /* 0: checkpoints hold the record byte by byte */
     real held;                           /* half of what the bond takes to its limit [J] */
-    uint8_t flag;
+    uint8_t flag, gaps[7];               /* 0, likewise */
 };
+_Static_assert(sizeof(struct broken_bond) == 80, "a record without bytes that no member sets");
 struct break_list {
     int64_t n, room;
     struct broken_bond *bond;            /* in the order in which they broke */

@@ -12,6 +12,8 @@
 #define CROSSINGS_MOST 200.0  /* of all the release */
 #define MOTION_SMALL 1e-5     /* kinetic over strain energy of a body that is taken to be at rest */
 enum { LOOK_STEPS = 20 };     /* steps between looks at its energies */
+/* Steps of the clock of a release, which ends by itself: so many that no frame or sample is due [1]. */
+#define RELEASE_STEPS_MOST (INT64_MAX / 4)
 
 /* Loads and supports stay as they are at pseudo-time t. */
 static void boundaries_hold(struct engine *e, real t)
@@ -110,7 +112,7 @@ status statics_release(struct engine *e)
     boundaries_hold(e, s->t);
     rigids_hold(e, true);
     contact_unmark(&e->contact);
-    e->clock = (struct run_clock){clock.t, s->dt, clock.dt_critical, 1, INT64_MAX, 1};
+    e->clock = (struct run_clock){clock.t, s->dt, clock.dt_critical, 1, RELEASE_STEPS_MOST, 1};
     e->mpm.transfer.dt = s->dt;
     const status moved = steps_in_time(e, &more);
     s->released_time += (real)(e->clock.step - 1) * s->dt;

@@ -21,10 +21,12 @@ static int64_t common_step(const struct run_clock *clock, int64_t step)
     return (step + clock->stride / 2) / clock->stride * clock->stride;
 }
 
-/* Step of event k of n evenly spread over the run. */
+/* Returns the step of event k of n evenly spread over the run: k steps / n, rounded, without the product k steps, which
+ * has no room in 64 bits where a run has very many steps. */
 static int64_t due_step(const struct run_clock *clock, int64_t k, int64_t n)
 {
-    return n > 0 ? common_step(clock, (k * clock->steps + n / 2) / n) : clock->steps;
+    if (n <= 0) return clock->steps;
+    return common_step(clock, k * (clock->steps / n) + (k * (clock->steps % n) + n / 2) / n);
 }
 
 /* Step of frame k after the one at t = 0: nearest to its time, or evenly spread. A step writes one frame at the most,
