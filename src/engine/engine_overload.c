@@ -154,19 +154,12 @@ static real broken_add(struct break_list *l, const real *load, const struct brok
     return added > 0 ? sum / (real)added : 1;
 }
 
-/* Breaks all bonds beyond `down_to` times their limit. */
-static int64_t break_beyond(struct engine *e, real down_to)
+/* Breaks the bond of a record, half of whose energy its row books. */
+static void record_break(struct engine *e, const struct broken_bond *record)
 {
-    const struct bond_limit *own = &e->source.limit;
-    const int pairs = own->materials * own->materials;
-    real *scaled = NEW("statics.limit", pairs, real);
-    const struct bond_limit limit = {scaled, own->materials, LAST_FORCE_NONE, 0};
-    int64_t broken = 0;
-    for (int k = 0; k < pairs; k++) scaled[k] = own->critical_stretch[k] * down_to;
-#pragma omp parallel for schedule(static) reduction(+ : broken)
-    for (int64_t g = 0; g < e->bonds.row_blocks; g++) broken += bond_break_row_block(&e->bonds, &e->part, &limit, g);
-    memory_free(scaled);
-    return broken;
+    struct bond_limit limit = e->source.limit;
+    limit.last_force = LAST_FORCE_NONE;
+    bond_part(&e->bonds, &e->part, &limit, record->row, record->entry);
 }
 
 /* State-based bonds have no energy of their own: in a linear body, what a break takes is what it takes at the limit
@@ -182,27 +175,25 @@ int64_t statics_break(struct engine *e, real share, int64_t most, real *cost)
     const real down_to = least_to_break(o.load, o.n, least, most);
     const int64_t had = l->n;
     const real square_mean = broken_add(l, o.load, o.record, o.n, down_to);
-    const int64_t broken = break_beyond(e, down_to);
+    for (int64_t k = had; k < l->n; k++) record_break(e, &l->bond[k]);
     e->statics.stale = e->statics.parted = true;
     const real held = (bonds_fracture_energy(&e->bonds) - before) / square_mean;
     for (int64_t k = had; k < l->n && e->scene->model != MODEL_BOND; k++) l->bond[k].held = held / (real)(l->n - had);
     for (int64_t k = had; k < l->n; k++) *cost += l->bond[k].held;
     memory_free(o.load);
     memory_free(o.record);
-    return broken;
+    return l->n - had;
 }
 
 /* All at once: what the later ones of the list hold at their limits shows only as the first are gone. */
 void statics_break_listed(struct engine *e, const struct break_list *l)
 {
-    struct bond_limit limit = e->source.limit;
-    limit.last_force = LAST_FORCE_NONE;
     real more = 0;
     for (int64_t k = 0; k < l->n; k++) {
         const struct broken_bond *record = &l->bond[k];
         real *booked = &e->bonds.fracture_energy[record->row];
         const real before = *booked;
-        bond_part(&e->bonds, &e->part, &limit, record->row, record->entry);
+        record_break(e, record);
         more += *booked - before - record->held;
         *booked = before + record->held;
     }

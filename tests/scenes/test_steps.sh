@@ -125,6 +125,9 @@ between "space: release rate" "$(figure "$work/space" load_steps.release_rate)" 
 near "space: the front stays in its plane" "$(last "$work/space" path_y)" 0.01 2e-2
 near "space: and goes on" "$(last "$work/space" path_x)" 0.018 2e-3
 
+# strength that scatters
+bits scattered -s steps.path=bonds -s 'material.scatter={modulus: 6, length: 2 mm}' -s steps.number=4
+
 # killed, whatever it is at
 kills 3 "$led" $pulled
 
