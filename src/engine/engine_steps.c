@@ -169,14 +169,25 @@ static status step_by_opening(struct engine *e)
 
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
+/* Makes the search for equilibria of a load step depend on what a checkpoint keeps alone, so that a resumed run gets to
+ * the same bits. The motions of unconstrained pieces are those of where the pieces are now. The preconditioner stays
+ * where a resumed run can rebuild it: not if bonds have broken since it was made, nor with springs of contact, which
+ * depend on where particles were at that time. */
+static void load_step_begin(struct engine *e)
+{
+    struct statics *s = &e->statics;
+    statics_pieces_make(e);
+    if (s->stale || statics_meets(e)) statics_precondition_free(e);
+    else if (s->kept && !s->precondition) statics_precondition_make(e);
+    s->kept = false;
+    s->directions = 0;
+}
+
 static status load_step(struct engine *e)
 {
     const struct scene *s = e->scene;
     const real most = s->duration / (real)s->steps.number;
-    if (e->statics.precondition && e->statics.stale) statics_precondition_free(e);
-    if (e->statics.kept && !e->statics.precondition) statics_precondition_make(e); /* a run that goes on from here */
-    e->statics.kept = false;
-    e->statics.directions = 0; /* as in such a run, which has one made for the same bonds */
+    load_step_begin(e);
     switch (s->steps.control) {
     case CONTROL_LOAD:
         return step_by_load(e, most * (real)(e->clock.step + 1));

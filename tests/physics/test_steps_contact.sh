@@ -126,6 +126,8 @@ near "late: what carries" "$(column "$work/late" reaction.force_y 0.67)" "$(comp
 calm "$work/whole" "$work/bend.yaml" -s steps.number=8 -t 1
 calm "$work/two" "$work/bend.yaml" -s steps.number=8 -t 2
 same "threads" "$work/whole" "$work/two"
+piecewise "$work/pieces" "$work/bend.yaml" -s steps.number=8
+same "stopped after every load step" "$work/whole" "$work/pieces"
 kills 2 "$work/whole" "$work/bend.yaml" -s steps.number=8
 calm "$work/let_go" "$work/bend.yaml" -s 'steps={number: 6, then: explicit}' -t 1
 near "let go: the same peak" "$(figure "$work/let_go" rigid.2.force_max)" "$(most bend roller_force_y)" 2e-2

@@ -85,18 +85,6 @@ fi
 
 # ---- the same bits -------------------------------------------------------------------------------------------------
 
-# piecewise FOLDER ARGUMENTS: a run that stops after every load step, and goes on.
-piecewise()
-{
-    to=$1 parts=0 status=130; shift
-    while [ $status -eq 130 ] && [ $parts -lt 40 ]; do
-        "$cleave" run -q -o "$to" "$@" -s time.wall=1us --resume 2>"$work/err"
-        status=$?
-        parts=$((parts + 1))
-    done
-    is "$to: status, $(cat "$work/err")" $status 0
-}
-
 # bits WHAT ARGUMENTS: on 1 and 2 threads, and stopped after every load step.
 bits()
 {
@@ -104,7 +92,7 @@ bits()
     "$cleave" run -q -o "$work/$what" "$pulled" -t 1 "$@" 2>"$work/err" || fail "$what: $(cat "$work/err")"
     "$cleave" run -q -o "$work/${what}_2" "$pulled" -t 2 "$@" 2>"$work/err"
     same "$what: 1 and 2 threads" "$work/$what" "$work/${what}_2"
-    piecewise "$work/${what}_parts" "$pulled" -t 1 "$@"
+    piecewise "$work/${what}_parts" "$pulled" "$@"
     between "$what: stops" $parts 4 9
     same "$what: in pieces" "$work/$what" "$work/${what}_parts"
 }
@@ -125,8 +113,20 @@ between "space: release rate" "$(figure "$work/space" load_steps.release_rate)" 
 near "space: the front stays in its plane" "$(last "$work/space" path_y)" 0.01 2e-2
 near "space: and goes on" "$(last "$work/space" path_x)" 0.018 2e-3
 
-# strength that scatters
+# a body that nothing holds; strength that scatters
+bits free -s "$grips {name: bottom, traction: [0, -100 MPa], face: y-, time: {ramp: {until: 1 s}}}]"
 bits scattered -s steps.path=bonds -s 'material.scatter={modulus: 6, length: 2 mm}' -s steps.number=4
+
+# every shipped scene in load steps, eight times as coarse, in space twice: on 2 threads, and on one stopped after every load step
+for scene in $(grep -l '^solver: static' inputs/*.yaml inputs/new/*.yaml); do
+    name=$(basename "$scene" .yaml) factor=8
+    ! grep -q '^space: solid' "$scene" || factor=2
+    small="$scene $(coarser "$scene" $factor) -s probes=[] -s output.frames=1 -s steps.number=4"
+    "$cleave" run -q -o "$work/$name" -t 2 $small 2>"$work/err" || fail "$name: $(cat "$work/err")"
+    piecewise "$work/${name}_parts" $small
+    between "$name: pieces" $parts 2 4
+    same "$name: in pieces" "$work/$name" "$work/${name}_parts"
+done
 
 # killed, whatever it is at
 kills 3 "$led" $pulled

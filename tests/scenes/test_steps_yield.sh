@@ -127,13 +127,7 @@ bits()
     what=$1; shift
     for threads in 1 2; do "$cleave" run -q -o "$work/$what$threads" "$@" -t $threads 2>"$work/err" || fail "$what: $(cat "$work/err")"; done
     same "$what: 1 and 2 threads" "$work/${what}1" "$work/${what}2"
-    parts=0 status=130
-    while [ $status -eq 130 ] && [ $parts -lt 40 ]; do
-        "$cleave" run -q -o "$work/${what}_parts" "$@" -t 1 -s time.wall=1us --resume 2>"$work/err"
-        status=$?
-        parts=$((parts + 1))
-    done
-    is "$what: status, $(cat "$work/err")" $status 0
+    piecewise "$work/${what}_parts" "$@"
     between "$what: stops" $parts 7 13
     same "$what: in pieces" "$work/${what}1" "$work/${what}_parts"
 }

@@ -113,29 +113,54 @@ interrupted()
     is "$to: interrupted" $result 130
 }
 
-# kills HOW MANY REFERENCE ARGUMENTS: kills at random moments, on a random number of threads, each followed by --resume; every
-# time the run gets to its end it must equal the reference, and starts anew.
-kills()
+# piecewise FOLDER ARGUMENTS: a run in load steps that stops after each of them and goes on, on one thread; $parts: its number of pieces.
+piecewise()
 {
-    wanted=$1 reference=$2 killed=0 ended=0; shift 2
+    to=$1 parts=0 status=130; shift
+    while [ $status -eq 130 ] && [ $parts -lt 40 ]; do
+        "$cleave" run -q -o "$to" -t 1 "$@" -s time.wall=1us --resume 2>"$work/err"
+        status=$?
+        parts=$((parts + 1))
+    done
+    is "$to: status, $(cat "$work/err")" $status 0
+}
+
+# coarser SCENE FACTOR: the override that makes the spacing of a shipped scene so many times as large.
+coarser()
+{
+    h=$(sed -n 's/^variables: .*[{ ]h: \([0-9.]*\) mm.*/\1/p' "$1")
+    [ -z "$h" ] || { echo "-s variables.h=$(compute "$2 * $h")mm"; return; }
+    echo "-s particles.spacing=$(compute "$2 * $(sed -n 's/^particles: {spacing: \([0-9.]*\) mm.*/\1/p' "$1")")mm"
+}
+
+# disturbances SIGNAL HOW MANY REFERENCE ARGUMENTS: a run that gets the signal at random moments, on a random number of threads, each time
+# followed by --resume; every time the run gets to its end it must equal the reference, and starts anew.
+disturbances()
+{
+    deed=$1 wanted=$2 reference=$3 ended_early=0 ended=0; shift 3
     longest=$(compute "0.9 * $(figure "$reference" wall_seconds)")
-    rm -rf "$work/killed"
-    while [ $killed -lt "$wanted" ] || [ $ended -eq 0 ]; do
-        threads=$((1 + (killed + ended) % 3))
-        "$cleave" run -q -o "$work/killed" -t $threads --resume "$@" >"$work/out" 2>"$work/err" &
+    rm -rf "$work/disturbed"
+    while [ $ended_early -lt "$wanted" ] || [ $ended -eq 0 ]; do
+        threads=$((1 + (ended_early + ended) % 3))
+        "$cleave" run -q -o "$work/disturbed" -t $threads --resume "$@" >"$work/out" 2>"$work/err" &
         process=$!
-        if [ $killed -lt "$wanted" ]; then
+        if [ $ended_early -lt "$wanted" ]; then
             sleep "$(random 0.01 "$longest")"
-            kill -KILL $process 2>/dev/null
+            kill -"$deed" $process 2>/dev/null
         fi
         wait $process 2>/dev/null
         result=$?
-        if [ $result -eq 137 ]; then killed=$((killed + 1)); continue; fi
-        if [ $result -ne 0 ]; then fail "after $killed kills: status $result: $(cat "$work/err")"; return; fi
+        case $deed$result in
+        KILL137 | TERM130 | TERM143) ended_early=$((ended_early + 1)); continue ;;    # 143: before it listened
+        "$deed"0) ;;
+        *) fail "after $ended_early times SIG$deed: status $result: $(cat "$work/err")"; return ;;
+        esac
         ended=$((ended + 1))
-        longest=$(compute "0.8 * $longest")      # the machine is less busy than it was for the reference: kill sooner
-        same "after $killed kills" "$reference" "$work/killed"
-        rm -rf "$work/killed"
+        longest=$(compute "0.8 * $longest")      # the machine is less busy than it was for the reference: sooner
+        same "after $ended_early times SIG$deed" "$reference" "$work/disturbed"
+        rm -rf "$work/disturbed"
     done
-    echo "$killed kills, $ended runs to the end"
+    echo "$ended_early times SIG$deed, $ended runs to the end"
 }
+kills() { disturbances KILL "$@"; }
+stops() { disturbances TERM "$@"; }
