@@ -12,8 +12,8 @@ void kernels_choose(struct kernels *k, int dim, enum pd_model model, enum shape 
     k->remap = remap_table[dim][shape];
     k->g2p = g2p_table[dim][shape][transfer];
     k->spread = spread_table[dim][shape];
-    assert(k->bond_force && k->bond_energy && k->bond_stress && k->pd_move && k->p2g && k->remap && k->g2p &&
-           k->spread);
+    INVARIANT(k->bond_force && k->bond_energy && k->bond_stress && k->pd_move && k->p2g && k->remap && k->g2p &&
+              k->spread);
 }
 
 #define ENTRY(name) .name = name,

@@ -53,6 +53,10 @@ grep -nE "\\b(b|bonds|old)(->|\.)(nbr|inverse_length|common|stencil|column|colum
     $(find src -name '*.[ch]' ! -path 'src/bonds/*') | grep -E "(b->|bonds(->|\.)|old->)(nbr|inverse_length|common|stencil|column|column_count|first|implicit|changed|shell_length|made|aligned)(\[|\)|;|,| )" >"$found"
 nothing "storage of bonds used outside its room"
 
+# A broken invariant is one line for a user: INVARIANT of include/base/base.h, not assert of C.
+grep -nE '\bassert(\(|\.h)' $program >"$found"
+nothing "assert in place of INVARIANT"
+
 # Each room says in a public header what it is for.
 for room in $rooms; do
     [ -d "include/$room" ] || continue

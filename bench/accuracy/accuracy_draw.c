@@ -243,7 +243,7 @@ static void add_panel(struct page *p, const struct accuracy_plan *plan, const st
                       int part)
 {
     struct panel *q = &p->panel[p->panels];
-    assert(p->panels < PANELS_MAX);
+    INVARIANT(p->panels < PANELS_MAX);
     q->number = p->panels;
     panel_make(q, plan, problem, at, part);
     if (q->n == 0) {

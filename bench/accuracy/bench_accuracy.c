@@ -139,7 +139,7 @@ static status accuracy_run_all(struct accuracy_plan *plan, const char *only, boo
 {
     struct progress g = {0};
     int asked = 0;
-    assert(accuracy_problems <= PROBLEMS_MAX);
+    INVARIANT(accuracy_problems <= PROBLEMS_MAX);
     for (int k = 0; k < plan->n; k++) {
         if (!is_asked(&plan->entry[k], only, quick)) continue;
         g.asked[accuracy_number_of(plan->entry[k].point.problem)] += work_of(&plan->entry[k].point), asked++;

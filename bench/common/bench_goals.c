@@ -50,7 +50,7 @@ double bench_summary_figure(const char *folder, const char *key)
 void bench_ask(struct bench_goals *t, const char *unit, double measured, double asked, const char *name, ...)
 {
     va_list more;
-    assert(t->n < BENCH_GOALS_MAX);
+    INVARIANT(t->n < BENCH_GOALS_MAX);
     struct bench_goal *new = &t->goal[t->n++];
     va_start(more, name);
     vsnprintf(new->name, sizeof new->name, name, more);

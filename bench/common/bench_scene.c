@@ -92,7 +92,7 @@ void bench_engine_start(struct engine *e, bench_field *field, const void *contex
 void bench_override(struct bench_overrides *o, const char *key, const char *value, ...)
 {
     va_list more;
-    assert(o->n < OVERRIDES_MAX);
+    INVARIANT(o->n < OVERRIDES_MAX);
     va_start(more, value);
     vsnprintf(o->value[o->n], OVERRIDE_LENGTH, value, more);
     va_end(more);

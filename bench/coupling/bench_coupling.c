@@ -46,7 +46,7 @@ static status coupling_bar_measure(struct bar_run *r)
 
 static status bar_add(struct bar_table *t, struct bar_run r)
 {
-    assert(t->n < BAR_RUNS_MAX);
+    INVARIANT(t->n < BAR_RUNS_MAX);
     TRY(coupling_bar_measure(&r));
     t->run[t->n++] = r;
     return OK;

@@ -93,7 +93,7 @@ static status measure_plane(struct patch_row *r, const char *region, const char 
 
 static struct patch_row *row_add(struct patch_table *t, struct patch_row r)
 {
-    assert(t->n < PATCH_ROWS_MAX);
+    INVARIANT(t->n < PATCH_ROWS_MAX);
     t->row[t->n] = r;
     return &t->row[t->n++];
 }

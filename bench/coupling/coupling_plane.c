@@ -153,7 +153,7 @@ static status group_measure(struct plane_table *t, int interface, double width, 
             if (way == WAY_UNDAMPED && !flip) continue; /* the interface is damped with FLIP only */
             row.way = way, row.weights = weights[w];
             s = row_measure(&row, &strip, &plain);
-            assert(t->n < PLANE_ROWS_MAX);
+            INVARIANT(t->n < PLANE_ROWS_MAX);
             if (s == OK) t->row[t->n++] = row;
         }
     plain_free(&plain);

@@ -47,7 +47,7 @@ static void experiment_row_print(const struct experiment_row *r)
 
 void experiment_add(struct experiments *x, struct experiment_row row)
 {
-    assert(x->n < EXPERIMENT_ROWS_MOST);
+    INVARIANT(x->n < EXPERIMENT_ROWS_MOST);
     x->row[x->n++] = row;
     experiment_row_print(&row);
 }
@@ -55,7 +55,7 @@ void experiment_add(struct experiments *x, struct experiment_row row)
 struct experiment_curve *experiment_curve_begin(struct experiments *x, const char *picture, const char *name, ...)
 {
     va_list more;
-    assert(x->curves < EXPERIMENT_CURVES_MOST);
+    INVARIANT(x->curves < EXPERIMENT_CURVES_MOST);
     struct experiment_curve *c = &x->curve[x->curves++];
     c->picture = picture;
     va_start(more, name);

@@ -103,7 +103,7 @@ static void path_add(struct experiment_paths *p, double at_x, double at_y, int l
 
 static void paths_take(struct experiments *x, const struct experiment_case *c, const struct convergence_study *s)
 {
-    assert(x->paths < EXPERIMENT_PATHS_MOST);
+    INVARIANT(x->paths < EXPERIMENT_PATHS_MOST);
     struct experiment_paths *p = &x->path[x->paths++];
     *p = (struct experiment_paths){.levels = s->spacings.levels};
     snprintf(p->title, sizeof p->title, "%s, %s", c->experiment, c->variant);

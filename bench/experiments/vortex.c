@@ -44,7 +44,7 @@ void vortex_bonds(struct vortex *v, double reach)
         for (int j = -(int)reach; j <= (int)reach; j++) {
             const double r = hypot(i, j);
             if (r == 0 || r > reach || (i == 0 && j < 0)) continue;
-            assert(v->bonds < VORTEX_BONDS_MOST);
+            INVARIANT(v->bonds < VORTEX_BONDS_MOST);
             v->xi[v->bonds][0] = i, v->xi[v->bonds][1] = j, v->weight[v->bonds++] = r;
             sum += r;
         }

@@ -89,7 +89,7 @@ static void override_probes(struct bench_overrides *o, int side)
 
 static status edge_add(struct edge_table *t, int model, int side, bool relaxed)
 {
-    assert(t->n < EDGE_ROWS_MAX);
+    INVARIANT(t->n < EDGE_ROWS_MAX);
     struct edge_row *r = &t->row[t->n++];
     struct bench_job job = {.path = "inputs/edge_crack_k1.yaml", .row = r, .take = sif_edge_take_row};
     *r = (struct edge_row){.model = model, .side = side, .relaxed = relaxed};

@@ -45,7 +45,7 @@ static void stability_print_row(const struct stability_row *r)
 static status stability_measure(void *context, const struct stability_case *c)
 {
     struct measuring *m = context;
-    assert(m->map->n < STABILITY_ROWS_MAX);
+    INVARIANT(m->map->n < STABILITY_ROWS_MAX);
     struct stability_row *r = &m->map->row[m->map->n];
     if (m->map->n == 0 || r[-1].c.group != c->group)
         printf("\n  %-66s observed predicted  automatic/observed; in %s\n", stability_group_name[c->group],

@@ -30,7 +30,7 @@ static status pilot_scene_write(const char *path, const struct pilot_scene *k, d
     const int length =
         snprintf(text, sizeof text, "method: auto\naccuracy: {of: %s, within: %g, budget: %g}\n%soutput: {frames: 0}\n",
                  k->figure, within, BUDGET, k->text);
-    assert(length < TEXT_ROOM);
+    INVARIANT(length < TEXT_ROOM);
     remove(path); /* that of the study before, which this process has read */
     return file_put(path, text, (size_t)length);
 }

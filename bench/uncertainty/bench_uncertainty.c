@@ -43,7 +43,7 @@ static status scene_text_write(const char *path, const struct known_scene *k, co
     const int length =
         snprintf(text, sizeof text, "%s%.*sparticles: {spacing: %s%s%s}\noutput: {frames: 0, samples: 20}\n", k->text,
                  lines, variant, spacing, at ? ", horizon: " : "", at ? at + 1 : "");
-    assert(length < TEXT_ROOM);
+    INVARIANT(length < TEXT_ROOM);
     remove(path); /* that of the study before, which this process has read */
     return file_put(path, text, (size_t)length);
 }

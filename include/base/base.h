@@ -11,7 +11,6 @@
 #ifndef CLEAVE_BASE
 #define CLEAVE_BASE
 
-#include <assert.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -55,6 +54,20 @@ const char *status_message(void);
 enum { PLACE_LENGTH = 512 };
 /* Puts `place` in front of the message of a refusal that has none yet; returns `s`. */
 status status_at(const char *place, status s);
+
+/* Ends the program by invariant_broken if `condition` is false. For what holds in every run of a program without
+ * faults; unlike assert of C it is in every build. What a scene, a file or the system can cause is a status instead. */
+#define INVARIANT(condition) ((condition) ? (void)0 : invariant_broken(#condition, __FILE__, __LINE__, __func__))
+
+/* Ends the program: prints one line on standard error with the version, the source location and the text of the
+ * condition, and what to report; calls the function that invariant_clean_up has set; exit status 1. Any thread may call
+ * it; of several threads the first one reports. Builds under sanitizers abort instead of exiting: fuzzers tell
+ * such an end from a refusal. */
+_Noreturn void invariant_broken(const char *condition, const char *file, int line, const char *function);
+
+/* Sets the function that invariant_broken calls before the program ends, in the thread that has found the fault: it
+ * removes half-written files. NULL: none is called. */
+void invariant_clean_up(void (*remove)(void));
 
 /* Makes text from outside (names of files, columns, scenes) harmless to a terminal: `?` in place of every control
  * character. */

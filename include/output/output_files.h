@@ -15,6 +15,11 @@ struct path path_join(const char *folder, const char *name);
 status folder_make(const char *path);
 /* PATH.tmp, where a file is written before it is renamed. */
 struct path path_aside(const char *path);
+/* Returns path_aside(path) for a file that is about to be written there, and keeps it in a list of unfinished files
+ * until file_publish or file_discard of the same `path`. */
+struct path file_begin(const char *path);
+/* Removes what the list of unfinished files names: before the program ends by a fault of its own. */
+void files_unfinished_remove(void);
 bool path_exists(const char *path);
 bool path_is_link(const char *path);
 bool path_is_file(const char *path);

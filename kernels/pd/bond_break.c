@@ -99,7 +99,7 @@ void bond_part(struct bonds *b, struct particles *p, const struct bond_limit *li
 
 void bond_mend(struct bonds *b, struct particles *p, int64_t row, int64_t q, real w)
 {
-    assert(b->w[q] == 0 && b->inverse_length[q] < 0);
+    INVARIANT(b->w[q] == 0 && b->inverse_length[q] < 0);
     b->w[q] = w;
     b->inverse_length[q] = -b->inverse_length[q];
     b->broken[row]--;

@@ -114,7 +114,7 @@ int64_t bond_forces(bond_force_fn *sweep, struct bonds *b, struct particles *p, 
 {
     struct clamped *c = &b->clamped;
     if (c->n == 0) return sweep(b, p, limit, motion);
-    assert(p->dim > 1 && (!motion || motion->loaded));
+    INVARIANT(p->dim > 1 && (!motion || motion->loaded));
     if (c->stale) weights_follow(b);
     c->stale = false;
     const int64_t broken = sweep(b, p, limit, motion);       /* stale, if one of these bonds is among them */

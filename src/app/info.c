@@ -21,12 +21,10 @@ static const char *compiler(void)
 
 static const char *build_flags(void)
 {
-#if defined __OPTIMIZE__ && defined NDEBUG
-    return "optimised, assertions off";
-#elif defined __OPTIMIZE__
-    return "optimised, assertions on";
+#ifdef __OPTIMIZE__
+    return "optimised";
 #else
-    return "not optimised, assertions on";
+    return "not optimised";
 #endif
 }
 

@@ -13,6 +13,8 @@ static const struct promise promises[] = {
      "exits with 130; --resume "
      "gets to the same bits, whatever probes it has.",
      "test_trust.sh test_faults.c"},
+    {"So does a run in load steps, stopped between two of them or within one.",
+     "test_steps.sh test_steps_contact.sh test_steps_yield.sh test_faults.c long_steps.sh"},
     {"A run that is killed at any moment after its first checkpoint, of step 0, loses what came after its last one and "
      "no more; --resume gets to "
      "the same bits.",
@@ -24,6 +26,9 @@ static const struct promise promises[] = {
     {"So does a disk that is full, or a file or memory limit. A library that finds no memory may crash without a line "
      "while there is some left; --resume gets to the same bits then, too.",
      "test_trust.sh test_little_memory.sh long_faults.sh"},
+    {"A broken invariant, which is a fault of the program itself, ends a run with one line that says what to report "
+     "and status 1; no file stays half-written, and --resume gets to the same bits.",
+     "test_ground.c test_faults.c"},
     {"Files and the folders they are named in are synced before anything counts on them.", "test_faults.c"},
     {"Every changed, lost or added byte of a checkpoint or frame is found; the older checkpoint takes over, a lost "
      "frame is named.",

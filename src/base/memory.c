@@ -193,7 +193,7 @@ void *memory_blank(const char *label, int64_t count, size_t size)
 
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size)
 {
-    assert(pointer == NULL || old_count >= 0);
+    INVARIANT(pointer == NULL || old_count >= 0);
     char *grown = memory_new(label, count, size);
     int64_t kept = old_count < count ? old_count : count;
     if (pointer != NULL && kept > 0) memcpy(grown, pointer, (size_t)kept * size);
@@ -224,7 +224,7 @@ void *memory_extend(const char *label, void *pointer, int64_t old_count, int64_t
     struct block block;
     char *array = pointer;
     size_t length;
-    assert(pointer && old_count <= count);
+    INVARIANT(pointer && old_count <= count);
     memcpy(&block, array - sizeof block, sizeof block);
     if (__builtin_mul_overflow((size_t)count, size, &length) || length > PTRDIFF_MAX - 2 * LARGE_PAGE)
         out_of_memory(label, count, size);

@@ -293,7 +293,7 @@ void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t 
 {
     int64_t blocks = (n + SUM_BLOCK - 1) / SUM_BLOCK;
     real few[FEW_BLOCKS * TERMS_MAX], *part = blocks <= FEW_BLOCKS ? few : NEW("team.sums", blocks * terms, real);
-    assert(terms <= TERMS_MAX);
+    INVARIANT(terms <= TERMS_MAX);
     TEAM_LOOP(blocks > 1,
               for (int64_t b = 0; b < blocks; b++) sum_block(n, terms, block, context, b, part + b * terms););
     for (int k = 0; k < terms; k++) sum[k] = 0;

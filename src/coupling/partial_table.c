@@ -298,7 +298,7 @@ static void response_make(const struct partial_table *t, const struct particles 
         if (bond.w == 0) continue;
         particle_place(p, bond.nbr, to);
         const int64_t place = place_between(t, X, to);
-        assert(place >= 0 && t->vector[place] >= 0);
+        INVARIANT(place >= 0 && t->vector[place] >= 0);
         const struct response r = response_of(p, b, s, b->particle[row], &bond);
         real *part = response + t->vector[place] * t->parts;
         part[0] = s->rotates ? r.vector : r.central;

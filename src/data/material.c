@@ -16,7 +16,7 @@ real material_bond_poisson(enum space space)
 real material_micro_modulus(const struct material *m, enum space space, real sigma)
 {
     static const real factor[DIM_MAX + 1] = {[1] = 2, [2] = 8, [3] = 18};
-    assert(sigma > 0);
+    INVARIANT(sigma > 0);
     return factor[space_dim(space)] * m->bulk / sigma;
 }
 

@@ -76,13 +76,13 @@ static void particles_put(struct particles *p, const struct particle_field *f, i
 
 void *particle_array(const struct particles *p, const struct particle_field *f, int k)
 {
-    assert(k >= 0 && k < f->count(DIM_MAX, WITH_EVERYTHING));
+    INVARIANT(k >= 0 && k < f->count(DIM_MAX, WITH_EVERYTHING));
     return get(p, f, k);
 }
 
 void particles_make(struct particles *p, int dim, int64_t n, int optional)
 {
-    assert(dim >= 1 && dim <= DIM_MAX && n >= 0 && n <= INT32_MAX - LANES);
+    INVARIANT(dim >= 1 && dim <= DIM_MAX && n >= 0 && n <= INT32_MAX - LANES);
     *p = (struct particles){.n = n, .n_all = n, .n_body = n, .dim = dim};
     p->n_of[KIND_MPM] = n;
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
@@ -95,7 +95,7 @@ void particles_make(struct particles *p, int dim, int64_t n, int optional)
 
 void particles_add_images(struct particles *p, int64_t images, int optional)
 {
-    assert(images >= 0 && p->n_all + images <= INT32_MAX - LANES);
+    INVARIANT(images >= 0 && p->n_all + images <= INT32_MAX - LANES);
     int64_t old = p->n_all + LANES, count = old + images;
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
         for (int k = 0; k < f->count(p->dim, optional); k++)
@@ -209,7 +209,7 @@ static bool in_order(const struct place *place, int64_t n)
 
 void particles_sort(struct particles *p, real spacing, int optional)
 {
-    assert(p->n_all == p->n && spacing > 0);
+    INVARIANT(p->n_all == p->n && spacing > 0);
     struct place *place = NEW("particles.place", p->n, struct place);
     find_places(p, spacing, place);
     if (in_order(place, p->n)) {         /* one lattice is made in this order */
@@ -246,7 +246,7 @@ void particles_list(struct particles *p)
     p->n_free = 0;
     for (int64_t i = 0; i < p->n;) {
         const int alike = i + LANES <= p->n && eight_alike(p, i) ? LANES : 1, kind = p->kind[i];
-        assert(kind < KINDS);
+        INVARIANT(kind < KINDS);
         list_append(p->list[kind], &p->n_of[kind], i, alike);
         if (kind == KIND_MPM && !(p->flag[i] & FLAG_MESHED)) list_append(p->list_free, &p->n_free, i, alike);
         i += alike;

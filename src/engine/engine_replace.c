@@ -75,7 +75,7 @@ static void swap_arrays(real **a, real **b, int dim)
 static void nodes_take(struct engine *e, struct engine *old)
 {
     struct reference_frame *r = &e->reference, *was = &old->reference;
-    assert(r->mesh.grid.n == was->mesh.grid.n);
+    INVARIANT(r->mesh.grid.n == was->mesh.grid.n);
     swap_arrays(r->mesh.displacement, was->mesh.displacement, e->part.dim);
     swap_arrays(r->mesh.grid.velocity, was->mesh.grid.velocity, e->part.dim);
     r->speed = was->speed;

@@ -161,7 +161,7 @@ static const struct export_file files[] = {{"plate.data", put_data},
 
 static status file_export(const struct export_file *f, struct exported *x, const struct lammps_types *t)
 {
-    const struct path path = path_join(x->request->folder, f->name), aside = path_aside(path.text);
+    const struct path path = path_join(x->request->folder, f->name), aside = file_begin(path.text);
     unlink(aside.text); /* links of this name are not followed */
     FILE *to = fopen(aside.text, "wx");
     if (!to) return file_fault(path.text, errno);

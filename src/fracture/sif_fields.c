@@ -14,7 +14,7 @@ struct crack_medium crack_medium_of(const struct material *m, enum space space)
 {
     const real nu = m->poisson;
     const bool thin = space == SPACE_PLANE_STRESS;
-    assert(space_dim(space) == 2);
+    INVARIANT(space_dim(space) == 2);
     return (struct crack_medium){
         .shear = m->shear, .lambda = m->c12, .poisson = nu, .density = m->density,
         .kappa = thin ? (3 - nu) / (1 + nu) : 3 - 4 * nu, .modulus = thin ? m->young : m->young / (1 - nu * nu),

@@ -384,8 +384,8 @@ static void record_room(struct tips *t, int64_t room)
 
 void tips_sample(struct tips *t, const struct particles *p, const struct cells *c, real time)
 {
-    assert(t->count == p->n && t->dim == p->dim);
-    assert(t->samples == 0 || time >= t->time[t->samples - 1]);
+    INVARIANT(t->count == p->n && t->dim == p->dim);
+    INVARIANT(t->samples == 0 || time >= t->time[t->samples - 1]);
     struct flood f;
     flood_make(&f, t, p, c);
     if (f.n_fresh > 0) flood_all(&f);

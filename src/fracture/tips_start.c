@@ -65,7 +65,7 @@ static int body_ahead(const struct tips *t, struct tip_search *s, const real *X,
 
 struct tip *tip_add(struct tips *t, int body, const real *origin, const real *along)
 {
-    assert(t->n < TIPS_MAX);
+    INVARIANT(t->n < TIPS_MAX);
     struct tip *tip = &t->tip[t->n++];
     *tip = (struct tip){.body = body, .first_time = NAN, .start_time = NAN, .arrest_time = NAN,
                         .speed_max = NAN, .speed_mean = NAN};
@@ -133,7 +133,7 @@ static void start_at_edge(struct tips *t, struct tip_search *s, const struct cra
 void tips_make(struct tips *t, const struct particles *p, const struct cells *c, const struct crack *crack, int cracks,
                real spacing, real window)
 {
-    assert(spacing > 0 && window >= 0);
+    INVARIANT(spacing > 0 && window >= 0);
     *t = (struct tips){.dim = p->dim, .spacing = spacing, .window = window, .count = p->n};
     t->label = NEW("tips.label", p->n, uint8_t);
     for (int64_t i = 0; i < p->n; i++)

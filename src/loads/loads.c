@@ -29,7 +29,7 @@ static void loads_list(struct loads *l, const struct particles *p)
 status loads_make(struct loads *l, const struct boundary *boundary, int n, struct particles *p, real spacing,
                   real reach, int optional)
 {
-    assert(n <= BOUNDARIES_MAX);
+    INVARIANT(n <= BOUNDARIES_MAX);
     memset(l, 0, sizeof *l);
     l->n = n;
     l->spacing = spacing;

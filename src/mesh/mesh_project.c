@@ -185,7 +185,7 @@ static void mesh_project_rows_make(struct projection *m)
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < n; I++)
         if (m->row_of[I] >= 0) {
-            assert(I >= far && I + far < n);               /* a grid has a margin (grid.h) */
+            INVARIANT(I >= far && I + far < n);               /* a grid has a margin (grid.h) */
             row_make(m, I, m->row + (int64_t)m->row_of[I] * each);
         }
 }

@@ -27,8 +27,7 @@ static const char newest_name[] = "checkpoint.h5", previous_name[] = "checkpoint
 static void entry_path(char *path, size_t room, const char *name)
 {
     int length = snprintf(path, room, "/state/%s", name);
-    assert(length > 0 && (size_t)length < room);
-    (void)length;
+    INVARIANT(length > 0 && (size_t)length < room);
     for (char *c = path + strlen("/state/"); *c; c++) *c = *c == '/' ? '.' : *c;
 }
 
@@ -79,7 +78,7 @@ static status state_write(struct output *o, const char *path, const char *scene_
 {
     static const int32_t version = CHECKPOINT_VERSION;
     struct hdf f;
-    hdf_create(&f, path_aside(path).text, false);
+    hdf_create(&f, file_begin(path).text, false);
     hdf_group(&f, "/Cleave");
     hdf_mark_one(&f, "/Cleave", "version", HDF_I32, &version);
     hdf_rows(&f, "/Cleave/scene", HDF_U8, (int64_t)strlen(scene_text), 1, scene_text);

@@ -21,6 +21,7 @@ void output_start(void)
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     signal(SIGXFSZ, SIG_IGN);
     signal(SIGPIPE, SIG_IGN);
+    invariant_clean_up(files_unfinished_remove);
 }
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
@@ -282,7 +283,7 @@ static status folder_prepare(const char *folder, const char *scene_text, enum ou
 
 status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress)
 {
-    assert(folder && scene_text);
+    INVARIANT(folder && scene_text);
     struct path clean = {{0}};
     size_t length = strlen(folder);
     *o = (struct output){.compress = compress, .lock.fd = -1};
@@ -305,7 +306,7 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
 status output_add_series(struct output *o, const char *name, const struct region *region)
 {
     char folder[PATH_NAME_ROOM];
-    assert(o->n_series < SERIES_MOST);
+    INVARIANT(o->n_series < SERIES_MOST);
     snprintf(folder, sizeof folder, "frames_%s", name);
     const struct path path = path_join(o->folder, folder);
     if (path_is_link(path.text)) return status_set(REFUSED, "%s is a link: frames would be somewhere else", path.text);

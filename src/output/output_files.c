@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -51,6 +52,43 @@ bool path_is_folder(const char *path)
     return stat(path, &s) == 0 && S_ISDIR(s.st_mode);
 }
 
+/* ---- unfinished files -------------------------------------------------------------------------------------------- */
+
+/* Paths of files that are being written, by the stepping thread and by the one that writes frames; "": a free slot. */
+enum { UNFINISHED_MOST = 8 };
+static struct path unfinished[UNFINISHED_MOST];
+static pthread_mutex_t unfinished_lock = PTHREAD_MUTEX_INITIALIZER;
+
+/* Replaces the first entry `from` of the list by `to`, if there is one. */
+static void unfinished_replace(const char *from, const char *to)
+{
+    bool found = false;
+    pthread_mutex_lock(&unfinished_lock);
+    for (int k = 0; k < UNFINISHED_MOST && !found; k++) {
+        found = strcmp(unfinished[k].text, from) == 0;
+        if (found) strcpy(unfinished[k].text, to);
+    }
+    pthread_mutex_unlock(&unfinished_lock);
+}
+
+struct path file_begin(const char *path)
+{
+    const struct path aside = path_aside(path);
+    unfinished_replace(aside.text, "");
+    unfinished_replace("", aside.text);
+    return aside;
+}
+
+static void file_end(const char *path) { unfinished_replace(path_aside(path).text, ""); }
+
+void files_unfinished_remove(void)
+{
+    pthread_mutex_lock(&unfinished_lock);
+    for (int k = 0; k < UNFINISHED_MOST; k++)
+        if (unfinished[k].text[0]) unlink(unfinished[k].text);
+    pthread_mutex_unlock(&unfinished_lock);
+}
+
 /* ---- faults ------------------------------------------------------------------------------------------------------ */
 
 /* Advice for the cause (an errno) of a failed write. */
@@ -82,6 +120,7 @@ void file_discard(const char *path)
     /* After a failed write HDF5 keeps the file open: only truncation frees the disk. */
     if (path_is_file(aside.text) && truncate(aside.text, 0) != 0) errno = 0;
     unlink(aside.text);
+    file_end(path);
 }
 
 /* ---- what is not replaced ---------------------------------------------------------------------------------------- */
@@ -165,10 +204,12 @@ status file_seal(const char *path, const void *tail, size_t length)
 
 static status file_rename(const char *path)
 {
-    const status free = file_guard(path);
-    if (free != OK) file_discard(path);
-    TRY(free);
-    return outcome(path, rename(path_aside(path).text, path) != 0 ? errno : 0);
+    status s = file_guard(path);
+    if (s != OK) file_discard(path);
+    TRY(s);
+    s = outcome(path, rename(path_aside(path).text, path) != 0 ? errno : 0);
+    file_end(path);
+    return s;
 }
 
 status file_settle(const char *path)
@@ -186,7 +227,7 @@ status file_publish(const char *path)
 status file_put_unsettled(const char *path, const void *bytes, size_t length)
 {
     if (input_was_read(path) && file_holds(path, bytes, length)) return OK;
-    TRY(outcome(path, write_synced(path_aside(path).text, O_CREAT | O_EXCL, bytes, length)));
+    TRY(outcome(path, write_synced(file_begin(path).text, O_CREAT | O_EXCL, bytes, length)));
     return file_rename(path);
 }
 

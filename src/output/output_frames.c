@@ -111,7 +111,7 @@ static int32_t *order_by_id(const struct particles *p)
     for (int64_t i = 0; i < p->n; i++) order[p->id[i]] = (int32_t)i + 1;
     for (int64_t id = 0; id < room; id++)
         if (order[id]) order[k++] = order[id] - 1;
-    assert(k == p->n);
+    INVARIANT(k == p->n);
     return order;
 }
 
@@ -121,7 +121,7 @@ static void write_field(struct hdf *f, const struct frame_job *job, int k, const
 {
     const struct frame_field *field = &frame_fields[k];
     const size_t row = frame_field_row(field, job->dim);
-    assert(row <= ROW_MOST);
+    INVARIANT(row <= ROW_MOST);
     const int64_t own = job->p->n;
     for (int64_t r = 0; r < job->n; r++) {
         const int64_t i = order[r];
@@ -224,7 +224,7 @@ static status frame_write(struct frame_job *job)
     struct hdf f;
     const int32_t *order = job->series->kept.order;
     char *room = job->series->kept.room;
-    hdf_create(&f, path_aside(job->path.text).text, job->compress);
+    hdf_create(&f, file_begin(job->path.text).text, job->compress);
     write_marks(&f, job->dim, job->t, job->step, job->scene_text);
     write_field_data(&f, job);
     write_cells(&f, job->n, room);

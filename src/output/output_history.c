@@ -91,7 +91,7 @@ static FILE *history_file(const char *path, bool resume)
 
 status output_history_open(struct output *o, const struct column *column, int columns, bool resume)
 {
-    assert(columns > 0 && !o->history);
+    INVARIANT(columns > 0 && !o->history);
     struct path path = history_path(o);
     o->columns = columns;
     if (resume) TRY(history_cut(o));

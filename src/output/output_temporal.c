@@ -133,7 +133,7 @@ static status temporal_write(const struct temporal *a, const char *path, const c
     static const int32_t version[2] = {2, 0};
     int64_t *number = NEW("temporal.number", 2 * (int64_t)a->n, int64_t);
     struct hdf f;
-    hdf_create(&f, path_aside(path).text, false);
+    hdf_create(&f, file_begin(path).text, false);
     hdf_group(&f, "/VTKHDF");
     hdf_mark(&f, "/VTKHDF", "Version", HDF_I32, 2, version);
     hdf_mark_text(&f, "/VTKHDF", "Type", "UnstructuredGrid");

@@ -243,7 +243,7 @@ status summary_string(const char *folder, const char *dotted_key, char *out, siz
 {
     char *text;
     const char *found, *from, *to;
-    assert(size > 0);
+    INVARIANT(size > 0);
     out[0] = '\0';
     TRY(summary_read_find(folder, dotted_key, &text, &found));
     struct reader r = {.at = found};

@@ -368,7 +368,7 @@ static int64_t first_diverged(const struct particles *p, const int32_t *list, in
 status diagnostics_divergence(const struct particles *p, bool peridynamic, bool meshed, real limit, int64_t step,
                               real t)
 {
-    assert(limit > 0);
+    INVARIANT(limit > 0);
     int64_t first = peridynamic ? first_diverged(p, p->list[KIND_PD], p->n_of[KIND_PD], limit) : p->n_all;
     const int64_t free = meshed ? first_diverged(p, p->list[KIND_MPM], p->n_of[KIND_MPM], limit)
                                     : first_diverged(p, p->list_free, p->n_free, limit);

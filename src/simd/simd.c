@@ -66,7 +66,7 @@ static const struct simd_set *in_use;
 
 void simd_use(const struct simd_set *set)
 {
-    assert(set->runs());
+    INVARIANT(set->runs());
 #define TAKE(name) name = set->kernels->name;
     KERNELS(TAKE)
     in_use = set;

@@ -18,7 +18,7 @@ double student_95(int n)
     static const double table[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
                                    2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086};
     const double normal = 1.95996;
-    assert(n >= 1);
+    INVARIANT(n >= 1);
     return n <= (int)COUNT_OF(table) ? table[n - 1] : normal + 2.5 / n; /* to 0.2 % */
 }
 
@@ -131,7 +131,7 @@ static void convergence_judge(struct convergence *c)
 bool convergence_find(struct convergence *c, const double *spacing, const double *value, const int *level, int n,
                       int levels, const double *resolution)
 {
-    assert(levels >= LEVELS_LEAST && levels <= LEVELS_MOST);
+    INVARIANT(levels >= LEVELS_LEAST && levels <= LEVELS_MOST);
     *c = (struct convergence){.levels = levels};
     for (int k = 0; k < levels; k++) {
         level_find(&c->level[k], spacing, value, level, n, k);

@@ -60,7 +60,7 @@ static void candidates_find(struct pilot_search *p)
 
 static void chosen_put(struct pilot *to, int *n, const char *key, const char *value)
 {
-    assert(*n < CHOSEN_MOST);
+    INVARIANT(*n < CHOSEN_MOST);
     snprintf(to->key[*n], CHOSEN_ROOM, "%s", key);
     snprintf(to->value[*n], CHOSEN_ROOM, "%s", value);
     ++*n;

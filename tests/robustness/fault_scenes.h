@@ -44,7 +44,22 @@ static const struct fault_scene converting_scene = {"converting",
     }
 static const struct fault_scene passing_scene = PASSING;
 
+/* Load steps of a body that nothing holds, whose crack advances. */
+#define IN_STEPS                                                                                                       \
+    {                                                                                                                  \
+        "steps",                                                                                                       \
+            "space: plane stress\nthickness: 1 mm\nduration: 1 s\nmethod: pd\nsolver: static\nsteps: {number: 6, "     \
+            "control: energy}\nmaterial: {young: 72 GPa, density: 2440, energy_release_rate: 135}\n"                   \
+            "body: {box: {from: [0, 0], to: [16 mm, 16 mm]}}\nparticles: {spacing: 1 mm}\n"                            \
+            "cracks: [{from: [-1 mm, 8 mm], to: [5.1 mm, 8 mm]}]\nboundary:\n"                                         \
+            "  - {name: up, traction: [0, 40 MPa], face: y+, time: {ramp: {until: 1 s}}}\n"                            \
+            "  - {traction: [0, -40 MPa], face: y-, time: {ramp: {until: 1 s}}}\noutput: {frames: 2}\n"                \
+            "probes: [tip, break, reaction: {boundary: up}, point: {at: [2 mm, 12 mm]}]\n"                             \
+    }
+static const struct fault_scene steps_scene = IN_STEPS;
+
 static const struct fault_scene fault_scenes[] = {
+    IN_STEPS,
     {"bar", "space: line\nduration: 4 ms\nmethod: pd\nmaterial: {young: 1e4, density: 1, critical_stretch: 1e-3}\n"
             "body: {box: {from: [0], to: [1]}}\nparticles: {spacing: 20 mm, horizon: 3}\npd: {surface: none}\ntime: "
             "{step: 40 us}\n"

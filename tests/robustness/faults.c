@@ -22,11 +22,13 @@
 
 #include "coupling/conversion.h"
 #include "output/output.h"
+#include "src/engine/engine_statics.h"
 
 const char *const fault_name[FAULT_CALLS] = {
     "own malloc", "own open", "own read", "own write", "own fsync",  "own close", "own rename", "own mkdir",
     "own unlink", "malloc",   "mmap",     "open",      "read",       "write",     "fsync",      "close",
     "rename",     "mkdir",    "unlink",   "sample",    "conversion", "coupling",
+    "equilibrium",
 };
 
 static struct fault_plan plan;
@@ -46,6 +48,7 @@ static bool hit(enum fault_call call)
     if (plan.deed == DO_NOTHING || call != plan.call || number != plan.number) return false;
     if (plan.deed == DO_KILL) kill(getpid(), SIGKILL);
     if (plan.deed == DO_STOP) kill(getpid(), SIGINT);
+    INVARIANT(plan.deed != DO_BREAK);
     errno = plan.cause;
     return plan.deed == DO_FAIL;
 }
@@ -254,6 +257,7 @@ PLACE(void, partial_stress_make,
       (struct partial_stress * partial, const struct particles *p, const struct bonds *b,
        const struct bond_source *source, const int32_t *changed, int64_t n),
       (partial, p, b, source, changed, n), AT_COUPLING)
+PLACE(real, statics_overload, (const struct engine *e), (e), AT_EQUILIBRIUM)
 
 /* ---- the program ------------------------------------------------------------------------------------------------- */
 

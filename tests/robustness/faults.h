@@ -7,11 +7,12 @@
 enum fault_call {
     OWN_MALLOC, OWN_OPEN, OWN_READ, OWN_WRITE, OWN_FSYNC, OWN_CLOSE, OWN_RENAME, OWN_MKDIR, OWN_UNLINK,
     ALL_MALLOC, ALL_MMAP, ALL_OPEN, ALL_READ, ALL_WRITE, ALL_FSYNC, ALL_CLOSE, ALL_RENAME, ALL_MKDIR, ALL_UNLINK,
-    AT_SAMPLE, AT_CONVERSION, AT_COUPLING,           /* functions of the engine: before they do their work */
+    AT_SAMPLE, AT_CONVERSION, AT_COUPLING, AT_EQUILIBRIUM,   /* functions of the engine: before they do their work */
     FAULT_CALLS
 };
 
-enum fault_deed { DO_NOTHING, DO_FAIL, DO_STOP, DO_KILL };     /* DO_STOP: SIGINT, DO_KILL: SIGKILL */
+/* DO_STOP: SIGINT, DO_KILL: SIGKILL, DO_BREAK: an invariant of the program is broken there */
+enum fault_deed { DO_NOTHING, DO_FAIL, DO_STOP, DO_KILL, DO_BREAK };
 
 struct fault_plan {
     enum fault_call call;

@@ -53,6 +53,14 @@ static int count_one(const char *path, const struct stat *s, int type, struct FT
     return 0;
 }
 
+/* Are there files in the folder that have not got their names? */
+static bool half_written(const char *folder)
+{
+    files = 0;
+    nftw(folder, count_one, 8, FTW_PHYS);
+    return files > 0;
+}
+
 /* The same files with the same bytes, and none besides. */
 static bool same_files(const char *reference, const char *folder)
 {

@@ -277,6 +277,33 @@ static void texts_in_memory_are_whole_or_refused(void **state)
     assert_int_equal(wrong, 0);
 }
 
+/* An invariant is broken as a file gets its name, at each of these in turn, in the stepping or the writing thread. */
+static void break_share(int worker)
+{
+    const struct place p = place_of(worker ? "b" : "a", &small_scene);
+    char what[NAME];
+    remove_tree(p.folder);
+    (void)run(&undisturbed, &p, 1, false);
+    for (long k = 1 + worker, renames = count[OWN_RENAME]; k <= renames; k += 2) {
+        const struct fault_plan plan = {OWN_RENAME, DO_BREAK, k, 0, 0};
+        int lines;
+        snprintf(what, sizeof what, "an invariant that is broken at rename %ld", k);
+        remove_tree(p.folder);
+        const int end = run(&plan, &p, 1, false);
+        const char *line = said(&p, &lines);
+        if (end != 1 || lines != 1 || !strstr(line, ": broken invariant at ") || half_written(p.folder))
+            complain("%s: status %d, %d lines, or half-written files: %s", what, end, lines, line);
+        resumes(what, &small_reference, &p, 1);
+    }
+}
+
+static void broken_invariants_lose_nothing(void **state)
+{
+    (void)state;
+    small_reference = reference_of(&small_scene);
+    assert_int_equal(in_two(break_share), 0);
+}
+
 /* ---- stopped and killed ------------------------------------------------------------------------------------------ */
 
 static void every_probe_is_watched(void **state)
@@ -319,6 +346,7 @@ static void stop_share(int worker)
 {
     for (size_t k = (size_t)worker; k < COUNT_OF(fault_scenes); k += 2)
         disturb(&fault_scenes[k], AT_SAMPLE, 0, DO_STOP, 4);
+    if (worker == 0) disturb(&steps_scene, AT_EQUILIBRIUM, 0, DO_STOP, 4);     /* within load steps */
 }
 
 static void stopped_runs_resume(void **state)
@@ -332,6 +360,7 @@ static void kill_share(int worker)
 {
     if (worker == 0) disturb(&converting_scene, AT_CONVERSION, 0, DO_KILL, 10);
     else disturb(&passing_scene, AT_COUPLING, 3, DO_KILL, 10);
+    if (worker == 1) disturb(&steps_scene, AT_EQUILIBRIUM, 0, DO_KILL, 4);
 }
 
 static void killed_runs_resume(void **state)
@@ -482,6 +511,7 @@ int __wrap_main(int argc, char **argv)
         cmocka_unit_test(texts_in_memory_are_whole_or_refused),
         cmocka_unit_test(stopped_runs_resume),        cmocka_unit_test(killed_runs_resume),
         cmocka_unit_test(files_are_synced_in_order),  cmocka_unit_test(damaged_checkpoints_are_found),
+        cmocka_unit_test(broken_invariants_lose_nothing),
     };
     const bool of_all = argc > 1 && strcmp(argv[1], "whole") == 0;
     if (argc > 1 && !of_all) cmocka_set_test_filter(argv[1]);        /* one of them: its name */

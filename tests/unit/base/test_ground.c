@@ -100,8 +100,8 @@ static void memory_resize_keeps_what_fits(void **state)
     memory_free(array);
 }
 
-/* Exit status of a child that allocates this much; its line goes to `line`. */
-static int exit_of(int64_t count, size_t size, char line[256])
+/* Exit status of a child that calls `deed`; what it says on standard error goes to `line`, cut to 511 bytes. */
+static int exit_of(void (*deed)(void *), void *context, char line[512])
 {
     int channel[2], result;
     assert_int_equal(pipe(channel), 0);
@@ -109,29 +109,59 @@ static int exit_of(int64_t count, size_t size, char line[256])
     assert_true(child >= 0);
     if (child == 0) {
         dup2(channel[1], STDERR_FILENO);
-        memory_new("bonds.w", count, size);
+        deed(context);
         _exit(0);
     }
     close(channel[1]);
-    ssize_t length = read(channel[0], line, 255);
+    ssize_t length = read(channel[0], line, 511);
     line[length > 0 ? length : 0] = '\0';
     close(channel[0]);
     assert_int_equal(waitpid(child, &result, 0), child);
     return WIFEXITED(result) ? WEXITSTATUS(result) : -1;
 }
 
+static void allocate(void *count) { memory_new("bonds.w", *(int64_t *)count, sizeof(real)); }
+
 static void out_of_memory_says_so(void **state)
 {
     (void)state;
-    char line[256];
-    const int64_t count[] = {-1, INT64_MAX, INT64_MAX / 8 + 1, (int64_t)1 << 60};
+    char line[512];
+    int64_t few = 10, count[] = {-1, INT64_MAX, INT64_MAX / 8 + 1, (int64_t)1 << 60};
     for (size_t c = 0; c < COUNT_OF(count); c++) {
-        assert_int_equal(exit_of(count[c], sizeof(real), line), FAILED);
+        assert_int_equal(exit_of(allocate, &count[c], line), FAILED);
         assert_non_null(strstr(line, "out of memory: bonds.w"));
         assert_ptr_equal(strchr(line, '\n'), line + strlen(line) - 1);   /* one line */
     }
-    assert_int_equal(exit_of(10, sizeof(real), line), 0);
+    assert_int_equal(exit_of(allocate, &few, line), 0);
     assert_true(memory_peak() > 1000000);        /* a process with its libraries is larger than 1 MB */
+}
+
+/* Every thread of a team breaks the same invariant; returns the line on which it stands. */
+static int break_invariant(bool broken)
+{
+#pragma omp parallel num_threads(4)
+    INVARIANT(omp_get_num_threads() == 4 && !broken);
+    return __LINE__ - 1;
+}
+
+static void break_here(void *unused) { (void)unused, break_invariant(true); }
+
+/* Before any team of this process, which a child would lack. */
+static void broken_invariants_leave_one_line(void **state)
+{
+    (void)state;
+    char line[512], place[256];
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+    assert_int_equal(exit_of(break_here, NULL, line), -1);       /* abort */
+#else
+    assert_int_equal(exit_of(break_here, NULL, line), FAILED);
+#endif
+    snprintf(place, sizeof place,
+             "cleave %s: broken invariant at %s:%d, break_invariant: omp_get_num_threads() == 4 && !broken; ",
+             CLEAVE_VERSION, __FILE__, break_invariant(false));
+    assert_memory_equal(line, place, strlen(place));
+    assert_non_null(strstr(line, "please report this line, with scene.yaml"));
+    assert_ptr_equal(strchr(line, '\n'), line + strlen(line) - 1);
 }
 
 /* ---- team -------------------------------------------------------------------------------------------------------- */
@@ -430,6 +460,7 @@ static void bond_constants_agree_with_closed_forms(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(broken_invariants_leave_one_line),
         cmocka_unit_test(status_keeps_its_message),
         cmocka_unit_test(arrays_may_be_empty_or_overlap),
         cmocka_unit_test(refusals_have_one_place),

@@ -1,0 +1,35 @@
+/* The end of a program whose invariant is broken: one line for its developers. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/base.h"
+
+#ifdef __has_feature
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SANITIZED
+#endif
+#endif
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__ || defined SANITIZED
+#define LEAVE_BROKEN() abort()
+#else
+#define LEAVE_BROKEN() _exit(FAILED) /* no exit handlers: other threads are at work */
+#endif
+
+static void (*remove_half_written)(void);
+
+void invariant_clean_up(void (*remove)(void)) { remove_half_written = remove; }
+
+_Noreturn void invariant_broken(const char *condition, const char *file, int line, const char *function)
+{
+    static bool reported;
+    if (__atomic_exchange_n(&reported, true, __ATOMIC_ACQ_REL))
+        for (;;) pause();                /* another thread has reported, and ends the program */
+    fprintf(stderr,
+            "cleave " CLEAVE_VERSION ": broken invariant at %s:%d, %s: %s; this is a fault of the program: please "
+            "report this line, with scene.yaml of the results folder; results up to the last checkpoint are whole\n",
+            file, line, function, condition);
+    fflush(stderr);
+    if (remove_half_written) remove_half_written();
+    LEAVE_BROKEN();
+}
