@@ -27,14 +27,9 @@ close "angle" "$(f coarse crack.angle_deg)" "$(f fine crack.angle_deg)" 4
 
 plate="inputs/kalthoff_winkler.yaml -s mpm.levels=2 -s output.frames=4 -s output.samples=100 -s duration=35us"
 calm "$work/levels1" $plate -t 1
-calm "$work/levels2" $plate -t 2
-same "on 2 threads" "$work/levels1" "$work/levels2"
-for lines in 9 80; do
-    rm -rf "$work/stopped"
-    interrupted "$work/stopped" $lines $plate
-    calm "$work/stopped" -t 2 --resume $plate
-    same "interrupted after $lines lines" "$work/levels1" "$work/stopped"
-done
+twice_interrupted "$work/stopped" 9 80 $plate
+calm "$work/stopped" -t 2 --resume $plate
+same "on 2 threads, interrupted after 9 and 80 lines" "$work/levels1" "$work/stopped"
 
 # ---- waves -------------------------------------------------------------------------------------------------------------
 
@@ -146,7 +141,7 @@ done
 
 # The same of a crack that runs, interrupted on its way.
 running="inputs/semi_infinite_crack.yaml -s method=adaptive -s model=bond -s material.poisson=1/4 -s particles.horizon=3.015 -s mpm.levels=2"
-running="$running -s particles.spacing=0.25mm -s time.step=0.02us"
+running="$running -s particles.spacing=0.4mm -s time.step=0.04us"
 calm "$work/runs" $running
 interrupted "$work/ran" 45 $running
 calm "$work/ran" --resume $running

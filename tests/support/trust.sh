@@ -5,7 +5,8 @@
 # A small plate whose notches crack, a bar that spalls, a solid plate: name, scene and the arguments that make it small. All on the grid of
 # the current frame; test_frame.sh has them in the other.
 current="-s mpm.frame=current -s mpm.transfer=apic"
-flat="inputs/kalthoff_winkler.yaml $current -s particles.spacing=2mm -s time.step=0.1us -s output.frames=10 -s output.samples=100"
+flat="inputs/kalthoff_winkler.yaml $current -s duration=36us -s particles.spacing=2mm -s time.step=0.1us -s output.frames=10
+    -s output.samples=100"
 line="inputs/hopkinson_bar.yaml -s output.frames=10 -s output.samples=200"
 solid="inputs/kalthoff_winkler_3d.yaml $current -s duration=24us -s output.frames=4 -s output.samples=50"
 
@@ -111,6 +112,16 @@ interrupted()
     to=$1 length=$2; shift 2
     interrupt "$to" INT "$length" "$@"
     is "$to: interrupted" $result 130
+}
+
+# twice_interrupted FOLDER LINES LATER ARGUMENTS: a fresh run on 2 threads, stopped by SIGINT when history.csv has LINES lines, resumed and
+# stopped again when the file has LATER lines. A run that goes on from there tests threads and both stops at once.
+twice_interrupted()
+{
+    twice=$1 first=$2 later=$3; shift 3
+    interrupted "$twice" "$first" "$@"
+    interrupt "$twice" INT "$later" --resume "$@"
+    is "$twice: interrupted again" $result 130
 }
 
 # piecewise FOLDER ARGUMENTS: a run in load steps that stops after each of them and goes on, on one thread; $parts: its number of pieces.
