@@ -37,13 +37,13 @@ done
 # the same bar the other way round, and free at its far end, where the front comes back and takes the stress away
 bar turned $half -s 'boundary=[{mirror: {axis: x, at: 1 m}}, {traction: -1, face: x-}]'
 bar free  -s boundary[0]=
-# a pulse that has come back from a fixed and from a free end, at two spacings
+# a pulse that has come back from a fixed and from a free end, at two spacings, a tenth of a spacing a step
 for d in 1 2; do
     for end in fixed free; do
         walls='[]'
         if [ $end = fixed ]; then walls='[{mirror: {axis: x, at: 1.024}}]'; fi
         start "$end$d" bar_pulse -s 'probes=[exact: pulse]' -s method=pd -s duration=12ms -s particles.spacing=${d}mm \
-            -s initial[0].pulse.width=100mm -s time.step=0.5us -s "boundary=$walls"
+            -s initial[0].pulse.width=100mm -s time.step=${d}us -s "boundary=$walls"
     done
     wait
 done
@@ -154,7 +154,7 @@ for coupling in partial handshake; do
     between "$coupling: front" "$(f $coupling probes.exact.front)" 0.46 0.54
     between "$coupling: end" "$(f $coupling probes.exact.end_displacement)" 1.4925e-4 1.5025e-4         # exact 1.4975e-4
 done
-slow="$growing -s time.step=1us"
+slow="$growing -s time.step=2us"
 calm "$work/growing" inputs/bar_step.yaml -t 1 $slow
 interrupted "$work/grown" 250 inputs/bar_step.yaml $slow
 calm "$work/grown" --resume inputs/bar_step.yaml -t 2 $slow
