@@ -73,7 +73,7 @@ is "no two runs are equal" "$(cat limit/spacing*/scene.yaml | grep -c '^time')" 
 
 # ---- a run knows of a study beside it --------------------------------------------------------------------------------
 
-"$cleave" converge bar.yaml -o runs/bar_converge -q >out
+"$cleave" converge bar.yaml -o runs/bar_converge --runs 1 -q >out
 "$cleave" run bar.yaml -o runs/bar -q
 folder=runs/bar_converge
 near "in its summary" "$(figure runs/bar 'uncertainty.energy.external_work')" "$(value energy.external_work uncertainty_0)" 5e-3    # three digits
