@@ -76,13 +76,13 @@ boundary:
 probes: [{reaction: {boundary: base}}]
 END
 
-start bend "$work/bend.yaml"
+start bend "$work/bend.yaml" -s steps.number=8
 start disc "$work/disc.yaml"
 start stack "$work/stack.yaml"
 start shut "$work/shut.yaml"
 wait
 start open "$work/shut.yaml" -s contact.between=none
-start rollers "$work/rollers.yaml" -s steps.number=14
+start rollers "$work/rollers.yaml" -s steps.number=8
 wait
 
 # most FOLDER COLUMN: its largest size.
@@ -123,12 +123,11 @@ between "stack: nothing is lost" "$(compute "$(last stack damped)/$(last stack e
 calm "$work/late" "$work/stack.yaml" -s boundary.1='{name: top, body: high, traction: [0, -1 MPa], face: y+, time: {table: [[0 s, 0], [0.5 s, 0], [1 s, 1]]}}'
 near "late: what carries" "$(column "$work/late" reaction.force_y 0.67)" "$(compute 160/3)" 1e-4
 
-calm "$work/whole" "$work/bend.yaml" -s steps.number=8 -t 1
 calm "$work/two" "$work/bend.yaml" -s steps.number=8 -t 2
-same "threads" "$work/whole" "$work/two"
+same "threads" "$work/bend" "$work/two"
 piecewise "$work/pieces" "$work/bend.yaml" -s steps.number=8
-same "stopped after every load step" "$work/whole" "$work/pieces"
-kills 2 "$work/whole" "$work/bend.yaml" -s steps.number=8
+same "stopped after every load step" "$work/bend" "$work/pieces"
+kills 2 "$work/bend" "$work/bend.yaml" -s steps.number=8
 calm "$work/let_go" "$work/bend.yaml" -s 'steps={number: 6, then: explicit}' -t 1
 near "let go: the same peak" "$(figure "$work/let_go" rigid.2.force_max)" "$(most bend roller_force_y)" 2e-2
 between "let go: balance" "$(figure "$work/let_go" energy.balance_error)" -1e-3 1e-3
