@@ -33,21 +33,23 @@ quiet()
 pulse()
 {
     folder=$1 width=$2; shift 2
-    bar "$folder" bar_pulse -s output.frames=1 -s initial[0].pulse.width=${width}mm "$@"
+    case $width in 16) step=2us ;; *) step=4us ;; esac         # short pulses know the step: undamped 16 reflects 7.45 % with 4 us
+    bar "$folder" bar_pulse -s time.step=$step -s output.frames=1 -s initial[0].pulse.width=${width}mm "$@"
 }
 reflected() { compute "100 * $(f "$1" probes.pulse.reflected)"; }
 
+# Long pulses see no difference between pm and pg, pmg and pgg; the node half a spacing before and behind is the other's mirror image.
 for width in 16 32 64 128; do
-    for c in $all; do pulse "pulse_$c$width" $width -s "coupling=$(coupling $c)"; done
+    case $width in 16 | 32) these=$all ;; *) these="handshake pg pgg partial" ;; esac
+    for c in $these; do pulse "pulse_$c$width" $width -s "coupling=$(coupling $c)"; done
     pulse "pulse_undamped$width" $width -s interface_damping=0
 done
 for width in 16 32 64; do
-    for origin in 0.5 1 1.5; do pulse "pulse_at$origin-$width" $width -s "mpm.origin=[${origin}mm]"; done
+    for origin in 1 1.5; do pulse "pulse_at$origin-$width" $width -s "mpm.origin=[${origin}mm]"; done
 done
 for width in 32 64; do pulse "pulse_apic$width" $width -s mpm.transfer=apic; done
 for c in handshake partial; do
     pulse "pulse_stiff_$c" 128 -s "coupling=$(coupling $c)" -s pd.calibration=continuum
-    pulse "pulse_stiffer_$c" 64 -s "coupling=$(coupling $c)" -s pd.calibration=continuum
 done
 landed
 
@@ -65,9 +67,9 @@ while read -r c references; do
     done
 done <<'END'
 handshake 1.7 2.4 1.9 0.87
-pm 12.65 5.73 1.8 0.90
+pm 12.65 5.73
 pg 12.65 5.73 1.8 0.90
-pmg 7.66 2.7 2.1 0.96
+pmg 7.66 2.7
 pgg 7.66 2.7 2.1 0.96
 undamped 6.4 1.1 0.42 0.13
 END
@@ -95,7 +97,7 @@ done
 between "partial: energy change at 32" "$(f pulse_partial32 probes.pulse.energy_change)" -0.012 0
 between "partial: energy change at 128" "$(f pulse_partial128 probes.pulse.energy_change)" -0.001 0
 # wherever the interface lies in its cell: 4.4, 0.84, 0.44 % at the worst
-for origin in 0.5 1 1.5; do
+for origin in 1 1.5; do
     between "node at $origin mm: reflected of 16" "$(reflected pulse_at$origin-16)" 0 6
     between "node at $origin mm: reflected of 32" "$(reflected pulse_at$origin-32)" 0 1.2
     between "node at $origin mm: reflected of 64" "$(reflected pulse_at$origin-64)" 0 0.7
@@ -107,7 +109,6 @@ between "apic: reflected of 64" "$(reflected pulse_apic64)" 0 1.6
 # Two wave speeds, (sqrt(4/3) - 1)/(sqrt(4/3) + 1) = 7.18 %; 0.5 for what the lattice disperses and the coupling adds.
 for c in handshake partial; do
     apart "stiff, $c: reflected of 128" "$(reflected pulse_stiff_$c)" 7.18 0.5
-    apart "stiff, $c: reflected of 64" "$(reflected pulse_stiffer_$c)" 7.18 0.5
 done
 
 # ---- a loaded bar --------------------------------------------------------------------------------------------------
@@ -257,8 +258,8 @@ done
 # ---- the same bits -------------------------------------------------------------------------------------------------
 
 for c in pm partial; do
-    calm "$work/threads_$c" inputs/bar_pulse.yaml -t 2 -s "coupling=$(coupling $c)"
-    calm "$work/thread_$c" inputs/bar_pulse.yaml -t 1 -s "coupling=$(coupling $c)"
+    calm "$work/threads_$c" inputs/bar_pulse.yaml -t 2 -s time.step=4us -s "coupling=$(coupling $c)"
+    calm "$work/thread_$c" inputs/bar_pulse.yaml -t 1 -s time.step=4us -s "coupling=$(coupling $c)"
     same "$c on 2 threads" "$work/thread_$c" "$work/threads_$c"
 done
 # a bar whose particles come onto the grid and leave it, and break, stopped on the way
