@@ -67,18 +67,26 @@ motion()
 }
 part() { echo "$1" | cut -d ' ' -f "$2"; }
 
-coarse="-s particles.spacing=0.4mm -s time.step=40ns"
-# given SPEED: a crack of that speed on the same particles.
-given() { echo "growth=[{at: [30 mm, 0], direction: [1, 0], speed: $1 m/s, start: 4.4 us, damping: 1.6 mm}]"; }
-
-start follow running_crack $coarse -s growth[0].damping=1.6mm
-start mospd running_crack $coarse -s growth[0].damping=1.6mm -s model=mospd
-start slow running_crack $coarse -s "$(given 500)"
-start fast running_crack $coarse -s "$(given 1500)"
+# narrow SPACING STEP: the scene with this spacing [mm] and step [ns] in a plate of some 48 mm in place of 60 mm. What the tip sends out at
+# 3.16 us, when waves arrive, comes back from the lateral mirrors to the ring of 8 mm round the moved tip at 9.1 us, after the last sample.
+narrow()
+{
+    low=$(compute "30 - $1 * int(23.5 / $1 + 0.01)") high=$(compute "30 + $1 * int(25 / $1 + 0.01)")
+    sed "s/from: \[0, -20 mm\], to: \[60 mm/from: [$low mm, -20 mm], to: [$high mm/; s/at: 0}/at: $low mm}/; s/at: 60 mm}/at: $high mm}/
+         s/from: \[-1 mm, 0\]/from: [5 mm, 0]/; s/spacing: 0.25 mm/spacing: $1 mm/; s/step: 20 ns/step: $2 ns/" \
+        inputs/running_crack.yaml >"$work/narrow_$1.yaml"
+}
+narrow 0.4 40
+narrow 0.5 50
+start follow "$work/narrow_0.4.yaml" -s growth[0].damping=1.6mm
+start mospd "$work/narrow_0.5.yaml" -s growth[0].damping=2mm -s model=mospd
 wait
-# Measured at 0.4 mm (horizon 1.6 mm): mean speed 5 and 6 % high, 8 and 9 % rms, length 1.02 and 1.01, energy 0.97 and 1.00. K is
-# measured a process zone late and rises all the time: 9 and 10 % above K_Ic, 6 % at 0.25 mm, 2 % at 0.125 mm. A law that
-# takes the speed of now for that of its factors swings by 25 % rms.
+# The released energy of a given speed of 1000 m/s is in test_growth.sh.
+start fast "$work/narrow_0.5.yaml" -s "growth=[{at: [30 mm, 0], direction: [1, 0], speed: 1500 m/s, start: 4.4 us, damping: 2 mm}]"
+wait
+# Measured at 0.4 mm, and by mospd at 0.5 mm (horizons of 1.6 and 2 mm): mean speed 4 and 5 % high, 7 % rms both, length 1.01 and
+# 1.02, energy 0.97 and 1.00 (ospd at 0.5 mm: 0.94). K is measured a process zone late and rises all the time: 10 and 13 % above K_Ic,
+# 6 % at 0.25 mm, 2 % at 0.125 mm. A law that takes the speed of now for that of its factors swings by 25 % rms.
 for run in follow mospd; do
     found=$(motion $run 0 0.25e6 7)
     between "$run: mean speed" "$(part "$found" 1)" -0.08 0.08
@@ -90,7 +98,6 @@ for run in follow mospd; do
     sound $run 0.005
 done
 # Bonds that fade over a horizon; over half of one the faster crack sheds a seventh of its energy as waves.
-between "released at 500 m/s" "$(part "$(motion slow 500 0.25e6 6)" 5)" 0.95 1.05
 between "released at 1500 m/s" "$(part "$(motion fast 1500 0.25e6 6)" 5)" 0.95 1.05
 
 # ---- threads, restarts ------------------------------------------------------------------------------------------------
@@ -109,15 +116,16 @@ between "it moves there" "$(column "$work/once" growth.speed 7.5e-6)" 200 2000
 # ---- two tips at once ------------------------------------------------------------------------------------------------
 
 # The step it chooses, 0.37 us, moves a tip of 2000 m/s by a third of the length over which bonds fade: 2 % of the energy is
-# lost to the scheme, 0.4 % in these.
-short="-s duration=50us -s time.step=0.15us -s output.samples=250 -s output.frames=3"
-whole="inputs/kalthoff_sif_whole.yaml $short"
+# lost to the scheme, 0.15 % in these. Spacings of 5/3 mm put the notches between rows; rings of 5 to 10 mm are three of them wide.
+short="-s duration=50us -s time.step=0.25us -s output.samples=200 -s output.frames=3 -s particles.spacing=5/3mm -s particles.horizon=3"
+short="$short -s probes[0].sif.outer=10mm -s probes[0].sif.contours=[10mm]"
+whole="inputs/kalthoff_sif_whole.yaml $short -s probes[1].sif.outer=10mm -s probes[1].sif.contours=[10mm]"
 follow="-s growth[0].speed=follow -s growth[1].speed=follow"
 start half kalthoff_sif $short
 start pair_given $whole
 wait
 calm "$work/pair" -t 2 $whole $follow
-interrupted "$work/pair_stop" 160 $whole $follow
+interrupted "$work/pair_stop" 128 $whole $follow
 calm "$work/pair_stop" -t 1 --resume $whole $follow
 same "two tips" "$work/pair" "$work/pair_stop"
 
