@@ -53,12 +53,12 @@ static void solution_free(struct solution *a)
     scene_free(&a->s);
 }
 
-/* The first stretches lead away at the angle of the largest hoop stress (Erdogan & Sih 1963). K_II/K_I is tan(angle) in
+/* The first stretches, of 15 and of 75 degrees (45: test_kink_through), lead away at the angle of the largest hoop stress (Erdogan & Sih 1963). K_II/K_I is tan(angle) in
  * a wide plate; here, with a crack of 3/8 of the width, within 8 %, which turns the kink by 2 degrees. */
 static void test_kink(void **state)
 {
     (void)state;
-    for (real angle = 15; angle < 80; angle += 30) {
+    for (real angle = 15; angle < 80; angle += 60) {
         struct solution a;
         plate(&a, angle, 5, "");
         const struct led *l = &a.e.statics.led;
@@ -148,21 +148,22 @@ static void block(struct solution *a, const int *order, real askew, int steps)
 }
 
 /* A straight crack stays in its plane, however its front lies; its area is that of the plane within the body, and costs
- * what the bonds of a plane of the lattice hold, 0.98 of G_c. Axes change nothing but the order of sums. */
+ * what the bonds of a plane of the lattice hold, 0.98 of G_c. Axes change nothing but the order of sums: turned for the
+ * front along a side, mirrored for that askew. */
 static void test_fronts(void **state)
 {
-    static const int orders[3][3] = {{0, 1, 2}, {1, 2, 0}, {2, 1, 0}};
+    static const int orders[2][2][3] = {{{0, 1, 2}, {1, 2, 0}}, {{0, 1, 2}, {2, 1, 0}}};
     (void)state;
     for (real askew = 0; askew < 30; askew += 20) {
         real size = 0;
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 2; k++) {
             struct solution a;
-            block(&a, orders[k], askew, 4);
+            block(&a, orders[askew > 0][k], askew, 3);
             const struct led *l = &a.e.statics.led;
             const struct steps_record *r = &a.e.statics.record;
             const real width = 4e-3 / cos(askew * degree), area = 2e-3 * width * (real)l->stretches;
             assert_int_equal(l->n, 1);
-            assert_int_equal(l->stretches, 3);
+            assert_int_equal(l->stretches, 2);
             assert_true(fabs(r->area / area - 1) < 1e-6);
             if (fabs(r->released / area / 300 - 0.985) > 0.015) fail_msg("released: %g G_c", r->released / area / 300);
             for (int d = 0; d < 2; d++) assert_true(fabs(dot(l->tip[0].heading, l->tip[0].last, 2) - 1) < 1e-9);
@@ -173,7 +174,7 @@ static void test_fronts(void **state)
     }
 }
 
-/* A crack through a plate of 40 x 40 x 4 spacings kinks as that of a plane body does. */
+/* A crack through a plate of 40 x 40 x 3 spacings kinks as that of a plane body does. */
 static void test_kink_through(void **state)
 {
     static char text[2000];
@@ -183,7 +184,7 @@ static void test_kink_through(void **state)
     snprintf(text, sizeof text,
              "space: solid\nduration: 1 s\nmethod: pd\nsolver: static\nsteps: {number: 3, control: energy}\n"
              "material: {young: 3 GPa, poisson: 1/4, density: 1180 kg/m^3, energy_release_rate: 300 J/m^2}\n"
-             "body: {box: {from: [-20 mm, -20 mm, 0], to: [20 mm, 20 mm, 4 mm]}}\n"
+             "body: {box: {from: [-20 mm, -20 mm, 0], to: [20 mm, 20 mm, 3 mm]}}\n"
              "particles: {spacing: 1 mm, horizon: 3.015}\ncracks:\n"
              "  - {polygon: [[%.9g mm, %.9g mm, -1 mm], [%.9g mm, %.9g mm, -1 mm], [%.9g mm, %.9g mm, 5 mm], "
              "[%.9g mm, %.9g mm, 5 mm]]}\nboundary:\n"
