@@ -241,12 +241,12 @@ static real run(struct engine *e)
 }
 
 #define BEAM                                                                                                           \
-    "space: plane stress\nthickness: 1 mm\nduration: 36 ms\nmethod: pd\n" STEEL                                        \
+    "space: plane stress\nthickness: 1 mm\nduration: 9 ms\nmethod: pd\n" STEEL                                        \
     "body: {box: {from: [0, 0], to: [20 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT                \
     "  - body_force: [0, 1e4]\n    time: {step: {until: 0.2 ms}}\n"
 
-/* A beam let go: 1e5 steps and more. The energy balance, of second order in the step, closes to 2e-4. Without the
- * energy the first three are stopped after 3e3 to 3e4 steps and the last gains 5 %. */
+/* A beam let go: 25,000 steps and more. The energy balance closes to 6e-8 (at four times the length, too). Without the
+ * energy the first three are stopped after 3e3 to 3e4 steps and the last gains 5 % in 1e5. */
 static void test_long(void **state)
 {
     (void)state;
@@ -257,10 +257,10 @@ static void test_long(void **state)
     for (size_t k = 0; k < COUNT_OF(with); k++) {
         struct body a;
         body_make(&a, BEAM, with[k]);
-        assert_true(a.e.clock.steps >= 100000);
+        assert_true(a.e.clock.steps >= 25000);
         const real most = run(&a.e);
         printf("beam of case %d: %lld steps, energy balance %.2g\n", (int)k, (long long)a.e.clock.steps, most);
-        assert_true(most < 0.005);
+        assert_true(most < 1e-6);
         body_free(&a);
     }
 }
@@ -268,7 +268,7 @@ static void test_long(void **state)
 /* Material points beside bonds at the clamp, in the reference frame, with the plane on nodes and half-way between
  * two, whose mesh moves nodes as images of others. */
 #define COUPLED                                                                                                        \
-    "space: plane stress\nthickness: 1 mm\nduration: 4 ms\nmethod: adaptive\n" STEEL                                   \
+    "space: plane stress\nthickness: 1 mm\nduration: 2 ms\nmethod: adaptive\n" STEEL                                   \
     "body: {box: {from: [0, 0], to: [40 mm, 12 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"                    \
     "pd: {region: {box: {from: [-inf, -inf], to: [16 mm, 6 mm]}}}\n" LEFT                                              \
     "  - body_force: [0, 1e4]\n    time: {step: {until: 0.2 ms}}\n"
@@ -285,7 +285,7 @@ static void test_coupled(void **state)
         assert_true(a.e.bonds.clamped.n > 0 && a.e.part.n_of[KIND_MPM] > 0);
         const real most = run(&a.e);
         printf("coupled, case %d: %lld steps, energy balance %.2g\n", (int)k, (long long)a.e.clock.steps, most);
-        assert_true(most < 0.005);
+        assert_true(most < 1e-6);
         body_free(&a);
     }
 }
