@@ -53,8 +53,9 @@ static void solution_free(struct solution *a)
     scene_free(&a->s);
 }
 
-/* The first stretches, of 15 and of 75 degrees (45: test_kink_through), lead away at the angle of the largest hoop stress (Erdogan & Sih 1963). K_II/K_I is tan(angle) in
- * a wide plate; here, with a crack of 3/8 of the width, within 8 %, which turns the kink by 2 degrees. */
+/* The first stretches, of 15 and of 75 degrees (45: test_kink_through), lead away at the angle of the largest hoop
+ * stress (Erdogan & Sih 1963). K_II/K_I is tan(angle) in a wide plate; here, with a crack of 3/8 of the width, within
+ * 8 %, which turns the kink by 2 degrees. */
 static void test_kink(void **state)
 {
     (void)state;
