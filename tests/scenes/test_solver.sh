@@ -30,7 +30,8 @@ between "opening of the mouth" "$(compute "$(opening cg) / ($(opening relaxation
 
 # ---- a cantilever of points ------------------------------------------------------------------------------------------
 
-# Plane strain, 300 mm by 20 mm, under its weight of 20 kN/m^3: q L^4/(8 E' I) = 0.1139 mm with E' = E/(1 - nu^2), and 0.1 % more by shear.
+# Plane strain, 200 mm by 20 mm, under a weight of 100 kN/m^3: q L^4/(8 E' I) = 0.1125 mm with E' = E/(1 - nu^2), and 0.2 % more by shear.
+# Measured 1.2 % below and above that.
 # Its end sinks by a twentieth of a spacing, so that points reach into new cells. Four cells across it.
 cat >"$work/cantilever.yaml" <<'END'
 space: plane strain
@@ -40,13 +41,13 @@ method: mpm
 mpm: {transfer: apic}
 solver: relaxation
 material: {young: 5 GPa, poisson: 0.25, density: 1000 kg/m^3}
-body: {box: {from: [0, 0], to: [300 mm, 20 mm]}}
+body: {box: {from: [0, 0], to: [200 mm, 20 mm]}}
 particles: {spacing: 2.5 mm}
-boundary: [{mirror: {axis: x, at: 0, tangential: held}}, {body_force: [0, -20 kN/m^3]}]
+boundary: [{mirror: {axis: x, at: 0, tangential: held}}, {body_force: [0, -100 kN/m^3]}]
 output: {frames: 1}
-probes: [point: {name: end, at: [300 mm, 10 mm]}]
+probes: [point: {name: end, at: [200 mm, 10 mm]}]
 END
-deflection=$(compute "-4 * 0.3^4 / (8 * 5e9/(1 - 0.0625) * 0.01 * 0.02^3 / 12) * 1.001")
+deflection=$(compute "-20 * 0.2^4 / (8 * 5e9/(1 - 0.0625) * 0.01 * 0.02^3 / 12) * 1.0023")
 for shape in gimp quadratic; do
     "$cleave" run -q -o "$work/$shape" "$work/cantilever.yaml" -s mpm.shape=$shape 2>"$work/err"
     is "cantilever, $shape: $(cat "$work/err")" $? 0
@@ -56,7 +57,7 @@ done
 
 # Velocities at the start and their gradients are left out: the same equilibrium, and none at once without a load.
 spun="$work/stub.yaml -s solver_tolerance=1e-2"
-sed 's/300 mm/60 mm/g; s/2.5 mm/10 mm/' "$work/cantilever.yaml" >"$work/stub.yaml"
+sed 's/200 mm/60 mm/g; s/2.5 mm/10 mm/' "$work/cantilever.yaml" >"$work/stub.yaml"
 spin='initial=[{velocity: [0, 100 m/s]}, {rotation: {centre: [30 mm, 10 mm], rate: 1e5 1/s}}]'
 calm "$work/rested" $spun
 calm "$work/spun" $spun -s "$spin"
@@ -73,7 +74,7 @@ for scene in "$plate" "$plate -s solver=relaxation" "$coupled"; do
     calm "$work/one" -t 1 $scene
     calm "$work/three" -t 3 $scene
     same "threads: $scene" "$work/one" "$work/three"
-    kills 4 "$work/one" $scene
+    kills 2 "$work/one" $scene
 done
 
 # ---- refused, and failed ---------------------------------------------------------------------------------------------
