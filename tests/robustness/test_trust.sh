@@ -11,12 +11,12 @@ echo "seed $seed"
 
 for scene in line flat solid; do
     eval "arguments=\$$scene"
-    for threads in 1 2 3; do calm "$work/$scene$threads" $arguments -t $threads; done
-    same "$scene on 2 threads" "$work/${scene}1" "$work/${scene}2"
-    same "$scene on 3 threads" "$work/${scene}1" "$work/${scene}3"
+    case $scene in flat) teams="2 3" ;; *) teams=2 ;; esac          # solid on 3 threads: test_frame.sh
+    for threads in 1 $teams; do calm "$work/$scene$threads" $arguments -t $threads; done
+    for threads in $teams; do same "$scene on $threads threads" "$work/${scene}1" "$work/$scene$threads"; done
     holds "$scene: nothing converted, so nothing was tested" test -n "$(figure "$work/${scene}1" conversion.first_time)"
     holds "$scene: nothing broke, so nothing was tested" test -n "$(figure "$work/${scene}1" crack.start_time)"
-    rm -r "$work/${scene}2" "$work/${scene}3"
+    rm -r "$work/$scene"[23]
 done
 
 # ---- interrupted ---------------------------------------------------------------------------------------------------

@@ -7,7 +7,7 @@
 current="-s mpm.frame=current -s mpm.transfer=apic"
 flat="inputs/kalthoff_winkler.yaml $current -s duration=36us -s particles.spacing=2mm -s time.step=0.1us -s output.frames=10
     -s output.samples=100"
-line="inputs/hopkinson_bar.yaml -s output.frames=10 -s output.samples=200"
+line="inputs/hopkinson_bar.yaml -s duration=1.2ms -s time.step=1us -s output.frames=10 -s output.samples=200"
 solid="inputs/kalthoff_winkler_3d.yaml $current -s duration=24us -s output.frames=4 -s output.samples=50"
 
 # calm FOLDER ARGUMENTS: a run that must succeed and say nothing but its warnings.
