@@ -1,5 +1,6 @@
 #!/bin/sh
 # The scenes of inputs/ do what they promise, by the figures of summary.json.
+# Takes some 20 s: 22 runs, of which the three plates in space, two with a fit of surface weights, are half of the time.
 test_name=test_scenes
 . tests/support/summary.sh
 . tests/support/scenes.sh
