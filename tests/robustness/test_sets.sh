@@ -82,7 +82,7 @@ alike()
 run() { set_=$1; shift; CLEAVE_SIMD=$set_ calm "$@"; }
 
 for scene in "strip" "strip -s mpm.frame=current" "strip -s model=ospd" "strip -s method=pd -s model=mospd" "block" \
-             "block -s method=pd -s model=mospd -s material.energy_release_rate=5000 -s duration=3us" \
+             "block -s method=pd -s model=mospd -s material.energy_release_rate=5000 -s pd.surface=none" \
              "block -s mpm.frame=current -s mpm.shape=cpgimp -s mpm.transfer=apic"; do
     for set in $sets; do
         rm -rf "$work/$set" "$work/two"
