@@ -37,8 +37,8 @@ void bench_table_free(struct bench_table *t);
 status bench_folder_make(void); /* results/bench */
 /* REFUSED if results/bench has a file NAME.json, or without it a table or picture of this name, that no bench wrote. */
 status bench_guard(const char *name);
-/* Makes results/bench and, if it is not there, a NAME.json without rows, by which later files of the bench are recognised. REFUSED as
- * bench_guard; FAILED if the file cannot be written. */
+/* Makes results/bench and, if it is not there, a NAME.json without rows, by which later files of the bench are
+ * recognised. REFUSED as bench_guard; FAILED if the file cannot be written. */
 status bench_begin(const char *name);
 /* Writes results/bench/NAME.csv (the table named ""), NAME_<table>.csv and, with all tables, NAME.json. */
 status bench_write(const char *name, const struct bench_table *table, int tables);

@@ -81,8 +81,8 @@ static double output_share(const struct size_result *r) { return r->frame / (FRA
 
 /* ---- one size ---------------------------------------------------------------------------------------------------- */
 
-/* Times steps of a block of so many particles: `visits` particles times steps in each of PIECES pieces, of which the fastest
- * counts. FAILED if the run is. */
+/* Times steps of a block of so many particles: `visits` particles times steps in each of PIECES pieces, of which the
+ * fastest counts. FAILED if the run is. */
 static status time_size(struct size_result *r, const struct bench_block *block, double particles, double visits)
 {
     struct scene s;

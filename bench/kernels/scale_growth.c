@@ -103,7 +103,8 @@ static status growth_read(struct growth_row *r, const char *folder, double proce
         {"memory_peak_bytes", &r->bytes}, {"loop_seconds", &r->seconds}, {"time_step", &step},
         {"time_step_critical", &critical}, {"wall_seconds", &wall}};
     for (size_t k = 0; k < COUNT_OF(figure); k++) TRY(summary_number(folder, figure[k].key, figure[k].value));
-    r->start = bench_summary_figure(folder, "crack.start_time"), r->angle = bench_summary_figure(folder, "crack.angle_deg");
+    r->start = bench_summary_figure(folder, "crack.start_time");
+    r->angle = bench_summary_figure(folder, "crack.angle_deg");
     share = r->seconds < SHORT ? 1 : fmin(1, processor / wall);      /* short ones are repeated instead */
     for (int k = 0; k < LAPS_SHOWN; k++) {
         snprintf(key, sizeof key, "laps.%s", lap_name[k]);
@@ -128,8 +129,8 @@ static status growth_run(struct growth_row *r, const struct growth_series *s, do
     return ran;
 }
 
-/* Measures a run at this spacing [mm] and keeps the one of least time; runs below SHORT are repeated. With `quick` one run of the
- * first microseconds. FAILED if a run is. */
+/* Measures a run at this spacing [mm] and keeps the one of least time; runs below SHORT are repeated. With `quick` one
+ * run of the first microseconds. FAILED if a run is. */
 static status growth_time(struct growth_row *least, const struct growth_series *s, double spacing, bool quick)
 {
     const int repeated = quick ? 1 : REPEATED;

@@ -1,6 +1,7 @@
 /* Bodies that nothing breaks keep their energy for as long as a run lasts: a sample of pairs of the long map
- * (bench/stability/energy_drift*.c; `cleave bench stability` has all of them). Energies that change are found by their rate per step,
- * fitted over the second half of a run: 25,000 steps find 5e-8 a step as 1e5 do. long_energy.sh sets LONG: 1e5 steps. */
+ * (bench/stability/energy_drift*.c; `cleave bench stability` has all of them). Energies that change are found by their
+ * rate per step, fitted over the second half of a run: 25,000 steps find 5e-8 a step as 1e5 do. long_energy.sh sets
+ * LONG: 1e5 steps. Takes 20 s: 25 bodies of so many steps. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <math.h>
