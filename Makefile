@@ -48,7 +48,7 @@ PROGRAMS := $(TESTS:%.c=$(BUILD)/%)
 SCRIPTS  := tests/house.sh $(sort $(shell find tests -name 'test_*.sh'))
 LONG     := $(sort $(shell find tests -name 'long_*.sh'))
 
-.PHONY: all run test test-long fuzz bench install uninstall dist deb help packages packages-tests clean always
+.PHONY: all run test test-long mutants fuzz bench install uninstall dist deb help packages packages-tests clean always
 .SECONDARY:
 .DEFAULT_GOAL := all
 
@@ -56,6 +56,7 @@ help:
 	@echo 'make            builds build/cleave (options: PREFIX, CC, OPTIMISE, ARCH=native, BUILD)'
 	@echo 'make run        installs what is missing, builds what a first run needs, breaks a plate, draws it'
 	@echo 'make test       installs what is missing, builds, runs every test, on $(THREADS) threads; test-long: longer ones, too'
+	@echo 'make mutants    puts small faults into copies of the program and tells which tests see them (MUTANTS=LIST: others)'
 	@echo 'make bench      measures kernels and efficiency (all: build/cleave bench --help)'
 	@echo 'make fuzz       feeds scenes and files of all kinds to the readers'
 	@echo 'make install    below PREFIX ($(PREFIX)): program, manual page, Python module, completion; uninstall removes them'
@@ -148,6 +149,10 @@ test: packages-tests
 
 test-long: test
 	@BUILD=$(BUILD) OMP_NUM_THREADS=$(THREADS) sh tests/support/run.sh $(LONG)
+
+# Do tests see small faults? MUTANTS: a list of faults, else tests/robustness/mutants/list.txt.
+mutants: packages-tests
+	@BUILD=$(BUILD) CC="$(CC)" sh tests/robustness/mutants/run.sh $(MUTANTS)
 
 fuzz: all
 	@BUILD=$(BUILD) CC="$(CC)" sh tests/robustness/long_fuzz.sh $(FUZZ_SECONDS)

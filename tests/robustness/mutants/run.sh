@@ -1,0 +1,188 @@
+#!/bin/sh
+# Puts small faults into copies of the program, one at a time, and runs the tests that must see them:
+#     sh tests/robustness/mutants/run.sh [LIST...]                     (make mutants, make mutants MUTANTS=LIST)
+# A list has one fault a line, `file @ old @ new @ tests` (list.txt). THREADS: how many faults at once, each in a copy of the
+# tree of its own, with kernels for this processor alone; else one for each processor. Prints a line for each fault: seen (one of
+# its tests fails or takes far too long), NOT SEEN, or what is wrong with it; then the share that was seen.
+# Exit status: 0 when 95 % or more were seen, 1 when not, 2 when there is no list or the program does not build.
+set -u
+[ $# -gt 0 ] || set -- tests/robustness/mutants/list.txt
+lanes=${THREADS:-$(getconf _NPROCESSORS_ONLN)}
+wanted=95
+unset MAKEFLAGS MAKELEVEL MFLAGS
+
+for list in "$@"; do [ -r "$list" ] || { echo "mutants: no such list: $list" >&2; exit 2; }; done
+
+# Copies lie in memory where it has room. Those of a run that was killed go when the next begins.
+room=${TMPDIR:-/tmp}
+[ ! -w /dev/shm ] || [ "$(df -Pk /dev/shm | awk 'END { print $4 }')" -lt 4000000 ] || room=/dev/shm
+for left in "$room"/cleave-mutants.*; do
+    [ ! -d "$left" ] || [ ! -O "$left" ] || kill -0 "${left##*.}" 2>/dev/null || rm -rf "$left"
+done
+work=$room/cleave-mutants.$$
+mkdir "$work" || exit 2
+trap 'rm -rf "$work"' EXIT
+trap 'trap "" TERM; kill 0; wait; exit 1' INT TERM HUP
+
+# What a shell starts beside itself is deaf to SIGINT, which tests raise (tests/support/run.sh).
+hearing="env --default-signal=INT,QUIT"
+$hearing true 2>/dev/null || hearing=
+export OMP_NUM_THREADS=1 GOMP_SPINCOUNT=0 KMP_BLOCKTIME=0
+
+# ---- the tree, and what is wrong with the list itself ----------------------------------------------------------------
+
+tree=$work/tree
+mkdir -p "$tree/build" "$work/jobs" "$work/first"
+cp -a Makefile README.md src include kernels bench tests inputs "$tree"
+# Objects that are there, of the usual build: what is up to date is not compiled again.
+if [ "${BUILD:-build}" = build ] && [ -d build ]; then
+    (cd build && find . -name '*.[odh]' ! -path './fuzz/*' -exec cp -a --parents -t "$tree/build" {} +)
+fi
+
+TESTS=$(find tests -name 'test_*.c' -o -name 'test_*.sh' -o -name 'house.sh' | sort) JOBS=$work/jobs
+export TESTS JOBS
+cat "$@" | awk -f tests/robustness/mutants/list.awk >/dev/null
+[ -n "$(ls "$work/jobs")" ] || { echo "mutants: no fault in $*" >&2; exit 2; }
+cat "$work"/jobs/*/tests | sort -u >"$work/tests"
+
+# goals TEST...: what make builds for these tests.
+goals()
+{
+    for goal in "$@"; do
+        case $goal in
+            *.sh) echo build/cleave; ! grep -q 'schema' "$goal" || echo build/cleave.schema.json ;;
+            *.c) echo "build/${goal%.c}" ;;
+        esac
+    done | sort -u
+}
+
+# build TREE LOG GOAL...: builds in a copy of the tree.
+build()
+{
+    there=$1 log=$2; shift 2
+    make -C "$there" BUILD=build FIRST=1 BENCHES=yes CC="${CC:-gcc}" "$@" >"$log" 2>&1
+}
+
+echo "mutants: $(ls "$work/jobs" | wc -l) faults, $(wc -l <"$work/tests") tests, $lanes at a time"
+objects=$(goals $(cat "$work/tests") | sed 's|^build/\(tests/.*\)|build/\1.o|')
+build "$tree" "$work/log" -j"$lanes" build/cleave $objects || { tail -n 20 "$work/log"; echo "mutants: no build" >&2; exit 2; }
+
+# ---- lanes -----------------------------------------------------------------------------------------------------------
+
+# attempt LANE LIMIT TEST: runs a test in the lane for LIMIT seconds at most; returns its status.
+attempt()
+{
+    lane_of=$work/lane$1 limit=$2 test=$3
+    case $test in *.sh) program="sh $test" ;; *) program=build/${test%.c} ;; esac
+    mkdir -p "$work/tmp$1"
+    (cd "$lane_of" && BUILD=build TMPDIR=$work/tmp$1 exec timeout -k 5 "$limit" $hearing $program) >"$work/said$1" 2>&1 </dev/null &
+    running=$!
+    wait $running
+    result=$?
+    running=
+    rm -rf "$work/tmp$1"
+    return $result
+}
+
+# put_back LANE: gives the lane its sources and objects back, with their times.
+put_back()
+{
+    (cd "$work/lane$1" && find . -type f -newer "$work/stamp$1") | while read -r path; do
+        if [ -f "$tree/$path" ]; then cp -p "$tree/$path" "$work/lane$1/$path"; else rm -f "$work/lane$1/$path"; fi
+    done
+}
+
+# first LANE TEST: does it pass without a fault? Leaves its seconds, or why it cannot be used.
+first()
+{
+    name=$(basename "$2" .c)
+    begin=$(date +%s)
+    if ! build "$work/lane$1" "$work/said$1" $(goals "$2"); then
+        says="does not build"
+    else
+        begin=$(date +%s)
+        attempt "$1" 900 "$2"
+        case $? in
+            0) says= ;;
+            77) says="is skipped here" ;;
+            *) says="fails without a fault" ;;
+        esac
+    fi
+    echo $(($(date +%s) - begin)) >"$work/first/$name"
+    if [ -n "$says" ]; then
+        echo "$says" >"$work/first/$name.wrong"
+        echo "mutants: $name $says"
+        tail -n 20 "$work/said$1"
+    fi
+    put_back "$1"
+}
+
+# judge LANE JOB: builds with the fault and runs its tests; leaves the verdict, and the test that decides, in JOB.
+judge()
+{
+    job=$2 file=$(cat "$2/file") verdict="NOT SEEN" by=
+    if [ -f "$job/wrong" ]; then echo "$(cat "$job/wrong")" >"$job/verdict"; return; fi
+    old=$(cat "$job/old") new=$(cat "$job/new") awk 'BEGIN { old = ENVIRON["old"]; new = ENVIRON["new"] }
+        !done && (at = index($0, old)) { $0 = substr($0, 1, at - 1) new substr($0, at + length(old)); done = 1 }
+        { print }' "$tree/$file" >"$work/lane$1/$file"
+    for test in $(cat "$job/tests"); do
+        name=$(basename "$test" .c)
+        if [ -f "$work/first/$name.wrong" ]; then verdict="$name $(cat "$work/first/$name.wrong")"; continue; fi
+        if ! build "$work/lane$1" "$work/said$1" $(goals "$test"); then
+            verdict="does not build"
+            cp "$work/said$1" "$job/said"
+            break
+        fi
+        if ! attempt "$1" $((20 + 4 * $(cat "$work/first/$name"))) "$test"; then
+            verdict=seen by=$name
+            break
+        fi
+        verdict="NOT SEEN"
+    done
+    echo "$verdict" >"$job/verdict"
+    printf '%s' "$by" >"$job/by"
+    put_back "$1"
+}
+
+# lane NUMBER WHAT: takes tests (WHAT: first) or faults (WHAT: judge) that no other lane has begun.
+lane()
+{
+    running=
+    trap '[ -z "$running" ] || kill "$running" 2>/dev/null; exit 1' TERM INT HUP
+    [ -d "$work/lane$1" ] || cp -a "$tree" "$work/lane$1"
+    touch "$work/stamp$1"
+    if [ "$2" = first ]; then
+        while read -r path; do
+            ! mkdir "$work/first/$(basename "$path" .c).begun" 2>/dev/null || first "$1" "$path"
+        done <"$work/tests"
+        return
+    fi
+    for task in "$work"/jobs/*; do
+        mkdir "$task/begun" 2>/dev/null || continue
+        start=$(date +%s)
+        judge "$1" "$task"
+        printf '%-8s %3d s  %s: %s -> %s (%s)\n' "$(cat "$task/verdict")" $(($(date +%s) - start)) "$(cat "$task/place")" \
+            "$(cat "$task/old")" "$(cat "$task/new")" "$(if [ -s "$task/by" ]; then cat "$task/by"; else sed 's|.*/||; s|\.c$||' "$task/tests" | paste -s -d ' '; fi)"
+        [ ! -f "$task/said" ] || grep -m 2 'error' "$task/said"
+    done
+}
+
+# side_by_side WHAT: all lanes at once.
+side_by_side()
+{
+    for number in $(seq "$lanes"); do lane "$number" "$1" & done
+    wait
+}
+
+side_by_side first
+side_by_side judge
+
+# ---- the count -------------------------------------------------------------------------------------------------------
+
+cat "$work"/jobs/*/verdict | awk -v wanted="$wanted" '
+    { all++ }
+    $0 == "seen" { seen++ }
+    $0 == "NOT SEEN" { missed++ }
+    END { share = 100 * seen / all
+          printf "mutants: %d of %d faults seen (%.1f %%), %d not seen, %d that are no fault\n", seen, all, share, missed, all - seen - missed
+          exit share < wanted }'
