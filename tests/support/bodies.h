@@ -13,6 +13,7 @@
 
 /* Sums of a few hundred terms of order one: their round-off is below a hundred times 2^-53. */
 #define ROUND_OFF 1e-13
+#define BODY_MASS 1.7                    /* of a particle [kg] */
 
 /* ---- a lattice of spacing 1 m, particles at half-integers -------------------------------------------------------- */
 
@@ -27,7 +28,7 @@ static inline void body_make(struct body *b, int dim, const int *count)
         int64_t rest = i;
         for (int d = 0; d < dim; d++, rest /= count[d - 1])
             b->p.X[d][i] = b->p.x[d][i] = 0.5 + (real)(rest % count[d]);
-        b->p.mass[i] = b->p.volume0[i] = b->p.volume[i] = 1;
+        b->p.volume0[i] = b->p.volume[i] = 1, b->p.mass[i] = BODY_MASS;
         b->p.id[i] = (int32_t)i;
     }
     cells_make(&b->c, &b->p, 3.1);

@@ -128,7 +128,7 @@ static void run_block(const struct block *b, const double H[3][3], const char *m
              "space: %s\n%sduration: 1 ms\n%s\n%smaterial: {young: %g, poisson: %.17g, density: %g}\n"
              "body: {box: {from: %s, to: %s}}\nparticles: {spacing: %g, horizon: 3.015}\n"
              "initial: [{displacement_gradient: [%s]}]\noutput: {fields: all, frames: 1}\n",
-             b->space, b->dim == 2 ? "thickness: 1\n" : "", b->method, more, YOUNG, b->poisson, DENSITY, low[b->dim],
+             b->space, b->dim == 2 ? "thickness: 0.37\n" : "", b->method, more, YOUNG, b->poisson, DENSITY, low[b->dim],
              high[b->dim], b->spacing, gradient);
     if (b->dim == 1) {                   /* a line has no Poisson's ratio */
         char *from = strstr(text, " poisson"), *to = strstr(from, " density");
@@ -280,7 +280,7 @@ static void yielding_sheet(void **state)
     struct shown a;
     char text[1000];
     snprintf(text, sizeof text,
-             "space: plane stress\nthickness: 1\nduration: 40 us\nmethod: mpm\nmaterial: {young: %g, poisson: %g,"
+             "space: plane stress\nthickness: 0.37\nduration: 40 us\nmethod: mpm\nmaterial: {young: %g, poisson: %g,"
              " density: %g, yield_stress: 1e6, yield_tangent: %g}\nbody: {box: {from: [-0.5, -0.5], to: [0.5, 0.5]}}\n"
              "particles: {spacing: 0.02}\ninitial: [{velocity_gradient: [50, 0, 0, 50]}]\n"
              "output: {fields: [strain, density], frames: 1}\n",
@@ -306,7 +306,7 @@ static void yielding_sheet(void **state)
 static void only_what_is_asked_for(void **state)
 {
     (void)state;
-    static const char text[] = "space: plane stress\nthickness: 1\nduration: 1 ms\nmethod: mpm\n"
+    static const char text[] = "space: plane stress\nthickness: 0.37\nduration: 1 ms\nmethod: mpm\n"
                                "material: {young: 1e9, poisson: 0.2, density: 1000}\n"
                                "body: {box: {from: [0, 0], to: [1, 1]}}\nparticles: {spacing: 0.25}\n"
                                "output: {frames: 1";

@@ -10,6 +10,8 @@
 
 /* ---- gradients --------------------------------------------------------------------------------------------------- */
 
+#define THICKNESS 0.37                   /* [m], of particles of 1 m */
+
 /* A shaken square of particles with room for two fields. */
 struct patch { struct particles p; struct cells c; real *u[2]; };
 
@@ -20,7 +22,7 @@ static void patch_make(struct patch *k, int edge, real shake, uint64_t seed)
         const real place[2] = {(real)(i % edge), (real)(i / edge)};
         for (int d = 0; d < 2; d++)
             k->p.X[d][i] = k->p.x[d][i] = place[d] - 0.5 * (edge - 1) + cloud_between(&seed, -shake, shake);
-        k->p.volume0[i] = 1 + cloud_between(&seed, -shake, shake);
+        k->p.volume0[i] = THICKNESS * (1 + cloud_between(&seed, -shake, shake));
     }
     cells_make(&k->c, &k->p, 3.1);
     for (int d = 0; d < 2; d++) k->u[d] = NEW("test.u", k->p.n, real);
@@ -200,7 +202,8 @@ static void site_map_make(struct site_map *l, int edge, real degrees, const real
     patch_make(&l->patch, edge, 0, 1);
     const real angle = degrees * pi / 180;
     l->tip = (struct sif_tip){.medium = glass(SPACE_PLANE_STRAIN), .place = {shift[0], shift[1]},
-                              .along = {cos(angle), sin(angle)}, .face = 1, .body = -1, .thickness = 1, .speed = speed};
+                              .along = {cos(angle), sin(angle)}, .face = 1, .body = -1,
+                              .thickness = THICKNESS, .speed = speed};
     for (int d = 0; d < 2; d++) {
         l->corner[0][d] = shift[d] - 2 * edge * l->tip.along[d];
         l->corner[1][d] = shift[d];

@@ -311,6 +311,33 @@ static void abaqus_decks(void **state)
     geometry_free(&g);
 }
 
+/* Squares in a row, with sets of first, last and step: the step may not meet the last. */
+static void abaqus_generates(void **state)
+{
+    (void)state;
+    enum { SQUARES = 7 };
+    struct geometry g;
+    FILE *file = fopen("c.inp", "w");
+    assert_non_null(file);
+    fputs("*Node\n", file);
+    for (int k = 0; k <= SQUARES; k++) fprintf(file, "%d, %d, 0\n%d, %d, 1\n", 2 * k + 1, k, 2 * k + 2, k);
+    fputs("*Element, type=CPE4\n", file);
+    for (int k = 0; k < SQUARES; k++)
+        fprintf(file, "%d, %d, %d, %d, %d\n", 10 * (k + 1), 2 * k + 1, 2 * k + 3, 2 * k + 4, 2 * k + 2);
+    fputs("*Elset, elset=third, generate\n10, 65, 30\n*Elset, elset=all, generate\n10, 30, 10\n40, 70, 10\n"
+          "*Nset, nset=lower, generate\n5, 11, 2\n*Nset, nset=plain, generate\n3, 4\n", file);
+    assert_int_equal(fclose(file), 0);
+    assert_ok(geometry_read(&g, "c.inp", 2, 1));
+    assert_close(geometry_find(&g, "third")->hull.volume, 2, 1e-12);     /* 10 and 40 */
+    assert_close(geometry_find(&g, "all")->hull.volume, 7, 1e-12);
+    assert_close(hull_distance(&geometry_find(&g, "third")->hull, (real[]){2.2, 0.5}, NULL), 0.8, 1e-12);
+    /* nodes 5, 7, 9, 11 at y = 0, x = 2 to 5; of these none is nearer to (3, 1) than 1 */
+    assert_close(hull_distance(&geometry_find(&g, "lower")->hull, (real[]){3, 1}, NULL), 1, 1e-12);
+    assert_close(hull_distance(&geometry_find(&g, "lower")->hull, (real[]){6.5, 0}, NULL), 1.5, 1e-12);
+    assert_close(hull_distance(&geometry_find(&g, "plain")->hull, (real[]){1, 0.9}, NULL), 0.1, 1e-12);
+    geometry_free(&g);
+}
+
 static void bad_abaqus(void **state)
 {
     (void)state;
@@ -393,7 +420,7 @@ static int enter_folder(void **state)
 static int leave_folder(void **state)
 {
     static const char *const names[] = {"a.stl", "b.stl",   "c.stl", "a.msh", "b.msh",  "c.msh",
-                                        "d.msh", "bad.msh", "a.inp", "b.inp", "bad.inp"};
+                                        "d.msh", "bad.msh", "a.inp", "b.inp", "c.inp", "bad.inp"};
     (void)state;
     for (size_t k = 0; k < COUNT_OF(names); k++) unlink(names[k]);
     return chdir("/") != 0 || rmdir(folder) != 0;
@@ -403,7 +430,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stl_of_both_forms), cmocka_unit_test(bad_stl),      cmocka_unit_test(gmsh_of_both_versions),
-        cmocka_unit_test(bad_gmsh),          cmocka_unit_test(abaqus_decks), cmocka_unit_test(bad_abaqus),
+        cmocka_unit_test(bad_gmsh),          cmocka_unit_test(abaqus_decks), cmocka_unit_test(abaqus_generates),
+        cmocka_unit_test(bad_abaqus),
         cmocka_unit_test(damaged),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

@@ -98,7 +98,8 @@ static void test_bar(void **state)
     for (size_t k = 0; k < COUNT_OF(at); k++) {
         char text[1024];
         snprintf(text, sizeof text,
-                 "name: bar\nspace: line\nsection: 1 m^2\nduration: 4 ms\n%s\nmaterial: {young: 1e4, density: 1}\n"
+                 "name: bar\nspace: line\nsection: 0.37 m^2\nduration: 4 ms\n%s\n"
+                 "material: {young: 2.3e4, density: 2.3}\n"
                  "body: {box: {from: [0], to: [0.4]}}\nparticles: {spacing: 1 mm, horizon: 3}\n"
                  "initial:\n  - pulse: {at: [0.2], direction: [1], width: 32 mm, velocity: 1 mm/s}\n"
                  "boundary:\n  - {absorbing: true, face: x+}\noutput: {frames: 0, samples: 200}\n", at[k].method);
@@ -121,8 +122,8 @@ static void test_long(void **state)
     for (size_t k = 0; k < COUNT_OF(at); k++) {
         char text[1024];
         snprintf(text, sizeof text,
-                 "name: block\nspace: plane stress\nthickness: 1 m\nduration: %s\n%s\n"
-                 "material: {young: 80000/9, poisson: 1/3, density: 1}\n"
+                 "name: block\nspace: plane stress\nthickness: 0.37 m\nduration: %s\n%s\n"
+                 "material: {young: 2.3*80000/9, poisson: 1/3, density: 2.3}\n"
                  "body: {box: {from: [0, 0], to: [12 mm, 10 mm]}}\nparticles: {spacing: 1 mm}\ntime: {step: %s}\n"
                  "initial:\n  - {velocity_gradient: [3, 1, -2, 4], centre: [6 mm, 5 mm]}\n"
                  "boundary:\n  - {absorbing: true, face: x+}\n  - {absorbing: true, face: x-}\n"
@@ -153,8 +154,8 @@ static void test_mirror_faces(void **state)
             snprintf(method, sizeof method, "%s", at[k].method);
             if (*at[k].origin) snprintf(method, sizeof method, "method: mpm\nmpm: {frame: reference%s}", at[k].origin);
             snprintf(text, sizeof text,
-                     "name: plate\nspace: plane strain\nthickness: 1 m\nduration: 1 ms\n%s\n"
-                     "material: {young: 1e4, poisson: 1/4, density: 1}\n"
+                     "name: plate\nspace: plane strain\nthickness: 0.37 m\nduration: 1 ms\n%s\n"
+                     "material: {young: 2.3e4, poisson: 1/4, density: 2.3}\n"
                      "body: {box: {from: [0, %s], to: [24 mm, 12 mm]}}\n"
                      "particles: {spacing: 1 mm}\ntime: {step: 2 us}\n"
                      "initial:\n  - {velocity_gradient: [3, 0, 0, 4], centre: [12 mm, 0]}\n"
@@ -178,7 +179,8 @@ static void test_held(void **state)
     for (size_t k = 0; k < COUNT_OF(method); k++) {
         char text[1024];
         snprintf(text, sizeof text,
-                 "name: bar\nspace: line\nsection: 1 m^2\nduration: 4 ms\n%s\nmaterial: {young: 1e4, density: 1}\n"
+                 "name: bar\nspace: line\nsection: 0.37 m^2\nduration: 4 ms\n%s\n"
+                 "material: {young: 2.3e4, density: 2.3}\n"
                  "body: {box: {from: [0], to: [0.4]}}\nparticles: {spacing: 1 mm, horizon: 3}\n"
                  "initial:\n  - pulse: {at: [0.2], direction: [1], width: 32 mm, velocity: 1 mm/s}\n"
                  "boundary:\n  - {absorbing: true, face: x+}\n"

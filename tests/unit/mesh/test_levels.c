@@ -50,7 +50,8 @@ static void levels_set(struct plate *b, bool bend)
     memory_free(demand);
 }
 
-static void plate_make(struct plate *b, enum space space, int levels, int length)
+/* Of two materials if `parted`: the second beyond the middle of the cells along x. */
+static void plate_make_of(struct plate *b, enum space space, int levels, int length, bool parted)
 {
     const int dim = space_dim(space), across = dim == 3 ? 40 : 48;
     const int along = length > 0 ? length : across;
@@ -69,10 +70,19 @@ static void plate_make(struct plate *b, enum space space, int levels, int length
     }
     b->source = (struct mesh_source){.elastic = b->elastic, .isotropic = b->elastic, .materials = CLOUD_MATERIALS};
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = KIND_MPM, p->flag[i] |= FLAG_MESHED;
+    for (int64_t i = 0; i < p->n && parted; i++) {
+        p->material[i] = p->X[0][i] > 0.5 * along * CLOUD_SPACING;
+        p->mass[i] = p->volume0[i] * density[p->material[i]];
+    }
     assert_ok(mesh_make(&b->mesh, p, &like, &b->source));
     assert_ok(levels_make(&b->levels, levels, &b->mesh, &b->c.p, &b->source, density));
     b->dt = CLOUD_SPACING / b->c.material[0].wave_speed;
     levels_match(&b->levels, 2 * CLOUD_SPACING, b->c.material[0].wave_speed, b->dt);
+}
+
+static void plate_make(struct plate *b, enum space space, int levels, int length)
+{
+    plate_make_of(b, space, levels, length, false);
 }
 
 static void plate_free(struct plate *b)
@@ -312,12 +322,12 @@ static real energy_of(struct plate *b, bool finite)
 
 /* Largest energy over `rounds` of 100 steps, and the mean of the last tenth, over that of the first, of a bar or plate
  * with random velocities. share: dt in spacings over wave speed. */
-static real energy_growth(enum space space, int levels, real share, int rounds, real *momentum_error)
+static real energy_growth(enum space space, int levels, real share, int rounds, bool parted, real *momentum_error)
 {
     struct plate b;
     const real none[9] = {0}, c[3] = {10, 0, 0};
     real first = 0, last = 0, before[DIM_MAX], after[DIM_MAX];
-    plate_make(&b, space, levels, space == SPACE_LINE ? 200 : 0);
+    plate_make_of(&b, space, levels, space == SPACE_LINE ? 200 : 0, parted);
     b.dt *= share;
     levels_match(&b.levels, 2 * CLOUD_SPACING, b.c.material[0].wave_speed, b.dt);
     levels_set(&b, false);
@@ -343,12 +353,25 @@ static void test_steps(void **state)
     (void)state;
     real error;
     for (int levels = 1; levels <= 3; levels++) {
-        assert_near(energy_growth(SPACE_LINE, levels, 1.4, 1000, &error), 1, 5e-3);
+        assert_near(energy_growth(SPACE_LINE, levels, 1.4, 1000, false, &error), 1, 5e-3);
         assert_near(error, 0, 1e-12);
     }
-    assert_near(energy_growth(SPACE_PLANE_STRESS, 2, 1.3, 20, &error), 1, 1e-2);
+    assert_near(energy_growth(SPACE_PLANE_STRESS, 2, 1.3, 20, false, &error), 1, 1e-2);
     assert_near(error, 0, 1e-12);
-    assert_true(energy_growth(SPACE_LINE, 2, 1.8, 1000, NULL) > 2);
+    assert_true(energy_growth(SPACE_LINE, 2, 1.8, 1000, false, NULL) > 2);
+}
+
+/* Where two materials meet cells are not matched, as masses of nodes differ: momentum to round-off, and the energy. */
+static void test_materials(void **state)
+{
+    (void)state;
+    real error;
+    for (int levels = 1; levels <= 2; levels++) {
+        assert_near(energy_growth(SPACE_LINE, levels, 1.3, 200, true, &error), 1, 1e-2);
+        assert_near(error, 0, 1e-12);
+    }
+    assert_near(energy_growth(SPACE_PLANE_STRESS, 1, 1.2, 10, true, &error), 1, 1e-2);
+    assert_near(error, 0, 1e-12);
 }
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
@@ -466,7 +489,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_gradient), cmocka_unit_test(test_patch),      cmocka_unit_test(test_changes),
-        cmocka_unit_test(test_steps),    cmocka_unit_test(test_dispersion), cmocka_unit_test(test_reflection),
+        cmocka_unit_test(test_steps),    cmocka_unit_test(test_materials),  cmocka_unit_test(test_dispersion),
+        cmocka_unit_test(test_reflection),
     };
     int failures = 0;
     omp_set_num_threads(1);              /* bars of a hundred cells */

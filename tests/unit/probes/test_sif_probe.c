@@ -20,6 +20,7 @@ static void plate_make(struct plate *p, int cracks, const real *tip)
 {
     memset(p, 0, sizeof *p);
     body_make(&p->body, 2, (const int[]){WIDTH, HEIGHT});
+    for (int64_t i = 0; i < p->body.p.n; i++) p->body.p.volume0[i] = 0.37;      /* the thickness [m] */
     for (int k = 0; k < 2; k++) {
         p->material[k] = (struct material){.young = 75.629e9, .poisson = 0.286, .density = 2456};
         material_derive(&p->material[k], SPACE_PLANE_STRAIN);
@@ -30,7 +31,7 @@ static void plate_make(struct plate *p, int cracks, const real *tip)
     p->corner[1][0][1] = 10, p->corner[1][1][1] = 50;
     tips_make(&p->tips, &p->body.p, &p->body.c, p->crack, cracks, 1, 1);
     p->o = (struct observed){.part = &p->body.p, .cells = &p->body.c, .tips = &p->tips, .material = p->material,
-                             .spacing = 1, .thickness = 1, .space = SPACE_PLANE_STRAIN, .horizon = 3.015,
+                             .spacing = 1, .thickness = 0.37, .space = SPACE_PLANE_STRAIN, .horizon = 3.015,
                              .crack = p->crack, .cracks = cracks};
 }
 

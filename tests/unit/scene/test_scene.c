@@ -203,6 +203,9 @@ static void test_units(void **state)
         {"material.density", "7.8 g/cm^3", 7800},   {"material.density", "7800 kg/m3", 7800},
         {"material.density", "7.8e3 kg m^-3", 7800}, {"material.energy_release_rate", "69 kJ/m^2", 69e3},
         {"material.energy_release_rate", "3 N/mm", 3e3}, {"thickness", "1/8", 0.125},
+        {"material.young", "0.2 TPa", 0.2e12},      {"material.young", "3 MJ/m^3", 3e6},
+        {"duration", "2 min", 120},                 {"duration", "0.3 h", 1080},
+        {"material.density", "7 Mg/m^3", 7000},     {"material.young", "7 N/cm^2", 7e4},
         {"conversion.alpha", "95 %", 0.95},         {"conversion.alpha", "19 / 20", 0.95},
     };
     for (size_t k = 0; k < COUNT_OF(cases); k++) {
