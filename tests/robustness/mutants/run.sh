@@ -69,13 +69,13 @@ build "$tree" "$work/log" -j"$lanes" build/cleave $objects || { tail -n 20 "$wor
 
 # ---- lanes -----------------------------------------------------------------------------------------------------------
 
-# attempt LANE LIMIT TEST: runs a test in the lane for LIMIT seconds at most; returns its status.
+# attempt LANE FOLDER LIMIT TEST: runs a test in a copy of the tree for LIMIT seconds at most; returns its status.
 attempt()
 {
-    lane_of=$work/lane$1 limit=$2 test=$3
+    here=$2 limit=$3 test=$4
     case $test in *.sh) program="sh $test" ;; *) program=build/${test%.c} ;; esac
     mkdir -p "$work/tmp$1"
-    (cd "$lane_of" && BUILD=build TMPDIR=$work/tmp$1 exec timeout -k 5 "$limit" $hearing $program) >"$work/said$1" 2>&1 </dev/null &
+    (cd "$here" && BUILD=build TMPDIR=$work/tmp$1 exec timeout -k 5 "$limit" $hearing $program) >"$work/said$1" 2>&1 </dev/null &
     running=$!
     wait $running
     result=$?
@@ -88,33 +88,42 @@ attempt()
 put_back()
 {
     (cd "$work/lane$1" && find . -type f -newer "$work/stamp$1") | while read -r path; do
-        if [ -f "$tree/$path" ]; then cp -p "$tree/$path" "$work/lane$1/$path"; else rm -f "$work/lane$1/$path"; fi
+        rm -f "$work/lane$1/$path"
+        case $path in
+            ./build/*.[odh]) ;;
+            ./build/*) continue ;;               # programs: linked again
+        esac
+        [ ! -f "$tree/$path" ] || cp -p "$tree/$path" "$work/lane$1/$path"
     done
 }
 
-# first LANE TEST: does it pass without a fault? Leaves its seconds, or why it cannot be used.
+# first LANE TEST: runs a test without a fault, once of all lanes. Leaves why it cannot be used, if so, and its seconds.
 first()
 {
-    name=$(basename "$2" .c)
+    name=$(basename "$2" .c) says=
+    if ! mkdir "$work/first/$name.begun" 2>/dev/null; then
+        while [ ! -f "$work/first/$name" ]; do sleep 1; done
+        return
+    fi
     begin=$(date +%s)
-    if ! build "$work/lane$1" "$work/said$1" $(goals "$2"); then
+    if ! build "$tree" "$work/said$1" -o build/parts.h $(goals "$2"); then
         says="does not build"
     else
         begin=$(date +%s)
-        attempt "$1" 900 "$2"
+        attempt "$1" "$tree" 900 "$2"
         case $? in
-            0) says= ;;
+            0) ;;
             77) says="is skipped here" ;;
             *) says="fails without a fault" ;;
         esac
     fi
-    echo $(($(date +%s) - begin)) >"$work/first/$name"
     if [ -n "$says" ]; then
         echo "$says" >"$work/first/$name.wrong"
         echo "mutants: $name $says"
         tail -n 20 "$work/said$1"
     fi
-    put_back "$1"
+    case $2 in *.c) rm -f "$tree/build/${2%.c}" ;; esac
+    echo $(($(date +%s) - begin)) >"$work/first/$name"
 }
 
 # judge LANE JOB: builds with the fault and runs its tests; leaves the verdict, and the test that decides, in JOB.
@@ -127,13 +136,14 @@ judge()
         { print }' "$tree/$file" >"$work/lane$1/$file"
     for test in $(cat "$job/tests"); do
         name=$(basename "$test" .c)
+        first "$1" "$test"
         if [ -f "$work/first/$name.wrong" ]; then verdict="$name $(cat "$work/first/$name.wrong")"; continue; fi
-        if ! build "$work/lane$1" "$work/said$1" $(goals "$test"); then
+        if ! build "$work/lane$1" "$work/said$1" -o build/parts.h $(goals "$test"); then
             verdict="does not build"
             cp "$work/said$1" "$job/said"
             break
         fi
-        if ! attempt "$1" $((20 + 4 * $(cat "$work/first/$name"))) "$test"; then
+        if ! attempt "$1" "$work/lane$1" $((20 + 4 * $(cat "$work/first/$name"))) "$test"; then
             verdict=seen by=$name
             break
         fi
@@ -144,19 +154,13 @@ judge()
     put_back "$1"
 }
 
-# lane NUMBER WHAT: takes tests (WHAT: first) or faults (WHAT: judge) that no other lane has begun.
+# lane NUMBER: judges the faults that no other lane has begun.
 lane()
 {
     running=
     trap '[ -z "$running" ] || kill "$running" 2>/dev/null; exit 1' TERM INT HUP
-    [ -d "$work/lane$1" ] || cp -a "$tree" "$work/lane$1"
+    cp -a "$tree" "$work/lane$1"
     touch "$work/stamp$1"
-    if [ "$2" = first ]; then
-        while read -r path; do
-            ! mkdir "$work/first/$(basename "$path" .c).begun" 2>/dev/null || first "$1" "$path"
-        done <"$work/tests"
-        return
-    fi
     for task in "$work"/jobs/*; do
         mkdir "$task/begun" 2>/dev/null || continue
         start=$(date +%s)
@@ -167,15 +171,8 @@ lane()
     done
 }
 
-# side_by_side WHAT: all lanes at once.
-side_by_side()
-{
-    for number in $(seq "$lanes"); do lane "$number" "$1" & done
-    wait
-}
-
-side_by_side first
-side_by_side judge
+for number in $(seq "$lanes"); do lane "$number" & done
+wait
 
 # ---- the count -------------------------------------------------------------------------------------------------------
 
