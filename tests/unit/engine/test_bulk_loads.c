@@ -117,6 +117,24 @@ static void gravity_makes_rigid_bodies_fall(void **state)
     run_end(&r);
 }
 
+/* A block that hits a rigid plate under bulk damping: the force of the plate counts as impulse over the kick of a step,
+ * which damping shortens; the balance of momentum closes to round-off. */
+static void rigid_bodies_take_momentum(void **state)
+{
+    (void)state;
+    static const char floor[] =
+        "space: plane strain\nthickness: 0.37 m\nduration: 2 ms\nmethod: pd\ndamping: 700 1/s\n"
+        "material: {young: 1 MPa, poisson: 1/4, density: 1000}\ninitial: [{velocity: [0.3 m/s, -2 m/s]}]\nbodies:\n"
+        "  - {name: block, shape: {box: {from: [0, 0], to: [30 mm, 50 mm]}}}\n"
+        "  - {name: plate, rigid: true, shape: {box: {from: [-20 mm, -20 mm], to: [50 mm, 0]}}}\n"
+        "particles: {spacing: 5 mm}\n";
+    struct run r;
+    run(&r, floor, NULL);
+    assert_true(r.e.rigid[0].force_most > 1 && fabs(r.e.loads.impulse[1]) > 0.1);
+    balanced(&r, 0.02);                                  /* steps of an eighth of a collision */
+    run_end(&r);
+}
+
 /* A bar that stands: its weight is borne by the support, u(L) = -rho g L^2/(2 E). */
 static void gravity_rests_on_a_support(void **state)
 {
@@ -456,6 +474,7 @@ int main(void)
         cmocka_unit_test(any_damping_only_takes),           cmocka_unit_test(pressure_all_round_is_balanced),
         cmocka_unit_test(pressure_shrinks_a_body),          cmocka_unit_test(pressure_follows_a_turning_body),
         cmocka_unit_test(pressure_follows_beside_mirrors),  cmocka_unit_test(pressure_spares_mirrored_faces),
+        cmocka_unit_test(rigid_bodies_take_momentum),
         cmocka_unit_test(gravity_makes_rigid_bodies_fall),  cmocka_unit_test(damping_slows_turning_bodies),
         cmocka_unit_test(rotation_drives_on_circles),       cmocka_unit_test(formulas_are_what_they_say),
         cmocka_unit_test(initial_velocities_are_formulas),

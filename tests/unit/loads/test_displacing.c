@@ -68,6 +68,32 @@ static void test_values(void **state)
     expression_free(&b.formula[0]);
 }
 
+/* In space about an axis askew: Rodrigues' formula for vectors, the arm along the axis, across it and turned. */
+static void test_turn_in_space(void **state)
+{
+    (void)state;
+    const struct boundary b = {.name = "grip", .kind = BOUNDARY_VELOCITY, .body = -1, .components = 7, .rotates = true,
+                               .rate = 0.7, .centre = {0.3, -0.1, 0.8}, .axis_of = {2, -3, 6},
+                               .time = {.kind = TIME_CONSTANT}};
+    const real axis[] = {2 / 7.0, -3 / 7.0, 6 / 7.0}, arm[] = {1.3, 0.4, -0.6}, angle = 0.7 * 1.9;
+    const struct displacing by = displacing_make(&b, 3, 1.9);
+    const struct driving step = driving_make(&b, 3, 1.9, 0.2);
+    const real along = dot(axis, arm, 3);
+    real X[3], way[3];
+    for (int d = 0; d < 3; d++) X[d] = b.centre[d] + arm[d];
+    for (int d = 0; d < 3; d++) {
+        const int e = (d + 1) % 3, f = (d + 2) % 3;
+        const real turned = axis[e] * arm[f] - axis[f] * arm[e];
+        const real to = arm[d] * cos(angle) + turned * sin(angle) + axis[d] * along * (1 - cos(angle));
+        assert_near(displacing_at(&by, X, d), to - arm[d], 1e-14);
+        way[d] = driving_at(&step, X, d, false);
+    }
+    /* the chord of a step from 1.8 to 2 s, over it */
+    const real across = sqrt(dot(arm, arm, 3) - square(along));
+    assert_near(sqrt(dot(way, way, 3)), 2 * across * sin(0.5 * 0.7 * 0.2) / 0.2, 1e-13);
+    assert_near(dot(way, axis, 3), 0, 1e-14);
+}
+
 /* A quarter of a turn about (1, 2) spacings, at a rate that grows evenly. */
 static void test_turn(void **state)
 {
@@ -181,6 +207,7 @@ static void test_static(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_turn),
+                                       cmocka_unit_test(test_turn_in_space),
                                        cmocka_unit_test(test_formula_of_time), cmocka_unit_test(test_steepest),
                                        cmocka_unit_test(test_static)};
     team_make(2);

@@ -190,6 +190,34 @@ static void test_traction(void **state)
         }
 }
 
+/* The displacement of a load is the mean by what its particles bear, that of its work; where the shares add up to
+ * nothing, the plain mean. */
+static void test_mean_displacement(void **state)
+{
+    (void)state;
+    const real length = 5 * CLOUD_SPACING, volume = square(CLOUD_SPACING) * 2e-3;
+    const struct boundary push = {.name = "push", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {2e6, -3e6},
+                                  .profile = {PROFILE_SINE, length, {-0.3 * CLOUD_SPACING, 0}, {1, 0}}};
+    struct cloud c;
+    struct loads l;
+    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {3, 4}, .horizon = 3});
+    even_volumes(&c.p);
+    assert_ok(loads_make(&l, &push, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+    real shares = 0, moved = 0;
+    for (int64_t i = 0; i < c.p.n; i++) {
+        const real share = sin(2 * M_PI * (c.p.X[0][i] + 0.3 * CLOUD_SPACING) / length), u = 1e-6 * (real)(i * i);
+        c.p.x[0][i] += u;
+        shares += share, moved += share * u;
+    }
+    load_applied_sum(&l.load[0], &c.p, 1);
+    assert_close(l.load[0].reaction[0], 2e6 * volume * shares, 1e-12);
+    assert_close(l.load[0].reaction[1], -3e6 * volume * shares, 1e-12);
+    assert_close(l.load[0].displacement[0], moved / shares, 1e-9);
+    assert_near(l.load[0].displacement[1], 0, 1e-18);
+    loads_free(&l);
+    cloud_free(&c);
+}
+
 /* What turns a body that nothing holds is met by its inertia: no moment is left, nor does a force come in. */
 static void test_relief(void **state)
 {
@@ -220,7 +248,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_sine), cmocka_unit_test(test_kicks),
                                        cmocka_unit_test(test_together), cmocka_unit_test(test_traction),
-                                       cmocka_unit_test(test_relief)};
+                                       cmocka_unit_test(test_relief), cmocka_unit_test(test_mean_displacement)};
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
