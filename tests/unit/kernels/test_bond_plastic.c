@@ -81,6 +81,23 @@ static void test_work(void **state)
     cloud_free(&c);
 }
 
+/* A bond that breaks keeps its plastic work booked, once: path (s_y + H path/2) of its stiffness and length. */
+static void test_broken(void **state)
+{
+    (void)state;
+    struct cloud c;
+    pair_make(&c);
+    const int64_t q = bond_to_write(&c.bonds, 0, 0, 0);
+    const real scale = c.bonds.stiffness * c.bonds.w[q] / c.bonds.inverse_length[q], path = 2 * YIELD / (1 + HARDENING);
+    pulled(&c, 3 * YIELD);
+    const real work = scale * path * (YIELD + 0.5 * HARDENING * path);
+    assert_close(bond_plastic_work(&c.bonds), work, 1e-9);
+    c.limit[0] = 2.9 * YIELD;
+    assert_int_equal(bond_force_table[1][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit, NULL), 2);
+    assert_close(bond_plastic_work(&c.bonds), work, 1e-9);
+    cloud_free(&c);
+}
+
 /* ---- many bonds -------------------------------------------------------------------------------------------------- */
 
 struct twin { real plastic, path; };
@@ -221,11 +238,47 @@ static void test_taken_over(void **state)
     cloud_free(&c);
 }
 
+/* In the plane, of points with different stresses and plastic strains: a bond takes over what stretch is left beyond the
+ * mean of both elastic strains along it, by Hooke's law of plane stress, and the mean of both plastic strains. */
+static void test_taken_over_in_the_plane(void **state)
+{
+    (void)state;
+    struct cloud c;
+    const real E = 200e9, nu = 1.0 / 3;
+    uint64_t seed = 7;
+    cloud_make(&c, &(struct cloud_plan){
+                       .space = SPACE_PLANE_STRESS, .count = {6, 5}, .horizon = 2, .optional = WITH_PLASTIC});
+    c.yield[0] = YIELD, c.hardening[0] = HARDENING;
+    for (int64_t i = 0; i < c.p.n; i++) {
+        for (int d = 0; d < 2; d++) c.p.x[d][i] += cloud_between(&seed, -1e-3, 1e-3) * CLOUD_SPACING;
+        for (int k = 0; k < 3; k++) c.p.stress[k][i] = cloud_between(&seed, -2e7, 5e7);
+        c.p.plastic_strain[i] = cloud_between(&seed, 1e-4, 3e-4);
+    }
+    cloud_source(&c);
+    bonds_make(&c.bonds, NULL, &c.p, &c.source);
+    for (int64_t r = 0; r < c.bonds.rows; r++)
+        for (struct bond_iterator it = bonds_of_row(&c.bonds, r); bond_next(&it);) {
+            const int32_t ends[2] = {c.bonds.particle[r], it.bond.nbr};
+            real y[2], elastic = 0, path = 0;
+            for (int d = 0; d < 2; d++) y[d] = c.p.x[d][ends[1]] - c.p.x[d][ends[0]];
+            const real length = hypot(y[0], y[1]), n = y[0] / length, m = y[1] / length;
+            for (int k = 0; k < 2; k++) {
+                const real xx = c.p.stress[0][ends[k]], yy = c.p.stress[1][ends[k]], xy = c.p.stress[2][ends[k]];
+                elastic += 0.5 / E * (n * n * (xx - nu * yy) + m * m * (yy - nu * xx) + 2 * n * m * (1 + nu) * xy);
+                path += 0.5 * c.p.plastic_strain[ends[k]];
+            }
+            assert_near(c.bonds.plastic_stretch[it.bond.entry], length * it.bond.inverse_length - 1 - elastic, 1e-14);
+            assert_close(c.bonds.plastic_path[it.bond.entry], path, 1e-12);
+        }
+    cloud_free(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_path), cmocka_unit_test(test_work), cmocka_unit_test(test_lanes),
-        cmocka_unit_test(test_ends), cmocka_unit_test(test_taken_over)};
+        cmocka_unit_test(test_path), cmocka_unit_test(test_work), cmocka_unit_test(test_broken), cmocka_unit_test(test_lanes),
+        cmocka_unit_test(test_ends), cmocka_unit_test(test_taken_over),
+        cmocka_unit_test(test_taken_over_in_the_plane)};
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -1,0 +1,197 @@
+/* The spring of friction against Coulomb's law and its energies; forces of rigid bodies as the gradient of their energy,
+ * with their moment. */
+#include <math.h>
+#include <string.h>
+
+#include "auto/scene_read.h"
+#include "base/memory.h"
+#include "engine/engine.h"
+#include "src/contact/contact_internal.h"
+#include "tests/support/near.h"
+
+/* A spring of 3 kN/m on a face with the normal (0, 0.6, 0.8): it holds up to 0.2 N, then slides with that force; what
+ * the motion gives is stored or lost, and goes when both part. */
+static void spring_of_coulomb(void **state)
+{
+    (void)state;
+    const real normal[] = {0, 0.6, 0.8}, k = 3000, most = 0.2, none[3] = {0};
+    const real step[] = {3e-6, 0.8e-6, 5e-6}, along[] = {3e-6, 0.8e-6 - 0.6 * 4.48e-6, 5e-6 - 0.8 * 4.48e-6};
+    const real size = sqrt(dot(along, along, 3));
+    struct contact_spring s = {.stored = 0};
+    real given = 0, drag = 0;
+    for (int n = 1; n <= 40; n++) {
+        contact_slide(&s, 3, normal, step, k, most);
+        const real force = real_min(most, k * size * n);
+        for (int d = 0; d < 3; d++) assert_near(s.drag[d], -force * along[d] / size, 1e-13);
+        given += 0.5 * (drag + force) * size, drag = force;
+        assert_near(s.stored, 0.5 * force * force / k, 1e-16);
+    }
+    assert_true(k * size * 40 > 1.5 * most);
+    assert_close(s.stored + s.lost, given, 1e-12);
+    contact_slide(&s, 3, none, none, k, 0);              /* parted */
+    assert_near(s.stored, 0, 0);
+    assert_close(s.lost, given, 1e-12);
+}
+
+/* The face turns: the spring keeps its length, and lies in the new face. */
+static void spring_follows_its_face(void **state)
+{
+    (void)state;
+    const real before[] = {0, 0, 1}, after[] = {0.6, 0, 0.8}, step[] = {4e-6, 3e-6, 0}, none[3] = {0};
+    struct contact_spring s = {.stored = 0};
+    contact_slide(&s, 3, before, step, 1000, 1);
+    contact_slide(&s, 3, after, none, 1000, 1);
+    assert_close(dot(s.length, s.length, 3), 25e-12, 1e-12);
+    assert_near(dot(s.length, after, 3), 0, 1e-20);
+    assert_close(s.stored, 0.5 * 1000 * 25e-12, 1e-12);
+    assert_near(s.lost, 0, 1e-20);
+}
+
+/* ---- in a body --------------------------------------------------------------------------------------------------- */
+
+static struct engine *body_begin(struct scene *s, const char *text)
+{
+    struct engine *e = NEW("test.engine", 1, struct engine);
+    if (scene_read_text(s, text, strlen(text), "friction.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    assert_ok(engine_make(e, s, NULL));
+    e->report.quiet = true;
+    assert_ok(engine_report_start(e));
+    return e;
+}
+
+static void body_end(struct engine *e, struct scene *s)
+{
+    engine_free(e);
+    memory_free(e);
+    scene_free(s);
+}
+
+static void look(struct engine *e)
+{
+    contact_update(&e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
+}
+
+static void forces_at(struct engine *e, real dt)
+{
+    struct particles *p = &e->part;
+    look(e);
+    for (int d = 0; d < p->dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
+    contact_force(&e->contact, p, dt);
+}
+
+
+/* A block pressed into a disc, by 0.1 spacings, off its middle. */
+static const char pressed[] =
+    "space: plane strain\nthickness: 0.37 m\nduration: 1 us\nmethod: pd\n"
+    "material: {young: 3 GPa, poisson: 1/4, density: 1180}\nbodies:\n"
+    "  - {name: block, shape: {box: {from: [0, 0], to: [12 mm, 6 mm]}}}\n"
+    "  - {name: disc, rigid: true, mass: 2 kg, shape: {disc: {centre: [4 mm, 13 mm], radius: 7 mm}}}\n"
+    "particles: {spacing: 1 mm}\n";
+
+static void rigid_force_is_a_gradient(void **state)
+{
+    (void)state;
+    struct scene s;
+    struct engine *e = body_begin(&s, pressed);
+    struct particles *p = &e->part;
+    struct rigid_body *r = &e->rigid[0];
+    look(e);
+    r->x[1] -= 0.1e-3;
+    forces_at(e, 0);
+    const real energy = contact_energy(&e->contact, p), step = 1e-9;
+    const real force[] = {r->force[0], r->force[1]}, moment = r->moment[2];
+    real sum[2] = {0}, turning = 0, own[2] = {0};
+    int32_t one = -1;
+    for (int64_t i = 0; i < p->n; i++) {
+        const real x = p->x[0][i] - r->x[0], y = p->x[1][i] - r->x[1];
+        for (int d = 0; d < 2; d++) sum[d] -= p->f[d][i];
+        turning -= x * p->f[1][i] - y * p->f[0][i];
+        if (p->f[0][i] > 0) one = (int32_t)i, own[0] = p->f[0][i], own[1] = p->f[1][i];
+    }
+    assert_true(energy > 0 && force[1] > 0 && one >= 0);
+    for (int d = 0; d < 2; d++) assert_near(force[d], sum[d], 1e-12 * force[1]);
+    assert_near(moment, turning, 1e-12 * force[1] * 7e-3);
+    for (int d = 0; d < 2; d++) {
+        real work[2];
+        for (int side = 0; side < 2; side++) {
+            p->x[d][one] += (side ? -1 : 1) * step;
+            work[side] = contact_energy(&e->contact, p);
+            p->x[d][one] -= (side ? -1 : 1) * step;
+        }
+        assert_near(own[d], -(work[0] - work[1]) / (2 * step), 1e-5 * hypot(own[0], own[1]));
+    }
+    body_end(e, &s);
+}
+
+/* A disc off its centre of mass, beside two separated contacts: the moment is not that of a disc, which is 0. */
+static const char pivoted[] =
+    "space: plane strain\nthickness: 0.37 m\nduration: 1 us\nmethod: pd\n"
+    "material: {young: 3 GPa, poisson: 1/4, density: 1180}\nbodies:\n"
+    "  - {name: block, shape: {box: {from: [0, 0], to: [12 mm, 6 mm]}}}\n"
+    "  - {name: bar, rigid: true, mass: 2 kg, shape: {box: {from: [8 mm, 6 mm], to: [31 mm, 9 mm]}}}\n"
+    "particles: {spacing: 1 mm}\n";
+
+static void rigid_moment(void **state)
+{
+    (void)state;
+    struct scene s;
+    struct engine *e = body_begin(&s, pivoted);
+    struct particles *p = &e->part;
+    struct rigid_body *r = &e->rigid[0];
+    real force = 0, turning = 0;
+    look(e);
+    r->x[1] -= 0.1e-3;
+    forces_at(e, 0);
+    for (int64_t i = 0; i < p->n; i++) {
+        force -= p->f[1][i];
+        turning -= (p->x[0][i] - r->x[0]) * p->f[1][i] - (p->x[1][i] - r->x[1]) * p->f[0][i];
+    }
+    assert_true(force > 0 && turning < -5e-3 * force);   /* pressed up on its left end: it turns clockwise */
+    assert_close(r->moment[2], turning, 1e-12);
+    body_end(e, &s);
+}
+
+/* ---- faces that slide -------------------------------------------------------------------------------------------- */
+
+/* Two blocks, one on the other. */
+static const char blocks[] =
+    "space: plane strain\nthickness: 0.37 m\nduration: 1 us\nmethod: pd\n"
+    "material: {young: 3 GPa, poisson: 1/4, density: 1180}\nbodies:\n"
+    "  - {name: low, shape: {box: {from: [0, 0], to: [20 mm, 5 mm]}}}\n"
+    "  - {name: high, shape: {box: {from: [4 mm, 5 mm], to: [14 mm, 9 mm]}}}\n"
+    "particles: {spacing: 1 mm}\ncontact: {between: bodies, friction: 0.3}\n";
+
+/* What moves along does not rub; what slides is dragged by friction times the pressure, against its motion. */
+static void faces_rub(void **state)
+{
+    (void)state;
+    struct scene s;
+    struct engine *e = body_begin(&s, blocks);
+    struct particles *p = &e->part;
+    real drag[2] = {0}, press[2] = {0};
+    look(e);
+    for (int64_t i = 0; i < p->n; i++) {
+        if (p->body[i] == 1) p->x[1][i] -= 0.05e-3;
+        p->v[0][i] = 7, p->v[1][i] = 2;
+    }
+    for (int k = 0; k < 3; k++) forces_at(e, 1e-7);
+    assert_near(contact_friction_stored(&e->contact), 0, 1e-20);
+    assert_near(contact_friction_work(&e->contact), 0, 1e-20);
+    for (int64_t i = 0; i < p->n; i++) p->v[0][i] = p->body[i] == 1 ? 9 : 7, p->v[1][i] = 0;
+    for (int k = 0; k < 400; k++) forces_at(e, 1e-7);    /* 80 um: springs have long given way */
+    for (int64_t i = 0; i < p->n; i++) drag[p->body[i]] += p->f[0][i], press[p->body[i]] += p->f[1][i];
+    assert_true(press[1] > 0);
+    assert_near(drag[0] + drag[1], 0, 1e-9 * press[1]);
+    assert_close(drag[1], -0.3 * press[1], 0.02);        /* forces at the ends of the face lean */
+    assert_true(contact_friction_work(&e->contact) > 0);
+    body_end(e, &s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(spring_of_coulomb), cmocka_unit_test(spring_follows_its_face),
+        cmocka_unit_test(rigid_force_is_a_gradient), cmocka_unit_test(rigid_moment), cmocka_unit_test(faces_rub),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,148 @@
+/* Materials: elastic constants against uniaxial tension, wave speeds, the bilinear curve; micro-moduli and critical
+ * stretches against integrals over the horizon. */
+#include <math.h>
+
+#include "bonds/family.h"
+#include "data/material.h"
+#include "tests/support/near.h"
+
+enum { SPACES = 4 };
+static const enum space spaces[SPACES] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
+
+static struct material made(enum space space, real poisson)
+{
+    struct material m = {.young = 7.3e9, .poisson = poisson, .density = 2300, .energy_release_rate = 37,
+                         .yield_stress = 3.1e6, .yield_tangent = 1.7e9};
+    material_derive(&m, space);
+    return m;
+}
+
+/* Tension along x with free sides: in the plane of a plate and in space E and nu themselves, in plane strain E/(1 -
+ * nu^2) and nu/(1 - nu); a shear of G = E/(2 (1 + nu)); waves by c11 and G; the Rayleigh speed of nu = 1/4 in space and
+ * in plane strain: c_R^2/c_s^2 = 2 - 2/sqrt(3). */
+static void elastic_constants(void **state)
+{
+    (void)state;
+    const real nu = 0.25, E = 7.3e9, G = E / (2 * (1 + nu));
+    for (int k = 0; k < SPACES; k++) {
+        const struct material m = made(spaces[k], nu);
+        const int dim = space_dim(spaces[k]);
+        const bool strain = spaces[k] == SPACE_PLANE_STRAIN;
+        const real young = strain ? E / (1 - nu * nu) : E, poisson = dim == 1 ? 0 : strain ? nu / (1 - nu) : nu;
+        assert_close(m.c11 - (dim - 1) * m.c12 * poisson, young, 1e-12);
+        assert_near(m.c12 - poisson * (m.c11 + (dim - 2) * m.c12), 0, dim > 1 ? 1e-12 * E : 0);
+        assert_close(square(m.wave_speed) * 2300, m.c11, 1e-12);
+        assert_close(m.bulk * dim, m.c11 + (dim - 1) * m.c12, 1e-12);
+        if (dim == 1) continue;
+        assert_close(m.shear, G, 1e-12);
+        assert_close(square(m.shear_speed) * 2300, G, 1e-12);
+        if (spaces[k] == SPACE_PLANE_STRESS) continue;
+        assert_close(square(m.rayleigh_speed / m.shear_speed), 2 - 2 / sqrt(3), 1e-9);
+    }
+}
+
+/* E up to the yield stress, E_t behind it; the plastic modulus H adds to E in series. */
+static void bilinear_curve(void **state)
+{
+    (void)state;
+    const struct material m = made(SPACE_LINE, 0);
+    const real yield = 3.1e6 / 7.3e9;
+    assert_close(material_stress_at(&m, 0.6 * yield), 0.6 * 3.1e6, 1e-12);
+    assert_close(material_stress_at(&m, yield), 3.1e6, 1e-12);
+    assert_close(material_stress_at(&m, yield + 2e-4), 3.1e6 + 1.7e9 * 2e-4, 1e-12);
+    assert_close(1 / m.yield_hardening + 1 / 7.3e9, 1 / 1.7e9, 1e-12);
+}
+
+/* ---- integrals over the horizon ---------------------------------------------------------------------------------- */
+
+enum { PIECES = 400 };
+#define HORIZON 0.031
+static const real pi = 3.14159265358979323846;
+
+/* Volume of a shell of radius r within a line of the section, a plane of the thickness, or space, per radius [m^2]. */
+static real shell(int dim, real r, real section)
+{
+    return dim == 1 ? 2 * section : dim == 2 ? 2 * pi * r * section : 4 * pi * r * r;
+}
+
+/* The energy per volume of all bonds under a uniform expansion s, 1/2 integral of c s^2 r/2 dV, is that of the material
+ * with the ratio of bonds: E s^2/2, 2 k2 s^2, 9/2 K s^2. */
+static void micro_modulus(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SPACES; k++) {
+        const int dim = space_dim(spaces[k]);
+        const real section = dim == 1 ? 4e-5 : 0.37, s = 1.3e-4;
+        const struct material m = made(spaces[k], dim == 1 ? 0 : material_bond_poisson(spaces[k]));
+        const real c = material_micro_modulus_continuum(&m, spaces[k], HORIZON, section);
+        real energy = 0, sigma = 0;
+        for (int p = 0; p < PIECES; p++) {
+            const real r = (p + 0.5) * HORIZON / PIECES, dV = shell(dim, r, section) * HORIZON / PIECES;
+            energy += 0.25 * c * s * s * r * dV, sigma += r * dV;
+        }
+        assert_close(energy, 0.5 * dim * dim * m.bulk * s * s, 1e-4);
+        assert_close(material_micro_modulus(&m, spaces[k], sigma), c, 1e-4);
+    }
+}
+
+/* Energy of all bonds across a unit area at the critical stretch, integral over the height z above it and bonds of
+ * length r beyond acos(z/r): G_c = integral 1/2 c s^2 r (share of the shell beyond z) dz dV. */
+static void critical_stretch(void **state)
+{
+    (void)state;
+    for (int k = 0; k < SPACES; k++) {
+        const int dim = space_dim(spaces[k]);
+        const real section = dim == 1 ? 4e-5 : 0.37;
+        const struct material m = made(spaces[k], dim == 1 ? 0 : material_bond_poisson(spaces[k]));
+        const real s = material_critical_stretch(&m, spaces[k], HORIZON, STRETCH_BOND);
+        const real c = material_micro_modulus_continuum(&m, spaces[k], HORIZON, section);
+        real energy = 0;
+        for (int p = 0; p < PIECES; p++)
+            for (int q = 0; q < PIECES; q++) {
+                const real r = (p + 0.5) * HORIZON / PIECES, z = (q + 0.5) * r / PIECES;
+                const real beyond = dim == 1 ? 0.5 : dim == 2 ? acos(z / r) / pi : 0.5 * (1 - z / r);
+                energy += 0.5 * c * s * s * r * beyond * shell(dim, r, section) * HORIZON / PIECES * r / PIECES;
+            }
+        assert_close(energy, 37, 1e-3);                  /* roots at the ends of acos, 400 pieces */
+    }
+}
+
+/* Ordinary state-based: Madenci & Oterkus 2014, sections 6.2 and 6.3, with their numbers. */
+static void critical_stretch_of_states(void **state)
+{
+    (void)state;
+    const struct material plate = made(SPACE_PLANE_STRESS, 0.21), solid = made(SPACE_SOLID, 0.21);
+    const real G = 7.3e9 / 2.42, k2 = 7.3e9 / (2 * (1 - 0.21)), K = 7.3e9 / (3 * (1 - 0.42));
+    assert_close(material_critical_stretch(&plate, SPACE_PLANE_STRESS, HORIZON, STRETCH_OSPD),
+                 sqrt(37 / ((1.909859317 * G + 0.1801265486 * (k2 - 2 * G)) * HORIZON)), 1e-8);
+    assert_close(material_critical_stretch(&solid, SPACE_SOLID, HORIZON, STRETCH_OSPD),
+                 sqrt(37 / ((3 * G + 0.31640625 * (K - 5 * G / 3)) * HORIZON)), 1e-8);
+}
+
+/* Influence functions at two distances, and the horizon that covers whole neighbours and a half. */
+static void families(void **state)
+{
+    (void)state;
+    const real h = 1.3e-3, delta = 3.015 * h, xi[] = {2 * h, h, 0}, r = sqrt(5) * h;
+    const real wanted[] = {1, exp(-5 / square(3.015)), 3.015 / sqrt(5), square(3.015) / 5, 1 - sqrt(5) / 4.015};
+    for (int k = INFLUENCE_ONE; k <= INFLUENCE_LINEAR; k++) {
+        struct family f = {.influence = (enum influence)k};
+        family_make(&f, SPACE_PLANE_STRESS, h, 3.015, 0.37);
+        assert_close(f.horizon, delta, 1e-12);
+        assert_close(f.cell_volume, h * h * 0.37, 1e-12);
+        assert_close(family_weight(&f, xi, r), wanted[k], 1e-9);
+    }
+    struct family f = {.calibration = CALIBRATION_VMPD};
+    family_make(&f, SPACE_LINE, h, 3, 4e-5);
+    assert_close(f.horizon, 3.5 * h, 1e-12);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(elastic_constants), cmocka_unit_test(bilinear_curve),
+        cmocka_unit_test(micro_modulus),     cmocka_unit_test(critical_stretch),
+        cmocka_unit_test(critical_stretch_of_states), cmocka_unit_test(families),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
