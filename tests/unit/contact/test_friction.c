@@ -1,5 +1,5 @@
-/* The spring of friction against Coulomb's law and its energies; forces of rigid bodies as the gradient of their energy,
- * with their moment. */
+/* The spring of friction against Coulomb's law and its energies; forces and moments of rigid bodies as the gradient of
+ * their energy. */
 #include <math.h>
 #include <string.h>
 

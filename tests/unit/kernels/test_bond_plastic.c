@@ -93,7 +93,7 @@ static void test_broken(void **state)
     const real work = scale * path * (YIELD + 0.5 * HARDENING * path);
     assert_close(bond_plastic_work(&c.bonds), work, 1e-9);
     c.limit[0] = 2.9 * YIELD;
-    assert_int_equal(bond_force_table[1][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit, NULL), 2);
+    assert_int_equal(bond_break_row_block(&c.bonds, &c.p, &c.source.limit, 0), 2);
     assert_close(bond_plastic_work(&c.bonds), work, 1e-9);
     cloud_free(&c);
 }
@@ -238,8 +238,8 @@ static void test_taken_over(void **state)
     cloud_free(&c);
 }
 
-/* In the plane, of points with different stresses and plastic strains: a bond takes over what stretch is left beyond the
- * mean of both elastic strains along it, by Hooke's law of plane stress, and the mean of both plastic strains. */
+/* In the plane, points with different stresses and plastic strains: the plastic stretch of a bond is its stretch less the
+ * mean of both elastic strains along it, by Hooke's law of plane stress; its path is the mean of both plastic strains. */
 static void test_taken_over_in_the_plane(void **state)
 {
     (void)state;
@@ -276,7 +276,8 @@ static void test_taken_over_in_the_plane(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_path), cmocka_unit_test(test_work), cmocka_unit_test(test_broken), cmocka_unit_test(test_lanes),
+        cmocka_unit_test(test_path), cmocka_unit_test(test_work), cmocka_unit_test(test_broken),
+        cmocka_unit_test(test_lanes),
         cmocka_unit_test(test_ends), cmocka_unit_test(test_taken_over),
         cmocka_unit_test(test_taken_over_in_the_plane)};
     int failures = 0;
