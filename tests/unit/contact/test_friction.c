@@ -187,11 +187,39 @@ static void faces_rub(void **state)
     body_end(e, &s);
 }
 
+/* Faces of particles of different sizes: W = (1 - q)^4 (1 + 4 q) at q = r/(2 D), times D_l/D in the plane, D the mean of
+ * both sizes and D_l that of the particle that is felt. */
+static void weights_of_sizes(void **state)
+{
+    (void)state;
+    struct scene s;
+    struct engine *e = body_begin(&s, blocks);
+    struct particles *p = &e->part;
+    struct contact *c = &e->contact;
+    int tried = 0;
+    for (int64_t i = 0; i < p->n; i++)
+        if (p->body[i] == 1) p->volume0[i] *= square(1.3);
+    c->due = true;
+    look(e);
+    for (int64_t row = 0; row < c->rows; row++)
+        for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
+            const int32_t i = c->particle[row], l = c->other[q], j = c->particle[l];
+            const real own = p->body[i] == 1 ? 1.3e-3 : 1e-3, felt = p->body[j] == 1 ? 1.3e-3 : 1e-3;
+            const real mean = 0.5 * (own + felt), r = hypot(p->x[0][i] - p->x[0][j], p->x[1][i] - p->x[1][j]);
+            const real z = r / (2 * mean), W = z < 1 ? square(square(1 - z)) * (1 + 4 * z) : 0;
+            assert_near(contact_weight(c, p, row, l).weight, felt / mean * W, 1e-9);
+            tried += own != felt && W > 0;
+        }
+    assert_true(tried > 10);
+    body_end(e, &s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spring_of_coulomb), cmocka_unit_test(spring_follows_its_face),
         cmocka_unit_test(rigid_force_is_a_gradient), cmocka_unit_test(rigid_moment), cmocka_unit_test(faces_rub),
+        cmocka_unit_test(weights_of_sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
