@@ -187,8 +187,8 @@ static void faces_rub(void **state)
     body_end(e, &s);
 }
 
-/* Faces of particles of different sizes: W = (1 - q)^4 (1 + 4 q) at q = r/(2 D), times D_l/D in the plane, D the mean of
- * both sizes and D_l that of the particle that is felt. */
+/* Faces of particles of different sizes: W = (1 - q)^4 (1 + 4 q) at q = r/(2 D), times D_l/D in the plane. D: the mean
+ * of both sizes; D_l: the size of the other particle. */
 static void weights_of_sizes(void **state)
 {
     (void)state;

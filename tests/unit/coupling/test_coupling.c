@@ -256,8 +256,12 @@ static void test_energy_in_run(void **state)
         set_stress(&c, strain, stress);
         real particle = 0.5 * c.material[0].young * square(STRAIN) * p->volume0[0], energy = energy_of(&c, &partial);
         cloud_copy(&before, p, 0);
+        const struct conversion_rule by_breaks = {
+            .criteria = CONVERT_ON_BREAK, .stress = NAN, .alpha = 1, .block = true};
         assert_int_equal(convert(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 0);
         p->flag[15] |= FLAG_STRESSED;
+        assert_int_equal(convert(&conversion, &by_breaks, p, &c.bonds, &c.source, NULL, NULL, 2e-6), 0);
+        p->flag[15] |= FLAG_STRESSED;                    /* it has been cleared */
         assert_int_equal(convert(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 7);
         for (int64_t i = 0; i < p->n; i++) assert_int_equal(p->kind[i], i >= 12 && i <= 18 ? KIND_PD : KIND_MPM);
         assert_int_equal(p->flag[15], 0);

@@ -248,6 +248,17 @@ static void test_dwell_and_gap(void **state)
         assert_int_equal(n, t == 0 ? 0 : t < 4 ? 53 : 60);       /* three on either side stay with it */
         memory_free(list);
     }
+    /* at the end of the bar, where a family is half of a whole one, so much of the stress counts as twice as much */
+    setting_never(&s);
+    for (int k = 0; k < 2; k++) {
+        p->stress[0][30] = 0, p->stress[0][0] = (k ? 0.24 : 0.3) * s.elastic[0].trigger;
+        for (int t = 6; t < 8; t++) {
+            const int64_t n = reversion_choose(&s.rule, p, &s.c.bonds, t + 2 * k, &list);
+            assert_int_equal(n, t == 6 ? (k ? 56 : 0) : k ? 60 : 56);
+            memory_free(list);
+        }
+    }
+    p->stress[0][0] = 0;
     /* between 20 and 34 thirteen particles of which seven stand clear of both: a whole ball; between 20 and 33 there
      * is none */
     for (int gap = 13; gap >= 12; gap--) {

@@ -238,8 +238,9 @@ static void test_taken_over(void **state)
     cloud_free(&c);
 }
 
-/* In the plane, points with different stresses and plastic strains: the plastic stretch of a bond is its stretch less the
- * mean of both elastic strains along it, by Hooke's law of plane stress; its path is the mean of both plastic strains. */
+/* In the plane, points with different stresses and plastic strains: the plastic stretch of a bond is its stretch less
+ * the mean of both elastic strains along it, by Hooke's law of plane stress; its path is the mean of both plastic
+ * strains. */
 static void test_taken_over_in_the_plane(void **state)
 {
     (void)state;

@@ -218,6 +218,31 @@ static void test_mean_displacement(void **state)
     cloud_free(&c);
 }
 
+/* The force of a load at a time: its value, function and formula of time, and the volume of the particle. */
+static void test_force_at(void **state)
+{
+    (void)state;
+    const struct expression_step step[] = {{EXPRESSION_X, 0}, {EXPRESSION_T, 0}, {EXPRESSION_TIMES, 0}};
+    struct boundary push = {.name = "push", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {2e6, -3e6},
+                            .time = {.kind = TIME_RAMP, .until = 4}};
+    struct cloud c;
+    struct loads l;
+    expression_make(&push.formula[0], step, 3, "x*t");
+    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {3, 4}, .horizon = 3});
+    even_volumes(&c.p);
+    assert_ok(loads_make(&l, &push, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
+    for (int64_t k = 0; k < l.load[0].n; k++) {
+        const real volume = square(CLOUD_SPACING) * 2e-3, x = c.p.X[0][l.load[0].particle[k]];
+        real force[DIM_MAX];
+        load_force_at(&l.load[0], &c.p, k, 1.3, force);
+        assert_close(force[0], 1.3 / 4 * 2e6 * volume * x * 1.3, 1e-12);
+        assert_close(force[1], 1.3 / 4 * -3e6 * volume, 1e-12);
+    }
+    loads_free(&l);
+    cloud_free(&c);
+    expression_free(&push.formula[0]);
+}
+
 /* What turns a body that nothing holds is met by its inertia: no moment is left, nor does a force come in. */
 static void test_relief(void **state)
 {
@@ -248,7 +273,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_sine), cmocka_unit_test(test_kicks),
                                        cmocka_unit_test(test_together), cmocka_unit_test(test_traction),
-                                       cmocka_unit_test(test_relief), cmocka_unit_test(test_mean_displacement)};
+                                       cmocka_unit_test(test_relief), cmocka_unit_test(test_mean_displacement),
+                                       cmocka_unit_test(test_force_at)};
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
