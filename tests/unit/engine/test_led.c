@@ -1,6 +1,5 @@
 /* Load steps in which cracks are led: the kink of an inclined crack, the path from a notch in a beam; in space what
- * does not depend on where the axes point, areas and energies of fronts askew, the kink of a crack through a plate, the
- * factors of given displacements by the thickness. */
+ * does not depend on where the axes point, areas and energies of fronts askew, the kink of a crack through a plate. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,7 +12,6 @@
 #include "bench/common/handbook.h"
 #include "engine/engine.h"
 #include "fracture/sif_fields.h"
-#include "src/engine/engine_statics.h"
 
 static const real degree = 3.14159265358979323846 / 180;
 
@@ -209,71 +207,9 @@ static void test_kink_through(void **state)
     solution_free(&a);
 }
 
-/* ---- the plane state in space ------------------------------------------------------------------------------------ */
-
-/* Gives all particles the displacements of the crack-tip field with the factors K [Pa m^(1/2)] about the tip, for the
- * plane state `space`. */
-static void field_set(struct engine *e, const struct led_tip *tip, enum space space, const real K[MODES])
-{
-    struct particles *p = &e->part;
-    struct material m = e->scene->material[0];
-    material_derive(&m, space);
-    const struct crack_medium medium = crack_medium_of(&m, space);
-    const real *a = tip->along;
-    for (int64_t i = 0; i < p->n; i++) {
-        real X[2], u[2] = {0, 0};
-        led_project_particle(e, i, X);
-        for (int d = 0; d < 2; d++) X[d] -= tip->place[d];
-        for (int mode = 0; mode < MODES; mode++) {
-            struct crack_field f;
-            crack_field_at_rest(&medium, mode, (real[]){a[0] * X[0] + a[1] * X[1], a[0] * X[1] - a[1] * X[0]}, &f);
-            u[0] += K[mode] * (a[0] * f.displacement[0] - a[1] * f.displacement[1]);
-            u[1] += K[mode] * (a[1] * f.displacement[0] + a[0] * f.displacement[1]);
-        }
-        for (int d = 0; d < 3; d++)
-            p->x[d][i] = p->X[d][i] + u[0] * e->statics.led.plane.axis[0][d] + u[1] * e->statics.led.plane.axis[1][d];
-    }
-}
-
-/* Displacements of plane stress in a plate thinner than the diameter of the ring of the fit, and of plane strain in a
- * thicker one, give back the factors that made them. The other plane state would give factors 7 % off. */
-static void test_plane_state(void **state)
-{
-    static char text[1000];
-    static const int thickness[] = {4, 15};              /* the ring has a mean radius of 5 spacings */
-    const real K[MODES] = {2.1e5, -0.9e5};
-    (void)state;
-    for (int k = 0; k < 2; k++) {
-        struct solution a;
-        real found[MODES];
-        memset(&a, 0, sizeof a);
-        snprintf(text, sizeof text,
-                 "space: solid\nduration: 1 s\nmethod: pd\nsolver: static\n"
-                 "steps: {number: 3, control: energy, path: hoop}\n"
-                 "material: {young: 3 GPa, poisson: 1/4, density: 1180 kg/m^3, energy_release_rate: 300 J/m^2}\n"
-                 "body: {box: {from: [0, -8 mm, 0], to: [18 mm, 8 mm, %d mm]}}\n"
-                 "particles: {spacing: 1 mm, horizon: 3.015}\n"
-                 "cracks:\n  - {polygon: [[-1 mm, 0, -1 mm], [7 mm, 0, -1 mm], [7 mm, 0, %d mm], [-1 mm, 0, %d mm]]}\n"
-                 "boundary:\n  - {displacement: [0, 0.1 mm, 0], face: y+, time: {ramp: {until: 1 s}}}\n"
-                 "  - {fixed: all, face: y-}\n", thickness[k], thickness[k] + 1, thickness[k] + 1);
-        if (scene_read_text(&a.s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-        a.e.report.quiet = true;
-        if (engine_make(&a.e, &a.s, NULL) != OK) fail_msg("%s", status_message());
-        assert_true(led_leads(&a.e));
-        assert_int_equal(a.e.statics.led.n, 1);
-        const struct led_tip *tip = &a.e.statics.led.tip[0];
-        field_set(&a.e, tip, k == 0 ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN, K);
-        assert_true(led_measure(&a.e, tip, found));
-        for (int mode = 0; mode < MODES; mode++)         /* round-off, and equations of nine terms */
-            if (!(fabs(found[mode] / K[mode] - 1) < 1e-4)) fail_msg("%d mm: K %g", thickness[k], found[mode]);
-        solution_free(&a);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_kink), cmocka_unit_test(test_bend),
-                                       cmocka_unit_test(test_fronts), cmocka_unit_test(test_kink_through),
-                                       cmocka_unit_test(test_plane_state)};
+                                       cmocka_unit_test(test_fronts), cmocka_unit_test(test_kink_through)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,121 @@
+/* The plane of SIF-driven cracks: factors of given displacements by the thickness of a body in space, areas of faces
+ * beside planes of symmetry. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "auto/scene_read.h"
+#include "engine/engine.h"
+#include "fracture/sif_fields.h"
+#include "src/engine/engine_statics.h"
+
+struct solution {
+    struct scene s;
+    struct engine e;
+};
+
+/* Makes the engine of a scene and finds its crack tips, of which there is one. */
+static const struct led_tip *solution_begin(struct solution *a, const char *text)
+{
+    memset(a, 0, sizeof *a);
+    if (scene_read_text(&a->s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    a->e.report.quiet = true;
+    if (engine_make(&a->e, &a->s, NULL) != OK) fail_msg("%s", status_message());
+    assert_true(led_leads(&a->e));
+    assert_int_equal(a->e.statics.led.n, 1);
+    return &a->e.statics.led.tip[0];
+}
+
+static void solution_free(struct solution *a)
+{
+    engine_free(&a->e);
+    scene_free(&a->s);
+}
+
+/* Gives all particles the displacements of the crack-tip field with the factors K [Pa m^(1/2)] about the tip, for the
+ * plane state `space`. */
+static void field_set(struct engine *e, const struct led_tip *tip, enum space space, const real K[MODES])
+{
+    struct particles *p = &e->part;
+    struct material m = e->scene->material[0];
+    material_derive(&m, space);
+    const struct crack_medium medium = crack_medium_of(&m, space);
+    const real *a = tip->along;
+    for (int64_t i = 0; i < p->n; i++) {
+        real X[2], u[2] = {0, 0};
+        led_project_particle(e, i, X);
+        for (int d = 0; d < 2; d++) X[d] -= tip->place[d];
+        for (int mode = 0; mode < MODES; mode++) {
+            struct crack_field f;
+            crack_field_at_rest(&medium, mode, (real[]){a[0] * X[0] + a[1] * X[1], a[0] * X[1] - a[1] * X[0]}, &f);
+            u[0] += K[mode] * (a[0] * f.displacement[0] - a[1] * f.displacement[1]);
+            u[1] += K[mode] * (a[1] * f.displacement[0] + a[0] * f.displacement[1]);
+        }
+        for (int d = 0; d < 3; d++)
+            p->x[d][i] = p->X[d][i] + u[0] * e->statics.led.plane.axis[0][d] + u[1] * e->statics.led.plane.axis[1][d];
+    }
+}
+
+/* Displacements of plane stress in a plate thinner than the diameter of the ring of the fit, and of plane strain in a
+ * thicker one, give back the factors that made them. The other plane state would give factors 7 % off. */
+static void test_plane_state(void **state)
+{
+    static char text[1000];
+    static const int thickness[] = {4, 15};              /* the ring has a mean radius of 5 spacings */
+    const real K[MODES] = {2.1e5, -0.9e5};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct solution a;
+        real found[MODES];
+        snprintf(text, sizeof text,
+                 "space: solid\nduration: 1 s\nmethod: pd\nsolver: static\n"
+                 "steps: {number: 3, control: energy, path: hoop}\n"
+                 "material: {young: 3 GPa, poisson: 1/4, density: 1180 kg/m^3, energy_release_rate: 300 J/m^2}\n"
+                 "body: {box: {from: [0, -8 mm, 0], to: [18 mm, 8 mm, %d mm]}}\n"
+                 "particles: {spacing: 1 mm, horizon: 3.015}\n"
+                 "cracks:\n  - {polygon: [[-1 mm, 0, -1 mm], [7 mm, 0, -1 mm], [7 mm, 0, %d mm], [-1 mm, 0, %d mm]]}\n"
+                 "boundary:\n  - {displacement: [0, 0.1 mm, 0], face: y+, time: {ramp: {until: 1 s}}}\n"
+                 "  - {fixed: all, face: y-}\n", thickness[k], thickness[k] + 1, thickness[k] + 1);
+        const struct led_tip *tip = solution_begin(&a, text);
+        field_set(&a.e, tip, k == 0 ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN, K);
+        assert_true(led_measure(&a.e, tip, found));
+        for (int mode = 0; mode < MODES; mode++)         /* round-off, and equations of nine terms */
+            if (!(fabs(found[mode] / K[mode] - 1) < 1e-4)) fail_msg("%d mm: K %g", thickness[k], found[mode]);
+        solution_free(&a);
+    }
+}
+
+/* A crack along a plane of symmetry has one of its faces in the body: half of the area of its length, as wide as the
+ * plate is thick. */
+static void test_face_area(void **state)
+{
+    static const char half[] =
+        "space: plane strain\nthickness: 0.37 mm\nduration: 1 s\nmethod: pd\nsolver: static\n"
+        "steps: {number: 3, control: energy}\n"
+        "material: {young: 3 GPa, poisson: 1/4, density: 1180 kg/m^3, energy_release_rate: 300 J/m^2}\n"
+        "body: {box: {from: [0, 0], to: [20 mm, 8 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"
+        "cracks: [{from: [-1 mm, %g mm], to: [7 mm, %g mm]}]\n"
+        "boundary: [{mirror: {axis: y, at: 0}}, {traction: [0, 1 MPa], face: y+, time: {ramp: {until: 1 s}}}]\n";
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        char text[1000];
+        struct solution a;
+        real ahead[2];
+        snprintf(text, sizeof text, half, k ? 4.0 : 0.0, k ? 4.0 : 0.0);
+        const struct led_tip *tip = solution_begin(&a, text);
+        led_ahead(tip->place, 2.3e-3, tip->last, ahead);
+        const real area = led_face_area(&a.e, tip->place, ahead), whole = 2.3e-3 * 0.37e-3;
+        if (!(fabs(area / (k ? whole : 0.5 * whole) - 1) < 1e-9)) fail_msg("crack %d: %g of its area", k, area / whole);
+        solution_free(&a);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_plane_state), cmocka_unit_test(test_face_area)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
