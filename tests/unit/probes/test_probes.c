@@ -156,6 +156,84 @@ static void probe_of_a_support(void **state)
     body_free(&b);
 }
 
+/* Boundaries of one name: their forces add up, their displacement is the mean over all particles. */
+static void probe_of_two_supports(void **state)
+{
+    (void)state;
+    struct body b;
+    struct probes s;
+    body_make(&b, 2, (const int[]){4, 4});
+    struct boundary grip[] = {{.name = "grip", .kind = BOUNDARY_VELOCITY}, {.name = "grip", .kind = BOUNDARY_VELOCITY}};
+    struct load load[] = {{.boundary = &grip[0], .n = 3, .reaction = {5, -1}, .displacement = {0.4, 0.1}},
+                          {.boundary = &grip[1], .n = 5, .reaction = {-2, 4}, .displacement = {-0.2, 0.3}}};
+    struct loads loads = {.n = 2, .load = load};
+    struct observed o = seen(&b);
+    o.loads = &loads;
+    struct probe_request request = {.name = "r", .kind = PROBE_REACTION, .boundary = "grip"};
+    assert_ok(probes_make(&s, &request, 1, &o));
+    probes_step(&s, &o);
+    probes_sample(&s, &o);
+    assert_near(s.value[column_named(&s, "r.force_x")], 3, ROUND_OFF);
+    assert_near(s.value[column_named(&s, "r.force_y")], 3, ROUND_OFF);
+    assert_near(s.value[column_named(&s, "r.displacement_x")], (3 * 0.4 - 5 * 0.2) / 8, ROUND_OFF);
+    assert_near(s.value[column_named(&s, "r.displacement_y")], (3 * 0.1 + 5 * 0.3) / 8, ROUND_OFF);
+    probes_free(&s);
+    body_free(&b);
+}
+
+/* The reflected part of a pulse is what moves behind the interface and does not in the run without it. */
+static void probe_of_a_pulse(void **state)
+{
+    (void)state;
+    struct body b;
+    struct probes s;
+    struct figure_list l = {0};
+    real still[20] = {0};
+    struct baseline baseline = {.v = {still}, .energy_change = 0.01};
+    body_make(&b, 1, (const int[]){20});
+    struct observed o = seen(&b);
+    struct probe_request request = {.name = "pulse", .kind = PROBE_PULSE, .at = {12}, .direction = {2}};
+    b.p.v[0][4] = 0.8;
+    assert_ok(probes_make(&s, &request, 1, &o));
+    b.p.v[0][4] = 0, b.p.v[0][3] = -0.12, b.p.v[0][15] = 0.6, still[3] = -0.03, still[15] = 0.7;
+    o.baseline = &baseline, o.energy_change = 0.03;
+    probes_figures(&s, &o, figure_keep, &l);
+    assert_near(figure(&l, "pulse", "reflected"), 0.09 / 0.8, ROUND_OFF);
+    assert_near(figure(&l, "pulse", "transmitted"), 0.6 / 0.8, ROUND_OFF);
+    assert_near(figure(&l, "pulse", "energy_change"), 0.02, ROUND_OFF);
+    probes_free(&s);
+    body_free(&b);
+}
+
+/* The largest stress of a turning body in plane strain may be that across the plane; shear is that in it. */
+static void probe_of_a_turning_body(void **state)
+{
+    (void)state;
+    struct body b;
+    struct probes s;
+    struct material m = steel(SPACE_PLANE_STRAIN);
+    body_make(&b, 2, (const int[]){3, 3});
+    struct observed o = seen(&b);
+    b.p.plane_strain = &m, b.p.out_of_plane = NEW("test.across", b.p.n, real);
+    for (int64_t i = 0; i < b.p.n; i++) b.p.v[0][i] = 1.5 - b.p.X[1][i], b.p.v[1][i] = b.p.X[0][i] - 1.5;
+    struct probe_request request = {.name = "turn", .kind = PROBE_RIGID};
+    assert_ok(probes_make(&s, &request, 1, &o));
+    b.p.stress[0][4] = 3, b.p.stress[1][4] = 1, b.p.stress[2][4] = 2, b.p.out_of_plane[7] = -9;
+    for (int64_t i = 0; i < b.p.n; i++) {
+        const real x = b.p.X[0][i] - 1.5, y = b.p.X[1][i] - 1.5, c = cos(0.3), n = sin(0.3);
+        b.p.x[0][i] = 1.5 + c * x - n * y, b.p.x[1][i] = 1.5 + n * x + c * y;
+        b.p.v[0][i] = -1.1 * (b.p.x[1][i] - 1.5), b.p.v[1][i] = 1.1 * (b.p.x[0][i] - 1.5);
+    }
+    probes_sample(&s, &o);
+    assert_near(s.value[column_named(&s, "turn.angle")], 0.3, 1e-12);
+    assert_near(s.value[column_named(&s, "turn.stress_max")], 9, ROUND_OFF);
+    assert_near(s.value[column_named(&s, "turn.shear_max")], sqrt(5), ROUND_OFF);
+    assert_near(s.value[column_named(&s, "turn.angular_momentum_error")], 0.1, 1e-12);
+    assert_near(s.value[column_named(&s, "turn.kinetic_energy_error")], 0.21, 1e-12);
+    probes_free(&s);
+    body_free(&b);
+}
+
 static void probe_of_a_tip(void **state)
 {
     (void)state;
@@ -382,6 +460,9 @@ int main(void)
         cmocka_unit_test(probes_read_particles_and_regions),
         cmocka_unit_test(probes_refuse_what_is_not_there),
         cmocka_unit_test(probe_of_a_support),
+        cmocka_unit_test(probe_of_two_supports),
+        cmocka_unit_test(probe_of_a_pulse),
+        cmocka_unit_test(probe_of_a_turning_body),
         cmocka_unit_test(probe_of_a_tip),
         cmocka_unit_test(probe_of_a_spall),
         cmocka_unit_test(probe_of_a_spall_knows_the_grid),
