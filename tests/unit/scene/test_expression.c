@@ -49,6 +49,7 @@ static status compile(struct expression *e, const char *text, enum unit unit)
     F(UNIT_LENGTH, "max(x - 5 mm, 0)", fmax(x - 5e-3, 0))                                                              \
     F(UNIT_NONE, "step(t - 3 us) - step(x - 1 m)", (t >= 3e-6) - (x >= 1.))                                            \
     F(UNIT_NONE, "sign(x - 5 mm)", (x > 5e-3) - (x < 5e-3))                                                            \
+    F(UNIT_NONE, "step(y - y) + 10*sign(y - y) + 100*ramp((y - y)/m)", 1.)                                             \
     F(UNIT_NONE, "ramp(t/5us) + ramp(x/m - 1) + ramp(2)", RAMP(t / 5e-6) + RAMP(x - 1) + 1)                            \
     F(UNIT_NONE, "pulse(t/20us)", sin(PI * t / 20e-6) * sin(PI * t / 20e-6))                                           \
     F(UNIT_NONE, "pulse(-0.5) + pulse(1.5)", 0.)                                                                       \

@@ -3,6 +3,7 @@
 
 #include <omp.h>
 
+#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "tests/support/setting.h"
 
@@ -326,6 +327,43 @@ static void bad_bodies_are_refused(void **state)
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "no bodies");
 }
 
+/* A pulse along and across its direction: velocity by its form, displacement by its integral; the stress on planes
+ * across the direction is -rho c v, c of longitudinal or shear waves; longitudinal ones change the volume by -v/c. */
+static void pulses_are_waves(void **state)
+{
+    (void)state;
+    static const char *const across[] = {"", ", polarisation: [-4, 3]"};
+    const real E = 3e9, nu = 0.3, rho = 1180, n[] = {0.6, 0.8};
+    for (int k = 0; k < 2; k++) {
+        char text[600];
+        struct scene s;
+        struct particles p;
+        snprintf(text, sizeof text,
+                 "space: plane strain\nthickness: 0.37 m\nduration: 1 us\nmethod: mpm\n"
+                 "material: {young: 3 GPa, poisson: 0.3, density: 1180}\n"
+                 "body: {box: {from: [0, 0], to: [8 mm, 6 mm]}}\nparticles: {spacing: 1 mm}\n"
+                 "initial: [{pulse: {at: [3 mm, 2 mm], direction: [3, 4], width: 9 mm, velocity: 2 m/s%s}}]\n",
+                 across[k]);
+        if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+        assert_ok(fill_particles(&p, &s, NULL, EVERYTHING));
+        const real c = sqrt((k ? 0.5 / (1 + nu) : (1 - nu) / ((1 + nu) * (1 - 2 * nu))) * E / rho);
+        const real along[] = {k ? -0.8 : 0.6, k ? 0.6 : 0.8};
+        for (int64_t i = 0; i < p.n; i++) {
+            const real xi = (n[0] * (p.X[0][i] - 3e-3) + n[1] * (p.X[1][i] - 2e-3)) / 2.25e-3, v = 2 * exp(-xi * xi);
+            const real xx = p.stress[0][i], yy = p.stress[1][i], xy = p.stress[2][i];
+            const real traction[] = {xx * n[0] + xy * n[1], xy * n[0] + yy * n[1]};
+            for (int d = 0; d < 2; d++) {
+                assert_near(p.v[d][i], v * along[d], 1e-12);
+                assert_near(traction[d], -rho * c * v * along[d], 1e-9 * rho * c);
+                assert_near(p.x[d][i] - p.X[d][i], 2 / c * 2.25e-3 * 0.5 * sqrt(M_PI) * erfc(xi) * along[d], 1e-15);
+            }
+            assert_near(p.volume[i] / p.volume0[i] - 1, k ? 0 : -v / c, 1e-15);
+        }
+        particles_free(&p);
+        scene_free(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -339,6 +377,7 @@ int main(void)
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(later_initial_entries_overwrite),
         cmocka_unit_test(initial_strain_is_hooke),
+        cmocka_unit_test(pulses_are_waves),
         cmocka_unit_test(bad_bodies_are_refused),
     };
     omp_set_num_threads(2);
