@@ -306,6 +306,8 @@ static void abaqus_decks(void **state)
     assert_close(g.whole.node[0].high[0], 5, 1e-12);
     assert_close(g.whole.node[0].high[1], 1, 1e-12);
     assert_close(geometry_find(&g, "low")->hull.volume, 1. / 6, 1e-12);
+    assert_near(hull_distance(&geometry_find(&g, "low")->hull, (real[]){5, 1, 0}, NULL), 0, 1e-12);
+    assert_close(hull_distance(&geometry_find(&g, "low")->hull, (real[]){5, 1.5, 0}, NULL), 0.5, 1e-12);
     assert_close(hull_distance(&geometry_find(&g, "foot")->hull, (real[]){5, 0, 1}, NULL), 2, 1e-12);
     assert_close(hull_distance(&geometry_find(&g, "tip")->hull, (real[]){0, 0, 0}, NULL), 1, 1e-12);
     geometry_free(&g);

@@ -51,6 +51,27 @@ static void lists_of_others_are_read(void **state)
     }
 }
 
+/* Without a spacing in the scene it follows from the mean volume, in a plate by its thickness: particles nearer than a
+ * thousandth of it are refused. */
+static void spacing_of_volumes(void **state)
+{
+    (void)state;
+    static const char text[] = "x,y,volume\n0,0,1e-3\n1,0,1e-3\n%s,0,1e-3\n0,1,1e-3\n";
+    for (int k = 0; k < 2; k++) {
+        struct setting s;
+        struct particles p;
+        char name[] = "volumes.csv", whole[100];
+        setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
+        s.scene.spacing = 0, s.scene.thickness = 1e-3;
+        snprintf(whole, sizeof whole, text, k ? "1.0005" : "1.0015");
+        list_written(&s, name, whole);
+        if (k) assert_refused(fill_particles(&p, &s.scene, NULL, 0), "");
+        else assert_ok(fill_particles(&p, &s.scene, NULL, 0));
+        if (!k) particles_free(&p);
+        remove(name);
+    }
+}
+
 /* Files of ParaView, R, pandas, Peridigm and PeriLab as they are. */
 static void lists_of_programs_are_read(void **state)
 {
@@ -148,6 +169,7 @@ static int leave_columns(void **state) { return chdir("/") != 0 || rmdir(*state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(lists_of_others_are_read),
+                                       cmocka_unit_test(spacing_of_volumes),
                                        cmocka_unit_test(lists_of_programs_are_read),
                                        cmocka_unit_test(volumes_have_a_default),
                                        cmocka_unit_test(mutated_lists_are_bounded)};
