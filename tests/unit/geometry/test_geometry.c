@@ -242,6 +242,19 @@ static void write_changed(const char *name, const char *text, const char *from, 
     write_words(name, changed);
 }
 
+/* A curve and a surface of one tag belong to their own groups. */
+static void gmsh_tags_by_dimension(void **state)
+{
+    size_t length;
+    (void)state;
+    write_changed("e.msh", msh4, "3 0 0 0 1 0 0 1 5 2 1 -2", "9 0 0 0 1 0 0 1 5 2 1 -2");
+    char *text = file_text("e.msh", &length);
+    write_changed("e.msh", text, "1 3 1 1\n1 1 2", "1 9 1 1\n1 1 2");
+    memory_free(text);
+    check_msh4("e.msh");
+    remove("e.msh");
+}
+
 static void bad_gmsh(void **state)
 {
     (void)state;
@@ -432,7 +445,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stl_of_both_forms), cmocka_unit_test(bad_stl),      cmocka_unit_test(gmsh_of_both_versions),
-        cmocka_unit_test(bad_gmsh),          cmocka_unit_test(abaqus_decks), cmocka_unit_test(abaqus_generates),
+        cmocka_unit_test(gmsh_tags_by_dimension), cmocka_unit_test(bad_gmsh),          cmocka_unit_test(abaqus_decks), cmocka_unit_test(abaqus_generates),
         cmocka_unit_test(bad_abaqus),
         cmocka_unit_test(damaged),
     };
