@@ -445,7 +445,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stl_of_both_forms), cmocka_unit_test(bad_stl),      cmocka_unit_test(gmsh_of_both_versions),
-        cmocka_unit_test(gmsh_tags_by_dimension), cmocka_unit_test(bad_gmsh),          cmocka_unit_test(abaqus_decks), cmocka_unit_test(abaqus_generates),
+        cmocka_unit_test(gmsh_tags_by_dimension), cmocka_unit_test(bad_gmsh),
+        cmocka_unit_test(abaqus_decks), cmocka_unit_test(abaqus_generates),
         cmocka_unit_test(bad_abaqus),
         cmocka_unit_test(damaged),
     };
