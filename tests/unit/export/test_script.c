@@ -191,6 +191,7 @@ static void forces(void **state)
         {"ramp: {from: 0.1 us, until: 0.7 us}", 0},
         {"pulse: {from: 0.1 us, until: 0.7 us}", 1},
         {"step: {from: 0.11 us, until: 0.69 us}", 2},
+        {"step: {until: 0.69 us}", 4},
         {"table: [[0.1 us, 0.2], [0.3 us, -1], [0.8 us, 0.5]]", 3}};
     for (size_t k = 0; k < COUNT_OF(f); k++)
         for (int style = 0; style < 2; style++) {
@@ -205,6 +206,7 @@ static void forces(void **state)
                     real value = a <= 0 ? 0 : a >= 1 ? 1 : a;
                     if (f[k].kind == 1) value = a > 0 && a < 1 ? square(sin(3.14159265358979323846 * a)) : 0;
                     if (f[k].kind == 2) value = t >= 1.1e-7 && t < 6.9e-7;
+                    if (f[k].kind == 4) value = t >= 0 && t < 6.9e-7;
                     if (f[k].kind == 3)
                         value = t < 1e-7   ? 0.2
                                 : t < 3e-7 ? 0.2 - 1.2 * (t - 1e-7) / 2e-7
