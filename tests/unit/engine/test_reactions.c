@@ -1,5 +1,5 @@
-/* Load steps: reactions of supports against those of the static solver beside planes of symmetry on which particles lie,
- * and against the loads; the work of loads. */
+/* Load steps: reactions of supports against those of the static solver, beside planes of symmetry on which particles
+ * lie, and against the loads; the work of loads. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
