@@ -1,0 +1,98 @@
+/* The time step: whole numbers of the steps of coarse cells, light particles of lists, bulk damping, a safety of the
+ * scene. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "auto/scene_read.h"
+#include "engine/engine.h"
+#include "tests/support/near.h"
+
+static char folder[] = "/tmp/cleave-step-XXXXXX";
+
+/* The clock of a scene before its first step. */
+static struct run_clock clock_of(const char *text)
+{
+    struct scene s;
+    static struct engine e;
+    memset(&e, 0, sizeof e);
+    if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    e.report.quiet = true;
+    if (engine_make(&e, &s, NULL) != OK) fail_msg("%s", status_message());
+    const struct run_clock clock = e.clock;
+    engine_free(&e);
+    scene_free(&s);
+    return clock;
+}
+
+#define PLATE                                                                                                          \
+    "space: plane stress\nthickness: 0.37 mm\nmaterial: {young: 3 GPa, poisson: 1/3, density: 1180}\n"                 \
+    "body: {box: {from: [0, 0], to: [64 mm, 64 mm]}}\nparticles: {spacing: 1 mm}\n"
+
+/* Cells of level 3 step every eighth time: runs have a multiple of eight steps, and end at their duration. */
+static void levels_divide_the_steps(void **state)
+{
+    (void)state;
+    for (int us = 11; us < 16; us++) {
+        char text[600];
+        snprintf(text, sizeof text, PLATE "duration: %d us\nmethod: mpm\nmpm: {frame: reference, levels: 3}\n", us);
+        const struct run_clock clock = clock_of(text);
+        assert_int_equal(clock.stride, 8);
+        assert_int_equal(clock.steps % 8, 0);
+        assert_close(clock.dt * (real)clock.steps, us * 1e-6, 1e-12);
+        assert_true(clock.dt <= clock.dt_critical);
+    }
+}
+
+/* A quarter of the mass at the same bonds swings twice as fast. */
+static void light_particles_take_short_steps(void **state)
+{
+    (void)state;
+    real critical[2];
+    for (int light = 0; light < 2; light++) {
+        FILE *file = fopen("plate.csv", "w");
+        assert_non_null(file);
+        fputs("x [mm],y [mm],mass [g]\n", file);
+        const real mass = 1180 * 0.37e-9 * 1e3;
+        for (int k = 0; k < 144; k++)
+            fprintf(file, "%d,%d,%.17g\n", k % 12, k / 12, k == 77 && light ? 0.25 * mass : mass);
+        fclose(file);
+        critical[light] = clock_of("space: plane stress\nthickness: 0.37 mm\nduration: 10 us\nmethod: adaptive\n"
+                                   "material: {young: 3 GPa, poisson: 1/3, density: 1180}\n"
+                                   "bodies: [{particles: plate.csv}]\nparticles: {spacing: 1 mm}\n").dt_critical;
+    }
+    remove("plate.csv");
+    assert_close(critical[1], 0.5 * critical[0], 1e-9);
+}
+
+/* The step is a share of the critical one, and half the time of damping at the most. */
+static void safety_and_damping(void **state)
+{
+    (void)state;
+    const struct run_clock plain = clock_of(PLATE "duration: 1 ms\nmethod: mpm\ntime: {safety: 0.37}\n");
+    assert_true(plain.dt <= 0.37 * plain.dt_critical && plain.dt > 0.36 * plain.dt_critical);
+    const struct run_clock damped = clock_of(PLATE "duration: 0.1 ms\nmethod: mpm\ndamping: 7e6 1/s\n");
+    assert_true(damped.dt <= (1 + 1e-9) * 0.5 / 7e6 && damped.dt > 0.49 / 7e6);
+}
+
+static int folder_enter(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) == NULL || chdir(folder) != 0;
+}
+
+static int folder_leave(void **state)
+{
+    (void)state;
+    return chdir("/") || rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(levels_divide_the_steps),
+                                       cmocka_unit_test(light_particles_take_short_steps),
+                                       cmocka_unit_test(safety_and_damping)};
+    return cmocka_run_group_tests(tests, folder_enter, folder_leave);
+}
