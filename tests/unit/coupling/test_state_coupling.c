@@ -8,6 +8,7 @@
 #include "tests/support/patch.h"
 #include "kernels/mpm/stress.h"
 #include "base/team.h"
+#include "src/coupling/partial_parts.h"
 
 #define STRAIN 1e-7                      /* finite geometry deviates from linear theory by as much */
 
@@ -223,10 +224,48 @@ static void test_energy(void **state)
         }
 }
 
+/* Bonds between two materials answer alike from both ends, and by the moduli of both: B of the law with
+ * rotations for a vector, A/D for a mean strain, each end over the sum of its family. The cell of a particle is as wide
+ * as its volume says, in a line over the section and in the plane over the thickness. */
+static void test_response(void **state)
+{
+    (void)state;
+    const struct partners k = {.plan = {.space = SPACE_PLANE_STRESS, .count = {9, 7}, .horizon = 2.015},
+                               .model = PD_MOSPD, .poisson = 0.2};
+    struct both b;
+    both_make(&b, &k);
+    struct cloud *c = &b.s.c;
+    for (int64_t i = 0; i < c->p.n; i++) c->p.material[i] = i % 2;
+    cloud_bonds(c);
+    int64_t tried = 0;
+    const real full = c->source.family.cell_volume / c->source.family.weighted;
+    for (int64_t r = 0; r < c->bonds.rows; r++)
+        for (struct bond_iterator it = bonds_of_row(&c->bonds, r); bond_next(&it);) {
+            const int32_t i = c->bonds.particle[r], j = it.bond.nbr;
+            const struct bond back = {it.bond.entry, i, it.bond.inverse_length, it.bond.w};
+            const struct response one = response_of(&c->p, &c->bonds, &c->source, i, &it.bond);
+            const struct response other = response_of(&c->p, &c->bonds, &c->source, j, &back);
+            assert_true(one.central == 0 && other.central == 0);
+            assert_true(fabs(one.vector / other.vector - 1) < 1e-12 && fabs(one.pressure / other.pressure - 1) < 1e-12);
+            if (i % 9 != 4 || i / 9 != 3 || j != i + 1) continue;        /* both have whole families */
+            const struct state_modulus *m = &b.modulus[i % 2], *n = &b.modulus[j % 2];
+            const real scale = it.bond.w * square(CLOUD_SPACING) * full;
+            is_near("vector", one.vector, scale * (m->B + n->B), 1e-6 * one.vector);
+            is_near("pressure", one.pressure, scale * (m->A + n->A) / 2, 1e-6 * one.pressure);
+            tried++;
+        }
+    assert_int_equal(tried, 1);
+    is_near("half", half_edge(&c->p, &c->source, 3), 0.5 * CLOUD_SPACING, 1e-12);
+    c->p.volume0[3] *= 4;
+    is_near("half", half_edge(&c->p, &c->source, 3), CLOUD_SPACING, 1e-12);
+    cloud_free(c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_flat), cmocka_unit_test(test_flat_solid),
-                                       cmocka_unit_test(test_torque), cmocka_unit_test(test_energy)};
+                                       cmocka_unit_test(test_torque), cmocka_unit_test(test_energy),
+                                       cmocka_unit_test(test_response)};
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
