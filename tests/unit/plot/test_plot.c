@@ -73,6 +73,26 @@ static void unknown_fields_are_refused(void **state)
     assert_int_equal(plot_field_find(&field, "stress_yy", 1), REFUSED);
 }
 
+/* The component that a name means, in the order of the frames: normal ones first, then xy, yz, zx. */
+static void fields_name_components(void **state)
+{
+    (void)state;
+    static const struct { const char *name, *stored; int component; } want[] = {
+        {"displacement_y", "displacement", 1}, {"velocity_x", "velocity", 0}, {"velocity_z", "velocity", 2},
+        {"stress_yy", "stress", 1}, {"stress_zz", "stress", 2}, {"stress_xy", "stress", 3},
+        {"stress_yz", "stress", 4}, {"stress_zx", "stress", 5}, {"strain_zz", "strain", 2},
+        {"strain_xy", "strain", 3}, {"strain_yz", "strain", 4}, {"strain_zx", "strain", 5},
+        {"principal_stress", "principal_stress", 0}, {"principal_stress_3", "principal_stress", 2},
+        {"principal_directions_1_y", "principal_directions", 1},
+        {"principal_directions_3_x", "principal_directions", 6}};
+    for (size_t k = 0; k < COUNT_OF(want); k++) {
+        const struct plot_field *field;
+        assert_int_equal(plot_field_find(&field, want[k].name, 3), OK);
+        assert_string_equal(field->stored, want[k].stored);
+        assert_int_equal(field->component, want[k].component);
+    }
+}
+
 /* The slice with most damage, not the middle one; the one that is nearest to the middle where nothing is damaged. */
 static void slices_show_damage(void **state)
 {
@@ -119,6 +139,11 @@ static void one_particle_sets_no_scale(void **state)
     assert_int_equal(plot_field_find(&field, "velocity_x", 2), OK);
     view_set_field(&v, field, &c, 1);
     assert_true(v.low == -v.high);
+    for (int64_t i = 0; i < f.n; i++) value[i] = -value[i];
+    cloud_free(&c);
+    cloud_make(&c, &f, &(struct look){.normal = -1, .field = field, .value = value});
+    view_set_field(&v, field, &c, 1);
+    assert_true(v.low == -v.high && v.high > 7 && v.high <= 9);
     cloud_free(&c), memory_free(value), frame_free(&f);
 }
 
@@ -193,6 +218,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fields_follow_from_stress),  cmocka_unit_test(unknown_fields_are_refused),
+        cmocka_unit_test(fields_name_components),
         cmocka_unit_test(slices_show_damage),         cmocka_unit_test(one_particle_sets_no_scale),
         cmocka_unit_test(solids_are_seen_from_outside), cmocka_unit_test(cameras_are_right_handed),
         cmocka_unit_test(colours_keep_their_order),   cmocka_unit_test(words_have_units),
