@@ -38,6 +38,7 @@ static void power_laws_are_found(void **state)
         assert_near(c.order, p, 1e-9);
         assert_near(c.index, 1.25 * 0.2, 1e-9);
         assert_true(fabs(c.order_likely - p) < 2 * c.order_error);
+        assert_true(c.order_error > 0 && c.order_error < 0.75); /* orders from 0.5 to 2 */
         assert_true(c.uncertainty[0] > 0.2 && c.uncertainty[0] < 3 * 0.2); /* -0.2 is its true error */
         assert_near(c.level[0].error, 0, 0);
     }
