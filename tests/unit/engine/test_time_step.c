@@ -54,10 +54,10 @@ static void light_particles_take_short_steps(void **state)
     for (int light = 0; light < 2; light++) {
         FILE *file = fopen("plate.csv", "w");
         assert_non_null(file);
-        fputs("x [mm],y [mm],mass [g]\n", file);
+        fputs("x [mm],y [mm],volume [mm^3],mass [g]\n", file);
         const real mass = 1180 * 0.37e-9 * 1e3;
         for (int k = 0; k < 144; k++)
-            fprintf(file, "%d,%d,%.17g\n", k % 12, k / 12, k == 77 && light ? 0.25 * mass : mass);
+            fprintf(file, "%d,%d,0.37,%.17g\n", k % 12, k / 12, k == 77 && light ? 0.25 * mass : mass);
         fclose(file);
         critical[light] = clock_of("space: plane stress\nthickness: 0.37 mm\nduration: 10 us\nmethod: adaptive\n"
                                    "material: {young: 3 GPa, poisson: 1/3, density: 1180}\n"

@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "geometry/image.h"
+#include "../src/geometry/pages.h"
 
 enum { WIDE = 7, HIGH = 5, MOST = 1 << 16 };
 
@@ -240,11 +241,21 @@ static int leave_folder(void **state)
     return chdir("/") != 0 || rmdir(folder) != 0;
 }
 
+/* Rec. 709: green counts most, blue least. */
+static void colours_have_a_luminance(void **state)
+{
+    (void)state;
+    assert_int_equal(luminance(250, 40, 90), 88);
+    assert_int_equal(luminance(40, 250, 90), 194);
+    assert_int_equal(luminance(40, 90, 250), 91);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kinds_of_images), cmocka_unit_test(a_stack_of_files), cmocka_unit_test(bad_images),
         cmocka_unit_test(distances),       cmocka_unit_test(damaged),
+        cmocka_unit_test(colours_have_a_luminance),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

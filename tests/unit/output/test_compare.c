@@ -198,6 +198,9 @@ static void runs_are_compared(void **state)
     /* the last frame of b is shifted by 2e-6; frames are single precision: one part in 1e4 of it at X ~ 1e-2 */
     double apart = number_after(printed, "displacement [m]");
     assert_true(fabs(apart - 2e-6) < 1e-9);
+    double largest = 0, mean = 0;                    /* alike at all particles */
+    assert_int_equal(sscanf(strstr(printed, "displacement [m]"), "displacement [m] %lf %lf", &largest, &mean), 2);
+    assert_true(fabs(mean - largest) < 1e-9);
     assert_true(number_after(printed, "damage") == 0);
     assert_true(number_after(printed, "particles of another kind") == 0);
     assert_true(fabs(number_after(printed, "t_r = 1 - A/B = ") - 0.75) < 1e-4);       /* printed with four digits */
