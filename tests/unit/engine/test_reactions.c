@@ -59,8 +59,32 @@ static void test_foot(void **state)
     solution_free(&a);
 }
 
+/* Nodes beyond a plane of symmetry: what the plane and a pull give a half is its momentum. */
+static void test_mirrored_nodes(void **state)
+{
+    (void)state;
+    static const char half[] =
+        "space: plane stress\nthickness: 0.37 mm\nduration: 7 us\nmethod: mpm\n"
+        "mpm: {frame: reference, origin: [0.5 mm, 0]}\n" /* the plane is half-way between two nodes */
+        "material: {young: 3 GPa, density: 1180}\nparticles: {spacing: 0.5 mm}\n"
+        "body: {box: {from: [0, 0], to: [4 mm, 3 mm]}}\nboundary:\n  - {mirror: {axis: x, at: 0}}\n"
+        "  - {traction: [1.7 MPa, 0.4 MPa], face: x+}\n";
+    struct solution a;
+    solution_run(&a, half, NULL);
+    solution_done(&a);
+    const struct particles *p = &a.e.part;
+    for (int d = 0; d < 2; d++) {
+        real momentum = 0;
+        for (int64_t i = 0; i < p->n; i++) momentum += p->mass[i] * p->v[d][i];
+        near_to("momentum", a.e.loads.impulse[d], momentum, 1e-6);
+    }
+    assert_true(fabs(a.e.loads.impulse[0]) < 0.5 * 1.7e6 * 3e-3 * 0.37e-3 * 7e-6); /* the plane holds the half */
+    solution_free(&a);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_reactions), cmocka_unit_test(test_foot)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_reactions), cmocka_unit_test(test_foot),
+                                       cmocka_unit_test(test_mirrored_nodes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
