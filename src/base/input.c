@@ -68,7 +68,8 @@ bool input_was_read(const char *path)
 static const char *input_fault(int fd, const char *path, struct stat *s)
 {
     const int cause = errno;
-    if ((fd < 0 ? stat(path, s) : fstat(fd, s)) == 0 && !S_ISREG(s->st_mode)) return "is no regular file";
+    if ((fd < 0 ? stat(path, s) : fstat(fd, s)) == 0 && !S_ISREG(s->st_mode))
+        return S_ISDIR(s->st_mode) ? "is a folder" : "is no regular file";
     return fd < 0 ? strerror(cause) : NULL;
 }
 

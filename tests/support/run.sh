@@ -14,16 +14,20 @@ trap 'trap "" TERM; kill 0; exit 1' INT TERM HUP
 hearing="env --default-signal=INT,QUIT"
 $hearing true 2>/dev/null || hearing=
 
+# source_of TEST: the script itself, or the source of the program.
+source_of()
+{
+    path=${1#"${BUILD:-build}/"}
+    case $path in *.sh) echo "$path" ;; *) echo "$path.c" ;; esac
+}
+
 # alone TEST: must it have the machine for itself?
 alone()
 {
-    source=${1#"${BUILD:-build}/"}
-    case $source in
+    case $1 in
         */long_*) return 0 ;;
-        *.sh) ;;
-        *) source=$source.c ;;
+        *) grep -q 'Runs alone' "$(source_of "$1")" ;;
     esac
-    grep -q 'Runs alone' "$source"
 }
 
 # try TEST LANE: runs it and tells.
@@ -68,6 +72,13 @@ fi
 # Threads that wait must not starve the others of a busy machine: rounds of gcc's library, milliseconds of clang's.
 export GOMP_SPINCOUNT=2000 KMP_BLOCKTIME=1
 [ ! -f "$folder/alone" ] || while read -r test; do try "$test" 0 </dev/null; done <"$folder/alone"
+
+# What takes over 20 s has to say why: `Takes` in its head.
+for test in "$@"; do
+    seconds=$(sed -n "s/^[a-zA-Z]* *$(basename "$test") (\([0-9]*\) s.*/\1/p" "$folder/results")
+    [ "${seconds:-0}" -le 20 ] || head -n 12 "$(source_of "$test")" | grep -q 'Takes' ||
+        echo "over 20 s, and its head does not say why: $(basename "$test") ($seconds s)"
+done
 
 count() { grep -c "^$1" "$folder/results"; }
 echo "$(count ok) passed, $(count FAILED) failed, $(count SKIPPED) skipped"

@@ -418,7 +418,7 @@ static void test_files(void **state)
     assert_int_equal(scene_read(&s, "no/such.yaml", NULL, 0), REFUSED);
     assert_string_equal(status_message(), "no/such.yaml: No such file or directory; a scene file is expected");
     assert_int_equal(scene_read(&s, "/", NULL, 0), REFUSED);
-    assert_string_equal(status_message(), "/: Is a directory; a scene file is expected");
+    assert_string_equal(status_message(), "/: is a folder; a scene file is expected");
     char folder[] = "/tmp/scene_XXXXXX", path[64], list[64];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/a.yaml", folder);
