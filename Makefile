@@ -2,6 +2,7 @@
 CC       ?= gcc
 ARCH     ?=
 OPTIMISE ?= -O3
+DEBUG    ?= -g1
 PREFIX   ?= /usr/local
 BUILD    ?= build
 THREADS  ?= 2
@@ -16,7 +17,7 @@ WARN     += $(if $(call known,-Wpass-failed),-Wno-pass-failed)
 LIBRARIES := hdf5 hwloc yaml-0.1 libpng libtiff-4
 
 CPPFLAGS += -I. -Iinclude -I$(BUILD) -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'
-CFLAGS   += -std=c11 $(OPTIMISE) -g -ffp-contract=fast -fno-math-errno -fno-trapping-math -fopenmp $(WARN)
+CFLAGS   += -std=c11 $(OPTIMISE) $(DEBUG) -ffp-contract=fast -fno-math-errno -fno-trapping-math -fopenmp $(WARN)
 LIBFLAGS  = $(shell pkg-config --cflags $(LIBRARIES))
 LIBS      = $(shell pkg-config --libs $(LIBRARIES)) -lm
 

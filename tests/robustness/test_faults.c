@@ -34,16 +34,16 @@ int __wrap_main(int argc, char **argv);
 struct sweep { enum fault_call call; int cause, step, look; bool lossy; };
 
 static const struct sweep own_sweeps[] = {
-    {OWN_MALLOC, ENOMEM, 1, 16, false}, {OWN_OPEN, EMFILE, 1, 1, false},   {OWN_READ, EIO, 1, 1, false},
-    {OWN_WRITE, ENOSPC, 1, 1, false},  {OWN_FSYNC, EIO, 1, 1, false},     {OWN_CLOSE, EIO, 1, 1, false},
-    {OWN_RENAME, EACCES, 1, 1, false}, {OWN_MKDIR, EROFS, 1, 1, false},   {OWN_UNLINK, EACCES, 1, 1, false},
+    {OWN_MALLOC, ENOMEM, 3, 8, false}, {OWN_OPEN, EMFILE, 1, 2, false},   {OWN_READ, EIO, 1, 2, false},
+    {OWN_WRITE, ENOSPC, 1, 1, false},  {OWN_FSYNC, EIO, 1, 2, false},     {OWN_CLOSE, EIO, 1, 2, false},
+    {OWN_RENAME, EACCES, 1, 1, false}, {OWN_MKDIR, EROFS, 1, 1, false},   {OWN_UNLINK, EACCES, 1, 2, false},
     {ALL_WRITE, ENOSPC, 20, 1, false},
 };
 static const struct sweep whole_sweeps[] = {
     {ALL_OPEN, EMFILE, 1, 1, false},  {ALL_WRITE, ENOSPC, 1, 1, false}, {ALL_FSYNC, EIO, 1, 1, false},
     {ALL_RENAME, EIO, 1, 1, false},   {ALL_CLOSE, EIO, 1, 1, false},    {ALL_READ, EIO, 1, 1, false},
     {ALL_MKDIR, ENOSPC, 1, 1, false}, {ALL_UNLINK, EIO, 1, 1, false},   {ALL_MMAP, ENOMEM, 1, 1, true},
-    {ALL_MALLOC, ENOMEM, 47, 1, true},
+    {ALL_MALLOC, ENOMEM, 47, 1, true}, {OWN_MALLOC, ENOMEM, 1, 16, false},
 };
 static const struct sweep *sweeps = own_sweeps;
 static int sweep_count = COUNT_OF(own_sweeps);
