@@ -54,7 +54,7 @@ LONG     := $(sort $(shell find tests -name 'long_*.sh'))
 .DEFAULT_GOAL := all
 
 help:
-	@echo 'make            builds build/cleave (options: PREFIX, CC, OPTIMISE, ARCH=native, BUILD)'
+	@echo 'make            builds build/cleave (options: PREFIX, CC, OPTIMISE, DEBUG=-g, ARCH=native, BUILD)'
 	@echo 'make run        installs what is missing, builds what a first run needs, breaks a plate, draws it'
 	@echo 'make test       installs what is missing, builds, runs every test, on $(THREADS) threads; test-long: longer ones, too'
 	@echo 'make mutants    puts small faults into copies of the program and tells which tests see them (MUTANTS=LIST: others)'
