@@ -63,6 +63,9 @@ void output_start(void);
  * is left to close. */
 status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress);
 void output_close(struct output *o);
+/* REFUSED if what has the name of the folder frames_NAME in a run's folder is a link or a file. Called before
+ * output_open, which removes an older run. */
+status output_series_guard(const char *folder, const char *name);
 /* Adds a series of frames of a region (borrowed), after output_open: frames_NAME/, NAME.hdf.series and the rest. */
 status output_add_series(struct output *o, const char *name, const struct region *region);
 /* Do two texts of scenes say the same, wherever their particle lists lie? */

@@ -87,16 +87,23 @@ static status file_close(FILE *out, const char *path)
     return status_set(FAILED, "%s: cannot be written", path);
 }
 
+/* The file of the surface beside a scene: NAME.stl for NAME.yaml. */
+struct part_name { char text[PATH_LONGEST + 8]; };
+static struct part_name part_path(const char *path)
+{
+    struct part_name file;
+    snprintf(file.text, sizeof file.text, "%.*s.stl", (int)strlen(path) - 5, path);
+    return file;
+}
+
 /* Writes the surface beside a scene that reads it. */
 static status part_write(const struct kind *k, const char *path)
 {
-    char file[PATH_LONGEST + 8];
     FILE *out;
     if (!strstr(k->text, part_file)) return OK;
-    snprintf(file, sizeof file, "%.*s.stl", (int)strlen(path) - 5, path);
-    TRY(file_open(&out, file));
+    TRY(file_open(&out, part_path(path).text));
     fputs(part, out);
-    return file_close(out, file);
+    return file_close(out, part_path(path).text);
 }
 
 void new_kinds_print(FILE *out)
@@ -120,10 +127,11 @@ status command_new(int argc, char **argv)
     if (!named) TRY(kind_find(argc == 3 ? argv[2] : "crack", &kind));
     strcat(path, ".yaml");
     TRY(file_open(&out, path));
-    const status written = part_write(kind, path);
-    if (written == OK) scene_write(out, kind, path, name);
-    if (written == OK) TRY(file_close(out, path));
+    status written = part_write(kind, path);
+    const bool parted = written == OK && strstr(kind->text, part_file);
+    if (written == OK) scene_write(out, kind, path, name), written = file_close(out, path);
     else fclose(out), remove(path);
+    if (written != OK && parted) remove(part_path(path).text);
     TRY(written);
     printf("%s: %s\ncleave run %s runs it\n", path, kind->meaning, path);
     return OK;

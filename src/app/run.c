@@ -47,7 +47,9 @@ static status open_folder(struct output *out, const struct scene *s, const struc
     char folder[sizeof s->name + sizeof "results/"];
     snprintf(folder, sizeof folder, "results/%s", s->name);
     const enum output_mode mode = a->resume ? OUTPUT_RESUME : a->overwrite ? OUTPUT_OVERWRITE : OUTPUT_FIRST;
-    TRY(output_open(out, a->folder ? a->folder : folder, s->text, mode, s->compress));
+    const char *to = a->folder ? a->folder : folder;
+    for (int k = 0; k < s->n_series; k++) TRY(output_series_guard(to, s->series[k].name));
+    TRY(output_open(out, to, s->text, mode, s->compress));
     for (int k = 0; k < s->n_series; k++) TRY(output_add_series(out, s->series[k].name, &s->series[k].region));
     return OK;
 }

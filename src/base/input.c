@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -64,10 +65,20 @@ bool input_was_read(const char *path)
     return identity_is_known(&one);
 }
 
+/* Returns true for the names of descriptors of this process: a pipe behind one is open already and keeps nobody
+ * waiting to open it. */
+static bool is_descriptor(const char *path)
+{
+    return strcmp(path, "/dev/stdin") == 0 || strncmp(path, "/dev/fd/", 8) == 0 ||
+           strncmp(path, "/proc/self/fd/", 14) == 0;
+}
+
 /* Returns why the open file `fd` (-1: it was not opened) cannot be read as an input; NULL: it can. */
 static const char *input_fault(int fd, const char *path, struct stat *s)
 {
     const int cause = errno;
+    if (fd >= 0 && is_descriptor(path) && fstat(fd, s) == 0 && S_ISFIFO(s->st_mode))
+        return fcntl(fd, F_SETFL, 0) == 0 ? NULL : strerror(errno);
     if ((fd < 0 ? stat(path, s) : fstat(fd, s)) == 0 && !S_ISREG(s->st_mode))
         return S_ISDIR(s->st_mode) ? "is a folder" : "is no regular file";
     return fd < 0 ? strerror(cause) : NULL;

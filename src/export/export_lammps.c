@@ -159,6 +159,7 @@ static const struct export_file files[] = {{"plate.data", put_data},
                                            {"check.csv", put_check},
                                            {"in.lammps", put_script}};
 
+/* Writes and syncs one file beside its final name; FAILED, with nothing left, if it cannot be written whole. */
 static status file_export(const struct export_file *f, struct exported *x, const struct lammps_types *t)
 {
     const struct path path = path_join(x->request->folder, f->name), aside = file_begin(path.text);
@@ -170,8 +171,7 @@ static status file_export(const struct export_file *f, struct exported *x, const
     const bool closed = fclose(to) == 0;
     if (s == OK && !(whole && closed)) s = file_fault(path.text, errno);
     if (s == OK) s = file_seal(path.text, NULL, 0);
-    if (s == OK) return file_publish(path.text);
-    file_discard(path.text);
+    if (s != OK) file_discard(path.text);
     return s;
 }
 
@@ -204,17 +204,19 @@ static status export_guard(const struct export_request *r)
     return OK;
 }
 
-/* Writes the files into a folder that is locked. An older script goes first, and after a fault the files that have been
- * written: without the script nobody takes the rest for an export. */
+/* Writes the files into a folder that is locked: all of them aside, so that an older export stays whole if one fails.
+ * Then the older
+ * script goes and the new files get their names, the script last: without it nobody takes the rest for an export. */
 static status files_write_locked(struct exported *x, const struct lammps_types *t)
 {
     const char *folder = x->request->folder;
+    size_t written = 0, published = 0;
     status s = export_guard(x->request);
+    for (; s == OK && written < COUNT_OF(files); written++) s = file_export(&files[written], x, t);
     if (s == OK) unlink(path_join(folder, "in.lammps").text);
-    for (size_t k = 0; s == OK && k < COUNT_OF(files); k++) {
-        s = file_export(&files[k], x, t);
-        for (size_t written = 0; s != OK && written < k; written++) unlink(path_join(folder, files[written].name).text);
-    }
+    for (; s == OK && published < COUNT_OF(files); published++)
+        s = file_publish(path_join(folder, files[published].name).text);
+    for (; s != OK && published < written; published++) file_discard(path_join(folder, files[published].name).text);
     return s;
 }
 

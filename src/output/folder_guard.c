@@ -2,6 +2,7 @@
 #include "output/folder_guard.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -18,7 +19,8 @@ static status entries_guard(const struct folder_kind *kind, const char *folder)
 {
     char found[PATH_NAME_ROOM] = "";
     DIR *d = opendir(folder);
-    if (!d) return OK;
+    if (!d && (errno == ENOENT || errno == ENOTDIR)) return OK;
+    if (!d) return status_set(REFUSED, "%s: cannot be read (%s); choose another -o", folder, strerror(errno));
     for (struct dirent *e; !*found && (e = readdir(d));)
         if (!entry_is_ignored(e->d_name) && !(kind->is_early && kind->is_early(folder, e->d_name)))
             snprintf(found, sizeof found, "%s", e->d_name);
@@ -32,6 +34,7 @@ status folder_guard(const struct folder_kind *kind, const char *folder, const ch
 {
     const struct path sign = path_join(folder, kind->sign);
     *there = false;
+    if (strlen(folder) + PATH_NAME_ROOM >= PATH_ROOM) return status_set(REFUSED, "-o: the folder's name is too long");
     for (size_t k = 0; k < COUNT_OF(kind->inner) && kind->inner[k]; k++) {
         const struct path inner = path_join(folder, kind->inner[k]);
         if (path_is_link(inner.text))

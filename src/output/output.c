@@ -303,14 +303,28 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
     return OK;
 }
 
+/* Folder of the frames of a region. */
+static struct path series_folder(const char *folder, const char *name)
+{
+    char inner[PATH_NAME_ROOM];
+    snprintf(inner, sizeof inner, "frames_%s", name);
+    return path_join(folder, inner);
+}
+
+status output_series_guard(const char *folder, const char *name)
+{
+    const struct path path = series_folder(folder, name);
+    if (path_is_link(path.text)) return status_set(REFUSED, "%s is a link: frames would be somewhere else", path.text);
+    if (path_exists(path.text) && !path_is_folder(path.text))
+        return status_set(REFUSED, "%s: is a file, not a folder; choose another -o", path.text);
+    return OK;
+}
+
 status output_add_series(struct output *o, const char *name, const struct region *region)
 {
-    char folder[PATH_NAME_ROOM];
     INVARIANT(o->n_series < SERIES_MOST);
-    snprintf(folder, sizeof folder, "frames_%s", name);
-    const struct path path = path_join(o->folder, folder);
-    if (path_is_link(path.text)) return status_set(REFUSED, "%s is a link: frames would be somewhere else", path.text);
-    TRY(folder_make(path.text));
+    TRY(output_series_guard(o->folder, name));
+    TRY(folder_make(series_folder(o->folder, name).text));
     struct frame_series *s = &o->series[++o->n_series];
     *s = (struct frame_series){.region = region};
     snprintf(s->name, sizeof s->name, "%s", name);

@@ -252,6 +252,7 @@ static status folder_make_one(const char *path)
 status folder_make(const char *path)
 {
     struct path part = {{0}};
+    if (strlen(path) >= PATH_ROOM) return status_set(REFUSED, "-o: the folder's name is too long");
     for (size_t k = 0; path[k]; k++) {
         if (path[k] == '/' && k > 0 && !path_is_folder(part.text)) TRY(folder_make_one(part.text));
         part.text[k] = path[k];

@@ -135,6 +135,8 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
     struct path folder = study_folder(r->study, c), log = log_path(r->study, c);
     const bool there = path_exists(path_join(folder.text, "scene.yaml").text);
     snprintf(threads, sizeof threads, "%d", r->how.threads);
+    if (path_is_link(folder.text))
+        return status_set(REFUSED, "%s is a link: the run would be somewhere else; choose another -o", folder.text);
     TRY(file_guard(log.text));
     unlink(log.text); /* links of this name are not followed */
     const int fd = open(log.text, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);

@@ -302,6 +302,15 @@ declined "an export over its own scene" "scene.yaml is read by this command" \
     export lammps "$work/there/scene.yaml" -o "$work/there" --allow-different --overwrite -s duration=3us
 holds "it stays" sh -c "cksum '$work/there'/* | cmp - '$work/sums'"
 
+# an export that fails leaves the older one whole, and the next one finds its folder
+limited() { (ulimit -f "$1"; shift; trap '' XFSZ; exec "$cleave" "$@") >"$work/out" 2>"$work/err"; }
+limited 1 export lammps "$work/strip.yaml" -o "$work/there" --allow-different --overwrite -s particles.spacing=0.5mm
+is "an export without room: $(cat "$work/err")" $? 1
+holds "the older export stays" sh -c "cksum '$work/there'/* | cmp - '$work/sums'"
+"$cleave" export lammps "$work/strip.yaml" -o "$work/there" --allow-different --overwrite >"$work/out" 2>&1
+is "the next export: $(cat "$work/out")" $? 0
+declined "a name that is too long" "too long" export lammps "$work/strip.yaml" --allow-different -o "$(head -c 4200 /dev/zero | tr '\0' v)"
+
 # a run: not over its own scene, its list of particles, its table of loads
 "$cleave" run -q "$work/strip.yaml" -o "$work/own" 2>"$work/err"
 declined "a run over its own scene" "scene.yaml is read by this command" run -q "$work/own/scene.yaml" -o "$work/own" -s duration=2us --overwrite
@@ -311,6 +320,17 @@ sed "s#face: y+#face: y+, time: {file: own/history.csv, column: step}#" "$work/s
 cp "$work/own/history.csv" "$work/before.csv"
 declined "a run over its own table" "history.csv is read by this command" run -q "$work/driven.yaml" -o "$work/own" --overwrite
 holds "the table stays" cmp "$work/before.csv" "$work/own/history.csv"
+
+# a refusal comes before the older run is removed
+sed 's#^output: .*#output: {frames: 1, samples: 4, regions: [{name: side, region: {box: {from: [0, 0], to: [5 mm, 5 mm]}}, every: 0.5 us}]}#' \
+    "$work/strip.yaml" >"$work/side.yaml"
+"$cleave" run -q "$work/side.yaml" -o "$work/sided" 2>"$work/err"
+is "frames of a region: $(cat "$work/err")" $? 0
+rm -rf "$work/sided/frames_side" "$work/far"
+mkdir "$work/far"
+ln -s "$work/far" "$work/sided/frames_side"
+declined "frames that are a link" "frames_side is a link" run -q "$work/side.yaml" -o "$work/sided" --overwrite
+holds "the older run stays" test -s "$work/sided/summary.json" -a -s "$work/sided/checkpoint.h5"
 
 # links: folders in a study, a history with a second name
 "$cleave" sweep "$work/strip.yaml" -s material.density=2440,2500 -o "$work/study" -q >"$work/out" 2>&1
@@ -323,6 +343,13 @@ for name in pictures logs; do
     is "$name: nothing is written there" "$(ls "$work/far")" ""
     rm "$work/study/$name"
 done
+run_of_study=$(dirname "$(ls "$work/study"/*/summary.json | head -n 1)")
+rm -rf "$run_of_study" "$work/far"
+mkdir "$work/far"
+ln -s "$work/far" "$run_of_study"
+"$cleave" sweep "$work/strip.yaml" -s material.density=2440,2500 -o "$work/study" -q >"$work/out" 2>&1
+holds "a run of a study that is a link: $(cat "$work/out")" grep -q "is a link" "$work/out"
+is "a run of a study: nothing is written there" "$(ls "$work/far")" ""
 interrupted "$work/twin" 20 $small
 ln "$work/twin/history.csv" "$work/backup.csv"
 cp "$work/backup.csv" "$work/backup_then.csv"
@@ -339,7 +366,11 @@ rm -r "$work/results"
 # ---- what is read is a file ----------------------------------------------------------------------------------------
 
 mkfifo "$work/pipe.yaml" "$work/pipe.csv" "$work/pipe.stl"
-for place in "$work/pipe.yaml" "$work" /dev/zero; do declined "a scene: $place" "no regular file" check "$place"; done
+for place in "$work/pipe.yaml" "$work" /dev/zero; do declined "a scene: $place" "is no regular file\|is a folder" check "$place"; done
+"$cleave" check --no-trial /dev/stdin <"$work/strip.yaml" >"$work/out" 2>&1
+is "a scene on standard input: $(head -n 1 "$work/out")" $? 0
+cat "$work/strip.yaml" | "$cleave" check --no-trial /dev/stdin >"$work/out" 2>&1
+is "a scene from a pipe that is open: $(head -n 1 "$work/out")" $? 0
 head_of() { sed '/^body\|^boundary/d' "$work/strip.yaml"; }
 sed 's/^space:/include: pipe.yaml\nspace:/' "$work/strip.yaml" >"$work/a.yaml"
 (head_of; echo 'bodies: [{particles: pipe.csv}]') >"$work/b.yaml"

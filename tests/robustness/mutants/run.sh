@@ -22,7 +22,8 @@ done
 work=$room/cleave-mutants.$$
 mkdir "$work" || exit 2
 trap 'rm -rf "$work"' EXIT
-trap 'trap "" TERM; kill 0; wait; exit 1' INT TERM HUP
+trap 'trap "" TERM; kill $lane_processes 2>/dev/null; wait; exit 1' INT TERM HUP
+lane_processes=
 
 # What a shell starts beside itself is deaf to SIGINT, which tests raise (tests/support/run.sh).
 hearing="env --default-signal=INT,QUIT"
@@ -41,7 +42,7 @@ fi
 
 TESTS=$(find tests -name 'test_*.c' -o -name 'test_*.sh' -o -name 'house.sh' | sort) JOBS=$work/jobs
 export TESTS JOBS
-cat "$@" | awk -f tests/robustness/mutants/list.awk >/dev/null
+for list in "$@"; do awk 1 "$list"; done | awk -f tests/robustness/mutants/list.awk >/dev/null
 [ -n "$(ls "$work/jobs")" ] || { echo "mutants: no fault in $*" >&2; exit 2; }
 cat "$work"/jobs/*/tests | sort -u >"$work/tests"
 
@@ -102,7 +103,7 @@ first()
 {
     name=$(basename "$2" .c) says=
     if ! mkdir "$work/first/$name.begun" 2>/dev/null; then
-        while [ ! -f "$work/first/$name" ]; do sleep 1; done
+        while [ ! -f "$work/first/$name" ]; do [ -d "$work" ] || exit 1; sleep 1; done
         return
     fi
     begin=$(date +%s)
@@ -129,7 +130,7 @@ first()
 # judge LANE JOB: builds with the fault and runs its tests; leaves the verdict, and the test that decides, in JOB.
 judge()
 {
-    job=$2 file=$(cat "$2/file") verdict="NOT SEEN" by=
+    job=$2 file=$(cat "$2/file") verdict="NOT SEEN" by= tried=
     if [ -f "$job/wrong" ]; then echo "$(cat "$job/wrong")" >"$job/verdict"; return; fi
     old=$(cat "$job/old") new=$(cat "$job/new") awk 'BEGIN { old = ENVIRON["old"]; new = ENVIRON["new"] }
         !done && (at = index($0, old)) { $0 = substr($0, 1, at - 1) new substr($0, at + length(old)); done = 1 }
@@ -137,7 +138,10 @@ judge()
     for test in $(cat "$job/tests"); do
         name=$(basename "$test" .c)
         first "$1" "$test"
-        if [ -f "$work/first/$name.wrong" ]; then verdict="$name $(cat "$work/first/$name.wrong")"; continue; fi
+        if [ -f "$work/first/$name.wrong" ]; then
+            [ -n "$tried" ] || verdict="$name $(cat "$work/first/$name.wrong")"
+            continue
+        fi
         if ! build "$work/lane$1" "$work/said$1" -o build/parts.h $(goals "$test"); then
             verdict="does not build"
             cp "$work/said$1" "$job/said"
@@ -147,7 +151,7 @@ judge()
             verdict=seen by=$name
             break
         fi
-        verdict="NOT SEEN"
+        verdict="NOT SEEN" tried=yes
     done
     echo "$verdict" >"$job/verdict"
     printf '%s' "$by" >"$job/by"
@@ -167,11 +171,11 @@ lane()
         judge "$1" "$task"
         printf '%-8s %3d s  %s: %s -> %s (%s)\n' "$(cat "$task/verdict")" $(($(date +%s) - start)) "$(cat "$task/place")" \
             "$(cat "$task/old")" "$(cat "$task/new")" "$(if [ -s "$task/by" ]; then cat "$task/by"; else sed 's|.*/||; s|\.c$||' "$task/tests" | paste -s -d ' '; fi)"
-        [ ! -f "$task/said" ] || grep -m 2 'error' "$task/said"
+        [ ! -f "$task/said" ] || tail -n 3 "$task/said"
     done
 }
 
-for number in $(seq "$lanes"); do lane "$number" & done
+for number in $(seq "$lanes"); do lane "$number" & lane_processes="$lane_processes $!"; done
 wait
 
 # ---- the count -------------------------------------------------------------------------------------------------------
