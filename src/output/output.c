@@ -127,12 +127,20 @@ static void difference_text(const char *a, const char *b, char *text, size_t roo
              b);
 }
 
-/* A run makes its folder of frames before it writes scene.yaml. */
+/* Returns true if the file is the scene of a run: it begins with a quoted name, as every scene.yaml that a run writes,
+ * and is beside the folder of frames, which a run makes first; or it is this scene. */
 static bool is_scene_of_run(const char *path, const char *scene_text)
 {
+    static const char begin[] = "name: \"";
     struct path frames;
+    char *text;
+    size_t length;
     snprintf(frames.text, sizeof frames.text, "%.*s/frames", (int)(strrchr(path, '/') - path), path);
-    return path_is_folder(frames.text) || scene_file_same(path, scene_text);
+    if (scene_file_same(path, scene_text)) return true;
+    if (!path_is_folder(frames.text) || file_get(path, &text, &length) != OK) return false;
+    const bool is = strncmp(text, begin, sizeof begin - 1) == 0;
+    memory_free(text);
+    return is;
 }
 
 /* A run that was killed before it wrote scene.yaml leaves a folder of frames without any. */
@@ -239,13 +247,29 @@ static status region_each(const char *folder, const char *inner, const char *end
     return OK;
 }
 
+/* Returns true if `inner` is the folder frames_NAME of a region that the scene of the run names. */
+static bool is_frames_of_region(const char *inner, const char *scene_text)
+{
+    char line[PATH_NAME_ROOM + 16];
+    if (strncmp(inner, "frames_", 7) != 0) return false;
+    snprintf(line, sizeof line, "- name: \"%.250s\"", inner + 7);
+    return strstr(scene_text, line) != NULL;
+}
+
+/* Calls `each` as region_each does, for every region of the scene that the folder holds. Copies that a user made of
+ * such a folder stay. */
 static status regions_each(const char *folder, const char *end, each_file *each)
 {
+    char *text;
+    size_t length;
     status s = OK;
+    const struct path scene = path_join(folder, "scene.yaml");
+    if (!path_is_file(scene.text) || file_get(scene.text, &text, &length) != OK) return OK;
     DIR *d = opendir(folder);
-    if (!d) return OK;
-    for (struct dirent *e; s == OK && (e = readdir(d));) s = region_each(folder, e->d_name, end, each);
-    closedir(d);
+    for (struct dirent *e; d && s == OK && (e = readdir(d));)
+        if (is_frames_of_region(e->d_name, text)) s = region_each(folder, e->d_name, end, each);
+    if (d) closedir(d);
+    memory_free(text);
     return s;
 }
 

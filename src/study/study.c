@@ -96,8 +96,9 @@ status study_make_of(struct study *s, const char *scene, const char *folder, con
 /* First line of STUDY_SCENE. */
 static const char study_mark[] = "# study by cleave: the scene without what varies\n";
 
-/* Reads the scene of a study without its first line. Returns NULL if there is no such file, or it has another first
- * line. The caller frees the text with memory_free. */
+/* Reads the scene of a study without its first line. Studies of version 0.1 before that line was written are known by
+ * their folder of logs. Returns NULL if there is no such file, or neither line nor folder. The caller frees the text
+ * with memory_free. */
 static char *study_scene_read(const char *path)
 {
     char *text;
@@ -108,6 +109,9 @@ static char *study_scene_read(const char *path)
         memmove(text, text + mark, length - mark + 1);
         return text;
     }
+    char logs[PATH_ROOM];
+    snprintf(logs, sizeof logs, "%.*s/logs", (int)(strrchr(path, '/') - path), path);
+    if (path_is_folder(logs) && strncmp(text, "name: \"", 7) == 0) return text;
     memory_free(text);
     return NULL;
 }

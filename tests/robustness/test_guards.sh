@@ -290,6 +290,11 @@ for command in "export lammps $work/papers/scene.yaml --allow-different" "sweep 
     kept "$command" "$work/desk"
 done
 
+mkdir "$work/album" "$work/album/frames"
+for name in frames/holiday.jpg scene.yaml history.csv summary.json; do echo "$name of mine" >"$work/album/$name"; done
+declined "an album with frames" "holds files" run -q "$work/strip.yaml" -o "$work/album" --overwrite
+is "an album: files of others" "$(cat "$work/album/history.csv")" "history.csv of mine"
+
 # an export: once, again only with --overwrite, never over the scene that it reads
 "$cleave" export lammps "$work/strip.yaml" -o "$work/there" --allow-different >"$work/out" 2>&1
 is "an export: $(cat "$work/out")" $? 0
@@ -326,7 +331,10 @@ sed 's#^output: .*#output: {frames: 1, samples: 4, regions: [{name: side, region
     "$work/strip.yaml" >"$work/side.yaml"
 "$cleave" run -q "$work/side.yaml" -o "$work/sided" 2>"$work/err"
 is "frames of a region: $(cat "$work/err")" $? 0
-rm -rf "$work/sided/frames_side" "$work/far"
+cp -r "$work/sided/frames_side" "$work/sided/frames_kept"
+"$cleave" run -q "$work/side.yaml" -o "$work/sided" --overwrite -s duration=0.9us 2>"$work/err"
+holds "a copy of frames stays" test -s "$work/sided/frames_kept/000000.hdf"
+rm -rf "$work/sided/frames_kept" "$work/sided/frames_side" "$work/far"
 mkdir "$work/far"
 ln -s "$work/far" "$work/sided/frames_side"
 declined "frames that are a link" "frames_side is a link" run -q "$work/side.yaml" -o "$work/sided" --overwrite
