@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "engine/engine.h"
 #include "rigid/rigid.h"
 #include "tests/support/near.h"
 
@@ -146,6 +147,82 @@ static void test_points_move(void **state)
     assert_true(work > 0.5);
 }
 
+/* What a kick of half a step adds to the kinetic energy: half a step times the power of force, weight and moment. A
+ * driven body takes none. */
+static void test_kick(void **state)
+{
+    (void)state;
+    struct rigid_body r = {.dim = 3, .motion = RIGID_FREE, .turns = true, .mass = 5.3, .v = {0.3, -0.2, 0.5},
+                           .force = {4, -3, 2.5}, .weight = {0.7, 1.1, -9}, .moment = {2, 0.4, -1.7},
+                           .spin = {0.6, -1.3, 0.9}};
+    const real force = 4 * 0.3 + 3 * 0.2 + 2.5 * 0.5, weight = 0.7 * 0.3 - 1.1 * 0.2 - 9 * 0.5;
+    const real moment = 2 * 0.6 - 0.4 * 1.3 - 1.7 * 0.9;
+    assert_close(rigid_kick(&r, 0.03), 0.015 * (force + weight + moment), 1e-14);
+    r.turns = false;
+    assert_close(rigid_kick(&r, 0.03), 0.015 * (force + weight), 1e-14);
+    r.motion = RIGID_DRIVEN;
+    assert_exact(rigid_kick(&r, 0.03), 0);
+}
+
+/* ---- in the engine ----------------------------------------------------------------------------------------------- */
+
+/* Value of a column of history.csv. */
+static real recorded(const struct column *column, const real *record, int n, const char *name)
+{
+    for (int k = 0; k < n; k++)
+        if (strcmp(column[k].name, name) == 0) return record[k];
+    fail_msg("no column %s", name);
+    return NAN;
+}
+
+/* Two bodies: each value stands under its name; in the plane the moment is about z. Energies are sums over both. */
+static void test_record(void **state)
+{
+    (void)state;
+    static const char *const what[] = {"force_", "moment_", "", "velocity_"};
+    struct rigid_body body[2];
+    for (int b = 0; b < 2; b++) {
+        body[b] = (struct rigid_body){.motion = RIGID_FREE, .mass = 5.3 + 2 * b, .kinetic = 0.9 + 1.7 * b,
+                                      .work = 3.1 + 0.4 * b};
+        snprintf(body[b].name, sizeof body[b].name, "%s", b ? "ram" : "anvil");
+        for (int d = 0; d < 3; d++) {
+            body[b].force[d] = 11 + d + 30 * b, body[b].moment[d] = 14.5 + d + 30 * b;
+            body[b].x[d] = body[b].centre[d] = 17.25 + d + 30 * b, body[b].v[d] = 20.75 + d + 30 * b;
+        }
+    }
+    static struct engine e;
+    struct scene scene = {.rigids = 2};
+    e.scene = &scene, e.rigid = body, e.clock.dt = 0.03;
+    for (int dim = 1; dim <= 3; dim++) {
+        struct column column[24];
+        real record[24], kinetic = 0, kick = 0;
+        int wanted = 0;
+        e.part.dim = body[0].dim = body[1].dim = dim;
+        const int n = engine_rigid_columns(&e, NULL);
+        assert_int_equal(engine_rigid_columns(&e, column), n);
+        engine_rigid_record(&e, record);
+        for (int b = 0; b < 2; b++) {
+            const real *const from[] = {body[b].force, body[b].moment, body[b].x, body[b].v};
+            for (int d = 0; d < dim; d++) {
+                kinetic += 0.5 * body[b].mass * square(body[b].v[d]);
+                kick += 0.015 * body[b].force[d] * body[b].v[d];
+            }
+            for (int k = 0; k < 4; k++)
+                for (int d = k == 1 && dim == 2 ? 2 : 0; d < (k != 1 ? dim : dim > 1 ? 3 : 0); d++, wanted++) {
+                    char name[64];
+                    snprintf(name, sizeof name, "%s_%s%c", b ? "ram" : "anvil", what[k], "xyz"[d]);
+                    assert_exact(recorded(column, record, n, name), from[k][d]);
+                }
+        }
+        assert_int_equal(n, wanted);
+        const struct rigid_energy sum = engine_rigid_energy(&e);
+        assert_close(sum.before, kinetic, 1e-14);
+        assert_close(sum.last, kinetic + kick, 1e-14);
+        assert_close(sum.step, 0.9 + 2.6, 1e-14);
+        assert_close(sum.work, 3.1 + 3.5, 1e-14);
+    }
+}
+
 /* The way of a driven body by its speed and ramp is where its steps take it. */
 static void test_ramp(void **state)
 {
@@ -179,6 +256,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_distance), cmocka_unit_test(test_inertia),
                                        cmocka_unit_test(test_tumbling), cmocka_unit_test(test_driven),
                                        cmocka_unit_test(test_points_move), cmocka_unit_test(test_ramp),
+                                       cmocka_unit_test(test_kick), cmocka_unit_test(test_record),
                                        cmocka_unit_test(test_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
