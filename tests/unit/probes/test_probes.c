@@ -230,6 +230,9 @@ static void probe_of_a_turning_body(void **state)
     assert_near(s.value[column_named(&s, "turn.shear_max")], sqrt(5), ROUND_OFF);
     assert_near(s.value[column_named(&s, "turn.angular_momentum_error")], 0.1, 1e-12);
     assert_near(s.value[column_named(&s, "turn.kinetic_energy_error")], 0.21, 1e-12);
+    b.p.stress[0][4] = -3, b.p.stress[1][4] = -1, b.p.out_of_plane[7] = -4;      /* now the largest is in the plane */
+    probes_sample(&s, &o);
+    assert_near(s.value[column_named(&s, "turn.stress_max")], 2 + sqrt(5), ROUND_OFF);
     probes_free(&s);
     body_free(&b);
 }
