@@ -192,6 +192,28 @@ static void test_energy(void **state)
     }
 }
 
+/* Bonds that have yielded, each by what depends on the place of its middle: the force is that of the elastic stretch,
+ * from the sweep and from the images of clamped planes alike. A bond across the plane of symmetry y = 0 and its image
+ * have yielded alike. The yield stress is too high for more to yield. */
+static void test_yielded(void **state)
+{
+    (void)state;
+    static const char *const with[] = {"material.yield_stress=50 TPa", NULL};
+    struct body a;
+    body_make(&a, PLANE STEEL SMALL LEFT BELOW_FREE, with);
+    const struct particles *p = &a.e.part;
+    struct bonds *b = &a.e.bonds;
+    assert_true(b->clamped.n > 0 && b->plastic_stretch);
+    for (int64_t row = 0; row < b->rows; row++)
+        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+            const int32_t i = b->particle[row], j = it.bond.nbr;
+            const real x = p->X[0][i] + p->X[0][j], y = p->X[1][i] + p->X[1][j];
+            b->plastic_stretch[it.bond.entry] = 0.02 * sin(700 * x) * cos(500 * y);
+        }
+    check_gradient(&a.e, "bonds that have yielded");
+    body_free(&a);
+}
+
 /* ---- threads ----------------------------------------------------------------------------------------------------- */
 
 /* So many bonds that a team shares them. */
@@ -410,7 +432,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_energy),     cmocka_unit_test(test_threads), cmocka_unit_test(test_long),
         cmocka_unit_test(test_reflection), cmocka_unit_test(test_torn),    cmocka_unit_test(test_cantilever),
-        cmocka_unit_test(test_coupled),    cmocka_unit_test(test_in_plane),
+        cmocka_unit_test(test_coupled),    cmocka_unit_test(test_in_plane),   cmocka_unit_test(test_yielded),
     };
     team_make(0);
     return cmocka_run_group_tests(tests, NULL, NULL);
