@@ -276,6 +276,42 @@ static void test_energy_in_run(void **state)
     }
 }
 
+/* ---- two bodies -------------------------------------------------------------------------------------------------- */
+
+/* A point converts its neighbours of its own body alone: of a bar, points 12 .. 18 less those of the other body. */
+static void test_block_in_its_body(void **state)
+{
+    (void)state;
+    struct cloud c;
+    struct conversion conversion = {.first_time = NAN};
+    const struct conversion_rule rule = {.criteria = CONVERT_ON_BREAK, .stress = NAN, .alpha = 1, .block = true};
+    cloud_make(&c, &bar);
+    for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = KIND_MPM, c.p.body[i] = i >= 17;
+    cloud_bonds(&c);
+    c.p.flag[15] |= FLAG_NEAR;
+    assert_int_equal(convert(&conversion, &rule, &c.p, &c.bonds, &c.source, NULL, NULL, 3e-6), 5);
+    for (int64_t i = 0; i < c.p.n; i++) assert_int_equal(c.p.kind[i], i >= 12 && i < 17 ? KIND_PD : KIND_MPM);
+    cloud_free(&c);
+}
+
+/* A pre-crack turns into particles what has bonds across it. Two bodies of four rows, the crack in the middle of the
+ * lower one: all four rows of that one; bonds that would reach the upper one are none. */
+static void test_crack_in_its_body(void **state)
+{
+    (void)state;
+    const struct cloud_plan plan = {.space = SPACE_PLANE_STRESS, .count = {10, 8}, .horizon = 3.015};
+    real corner[2][DIM_MAX] = {{-CLOUD_SPACING, 2 * CLOUD_SPACING}, {11 * CLOUD_SPACING, 2 * CLOUD_SPACING}};
+    const struct crack crack = {.n = 2, .corner = corner};
+    struct cloud c;
+    cloud_make(&c, &plan);
+    for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = KIND_MPM, c.p.body[i] = i >= 40;
+    cloud_source(&c);
+    c.source.crack = &crack, c.source.cracks = 1;
+    convert_start(&c.p, &c.source, NULL);
+    for (int64_t i = 0; i < c.p.n; i++) assert_int_equal(c.p.kind[i], i < 40 ? KIND_PD : KIND_MPM);
+    cloud_free(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -286,6 +322,8 @@ int main(void)
         cmocka_unit_test(test_wide_families),
         cmocka_unit_test(test_energy_at_start),
         cmocka_unit_test(test_energy_in_run),
+        cmocka_unit_test(test_block_in_its_body),
+        cmocka_unit_test(test_crack_in_its_body),
     };
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
