@@ -117,9 +117,36 @@ static void test_waves(void **state)
     }
 }
 
+/* A crack across the zone, between two rows: faces that part are not held together. Without the crack they are. Across
+ * two bodies there are no pairs either. */
+static void test_parted(void **state)
+{
+    (void)state;
+    real corner[2][DIM_MAX] = {{-CLOUD_SPACING, 6 * CLOUD_SPACING}, {21 * CLOUD_SPACING, 6 * CLOUD_SPACING}};
+    const struct crack crack = {.n = 2, .corner = corner};
+    for (int parted = 0; parted < 3; parted++) {
+        struct cloud c;
+        struct interface_zone r = {0};
+        real change = 0;
+        half_make(&c, &r, SPACE_PLANE_STRESS, 0);
+        if (parted == 1) c.source.crack = &crack, c.source.cracks = 1;
+        for (int64_t i = 0; i < c.p.n; i++) {
+            const bool above = c.p.X[1][i] > 6 * CLOUD_SPACING;
+            if (parted == 2) c.p.body[i] = above;
+            c.p.v[0][i] = above ? 0.4 : -0.3, c.p.v[1][i] = above ? 0.7 : -1.3;
+        }
+        interface_zone_make(&r, &c.p, &c.source);
+        interface_damp_begin(&r, &c.p, 1.0 / 16);
+        for (int64_t i = 0; i < c.p.n; i++)
+            change = real_max(change, fabs(c.p.v[1][i] - (c.p.X[1][i] > 6 * CLOUD_SPACING ? 0.7 : -1.3)));
+        assert_true(parted ? change < 1e-15 : change > 0.1);
+        half_free(&c, &r);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_kept), cmocka_unit_test(test_rigid),
-                                       cmocka_unit_test(test_waves)};
+                                       cmocka_unit_test(test_waves), cmocka_unit_test(test_parted)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
