@@ -94,11 +94,11 @@ status study_make_of(struct study *s, const char *scene, const char *folder, con
 }
 
 /* First line of STUDY_SCENE. */
-static const char study_mark[] = "# study by cleave: the scene without what varies\n";
+static const char study_mark[] = "# study by cleave: the scene without what varies\n", echo_begin[] = "name: \"";
 
-/* Reads the scene of a study without its first line. Studies of version 0.1 before that line was written are known by
- * their folder of logs. Returns NULL if there is no such file, or neither line nor folder. The caller frees the text
- * with memory_free. */
+/* Reads the scene of a study without its first line. A study of an earlier build has a scene without that
+ * line, which begins as every scene that Cleave writes. Returns NULL if there is no such file, or if it begins
+ * otherwise. The caller frees the text with memory_free. */
 static char *study_scene_read(const char *path)
 {
     char *text;
@@ -109,9 +109,7 @@ static char *study_scene_read(const char *path)
         memmove(text, text + mark, length - mark + 1);
         return text;
     }
-    char logs[PATH_ROOM];
-    snprintf(logs, sizeof logs, "%.*s/logs", (int)(strrchr(path, '/') - path), path);
-    if (path_is_folder(logs) && strncmp(text, "name: \"", 7) == 0) return text;
+    if (strncmp(text, echo_begin, sizeof echo_begin - 1) == 0) return text;
     memory_free(text);
     return NULL;
 }
