@@ -207,6 +207,7 @@ static void test_units(void **state)
         {"duration", "2 min", 120},                 {"duration", "0.3 h", 1080},
         {"material.density", "7 Mg/m^3", 7000},     {"material.young", "7 N/cm^2", 7e4},
         {"conversion.alpha", "95 %", 0.95},         {"conversion.alpha", "19 / 20", 0.95},
+        {"particles.spacing", "0.7 \u03bcm", 0.7e-6}, {"material.density", "7.3 g/cm\u00b3", 7300},
     };
     for (size_t k = 0; k < COUNT_OF(cases); k++) {
         struct scene_override o[] = {{"particles.horizon", "2"}, {cases[k].key, cases[k].value}};
