@@ -187,6 +187,44 @@ static void uniform_strain(void **state)
     }
 }
 
+/* Two materials under uniform strain: each contracts across by its own Poisson's ratio, or bears the stress of it. */
+static void strain_of_parts(void **state)
+{
+    static const char *const space[] = {"plane stress", "plane strain"};
+    const double H[2][2] = {{2e-3, 3e-4}, {5e-4, -7e-3}};
+    const double xx = H[0][0] + 0.5 * (H[0][0] * H[0][0] + H[1][0] * H[1][0]),
+                 yy = H[1][1] + 0.5 * (H[0][1] * H[0][1] + H[1][1] * H[1][1]);
+    const double grown = (1 + H[0][0]) * (1 + H[1][1]) - H[0][1] * H[1][0];
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        char text[1000];
+        struct shown a;
+        snprintf(text, sizeof text,
+                 "space: %s\nthickness: 0.37\nduration: 1 ms\nmethod: mpm\nmaterials:\n"
+                 "  - {name: one, young: 1e9, poisson: 0.2, density: 1100}\n"
+                 "  - {name: two, young: 3e9, poisson: 0.4, density: 1700}\n"
+                 "bodies:\n  - {name: sheet, material: one, shape: {box: {from: [-0.5, -0.5], to: [0.5, 0.5]}},\n"
+                 "     parts: [{region: {box: {from: [0, -1], to: [1, 1]}}, material: two}]}\n"
+                 "particles: {spacing: 0.25}\ninitial: [{displacement_gradient: [2e-3, 3e-4, 5e-4, -7e-3]}]\n"
+                 "output: {fields: [strain, density], frames: 1}\n", space[k]);
+        run_text(text, true);
+        shown_open(&a, 0, 2);
+        float *strain = shown_field(&a, "strain", 6), *density = shown_field(&a, "density", 1),
+              *stress = shown_field(&a, "stress", 6);
+        assert_int_equal(a.n, 16);
+        for (int64_t i = 0; i < a.n; i++) {
+            const bool two = a.X[2 * i] > 0;
+            const double nu = two ? 0.4 : 0.2, across = k == 0 ? -nu / (1 - nu) * (xx + yy) : 0;
+            const double S = k == 0 ? 0 : nu * (stress[6 * i] + stress[6 * i + 1]);
+            assert_near(strain[6 * i + 2], across, 1e-9);                            /* single precision: 6e-8 of it */
+            assert_near(stress[6 * i + 2], S, 1e-6 * fabs(stress[6 * i + 1]));
+            assert_near(density[i], (two ? 1700 : 1100) / (grown * sqrt(1 + 2 * across)), 1e-3);
+        }
+        free(strain), free(density), free(stress);
+        shown_close(&a);
+    }
+}
+
 /* A turn by 0.3 rad is no strain and changes no density. */
 static void rigid_turn(void **state)
 {
@@ -331,7 +369,7 @@ static void only_what_is_asked_for(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(uniform_strain), cmocka_unit_test(rigid_turn),
+        cmocka_unit_test(uniform_strain), cmocka_unit_test(strain_of_parts), cmocka_unit_test(rigid_turn),
         cmocka_unit_test(fields_follow),  cmocka_unit_test(yielding_bar),
         cmocka_unit_test(yielding_sheet), cmocka_unit_test(only_what_is_asked_for),
     };

@@ -182,6 +182,7 @@ static void check_msh4(const char *name)
     assert_close(g.whole.volume, 1.5e-6, 1e-12);
     assert_int_equal(g.whole.faces, 5);
     assert_int_equal(g.sets, 2);
+    assert_true(geometry_find(&g, "plate") && geometry_find(&g, "edge"));
     assert_close(geometry_find(&g, "plate")->hull.volume, 1.5e-6, 1e-12);
     assert_close(hull_distance(&geometry_find(&g, "edge")->hull, (real[]){0.5e-3, 2e-3}, NULL), 2e-3, 1e-12);
     geometry_free(&g);
@@ -253,6 +254,21 @@ static void gmsh_tags_by_dimension(void **state)
     memory_free(text);
     check_msh4("e.msh");
     remove("e.msh");
+}
+
+/* The sign of a group in the list of an entity is its direction; names of one tag differ by dimension. */
+static void gmsh_groups_of_entities(void **state)
+{
+    size_t length;
+    (void)state;
+    write_changed("f.msh", msh4, "1 5 2 1 -2", "1 -5 2 1 -2");
+    check_msh4("f.msh");
+    write_changed("f.msh", msh4, "1 5 2 1 -2", "1 1 2 1 -2");
+    char *text = file_text("f.msh", &length);
+    write_changed("f.msh", text, "1 5 \"edge\"", "1 1 \"edge\"");
+    memory_free(text);
+    check_msh4("f.msh");
+    remove("f.msh");
 }
 
 static void bad_gmsh(void **state)
@@ -445,7 +461,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stl_of_both_forms), cmocka_unit_test(bad_stl),      cmocka_unit_test(gmsh_of_both_versions),
-        cmocka_unit_test(gmsh_tags_by_dimension), cmocka_unit_test(bad_gmsh),
+        cmocka_unit_test(gmsh_tags_by_dimension), cmocka_unit_test(gmsh_groups_of_entities), cmocka_unit_test(bad_gmsh),
         cmocka_unit_test(abaqus_decks), cmocka_unit_test(abaqus_generates),
         cmocka_unit_test(bad_abaqus),
         cmocka_unit_test(damaged),

@@ -16,25 +16,39 @@ static const char bonds[] = "method: pd", cells[] = "method: mpm\nmpm: {frame: r
 
 /* ---- one kick ---------------------------------------------------------------------------------------------------- */
 
-/* m (v+ - v-)/dt = f - k (v- + v+)/2 at every particle of the face, and the force alone at the others. */
+/* m (v+ - v-)/dt = f - k (v- + v+)/2 at every particle of the face, with k of its material for bonds, and the force
+ * alone at the others. */
 static void test_kick(void **state)
 {
     (void)state;
     const struct boundary row[] = {
         {.name = "right", .kind = BOUNDARY_ABSORBING, .body = -1, .face = 0, .side = 1, .section = 2e-3},
         {.name = "top", .kind = BOUNDARY_ABSORBING, .body = -1, .face = 1, .side = 1, .section = 2e-3}};
-    const struct impedance z = {4e7, 2e7}, *const all[MOVERS] = {&z, &z, &z};
+    const struct impedance bond[] = {{4e7, 2e7}, {7e7, 3e7}}, other[] = {{5e7, 6e7}, {9e7, 8e7}};
+    const struct impedance *const all[MOVERS] = {[MOVED_BY_BONDS] = bond, [MOVED_BY_GRID] = other,
+                                                 [MOVED_BY_MESH] = other};
     const real dt = 1e-6, area = CLOUD_SPACING * 2e-3;
     struct cloud c;
     struct loads l;
     real taken = 0, kick = 0, impulse[2] = {0};
     cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {5, 4}, .horizon = 3});
     struct particles *p = &c.p;
+    for (int64_t i = 0; i < p->n; i++) p->material[i] = i % 3 == 0;
     assert_ok(loads_make(&l, row, 2, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     loads_absorbing_make(&l, p, all);
     assert_int_equal(l.absorbing.n, 5 * 2 + 4 * 2 - 4);  /* two layers deep, for nodes */
     real right = -INFINITY, top = -INFINITY;
     for (int64_t i = 0; i < p->n; i++) right = real_max(right, p->X[0][i]), top = real_max(top, p->X[1][i]);
+    for (int64_t k = 0; k < l.absorbing.n; k++) {        /* points bear the face by 3/2 less 1/2 of those behind */
+        const int32_t i = l.absorbing.particle[k];
+        const real behind = (right - p->X[0][i]) / CLOUD_SPACING;
+        if (p->X[1][i] > top - 1.5 * CLOUD_SPACING) continue;
+        for (int d = 0; d < 2; d++) {
+            const real z = d == 0 ? other[p->material[i]].normal : other[p->material[i]].tangential;
+            assert_near(l.absorbing.rate[MOVED_BY_GRID][d][k], (behind < 0.5 ? 1.5 : -0.5) * area * z, 1e-9 * area * z);
+            assert_near(l.absorbing.rate[MOVED_BY_MESH][d][k], (behind < 0.5) * area * z, 1e-9 * area * z);
+        }
+    }
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < 2; d++) p->v[d][i] = sin((real)i + d), p->f[d][i] = 1e3 * cos(3 * (real)i + d);
     real *before = NEW("test.f", 2 * p->n, real);
@@ -43,8 +57,9 @@ static void test_kick(void **state)
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < 2; d++) {
             const bool on[2] = {p->X[0][i] > right - 1e-9, p->X[1][i] > top - 1e-9};
-            const real k = area * ((on[0] ? d == 0 ? z.normal : z.tangential : 0) +
-                                   (on[1] ? d == 1 ? z.normal : z.tangential : 0));
+            const struct impedance *z = &bond[p->material[i]];
+            const real k = area * ((on[0] ? d == 0 ? z->normal : z->tangential : 0) +
+                                   (on[1] ? d == 1 ? z->normal : z->tangential : 0));
             const real v = p->v[d][i], after = v + dt * p->f[d][i] / p->mass[i], given = -k * dt * 0.5 * (v + after);
             assert_near(dt * (p->f[d][i] - before[d * p->n + i]), given, 1e-12 * (fabs(given) + dt * 1e3));
             taken -= given * 0.5 * (v + after), kick += 0.25 * given * (after - v), impulse[d] += given;

@@ -251,6 +251,34 @@ static void later_initial_entries_overwrite(void **state)
     particles_free(&p);
 }
 
+/* Velocity and its gradient of formulas of second order, whose central differences are exact, with a gradient. */
+static void velocities_by_formulas(void **state)
+{
+    static const char text[] =
+        "space: plane strain\nthickness: 0.37 m\nduration: 1 us\nmethod: mpm\nmpm: {transfer: apic}\n"
+        "material: {young: 3 GPa, poisson: 0.3, density: 1180}\n"
+        "body: {box: {from: [0, 0], to: [8 mm, 6 mm]}}\nparticles: {spacing: 2 mm}\n"
+        "initial: [{velocity: [\"11 1/s * x * (1 + y / (3 mm))\", \"-7 1/s * y * y / (2 mm)\"],\n"
+        "           velocity_gradient: [13, -5, 3, 17], centre: [1.7 mm, 0.6 mm]}]\n";
+    struct scene s;
+    struct particles p;
+    (void)state;
+    if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    assert_ok(fill_particles(&p, &s, NULL, WITH_GRADIENT));
+    assert_int_equal(p.n, 12);
+    for (int64_t i = 0; i < p.n; i++) {
+        const real x = p.X[0][i], y = p.X[1][i], dx = x - 1.7e-3, dy = y - 0.6e-3;
+        assert_near(p.v[0][i], 11 * x * (1 + y / 3e-3) + 13 * dx - 5 * dy, 1e-14);
+        assert_near(p.v[1][i], -7 * y * y / 2e-3 + 3 * dx + 17 * dy, 1e-14);
+        assert_near(p.gradient[0][i], 13 + 11 * (1 + y / 3e-3), 1e-11);      /* round-off over a spacing */
+        assert_near(p.gradient[1][i], -5 + 11 * x / 3e-3, 1e-11);
+        assert_near(p.gradient[2][i], 3, 1e-11);
+        assert_near(p.gradient[3][i], 17 - 7 * y / 1e-3, 1e-11);
+    }
+    particles_free(&p);
+    scene_free(&s);
+}
+
 /* Stress, place, volume and stretch of a uniform gradient, against Hooke's law written out. */
 static void initial_strain_is_hooke(void **state)
 {
@@ -356,6 +384,7 @@ static void pulses_are_waves(void **state)
                 assert_near(p.v[d][i], v * along[d], 1e-12);
                 assert_near(traction[d], -rho * c * v * along[d], 1e-9 * rho * c);
                 assert_near(p.x[d][i] - p.X[d][i], 2 / c * 2.25e-3 * 0.5 * sqrt(M_PI) * erfc(xi) * along[d], 1e-15);
+                assert_near(p.stretch[d][i], 1 - v / c * n[d] * along[d], 1e-15);
             }
             assert_near(p.volume[i] / p.volume0[i] - 1, k ? 0 : -v / c, 1e-15);
         }
@@ -376,6 +405,7 @@ int main(void)
         cmocka_unit_test(irregularity_is_seeded_and_bounded),
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(later_initial_entries_overwrite),
+        cmocka_unit_test(velocities_by_formulas),
         cmocka_unit_test(initial_strain_is_hooke),
         cmocka_unit_test(pulses_are_waves),
         cmocka_unit_test(bad_bodies_are_refused),
