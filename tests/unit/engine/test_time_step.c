@@ -88,6 +88,32 @@ static void light_particles_take_short_steps(void **state)
     assert_close(critical[1], 0.5 * critical[0], 1e-9);
 }
 
+/* Masses of a list are light beside those of their own material: here none is. */
+static void masses_are_of_their_material(void **state)
+{
+    (void)state;
+    real critical[2];
+    FILE *file = fopen("block.csv", "w");
+    assert_non_null(file);
+    fputs("x [mm],y [mm],mass [g]\n", file);
+    for (int k = 0; k < 36; k++) fprintf(file, "%g,%g,%.17g\n", k % 6 + 0.5, k / 6 + 0.5, 1180 * 0.37e-9 * 1e3);
+    fclose(file);
+    for (int listed = 0; listed < 2; listed++) {
+        char text[900];
+        snprintf(text, sizeof text,
+                 "space: plane stress\nthickness: 0.37 mm\nduration: 10 us\nmethod: mpm\nmpm: {frame: current}\n"
+                 "materials:\n  - {name: heavy, young: 7 GPa, poisson: 1/3, density: 3540}\n"
+                 "  - {name: light, young: 3 GPa, poisson: 1/3, density: 1180}\n"
+                 "bodies:\n  - {name: base, material: heavy, shape: {box: {from: [0, -4 mm], to: [6 mm, 0]}}}\n"
+                 "  - {name: block, material: light, %s}\nparticles: {spacing: 1 mm}\n",
+                 listed ? "particles: block.csv" : "shape: {box: {from: [0, 0], to: [6 mm, 6 mm]}}");
+        put("block.yaml", text);
+        critical[listed] = clock_of_file("block.yaml").dt_critical;
+    }
+    remove("block.csv"), remove("block.yaml");
+    assert_close(critical[1], critical[0], 1e-12);
+}
+
 /* The step is a share of the critical one, and half the time of damping at the most. */
 static void safety_and_damping(void **state)
 {
@@ -96,6 +122,26 @@ static void safety_and_damping(void **state)
     assert_true(plain.dt <= 0.37 * plain.dt_critical && plain.dt > 0.36 * plain.dt_critical);
     const struct run_clock damped = clock_of(PLATE "duration: 0.1 ms\nmethod: mpm\ndamping: 7e6 1/s\n");
     assert_true(damped.dt <= (1 + 1e-9) * 0.5 / 7e6 && damped.dt > 0.49 / 7e6);
+}
+
+/* The least compressible of all materials shortens the step by the root of 1 + c12/c11 over 5/3, c12/c11 = nu/(1 - nu)
+ * in plane strain; the first is the fastest. */
+static void incompressible_parts_take_short_steps(void **state)
+{
+    (void)state;
+    real critical[2];
+    for (int parts = 0; parts < 2; parts++) {
+        char text[700];
+        snprintf(text, sizeof text,
+                 "space: plane strain\nthickness: 0.37 mm\nduration: 10 us\nmethod: mpm\nmpm: {frame: current}\n"
+                 "materials:\n  - {name: stiff, young: 3 GPa, poisson: 1/4, density: 1180}\n%s"
+                 "bodies:\n  - {name: plate, material: stiff, shape: {box: {from: [0, 0], to: [12 mm, 12 mm]}}%s}\n"
+                 "particles: {spacing: 1 mm}\n",
+                 parts ? "  - {name: rubber, young: 0.1 GPa, poisson: 0.47, density: 1430}\n" : "",
+                 parts ? ", parts: [{region: {box: {from: [3 mm, 3 mm], to: [7 mm, 9 mm]}}, material: rubber}]" : "");
+        critical[parts] = clock_of(text).dt_critical;
+    }
+    assert_close(critical[1], critical[0] * sqrt(5. / 3 / (1 + 0.47 / 0.53)), 1e-12);
 }
 
 static int folder_enter(void **state)
@@ -114,6 +160,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(levels_divide_the_steps),
                                        cmocka_unit_test(light_particles_take_short_steps),
+                                       cmocka_unit_test(masses_are_of_their_material),
+                                       cmocka_unit_test(incompressible_parts_take_short_steps),
                                        cmocka_unit_test(safety_and_damping)};
     return cmocka_run_group_tests(tests, folder_enter, folder_leave);
 }
