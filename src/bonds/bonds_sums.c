@@ -185,10 +185,24 @@ real bonds_critical_step_made(const struct bonds *b, const struct particles *p)
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;
 }
 
+/* Stiffnesses of bonds between materials over that of material 0, to be freed by the caller. Those of state-based
+ * models are means, because each end answers with its own modulus. */
+static struct pair_table pairs_of_bound(const struct bond_source *s)
+{
+    struct pair_table pairs = pairs_make(s);
+    const real first = family_micro_modulus(&s->family, &s->material[0]);
+    for (int a = 0; a < s->materials && s->modulus; a++)
+        for (int b = 0; b < s->materials; b++)
+            pairs.ratio[a * s->materials + b] = 0.5 / first *
+                                                (family_micro_modulus(&s->family, &s->material[a]) +
+                                                 family_micro_modulus(&s->family, &s->material[b]));
+    return pairs;
+}
+
 real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 {
     real stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume), largest = 0;
-    struct pair_table pairs = pairs_make(s);
+    struct pair_table pairs = pairs_of_bound(s);
     uint8_t *kind = NEW("bonds.kind", p->n_all, uint8_t);
     struct particles all = *p;
     array_fill_bytes(kind, KIND_PD, p->n_all, 1);

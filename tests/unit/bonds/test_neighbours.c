@@ -406,6 +406,11 @@ static void test_rows_of_lattice(void **state)
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
         const real step = bonds_critical_step_made(&c.bonds, &c.p);
         if (c.p.n_of[KIND_PD] == c.p.n) assert_true(step == bonds_critical_step(&c.p, &c.source));
+        struct bond_source states = c.source;            /* between equal ends of states as of bonds, else stiffer */
+        states.modulus = (const struct state_modulus[CLOUD_MATERIALS]){{0, 0}};
+        const real of_states = bonds_critical_step(&c.p, &states), of_bonds = bonds_critical_step(&c.p, &c.source);
+        if (k >= COUNT_OF(plan)) assert_true(fabs(of_states - of_bonds) <= 1e-12 * of_bonds);
+        else assert_true(of_states < of_bonds);
         struct bonds *b = &c.bonds;
         cloud_unfold(b), cloud_unfold(&searched);
         const size_t columns = (size_t)b->columns, entries = columns * LANES, rows = (size_t)b->rows;

@@ -114,6 +114,30 @@ static void masses_are_of_their_material(void **state)
     assert_close(critical[1], critical[0], 1e-12);
 }
 
+/* The order of materials is of no matter to bonds that are not yet there: stiff and heavy, soft and light, of which
+ * neither the stiffness nor the density decides alone. */
+static void lattices_of_all_materials(void **state)
+{
+    (void)state;
+    static const char *const row[] = {"  - {name: stiff, young: 9 GPa, poisson: 1/3, density: 7070}\n",
+                                      "  - {name: soft, young: 1 GPa, poisson: 1/3, density: 1180}\n"};
+    static const char *const model[] = {"", "model: ospd\n", "model: mospd\n"};
+    for (int k = 0; k < 3; k++) {
+        real critical[2];
+        for (int turned = 0; turned < 2; turned++) {
+            char text[900];
+            snprintf(text, sizeof text,
+                     "space: plane stress\nthickness: 0.37 mm\nduration: 10 us\nmethod: adaptive\n%smaterials:\n%s%s"
+                     "bodies:\n  - {name: plate, material: stiff, shape: {box: {from: [0, 0], to: [12 mm, 12 mm]}},\n"
+                     "     parts: [{region: {box: {from: [0, 0], to: [7 mm, 12 mm]}}, material: soft}]}\n"
+                     "particles: {spacing: 1 mm, horizon: 2}\nconversion: {stress: 9 MPa}\n",
+                     model[k], row[turned], row[!turned]);
+            critical[turned] = clock_of(text).dt_critical;
+        }
+        assert_close(critical[1], critical[0], 1e-12);
+    }
+}
+
 /* The step is a share of the critical one, and half the time of damping at the most. */
 static void safety_and_damping(void **state)
 {
@@ -161,6 +185,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(levels_divide_the_steps),
                                        cmocka_unit_test(light_particles_take_short_steps),
                                        cmocka_unit_test(masses_are_of_their_material),
+                                       cmocka_unit_test(lattices_of_all_materials),
                                        cmocka_unit_test(incompressible_parts_take_short_steps),
                                        cmocka_unit_test(safety_and_damping)};
     return cmocka_run_group_tests(tests, folder_enter, folder_leave);
