@@ -147,6 +147,14 @@ static void bad_requests_are_refused(void **state)
     refused(&p, &(struct probe_request){.outer = 31}, "leaves the body at (");
     refused(&p, &(struct probe_request){.outer = 5}, "narrower than 3 spacings; choose a larger outer radius");
     refused(&p, &(struct probe_request){.outer = 12, .inner = 10}, "narrower than 3 spacings; choose");
+    refused(&p, &(struct probe_request){.outer = 5.5}, "the ring from 2.75 to 5.5 m is narrower");
+    /* rings to compare are those of the figures, made smaller or larger: 0.8 and 5/17 of their outer radii */
+    refused(&p, &(struct probe_request){.outer = 17, .inner = 13.6}, "the ring from 8.16 to 10.2 m is narrower");
+    real radius[] = {11.9, 3.4};
+    refused(&p, &(struct probe_request){.outer = 17, .inner = 5, .contours = {2, radius}},
+            "the ring from 1 to 3.4 m is narrower");
+    radius[1] = 33.7;
+    refused(&p, &(struct probe_request){.outer = 17, .inner = 5, .contours = {2, radius}}, "the ring of radius 33.7 m");
     p.o.part->material[40 * WIDTH + 30] = 1;
     refused(&p, &(struct probe_request){.outer = 20}, "another material");
     p.o.part->material[40 * WIDTH + 30] = 0;
@@ -154,6 +162,7 @@ static void bad_requests_are_refused(void **state)
     refused(&two, &(struct probe_request){.outer = 24}, "another crack's tip at (40, ");
     plate_make(&corner, 1, (const real[]){8, 30});
     refused(&corner, &(struct probe_request){.outer = 20}, "choose a smaller outer radius");
+    refused(&corner, &(struct probe_request){.inner = 7.3}, "the ring of radius 20 m");
     plate_free(&corner);
     plate_free(&two);
     plate_free(&p);
