@@ -102,7 +102,8 @@ static real crossed_at(const struct growth_rule *r, const real *X, const real *Y
 static void check_weights(struct stage *s, real damping, real exponent, int64_t *crossed)
 {
     struct stage whole;
-    s->rule.damping = damping, s->rule.exponent = exponent;
+    s->rule.damping = damping == 0.5 * HORIZON ? NAN : damping;      /* so much where none is given */
+    s->rule.exponent = exponent;
     stage_set(s);
     stage_lay(&whole, PD_OSPD, true);
     stage_set(&whole);
@@ -273,6 +274,29 @@ static void test_rule(void **state)
     stage_free(&s);
 }
 
+/* A step of 0.3 spacings turns the frame of a crack towards its heading by that share of the smoothing length, of a
+ * quarter of a horizon where none is given; wholly, where the length is shorter than the step. */
+static void test_smoothing(void **state)
+{
+    (void)state;
+    const real given[] = {1.9e-3, NAN, 0.17e-3}, length[] = {1.9e-3, HORIZON / 4, SPEED * STEP};
+    for (size_t k = 0; k < COUNT_OF(given); k++) {
+        struct stage s;
+        stage_lay(&s, PD_OSPD, true);
+        s.rule.toughness = 0.8e6, s.rule.smoothing = given[k];
+        snprintf(s.rule.probe, sizeof s.rule.probe, "sif");
+        stage_set(&s);
+        s.ruled = true;
+        s.K = (struct control){.factors.K = {1e6, -0.2e6}, .along = {0.96, 0.28}};
+        steps(&s, 0, 1);
+        const real turned = crack_direction(s.K.factors.K), share = SPEED * STEP / length[k];
+        const real frame = atan2(s.g.along[1], s.g.along[0]) - atan2(0.28, 0.96);
+        assert_near(frame, atan2(share * sin(turned), 1 - share + share * cos(turned)), 1e-14);
+        assert_near(hypot(s.g.along[0], s.g.along[1]), 1, 1e-15);
+        stage_free(&s);
+    }
+}
+
 /* ---- a speed that follows the toughness -------------------------------------------------------------------------- */
 
 #define TOUGHNESS 1e6                    /* [Pa m^(1/2)] */
@@ -421,6 +445,7 @@ int main(void)
                                        cmocka_unit_test(test_energy_of_breaking),
                                        cmocka_unit_test(test_length),
                                        cmocka_unit_test(test_rule),
+                                       cmocka_unit_test(test_smoothing),
                                        cmocka_unit_test(test_points),
                                        cmocka_unit_test(test_follows),
                                        cmocka_unit_test(test_follows_and_rests),
