@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "auto/scene_read.h"
+#include "base/memory.h"
 #include "engine/engine.h"
 #include "fracture/sif_fields.h"
 #include "src/engine/engine_statics.h"
@@ -114,8 +115,68 @@ static void test_face_area(void **state)
     }
 }
 
+/* In space a crack is as wide as the body along its front: 0.5 + 3 mm where a plane of symmetry across the front halves
+ * the first of four layers of particles, 4 mm where it lies beside them. */
+static void test_width(void **state)
+{
+    static const char block[] =
+        "space: solid\nduration: 1 s\nmethod: pd\nsolver: static\nsteps: {number: 3, control: energy, path: hoop}\n"
+        "material: {young: 3 GPa, poisson: 1/4, density: 1180 kg/m^3, energy_release_rate: 300 J/m^2}\n"
+        "body: {box: {from: [0, -8 mm, %g mm], to: [18 mm, 8 mm, %g mm]}}\n"
+        "particles: {spacing: 1 mm, horizon: 3.015}\n"
+        "cracks:\n  - {polygon: [[-1 mm, 0, -9 mm], [7 mm, 0, -9 mm], [7 mm, 0, 9 mm], [-1 mm, 0, 9 mm]]}\n"
+        "boundary:\n  - {displacement: [0, 0.1 mm, 0], face: y+, time: {ramp: {until: 1 s}}}\n"
+        "  - {fixed: all, face: y-}\n  - {mirror: {axis: z, at: 0}}\n";
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        char text[1000];
+        struct solution a;
+        real ahead[2];
+        const real from = k ? 0 : -0.5, wide = k ? 4e-3 : 3.5e-3;
+        snprintf(text, sizeof text, block, from, from + 4);
+        const struct led_tip *tip = solution_begin(&a, text);
+        led_ahead(tip->place, 2.3e-3, tip->last, ahead);
+        const real area = led_face_area(&a.e, tip->place, ahead);
+        if (!(fabs(area / (2.3e-3 * wide) - 1) < 1e-9)) fail_msg("from %g mm: %g m wide", from, area / 2.3e-3);
+        solution_free(&a);
+    }
+}
+
+/* Three growths along a path, of which each releases energy at another rate: what is recorded is the rate of the last
+ * two, before there are two that of the first. */
+static void test_release_rate(void **state)
+{
+    static const char plate[] =
+        "space: plane strain\nthickness: 0.37 mm\nduration: 1 s\nmethod: pd\nsolver: static\n"
+        "steps: {number: 3, control: energy}\n"
+        "material: {young: 3 GPa, poisson: 1/4, density: 1180 kg/m^3, energy_release_rate: 300 J/m^2}\n"
+        "body: {box: {from: [0, 0], to: [20 mm, 8 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"
+        "cracks: [{from: [-1 mm, 4 mm], to: [7 mm, 4 mm]}]\n"
+        "boundary: [{fixed: all, face: y-}, {traction: [0, 1 MPa], face: y+, time: {ramp: {until: 1 s}}}]\n";
+    static const real grown[] = {0, 1.3e-3, 3.4e-3, 5.1e-3}, released[] = {0, 2e-4, 7.1e-4, 9.3e-4};
+    (void)state;
+    struct solution a;
+    solution_begin(&a, plate);
+    struct led *led = &a.e.statics.led;
+    led->path = NEW("test.path", 3, struct led_stretch), led->room = 3;
+    for (int k = 0; k < 4; k++) {
+        real record[20];
+        if (k > 0) led->path[led->stretches++] = (struct led_stretch){{{grown[k - 1]}, {grown[k]}}, 0};
+        a.e.statics.balance.lost = released[k];
+        statics_record(&a.e, record);
+        assert_true(fabs(record[2] - released[k]) <= 1e-12 * released[k]);
+        assert_true(fabs(record[3] - 0.37e-3 * grown[k]) <= 1e-12 * grown[k]);
+        const int since = k > 2 ? k - 2 : 0;
+        const real rate = (released[k] - released[since]) / (0.37e-3 * (grown[k] - grown[since]));
+        if (k == 0) assert_true(isnan(record[4]));
+        else if (!(fabs(record[4] / rate - 1) < 1e-12)) fail_msg("growth %d: %g J/m^2 of %g", k, record[4], rate);
+    }
+    solution_free(&a);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_plane_state), cmocka_unit_test(test_face_area)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_plane_state), cmocka_unit_test(test_face_area),
+                                       cmocka_unit_test(test_width), cmocka_unit_test(test_release_rate)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
