@@ -350,6 +350,33 @@ static void test_rotation(void **state)
             }
 }
 
+/* A particle with another volume than that of its cell, inside a lattice: Q of a full family is the sum over its bonds,
+ * up to the single precision of weights. Without the local normalisation a particle at a corner has the same. */
+static void test_volumes(void **state)
+{
+    (void)state;
+    static const enum space spaces[] = {SPACE_PLANE_STRAIN, SPACE_SOLID};
+    for (size_t s = 0; s < COUNT_OF(spaces); s++) {
+        real Q[2], corner[2];
+        for (int local = 0; local < 2; local++) {
+            struct body b;
+            body_make(&b, &(struct cloud_plan){.space = spaces[s], .count = {7, 7, 7}, .horizon = 2.515,
+                                               .influence = INFLUENCE_INVERSE}, PD_OSPD, 0.23, local);
+            const real middle[DIM_MAX] = {3.5 * CLOUD_SPACING, 3.5 * CLOUD_SPACING, 3.5 * CLOUD_SPACING};
+            const int64_t i = particles_nearest(&b.c.p, middle);
+            b.c.p.volume0[i] *= 1.37, b.c.p.volume0[0] *= 1.37;
+            cloud_bonds(&b.c);
+            Q[local] = b.c.bonds.state.weighted[b.c.bonds.row_of[i]];
+            corner[local] = b.c.bonds.state.weighted[b.c.bonds.row_of[0]];
+            if (local) assert_close(Q[1], state_weight_left(&b.c.bonds, b.c.bonds.row_of[i]), 1e-6);
+            cloud_free(&b.c);
+        }
+        assert_close(Q[0], Q[1], 1e-6);
+        assert_close(corner[0], Q[1], 1e-6);
+        assert_true(corner[1] < 0.5 * Q[1]);
+    }
+}
+
 /* ---- critical step ----------------------------------------------------------------------------------------------- */
 
 /* Plane stress, m = 3.015, nu = 0.3: OSPD 1.79, MOSPD 1.94 D/c of large plates; a block's free surfaces move them by
@@ -380,7 +407,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_ospd_plane_stress), cmocka_unit_test(test_mospd_exact),
                                        cmocka_unit_test(test_turned_stress),     cmocka_unit_test(test_ospd_spaces),
                                        cmocka_unit_test(test_gradient),          cmocka_unit_test(test_rotation),
-                                       cmocka_unit_test(test_critical_step)};
+                                       cmocka_unit_test(test_volumes),           cmocka_unit_test(test_critical_step)};
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;
