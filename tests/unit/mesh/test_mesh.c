@@ -307,6 +307,62 @@ static void test_refused(void **state)
     block_free(&b);
 }
 
+/* ---- inertia of coarse cells ------------------------------------------------------------------------------------- */
+
+enum { EDGE = 4, NODES = EDGE * EDGE * EDGE };
+
+/* a . (L - C) a of a cell of unit mass with the values a at its corners: of L a 2^dim-th, of C a third or a sixth for
+ * each axis along which two corners are alike or not. */
+static real plain_form(int dim, const real *a)
+{
+    real sum = 0;
+    for (int c = 0; c < 1 << dim; c++)
+        for (int k = 0; k < 1 << dim; k++) {
+            real share = c == k ? 1 / (real)(1 << dim) : 0, both = 1;
+            for (int d = 0; d < dim; d++) both /= (c >> d & 1) == (k >> d & 1) ? 3 : 6;
+            sum += (share - both) * a[c] * a[k];
+        }
+    return sum;
+}
+
+/* Kick energy of cells whose inertia is matched, of random forces and masses, some cells of a second material and some
+ * not matched: dt^2/4 (f^2/m + match M a . (L - C) a) with a = f/m, to round-off. */
+static void test_matched_kick(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= DIM_MAX; dim++) {
+        static real force[DIM_MAX][NODES], inverse_mass[NODES];
+        static uint8_t matched[NODES], material[NODES];
+        real cell_mass[] = {0.31, 0.83}, want = 0;
+        const real match = 0.43, dt = 0.7;
+        uint64_t seed = 23;
+        struct mesh mesh = {.grid = {.dim = dim, .n = 1, .force = {force[0], force[1], force[2]}}, .points = 5,
+                            .inverse_mass = inverse_mass, .matched = matched, .material = material,
+                            .cell_mass = cell_mass, .match = match};
+        for (int d = 0; d < dim; d++) mesh.grid.stride[d] = mesh.grid.n, mesh.grid.count[d] = EDGE, mesh.grid.n *= EDGE;
+        for (int c = 0; c < 1 << dim; c++)
+            for (int d = 0; d < dim; d++) mesh.corner[c] += (int32_t)((c >> d & 1) * mesh.grid.stride[d]);
+        for (int64_t I = 0; I < mesh.grid.n; I++) {
+            bool cell = true;
+            inverse_mass[I] = cloud_between(&seed, 1.3, 4.2);
+            for (int d = 0; d < dim; d++) {
+                force[d][I] = cloud_between(&seed, -3, 3);
+                want += square(force[d][I]) * inverse_mass[I];
+                cell = cell && I / mesh.grid.stride[d] % EDGE < EDGE - 1;
+            }
+            matched[I] = cell && I != 1, material[I] = I % 3 == 0;
+        }
+        for (int64_t I = 0; I < mesh.grid.n; I++)
+            for (int d = 0; d < dim && matched[I]; d++) {
+                real a[CORNERS_MAX];
+                for (int c = 0; c < 1 << dim; c++)
+                    a[c] = force[d][I + mesh.corner[c]] * inverse_mass[I + mesh.corner[c]];
+                want += match * cell_mass[material[I]] * plain_form(dim, a);
+            }
+        assert_close(mesh_kick(&mesh, dt), 0.25 * dt * dt * want, 1e-13);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -314,6 +370,7 @@ int main(void)
         cmocka_unit_test(test_patch),
         cmocka_unit_test(test_momentum), cmocka_unit_test(test_start),
         cmocka_unit_test(test_release), cmocka_unit_test(test_step), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_matched_kick),
     };
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
