@@ -238,12 +238,49 @@ static void test_trial(void **state)
     }
 }
 
+/* ---- release ----------------------------------------------------------------------------------------------------- */
+
+/* A block on a block that stands on a foot, pressed by a traction on all of its width. */
+#define STACK                                                                                                          \
+    "space: plane stress\nthickness: 1.7 mm\nduration: 1 s\nmethod: pd\nsolver: static\nsteps: {number: 3}\n"          \
+    "material: {young: 3 GPa, poisson: 1/3, density: 1180 kg/m^3}\nparticles: {spacing: 1 mm, horizon: 2.015}\n"       \
+    "bodies:\n  - {name: low, shape: {box: {from: [0, 0], to: [8 mm, 4 mm]}}}\n"                                       \
+    "  - {name: high, shape: {box: {from: [1 mm, 4 mm], to: [7 mm, 7 mm]}}}\n"                                         \
+    "boundary:\n  - {name: foot, fixed: [x, y], region: {box: {from: [-inf, 0], to: [inf, 2 mm]}}}\n"                  \
+    "  - {name: top, body: high, traction: [0, -2.3 MPa], face: y+, time: {ramp: {until: 1 s}}}\n"
+
+/* The upper block is pushed into the lower one as a whole and let go: it comes back to where it was, and what contact
+ * took up by the push, less the work against the traction on the way back, is booked as lost. */
+static void test_let_go(void **state)
+{
+    (void)state;
+    struct solution a;
+    const real push = 0.02e-3, force = 0.6 * 2.3e6 * 1.7e-3 * 6e-3;
+    solution_make(&a, STACK, NULL);
+    solution_done(&a);
+    struct particles *p = &a.e.part;
+    statics_unknowns_make(&a.e);
+    assert_int_equal(statics_go(&a.e, 0.6), OK);
+    const real rests = contact_energy(&a.e.contact, p), lost = a.e.statics.balance.lost, damped = a.e.coupling.damped;
+    for (int64_t i = 0; i < p->n; i++)
+        if (p->X[1][i] > 4e-3) p->x[1][i] -= push;
+    const real pushed = contact_energy(&a.e.contact, p);
+    assert_true(rests > 0 && pushed > 100 * rests);
+    assert_int_equal(statics_release(&a.e), OK);
+    /* the tolerance of equilibria is 1e-5 */
+    near_to("contact", contact_energy(&a.e.contact, p), rests, 1e-4);
+    near_to("lost", a.e.statics.balance.lost - lost, pushed - rests - force * push, 1e-5);
+    near_to("damped", a.e.coupling.damped - damped, pushed - rests - force * push, 1e-5);
+    statics_free(&a.e);
+    solution_free(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_models),  cmocka_unit_test(test_variants), cmocka_unit_test(test_points),
         cmocka_unit_test(test_quarter), cmocka_unit_test(test_parted),   cmocka_unit_test(test_motions),
-        cmocka_unit_test(test_trial),
+        cmocka_unit_test(test_trial),   cmocka_unit_test(test_let_go),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
