@@ -142,17 +142,18 @@ static void test_width(void **state)
     }
 }
 
+static const char plate[] =
+    "space: plane strain\nthickness: 0.37 mm\nduration: 1 s\nmethod: pd\nsolver: static\n"
+    "steps: {number: 3, control: energy}\n"
+    "material: {young: 3 GPa, poisson: 1/4, density: 1180 kg/m^3, energy_release_rate: 300 J/m^2}\n"
+    "body: {box: {from: [0, 0], to: [20 mm, 8 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"
+    "cracks: [{from: [-1 mm, 4 mm], to: [7 mm, 4 mm]}]\n"
+    "boundary: [{fixed: all, face: y-}, {traction: [0, 1 MPa], face: y+, time: {ramp: {until: 1 s}}}]\n";
+
 /* Three growths along a path, of which each releases energy at another rate: what is recorded is the rate of the last
  * two, before there are two that of the first. */
 static void test_release_rate(void **state)
 {
-    static const char plate[] =
-        "space: plane strain\nthickness: 0.37 mm\nduration: 1 s\nmethod: pd\nsolver: static\n"
-        "steps: {number: 3, control: energy}\n"
-        "material: {young: 3 GPa, poisson: 1/4, density: 1180 kg/m^3, energy_release_rate: 300 J/m^2}\n"
-        "body: {box: {from: [0, 0], to: [20 mm, 8 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"
-        "cracks: [{from: [-1 mm, 4 mm], to: [7 mm, 4 mm]}]\n"
-        "boundary: [{fixed: all, face: y-}, {traction: [0, 1 MPa], face: y+, time: {ramp: {until: 1 s}}}]\n";
     static const real grown[] = {0, 1.3e-3, 3.4e-3, 5.1e-3}, released[] = {0, 2e-4, 7.1e-4, 9.3e-4};
     (void)state;
     struct solution a;
@@ -174,9 +175,35 @@ static void test_release_rate(void **state)
     solution_free(&a);
 }
 
+/* Particles beside the crack's line are damaged spacing by spacing: a growth is four of them, so that up to the eighth
+ * rates are those since the start, the next ones those since the fourth. */
+static void test_rate_of_damage(void **state)
+{
+    (void)state;
+    struct solution a;
+    real released[11] = {0};
+    solution_begin(&a, plate);
+    struct particles *p = &a.e.part;
+    for (int k = 1; k < 11; k++) {
+        real record[20];
+        released[k] = released[k - 1] + 1.3e-5 * k * k;
+        for (int64_t i = 0; i < p->n; i++)
+            if (p->X[0][i] > 7e-3 && p->X[0][i] < (7 + k) * 1e-3 && fabs(p->X[1][i] - 4e-3) < 0.6e-3)
+                p->damage[i] = 0.45;
+        a.e.statics.balance.lost = released[k];
+        statics_record(&a.e, record);
+        const int since = k > 8 ? 4 : 0;
+        const real rate = (released[k] - released[since]) / (0.37e-3 * 1e-3 * (k - since));
+        if (!(fabs(record[3] / (0.37e-6 * k) - 1) < 1e-9)) fail_msg("%d spacings: %g m^2", k, record[3]);
+        if (!(fabs(record[4] / rate - 1) < 1e-9)) fail_msg("%d spacings: %g J/m^2 of %g", k, record[4], rate);
+    }
+    solution_free(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_plane_state), cmocka_unit_test(test_face_area),
-                                       cmocka_unit_test(test_width), cmocka_unit_test(test_release_rate)};
+                                       cmocka_unit_test(test_width), cmocka_unit_test(test_release_rate),
+                                       cmocka_unit_test(test_rate_of_damage)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
