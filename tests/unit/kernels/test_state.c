@@ -377,6 +377,23 @@ static void test_volumes(void **state)
     }
 }
 
+/* The same at corners, where weights are those of classes of particles near faces. */
+static void test_volumes_at_faces(void **state)
+{
+    (void)state;
+    struct body b;
+    body_make(&b, &(struct cloud_plan){.space = SPACE_PLANE_STRAIN, .count = {9, 9}, .horizon = 2.515,
+                                       .influence = INFLUENCE_INVERSE, .surface = SURFACE_MOMENTS},
+              PD_OSPD, 0.23, false);
+    b.c.p.volume0[0] *= 1.37;
+    cloud_bonds(&b.c);
+    const struct bonds *bonds = &b.c.bonds;
+    assert_true(b.c.source.surface && b.c.surface.class_of[0] > 0);
+    const real Q = bonds->state.weighted[bonds->row_of[0]];
+    assert_close(Q, 1.37 * bonds->state.weighted[bonds->row_of[8]], 1e-12);
+    cloud_free(&b.c);
+}
+
 /* ---- critical step ----------------------------------------------------------------------------------------------- */
 
 /* Plane stress, m = 3.015, nu = 0.3: OSPD 1.79, MOSPD 1.94 D/c of large plates; a block's free surfaces move them by
@@ -407,7 +424,8 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_ospd_plane_stress), cmocka_unit_test(test_mospd_exact),
                                        cmocka_unit_test(test_turned_stress),     cmocka_unit_test(test_ospd_spaces),
                                        cmocka_unit_test(test_gradient),          cmocka_unit_test(test_rotation),
-                                       cmocka_unit_test(test_volumes),           cmocka_unit_test(test_critical_step)};
+                                       cmocka_unit_test(test_volumes),           cmocka_unit_test(test_critical_step),
+                                       cmocka_unit_test(test_volumes_at_faces)};
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;
