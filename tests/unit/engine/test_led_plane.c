@@ -1,5 +1,5 @@
 /* The plane of SIF-driven cracks: factors of given displacements by the thickness of a body in space, areas of faces
- * beside planes of symmetry. */
+ * and widths of bodies beside planes of symmetry; release rates of what cracks have grown. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

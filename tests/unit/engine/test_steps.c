@@ -1,5 +1,5 @@
 /* Load steps: equilibria against the static solvers of elastic bodies, mirrors against wholes, pieces that nothing
- * holds, trials that leave no trace. */
+ * holds, trials that leave no trace, what a release in time loses. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /* The mesh of the reference frame against plain sums over its points: forces are the exact gradient of the
  * energy, patches carry uniform strain, nothing resists a rotation, momentum of both kinds is kept, converted points
- * take their share along, and the critical step is that of the mesh. */
+ * take their share along, the critical step is that of the mesh, and kicks have the inertia of matched cells. */
 #include "tests/support/mesh_block.h"
 
 #include "coupling/conversion.h"
