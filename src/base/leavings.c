@@ -1,6 +1,7 @@
 /* What a process that a signal ends takes with it. */
 #include "base/leavings.h"
 
+#include <pthread.h>
 #include <signal.h>
 #include <stdbool.h>
 #include <string.h>
@@ -16,9 +17,17 @@ static struct {
     char path[PATH_LONGEST];
 } leavings[LEAVINGS];
 
-/* Only calls that a signal handler may make. The child is waited for, since it could make its file once more. */
+static pthread_t maker; /* the thread that makes files and children */
+
+/* Only calls that a signal handler may make. A thread that makes no files hands the signal on: the other one would go
+ * on making them meanwhile (it blocks signals while it starts a child). The child is waited for, since it could make
+ * its file once more. */
 static void on_end(int number)
 {
+    if (!pthread_equal(pthread_self(), maker)) {
+        pthread_kill(maker, number);
+        return;
+    }
     for (int k = 0; k < LEAVINGS; k++) {
         if (leavings[k].process > 0 && kill((pid_t)leavings[k].process, SIGKILL) == 0)
             waitpid((pid_t)leavings[k].process, NULL, 0);
@@ -33,6 +42,7 @@ static void leavings_watch(void)
 {
     static const int ends[] = {SIGINT, SIGTERM, SIGHUP};
     static bool watched;
+    if (!watched) maker = pthread_self();
     for (size_t k = 0; k < sizeof ends / sizeof *ends && !watched; k++) {
         struct sigaction action;
         if (sigaction(ends[k], NULL, &action) == 0 && action.sa_handler == SIG_DFL) signal(ends[k], on_end);

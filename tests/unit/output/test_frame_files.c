@@ -13,7 +13,7 @@
 #include "output/output_files.h"
 #include "output/output_hdf5.h"
 
-static const char scene_text[] = "name: toy\nspace: plane stress\n";
+static const char scene_text[] = "name: \"toy\"\nspace: plane stress\noutput:\n  regions:\n    - name: \"half\"\n";
 enum { PARTICLES = 1000 };
 
 static int remove_one(const char *path, const struct stat *s, int type, struct FTW *walk)

@@ -18,7 +18,7 @@
 #include "output/output_files.h"
 #include "output/output_hdf5.h"
 
-static const char scene_text[] = "name: toy\nspace: plane stress\n";
+static const char scene_text[] = "name: \"toy\"\nspace: plane stress\n";
 enum { PARTICLES = 1000 };
 
 /* ---- helpers ----------------------------------------------------------------------------------------------------- */
@@ -282,7 +282,7 @@ static void folders_of_others_are_refused(void **state)
     char name[PATH_ROOM + 10];
     open_fresh(&o, "folder/deep/run", false);
     output_close(&o);
-    assert_int_equal(output_open(&o, "folder/deep/run", "name: other\n", OUTPUT_FIRST, false), REFUSED);
+    assert_int_equal(output_open(&o, "folder/deep/run", "name: \"other\"\n", OUTPUT_FIRST, false), REFUSED);
     assert_message("folder/deep/run holds the run of another scene");
     assert_int_equal(output_open(&o, "folder/deep/run/scene.yaml", scene_text, OUTPUT_FIRST, false), REFUSED);
     assert_int_equal(output_open(&o, "folder/deep/run/scene.yaml/x", scene_text, OUTPUT_FIRST, false), REFUSED);
