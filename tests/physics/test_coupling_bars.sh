@@ -2,6 +2,7 @@
 # Couplings of peridynamics and material points in bars: pulses through an interface (inputs/bar_pulse.yaml), a
 # loaded bar (bar_coupled.yaml), spallation behind an impact (bar_spall.yaml). References in tables were measured with
 # an independent code; the scenes are those of Zeng et al. 2021, sections 5.1 and 5.4.
+# Takes 25 s: each coupling and width of pulse is a bar of its own, long enough to tell what comes back from what goes on.
 test_name=test_coupling_bars
 . tests/support/summary.sh
 . tests/support/scenes.sh

@@ -1,6 +1,7 @@
 #!/bin/sh
 # `cleave bench`: what it refuses, the table of efficiency on a coarse plate, and that of couplings. BUILD: the
 # folder of the program.
+# Takes 90 s: every bench is run once, on the smallest bodies that its figures are known for.
 set -eu
 build=$(cd "${BUILD:-build}" && pwd)
 cleave=$build/cleave

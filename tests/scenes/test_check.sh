@@ -1,6 +1,7 @@
 #!/bin/sh
 # What `cleave check` says of a scene: its memory, what it does not resolve, what it does not need; and that it holds its
 # tongue where there is nothing to say. Run times are not tested: they depend on the load of the machine.
+# Takes 40 s: 150 scenes are set up, some of them of 1e5 particles, whose coarse cells small ones do not have.
 test_name=test_check
 . tests/support/summary.sh
 . tests/support/scenes.sh
