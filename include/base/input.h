@@ -9,7 +9,8 @@
 
 /* Opens a regular file for reading and remembers it as an input of this command. The caller closes *file. expected:
  * what the file should be, for the message; NULL: the message says no more. REFUSED with `PATH: cause; EXPECTED is
- * expected` if the file cannot be opened or is a folder, pipe, socket or device. */
+ * expected` if the file cannot be opened or is a folder, pipe, socket or device, but for a pipe that is open already
+ * (/dev/stdin, /dev/fd/N). */
 status input_open(FILE **file, const char *path, const char *expected);
 
 /* Remembers the file at `path`, which a library opens, as an input of this command.

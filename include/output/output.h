@@ -72,6 +72,8 @@ status output_add_series(struct output *o, const char *name, const struct region
 bool scene_text_same(const char *a, const char *b);
 /* Does the file hold a scene that says the same? False where it cannot be read. */
 bool scene_file_same(const char *path, const char *scene_text);
+/* Returns true if a text begins as every scene.yaml that Cleave writes: with the quoted name of the scene. */
+bool scene_text_is_written(const char *text);
 
 /* Writes `text` to DIR/name (aside, sync, rename). */
 status output_text(const struct output *o, const char *name, const char *text, size_t length);

@@ -42,6 +42,16 @@ static status read_threads(struct run_arguments *a, const char *text)
                : status_set(REFUSED, "-t %s: a number of threads from 1 to %d is wanted", text, THREADS_MOST);
 }
 
+bool arguments_take(int *argc, char **argv, const char *option)
+{
+    int kept = 0;
+    for (int k = 0; k < *argc; k++)
+        if (strcmp(argv[k], option) || (k > 0 && !strcmp(argv[k - 1], "-s"))) argv[kept++] = argv[k];
+    const bool taken = kept < *argc;
+    *argc = kept;
+    return taken;
+}
+
 static status arguments_read_all(struct run_arguments *a, int argc, char **argv, const char *usage)
 {
     for (int k = 1; k < argc; k++) {

@@ -16,6 +16,9 @@ struct run_arguments {
 
 /* The whole number behind an option; REFUSED unless it is from least to most. */
 status option_count(int *count, const char *option, const char *text, int least, int most);
+/* Removes an option without value, which this command alone has, from argv wherever it stands. Returns true if it was
+ * there. */
+bool arguments_take(int *argc, char **argv, const char *option);
 /* argv[0]: the command. REFUSED with the usage line for malformed words. */
 status arguments_read(struct run_arguments *a, int argc, char **argv, const char *usage);
 /* `key=value` behind -s, into a->override, which has room. */

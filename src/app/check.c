@@ -1,7 +1,6 @@
 /* `cleave check`: checks a scene and estimates the cost of its run by trial steps; nothing is written. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "auto/scene_read.h"
 #include "check_parts.h"
@@ -234,22 +233,11 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
     return result;
 }
 
-/* Removes the word from argv if it is there. Returns true if it was. */
-static bool word_removed(int *argc, char **argv, const char *word)
-{
-    int kept = 0;
-    for (int k = 0; k < *argc; k++)
-        if (strcmp(argv[k], word) || (k > 0 && !strcmp(argv[k - 1], "-s"))) argv[kept++] = argv[k];
-    const bool removed = kept < *argc;
-    *argc = kept;
-    return removed;
-}
-
 status command_check(int argc, char **argv)
 {
     struct run_arguments a;
     struct pilot_wish pilot;
-    const bool trial = !word_removed(&argc, argv, "--no-trial");
+    const bool trial = !arguments_take(&argc, argv, "--no-trial");
     TRY(arguments_read(&a, argc, argv, "check " CHECK_WORDS));
     const int threads = team_make(a.threads);
     const double start = team_clock();

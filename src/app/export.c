@@ -14,16 +14,14 @@ static const char usage[] = "export " EXPORT_WORDS;
 static status export_words(struct export_request *r, int *argc, char **argv)
 {
     int kept = 1;
+    r->allow_different = arguments_take(argc, argv, "--allow-different");
+    r->overwrite = arguments_take(argc, argv, "--overwrite");
     for (int k = 2; k < *argc; k++) {
         const bool style = !strcmp(argv[k], "--style");
         if (style && k + 1 < *argc && (!strcmp(argv[k + 1], "peri") || !strcmp(argv[k + 1], "bpm")))
             r->bond_style = !strcmp(argv[++k], "bpm");
         else if (style)
             return status_set(REFUSED, "--style: peri or bpm is expected; usage: cleave %s", usage);
-        else if (!strcmp(argv[k], "--allow-different"))
-            r->allow_different = true;
-        else if (!strcmp(argv[k], "--overwrite"))
-            r->overwrite = true;
         else if (!strcmp(argv[k], "--resume") || !strcmp(argv[k], "-q"))
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", argv[k], usage);
         else

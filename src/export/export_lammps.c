@@ -205,8 +205,8 @@ static status export_guard(const struct export_request *r)
 }
 
 /* Writes the files into a folder that is locked: all of them aside, so that an older export stays whole if one fails.
- * Then the older
- * script goes and the new files get their names, the script last: without it nobody takes the rest for an export. */
+ * Then the older script goes and the new files get their names, the script last: without it nobody takes the rest for
+ * an export. */
 static status files_write_locked(struct exported *x, const struct lammps_types *t)
 {
     const char *folder = x->request->folder;

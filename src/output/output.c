@@ -100,6 +100,8 @@ static int scene_difference(const char **a, const char **b)
 
 bool scene_text_same(const char *a, const char *b) { return scene_difference(&a, &b) == 0; }
 
+bool scene_text_is_written(const char *text) { return strncmp(text, "name: \"", 7) == 0; }
+
 bool scene_file_same(const char *path, const char *scene_text)
 {
     char *text;
@@ -127,18 +129,17 @@ static void difference_text(const char *a, const char *b, char *text, size_t roo
              b);
 }
 
-/* Returns true if the file is the scene of a run: it begins with a quoted name, as every scene.yaml that a run writes,
- * and is beside the folder of frames, which a run makes first; or it is this scene. */
+/* Returns true if the file is the scene of a run: Cleave wrote it, and it is beside the folder of frames, which a run
+ * makes first; or it is this scene. */
 static bool is_scene_of_run(const char *path, const char *scene_text)
 {
-    static const char begin[] = "name: \"";
     struct path frames;
     char *text;
     size_t length;
     snprintf(frames.text, sizeof frames.text, "%.*s/frames", (int)(strrchr(path, '/') - path), path);
     if (scene_file_same(path, scene_text)) return true;
     if (!path_is_folder(frames.text) || file_get(path, &text, &length) != OK) return false;
-    const bool is = strncmp(text, begin, sizeof begin - 1) == 0;
+    const bool is = scene_text_is_written(text);
     memory_free(text);
     return is;
 }
@@ -237,7 +238,7 @@ static status region_each(const char *folder, const char *inner, const char *end
     static const char *const index[] = {".hdf.series", ".xdmf", ".vtkhdf"};
     char name[PATH_NAME_ROOM];
     const struct path path = path_join(folder, inner);
-    if (strncmp(inner, "frames_", 7) != 0 || path_is_link(path.text) || !path_is_folder(path.text)) return OK;
+    if (path_is_link(path.text) || !path_is_folder(path.text)) return OK;
     TRY(files_each(path.text, is_frame, end, each));
     for (size_t k = 0; k < COUNT_OF(index); k++) {
         snprintf(name, sizeof name, "%.250s%s%s", inner + 7, index[k], end);

@@ -94,7 +94,7 @@ status study_make_of(struct study *s, const char *scene, const char *folder, con
 }
 
 /* First line of STUDY_SCENE. */
-static const char study_mark[] = "# study by cleave: the scene without what varies\n", echo_begin[] = "name: \"";
+static const char study_mark[] = "# study by cleave: the scene without what varies\n";
 
 /* Reads the scene of a study without its first line. A study of an earlier build has a scene without that
  * line, which begins as every scene that Cleave writes. Returns NULL if there is no such file, or if it begins
@@ -109,7 +109,7 @@ static char *study_scene_read(const char *path)
         memmove(text, text + mark, length - mark + 1);
         return text;
     }
-    if (strncmp(text, echo_begin, sizeof echo_begin - 1) == 0) return text;
+    if (scene_text_is_written(text)) return text;
     memory_free(text);
     return NULL;
 }

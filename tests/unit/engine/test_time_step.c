@@ -8,9 +8,9 @@
 
 #include "auto/scene_read.h"
 #include "engine/engine.h"
+#include "tests/support/folder.h"
 #include "tests/support/near.h"
 
-static char folder[] = "/tmp/cleave-step-XXXXXX";
 
 static void put(const char *path, const char *text)
 {
@@ -166,18 +166,6 @@ static void incompressible_parts_take_short_steps(void **state)
         critical[parts] = clock_of(text).dt_critical;
     }
     assert_close(critical[1], critical[0] * sqrt(5. / 3 / (1 + 0.47 / 0.53)), 1e-12);
-}
-
-static int folder_enter(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) == NULL || chdir(folder) != 0;
-}
-
-static int folder_leave(void **state)
-{
-    (void)state;
-    return chdir("/") || rmdir(folder);
 }
 
 int main(void)

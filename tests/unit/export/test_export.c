@@ -15,8 +15,8 @@
 #include "base/team.h"
 #include "export/export.h"
 #include "output/output_files.h"
+#include "tests/support/folder.h"
 
-static char folder[] = "/tmp/cleave-export-XXXXXX";
 enum { EDGE = 24, PARTICLES = EDGE * EDGE };
 #define SPACING 5e-4
 
@@ -193,23 +193,10 @@ static void what_lammps_cannot(void **state)
             "model: ospd\n", false, "families of peri/lps keep the weight they had whole");
 }
 
-static int folder_enter(void **state)
-{
-    (void)state;
-    team_make(2);
-    return mkdtemp(folder) == NULL || chdir(folder) != 0;
-}
-
-static int folder_leave(void **state)
-{
-    (void)state;
-    unlink("scene.yaml");
-    return chdir("/") || rmdir(folder);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(exclusions_are_the_crack), cmocka_unit_test(coefficients),
                                        cmocka_unit_test(bonds_of_bpm), cmocka_unit_test(what_lammps_cannot)};
+    team_make(2);
     return cmocka_run_group_tests(tests, folder_enter, folder_leave);
 }

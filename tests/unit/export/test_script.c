@@ -11,9 +11,9 @@
 #include "base/team.h"
 #include "export/export.h"
 #include "output/output_files.h"
+#include "tests/support/folder.h"
 #include "tests/support/near.h"
 
-static char folder[] = "/tmp/cleave-script-XXXXXX";
 #define STEP 2e-8
 
 static const char equal[] =
@@ -247,23 +247,10 @@ static void drives(void **state)
     memory_free(script);
 }
 
-static int folder_enter(void **state)
-{
-    (void)state;
-    team_make(1);
-    return mkdtemp(folder) == NULL || chdir(folder) != 0;
-}
-
-static int folder_leave(void **state)
-{
-    (void)state;
-    unlink("scene.yaml");
-    return chdir("/") || rmdir(folder);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(coefficients), cmocka_unit_test(bonds_of_two),
                                        cmocka_unit_test(forces), cmocka_unit_test(drives)};
+    team_make(1);
     return cmocka_run_group_tests(tests, folder_enter, folder_leave);
 }

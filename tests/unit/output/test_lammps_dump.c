@@ -12,8 +12,8 @@
 
 #include "base/memory.h"
 #include "output/lammps_dump.h"
+#include "tests/support/folder.h"
 
-static char folder[] = "/tmp/cleave-dump-XXXXXX";
 static const char name[] = "plate.dump";
 
 static const char whole[] =
@@ -109,22 +109,15 @@ static void damaged(void **state)
     }
 }
 
-static int folder_enter(void **state)
+static int dump_leave(void **state)
 {
-    (void)state;
-    return mkdtemp(folder) == NULL || chdir(folder) != 0;
-}
-
-static int folder_leave(void **state)
-{
-    (void)state;
     unlink(name);
-    return chdir("/") || rmdir(folder);
+    return folder_leave(state);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_there), cmocka_unit_test(being_written),
                                        cmocka_unit_test(what_is_wrong), cmocka_unit_test(damaged)};
-    return cmocka_run_group_tests(tests, folder_enter, folder_leave);
+    return cmocka_run_group_tests(tests, folder_enter, dump_leave);
 }

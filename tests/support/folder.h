@@ -1,0 +1,26 @@
+/* A folder of a test's own, in which its tests run. Those who include this file pass folder_enter and folder_leave to
+ * cmocka_run_group_tests. */
+#ifndef CLEAVE_TESTS_FOLDER
+#define CLEAVE_TESTS_FOLDER
+
+#include <stdlib.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/cleave-test-XXXXXX";
+
+/* Makes the folder and enters it. Returns 0 if that went well. */
+static inline int folder_enter(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) == NULL || chdir(folder) != 0;
+}
+
+/* Leaves the folder and removes it with a scene.yaml. Returns 0 if tests have left nothing else in it. */
+static inline int folder_leave(void **state)
+{
+    (void)state;
+    unlink("scene.yaml");
+    return chdir("/") || rmdir(folder);
+}
+
+#endif
