@@ -5,6 +5,7 @@
 #include "data/cells.h"
 #include "data/material.h"
 #include "data/region.h"
+#include "data/voids.h"
 
 enum volume_rule { VOLUME_WHOLE, VOLUME_RAMP, VOLUME_CUT_RAMP };
 enum calibration { CALIBRATION_LATTICE, CALIBRATION_CONTINUUM, CALIBRATION_VMPD };
@@ -78,6 +79,7 @@ struct bond_source {
     const struct crack *crack;           /* ... and what of them lies in the body, with its images beyond mirrors */
     int cracks;
     const int *crack_of;                 /* [cracks] number of the given one */
+    const struct voids *voids;           /* of bodies, which part bonds as pre-cracks do; NULL: there are none */
     const struct mirror_plane *mirror;   /* planes of symmetry, clamped ones left out */
     int mirrors;
     const struct image *image;           /* of loads */

@@ -24,7 +24,9 @@ struct notches {
     real *lost;                          /* [particles] share of its family from which slits part a particle; NULL: no
                                           * slits */
     int64_t faces;
-    int32_t *face;                       /* [faces] particles beside a slit, ascending */
+    int32_t *face;                       /* [faces] particles beside a slit or a narrow void, ascending */
+    real *depth;                         /* [faces] of those beside a void, how deep they are in the body [m] */
+    const struct voids *voids;           /* borrowed; NULL: there are none */
 };
 
 /* Decides for each pre-crack of the source: slits where it runs through material points of the mesh and ends in the

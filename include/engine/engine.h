@@ -53,6 +53,8 @@ struct material_tables {
     int *mirror_axis;                    /* [boundaries] -1: clamped */
     struct mirror_plane *mirror;         /* planes of symmetry */
     struct crack_list cracks;            /* pre-cracks with their images in these */
+    struct voids voids;                  /* of bodies that are not convex */
+    struct mirror_plane *void_mirror;    /* planes beyond which bodies have images, clamped ones among them */
     real *neighbour_volume;              /* [n_all] V^H of every particle, volume method only */
     struct surface_weights surface;      /* of bonds near faces, pd.surface moments only */
     struct impedance *impedance;         /* [movers][materials] of absorbing faces; NULL: there are none */
@@ -331,6 +333,15 @@ status engine_mesh_make(struct engine *e, bool still);   /* still: the caller se
  * peridynamic particles of the start; before the first sample of tips; in a step, faces that meet; what stands for a
  * pre-crack, in words. */
 status engine_notch_convert(struct engine *e);
+/* Does a mirror lie between two nodes of the mesh? Nodes beyond it follow others one by one, extra nodes do not. */
+bool engine_mirror_between(const struct engine *e);
+/* Finds the voids of bodies that have shapes (e->tables.voids); e->source.voids stays NULL where none can be. */
+void engine_voids_make(struct engine *e);
+/* Marks as peridynamic the particles on both sides of narrow voids that cut no mesh: a grid would close them. */
+void engine_voids_convert(struct engine *e);
+/* Warns of voids that the run closes: narrow ones on the grid of the current frame, and in lists and images. */
+void engine_voids_warn(const struct engine *e, struct warnings *to);
+void engine_voids_free(struct engine *e);
 void engine_notch_tips(struct engine *e);
 bool engine_notch_approach(struct engine *e);          /* has it looked, and may have marked points? */
 void engine_notch_text(const struct engine *e, int crack, char *text, size_t room);

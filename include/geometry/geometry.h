@@ -7,6 +7,7 @@
 #define CLEAVE_GEOMETRY
 
 #include "data/hull.h"
+#include "data/region.h"
 
 /* A named part of a mesh: of elements that fill it a closed surface, of faces, lines or nodes an open one. */
 struct geometry_set {
@@ -27,5 +28,9 @@ status geometry_read(struct geometry *g, const char *path, int dim, real scale);
 /* NULL: no set has this name, in any case of its letters. */
 const struct geometry_set *geometry_find(const struct geometry *g, const char *name);
 void geometry_free(struct geometry *g);
+
+/* Appends to a list of *n cracks the free surfaces inside a closed surface: faces of it in one place, such as elements
+ * beside a slit have, whose nodes are doubled there. List and corners are the caller's (memory_free). */
+void geometry_slits(const struct hull *h, struct crack **crack, int *n);
 
 #endif

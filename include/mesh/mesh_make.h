@@ -23,6 +23,7 @@ struct mesh_source {
     const struct hollow *hollow;         /* cells whose particles are not made, borrowed; NULL: none */
     const struct crack *slit;            /* [slits] free surfaces between cells, borrowed */
     int slits;
+    const struct voids *voids;           /* of the bodies, likewise free surfaces, borrowed; NULL: there are none */
     const struct mirror_plane *mirror;   /* [mirrors] borrowed */
     int mirrors;
 };

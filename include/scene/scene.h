@@ -184,6 +184,7 @@ struct scene {
     struct conversion_rule conversion;
 
     int cracks;     struct crack *crack;
+    int cracks_given;                            /* of these, which the file names; behind them slits of meshes */
     int growths;    struct growth_rule *growth; /* cracks with prescribed or SIF-controlled growth */
     int initials;   struct scene_initial *initial;
     int boundaries; struct boundary *boundary;

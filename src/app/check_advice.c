@@ -110,7 +110,7 @@ static void advise_incompressible(const struct engine *e, FILE *out)
     }
 }
 
-/* Bodies and gaps smaller than FEATURE horizons. */
+/* Parts of bodies thinner than FEATURE horizons. What a shape subtracts cuts bonds and cells, however thin it is. */
 static void advise_features(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -118,14 +118,13 @@ static void advise_features(const struct engine *e, FILE *out)
         for (int k = 0; k < s->body[b].shape.n; k++) {
             const struct solid *a = &s->body[b].shape.solid[k];
             const real size = solid_size(e, a);
-            if (s->method == METHOD_MPM || (k > 0 && !a->subtract) || !(size < FEATURE * horizon_of(s))) continue;
+            if (s->method == METHOD_MPM || k > 0 || a->subtract || !(size < FEATURE * horizon_of(s))) continue;
             fprintf(out,
-                    "unresolved: body %s: a %s of %.4g m is %.2g horizons (%.3g spacings); below %d horizons most of "
+                    "unresolved: body %s: a part of %.4g m is %.2g horizons (%.3g spacings); below %d horizons most of "
                     "it feels cut-off families: spacing %.2g m would do",
-                    s->body[b].name, a->subtract ? "gap" : "part", size, size / horizon_of(s), size / s->spacing,
-                    FEATURE, size / (FEATURE * s->horizon));
-            if (s->method == METHOD_PD && !a->subtract)
-                advise_thin(s, size / s->spacing, out);
+                    s->body[b].name, size, size / horizon_of(s), size / s->spacing, FEATURE,
+                    size / (FEATURE * s->horizon));
+            if (s->method == METHOD_PD) advise_thin(s, size / s->spacing, out);
             fprintf(out, "\n");
         }
 }

@@ -1,8 +1,21 @@
 /* What `cleave check` says of bodies from files: whether a surface is closed, and what it encloses. */
 #include <math.h>
 
+#include "base/memory.h"
 #include "check_parts.h"
+#include "geometry/geometry.h"
 #include "scene/shape_file.h"
+
+/* How many free surfaces inside the mesh there are, where nodes are doubled, for geometry_slits. */
+static int hull_slits(const struct hull *h)
+{
+    struct crack *slit = NULL;
+    int n = 0;
+    geometry_slits(h, &slit, &n);
+    for (int k = 0; k < n; k++) memory_free(slit[k].corner);
+    memory_free(slit);
+    return n;
+}
 
 static void say_hull(const struct shape_file *f)
 {
@@ -15,6 +28,10 @@ static void say_hull(const struct shape_file *f)
     else printf(", closed");
     if (h->reversed) printf(", turned inside out and taken the other way round");
     if (h->dropped > 0 && f->kind == SHAPE_STL) printf(", %lld without area or given twice", (long long)h->dropped);
+    const int slits = hull_slits(h);
+    if (slits > 0)
+        printf(", its nodes doubled at %d free surface%s inside: %s", slits, slits > 1 ? "s" : "",
+               slits > 1 ? "pre-cracks" : "a pre-crack");
     printf(", encloses %.4g m^%d", h->volume, f->dim);
     if (f->geometry.sets > 0) printf("; sets");
     for (int k = 0; k < f->geometry.sets && k < 12; k++) printf("%s %s", k ? "," : "", f->geometry.set[k].name);

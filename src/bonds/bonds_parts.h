@@ -65,6 +65,8 @@ void columns_leave(struct bonds *old, const struct bonds *b);
 
 /* Can a crack cut any bond of particle i? */
 bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i);
+/* The same of a crack or a void. */
+bool cuts_near(const struct bond_source *s, const struct particles *p, int64_t i);
 /* No bond of these materials breaks below this stretch. */
 real row_trigger(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j);
 /* Is one index distance to a column (a lattice) worth its padding? Else the rows are simply packed. */

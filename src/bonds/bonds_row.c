@@ -38,11 +38,22 @@ int family_search(const struct bond_source *s, const struct particles *p, int32_
     return kept;
 }
 
+/* Takes out of a list of n neighbours of particle i those that voids hide. Returns how many stay. */
+static int family_seen(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int n)
+{
+    int kept = 0;
+    if (!voids_near(s->voids, i)) return n;
+    for (int k = 0; k < n; k++)
+        if (!voids_part(s->voids, p, i, found[k])) found[kept++] = found[k];
+    return kept;
+}
+
 int family_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
               int32_t *found, int room)
 {
-    const int n = l && l->at && i < p->n ? site_map_family(l, p, i, found) : -1;
-    return n >= 0 ? n : family_search(s, p, i, found, room);
+    int n = l && l->at && i < p->n ? site_map_family(l, p, i, found) : -1;
+    if (n < 0) n = family_search(s, p, i, found, room);
+    return n > room ? n : family_seen(s, p, i, found, n);
 }
 
 int bonds_room(const struct bond_source *s)
@@ -68,6 +79,11 @@ bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t
     for (int c = 0; c < s->cracks; c++)
         if (crack_near(&s->crack[c], X, s->family.cutoff, p->dim)) return true;
     return false;
+}
+
+bool cuts_near(const struct bond_source *s, const struct particles *p, int64_t i)
+{
+    return voids_near(s->voids, i) || cracks_near(s, p, i);
 }
 
 /* ---- one row ----------------------------------------------------------------------------------------------------- */

@@ -137,7 +137,7 @@ bool row_block_regular(const struct site_map *map, const struct bond_source *s, 
     int bonds[LANES] = {0}, columns = 0, longest = 0;
     if (!regular_bonds(map, p, i, to)) return false;
     for (int l = 0; l < LANES; l++)
-        if (cracks_near(s, p, i + l)) return false;
+        if (cuts_near(s, p, i + l)) return false;
     const uint8_t own = peridynamic(p, i);
     if (own == UINT8_MAX && to->full) {
         array_fill_bytes(to->bonds, UINT8_MAX, to->n, 1);

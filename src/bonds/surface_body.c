@@ -128,7 +128,7 @@ static bool eight_whole(const struct near_faces *b, const struct site_map *map, 
 {
     if (!map->at || first + LANES > b->p->n || !regular_bonds(map, b->p, first, regular)) return false;
     bool near = !regular->full || regular->n != b->offset.n;
-    for (int l = 0; l < LANES && !near; l++) near = cracks_near(b->source, b->p, first + l);
+    for (int l = 0; l < LANES && !near; l++) near = cuts_near(b->source, b->p, first + l);
     return !near;
 }
 

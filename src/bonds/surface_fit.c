@@ -377,12 +377,14 @@ static void solve(struct problem *q, real *factor, const uint8_t *fixed)
     memory_free(high);
 }
 
-/* Is the particle beside the end of a crack: cut from one that a neighbour of its still reaches? */
+/* Is the particle beside the end of a crack or of a narrow void: cut from one that a neighbour of its still reaches? */
 static bool at_crack_end(const struct near_faces *b, int64_t t)
 {
     const struct offsets *o = &b->offset;
     const struct particles *p = b->p;
-    if (!cracks_near(b->source, p, b->particle[t])) return false;
+    const int32_t i = b->particle[t];
+    const bool across = voids_near(b->source->voids, i) && b->source->voids->near[i] & VOID_ACROSS;
+    if (!across && !cracks_near(b->source, p, i)) return false;
     for (int k = 0; k < o->n; k++) {
         const int32_t j = neighbour_of(b, t, k);
         if (j < 0) continue;

@@ -10,6 +10,7 @@
 #define AHEAD_REACH 1.2                  /* radius of the search for particles ahead of an end [spacings] */
 #define FACE_REACH 1.01                  /* particles that face each other across a slit [spacings] */
 #define MEET_REACH 1.5                   /* of the search for faces that meet [spacings] */
+#define VOID_AHEAD 0.1                   /* faces of voids are peridynamic before they meet [spacings] */
 enum { EDGE_PARTS = 16 };                /* places of an edge at which the body is looked for */
 
 /* ---- ends -------------------------------------------------------------------------------------------------------- */
@@ -160,7 +161,13 @@ static bool face_find(struct notches *n, const struct particles *p, const struct
     return faces;
 }
 
-/* Particles that slits part from some of their family: by what share; and those beside a slit. */
+static bool beside_void(const struct bond_source *source, int64_t i)
+{
+    return voids_near(source->voids, i) && source->voids->near[i] & VOID_ACROSS;
+}
+
+/* Particles that slits part from some of their family: by what share; and those beside a slit or a narrow void, with how
+ * deep these are in the body. */
 static void faces_find(struct notches *n, const struct particles *p, const struct bond_source *source)
 {
     uint8_t *faces = NEW("notch.faces", p->n, uint8_t);
@@ -170,21 +177,25 @@ static void faces_find(struct notches *n, const struct particles *p, const struc
         struct near near = {0};
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
-            faces[i] = near_slit(n, p, source, i) && face_find(n, p, source, &near, i);
+            faces[i] = (near_slit(n, p, source, i) && face_find(n, p, source, &near, i)) || beside_void(source, i);
         memory_free(near.at);
     }
     for (int64_t i = 0; i < p->n; i++) n->faces += faces[i];
     n->face = NEW("notch.face", n->faces, int32_t);
+    n->depth = NEW("notch.depth", n->faces, real);
     n->faces = 0;
-    for (int64_t i = 0; i < p->n; i++)
-        if (faces[i]) n->face[n->faces++] = (int32_t)i;
+    for (int64_t i = 0; i < p->n; i++) {
+        if (!faces[i]) continue;
+        n->depth[n->faces] = beside_void(source, i) ? voids_depth(source->voids, p, i) : 0;
+        n->face[n->faces++] = (int32_t)i;
+    }
     memory_free(faces);
 }
 
 void notches_make(struct notches *n, const struct particles *p, const struct bond_source *source, real radius,
                   const char *obstacle)
 {
-    *n = (struct notches){.n = source->givens, .radius = radius};
+    *n = (struct notches){.n = source->givens, .radius = radius, .voids = source->voids};
     n->notch = NEW("notch.notch", n->n, struct notch);
     n->slit = NEW("notch.slit", n->n + source->cracks, struct crack);
     n->cut = NEW("notch.cut", source->cracks, struct crack);
@@ -197,8 +208,7 @@ void notches_make(struct notches *n, const struct particles *p, const struct bon
     for (int k = 0; k < source->cracks; k++)
         if (!n->notch[source->crack_of[k]].slit) n->cut[n->cuts++] = source->crack[k];
         else n->slit[n->slits + n->images++] = source->crack[k];
-    if (n->slits == 0) return;
-    faces_find(n, p, source);
+    if (n->slits > 0 || n->voids) faces_find(n, p, source);
 }
 
 void notches_convert(const struct notches *n, struct particles *p, const struct bond_source *source)
@@ -217,19 +227,31 @@ void notches_free(struct notches *n)
     memory_free(n->cut);
     memory_free(n->lost);
     memory_free(n->face);
+    memory_free(n->depth);
     memset(n, 0, sizeof *n);
 }
 
 /* ---- faces that meet --------------------------------------------------------------------------------------------- */
 
-/* Distance below which particles i and j become peridynamic [m], 0: no slit is between them. */
-static real meeting_distance(const struct notches *n, const struct particles *p, int32_t i, int32_t j, real spacing)
+/* Distance below which faces k and l of a void become peridynamic [m], 0: no void is between them: VOID_AHEAD before
+ * they meet, but no farther apart than they were at the start. */
+static real void_meeting_distance(const struct notches *n, const struct particles *p, int64_t k, int64_t l, real spacing)
 {
+    real r2 = 0;
+    if (!voids_part(n->voids, p, n->face[k], n->face[l])) return 0;
+    for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][n->face[k]] - p->X[d][n->face[l]]);
+    return real_min(sqrt(r2) - NOTCH_GAP * spacing, n->depth[k] + n->depth[l] + VOID_AHEAD * spacing);
+}
+
+/* Distance below which the particles of faces k and l become peridynamic [m], 0: nothing is between them. */
+static real meeting_distance(const struct notches *n, const struct particles *p, int64_t face, int64_t other, real spacing)
+{
+    const int32_t i = n->face[face], j = n->face[other];
     real width = -1;
     for (int k = 0; k < n->slits; k++)
         if (parted(&n->slit[k], p, i, j)) width = real_max(width, n->slit[k].width);
     const real gap = NOTCH_GAP * spacing;
-    return width < 0 ? 0 : spacing - real_max(gap, width - gap);
+    return width < 0 ? void_meeting_distance(n, p, face, other, spacing) : spacing - real_max(gap, width - gap);
 }
 
 /* Distance of particles i and j after the time `ahead`, if they come nearer [m]. */
@@ -265,7 +287,8 @@ void notches_approach(const struct notches *n, struct particles *p, real spacing
             for (int q = 0; q < near.n && !(p->flag[i] & FLAG_NEAR); q++) {
                 const int32_t j = n->face[near.at[q]];
                 const real after = distance_ahead(p, i, j, ahead);
-                if (after < spacing && after < meeting_distance(n, p, i, j, spacing)) p->flag[i] |= FLAG_NEAR;
+                if (after < MEET_REACH * spacing && after < meeting_distance(n, p, k, near.at[q], spacing))
+                    p->flag[i] |= FLAG_NEAR;
             }
         }
         memory_free(near.at);

@@ -108,7 +108,8 @@ real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *f
     particles_list(&p);
     cells_make(&cells, &p, f->cutoff * (1 + 1e-9));
     s.family.surface = SURFACE_NONE;
-    s.cells = &cells, s.cracks = 0, s.image = NULL, s.room = 0, s.neighbour_volume = NULL, s.surface = NULL;
+    s.cells = &cells, s.cracks = 0, s.voids = NULL, s.image = NULL;
+    s.room = 0, s.neighbour_volume = NULL, s.surface = NULL;
     bonds_make(&b, NULL, &p, &s);
     if (bound) *bound = bonds_critical_step_made(&b, &p);
     real step = critical_step_of(&b, &p, force, NULL, f->spacing);

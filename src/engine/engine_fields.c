@@ -66,7 +66,8 @@ static void gradient_of_points(const struct engine *e, struct near *near, int64_
     for (int k = 0; k < near->n; k++) {
         const int64_t j = near->at[k];
         const bool torn = p->kind[j] == KIND_PD && p->damage[j] > 0;
-        if (p->body[j] != p->body[i] || torn || cracks_part(e->source.crack, e->source.cracks, p, i, j)) continue;
+        if (p->body[j] != p->body[i] || torn || cracks_part(e->source.crack, e->source.cracks, p, i, j) ||
+            voids_part(e->source.voids, p, i, j)) continue;
         gradient_add(&sum, p, i, j);
     }
     gradient_fit(&sum, p->dim, i, H);

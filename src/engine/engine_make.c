@@ -131,6 +131,7 @@ static status make_bonds(struct engine *e, struct predecessor *before)
     const struct scene *s = e->scene;
     make_mirrors(e->scene, &e->loads, &e->tables, &e->source);
     e->source.image = e->loads.image;
+    engine_voids_make(e);
     e->source.room = bonds_room(&e->source);
     if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {
         e->tables.neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
@@ -466,8 +467,7 @@ void engine_free(struct engine *e)
     engine_damping_free(e);
     bonds_free(&e->bonds);
     contact_free(&e->contact);
-    memory_free(e->rigid);
-    memory_free(e->shape);
+    memory_free(e->rigid), memory_free(e->shape);
     cells_free(&e->cells);
     loads_free(&e->loads);
     particles_free(&e->part);
@@ -480,7 +480,7 @@ void engine_free(struct engine *e)
     memory_free(e->tables.modulus);
     memory_free(e->tables.mirror_axis);
     memory_free(e->tables.mirror);
-    crack_list_free(&e->tables.cracks);
+    crack_list_free(&e->tables.cracks), engine_voids_free(e);
     memory_free(e->tables.pair_yield);
     memory_free(e->tables.pair_hardening);
     memory_free(e->tables.neighbour_volume);

@@ -92,6 +92,7 @@ static void make_constants(struct engine *e)
                                           .hollow = &e->reference.hollow,
                                           .slit = e->coupling.notches.slit,
                                           .slits = e->coupling.notches.slits,
+                                          .voids = engine_mirror_between(e) ? NULL : e->source.voids,
                                           .mirror = e->source.mirror,
                                           .mirrors = e->source.mirrors};
 }

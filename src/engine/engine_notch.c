@@ -19,8 +19,7 @@ static const char *scene_obstacle(const struct scene *s)
     return NULL;
 }
 
-/* Does a mirror lie between two nodes of the mesh? Nodes beyond it follow others one by one, extra nodes do not. */
-static bool mirror_between(const struct engine *e)
+bool engine_mirror_between(const struct engine *e)
 {
     const struct scene *s = e->scene;
     const struct grid *g = &e->mpm.field[0].grid;
@@ -35,7 +34,7 @@ static const char *obstacle_of(const struct engine *e)
 {
     const char *why = scene_obstacle(e->scene);
     if (!why && !engine_has_mesh(e)) why = "there are no material points in the reference frame";
-    if (!why && mirror_between(e)) why = "a mirror lies between two nodes of the mesh";
+    if (!why && engine_mirror_between(e)) why = "a mirror lies between two nodes of the mesh";
     return why;
 }
 
@@ -60,6 +59,7 @@ status engine_notch_convert(struct engine *e)
     cut.crack = n->cut, cut.cracks = n->cuts;
     convert_region(&e->coupling.start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source, tips);
     notches_convert(n, &e->part, &e->source);
+    engine_voids_convert(e);
     convert_start(&e->part, &cut, e->coupling.start_region.n > 0 ? &e->coupling.start_region : NULL);
     return OK;
 }

@@ -331,6 +331,7 @@ void engine_warn(struct engine *e)
     warn_of_mirrors(e->scene, &e->mpm, to);
     warn_of_contact(e->scene, &e->reference, &e->coupling, to);
     warn_of_touch(e, to);
+    engine_voids_warn(e, to);
 }
 
 void engine_say(struct engine *e, const char *text)

@@ -40,13 +40,23 @@ static void builder_add(struct builder *b, int32_t i, int32_t j, int32_t k)
     memcpy(b->face[b->n++], face, sizeof face);
 }
 
-/* A side of 3 or 4 corners as triangles. A quadrilateral is halved at its lowest node, so that the elements on both
- * sides of it halve it alike. */
+/* Is place X before place Y, by the first coordinate in which they differ by more than a billionth of `size`? */
+static bool place_before(const real *X, const real *Y, real size)
+{
+    for (int d = 0; d < DIM_MAX; d++)
+        if (fabs(X[d] - Y[d]) > 1e-9 * size) return X[d] < Y[d];
+    return false;
+}
+
+/* A side of 3 or 4 corners as triangles. A quadrilateral is halved at the corner whose place is first, so that the
+ * elements on both sides of it halve it alike, also where each has nodes of its own. */
 static void builder_add_side(struct builder *b, const int32_t *node, int n)
 {
     int low = 0;
+    real size = 0;
+    for (int d = 0; d < DIM_MAX; d++) size += fabs(b->m->node[node[0]][d] - b->m->node[node[n / 2]][d]);
     for (int k = 1; k < n; k++)
-        if (node[k] < node[low]) low = k;
+        if (place_before(b->m->node[node[k]], b->m->node[node[low]], size)) low = k;
     builder_add(b, node[low], node[(low + 1) % n], node[(low + 2) % n]);
     if (n == 4) builder_add(b, node[low], node[(low + 2) % n], node[(low + 3) % n]);
 }

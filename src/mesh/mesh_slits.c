@@ -25,6 +25,7 @@ struct slit_maker {
     uint8_t *piece;                      /* [nodes << dim] of its cell that it is in */
     uint8_t *pieces;                     /* [nodes] of a cell with points near a slit, else 0 */
     uint8_t *split, *open;               /* [nodes] as in struct mesh_slits */
+    uint8_t *voids;                      /* [nodes] 1 within two cells of a particle with a void near */
     struct extras node, cell;
 };
 
@@ -40,8 +41,11 @@ static void extra_add(struct extras *to, struct extra one)
 
 /* ---- pieces of cells --------------------------------------------------------------------------------------------- */
 
-static bool places_parted(const struct slit_maker *m, const real *a, const real *b)
+/* Does a slit, or a void near particle i, part two places of its body? */
+static bool places_parted(const struct slit_maker *m, int32_t i, const real *a, const real *b)
 {
+    const struct voids *v = m->source->voids;
+    if (voids_near(v, i) && voids_between(v, m->p->body[i], a, b, NULL)) return true;
     for (int k = 0; k < m->source->slits; k++)
         if (crack_cuts(&m->source->slit[k], a, b, m->p->dim)) return true;
     return false;
@@ -52,14 +56,28 @@ static bool points_parted(const struct slit_maker *m, int32_t i, int32_t j)
     real a[DIM_MAX], b[DIM_MAX];
     particle_place(m->p, i, a);
     particle_place(m->p, j, b);
-    return places_parted(m, a, b);
+    return places_parted(m, i, a, b);
 }
 
-/* Is some slit within two cells of node I? */
+/* Marks the cells within two of cell I. */
+static void void_mark(const struct grid *g, int64_t I, uint8_t *mark)
+{
+    enum { FAR = 2 };
+    const int high = g->dim > 2 ? FAR : 0;
+    for (int c = -high; c <= high; c++)
+        for (int b = -FAR; b <= FAR; b++)
+            for (int a = -FAR; a <= FAR; a++) {
+                const int64_t at = I + a * g->stride[0] + b * g->stride[1] + (high ? c * g->stride[2] : 0);
+                if (at >= 0 && at < g->n) mark[at] = 1;
+            }
+}
+
+/* Is some slit or void within two cells of node I? */
 static bool slit_near(const struct slit_maker *m, int64_t I)
 {
     const struct grid *g = &m->mesh->grid;
     real X[DIM_MAX];
+    if (m->voids[I]) return true;
     for (int d = 0; d < g->dim; d++) X[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
     for (int k = 0; k < m->source->slits; k++)
         if (crack_near(&m->source->slit[k], X, 2 * sqrt(g->dim) * g->h, g->dim)) return true;
@@ -149,7 +167,7 @@ static bool image_parted(const struct slit_maker *m, int32_t i, const struct mir
     particle_place(m->p, i, a);
     memcpy(b, a, sizeof b);
     b[plane->axis] = 2 * plane->at - b[plane->axis];
-    return places_parted(m, a, b);
+    return places_parted(m, i, a, b);
 }
 
 /* Are the pieces of a group around node I together with their images in a plane through the node? As for pieces: by
@@ -209,7 +227,9 @@ static void slits_divide(struct slit_maker *m)
     for (int64_t k = 0; k < n << dim; k++) m->point[k] = -1;
     for (int64_t i = 0; i < m->p->n; i++) {
         const int64_t place = mesh_place_of(m->mesh, m->p, i);
-        if (place >= 0) m->point[place] = (int32_t)i;
+        if (place < 0) continue;
+        m->point[place] = (int32_t)i;
+        if (voids_near(m->source->voids, i)) void_mark(&m->mesh->grid, place >> dim, m->voids);
     }
     for (int64_t I = 0; I < n; I++)
         if (slit_near(m, I)) cell_divide(m, I);
@@ -333,13 +353,14 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
     const int64_t n = mesh->grid.n;
     status result = OK;
     mesh->slits = (struct mesh_slits){.first = n};
-    if (source->slits == 0 || p->dim == 1) return OK;
+    if ((source->slits == 0 && !source->voids) || p->dim == 1) return OK;
     struct slit_maker m = {.mesh = mesh, .p = p, .source = source};
     m.point = BARE("slits.point", n << p->dim, int32_t);
     m.piece = NEW("slits.piece", n << p->dim, uint8_t);
     m.pieces = NEW("slits.pieces", n, uint8_t);
     m.split = NEW("slits.split", n, uint8_t);
     m.open = NEW("slits.open", n, uint8_t);
+    m.voids = NEW("slits.voids", n, uint8_t);
     slits_divide(&m);
     const bool any = m.node.n > 0 || memchr(m.open, 1 << 0, (size_t)n) || memchr(m.open, 1 << 1, (size_t)n) ||
                      memchr(m.open, 1 << 2, (size_t)n);          /* of several mirrors: some node is on one alone */
@@ -350,6 +371,7 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
     memory_free(m.pieces);
     memory_free(m.split);
     memory_free(m.open);
+    memory_free(m.voids);
     memory_free(m.node.at);
     memory_free(m.cell.at);
     return result;

@@ -286,8 +286,8 @@ static void write_interfaces(struct writer *w)
 static void write_cracks(struct writer *w)
 {
     const struct scene *s = w->scene;
-    if (s->cracks) fputs("cracks:\n", w->out);
-    for (int k = 0; k < s->cracks; k++) {
+    if (s->cracks_given) fputs("cracks:\n", w->out);
+    for (int k = 0; k < s->cracks_given; k++) {
         const struct crack *c = &s->crack[k];
         fprintf(w->out, "  - {%s: ", s->dim == 1 ? "at" : s->dim == 2 ? "from" : "polygon");
         for (int j = 0; j < c->n; j++) {

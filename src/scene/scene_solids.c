@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "geometry/geometry.h"
 
 enum { SOLIDS_MOST = 200000 };
 #define EFFORT_MOST 1e5                  /* primitive solids that one place of a lattice is compared with */
@@ -376,15 +377,38 @@ static status read_crack(struct reader *r, const struct node *n, struct crack *c
     return width ? read_key(r, key_find("cracks", "width"), width, c) : OK;
 }
 
+/* Appends the slits of the meshes of a shape, wherever its copies are. */
+static void take_slits(struct scene *s, const struct region *shape)
+{
+    const struct placement there = {.turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    for (int k = 0; k < shape->n; k++) {
+        const struct solid *a = &shape->solid[k];
+        if (a->kind == SOLID_GROUP) take_slits(s, &a->region);
+        for (int m = 0; m < (a->images > 0 ? a->images : 1) && a->kind == SOLID_HULL && !a->subtract; m++) {
+            const struct placement *to = a->images > 0 ? &a->image[m] : &there;
+            int first = s->cracks;
+            for (geometry_slits(a->hull, &s->crack, &s->cracks); first < s->cracks; first++)
+                for (int c = 0; c < s->crack[first].n; c++) {
+                    real X[DIM_MAX];
+                    array_copy(X, s->crack[first].corner[c], DIM_MAX, sizeof *X);
+                    for (int d = 0; d < DIM_MAX; d++)
+                        s->crack[first].corner[c][d] = to->shift[d] + dot(to->turn[d], X, DIM_MAX);
+                }
+        }
+    }
+}
+
 status read_cracks(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
     const struct node *list = node_find(root, "cracks");
-    if (!list) return OK;
-    TRY(expect_list(r, key_find("", "cracks"), list));
-    s->crack = NEW("cracks", list->n, struct crack);
-    s->cracks = list->n;
-    const struct node *n = list->first;
-    for (int k = 0; k < s->cracks; k++, n = n->next) TRY(read_crack(r, n, &s->crack[k]));
+    if (list) {
+        TRY(expect_list(r, key_find("", "cracks"), list));
+        s->crack = NEW("cracks", list->n, struct crack);
+        s->cracks = s->cracks_given = list->n;
+        const struct node *n = list->first;
+        for (int k = 0; k < s->cracks; k++, n = n->next) TRY(read_crack(r, n, &s->crack[k]));
+    }
+    for (int b = 0; b < s->bodies; b++) take_slits(s, &s->body[b].shape);
     return OK;
 }

@@ -157,7 +157,7 @@ silent "thin between mirrors" 'unresolved: body' plate_impact_3d
 rollers high
 says "thin beside a mirror" 'unresolved: body body: a part of 0.008 m is 2.7 horizons (8 spacings)' "$work/rollers.yaml"
 silent "thick beside a mirror" 'unresolved: body' "$work/rollers.yaml" -s "body={box: {from: [0, 0], to: [1024 mm, 8 mm]}}"
-says "narrow hole" 'unresolved: body .*: a gap of .* horizons' plate_hole -s particles.spacing=2mm
+silent "narrow hole" 'unresolved: body' plate_hole -s particles.spacing=2mm
 silent "wide hole" 'unresolved: body' plate_hole
 says "short crack" 'unresolved: crack 1 is 0.01 m long, 3.3 horizons' plate_crack -s particles.spacing=1mm
 silent "long crack" 'unresolved: crack' plate_crack

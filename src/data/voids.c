@@ -1,0 +1,182 @@
+/* Which particles of a body see each other, along the straight line through its shape. */
+#include "data/voids.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+
+#define STEP_FINE 1e-6                   /* least step along a line, as a share of its length, of the first steps ... */
+#define STEP_COARSE 1e-3                 /* ... and of later ones: lines along faces inside the shape */
+enum { FINE_STEPS = 64 };
+
+bool region_has_image(const struct region *r)
+{
+    bool image = false;
+    for (int k = 0; k < r->n; k++) image |= r->solid[k].kind == SOLID_VOXELS || region_has_image(&r->solid[k].region);
+    return image;
+}
+
+static bool solid_convex(const struct solid *s)
+{
+    switch (s->kind) {
+    case SOLID_ALL:
+    case SOLID_BOX:
+    case SOLID_BALL:
+    case SOLID_CYLINDER:
+    case SOLID_HALF_SPACE:
+    case SOLID_ELLIPSOID:
+    case SOLID_CONE: return s->images <= 1;
+    default: return false;
+    }
+}
+
+bool region_has_voids(const struct region *r)
+{
+    const bool convex = r->n == 0 || (r->n == 1 && solid_convex(&r->solid[0]));
+    return !convex && !region_has_image(r);
+}
+
+/* ---- along a line ------------------------------------------------------------------------------------------------ */
+
+/* How far X is from the surface of a body, negative inside, never more than the distance there [m]; -INFINITY: v does
+ * not know the body, which hides nothing. */
+static real void_level(const struct voids *v, int body, const real *X)
+{
+    real at[DIM_MAX] = {0}, level = INFINITY;
+    for (int d = 0; d < v->dim; d++) at[d] = X[d];
+    for (int m = 0; m < v->mirrors; m++) {
+        const struct mirror_plane *plane = &v->mirror[m];
+        if ((at[plane->axis] - plane->at) * plane->outside > 0) at[plane->axis] = 2 * plane->at - at[plane->axis];
+    }
+    for (int k = 0; k < v->shapes; k++)
+        if (v->body[k] == body) level = real_min(level, region_level(v->shape[k], at, v->dim));
+    return level < INFINITY ? level : -INFINITY;
+}
+
+/* A line from a place of a body on: `way` [m] along unit vector `along`. */
+struct void_line { const real *from; real along[DIM_MAX], way; };
+
+static void line_place(const struct voids *v, const struct void_line *l, real at, real *X)
+{
+    for (int d = 0; d < v->dim; d++) X[d] = l->from[d] + at * l->along[d];
+}
+
+/* How far a line stays in the body [m]; l->way: to its end. The surface is nowhere nearer than the level says, so steps
+ * of that length pass over nothing. */
+static real line_inside(const struct voids *v, int body, const struct void_line *l)
+{
+    real at = 0;
+    for (int k = 0; at < l->way; k++) {
+        real X[DIM_MAX];
+        line_place(v, l, at, X);
+        const real level = void_level(v, body, X);
+        if (level > 2 * ON_SURFACE * v->spacing) return at;
+        at += real_max(-level, (k < FINE_STEPS ? STEP_FINE : STEP_COARSE) * l->way);
+    }
+    return l->way;
+}
+
+/* Direction in which the body ends fastest at a place of a line, by differences. */
+static void line_normal(const struct voids *v, int body, const struct void_line *l, real at, real *normal)
+{
+    const real step = 1e-4 * v->spacing;
+    real X[DIM_MAX];
+    line_place(v, l, at, X);
+    for (int d = 0; d < v->dim; d++) {
+        const real x = X[d];
+        X[d] = x + step, normal[d] = void_level(v, body, X);
+        X[d] = x - step, normal[d] -= void_level(v, body, X);
+        X[d] = x;
+    }
+}
+
+bool voids_between(const struct voids *v, int body, const real *a, const real *b, bool *across)
+{
+    const int dim = v->dim;
+    struct void_line there = {.from = a}, back = {.from = b};
+    int first = 0;
+    while (first < dim && a[first] == b[first]) first++;
+    if (first == dim) return false;
+    if (a[first] > b[first]) return voids_between(v, body, b, a, across);        /* the same bits both ways */
+    for (int d = 0; d < dim; d++) there.way += square(b[d] - a[d]);
+    there.way = back.way = sqrt(there.way);
+    for (int d = 0; d < dim; d++) there.along[d] = (b[d] - a[d]) / there.way, back.along[d] = -there.along[d];
+    const real out = line_inside(v, body, &there);
+    if (out >= there.way) return false;
+    if (!across) return true;
+    real normal[DIM_MAX], other[DIM_MAX];
+    line_normal(v, body, &there, out, normal);
+    line_normal(v, body, &back, line_inside(v, body, &back), other);
+    *across = dot(normal, other, dim) < 0;
+    return true;
+}
+
+/* ---- all particles ----------------------------------------------------------------------------------------------- */
+
+bool voids_part(const struct voids *v, const struct particles *p, int64_t i, int64_t j)
+{
+    real a[DIM_MAX] = {0}, b[DIM_MAX] = {0};
+    if (!voids_near(v, i) || !voids_near(v, j)) return false;
+    particle_place(p, i, a);
+    particle_place(p, j, b);
+    return voids_between(v, p->body[i], a, b, NULL);
+}
+
+real voids_depth(const struct voids *v, const struct particles *p, int64_t i)
+{
+    real X[DIM_MAX] = {0};
+    particle_place(p, i, X);
+    return real_max(0, -void_level(v, p->body[i], X));
+}
+
+/* Bits of particle i. `depth` [p->n_all]: how far particles are from the surface at least [m]: a line that lies in the
+ * balls of that size about its ends is inside. */
+static uint8_t void_search(const struct voids *v, const struct particles *p, const real *depth, int64_t i,
+                           const struct near *near)
+{
+    real a[DIM_MAX] = {0};
+    uint8_t bits = 0;
+    particle_place(p, i, a);
+    for (int k = 0; k < near->n; k++) {
+        const int32_t j = near->at[k];
+        real b[DIM_MAX] = {0}, way2 = 0;
+        bool across = false;
+        if (p->body[j] != p->body[i]) continue;
+        particle_place(p, j, b);
+        for (int d = 0; d < p->dim; d++) way2 += square(b[d] - a[d]);
+        if (square(depth[i] + depth[j]) >= way2 || !voids_between(v, p->body[i], a, b, &across)) continue;
+        bits |= VOID_NEAR | (across ? VOID_ACROSS : 0);
+    }
+    return bits;
+}
+
+void voids_find(struct voids *v, const struct particles *p, const struct cells *cells, const struct image *image,
+                real reach)
+{
+    real *depth = NEW("voids.depth", p->n_all, real);
+    v->near = NEW("voids.near", p->n_all, uint8_t);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++) depth[i] = voids_depth(v, p, i);
+    for (int64_t k = p->n; k < p->n_all; k++) depth[k] = depth[image_root(p, image, k)];
+#pragma omp parallel
+    {
+        struct near near = {0};
+#pragma omp for schedule(dynamic, 256)
+        for (int64_t i = 0; i < p->n; i++) {
+            if (depth[i] >= reach) continue;
+            near_find(&near, cells, p, i, reach, false);
+            v->near[i] = void_search(v, p, depth, i, &near);
+        }
+        memory_free(near.at);
+    }
+    for (int64_t k = p->n; k < p->n_all; k++) v->near[k] = v->near[image_root(p, image, k)];
+    memory_free(depth);
+}
+
+void voids_free(struct voids *v)
+{
+    memory_free(v->shape);
+    memory_free(v->body);
+    memory_free(v->near);
+    *v = (struct voids){0};
+}

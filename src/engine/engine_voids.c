@@ -1,0 +1,174 @@
+/* Voids of the bodies of a run: what bonds do not cross, and what cuts the mesh. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "engine/engine.h"
+
+/* Cells of the mesh around one node hold points no farther apart along an axis [cells]. */
+#define CELLS_REACH 1.515
+#define ALONG 0.999                      /* least cosine between an axis and a way along it */
+
+/* Distance up to which bonds or cells join particles [m]. */
+static real engine_voids_reach(const struct engine *e)
+{
+    const real cells = e->scene->method == METHOD_PD ? 0 : CELLS_REACH * e->scene->cell * e->scene->spacing;
+    return real_max(e->scene->method == METHOD_MPM ? 0 : e->source.family.cutoff, cells);
+}
+
+static bool may_have_voids(const struct scene *s)
+{
+    bool any = false;
+    for (int b = 0; b < s->bodies && s->dim > 1; b++)
+        any |= !s->body[b].file && (s->body[b].joined != b || region_has_voids(&s->body[b].shape));
+    return any;
+}
+
+/* Lists the solids of bodies that may have voids: of bodies joined to others all. */
+static void list_shapes(const struct scene *s, struct voids *v)
+{
+    uint8_t *wanted = NEW("voids.wanted", s->bodies, uint8_t);
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].joined != b || region_has_voids(&s->body[b].shape)) wanted[s->body[b].joined] = 1;
+    for (int b = 0; b < s->bodies; b++)          /* of a part without a known surface, none of the whole */
+        if (s->body[b].file || region_has_image(&s->body[b].shape)) wanted[s->body[b].joined] = 0;
+    v->shape = NEW("voids.shape", s->bodies, const struct region *);
+    v->body = NEW("voids.body", s->bodies, int);
+    for (int b = 0; b < s->bodies; b++)
+        if (wanted[s->body[b].joined])
+            v->shape[v->shapes] = &s->body[b].shape, v->body[v->shapes++] = s->body[b].joined;
+    memory_free(wanted);
+}
+
+void engine_voids_make(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    struct voids *v = &e->tables.voids;
+    if (!may_have_voids(s)) return;
+    *v = (struct voids){.dim = s->dim, .spacing = s->spacing};
+    e->tables.void_mirror = NEW("voids.mirror", s->boundaries, struct mirror_plane);
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_MIRROR)
+            e->tables.void_mirror[v->mirrors++] =
+                (struct mirror_plane){s->boundary[b].axis, e->loads.load[b].outside, s->boundary[b].at};
+    v->mirror = e->tables.void_mirror;
+    list_shapes(s, v);
+    if (v->shapes == 0) return;
+    voids_find(v, &e->part, &e->cells, e->loads.image, engine_voids_reach(e));
+    e->source.voids = v;
+}
+
+void engine_voids_convert(struct engine *e)
+{
+    struct particles *p = &e->part;
+    const struct voids *v = e->source.voids;
+    const bool uncut = engine_mirror_between(e);
+    for (int64_t i = 0; i < p->n && v; i++)
+        if (v->near[i] & VOID_ACROSS && (uncut || !(p->flag[i] & FLAG_MESHED))) p->kind[i] = KIND_PD;
+}
+
+/* ---- what stays closed ------------------------------------------------------------------------------------------ */
+
+/* Writes the place of a particle as "(x, y)" [m]. Returns `text`. */
+static const char *void_place_text(const struct particles *p, int64_t i, char text[96])
+{
+    int used = snprintf(text, 96, "(");
+    for (int d = 0; d < p->dim; d++) used += snprintf(text + used, 96 - used, "%s%.4g", d > 0 ? ", " : "", p->X[d][i]);
+    snprintf(text + used, 96 - used, ")");
+    return text;
+}
+
+/* Particles at voids that the run closes: their number, and the first. */
+struct closed { int64_t n, first; };
+
+static void closed_add(struct closed *to, int64_t i)
+{
+    if (to->n++ == 0) to->first = i;
+}
+
+/* Of bodies whose surface is known: material points on a grid that no void cuts. */
+static struct closed closed_on_grid(const struct engine *e)
+{
+    const struct particles *p = &e->part;
+    const bool uncut = engine_mirror_between(e);
+    struct closed found = {0};
+    for (int64_t i = 0; i < p->n && e->source.voids; i++)
+        if (e->source.voids->near[i] & VOID_ACROSS && p->kind[i] == KIND_MPM && (uncut || !(p->flag[i] & FLAG_MESHED)))
+            closed_add(&found, i);
+    return found;
+}
+
+/* Distances from particle i to the nearest neighbours along the axes, down and up [2 dim, m]; INFINITY: none. */
+static void next_along(const struct particles *p, int64_t i, const struct near *near, real *next)
+{
+    for (int a = 0; a < 2 * p->dim; a++) next[a] = INFINITY;
+    for (int k = 0; k < near->n; k++) {
+        const int32_t j = near->at[k];
+        real way[DIM_MAX], r2 = 0;
+        for (int d = 0; d < p->dim; d++) way[d] = p->X[d][j] - p->X[d][i], r2 += square(way[d]);
+        for (int d = 0; d < p->dim && p->body[j] == p->body[i]; d++) {
+            real *to = &next[2 * d + (way[d] > 0)];
+            if (square(way[d]) > square(ALONG) * r2) *to = real_min(*to, sqrt(r2));
+        }
+    }
+}
+
+/* Of body b, whose surface is not known: particles of a lattice between which sites are empty, nearer than `reach`. */
+static struct closed closed_in_lattice(const struct engine *e, int b, real reach)
+{
+    const struct particles *p = &e->part;
+    const real spacing = e->scene->spacing;
+    struct closed found = {0};
+    struct near near = {0};
+    int64_t all = 0, regular = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        real next[2 * DIM_MAX];
+        int beside = 0, across = 0;
+        if (e->scene->body[p->body[i]].joined != b) continue;
+        near_find(&near, &e->cells, p, i, reach, false);
+        next_along(p, i, &near, next);
+        for (int a = 0; a < 2 * p->dim; a++)
+            beside += next[a] < 1.01 * spacing, across += next[a] > 1.5 * spacing && next[a] <= reach;
+        all++, regular += beside >= p->dim;
+        if (across > 0) closed_add(&found, i);
+    }
+    memory_free(near.at);
+    return 2 * regular > all ? found : (struct closed){0};
+}
+
+static bool surface_known(const struct scene *s, int body)
+{
+    bool known = true;
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].joined == body) known = known && !s->body[b].file && !region_has_image(&s->body[b].shape);
+    return known;
+}
+
+void engine_voids_warn(const struct engine *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    const struct closed grid = closed_on_grid(e);
+    char place[96];
+    if (grid.n > 0)
+        warnings_add(to, "body %s has a void too narrow for the grid of mpm.frame current, at %s m: %lld points share "
+                     "nodes with points on the other side; mpm.frame reference, method pd and method adaptive keep it "
+                     "open, a smaller particles.spacing does, too",
+                     s->body[e->part.body[grid.first]].name, void_place_text(&e->part, grid.first, place),
+                     (long long)grid.n);
+    for (int b = 0; b < s->bodies && s->dim > 1; b++) {
+        if (s->body[b].joined != b || surface_known(s, b)) continue;
+        const struct closed gap = closed_in_lattice(e, b, engine_voids_reach(e));
+        if (gap.n == 0) continue;
+        warnings_add(to, "body %s has a void of one or two particles' width at %s m, at %lld particles in all: of "
+                     "lists and images only particles are known, and %s join what is on both sides; cracks say where "
+                     "there are free faces, a smaller particles.spacing widens the void",
+                     s->body[b].name, void_place_text(&e->part, gap.first, place), (long long)gap.n,
+                     s->method == METHOD_MPM ? "cells" : s->method == METHOD_PD ? "bonds" : "bonds and cells");
+    }
+}
+
+void engine_voids_free(struct engine *e)
+{
+    voids_free(&e->tables.voids);
+    memory_free(e->tables.void_mirror);
+}

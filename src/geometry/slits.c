@@ -1,0 +1,242 @@
+/* Free surfaces inside a mesh of elements: faces in one place whose nodes are doubled. They become cracks, in the plane
+ * segments as long as they are straight, in space plane polygons where several faces make a convex one. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "geometry/geometry.h"
+
+#define SAME 1e-6                        /* [length of a face] corners so near are in one place */
+
+/* A face of a mesh: its corners, centre and size. */
+struct sheet { real corner[DIM_MAX][DIM_MAX], centre[DIM_MAX], size; };
+struct sheets { int dim; int64_t n; struct sheet *at; };
+
+static real corners_apart(const real *a, const real *b, int dim)
+{
+    real r2 = 0;
+    for (int d = 0; d < dim; d++) r2 += square(a[d] - b[d]);
+    return sqrt(r2);
+}
+
+static struct sheet sheet_of(const struct hull *h, int64_t face)
+{
+    struct sheet s = {.size = 0};
+    for (int c = 0; c < h->dim; c++)
+        for (int d = 0; d < h->dim; d++) {
+            s.corner[c][d] = h->corner[h->face[face][c]][d];
+            s.centre[d] += s.corner[c][d] / h->dim;
+        }
+    for (int c = 1; c < h->dim; c++) s.size = real_max(s.size, corners_apart(s.corner[0], s.corner[c], h->dim));
+    return s;
+}
+
+static int by_centre(const void *a, const void *b)
+{
+    const struct sheet *p = a, *q = b;
+    return (p->centre[0] > q->centre[0]) - (p->centre[0] < q->centre[0]);
+}
+
+/* Do two faces have their corners in the same places? */
+static bool sheets_same(const struct sheet *p, const struct sheet *q, int dim)
+{
+    for (int c = 0; c < dim; c++) {
+        bool met = false;
+        for (int k = 0; k < dim; k++) met |= corners_apart(p->corner[c], q->corner[k], dim) < SAME * p->size;
+        if (!met) return false;
+    }
+    return true;
+}
+
+/* The faces that lie on another one, each place once. The caller frees them. */
+static struct sheets sheets_doubled(const struct hull *h)
+{
+    struct sheets s = {.dim = h->dim};
+    struct sheet *all = NEW("slits.face", h->faces, struct sheet);
+    for (int64_t k = 0; k < h->faces; k++) all[k] = sheet_of(h, k);
+    array_sort(all, h->faces, sizeof *all, by_centre);
+    s.at = BARE("slits.doubled", h->faces, struct sheet);
+    for (int64_t k = 0; k < h->faces; k++)
+        for (int64_t j = k + 1; j < h->faces && all[j].centre[0] - all[k].centre[0] < SAME * all[k].size; j++)
+            if (sheets_same(&all[k], &all[j], s.dim)) {
+                s.at[s.n++] = all[k];
+                break;
+            }
+    memory_free(all);
+    return s;
+}
+
+/* ---- in the plane ------------------------------------------------------------------------------------------------ */
+
+/* Lengthens segment `to` by segment `by` if both lie on one line and share an end. */
+static bool segments_join(struct sheet *to, const struct sheet *by)
+{
+    const real near = SAME * fmin(to->size, by->size);
+    for (int e = 0; e < 4; e++) {
+        const real *end = to->corner[e / 2], *other = to->corner[1 - e / 2], *far = by->corner[1 - e % 2];
+        const real along[2] = {end[0] - other[0], end[1] - other[1]}, on[2] = {far[0] - end[0], far[1] - end[1]};
+        if (corners_apart(end, by->corner[e % 2], 2) > near || along[0] * on[0] + along[1] * on[1] <= 0 ||
+            fabs(along[0] * on[1] - along[1] * on[0]) > near * to->size)
+            continue;
+        for (int d = 0; d < 2; d++) to->corner[e / 2][d] = far[d];
+        to->size += by->size;
+        return true;
+    }
+    return false;
+}
+
+static void segments_merge(struct sheets *s)
+{
+    for (int64_t k = 0; k < s->n; k++)
+        for (int64_t j = k + 1; j < s->n; j++)
+            if (segments_join(&s->at[k], &s->at[j])) s->at[j] = s->at[--s->n], j = k;
+}
+
+/* ---- in space ---------------------------------------------------------------------------------------------------- */
+
+/* Faces of one plane: two directions in the plane, and the corners of the faces there. */
+struct flat { real from[3], u[3], v[3]; int n; real (*at)[2]; };
+
+static void flat_axes(struct flat *f, const struct sheet *s)
+{
+    real w[3], normal[3];
+    for (int d = 0; d < 3; d++) f->from[d] = s->corner[0][d], f->u[d] = s->corner[1][d] - f->from[d];
+    for (int d = 0; d < 3; d++) w[d] = s->corner[2][d] - f->from[d];
+    vector_product(f->u, w, normal);
+    vector_product(normal, f->u, f->v);
+    const real u = sqrt(dot(f->u, f->u, 3)), v = sqrt(dot(f->v, f->v, 3));
+    for (int d = 0; d < 3; d++) f->u[d] /= u, f->v[d] /= v;
+}
+
+static void flat_place(const struct flat *f, const real *X, real at[2])
+{
+    real arm[3];
+    for (int d = 0; d < 3; d++) arm[d] = X[d] - f->from[d];
+    at[0] = dot(arm, f->u, 3), at[1] = dot(arm, f->v, 3);
+}
+
+static real flat_turn(const real *a, const real *b, const real *c)
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const real *p = a, *q = b;
+    return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
+}
+
+/* Corners of the convex polygon round the places (Andrew's monotone chain); returns their number, and the area. */
+static int flat_round(struct flat *f, real (*corner)[2], real size, real *area)
+{
+    int n = 0;
+    array_sort(f->at, f->n, sizeof *f->at, by_place);
+    for (int pass = 0; pass < 2; pass++) {
+        const int first = n;
+        for (int k = 0; k < f->n; k++) {
+            const real *next = f->at[pass == 0 ? k : f->n - 1 - k];
+            while (n >= first + 2 && flat_turn(corner[n - 2], corner[n - 1], next) <= SAME * square(size)) n--;
+            corner[n][0] = next[0], corner[n++][1] = next[1];
+        }
+        n--;                                             /* where the other side begins */
+    }
+    *area = 0;
+    for (int k = 1; k + 1 < n; k++) *area += 0.5 * flat_turn(corner[0], corner[k], corner[k + 1]);
+    return n;
+}
+
+static real sheet_area(const struct sheet *s)
+{
+    real u[3], w[3], twice[3];
+    for (int d = 0; d < 3; d++) u[d] = s->corner[1][d] - s->corner[0][d], w[d] = s->corner[2][d] - s->corner[0][d];
+    vector_product(u, w, twice);
+    return 0.5 * sqrt(dot(twice, twice, 3));
+}
+
+/* Is face `other` in the plane of a face, and has it two corners in common with it? */
+static bool sheets_adjoin(const struct sheet *s, const struct sheet *other)
+{
+    struct flat f;
+    int common = 0;
+    flat_axes(&f, s);
+    real normal[3];
+    vector_product(f.u, f.v, normal);
+    for (int c = 0; c < 3; c++) {
+        real arm[3];
+        for (int d = 0; d < 3; d++) arm[d] = other->corner[c][d] - f.from[d];
+        if (fabs(dot(arm, normal, 3)) > SAME * s->size) return false;
+        for (int k = 0; k < 3; k++) common += corners_apart(other->corner[c], s->corner[k], 3) < SAME * s->size;
+    }
+    return common == 2;
+}
+
+/* Puts what adjoins face `first`, directly or by others, behind it. Returns how many faces that are. */
+static int64_t group_gather(struct sheets *s, int64_t first)
+{
+    int64_t n = 1;
+    for (int64_t k = 0; k < n; k++)
+        for (int64_t j = first + n; j < s->n; j++) {
+            if (!sheets_adjoin(&s->at[first + k], &s->at[j])) continue;
+            const struct sheet swap = s->at[j];
+            s->at[j] = s->at[first + n], s->at[first + n++] = swap;
+        }
+    return n;
+}
+
+/* ---- cracks ------------------------------------------------------------------------------------------------------ */
+
+static void slit_add(struct crack **crack, int *n, int corners)
+{
+    *crack = memory_resize("cracks", *crack, *n, *n + 1, sizeof **crack);
+    (*crack)[*n] = (struct crack){.n = corners, .corner = memory_new("cracks", corners, sizeof(real[DIM_MAX]))};
+    (*n)++;
+}
+
+static void crack_of_sheet(struct crack **crack, int *n, const struct sheet *s, int dim)
+{
+    slit_add(crack, n, dim);
+    for (int c = 0; c < dim; c++)
+        for (int d = 0; d < dim; d++) (*crack)[*n - 1].corner[c][d] = s->corner[c][d];
+}
+
+/* One crack of faces of one plane if they make a convex polygon; else one of each. */
+static void cracks_of_group(struct crack **crack, int *n, const struct sheet *s, int64_t sheets)
+{
+    struct flat f = {.n = 0};
+    real sum = 0, area;
+    flat_axes(&f, s);
+    f.at = memory_new("slits.flat", 3 * sheets, sizeof *f.at);
+    real(*corner)[2] = memory_new("slits.round", 6 * sheets + 2, sizeof *corner);
+    for (int64_t k = 0; k < sheets; k++) {
+        sum += sheet_area(&s[k]);
+        for (int c = 0; c < 3; c++) flat_place(&f, s[k].corner[c], f.at[f.n++]);
+    }
+    const int corners = flat_round(&f, corner, s->size, &area);
+    if (fabs(area - sum) < SAME * sum) {
+        slit_add(crack, n, corners);
+        for (int c = 0; c < corners; c++)
+            for (int d = 0; d < 3; d++)
+                (*crack)[*n - 1].corner[c][d] = f.from[d] + corner[c][0] * f.u[d] + corner[c][1] * f.v[d];
+    } else {
+        for (int64_t k = 0; k < sheets; k++) crack_of_sheet(crack, n, &s[k], 3);
+    }
+    memory_free(f.at);
+    memory_free(corner);
+}
+
+void geometry_slits(const struct hull *h, struct crack **crack, int *n)
+{
+    if (h->open) return;
+    struct sheets s = sheets_doubled(h);
+    if (h->dim == 2) segments_merge(&s);
+    for (int64_t k = 0; k < s.n; k++) {
+        if (h->dim == 2) {
+            crack_of_sheet(crack, n, &s.at[k], 2);
+            continue;
+        }
+        const int64_t group = group_gather(&s, k);
+        cracks_of_group(crack, n, &s.at[k], group);
+        k += group - 1;
+    }
+    memory_free(s.at);
+}
