@@ -92,6 +92,8 @@ struct reference_frame {
     struct mesh_source source;
     struct elastic *elastic;             /* [materials] constants of its cells */
     struct mesh_levels levels;           /* coarse cells */
+    uint8_t *room;                       /* [mesh.grid.n] level that the body is thick enough for; NULL: not asked */
+    int room_most;                       /* the largest of these */
     struct hollow hollow;                /* cells whose particles are not made */
     bool lacks;                          /* particles that the start needs are not made: it must be made again */
     struct elastic *coarse;              /* [materials] of coarse cells, which split at less than the trigger */
@@ -360,8 +362,11 @@ struct load_rise {
     real seconds, waves;                 /* [s], in spacings of wave */
 };
 
+/* Finds which levels of coarse cells the thickness of the body allows, where the scene may have any. */
+void engine_levels_room(struct engine *e);
 /* How many levels of coarse cells there are, and why `mpm.levels: auto` takes as many as it does. */
-enum levels_why { LEVELS_BY_LOADS, LEVELS_AT_REST, LEVELS_NO_MESH, LEVELS_FEW, LEVELS_DAMPED, LEVELS_LONG_STEP };
+enum levels_why { LEVELS_BY_LOADS, LEVELS_AT_REST, LEVELS_NO_MESH, LEVELS_FEW, LEVELS_DAMPED, LEVELS_LONG_STEP,
+                  LEVELS_THIN };
 struct levels_choice {
     int levels, automatic;               /* in this run; of auto */
     bool given;                          /* by the scene */

@@ -71,6 +71,14 @@ bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic,
 /* First particle at which the mesh is squeezed to nothing or through itself, p->n: none. */
 int64_t mesh_inverted(const struct mesh *mesh, const struct particles *p);
 
+/* Cells of a level across any part of the body, at the least. */
+enum { CELLS_ACROSS = 6 };
+/* Level of the coarsest cells that `room` [mesh->grid.n] allows in each cell by the thickness of the body, beyond
+ * planes of symmetry as thick again. Returns the largest. */
+int mesh_room(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *room);
+/* Marks all cells of a grid within `reach` cells of a marked one. */
+void cells_dilate(const struct grid *g, uint8_t *mark, int reach);
+
 status mesh_archive(struct mesh *mesh, struct archive *a);
 
 #endif

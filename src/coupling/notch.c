@@ -166,8 +166,8 @@ static bool beside_void(const struct bond_source *source, int64_t i)
     return voids_near(source->voids, i) && source->voids->near[i] & VOID_ACROSS;
 }
 
-/* Particles that slits part from some of their family: by what share; and those beside a slit or a narrow void, with how
- * deep these are in the body. */
+/* Particles that slits part from some of their family: by what share; and those beside a slit or a narrow void, with
+ * how deep these are in the body. */
 static void faces_find(struct notches *n, const struct particles *p, const struct bond_source *source)
 {
     uint8_t *faces = NEW("notch.faces", p->n, uint8_t);
@@ -235,7 +235,8 @@ void notches_free(struct notches *n)
 
 /* Distance below which faces k and l of a void become peridynamic [m], 0: no void is between them: VOID_AHEAD before
  * they meet, but no farther apart than they were at the start. */
-static real void_meeting_distance(const struct notches *n, const struct particles *p, int64_t k, int64_t l, real spacing)
+static real void_meeting_distance(const struct notches *n, const struct particles *p, int64_t k, int64_t l,
+                                  real spacing)
 {
     real r2 = 0;
     if (!voids_part(n->voids, p, n->face[k], n->face[l])) return 0;
@@ -244,7 +245,8 @@ static real void_meeting_distance(const struct notches *n, const struct particle
 }
 
 /* Distance below which the particles of faces k and l become peridynamic [m], 0: nothing is between them. */
-static real meeting_distance(const struct notches *n, const struct particles *p, int64_t face, int64_t other, real spacing)
+static real meeting_distance(const struct notches *n, const struct particles *p, int64_t face, int64_t other,
+                             real spacing)
 {
     const int32_t i = n->face[face], j = n->face[other];
     real width = -1;

@@ -185,6 +185,14 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
     return any;
 }
 
+/* Lowers bounds of levels to what the thickness of the body allows; levels that the scene gives stay. */
+static void limit_by_room(const struct engine *e, uint8_t *limit)
+{
+    const struct reference_frame *r = &e->reference;
+    for (int64_t I = 0; I < r->mesh.grid.n && r->room && e->scene->levels == LEVELS_AUTO; I++)
+        if (r->room[I] < limit[I]) limit[I] = r->room[I];
+}
+
 /* The levels that cells may have next, of which coarser ones than now hold the motion there is. Changes limit. */
 static void next_levels(struct engine *e, const uint8_t *demand, uint8_t *limit, uint8_t *level)
 {
@@ -248,6 +256,7 @@ status engine_levels_make(struct engine *e, bool restored)
     marks_add(&r->levels, stressed, demand);
     uint8_t *limit = NEW("levels.limit", r->mesh.grid.n, uint8_t);
     array_fill_bytes(limit, r->levels.n, r->mesh.grid.n, 1);
+    limit_by_room(e, limit);
     next_levels(e, demand, limit, level);
     if (engine_hollow_start(e, level)) change(e, level);
     memory_free(limit);
@@ -282,6 +291,7 @@ static void limits_find(struct engine *e, bool looks, uint8_t *limit)
         l->calm[I] = late[I] ? 0 : l->calm[I] < CALM_LOOKS ? l->calm[I] + 1 : CALM_LOOKS;
         if (l->calm[I] == CALM_LOOKS) limit[I] = (uint8_t)l->n;
     }
+    limit_by_room(e, limit);
     memory_free(late);
     memory_free(stressed);
 }

@@ -8,6 +8,7 @@
 #include <stdio.h>
 
 #include "auto/scene_read.h"
+#include "base/memory.h"
 #include "engine/engine.h"
 
 enum { PAYS = 100000 };                  /* particles of a body from which on coarse cells save time */
@@ -100,6 +101,16 @@ static real spacings_across(const struct engine *e)
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
+void engine_levels_room(struct engine *e)
+{
+    struct reference_frame *r = &e->reference;
+    const struct scene *s = e->scene;
+    if (!scene_moves(s) || r->mesh.points == 0 || s->levels == 0) return;
+    if (s->levels == LEVELS_AUTO && e->part.n_body < PAYS) return;
+    r->room = NEW("engine.room", r->mesh.grid.n, uint8_t);
+    r->room_most = mesh_room(&r->mesh, e->source.mirror, e->source.mirrors, r->room);
+}
+
 struct levels_choice engine_levels_choice(const struct engine *e)
 {
     const struct scene *s = e->scene;
@@ -114,6 +125,8 @@ struct levels_choice engine_levels_choice(const struct engine *e)
         const real most = edge_for(&c.rise, c.across, ACROSS);
         while (c.automatic < LEVELS_MAX && (real)(4 << c.automatic) <= most * (1 + 1e-6)) c.automatic++;
         c.why = LEVELS_BY_LOADS;
+        if (e->reference.room && e->reference.room_most < c.automatic)
+            c.automatic = e->reference.room_most, c.why = LEVELS_THIN;
     }
     c.levels = c.why == LEVELS_AT_REST || c.why == LEVELS_NO_MESH ? 0 : c.given ? s->levels : c.automatic;
     return c;
@@ -165,6 +178,12 @@ static void automatic_text(const struct engine *e, const struct levels_choice *c
     else if (c->why == LEVELS_LONG_STEP)
         snprintf(text, room, "none, as time.step is %.2f of the critical one, and they bear %.2f",
                  e->scene->time_step / e->clock.dt_critical, LEVELS_STEP_MOST);
+    else if (c->why == LEVELS_THIN && c->automatic == 0)
+        snprintf(text, room, "none, as no part of the body is %d spacings thick, %d cells of 4", 4 * CELLS_ACROSS,
+                 CELLS_ACROSS);
+    else if (c->why == LEVELS_THIN)
+        snprintf(text, room, "cells of %d spacings at most, as no part of the body is thick enough for %d of the next",
+                 edge, CELLS_ACROSS);
     else if (c->automatic == 0)
         snprintf(text, room, "none, as %s: cells of 4 spacings %s", load, want);
     else if (c->rise.pulse || !(c->across / ACROSS > c->rise.waves / RISES))
@@ -193,6 +212,28 @@ void engine_choice_print(const struct engine *e, FILE *out)
     fprintf(out, "auto           levels: %s\n", text);
 }
 
+/* Coarse cells that the scene gives, where the body is too thin for them; false: there are none. */
+static bool thin_text(const struct engine *e, char *text, size_t room)
+{
+    const struct reference_frame *r = &e->reference;
+    const struct grid *g = &r->mesh.grid;
+    int64_t thin = 0, coarse = 0, first = 0;
+    int level = 0;
+    for (int64_t I = 0; I < g->n && r->room && r->levels.n > 0; I++) {
+        coarse += r->levels.level[I] > 0;
+        if (r->levels.level[I] <= r->room[I]) continue;
+        if (thin++ == 0) first = I, level = r->levels.level[I];
+    }
+    if (thin == 0) return false;
+    real at[DIM_MAX] = {0};
+    for (int d = 0; d < g->dim; d++) at[d] = grid_position(g, d, first / g->stride[d] % g->count[d]) + 0.5 * g->h;
+    snprintf(text, room, "mpm.levels: %d makes cells of %d spacings at (%.4g, %.4g, %.4g) m, where fewer than %d of "
+             "them lie across the body, in %.0f %% of all coarse cells: thin parts bend too stiffly in them, natural "
+             "frequencies come out some 5 %% too high; auto leaves them out", r->levels.n, 2 << level, at[0], at[1],
+             at[2], CELLS_ACROSS, 100.0 * (double)thin / (double)coarse);
+    return true;
+}
+
 bool engine_levels_coarse(const struct engine *e, char *text, size_t room)
 {
     struct levels_choice c = engine_levels_choice(e);
@@ -200,7 +241,8 @@ bool engine_levels_coarse(const struct engine *e, char *text, size_t room)
     int levels = c.rise.pulse ? 0 : CARRIED_BY_ANY;
     const real most = edge_for(&c.rise, c.across, ACROSS_LEAST);
     while (levels < LEVELS_MAX && (real)(4 << levels) <= most * (1 + 1e-6)) levels++;
-    if (!c.given || c.levels <= levels) return false;
+    if (!c.given) return false;
+    if (c.levels <= levels) return thin_text(e, text, room);
     rise_text(e->scene, &c.rise, load, sizeof load);
     want_text(&c, 2 << c.levels, ACROSS_LEAST, want, sizeof want);
     snprintf(text, room, "mpm.levels: %d makes cells of %d spacings, and %s: such cells %s; %d or auto would do",

@@ -487,7 +487,7 @@ void engine_free(struct engine *e)
     surface_free(&e->tables.surface);
     memory_free(e->tables.elastic);
     memory_free(e->reference.elastic);
-    memory_free(e->reference.coarse);
+    memory_free(e->reference.coarse), memory_free(e->reference.room);
     memory_free(e->reference.choice);
     levels_free(&e->reference.levels);
     mesh_free(&e->reference.mesh);

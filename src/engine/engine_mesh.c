@@ -111,6 +111,7 @@ status engine_mesh_make(struct engine *e, bool still)
     TRY(mesh_make(&e->reference.mesh, &e->part, &e->mpm.field[0].grid, &e->reference.source));
     /* a mesh made anew after a restart has no mirrors, though its box is unchanged */
     e->loads.constrained_mesh.count[0] = 0;
+    engine_levels_room(e);
     engine_mesh_follow_points(e);
     return OK;
 }

@@ -167,9 +167,8 @@ static void line_dilate(uint8_t *mark, int64_t n, int64_t stride, int reach)
     }
 }
 
-void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach)
+void cells_dilate(const struct grid *g, uint8_t *mark, int reach)
 {
-    const struct grid *g = &l->fine->grid;
     for (int d = 0; d < g->dim; d++) {           /* lines begin in blocks of one stride, a line's length apart */
         const int64_t stride = g->stride[d], lines = g->n / g->count[d];
 #pragma omp parallel for schedule(static)
@@ -177,6 +176,8 @@ void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach)
             line_dilate(mark + k / stride * stride * g->count[d] + k % stride, g->count[d], stride, reach);
     }
 }
+
+void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach) { cells_dilate(&l->fine->grid, mark, reach); }
 
 void levels_mark_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark)
 {

@@ -1,6 +1,5 @@
 /* Motion in the sweep of forces against all forces first: the same bits for every law, any number of threads, with
- * particles that wait for loads, are inactive, or are moved by the grid.
- * Runs alone: seven threads wait for each other. */
+ * particles that wait for loads, are inactive, or are moved by the grid. */
 #include <omp.h>
 #include <stdlib.h>
 

@@ -1,0 +1,50 @@
+/* How coarse cells may be by how thick the body is where they are: a cell bends too stiffly, and few of them across a
+ * part do. Level L is allowed where a cube of CELLS_ACROSS of its cells fits into the body: in the opening of the body,
+ * eroded and then dilated by half of that (Serra 1982). */
+#include <string.h>
+
+#include "mesh_parts.h"
+#include "mesh/levels.h"
+
+/* Is the middle of cell I beyond a plane of symmetry? There the body goes on as its image. */
+static bool beyond_mirror(const struct grid *g, int64_t I, const struct mirror_plane *mirror, int mirrors)
+{
+    bool beyond = false;
+    for (int k = 0; k < mirrors; k++) {
+        const int d = mirror[k].axis;
+        const real x = grid_position(g, d, I / g->stride[d] % g->count[d]) + 0.5 * g->h;
+        beyond |= (x - mirror[k].at) * mirror[k].outside > 0;
+    }
+    return beyond;
+}
+
+/* Marks the cells outside the body, and those at slits, which are faces of it. */
+static void outside_mark(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *mark)
+{
+    const int64_t cells = mesh->slits.split ? mesh->slits.first : mesh->grid.n;
+    for (int64_t I = 0; I < cells; I++) {
+        const bool body = mesh->kind[I] != CELL_EMPTY || (mesh->absent && mesh->absent[I]);
+        mark[I] = !body && !beyond_mirror(&mesh->grid, I, mirror, mirrors);
+    }
+    for (int64_t I = 0; I < cells && mesh->slits.split; I++)
+        for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) mark[I - mesh->corner[c]] = 1;
+}
+
+int mesh_room(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *room)
+{
+    const int64_t n = mesh->grid.n;
+    uint8_t *outside = NEW("mesh.outside", 2 * n, uint8_t), *inside = outside + n;
+    int most = 0;
+    array_fill_bytes(room, 0, n, 1);
+    for (int level = 1; level <= LEVELS_MAX && most == level - 1; level++) {
+        const int half = (CELLS_ACROSS << level) / 2 - 1;
+        outside_mark(mesh, mirror, mirrors, outside);
+        cells_dilate(&mesh->grid, outside, half);
+        for (int64_t I = 0; I < n; I++) inside[I] = !outside[I] && !beyond_mirror(&mesh->grid, I, mirror, mirrors);
+        cells_dilate(&mesh->grid, inside, half);
+        for (int64_t I = 0; I < n; I++)
+            if (inside[I] && room[I] == level - 1) room[I] = (uint8_t)level, most = level;
+    }
+    memory_free(outside);
+    return most;
+}
