@@ -111,9 +111,13 @@ says "levels: none, a long step" '^levels  *none, as time.step is 0.7[0-9] of th
 narrow="body={box: {from: [0, 0], to: [200 mm, 15 mm]}}"
 says "levels: none, too sudden" 'none, as boundary pull is sudden: cells of 4 spacings want a rise over 10, or a body 200 .*is 100$' "$far" -s "$narrow"
 says "levels given" '^levels  *cells of up to 16 spacings by mpm.levels; auto: this far field needs cells of 4' "$far" -s mpm.levels=3
+says "levels: none, too thin" 'none, as no part of the body is 24 spacings thick, 6 cells of 4$' "$far" -s boundary=[] \
+    -s "body={box: {from: [0, 0], to: [1200 mm, 3 mm]}}"
+says "levels given to a thin body" 'unresolved: mpm.levels: 1 makes cells of 4 spacings at .* in 100 % of all coarse cells' "$far" -s mpm.levels=1 \
+    -s "body={box: {from: [0, 0], to: [200 mm, 2 mm]}}"
 silent "levels of what has no cells" '^levels' plate_crack -s method=pd
 costs "few particles made" '^levels  *321536 particles become [0-9]* at first; memory [6-9][0-9] MB instead of 221 MB; \(at least\|about\) .* if all of it' \
-    kalthoff_3d_fine -s particles.spacing=0.5mm -s time.step=auto -s probes=[] -s "body[0].box.to=[100 mm, 100 mm, 4 mm]" \
+    kalthoff_3d_fine -s mpm.levels=1 -s particles.spacing=0.5mm -s time.step=auto -s probes=[] -s "body[0].box.to=[100 mm, 100 mm, 4 mm]" \
     -s "body[1].add.box.to=[0, 24 mm, 4 mm]" -s "boundary[0].region.box.to=[0, 24 mm, 4 mm]"
 
 # too_coarse WHAT PATTERN ARGUMENT...: check says so, and the run once.
