@@ -6,9 +6,10 @@
  *   I = sum q_,j [sigma_ij u^a_i,1 + sigma^a_ij u_i,1 - (sigma_ml u^a_m,l + rho v_l v^a_l) delta_1j] A
  *     + sum q [rho (a_i u^a_i,1 + a^a_i u_i,1) - rho (v_i v^a_i,1 + v^a_i v_i,1)] A
  *
- * with the weight q = 1 for r < inner, 0 for r > outer. sigma_ij,j is replaced by rho times the acceleration a, so
- * that no stress is differentiated. K = E* I/(2 A(v)) for an auxiliary field of K^a = 1; J = I(actual, actual)/2. At
- * rest and without inertia only the ring where q varies contributes. */
+ * with the weight q = 1 for r < inner, 0 for r > outer. sigma_ij,j is replaced by rho times a, the acceleration less
+ * what loads give to the particle (gravity, body forces, pressure on faces of the crack), so that no stress is
+ * differentiated. K = E* I/(2 A(v)) for an auxiliary field of K^a = 1; J = I(actual, actual)/2. At rest, without
+ * inertia and such loads, only the ring where q varies contributes. */
 #ifndef CLEAVE_SIF
 #define CLEAVE_SIF
 
@@ -79,6 +80,7 @@ struct sif_tip {
 /* The motion at one time, by particle (images included); velocity and acceleration NULL: in equilibrium. */
 struct sif_motion {
     const real *displacement[2], *velocity[2], *acceleration[2]; /* [m] [m/s] [m/s^2] */
+    const real *body[2];                 /* forces of loads over masses; NULL: there are none within contours [m/s^2] */
     const real *stress[3];               /* xx yy xy, only SIF_PARTICLE [Pa] */
 };
 

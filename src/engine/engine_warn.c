@@ -164,6 +164,18 @@ static bool region_is_met(const struct engine *e, const struct region *region)
     return any;
 }
 
+/* Probes that assume what the scene does not keep to. */
+static void warn_of_probes(const struct scene *s, struct warnings *to)
+{
+    bool yields = false;
+    for (int m = 0; m < s->materials; m++) yields |= material_yields(&s->material[m]);
+    for (int k = 0; k < s->probes && yields; k++)
+        if (s->probe[k].kind == PROBE_SIF)
+            warnings_add(to, "probe %s: K_I, K_II and J are those of an elastic body; where a material yields within "
+                         "its ring they mean nothing, and rings of other radii differ: contour_spread",
+                         s->probe[k].name);
+}
+
 /* Columns of particle lists that are not read, or that have a default. */
 static void warn_of_lists(const struct scene *s, struct warnings *to)
 {
@@ -325,6 +337,7 @@ void engine_warn(struct engine *e)
     warn_of_idle_keys(e, to);
     warn_of_materials(e->scene, &e->tables, to);
     warn_of_lists(e->scene, to);
+    warn_of_probes(e->scene, to);
     warn_of_speed(e, to);
     warn_of_solver(e, to);
     warn_of_empty(e, to);

@@ -67,7 +67,7 @@ struct sif_point { real x[2], area; struct crack_state state; };
 struct sif_points {
     const struct sif_tip *tip;
     const struct contour *contour;       /* of the sum being made                                     */
-    bool inertia;
+    bool inner;                          /* the second sum counts: of inertia, and of loads */
     int64_t n;
     int32_t *particle;
     struct sif_point *point;
@@ -102,7 +102,7 @@ static void points_find(struct sif_points *s, const struct contour *contour, int
 {
     real least = INFINITY, most = 0, x[2];
     for (int k = 0; k < n; k++) least = real_min(least, contour[k].inner), most = real_max(most, contour[k].outer);
-    if (s->inertia) least = AT_THE_TIP * most;
+    if (s->inner) least = AT_THE_TIP * most;
     s->particle = NEW("sif.particle", p->n, int32_t);
     for (int64_t i = 0; i < p->n; i++) {
         local_place(s->tip, p, i, x);
@@ -123,8 +123,8 @@ static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion 
     local_tensor(tip, global, state->stress);
 }
 
-/* State of particle k of the list in the local frame: gradients, stress and, with inertia, velocity and
- * acceleration. */
+/* State of particle k of the list in the local frame: gradients, stress and, with inertia, velocity and acceleration,
+ * less what loads give it. */
 static void point_make(struct sif_points *s, int64_t k, const struct sif_motion *m,
                        const struct gradient_stencil *stencil, const struct particles *p)
 {
@@ -138,12 +138,19 @@ static void point_make(struct sif_points *s, int64_t k, const struct sif_motion 
     gradient_of(stencil, i, m->displacement, global);
     local_tensor(tip, global, point->state.gradient);
     sif_point_stress(tip, m, i, &point->state);
-    if (!s->inertia) return;
+    if (m->body[0]) {
+        real given[2];
+        local_vector(tip, (real[2]){m->body[0][i], m->body[1][i]}, given);
+        for (int d = 0; d < 2; d++) point->state.acceleration[d] = -given[d];
+    }
+    if (!m->velocity[0]) return;
     gradient_of(stencil, i, m->velocity, global);
     local_tensor(tip, global, local);
     for (int d = 0; d < 2; d++) point->state.velocity_along[d] = local[d][0];
     local_vector(tip, (real[2]){m->velocity[0][i], m->velocity[1][i]}, point->state.velocity);
-    local_vector(tip, (real[2]){m->acceleration[0][i], m->acceleration[1][i]}, point->state.acceleration);
+    real moved[2];
+    local_vector(tip, (real[2]){m->acceleration[0][i], m->acceleration[1][i]}, moved);
+    for (int d = 0; d < 2; d++) point->state.acceleration[d] += moved[d];
 }
 
 static void points_make(struct sif_points *s, const struct sif_motion *m, const struct gradient_rule *rule,
@@ -180,8 +187,8 @@ static void points_block(const void *context, int64_t first, int64_t end, real *
     for (int64_t k = first; k < end; k++) {
         const struct sif_point *point = &s->point[k];
         const real r = hypot(point->x[0], point->x[1]);
-        if (r >= s->contour->outer || (!s->inertia && r <= s->contour->inner)) continue;
-        const real inside = s->inertia ? core_share(tip, r) : 0;
+        if (r >= s->contour->outer || (!s->inner && r <= s->contour->inner)) continue;
+        const real inside = s->inner ? core_share(tip, r) : 0;
         struct crack_field field;
         for (int mode = 0; mode < MODES; mode++) {
             crack_field(&tip->medium, mode, tip->speed, point->x, &field);
@@ -195,7 +202,7 @@ void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int
                    const struct gradient_rule *rule, const struct particles *p, const struct cells *c,
                    struct sif *found)
 {
-    struct sif_points s = {.tip = tip, .inertia = motion->velocity[0] != NULL};
+    struct sif_points s = {.tip = tip, .inner = motion->velocity[0] || motion->body[0]};
     points_find(&s, contour, n, p);
     points_make(&s, motion, rule, p, c);
     for (int k = 0; k < n; k++) {

@@ -32,6 +32,7 @@ struct sif_tracked {
     real t, t_velocity;                  /* [s]                                                       */
     real *u[2], *v[2], *stress[3];       /* [n_all]                                                   */
     real *mean[2], *acceleration[2];     /* [n_all] velocity at a sample's time [m/s], [m/s^2]        */
+    real *body[2];                       /* [n_all] forces of loads over masses                 [m/s^2] */
 };
 
 static bool given(real value) { return value > 0; }      /* neither NAN nor 0 */
@@ -223,7 +224,7 @@ void sif_free(struct sif_tracked *w)
     if (!w) return;
     for (int d = 0; d < 2; d++) {
         memory_free(w->u[d]), memory_free(w->v[d]);
-        memory_free(w->mean[d]), memory_free(w->acceleration[d]);
+        memory_free(w->mean[d]), memory_free(w->acceleration[d]), memory_free(w->body[d]);
     }
     for (int k = 0; k < 3; k++) memory_free(w->stress[k]);
     memory_free(w->crack);
@@ -301,6 +302,33 @@ static void find_inertia(struct sif_tracked *w, const struct particles *p, real 
         }
 }
 
+/* Finds what loads put on particles at time t; do they load any within the contours? */
+static bool find_body_force(struct sif_tracked *w, const struct observed *o)
+{
+    const struct particles *p = o->part;
+    const struct loads *l = o->loads;
+    const real t = w->kept ? w->t : o->t;
+    bool any = false;
+    if (!l) return false;
+    for (int d = 0; d < 2; d++) {
+        room(&w->body[d], p->n_all);
+        for (int64_t i = 0; i < p->n; i++)       /* inertia relief of a static body */
+            w->body[d][i] = l->turn * (d == 0 ? p->X[1][i] - l->centre[1] : l->centre[0] - p->X[0][i]);
+    }
+    for (int b = 0; b < l->n; b++)
+        for (int64_t k = 0; k < l->load[b].n && boundary_is_force(l->load[b].boundary); k++) {
+            const int32_t i = l->load[b].particle[k];
+            real force[DIM_MAX];
+            load_force_at(&l->load[b], p, k, t, force);
+            for (int d = 0; d < 2; d++) w->body[d][i] += force[d] / p->mass[i];
+        }
+    for (int64_t i = 0; i < p->n; i++) {
+        const bool within = hypot(p->X[0][i] - w->tip.place[0], p->X[1][i] - w->tip.place[1]) < w->reach;
+        any |= within && (w->body[0][i] != 0 || w->body[1][i] != 0);
+    }
+    return any;
+}
+
 void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
 {
     struct sif_tracked *w = q->sif;
@@ -309,6 +337,7 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
     struct sif found[SIF_CONTOURS_MAX + 1];
     real place[2];
     const bool grew = probes_sif_follow(q, o);
+    const bool loaded = find_body_force(w, o);
     if (!moves) keep_displacement(w, p), w->tip.speed = 0;
     if (moves) find_inertia(w, p, t_velocity);
     w->kept = false;
@@ -316,6 +345,7 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
     if ((w->tip.speed > 0 || (grew && !moves)) && ring_leaves(&w->tip, w->reach, o, place)) return;
     for (int d = 0; d < 2; d++) w->rule.tip[d] = w->tip.place[d];
     struct sif_motion m = {.displacement = {w->u[0], w->u[1]}, .stress = {w->stress[0], w->stress[1], w->stress[2]}};
+    for (int d = 0; d < 2 && loaded; d++) m.body[d] = w->body[d];
     for (int d = 0; d < 2 && moves; d++) m.velocity[d] = w->mean[d], m.acceleration[d] = w->acceleration[d];
     sif_integrate(&w->tip, w->contour, w->contours, &m, &w->rule, p, o->cells, found);
     const real factors[SIF_FIGURES] = {found[0].K[MODE_I], found[0].K[MODE_II], found[0].J,
