@@ -4,9 +4,9 @@
  * % while the tip goes on by a spacing, and its mean and its envelope stay above what Griffith's balance of energies
  * asks, on any lattice (lattice trapping: Thomson, Hsieh & Rana 1971); with a horizon of 3 spacings by 18 % and 50 % of
  * G_c. A crack therefore advances by some spacings at once: the most overloaded bonds break, first come first, until
- * they have cost as much as their crossing bonds hold. The advance comes at the load at which the body releases what it
- * costs: Griffith's criterion for finite growth (as in Leguillon 2002, with a stress near the limit as the second
- * condition), with the path left to the bonds.
+ * the area that they cross is two spacings long; each counts by what it costs over the toughness of what it crosses.
+ * The advance comes at the load at which the body releases what it costs: Griffith's criterion for finite growth (as in
+ * Leguillon 2002, with a stress near the limit as the second condition), with the path left to the bonds.
  *
  * What an advance releases is that of its middle. Between two of them the mean of both counts, and at the tip of a
  * pre-crack that of the first one and one before it, of which the first two tell the release: the load of a state is
@@ -53,14 +53,36 @@ static real front_length(const struct engine *e)
     return length;
 }
 
-/* What an advance costs [J]. */
-static real advance_cost(const struct engine *e)
+/* Of bonds between materials a and b: of an interface as given, in state-based models of the weaker material; of bonds
+ * with energies of their own, these at their limit. */
+static real toughness_of_pair(const struct engine *e, int a, int b)
 {
     const struct scene *s = e->scene;
-    real least = INFINITY;
-    if (s->steps.energy > 0) return s->steps.energy;
-    for (int m = 0; m < s->materials; m++) least = real_min(least, toughness_of(e, &s->material[m]));
-    return ADVANCE_SPACINGS * (s->dim > 1 ? s->spacing : 1) * scene_section(s) * front_length(e) * least;
+    const struct material *one = &s->material[a], *other = &s->material[b];
+    const real least = real_min(toughness_of(e, one), toughness_of(e, other));
+    for (int k = 0; k < s->interfaces && s->model != MODEL_BOND; k++) {
+        const struct scene_interface *face = &s->interface[k];
+        const int m = s->body[face->body[0]].material, n = s->body[face->body[1]].material;
+        if (face->energy_release_rate > 0 && ((m == a && n == b) || (m == b && n == a)))
+            return face->energy_release_rate;
+    }
+    const real limit = e->tables.pair_stretch[a * s->materials + b];
+    if (a == b || s->model != MODEL_BOND || material_yields(one) || material_yields(other)) return least;
+    const real c = family_micro_modulus(&e->source.family, one), d = family_micro_modulus(&e->source.family, other);
+    return family_crossing_energy(&e->source.family, one) * 2 * d / (c + d) * square(limit / one->critical_stretch);
+}
+
+real toughness_between(const struct engine *e, int64_t i, int64_t j)
+{
+    const struct particles *p = &e->part;
+    return toughness_of_pair(e, p->material[i], p->material[j]) * square(bond_strength(p, i, j));
+}
+
+/* Area of an advance [m^2]. */
+static real advance_area(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    return ADVANCE_SPACINGS * (s->dim > 1 ? s->spacing : 1) * scene_section(s) * front_length(e);
 }
 
 /* Pairs of bonds that may break between two equilibria: along a front, of each spacing of it. */
@@ -126,13 +148,15 @@ status statics_go(struct engine *e, real t)
 static status advance_try(struct engine *e, struct advance *a)
 {
     struct statics *s = &e->statics;
-    const real before = statics_released(e), cost = advance_cost(e) * (1 - 1e-3);
+    const real before = statics_released(e), given = e->scene->steps.energy;
+    const real cost = given > 0 ? given * (1 - 1e-3) : INFINITY, wide = advance_area(e) * (1 - 1e-3);
     const int64_t most = breaks_most(e);
     const bool remnant = e->part.dim == 3 && s->led.stretches > 0;
     const real within = remnant ? real_max(REMNANT, e->scene->steps.within) : e->scene->steps.within;
+    real area = 0;
     *a = (struct advance){0};
-    while (a->cost < cost && s->overload > LEFT) {
-        if (statics_break(e, within, most, &a->cost) == 0) break;
+    while ((given > 0 ? a->cost < cost : area < wide) && s->overload > LEFT) {
+        if (statics_break(e, within, most, &a->cost, &area) == 0) break;
         TRY(statics_go(e, s->t));
     }
     a->release = (statics_released(e) - before) / square(statics_load_size(e, s->t));

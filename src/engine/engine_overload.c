@@ -164,7 +164,7 @@ static void record_break(struct engine *e, const struct broken_bond *record)
 
 /* State-based bonds have no energy of their own: in a linear body, what a break takes is what it takes at the limit
  * times the square of the overload. */
-int64_t statics_break(struct engine *e, real share, int64_t most, real *cost)
+int64_t statics_break(struct engine *e, real share, int64_t most, real *cost, real *area)
 {
     struct break_list *l = &e->statics.next;
     const real least = e->statics.overload * (1 - real_max(share, ALIKE)), before = bonds_fracture_energy(&e->bonds);
@@ -179,7 +179,10 @@ int64_t statics_break(struct engine *e, real share, int64_t most, real *cost)
     e->statics.stale = e->statics.parted = true;
     const real held = (bonds_fracture_energy(&e->bonds) - before) / square_mean;
     for (int64_t k = had; k < l->n && e->scene->model != MODEL_BOND; k++) l->bond[k].held = held / (real)(l->n - had);
-    for (int64_t k = had; k < l->n; k++) *cost += l->bond[k].held;
+    for (int64_t k = had; k < l->n; k++) {
+        *cost += l->bond[k].held;
+        *area += l->bond[k].held / toughness_between(e, l->bond[k].i, l->bond[k].j);
+    }
     memory_free(o.load);
     memory_free(o.record);
     return l->n - had;

@@ -74,9 +74,10 @@ void statics_precondition_free(struct engine *e);
 
 /* Bonds over their limit (engine_overload.c): the largest stretch of an intact bond over its limit [1]; breaks those
  * within `share` of the largest, `most` pairs or a few more that are alike, adds them to the list of the next advance
- * and what they hold at their limits to *cost [J]; returns directed bonds broken. */
+ * and what they hold at their limits to *cost [J], the area that they cross to *area [m^2]; returns directed bonds
+ * broken. */
 real statics_overload(const struct engine *e);
-int64_t statics_break(struct engine *e, real share, int64_t most, real *cost);
+int64_t statics_break(struct engine *e, real share, int64_t most, real *cost, real *area);
 /* Breaks the bonds of a list; makes them whole again. Saves or restores that of the next advance. */
 void statics_break_listed(struct engine *e, const struct break_list *l);
 void statics_mend(struct engine *e, const struct break_list *l);
@@ -130,6 +131,8 @@ real size_of_advance(const struct advance *a);
 struct advance advance_before(const struct advance *first, const struct advance *second);
 /* Energy per area that a crack takes: of bonds at their limits, or of state-based models G_c as given [J/m^2]. */
 real toughness_of(const struct engine *e, const struct material *m);
+/* The same of bonds between particles i and j: of an interface, between materials, where strength scatters [J/m^2]. */
+real toughness_between(const struct engine *e, int64_t i, int64_t j);
 
 /* Cracks that are led by their stress-intensity factors (engine_led.c, engine_led_cut.c), in a plane
  * (engine_led_plane.c): finds it, and says why there is none, else NULL; where X of `dim` components lies in it [m]; a

@@ -72,7 +72,8 @@ const struct key keys[] = {
         "that end in it, in space with such fronts",
         .words = "auto|bonds|hoop"),
     KEY("steps.energy", KEY_REAL, UNIT_ENERGY, AT(scene, steps.energy), ABOVE(0), "auto",
-        "of an advance of the crack: what its bonds cost", .words = "auto", .word_value = 0),
+        "of an advance of the crack: what its bonds cost; auto: those of two spacings of what it cuts, materials or "
+        "interfaces", .words = "auto", .word_value = 0),
     KEY("steps.from", KEY_POINT, UNIT_LENGTH, AT(scene, steps.from), ANY, "(required with control opening)",
         "one of the two places; the particle nearest to it is followed", .has = FLAG(scene, steps.has_from)),
     KEY("steps.to", KEY_POINT, UNIT_LENGTH, AT(scene, steps.to), ANY, "(required with control opening)",

@@ -133,6 +133,41 @@ done
 # killed, whatever it is at
 kills 3 "$led" $pulled
 
+# ---- an interface ------------------------------------------------------------------------------------------------------
+
+# A double cantilever whose arms are joined along its middle: it parts at a load that goes with the root of the toughness of the
+# interface, and on nothing else: 3.33 N was measured with advances of the energy of two spacings of the interface (steps.energy).
+cat >"$work/arms.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 1 s
+method: pd
+solver: static
+steps: {number: 12, control: energy}
+materials:
+  - {name: m1, young: 3 GPa, density: 1180, energy_release_rate: 10000}
+  - {name: m2, young: 3 GPa, density: 1180, energy_release_rate: 10000}
+bodies:
+  - {name: up, material: m1, shape: {box: {from: [0, 0], to: [100 mm, 10 mm]}}}
+  - {name: down, material: m2, shape: {box: {from: [0, -10 mm], to: [100 mm, 0]}}}
+interfaces: [{bodies: [up, down], energy_release_rate: 75}]
+particles: {spacing: 1 mm}
+cracks: [{from: [-1 mm, 0], to: [40 mm, 0]}]
+boundary:
+  - {name: u, displacement: [free, 5 mm], region: {box: {from: [0, 8.5 mm], to: [2 mm, 10 mm]}}, time: {ramp: {until: 1 s}}}
+  - {name: d, displacement: [free, -5 mm], region: {box: {from: [0, -10 mm], to: [2 mm, -8.5 mm]}}, time: {ramp: {until: 1 s}}}
+  - {fixed: [x], region: {box: {from: [98.5 mm, -1 mm], to: [inf, 1 mm]}}}
+output: {frames: 0}
+probes: [reaction: {boundary: u}]
+END
+"$cleave" run "$work/arms.yaml" -q -o "$work/tough" 2>/dev/null
+"$cleave" run "$work/arms.yaml" -q -o "$work/brittle" -s materials.0.energy_release_rate=300 -s materials.1.energy_release_rate=400 2>/dev/null
+"$cleave" run "$work/arms.yaml" -q -o "$work/weak" -s interfaces.0.energy_release_rate=30 2>/dev/null
+peak() { figure "$work/$1" probes.reaction.force_max; }
+between "interface: load" "$(peak tough)" 3.30 3.36
+between "interface: whatever the arms" "$(awk -v a="$(peak brittle)" -v b="$(peak tough)" 'BEGIN { print a / b }')" 0.999 1.001
+between "interface: root of its toughness" "$(awk -v a="$(peak tough)" -v b="$(peak weak)" 'BEGIN { print a / b / sqrt(75 / 30) }')" 0.998 1.002
+
 # ---- check -----------------------------------------------------------------------------------------------------------
 
 "$cleave" check $pulled >"$work/out" 2>&1
