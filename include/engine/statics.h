@@ -69,6 +69,8 @@ struct release_mark { real area, released; };    /* [m^2], [J] */
 struct steps_record {
     struct release_mark mark[2];         /* the release rate is that of the growth since the first one */
     real released, area, rate;           /* at the last record [J], [m^2]; over the last growth, 0 before any [J/m^2] */
+    real broken;                         /* area that broken bonds have crossed [m^2] */
+    real load_most;                      /* largest size of the loads, control energy (statics_load_size) */
     int64_t step;                        /* the load step at hand or just done; 0: none yet */
     int64_t directions, solutions;       /* of all load steps before */
 };
@@ -108,6 +110,7 @@ struct statics {
     struct advance ahead, behind;        /* the next advance, and the last; cost 0: none */
     real due;                            /* size of the loads at which the next one comes, INFINITY: at none */
     bool advances;                       /* the next load step begins with it */
+    bool severs;                         /* the next advance would leave a piece that nothing holds: it does not come */
     bool stale;                          /* bonds have broken since the preconditioner was made */
     bool kept;                           /* at a checkpoint: there is one, and the next load step goes on with it */
     bool parted;                         /* and since pieces were looked for */

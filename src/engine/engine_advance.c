@@ -41,16 +41,20 @@ real toughness_of(const struct engine *e, const struct material *m)
     return elastic * taken / (0.5 * square(limit));
 }
 
-/* Length of a crack's front in space, where it is as long as the body's shortest side [m]; 1 in the plane. */
+/* Length of the front of a crack in space [m]: of the edges of pre-cracks in the body, no more than the body's shortest
+ * side and no less than a spacing; 1 in the plane. */
 static real front_length(const struct engine *e)
 {
-    real length = INFINITY, low, high;
+    const struct tips *t = &e->fracture.tips;
+    real length = INFINITY, edges = 0, low, high;
     if (e->part.dim < 3) return 1;
     for (int d = 0; d < 3; d++) {
         particles_extent(&e->part, e->part.n, d, &low, &high);
         length = real_min(length, high - low + e->scene->spacing);
     }
-    return length;
+    for (int k = 0; k < t->n; k++)
+        if (t->tip[k].from_crack) edges += 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, 3));
+    return edges > 0 ? real_min(length, real_max(edges, e->scene->spacing)) : length;
 }
 
 /* Of bonds between materials a and b: of an interface as given, in state-based models of the weaker material; of bonds
@@ -157,6 +161,11 @@ static status advance_try(struct engine *e, struct advance *a)
     *a = (struct advance){0};
     while ((given > 0 ? a->cost < cost : area < wide) && s->overload > LEFT) {
         if (statics_break(e, within, most, &a->cost, &area) == 0) break;
+        if (e->scene->steps.control == CONTROL_ENERGY) {
+            statics_pieces_make(e);
+            s->severs = statics_unheld(e) != OK;
+            if (s->severs) break;
+        }
         TRY(statics_go(e, s->t));
     }
     a->release = (statics_released(e) - before) / square(statics_load_size(e, s->t));

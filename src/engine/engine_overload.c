@@ -198,6 +198,7 @@ void statics_break_listed(struct engine *e, const struct break_list *l)
         const real before = *booked;
         record_break(e, record);
         more += *booked - before - record->held;
+        e->statics.record.broken += record->held / toughness_between(e, record->i, record->j);
         *booked = before + record->held;
     }
     e->statics.balance.lost += more, e->coupling.damped += more;

@@ -10,6 +10,7 @@
 #define NEAR_LIMIT 0.95    /* overload at which an advance is looked for instead */
 #define NEAR_LEAST 0.85    /* overload from which on loads cannot come much nearer */
 #define ROUND_OFF 1e-6     /* of loads that are the same */
+#define THROUGH 1e-2       /* share of the largest loads below which nothing is left of what a crack had to cut */
 #define FAR_OFF 2.0        /* from the place of an opening to the body [spacings] */
 enum { SECANTS_MOST = 12, APPROACHES_MOST = 12 };
 
@@ -104,10 +105,14 @@ static status step_by_energy(struct engine *e, real most)
     const real t = real_min(s->t + most, e->scene->duration);
     if (s->advances) TRY(statics_advance_balanced(e));
     TRY(statics_look_ahead(e));
+    if (s->severs) return OK;
     if (s->next.n == 0) TRY(approach_loads(e, t));
+    if (s->severs) return OK;
     s->advances = s->next.n > 0 && statics_load_size(e, t) >= s->due;
-    if (s->next.n == 0) return OK; /* in balance there already */
-    return statics_go(e, s->advances ? statics_time_of_size(e, s->due) : t);
+    if (s->next.n > 0) TRY(statics_go(e, s->advances ? statics_time_of_size(e, s->due) : t));
+    s->record.load_most = real_max(s->record.load_most, statics_load_size(e, s->t));
+    s->severs = s->advances && s->due < THROUGH * s->record.load_most;
+    return OK;
 }
 
 /* How far the places of control opening have moved apart [m]. */
@@ -292,16 +297,16 @@ static void say_at_end(struct engine *e)
     say_missed(e);
 }
 
-/* FAILED if loads carry a piece away. Where a crack has gone through under control energy, they have gone back as far
- * as they can, and the curve is whole: *apart. */
+/* FAILED if loads carry a piece away. Where a crack goes through under control energy, they have gone back as far as
+ * they can, and the curve is whole: *apart. */
 static status check_held(struct engine *e, bool *apart)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics.bonds_broken > 0;
     const status held = statics_unheld(e);
-    *apart = held != OK && parts;
+    *apart = parts && (held != OK || e->statics.severs);
     if (*apart)
-        engine_say(e, "the crack has gone through: nothing holds a piece of the body under its loads, and the run ends "
-                      "with this load step");
+        engine_say(e, "the crack goes through: after its next advance next to nothing holds a piece of the body under "
+                      "its loads, and the run ends before it");
     return parts ? OK : held;
 }
 

@@ -59,17 +59,19 @@ static real led_paths_area(const struct engine *e)
 }
 
 /* Area so far, of what tips have been led along, or where damaged particles say that more than another spacing has
- * come, of these; and the release rate over the last two growths. Of damaged particles, whose lengths come in steps of
- * a spacing, a growth is some spacings. A load step without growth changes no rate. */
+ * come, of these; in space, where no front is led, of the bonds that have broken, each by its share of the area that it
+ * crosses; and the release rate over the last two growths. Of damaged particles, whose lengths come in steps of a
+ * spacing, a growth is some spacings. A load step without growth changes no rate. */
 static void measure(struct engine *e)
 {
     struct steps_record *r = &e->statics.record;
     const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, scene_section(e->scene),
                                             0.5 * damage_beside_cut(e->scene)};
     const real led = led_paths_area(e), spacing = growth_by_spacing(e);
-    const real damaged = tips_area(&e->fracture.tips, &e->part, &around);
+    const bool solid = e->part.dim == 3 && led == 0;
+    const real damaged = solid ? r->broken : tips_area(&e->fracture.tips, &e->part, &around);
     const bool by_paths = led > 0 && damaged <= led + 1.5 * spacing;
-    const real area = by_paths ? led : damaged, growth = by_paths ? 0 : GROWTH * spacing;
+    const real area = by_paths ? led : damaged, growth = by_paths || solid ? 0 : GROWTH * spacing;
     r->released = statics_released(e);
     if (!(area > r->area)) return;
     r->area = area;

@@ -168,6 +168,36 @@ between "interface: load" "$(peak tough)" 3.30 3.36
 between "interface: whatever the arms" "$(awk -v a="$(peak brittle)" -v b="$(peak tough)" 'BEGIN { print a / b }')" 0.999 1.001
 between "interface: root of its toughness" "$(awk -v a="$(peak tough)" -v b="$(peak weak)" 'BEGIN { print a / b / sqrt(75 / 30) }')" 0.998 1.002
 
+# ---- a crack in space that no front leads ------------------------------------------------------------------------------
+
+# A penny crack in a block, an eighth by mirrors: bonds take it through what is left, at 0.98 of G_c per area all the way (bonds across a
+# plane hold 0.98), and the run ends before nothing is left: area of the section less that of the polygon, half of it for one of two faces.
+cat >"$work/penny.yaml" <<'END'
+variables: {a: 6 mm, L: 16 mm, pull: 40 MPa}
+space: solid
+duration: 1 s
+method: pd
+solver: static
+steps: {number: 30, control: energy}
+material: {young: 70 GPa, density: 2500, energy_release_rate: 20 J/m^2}
+body: {box: {from: [0, 0, 0], to: [L, L, L]}}
+particles: {spacing: 2 mm}
+cracks:
+  - polygon: [[a, 0, 0], [a*cos(pi/6), a*sin(pi/6), 0], [a*cos(pi/3), a*sin(pi/3), 0], [0, a, 0], [-a, 0, 0], [0, -a, 0]]
+boundary:
+  - {mirror: {axis: x, at: 0}}
+  - {mirror: {axis: y, at: 0}}
+  - {mirror: {axis: z, at: 0}}
+  - {name: top, traction: [0, 0, pull], face: z+, time: {ramp: {until: 1 s}}}
+output: {frames: 0}
+END
+"$cleave" run "$work/penny.yaml" -q -o "$work/penny" 2>"$work/err"
+holds "penny: it says that the crack goes through" grep -q 'the crack goes through' "$work/err"
+between "penny: balance" "$(figure "$work/penny" energy.balance_error)" -1e-3 1e-3
+between "penny: release rate" "$(figure "$work/penny" load_steps.release_rate)" 19 21
+between "penny: the last release rate" "$(last "$work/penny" release_rate)" 19 21
+between "penny: area" "$(compute "$(figure "$work/penny" load_steps.crack_area)/(0.5 * (256e-6 - 27e-6))")" 0.85 1.1
+
 # ---- check -----------------------------------------------------------------------------------------------------------
 
 "$cleave" check $pulled >"$work/out" 2>&1
