@@ -20,6 +20,9 @@
 #define REACHED 4                        /* rho c v  */
 #define PASSAGES 4
 #define LITTLE 0.1
+#define BESIDE_FACE 1.5                  /* distance at which a probe is at a face [spacings] */
+#define AROUND 3                         /* spacings about a probe in which its face is looked at */
+#define ALONG_AXIS 0.999                 /* component of a normal from which on a face is along the axes */
 #define ON_MIRROR 1e-6                   /* distance of a face that lies on a plane of symmetry [spacings] */
 /* time per bond and step [ns]: 2D, 3D */
 static const real bond_ns[][3] = {
@@ -171,6 +174,39 @@ static void advise_cracks(const struct engine *e, FILE *out)
             fprintf(out, "unresolved: crack %d is %.3g m deep, %.2g horizons: its end is not apart from the face\n",
                     k + 1, length, length / horizon_of(s));
     }
+}
+
+/* Is place X at a face of a shape that is curved or slanted: does its normal there, or some spacings beside X, differ
+ * from all axes? */
+static bool at_stepped_face(const struct scene *s, const struct region *shape, const real *X)
+{
+    real normal[DIM_MAX] = {0};
+    bool stepped = false;
+    if (fabs(region_distance(shape, X, s->dim, normal)) > BESIDE_FACE * s->spacing) return false;
+    for (int k = 0; k < 2 * s->dim; k++) {
+        real beside[DIM_MAX] = {0}, most = 0;
+        for (int d = 0; d < s->dim; d++) beside[d] = X[d] + (d == k / 2 ? (k % 2 ? 1 : -1) * AROUND * s->spacing : 0);
+        const real far = fabs(region_distance(shape, beside, s->dim, normal));
+        for (int d = 0; d < s->dim; d++) most = real_max(most, fabs(normal[d]));
+        stepped |= far < AROUND * s->spacing && most < ALONG_AXIS;
+    }
+    return stepped;
+}
+
+/* Point probes of stress at curved or slanted faces: measured with the elliptic membrane LE1 of NAFEMS, 20 to 80 points
+ * across. */
+static void advise_faces(const struct engine *e, FILE *out)
+{
+    const struct scene *s = e->scene;
+    for (int k = 0; k < s->probes && s->method != METHOD_PD && s->dim > 1; k++)
+        for (int b = 0; b < s->bodies && s->probe[k].kind == PROBE_POINT; b++) {
+            const struct region *shape = &s->body[b].shape;
+            if (s->body[b].file || shape->n == 0 || region_has_endless_box(shape, s->dim)) continue;
+            if (at_stepped_face(s, shape, s->probe[k].at))
+                fprintf(out, "unresolved: probe %s: it is at a face of body %s that the lattice fills in steps; stress "
+                        "along such a face is some 10 %% low there, displacements are right\n", s->probe[k].name,
+                        s->body[b].name);
+        }
 }
 
 /* Rise time of a pulse or ramp [s]; INFINITY for other functions of time. */
@@ -383,6 +419,7 @@ void advise(const struct engine *e, FILE *out)
     advise_features(e, out);
     advise_cracks(e, out);
     advise_incompressible(e, out);
+    advise_faces(e, out);
     advise_waves(e, out);
     advise_load_steps(e, out);
     advise_levels(e, out);

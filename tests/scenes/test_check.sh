@@ -163,6 +163,9 @@ says "thin beside a mirror" 'unresolved: body body: a part of 0.008 m is 2.7 hor
 silent "thick beside a mirror" 'unresolved: body' "$work/rollers.yaml" -s "body={box: {from: [0, 0], to: [1024 mm, 8 mm]}}"
 silent "narrow hole" 'unresolved: body' plate_hole -s particles.spacing=2mm
 silent "wide hole" 'unresolved: body' plate_hole
+says "a probe at a curved face" 'unresolved: probe rim: it is at a face of body .* fills in steps' plate_hole \
+    -s 'probes=[{point: {name: rim, at: [0, 5 mm]}}]'
+silent "a probe at a flat face" 'unresolved: probe' plate_hole -s 'probes=[{point: {name: side, at: [25 mm, 5 mm]}}]'
 says "short crack" 'unresolved: crack 1 is 0.01 m long, 3.3 horizons' plate_crack -s particles.spacing=1mm
 silent "long crack" 'unresolved: crack' plate_crack
 # What comes from a face has one tip: its length in the body is that of half a crack. Four horizons are 30.7 mm here.
