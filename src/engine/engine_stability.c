@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "kernels/mpm/stress.h"
 #include "engine/engine.h"
 
 #define LOAD_SHARE_LEAST 0.5 /* least share of a motion by loads that explain it: speeds double at free faces */
@@ -387,6 +388,32 @@ static status unstable(const struct engine *e, const char *what, const char *rem
                       (long long)e->clock.step, e->clock.t, (int)p->id[i], place, what, remedy);
 }
 
+/* Elastic strain of points in the current frame beyond which they come apart: a strip that is pulled tears or gains
+ * energy from strains of 0.09 on, with every shape and transfer (tests/scenes/test_frame.sh). */
+#define STRETCH_MOST 0.08
+
+/* Says that points in the current frame are stretched farther than their grid holds them together. */
+static void say_stretched(struct engine *e)
+{
+    const struct particles *p = &e->part;
+    const int n = symmetric_count(p->dim);
+    for (int64_t i = 0; i < p->n && p->n_free > 0; i++) {
+        const struct material *m = &e->scene->material[p->material[i]];
+        real stress[SYM_MAX];
+        char text[360];
+        if (p->kind[i] != KIND_MPM || p->flag[i] & FLAG_MESHED || material_yields(m)) continue;
+        for (int c = 0; c < n; c++) stress[c] = p->stress[c][i];
+        const real strain = stress_principal(stress, p->dim) / m->young;
+        if (!(strain > STRETCH_MOST)) continue;
+        snprintf(text, sizeof text,
+                 "points in mpm.frame current are stretched by %.0f %% at t = %.3g s, round x = %.4g m: from some 10 %% on "
+                 "they come apart (mpm.transfer apic) or gain energy (flip), whatever the shape; mpm.frame reference bears "
+                 "any stretch", 100 * strain, e->clock.t, p->x[0][i]);
+        engine_say(e, text);
+        return;
+    }
+}
+
 /* For unstable runs without a particle that is too fast for diagnostics_divergence: a body that breaks all its bonds,
  * or one that swings. A body at rest, whose energy is round-off, is left out. */
 status engine_energy_check(struct engine *e)
@@ -403,6 +430,7 @@ status engine_energy_check(struct engine *e)
     char what[96], remedy[ENGINE_REMEDY];
     if (!e->report.sampling.due && !last) return OK;
     rise_note(&e->stability.excess, e->clock.step, excess);
+    say_stretched(e);
     if (is_round_off(e)) return OK;
     if (swings(&e->clock, &w->now.energy)) {
         say_step(e->scene, &e->clock, remedy, sizeof remedy);

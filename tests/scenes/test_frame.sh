@@ -24,6 +24,33 @@ twice_interrupted "$work/stopped" 12 60 $flat $mesh
 calm "$work/stopped" -t 3 --resume $flat $mesh
 same "on 2 threads, interrupted after 12 and 60 lines" "$work/flat1" "$work/stopped"
 
+# ---- large stretch -----------------------------------------------------------------------------------------------------
+
+# A soft strip is drawn out to twice its length, slowly: the force is that of the law at every stretch, E (stretch - 1) A but for the
+# grips, that hold the width (1.5 to 3 %). Points in the current frame come apart from 10 % on: it is said before.
+cat >"$work/strip.yaml" <<'END'
+space: plane stress
+thickness: 0.7 mm
+duration: 200 ms
+method: mpm
+material: {young: 1 MPa, poisson: 0.45, density: 1000}
+body: {box: {from: [0, 0], to: [40 mm, 10 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {name: foot, fixed: all, face: x-}
+  - {name: grip, displacement: [40 mm, 0], face: x+, time: {ramp: {until: 200 ms}}}
+probes: [{reaction: {boundary: grip}}]
+damping: 100 1/s
+output: {frames: 0, samples: 20}
+END
+"$cleave" run "$work/strip.yaml" -q -o "$work/strip" -s mpm.frame=reference 2>"$work/strip.err" || fail "strip: $(cat "$work/strip.err")"
+between "strip: farthest from the law" "$(awk -F, '
+    NR == 1 { for (k = 1; k <= NF; k++) { if ($k ~ /^reaction.force_x/) f = k; if ($k ~ /^reaction.displacement_x/) u = k } next }
+    $u > 3e-3 { d = $f/(1e6 * $u/0.04 * 7e-6) - 1; if (d < 0) d = -d; if (d > most) most = d } END { print most }' "$work/strip/history.csv")" 0 0.04
+is "strip: nothing is said" "$(cat "$work/strip.err")" ""
+"$cleave" run "$work/strip.yaml" -q -o "$work/torn" -s mpm.frame=current 2>"$work/torn.err"
+holds "strip: stretch in the current frame is said" grep -q 'points in mpm.frame current are stretched by [0-9]* %' "$work/torn.err"
+
 # ---- the last sample ---------------------------------------------------------------------------------------------------
 
 # Rough motion at the end of a run: kinetic energy there is that of the kick to come, as in all samples before; carried on from the two
