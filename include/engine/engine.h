@@ -150,6 +150,9 @@ struct sampling {
     real *before[DIM_MAX];               /* velocities at its begin, where something is on the grid [m/s] */
     struct energy energy;                /* of the positions of t_n; kinetic comes last */
     real rigid, rigid_work;              /* of rigid bodies: kinetic at the begin; work up to t_n [J] */
+    int64_t pd, bonds;                   /* peridynamic particles and directed bonds at t_n */
+    real t_velocity, momentum[DIM_MAX];  /* time of the velocities before the step [s]; momentum then [kg m/s] */
+    real *motion;                        /* [scene->rigids, 2 DIM_MAX] centres [m] and velocities [m/s] at t_n */
 };
 
 /* Half-width of the 95 % interval of a figure of the summary, from a study of convergence (study/uncertainty.h). */
@@ -419,6 +422,12 @@ void engine_rigid_move(struct engine *e, real middle, real dt_velocity);
 struct rigid_energy { real before, step, last, work; };
 struct rigid_energy engine_rigid_energy(const struct engine *e);
 int engine_rigid_columns(const struct engine *e, struct column *column);   /* column NULL: only their number */
+/* Where rigid bodies are at the time of a sample, and how fast, in `sampling.motion`. `keep`: centres and velocities
+ * now; `mean`, after the step: velocities half-way to the present ones; `kick`, where no step follows: present
+ * velocities and half a kick of the present forces. Velocities of driven bodies are those of their own time. */
+void engine_rigid_keep(struct engine *e);
+void engine_rigid_mean(struct engine *e);
+void engine_rigid_kick(struct engine *e);
 /* REFUSED where bodies that the scene joins are apart (engine_joined.c). */
 status engine_joined_check(const struct engine *e);
 /* What they cannot do (engine_rigid_check.c): REFUSED before the start; FAILED where one moves too far in a step; said

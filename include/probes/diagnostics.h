@@ -63,6 +63,9 @@ real diagnostics_kick(const struct particles *p, real *const *before, real dt);
 void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
                           const real *impulse);
 
+/* Computes that momentum alone, by component [dim, kg m/s]; returns the sum of |m v|, by which errors are measured. */
+real diagnostics_momentum_of(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum);
+
 /* Fills the energies of `now` [J] and the work of loads and supports [J] for time t. After diagnostics_momentum. */
 void diagnostics_balance(struct diagnostics *w, real t, const struct energy *energy, real work);
 

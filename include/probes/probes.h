@@ -115,6 +115,13 @@ struct probes {
     int columns;                         /* of all probes together */
     struct column *column;
     real *value;                         /* at the last sample, by column */
+    real sampled;                        /* time of the last sample; NAN: none [s] */
+};
+
+/* Velocities at the end of a sample. */
+struct velocity_time {
+    real t;                              /* that they are of [s] */
+    real scale;                          /* of velocities of the sample over what lies between: bulk damping [1] */
 };
 
 /* Binds requests to particles. Refuses a point outside the body, an unknown boundary name, or a bar that is not that of
@@ -123,14 +130,14 @@ status probes_make(struct probes *s, const struct probe_request *request, int n,
 /* What these probes of the same requests remember is that of others. */
 void probes_take(struct probes *s, const struct probes *old);
 void probes_free(struct probes *s);
-/* Fills value[]. */
+/* Fills value[], as far as positions tell. */
 void probes_sample(struct probes *s, const struct observed *o);
-/* What needs the motion at a sample's own time (SIF), while velocities are known half a step before and after. `keep`,
- * before the step: remembers displacements and velocities of o->t and o->t_velocity. `sample_end`, after it, when
- * velocities are those of t_velocity: fills the rest of value[] for the time kept. Without a `keep` before, the body is
- * in equilibrium. */
+/* Velocities are known half a step before and after the time of a sample, reactions with the forces of the step.
+ * `keep`, before the step: keeps positions and velocities of o->t and o->t_velocity. `sample_end`, after it: fills the
+ * rest of value[] for the time kept; `now`: of present velocities. Without a `keep` before, the body is in
+ * equilibrium. */
 void probes_keep(struct probes *s, const struct observed *o);
-void probes_sample_end(struct probes *s, const struct observed *o, real t_velocity);
+void probes_sample_end(struct probes *s, const struct observed *o, const struct velocity_time *now);
 /* Called every step, before the flags of the step are cleared: BREAK and SPALL look where FLAG_LOST_BOND marks that
  * bonds broke, REACTION adds up its largest and rms force. */
 void probes_step(struct probes *s, const struct observed *o);

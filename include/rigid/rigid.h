@@ -57,6 +57,9 @@ void rigid_place(const struct rigid_body *r, const real *X, real *x);
 /* Velocity of the body at the point x [m/s]. */
 void rigid_velocity(const struct rigid_body *r, const real *x, real *v);
 
+/* Sets v to the velocity that a driven body has at time t [m/s]. */
+void rigid_driven_velocity(const struct rigid_body *r, real t, real *v);
+
 /* Way of a driven body up to time t, 0 of others; returns its length [m]. */
 real rigid_shift(const struct rigid_body *r, real t, real *way);
 /* Puts a driven body where it is at time t [s]; its way from where it was is booked with its work. */

@@ -448,7 +448,7 @@ void engine_free(struct engine *e)
     if (e->report.out) (void)output_wait(e->report.out);   /* a frame being written still reads the particles */
     probes_free(&e->probing.probes);
     for (int d = 0; d < DIM_MAX; d++) memory_free(e->probing.baseline.v[d]), memory_free(e->report.sampling.before[d]);
-    tips_free(&e->fracture.tips);
+    memory_free(e->report.sampling.motion), tips_free(&e->fracture.tips);
     for (int k = 0; e->fracture.growth && k < e->scene->growths; k++) growth_free(&e->fracture.growth[k]);
     memory_free(e->fracture.growth);
     partial_stress_free(&e->coupling.partial);

@@ -81,14 +81,46 @@ int engine_rigid_columns(const struct engine *e, struct column *column)
     return n;
 }
 
+void engine_rigid_keep(struct engine *e)
+{
+    struct sampling *s = &e->report.sampling;
+    if (!s->motion) s->motion = NEW("report.motion", 2 * DIM_MAX * e->scene->rigids, real);
+    for (int k = 0; k < e->scene->rigids; k++) {
+        const struct rigid_body *r = &e->rigid[k];
+        real *x = s->motion + 2 * DIM_MAX * k, *v = x + DIM_MAX;
+        array_copy(x, r->x, DIM_MAX, sizeof *x);
+        array_copy(v, r->v, DIM_MAX, sizeof *v);
+        if (r->motion == RIGID_DRIVEN && scene_moves(e->scene)) rigid_driven_velocity(r, e->clock.t, v);
+    }
+}
+
+void engine_rigid_mean(struct engine *e)
+{
+    for (int k = 0; k < e->scene->rigids; k++) {
+        real *v = e->report.sampling.motion + 2 * DIM_MAX * k + DIM_MAX;
+        for (int d = 0; d < DIM_MAX && e->rigid[k].motion == RIGID_FREE; d++) v[d] = 0.5 * (v[d] + e->rigid[k].v[d]);
+    }
+}
+
+void engine_rigid_kick(struct engine *e)
+{
+    for (int k = 0; k < e->scene->rigids; k++) {
+        const struct rigid_body *r = &e->rigid[k];
+        real *v = e->report.sampling.motion + 2 * DIM_MAX * k + DIM_MAX;
+        for (int d = 0; d < DIM_MAX && r->motion == RIGID_FREE; d++)
+            v[d] += 0.5 * e->clock.dt * (r->force[d] + r->weight[d]) / r->mass;
+    }
+}
+
 void engine_rigid_record(const struct engine *e, real *record)
 {
     const int dim = e->part.dim;
     for (int k = 0; k < e->scene->rigids; k++) {
         const struct rigid_body *r = &e->rigid[k];
+        const real *x = e->report.sampling.motion + 2 * DIM_MAX * k, *v = x + DIM_MAX;
         for (int d = 0; d < dim; d++) *record++ = r->force[d];
         for (int d = dim == 2 ? 2 : 0; d < 3 && dim > 1; d++) *record++ = r->moment[d];
-        for (int d = 0; d < dim; d++) *record++ = r->x[d];
-        for (int d = 0; d < dim; d++) *record++ = r->v[d];
+        for (int d = 0; d < dim; d++) *record++ = x[d];
+        for (int d = 0; d < dim; d++) *record++ = v[d];
     }
 }

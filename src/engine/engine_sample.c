@@ -36,12 +36,12 @@ static void fill_record(struct engine *e)
     real *r = e->report.record;
     const real *place = tip ? tip->place : (const real[DIM_MAX]){NAN, NAN, NAN};
     const int dim = e->part.dim;
-    const real n = (real)e->part.n_body, pd = (real)e->part.n_of[KIND_PD];
+    const real n = (real)e->part.n_body, pd = (real)e->report.sampling.pd;
     const real fixed[RECORD_FIXED] = {
         l->time, (real)e->clock.step, u->kinetic, u->strain, u->plastic, u->fracture, l->external_work,
         l->balance_error, l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, pd, pd / n,
-        (real)e->bonds.n, tip ? tip->growth : 0, place[0], dim > 1 ? place[1] : NAN, dim > 2 ? place[2] : NAN,
-        u->damped, 1 - pd / n, inactive_since_sample(&e->clock, &e->report),
+        (real)e->report.sampling.bonds, tip ? tip->growth : 0, place[0], dim > 1 ? place[1] : NAN,
+        dim > 2 ? place[2] : NAN, u->damped, 1 - pd / n, inactive_since_sample(&e->clock, &e->report),
         u->contact, u->absorbed};
     memcpy(r, fixed, sizeof fixed);
     for (int c = 0; c < e->probing.probes.columns; c++) r[RECORD_FIXED + c] = e->probing.probes.value[c];
@@ -111,14 +111,46 @@ static real kinetic_now(const struct particles *p, const struct reference_frame 
     return diagnostics_kinetic(p) + engine_mesh_kinetic(reference);
 }
 
+/* Meshes of the reference frame and of its coarse cells, whose nodes have momentum; returns their number. */
+static int meshes(const struct engine *e, const struct grid *nodes[LEVELS_MAX + 1])
+{
+    const struct mesh_levels *levels = &e->reference.levels;
+    nodes[0] = &e->reference.mesh.grid;
+    for (int level = 1; level <= levels->n; level++) nodes[level] = &levels->at[level].mesh.grid;
+    return 1 + levels->n;
+}
+
+/* Keeps the momentum before a step. */
+static void keep_momentum(struct engine *e)
+{
+    const struct grid *nodes[LEVELS_MAX + 1];
+    const int grids = meshes(e, nodes);
+    e->report.sampling.t_velocity = engine_observed(e).t_velocity;
+    diagnostics_momentum_of(&e->part, nodes, grids, e->report.sampling.momentum);
+}
+
+/* Sets the momentum of a sample to that of its own time, linear between those of the velocities before and after. */
+static void time_momentum(struct engine *e, const struct velocity_time *now)
+{
+    const struct grid *nodes[LEVELS_MAX + 1];
+    const int grids = meshes(e, nodes);
+    const struct sampling *s = &e->report.sampling;
+    real after[DIM_MAX];
+    if (!scene_moves(e->scene)) return;
+    const real share = (e->clock.t - s->t_velocity) / (now->t - s->t_velocity);
+    diagnostics_momentum_of(&e->part, nodes, grids, after);
+    for (int d = 0; d < e->part.dim; d++)
+        e->diagnostics.now.momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * after[d]);
+}
+
 /* Samples all quantities but energies: stress, momentum, tips, probes. */
 static void sample_state(struct engine *e)
 {
+    const struct grid *nodes[LEVELS_MAX + 1];
+    const int grids = meshes(e, nodes);
     if (wants_stress(e->scene)) engine_stress(e);
-    const struct mesh_levels *levels = &e->reference.levels;
-    const struct grid *nodes[LEVELS_MAX + 1] = {&e->reference.mesh.grid};
-    for (int level = 1; level <= levels->n; level++) nodes[level] = &levels->at[level].mesh.grid;
-    diagnostics_momentum(&e->diagnostics, &e->part, nodes, 1 + levels->n, e->loads.impulse);
+    engine_rigid_keep(e);
+    diagnostics_momentum(&e->diagnostics, &e->part, nodes, grids, e->loads.impulse);
     tips_sample(&e->fracture.tips, &e->part, &e->cells, e->clock.t);
     struct observed o = engine_observed(e);
     probes_sample(&e->probing.probes, &o);
@@ -134,6 +166,7 @@ real engine_strain_energy(struct engine *e)
 static void sample_energies(struct engine *e)
 {
     const struct material *m = e->scene->material;
+    e->report.sampling.pd = e->part.n_of[KIND_PD], e->report.sampling.bonds = e->bonds.n;
     e->report.sampling.energy = (struct energy){
         .strain = engine_strain_energy(e),
         .plastic = bond_plastic_work(&e->bonds) + diagnostics_plastic(&e->part, m, &e->coupling.partial),
@@ -144,13 +177,14 @@ static void sample_energies(struct engine *e)
     };
 }
 
-/* Completes a sample and writes its line. t_velocity: time of the current velocities [s]; kinetic, work [J]. */
-static void sample_write(struct engine *e, real t_velocity, real kinetic, real work)
+/* Completes a sample and writes its line. now: of the present velocities; kinetic, work [J]. */
+static void sample_write(struct engine *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report.sampling;
     sync_probes(e);
     struct observed o = engine_observed(e);
-    probes_sample_end(&e->probing.probes, &o, t_velocity);
+    probes_sample_end(&e->probing.probes, &o, now);
+    time_momentum(e, now);
     sampling->energy.kinetic = kinetic;
     const struct energy *u = &sampling->energy;
     const real all = kinetic + u->strain + u->plastic + u->fracture + u->contact + u->damped + u->absorbed + work;
@@ -197,6 +231,7 @@ void engine_sample_begin(struct engine *e)
     struct observed o = engine_observed(e);
     probes_keep(&e->probing.probes, &o);
     keep_velocities(sampling, &e->part, e->coupling.kind);
+    keep_momentum(e);
     sampling->kinetic = kinetic_now(&e->part, &e->reference);
     sampling->rigid = engine_rigid_energy(e).before;
 }
@@ -231,11 +266,12 @@ static real start_excess(const struct engine *e)
 void engine_sample_end(struct engine *e)
 {
     struct sampling *sampling = &e->report.sampling;
+    const bool first = e->clock.step == 0;
+    const struct velocity_time now = {e->clock.t + 0.5 * e->clock.dt, first ? 1 : 1 / engine_damping_share(e)};
     if (!sampling->due) return;
-    if (e->clock.step == 0) {                /* velocities of t = 0, not of half a step before; nothing is damped yet */
+    if (first) {                             /* velocities of t = 0, not of half a step before; nothing is damped yet */
         sampling->energy.damped = sampling->energy.absorbed = 0;
-        sample_write(e, e->clock.t + 0.5 * e->clock.dt, sampling->kinetic + sampling->rigid,
-                     sampling->work);
+        sample_write(e, &now, sampling->kinetic + sampling->rigid, sampling->work);
         e->diagnostics.energy_start -= start_excess(e) / engine_damping_share(e);
         return;
     }
@@ -243,7 +279,8 @@ void engine_sample_end(struct engine *e)
     sampling->energy.damped += e->mpm.contact.begun;
     sampling->energy.absorbed = 0.5 * (sampling->absorbed + e->loads.absorbing.energy);
     const struct rigid_energy rigid = engine_rigid_energy(e);
-    sample_write(e, e->clock.t + 0.5 * e->clock.dt, kinetic / engine_damping_share(e) + rigid.step,
+    engine_rigid_mean(e);
+    sample_write(e, &now, kinetic / engine_damping_share(e) + rigid.step,
                  sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
 }
 
@@ -251,14 +288,15 @@ void engine_sample_rest(struct engine *e)
 {
     sample_state(e);
     sample_energies(e);
-    sample_write(e, e->clock.t, 0, 0);
+    sample_write(e, &(struct velocity_time){e->clock.t, 1}, 0, 0);
 }
 
 void engine_sample_equilibrium(struct engine *e)
 {
     sample_state(e);
     sample_energies(e);
-    sample_write(e, e->clock.t, 0, e->loads.work + e->loads.constraint_work + engine_rigid_energy(e).work);
+    sample_write(e, &(struct velocity_time){e->clock.t, 1}, 0,
+                 e->loads.work + e->loads.constraint_work + engine_rigid_energy(e).work);
 }
 
 /* Sum of v . f of particles that bonds move and of nodes in the reference frame [W]; serial, as calls are few. */
@@ -275,9 +313,29 @@ static real power_now(const struct particles *p, const struct reference_frame *r
     return power + levels_power(&reference->levels);
 }
 
+/* Adds to reactions what the nodes of a mesh that loads hold bear by the present forces. */
+static void reactions_add(struct loads *l, const struct grid *g)
+{
+    for (int64_t k = 0; k < g->walls; k++)
+        l->load[g->wall[k].load].reaction[g->wall[k].component] -= g->force[g->wall[k].component][g->wall[k].node];
+}
+
+/* Completes the reactions of the loads, those on particles being known, by those on nodes that the forces after the
+ * last step have met. */
+static void reactions_at_end(struct engine *e)
+{
+    const struct mesh_levels *levels = &e->reference.levels;
+    for (int k = 0; k < e->mpm.fields && e->part.n_free + e->part.n_grid_coupled > 0; k++)
+        loads_react(&e->loads, &e->mpm.field[k].grid, e->clock.dt);
+    if (e->reference.mesh.points == 0) return;
+    reactions_add(&e->loads, &e->reference.mesh.grid);
+    for (int level = 1; level <= levels_due(levels, e->clock.step); level++)
+        reactions_add(&e->loads, &levels->at[level].mesh.grid);
+}
+
 /* Sum of v . f by the forces after the last step, which no motion follows [W]: no bond breaks, and the accounts of
- * loads are restored. *held: work of walls of the grid in that step [J]; the work of driven particles and of nodes of a
- * mesh is part of the power. */
+ * loads but for reactions are restored. *held: work of walls of the grid in that step [J]; the work of driven particles
+ * and of nodes of a mesh is part of the power. */
 static real power_last(struct engine *e, real *held)
 {
     const struct loads account = e->loads;
@@ -292,8 +350,13 @@ static real power_last(struct engine *e, real *held)
     if (e->reference.mesh.points > 0) engine_nodes_force(e);
     const real power = power_now(&e->part, &e->reference) + engine_grid_power(e, e->clock.t + 0.5 * e->clock.dt);
     *held = e->loads.constraint_work - account.constraint_work;
-    array_copy(e->loads.load, own, e->loads.n, sizeof *own);
+    reactions_at_end(e);
+    for (int b = 0; b < e->loads.n; b++) {
+        array_copy(own[b].reaction, e->loads.load[b].reaction, DIM_MAX, sizeof(real));
+        e->loads.load[b] = own[b];
+    }
     memcpy(e->loads.impulse, account.impulse, sizeof account.impulse);      /* arrays may have grown with the grid */
+    e->loads.absorbing.energy = account.absorbing.energy, e->loads.absorbing.kick = account.absorbing.kick;
     e->loads.work = account.work, e->loads.constraint_work = account.constraint_work;
     e->loads.absorbing.idle = e->loads.ended = false;
     memory_free(own);
@@ -316,7 +379,9 @@ void engine_sample_last(struct engine *e)
     e->report.sampling.energy.damped += engine_damping_last(e, before, kinetic);
     e->report.sampling.energy.damped += e->mpm.contact.begun;
     const struct rigid_energy rigid = engine_rigid_energy(e);
-    sample_write(e, e->clock.t - 0.5 * e->clock.dt, kinetic / engine_damping_share(e) + rigid.last,
+    const struct velocity_time now = {e->clock.t - 0.5 * e->clock.dt, 1 / square(engine_damping_share(e))};
+    if (scene_moves(e->scene)) engine_rigid_kick(e);
+    sample_write(e, &now, kinetic / engine_damping_share(e) + rigid.last,
                  e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);
 }
 

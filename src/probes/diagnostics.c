@@ -243,24 +243,31 @@ real diagnostics_plastic(const struct particles *p, const struct material *m, co
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* The error is the momentum, of particles and nodes, that was neither present at the start nor supplied since. */
-void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
-                          const real *impulse)
+real diagnostics_momentum_of(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum)
 {
     const struct movers m = diagnostics_movers_of(p);
-    real sum[DIM_MAX + 1], more[DIM_MAX + 1], missing2 = 0;
+    real sum[DIM_MAX + 1], more[DIM_MAX + 1];
     team_sums(p->n, p->dim + 1, momentum_block, &m, sum);
     for (int g = 0; g < grids && nodes[g]->n > 0; g++) {
         const struct movers n = {nodes[g]->dim, nodes[g]->mass, nodes[g]->velocity, NULL};
         team_sums(nodes[g]->n, p->dim + 1, momentum_block, &n, more);
         for (int k = 0; k <= p->dim; k++) sum[k] += more[k];
     }
+    for (int d = 0; d < p->dim; d++) momentum[d] = sum[d];
+    return sum[p->dim];
+}
+
+/* The error is the momentum, of particles and nodes, that was neither present at the start nor supplied since. */
+void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
+                          const real *impulse)
+{
+    const real size = diagnostics_momentum_of(p, nodes, grids, w->now.momentum);
+    real missing2 = 0;
     for (int d = 0; d < p->dim; d++) {
-        w->now.momentum[d] = sum[d];
         if (!w->started) w->momentum_start[d] = w->now.momentum[d] - impulse[d];
         missing2 += square(w->now.momentum[d] - w->momentum_start[d] - impulse[d]);
     }
-    w->momentum_scale = real_max(w->momentum_scale, sum[p->dim]);
+    w->momentum_scale = real_max(w->momentum_scale, size);
     if (w->momentum_scale > 0)
         w->now.momentum_error = real_max(w->now.momentum_error, sqrt(missing2) / w->momentum_scale);
 }

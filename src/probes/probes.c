@@ -216,6 +216,7 @@ status probes_make(struct probes *s, const struct probe_request *request, int n,
         columns_add(s, q, o->part);
     }
     s->value = NEW("probes.value", s->columns, real);
+    s->sampled = NAN;
     return OK;
 }
 
@@ -223,6 +224,7 @@ void probes_free(struct probes *s)
 {
     for (int k = 0; s->probe && k < s->n; k++) {
         memory_free(s->probe[k].list);
+        motion_free(&s->probe[k]);
         bar_free(s->probe[k].bar);
         sif_free(s->probe[k].sif);
     }
@@ -314,6 +316,7 @@ static void probes_sample_energy(const struct probe *q, const struct observed *o
 void probes_sample(struct probes *s, const struct observed *o)
 {
     const int dim = o->part->dim;
+    s->sampled = o->t;
     for (int k = 0; k < s->n; k++) {
         struct probe *q = &s->probe[k];
         real *value = s->value + q->first;
@@ -331,19 +334,54 @@ void probes_sample(struct probes *s, const struct observed *o)
     }
 }
 
-void probes_keep(struct probes *s, const struct observed *o)
+static bool has_motion(const struct probe *q)
 {
-    for (int k = 0; k < s->n; k++)
-        if (s->probe[k].request.kind == PROBE_SIF) sif_keep(&s->probe[k], o);
+    const enum probe_kind kind = q->request.kind;
+    return kind == PROBE_POINT || kind == PROBE_ENERGY || kind == PROBE_MOMENTUM || kind == PROBE_RIGID;
 }
 
-void probes_sample_end(struct probes *s, const struct observed *o, real t_velocity)
+void probes_keep(struct probes *s, const struct observed *o)
+{
+    for (int k = 0; k < s->n; k++) {
+        if (s->probe[k].request.kind == PROBE_SIF) sif_keep(&s->probe[k], o);
+        if (has_motion(&s->probe[k])) motion_keep(&s->probe[k], o);
+    }
+}
+
+static void sample_sif(struct probe *q, const struct observed *o, real t_velocity, real *value)
+{
+    sif_sample(q, o, t_velocity);
+    for (int f = 0; f < SIF_FIGURES; f++) value[f] = q->memory.factors[f];
+}
+
+/* Reaction of the step that has been made, in which forces were those of the sample's time. */
+static void sample_force(const struct probe *q, const struct observed *o, real *value)
+{
+    real displacement[DIM_MAX];
+    probe_reaction(q, o->loads, o->part->dim, value, displacement);
+}
+
+static void sample_velocity(const struct probe *q, const struct particles *p, real *value)
+{
+    for (int d = 0; d < p->dim; d++) value[p->dim + d] = probe_velocity(q, p, d, 0);
+}
+
+void probes_sample_end(struct probes *s, const struct observed *o, const struct velocity_time *now)
 {
     for (int k = 0; k < s->n; k++) {
         struct probe *q = &s->probe[k];
-        if (q->request.kind != PROBE_SIF) continue;
-        sif_sample(q, o, t_velocity);
-        for (int f = 0; f < SIF_FIGURES; f++) s->value[q->first + f] = q->memory.factors[f];
+        real *value = s->value + q->first;
+        if (has_motion(q)) motion_complete(q, o, now);
+        switch (q->request.kind) {
+        case PROBE_SIF: sample_sif(q, o, now->t, value); break;
+        case PROBE_REACTION: sample_force(q, o, value); break;
+        case PROBE_POINT: sample_velocity(q, o->part, value); break;
+        case PROBE_ENERGY: value[0] = probe_kinetic(q, o->part); break;
+        case PROBE_MOMENTUM: probe_momentum(q, o->part, value); break;
+        case PROBE_RIGID: rigid_sample_motion(q, o->part, value); break;
+        default: break;
+        }
+        motion_end(q);
     }
 }
 
@@ -353,6 +391,7 @@ void probes_take(struct probes *s, const struct probes *old)
 {
     for (int k = 0; k < s->n; k++) s->probe[k].memory = old->probe[k].memory;
     array_copy(s->value, old->value, s->columns, sizeof *s->value);
+    s->sampled = old->sampled;
 }
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
@@ -365,5 +404,8 @@ status probes_archive(struct probes *s, struct archive *a)
     status fault = a->exchange(a, "probes/memory", memory, (size_t)s->n * sizeof *memory);
     for (int k = 0; fault == OK && k < s->n; k++) s->probe[k].memory = memory[k];
     memory_free(memory);
-    return fault;
+    TRY(fault);
+    if (s->columns > 0) TRY(a->exchange(a, "probes/value", s->value, (size_t)s->columns * sizeof *s->value));
+    ARCHIVE_VALUE(a, "probes/sampled", s->sampled);
+    return OK;
 }

@@ -97,18 +97,16 @@ struct region_sum { const struct probe *q; const struct observed *o; int compone
 static real momentum_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
-    int32_t i = s->q->list[k];
-    return s->o->part->mass[i] * s->o->part->v[s->component][i];
+    return s->o->part->mass[s->q->list[k]] * probe_velocity(s->q, s->o->part, s->component, k);
 }
 
 static real kinetic_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
     const struct particles *p = s->o->part;
-    int32_t i = s->q->list[k];
     real speed2 = 0;
-    for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i]);
-    return 0.5 * p->mass[i] * speed2;
+    for (int d = 0; d < p->dim; d++) speed2 += square(probe_velocity(s->q, p, d, k));
+    return 0.5 * p->mass[s->q->list[k]] * speed2;
 }
 
 /* Row of bonds of the k-th particle of the region, -1: it has none. */
@@ -148,11 +146,16 @@ static real broken_term(const void *context, int64_t k)
     return row >= 0 && !driven ? s->o->bonds->broken[row] : 0;
 }
 
+real probe_kinetic(const struct probe *q, const struct particles *p)
+{
+    return team_sum(q->n, kinetic_term, &(struct region_sum){.q = q, .o = &(struct observed){.part = p}});
+}
+
 struct energies probe_energies(const struct probe *q, const struct observed *o)
 {
     struct region_sum s = {.q = q, .o = o};
     return (struct energies){
-        .kinetic = team_sum(q->n, kinetic_term, &s),
+        .kinetic = probe_kinetic(q, o->part),
         .strain =
             team_sum(q->n, bond_term, &s) + diagnostics_strain_of(o->part, o->material, o->partial, q->list, q->n),
         .fracture = team_sum(q->n, fracture_term, &s),
@@ -173,6 +176,7 @@ struct emitter {
     void *context;
     const struct probe *q;
     const struct observed *o;
+    const real *sampled;                 /* its columns of a sample of this time; NULL: there is none */
 };
 
 static void probes_figures_put(const struct emitter *e, const char *quantity, real value)
@@ -249,6 +253,7 @@ static void figures_point(const struct emitter *e)
     const struct particles *p = e->o->part;
     real value[READINGS_MAX];
     readings_of(p, e->q->list[0], value);
+    for (int k = 0; k < p->dim && e->sampled; k++) value[p->dim + k] = e->sampled[p->dim + k];
     for (int k = 0; k < readings_count(p); k++) probes_figures_put(e, reading_column(p, k).name, value[k]);
 }
 
@@ -277,7 +282,7 @@ static void figures_line(const struct emitter *e)
 static void figures_energy(const struct emitter *e)
 {
     struct energies sum = probe_energies(e->q, e->o);
-    probes_figures_put(e, "kinetic", sum.kinetic);
+    probes_figures_put(e, "kinetic", e->sampled ? e->sampled[0] : sum.kinetic);
     probes_figures_put(e, "strain", sum.strain);
     probes_figures_put(e, "fracture", sum.fracture);
 }
@@ -286,7 +291,7 @@ static void figures_momentum(const struct emitter *e)
 {
     real momentum[DIM_MAX];
     probe_momentum(e->q, e->o->part, momentum);
-    put_place(e, momentum);
+    put_place(e, e->sampled ? e->sampled : momentum);
 }
 
 static void figures_pulse(const struct emitter *e)
@@ -337,6 +342,8 @@ void probes_figures(const struct probes *s, const struct observed *o,
         [PROBE_PULSE] = figures_pulse,   [PROBE_EXACT] = figures_exact,       [PROBE_SIF] = figures_sif,
         [PROBE_GROWTH] = figures_growth, [PROBE_RIGID] = figures_rigid,
     };
-    for (int k = 0; k < s->n; k++)
-        figures[s->probe[k].request.kind](&(struct emitter){emit, context, &s->probe[k], o});
+    for (int k = 0; k < s->n; k++) {
+        const real *sampled = s->sampled == o->t ? s->value + s->probe[k].first : NULL;
+        figures[s->probe[k].request.kind](&(struct emitter){emit, context, &s->probe[k], o, sampled});
+    }
 }

@@ -30,12 +30,21 @@ struct probe_memory {
     struct rigid_memory rigid;           /* RIGID */
 };
 
+/* Motion of a probe's particles at the time of a sample (probes_motion.c): kept before the step, completed after it. */
+struct sampled_motion {
+    bool kept;                           /* x and v are those of t and t_velocity */
+    bool complete;                       /* v is that of t, too */
+    real t, t_velocity;                  /* [s] */
+    real *x[DIM_MAX], *v[DIM_MAX];       /* [probe.n] by number in probe.list [m], [m/s] */
+};
+
 struct probe {
     struct probe_request request;        /* its region is borrowed from the scene */
     int first, columns;                  /* index of its first column in the history; their number */
     int64_t n;
     int32_t *list;                       /* particles of the region; the point; stations, -1: outside */
     struct probe_memory memory;
+    struct sampled_motion motion;        /* POINT, ENERGY, MOMENTUM, RIGID */
     struct bar *bar;                     /* EXACT: probes_bar.c */
     struct sif_tracked *sif;             /* SIF: probes_sif.c */
     int growth;                          /* GROWTH: which of the run */
@@ -48,6 +57,31 @@ enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 1 };
 int readings_count(const struct particles *p);
 struct column reading_column(const struct particles *p, int k);
 void readings_of(const struct particles *p, int64_t i, real *value);
+
+/* ---- motion at the time of a sample (probes_motion.c) ------------------------------------------------------------ */
+
+/* Keeps positions of o->t and velocities of o->t_velocity, before the step. */
+void motion_keep(struct probe *q, const struct observed *o);
+
+/* Completes the motion that was kept, after the step: velocities of the sample's time, linear between those kept and
+ * the present ones of time `now`. Where positions are of a later time than those kept, there is no step behind the
+ * sample: positions are the present ones, and the line is continued. Without a `keep` before, nothing moves. */
+void motion_complete(struct probe *q, const struct observed *o, const struct velocity_time *now);
+
+/* Forgets the motion; releases its arrays. */
+void motion_end(struct probe *q);
+void motion_free(struct probe *q);
+
+/* Returns a component of position [m] or velocity [m/s] of the k-th particle of the probe: of the sample's time where
+ * the motion is complete, else the present one. */
+static inline real probe_position(const struct probe *q, const struct particles *p, int d, int64_t k)
+{
+    return q->motion.complete ? q->motion.x[d][k] : p->x[d][q->list[k]];
+}
+static inline real probe_velocity(const struct probe *q, const struct particles *p, int d, int64_t k)
+{
+    return q->motion.complete ? q->motion.v[d][k] : p->v[d][q->list[k]];
+}
 
 /* ---- other kinds ------------------------------------------------------------------------------------------------- */
 
@@ -65,6 +99,7 @@ void probe_reaction(const struct probe *q, const struct loads *l, int dim, real 
 
 struct energies { real kinetic, strain, fracture; };       /* [J] */
 struct energies probe_energies(const struct probe *q, const struct observed *o);
+real probe_kinetic(const struct probe *q, const struct particles *p);       /* [J] */
 void probe_momentum(const struct probe *q, const struct particles *p, real *momentum);
 
 /* PULSE: shares of the incident amplitude, reflected as the difference from the run without interface. */
@@ -98,8 +133,10 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity);
 
 extern const struct column rigid_figure[RIGID_FIGURES];
 status rigid_bind(struct probe *q, const struct observed *o);
-/* Fills value[] and q->memory.rigid. */
+/* Fill value[] and q->memory.rigid: angle and stresses; then, once velocities are known, angular momentum and kinetic
+ * energy. */
 void rigid_sample(struct probe *q, const struct observed *o, real *value);
+void rigid_sample_motion(struct probe *q, const struct particles *p, real *value);
 
 /* ---- a bar against a closed form: EXACT -------------------------------------------------------------------------- */
 

@@ -20,7 +20,10 @@ static void centre_block(const void *context, int64_t first, int64_t end, real *
     for (int64_t k = first; k < end; k++) {
         const int32_t i = s->q->list[k];
         sum[0] += p->mass[i];
-        for (int d = 0; d < 2; d++) sum[1 + d] += p->mass[i] * p->x[d][i], sum[3 + d] += p->mass[i] * p->X[d][i];
+        for (int d = 0; d < 2; d++) {
+            sum[1 + d] += p->mass[i] * probe_position(s->q, p, d, k);
+            sum[3 + d] += p->mass[i] * p->X[d][i];
+        }
     }
 }
 
@@ -32,9 +35,9 @@ static void turn_block(const void *context, int64_t first, int64_t end, real *su
     const struct particles *p = s->p;
     for (int64_t k = first; k < end; k++) {
         const int32_t i = s->q->list[k];
-        const real m = p->mass[i], v[2] = {p->v[0][i], p->v[1][i]};
+        const real m = p->mass[i], v[2] = {probe_velocity(s->q, p, 0, k), probe_velocity(s->q, p, 1, k)};
         const real X[2] = {p->X[0][i] - s->centre_reference[0], p->X[1][i] - s->centre_reference[1]};
-        const real x[2] = {p->x[0][i] - s->centre[0], p->x[1][i] - s->centre[1]};
+        const real x[2] = {probe_position(s->q, p, 0, k) - s->centre[0], probe_position(s->q, p, 1, k) - s->centre[1]};
         sum[0] += m * (X[0] * x[0] + X[1] * x[1]);
         sum[1] += m * (X[0] * x[1] - X[1] * x[0]);
         sum[2] += m * (x[0] * v[1] - x[1] * v[0]);
@@ -79,6 +82,14 @@ static void stresses(const struct probe *q, const struct particles *p, real *str
     }
 }
 
+enum { RIGID_PLACES = 3 };                   /* figures that positions tell */
+
+/* Keeps the largest of figures first .. end - 1. */
+static void rigid_most(struct rigid_memory *m, const real *value, int first, int end)
+{
+    for (int k = first; k < end; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));
+}
+
 /* Angles are followed beyond half a turn, samples being less than that apart. */
 void rigid_sample(struct probe *q, const struct observed *o, real *value)
 {
@@ -86,10 +97,17 @@ void rigid_sample(struct probe *q, const struct observed *o, real *value)
     real spin, scale, kinetic;
     const real angle = probes_rigid_turn(q, o->part, &spin, &scale, &kinetic);
     m->angle += remainder(angle - m->angle, 2 * pi);
-    value[0] = m->angle;
+    m->most[0] = value[0] = m->angle;
     stresses(q, o->part, &value[1], &value[2]);
+    rigid_most(m, value, 1, RIGID_PLACES);
+}
+
+void rigid_sample_motion(struct probe *q, const struct particles *p, real *value)
+{
+    struct rigid_memory *m = &q->memory.rigid;
+    real spin, scale, kinetic;
+    probes_rigid_turn(q, p, &spin, &scale, &kinetic);
     value[3] = m->spin_scale > 0 ? (spin - m->spin) / m->spin_scale : NAN;
     value[4] = m->kinetic > 0 ? (kinetic - m->kinetic) / m->kinetic : NAN;
-    for (int k = 1; k < RIGID_FIGURES; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));
-    m->most[0] = m->angle;
+    rigid_most(m, value, RIGID_PLACES, RIGID_FIGURES);
 }

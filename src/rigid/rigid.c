@@ -181,13 +181,19 @@ static void turn_on(struct rigid_body *r, real dt)
     rotate_further(r->turn, half);
 }
 
+void rigid_driven_velocity(const struct rigid_body *r, real t, real *v)
+{
+    const real share = r->ramp > 0 ? real_min(1, t / r->ramp) : 1;
+    for (int d = 0; d < r->dim; d++) v[d] = r->speed[d] * share;
+}
+
 void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity)
 {
-    const real share = r->ramp > 0 ? real_min(1, middle / r->ramp) : 1;
-    real kinetic = 0;
+    real kinetic = 0, driven[DIM_MAX] = {0};
+    rigid_driven_velocity(r, middle, driven);
     for (int d = 0; d < r->dim; d++) {
         const real before = r->v[d];
-        if (r->motion == RIGID_DRIVEN) r->v[d] = r->speed[d] * share;
+        if (r->motion == RIGID_DRIVEN) r->v[d] = driven[d];
         if (r->motion == RIGID_FREE) r->v[d] += (r->force[d] + r->weight[d]) / r->mass * dt_velocity;
         kinetic += 0.5 * r->mass * before * r->v[d];
         r->way[d] = r->v[d] * dt;

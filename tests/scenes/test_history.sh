@@ -80,4 +80,82 @@ is "peridynamic particles" "$(most "$work/part" particles_pd)" 96
 near "their share" "$(most "$work/part" pd_share)" 0.25 1e-9
 near "that of points" "$(least "$work/part" mpm_share)" 0.75 1e-9
 none "$work/part" contact absorbed plastic fracture external_work
+
+# ---- every column at its own time -----------------------------------------------------------------------------------------
+
+# off FOLDER COLUMN FORMULA: the largest difference of a column from a formula of the time t, over all samples.
+off()
+{
+    awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); if ($k == name) at = k } next }
+        !at { print "no column"; exit } { t = $1; d = $at - ('"$3"'); if (d < 0) d = -d; if (d > most) most = d; n++ }
+        END { if (at) print n < 15 ? "too few samples" : most + 0 }' "$1/history.csv"
+}
+
+# Bodies that fall, a rigid one that is pushed as well, one that is driven up to a ramp. What is half a step late is off by
+# 1e5 m/s^2 times 5e-8 s, 5e-3 m/s, a place that is one step ahead by 3e-7 m; figures have nine digits.
+cat >"$work/fall.yaml" <<'END'
+space: plane stress
+thickness: 0.37 mm
+duration: 100 us
+gravity: [0, -1e5 m/s^2]
+material: {young: 70 GPa, density: 2700}
+bodies:
+  - {name: a, velocity: [0, 3 m/s], shape: {box: {from: [0, 0], to: [10 mm, 10 mm]}}}
+  - {name: r, rigid: true, mass: 1.3 g, velocity: [0, 3 m/s], force: [0, -130 N], shape: {disc: {centre: [50 mm, 0], radius: 5 mm}}}
+  - {name: d, rigid: true, velocity: [0, 2 m/s], ramp: 60 us, shape: {disc: {centre: [80 mm, 0], radius: 5 mm}}}
+particles: {spacing: 0.5 mm}
+output: {frames: 0, samples: 20}
+probes:
+  - point: {name: p, at: [3 mm, 3 mm]}
+  - energy: {name: e, region: {box: {from: [0, 0], to: [5 mm, inf]}}}
+  - momentum: {name: m, region: {box: {from: [0, 0], to: [5 mm, inf]}}}
+END
+grep -v 'rigid: true' "$work/fall.yaml" >"$work/alone.yaml"
+fallen="(3 - 1e5 * t)" mass=$(compute "2700 * 1e-4 * 0.37e-3")
+for run in fall:pd:auto:flip alone:mpm:reference:flip alone:mpm:current:flip alone:mpm:current:apic; do
+    what=$work/$(echo $run | tr : _)
+    "$cleave" run "$work/${run%%:*}.yaml" -t 1 -q -s method=$(echo $run | cut -d: -f2) -s mpm.frame=$(echo $run | cut -d: -f3) \
+        -s mpm.transfer=$(echo $run | cut -d: -f4) -o "$what" >"$work/said" 2>&1 || fail "$run: $(cat "$work/said")"
+    between "$run: velocity of a point" "$(off "$what" p.velocity_y "$fallen")" 0 2e-8
+    between "$run: place of a point" "$(off "$what" p.displacement_y "3 * t - 5e4 * t * t")" 0 2e-12
+    between "$run: momentum" "$(off "$what" momentum_y "$mass * $fallen")" 0 4e-12
+    between "$run: momentum of a half" "$(off "$what" m.y "$mass / 2 * $fallen")" 0 2e-12
+    between "$run: kinetic energy of a half" "$(off "$what" e.kinetic "$mass / 4 * $fallen ^ 2")" 0 1e-11
+done
+what=$work/fall_pd_auto_flip
+between "rigid body that flies: place" "$(off "$what" r_y "3 * t - 1e5 * t * t")" 0 2e-12
+between "its velocity" "$(off "$what" r_velocity_y "3 - 2e5 * t")" 0 1e-7
+between "its force" "$(off "$what" r_force_y 0)" 0 0
+# the velocity in the middle of the step that has the ramp's end: half a step by the share of the ramp that it holds
+between "rigid body that is driven: place" "$(off "$what" d_y "t < 6e-5 ? t * t / 6e-5 : 2 * t - 6e-5")" 0 1e-10
+between "its velocity" "$(off "$what" d_velocity_y "t < 6e-5 ? t / 3e-5 : 2")" 0 1e-8
+
+# Bulk damping: v' = -g - c v; the last line continues velocities by 3/8 (c dt)^2 (v + g/c), 1.6e-6 m/s with dt = 1.4e-7 s.
+holds "run" "$cleave" run "$work/alone.yaml" -t 1 -q -s method=pd -s damping=2000 -o "$work/slowed" >"$work/said" 2>&1
+between "damped: velocity of a point" "$(off "$work/slowed" p.velocity_y "(3 + 50) * exp(-2000 * t) - 50")" 0 1.6e-6
+between "damped: momentum" "$(off "$work/slowed" momentum_y "$mass * ((3 + 50) * exp(-2000 * t) - 50)")" 0 1.6e-10
+
+# A bar that is pulled as t^3, in 250 of its transits: the force is that of a spring, but for 6/(omega T)^2 of its inertia. A force that is
+# one step late is off by 3 dt (1/t - 1/T), 9e-4 at 0.4 ms.
+cat >"$work/pull.yaml" <<'END'
+space: line
+section: 0.37 cm^2
+duration: 1 ms
+material: {young: 72 GPa, poisson: 0, density: 2440}
+body: {box: {from: [0], to: [20 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {name: grip, displacement: ['1 um*(t/1ms)^3'], region: {box: {from: [-inf], to: [2 mm]}}}
+  - {name: foot, fixed: [x], region: {box: {from: [18 mm], to: [inf]}}}
+output: {frames: 0, samples: 40}
+probes: [{reaction: {boundary: grip}}]
+END
+for run in pd:auto mpm:reference mpm:current; do
+    what=$work/pull_${run%:*}_${run#*:}
+    "$cleave" run "$work/pull.yaml" -t 1 -q -s method=${run%:*} -s mpm.frame=${run#*:} -o "$what" >"$work/said" 2>&1 ||
+        fail "$run: $(cat "$work/said")"
+    force=$(column "$what" reaction.force_x 1)
+    between "$run: reaction" "$(off "$what" reaction.force_x "t < 4e-4 ? \$at : \$at + $force - \$at / (t / 1e-3) ^ 3")" 0 "$(compute "$force * 1.5e-4")"
+    between "$run: displacement" "$(off "$what" reaction.displacement_x "1e-6 * (t / 1e-3) ^ 3")" 0 1e-14
+done
 finish

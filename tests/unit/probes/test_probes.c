@@ -225,6 +225,7 @@ static void probe_of_a_turning_body(void **state)
         b.p.v[0][i] = -1.1 * (b.p.x[1][i] - 1.5), b.p.v[1][i] = 1.1 * (b.p.x[0][i] - 1.5);
     }
     probes_sample(&s, &o);
+    probes_sample_end(&s, &o, &(struct velocity_time){0, 1});
     assert_near(s.value[column_named(&s, "turn.angle")], 0.3, 1e-12);
     assert_near(s.value[column_named(&s, "turn.stress_max")], 9, ROUND_OFF);
     assert_near(s.value[column_named(&s, "turn.shear_max")], sqrt(5), ROUND_OFF);

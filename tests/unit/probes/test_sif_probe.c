@@ -104,7 +104,7 @@ static void tip_at_rest(void **state)
         assert_string_equal(s.column[s.columns - 4].name, "bare.K_I");
         assert_string_equal(s.column[s.columns - 4].unit, "Pa m^(1/2)");
         probes_sample(&s, &p.o);
-        probes_sample_end(&s, &p.o, 0);
+        probes_sample_end(&s, &p.o, &(struct velocity_time){0, 1});
         const char *const names[] = {"bare", "told", "found"};
         for (int k = 0; k < (cracks ? 3 : 1); k++) {
             char name[4][32];
@@ -195,7 +195,7 @@ static void tip_in_motion(void **state)
         plate_field(&p, K, before, v, true);
         probes_keep(now, &p.o);
         plate_field(&p, K, after, v, true);
-        probes_sample_end(now, &p.o, p.o.t + 0.5 * dt);
+        probes_sample_end(now, &p.o, &(struct velocity_time){p.o.t + 0.5 * dt, 1});
         const struct crack_medium m = crack_medium_of(&p.material[0], SPACE_PLANE_STRAIN);
         const real A[MODES] = {crack_universal(&m, MODE_I, v), crack_universal(&m, MODE_II, v)};
         assert_near(value_of(now, "sif.K_I"), K[0], 5);       /* 0.14 %; a crack at rest would be 5 % off */
@@ -210,7 +210,7 @@ static void tip_in_motion(void **state)
     }
     assert_exact(value_of(&again, "sif.K_II"), value_of(&s, "sif.K_II"));
     tip->place[0] = 60;                      /* 12 from the edge */
-    probes_sample_end(&s, &p.o, p.o.t);
+    probes_sample_end(&s, &p.o, &(struct velocity_time){p.o.t, 1});
     assert_true(isnan(value_of(&s, "sif.K_I")));
     probes_free(&again);
     probes_free(&s);
@@ -229,7 +229,7 @@ static void tip_that_turned(void **state)
     struct tip *tip = &p.tips.tip[0];
     for (int k = 1; k <= 20; k++) {
         tip->place[0] = 30 + 0.6 * k, tip->place[1] = 30 + 0.6 * k, tip->growth = 0.6 * sqrt(2) * k;
-        probes_sample_end(&s, &p.o, 0);
+        probes_sample_end(&s, &p.o, &(struct velocity_time){0, 1});
     }
     const real *trail = s.probe[0].memory.trail[0];
     assert_near(atan2(tip->place[1] - trail[1], tip->place[0] - trail[0]), pi / 4, 1e-12);

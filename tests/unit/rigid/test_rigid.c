@@ -200,6 +200,7 @@ static void test_record(void **state)
         e.part.dim = body[0].dim = body[1].dim = dim;
         const int n = engine_rigid_columns(&e, NULL);
         assert_int_equal(engine_rigid_columns(&e, column), n);
+        engine_rigid_keep(&e);
         engine_rigid_record(&e, record);
         for (int b = 0; b < 2; b++) {
             const real *const from[] = {body[b].force, body[b].moment, body[b].x, body[b].v};

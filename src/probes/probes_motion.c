@@ -1,0 +1,39 @@
+/* Motion of a probe's particles at the time of a sample: leap-frog knows velocities half a step before and after it. */
+#include "base/memory.h"
+#include "probes_parts.h"
+
+static void copy_listed(const struct probe *q, real *const *from, real **to, int dim)
+{
+    for (int d = 0; d < dim; d++) {
+        if (!to[d]) to[d] = BARE("probes.motion", q->n, real);
+        for (int64_t k = 0; k < q->n; k++) to[d][k] = from[d][q->list[k]];
+    }
+}
+
+void motion_keep(struct probe *q, const struct observed *o)
+{
+    struct sampled_motion *m = &q->motion;
+    m->kept = true, m->t = o->t, m->t_velocity = o->t_velocity;
+    copy_listed(q, o->part->x, m->x, o->part->dim);
+    copy_listed(q, o->part->v, m->v, o->part->dim);
+}
+
+void motion_complete(struct probe *q, const struct observed *o, const struct velocity_time *now)
+{
+    struct sampled_motion *m = &q->motion;
+    const struct particles *p = o->part;
+    if (!m->kept || !(now->t > m->t_velocity)) return;
+    const real share = (o->t - m->t_velocity) / (now->t - m->t_velocity);
+    if (o->t > m->t) copy_listed(q, p->x, m->x, p->dim);
+    for (int d = 0; d < p->dim; d++)
+        for (int64_t k = 0; k < q->n; k++)
+            m->v[d][k] = now->scale * ((1 - share) * m->v[d][k] + share * p->v[d][q->list[k]]);
+    m->complete = true;
+}
+
+void motion_end(struct probe *q) { q->motion.kept = q->motion.complete = false; }
+
+void motion_free(struct probe *q)
+{
+    for (int d = 0; d < DIM_MAX; d++) memory_free(q->motion.x[d]), memory_free(q->motion.v[d]);
+}
