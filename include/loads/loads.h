@@ -44,6 +44,7 @@ struct boundary {
     real value[DIM_MAX];                 /* [m/s], [m], [Pa] or [N/m^3]; PRESSURE: the same in all; 1 beside a
                                             formula */
     struct expression formula[DIM_MAX];  /* of a component in X and t, PRESSURE: the first for all; none: value */
+    real end;                            /* formulas have their values then at later times; 0: no end is known [s] */
     bool frozen;                         /* static: formulas have their value at `frozen_at` [s] */
     real frozen_at;
     bool displaces;                      /* VELOCITY: value, factor and formula are displacements; the value in [m] */
@@ -93,6 +94,12 @@ struct load {
     real held_work;                      /* static, drives by place: forces of the support times displacements [J] */
     int outside;                         /* MIRROR: side of the plane without body, -1 or +1 */
 };
+
+/* Returns the time of which a formula of a boundary is asked at time t [s]. */
+static inline real boundary_time(const struct boundary *b, real t)
+{
+    return b->frozen ? b->frozen_at : b->end > 0 ? real_min(t, b->end) : t;
+}
 
 /* Does it put forces on particles? */
 static inline bool boundary_is_force(const struct boundary *b)
@@ -183,6 +190,9 @@ void pressure_faces(const struct boundary *all, int n, int which, const struct p
  * become part of the shares; REFUSED where a formula is not finite. push, work: the shares of loads_push and
  * loads_push_work. */
 status load_formula_make(struct load *l, const struct particles *p);
+/* FAILED where the formula of a load or support has no finite value on one of its particles at time t [s], with the
+ * name, the place and the time. */
+status loads_finite(const struct loads *l, const struct particles *p, real t);
 void loads_moving_push(struct loads *l, const struct particles *p, real t, real dt_velocity);
 void loads_moving_work(struct loads *l, const struct particles *p, real t, real dt);
 void load_moving_free(struct load *l);

@@ -202,6 +202,7 @@ static status solve_at(struct engine *e, real t)
     real *before[DIM_MAX] = {0};
     const int64_t asked = s->balance.directions;
     const real lost = s->balance.lost;
+    TRY(loads_finite(&e->loads, &e->part, t));
     statics_touch_begin(e, t);
     account_begin(&account, e);
     for (int d = 0; d < e->part.dim; d++) {

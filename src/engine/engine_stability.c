@@ -92,21 +92,6 @@ static real engine_stability_start_strain(const struct scene *s)
     return most;
 }
 
-/* Writes to `text` which load has a formula without a finite value now; false if none has. */
-static bool formula_explanation(const struct engine *e, char *text, size_t room)
-{
-    for (int b = 0; b < e->loads.n; b++)
-        for (int64_t k = 0; k < e->loads.load[b].n && !e->loads.load[b].boundary->rotates; k++) {
-            real value[DIM_MAX] = {0};
-            load_value_at(&e->loads.load[b], &e->part, k, e->clock.t, value);
-            if (isfinite(value[0] + value[1] + value[2])) continue;
-            snprintf(text, room, "no smaller time step helps: %.300sboundary %s: its formula has no finite value at "
-                     "%.4g s", e->loads.load[b].boundary->place, e->loads.load[b].boundary->name, e->clock.t);
-            return true;
-        }
-    return false;
-}
-
 /* Writes to `text` which load or initial state explains the motion; false if none does. steps: of the last tenfold
  * rise. */
 static bool load_explanation(const struct engine *e, real steps, char *text, size_t room)
@@ -227,7 +212,7 @@ void engine_remedy(const struct engine *e, const struct rise *rise, real value, 
     real steps;
     char others[256];
     const enum rise_rate rate = rise_rate(rise, e->clock.step, value, &steps);
-    if (formula_explanation(e, text, room) || load_explanation(e, steps, text, room)) return;
+    if (load_explanation(e, steps, text, room)) return;
     if (e->clock.dt <= e->clock.dt_critical && squeeze_explanation(e, text, room)) return;
     if (rate == RISE_FAST || e->clock.dt > e->clock.dt_critical || !scene_moves(e->scene)) {
         say_step(e->scene, &e->clock, text, room);
@@ -322,10 +307,24 @@ static status overlap_check(struct engine *e)
     return OK;
 }
 
+/* FAILED where a formula had no finite value in the step that has been made, which asks for values at its ends and
+ * middle, of the step before and of the next: then the impulse is no number. At the end of the run all formulas are
+ * asked once. */
+static status formula_check(const struct engine *e)
+{
+    const struct run_clock *clock = &e->clock;
+    const real *impulse = e->loads.impulse;
+    if (!isfinite(impulse[0] + impulse[1] + impulse[2]))
+        for (int half = -3; half <= 2; half++)
+            TRY(loads_finite(&e->loads, &e->part, real_max(0, clock->t + 0.5 * half * clock->dt)));
+    return clock->step == clock->steps ? loads_finite(&e->loads, &e->part, clock->t) : OK;
+}
+
 status engine_stability_check(struct engine *e)
 {
     const bool diverged =
         e->reference.mesh.points > 0 && !(e->reference.speed <= e->tables.wave_speed / sqrt(e->part.dim));
+    TRY(formula_check(e));
     if (diverged) engine_mesh_sync_points(e, NULL, 0);
     TRY(engine_divergence_check(e, e->stability.diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, &e->reference));

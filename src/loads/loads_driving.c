@@ -24,7 +24,7 @@ static void rotation_matrix(const struct boundary *b, int dim, real angle, real 
 
 struct displacing displacing_make(const struct boundary *b, int dim, real t)
 {
-    struct displacing s = {.boundary = b, .dim = dim, .t = b->frozen ? b->frozen_at : t};
+    struct displacing s = {.boundary = b, .dim = dim, .t = boundary_time(b, t)};
     s.factor = b->displaces ? time_function_at(&b->time, t) : time_function_integral(&b->time, t);
     if (b->rotates) rotation_matrix(b, dim, b->rate * s.factor, s.turned);
     return s;
@@ -93,7 +93,8 @@ real driving_at(const struct driving *s, const real *X, int d, bool placed)
     real arm[DIM_MAX] = {0}, way = 0;
     if (b->displaces) return (displacing_at(&s->to, X, d) - displacing_at(&s->from, X, d)) / s->dt;
     if (!b->rotates)
-        return s->factor * b->value[d] * (b->formula[d].n > 0 ? expression_at(&b->formula[d], X, s->dim, s->t) : 1);
+        return s->factor * b->value[d] *
+               (b->formula[d].n > 0 ? expression_at(&b->formula[d], X, s->dim, boundary_time(b, s->t)) : 1);
     for (int k = 0; k < s->dim; k++) arm[k] = X[k] - b->centre[k];
     if (placed) return turned_further(s, arm, d) / s->dt;
     for (int k = 0; k < s->dim; k++) way += (s->to.turned[d * s->dim + k] - s->from.turned[d * s->dim + k]) * arm[k];

@@ -19,22 +19,34 @@ static real formula_at(const struct boundary *b, int d, const struct particles *
     real X[DIM_MAX];
     if (formula_of(b, d)->n == 0) return 1;
     particle_place(p, i, X);
-    return expression_at(formula_of(b, d), X, p->dim, t);
+    return expression_at(formula_of(b, d), X, p->dim, boundary_time(b, t));
 }
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* REFUSED for a formula without a finite value at t. */
-static status formula_finite(const struct load *l, const struct particles *p, real t)
+/* Refuses, with status `fault`, a formula without a finite value at t. */
+static status formula_finite(const struct load *l, const struct particles *p, real t, status fault)
 {
     const struct boundary *b = l->boundary;
     for (int d = 0; d < p->dim; d++)
         for (int64_t k = 0; k < l->n; k++) {
             const int32_t i = l->particle[k];
             if (isfinite(formula_at(b, d, p, i, t))) continue;
-            return status_set(REFUSED, "boundary %s: its formula has no finite value at (%.4g, %.4g, %.4g) m, %.4g s",
-                              b->name, p->X[0][i], p->dim > 1 ? p->X[1][i] : 0, p->dim > 2 ? p->X[2][i] : 0, t);
+            return status_set(fault, "boundary %s: its formula has no finite value at (%.4g, %.4g, %.4g) m, %.4g s",
+                              b->name, p->X[0][i], p->dim > 1 ? p->X[1][i] : 0, p->dim > 2 ? p->X[2][i] : 0,
+                              boundary_time(b, t));
         }
+    return OK;
+}
+
+status loads_finite(const struct loads *l, const struct particles *p, real t)
+{
+    for (int b = 0; b < l->n; b++) {
+        const struct boundary *by = l->load[b].boundary;
+        bool in_time = false;
+        for (int d = 0; d < p->dim; d++) in_time |= by->formula[d].in_time;
+        if (in_time) TRY(status_at(by->place, formula_finite(&l->load[b], p, t, FAILED)));
+    }
     return OK;
 }
 
@@ -58,7 +70,7 @@ status load_formula_make(struct load *l, const struct particles *p)
         any |= b->formula[d].n > 0;
         in_time |= b->formula[d].in_time && !b->frozen;
     }
-    if (any) TRY(formula_finite(l, p, b->frozen ? b->frozen_at : 0));
+    if (any) TRY(formula_finite(l, p, 0, REFUSED));
     if (!boundary_is_force(b) || l->n == 0) return OK;
     l->moving = l->surface || in_time;
     if (any) shares_part(l, p, !l->moving, b->frozen_at);
@@ -147,5 +159,5 @@ void load_value_at(const struct load *l, const struct particles *p, int64_t k, r
     const struct boundary *b = l->boundary;
     const real factor = b->frozen ? 1 : time_function_at(&b->time, t);
     for (int d = 0; d < p->dim; d++)
-        value[d] = factor * b->value[d] * formula_at(b, d, p, l->particle[k], b->frozen ? b->frozen_at : t);
+        value[d] = factor * b->value[d] * formula_at(b, d, p, l->particle[k], t);
 }

@@ -319,7 +319,7 @@ status read_boundaries(struct reader *r, const struct node *root)
     for (int k = 0; n; k++, n = n->next) {
         struct boundary *b = &s->boundary[k];
         s->boundaries++;                 /* what is read of it is freed when the rest is refused */
-        b->body = -1;
+        b->body = -1, b->end = s->duration;
         fault_place(r, n, b->place, sizeof b->place);
         snprintf(b->name, sizeof b->name, "boundary%d", k);
         TRY(read_boundary(r, n, b));
