@@ -267,6 +267,10 @@ status engine_steps(struct engine *e);
 /* The first equilibrium, for an estimate of cost: the engine has then taken no load step, and cannot. Size of what
  * loads and supports prescribe at a load time, which scales as they do. */
 status engine_equilibrium_try(struct engine *e, real t);
+/* After that equilibrium at load time `first`: how near the most stretched bond comes to its limit if none breaks, its
+ * stretch over the limit, *overload, at the load time *at [s] at which loads are worst. Loads in proportion are
+ * scaled; where they turn back or others join them, the equilibria are sought: FAILED where there is none. */
+status engine_overload_worst(struct engine *e, real first, real *at, real *overload);
 real engine_load_size(const struct engine *e, real t);
 /* Why the tips of pre-cracks are not led in load steps (steps.path); NULL: they are, if there are any. */
 const char *engine_led_fault(const struct engine *e);

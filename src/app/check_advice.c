@@ -23,6 +23,7 @@
 #define BESIDE_FACE 1.5                  /* distance at which a probe is at a face [spacings] */
 #define AROUND 3                         /* spacings about a probe in which its face is looked at */
 #define ALONG_AXIS 0.999                 /* component of a normal from which on a face is along the axes */
+enum { PULL_MOMENTS = 100, PULL_PLACES = 64 }; /* times, and particles of a support, that are looked at */
 #define ON_MIRROR 1e-6                   /* distance of a face that lies on a plane of symmetry [spacings] */
 /* time per bond and step [ns]: 2D, 3D */
 static const real bond_ns[][3] = {
@@ -288,21 +289,42 @@ static void advise_ties(const struct engine *e, FILE *out)
         }
 }
 
+/* Formulas without a value at some time of the run. */
+static void advise_formulas(const struct engine *e, FILE *out)
+{
+    for (int m = 0; m <= PULL_MOMENTS; m++) {
+        if (loads_finite(&e->loads, &e->part, e->scene->duration * m / PULL_MOMENTS) == OK) continue;
+        fprintf(out, "unresolved: %s: the run stops there\n", status_message());
+        return;
+    }
+}
+
+/* Widens the span of displacements along d by those of what a support drives, at time t [m]. */
+static void pulled_span(const struct load *l, const struct particles *p, int d, real t, real *least, real *most)
+{
+    if (l->boundary->kind != BOUNDARY_VELOCITY || !(l->boundary->components & 1 << d) || l->boundary->rotates) return;
+    if (load_displacement_known(l->boundary) != OK) return;
+    for (int64_t k = 0; k < l->n; k += 1 + l->n / PULL_PLACES) {
+        real u[DIM_MAX];
+        load_displacement_at(l, p, k, t, u);
+        *least = real_min(*least, u[d]), *most = real_max(*most, u[d]);
+    }
+}
+
 /* Finds unintended separation: points of the current frame that are pulled more than a cell apart share no nodes. */
 static void advise_separation(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int d = 0; d < s->dim && s->method == METHOD_MPM && e->part.n_free > 0; d++) {
-        real low, high, least = 0, most = 0;
+        real low, high;
         particles_extent(&e->part, e->part.n, d, &low, &high);
-        for (int b = 0; b < s->boundaries; b++) {
-            const struct boundary *a = &s->boundary[b];
-            if (a->kind != BOUNDARY_VELOCITY || !(a->components & 1 << d)) continue;
-            if (a->rotates || a->formula[d].n > 0) continue;
-            const real way = a->value[d] * displacing_make(a, s->dim, s->duration).factor;
-            least = real_min(least, way), most = real_max(most, way);
+        real stretch = 1;
+        for (int m = 1; m <= PULL_MOMENTS; m++) {
+            const real t = s->duration * m / PULL_MOMENTS;
+            real least = 0, most = 0;
+            for (int b = 0; b < e->loads.n; b++) pulled_span(&e->loads.load[b], &e->part, d, t, &least, &most);
+            stretch = real_max(stretch, 1 + (most - least) / (high - low));
         }
-        const real stretch = 1 + (most - least) / (high - low);
         if (stretch > 0.9 * s->cell)
             fprintf(out,
                     "unresolved: the body is pulled to %.3g times its length: beyond a stretch of %.3g (cell over "
@@ -422,6 +444,7 @@ void advise(const struct engine *e, FILE *out)
     advise_faces(e, out);
     advise_waves(e, out);
     advise_load_steps(e, out);
+    advise_formulas(e, out);
     advise_levels(e, out);
     advise_ties(e, out);
     advise_separation(e, out);

@@ -40,12 +40,43 @@ static real largest_factor_at(const struct time_function *f, real duration, real
     return best;
 }
 
-static struct instant instant_of(const struct boundary *b, int dim, real duration)
+enum { MOMENTS = 200, PLACES = 64 }; /* times, and particles of a load, that are looked at where there is a formula */
+
+/* Vector of the k-th particle of a load at a time [dim]. */
+typedef void vector_fn(const struct load *l, const struct particles *p, int64_t k, real t, real *vector);
+
+static real square_sum(const struct load *l, const struct particles *p, vector_fn *vector, real t)
 {
+    real sum = 0, a[DIM_MAX];
+    for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES) vector(l, p, k, t, a), sum += dot(a, a, p->dim);
+    return sum;
+}
+
+/* Time at which the vectors of a load are largest, of evenly spread ones and those of its table: the last one unless
+ * they are larger before. */
+static real largest_at(const struct load *l, const struct particles *p, vector_fn *vector, real duration)
+{
+    const struct time_function *f = &l->boundary->time;
+    real best = duration, most = square_sum(l, p, vector, duration) * (1 + NOTHING);
+    for (int k = 0; k < MOMENTS + f->n; k++) {
+        const real t = k < MOMENTS ? duration * k / MOMENTS : f->t[k - MOMENTS];
+        const real now = t >= 0 && t < duration ? square_sum(l, p, vector, t) : 0;
+        if (now > most) best = t, most = now;
+    }
+    return best;
+}
+
+static struct instant instant_of(const struct load *l, const struct particles *p, real duration)
+{
+    const struct boundary *b = l->boundary;
     bool in_time = false;
     real most;
-    for (int d = 0; d < dim; d++) in_time |= b->formula[d].in_time;
-    if (b->frozen || in_time) return (struct instant){duration, "at the end"};
+    for (int d = 0; d < p->dim; d++) in_time |= b->formula[d].in_time;
+    if (b->frozen) return (struct instant){duration, "at the end"};
+    if (in_time) {
+        const real worst = largest_at(l, p, load_force_at, duration);
+        return (struct instant){worst, worst < duration ? "when it is largest" : "at the end"};
+    }
     const real t = largest_factor_at(&b->time, duration, &most);
     if (b->time.kind == TIME_CONSTANT) return (struct instant){0, "at all times"};
     return (struct instant){t, most > 0 ? "when it is largest" : "as it does not begin before the end"};
@@ -179,7 +210,7 @@ static void say_traction_area(const struct engine *e, const struct load *l)
 static void say_force(const struct engine *e, const struct load *l)
 {
     const int dim = e->part.dim;
-    const struct instant at = instant_of(l->boundary, dim, e->scene->duration);
+    const struct instant at = instant_of(l, &e->part, e->scene->duration);
     const struct resultant r = resultant_at(l, &e->part, at.t);
     printf("; force ");
     say_vector(r.force, dim);
@@ -187,7 +218,7 @@ static void say_force(const struct engine *e, const struct load *l)
     if (dim > 1) printf(", moment about the origin ");
     if (dim > 1) say_vector(dim == 2 ? &r.moment[2] : r.moment, dim == 2 ? 1 : DIM_MAX);
     printf("%s %s", dim > 1 ? " N m" : "", at.why);
-    if (l->boundary->time.kind != TIME_CONSTANT && at.why[0] == 'w') printf(", at %.4g s", at.t);
+    if (at.why[0] == 'w') printf(", at %.4g s", at.t);
 }
 
 static void say_support(const struct engine *e, const struct load *l)
@@ -208,18 +239,31 @@ static void say_support(const struct engine *e, const struct load *l)
     printf(b->rotates ? "on circles" : moves ? " driven" : " held");
 }
 
-/* Mean displacement at the end, and how fast it grows in time. */
-static void say_displacement(const struct engine *e, const struct load *l)
+static void say_mean_displacement(const struct engine *e, const struct load *l, real t)
 {
-    const bool explicit = e->scene->solver == SOLVER_EXPLICIT;
     real mean[DIM_MAX] = {0}, u[DIM_MAX];
     for (int64_t k = 0; k < l->n; k++) {
-        load_displacement_at(l, &e->part, k, l->boundary->frozen ? INFINITY : e->scene->duration, u);
+        load_displacement_at(l, &e->part, k, t, u);
         for (int d = 0; d < e->part.dim; d++) mean[d] += u[d] / (real)l->n;
     }
+    if (isfinite(mean[0] + mean[1] + mean[2])) say_vector(mean, e->part.dim);
+    else printf("what is no number of");
+    printf(" m%s", drives_by_place(l->boundary) ? " in the mean" : "");
+}
+
+/* Mean displacement when it is largest and at the end, and how fast it grows in time. */
+static void say_displacement(const struct engine *e, const struct load *l)
+{
+    const bool explicit = e->scene->solver == SOLVER_EXPLICIT, frozen = l->boundary->frozen;
+    const real end = frozen ? INFINITY : e->scene->duration;
+    const real most = frozen ? end : largest_at(l, &e->part, load_displacement_at, end);
     printf("; by ");
-    say_vector(mean, e->part.dim);
-    printf(" m%s at the end", drives_by_place(l->boundary) ? " in the mean" : "");
+    if (most < end) {
+        say_mean_displacement(e, l, most);
+        printf(" when it is largest, at %.4g s, by ", most);
+    }
+    say_mean_displacement(e, l, end);
+    printf(" at the end");
     if (explicit) printf(", at most %.3g m/s", load_displacing_speed(l, &e->part, e->scene->duration));
 }
 

@@ -21,7 +21,8 @@ struct cost {
     double contact;                      /* share of contact in such a step, whatever touches then */
     double output;                       /* frames and checkpoints, on an idle disk [s] */
     double run;                          /* whole run [s] */
-    double equilibria, overload;         /* load steps: how many at the most; of bonds at the end, were none broken */
+    double equilibria;                   /* load steps: how many at the most */
+    real overload, overload_at;          /* ... of bonds at the worst load time, were none broken; that time [s] */
     enum cost_basis basis;
     double coarser, growth;              /* SCALED: factor on the spacing; all steps over first ones [1] */
     double all_peridynamic;              /* a run with all particles peridynamic [s]; NAN: not adaptive, or too large */

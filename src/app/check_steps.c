@@ -199,7 +199,7 @@ status cost_load_steps(struct cost *c, struct engine *e)
     TRY(engine_equilibrium_try(e, first));
     c->step = team_clock() - began;
     c->equilibria = e->scene->steps.number + advances_of(e) * equilibria_of_advance(e);
-    c->overload = e->statics.overload * engine_load_size(e, e->scene->duration) / engine_load_size(e, first);
+    if (engine_overload_worst(e, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
     c->run = c->make + c->step * c->equilibria + c->output;
     return OK;
 }
@@ -209,6 +209,6 @@ void say_load_steps_cost(const struct engine *e, const struct cost *c, int threa
     printf("run time       up to about %.2g s on %d thread%s: at most some %.2g equilibria of %.2g s", c->run, threads,
            threads > 1 ? "s" : "", c->equilibria, c->step);
     if (c->overload > 0 && c->overload < NOTHING_BREAKS && e->scene->steps.control == CONTROL_LOAD)
-        printf("\nunresolved: the most stretched bond reaches %.2g of its limit at the end: nothing breaks below %.1f; "
-               "larger loads are expected", c->overload, NOTHING_BREAKS);
+        printf("\nunresolved: the most stretched bond reaches %.2g of its limit, at a load time of %.4g s: nothing "
+               "breaks below %.1f; larger loads are expected", c->overload, c->overload_at, NOTHING_BREAKS);
 }

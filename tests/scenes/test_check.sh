@@ -83,6 +83,48 @@ says "area" '20 m^2 (2.56 % more than the face of its box)' "$work/disc.yaml" -s
     -s 'boundary=[{traction: [0, 3 Pa], face: y+}]'
 says "round" 'pressure, [0-9]* particles, 12[56][0-9.]* m^2 0.0[0-9]* spacings [a-z]* the surface of its shape on average; force (0, 0)' \
     "$work/disc.yaml" -s 'boundary=[{pressure: 1 Pa}]'
+# The worst time is no end: a table that goes back, formulas of t, of what is displaced and of forces; a formula without a value.
+checked "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}' -s 'boundary=[
+    {traction: ["2 Pa*sin(2*pi*t/(1 ms))", 0], face: x+, name: b},
+    {displacement: ["-2 mm*sin(0.75*pi*t/(1 ms))", free], face: x-, depth: 1, region: {box: {from: [0, 10], to: [20, 20]}}, name: f},
+    {displacement: [2 mm, free], face: x-, depth: 1, region: {box: {from: [0, 0], to: [20, 10]}}, name: d,
+        time: {table: [[0, 0], [0.3 ms, -1], [1 ms, 0.5]]}}]'
+amounts 'load           b: traction on x+, 20 particles, 20 m^2; force (40, 0) N, moment about the origin -400 N m when it is largest, at 0.00025 s'
+amounts 'support        d: x driven on x-, 10 particles; by (-0.002, 0) m when it is largest, at 0.0003 s, by (0.001, 0) m at the end, at most 6.67 m/s'
+holds "formula" grep -q '^support  *f: .*; by (-0.002, 0) m when it is largest, at 0.000665 s, by (-0.001414, 0) m at the end' "$work/said"
+says "formula without value" 'boundary b: its formula has no finite value at ([^)]*) m, 0.00051 s: the run stops there' "$work/disc.yaml" \
+    -s 'boundary=[{traction: ["2 Pa*sqrt(1-t/(0.5 ms))", 0], face: x+, name: b}]'
+# Points of the current frame share no nodes beyond twice their distance: a body of 20 that is pulled by 40, and back.
+says "pulled apart on the way" 'pulled to 3[.0-9]* times its length' "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}' \
+    -s mpm.frame=current -s duration=1s -s 'boundary=[{displacement: ["40 m*sin(pi*t/(1 s))", free], face: x+, depth: 1}, {fixed: [x], face: x-, depth: 1}]'
+
+# Load steps: 19 bonds of one spacing between ends that are driven are all stretched by u/19 mm, over 1 % of limit. Worst times: where
+# the table turns; at the end, where what was pressed is pulled; where sin is 1; where one end goes 0.05 and the other 0.025 mm.
+cat >"$work/back.yaml" <<'END'
+space: line
+section: 0.37 cm^2
+duration: 2 s
+solver: static
+steps: {number: 20}
+method: pd
+material: {young: 1 GPa, density: 2000, critical_stretch: 1 %}
+pd: {surface: none}
+body: {box: {from: [0], to: [20 mm]}}
+particles: {spacing: 1 mm, horizon: 1.015}
+boundary:
+  - {name: foot, fixed: [x], face: x-, depth: 1 mm}
+  - {name: top, displacement: [0.1 mm], face: x+, depth: 1 mm, time: {table: [[0, 0], [1 s, 1], [2 s, -0.1]]}}
+END
+pulled() { echo "boundary=[{name: foot, $1, face: x-, depth: 1 mm}, {name: top, $2, face: x+, depth: 1 mm}]"; }
+trial=
+reach() { says "worst load time" "stretched bond reaches $1 of its limit, at a load time of $2 s: nothing" "$work/back.yaml" -s "$3"; }
+reach 0.53 1 name=back
+reach 0.26 2 "$(pulled 'fixed: [x]' 'displacement: [0.1 mm], time: {table: [[0, 0], [1 s, -1], [2 s, 0.5]]}')"
+reach 0.53 1 "$(pulled 'fixed: [x]' 'displacement: ["0.1 mm*sin(pi*t/(2 s))"]')"
+reach 0.39 1 "$(pulled 'displacement: [-0.05 mm], time: {table: [[0, 0], [1 s, 1], [2 s, -1]]}' 'displacement: [0.05 mm], time: {ramp: {until: 2 s}}')"
+silent "what breaks on the way" 'nothing breaks' "$work/back.yaml" \
+    -s "$(pulled 'fixed: [x]' 'displacement: [0.2 mm], time: {table: [[0, 0], [1 s, 1], [2 s, 0.1]]}')"
+trial=--no-trial
 
 cat >"$work/far.yaml" <<'END'
 space: plane stress
