@@ -6,8 +6,9 @@
  * A tip starts at the end of a pre-crack inside the body or where the first particle away from every known crack
  * passes damage 0.35. Particles that pass 0.35 and touch (1.5 spacings, reference positions, same body) a
  * particle of a crack, or its start (2.5 spacings), belong to it; particles damaged by a pre-crack at t = 0 belong
- * to none, nor do driven ones. The tip is its farthest particle from the start (mean of equals); particles beside
- * the last 2.5 spacings of the pre-crack itself do not count as growth. A crack that started away from all others
+ * to none, nor do driven ones. The tip is its farthest particle from the start, the mean of equals that touch each
+ * other; of equals apart, as on two branches, one is taken (fracture/places.h). Particles beside the last 2.5 spacings
+ * of the pre-crack itself do not count as growth. A crack that started away from all others
  * and is reached by one becomes part of it. In 3D every edge of a pre-crack inside the body is one front: its start
  * is the whole edge. */
 #ifndef CLEAVE_TIPS
@@ -34,6 +35,7 @@ struct tip {
     real start_time, arrest_time;        /* growth passed one spacing; last growth; NAN before [s] */
     real speed_max, speed_mean;          /* steepest regression over the window; growth over (arrest - start) [m/s] */
     int64_t particles;                   /* that belong to it */
+    int64_t ends;                        /* groups of particles, apart from each other, as far within a spacing */
 };
 
 struct tips {
@@ -60,6 +62,8 @@ real tip_angle(const struct tip *tip, int dim);
 real tips_speed(const struct tips *t, int k);
 /* The tip that grew longest, NULL if none has grown. */
 const struct tip *tips_longest(const struct tips *t);
+/* Number of ends, of all tips, that have grown as far as the longest, within a spacing; 0: none has grown. */
+int64_t tips_tied(const struct tips *t);
 /* What areas depend on beside tips. */
 struct tip_surroundings {
     const struct mirror_plane *mirror;   /* planes of symmetry */

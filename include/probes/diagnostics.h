@@ -33,7 +33,9 @@ struct diagnostics {
     real momentum_start[DIM_MAX], momentum_scale; /* [kg m/s] */
     bool started;
     real break_time;                     /* first bond broken by load, driven particles' aside; NAN before [s] */
-    real break_place[DIM_MAX];           /* mean reference position of the particles cut in that step [m] */
+    real break_place[DIM_MAX];           /* reference place of a cut of that step (fracture/places.h) [m] */
+    int64_t break_ends;                  /* places of that step that lie apart */
+    real driven_time;                    /* first bond of a driven particle broken by load; NAN before [s] */
     int64_t bonds_broken;                /* directed, by load */
 };
 
@@ -72,8 +74,14 @@ void diagnostics_balance(struct diagnostics *w, real t, const struct energy *ene
 /* (E - E_0 - work)/E_0 at the last sample, what was damped left out of E [1]; NAN without energy at the start. */
 real diagnostics_energy_change(const struct diagnostics *w);
 
-/* Books the first break of the run from FLAG_CRACKED. */
-void diagnostics_breaks(struct diagnostics *w, const struct particles *p, int64_t broken, real t);
+/* Sets *middle to the reference place where FLAG_CRACKED says that bonds, of a horizon at most, have broken in this
+ * step, among n listed particles (list NULL: the first n) [dim, m]. Returns the number of such places apart from each
+ * other, of which it is one (fracture/places.h); 0: there is none. */
+int64_t diagnostics_break_place(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *middle);
+
+/* Books `broken` directed bonds that have broken at time t [s], and from FLAG_CRACKED the first break of the run, of
+ * bonds of at most a horizon [m]. Returns true where these are the first bonds of driven particles that break. */
+bool diagnostics_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken, real t);
 
 /* Largest speed among `n` listed particles [m/s]. */
 real diagnostics_fastest(const struct particles *p, const int32_t *list, int64_t n);

@@ -12,10 +12,29 @@
 
 /* ---- run --------------------------------------------------------------------------------------------------------- */
 
+/* When bonds broke first, and where how many did; how far cracks have come. */
+static void print_breaks(const struct engine *e)
+{
+    const struct diagnostics *w = &e->diagnostics;
+    const struct tip *tip = tips_longest(&e->fracture.tips);
+    const bool in_steps = scene_in_steps(e->scene), broke = !isnan(w->break_time);
+    const int64_t tied = tips_tied(&e->fracture.tips);
+    if (broke && in_steps) printf("  first bond broken in load step %.0f", w->break_time / e->clock.dt);
+    else if (broke) printf("  first bond broken at %.4g s", w->break_time);
+    if (broke && w->break_ends > 1) printf(" at %lld places", (long long)w->break_ends);
+    if (tip)
+        printf("%slongest crack grew %.4g mm at %.3g degrees", broke ? ", " : "  ", 1e3 * tip->growth,
+               tip_angle(tip, e->part.dim));
+    if (tied > 1) printf(", one of %lld tips as far within a spacing", (long long)tied);
+    if (broke || tip) printf("\n");
+    if (isnan(w->driven_time)) return;
+    if (in_steps) printf("  first bond of driven particles broken in load step %.0f\n", w->driven_time / e->clock.dt);
+    else printf("  first bond of driven particles broken at %.4g s\n", w->driven_time);
+}
+
 static void print_summary(const struct engine *e, const char *folder, double wall)
 {
     const struct shown_name shown = shown_name(folder);
-    const struct tip *tip = tips_longest(&e->fracture.tips);
     const bool in_steps = scene_in_steps(e->scene);
     printf("%s: %lld particles, ", e->scene->name, (long long)e->part.n_body);
     if (in_steps)
@@ -23,13 +42,7 @@ static void print_summary(const struct engine *e, const char *folder, double wal
                wall);
     else
         printf("%lld steps of %.4g s, %.1f s\n", (long long)e->clock.step, e->clock.dt, wall);
-    bool broke = !isnan(e->diagnostics.break_time);
-    if (broke && in_steps) printf("  first bond broken in load step %.0f", e->diagnostics.break_time / e->clock.dt);
-    else if (broke) printf("  first bond broken at %.4g s", e->diagnostics.break_time);
-    if (tip)
-        printf("%slongest crack grew %.4g mm at %.3g degrees", broke ? ", " : "  ", 1e3 * tip->growth,
-               tip_angle(tip, e->part.dim));
-    if (broke || tip) printf("\n");
+    print_breaks(e);
     if (in_steps && e->statics.record.area > 0)
         printf("  released %.4g J over %.4g m^2 of new crack: %.4g J/m^2\n", e->statics.record.released,
                e->statics.record.area, e->statics.record.released / e->statics.record.area);

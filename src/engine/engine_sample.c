@@ -391,13 +391,36 @@ void engine_probes_step(struct engine *e)
     probes_step(&e->probing.probes, &o);
 }
 
+/* Says that the first bonds of driven particles break, with the first boundary that drives such particles. */
+static void say_torn(struct engine *e, real t)
+{
+    const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;
+    const char *name = "";
+    char text[400], when[48];
+    int others = -1;
+    for (int b = e->loads.n; b-- > 0;) {
+        const struct load *l = &e->loads.load[b];
+        bool tears = false;
+        for (int64_t k = 0; k < l->n && l->boundary->kind == BOUNDARY_VELOCITY; k++)
+            tears |= (e->part.flag[l->particle[k]] & both) == both;
+        if (tears) name = l->boundary->name, others++;
+    }
+    if (scene_in_steps(e->scene)) snprintf(when, sizeof when, "in load step %lld", (long long)e->statics.record.step);
+    else snprintf(when, sizeof when, "at %.4g s", t);
+    snprintf(text, sizeof text,
+             "boundary %s%s: bonds of the particles that it drives break, the first %s: a grip that tears off pulls no "
+             "more; they count as crack.driven_bonds, not in crack.start_time and probes",
+             name, others > 0 ? " and others" : "", when);
+    engine_say(e, text);
+}
+
 void engine_breaks(struct engine *e, int64_t broken)
 {
     const bool in_steps = scene_in_steps(e->scene);  /* whose bonds break before its end, which is its time */
     const real step = e->scene->duration / (real)e->scene->steps.number;
     const real t = in_steps ? step * (real)e->statics.record.step : e->clock.t;
     struct observed o = engine_observed(e);
-    if (broken > 0) diagnostics_breaks(&e->diagnostics, &e->part, broken, t);
+    if (diagnostics_breaks(&e->diagnostics, &e->part, e->source.family.horizon, broken, t)) say_torn(e, t);
     if (scene_moves(e->scene)) engine_probes_step(e);
     o.t = t;
     if (in_steps && broken > 0) probes_breaks(&e->probing.probes, &o);

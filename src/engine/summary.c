@@ -314,17 +314,29 @@ static void put_tip(struct json *j, const struct engine *e, const struct tip *ti
     json_close(j, '}');
 }
 
+/* Bonds of driven particles that loads have broken; of one between two of them both count. */
+static int64_t driven_bonds(const struct engine *e)
+{
+    int64_t broken = 0;
+    for (int64_t row = 0; row < e->bonds.rows; row++)
+        if (e->part.flag[e->bonds.particle[row]] & FLAG_DRIVEN) broken += e->bonds.broken[row];
+    return broken;
+}
+
 static void put_crack(struct json *j, const struct engine *e)
 {
     const struct tip *longest = tips_longest(&e->fracture.tips);
     int dim = e->part.dim;
     json_open(j, "crack", '{');
     put_when(j, e, "start", e->diagnostics.break_time);
+    put_when(j, e, "driven_start", e->diagnostics.driven_time);
+    if (!isnan(e->diagnostics.driven_time)) json_count(j, "driven_bonds", driven_bonds(e));
     if (longest) {
         put_when(j, e, "tip_start", longest->start_time);
         put_when(j, e, "arrest", longest->arrest_time);
         json_real(j, "length_end", longest->growth);
         json_real(j, "angle_deg", tip_angle(longest, dim));
+        json_count(j, "tied", tips_tied(&e->fracture.tips));
     }
     if (longest && !scene_in_steps(e->scene)) {
         json_real(j, "tip_speed_max", longest->speed_max);

@@ -7,10 +7,7 @@
 #include "base/memory.h"
 #include "tips_parts.h"
 
-#define TOUCH 1.5                        /* particles of one crack touch within this      [spacings]  */
-#define START_REACH 2.5                  /* first damaged particles from the crack's end  [spacings]  */
 #define JOIN_JUMP 3.0                    /* growth at once by reaching another crack          [spacings] */
-#define EQUAL 1e-6                       /* lengths that differ by less are equal         [spacings]  */
 
 void tips_free(struct tips *t)
 {
@@ -37,20 +34,6 @@ static bool can_belong(const struct tips *t, const struct particles *p, int64_t 
     return t->label[i] == 0 && p->damage[i] > TIP_DAMAGE && !(p->flag[i] & FLAG_DRIVEN);
 }
 
-/* Peridynamic particles alone lose bonds, and stay peridynamic once they have: only their list is looked at. Most of
- * them are neither damaged nor part of a crack, and are skipped a piece of the list at a time: next_damaged and
- * next_of_crack return the start of the next piece from `first` on that has such a particle, the list's end if there is
- * none. */
-enum { PIECE = 64 };
-
-static int64_t piece_end(const struct particles *p, int64_t first)
-{
-    return first + PIECE < p->n_of[KIND_PD] ? first + PIECE : p->n_of[KIND_PD];
-}
-
-/* Are n listed particles consecutive, as most are? Then eight are looked at at a time. */
-static bool piece_consecutive(const int32_t *at, int64_t n) { return at[n - 1] - at[0] == n - 1; }
-
 static uint64_t damage_bits(const struct particles *p, int64_t i)
 {
     uint64_t bits;
@@ -62,39 +45,23 @@ static uint64_t damage_bits(const struct particles *p, int64_t i)
 static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
 {
     uint64_t any = 0;
-    if (piece_consecutive(at, n))
+    if (tip_piece_consecutive(at, n))
         for (int64_t k = 0; k < n; k++) any |= damage_bits(p, at[0] + k);
     else
         for (int64_t k = 0; k < n; k++) any |= damage_bits(p, at[k]);
     return any != 0;
 }
 
+/* The start of the next piece of the list from `first` on that has a damaged particle; its end if there is none. */
 static int64_t next_damaged(const struct particles *p, int64_t first)
 {
-    for (; first < p->n_of[KIND_PD]; first += PIECE) {
+    for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
         const int32_t *at = p->list[KIND_PD] + first;
-        const int64_t n = piece_end(p, first) - first;
+        const int64_t n = tip_piece_end(p, first) - first;
         real most = 0;
         if (!any_damage(p, at, n)) continue;
         for (int64_t k = 0; k < n; k++) most = real_max(most, p->damage[at[k]]);
         if (most > TIP_DAMAGE) return first;
-    }
-    return p->n_of[KIND_PD];
-}
-
-static bool is_of_crack(uint8_t label) { return label != 0 && label != TIP_BEFORE; }
-
-static int64_t next_of_crack(const struct tips *t, const struct particles *p, int64_t first)
-{
-    for (; first < p->n_of[KIND_PD]; first += PIECE) {
-        const int32_t *at = p->list[KIND_PD] + first;
-        const int64_t n = piece_end(p, first) - first;
-        uint8_t any = 0;
-        if (piece_consecutive(at, n))
-            for (int64_t k = 0; k < n; k++) any |= is_of_crack(t->label[at[0] + k]);
-        else
-            for (int64_t k = 0; k < n; k++) any |= is_of_crack(t->label[at[k]]);
-        if (any) return first;
     }
     return p->n_of[KIND_PD];
 }
@@ -131,7 +98,7 @@ static void flood_run(struct flood *f)
     for (int64_t head = 0; head < f->queued; head++) {
         int32_t i = f->queue[head];
         particle_place(p, i, X);
-        int tip = f->t->label[i] - 1, n = tip_search_near(&f->search, X, (TOUCH + EQUAL) * f->t->spacing);
+        int tip = f->t->label[i] - 1, n = tip_search_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
         for (int k = 0; k < n; k++) {
             int32_t j = f->search.found[k];
             if (j >= p->n || p->body[j] != p->body[i]) continue;
@@ -142,11 +109,11 @@ static void flood_run(struct flood *f)
     f->queued = 0;
 }
 
-/* The crack whose start is nearest to particle i, within START_REACH; -1: none. */
+/* The crack whose start is nearest to particle i, within TIP_START_REACH; -1: none. */
 static int start_near(const struct tips *t, const struct particles *p, int64_t i)
 {
     int nearest = -1;
-    real X[DIM_MAX], offset[DIM_MAX], least = (START_REACH + EQUAL) * t->spacing;
+    real X[DIM_MAX], offset[DIM_MAX], least = (TIP_START_REACH + TIP_EQUAL) * t->spacing;
     particle_place(p, i, X);
     for (int k = 0; k < t->n; k++) {
         const struct tip *tip = &t->tip[k];
@@ -164,7 +131,7 @@ static int crack_touched(struct flood *f, int64_t i)
     const struct particles *p = f->search.p;
     real X[DIM_MAX];
     particle_place(p, i, X);
-    int lowest = -1, n = tip_search_near(&f->search, X, (TOUCH + EQUAL) * f->t->spacing);
+    int lowest = -1, n = tip_search_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
     for (int k = 0; k < n; k++) {
         int32_t j = f->search.found[k];
         if (j >= p->n || p->body[j] != p->body[i]) continue;
@@ -240,13 +207,13 @@ static void flood_make(struct flood *f, struct tips *t, const struct particles *
     const int32_t *list = p->list[KIND_PD];
     const int64_t n = p->n_of[KIND_PD];
     *f = (struct flood){.t = t, .search = {.p = p, .c = c}};
-    for (int64_t b = next_damaged(p, 0); b < n; b = next_damaged(p, b + PIECE))
-        for (int64_t k = b; k < piece_end(p, b); k++) f->n_fresh += can_belong(t, p, list[k]);
+    for (int64_t b = next_damaged(p, 0); b < n; b = next_damaged(p, b + TIP_PIECE))
+        for (int64_t k = b; k < tip_piece_end(p, b); k++) f->n_fresh += can_belong(t, p, list[k]);
     f->fresh = NEW("tips.fresh", f->n_fresh, int32_t);
     f->queue = NEW("tips.queue", f->n_fresh, int32_t);
     int64_t fresh = 0;
-    for (int64_t b = next_damaged(p, 0); b < n && fresh < f->n_fresh; b = next_damaged(p, b + PIECE))
-        for (int64_t k = b; k < piece_end(p, b); k++)
+    for (int64_t b = next_damaged(p, 0); b < n && fresh < f->n_fresh; b = next_damaged(p, b + TIP_PIECE))
+        for (int64_t k = b; k < tip_piece_end(p, b); k++)
             if (can_belong(t, p, list[k])) f->fresh[fresh++] = list[k];
     for (int m = 0; m < t->n; m++) f->into[m] = m;
 }
@@ -277,55 +244,19 @@ static void flood_all(struct flood *f)
 
 /* ---- length and speed -------------------------------------------------------------------------------------------- */
 
-/* Distance of particle i from the start of its crack [m]; -1 beside the end of the pre-crack itself. */
-static real tips_reach_of(const struct tips *t, const struct particles *p, int64_t i)
-{
-    const struct tip *tip = &t->tip[t->label[i] - 1];
-    real X[DIM_MAX], offset[DIM_MAX];
-    particle_place(p, i, X);
-    real distance = tip_offset(tip->origin, tip->edge, X, t->dim, offset);
-    bool behind = tip->from_crack && dot(offset, tip->along, t->dim) < -EQUAL * t->spacing;
-    return behind && distance <= (START_REACH + EQUAL) * t->spacing ? -1 : distance;
-}
-
-struct reach { real farthest, place[DIM_MAX]; int64_t equals, particles; };
-
-/* Finds for every crack the largest distance from its start, and sums the positions of the particles at that
- * distance. */
-static void reach_measure(const struct tips *t, const struct particles *p, struct reach *reach)
-{
-    const int32_t *list = p->list[KIND_PD];
-    const int64_t n = p->n_of[KIND_PD];
-    for (int64_t b = next_of_crack(t, p, 0); b < n; b = next_of_crack(t, p, b + PIECE))
-        for (int64_t k = b; k < piece_end(p, b); k++) {
-            if (!is_of_crack(t->label[list[k]])) continue;
-            struct reach *r = &reach[t->label[list[k]] - 1];
-            r->particles++;
-            r->farthest = real_max(r->farthest, tips_reach_of(t, p, list[k]));
-        }
-    for (int64_t b = next_of_crack(t, p, 0); b < n; b = next_of_crack(t, p, b + PIECE))
-        for (int64_t k = b; k < piece_end(p, b); k++) {
-            const int32_t i = list[k];
-            if (!is_of_crack(t->label[i])) continue;
-            struct reach *r = &reach[t->label[i] - 1];
-            if (r->farthest <= 0 || tips_reach_of(t, p, i) < r->farthest - EQUAL * t->spacing) continue;
-            for (int d = 0; d < t->dim; d++) r->place[d] += p->X[d][i];
-            r->equals++;
-        }
-}
-
 /* Updates place, growth and times of a tip; `took_in`: another crack has become part of its crack. */
-static void tip_move(struct tip *tip, const struct reach *r, const struct tips *t, real time, bool took_in)
+static void tip_move(struct tip *tip, const struct tip_reach *r, const struct tips *t, real time, bool took_in)
 {
     real gain = r->farthest - tip->growth;
     tip->particles = r->particles;
     if (r->particles > 0 && isnan(tip->first_time)) tip->first_time = time;
-    if (gain < -EQUAL * t->spacing || r->equals == 0) return;
-    for (int d = 0; d < t->dim; d++) tip->place[d] = r->place[d] / (real)r->equals;
-    if (gain <= EQUAL * t->spacing) return;
+    if (gain < -TIP_EQUAL * t->spacing || r->ends == 0) return;
+    array_copy(tip->place, r->place, t->dim, sizeof *tip->place);
+    tip->ends = r->ends;
+    if (gain <= TIP_EQUAL * t->spacing) return;
     tip->growth = r->farthest;
     if (took_in && gain > JOIN_JUMP * t->spacing) tip->joined += gain;
-    if (isnan(tip->start_time) && tip->growth >= (1 - EQUAL) * t->spacing) tip->start_time = time;
+    if (isnan(tip->start_time) && tip->growth >= (1 - TIP_EQUAL) * t->spacing) tip->start_time = time;
     if (!isnan(tip->start_time)) tip->arrest_time = time;
 }
 
@@ -391,8 +322,8 @@ void tips_sample(struct tips *t, const struct particles *p, const struct cells *
     if (f.n_fresh > 0) flood_all(&f);
     flood_free(&f);
 
-    struct reach reach[TIPS_MAX] = {{0}};
-    reach_measure(t, p, reach);
+    struct tip_reach reach[TIPS_MAX] = {{0}};
+    tip_reaches(t, p, reach);
     if (t->samples == t->room) record_room(t, t->room > 0 ? 2 * t->room : 256);
     int64_t s = t->samples++;
     t->time[s] = time;
@@ -422,8 +353,18 @@ const struct tip *tips_longest(const struct tips *t)
 {
     const struct tip *longest = NULL;
     for (int k = 0; k < t->n; k++)
-        if (t->tip[k].growth > (longest ? longest->growth : 0) + EQUAL * t->spacing) longest = &t->tip[k];
+        if (t->tip[k].growth > (longest ? longest->growth : 0) + TIP_EQUAL * t->spacing) longest = &t->tip[k];
     return longest;
+}
+
+int64_t tips_tied(const struct tips *t)
+{
+    const struct tip *longest = tips_longest(t);
+    int64_t tied = 0;
+    for (int k = 0; k < t->n && longest; k++)
+        if (t->tip[k].growth > 0 && t->tip[k].growth >= longest->growth - (1 + TIP_EQUAL) * t->spacing)
+            tied += t->tip[k].ends;
+    return tied;
 }
 
 void tips_take(struct tips *t, struct tips *old, const int32_t *now)

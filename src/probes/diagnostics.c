@@ -6,12 +6,13 @@
 
 #include "kernels/kernels.h"
 #include "base/memory.h"
+#include "fracture/places.h"
 #include "kernels/mpm/stress.h"
 #include "base/team.h"
 
 void diagnostics_make(struct diagnostics *w)
 {
-    *w = (struct diagnostics){.break_time = NAN, .break_place = {NAN, NAN, NAN}};
+    *w = (struct diagnostics){.break_time = NAN, .break_place = {NAN, NAN, NAN}, .driven_time = NAN};
 }
 
 /* ---- sums over particles ----------------------------------------------------------------------------------------- */
@@ -308,20 +309,42 @@ void diagnostics_balance(struct diagnostics *w, real t, const struct energy *ene
 
 /* ---- the first break --------------------------------------------------------------------------------------------- */
 
-void diagnostics_breaks(struct diagnostics *w, const struct particles *p, int64_t broken, real t)
+int64_t diagnostics_break_place(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *middle)
+{
+    const real along[DIM_MAX] = {0};
+    int64_t cut = 0;
+    for (int64_t k = 0; k < n; k++) cut += (p->flag[list ? list[k] : k] & FLAG_CRACKED) != 0;
+    if (cut == 0) return 0;
+    struct place *place = NEW("diagnostics.cut", cut, struct place);
+    cut = 0;
+    for (int64_t k = 0; k < n; k++) {
+        const int64_t i = list ? list[k] : k;
+        if (p->flag[i] & FLAG_CRACKED) particle_place(p, i, place[cut++].X);
+    }
+    const int64_t ends = places_middle(place, cut, p->dim, horizon * (1 + 1e-6), along, middle);
+    memory_free(place);
+    return ends;
+}
+
+static bool driven_breaks(const struct particles *p)
+{
+    const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;
+    for (int64_t i = 0; i < p->n; i++)
+        if ((p->flag[i] & both) == both) return true;
+    return false;
+}
+
+bool diagnostics_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken, real t)
 {
     w->bonds_broken += broken;
-    if (broken == 0 || !isnan(w->break_time)) return;
-    real place[DIM_MAX] = {0};
-    int64_t cut = 0;
-    for (int64_t i = 0; i < p->n; i++) {
-        if (!(p->flag[i] & FLAG_CRACKED)) continue;
-        for (int d = 0; d < p->dim; d++) place[d] += p->X[d][i];
-        cut++;
+    if (broken == 0) return false;
+    if (isnan(w->break_time)) {
+        w->break_ends = diagnostics_break_place(p, NULL, p->n, horizon, w->break_place);
+        if (w->break_ends > 0) w->break_time = t;
     }
-    if (cut == 0) return;                /* only bonds of driven particles */
-    w->break_time = t;
-    for (int d = 0; d < p->dim; d++) w->break_place[d] = place[d] / (real)cut;
+    const bool tears = isnan(w->driven_time) && driven_breaks(p);
+    if (tears) w->driven_time = t;
+    return tears;
 }
 
 /* ---- stability check --------------------------------------------------------------------------------------------- */
@@ -393,6 +416,8 @@ status diagnostics_archive(struct diagnostics *w, struct archive *a)
     ARCHIVE_VALUE(a, "diagnostics/started", w->started);
     ARCHIVE_VALUE(a, "diagnostics/break_time", w->break_time);
     ARCHIVE_VALUE(a, "diagnostics/break_place", w->break_place);
+    ARCHIVE_VALUE(a, "diagnostics/break_ends", w->break_ends);
+    ARCHIVE_VALUE(a, "diagnostics/driven_time", w->driven_time);
     ARCHIVE_VALUE(a, "diagnostics/bonds_broken", w->bonds_broken);
     return OK;
 }

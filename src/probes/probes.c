@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "probes/diagnostics.h"
 #include "probes_parts.h"
 
 const char *const axis_name[DIM_MAX] = {"x", "y", "z"};
@@ -238,19 +239,10 @@ void probes_free(struct probes *s)
 
 static void step_break(struct probe *q, const struct observed *o)
 {
-    const struct particles *p = o->part;
-    real place[DIM_MAX] = {0};
-    int64_t cut = 0;
-    for (int64_t k = 0; k < q->n; k++) {
-        int32_t i = q->list[k];
-        if (!(p->flag[i] & FLAG_CRACKED)) continue;      /* bonds of driven particles do not count */
-        for (int d = 0; d < p->dim; d++) place[d] += p->X[d][i];
-        cut++;
-    }
-    if (cut == 0) return;
+    q->memory.ends = diagnostics_break_place(o->part, q->list, q->n, o->horizon, q->memory.place);
+    if (q->memory.ends == 0) return;     /* bonds of driven particles do not count */
     q->memory.first_time = o->t;
     q->memory.first_step = o->load_step;
-    for (int d = 0; d < p->dim; d++) q->memory.place[d] = place[d] / (real)cut;
 }
 
 static void step_reaction(struct probe *q, const struct observed *o)

@@ -201,6 +201,7 @@ static void figures_tip(const struct emitter *e)
     if (moves) probes_figures_put(e, "speed_max", tip->speed_max);
     if (moves) probes_figures_put(e, "speed_mean", tip->speed_mean);
     put_place(e, tip->place);
+    probes_figures_put(e, "tied", (real)(e->q->request.has_at ? tip->ends : tips_tied(e->o->tips)));
 }
 
 /* A directed bond is one of the two entries of a bond. */
@@ -210,6 +211,7 @@ static void figures_break(const struct emitter *e)
     if (e->o->load_step > 0) probes_figures_put(e, "first_step", (real)e->q->memory.first_step);
     else probes_figures_put(e, "first_time", e->q->memory.first_time);
     put_place(e, e->q->memory.place);
+    probes_figures_put(e, "tied", (real)e->q->memory.ends);
     probes_figures_put(e, "bonds", 0.5 * team_sum(e->q->n, broken_term, &(struct region_sum){.q = e->q, .o = e->o}));
 }
 

@@ -16,7 +16,8 @@ struct rigid_memory {
  * byte. */
 struct probe_memory {
     real first_time;                     /* BREAK: first cut; SPALL: separation; NAN before [s] */
-    real place[DIM_MAX];                 /* BREAK: mean place of the cut; SPALL: [0] the plane [m] */
+    real place[DIM_MAX];                 /* BREAK: of the cut (fracture/places.h); SPALL: [0] the plane [m] */
+    int64_t ends;                        /* BREAK: places of that first cut that lie apart */
     real incident;                       /* PULSE: largest speed at the start [m/s] */
     real force_max, force_square;        /* REACTION: largest |F|; sum of F^2 [N], [N^2] */
     int64_t steps;                       /* REACTION: in that sum */

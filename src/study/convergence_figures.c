@@ -101,7 +101,21 @@ static bool figure_moves(const struct figure_study *f)
 /* Is a figure one that a study without wishes is about? Tips are numbered anew in each run. */
 static bool is_of_interest(const char *name)
 {
-    return !study_figure_is_technical(name) && strncmp(name, "crack.tips.", 11) != 0;
+    const char *dot = strrchr(name, '.');
+    return !study_figure_is_technical(name) && strncmp(name, "crack.tips.", 11) != 0 && !(dot && !strcmp(dot, ".tied"));
+}
+
+/* Is a figure the coordinate of one of several places that tie in a run? Runs may give another one each. */
+static bool is_one_of_several(const struct convergence_study *s, const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    char tied[NAME_MAX_LENGTH * 2];
+    if (!dot || (strcmp(dot, ".x") && strcmp(dot, ".y") && strcmp(dot, ".z"))) return false;
+    snprintf(tied, sizeof tied, "%.*s.tied", (int)(dot - name), name);
+    const int count = study_figure(&s->table, tied);
+    for (int k = 0; k < s->study.n && count >= 0; k++)
+        if (s->table.value[count][k] > 1) return true;
+    return false;
 }
 
 /* Cracks come first, then what is neither crack nor energy, as probes. */
@@ -133,9 +147,14 @@ status figures_find(const struct convergence_study *s, const char *const *wanted
                               wanted[k]);
     *figure = NEW("study.figures", s->table.figures, struct figure_study);
     *figures = 0;
+    for (int f = 0; f < s->table.figures && wanteds == 0; f++)
+        if (is_of_interest(s->table.figure[f]) && is_one_of_several(s, s->table.figure[f]))
+            fprintf(stderr, "%s is left out: several places tie in a run, which gives one of them; --of %s shows it\n",
+                    s->table.figure[f], s->table.figure[f]);
     for (int part = 0; part < 3; part++)
         for (int f = 0; f < s->table.figures; f++)
-            if (part_of(s->table.figure[f]) == part && is_wanted(s->table.figure[f], wanted, wanteds) &&
+            if ((wanteds > 0 || !is_one_of_several(s, s->table.figure[f])) &&
+                part_of(s->table.figure[f]) == part && is_wanted(s->table.figure[f], wanted, wanteds) &&
                 figure_make(&(*figure)[*figures], s, f) && (wanteds > 0 || figure_moves(&(*figure)[*figures])))
                 ++*figures;
     figures_units(s, *figure, *figures);

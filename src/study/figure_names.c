@@ -20,8 +20,8 @@ static const struct figure_group { const char *group, *leaves; } groups[] = {
     {"contact", "began ended nodes_max pairs_max friction_work overlap_max"},
     {"rigid.#", "x y z velocity_x velocity_y velocity_z force_max patch"},
     {"fragments", "count mass_max particles_alone mass_alone"},
-    {"crack", "start_time start_step tip_start_time tip_start_step arrest_time arrest_step length_end angle_deg "
-              "tip_speed_max tip_speed_mean"},
+    {"crack", "start_time start_step driven_start_time driven_start_step driven_bonds tip_start_time tip_start_step "
+              "arrest_time arrest_step length_end angle_deg tied tip_speed_max tip_speed_mean"},
     {"crack.tips.#", "body origin_x origin_y origin_z x y z growth angle_deg start_time start_step arrest_time "
                      "arrest_step speed_max speed_mean"},
     {"conversion", "first_time x y z pd_share_start pd_share_end pd_share_max converted returned returns_most "
@@ -30,7 +30,7 @@ static const struct figure_group { const char *group, *leaves; } groups[] = {
 
 /* Quantities of all kinds of probes; those of points also with _min and _max, as of lines. */
 static const char probe_leaves[] =
-    "x y z start_time arrest_time length_end angle_deg speed_max speed_mean first_step first_time bonds force_max "
+    "x y z tied start_time arrest_time length_end angle_deg speed_max speed_mean first_step first_time bonds force_max "
     "force_max_displacement force_max_step force_rms displacement residual_max position time speed speed_rest kinetic "
     "strain fracture reflected transmitted energy_change L1 L2 front plateau end_displacement front_plastic "
     "strain_elastic strain_plastic L1_strain L2_strain front_strain plateau_strain L1_velocity L2_velocity "

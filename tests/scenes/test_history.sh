@@ -158,4 +158,52 @@ for run in pd:auto mpm:reference mpm:current; do
     between "$run: reaction" "$(off "$what" reaction.force_x "t < 4e-4 ? \$at : \$at + $force - \$at / (t / 1e-3) ^ 3")" 0 "$(compute "$force * 1.5e-4")"
     between "$run: displacement" "$(off "$what" reaction.displacement_x "1e-6 * (t / 1e-3) ^ 3")" 0 1e-14
 done
+
+# ---- places of tips and breaks, grips that tear ---------------------------------------------------------------------------
+
+# Two notches whose roots, at 9.1 mm on either side, break at once; a crack that meets a stiff disc and goes round it on both sides.
+cat >"$work/notches.yaml" <<'END'
+space: plane stress
+thickness: 0.37 mm
+duration: 7 us
+method: pd
+material: {young: 70 GPa, density: 2700, energy_release_rate: 10 J/m^2}
+body: {box: {from: [-20 mm, -20 mm], to: [20 mm, 20 mm]}}
+particles: {spacing: 0.5 mm}
+cracks: [{from: [-21 mm, 0], to: [-9.1 mm, 0]}, {from: [9.1 mm, 0], to: [21 mm, 0]}]
+boundary: [{traction: [0, 9 MPa], face: y+}, {traction: [0, -9 MPa], face: y-}]
+output: {frames: 0}
+probes: [break, tip]
+END
+holds "run" "$cleave" run "$work/notches.yaml" -t 1 -o "$work/notches" >"$work/said" 2>&1
+holds "terminal: two places" grep -q 'first bond broken at [0-9.e-]* s at 2 places' "$work/said"
+is "first breaks that tie" "$(figure "$work/notches" probes.break.tied)" 2
+between "one of both roots" "$(figure "$work/notches" probes.break.x)" 8e-3 10.1e-3
+between "on its plane" "$(figure "$work/notches" probes.break.y)" -1e-9 1e-9
+is "tips that tie" "$(figure "$work/notches" probes.tip.tied) $(figure "$work/notches" crack.tied)" "2 2"
+holds "terminal: two tips" grep -q 'one of 2 tips as far within a spacing' "$work/said"
+
+cat >"$work/fork.yaml" <<'END'
+space: plane stress
+thickness: 2 mm
+duration: 30 us
+method: pd
+materials:
+  - {name: glass, young: 72 GPa, density: 2440, energy_release_rate: 3.8 J/m^2}
+  - {name: hard, young: 144 GPa, density: 2440, energy_release_rate: 380 J/m^2}
+body: {box: {from: [-40 mm, -20 mm], to: [40 mm, 20 mm]}}
+parts: [{region: {disc: {centre: [20 mm, 0], radius: 8 mm}}, material: hard}]
+particles: {spacing: 1 mm}
+cracks: [{from: [-41 mm, 0], to: [0.1 mm, 0]}]
+boundary: [{traction: [0, 3 MPa], face: y+}, {traction: [0, -3 MPa], face: y-}]
+output: {frames: 0}
+probes: [tip]
+END
+holds "run" "$cleave" run "$work/fork.yaml" -t 1 -q -o "$work/fork" >"$work/said" 2>&1
+is "branches that tie" "$(figure "$work/fork" probes.tip.tied)" 2
+place=$(figure "$work/fork" probes.tip.x),$(figure "$work/fork" probes.tip.y)
+between "its tip is on a branch, off the plane of symmetry" "${place#*,}" 2e-3 20e-3
+holds "again, with a probe there" "$cleave" run "$work/fork.yaml" -t 1 -q -s "probes=[{point: {name: there, at: [$place]}}]" \
+    -o "$work/there" >"$work/said" 2>&1
+between "what is there is damaged" "$(figure "$work/there" probes.there.damage)" 0.35 1
 finish

@@ -1,4 +1,5 @@
 /* Tests of crack tips, on damage set by hand. */
+#include "fracture/places.h"
 #include "tests/support/bodies.h"
 
 static void tip_starts_only_where_the_body_goes_on(void **state)
@@ -103,13 +104,80 @@ static void tip_turns(void **state)
     tips_sample(&t, &b.p, &b.c, 0);
     assert_int_equal(t.n, 1);
     assert_near(tip_angle(&t.tip[0], 2), atan2(3, 2.5) * 180 / M_PI, 1e-10);
-    /* a mirror twin: the tip is the mean of the two, the growth stays */
-    hurt(&b, 10.5, 9.5, 0), hurt(&b, 11.5, 8.5, 0), hurt(&b, 12.5, 7.5, 0);
+    /* a mirror twin about y = 10.5: the tip is on the upper of both branches; then on the longer one */
+    assert_int_equal(tips_tied(&t), 1);
+    hurt(&b, 10.5, 9.5, 0), hurt(&b, 11.5, 8.5, 0);
     tips_sample(&t, &b.p, &b.c, 1);
+    assert_int_equal(tips_tied(&t), 1);                        /* 3.9 and 2.5 */
+    hurt(&b, 12.5, 7.5, 0);
+    tips_sample(&t, &b.p, &b.c, 2);
     assert_int_equal(t.tip[0].particles, 6);
-    assert_near(t.tip[0].place[1], 10.5, ROUND_OFF);
     assert_near(t.tip[0].growth, hypot(2.5, 3), ROUND_OFF);
+    assert_near(t.tip[0].place[0], 12.5, ROUND_OFF);
+    assert_near(t.tip[0].place[1], 13.5, ROUND_OFF);
+    assert_int_equal(tips_tied(&t), 2);
+    hurt(&b, 13.5, 6.5, 0);
+    tips_sample(&t, &b.p, &b.c, 3);
+    assert_near(t.tip[0].place[1], 6.5, ROUND_OFF);
+    assert_int_equal(tips_tied(&t), 1);                        /* 5.3 and 3.9 */
     notched_free(&b, &t);
+}
+
+/* Two rows of damaged particles beside a straight crack are one end, whose place is between them; branches that start
+ * there are two, and so are the tips of both ends of a crack. */
+static void tips_that_tie(void **state)
+{
+    (void)state;
+    struct body b;
+    struct tips t;
+    real X[2][DIM_MAX] = {{15, 10, 0}, {25, 10, 0}};
+    struct crack crack = {2, X};
+    notched_make(&b, &t, 4);
+    tips_free(&t);
+    tips_make(&t, &b.p, &b.c, &crack, 1, 1, 4);
+    assert_int_equal(t.n, 2);
+    assert_int_equal(tips_tied(&t), 0);
+    for (int k = 0; k < 4; k++)
+        for (int side = -1; side <= 1; side += 2)
+            hurt(&b, 25.5 + k, 10 + 0.5 * side, 0), hurt(&b, 14.5 - k, 10 + 0.5 * side, 0);
+    tips_sample(&t, &b.p, &b.c, 0);
+    for (int k = 0; k < 2; k++) assert_near(t.tip[k].place[1], 10, ROUND_OFF);
+    assert_near(fabs(t.tip[0].place[0] - 20), 8.5, ROUND_OFF);
+    assert_int_equal(tips_tied(&t), 2);
+    assert_ptr_equal(tips_longest(&t), &t.tip[0]);
+    for (int k = 1; k < 4; k++)
+        for (int side = -1; side <= 1; side += 2) hurt(&b, 28.5 + k, 10 + (0.5 + k) * side, 0);
+    tips_sample(&t, &b.p, &b.c, 1);
+    const struct tip *longest = tips_longest(&t);
+    assert_near(longest->place[0], 31.5, ROUND_OFF);
+    assert_near(longest->place[1], 13.5, ROUND_OFF);           /* a place that is damaged, not (31.5, 10) */
+    assert_int_equal(tips_tied(&t), 2);
+    notched_free(&b, &t);
+}
+
+/* A mean that is no place of the group gives way to the nearest of its places; the last group by x is taken. */
+static void places_of_groups(void **state)
+{
+    (void)state;
+    const real none[DIM_MAX] = {0}, along[DIM_MAX] = {0, 0, 1};
+    struct place place[48];
+    real middle[DIM_MAX];
+    for (int k = 0; k < 24; k++) {
+        const real angle = k * M_PI / 12;
+        place[k] = (struct place){{7 + 5 * cos(angle), 3 + 5 * sin(angle)}, false};
+        place[24 + k] = (struct place){{-7 + cos(angle), 3, 0.37 * k}, k < 12};
+    }
+    assert_int_equal(places_middle(place, 24, 2, 1.5, none, middle), 1);
+    assert_near(hypot(middle[0] - 7, middle[1] - 3), 5, ROUND_OFF);
+    assert_int_equal(places_middle(place, 24, 2, 1.2, none, middle), 24);      /* they are 1.305 apart */
+    assert_near(middle[0], 12, ROUND_OFF);
+    assert_near(middle[1], 3, ROUND_OFF);
+    assert_int_equal(places_middle(place, 48, 3, 1.5, none, middle), 2);
+    assert_true(middle[0] > 1);
+    assert_int_equal(places_middle(place + 24, 24, 3, 4.5, along, middle), 1); /* the mean of the twelve that count */
+    assert_near(middle[2], 0.37 * 17.5, ROUND_OFF);
+    assert_int_equal(places_middle(place + 24, 12, 3, 4.5, along, middle), 0);
+    assert_int_equal(places_middle(place, 0, 2, 1.5, none, middle), 0);
 }
 
 /* The faces of the pre-crack beside its end belong to the crack and are no growth; held particles and another
@@ -295,6 +363,8 @@ int main(void)
         cmocka_unit_test(tip_speed_is_the_slope_of_growth),
         cmocka_unit_test(tip_speed_takes_the_steepest_window),
         cmocka_unit_test(tip_turns),
+        cmocka_unit_test(tips_that_tie),
+        cmocka_unit_test(places_of_groups),
         cmocka_unit_test(tip_growth_leaves_out),
         cmocka_unit_test(tip_joins_a_crack_ahead),
         cmocka_unit_test(tip_of_a_front),

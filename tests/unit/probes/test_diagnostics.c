@@ -143,22 +143,35 @@ static void first_break_is_booked_once(void **state)
     struct diagnostics w;
     body_make(&b, 2, (const int[]){10, 10});
     diagnostics_make(&w);
-    diagnostics_breaks(&w, &b.p, 0, 1);
+    diagnostics_breaks(&w, &b.p, 3.015, 0, 1);
     assert_true(isnan(w.break_time));
     b.p.flag[0] = FLAG_LOST_BOND;                              /* of a bond with a driven particle */
-    diagnostics_breaks(&w, &b.p, 2, 2);
+    diagnostics_breaks(&w, &b.p, 3.015, 2, 2);
     assert_true(isnan(w.break_time));
     b.p.flag[particle_at(&b, 2.5, 3.5, 0)] |= FLAG_CRACKED;
     b.p.flag[particle_at(&b, 4.5, 4.5, 0)] |= FLAG_CRACKED;
-    diagnostics_breaks(&w, &b.p, 4, 3);
+    diagnostics_breaks(&w, &b.p, 3.015, 4, 3);
     assert_near(w.break_time, 3, 0);
     assert_near(w.break_place[0], 3.5, ROUND_OFF);
     assert_near(w.break_place[1], 4, ROUND_OFF);
     b.p.flag[particle_at(&b, 8.5, 8.5, 0)] |= FLAG_CRACKED;
-    diagnostics_breaks(&w, &b.p, 2, 4);
+    diagnostics_breaks(&w, &b.p, 3.015, 2, 4);
     assert_near(w.break_time, 3, 0);
     assert_near(w.break_place[0], 3.5, ROUND_OFF);
     assert_int_equal(w.bonds_broken, 8);
+
+    assert_int_equal(w.break_ends, 1);
+    assert_true(isnan(w.driven_time));
+    b.p.flag[0] |= FLAG_DRIVEN;
+    assert_true(diagnostics_breaks(&w, &b.p, 3.015, 2, 5));
+    assert_false(diagnostics_breaks(&w, &b.p, 3.015, 2, 6));
+    assert_near(w.driven_time, 5, 0);
+
+    struct diagnostics other;
+    diagnostics_make(&other);
+    assert_false(diagnostics_breaks(&other, &b.p, 2.2, 2, 1) && isnan(other.break_time));
+    assert_int_equal(other.break_ends, 3);                     /* none of the three within 2.2 of another */
+    assert_near(other.break_place[0], 8.5, ROUND_OFF);
 
     struct diagnostics again;
     struct store s = {0};
@@ -168,7 +181,9 @@ static void first_break_is_booked_once(void **state)
     a.saving = false;
     assert_ok(diagnostics_archive(&again, &a));
     assert_near(again.break_time, 3, 0);
-    assert_int_equal(again.bonds_broken, 8);
+    assert_int_equal(again.bonds_broken, 12);
+    assert_near(again.driven_time, 5, 0);
+    assert_int_equal(again.break_ends, 1);
     store_free(&s);
     body_free(&b);
 }

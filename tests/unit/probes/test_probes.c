@@ -391,6 +391,7 @@ static void probe_of_a_break(void **state)
                                       {.name = "all", .kind = PROBE_BREAK},
                                       {.name = "energy", .kind = PROBE_ENERGY}};
     struct observed o = bar_seen(&bar, 1);
+    o.horizon = 3;
     assert_ok(probes_make(&s, request, 3, &o));
     bar_cut(&bar, 5, 1);
     probes_step(&s, &o);
@@ -401,6 +402,7 @@ static void probe_of_a_break(void **state)
     probes_figures(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "all", "first_time"), 1, 0);
     assert_near(figure(&l, "all", "x"), 5, 1e-12);
+    assert_near(figure(&l, "all", "tied"), 1, 0);
     assert_near(figure(&l, "all", "bonds"), 6 + 3, 0);
     assert_near(figure(&l, "right", "first_time"), 2, 0);
     assert_near(figure(&l, "right", "x"), 25, 1e-12);

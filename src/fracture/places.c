@@ -1,0 +1,84 @@
+/* Places of several particles as one. */
+#include "fracture/places.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+
+#define EQUAL_PLACE 1e-6 /* coordinates that differ by less are equal [reach] */
+enum { LOOKED_AT = 16384 }; /* places beyond these are left out: pairs of them are compared */
+
+/* Places within reach of each other, across a direction. */
+static bool places_near(const struct place *a, const struct place *b, int dim, real reach, const real *along)
+{
+    real apart[DIM_MAX];
+    const real along2 = dot(along, along, dim);
+    for (int d = 0; d < dim; d++) apart[d] = a->X[d] - b->X[d];
+    const real share = along2 > 0 ? dot(apart, along, dim) / along2 : 0;
+    for (int d = 0; d < dim; d++) apart[d] -= share * along[d];
+    return dot(apart, apart, dim) <= square(reach);
+}
+
+/* Does place a come after b by x, then y, then z? */
+static bool comes_after(const struct place *a, const struct place *b, int dim, real reach)
+{
+    for (int d = 0; d < dim; d++)
+        if (fabs(a->X[d] - b->X[d]) > EQUAL_PLACE * reach) return a->X[d] > b->X[d];
+    return false;
+}
+
+/* Numbers the groups of n places from 0 on; returns how many there are. */
+static int64_t groups_number(const struct place *place, int64_t n, int dim, real reach, const real *along,
+                             int32_t *group)
+{
+    int32_t *queue = BARE("places.queue", n, int32_t);
+    int64_t groups = 0;
+    for (int64_t k = 0; k < n; k++) group[k] = -1;
+    for (int64_t first = 0; first < n; first++) {
+        int64_t queued = 0;
+        if (group[first] >= 0) continue;
+        queue[queued++] = (int32_t)first, group[first] = (int32_t)groups;
+        for (int64_t head = 0; head < queued; head++)
+            for (int64_t k = first + 1; k < n; k++)
+                if (group[k] < 0 && places_near(&place[queue[head]], &place[k], dim, reach, along))
+                    queue[queued++] = (int32_t)k, group[k] = (int32_t)groups;
+        groups++;
+    }
+    memory_free(queue);
+    return groups;
+}
+
+/* Mean of the places of a group that count, or the nearest of them. */
+static void group_middle(const struct place *place, const int32_t *group, int64_t n, int32_t which, int dim, real reach,
+                         real *middle)
+{
+    int64_t count = 0, nearest = -1;
+    real least = INFINITY;
+    for (int d = 0; d < dim; d++) middle[d] = 0;
+    for (int64_t k = 0; k < n; k++)
+        if (group[k] == which && !place[k].beside) {
+            for (int d = 0; d < dim; d++) middle[d] += place[k].X[d];
+            count++;
+        }
+    for (int d = 0; d < dim; d++) middle[d] /= (real)count;
+    for (int64_t k = 0; k < n; k++) {
+        real away2 = 0;
+        if (group[k] != which || place[k].beside) continue;
+        for (int d = 0; d < dim; d++) away2 += square(place[k].X[d] - middle[d]);
+        if (away2 < least) nearest = k, least = away2;
+    }
+    if (least > square(reach)) array_copy(middle, place[nearest].X, dim, sizeof *middle); /* as the middle of a ring */
+}
+
+int64_t places_middle(const struct place *place, int64_t n, int dim, real reach, const real *along, real *middle)
+{
+    const int64_t looked = n < LOOKED_AT ? n : LOOKED_AT;
+    int64_t last = -1;
+    int32_t *group = BARE("places.group", looked, int32_t);
+    const int64_t groups = groups_number(place, looked, dim, reach, along, group);
+    for (int64_t k = 0; k < looked; k++)
+        if (!place[k].beside && (last < 0 || comes_after(&place[k], &place[last], dim, reach))) last = k;
+    if (last >= 0) group_middle(place, group, looked, group[last], dim, reach, middle);
+    memory_free(group);
+    return last >= 0 ? groups : 0;
+}
