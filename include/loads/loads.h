@@ -280,6 +280,11 @@ static inline bool drives_by_place(const struct boundary *b)
  * MOMENTS of them, and at some places [m/s]. */
 real load_displacing_speed(const struct load *l, const struct particles *p, real t);
 
+/* Largest difference between the velocity that a load prescribes between the times 0 and t, at MOMENTS of them and some
+ * places, and that which its particles have in p, the state at t = 0; on circles the difference of speeds; 0 of
+ * displacements [m/s]. */
+real load_velocity_jump(const struct load *l, const struct particles *p, real t);
+
 #define LOADS_TOLERANCE ON_SURFACE       /* of a spacing: points on a region's border belong to it    */
 
 /* ---- mirrors (loads_mirror.c) ------------------------------------------------------------------------------------ */

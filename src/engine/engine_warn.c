@@ -132,6 +132,13 @@ static void warn_of_speed(const struct engine *e, struct warnings *to)
                          "boundary %s: its displacement grows by up to %.3g m/s; bonds beside it break at %.3g m/s, "
                          "the critical stretch times the wave speed: a longer time is expected, if it is no blow",
                          s->boundary[b].name, speed, bears);
+        const real jump = load_velocity_jump(&e->loads.load[b], &e->part, s->duration);
+        if (jump > bears)
+            warnings_add(to,
+                         "boundary %s: its velocity is up to %.3g m/s beside that of what it drives at t = 0; bonds "
+                         "beside it break at %.3g m/s, the critical stretch times the wave speed: a lower velocity is "
+                         "expected, if it is no blow",
+                         s->boundary[b].name, jump, bears);
     }
 }
 

@@ -130,3 +130,31 @@ real load_displacing_speed(const struct load *l, const struct particles *p, real
     for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES) most = real_max(most, formula_speed(l, p, k, t));
     return most;
 }
+
+/* By which the driven velocity of the k-th particle of a load differs from its own [m/s]. */
+static real velocity_jump_at(const struct load *l, const struct particles *p, int64_t k, const struct driving *by)
+{
+    const int32_t i = l->particle[k];
+    real X[DIM_MAX], jump2 = 0, driven2 = 0, own2 = 0;
+    particle_place(p, i, X);
+    for (int d = 0; d < p->dim; d++) {
+        if (!(l->boundary->components >> d & 1)) continue;
+        const real v = driving_at(by, X, d, false);
+        jump2 += square(v - p->v[d][i]), driven2 += square(v), own2 += square(p->v[d][i]);
+    }
+    return l->boundary->rotates ? fabs(sqrt(driven2) - sqrt(own2)) : sqrt(jump2);
+}
+
+real load_velocity_jump(const struct load *l, const struct particles *p, real t)
+{
+    const struct boundary *b = l->boundary;
+    real most = 0;
+    if (b->kind != BOUNDARY_VELOCITY || b->displaces) return 0;
+    for (int m = 0; m < MOMENTS + b->time.n; m++) {
+        const real at = m < MOMENTS ? t * m / (MOMENTS - 1) : b->time.t[m - MOMENTS];
+        if (!(at >= 0 && at <= t)) continue;
+        const struct driving by = driving_make(b, p->dim, at, t / MOMENTS);
+        for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES) most = real_max(most, velocity_jump_at(l, p, k, &by));
+    }
+    return most;
+}

@@ -206,4 +206,36 @@ between "its tip is on a branch, off the plane of symmetry" "${place#*,}" 2e-3 2
 holds "again, with a probe there" "$cleave" run "$work/fork.yaml" -t 1 -q -s "probes=[{point: {name: there, at: [$place]}}]" \
     -o "$work/there" >"$work/said" 2>&1
 between "what is there is damaged" "$(figure "$work/there" probes.there.damage)" 0.35 1
+
+# Bonds between neighbours alone: a grip that goes more than s_c h in the first step tears the one bond off that holds it. s_c c = 54 m/s.
+cat >"$work/grip.yaml" <<'END'
+space: line
+section: 0.37 cm^2
+duration: 20 us
+method: pd
+material: {young: 72 GPa, poisson: 0, density: 2440, critical_stretch: 1 %}
+body: {box: {from: [0], to: [20 mm]}}
+particles: {spacing: 1 mm, horizon: 1.015}
+boundary:
+  - {name: right, velocity: [200 m/s], face: x+, depth: 1 mm}
+  - {name: left, velocity: [-200 m/s], face: x-, depth: 1 mm}
+output: {frames: 0}
+probes: [break]
+END
+still='boundary=[{name: right, velocity: [20 m/s], face: x+, depth: 1 mm}, {name: left, velocity: [-20 m/s], face: x-, depth: 1 mm}]'
+moving='boundary=[{name: right, velocity: [200 m/s], face: x+, depth: 1 mm}, {name: left, velocity: [200 m/s], face: x-, depth: 1 mm}]'
+holds "run" "$cleave" run "$work/grip.yaml" -t 1 -o "$work/grip" >"$work/said" 2>"$work/err"
+is "bonds of grips" "$(figure "$work/grip" crack.driven_bonds)" 2
+near "the first" "$(figure "$work/grip" crack.driven_start_time)" "$(figure "$work/grip" time_step)" 1e-12
+absent "no other break" "$(figure "$work/grip" crack.start_time)$(figure "$work/grip" probes.break.first_time)"
+holds "what tears is said" grep -q 'warning: boundary right and others: bonds of the particles that it drives break, the first at' "$work/err"
+holds "in the summary" grep -q 'right and others: bonds of the particles' "$work/grip/summary.json"
+holds "terminal" grep -q 'first bond of driven particles broken at' "$work/said"
+fast='boundary right: its velocity is up to 200 m/s beside that of what it drives at t = 0; bonds beside it break at 54'
+holds "too fast: run" grep -q "$fast" "$work/err"
+holds "too fast: check" sh -c "'$cleave' check '$work/grip.yaml' --no-trial 2>&1 | grep -q '$fast'"
+holds "slow" "$cleave" run "$work/grip.yaml" -t 1 -q -s "$still" -s duration=2us -o "$work/slow" 2>"$work/err"
+is "slow: nothing is said" "$(cat "$work/err")$(figure "$work/slow" crack.driven_bonds)" ""
+holds "flying" "$cleave" run "$work/grip.yaml" -t 1 -q -s "$moving" -s 'initial=[{velocity: [200 m/s]}]' -o "$work/fly" 2>"$work/err"
+is "flying with its grips: nothing is said" "$(cat "$work/err")$(figure "$work/fly" crack.driven_bonds)" ""
 finish
