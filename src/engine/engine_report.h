@@ -20,6 +20,9 @@ void engine_sample_begin(struct engine *e);
 void engine_sample_energy(struct engine *e);
 void engine_sample_end(struct engine *e);
 
+/* Sets v to the velocity of the k-th rigid body now, half a kick of the last forces beyond leap-frog's [m/s]. */
+void engine_rigid_velocity(const struct engine *e, int k, real *v);
+
 /* A sample of a body at rest on which nothing has done work. */
 void engine_sample_rest(struct engine *e);
 /* Elastic energy of all particles and cells where they are [J]. */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "engine/engine.h"
+#include "engine_report.h"
 
 status engine_rigid_make(struct engine *e)
 {
@@ -102,14 +102,19 @@ void engine_rigid_mean(struct engine *e)
     }
 }
 
+void engine_rigid_velocity(const struct engine *e, int k, real *v)
+{
+    const struct rigid_body *r = &e->rigid[k];
+    array_copy(v, r->v, DIM_MAX, sizeof *v);
+    if (r->motion == RIGID_DRIVEN && scene_moves(e->scene)) rigid_driven_velocity(r, e->clock.t, v);
+    for (int d = 0; d < DIM_MAX && r->motion == RIGID_FREE && scene_moves(e->scene); d++)
+        v[d] += 0.5 * e->clock.dt * (r->force[d] + r->weight[d]) / r->mass;
+}
+
 void engine_rigid_kick(struct engine *e)
 {
-    for (int k = 0; k < e->scene->rigids; k++) {
-        const struct rigid_body *r = &e->rigid[k];
-        real *v = e->report.sampling.motion + 2 * DIM_MAX * k + DIM_MAX;
-        for (int d = 0; d < DIM_MAX && r->motion == RIGID_FREE; d++)
-            v[d] += 0.5 * e->clock.dt * (r->force[d] + r->weight[d]) / r->mass;
-    }
+    for (int k = 0; k < e->scene->rigids; k++)
+        engine_rigid_velocity(e, k, e->report.sampling.motion + 2 * DIM_MAX * k + DIM_MAX);
 }
 
 void engine_rigid_record(const struct engine *e, real *record)

@@ -380,7 +380,7 @@ void engine_sample_last(struct engine *e)
     e->report.sampling.energy.damped += e->mpm.contact.begun;
     const struct rigid_energy rigid = engine_rigid_energy(e);
     const struct velocity_time now = {e->clock.t - 0.5 * e->clock.dt, 1 / square(engine_damping_share(e))};
-    if (scene_moves(e->scene)) engine_rigid_kick(e);
+    engine_rigid_kick(e);
     sample_write(e, &now, kinetic / engine_damping_share(e) + rigid.last,
                  e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);
 }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/engine.h"
+#include "engine_report.h"
 #include "fracture/fragments.h"
 #include "base/memory.h"
 #include "base/memory_stream.h"
@@ -224,10 +224,12 @@ static void put_rigid(struct json *j, const struct engine *e)
     json_open(j, "rigid", '[');
     for (int k = 0; k < e->scene->rigids; k++) {
         const struct rigid_body *r = &e->rigid[k];
+        real v[DIM_MAX];
+        engine_rigid_velocity(e, k, v);
         json_open(j, NULL, '{');
         json_text(j, "name", r->name);
         json_point(j, "", r->x, r->dim);
-        for (int d = 0; d < r->dim; d++) json_real(j, velocity[d], r->v[d]);
+        for (int d = 0; d < r->dim; d++) json_real(j, velocity[d], v[d]);
         json_real(j, "force_max", r->force_most);
         json_real(j, "patch", contact_patch(&e->contact, &e->part, k));
         json_close(j, '}');

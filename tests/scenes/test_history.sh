@@ -125,6 +125,8 @@ done
 what=$work/fall_pd_auto_flip
 between "rigid body that flies: place" "$(off "$what" r_y "3 * t - 1e5 * t * t")" 0 2e-12
 between "its velocity" "$(off "$what" r_velocity_y "3 - 2e5 * t")" 0 1e-7
+near "its velocity at the end" "$(figure "$what" rigid.0.velocity_y)" -17 1e-8
+near "that of the driven one" "$(figure "$what" rigid.1.velocity_y)" 2 1e-12
 between "its force" "$(off "$what" r_force_y 0)" 0 0
 # the velocity in the middle of the step that has the ramp's end: half a step by the share of the ramp that it holds
 between "rigid body that is driven: place" "$(off "$what" d_y "t < 6e-5 ? t * t / 6e-5 : 2 * t - 6e-5")" 0 1e-10
