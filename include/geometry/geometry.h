@@ -22,9 +22,10 @@ struct geometry {
 };
 
 /* Reads a file by its ending, .stl, .msh or .inp; coordinates times `scale` are metres. In the plane elements are
- * triangles and quadrilaterals of one z. REFUSED: what is no such file, has no body, or is so open that inside and
+ * triangles and quadrilaterals of one z. Curved edges of second-order elements become chords at most `fine` [m] beside
+ * them; NAN: 1/256 of the largest sagitta. REFUSED: what is no such file, has no body, or is so open that inside and
  * outside cannot be told; nothing is left to free then. */
-status geometry_read(struct geometry *g, const char *path, int dim, real scale);
+status geometry_read(struct geometry *g, const char *path, int dim, real scale, real fine);
 /* NULL: no set has this name, in any case of its letters. */
 const struct geometry_set *geometry_find(const struct geometry *g, const char *name);
 void geometry_free(struct geometry *g);

@@ -88,6 +88,7 @@ static bool is_label(const char *field) { return isdigit((unsigned char)field[0]
 static status deck_label(const struct source *s, const char *field, int32_t *label)
 {
     real value;
+    *label = 0;
     TRY(deck_real(s, field, &value));
     if (!(value >= 0 && value <= LABEL_MAX && value == floor(value)))
         return source_fault(s, "%.40s is no number of a node or an element", field);
@@ -206,10 +207,13 @@ static const struct size *size_of_type(const char *type)
     return NULL;
 }
 
-/* The labels of the nodes of an element, on as many lines as it takes; corners are kept. */
-static status element_nodes(struct deck *d, const struct size *size, int32_t *node)
+/* The labels of the nodes of an element, on as many lines as it takes: corners, then those between them, whose order is
+ * that of elements.h; in an element of 27 nodes one in the middle of all stands before those of its sides. */
+static status element_nodes(struct deck *d, const struct size *size, int32_t *node, int32_t *middle)
 {
+    const int corners = element_corners[size->kind], edges = element_edges[size->kind].n;
     char field[FIELD];
+    for (int k = 0; k < ELEMENT_MIDDLES_MAX; k++) middle[k] = 0;
     for (int k = 0; k < size->nodes;) {
         int32_t label;
         if (!deck_field(d->s, field)) {
@@ -218,10 +222,14 @@ static status element_nodes(struct deck *d, const struct size *size, int32_t *no
             continue;
         }
         TRY(deck_label(d->s, field, &label));
-        if (k < element_corners[size->kind]) node[k] = label;
+        int slot = k - corners;
+        if (size->nodes == 27 && slot >= edges) slot = slot == edges ? -1 : slot - 1;
+        if (k < corners) node[k] = label;
+        if (k >= corners && slot >= 0) middle[slot] = label;
         k++;
     }
-    return OK;
+    if (!deck_field(d->s, field) || field[0] == '\0') return OK;
+    return source_fault(d->s, "an element of %d nodes has more, such as %.20s", size->nodes, field);
 }
 
 static status elements_read(struct deck *d)
@@ -237,11 +245,12 @@ static status elements_read(struct deck *d)
         return OK;
     }
     for (; data_line(d->s); source_next_line(d->s)) {
-        int32_t label, node[ELEMENT_CORNERS_MAX];
+        int32_t label, node[ELEMENT_CORNERS_MAX], middle[ELEMENT_MIDDLES_MAX];
         deck_field(d->s, field);
         TRY(deck_label(d->s, field, &label));
-        TRY(element_nodes(d, size, node));
+        TRY(element_nodes(d, size, node, middle));
         TRY(mesh_element_add(d->m, d->s, size->kind, node, label));
+        if (size->nodes > element_corners[size->kind]) mesh_middles_add(d->m, middle);
         if (set >= 0) mesh_set_add(d->m, set, label);
     }
     return OK;
@@ -331,7 +340,18 @@ static status set_read(struct deck *d, bool of_nodes)
 
 /* ---- parts ---------------------------------------------------------------------------------------------------- */
 
-/* Ends a scope: its labels become indices. */
+/* A label of element k becomes an index. */
+static status node_resolve(const struct deck *d, const struct scope *scope, int64_t k, int32_t *node)
+{
+    const int64_t index = label_find(&scope->node_of, *node);
+    if (index < 0)
+        return source_fault(d->s, "element %lld has node %d, which is not among the nodes",
+                            (long long)d->m->element_label[k], (int)*node);
+    *node = (int32_t)index;
+    return OK;
+}
+
+/* Ends a scope: its labels become indices. Middle nodes numbered 0 are none: that edge is straight. */
 static status scope_end(struct deck *d)
 {
     struct scope *scope = &d->scope[d->now];
@@ -341,15 +361,17 @@ static status scope_end(struct deck *d)
     label_map_make(&scope->node_of, m->node_label + scope->node, scope->node, m->nodes - scope->node);
     label_map_make(&scope->element_of, m->element_label + scope->element, scope->element, m->elements - scope->element);
     if (label_twice(&scope->node_of, &twice)) return source_fault(d->s, "node %lld is given twice", (long long)twice);
-    for (int64_t k = scope->element; k < m->elements; k++)
-        for (int c = 0; c < element_corners[m->element[k].kind]; c++) {
-            int32_t *node = &m->element[k].node[c];
-            const int64_t index = label_find(&scope->node_of, *node);
-            if (index < 0)
-                return source_fault(d->s, "element %lld has node %d, which is not among the nodes",
-                                    (long long)m->element_label[k], (int)*node);
-            *node = (int32_t)index;
+    for (int64_t k = scope->element; k < m->elements; k++) {
+        struct element *e = &m->element[k];
+        for (int c = 0; c < element_corners[e->kind]; c++) TRY(node_resolve(d, scope, k, &e->node[c]));
+        for (int c = 0; c < element_middles[e->kind] && e->middle >= 0; c++) {
+            int32_t *middle = &m->middle[e->middle + c];
+            if (*middle != 0)
+                TRY(node_resolve(d, scope, k, middle));
+            else
+                *middle = -1;
         }
+    }
     sets_resolve(d, scope);
     return OK;
 }

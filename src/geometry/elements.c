@@ -9,13 +9,32 @@
 
 const int element_corners[ELEMENT_KINDS] = {1, 2, 3, 4, 4, 5, 6, 8};
 const int element_dim[ELEMENT_KINDS] = {0, 1, 2, 2, 3, 3, 3, 3};
+const int element_middles[ELEMENT_KINDS] = {0, 1, 4, 5, 10, 13, 14, 18};
+
+const struct element_sides element_sides[ELEMENT_KINDS] = {
+    [ELEMENT_TRIANGLE] = {3, {{0, 1}, {1, 2}, {2, 0}}},
+    [ELEMENT_QUAD] = {4, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
+    [ELEMENT_TETRAHEDRON] = {4, {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}}},
+    [ELEMENT_PYRAMID] = {5, {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}}},
+    [ELEMENT_PRISM] = {5, {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}},
+    [ELEMENT_HEXAHEDRON] = {6, {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
+};
+const struct element_edges element_edges[ELEMENT_KINDS] = {
+    [ELEMENT_LINE] = {1, {{0, 1}}},
+    [ELEMENT_TRIANGLE] = {3, {{0, 1}, {1, 2}, {2, 0}}},
+    [ELEMENT_QUAD] = {4, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
+    [ELEMENT_TETRAHEDRON] = {6, {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}},
+    [ELEMENT_PYRAMID] = {8, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}},
+    [ELEMENT_PRISM] = {9, {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}},
+    [ELEMENT_HEXAHEDRON] =
+        {12, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}},
+};
 
 /* Room for one more in an array that doubles; 0 becomes 256. */
 static int64_t room_for(int64_t n, int64_t room) { return n < room ? room : room > 0 ? 2 * room : 256; }
 
-status mesh_node_add(struct element_mesh *m, const struct source *s, const real *X, int64_t label)
+int32_t mesh_node_append(struct element_mesh *m, const real *X, int64_t label)
 {
-    if (m->nodes >= HULL_CORNERS_MAX) return source_fault(s, "more than %d nodes", HULL_CORNERS_MAX);
     const int64_t room = room_for(m->nodes, m->node_room);
     if (room > m->node_room) {
         m->node = memory_resize("mesh.node", m->node, m->node_room, room, sizeof *m->node);
@@ -23,7 +42,14 @@ status mesh_node_add(struct element_mesh *m, const struct source *s, const real 
         m->node_room = room;
     }
     memcpy(m->node[m->nodes], X, sizeof *m->node);
-    m->node_label[m->nodes++] = label;
+    m->node_label[m->nodes] = label;
+    return (int32_t)m->nodes++;
+}
+
+status mesh_node_add(struct element_mesh *m, const struct source *s, const real *X, int64_t label)
+{
+    if (m->nodes >= HULL_CORNERS_MAX) return source_fault(s, "more than %d nodes", HULL_CORNERS_MAX);
+    mesh_node_append(m, X, label);
     return OK;
 }
 
@@ -39,10 +65,22 @@ status mesh_element_add(struct element_mesh *m, const struct source *s, enum ele
         m->element_room = room;
     }
     struct element *e = &m->element[m->elements];
-    e->kind = kind;
+    e->kind = kind, e->middle = -1;
     for (int k = 0; k < element_corners[kind]; k++) e->node[k] = node[k];
     m->element_label[m->elements++] = label;
     return OK;
+}
+
+void mesh_middles_add(struct element_mesh *m, const int32_t *middle)
+{
+    struct element *e = &m->element[m->elements - 1];
+    const int n = element_middles[e->kind];
+    for (int64_t room = m->middle_room; room < m->middles + n; m->middle_room = room) {
+        room = room > 0 ? 2 * room : 256;
+        m->middle = memory_resize("mesh.middle", m->middle, m->middle_room, room, sizeof *m->middle);
+    }
+    e->middle = m->middles;
+    for (int k = 0; k < n; k++) m->middle[m->middles++] = middle[k];
 }
 
 int mesh_set(struct element_mesh *m, const char *name, bool of_nodes)
@@ -74,6 +112,7 @@ void element_mesh_free(struct element_mesh *m)
     memory_free(m->node);
     memory_free(m->node_label);
     memory_free(m->element);
+    memory_free(m->middle);
     memory_free(m->element_label);
     *m = (struct element_mesh){0};
 }

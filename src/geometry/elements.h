@@ -17,14 +17,30 @@ enum element_kind {
     ELEMENT_KINDS
 };
 
-/* What an element is by its corners; nodes in the middle of sides are left out when it is read. */
-extern const int element_corners[ELEMENT_KINDS], element_dim[ELEMENT_KINDS];
+/* Number of corners, dimension, and number of middle nodes of a kind of element. Middle nodes of second-order elements
+ * are those of the edges, in the order of element_edge, then those of the sides, in the order of element_sides; of a
+ * triangle and a quadrilateral the last is that of the whole element. */
+extern const int element_corners[ELEMENT_KINDS], element_dim[ELEMENT_KINDS], element_middles[ELEMENT_KINDS];
 
-enum { ELEMENT_CORNERS_MAX = 8 };
+enum { ELEMENT_CORNERS_MAX = 8, ELEMENT_SIDES_MAX = 6, ELEMENT_EDGES_MAX = 12, ELEMENT_MIDDLES_MAX = 18 };
 struct element {
     enum element_kind kind;
     int32_t node[ELEMENT_CORNERS_MAX]; /* indices of nodes */
+    int64_t middle;                    /* index of its first middle node in `middle` of the mesh; -1: all straight */
 };
+
+/* Sides of elements, seen from outside counter-clockwise; of triangles 3 corners, the fourth is -1. Corners are
+ * numbered as in Gmsh and Abaqus, which agree in this. In the plane sides are edges. */
+struct element_sides {
+    int n;
+    signed char corner[ELEMENT_SIDES_MAX][4];
+};
+extern const struct element_sides element_sides[ELEMENT_KINDS];
+struct element_edges {
+    int n;
+    signed char corner[ELEMENT_EDGES_MAX][2];
+};
+extern const struct element_edges element_edges[ELEMENT_KINDS];
 
 struct element_set {
     char name[NAME_MAX_LENGTH];
@@ -40,6 +56,8 @@ struct element_mesh {
     int64_t elements, element_room;
     struct element *element;
     int64_t *element_label;
+    int64_t middles, middle_room;
+    int32_t *middle; /* indices of middle nodes of the elements that have some; -1: that side or edge has none */
     int sets;
     struct element_set *set;
     char skipped[NAME_MAX_LENGTH]; /* a kind of element that was left out; "": none */
@@ -48,9 +66,13 @@ struct element_mesh {
 enum { ELEMENT_SETS_MAX = 1000 };
 
 status mesh_node_add(struct element_mesh *m, const struct source *s, const real *X, int64_t label);
+/* Appends a node that the file does not have, at X as in the file, and returns its index. */
+int32_t mesh_node_append(struct element_mesh *m, const real *X, int64_t label);
 /* Appends an element whose nodes are indices. */
 status mesh_element_add(struct element_mesh *m, const struct source *s, enum element_kind kind, const int32_t *node,
                         int64_t label);
+/* Gives the last element its middle nodes, element_middles of its kind. */
+void mesh_middles_add(struct element_mesh *m, const int32_t *middle);
 /* The number of the set of this name, in any case of its letters, made if there is none; -1: too many. */
 int mesh_set(struct element_mesh *m, const char *name, bool of_nodes);
 void mesh_set_add(struct element_mesh *m, int set, int64_t member);
@@ -76,7 +98,43 @@ status abaqus_read(struct element_mesh *m, struct source *s);
 /* Triangles as they stand in a file of either form. */
 status stl_read(struct element_mesh *m, struct source *s);
 
-/* The body that the elements fill and its sets, in metres: coordinates times `scale`. */
-status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real scale);
+/* Makes the body that the elements fill and its sets, in metres: coordinates times `scale`. fine: largest distance
+ * between a curved edge and the chords that stand for it [m]; NAN: 1/256 of the largest sagitta. */
+status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real scale,
+                              real fine);
+
+/* ---- faces of a surface (elements_curved.c) ---- */
+
+/* A side of an element: 1 to 4 corners, the middle nodes of its edges (edge k from corner k on) and its own. */
+struct patch {
+    int n;
+    int32_t corner[4], middle[4], centre; /* -1: none */
+};
+
+/* Faces of a surface while they are collected. */
+struct builder {
+    struct element_mesh *m;
+    int dim, body_dim; /* of the space; of the elements that make the body */
+    real scale;
+    real sagitta;    /* an edge is straight whose middle node is nearer to its chord [unit of the file] */
+    int pieces;      /* of a curved edge in space */
+    int64_t n, room; /* faces so far, by indices of nodes */
+    int32_t (*face)[DIM_MAX];
+    int64_t patches, patch_room; /* of meshes with middle nodes; they become faces by builder_curve */
+    struct patch *patch;
+    int64_t file_nodes; /* nodes of the file; later ones lie on curved sides between the corners `parent` */
+    int64_t parent_room;
+    int32_t (*parent)[4]; /* [node - file_nodes], -1: fewer */
+};
+
+void builder_add(struct builder *b, int32_t i, int32_t j, int32_t k);
+/* Adds a side of 3 or 4 corners as triangles. */
+void builder_add_side(struct builder *b, const int32_t *node, int n);
+void builder_add_patch(struct builder *b, const struct patch *p);
+/* Sets sagitta and pieces. REFUSED where the curves of the mesh `path` are too coarse to be resolved to `fine` [m]. */
+status builder_fineness(struct builder *b, const char *path, real fine);
+/* Turns all patches into faces; curved ones are subdivided, with new nodes of the mesh. closed: patches that two
+ * elements share cancel first. */
+void builder_curve(struct builder *b, bool closed);
 
 #endif

@@ -4,32 +4,7 @@
 #include "base/memory.h"
 #include "elements.h"
 
-enum { SIDES_MAX = 6 };
-
-/* Sides of elements, seen from outside counter-clockwise; of triangles 3 corners, the fourth is -1. Corners are
- * numbered as in Gmsh and Abaqus, which agree in this. In the plane sides are edges. */
-struct sides {
-    int n;
-    signed char corner[SIDES_MAX][4];
-};
-static const struct sides sides_of[ELEMENT_KINDS] = {
-    [ELEMENT_TRIANGLE] = {3, {{0, 1}, {1, 2}, {2, 0}}},
-    [ELEMENT_QUAD] = {4, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
-    [ELEMENT_TETRAHEDRON] = {4, {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}}},
-    [ELEMENT_PYRAMID] = {5, {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}}},
-    [ELEMENT_PRISM] = {5, {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}},
-    [ELEMENT_HEXAHEDRON] = {6, {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
-};
-
-struct builder {
-    const struct element_mesh *m;
-    int dim, body_dim; /* of the space; of the elements that make the body */
-    real scale;
-    int64_t n, room; /* faces so far, by indices of nodes */
-    int32_t (*face)[DIM_MAX];
-};
-
-static void builder_add(struct builder *b, int32_t i, int32_t j, int32_t k)
+void builder_add(struct builder *b, int32_t i, int32_t j, int32_t k)
 {
     if (b->n == b->room) {
         const int64_t room = b->room > 0 ? 2 * b->room : 1024;
@@ -50,7 +25,7 @@ static bool place_before(const real *X, const real *Y, real size)
 
 /* A side of 3 or 4 corners as triangles. A quadrilateral is halved at the corner whose place is first, so that the
  * elements on both sides of it halve it alike, also where each has nodes of its own. */
-static void builder_add_side(struct builder *b, const int32_t *node, int n)
+void builder_add_side(struct builder *b, const int32_t *node, int n)
 {
     int low = 0;
     real size = 0;
@@ -64,7 +39,7 @@ static void builder_add_side(struct builder *b, const int32_t *node, int n)
 /* The sides of an element that fills a part of the body, or the element itself where it is a part of the surface. */
 static void builder_add_element(struct builder *b, const struct element *e)
 {
-    const struct sides *sides = &sides_of[e->kind];
+    const struct element_sides *sides = &element_sides[e->kind];
     const int corners = element_corners[e->kind];
     if (element_dim[e->kind] < b->dim) {
         if (corners > 2)
@@ -101,13 +76,66 @@ static real builder_volume(const struct builder *b, int64_t first)
     return sum;
 }
 
+/* Edge of an element between two of its corners. */
+static int edge_between(enum element_kind kind, int i, int j)
+{
+    const struct element_edges *edges = &element_edges[kind];
+    for (int k = 0; k < edges->n; k++)
+        if ((edges->corner[k][0] == i && edges->corner[k][1] == j) ||
+            (edges->corner[k][0] == j && edges->corner[k][1] == i))
+            return k;
+    return -1;
+}
+
+/* The side of an element between `n` of its corners, with its middle nodes; centre: number of its own middle node, -1:
+ * it has none. turned: seen from the other side. */
+static struct patch patch_of(const struct builder *b, const struct element *e, const signed char *corner, int n,
+                             int centre, bool turned)
+{
+    struct patch p = {.n = n, .corner = {-1, -1, -1, -1}, .middle = {-1, -1, -1, -1}, .centre = -1};
+    const int32_t *middle = e->middle < 0 ? NULL : b->m->middle + e->middle;
+    for (int c = 0; c < n; c++) {
+        const int from = turned ? corner[n - 1 - c] : corner[c], to = turned ? corner[(2 * n - 2 - c) % n]
+                                                                            : corner[(c + 1) % n];
+        const int edge = n > 1 ? edge_between(e->kind, from, to) : -1;
+        p.corner[c] = e->node[from];
+        if (middle && edge >= 0) p.middle[c] = middle[edge];
+    }
+    if (middle && centre >= 0) p.centre = middle[centre];
+    return p;
+}
+
+/* Adds the sides of an element as patches; see builder_add_element. */
+static void builder_add_patches(struct builder *b, const struct element *e, bool turned)
+{
+    static const signed char all[] = {0, 1, 2, 3};
+    const struct element_sides *sides = &element_sides[e->kind];
+    const int edges = element_edges[e->kind].n;
+    struct patch p;
+    if (element_dim[e->kind] < b->dim) {
+        p = patch_of(b, e, all, element_corners[e->kind], element_dim[e->kind] == 2 ? edges : -1, turned);
+        builder_add_patch(b, &p);
+        return;
+    }
+    for (int k = 0; k < sides->n; k++) {
+        const int n = b->dim == 2 ? 2 : sides->corner[k][3] < 0 ? 3 : 4;
+        p = patch_of(b, e, sides->corner[k], n, b->dim == 2 ? -1 : edges + k, turned);
+        builder_add_patch(b, &p);
+    }
+}
+
 /* Adds an element; one whose corners run the other way round is turned. */
 static void builder_take(struct builder *b, const struct element *e)
 {
     const int64_t first = b->n;
     builder_add_element(b, e);
-    if (element_dim[e->kind] < b->dim || !(builder_volume(b, first) < 0)) return;
-    for (int64_t k = first; k < b->n; k++) {
+    const bool turned = element_dim[e->kind] == b->dim && builder_volume(b, first) < 0;
+    if (b->m->middles > 0) {
+        b->n = first;
+        builder_add_patches(b, e, turned);
+        return;
+    }
+    for (int64_t k = first; k < b->n && turned; k++) {
         const int32_t node = b->face[k][0];
         b->face[k][0] = b->face[k][1], b->face[k][1] = node;
     }
@@ -117,7 +145,9 @@ static void builder_take(struct builder *b, const struct element *e)
  */
 static void builder_close(struct builder *b, struct hull *hull, bool closed, int32_t **node_of)
 {
-    const struct element_mesh *m = b->m;
+    struct element_mesh *m = b->m;
+    const int64_t nodes = m->nodes;
+    builder_curve(b, closed);
     int32_t *corner_of = NEW("mesh.corners", m->nodes, int32_t), *node = NEW("mesh.corners", m->nodes, int32_t), n = 0;
     for (int64_t k = 0; k < b->n; k++)
         for (int c = 0; c < b->dim; c++) corner_of[b->face[k][c]] = 1;
@@ -131,10 +161,12 @@ static void builder_close(struct builder *b, struct hull *hull, bool closed, int
     (closed ? hull_make : hull_make_open)(hull, b->dim, n, corner, b->n, b->face);
     b->face = NULL, b->n = b->room = 0;
     memory_free(corner_of);
-    if (node_of)
+    if (node_of) {
         *node_of = node;
-    else
-        memory_free(node);
+        return;
+    }
+    memory_free(node);
+    m->nodes = nodes;
 }
 
 /* ---- sets ----------------------------------------------------------------------------------------------------- */
@@ -156,7 +188,12 @@ static void set_of_nodes(struct builder *b, const struct element_set *set, const
 {
     bool *in = NEW("mesh.set", b->m->nodes, bool);
     for (int64_t k = 0; k < set->n; k++) in[set->member[k]] = true;
-    for (int64_t k = 0; k < b->m->nodes; k++)
+    for (int64_t k = b->file_nodes; k < b->m->nodes; k++) {
+        const int32_t *parent = b->parent[k - b->file_nodes];
+        in[k] = true;
+        for (int c = 0; c < 4; c++) in[k] = in[k] && (parent[c] < 0 || in[parent[c]]);
+    }
+    for (int64_t k = 0; k < b->file_nodes; k++)
         if (in[k]) builder_add(b, (int32_t)k, (int32_t)k, (int32_t)k);
     for (int64_t k = 0; k < whole->faces; k++) {
         int32_t node[DIM_MAX] = {0};
@@ -222,16 +259,20 @@ static status check_plane(const struct element_mesh *m, const char *path)
                       path, low[2], high[2]);
 }
 
-status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real scale)
+status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real scale,
+                              real fine)
 {
-    struct builder b = {.m = m, .dim = dim, .scale = scale};
+    struct builder b = {.m = m, .dim = dim, .scale = scale, .file_nodes = m->nodes};
     int32_t *node_of = NULL;
     TRY(body_dim_of(m, path, dim, &b.body_dim));
     if (dim == 2) TRY(check_plane(m, path));
+    TRY(builder_fineness(&b, path, fine));
     for (int64_t k = 0; k < m->elements; k++)
         if (element_dim[m->element[k].kind] == b.body_dim) builder_take(&b, &m->element[k]);
     builder_close(&b, &g->whole, true, &node_of);
     take_sets(&b, node_of, g);
     memory_free(node_of);
+    memory_free(b.parent);
+    memory_free(b.patch);
     return OK;
 }

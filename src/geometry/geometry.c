@@ -44,7 +44,7 @@ static status check_closed(const struct hull *s, const char *path)
     return status_set(REFUSED, "%s: encloses no volume; a body is expected", path);
 }
 
-static status read_elements(struct geometry *g, const char *path, int dim, real scale)
+static status read_elements(struct geometry *g, const char *path, int dim, real scale, real fine)
 {
     const struct format *format = format_of(path);
     struct element_mesh m = {0};
@@ -53,15 +53,15 @@ static status read_elements(struct geometry *g, const char *path, int dim, real 
     TRY(source_open(&source, path));
     status s = format->read(&m, &source);
     source_close(&source);
-    if (s == OK) s = geometry_from_elements(g, &m, path, dim, scale);
+    if (s == OK) s = geometry_from_elements(g, &m, path, dim, scale, fine);
     element_mesh_free(&m);
     return s == OK ? check_closed(&g->whole, path) : s;
 }
 
-status geometry_read(struct geometry *g, const char *path, int dim, real scale)
+status geometry_read(struct geometry *g, const char *path, int dim, real scale, real fine)
 {
     *g = (struct geometry){0};
-    const status s = read_elements(g, path, dim, scale);
+    const status s = read_elements(g, path, dim, scale, fine);
     if (s != OK) geometry_free(g);
     return s;
 }

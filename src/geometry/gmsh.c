@@ -7,22 +7,34 @@
 #include "base/memory.h"
 #include "elements.h"
 
-/* Gmsh's types: what they are by their corners, which come first, and how many nodes they have. */
+/* Gmsh's types: what they are by their corners, which come first; how many nodes they have; their order. */
 static const struct gmsh_type {
     int type;
     enum element_kind kind;
-    int nodes;
-} types[] = {{15, ELEMENT_POINT, 1},        {1, ELEMENT_LINE, 2},          {8, ELEMENT_LINE, 3},
-             {26, ELEMENT_LINE, 4},         {27, ELEMENT_LINE, 5},         {28, ELEMENT_LINE, 6},
-             {2, ELEMENT_TRIANGLE, 3},      {9, ELEMENT_TRIANGLE, 6},      {20, ELEMENT_TRIANGLE, 9},
-             {21, ELEMENT_TRIANGLE, 10},    {22, ELEMENT_TRIANGLE, 12},    {23, ELEMENT_TRIANGLE, 15},
-             {24, ELEMENT_TRIANGLE, 15},    {25, ELEMENT_TRIANGLE, 21},    {3, ELEMENT_QUAD, 4},
-             {10, ELEMENT_QUAD, 9},         {16, ELEMENT_QUAD, 8},         {4, ELEMENT_TETRAHEDRON, 4},
-             {11, ELEMENT_TETRAHEDRON, 10}, {29, ELEMENT_TETRAHEDRON, 20}, {30, ELEMENT_TETRAHEDRON, 35},
-             {31, ELEMENT_TETRAHEDRON, 56}, {5, ELEMENT_HEXAHEDRON, 8},    {12, ELEMENT_HEXAHEDRON, 27},
-             {17, ELEMENT_HEXAHEDRON, 20},  {92, ELEMENT_HEXAHEDRON, 64},  {93, ELEMENT_HEXAHEDRON, 125},
-             {6, ELEMENT_PRISM, 6},         {13, ELEMENT_PRISM, 18},       {18, ELEMENT_PRISM, 15},
-             {7, ELEMENT_PYRAMID, 5},       {14, ELEMENT_PYRAMID, 14},     {19, ELEMENT_PYRAMID, 13}};
+    int nodes, order;
+} types[] = {{15, ELEMENT_POINT, 1, 1},        {1, ELEMENT_LINE, 2, 1},         {8, ELEMENT_LINE, 3, 2},
+             {26, ELEMENT_LINE, 4, 3},         {27, ELEMENT_LINE, 5, 4},        {28, ELEMENT_LINE, 6, 5},
+             {2, ELEMENT_TRIANGLE, 3, 1},      {9, ELEMENT_TRIANGLE, 6, 2},     {20, ELEMENT_TRIANGLE, 9, 3},
+             {21, ELEMENT_TRIANGLE, 10, 3},    {22, ELEMENT_TRIANGLE, 12, 4},   {23, ELEMENT_TRIANGLE, 15, 4},
+             {24, ELEMENT_TRIANGLE, 15, 5},    {25, ELEMENT_TRIANGLE, 21, 5},   {3, ELEMENT_QUAD, 4, 1},
+             {10, ELEMENT_QUAD, 9, 2},         {16, ELEMENT_QUAD, 8, 2},        {4, ELEMENT_TETRAHEDRON, 4, 1},
+             {11, ELEMENT_TETRAHEDRON, 10, 2}, {29, ELEMENT_TETRAHEDRON, 20, 3}, {30, ELEMENT_TETRAHEDRON, 35, 4},
+             {31, ELEMENT_TETRAHEDRON, 56, 5}, {5, ELEMENT_HEXAHEDRON, 8, 1},   {12, ELEMENT_HEXAHEDRON, 27, 2},
+             {17, ELEMENT_HEXAHEDRON, 20, 2},  {92, ELEMENT_HEXAHEDRON, 64, 3}, {93, ELEMENT_HEXAHEDRON, 125, 4},
+             {6, ELEMENT_PRISM, 6, 1},         {13, ELEMENT_PRISM, 18, 2},      {18, ELEMENT_PRISM, 15, 2},
+             {7, ELEMENT_PYRAMID, 5, 1},       {14, ELEMENT_PYRAMID, 14, 2},    {19, ELEMENT_PYRAMID, 13, 2}};
+
+/* Places of Gmsh's nodes behind the corners among the middle nodes of an element (elements.h); the first lie on edges.
+ * Also edges of higher order come in this order. -1: inside. */
+static const signed char middle_at[ELEMENT_KINDS][1 + ELEMENT_MIDDLES_MAX] = {
+    [ELEMENT_LINE] = {0},
+    [ELEMENT_TRIANGLE] = {0, 1, 2, 3},
+    [ELEMENT_QUAD] = {0, 1, 2, 3, 4},
+    [ELEMENT_TETRAHEDRON] = {0, 1, 2, 3, 5, 4},
+    [ELEMENT_PYRAMID] = {0, 3, 4, 1, 5, 2, 6, 7, 8},
+    [ELEMENT_PRISM] = {0, 2, 6, 1, 7, 8, 3, 5, 4, 11, 13, 12},
+    [ELEMENT_HEXAHEDRON] = {0, 3, 8, 1, 9, 2, 10, 11, 4, 7, 5, 6, 12, 14, 17, 15, 16, 13, -1}};
+#define STRAIGHT 1e-6 /* [length of the edge] distance of nodes on an edge from its chord */
 
 enum { GROUPS_MAX = 16 }; /* that an entity may belong to */
 
@@ -85,12 +97,37 @@ static status node_next(struct gmsh *g, int32_t *index)
     return OK;
 }
 
-/* Nodes of an element: corners are kept. */
+/* REFUSED unless a node on edge number `edge` in Gmsh's order lies on its chord. */
+static status check_straight(const struct gmsh *g, const struct gmsh_type *type, const int32_t *node, int edge,
+                             int32_t between)
+{
+    const signed char *corner = element_edges[type->kind].corner[middle_at[type->kind][edge]];
+    const real *a = g->m->node[node[corner[0]]], *b = g->m->node[node[corner[1]]], *c = g->m->node[between];
+    real along2 = 0, arm2 = 0, both = 0;
+    for (int d = 0; d < DIM_MAX; d++)
+        along2 += square(b[d] - a[d]), arm2 += square(c[d] - a[d]), both += (b[d] - a[d]) * (c[d] - a[d]);
+    if (arm2 * along2 - square(both) <= square(STRAIGHT * along2)) return OK;
+    return source_fault(g->s, "curved elements of order %d; the second order is read with its curves (gmsh -order 2 "
+                        "saves it)", type->order);
+}
+
+/* Nodes of an element: corners, and of second-order elements those between them; edges of higher ones are straight. */
 static status element_next(struct gmsh *g, const struct gmsh_type *type, int64_t label)
 {
-    int32_t node[ELEMENT_CORNERS_MAX], middle;
-    for (int k = 0; k < type->nodes; k++) TRY(node_next(g, k < element_corners[type->kind] ? &node[k] : &middle));
-    return mesh_element_add(g->m, g->s, type->kind, node, label);
+    const int corners = element_corners[type->kind], edges = element_edges[type->kind].n;
+    int32_t node[ELEMENT_CORNERS_MAX], middle[ELEMENT_MIDDLES_MAX], other;
+    for (int k = 0; k < ELEMENT_MIDDLES_MAX; k++) middle[k] = -1;
+    for (int k = 0; k < type->nodes; k++) {
+        const int between = k - corners;
+        TRY(node_next(g, between < 0 ? &node[k] : &other));
+        if (between >= 0 && type->order == 2 && middle_at[type->kind][between] >= 0)
+            middle[middle_at[type->kind][between]] = other;
+        if (between >= 0 && type->order > 2 && between < edges * (type->order - 1))
+            TRY(check_straight(g, type, node, between / (type->order - 1), other));
+    }
+    TRY(mesh_element_add(g->m, g->s, type->kind, node, label));
+    if (type->order == 2) mesh_middles_add(g->m, middle);
+    return OK;
 }
 
 static status nodes_known(struct gmsh *g)

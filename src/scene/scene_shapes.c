@@ -104,8 +104,21 @@ static bool same_words(const struct shape_file *a, const struct shape_file *b)
     return same;
 }
 
-/* Reads a file unless a solid before had it; `f` is taken over or freed. */
-static status shape_take(struct reader *r, struct shape_file *f, struct shape_file **known)
+#define CURVE_FINE 0.01 /* distance of chords from curved edges of elements [spacings] */
+
+/* One spacing: as far as the outermost particles of a lattice may lie below a face. */
+static real spacing_given(struct reader *r, const struct node *n)
+{
+    real spacing = NAN;
+    while (n->parent) n = n->parent;
+    const struct node *given = tree_at(n, "particles.spacing");
+    const struct key *k = key_find("particles", "spacing");
+    if (given && k && read_number(r, k, given, &spacing) == OK) return spacing;
+    return NAN;
+}
+
+/* Reads the file of solid n unless a solid before had it; `f` is taken over or freed. */
+static status shape_take(struct reader *r, const struct node *n, struct shape_file *f, struct shape_file **known)
 {
     struct shape_file **last = &r->scene->shapes;
     for (; *last; last = &(*last)->next)
@@ -114,8 +127,9 @@ static status shape_take(struct reader *r, struct shape_file *f, struct shape_fi
             *known = *last;
             return OK;
         }
+    const real fine = f->kind == SHAPE_MESH ? CURVE_FINE * spacing_given(r, n) : NAN;
     const status s = f->kind == SHAPE_IMAGE ? image_read(&f->voxels, f->files, f->path, f->dim, f->size, f->from)
-                                            : geometry_read(&f->geometry, f->path[0], f->dim, f->scale);
+                                            : geometry_read(&f->geometry, f->path[0], f->dim, f->scale, fine);
     if (s != OK) {
         shape_file_free(f);
         return s;
@@ -151,17 +165,6 @@ static status read_unit(struct reader *r, const struct node *n, struct shape_wor
 }
 
 /* ---- surfaces and meshes ----------------------------------------------------------------------------------------- */
-
-/* One spacing: as far as the outermost particles of a lattice may lie below a face. */
-static real spacing_given(struct reader *r, const struct node *n)
-{
-    real spacing = NAN;
-    while (n->parent) n = n->parent;
-    const struct node *given = tree_at(n, "particles.spacing");
-    const struct key *k = key_find("particles", "spacing");
-    if (given && k && read_number(r, k, given, &spacing) == OK) return spacing;
-    return NAN;
-}
 
 /* The part of a mesh that a solid is: all of it, or a set, which is closed or as far as `within` from its faces. */
 static status read_mesh_set(struct reader *r, const struct node *n, const struct shape_words *words,
@@ -206,7 +209,7 @@ static status read_geometry(struct reader *r, const struct node *n, enum shape_k
         shape_file_free(f);
         return result;
     }
-    TRY(shape_take(r, f, &f));
+    TRY(shape_take(r, n, f, &f));
     s->kind = SOLID_HULL;
     return read_mesh_set(r, n, &words, &f->geometry, s);
 }
@@ -235,7 +238,7 @@ static status read_voxels(struct reader *r, const struct node *n, struct shape_f
         shape_file_free(f);
         return result;
     }
-    return shape_take(r, f, known);
+    return shape_take(r, n, f, known);
 }
 
 /* The voxels of these grey values, which solids with the same ones share. */

@@ -34,7 +34,7 @@ static char *file_text(const char *name, size_t *length)
 static void refused(const char *name, int dim, const char *message)
 {
     struct geometry g;
-    assert_refused(geometry_read(&g, name, dim, 1), message);
+    assert_refused(geometry_read(&g, name, dim, 1, NAN), message);
 }
 
 /* ---- STL --------------------------------------------------------------------------------------------------------- */
@@ -79,13 +79,13 @@ static void stl_of_both_forms(void **state)
     unsigned char bytes[84 + 12 * 50];
     struct geometry g;
     write_stl_words("a.stl", 12, "endsolid a cube\n");
-    assert_ok(geometry_read(&g, "a.stl", 3, 1e-3));
+    assert_ok(geometry_read(&g, "a.stl", 3, 1e-3, NAN));
     assert_close(g.whole.volume, 8e-9, 1e-12);
     assert_int_equal(g.whole.open_edges, 0);
     assert_int_equal(g.whole.corners, 8);
     geometry_free(&g);
     write_file("b.stl", bytes, stl_bytes(bytes, 12));
-    assert_ok(geometry_read(&g, "b.stl", 3, 1));
+    assert_ok(geometry_read(&g, "b.stl", 3, 1, NAN));
     assert_close(g.whole.volume, 8, 1e-12);
     assert_close(hull_distance(&g.whole, (real[]){1, 1, 1.5}, NULL), -0.5, 1e-12);
     geometry_free(&g);
@@ -141,7 +141,7 @@ static const char msh4[] = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames
 static void check_msh2(const char *name)
 {
     struct geometry g;
-    assert_ok(geometry_read(&g, name, 3, 1));
+    assert_ok(geometry_read(&g, name, 3, 1, NAN));
     assert_close(g.whole.volume, 2, 1e-12);
     assert_int_equal(g.whole.open_edges, 0);
     assert_int_equal(g.whole.shells, 1);
@@ -178,7 +178,7 @@ static void write_msh2_bytes(const char *name)
 static void check_msh4(const char *name)
 {
     struct geometry g;
-    assert_ok(geometry_read(&g, name, 2, 1e-3));
+    assert_ok(geometry_read(&g, name, 2, 1e-3, NAN));
     assert_close(g.whole.volume, 1.5e-6, 1e-12);
     assert_int_equal(g.whole.faces, 5);
     assert_int_equal(g.sets, 2);
@@ -320,7 +320,7 @@ static void abaqus_decks(void **state)
     (void)state;
     struct geometry g;
     write_words("a.inp", flat);
-    assert_ok(geometry_read(&g, "a.inp", 2, 1));
+    assert_ok(geometry_read(&g, "a.inp", 2, 1, NAN));
     assert_close(g.whole.volume, 2, 1e-12);
     assert_int_equal(g.whole.faces, 6);
     assert_close(geometry_find(&g, "right")->hull.volume, 1, 1e-12);
@@ -328,7 +328,7 @@ static void abaqus_decks(void **state)
     assert_close(hull_distance(&geometry_find(&g, "left")->hull, (real[]){0.3, 0.5}, NULL), 0.3, 1e-12);
     geometry_free(&g);
     write_words("b.inp", parts);
-    assert_ok(geometry_read(&g, "b.inp", 3, 1));
+    assert_ok(geometry_read(&g, "b.inp", 3, 1, NAN));
     assert_close(g.whole.volume, 1. / 3, 1e-12);
     assert_int_equal(g.whole.shells, 2);
     /* B is turned by a right angle about a line through (5, 0): its corner 3 at (1, 0) comes to (5, 1) */
@@ -358,7 +358,7 @@ static void abaqus_generates(void **state)
     fputs("*Elset, elset=third, generate\n10, 65, 30\n*Elset, elset=all, generate\n10, 30, 10\n40, 70, 10\n"
           "*Nset, nset=lower, generate\n5, 11, 2\n*Nset, nset=plain, generate\n3, 4\n", file);
     assert_int_equal(fclose(file), 0);
-    assert_ok(geometry_read(&g, "c.inp", 2, 1));
+    assert_ok(geometry_read(&g, "c.inp", 2, 1, NAN));
     assert_close(geometry_find(&g, "third")->hull.volume, 2, 1e-12);     /* 10 and 40 */
     assert_close(geometry_find(&g, "all")->hull.volume, 7, 1e-12);
     assert_close(hull_distance(&geometry_find(&g, "third")->hull, (real[]){2.2, 0.5}, NULL), 0.8, 1e-12);
@@ -430,7 +430,7 @@ static void damaged(void **state)
             write_file(name, copy, size);
             for (int dim = 2; dim <= 3; dim++) {
                 struct geometry g;
-                if (geometry_read(&g, name, dim, 1) != OK) continue;
+                if (geometry_read(&g, name, dim, 1, NAN) != OK) continue;
                 assert_true(g.whole.volume > 0 && hull_distance(&g.whole, (real[]){0, 0, 0}, NULL) < 1e31);
                 geometry_free(&g);
             }

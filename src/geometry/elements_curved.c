@@ -1,0 +1,381 @@
+/* Curved sides of second-order elements: subdivided into straight edges and triangles, so finely that these lie
+ * within a given distance of the curves. Neighbours share the nodes on their common edges. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "elements.h"
+
+enum { PIECES_MOST_SPACE = 64, PIECES_MOST_PLANE = 4096 };
+#define COARSE_MOST 10.0 /* times the wanted distance, up to which PIECES_MOST pieces are enough */
+#define SAGITTA_SHARE (1.0 / 256)
+
+/* ---- edges ------------------------------------------------------------------------------------------------------- */
+
+/* Distance of a middle node from the line through the ends of its edge [unit of the file]; 0 without middle node. */
+static real sagitta_of(const struct element_mesh *m, int32_t from, int32_t to, int32_t middle)
+{
+    if (middle < 0) return 0;
+    const real *a = m->node[from], *b = m->node[to], *c = m->node[middle];
+    real along2 = 0, arm2 = 0, both = 0;
+    for (int d = 0; d < DIM_MAX; d++)
+        along2 += square(b[d] - a[d]), arm2 += square(c[d] - a[d]), both += (b[d] - a[d]) * (c[d] - a[d]);
+    return along2 > 0 ? sqrt(real_max(0, arm2 - square(both) / along2)) : 0;
+}
+
+/* Pieces of a curve of this sagitta whose chords lie within `wanted` of it: the distance falls with their square. */
+static int pieces_for(real sagitta, real wanted, int most)
+{
+    const real pieces = ceil(sqrt(sagitta / wanted));
+    return pieces < 1 ? 1 : pieces > most ? most : (int)pieces;
+}
+
+status builder_fineness(struct builder *b, const char *path, real fine)
+{
+    const struct element_mesh *m = b->m;
+    const int most = b->dim == 3 ? PIECES_MOST_SPACE : PIECES_MOST_PLANE;
+    real sagitta = 0;
+    for (int64_t k = 0; k < m->elements; k++) {
+        const struct element *e = &m->element[k];
+        const struct element_edges *edges = &element_edges[e->kind];
+        for (int c = 0; c < edges->n && e->middle >= 0; c++)
+            sagitta = real_max(sagitta, sagitta_of(m, e->node[edges->corner[c][0]], e->node[edges->corner[c][1]],
+                                                   m->middle[e->middle + c]));
+    }
+    b->sagitta = isnan(fine) ? SAGITTA_SHARE * sagitta : fine / b->scale;
+    b->pieces = sagitta > 0 ? pieces_for(sagitta, b->sagitta, most) : 1;
+    if (sagitta <= COARSE_MOST * b->sagitta * most * most) return OK;
+    return status_set(REFUSED,
+                      "%s: curved edges of its second-order elements bulge by up to %.3g m, and more than %d pieces of "
+                      "them would be needed for the spacing; a mesh of more elements, or a larger particles.spacing, "
+                      "is expected",
+                      path, sagitta * b->scale, most);
+}
+
+/* A new node of the mesh between up to four corners. */
+static int32_t node_between(struct builder *b, const real *X, const int32_t *parent, int parents)
+{
+    const int32_t node = mesh_node_append(b->m, X, -1);
+    const int64_t at = node - b->file_nodes;
+    if (at >= b->parent_room) {
+        const int64_t room = at < 512 ? 1024 : 2 * at;
+        b->parent = memory_resize("mesh.parent", b->parent, b->parent_room, room, sizeof *b->parent);
+        b->parent_room = room;
+    }
+    for (int k = 0; k < 4; k++) b->parent[at][k] = k < parents ? parent[k] : -1;
+    return node;
+}
+
+/* Place of a middle node, or the middle between both ends where there is none. */
+static void middle_place(const struct element_mesh *m, int32_t from, int32_t to, int32_t middle, real X[DIM_MAX])
+{
+    for (int d = 0; d < DIM_MAX; d++)
+        X[d] = middle >= 0 ? m->node[middle][d] : 0.5 * (m->node[from][d] + m->node[to][d]);
+}
+
+/* New nodes that divide an edge into so many pieces; returns the index of the first, in order from `from` to `to`. */
+static int32_t edge_divide(struct builder *b, int32_t from, int32_t to, int32_t middle, int pieces)
+{
+    const int32_t first = (int32_t)b->m->nodes, ends[] = {from, to};
+    for (int k = 1; k < pieces; k++) {
+        const real t = (real)k / pieces;
+        real X[DIM_MAX], M[DIM_MAX];
+        middle_place(b->m, from, to, middle, M);
+        for (int d = 0; d < DIM_MAX; d++)
+            X[d] = (1 - t) * (1 - 2 * t) * b->m->node[from][d] + 4 * t * (1 - t) * M[d] +
+                   t * (2 * t - 1) * b->m->node[to][d];
+        node_between(b, X, ends, 2);
+    }
+    return first;
+}
+
+/* An edge of the plane, or a line in space, as straight pieces. */
+static void line_add(struct builder *b, const struct patch *p)
+{
+    const int32_t from = p->corner[0], to = p->corner[p->n - 1];
+    const real sagitta = p->n > 1 ? sagitta_of(b->m, from, to, p->middle[0]) : 0;
+    const int pieces = pieces_for(sagitta, b->sagitta, b->dim == 3 ? PIECES_MOST_SPACE : PIECES_MOST_PLANE);
+    const int32_t first = edge_divide(b, from, to, p->middle[0], pieces);
+    for (int k = 0; k < pieces; k++) {
+        const int32_t next = k + 1 < pieces ? first + k : to;
+        builder_add(b, k == 0 ? from : first + k - 1, next, next);
+    }
+}
+
+/* ---- sides that two elements share ------------------------------------------------------------------------------- */
+
+void builder_add_patch(struct builder *b, const struct patch *p)
+{
+    if (b->patches == b->patch_room) {
+        const int64_t room = b->patch_room > 0 ? 2 * b->patch_room : 1024;
+        b->patch = memory_resize("mesh.patch", b->patch, b->patch_room, room, sizeof *b->patch);
+        b->patch_room = room;
+    }
+    b->patch[b->patches++] = *p;
+}
+
+/* Corners of a patch in ascending order; turn: +1 or -1, which way it looks. */
+struct patch_key {
+    int32_t corner[4];
+    int turn;
+    int64_t of;
+};
+
+static struct patch_key patch_key_of(const struct patch *p, int64_t of)
+{
+    struct patch_key key = {.of = of};
+    int low = 0;
+    for (int k = 0; k < 4; k++) key.corner[k] = p->corner[k];
+    for (int k = 1; k < p->n; k++)
+        if (p->corner[k] < p->corner[low]) low = k;
+    const int32_t next = p->corner[(low + 1) % p->n], before = p->corner[(low + p->n - 1) % p->n];
+    key.turn = p->n == 2 ? (low == 0 ? 1 : -1) : next < before ? 1 : -1;
+    for (int round = 1; round < p->n; round++)
+        for (int k = 0; k + 1 < p->n; k++) {
+            const int32_t lower = key.corner[k + 1];
+            if (key.corner[k] <= lower) continue;
+            key.corner[k + 1] = key.corner[k], key.corner[k] = lower;
+        }
+    return key;
+}
+
+static int key_order(const void *a, const void *b)
+{
+    const struct patch_key *p = a, *q = b;
+    for (int k = 0; k < 4; k++)
+        if (p->corner[k] != q->corner[k]) return p->corner[k] < q->corner[k] ? -1 : 1;
+    return (p->of > q->of) - (p->of < q->of);
+}
+
+/* Keeps of patches between the same corners one, or none if as many look one way as the other. */
+static void patches_cancel(struct builder *b)
+{
+    struct patch_key *key = NEW("mesh.keys", b->patches, struct patch_key);
+    bool *stays = NEW("mesh.keys", b->patches, bool);
+    int64_t kept = 0;
+    for (int64_t k = 0; k < b->patches; k++) key[k] = patch_key_of(&b->patch[k], k);
+    array_sort(key, b->patches, sizeof *key, key_order);
+    for (int64_t k = 0, end; k < b->patches; k = end) {
+        int sum = 0;
+        for (end = k; end < b->patches && arrays_equal(key[k].corner, key[end].corner, 4, sizeof *key->corner); end++)
+            sum += key[end].turn;
+        for (int64_t i = k; i < end && sum != 0; i++) {
+            if (key[i].turn * sum < 0) continue;
+            stays[key[i].of] = true;
+            break;
+        }
+    }
+    for (int64_t k = 0; k < b->patches; k++)
+        if (stays[k]) b->patch[kept++] = b->patch[k];
+    b->patches = kept;
+    memory_free(key);
+    memory_free(stays);
+}
+
+/* ---- faces in space ---------------------------------------------------------------------------------------------- */
+
+/* An edge of patches; divided: it has nodes first .. between its ends, from the lower one on. */
+struct curve {
+    int32_t low, high, middle, first;
+    bool divided;
+};
+struct curves {
+    int64_t n;
+    struct curve *curve;
+};
+
+static int curve_order(const void *a, const void *b)
+{
+    const struct curve *p = a, *q = b;
+    if (p->low != q->low) return p->low < q->low ? -1 : 1;
+    if (p->high != q->high) return p->high < q->high ? -1 : 1;
+    return (p->middle > q->middle) - (p->middle < q->middle);
+}
+
+static struct curve curve_of(const struct patch *p, int k)
+{
+    const int32_t from = p->corner[k], to = p->corner[(k + 1) % p->n];
+    return (struct curve){.low = from < to ? from : to, .high = from < to ? to : from, .middle = p->middle[k]};
+}
+
+/* The edge k of a patch in the list. */
+static struct curve *curve_find(const struct curves *c, const struct patch *p, int k)
+{
+    const struct curve wanted = curve_of(p, k);
+    int64_t low = 0, high = c->n;
+    while (low < high) {
+        const int64_t middle = low + (high - low) / 2;
+        if (curve_order(&c->curve[middle], &wanted) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return &c->curve[low];
+}
+
+/* Is an edge of a patch curved, or does its own middle node lie beside the middle of its corners? */
+static bool patch_curved(const struct builder *b, const struct patch *p)
+{
+    const struct element_mesh *m = b->m;
+    bool curved = false;
+    real off2 = 0;
+    for (int k = 0; k < p->n; k++)
+        curved |= sagitta_of(m, p->corner[k], p->corner[(k + 1) % p->n], p->middle[k]) > b->sagitta;
+    for (int d = 0; d < DIM_MAX && p->centre >= 0; d++) {
+        real mean = 0;
+        for (int k = 0; k < p->n; k++) mean += m->node[p->corner[k]][d] / p->n;
+        off2 += square(m->node[p->centre][d] - mean);
+    }
+    return curved || off2 > square(b->sagitta);
+}
+
+/* Lists the edges of all patches; those of curved ones are divided. */
+static void curves_make(struct curves *c, struct builder *b)
+{
+    int64_t kept = 0;
+    c->curve = NEW("mesh.curves", 4 * b->patches, struct curve);
+    for (int64_t k = 0; k < b->patches; k++)
+        for (int e = 0; e < b->patch[k].n; e++) c->curve[c->n++] = curve_of(&b->patch[k], e);
+    array_sort(c->curve, c->n, sizeof *c->curve, curve_order);
+    for (int64_t k = 0; k < c->n; k++)
+        if (k == 0 || curve_order(&c->curve[kept - 1], &c->curve[k]) != 0) c->curve[kept++] = c->curve[k];
+    c->n = kept;
+    for (int64_t k = 0; k < b->patches; k++) {
+        const struct patch *p = &b->patch[k];
+        const bool curved = patch_curved(b, p);
+        for (int e = 0; e < p->n && curved; e++) curve_find(c, p, e)->divided = true;
+    }
+    for (int64_t k = 0; k < c->n; k++) {
+        struct curve *e = &c->curve[k];
+        e->divided = e->divided && e->low != e->high;
+        if (e->divided) e->first = edge_divide(b, e->low, e->high, e->middle, b->pieces);
+    }
+}
+
+/* Node number `at` of 0 .. pieces on edge k of a patch, from its corner k on. */
+static int32_t curve_node(const struct builder *b, const struct curves *c, const struct patch *p, int k, int at)
+{
+    const struct curve *e = curve_find(c, p, k);
+    if (at == 0) return p->corner[k];
+    if (at == b->pieces || !e->divided) return p->corner[(k + 1) % p->n];
+    return e->first + (p->corner[k] == e->low ? at : b->pieces - at) - 1;
+}
+
+/* A place on a triangle of six nodes; u, v: shares of its corners 1 and 2. */
+static void triangle_place(const struct element_mesh *m, const struct patch *p, real u, real v, real X[DIM_MAX])
+{
+    const real L[3] = {1 - u - v, u, v};
+    real M[DIM_MAX];
+    for (int d = 0; d < DIM_MAX; d++) X[d] = 0;
+    for (int k = 0; k < 3; k++) {
+        const int next = (k + 1) % 3;
+        middle_place(m, p->corner[k], p->corner[next], p->middle[k], M);
+        for (int d = 0; d < DIM_MAX; d++)
+            X[d] += L[k] * (2 * L[k] - 1) * m->node[p->corner[k]][d] + 4 * L[k] * L[next] * M[d];
+    }
+}
+
+/* A place on a quadrilateral of eight nodes, each of whose coordinates goes from -1 to 1. */
+static void quad_place(const struct element_mesh *m, const struct patch *p, real x, real y, real X[DIM_MAX])
+{
+    static const int at[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, side[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
+    real M[DIM_MAX];
+    for (int d = 0; d < DIM_MAX; d++) X[d] = 0;
+    for (int k = 0; k < 4; k++) {
+        const real a = x * at[k][0], b = y * at[k][1], along = side[k][0] == 0 ? x : y;
+        const real corner = 0.25 * (1 + a) * (1 + b) * (a + b - 1);
+        const real middle = 0.5 * (1 - along * along) * (1 + x * side[k][0] + y * side[k][1]);
+        middle_place(m, p->corner[k], p->corner[(k + 1) % 4], p->middle[k], M);
+        for (int d = 0; d < DIM_MAX; d++) X[d] += corner * m->node[p->corner[k]][d] + middle * M[d];
+    }
+}
+
+/* The same with its own middle node, if it has one. */
+static void quad_place_whole(const struct element_mesh *m, const struct patch *p, real x, real y, real X[DIM_MAX])
+{
+    real middle[DIM_MAX];
+    quad_place(m, p, x, y, X);
+    if (p->centre < 0) return;
+    quad_place(m, p, 0, 0, middle);
+    for (int d = 0; d < DIM_MAX; d++) X[d] += (1 - x * x) * (1 - y * y) * (m->node[p->centre][d] - middle[d]);
+}
+
+/* The node i, j of 0 .. pieces on a curved patch: on its edges theirs, within it a new one. */
+static int32_t grid_node(struct builder *b, const struct curves *c, const struct patch *p, int i, int j)
+{
+    const int n = b->pieces;
+    real X[DIM_MAX];
+    if (j == 0) return curve_node(b, c, p, 0, i);
+    if (i == 0) return curve_node(b, c, p, p->n - 1, n - j);
+    if (p->n == 3 && i + j == n) return curve_node(b, c, p, 1, j);
+    if (p->n == 4 && i == n) return curve_node(b, c, p, 1, j);
+    if (p->n == 4 && j == n) return curve_node(b, c, p, 2, n - i);
+    if (p->n == 3)
+        triangle_place(b->m, p, (real)i / n, (real)j / n, X);
+    else
+        quad_place_whole(b->m, p, 2.0 * i / n - 1, 2.0 * j / n - 1, X);
+    return node_between(b, X, p->corner, p->n);
+}
+
+/* Triangles of a curved patch; row: room for two rows of nodes. */
+static void patch_divide(struct builder *b, const struct curves *c, const struct patch *p, int32_t *row)
+{
+    const int n = b->pieces;
+    int32_t *low = row, *high = row + n + 1;
+    for (int i = 0; i <= n; i++) low[i] = grid_node(b, c, p, i, 0);
+    for (int j = 0; j < n; j++) {
+        const int end = p->n == 3 ? n - j : n;
+        for (int i = 0; i <= (p->n == 3 ? end - 1 : n); i++) high[i] = grid_node(b, c, p, i, j + 1);
+        for (int i = 0; i < end; i++) {
+            builder_add(b, low[i], low[i + 1], high[i]);
+            if (p->n == 4 || i + 1 < end) builder_add(b, low[i + 1], high[i + 1], high[i]);
+        }
+        int32_t *other = low;
+        low = high, high = other;
+    }
+}
+
+/* Triangles of a plane patch some of whose edges are divided: round a new node in its middle. */
+static void patch_star(struct builder *b, const struct curves *c, const struct patch *p)
+{
+    real X[DIM_MAX] = {0};
+    for (int k = 0; k < p->n; k++)
+        for (int d = 0; d < DIM_MAX; d++) X[d] += b->m->node[p->corner[k]][d] / p->n;
+    const int32_t middle = node_between(b, X, p->corner, p->n);
+    for (int k = 0; k < p->n; k++) {
+        const int pieces = curve_find(c, p, k)->divided ? b->pieces : 1;
+        for (int at = 0; at < pieces; at++)
+            builder_add(b, middle, curve_node(b, c, p, k, at),
+                        pieces == 1 ? p->corner[(k + 1) % p->n] : curve_node(b, c, p, k, at + 1));
+    }
+}
+
+static void patch_add(struct builder *b, const struct curves *c, const struct patch *p, int32_t *row)
+{
+    bool divided = false;
+    for (int k = 0; k < p->n; k++) divided |= curve_find(c, p, k)->divided;
+    if (!divided)
+        builder_add_side(b, p->corner, p->n);
+    else if (patch_curved(b, p))
+        patch_divide(b, c, p, row);
+    else
+        patch_star(b, c, p);
+}
+
+void builder_curve(struct builder *b, bool closed)
+{
+    struct curves c = {0};
+    if (b->patches == 0) return;
+    if (closed) patches_cancel(b);
+    const bool faces = b->dim == 3 && b->patches > 0;
+    int32_t *row = NEW("mesh.rows", 2 * (b->pieces + 1), int32_t);
+    if (faces) curves_make(&c, b);
+    for (int64_t k = 0; k < b->patches; k++) {
+        if (b->patch[k].n < 3)
+            line_add(b, &b->patch[k]);
+        else
+            patch_add(b, &c, &b->patch[k], row);
+    }
+    b->patches = 0;
+    memory_free(row);
+    memory_free(c.curve);
+}
