@@ -1,6 +1,8 @@
 /* Images and stacks of images as grids of grey values: PNG, and TIFF of one or several pages. Colours and palettes
  * become their luminance; transparency is not looked at; grey values stay as the file has them, those of 1, 2 and 4
- * bits scaled to 0..255, of 16 bits 0..65535. */
+ * bits scaled to 0..255, of 16 bits 0..65535. Values with a sign, with fractions or of other numbers of bits are
+ * refused.
+ */
 #ifndef CLEAVE_IMAGE
 #define CLEAVE_IMAGE
 

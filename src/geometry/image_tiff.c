@@ -1,4 +1,5 @@
-/* TIFF by libtiff, from the bytes of the file: pages of grey values of 8 or 16 bits, others by their colours. */
+/* TIFF by libtiff, from the bytes of the file: pages of grey values or colours of 8 or 16 bits by their samples, others
+ * (palettes, fewer bits, YCbCr) by their colours of 8 bits. */
 #include <stdio.h>
 #include <tiffio.h>
 
@@ -43,27 +44,128 @@ static int tag_of(TIFF *tiff, uint32_t tag)
     return TIFFGetFieldDefaulted(tiff, tag, &value) ? value : 0;
 }
 
-/* Rows of single grey values of one or two bytes, in strips. */
-static bool plain_rows(TIFF *tiff, int bits, int64_t width)
+enum { SAMPLES_MOST = 64, TILE_MOST = 1 << 22 }; /* of a pixel; pixels of a tile of a small image */
+
+/* What the samples of a page are. */
+struct samples {
+    int bits, format, photometric, count, orientation;
+    bool tiled, separate; /* in tiles; each sample in a plane of its own */
+    int64_t width, height;
+};
+
+static struct samples samples_of(TIFF *tiff)
 {
-    return (bits == 8 || bits == 16) && tag_of(tiff, TIFFTAG_SAMPLESPERPIXEL) == 1 && !TIFFIsTiled(tiff) &&
-           tag_of(tiff, TIFFTAG_PHOTOMETRIC) <= PHOTOMETRIC_MINISBLACK && TIFFScanlineSize(tiff) == width * bits / 8;
+    uint32_t width = 0, height = 0;
+    uint16_t photometric = PHOTOMETRIC_MINISBLACK;
+    TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &width);
+    TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &height);
+    TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
+    return (struct samples){.bits = tag_of(tiff, TIFFTAG_BITSPERSAMPLE),
+                            .format = tag_of(tiff, TIFFTAG_SAMPLEFORMAT),
+                            .photometric = photometric,
+                            .count = tag_of(tiff, TIFFTAG_SAMPLESPERPIXEL),
+                            .orientation = tag_of(tiff, TIFFTAG_ORIENTATION),
+                            .tiled = TIFFIsTiled(tiff),
+                            .separate = tag_of(tiff, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_SEPARATE,
+                            .width = width,
+                            .height = height};
 }
 
-static bool rows_read(TIFF *tiff, uint16_t *page, int64_t width, int64_t height, int bits)
+/* Number of samples that are looked at where they are whole bytes of grey values or of red, green and blue; what
+ * follows them is transparency. 0: another kind, which libtiff turns into colours of 8 bits. */
+static int samples_used(const struct samples *a)
 {
-    const bool white = tag_of(tiff, TIFFTAG_PHOTOMETRIC) == PHOTOMETRIC_MINISWHITE;
-    uint8_t *row = memory_bare("image.row", TIFFScanlineSize(tiff), 1);
-    bool good = true;
-    for (int64_t j = 0; j < height && good; j++) {
-        good = TIFFReadScanline(tiff, row, (uint32_t)j, 0) == 1;
-        for (int64_t i = 0; i < width && good; i++) {
-            uint16_t grey = row[bits == 8 ? i : 0];
-            if (bits == 16) memcpy(&grey, row + 2 * i, 2);
-            page[j * width + i] = white ? (uint16_t)((bits == 8 ? UINT8_MAX : UINT16_MAX) - grey) : grey;
+    const int used = a->photometric <= PHOTOMETRIC_MINISBLACK ? 1 : a->photometric == PHOTOMETRIC_RGB ? 3 : 0;
+    return (a->bits == 8 || a->bits == 16) && a->count >= used ? used : 0;
+}
+
+/* REFUSED for samples that are no grey values of up to 16 bits without a sign. */
+static status check_samples(const struct samples *a, const char *path)
+{
+    if (a->format == SAMPLEFORMAT_IEEEFP || a->format == SAMPLEFORMAT_COMPLEXIEEEFP || a->bits > 16)
+        return status_set(REFUSED, "%s: values of %d bits or with fractions; grey values of 8 or 16 bits are expected",
+                          path, a->bits);
+    if (a->format == SAMPLEFORMAT_INT || a->format == SAMPLEFORMAT_COMPLEXINT)
+        return status_set(REFUSED,
+                          "%s: values of %d bits with a sign; grey values without are expected: add %d to "
+                          "each and save them as unsigned",
+                          path, a->bits, 1 << (a->bits - 1));
+    if (a->bits != 1 && a->bits != 2 && a->bits != 4 && a->bits != 8 && a->bits != 16)
+        return status_set(REFUSED, "%s: values of %d bits; grey values of 8 or 16 bits are expected", path, a->bits);
+    if (a->bits == 16 && samples_used(a) == 0)
+        return status_set(REFUSED,
+                          "%s: values of 16 bits that are neither grey nor red, green and blue; these, or 8 "
+                          "bits, are expected",
+                          path);
+    if (a->orientation >= ORIENTATION_TOPLEFT && a->orientation <= ORIENTATION_BOTLEFT) return OK;
+    return status_set(REFUSED,
+                      "%s: its rows are columns (orientation %d); an image that begins with its upper row is "
+                      "expected",
+                      path, a->orientation);
+}
+
+/* Samples of a page while they are read. */
+struct planes {
+    const struct samples *of;
+    int used;         /* of each pixel */
+    uint16_t *sample; /* [used][height][width], the upper row first, from the left */
+};
+
+/* Puts n pixels from column x of row y on into their places; `from`: samples `first` .. of each pixel, `stride` of
+ * them. */
+static void planes_take(struct planes *p, const void *from, int64_t x, int64_t y, int64_t n, int stride, int first)
+{
+    const struct samples *a = p->of;
+    const bool right = a->orientation == ORIENTATION_TOPRIGHT || a->orientation == ORIENTATION_BOTRIGHT;
+    const bool bottom = a->orientation == ORIENTATION_BOTLEFT || a->orientation == ORIENTATION_BOTRIGHT;
+    const uint8_t *narrow = from;
+    const uint16_t *wide = from;
+    for (int64_t i = 0; i < n && x + i < a->width && y < a->height; i++)
+        for (int c = 0; c < stride && first + c < p->used; c++) {
+            const int64_t column = right ? a->width - 1 - x - i : x + i, row = bottom ? a->height - 1 - y : y;
+            const int value = a->bits == 8 ? narrow[stride * i + c] : wide[stride * i + c];
+            p->sample[((first + c) * a->height + row) * a->width + column] = (uint16_t)value;
         }
+}
+
+/* Reads the rows, or tiles, that hold the samples from `first` on, `stride` of each pixel. */
+static bool planes_read(TIFF *tiff, struct planes *p, int stride, int first)
+{
+    const struct samples *a = p->of;
+    uint32_t wide = (uint32_t)a->width, high = 1;
+    if (a->tiled && !(TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &wide) && TIFFGetField(tiff, TIFFTAG_TILELENGTH, &high)))
+        return false;
+    if (a->count > SAMPLES_MOST || (int64_t)wide * high > 4 * a->width * a->height + TILE_MOST) return false;
+    const int64_t bytes = (int64_t)wide * stride * a->bits / 8;
+    const int64_t size = a->tiled ? TIFFTileSize(tiff) : TIFFScanlineSize(tiff);
+    if (wide == 0 || high == 0 || size < bytes * high) return false;
+    uint8_t *buffer = memory_bare("image.row", size, 1);
+    bool good = true;
+    for (int64_t y = 0; y < a->height && good; y += high)
+        for (int64_t x = 0; x < a->width && good; x += wide) {
+            good = a->tiled ? TIFFReadTile(tiff, buffer, (uint32_t)x, (uint32_t)y, 0, (uint16_t)first) > 0
+                            : TIFFReadScanline(tiff, buffer, (uint32_t)y, (uint16_t)first) == 1;
+            for (uint32_t row = 0; row < high && good; row++)
+                planes_take(p, buffer + row * bytes, x, y + row, wide, stride, first);
+        }
+    memory_free(buffer);
+    return good;
+}
+
+/* Grey values of a page whose samples are whole bytes. */
+static bool samples_read(TIFF *tiff, uint16_t *page, const struct samples *a)
+{
+    const int64_t size = a->width * a->height;
+    const int most = a->bits == 8 ? UINT8_MAX : UINT16_MAX;
+    struct planes p = {.of = a, .used = samples_used(a)};
+    p.sample = p.used == 1 ? page : BARE("image.colours", p.used * size, uint16_t);
+    bool good = a->separate || planes_read(tiff, &p, a->count, 0);
+    for (int c = 0; c < p.used && a->separate && good; c++) good = planes_read(tiff, &p, 1, c);
+    for (int64_t k = 0; k < size && good; k++) {
+        if (p.used == 3) page[k] = (uint16_t)luminance(p.sample[k], p.sample[size + k], p.sample[2 * size + k]);
+        if (a->photometric == PHOTOMETRIC_MINISWHITE) page[k] = (uint16_t)(most - page[k]);
     }
-    memory_free(row);
+    if (p.used == 3) memory_free(p.sample);
     return good;
 }
 
@@ -82,17 +184,11 @@ static bool colours_read(TIFF *tiff, uint16_t *page, int64_t width, int64_t heig
 
 static status tiff_page(TIFF *tiff, struct pages *p, const struct source *s)
 {
-    uint32_t width = 0, height = 0;
+    const struct samples a = samples_of(tiff);
     uint16_t *page;
-    const int bits = tag_of(tiff, TIFFTAG_BITSPERSAMPLE), format = tag_of(tiff, TIFFTAG_SAMPLEFORMAT);
-    TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &width);
-    TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &height);
-    if (format == SAMPLEFORMAT_IEEEFP || bits > 16)
-        return status_set(REFUSED, "%s: values of %d bits or with fractions; grey values of 8 or 16 bits are expected",
-                          s->path, bits);
-    TRY(pages_add(p, s, width, height, &page));
-    const bool good = plain_rows(tiff, bits, width) ? rows_read(tiff, page, width, height, bits)
-                                                    : colours_read(tiff, page, width, height);
+    TRY(check_samples(&a, s->path));
+    TRY(pages_add(p, s, a.width, a.height, &page));
+    const bool good = samples_used(&a) > 0 ? samples_read(tiff, page, &a) : colours_read(tiff, page, a.width, a.height);
     return good ? OK
                 : status_set(REFUSED, "%s: page %lld cannot be read; it is cut off or of a kind that is not read",
                              s->path, (long long)p->n);

@@ -31,13 +31,17 @@ static void write_png(const char *name, int kind, int bits)
                  PNG_FILTER_TYPE_DEFAULT);
     if (kind == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette, 256);
     png_write_info(png, info);
-    const int samples = kind == PNG_COLOR_TYPE_RGB_ALPHA ? 4 : kind == PNG_COLOR_TYPE_RGB ? 3 : 1;
+    const int samples = kind == PNG_COLOR_TYPE_RGB_ALPHA    ? 4
+                        : kind == PNG_COLOR_TYPE_RGB        ? 3
+                        : kind == PNG_COLOR_TYPE_GRAY_ALPHA ? 2
+                                                            : 1;
     for (int j = 0; j < HIGH; j++) {
         memset(row, 0, sizeof row);
         for (int i = 0; i < WIDE; i++) {
             const int value = value_at(j, i, 0);
             for (int c = 0; c < samples && bits == 8; c++) row[samples * i + c] = (png_byte)value;
-            if (bits == 16) row[2 * i] = (png_byte)value, row[2 * i + 1] = 7;
+            for (int c = 0; c < samples && bits == 16; c++)
+                row[2 * (samples * i + c)] = (png_byte)value, row[2 * (samples * i + c) + 1] = 7;
             if (bits == 1 && value > 127) row[0] = (png_byte)(row[0] | 0x80 >> i);
         }
         png_write_row(png, row);
@@ -104,7 +108,9 @@ static void kinds_of_images(void **state)
     static const struct {
         int kind, bits;
     } png[] = {{PNG_COLOR_TYPE_GRAY, 8}, {PNG_COLOR_TYPE_GRAY, 16},     {PNG_COLOR_TYPE_GRAY, 1},
-               {PNG_COLOR_TYPE_RGB, 8},  {PNG_COLOR_TYPE_RGB_ALPHA, 8}, {PNG_COLOR_TYPE_PALETTE, 8}};
+               {PNG_COLOR_TYPE_RGB, 8},  {PNG_COLOR_TYPE_RGB_ALPHA, 8}, {PNG_COLOR_TYPE_PALETTE, 8},
+               {PNG_COLOR_TYPE_RGB, 16}, {PNG_COLOR_TYPE_RGB_ALPHA, 16}, {PNG_COLOR_TYPE_GRAY_ALPHA, 8},
+               {PNG_COLOR_TYPE_GRAY_ALPHA, 16}};
     for (size_t k = 0; k < COUNT_OF(png); k++) {
         write_png("a.png", png[k].kind, png[k].bits);
         check_values("a.png", 2, 1, png[k].bits);
@@ -115,6 +121,104 @@ static void kinds_of_images(void **state)
     check_values("a.tif", 3, 2, 16);
     write_tiff("b.tif", 1, 8, 3, COMPRESSION_NONE);
     check_values("b.tif", 2, 1, 8);
+}
+
+/* How a page of TIFF holds its samples. */
+struct layout {
+    int bits, samples, planar, orientation, format;
+    bool tiled, white;
+};
+
+/* Transparency of 3/8, associated or not, says nothing about the value. */
+static int sample_at(const struct layout *a, int j, int i, int c)
+{
+    const bool right = a->orientation == ORIENTATION_TOPRIGHT || a->orientation == ORIENTATION_BOTRIGHT;
+    const int row = a->orientation >= ORIENTATION_BOTRIGHT ? HIGH - 1 - j : j, column = right ? WIDE - 1 - i : i;
+    const int most = a->bits == 16 ? 65535 : 255;
+    const int value = row < 0 || column < 0 || row >= HIGH || column >= WIDE ? 0
+                      : a->bits == 16 ? value_at(row, column, 0) * 256 + 7 : value_at(row, column, 0);
+    return a->samples % 2 == 0 && c == a->samples - 1 ? most * 3 / 8 : a->white ? most - value : value;
+}
+
+/* A row of one tile of 16 x 16, or of the image; plane -1: all samples of a pixel together. */
+static void fill_row(const struct layout *a, uint8_t *row, int j, int wide, int plane)
+{
+    const int n = plane < 0 ? a->samples : 1;
+    for (int i = 0; i < wide; i++)
+        for (int c = 0; c < n; c++) {
+            const uint16_t value = (uint16_t)sample_at(a, j, i, plane < 0 ? c : plane);
+            if (a->bits == 16) memcpy(row + 2 * (n * i + c), &value, 2);
+            else row[n * i + c] = (uint8_t)value;
+        }
+}
+
+static void write_layout(const char *name, const struct layout *a)
+{
+    const uint16_t extra = EXTRASAMPLE_UNASSALPHA;
+    TIFF *tiff = TIFFOpen(name, "w");
+    uint8_t tile[16 * 16 * 8];
+    TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, WIDE);
+    TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, HIGH);
+    TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, a->bits);
+    TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, a->samples);
+    TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, a->samples > 2 ? PHOTOMETRIC_RGB : a->white ? PHOTOMETRIC_MINISWHITE
+                                                                                         : PHOTOMETRIC_MINISBLACK);
+    TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, a->planar);
+    TIFFSetField(tiff, TIFFTAG_ORIENTATION, a->orientation);
+    TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, a->format);
+    TIFFSetField(tiff, TIFFTAG_COMPRESSION, a->bits == 16 ? COMPRESSION_LZW : COMPRESSION_NONE);
+    if (a->samples % 2 == 0) TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &extra);
+    if (a->tiled) TIFFSetField(tiff, TIFFTAG_TILEWIDTH, 16), TIFFSetField(tiff, TIFFTAG_TILELENGTH, 16);
+    else TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 2);
+    for (int c = 0; c < (a->planar == PLANARCONFIG_SEPARATE ? a->samples : 1); c++) {
+        const int plane = a->planar == PLANARCONFIG_SEPARATE ? c : -1, wide = a->tiled ? 16 : WIDE;
+        const int bytes = wide * (plane < 0 ? a->samples : 1) * a->bits / 8;
+        for (int j = 0; j < (a->tiled ? 16 : HIGH); j++) {
+            fill_row(a, tile + (a->tiled ? j * bytes : 0), j, wide, plane);
+            if (!a->tiled) assert_int_equal(TIFFWriteScanline(tiff, tile, (uint32_t)j, (uint16_t)c), 1);
+        }
+        if (a->tiled) assert_true(TIFFWriteTile(tiff, tile, 0, 0, 0, (uint16_t)c) > 0);
+    }
+    TIFFClose(tiff);
+}
+
+/* Bits, transparency, colours, planes, tiles and the order of rows do not change a value. */
+static void layouts_of_tiff(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2 * 4 * 2 * 2 * 4 * 2; k++) {
+        const struct layout a = {.bits = k & 1 ? 16 : 8, .samples = 1 + k / 2 % 4, .tiled = k / 8 & 1,
+                                 .planar = k / 16 & 1 ? PLANARCONFIG_SEPARATE : PLANARCONFIG_CONTIG,
+                                 .orientation = 1 + k / 32 % 4, .white = k / 128 && k / 2 % 4 < 2,
+                                 .format = SAMPLEFORMAT_UINT};
+        write_layout("a.tif", &a);
+        check_values("a.tif", 2, 1, a.bits);
+    }
+}
+
+/* Signs, fractions, other numbers of bits, columns in place of rows. */
+static void samples_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        struct layout layout;
+        const char *message;
+    } bad[] = {{{.bits = 16, .format = SAMPLEFORMAT_INT}, "a.tif: values of 16 bits with a sign; grey values without "
+                                                          "are expected: add 32768 to each"},
+               {{.bits = 8, .format = SAMPLEFORMAT_INT}, "a.tif: values of 8 bits with a sign"},
+               {{.bits = 16, .format = SAMPLEFORMAT_IEEEFP}, "with fractions"},
+               {{.bits = 12, .format = SAMPLEFORMAT_UINT}, "a.tif: values of 12 bits; grey values of 8 or 16"},
+               {{.bits = 32, .format = SAMPLEFORMAT_UINT}, "values of 32 bits or with fractions"},
+               {{.bits = 8, .format = SAMPLEFORMAT_UINT, .orientation = ORIENTATION_LEFTTOP}, "its rows are columns"}};
+    struct voxels v;
+    char name[] = "a.tif", *const paths[] = {name};
+    for (size_t k = 0; k < COUNT_OF(bad); k++) {
+        struct layout a = bad[k].layout;
+        a.samples = 1, a.planar = PLANARCONFIG_CONTIG;
+        if (a.orientation == 0) a.orientation = ORIENTATION_TOPLEFT;
+        write_layout(name, &a);
+        assert_refused(image_read(&v, 1, paths, 2, size, from), bad[k].message);
+    }
 }
 
 /* Slices of several files, PNG and TIFF mixed; in the plane there is but one. */
@@ -255,7 +359,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kinds_of_images), cmocka_unit_test(a_stack_of_files), cmocka_unit_test(bad_images),
         cmocka_unit_test(distances),       cmocka_unit_test(damaged),
-        cmocka_unit_test(colours_have_a_luminance),
+        cmocka_unit_test(colours_have_a_luminance), cmocka_unit_test(layouts_of_tiff),
+        cmocka_unit_test(samples_refused),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
