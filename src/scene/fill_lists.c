@@ -128,14 +128,23 @@ static struct verdict crowd_look(const struct crowd *c)
 
 /* ---- messages ---------------------------------------------------------------------------------------------------- */
 
-/* Guess of the unit from the ratio of two lengths, as " (is it in mm?)"; "" where no unit is within a factor of 2. */
-static const char *unit_guess(real ratio)
+/* Guess of the unit of a list from the ratio of a length to the one that is expected. A list in mm whose particles
+ * are a tenth as far apart as the spacing looks like one in cm: then both are named. by_volume: the same ratio from
+ * volumes that the list gives in m^3, which decides; NAN without. "" where no unit comes near. */
+static const char *unit_guess(real ratio, real by_volume)
 {
-    static const struct { real ratio; const char *guess; } unit[] = {
-        {1e2, " (is it in cm?)"}, {1e3, " (is it in mm?)"}, {1e6, " (is it in um?)"}};
+    static const struct {
+        real ratio;
+        const char *guess;
+    } unit[] = {{1e2, " (is it in cm? its volumes say so)"},
+                {1e3, " (is it in mm? its volumes say so)"},
+                {1e6, " (is it in um? its volumes say so)"}};
     for (size_t k = 0; k < COUNT_OF(unit); k++)
-        if (fabs(log(ratio / unit[k].ratio)) < log(2)) return unit[k].guess;
-    return "";
+        if (fabs(log(by_volume / unit[k].ratio)) < log(1.5)) return unit[k].guess;
+    return ratio > 30 && ratio < 400        ? " (is it in mm, or in cm?)"
+           : ratio >= 400 && ratio < 3e4    ? " (is it in mm?)"
+           : ratio > 1.5e5 && ratio < 1.5e7 ? " (is it in um?)"
+                                            : "";
 }
 
 static const char *volume_guess(real ratio)
@@ -162,6 +171,8 @@ static status refuse_list(const struct crowd *c, const char *format, ...)
 static status crowd_judge(const struct crowd *c, const struct verdict *v)
 {
     const real spacing = c->s->spacing, bytes = BYTES_PER_BOND * v->family * (real)c->n;
+    const real by_volume =
+        c->s->body[c->body].list.volumes ? pow(v->filled, -1.0 / (real)c->s->dim) : NAN; /* of a filled list 1 */
     if (!isfinite(v->apart)) return OK;          /* all in one place: refused by check_distances (fill.c) */
     if (v->lone > LONE_MOST)
         return refuse_list(
@@ -169,13 +180,13 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
             "%s%.0f %% of its particles have no neighbour within %.4g spacings of %.4g m: those of the list are "
             "%.4g m apart; a list in m is expected%s, or a particles.spacing of about %.2g m",
             c->n > LOOKED_AT ? "about " : "", 100 * v->lone, c->reach / spacing, spacing, v->apart,
-            unit_guess(v->apart / spacing), v->apart);
+            unit_guess(v->apart / spacing, by_volume), v->apart);
     if (v->apart < CLOSE_LEAST * spacing)
         return refuse_list(
             c,
             "neighbours of the list are %.4g m apart, and the spacing is %.4g m; a particles.spacing of about "
             "%.2g m is expected%s, or a list in m",
-            v->apart, spacing, v->apart, unit_guess(spacing / v->apart));
+            v->apart, spacing, v->apart, unit_guess(spacing / v->apart, NAN));
     if (!(v->filled < VOLUME_MOST && v->filled > 1 / VOLUME_MOST))
         return refuse_list(
             c,

@@ -49,6 +49,7 @@ void note_add(struct particle_list_head *head, const char *between, const char *
 void note_columns(struct particle_list_head *head, const bool *has)
 {
     head->material = has[COLUMN_MATERIAL], head->mass = has[COLUMN_MASS] || has[COLUMN_DENSITY];
+    head->volumes = has[COLUMN_VOLUME];
     if (head->note[0]) note_add(head, " ", "not read");
     if (head->unnamed) note_add(head, "; ", "read as x y z block_id volume");
     if (head->block) note_add(head, "; ", "block_id is the material, counted from 1");

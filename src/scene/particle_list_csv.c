@@ -117,24 +117,64 @@ static void header_bare(char *text)
 {
     static const char word[] = "header:";
     for (; *text == '#' || *text == ' ' || *text == '\t'; text++) *text = ' ';
-    if (strncasecmp(text, word, sizeof word - 1) == 0) memset(text, ' ', sizeof word - 1);
+    if (strncasecmp(text, word, sizeof word - 1) != 0) return;
+    memset(text, ' ', sizeof word - 1);
+    for (text += sizeof word - 1; *text == '\t' || *text == ' '; text++) *text = ' ';
+}
+
+/* True if a line has neither commas nor semicolons, so that tabs and blanks separate its fields. */
+static bool line_of_blanks(const char *text) { return !strpbrk(text, ",;"); }
+
+static void tabs_to_blanks(char *text)
+{
+    for (; *text; text++)
+        if (*text == '\t') *text = ' ';
+}
+
+/* Counts the names in a header; *all: whether all coordinates are among them. */
+static int header_count(const char *names, int dim, bool *all)
+{
+    struct csv trial = {0};
+    bool has[COLUMNS + 2] = {false};
+    int n = 0;
+    strcpy(trial.in.text, names);
+    header_separate(&trial);
+    char *rest = trial.in.text;
+    for (char *name; (name = csv_field(&trial.in, &rest)) != NULL; n++) {
+        csv_unit(name);
+        has[column_named(name, dim)] = true;
+    }
+    *all = true;
+    for (int k = 0; k < dim; k++) *all = *all && has[k];
+    return n;
 }
 
 /* Does a comment name all coordinates, so that it is a header? */
 static bool comment_names(const char *comment, int dim)
 {
-    struct csv trial = {0};
-    bool has[COLUMNS + 2] = {false};
-    strcpy(trial.in.text, comment);
-    header_separate(&trial);
-    char *rest = trial.in.text;
-    for (char *name; (name = csv_field(&trial.in, &rest)) != NULL;) {
-        csv_unit(name);
-        has[column_named(name, dim)] = true;
-    }
-    for (int k = 0; k < dim; k++)
-        if (!has[k]) return false;
-    return true;
+    char blank[CSV_LINE_LENGTH];
+    bool by_tabs, by_blanks;
+    strcpy(blank, comment);
+    if (line_of_blanks(comment)) tabs_to_blanks(blank);
+    header_count(comment, dim, &by_tabs);
+    header_count(blank, dim, &by_blanks);
+    return by_tabs || by_blanks;
+}
+
+/* Makes blanks of the tabs in a header where both separate alike: where it has then as many names, all coordinates
+ * among them, as the first entry has values between blanks or tabs. Else each tab ends a field, which may be empty. */
+static void header_unify(char *names, const char *entry, int dim)
+{
+    char blank[CSV_LINE_LENGTH], values[CSV_LINE_LENGTH], *rest = values;
+    const struct csv_file by_blanks = {.separator = ' '};
+    bool all;
+    int n = 0;
+    if (!strchr(names, '\t') || !line_of_blanks(names)) return;
+    strcpy(blank, names);
+    strcpy(values, entry);
+    tabs_to_blanks(blank);
+    while (csv_field(&by_blanks, &rest)) n++;
+    if (header_count(blank, dim, &all) == n && all) strcpy(names, blank);
 }
 
 /* True of a line whose first field is a number. */
@@ -160,12 +200,26 @@ static status header_elsewhere(struct csv *c, struct particle_list *l, const cha
     const int64_t entry_line = c->in.line;
     strcpy(entry, c->in.text);
     strcpy(c->in.text, names);
+    header_unify(c->in.text, entry, l->dim);
     c->in.line = line;
     TRY(header_read(c, l));
     strcpy(c->in.text, entry);
     c->in.line = entry_line;
     c->pending = true;
     return OK;
+}
+
+/* Reads a header with tabs from the current line, and the first entry behind it. */
+static status header_of_tabs(struct csv *c, struct particle_list *l)
+{
+    char names[CSV_LINE_LENGTH];
+    const int64_t line = c->in.line;
+    bool more;
+    strcpy(names, c->in.text);
+    TRY(csv_line(&c->in, &more));
+    if (more) return header_elsewhere(c, l, names, line);
+    strcpy(c->in.text, names);
+    return header_read(c, l);
 }
 
 /* Reads the header: the first line that is no comment; where that holds numbers, the first comment that names columns;
@@ -191,7 +245,7 @@ static status csv_header(struct csv *c, struct particle_list *l)
     if (line_of_numbers(c->in.text))
         return csv_fault(&c->in, c->in.text, "numbers, and no line before them names the columns, as x,y,volume");
     header_bare(c->in.text);
-    return header_read(c, l);
+    return strchr(c->in.text, '\t') && line_of_blanks(c->in.text) ? header_of_tabs(c, l) : header_read(c, l);
 }
 
 /* Makes room for one more entry, doubling. */

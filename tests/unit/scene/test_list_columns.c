@@ -82,7 +82,13 @@ static void lists_of_programs_are_read(void **state)
         "\"x [mm]\" \"y (m)\" \"volume\" \"a name\" \"material\"\n500 1 2e-3 \"of it\" \"1\"\n",
         "# of mesh 7\n# x y z block_id volume\n# 1 particle\n0.5 1 0 2 2e-3\n",
         "\t5e-1 1.0 0 2 2e-3 \r\n",
-        "# nodes\nheader: x y block_id volume\n0.5 1 2 2e-3\n"};
+        "# nodes\nheader: x y block_id volume\n0.5 1 2 2e-3\n",
+        /* tabs separate like blanks, whatever the lines have; where names or fields need it, each tab ends a field */
+        "header: \t x [mm] \t y \t block_id \t volume\n 500 1 2 2e-3\n",
+        "x\ty [mm]  volume\tblock_id\n0.5\t1000 2e-3\t2\n",
+        "x y\tblock_id volume\t\n\t0.5 1 2 2e-3\n",
+        "#\tx \ty\tblock_id \tvolume\n0.5 1\t2 2e-3\n",
+        "the node\tx\ty\tvolume\tblock_id\n\t0.5\t1\t2e-3\t2\n"};
     for (size_t k = 0; k < COUNT_OF(text); k++) {
         struct setting s;
         struct particles p;

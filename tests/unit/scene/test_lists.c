@@ -311,7 +311,11 @@ static const struct { enum space space; int method; real spacing; struct grains 
      1e-3,
      {20, 1, 0, 0, 1, 0},
      "about 100 % of its particles have no neighbour within 3.015 spacings"},
-    {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5, 0}, "(is it in cm?)"},
+    {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5, 0}, "(is it in mm, or in cm?)"},
+    /* 1 mm apart where the spacing is 5 mm, or 1 cm apart: volumes in m^3 decide */
+    {SPACE_PLANE_STRESS, PD, 5e-3, {10, 1, 0, 0, 1, 1e-6}, "(is it in mm? its volumes say so)"},
+    {SPACE_PLANE_STRESS, PD, 5e-3, {10, 1, 0, 0, 1, 1e-4}, "(is it in cm? its volumes say so)"},
+    {SPACE_SOLID, PD, 2e-2, {4, 1, 0, 0, 1, 1e-9}, "(is it in mm? its volumes say so)"},
     {SPACE_LINE, PD, 1e-3, {50, 1, 0, 0, 1, 0}, "100 % of its particles"},
     {SPACE_PLANE_STRESS,
      PD,
@@ -360,6 +364,7 @@ static void units_of_lists_are_told(void **state)
         s.body[0].file = name;
         snprintf(s.body[0].place, sizeof s.body[0].place, "a.yaml:7:3: particles: ");
         write_grains(name, s.scene.dim, &told[k].g);
+        assert_ok(particle_list_look(&s.body[0].list, name, s.scene.dim));
         if (told[k].says) {
             assert_refused(fill_particles(&p, &s.scene, NULL, 0), told[k].says);
             assert_null(p.X[0]);
