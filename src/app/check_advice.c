@@ -438,6 +438,7 @@ static void advise_symmetry(const struct engine *e, FILE *out)
 
 void advise(const struct engine *e, FILE *out)
 {
+    advise_units(e, out);
     advise_features(e, out);
     advise_cracks(e, out);
     advise_incompressible(e, out);

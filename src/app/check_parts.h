@@ -53,6 +53,11 @@ void say_shapes(const struct engine *e);
 void say_levels(const struct engine *e);
 void say_levels_saving(const struct engine *e, const struct cost *c);
 
+/* ---- check_units.c ----------------------------------------------------------------------------------------------- */
+
+/* Writes a line for each number that looks like one of another unit. */
+void advise_units(const struct engine *e, FILE *out);
+
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
 
 /* Loads and supports: particles, areas, forces and moments. */

@@ -351,6 +351,7 @@ void engine_warn(struct engine *e)
     warn_of_materials(e->scene, &e->tables, to);
     warn_of_lists(e->scene, to);
     warn_of_probes(e->scene, to);
+    engine_warn_of_lone(e, to);
     warn_of_speed(e, to);
     warn_of_solver(e, to);
     warn_of_empty(e, to);

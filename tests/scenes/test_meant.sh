@@ -1,0 +1,79 @@
+#!/bin/sh
+# What `cleave check` says where a scene may not be what its author meant: numbers of another unit, particles that lie alone, curves of
+# meshes, values of images. Each case has a control that says nothing.
+test_name=test_meant
+. tests/support/summary.sh
+. tests/support/scenes.sh
+
+# says WHAT PATTERN SCENE [ARGUMENT...]: the pattern is in what check prints of the scene. silent: it is not.
+checked() { "$cleave" check "$@" --no-trial >"$work/said" 2>&1; }
+says() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what: $(cat "$work/said")" grep -q "$pattern" "$work/said"; }
+silent() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what" sh -c "grep -q 'is sound' '$work/said' && ! grep -q '$pattern' '$work/said'"; }
+
+# ---- units -------------------------------------------------------------------------------------------------------------
+
+# The README's glass: with lengths in mm, the modulus in MPa, the density in g/cm^3, a stretch in percent.
+cat >"$work/glass.yaml" <<'END'
+variables: {a: 1 mm, E: 72 GPa, rho: 2440, limit: 0.1 %}
+space: plane stress
+thickness: 1 mm
+duration: 40 us
+method: pd
+material: {young: E, density: rho, critical_stretch: limit}
+body: {box: {from: [0, -20*a], to: [50*a, 20*a]}}
+particles: {spacing: a}
+cracks: [{from: [0, 0], to: [24.9*a, 0]}]
+boundary: [{traction: [0, 12 MPa], face: y+}, {traction: [0, -12 MPa], face: y-}]
+END
+glass=$work/glass.yaml
+silent "glass" '^unlikely' "$glass"
+says "lengths in mm" '^unlikely: in the duration of 4e-05 s waves .* 0.23 spacings: see whether duration, lengths (mm?)' "$glass" -s 'variables.a=1 m'
+says "a modulus in MPa" '^unlikely: boundary boundary0: 1.2e+07 Pa is 167 of Young' "$glass" -s 'variables.E=72000 Pa'
+says "a stretch in percent" '^unlikely: material material: its bonds break at a stretch of 0.1, 7.2e+09 Pa' "$glass" -s variables.limit=0.1
+says "a density in g/cm^3" '^unlikely: material material: waves at 1.82e+05 m/s' "$glass" -s 'variables.rho=2.44 kg/m^3'
+
+# ---- particles alone ---------------------------------------------------------------------------------------------------
+
+# 10 x 4 particles, and one 20 spacings away from them.
+awk 'BEGIN { print "x [mm], y [mm]"; for (i = 0; i < 10; i++) for (j = 0; j < 4; j++) print i + 0.5 ", " j + 0.5; print "30.5, 0.5" }' \
+    >"$work/lone.csv"
+cat >"$work/lone.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 1 us
+method: pd
+material: {young: 70 GPa, density: 2700}
+bodies: [{name: p, particles: lone.csv}]
+particles: {spacing: 1 mm}
+output: {frames: 0, samples: 1}
+END
+lone="body p: 1 of its particles has no neighbour, the first at (0.0305, 0.0005) m: nothing holds it"
+says "alone" "warning: $lone\$" "$work/lone.yaml"
+says "alone, of material points" "warning: $lone\$" "$work/lone.yaml" -s method=mpm
+says "alone, and an equilibrium" "warning: $lone, and there is no equilibrium" "$work/lone.yaml" -s solver=cg \
+    -s 'boundary=[{fixed: all, face: x-, depth: 1 mm}]'
+"$cleave" run "$work/lone.yaml" -q -o "$work/lone" >/dev/null 2>"$work/said"
+holds "alone: the run says it: $(cat "$work/said")" grep -qF "$lone" "$work/said"
+sed -i '$d' "$work/lone.csv"
+silent "none alone" 'no neighbour' "$work/lone.yaml"
+
+# ---- curves ------------------------------------------------------------------------------------------------------------
+
+# A quarter ring of one element of 8 nodes, 1 m to 2 m: parabolas through 0, 45 and 90 degrees bound 2.356 m^2 less 0.9 %: of arc and
+# parabola over a chord of 2 r sin 45 with a sagitta of r (1 - cos 45), (pi/4 - 1/2) r^2 and 2/3 of their product, 3 (0.2854 - 0.2761).
+awk 'BEGIN { pi = atan2(0, -1); print "*NODE"; n = 0
+    split("1 2 2 1 1.5 2 1.5 1", r); split("0 0 90 90 0 45 90 45", a)
+    for (k = 1; k <= 8; k++) printf "%d, %.12f, %.12f\n", k, r[k] * cos(a[k] * pi / 180), r[k] * sin(a[k] * pi / 180)
+    print "*ELEMENT, TYPE=CPS8\n1, 1, 2, 3, 4, 5, 6, 7, 8" }' >"$work/arc.inp"
+cat >"$work/arc.yaml" <<'END'
+space: plane stress
+thickness: 0.1 m
+duration: 1 ms
+method: mpm
+material: {young: 210 GPa, density: 7800}
+body: {mesh: {file: arc.inp, unit: m}}
+particles: {spacing: 20 mm}
+END
+says "a ring of one element" 'encloses 2.328 m^2' "$work/arc.yaml"
+between "its particles" "$(awk '/^filled/ { print $7 }' "$work/said")" 0.2316 0.2340
+finish
