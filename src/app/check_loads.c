@@ -287,6 +287,7 @@ static void say_load(const struct engine *e, int which)
     if (b->kind == BOUNDARY_PRESSURE) say_pressed(e, which);
     if (force) say_force(e, l);
     if (b->displaces) say_displacement(e, l);
+    if (faces) say_elsewhere(e, b);
     putchar('\n');
 }
 

@@ -63,6 +63,10 @@ void advise_units(const struct engine *e, FILE *out);
 /* Loads and supports: particles, areas, forces and moments. */
 void say_loads(const struct engine *e);
 
+/* Share of the area of a load's or support's face that looks elsewhere than along its axis, by which angle, and the
+ * region that leaves it out (check_faces.c). */
+void say_elsewhere(const struct engine *e, const struct boundary *b);
+
 /* Volume of the particles of bodies that are not boxes, beside that of their shapes (check_filled.c). */
 void say_filled(const struct engine *e);
 

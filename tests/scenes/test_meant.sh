@@ -76,4 +76,34 @@ particles: {spacing: 20 mm}
 END
 says "a ring of one element" 'encloses 2.328 m^2' "$work/arc.yaml"
 between "its particles" "$(awk '/^filled/ { print $7 }' "$work/said")" 0.2316 0.2340
+
+# ---- faces -------------------------------------------------------------------------------------------------------------
+
+# Cook's membrane: its left side, 44 mm long, and behind it the upper side, which rises 16 mm over 48 mm, all show along x; its right side,
+# 16 mm long, and the lower one, which rises 44 mm. The same as a list of the particles.
+cat >"$work/cook.yaml" <<'END'
+space: plane strain
+thickness: 5 mm
+duration: 1 s
+method: mpm
+solver: static
+steps: {number: 1}
+material: {young: 70 MPa, poisson: 1/3, density: 1000}
+body: {polygon: {corners: [[0, 0], [48 mm, 44 mm], [48 mm, 60 mm], [0, 44 mm]]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {name: wall, fixed: all, face: x-, depth: 1 mm}
+  - {name: end, traction: [0, 6.25 kPa], face: x+, time: {ramp: {until: 1 s}}}
+END
+cook=$work/cook.yaml
+says "a support on a slope" '^support .*; 27 % of the area that shows on x- looks elsewhere, by 72 degrees in the mean: with a region where x <= 0.001 m' "$cook"
+says "a load on a slope" '^load .*; 73 % of the area that shows on x+ looks elsewhere, by 47 degrees in the mean: with a region where x >= 0.047 m' "$cook"
+silent "with regions" elsewhere "$cook" -s 'boundary=[{fixed: all, face: x-, depth: 1 mm, region: {box: {from: [-inf, -inf], to: [0.7 mm, inf]}}},
+    {traction: [0, 6.25 kPa], face: x+, region: {box: {from: [47.4 mm, -inf], to: [inf, inf]}}}]'
+awk 'BEGIN { print "x [mm], y [mm]"; for (x = 0.5; x < 48; x++) for (y = 0.5; y < 60; y++)
+    if (y >= 44 / 48 * x && y <= 44 + 16 / 48 * x) print x ", " y }' >"$work/cook.csv"
+says "a list" '^load .*; 7[0-9] % of the area that shows on x+ looks elsewhere, by 4[3-9] degrees in the mean: with a region where x >= 0.047 m' \
+    "$cook" -s "bodies=[{name: p, particles: $work/cook.csv}]" -s body= -s solver=explicit -s steps= -s method=pd -s material.poisson=1/4 -s duration=1ms \
+    -s 'boundary=[{traction: [0, 6.25 kPa], face: x+}]'
+silent "a box" elsewhere "$cook" -s 'body={box: {from: [0, 0], to: [48 mm, 20 mm]}}'
 finish
