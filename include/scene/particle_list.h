@@ -25,6 +25,7 @@
 /* What is known of a list from its columns. */
 struct particle_list_head {
     bool material, mass, volumes;        /* it says the material, the mass or density, the volume of particles */
+    bool lattice;                        /* its places and volumes are those of a lattice (list_lattice.h) */
     bool block;                          /* its material is the block of Peridigm, counted from 1 */
     bool unnamed;                        /* its columns have no names: they are those of Peridigm's text mesh */
     char note[256];                      /* what is not read, or missing and has a default; "": nothing */

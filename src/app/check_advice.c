@@ -66,11 +66,11 @@ static const struct { double layers; int bonds[2], rotating[2], uncorrected[2]; 
 #define SOFT_MOST 2.0                    /* less is not worth a line [%] */
 static double nearly_incompressible(double poisson) { return poisson > 0.47 ? 30 : 15; }
 
-static int bending_error(const struct scene *s, double layers)
+int stiffness_error(const struct scene *s, enum surface_rule surface, double layers)
 {
     size_t row = 0;
     while (row + 1 < COUNT_OF(bending_off) && layers > bending_off[row + 1].layers - 0.5) row++;
-    const int *off = s->surface != SURFACE_MOMENTS ? bending_off[row].uncorrected
+    const int *off = surface != SURFACE_MOMENTS ? bending_off[row].uncorrected
                      : s->model == MODEL_MOSPD     ? bending_off[row].rotating
                                                    : bending_off[row].bonds;
     return off[s->dim > 2];
@@ -81,11 +81,11 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
 {
     if (layers < 1.5) {
         fprintf(out, "; a single layer has no stiffness against bending, and is up to %d %% too stiff or too soft "
-                "in tension", bending_error(s, layers));
+                "in tension", stiffness_error(s, s->surface, layers));
         return;
     }
     fprintf(out, "; as it is, its stiffness in bending, twisting and tension is off by up to about %d %%%s",
-            bending_error(s, layers),
+            stiffness_error(s, s->surface, layers),
             fabs(s->horizon - 3.015) <= USUAL_HORIZON ? ""
             : s->model == MODEL_MOSPD ? " at a horizon of 3.015, and several times that at others"
                                       : " at a horizon of 3.015, and more at longer ones");
@@ -443,6 +443,7 @@ void advise(const struct engine *e, FILE *out)
     advise_cracks(e, out);
     advise_incompressible(e, out);
     advise_faces(e, out);
+    advise_lists(e, out);
     advise_waves(e, out);
     advise_load_steps(e, out);
     advise_formulas(e, out);

@@ -75,6 +75,10 @@ void say_filled(const struct engine *e);
 /* Writes a line, with numbers, for each part of the scene that is not resolved, and for each that is not needed. The
  * engine has taken no step. */
 void advise(const struct engine *e, FILE *out);
+/* How far the stiffness of a part of so many layers is off, with a rule for families near faces [%]. */
+int stiffness_error(const struct scene *s, enum surface_rule surface, double layers);
+/* Thin parts of bodies from lists that are no lattice (check_lists.c). */
+void advise_lists(const struct engine *e, FILE *out);
 /* True if the scene equals its mirror image in the plane across `axis` through the middle of its particles, at *at [m]
  * (check_symmetry.c). */
 bool scene_is_mirrored(const struct engine *e, int axis, real *at);

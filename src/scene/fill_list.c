@@ -4,6 +4,7 @@
 
 #include "data/particles.h"
 #include "fill_draft.h"
+#include "list_lattice.h"
 #include "scene/particle_list.h"
 
 /* Where entry i stands: `file:line`, with the column of its material, or `file: entry i` (HDF5). */
@@ -96,11 +97,26 @@ static status take_list(struct draft *d, int body, const struct particle_list *l
     return OK;
 }
 
+/* Puts the particles from `first` on, of a list that is a lattice but for decimals, on their sites. Planes of symmetry
+ * are sites or lie between two. */
+static void take_lattice(struct draft *d, int64_t first)
+{
+    const struct scene *s = d->scene;
+    for (int a = 0; a < s->dim; a++) {
+        real anchor = 0;
+        for (int b = 0; b < s->boundaries; b++)
+            if (s->boundary[b].kind == BOUNDARY_MIRROR && s->boundary[b].axis == a) anchor = s->boundary[b].at;
+        list_to_lattice(d->X[a] + first, d->n - first, s->spacing, anchor);
+    }
+}
+
 status fill_list(struct draft *d, int body)
 {
+    const int64_t first = d->n;
     struct particle_list list;
     TRY(particle_list_read(&list, d->scene->body[body].file, d->scene->dim));
     status s = take_list(d, body, &list);
     particle_list_free(&list);
+    if (s == OK && d->scene->body[body].list.lattice) take_lattice(d, first);
     return s;
 }

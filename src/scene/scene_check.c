@@ -1,4 +1,6 @@
 /* Conditions on several keys of a scene together, and defaults that depend on other keys. */
+#include "data/particles.h"
+#include "list_lattice.h"
 #include "scene/fill.h"
 #include "scene_internal.h"
 
@@ -203,7 +205,8 @@ status resolve_contact(struct reader *r, const struct node *root)
 static enum surface_rule surface_by_default(const struct scene *s, const struct node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
-    for (int b = 0; b < s->bodies; b++) lattice = lattice && !s->body[b].file; /* known from resolve_lists on */
+    for (int b = 0; b < s->bodies; b++) /* known from resolve_lists on */
+        lattice = lattice && (!s->body[b].file || s->body[b].list.lattice);
     if (s->method != METHOD_PD) return SURFACE_NONE;
     if (scene_in_steps(s) && scene_bonds_break(s) && s->model == MODEL_BOND) return SURFACE_VOLUME;
     if (lattice) return SURFACE_MOMENTS;
@@ -218,7 +221,26 @@ static void resolve_surface(struct scene *s, const struct node *root)
         s->bulk = (s->model == MODEL_MOSPD && s->irregularity == 0) || s->surface == SURFACE_MOMENTS;
 }
 
-void resolve_lists(struct reader *r, const struct node *root) { resolve_surface(r->scene, root); }
+/* Is the list of a body a lattice of the spacing? One that cannot be read is refused when particles are made. */
+static bool list_lattice(const struct scene *s, int body)
+{
+    struct particle_list list;
+    for (int b = 0; b < body; b++)
+        if (s->body[b].file && strcmp(s->body[b].file, s->body[body].file) == 0) return s->body[b].list.lattice;
+    if (particle_list_read(&list, s->body[body].file, s->dim) != OK) return false;
+    const bool lattice = list_is_lattice(&list, s->spacing, lattice_volume(scene_section(s), s->spacing, s->dim));
+    particle_list_free(&list);
+    return lattice;
+}
+
+void resolve_lists(struct reader *r, const struct node *root)
+{
+    struct scene *s = r->scene;
+    for (int b = 0; b < s->bodies; b++)
+        if (r->files && s->body[b].file && s->method == METHOD_PD && s->dim > 1)
+            s->body[b].list.lattice = list_lattice(s, b);
+    resolve_surface(s, root);
+}
 
 /* Defaults that depend on method, model, coupling and solver. */
 static void resolve_defaults(struct reader *r, const struct node *root)

@@ -166,7 +166,8 @@ const struct key keys[] = {
     KEY("pd.surface", KEY_CHOICE, UNIT_NONE, AT(scene, surface), ANY,
         "(moments with method pd; volume in load steps of bonds that break)",
         "weights of bonds near faces: from moments of families, so that thin bodies bend, twist and stretch as they "
-        "should (a lattice; else volume or none), or from neighbours' volume", .words = "none|volume|moments"),
+        "should (lattices, of shapes or lists; else volume or none), or from neighbours' volume",
+        .words = "none|volume|moments"),
     KEY("pd.weights", KEY_CHOICE, UNIT_NONE, AT(scene, shells), ANY, "(isotropic; calibration not lattice: uniform)",
         "isotropic: two shell weights take the lattice's anisotropy away", .words = "uniform|isotropic"),
     KEY("pd.influence", KEY_CHOICE, UNIT_NONE, AT(scene, influence), ANY, "(inverse with ospd and mospd, else one)",

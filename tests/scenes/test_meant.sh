@@ -106,4 +106,34 @@ says "a list" '^load .*; 7[0-9] % of the area that shows on x+ looks elsewhere, 
     "$cook" -s "bodies=[{name: p, particles: $work/cook.csv}]" -s body= -s solver=explicit -s steps= -s method=pd -s material.poisson=1/4 -s duration=1ms \
     -s 'boundary=[{traction: [0, 6.25 kPa], face: x+}]'
 silent "a box" elsewhere "$cook" -s 'body={box: {from: [0, 0], to: [48 mm, 20 mm]}}'
+
+# ---- lists ---------------------------------------------------------------------------------------------------------------
+
+# A bar of 30 x 5 x 5 particles, written out with all digits and with six, a third of a spacing along x, is the box: moments, the same
+# stiffness. Shaken by a thousandth of a spacing it is no lattice, and check says by how much thin parts are off.
+awk -v work="$work" 'BEGIN { srand(1); print "x [mm], y [mm], z [mm], volume [mm^3]" >work "/bar.csv"; print "x y z" >work "/decimals.csv"
+    for (k = 0; k < 5; k++) for (j = 0; j < 5; j++) for (i = 0; i < 30; i++) {
+        print i + 0.5 "," j + 0.5 "," k + 0.5 ",1" >work "/bar.csv"
+        printf "%.6g %.6g %.6g\n", (i + 5 / 6) / 1000, (j + 5 / 6) / 1000, (k + 5 / 6) / 1000 >work "/decimals.csv" } }'
+awk -F, 'NR == 1 { print; next } { printf "%.9f,%s,%s,%s\n", $1 + 0.004 * (NR % 2), $2, $3, $4 }' "$work/bar.csv" >"$work/shaken.csv"
+cat >"$work/bar.yaml" <<'END'
+space: solid
+duration: 1 s
+method: pd
+solver: cg
+variables: {a: 0}
+material: {young: 70 GPa, density: 2700}
+bodies: [{name: p, particles: bar.csv}]
+particles: {spacing: 1 mm}
+boundary: [{mirror: {axis: x, at: a}}, {traction: [1 MPa, 0, 0], face: x+}]
+output: {frames: 0, samples: 1}
+END
+bar=$work/bar.yaml box='body={box: {from: [0, 0, 0], to: [30 mm, 5 mm, 5 mm]}}' third='variables.a=1 mm/3'
+strain() { folder=$1; shift; "$cleave" run "$bar" -q -o "$work/$folder" "$@" >/dev/null 2>&1; figure "$work/$folder" energy.strain; }
+whole=$(strain whole -s bodies= -s "$box")
+near "a lattice as a list" "$(strain list)" "$whole" 1e-9
+near "a lattice as a list in decimals" "$(strain decimals -s bodies.p.particles="$work/decimals.csv" -s "$third")" "$whole" 1e-6
+silent "a lattice as a list" '^unresolved' "$bar"
+says "a list that is none" '^unresolved: body p: parts of its list are 5 layers thin: with pd.surface volume .* 48 %; of a list .* 12 %' "$bar" \
+    -s bodies.p.particles="$work/shaken.csv"
 finish

@@ -1,0 +1,88 @@
+/* What `cleave check` says of thin parts of bodies from lists that are no lattice: families near their faces have no
+ * weights of their own, and no solid tells how thick the parts are. */
+#include <math.h>
+
+#include "check_parts.h"
+
+#define THIN_SHARE 0.05 /* of a body's particles that a part must have to be one */
+#define PROBE 0.9       /* [spacings] distance of a particle from a place of the body, also of a scattered one */
+enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
+
+/* Is there a particle of a body near X? */
+static bool body_at(const struct engine *e, int body, const real *X)
+{
+    enum { ROOM = 64 };
+    int32_t found[ROOM];
+    const int n = cells_near(&e->cells, &e->part, X, PROBE * e->scene->spacing, -1, found, ROOM);
+    for (int k = 0; k < n && k < ROOM; k++)
+        if (found[k] < e->part.n && e->part.body[found[k]] == body) return true;
+    return n > ROOM;
+}
+
+/* Layers of a body through particle i along the axis in which they are fewest, up to LAYERS_MOST; planes of symmetry do
+ * not end a body. */
+static int layers_at(const struct engine *e, int64_t i)
+{
+    const struct particles *p = &e->part;
+    const real spacing = e->scene->spacing;
+    int least = LAYERS_MOST;
+    for (int d = 0; d < p->dim; d++) {
+        int layers = 1;
+        for (int side = -1; side <= 1; side += 2) {
+            real X[DIM_MAX];
+            particle_place(p, i, X);
+            for (int k = 1; k < LAYERS_MOST && layers < LAYERS_MOST; k++, layers++) {
+                X[d] += side * spacing;
+                if (!body_at(e, p->body[i], X)) break;
+            }
+            for (int m = 0; m < e->source.mirrors; m++)
+                if (e->source.mirror[m].axis == d && fabs(X[d] - e->source.mirror[m].at) < spacing)
+                    layers = LAYERS_MOST;
+        }
+        least = layers < least ? layers : least;
+    }
+    return least;
+}
+
+/* Layers of the thinnest part of a body that holds THIN_SHARE of it. */
+static int thinnest(const struct engine *e, int body)
+{
+    const struct particles *p = &e->part;
+    int64_t count[LAYERS_MOST + 1] = {0}, all = 0, own = 0;
+    for (int64_t i = 0; i < p->n; i++) own += p->body[i] == body;
+    const int64_t stride = own / LOOKED_AT + 1;
+    for (int64_t i = 0, k = 0; i < p->n; i++) {
+        if (p->body[i] != body || k++ % stride != 0) continue;
+        count[layers_at(e, i)]++, all++;
+    }
+    int64_t sum = 0;
+    for (int layers = 0; layers < LAYERS_MOST; layers++) {
+        sum += count[layers];
+        if ((real)sum >= THIN_SHARE * (real)all) return layers;
+    }
+    return LAYERS_MOST;
+}
+
+void advise_lists(const struct engine *e, FILE *out)
+{
+    const struct scene *s = e->scene;
+    if (s->method != METHOD_PD || s->dim == 1 || s->surface == SURFACE_MOMENTS || !(s->spacing > 0)) return;
+    for (int b = 0; b < s->bodies; b++) {
+        if (!s->body[b].file || s->body[b].joined != b) continue;
+        const int layers = thinnest(e, b);
+        if (layers >= LAYERS_MOST) continue;
+        fprintf(
+            out,
+            "unresolved: body %s: parts of its list are %d layers thin: with pd.surface %s their stiffness in bending, "
+            "twisting and tension is off by up to about %d %%; ",
+            s->body[b].name, layers, s->surface == SURFACE_VOLUME ? "volume" : "none",
+            stiffness_error(s, s->surface, layers));
+        if (s->body[b].list.lattice)
+            fprintf(out, "pd.surface moments makes that %d %%\n", stiffness_error(s, SURFACE_MOMENTS, layers));
+        else
+            fprintf(out,
+                    "of a list that is a lattice (places at whole spacings, volumes of the spacing) it would be %d %%, "
+                    "with pd.surface moments\n",
+                    stiffness_error(s, SURFACE_MOMENTS, layers));
+    }
+}

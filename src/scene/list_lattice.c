@@ -1,0 +1,94 @@
+/* Lists of particles that are lattices: all places of a body whole spacings apart, as far as they are written in
+ * decimals, all volumes those of the spacing. They are treated like what fills a shape, to the last bit of their
+ * distances. */
+#include "list_lattice.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "data/particles.h"
+
+#define DECIMALS 1e-3        /* a place that is written in decimals may be that far from its site [spacings] */
+#define EVEN 1e-3            /* likewise of volumes [1] */
+#define NEIGHBOURS_LEAST 0.5 /* share of particles with another one spacing away along x: sparse ones are no lattice   \
+                              */
+#define FARTHEST 1e6         /* [spacings] */
+enum { BODIES = 256 };
+
+/* A place of a lattice and the body that it belongs to; in the order of x last. */
+struct site {
+    int32_t body, at[DIM_MAX];
+};
+
+static int site_order(const void *a, const void *b)
+{
+    const struct site *p = a, *q = b;
+    if (p->body != q->body) return p->body < q->body ? -1 : 1;
+    for (int d = DIM_MAX - 1; d >= 0; d--)
+        if (p->at[d] != q->at[d]) return p->at[d] < q->at[d] ? -1 : 1;
+    return 0;
+}
+
+static int list_body(const struct particle_list *l, int64_t i) { return l->body ? (int)l->body[i] : 0; }
+
+/* Do enough sites have the next one along x? Sorts them. */
+static bool sites_dense(struct site *site, int64_t n)
+{
+    int64_t beside = 0;
+    array_sort(site, n, sizeof *site, site_order);
+    for (int64_t k = 0; k + 1 < n; k++) {
+        struct site next = site[k];
+        next.at[0]++;
+        beside += site_order(&next, &site[k + 1]) == 0;
+    }
+    return (real)beside >= NEIGHBOURS_LEAST * (real)n;
+}
+
+bool list_is_lattice(const struct particle_list *l, real spacing, real volume)
+{
+    int64_t first[BODIES];
+    bool lattice = l->n > 1 && spacing > 0;
+    struct site *site = NEW("list.sites", l->n, struct site);
+    for (int b = 0; b < BODIES; b++) first[b] = -1;
+    for (int64_t i = 0; i < l->n && lattice; i++) {
+        const int body = list_body(l, i);
+        if (first[body] < 0) first[body] = i;
+        site[i].body = body;
+        if (l->volume) lattice = fabs(l->volume[i] / volume - 1) <= EVEN;
+        for (int d = 0; d < l->dim && lattice; d++) {
+            const real at = (l->X[d][i] - l->X[d][first[body]]) / spacing, whole = nearbyint(at);
+            lattice = fabs(at - whole) <= DECIMALS && fabs(whole) <= FARTHEST;
+            site[i].at[d] = (int32_t)whole;
+        }
+    }
+    lattice = lattice && sites_dense(site, l->n);
+    memory_free(site);
+    return lattice;
+}
+
+/* Largest power of two of which all coordinates up to `most` are multiples of a double's precision. */
+static real lattice_unit(real most) { return exp2(ceil(log2(most)) - 53); }
+
+void list_to_lattice(real *X, int64_t n, real spacing, real anchor)
+{
+    if (n == 0) return;
+    real off = 0, low = X[0], high = X[0], least = 0, most = 0;
+    const real start = X[0];
+    for (int64_t i = 0; i < n; i++) {
+        const real at = (X[i] - start) / spacing, beside = at - nearbyint(at);
+        off += beside / (real)n;
+        least = real_min(least, beside), most = real_max(most, beside);
+        low = real_min(low, X[i]), high = real_max(high, X[i]);
+    }
+    if (most - least <= 0.5 * LATTICE_NEAR) return; /* to all digits already */
+    real first = start + off * spacing;
+    const real halves = 2 * (first - anchor) / spacing;
+    if (fabs(halves - nearbyint(halves)) <= 2 * DECIMALS) first = anchor + 0.5 * nearbyint(halves) * spacing;
+    const real unit = lattice_unit(real_max(fabs(low), fabs(high)) + (high - low) + 2 * spacing);
+    const real step = nearbyint(spacing / unit) * unit, origin = nearbyint(first / unit) * unit;
+    const bool exact = fabs(step - spacing) * (high - low) <= 0.5 * LATTICE_NEAR * square(spacing);
+    for (int64_t i = 0; i < n; i++) {
+        const real site = nearbyint((X[i] - start) / spacing);
+        X[i] = exact ? origin + site * step : first + site * spacing;
+    }
+}
