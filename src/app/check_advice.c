@@ -440,6 +440,7 @@ void advise(const struct engine *e, FILE *out)
 {
     advise_units(e, out);
     advise_features(e, out);
+    advise_sections(e, out);
     advise_cracks(e, out);
     advise_incompressible(e, out);
     advise_faces(e, out);

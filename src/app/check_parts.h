@@ -58,6 +58,11 @@ void say_levels_saving(const struct engine *e, const struct cost *c);
 /* Writes a line for each number that looks like one of another unit. */
 void advise_units(const struct engine *e, FILE *out);
 
+/* ---- check_sections.c -------------------------------------------------------------------------------------------- */
+
+/* Writes a line for each narrow part whose sections hold too many or too few particles, and spacings that divide it. */
+void advise_sections(const struct engine *e, FILE *out);
+
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
 
 /* Loads and supports: particles, areas, forces and moments. */
