@@ -136,9 +136,9 @@ static const char *unit_guess(real ratio, real by_volume)
     static const struct {
         real ratio;
         const char *guess;
-    } unit[] = {{1e2, " (is it in cm? its volumes say so)"},
-                {1e3, " (is it in mm? its volumes say so)"},
-                {1e6, " (is it in um? its volumes say so)"}};
+    } unit[] = {{1e2, " (is it in cm?)"},
+                {1e3, " (is it in mm?)"},
+                {1e6, " (is it in um?)"}};
     for (size_t k = 0; k < COUNT_OF(unit); k++)
         if (fabs(log(by_volume / unit[k].ratio)) < log(1.5)) return unit[k].guess;
     return ratio > 30 && ratio < 400        ? " (is it in mm, or in cm?)"

@@ -313,9 +313,9 @@ static const struct { enum space space; int method; real spacing; struct grains 
      "about 100 % of its particles have no neighbour within 3.015 spacings"},
     {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5, 0}, "(is it in mm, or in cm?)"},
     /* 1 mm apart where the spacing is 5 mm, or 1 cm apart: volumes in m^3 decide */
-    {SPACE_PLANE_STRESS, PD, 5e-3, {10, 1, 0, 0, 1, 1e-6}, "(is it in mm? its volumes say so)"},
-    {SPACE_PLANE_STRESS, PD, 5e-3, {10, 1, 0, 0, 1, 1e-4}, "(is it in cm? its volumes say so)"},
-    {SPACE_SOLID, PD, 2e-2, {4, 1, 0, 0, 1, 1e-9}, "(is it in mm? its volumes say so)"},
+    {SPACE_PLANE_STRESS, PD, 5e-3, {10, 1, 0, 0, 1, 1e-6}, "(is it in mm?)"},
+    {SPACE_PLANE_STRESS, PD, 5e-3, {10, 1, 0, 0, 1, 1e-4}, "(is it in cm?)"},
+    {SPACE_SOLID, PD, 2e-2, {4, 1, 0, 0, 1, 1e-9}, "(is it in mm?)"},
     {SPACE_LINE, PD, 1e-3, {50, 1, 0, 0, 1, 0}, "100 % of its particles"},
     {SPACE_PLANE_STRESS,
      PD,
