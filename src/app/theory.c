@@ -20,6 +20,7 @@ static const char page[] =
     "                 4 pi G_c/(9 E delta) (plane stress), 5 pi G_c/(12 E delta) (plane strain),\n"
     "                 5 G_c/(6 E delta) (solid).\n"
     "  bond yields    f = k (s - s_p), |f| <= k s_y + H_b alpha;  s_p, alpha plastic stretch and path.\n"
+    "                 A bar bears sigma_y, a plate 1.41 (plane strain: 1.30 of von Mises), a solid 1.83 of it.\n"
     "  ospd           T_ij = (w r/q) (D^2 (lambda - G) S_i + D (D + 2) G e/r) n,                       Silling 2007\n"
     "                 q = sum w r^2 V beta,  S_i = (1/q) sum w r e V beta,  lambda of the space.\n"
     "  mospd          W_i = lambda (tr)^2/2 + (D G/q) sum w |Y - R_i xi|^2 V beta,                     mospd 2026\n"

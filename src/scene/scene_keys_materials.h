@@ -17,7 +17,8 @@
     KEY("material.toughness", KEY_HAND, UNIT_TOUGHNESS, NOWHERE, ABOVE(0), NONE,
         "K_Ic; gives G_c = K^2/E (line, plane stress) or K^2 (1 - nu^2)/E", .words = "number"),
     KEY("material.yield_stress", KEY_REAL, UNIT_PRESSURE, AT(material, yield_stress), ABOVE(0), "inf",
-        "stress at which it yields (von Mises; a bond alone); inf: elastic", .infinite = true),
+        "stress at which it yields (von Mises; bonds one by one: plates of them bear 1.4, solids 1.8 times as much); "
+        "inf: elastic", .infinite = true),
     KEY("material.yield_tangent", KEY_REAL, UNIT_PRESSURE, AT(material, yield_tangent), FROM(0), "0 Pa",
         "E_t, slope of the uniaxial stress-strain curve once it yields; below young"),
     KEY("material.yield_hardening", KEY_HAND, UNIT_PRESSURE, NOWHERE, FROM(0), NONE,
