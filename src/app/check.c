@@ -217,6 +217,7 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
         say_particles(&e);
         say_filled(&e);
         say_shapes(&e);
+        say_pieces(&e);
         say_materials(&e);
         say_frames(&e);
         say_levels(&e);

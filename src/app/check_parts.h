@@ -47,6 +47,9 @@ void say_load_steps_cost(const struct engine *e, const struct cost *c, int threa
 /* Files that solids are made of: closed or open, what they enclose. */
 void say_shapes(const struct engine *e);
 
+/* Bodies in several pieces that no bond joins (check_pieces.c). */
+void say_pieces(const struct engine *e);
+
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
 
 /* Coarse cells: how large, how many and why; what they save. */

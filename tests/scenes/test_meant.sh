@@ -54,8 +54,13 @@ says "alone, and an equilibrium" "warning: $lone, and there is no equilibrium" "
     -s 'boundary=[{fixed: all, face: x-, depth: 1 mm}]'
 "$cleave" run "$work/lone.yaml" -q -o "$work/lone" >/dev/null 2>"$work/said"
 holds "alone: the run says it: $(cat "$work/said")" grep -qF "$lone" "$work/said"
-sed -i '$d' "$work/lone.csv"
-silent "none alone" 'no neighbour' "$work/lone.yaml"
+printf '31.5, 0.5\n31.5, 1.5\n' >>"$work/lone.csv"
+says "an island" 'pieces  *body p: 2 that no bond joins; those beside the heaviest have 3 particles, the next one lies round (0.03117, 0.0008333) m$' \
+    "$work/lone.yaml"
+says "an island, and an equilibrium" 'pieces .*; nothing holds some of them, and there is no equilibrium' "$work/lone.yaml" -s solver=cg \
+    -s 'boundary=[{fixed: all, face: x-, depth: 1 mm}]'
+sed -i '/^3[01]/d' "$work/lone.csv"
+silent "none alone" 'no neighbour\|^pieces' "$work/lone.yaml"
 
 # ---- curves ------------------------------------------------------------------------------------------------------------
 

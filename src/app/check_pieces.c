@@ -1,0 +1,48 @@
+/* What `cleave check` says of bodies whose particles no bond joins into one: islands of lists and images, parts that
+ * pre-cracks cut off. */
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "check_parts.h"
+#include "fracture/fragments.h"
+
+/* Marks fragments of which a support drives or holds a particle; beside planes of symmetry, which may hold them, all.
+ * */
+static void mark_driven(const struct engine *e, const struct fragments *f, bool *driven)
+{
+    for (int64_t k = 0; k < f->n; k++) driven[k] = e->source.mirrors > 0;
+    for (int64_t i = 0; i < e->part.n; i++)
+        if (f->of[i] >= 0 && e->part.flag[i] & FLAG_DRIVEN) driven[f->of[i]] = true;
+}
+
+/* The pieces of a body beside its heaviest one; particles without any bond are named by a warning. */
+static void say_body(const struct engine *e, const struct fragments *f, const bool *driven, int body)
+{
+    const struct scene *s = e->scene;
+    int64_t pieces = 0, particles = 0, free_ones = 0, first = -1;
+    for (int64_t k = 0; k < f->n; k++) {
+        if (f->fragment[k].body != body) continue;
+        if (++pieces == 1) continue;
+        particles += f->fragment[k].particles;
+        free_ones += scene_at_rest(s) && !driven[k];
+        if (first < 0) first = k;
+    }
+    if (pieces < 2) return;
+    printf("pieces         body %s: %lld that no bond joins; those beside the heaviest have %lld particles, the next "
+           "one lies round (",
+           s->body[body].name, (long long)pieces, (long long)particles);
+    for (int d = 0; d < s->dim; d++) printf("%s%.4g", d ? ", " : "", f->fragment[first].x[d]);
+    printf(") m%s\n", free_ones > 0 ? "; nothing holds some of them, and there is no equilibrium" : "");
+}
+
+void say_pieces(const struct engine *e)
+{
+    struct fragments f;
+    if (e->scene->method != METHOD_PD) return;
+    fragments_find(&f, &e->bonds, &e->part);
+    bool *driven = NEW("check.driven", f.n, bool);
+    mark_driven(e, &f, driven);
+    for (int b = 0; b < e->scene->bodies; b++) say_body(e, &f, driven, b);
+    memory_free(driven);
+    fragments_free(&f);
+}
