@@ -8,6 +8,7 @@
 enum { PIECES_MOST_SPACE = 64, PIECES_MOST_PLANE = 4096 };
 #define COARSE_MOST 10.0 /* times the wanted distance, up to which PIECES_MOST pieces are enough */
 #define SAGITTA_SHARE (1.0 / 256)
+#define FARTHEST 1e30 /* [m] where squares and products of three still are numbers */
 
 /* ---- edges ------------------------------------------------------------------------------------------------------- */
 
@@ -26,7 +27,7 @@ static real sagitta_of(const struct element_mesh *m, int32_t from, int32_t to, i
 static int pieces_for(real sagitta, real wanted, int most)
 {
     const real pieces = ceil(sqrt(sagitta / wanted));
-    return pieces < 1 ? 1 : pieces > most ? most : (int)pieces;
+    return pieces > most ? most : pieces > 1 ? (int)pieces : 1;
 }
 
 status builder_fineness(struct builder *b, const char *path, real fine)
@@ -43,7 +44,7 @@ status builder_fineness(struct builder *b, const char *path, real fine)
     }
     b->sagitta = isnan(fine) ? SAGITTA_SHARE * sagitta : fine / b->scale;
     b->pieces = sagitta > 0 ? pieces_for(sagitta, b->sagitta, most) : 1;
-    if (sagitta <= COARSE_MOST * b->sagitta * most * most) return OK;
+    if (sagitta <= COARSE_MOST * b->sagitta * most * most && sagitta * b->scale < FARTHEST) return OK;
     return status_set(REFUSED,
                       "%s: curved edges of its second-order elements bulge by up to %.3g m, and more than %d pieces of "
                       "them would be needed for the spacing; a mesh of more elements, or a larger particles.spacing, "

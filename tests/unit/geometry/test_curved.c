@@ -258,6 +258,43 @@ static void refused_curves(void **state)
     remove("r.inp");
 }
 
+/* Damaged files are read or refused; neither crashes. */
+static void damaged_curves(void **state)
+{
+    (void)state;
+    enum { MOST = 8192 };
+    char whole[MOST], bad[MOST];
+    uint64_t random = 88172645463325252u;
+    for (int k = 0; k < 4; k++) {
+        const struct kind *kind = &kinds[(const int[]){1, 5, 8, 10}[k]];
+        const char *name = kind->gmsh ? "d.msh" : "d.inp";
+        write_kind(name, kind);
+        FILE *file = fopen(name, "r");
+        const size_t n = fread(whole, 1, MOST, file);
+        fclose(file);
+        assert_true(n > 100 && n < MOST);
+        for (int trial = 0; trial < 250; trial++) {
+            struct geometry g;
+            memcpy(bad, whole, n);
+            for (int change = 0; change < 1 + trial % 4; change++) {
+                static const char bytes[] = "0123456789.-e, \n*$";
+                random ^= random << 13, random ^= random >> 7, random ^= random << 17;
+                bad[random % n] = bytes[(random >> 32) % (sizeof bytes - 1)];
+            }
+            file = fopen(name, "w");
+            assert_int_equal(fwrite(bad, 1, n, file), n);
+            fclose(file);
+            if (geometry_read(&g, name, 3, 1, trial % 2 ? NAN : 0.05) != OK) {
+                assert_null(strchr(status_message(), '\n'));
+                continue;
+            }
+            assert_true(g.whole.volume > 0);
+            geometry_free(&g);
+        }
+        remove(name);
+    }
+}
+
 static char folder[] = "/tmp/cleave_curved_XXXXXX";
 static int enter_folder(void **state)
 {
@@ -273,8 +310,8 @@ static int leave_folder(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_kind_is_curved), cmocka_unit_test(a_ring_is_round),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_kind_is_curved),   cmocka_unit_test(a_ring_is_round),
                                        cmocka_unit_test(curved_beside_straight), cmocka_unit_test(third_order),
-                                       cmocka_unit_test(refused_curves)};
+                                       cmocka_unit_test(refused_curves),         cmocka_unit_test(damaged_curves)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
