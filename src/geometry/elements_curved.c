@@ -8,6 +8,7 @@
 enum { PIECES_MOST_SPACE = 64, PIECES_MOST_PLANE = 4096 };
 #define COARSE_MOST 10.0 /* times the wanted distance, up to which PIECES_MOST pieces are enough */
 #define SAGITTA_SHARE (1.0 / 256)
+#define STRAIGHT 1e-6 /* share of its length by which the middle of an edge may lie beside its chord */
 #define FARTHEST 1e30 /* [m] where squares and products of three still are numbers */
 
 /* ---- edges ------------------------------------------------------------------------------------------------------- */
@@ -20,7 +21,8 @@ static real sagitta_of(const struct element_mesh *m, int32_t from, int32_t to, i
     real along2 = 0, arm2 = 0, both = 0;
     for (int d = 0; d < DIM_MAX; d++)
         along2 += square(b[d] - a[d]), arm2 += square(c[d] - a[d]), both += (b[d] - a[d]) * (c[d] - a[d]);
-    return along2 > 0 ? sqrt(real_max(0, arm2 - square(both) / along2)) : 0;
+    const real off2 = along2 > 0 ? arm2 - square(both) / along2 : 0;
+    return off2 > square(STRAIGHT) * along2 ? sqrt(off2) : 0;
 }
 
 /* Pieces of a curve of this sagitta whose chords lie within `wanted` of it: the distance falls with their square. */

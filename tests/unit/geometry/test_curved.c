@@ -252,6 +252,14 @@ static void refused_curves(void **state)
     assert_near(g.whole.volume, 0.75 * acos(-1), 5e-3);
     geometry_free(&g);
     FILE *file = fopen("r.inp", "w");
+    fputs("*NODE\n1, 0, 0\n2, 1, 1e-9\n3, 0, 1\n4, .5, 0\n5, .5, .5\n6, 0, .5\n*ELEMENT, TYPE=CPS6\n1, 1, 2, 3, 4, 5, "
+          "6\n",
+          file);
+    fclose(file);
+    assert_ok(geometry_read(&g, "r.inp", 2, 1, NAN)); /* straight but for round-off: three edges */
+    assert_int_equal(g.whole.faces, 3);
+    geometry_free(&g);
+    file = fopen("r.inp", "w");
     fputs("*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n4, 1, 1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, 3, 4\n", file);
     fclose(file);
     assert_refused(geometry_read(&g, "r.inp", 2, 1, NAN), "r.inp:7: an element of 3 nodes has more, such as 4");
