@@ -6,9 +6,8 @@
 #include "base/memory.h"
 #include "scene/fill.h"
 
-#define CELLS_MOST 6e6   /* of the box round a body: larger ones take too long */
-#define DEAR_MOST 300000 /* of the box round a surface from a file: of larger ones only distances are looked at */
-enum { PLACES = 64 };    /* within a cell that a face crosses; parts of several cells are known by more */
+#define CELLS_MOST 6e6 /* of the box round a body: larger ones take too long */
+enum { PLACES = 64 };  /* within a cell that a face crosses; parts of several cells are known by more */
 
 static int64_t cover_index(const struct cover *c, const int64_t *at)
 {
@@ -50,6 +49,21 @@ static bool is_crossed(const struct cover *c, const struct region *shape, int64_
     return region_contains(shape, X, c->dim, 0.5 * sqrt(c->dim) * c->spacing);
 }
 
+/* Can a cell that a face crosses have several? It stands alone along an axis, or between two others, or beside none. */
+static bool is_thin(const struct cover *c, int64_t cell)
+{
+    int64_t at[DIM_MAX], stride = 1;
+    bool thin = false, beside = false;
+    cover_place(c, cell, at);
+    for (int d = 0; d < c->dim; stride *= c->n[d], d++) {
+        const bool before = at[d] > 0 && c->filled[cell - stride];
+        const bool after = at[d] + 1 < c->n[d] && c->filled[cell + stride];
+        thin |= c->filled[cell] ? !before && !after : before && after;
+        beside |= before || after;
+    }
+    return thin || !beside;
+}
+
 /* Is a solid a surface from a file, of which places are dear? */
 static bool is_dear(const struct region *shape)
 {
@@ -71,15 +85,16 @@ static real share_behind(const struct cover *c, const struct region *shape, cons
     return share < 0 ? 0 : share > 1 ? 1 : share;
 }
 
-/* Share of a cell by places of a Weyl sequence (Roberts' constants), which begins elsewhere in each cell. */
-static real share_within_cell(const struct cover *c, const struct region *shape, int64_t cell, bool dear)
+/* Share of a cell by places of a Weyl sequence (Roberts' constants), which begins elsewhere in each cell. plane: one
+ * face crosses it. */
+static real share_within_cell(const struct cover *c, const struct region *shape, int64_t cell, bool plane)
 {
     static const real step[][DIM_MAX] = {{0.7548776662466927, 0.5698402909980532},
                                          {0.8191725133961645, 0.6710436067037893, 0.5497004779019703}};
     real middle[DIM_MAX], X[DIM_MAX] = {0};
     int inside = 0;
     cell_middle(c, cell, middle);
-    if (dear) return share_behind(c, shape, middle);
+    if (plane) return share_behind(c, shape, middle);
     for (int k = 0; k < PLACES; k++) {
         for (int d = 0; d < c->dim; d++) {
             const real turn = step[c->dim - 2][d] * (real)(cell % 65521 * PLACES + k) + 0.5;
@@ -112,8 +127,8 @@ bool cover_make(struct cover *c, const struct scene *s, int body)
     }
 #pragma omp parallel for schedule(dynamic, 1024)
     for (int64_t k = 0; k < c->cells; k++)
-        c->share[k] = is_crossed(c, shape, k) ? (float)share_within_cell(c, shape, k, dear && c->cells > DEAR_MOST)
-                                              : c->filled[k];
+        c->share[k] =
+            is_crossed(c, shape, k) ? (float)share_within_cell(c, shape, k, dear && !is_thin(c, k)) : c->filled[k];
     return true;
 }
 
