@@ -1,6 +1,7 @@
 /* Names of all figures that summary.json of a run may have, by which a wrong one is refused before anything runs. */
 #include <ctype.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/edit_distance.h"
@@ -8,35 +9,60 @@
 
 enum { LEAF_ROOM = 40, NAME_ROOM = 160 };
 
-/* Figures of a group, with blanks between them; group "": of the run. `#` in a group stands for a number. */
-static const struct figure_group { const char *group, *leaves; } groups[] = {
+/* Can a run of the scene have figures of a group? */
+static bool of_rest(const struct scene *s) { return scene_at_rest(s) || s->method == METHOD_AUTO; }
+static bool of_contact(const struct scene *s) { return s->contact_between != CONTACT_NONE || scene_bodies_meet(s); }
+static bool of_fragments(const struct scene *s) { return scene_moves(s) && scene_cracks(s); }
+
+/* Figures of a group, with blanks between them; group "": of the run. `#` in a group stands for a number. had: can the
+ * scene have them; NULL: every one can. needs: what a scene has that can. */
+static const struct figure_group {
+    const char *group, *leaves;
+    bool (*had)(const struct scene *s);
+    const char *needs;
+} groups[] = {
     {"", "steps time_step time_step_critical time_end particles particles_made particles_pd_start particles_pd_end "
          "bonds_peak momentum_error threads wall_seconds loop_seconds memory_peak_bytes ns_per_particle_step "
-         "ns_per_bond_step rest_share"},
-    {"levels", "changes"},
-    {"solver", "steps residual bonds_past_limit"},
-    {"load_steps", "steps load_time equilibria directions overload bonds_broken released crack_area release_rate"},
-    {"energy", "kinetic strain plastic fracture contact damped absorbed external_work balance_error"},
-    {"contact", "began ended nodes_max pairs_max friction_work overlap_max"},
-    {"rigid.#", "x y z velocity_x velocity_y velocity_z force_max patch"},
-    {"fragments", "count mass_max particles_alone mass_alone"},
+         "ns_per_bond_step rest_share", NULL, NULL},
+    {"levels", "changes", NULL, NULL},
+    {"solver", "steps residual bonds_past_limit", of_rest, "`solver: relaxation` or `cg`"},
+    {"load_steps", "steps load_time equilibria directions overload bonds_broken released crack_area release_rate",
+     scene_in_steps, "`solver: static`"},
+    {"energy", "kinetic strain plastic fracture contact damped absorbed external_work balance_error", NULL, NULL},
+    {"contact", "began ended nodes_max pairs_max friction_work overlap_max", of_contact, "bodies that meet"},
+    {"rigid.#", "x y z velocity_x velocity_y velocity_z force_max patch", NULL, NULL},
+    {"fragments", "count mass_max particles_alone mass_alone", of_fragments, "bonds that break in time, or cracks"},
     {"crack", "start_time start_step driven_start_time driven_start_step driven_bonds tip_start_time tip_start_step "
-              "arrest_time arrest_step length_end angle_deg tied tip_speed_max tip_speed_mean"},
+              "arrest_time arrest_step length_end angle_deg tied tip_speed_max tip_speed_mean", scene_cracks, "cracks or bonds that break"},
     {"crack.tips.#", "body origin_x origin_y origin_z x y z growth angle_deg start_time start_step arrest_time "
-                     "arrest_step speed_max speed_mean"},
+                     "arrest_step speed_max speed_mean", scene_cracks, "cracks or bonds that break"},
     {"conversion", "first_time x y z pd_share_start pd_share_end pd_share_max converted returned returns_most "
-                   "return_energy"},
+                   "return_energy", NULL, NULL},
 };
 
-/* Quantities of all kinds of probes; those of points also with _min and _max, as of lines. */
-static const char probe_leaves[] =
-    "x y z tied start_time arrest_time length_end angle_deg speed_max speed_mean first_step first_time bonds force_max "
-    "force_max_displacement force_max_step force_rms displacement residual_max position time speed speed_rest kinetic "
-    "strain fracture reflected transmitted energy_change L1 L2 front plateau end_displacement front_plastic "
-    "strain_elastic strain_plastic L1_strain L2_strain front_strain plateau_strain L1_velocity L2_velocity "
-    "L2_displacement K_I K_II J contour_spread direction_deg experiment_deg angle stress_max shear_max "
-    "angular_momentum_error kinetic_energy_error displacement_x displacement_y displacement_z velocity_x velocity_y "
-    "velocity_z stress_xx stress_yy stress_zz stress_xy stress_yz stress_xz stress_zx damage";
+#define READINGS(end)                                                                                                  \
+    "displacement_x" end " displacement_y" end " displacement_z" end " velocity_x" end " velocity_y" end               \
+    " velocity_z" end " stress_xx" end " stress_yy" end " stress_zz" end " stress_xy" end " stress_yz" end             \
+    " stress_zx" end " damage" end
+
+/* Figures of each kind of probe. */
+static const char *const probe_leaves[PROBES] = {
+    [PROBE_TIP] = "x y z tied start_time arrest_time length_end angle_deg speed_max speed_mean",
+    [PROBE_BREAK] = "x y z tied first_step first_time bonds",
+    [PROBE_REACTION] = "force_max force_max_displacement force_max_step force_rms displacement",
+    [PROBE_PATCH] = "residual_max",
+    [PROBE_SPALL] = "position time speed speed_rest",
+    [PROBE_POINT] = READINGS(""),
+    [PROBE_LINE] = READINGS("_min") " " READINGS("_max"),
+    [PROBE_ENERGY] = "kinetic strain fracture",
+    [PROBE_MOMENTUM] = "x y z",
+    [PROBE_PULSE] = "reflected transmitted energy_change",
+    [PROBE_EXACT] = "L1 L2 front plateau end_displacement front_plastic strain_elastic strain_plastic L1_strain "
+                    "L2_strain front_strain plateau_strain L1_velocity L2_velocity L2_displacement",
+    [PROBE_SIF] = "K_I K_II J contour_spread",
+    [PROBE_GROWTH] = "x y z start_time length_end angle_deg direction_deg experiment_deg",
+    [PROBE_RIGID] = "angle stress_max shear_max angular_momentum_error kinetic_energy_error",
+};
 
 /* The nearest name so far. */
 struct nearest { const char *to; char name[NAME_ROOM]; int distance; };
@@ -78,17 +104,52 @@ static void numbers_hidden(char *to, size_t room, const char *name)
 /* Is it a figure of a probe of the scene? `group`: the name before its last point. */
 static bool probe_has(const struct scene *s, const char *group, const char *leaf, struct nearest *n)
 {
-    char own[NAME_ROOM], bare[LEAF_ROOM];
+    char own[NAME_ROOM];
     bool known = false;
-    const size_t length = strlen(leaf);
-    const bool range = length > 4 && (!strcmp(leaf + length - 4, "_min") || !strcmp(leaf + length - 4, "_max"));
-    snprintf(bare, sizeof bare, "%.*s", (int)(length - (range ? 4 : 0)), leaf);
     for (int k = 0; k < s->probes; k++) {
         snprintf(own, sizeof own, "probes.%s", s->probe[k].name);
-        const bool there = leaf_is_known(probe_leaves, own, leaf, n);
-        if (strcmp(own, group) == 0) known |= there || (range && leaf_is_known(probe_leaves, own, bare, n));
+        const bool there = leaf_is_known(probe_leaves[s->probe[k].kind], own, leaf, n);
+        known |= there && strcmp(own, group) == 0;
     }
     return known;
+}
+
+/* What the scene lacks for a figure with these axes in its name (x, velocity_y, stress_zx_max); NULL: nothing. */
+static const char *axes_lack(const struct scene *s, const char *leaf)
+{
+    char axes[LEAF_ROOM];
+    snprintf(axes, sizeof axes, "%s", leaf);
+    const size_t length = strlen(axes);
+    if (length > 4 && (!strcmp(axes + length - 4, "_min") || !strcmp(axes + length - 4, "_max")))
+        axes[length - 4] = '\0';
+    const char *line = strrchr(axes, '_'), *own = line ? line + 1 : axes;
+    const size_t letters = strspn(own, "xyz");
+    if (letters == 0 || own[letters]) return NULL;
+    const bool across = !strcmp(own, "zz") && s->space == SPACE_PLANE_STRAIN;
+    if (strchr(own, 'y') && s->dim < 2) return "a plane or a solid";
+    return strchr(own, 'z') && s->dim < 3 && !across ? "a solid" : NULL;
+}
+
+/* What the scene lacks for times and speeds of cracks, which load steps have not, or for their load steps. */
+static const char *clock_lacks(const struct scene *s, const char *leaf)
+{
+    const char *end = strrchr(leaf, '_');
+    const bool step = end && !strcmp(end, "_step"), time = end && !strcmp(end, "_time"), speed = strstr(leaf, "speed_");
+    if (step && !scene_in_steps(s)) return "`solver: static`";
+    return (time || speed) && scene_in_steps(s) ? "a solver in time: load steps have no speed" : NULL;
+}
+
+/* What the scene lacks for a figure of a known name; NULL: nothing. */
+static const char *figure_lacks(const struct scene *s, const char *group, const char *name, const char *leaf)
+{
+    const bool crack = strncmp(group, "crack", 5) == 0, probe = strncmp(group, "probes.", 7) == 0;
+    const bool body = crack || probe || strncmp(group, "rigid.", 6) == 0 || strcmp(group, "conversion") == 0;
+    const char *lacks = NULL;
+    for (size_t k = 0; k < COUNT_OF(groups) && !lacks; k++)
+        if (strcmp(groups[k].group, group) == 0 && groups[k].had && !groups[k].had(s)) lacks = groups[k].needs;
+    if (!lacks && strcmp(group, "rigid.#") == 0 && atoi(name + 6) >= s->rigids) lacks = "as many rigid bodies";
+    if (!lacks && (crack || probe)) lacks = clock_lacks(s, leaf);
+    return lacks || !body ? lacks : axes_lack(s, leaf);
 }
 
 status figure_name_check(const struct scene *s, const char *name)
@@ -103,10 +164,15 @@ status figure_name_check(const struct scene *s, const char *name)
         const bool there = leaf_is_known(groups[k].leaves, groups[k].group, leaf, &n);
         known |= there && strcmp(groups[k].group, group) == 0;
     }
+    const char *lacks = known ? figure_lacks(s, group, name, leaf) : NULL;
     dot = strrchr(name, '.');
     snprintf(group, sizeof group, "%.*s", dot ? (int)(dot - name) : 0, name);
-    known |= probe_has(s, group, dot ? dot + 1 : name, &n);
-    if (known) return OK;
+    if (probe_has(s, group, dot ? dot + 1 : name, &n)) {
+        known = true;
+        lacks = figure_lacks(s, group, name, dot + 1);
+    }
+    if (known && !lacks) return OK;
+    if (known) return status_set(REFUSED, "%.80s: no run of this scene has this figure: it needs %s", name, lacks);
     return status_set(REFUSED,
                       "%.80s: summary.json has no such figure; the nearest is %s, and names in it are joined by "
                       "points, as in crack.angle_deg",

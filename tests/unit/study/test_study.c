@@ -171,6 +171,58 @@ static void figures_have_units(void **state)
     }
 }
 
+/* Figures that no run of a scene can have are refused with what the scene lacks. `lacks`: NULL, it can have the figure;
+ * else a part of the message. A body without cracks, whose bonds have no limit; one that breaks in load steps. */
+static void figures_fit_their_scene(void **state)
+{
+    (void)state;
+    struct probe_request probe[] = {{.name = "edge", .kind = PROBE_POINT},
+                                    {.name = "along", .kind = PROBE_LINE},
+                                    {.name = "pull", .kind = PROBE_REACTION},
+                                    {.name = "tip", .kind = PROBE_TIP}};
+    struct material whole = {.critical_stretch = INFINITY}, brittle = {.critical_stretch = 0.004};
+    const struct scene plate = {.space = SPACE_PLANE_STRESS, .dim = 2, .materials = 1, .material = &whole, .probes = 3,
+                                .probe = probe, .contact_between = CONTACT_NONE};
+    const struct scene steps = {.space = SPACE_PLANE_STRAIN, .dim = 2, .materials = 1, .material = &brittle,
+                                .probes = 4, .probe = probe, .solver = SOLVER_STATIC, .rigids = 2,
+                                .contact_between = CONTACT_NONE};
+    static const struct { const char *name, *plate, *steps; } figure[] = {
+        {"energy.kinetic", NULL, NULL},
+        {"crack.angle_deg", "needs cracks or bonds that break", NULL},
+        {"crack.start_time", "needs cracks", "load steps have no speed"},
+        {"crack.start_step", "needs cracks", NULL},
+        {"crack.tips.0.x", "needs cracks", NULL},
+        {"crack.tips.1.origin_z", "needs cracks", "needs a solid"},
+        {"crack.tip_speed_max", "needs cracks", "load steps have no speed"},
+        {"load_steps.release_rate", "needs `solver: static`", NULL},
+        {"solver.residual", "needs `solver: relaxation`", "needs `solver: relaxation`"},
+        {"contact.overlap_max", "needs bodies that meet", NULL},
+        {"fragments.count", "needs bonds that break", "needs bonds that break"},
+        {"rigid.1.velocity_y", "needs as many rigid bodies", NULL},
+        {"rigid.2.x", "needs as many rigid bodies", "needs as many rigid bodies"},
+        {"rigid.0.z", "needs as many rigid bodies", "needs a solid"},
+        {"conversion.y", NULL, NULL},
+        {"conversion.z", "needs a solid", "needs a solid"},
+        {"probes.edge.stress_zz", "needs a solid", NULL},
+        {"probes.edge.velocity_y", NULL, NULL},
+        {"probes.edge.velocity_y_max", "no such figure", "no such figure"},
+        {"probes.along.velocity_y_max", NULL, NULL},
+        {"probes.along.velocity_y", "no such figure", "no such figure"},
+        {"probes.along.stress_zx_min", "needs a solid", "needs a solid"},
+        {"probes.pull.force_max_step", "needs `solver: static`", NULL},
+        {"probes.pull.K_I", "no such figure", "no such figure"},
+        {"probes.tip.speed_max", "no such figure", "load steps have no speed"},
+        {"probes.none.x", "no such figure", "no such figure"},
+    };
+    for (size_t k = 0; k < COUNT_OF(figure); k++)
+        for (int which = 0; which < 2; which++) {
+            const char *lacks = which ? figure[k].steps : figure[k].plate;
+            const status s = figure_name_check(which ? &steps : &plate, figure[k].name);
+            if (s != (lacks ? REFUSED : OK) || (lacks && !strstr(status_message(), lacks)))
+                fail_msg("%s, scene %d: %s", figure[k].name, which, s == OK ? "not refused" : status_message());
+        }
+}
+
 /* 100000 names take 0.1 s; comparing each with all others 24 s. */
 static void many_names_are_found_in_time(void **state)
 {
@@ -233,6 +285,7 @@ int main(void)
         cmocka_unit_test(names_do_not_depend_on_the_order_of_keys),
         cmocka_unit_test(values_are_short_in_pictures),
         cmocka_unit_test(figures_have_units),
+        cmocka_unit_test(figures_fit_their_scene),
         cmocka_unit_test(many_names_are_found_in_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
