@@ -7,7 +7,7 @@
 
 #include "bench.h"
 #include "plot/gnuplot.h"
-#include "plot/picture_file.h"
+#include "output/picture_file.h"
 #include "base/memory.h"
 #include "base/memory_stream.h"
 #include "output/output_files.h"
@@ -109,8 +109,19 @@ static void put_json(FILE *to, const char *name, const struct bench_table *table
     fputs("\n}\n", to);
 }
 
+/* REFUSED if files would be made somewhere else: the folder, or the one above it, is a link. */
+static status bench_folder_guard(void)
+{
+    static const char *const folder[] = {"results", BENCH_FOLDER};
+    for (size_t k = 0; k < COUNT_OF(folder); k++)
+        if (path_is_link(folder[k]))
+            return status_set(REFUSED, "%s is a link: tables would be made somewhere else; remove it", folder[k]);
+    return OK;
+}
+
 status bench_folder_make(void)
 {
+    TRY(bench_folder_guard());
     if (mkdir("results", 0777) != 0 && errno != EEXIST) return file_fault("results", errno);
     if (mkdir(BENCH_FOLDER, 0777) != 0 && errno != EEXIST) return file_fault(BENCH_FOLDER, errno);
     return OK;
@@ -127,6 +138,7 @@ status bench_guard(const char *name)
     static const char *const ending[] = {"csv", "png", "svg"};
     char path[256], begin[128], *text;
     size_t length;
+    TRY(bench_folder_guard());
     snprintf(path, sizeof path, BENCH_FOLDER "/%s.json", name);
     bool ours = true;
     if (path_exists(path)) {

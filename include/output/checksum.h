@@ -8,7 +8,7 @@
 
 enum { FOOTER_BYTES = 24 };
 
-/* Puts the footer behind PATH.tmp and syncs it. On a fault PATH.tmp is removed. */
+/* Puts the footer behind PATH.cleave.tmp and syncs it. On a fault PATH.cleave.tmp is removed. */
 status file_seal_whole(const char *path);
 
 /* What is wrong with a file that ought to have a footer, to be put behind its name; NULL: it is whole. */

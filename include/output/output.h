@@ -122,6 +122,9 @@ status output_frame_begin(struct output *o, int k, const struct particles *p, co
 /* All frames of each series so far as one file for later versions of ParaView, frames.vtkhdf (output_temporal.c): at
  * the end of a run. Nothing where there is no frame, or more than such a file is good for. */
 status output_temporal(struct output *o, const char *scene_text);
+/* Removes the files that output_temporal of an earlier process wrote: a run that goes on has other frames, and one that
+ * fails does not write them again. */
+void output_temporal_remove(const struct output *o);
 /* The next frame has other particles than the last one, which must be written. */
 void output_particles_changed(struct output *o);
 /* Until no frame is on its way; OK without one. */

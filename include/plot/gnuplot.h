@@ -5,9 +5,8 @@
 
 #include <stdio.h>
 
-#include "base/base.h"
+#include "output/picture_file.h"
 
-enum picture_format { PICTURE_PNG, PICTURE_SVG, PICTURE_PDF, PICTURE_MP4, PICTURE_GIF, PICTURE_FORMATS };
 extern const char *const picture_ending[PICTURE_FORMATS];
 /* The last two are films of PNG pictures (plot/film.h). */
 static inline bool picture_moves(enum picture_format format) { return format >= PICTURE_MP4; }

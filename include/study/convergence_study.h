@@ -72,6 +72,9 @@ void convergence_study_free(struct convergence_study *s);
  * caller frees *figure. */
 status figures_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
                     struct figure_study **figure, int *figures);
+/* REFUSED if the folder is that of a study and the table or a picture that a study of convergence leaves there is a
+ * file of others. Other folders are refused by study_take. */
+status figures_guard(const char *folder);
 /* Writes FOLDER/converge.csv. */
 status figures_write(const struct convergence_study *s, const struct figure_study *figure, int figures);
 /* Prints a table, the sentence for each figure, and what moves it most. */

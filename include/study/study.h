@@ -137,6 +137,9 @@ void study_unit(char *unit, size_t room, const char *header, const char *figure)
 void study_print_warnings(const struct study *s, FILE *out);
 /* Writes FOLDER/sweep.csv: a line for each run: its name, its state, the values of the keys that vary, its figures. */
 status study_write_table(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys);
+/* REFUSED if the folder is that of a study and the table or a picture that the study of these keys leaves there is a
+ * file of others. Other folders are refused by study_take. */
+status study_output_guard(const struct study *s, const struct varied_key *key, int keys);
 /* Draws FOLDER/pictures/KEY.png for each key that varies, and map.png where two do. */
 status study_draw(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys);
 

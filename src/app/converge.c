@@ -95,7 +95,7 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* The folder; REFUSED if it is that of another scene's study. */
+/* The folder; REFUSED if it is that of another scene's study, or holds files of others. */
 static status converge_place(struct converge_arguments *a)
 {
     struct convergence_wish *w = &a->wish;
@@ -105,7 +105,7 @@ static status converge_place(struct converge_arguments *a)
     if (!w->folder) w->folder = a->folder;
     const status fits = w->way.overwrite ? OK : study_folder_fits(w->folder, scene.text);
     scene_free(&scene);
-    return fits;
+    return fits == OK ? figures_guard(w->folder) : fits;
 }
 
 static status converge_all(struct converge_arguments *a)

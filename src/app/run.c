@@ -85,6 +85,7 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
                 omp_get_num_procs());
     e->report.stop = stop_signals();
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
+    output_temporal_remove(out);
     status ran = engine_run(e);
     if (ran == OK) ran = engine_baseline(e);
     if (ran == OK || ran == INTERRUPTED) {

@@ -114,6 +114,7 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
     TRY(study_check(s, a->collect));
     study_print_same(s, stderr);
     if (a->list) return sweep_list(s, a);
+    TRY(study_output_guard(s, a->key, a->keys));
     status ran = OK;
     if (a->collect)
         TRY(study_take(s, a->way.overwrite));

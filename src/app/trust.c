@@ -23,8 +23,9 @@ static const struct promise promises[] = {
      "line and status 1; files "
      "that are there are whole, and --resume gets to the same bits.",
      "test_faults.c long_faults.sh"},
-    {"So does a disk that is full, or a file or memory limit. A library that finds no memory may crash without a line "
-     "while there is some left; --resume gets to the same bits then, too.",
+    {"So does a disk that is full, or a file or memory limit. Where a library alone finds no memory while there is "
+     "some left, 3 of 100 such runs end without a line of this program: they crash, or have the library's own words; "
+     "--resume gets to the same bits then, too.",
      "test_trust.sh test_little_memory.sh long_faults.sh"},
     {"A broken invariant, which is a fault of the program itself, ends a run with one line that says what to report "
      "and status 1; no file stays half-written, and --resume gets to the same bits.",

@@ -5,9 +5,14 @@
 #include "engine_report.h"
 #include "output/output_files.h"
 
+/* What profiles of lines and of bars begin with (probes_profiles.c). */
+static const char *const profile_begin[] = {"s [m],", "x [m],"};
+
 static status engine_profiles_put(void *folder, const char *name, const char *text, size_t length)
 {
-    return file_put_unsettled(path_join(folder, name).text, text, length);
+    const struct path path = path_join(folder, name);
+    TRY(file_begin_guard(path.text, profile_begin, COUNT_OF(profile_begin)));
+    return file_put_unsettled(path.text, text, length);
 }
 
 status engine_profiles_write(struct engine *e)
@@ -36,10 +41,17 @@ void engine_profiles_check(struct engine *e)
     engine_say(e, text);
 }
 
+/* Removes a profile, and leaves a file of others. False: there is none. */
+static bool profile_remove(const char *path)
+{
+    if (!path_exists(path)) return false;
+    return file_begin_guard(path, profile_begin, COUNT_OF(profile_begin)) != OK || unlink(path) == 0;
+}
+
 void engine_profiles_remove(struct engine *e)
 {
     char name[PROFILE_NAME];
     for (int k = 0; probes_profile_name(&e->probing.probes, k, 0, name); k++)
         for (int frame = 0; probes_profile_name(&e->probing.probes, k, frame, name); frame++)
-            if (unlink(path_join(e->report.out->folder, name).text) != 0) break;
+            if (!profile_remove(path_join(e->report.out->folder, name).text)) break;
 }

@@ -72,7 +72,7 @@ static struct archive archive_of(struct hdf *f, bool saving)
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-/* Writes PATH.tmp without its footer; removes it on a fault. */
+/* Writes PATH.cleave.tmp without its footer; removes it on a fault. */
 static status state_write(struct output *o, const char *path, const char *scene_text, archive_all_fn *archive_all,
                           void *context)
 {

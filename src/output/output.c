@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "output/folder_guard.h"
 #include "output/output_files.h"
+#include "output/picture_file.h"
 #include "output/pictures.h"
 #include "output/summary_read.h"
 
@@ -26,16 +27,19 @@ void output_start(void)
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
 
-/* Files of a run, in the order of their removal: checkpoints first, since none may outlive the frames before it. */
-static const char *const made[] = {"checkpoint.h5",
-                                   "checkpoint.previous.h5",
-                                   "checkpoint.damaged.h5",
-                                   "summary.json",
-                                   "history.csv",
-                                   "fragments.csv",
-                                   "frames.hdf.series",
-                                   "frames.xdmf",
-                                  "frames.vtkhdf"};
+/* Files of a run, in the order of their removal: checkpoints first, since none may outlive the frames before it. begin:
+ * what a table begins with. */
+static const struct { const char *name, *begin; } made[] = {
+    {"checkpoint.h5", NULL},
+    {"checkpoint.previous.h5", NULL},
+    {"checkpoint.damaged.h5", NULL},
+    {"summary.json", NULL},
+    {"history.csv", "time [s],"},
+    {"fragments.csv", "body,particles,"},
+    {"frames.hdf.series", NULL},
+    {"frames.xdmf", NULL},
+    {"frames.vtkhdf", NULL},
+};
 
 /* True for the name of a frame, 123456.hdf, followed by `end`. */
 static bool is_frame(const char *name, const char *end)
@@ -44,23 +48,10 @@ static bool is_frame(const char *name, const char *end)
     return digits >= 6 && strncmp(name + digits, ".hdf", 4) == 0 && strcmp(name + digits + 4, end) == 0;
 }
 
-/* What is done with each file of an older run: file_guard, or file_remove. */
-typedef status each_file(const char *path);
-
 static status file_remove(const char *path) { return (void)unlink(path), OK; }
 
-/* Calls `each` for the files of a folder that `chosen` names, with `end` after their names. A link is left alone. */
-static status files_each(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end,
-                         each_file *each)
-{
-    status s = OK;
-    DIR *d = path_is_link(folder) ? NULL : opendir(folder);
-    if (!d) return OK;
-    for (struct dirent *e; s == OK && (e = readdir(d));)
-        if (chosen(e->d_name, end)) s = each(path_join(folder, e->d_name).text);
-    closedir(d);
-    return s;
-}
+/* Removes a picture that Cleave drew; those of others stay. */
+static status picture_remove(const char *path) { return picture_is_ours(path) ? file_remove(path) : OK; }
 
 static bool has_frames(const char *folder)
 {
@@ -182,7 +173,7 @@ static status folder_check(const char *folder, const char *scene_text, enum outp
 static bool has_run(const char *folder)
 {
     bool any = has_frames(path_join(folder, "frames").text);
-    for (size_t k = 0; k < COUNT_OF(made); k++) any |= path_exists(path_join(folder, made[k]).text);
+    for (size_t k = 0; k < COUNT_OF(made); k++) any |= path_exists(path_join(folder, made[k].name).text);
     return any;
 }
 
@@ -277,20 +268,28 @@ static status regions_each(const char *folder, const char *end, each_file *each)
 /* Calls `each` for every file that a run replaces; stops at the first fault. */
 static status run_each(const char *folder, each_file *each)
 {
-    for (size_t k = 0; k < COUNT_OF(made); k++) TRY(file_each(folder, made[k], each));
+    for (size_t k = 0; k < COUNT_OF(made); k++) TRY(file_each(folder, made[k].name, each));
     TRY(files_each(path_join(folder, "frames").text, is_frame, "", each));
     TRY(regions_each(folder, "", each));
-    TRY(files_each(pictures_folder(folder).text, is_picture, "", each));
-    return files_each(pictures_folder(folder).text, is_picture, ".tmp", each);
+    TRY(files_each(pictures_folder(folder).text, is_picture, "", each == file_remove ? picture_remove : each));
+    return files_each(pictures_folder(folder).text, is_picture, ASIDE_ENDING, each);
 }
 
 /* Temporary files of the run itself; those of pictures may be of a `cleave plot` that draws a run to be resumed. */
 static void temporary_remove(const char *folder)
 {
-    for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_aside(path_join(folder, made[k]).text).text);
+    for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_aside(path_join(folder, made[k].name).text).text);
     unlink(path_aside(path_join(folder, "scene.yaml").text).text);
-    files_each(path_join(folder, "frames").text, is_frame, ".tmp", file_remove);
-    regions_each(folder, ".tmp", file_remove);
+    files_each(path_join(folder, "frames").text, is_frame, ASIDE_ENDING, file_remove);
+    regions_each(folder, ASIDE_ENDING, file_remove);
+}
+
+/* REFUSED if a table that a run writes anew is a file of others. */
+static status tables_guard(const char *folder)
+{
+    for (size_t k = 0; k < COUNT_OF(made); k++)
+        if (made[k].begin) TRY(file_begin_guard(path_join(folder, made[k].name).text, &made[k].begin, 1));
+    return OK;
 }
 
 static status folder_prepare(const char *folder, const char *scene_text, enum output_mode mode)
@@ -299,6 +298,7 @@ static status folder_prepare(const char *folder, const char *scene_text, enum ou
     TRY(folder_check(folder, scene_text, mode));
     TRY(mode_check(folder, mode));
     TRY(run_each(folder, file_guard));
+    if (mode != OUTPUT_RESUME) TRY(tables_guard(folder));
     if (!file_holds(scene.text, scene_text, strlen(scene_text))) TRY(file_guard(scene.text));
     TRY(folder_make(frames.text));
     temporary_remove(folder);

@@ -1,6 +1,7 @@
 /* Paths, and whole files: written aside, synced, renamed. */
 #include "output/output_files.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
@@ -26,7 +27,7 @@ static struct path path_compose(const char *first, const char *between, const ch
 
 struct path path_join(const char *folder, const char *name) { return path_compose(folder, "/", name); }
 
-struct path path_aside(const char *path) { return path_compose(path, "", ".tmp"); }
+struct path path_aside(const char *path) { return path_compose(path, "", ASIDE_ENDING); }
 
 bool path_exists(const char *path)
 {
@@ -133,6 +134,21 @@ status file_guard(const char *path)
         return status_set(REFUSED, "%s is no regular file and is not replaced; choose another -o", path);
     if (!input_was_read(path)) return OK;
     return status_set(REFUSED, "%s is read by this command and never written over; choose another -o", path);
+}
+
+status file_begin_guard(const char *path, const char *const *begin, size_t n)
+{
+    char first[64];
+    bool ours = false;
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0 && !path_exists(path)) return OK;
+    const ssize_t have = fd < 0 ? 0 : read(fd, first, sizeof first);
+    if (fd >= 0) close(fd);
+    for (size_t k = 0; k < n && have >= 0; k++) {
+        const size_t length = strlen(begin[k]);
+        ours |= strncmp(first, begin[k], (size_t)have < length ? (size_t)have : length) == 0;
+    }
+    return ours ? OK : status_set(REFUSED, "%s is there already and not of cleave; move it away", path);
 }
 
 bool file_holds(const char *path, const void *bytes, size_t length)
@@ -258,6 +274,18 @@ status folder_make(const char *path)
         part.text[k] = path[k];
     }
     return folder_make_one(part.text);
+}
+
+status files_each(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end,
+                  each_file *each)
+{
+    status s = OK;
+    DIR *d = path_is_link(folder) ? NULL : opendir(folder);
+    if (!d) return OK;
+    for (struct dirent *e; s == OK && (e = readdir(d));)
+        if (chosen(e->d_name, end)) s = each(path_join(folder, e->d_name).text);
+    closedir(d);
+    return s;
 }
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */

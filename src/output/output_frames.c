@@ -218,7 +218,7 @@ void output_particles_changed(struct output *o)
     for (int k = 0; k <= o->n_series; k++) kept_free(&o->series[k]);
 }
 
-/* Writes PATH.tmp and publishes it as PATH. */
+/* Writes PATH.cleave.tmp and publishes it as PATH. */
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;

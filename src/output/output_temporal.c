@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/last_words.h"
 #include "base/memory.h"
@@ -166,6 +167,15 @@ static status series_temporal(struct output *o, const struct frame_series *serie
     if (a.n > 0) s = temporal_write(&a, path_join(o->folder, name).text, scene_text, &o->broken);
     memory_free(a.start), memory_free(a.name), memory_free(a.source), memory_free(a.time);
     return s;
+}
+
+void output_temporal_remove(const struct output *o)
+{
+    for (int k = 0; k <= o->n_series; k++) {
+        char name[PATH_NAME_ROOM];
+        series_file(&o->series[k], name, sizeof name, ".vtkhdf");
+        unlink(path_join(o->folder, name).text);
+    }
 }
 
 status output_temporal(struct output *o, const char *scene_text)

@@ -13,7 +13,7 @@
 #include "base/leavings.h"
 #include "base/memory.h"
 #include "output/output_files.h"
-#include "plot/picture_file.h"
+#include "output/picture_file.h"
 
 enum { NOT_FOUND = 127, FILM_WORDS = 24 };
 static const char *const FRAMES_PER_SECOND = "8";
@@ -57,8 +57,8 @@ static bool pipe_make(int *ends)
     return true;
 }
 
-/* Starts ffmpeg on the film PATH.tmp: one that plays everywhere (H.264, even sizes), or a GIF by a palette of its own.
- */
+/* Starts ffmpeg on the film PATH.cleave.tmp: one that plays everywhere (H.264, even sizes), or a GIF by a palette of
+ * its own. */
 static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet)
 {
     struct path to;
@@ -124,7 +124,8 @@ status film_draw(struct sheet sheet, const char *title, enum map map, const stru
 {
     struct ffmpeg f;
     struct path picture;
-    if (snprintf(picture.text, sizeof picture.text, "%s.tmp.png", sheet.path) >= (int)sizeof picture.text - 8)
+    const int length = snprintf(picture.text, sizeof picture.text, "%s" ASIDE_ENDING ".png", sheet.path);
+    if (length >= (int)(sizeof picture.text - sizeof ASIDE_ENDING))
         return status_set(FAILED, "%s: the name is too long", sheet.path);
     TRY(file_guard(sheet.path));
     unlink(path_aside(sheet.path).text); /* links of this name are not followed */

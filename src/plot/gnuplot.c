@@ -12,7 +12,7 @@
 
 #include "base/leavings.h"
 #include "output/output_files.h"
-#include "plot/picture_file.h"
+#include "output/picture_file.h"
 
 /* Exit status of a child whose program does not exist, as in shells. */
 enum { NOT_FOUND = 127 };
@@ -131,7 +131,7 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
                 path);
     g->path = strdup(path);
     /* gnuplot takes a name that begins with a bar for a command */
-    if (g->path == NULL || asprintf(&g->aside, "%s%s.tmp", path[0] == '/' ? "" : "./", path) < 0) {
+    if (g->path == NULL || asprintf(&g->aside, "%s%s" ASIDE_ENDING, path[0] == '/' ? "" : "./", path) < 0) {
         g->aside = NULL;
         gnuplot_release(g);
         return status_set(FAILED, "%s: out of memory", path);

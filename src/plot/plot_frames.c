@@ -8,8 +8,9 @@
 
 #include "base/memory.h"
 #include "output/output_files.h"
+#include "output/picture_file.h"
+#include "output/pictures.h"
 #include "output/summary_read.h"
-#include "plot/picture_file.h"
 #include "plot/plot.h"
 
 enum { PATH_LENGTH = 4096 };
@@ -134,7 +135,7 @@ status pictures_folder_make(const char *path)
     if (path_is_link(path))
         return status_set(REFUSED, "%s is a link: pictures would be made somewhere else; remove it", path);
     if (mkdir(path, 0777) != 0 && errno != EEXIST) return status_set(FAILED, "%s: %s", path, strerror(errno));
-    return OK;
+    return files_each(path, is_picture, "", picture_guard);
 }
 
 status picture_destination(struct path *path, const char *out, const char *name, bool overwrite)

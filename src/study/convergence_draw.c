@@ -6,15 +6,25 @@
 #include "base/memory.h"
 #include "output/history.h"
 #include "output/output_files.h"
+#include "output/picture_file.h"
 #include "plot/gnuplot.h"
 #include "study/convergence_study.h"
 
 enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16 };
 #define FLICKER 3.0 /* by which a tip moves without growing [spacings] */
 
-static struct path convergence_picture(const struct convergence_study *s, const char *name)
+static struct path convergence_picture(const char *folder, const char *name)
 {
-    return path_join(path_join(s->study.folder, "pictures").text, name);
+    return path_join(path_join(folder, "pictures").text, name);
+}
+
+status figures_guard(const char *folder)
+{
+    static const char *const begin[] = {"figure,unit,"};
+    if (study_folder_guard(folder) != OK) return OK; /* study_take says why */
+    TRY(file_begin_guard(path_join(folder, "converge.csv").text, begin, COUNT_OF(begin)));
+    TRY(picture_guard(convergence_picture(folder, "convergence.png").text));
+    return picture_guard(convergence_picture(folder, "path.png").text);
 }
 
 /* ---- figures over the spacing ------------------------------------------------------------------------------------ */
@@ -68,7 +78,7 @@ static status draw_figures(const struct convergence_study *s, const struct figur
     const int shown = figures < SHOWN_MOST ? figures : SHOWN_MOST, wide = shown < SHOWN_WIDE ? shown : SHOWN_WIDE;
     const int rows = (shown + SHOWN_WIDE - 1) / SHOWN_WIDE;
     struct gnuplot g;
-    const struct path picture = convergence_picture(s, "convergence.png");
+    const struct path picture = convergence_picture(s->study.folder, "convergence.png");
     TRY(gnuplot_open(&g, picture.text, PICTURE_PNG, 100 + 420 * wide, 80 + 360 * rows));
     for (int k = 0; k < shown; k++) send_figure(g.to, s, &figure[k], k);
     fprintf(g.to,
@@ -186,7 +196,7 @@ static status draw_paths(const struct convergence_study *s)
     struct extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     bool named[LEVELS_MOST] = {false};
     int drawn = 0;
-    TRY(gnuplot_open(&g, convergence_picture(s, "path.png").text, PICTURE_PNG, 900, 720));
+    TRY(gnuplot_open(&g, convergence_picture(s->study.folder, "path.png").text, PICTURE_PNG, 900, 720));
     fputs("set size ratio -1\nset xlabel 'x [mm]'\nset ylabel 'y [mm]'\n"
           "set title 'paths of the longest tip, all runs'\n",
           g.to);

@@ -237,6 +237,7 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
     candidates_find(p);
     TRY(folder_make(p->folder));
     TRY(study_folder_claim(p->folder));
+    TRY(figures_guard(p->folder));
     if (!p->way.quiet)
         fprintf(
             stderr,

@@ -371,13 +371,11 @@ static void send_number_tics(FILE *to, const struct varied_key *key)
 
 static status draw_lines(struct study_picture *p)
 {
-    char name[CASE_NAME_ROOM + 8], text[256];
+    char name[PICTURE_NAME_ROOM], text[256];
     struct gnuplot g;
     roles_choose(p, LINES_MOST);
     room_find(p, NULL);
-    snprintf(name, sizeof name, "%.*s.png", CASE_NAME_ROOM, p->key[p->across].key);
-    for (char *c = name; *c; c++)
-        if (*c == '/') *c = '_';
+    study_picture_name(name, p->key[p->across].key);
     TRY(picture_open(&g, p, name));
     for (int panel = 0; panel < p->panels; panel++) send_points(g.to, p, panel);
     if (p->numbers)

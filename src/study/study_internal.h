@@ -26,6 +26,9 @@ enum { LABEL_ROOM = 40 };
 void study_value_shown(char *text, const struct varied_key *key, int v);
 /* Characters of the longest of these. */
 int study_values_longest(const struct varied_key *key);
+/* Name of the picture of a key, KEY.png; [PICTURE_NAME_ROOM]. */
+enum { PICTURE_NAME_ROOM = CASE_NAME_ROOM + 8 };
+void study_picture_name(char *name, const char *key);
 /* A round distance of tics, of which there are at most so many steps in the range. */
 double study_tics_apart(double range, int most);
 

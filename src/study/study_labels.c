@@ -76,3 +76,10 @@ double study_tics_apart(double range, int most)
     while (k + 1 < COUNT_OF(lead) && range / (lead[k] * decade) > most) k++;
     return lead[k] * decade;
 }
+
+void study_picture_name(char *name, const char *key)
+{
+    snprintf(name, PICTURE_NAME_ROOM, "%.*s.png", CASE_NAME_ROOM, key);
+    for (char *c = name; *c; c++)
+        if (*c == '/') *c = '_';
+}

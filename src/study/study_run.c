@@ -53,21 +53,35 @@ static char **command_words(const char *scene, const struct study_case *c, char 
     return word;
 }
 
+/* Prints a character within quotes. `harmful`: a terminal would act on it, and the stream would replace it: its number
+ * instead, which the shell gives to printf. */
+static void print_quoted(FILE *out, char c, bool harmful)
+{
+    if (harmful)
+        fprintf(out, "'\"$(printf '\\%03o')\"'", (unsigned)(unsigned char)c);
+    else if (c == '\'')
+        fputs("'\\''", out);
+    else
+        putc(c, out);
+}
+
 /* A word as a shell reads it: in quotes unless it holds nothing that a shell would touch. */
 static void print_word(FILE *out, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
-    if (*word && strspn(word, plain) == strlen(word)) {
+    const size_t length = strlen(word);
+    if (*word && strspn(word, plain) == length) {
         fputs(word, out);
         return;
     }
+    char *shown = NEW("study.shown", (int64_t)length + 1, char);
+    strcpy(shown, word);
+    text_harmless(shown);
     putc('\'', out);
-    for (; *word; word++)
-        if (*word == '\'')
-            fputs("'\\''", out);
-        else
-            putc(*word, out);
+    for (size_t k = 0; k < length; k++)
+        print_quoted(out, word[k], shown[k] != word[k] && word[k] != '\n' && word[k] != '\t');
     putc('\'', out);
+    memory_free(shown);
 }
 
 /* A path that means the same wherever the command is given. Links stay: a scene has the name of the one that leads to
@@ -111,6 +125,21 @@ static struct path log_path(const struct study *s, const struct study_case *c)
     return path_join(path_join(s->folder, "logs").text, name);
 }
 
+/* First line of a log. */
+static const char log_mark[] = "# log by cleave of a run of a study\n";
+
+/* REFUSED if the run would be somewhere else, or if its log is a file of others. Logs of earlier builds have no first
+ * line of their own and begin with a warning. */
+static status case_guard(const struct study *s, const struct study_case *c)
+{
+    static const char *const begin[] = {log_mark, "warning: "};
+    const struct path folder = study_folder(s, c), log = log_path(s, c);
+    if (path_is_link(folder.text))
+        return status_set(REFUSED, "%s is a link: the run would be somewhere else; choose another -o", folder.text);
+    TRY(file_guard(log.text));
+    return file_begin_guard(log.text, begin, COUNT_OF(begin));
+}
+
 /* Child process: a group of its own, so that the terminal's interrupt reaches the study alone, which passes it on once;
  * ended where the study is killed. */
 static _Noreturn void become_run(char **word, int log)
@@ -135,12 +164,11 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
     struct path folder = study_folder(r->study, c), log = log_path(r->study, c);
     const bool there = path_exists(path_join(folder.text, "scene.yaml").text);
     snprintf(threads, sizeof threads, "%d", r->how.threads);
-    if (path_is_link(folder.text))
-        return status_set(REFUSED, "%s is a link: the run would be somewhere else; choose another -o", folder.text);
-    TRY(file_guard(log.text));
+    TRY(case_guard(r->study, c));
     unlink(log.text); /* links of this name are not followed */
     const int fd = open(log.text, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (fd < 0) return file_fault(log.text, errno);
+    if (write(fd, log_mark, sizeof log_mark - 1) < 0) errno = 0; /* the study goes on without its logs */
     char **word = command_words(r->study->scene, c, threads, folder.text,
                                 r->how.overwrite ? "--overwrite"
                                 : there          ? "--resume"
@@ -172,7 +200,7 @@ static void last_line(const char *path, char *line, size_t room)
     if (file_get(path, &text, &length) != OK) return;
     while (length > 0 && text[length - 1] == '\n') text[--length] = '\0';
     const char *last = strrchr(text, '\n');
-    if (length > 0) snprintf(line, room, "%s", last ? last + 1 : text);
+    if (last) snprintf(line, room, "%s", last + 1);
     text_harmless(line);
     memory_free(text);
 }
@@ -197,7 +225,7 @@ static void case_end(struct runner *r, struct study_case *c, int ended)
     } else if (!r->how.quiet)
         fprintf(stderr, "[%d/%d] %s: %s in %.3g s\n", r->ended, r->study->n, c->name,
                 c->state == CASE_DONE ? "done" : "stopped", c->seconds);
-    if (stat(log.text, &info) == 0 && info.st_size == 0) unlink(log.text);
+    if (stat(log.text, &info) == 0 && info.st_size < (off_t)sizeof log_mark) unlink(log.text);
 }
 
 /* Takes in the runs that have ended. */
@@ -301,12 +329,14 @@ status study_run(struct study *s, struct study_way how)
     struct runner r = {.study = s};
     TRY(folder_make(s->folder));
     TRY(study_take(s, how.overwrite));
-    TRY(folder_make(path_join(s->folder, "logs").text));
     for (int k = 0; k < s->n; k++) {
         struct study_case *c = &s->at[k];
         if (how.overwrite && c->state == CASE_DONE_BEFORE) c->state = CASE_WAITING;
         r.ended += c->state != CASE_WAITING;
     }
+    for (int k = 0; k < s->n; k++)
+        if (s->at[k].state == CASE_WAITING) TRY(case_guard(s, &s->at[k]));
+    TRY(folder_make(path_join(s->folder, "logs").text));
     r.how = way_filled(how, s);
     r.shares = core_shares_make(r.how.jobs);
     const status ran = cases_run(&r);

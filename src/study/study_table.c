@@ -6,8 +6,9 @@
 #include "base/memory.h"
 #include "base/memory_stream.h"
 #include "output/output_files.h"
+#include "output/picture_file.h"
 #include "output/summary_read.h"
-#include "study/study.h"
+#include "study_internal.h"
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
@@ -150,4 +151,21 @@ status study_write_table(const struct study_table *t, const struct study *s, con
     FILE *to = memory_stream_open(&text, &length);
     if (to) table_print(to, t, s, key, keys);
     return study_put(s, "sweep.csv", to, &text, &length);
+}
+
+/* ---- guard ------------------------------------------------------------------------------------------------------- */
+
+status study_output_guard(const struct study *s, const struct varied_key *key, int keys)
+{
+    static const char *const begin[] = {"run,state"};
+    const struct path pictures = path_join(s->folder, "pictures");
+    if (study_folder_guard(s->folder) != OK) return OK; /* study_take says why */
+    TRY(file_begin_guard(path_join(s->folder, "sweep.csv").text, begin, COUNT_OF(begin)));
+    TRY(picture_guard(path_join(pictures.text, "map.png").text));
+    for (int k = 0; k < keys; k++) {
+        char name[PICTURE_NAME_ROOM];
+        study_picture_name(name, key[k].key);
+        if (key[k].values > 1) TRY(picture_guard(path_join(pictures.text, name).text));
+    }
+    return OK;
 }

@@ -69,8 +69,8 @@ rm "$work/once/.running"
 
 mkdir -p "$work/desk" "$work/elsewhere"
 echo mine >"$work/desk/thesis.tmp"
-ln -s "$work/elsewhere/made" "$work/desk/scene.yaml.tmp"
-ln -s "$work/elsewhere/made" "$work/desk/along_000000.csv.tmp"
+ln -s "$work/elsewhere/made" "$work/desk/scene.yaml.cleave.tmp"
+ln -s "$work/elsewhere/made" "$work/desk/along_000000.csv.cleave.tmp"
 sed 's/^probes: .tip./probes: [tip, {line: {name: along, from: [0, 10 mm], to: [50 mm, 10 mm]}}]/' inputs/kalthoff_winkler.yaml >"$work/along.yaml"
 holds "the scene has the probe" grep -q along "$work/along.yaml"
 calm "$work/desk" $(echo "$small" | sed "s#inputs/kalthoff_winkler.yaml#$work/along.yaml#")
@@ -87,8 +87,8 @@ cp -r "$work/once" "$work/|touch PWNED;echo "
 is "a folder that looks like a command: exit status" $? 0
 for name in damage energy; do
     echo thesis >"$work/thesis"
-    ln -sf "$work/thesis" "$work/once/pictures/$name.png.tmp" 2>/dev/null ||
-        { mkdir "$work/once/pictures"; ln -s "$work/thesis" "$work/once/pictures/$name.png.tmp"; }
+    ln -sf "$work/thesis" "$work/once/pictures/$name.png.cleave.tmp" 2>/dev/null ||
+        { mkdir "$work/once/pictures"; ln -s "$work/thesis" "$work/once/pictures/$name.png.cleave.tmp"; }
 done
 "$cleave" plot "$work/once" >"$work/out" 2>&1
 is "a picture writes through no link" "$(cat "$work/thesis")" thesis
@@ -160,9 +160,9 @@ holds "a picture of the frame behind the gap" test -e "$work/part/pictures/damag
 calm "$work/whole" $small -s output.frames=6
 for frame in 000000 000002 000006; do holds "frame $frame" cmp "$work/part/frames/$frame.hdf" "$work/whole/frames/$frame.hdf"; done
 # a run that goes on leaves what is being drawn beside it
-touch "$work/part/pictures/damage.png.tmp"
+touch "$work/part/pictures/damage.png.cleave.tmp"
 calm "$work/part" $small -s output.frames=6 --resume
-holds "a picture half drawn" test -e "$work/part/pictures/damage.png.tmp"
+holds "a picture half drawn" test -e "$work/part/pictures/damage.png.cleave.tmp"
 # a run made anew takes the pictures of the old one with it, finished or not, and leaves those of others
 touch "$work/part/pictures/mine.png" "$work/part/pictures/damage_mine.png"
 calm "$work/part" $small --overwrite
@@ -223,6 +223,7 @@ mv "$work/frame" "$work/swapped/frames/000002.hdf"
 warned "frames that changed places" "$work/swapped" "frames/000001.hdf is another one, and 1 frames more" $small -s output.frames=6 --resume
 sed -i '5s/1/2/' "$work/swapped/history.csv"
 stopped "a history that changed" "$work/swapped" "history.csv is not what it was.*--overwrite" $small -s output.frames=6 --resume
+holds "no index of all frames is left of the run before" test ! -e "$work/swapped/frames.vtkhdf"
 mkfifo "$work/pipe"
 mv "$work/pipe" "$work/swapped/history.csv" 2>/dev/null
 "$cleave" compare "$work/swapped" "$work/whole" >"$work/out" 2>"$work/err"
@@ -371,6 +372,52 @@ echo mine >"$work/results/bench/threads.csv"
 is "a table of others beside those of benches: exit status" $? 2
 is "and it stays" "$(cat "$work/results/bench/threads.csv")" mine
 rm -r "$work/results"
+rm -rf "$work/far"
+mkdir "$work/far"
+for link in results results/bench; do
+    mkdir -p "$(dirname "$work/$link")"
+    ln -s "$work/far" "$work/$link"
+    (cd "$work" && timeout 20 "$cleave" bench threads --quick >out 2>err)
+    is "$link that is a link: exit status" $? 2
+    holds "$link that is a link: $(cat "$work/err")" grep -q "^$link is a link" "$work/err"
+    is "$link: nothing is written there" "$(ls "$work/far")" ""
+    rm -r "$work/results"
+done
+
+# files of others in folders of Cleave, by the names that Cleave gives
+# others_stay WHAT FILE TEXT COMMAND...: it is refused before anything runs, and FILE is as it was.
+others_stay()
+{
+    what=$1 file=$2 text=$3; shift 3
+    mkdir -p "$(dirname "$file")"
+    mv "$file" "$work/aside" 2>/dev/null
+    echo mine >"$file"
+    declined "$what" "$text" "$@"
+    is "$what: it stays" "$(cat "$file")" mine
+    rm "$file"
+    if [ -e "$work/aside" ]; then mv "$work/aside" "$file"; fi
+}
+foreign="is there already and \(not of\|was not drawn by\) cleave; move it away"
+others_stay "a picture" "$work/once/pictures/damage.png" "damage.png $foreign" plot "$work/once"
+others_stay "a picture of a field" "$work/once/pictures/field_speed.png" "field_speed.png $foreign" plot "$work/once" --field speed
+others_stay "a history" "$work/own/history.csv" "history.csv $foreign" run -q "$work/strip.yaml" -s duration=2us -o "$work/own" --overwrite
+others_stay "a profile" "$work/lined/axis_000000.csv" "axis_000000.csv $foreign" run -q "$work/lined.yaml" -o "$work/lined" --overwrite
+mkdir -p "$work/own/pictures"
+echo mine >"$work/own/pictures/damage.png"
+"$cleave" run -q "$work/strip.yaml" -s duration=2us -o "$work/own" --overwrite 2>"$work/err"
+is "a picture beside a run that is replaced" "$(cat "$work/own/pictures/damage.png")" mine
+rm -rf "$work/study"
+"$cleave" sweep "$work/strip.yaml" -s material.density=2440,2500 -o "$work/study" -q >"$work/out" 2>&1
+sweep="sweep $work/strip.yaml -s material.density=2440,2500,2600 -o $work/study -q"
+others_stay "a table of a study" "$work/study/sweep.csv" "sweep.csv $foreign" $sweep
+others_stay "a picture of a study" "$work/study/pictures/material.density.png" "density.png $foreign" $sweep
+others_stay "a log" "$work/study/logs/density=2600.txt" "density=2600.txt $foreign" $sweep
+converge="converge $work/strip.yaml -o $work/study -q --overwrite"
+others_stay "a table of convergence" "$work/study/converge.csv" "converge.csv $foreign" $converge
+others_stay "a picture of convergence" "$work/study/pictures/path.png" "path.png $foreign" $converge
+is "no more has run" "$(ls -d "$work/study"/*=* | wc -l | tr -d ' ')" 2
+$cleave $sweep >"$work/out" 2>&1
+is "the study goes on: $(cat "$work/out")" $? 0
 
 # ---- what is read is a file ----------------------------------------------------------------------------------------
 
@@ -412,5 +459,10 @@ silent "a figure" converge "$work/strip.yaml" --of "$red" -o "$work/none"
 silent "a field" plot "$work/once" --field "$red"
 silent "a folder" compare "$work/once" "$work/$red"
 silent "a command" "$red"
+# the list of a sweep is for a shell, which gets the same bytes
+odd=$(printf '%s/it\047s\033[31mred\342\200\256' "$work")
+silent "a list" sweep "$work/strip.yaml" -s method=pd,mpm -o "$odd" --list
+folder_listed() { while [ $# -gt 1 ] && [ "$1" != -o ]; do shift; done; echo "$2"; }
+is "a folder of a list" "$(eval "folder_listed $(head -n 1 "$work/out")")" "$odd/method=pd"
 
 finish

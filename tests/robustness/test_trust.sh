@@ -128,7 +128,7 @@ for limit in $nothing 4096 $((frame / 2)) $((frame - 600)) $((frame + 2048)) $((
 done
 
 # what a killed process leaves beside the files
-touch "$work/full/checkpoint.h5.tmp" "$work/full/frames/000099.hdf.tmp"
+touch "$work/full/checkpoint.h5.cleave.tmp" "$work/full/frames/000099.hdf.cleave.tmp"
 calm "$work/full" --resume $flat $often
 bare "stale files" "$work/full"
 

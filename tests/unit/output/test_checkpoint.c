@@ -311,7 +311,7 @@ static void fault_of_a_module_loses_nothing(void **state)
     assert_int_equal(write_step(&o, 5, 100), OK);
     assert_int_equal(checkpoint_write(&o, scene_text, limits_archive, NULL), FAILED);
     assert_message("the toy is broken");
-    assert_false(path_exists("module/checkpoint.h5.tmp"));
+    assert_false(path_exists("module/checkpoint.h5.cleave.tmp"));
     assert_resumes_at(&o, 5, 100);
     assert_int_equal(write_step(&o, 6, 100), OK);
     assert_resumes_at(&o, 6, 100);
@@ -340,7 +340,7 @@ static int write_to_full_disk(struct output *o, bool frame_first)
     /* HDF5 is not called again, and the first message stands. */
     if (output_frame(o, &p, 0, 0, scene_text) != FAILED || write_step(o, 7, 1) != FAILED) return 4;
     if (strcmp(status_message(), expected) != 0) return 5;
-    if (path_exists("full/checkpoint.h5.tmp") || path_exists("full/frames/000000.hdf.tmp")) return 6;
+    if (path_exists("full/checkpoint.h5.cleave.tmp") || path_exists("full/frames/000000.hdf.cleave.tmp")) return 6;
     particles_free(&p);
     return 0;
 }

@@ -305,7 +305,7 @@ static void pictures_are_drawn(void **state)
         char path[256];
         snprintf(path, sizeof path, "%s/pictures/%s.png", words[1], picture[k]);
         assert_true(picture_width(path) > 500);
-        snprintf(path, sizeof path, "%s/pictures/%s.png.tmp", words[1], picture[k]);
+        snprintf(path, sizeof path, "%s/pictures/%s.png.cleave.tmp", words[1], picture[k]);
         assert_false(is_there(path));
     }
 }

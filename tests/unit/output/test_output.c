@@ -308,25 +308,54 @@ static void older_run_is_replaced_unless_resumed(void **state)
     open_fresh(&o, "again", false);
     static const char *const made[] = {"frames/000000.hdf", "history.csv", "checkpoint.h5", "checkpoint.previous.h5"};
     for (size_t k = 0; k < COUNT_OF(made); k++) assert_int_equal(output_text(&o, made[k], "x", 1), OK);
-    assert_int_equal(output_text(&o, "frames/000001.hdf.tmp", "x", 1), OK);
-    assert_int_equal(output_text(&o, "checkpoint.h5.tmp", "x", 1), OK);
+    static const char *const others[] = {"frames/000001.hdf.tmp", "checkpoint.h5.tmp", "history.csv.tmp"};
+    for (size_t k = 0; k < COUNT_OF(others); k++) assert_int_equal(output_text(&o, others[k], "mine", 4), OK);
+    assert_int_equal(output_text(&o, "frames/000001.hdf.cleave.tmp", "x", 1), OK);
+    assert_int_equal(output_text(&o, "checkpoint.h5.cleave.tmp", "x", 1), OK);
     output_close(&o);
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK);
     output_close(&o);
     for (size_t k = 0; k < COUNT_OF(made); k++) assert_true(path_exists(path_join("again", made[k]).text));
-    assert_false(path_exists("again/frames/000001.hdf.tmp"));
-    assert_false(path_exists("again/checkpoint.h5.tmp"));
+    assert_false(path_exists("again/frames/000001.hdf.cleave.tmp"));
+    assert_false(path_exists("again/checkpoint.h5.cleave.tmp"));
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_FIRST, false), REFUSED);
     assert_message("again holds an interrupted run of this scene; go on with --resume, replace it with --overwrite");
     assert_int_equal(unlink("again/checkpoint.h5") | unlink("again/checkpoint.previous.h5"), 0);
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK);      /* it has but begun */
-    assert_int_equal(output_text(&o, "history.csv", "time\n0\n", 7), OK);
+    assert_int_equal(output_text(&o, "history.csv", "time [s],step\n0,0\n", 18), OK);
     output_close(&o);
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), REFUSED);
     assert_message("holds a run whose checkpoints are gone");
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_OVERWRITE, false), OK);
     output_close(&o);
     for (size_t k = 0; k < COUNT_OF(made); k++) assert_false(path_exists(path_join("again", made[k]).text));
+    for (size_t k = 0; k < COUNT_OF(others); k++)
+        assert_true(file_holds(path_join("again", others[k]).text, "mine", 4));
+}
+
+/* A table of others in the folder of a run is never written over; one that was cut short is the run's own. */
+static void tables_of_others_stay(void **state)
+{
+    (void)state;
+    static const struct { const char *name, *text; status ended; } table[] = {
+        {"history.csv", "mine", REFUSED}, {"history.csv", "", OK},
+        {"history.csv", "time [s", OK},   {"fragments.csv", "body,mass\n", REFUSED},
+        {"fragments.csv", "body,particles,mass [kg]\n", OK}};
+    struct output o;
+    open_fresh(&o, "tables", false);
+    output_close(&o);
+    for (size_t k = 0; k < COUNT_OF(table); k++) {
+        const struct path path = path_join("tables", table[k].name);
+        const size_t length = strlen(table[k].text);
+        assert_int_equal(file_put(path.text, table[k].text, length), OK);
+        assert_int_equal(output_open(&o, "tables", scene_text, OUTPUT_OVERWRITE, false), table[k].ended);
+        if (table[k].ended == OK) output_close(&o);
+        assert_true(path_exists(path.text) == (table[k].ended != OK));
+        if (table[k].ended == OK) continue;
+        assert_true(file_holds(path.text, table[k].text, length));
+        assert_message("is there already and not of cleave; move it away");
+        assert_int_equal(unlink(path.text), 0);
+    }
 }
 
 static void history_is_cut_back(void **state)
@@ -442,6 +471,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(damaged_frames_are_refused),
         cmocka_unit_test(folders_of_others_are_refused),
         cmocka_unit_test(older_run_is_replaced_unless_resumed),
+        cmocka_unit_test(tables_of_others_stay),
         cmocka_unit_test(history_is_cut_back),
         cmocka_unit_test(history_on_a_full_disk_fails),
         cmocka_unit_test(summary_has_the_figures),

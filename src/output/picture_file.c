@@ -1,5 +1,5 @@
 /* The end of a picture's file says whether it is whole; the mark of Cleave stands there, where viewers ignore it. */
-#include "plot/picture_file.h"
+#include "output/picture_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -106,4 +106,11 @@ bool picture_is_ours(const char *path)
     close(fd);
     for (int k = 0; k < PICTURE_FORMATS; k++) ours |= memmem(last, have, ends[k].mark, ends[k].mark_length) != NULL;
     return ours;
+}
+
+status picture_guard(const char *path)
+{
+    TRY(file_guard(path));
+    if (!path_exists(path) || picture_is_ours(path)) return OK;
+    return status_set(REFUSED, "%s is there already and was not drawn by cleave; move it away", path);
 }
