@@ -415,9 +415,24 @@ static void what_is_written_stays(void **state)
     scene_free(&s);
 }
 
+/* The narrowest ring that a probe of factors takes has three spacings: from its inner radius, half of its own outer one
+ * where none is given, to each outer one. */
+static void rings_have_spacings(void **state)
+{
+    (void)state;
+    double contour[] = {7e-3, 5.2e-3};
+    struct probe_request probe[] = {{.kind = PROBE_SIF, .outer = 6e-3, .inner = 2.3e-3},
+                                    {.kind = PROBE_SIF, .contours = {.n = 2, .value = contour}},
+                                    {.kind = PROBE_LINE, .outer = 1e-3}};
+    const struct scene one = {.probes = 1, .probe = probe}, all = {.probes = 3, .probe = probe};
+    assert_true(fabs(auto_spacing_rings(&one) * 3 / 3.7e-3 - 1) < 1e-3);
+    assert_true(fabs(auto_spacing_rings(&all) * 3 / 2.6e-3 - 1) < 1e-3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rings_have_spacings),
         cmocka_unit_test(cheapest_of_two_powers),
         cmocka_unit_test(runs_where_it_is_not_smooth),
         cmocka_unit_test(what_is_not_reached_is_said),

@@ -87,8 +87,28 @@ static void test_ordinary(void **state)
         }
 }
 
+/* Bonds all stretched to their limit that cross a plane hold, per area, 9 E h s^2/(4 pi) in plane stress and E h s^2/3
+ * on a line (Silling & Askari 2005; h: horizon), which the lattice comes to with the horizon: 12 spacings, to 5 %. */
+static void test_crossing(void **state)
+{
+    (void)state;
+    static const struct { enum space space; real over; } in[] = {{SPACE_LINE, 1.0 / 3},
+                                                                 {SPACE_PLANE_STRESS, 9 / (4 * 3.14159265358979)}};
+    for (size_t k = 0; k < COUNT_OF(in); k++) {
+        struct material m = {.young = 3.1e9, .poisson = k ? 1.0 / 3 : 0, .density = 1180, .critical_stretch = 0.013};
+        struct family f = {.volume = VOLUME_RAMP, .calibration = CALIBRATION_LATTICE};
+        material_derive(&m, in[k].space);
+        m.critical_stretch = 0.013;
+        family_make(&f, in[k].space, 0.7e-3, 12.015, 0.37e-3);
+        const real expected = in[k].over * 3.1e9 * 12.015 * 0.7e-3 * square(0.013);
+        const real off = family_crossing_energy(&f, &m) / expected - 1;
+        if (!(fabs(off) < 0.05)) fail_msg("space %d: off by %g", (int)in[k].space, off);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rotations), cmocka_unit_test(test_ordinary)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_crossing), cmocka_unit_test(test_rotations),
+                                       cmocka_unit_test(test_ordinary)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,8 @@
 
 #include "tests/support/patch.h"
 #include "base/team.h"
+#include "coupling/approach.h"
+#include "coupling/notch.h"
 
 #define STRAIN 1e-7          /* bonds stretch by finite geometry: deviations from linear theory of this order */
 
@@ -312,6 +314,71 @@ static void test_crack_in_its_body(void **state)
     cloud_free(&c);
 }
 
+/* Three bodies side by side, and a rigid one below the last: a point is marked if a particle of another body, or the
+ * rigid one, is within reach; peridynamic ones are not, but begin their time anew. */
+static void test_approach(void **state)
+{
+    (void)state;
+    enum { BODIES = 3, WIDE = 21, HIGH = 5 };
+    static struct solid box = {.kind = SOLID_BOX, .from = {16 * CLOUD_SPACING, -4 * CLOUD_SPACING},
+                               .to = {30 * CLOUD_SPACING, -1.7 * CLOUD_SPACING}};
+    const struct region shape = {.n = 1, .solid = &box};
+    const real rest[DIM_MAX] = {0}, reach = 3 * CLOUD_SPACING;
+    struct rigid_body rigid = {.name = "below"};
+    struct cloud c;
+    int64_t marked = 0;
+    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {WIDE, HIGH}, .horizon = 3.015});
+    assert_int_equal(rigid_make(&rigid, &shape, 2, 1.3, rest, CLOUD_SPACING), OK);
+    struct particles *p = &c.p;
+    p->low_since = NEW("test.low_since", p->n, real);
+    for (int64_t i = 0; i < p->n; i++) {
+        const int body = (int)(BODIES * p->X[0][i] / (WIDE * CLOUD_SPACING));
+        p->body[i] = (uint8_t)body, p->flag[i] = 0, p->kind[i] = i % 7 == 0 ? KIND_PD : KIND_MPM;
+        p->x[0][i] += 1.3 * CLOUD_SPACING * body, p->x[1][i] += 0.4 * CLOUD_SPACING * (body == 1);
+    }
+    approach_mark(p, BODIES, &rigid, 1, reach);
+    for (int64_t i = 0; i < p->n; i++) {
+        real normal[DIM_MAX], x[DIM_MAX] = {p->x[0][i], p->x[1][i]};
+        bool near = region_distance(&shape, x, 2, normal) < reach;
+        for (int64_t j = 0; j < p->n; j++)
+            near |= p->body[j] != p->body[i] && hypot(p->x[0][j] - x[0], p->x[1][j] - x[1]) <= reach;
+        assert_true(near == (p->kind[i] == KIND_PD ? p->low_since[i] == INFINITY : (p->flag[i] & FLAG_NEAR) != 0));
+        marked += near;
+    }
+    assert_true(marked > 4 * HIGH && marked < p->n - 4 * HIGH);
+    cloud_free(&c);
+}
+
+/* Faces of a notch 0.3 spacings wide become peridynamic where they will have come nearer by all of it: by what they
+ * have moved and, if they come nearer, the way ahead. */
+static void test_faces_meet(void **state)
+{
+    (void)state;
+    enum { WIDE = 7 };
+    static const real moved[WIDE] = {0.29, 0.31, 0.05, 0.05, 0.35, 0, 0.2}, /* of the upper row, down [spacings] */
+        way[WIDE] = {0, 0, 0.24, 0.26, -0.1, 0.31, 0.05};                   /* ahead [spacings] */
+    const real h = CLOUD_SPACING, ahead = 1.7e-6;
+    real corner[2][DIM_MAX] = {{-h, h}, {(WIDE + 1) * h, h}};
+    struct crack slit = {.n = 2, .corner = corner, .width = 0.3 * h};
+    struct cloud c;
+    int32_t face[2 * WIDE];
+    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {WIDE, 2}, .horizon = 3.015});
+    for (int64_t i = 0; i < c.p.n; i++) {
+        const int k = (int)(c.p.X[0][i] / h);
+        face[i] = (int32_t)i;
+        c.p.kind[i] = KIND_MPM, c.p.flag[i] = 0;
+        if (c.p.X[1][i] < h) continue;
+        c.p.x[1][i] -= moved[k] * h, c.p.v[1][i] = -way[k] * h / ahead;
+    }
+    const struct notches notches = {.slits = 1, .slit = &slit, .faces = c.p.n, .face = face};
+    notches_approach(&notches, &c.p, h, ahead);
+    for (int64_t i = 0; i < c.p.n; i++) {
+        const int k = (int)(c.p.X[0][i] / h);
+        assert_int_equal((c.p.flag[i] & FLAG_NEAR) != 0, moved[k] + real_max(way[k], 0) > 0.3);
+    }
+    cloud_free(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -324,6 +391,8 @@ int main(void)
         cmocka_unit_test(test_energy_in_run),
         cmocka_unit_test(test_block_in_its_body),
         cmocka_unit_test(test_crack_in_its_body),
+        cmocka_unit_test(test_approach),
+        cmocka_unit_test(test_faces_meet),
     };
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,6 @@
-/* Load steps: reactions of supports against those of the static solver, beside planes of symmetry on which particles
- * lie, and against the loads; the work of loads. */
+/* Supports. Load steps: reactions against those of the static solver, beside planes of symmetry on which particles lie,
+ * and against the loads; the work of loads. In time: nodes on and beyond planes, velocities that grow, regions that
+ * other bodies come into. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -82,9 +83,119 @@ static void test_mirrored_nodes(void **state)
     solution_free(&a);
 }
 
+#define BLOCK                                                                                                          \
+    "space: plane strain\nthickness: 0.37 m\nduration: 1.3 ms\nmethod: mpm\n"                                          \
+    "material: {young: 1 MPa, poisson: 1/4, density: 1180}\nbody: {box: {from: [0, 0], to: [30 mm, 50 mm]}}\n"         \
+    "particles: {spacing: 5 mm}\n"
+
+/* A block whose velocity grows evenly, V t/T in all of it, has gone V T/2 at T, in every frame; its
+ * support has given it m V. */
+static void test_ramp(void **state)
+{
+    (void)state;
+    static const char *const frames[][3] = {{"method=pd", NULL},
+                                            {"method=mpm", "mpm.frame=reference", NULL},
+                                            {"mpm.frame=current", "mpm.transfer=apic", NULL},
+                                            {"mpm.frame=current", "mpm.transfer=flip", NULL}};
+    const real way[] = {0.5 * 3 * 1.3e-3, -0.5 * 0.7 * 1.3e-3}, mass = 30e-3 * 50e-3 * 0.37 * 1180;
+    const real momentum[] = {3 * mass, -0.7 * mass};
+    for (size_t k = 0; k < COUNT_OF(frames); k++) {
+        struct solution a;
+        solution_run(&a, BLOCK, "boundary=[{velocity: [3 m/s, -0.7 m/s], time: {ramp: {until: 1.3 ms}}}]", frames[k][0],
+                     frames[k][1], NULL);
+        solution_done(&a);
+        engine_sync(&a.e);
+        for (int64_t i = 0; i < a.e.part.n; i++)
+            for (int d = 0; d < 2; d++) near_to("way", a.e.part.x[d][i] - a.e.part.X[d][i], way[d], 1e-9);
+        for (int d = 0; d < 2; d++) /* velocities are those of half a step before the end */
+            near_to("impulse", a.e.loads.impulse[d], momentum[d] * (1 - 0.5 / (real)a.e.clock.steps), 1e-4);
+        solution_free(&a);
+    }
+}
+
+/* A block whose lower part is driven by a ramp does what one does that is driven by the formula of it. */
+static void test_ramp_below(void **state)
+{
+    (void)state;
+    static const char *const frames[][3] = {{"method=pd", NULL},
+                                            {"method=mpm", "mpm.frame=reference", NULL},
+                                            {"mpm.frame=current", "mpm.transfer=apic", NULL},
+                                            {"mpm.frame=current", "mpm.transfer=flip", NULL}};
+    static const char foot[] = "boundary=[{%s, region: {box: {from: [-inf, -inf], to: [inf, 21 mm]}}}]";
+    char ramp[200], formula[200];
+    snprintf(ramp, sizeof ramp, foot, "velocity: [3 m/s, -0.7 m/s], time: {ramp: {until: 1.3 ms}}");
+    snprintf(formula, sizeof formula, foot, "velocity: [3 m/s*t/(1.3 ms), -0.7 m/s*t/(1.3 ms)]");
+    for (size_t k = 0; k < COUNT_OF(frames); k++) {
+        struct solution a, b;
+        solution_run(&a, BLOCK, ramp, "duration=1 ms", frames[k][0], frames[k][1], NULL), solution_done(&a);
+        solution_run(&b, BLOCK, formula, "duration=1 ms", frames[k][0], frames[k][1], NULL), solution_done(&b);
+        engine_sync(&a.e), engine_sync(&b.e);
+        assert_true(solution_difference(&a, &b) < 1e-9);
+        solution_free(&a), solution_free(&b);
+    }
+}
+
+/* A plate sheared on its right side, held in its middle, does in its right half what one does whose left side is
+ * sheared the other way: y displacements are odd in x, others there are none yet, away from the upper and lower edges.
+ * The middle lies on nodes, or half-way between two. */
+static void test_shear_beside_clamps(void **state)
+{
+    (void)state;
+    static const char half[] =
+        "space: plane strain\nthickness: 0.37 mm\nduration: 3 us\nmethod: mpm\n"
+        "material: {young: 3 GPa, poisson: 0.3, density: 1180}\nparticles: {spacing: 0.5 mm}\n"
+        "body: {box: {from: [0, -15 mm], to: [4 mm, 15 mm]}}\nboundary:\n"
+        "  - {mirror: {axis: x, at: 0, tangential: held}}\n  - {traction: [0, 1.7 MPa], face: x+}\n";
+    static const char whole[] =
+        "space: plane strain\nthickness: 0.37 mm\nduration: 3 us\nmethod: mpm\n"
+        "material: {young: 3 GPa, poisson: 0.3, density: 1180}\nparticles: {spacing: 0.5 mm}\n"
+        "body: {box: {from: [-4 mm, -15 mm], to: [4 mm, 15 mm]}}\nboundary:\n"
+        "  - {traction: [0, -1.7 MPa], face: x-}\n  - {traction: [0, 1.7 MPa], face: x+}\n";
+    static const char *const with[][2] = {{"mpm.frame=reference", "mpm.origin=[0, 0]"},
+                                          {"mpm.frame=reference", "mpm.origin=[0.5 mm, 0]"},
+                                          {"mpm.frame=current", "mpm.origin=[0, 0]"},
+                                          {"mpm.frame=current", "mpm.origin=[0.5 mm, 0]"}};
+    for (size_t k = 0; k < COUNT_OF(with); k++) {
+        struct solution a, b;
+        real most = 0, largest = 0;
+        solution_run(&a, half, with[k][0], with[k][1], NULL), solution_done(&a);
+        solution_run(&b, whole, with[k][0], with[k][1], NULL), solution_done(&b);
+        engine_sync(&a.e), engine_sync(&b.e);
+        for (int m = 0; m < 8; m++) {
+            const real x = (m + 0.5) * 0.5e-3, y = 0.25e-3, own = solution_moved(&a, 1, x, y, 0);
+            largest = real_max(largest, fabs(own));
+            most = real_max(most, fabs(own - solution_moved(&b, 1, x, y, 0)));
+        }
+        if (!(largest > 1e-6 && most <= 1e-9 * largest))
+            fail_msg("%s %s: %g of %g m", with[k][0], with[k][1], most, largest);
+        solution_free(&a), solution_free(&b);
+    }
+}
+
+/* A region that holds a body holds no other that comes into it: that flies on. */
+static void test_others_pass(void **state)
+{
+    (void)state;
+    static const char bars[] =
+        "space: line\nsection: 0.73 cm^2\nduration: 100 us\nmethod: mpm\nmpm: {frame: current}\n"
+        "material: {young: 72 GPa, poisson: 0, density: 2440}\nparticles: {spacing: 1 mm}\nbodies:\n"
+        "  - {name: held, shape: {box: {from: [0], to: [20 mm]}}}\n"
+        "  - {name: comes, shape: {box: {from: [60 mm], to: [80 mm]}}}\n"
+        "initial: [{velocity: [-300 m/s], region: {box: {from: [50 mm], to: [90 mm]}}}]\n"
+        "boundary: [{fixed: all, region: {box: {from: [-10 mm], to: [45 mm]}}}]\n";
+    struct solution a;
+    solution_run(&a, bars, NULL), solution_done(&a);
+    for (int64_t i = 0; i < a.e.part.n; i++)
+        if (a.e.part.body[i] == 1) near_to("velocity", a.e.part.v[0][i], -300, 1e-9);
+    assert_true(a.e.part.n == 40 && a.e.mpm.fields > 1);
+    solution_free(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_reactions), cmocka_unit_test(test_foot),
-                                       cmocka_unit_test(test_mirrored_nodes)};
+                                       cmocka_unit_test(test_mirrored_nodes), cmocka_unit_test(test_ramp),
+                                       cmocka_unit_test(test_ramp_below),
+                                       cmocka_unit_test(test_shear_beside_clamps), cmocka_unit_test(test_others_pass)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

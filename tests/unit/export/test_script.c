@@ -27,6 +27,10 @@ static const char block[] =
     "body: {box: {from: [0, 0, 0], to: [3 mm, 3 mm, 3 mm]}}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n";
 static const char glass[] = "material: {young: 192 GPa, density: 8000, critical_stretch: 0.013}\n";
 
+/* What script_of keeps of plate.data, if it is wanted; to be freed. */
+static bool bonds_wanted;
+static char *bonds_found;
+
 /* Exports a scene; returns in.lammps, to be freed. */
 static char *script_of(const char *a, const char *b, const char *c, bool bond_style)
 {
@@ -40,6 +44,7 @@ static char *script_of(const char *a, const char *b, const char *c, bool bond_st
     fclose(to);
     assert_ok(export_lammps(&r));
     assert_ok(file_get("out/in.lammps", &script, &length));
+    if (bonds_wanted) assert_ok(file_get("out/plate.data", &bonds_found, &length));
     for (size_t k = 0; k < COUNT_OF(file); k++) unlink(path_join("out", file[k]).text);
     rmdir("out");
     return script;
@@ -180,6 +185,48 @@ static void bonds_of_two(void **state)
     memory_free(script);
 }
 
+/* Bond types of three materials: the bonds of plate.data between two of them have the stiffness of both. */
+static void bonds_of_three(void **state)
+{
+    (void)state;
+    static const char three[] =
+        "materials:\n  - {name: a, young: 192 GPa, density: 8000, critical_stretch: 0.013}\n"
+        "  - {name: b, young: 70 GPa, density: 2700, critical_stretch: 0.013}\n"
+        "  - {name: c, young: 3.1 GPa, density: 1180, critical_stretch: 0.013}\n"
+        "space: plane stress\nthickness: 0.37 mm\nduration: 1 us\nmethod: pd\n"
+        "bodies:\n  - {material: a, shape: {box: {from: [-3 mm, -3 mm], to: [3 mm, 3 mm]}}, parts: [\n"
+        "      {region: {box: {from: [0, -inf], to: [inf, inf]}}, material: b},\n"
+        "      {region: {box: {from: [-inf, 0], to: [inf, inf]}}, material: c}]}\n"
+        "particles: {spacing: 0.5 mm, horizon: 3.015}\n";
+    static const real young[] = {192, 70, 3.1};
+    enum { SIDE = 12 };
+    int found[3][3] = {{0}}, bonds = 0;
+    real of_type[7] = {0};
+    bonds_wanted = true;
+    char *script = script_of(three, "", "", true), *data = bonds_found;
+    bonds_wanted = false;
+    const char *at = script;
+    for (int k = 0; k < 6; k++) {
+        int type;
+        at = behind(at, "bond_coeff ");
+        assert_int_equal(sscanf(at, "%d %*s %lf", &type, &of_type[k + 1]), 2);
+        assert_int_equal(type, k + 1);
+    }
+    for (at = behind(data, "\nBonds\n\n"); *at != '\n' && *at; at = strchr(at, '\n') + 1, bonds++) {
+        int number, type, end[2], m[2];
+        assert_int_equal(sscanf(at, "%d %d %d %d", &number, &type, &end[0], &end[1]), 4);
+        for (int e = 0; e < 2; e++) /* row by row from the lower left */
+            m[e] = (end[e] - 1) / SIDE >= SIDE / 2 ? 2 : (end[e] - 1) % SIDE >= SIDE / 2 ? 1 : 0;
+        const real expected = 2 * young[m[0]] * young[m[1]] / (young[m[0]] + young[m[1]]);
+        assert_close(of_type[type] / of_type[1], expected / young[0], 1e-9);
+        found[m[0]][m[1]]++;
+    }
+    for (int a = 0; a < 3; a++)
+        for (int b = a; b < 3; b++) assert_true(found[a][b] + found[b][a] > 4);
+    memory_free(script);
+    memory_free(data);
+}
+
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
 /* A pull normal to a face is its stress over the spacing, per volume, with bonds its force: by the mean of its function
@@ -250,6 +297,7 @@ static void drives(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(coefficients), cmocka_unit_test(bonds_of_two),
+                                       cmocka_unit_test(bonds_of_three),
                                        cmocka_unit_test(forces), cmocka_unit_test(drives)};
     team_make(1);
     return cmocka_run_group_tests(tests, folder_enter, folder_leave);

@@ -154,6 +154,49 @@ static void gradients_fall_back(void **state)
     }
 }
 
+/* Cubic spline of Belytschko et al. 1994, r: distance over the radius of the support. */
+static real spline_weight(real r)
+{
+    return r <= 0.5 ? 2.0 / 3 - 4 * r * r + 4 * r * r * r : r < 1 ? 4.0 / 3 * (1 - r) * (1 - r) * (1 - r) : 0;
+}
+
+/* Slope along x of three values on a line, and a fourth beside it that fixes the slope along y alone: of a straight
+ * line by least squares with the spline, or of the sum of omega V x f over that of omega V x^2, omega 1/r. A crack that
+ * hides the particle at 1 makes it as far away as the way round its tip, to the power of `diffraction`. */
+static void gradients_have_their_weights(void **state)
+{
+    (void)state;
+    static const real x[] = {0, 1, -1.4, 0}, y[] = {0, 0, 0, 1.1}, f[] = {0.3, 2.1, -0.7, 5};
+    static const real V[] = {1.3, 0.7, 2.9, 0.4};
+    const real reach = 1.5, round = 2 * hypot(0.5, 0.3);
+    real corner[2][DIM_MAX] = {{0.5, -20}, {0.5, 0.3}};
+    const struct crack crack = {2, corner};
+    for (int hidden = 0; hidden < 2; hidden++)
+        for (int method = 0; method < 2; method++) {
+            struct gradient_rule rule = {.method = method, .reach = reach, .tip = {0.5, 0.3}, .diffraction = 2,
+                                         .sight = {.crack = &crack, .cracks = hidden}};
+            struct particles p;
+            struct cells c;
+            struct gradient_stencil s = {0};
+            real gradient[2][2], w = 0, wx = 0, wf = 0, wxx = 0, wxf = 0, xf = 0, xx = 0;
+            particles_make(&p, 2, 4, 0);
+            for (int i = 0; i < 4; i++) p.X[0][i] = x[i], p.X[1][i] = y[i], p.volume0[i] = V[i], p.x[0][i] = f[i];
+            cells_make(&c, &p, 3.1);
+            for (int i = 0; i < 3; i++) {
+                const real r = hidden && i == 1 ? round * round : fabs(x[i]), own = spline_weight(r / (2 * reach));
+                w += own, wx += own * x[i], wf += own * f[i], wxx += own * x[i] * x[i], wxf += own * x[i] * f[i];
+                if (i > 0) xf += V[i] / r * x[i] * (f[i] - f[0]), xx += V[i] / r * x[i] * x[i];
+            }
+            gradient_stencil_at(&s, &rule, &p, &c, 0);
+            gradient_of(&s, 0, (const real *const[]){p.x[0], p.x[0]}, gradient);
+            const real expected = method == GRADIENT_MLS ? (w * wxf - wx * wf) / (w * wxx - wx * wx) : xf / xx;
+            assert_near(gradient[0][0], expected, 1e-12);
+            gradient_stencil_free(&s);
+            cells_free(&c);
+            particles_free(&p);
+        }
+}
+
 /* ---- the integral from particles --------------------------------------------------------------------------------- */
 
 /* An even lattice of spacing 1 round the tip at (shift), displaced by the exact field of a crack at an angle. */
@@ -446,6 +489,7 @@ int main(void)
         cmocka_unit_test(gradients_on_irregular_clouds),
         cmocka_unit_test(cracks_hide_particles),
         cmocka_unit_test(gradients_fall_back),
+        cmocka_unit_test(gradients_have_their_weights),
         cmocka_unit_test(lattice_sums_of_exact_gradients),
         cmocka_unit_test(lattice_sums_of_fitted_gradients),
         cmocka_unit_test(particle_stresses_are_turned), cmocka_unit_test(body_forces_leave_the_factors),

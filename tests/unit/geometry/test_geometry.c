@@ -369,6 +369,34 @@ static void abaqus_generates(void **state)
     geometry_free(&g);
 }
 
+/* Each kind of solid element alone, and one of them with its corners the other way round: volume, and the distance from
+ * a place outside and one inside. */
+static void abaqus_solids(void **state)
+{
+    (void)state;
+    static const struct { const char *type, *corners; real volume, outside; } solid[] = {
+        {"C3D5", "1, 2, 3, 4, 9", 2. * 3 * 1.7 / 3, 0.6},  /* a pyramid, its base below */
+        {"C3D5", "1, 4, 3, 2, 9", 2. * 3 * 1.7 / 3, 0.6},
+        {"C3D6", "1, 2, 3, 5, 6, 7", 3 * 2.3, 0.6},        /* half of the brick */
+        {"C3D6", "5, 6, 7, 1, 2, 3", 3 * 2.3, 0.6},
+        {"C3D8R", "1, 2, 3, 4, 5, 6, 7, 8", 6 * 2.3, 0.6},
+        {"C3D8", "5, 6, 7, 8, 1, 2, 3, 4", 6 * 2.3, 0.6}};
+    for (size_t k = 0; k < COUNT_OF(solid); k++) {
+        struct geometry g;
+        char text[512];
+        snprintf(text, sizeof text,
+                 "*Node\n1, 0, 0, 0\n2, 2, 0, 0\n3, 2, 3, 0\n4, 0, 3, 0\n5, 0, 0, 2.3\n6, 2, 0, 2.3\n7, 2, 3, 2.3\n"
+                 "8, 0, 3, 2.3\n9, 0.7, 1.1, 1.7\n*Element, type=%s\n7, %s\n",
+                 solid[k].type, solid[k].corners);
+        write_words("solid.inp", text);
+        assert_ok(geometry_read(&g, "solid.inp", 3, 1));
+        assert_close(g.whole.volume, solid[k].volume, 1e-12);
+        assert_close(hull_distance(&g.whole, (real[]){1.5, 0.9, -0.6}, NULL), solid[k].outside, 1e-12);
+        assert_close(hull_distance(&g.whole, (real[]){1.5, 0.9, 0.1}, NULL), -0.1, 1e-12);
+        geometry_free(&g);
+    }
+}
+
 static void bad_abaqus(void **state)
 {
     (void)state;
@@ -451,7 +479,7 @@ static int enter_folder(void **state)
 static int leave_folder(void **state)
 {
     static const char *const names[] = {"a.stl", "b.stl",   "c.stl", "a.msh", "b.msh",  "c.msh",
-                                        "d.msh", "bad.msh", "a.inp", "b.inp", "c.inp", "bad.inp"};
+                                        "d.msh", "bad.msh", "a.inp", "b.inp", "c.inp", "solid.inp", "bad.inp"};
     (void)state;
     for (size_t k = 0; k < COUNT_OF(names); k++) unlink(names[k]);
     return chdir("/") != 0 || rmdir(folder) != 0;
@@ -462,7 +490,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stl_of_both_forms), cmocka_unit_test(bad_stl),      cmocka_unit_test(gmsh_of_both_versions),
         cmocka_unit_test(gmsh_tags_by_dimension), cmocka_unit_test(gmsh_groups_of_entities), cmocka_unit_test(bad_gmsh),
-        cmocka_unit_test(abaqus_decks), cmocka_unit_test(abaqus_generates),
+        cmocka_unit_test(abaqus_decks), cmocka_unit_test(abaqus_generates), cmocka_unit_test(abaqus_solids),
         cmocka_unit_test(bad_abaqus),
         cmocka_unit_test(damaged),
     };

@@ -51,7 +51,8 @@ static void write_png(const char *name, int kind, int bits)
     fclose(file);
 }
 
-static void write_tiff(const char *name, int pages, int bits, int samples, int compression)
+/* white: grey values count from white. */
+static void write_tiff(const char *name, int pages, int bits, int samples, int compression, bool white)
 {
     TIFF *tiff = TIFFOpen(name, "w");
     for (int p = 0; p < pages; p++) {
@@ -59,7 +60,8 @@ static void write_tiff(const char *name, int pages, int bits, int samples, int c
         TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, HIGH);
         TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, bits);
         TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, samples);
-        TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, samples == 1 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB);
+        const int grey = white ? PHOTOMETRIC_MINISWHITE : PHOTOMETRIC_MINISBLACK;
+        TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, samples > 1 ? PHOTOMETRIC_RGB : grey);
         TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
         TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, HIGH);
         TIFFSetField(tiff, TIFFTAG_COMPRESSION, compression);
@@ -69,6 +71,7 @@ static void write_tiff(const char *name, int pages, int bits, int samples, int c
             for (int i = 0; i < WIDE; i++) {
                 for (int c = 0; c < samples; c++) row[samples * i + c] = (uint8_t)value_at(j, i, p);
                 wide[i] = (uint16_t)(value_at(j, i, p) * 256 + 7);
+                if (white) row[i] = UINT8_MAX - row[i], wide[i] = UINT16_MAX - wide[i];
             }
             assert_int_equal(TIFFWriteScanline(tiff, bits == 16 ? (void *)wide : row, (uint32_t)j, 0), 1);
         }
@@ -115,12 +118,16 @@ static void kinds_of_images(void **state)
         write_png("a.png", png[k].kind, png[k].bits);
         check_values("a.png", 2, 1, png[k].bits);
     }
-    write_tiff("a.tif", 3, 8, 1, COMPRESSION_LZW);
+    write_tiff("a.tif", 3, 8, 1, COMPRESSION_LZW, false);
     check_values("a.tif", 3, 3, 8);
-    write_tiff("a.tif", 2, 16, 1, COMPRESSION_NONE);
+    write_tiff("a.tif", 2, 16, 1, COMPRESSION_NONE, false);
     check_values("a.tif", 3, 2, 16);
-    write_tiff("b.tif", 1, 8, 3, COMPRESSION_NONE);
+    write_tiff("b.tif", 1, 8, 3, COMPRESSION_NONE, false);
     check_values("b.tif", 2, 1, 8);
+    for (int bits = 8; bits <= 16; bits += 8) {
+        write_tiff("b.tif", 1, bits, 1, COMPRESSION_NONE, true);
+        check_values("b.tif", 2, 1, bits);
+    }
 }
 
 /* How a page of TIFF holds its samples. */
@@ -313,7 +320,7 @@ static void damaged(void **state)
     static unsigned char bytes[MOST], copy[MOST];
     uint64_t seed = 7;
     char bad[] = "bad.png", *const paths[] = {bad};
-    write_tiff("a.tif", 3, 8, 1, COMPRESSION_LZW);
+    write_tiff("a.tif", 3, 8, 1, COMPRESSION_LZW, false);
     for (size_t k = 0; k < COUNT_OF(names); k++) {
         const size_t n = read_bytes(names[k], bytes);
         for (int round = 0; round < 700; round++) {

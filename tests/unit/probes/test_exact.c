@@ -351,6 +351,34 @@ static void figures_of_a_made_up_field(void **state)
     particles_free(&b.p);
 }
 
+/* The same bar the other way round, held at 1 and drawn at 0: its errors are none where it moves as the first does. */
+static void bars_drawn_at_the_left(void **state)
+{
+    (void)state;
+    struct lab b;
+    struct figures f = {0};
+    struct probes s;
+    lab_make(&b);
+    const struct probe_request r = {.name = "bar", .kind = PROBE_EXACT, .form = EXACT_STEP_BAR};
+    const struct exact e = unit_bar(EXACT_STEP_BAR);
+    const real t = 0.73e-2;
+    b.boundary[0].at = 1;
+    b.boundary[1] = (struct boundary){.kind = BOUNDARY_TRACTION, .value = {-1}, .side = -1};
+    b.load[1].particle = &b.first;
+    assert_ok(probes_make(&s, &r, 1, &b.o));
+    for (int i = 0; i < 200; i++) {
+        const struct exact_values v = exact_at(&e, 1 - b.p.X[0][i], t);
+        b.p.x[0][i] = b.p.X[0][i] - v.displacement, b.p.v[0][i] = -v.velocity, b.p.stress[0][i] = v.stress;
+    }
+    b.o.t = b.o.t_velocity = t;
+    probes_figures(&s, &b.o, keep, &f);
+    assert_near(figure(&f, "L1"), 0, 1e-9);
+    assert_near(figure(&f, "L1_velocity"), 0, 1e-9);
+    assert_near(figure(&f, "plateau"), 1, 1e-9);
+    probes_free(&s);
+    particles_free(&b.p);
+}
+
 static void refused(struct lab *b, enum exact_form form, const char *why)
 {
     const struct probe_request r = {.name = "bar", .kind = PROBE_EXACT, .form = form, .period = 1, .wavelength = 1};
@@ -393,7 +421,8 @@ int main(void)
         cmocka_unit_test(step_bar_by_characteristics),   cmocka_unit_test(step_bar_fronts_and_plateaus),
         cmocka_unit_test(plastic_bar_jumps),             cmocka_unit_test(pulses_obey_the_wave_equation),
         cmocka_unit_test(manufactured_is_its_formula),   cmocka_unit_test(flux_is_the_force_across),
-        cmocka_unit_test(figures_of_a_made_up_field),    cmocka_unit_test(bars_that_have_no_closed_form),
+        cmocka_unit_test(figures_of_a_made_up_field),
+        cmocka_unit_test(bars_drawn_at_the_left),   cmocka_unit_test(bars_that_have_no_closed_form),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

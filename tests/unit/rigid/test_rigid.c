@@ -42,6 +42,25 @@ static void test_distance(void **state)
         check_point((const real[]){-5.03 + 2 * (k % 7), -2.01 + k / 7 % 7, -2.02 + 1.1 * (k / 49)});
 }
 
+/* A ball out of a box: in the cavity the distance is that to its wall, and the normal points from there to the place,
+ * as it does beside the box. */
+static void test_cavity(void **state)
+{
+    (void)state;
+    static struct solid hollow[] = {{.kind = SOLID_BOX, .from = {0, 0, 0}, .to = {4, 3, 5}},
+                                    {.kind = SOLID_BALL, .centre = {1.7, 1.4, 2.1}, .radius = 1.3, .subtract = true}};
+    const struct region cavity = {.n = 2, .solid = hollow};
+    static const real way[][DIM_MAX] = {{0.6, 0, 0.8}, {-0.48, 0.6, -0.64}, {0.28, -0.96, 0}};
+    for (size_t k = 0; k < COUNT_OF(way); k++)
+        for (int out = 0; out < 2; out++) {
+            const real r = out ? 1.35 : 0.4;
+            real X[DIM_MAX], normal[DIM_MAX];
+            for (int d = 0; d < DIM_MAX; d++) X[d] = hollow[1].centre[d] + r * way[k][d];
+            assert_near(region_distance(&cavity, X, 3, normal), 1.3 - r, 1e-12);
+            for (int d = 0; d < DIM_MAX; d++) assert_near(normal[d], -way[k][d], 1e-12);
+        }
+}
+
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
 static const real rest[DIM_MAX] = {0, 0, 0};
@@ -254,7 +273,8 @@ static void test_refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_distance), cmocka_unit_test(test_inertia),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_distance), cmocka_unit_test(test_cavity),
+                                       cmocka_unit_test(test_inertia),
                                        cmocka_unit_test(test_tumbling), cmocka_unit_test(test_driven),
                                        cmocka_unit_test(test_points_move), cmocka_unit_test(test_ramp),
                                        cmocka_unit_test(test_kick), cmocka_unit_test(test_record),

@@ -294,9 +294,30 @@ static void test_renamed(void **state)
     scene_free(&s);
 }
 
+/* Bonds across an interface break as those of a material between both would, of the harmonic mean of their moduli: the
+ * critical stretch goes with sqrt(G/E). */
+static void interfaces_have_their_strength(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "space: plane stress\nthickness: 0.37 mm\nduration: 1 us\nmethod: pd\nmaterials:\n"
+        "  - {name: stiff, young: 192 GPa, density: 7900, energy_release_rate: 210}\n"
+        "  - {name: soft, young: 3.1 GPa, density: 1180, energy_release_rate: 90}\n"
+        "bodies:\n  - {name: low, material: stiff, shape: {box: {from: [0, 0], to: [4 mm, 2 mm]}}}\n"
+        "  - {name: high, material: soft, shape: {box: {from: [0, 2 mm], to: [4 mm, 4 mm]}}}\n"
+        "particles: {spacing: 0.2 mm}\ninterfaces: [{bodies: [low, high], energy_release_rate: 37}]\n";
+    struct scene s;
+    if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    const real between = 2 * 192 * 3.1 / (192 + 3.1), ratio = sqrt(37 / between / (210.0 / 192));
+    assert_int_equal(s.interfaces, 1);
+    assert_true(fabs(s.interface[0].critical_stretch / s.material[0].critical_stretch / ratio - 1) < 1e-12);
+    scene_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(interfaces_have_their_strength),
         cmocka_unit_test(test_plate_scalars),
         cmocka_unit_test(test_plate_materials_bodies),
         cmocka_unit_test(test_plate_conditions),

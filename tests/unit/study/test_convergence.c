@@ -245,6 +245,18 @@ static void spacings_fit_faces_and_cracks(void **state)
     }
 }
 
+/* Without places that a lattice meets, levels are a factor sqrt(2) apart. */
+static void levels_are_apart(void **state)
+{
+    (void)state;
+    struct scene_body list = {.file = "list.csv"};
+    const struct scene s = {.dim = 2, .spacing = 0.37, .bodies = 1, .body = &list};
+    struct spacings to;
+    spacings_plan(&to, &s, 4, 0.29);
+    assert_int_equal(to.levels, 4);
+    for (int k = 0; k < 4; k++) assert_true(fabs(to.at[k][0] / (0.29 * pow(sqrt(2), k)) - 1) < 1e-12);
+}
+
 /* ---- pilot runs ----------------------------------------------------------------------------------------------------
  */
 
@@ -287,6 +299,7 @@ int main(void)
         cmocka_unit_test(scatter_hides_small_trends),    cmocka_unit_test(chance_moves_the_order),
         cmocka_unit_test(intervals_as_defined),          cmocka_unit_test(intervals_hold_what_they_name),
         cmocka_unit_test(bias_widens_intervals),         cmocka_unit_test(pilots_begin_where_lengths_are_seen),
+        cmocka_unit_test(levels_are_apart),
         cmocka_unit_test(student_as_published),          cmocka_unit_test(steps_of_a_figure_are_errors),
         cmocka_unit_test(spacings_fit_faces_and_cracks),
     };
