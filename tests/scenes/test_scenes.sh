@@ -50,6 +50,7 @@ for spacing in 1 0.625 0.5; do
         apart "$run: both tips alike" "$(f $run crack.tips.0.x)" "$(compute "-($(f $run crack.tips.1.x))")" \
             "$(compute "$spacing * 1.001e-3")"
         between "$run: speed" "$(f $run crack.tip_speed_max)" 500 $rayleigh
+        between "$run: mean speed of a tip" "$(f $run crack.tips.0.speed_mean)" 300 "$(compute "0.98 * $(f $run crack.tips.0.speed_max)")"
     done
     apart "plate_crack at $spacing mm: pd and adaptive within a spacing" "$(f crack_pd_$spacing crack.length_end)" \
         "$(f crack_adaptive_$spacing crack.length_end)" "$(compute "$spacing * 1.001e-3")"

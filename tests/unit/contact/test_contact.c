@@ -6,6 +6,7 @@
 #include "auto/scene_read.h"
 #include "base/memory.h"
 #include "engine/engine.h"
+#include "src/contact/contact_internal.h"
 #include "tests/support/near.h"
 
 /* A body that flies at a cracked one, whose crack closes. */
@@ -372,9 +373,95 @@ static void test_rest(void **state)
     check_rest("surface");
 }
 
+/* The account of a row whose gap goes from outside in and out again is what the work of its force, 1/2 K g_n (g_n+1 -
+ * g_n-1)/2 at each step inside, was less than nothing: its energy is 0 before and after. */
+static void test_account(void **state)
+{
+    (void)state;
+    static const real gap[][6] = {{0.9, -0.3, -0.5, 0.1}, {0.7, -0.2, -0.6, -0.25, 0.05, 0.4}};
+    static const int gaps[] = {4, 6};
+    const real K = 7.3;
+    for (int k = 0; k < 2; k++) {
+        struct contact_balance b = contact_balance_begin(NULL, gap[k][0]);
+        real work = 0;
+        for (int n = 1; n < gaps[k]; n++) {
+            if (gap[k][n] < 0) work += 0.5 * K * gap[k][n] * 0.5 * (gap[k][n + 1] - gap[k][n - 1]);
+            assert_true(contact_balance(&b, K, gap[k][n], true) == 0); /* the account is below 0 meanwhile */
+        }
+        assert_near(b.account, -work, 1e-14);
+    }
+}
+
+/* The spacing of a particle is the edge of a cell of its volume; notches part particles of one body. */
+static void test_sizes(void **state)
+{
+    (void)state;
+    const real h = 0.7e-3;
+    for (int dim = 1; dim <= 3; dim++) {
+        const struct region *shape[2] = {NULL, NULL};
+        real corner[2][DIM_MAX] = {{-h, 0.5 * h}, {h, 0.5 * h}};
+        const struct crack notch = {.n = 2, .corner = corner, .width = 0.31 * h};
+        struct particles p;
+        struct contact c = {.n = 3, .rows = 3, .particle = NEW("test", 3, int32_t),
+                            .law = {.spacing = h, .section = dim == 1 ? 4e-6 : dim == 2 ? 0.37e-3 : 1, .shape = shape,
+                                    .crack = &notch, .cracks = dim == 2}};
+        particles_make(&p, dim, 3, 0);
+        for (int i = 0; i < 3; i++) {
+            c.particle[i] = i;
+            p.X[dim > 1][i] = i * h, p.body[i] = i == 2;
+            p.volume0[i] = (i == 1 ? 0.3 : 1) * pow(h, dim) * c.law.section;
+        }
+        contact_list_describe(&c, &p);
+        assert_close(c.size[0], h, 1e-14);
+        assert_close(c.size[1], dim == 1 ? 0.3 * h : dim == 2 ? sqrt(0.3) * h : cbrt(0.3) * h, 1e-12);
+        assert_near(contact_notch(&c, &p, 0, 1), dim == 2 ? 0.31 * h : 0, 0);
+        assert_near(contact_notch(&c, &p, 0, 2), 0, 0);
+        memory_free(c.particle), memory_free(c.size), memory_free(c.rise), memory_free(c.root);
+        particles_free(&p);
+    }
+}
+
+/* Beside a rigid ball contact begins where a particle was closest when it was met, and follows one that comes out, not
+ * one that goes deeper. The patch of those that overlap is the diagonal of their box. */
+static void test_beside_a_ball(void **state)
+{
+    (void)state;
+    static const real depth[] = {0.2, 0.35, 0.1, 0.3}, zero[] = {0.2, 0.2, 0.1, 0.1}; /* [spacings] */
+    const real h = 0.7e-3, rest[DIM_MAX] = {0};
+    static struct solid ball = {.kind = SOLID_BALL, .radius = 9e-3};
+    static const struct region shape = {.n = 1, .solid = &ball};
+    struct rigid_body rigid = {.name = "ball"};
+    struct particles p;
+    struct contact c[5] = {{.made = false}};
+    assert_ok(rigid_make(&rigid, &shape, 2, 1.3, rest, h));
+    particles_make(&p, 2, 3, 0);
+    int32_t particle[] = {0, 1, 2};
+    real size[] = {h, h, h}, rise[3] = {0};
+    for (int k = 1; k < 5; k++) {
+        c[k] = (struct contact){.made = true, .n = 3, .rows = 3, .particle = particle, .size = size, .rise = rise,
+                                .law = {.spacing = h, .section = 1}, .rigids = 1, .rigid = &rigid};
+        for (int i = 0; i < 3; i++) { /* on the ball at three angles, as deep as each other */
+            const real r = 9e-3 + (0.5 - depth[k - 1]) * h, angle = 0.2 + 0.4 * i;
+            p.x[0][i] = r * cos(angle), p.x[1][i] = r * sin(angle);
+        }
+        contact_rigid_find(&c[k], &c[k - 1], &p, 0.3 * h);
+        assert_int_equal(c[k].near[0].n, 3);
+        for (int q = 0; q < 3; q++) assert_near(c[k].near[0].zero[q], -zero[k - 1] * h, 1e-12 * h);
+    }
+    const real wide = p.x[0][0] - p.x[0][2], high = p.x[1][2] - p.x[1][0];
+    assert_close(contact_patch(&c[4], &p, 0), hypot(wide, high), 1e-12);
+    for (int k = 1; k < 5; k++) {
+        memory_free(c[k].near[0].row), memory_free(c[k].near[0].zero), memory_free(c[k].near[0].balance);
+        memory_free(c[k].near);
+    }
+    particles_free(&p);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_line), cmocka_unit_test(test_plane),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_account), cmocka_unit_test(test_sizes),
+                                       cmocka_unit_test(test_beside_a_ball),
+                                       cmocka_unit_test(test_line), cmocka_unit_test(test_plane),
                                        cmocka_unit_test(test_space), cmocka_unit_test(test_steps),
                                        cmocka_unit_test(test_stiffness), cmocka_unit_test(test_rest)};
     return cmocka_run_group_tests(tests, NULL, NULL);

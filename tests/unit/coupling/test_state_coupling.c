@@ -261,11 +261,79 @@ static void test_response(void **state)
     cloud_free(c);
 }
 
+/* Rows have the energies that all of them have together, those of points at the end of bonds, too, which turn with
+ * their cells: of a half that is peridynamic, in a plate that is stretched and turned by 0.3 rad. */
+static void test_rows(void **state)
+{
+    (void)state;
+    const struct partners k = {.plan = {.space = SPACE_PLANE_STRESS, .count = {18, 11}, .horizon = 3.015},
+                               .model = PD_MOSPD, .poisson = 0.3, .split = 9};
+    const real angle = 0.3, c = cos(angle), s = sin(angle), stretch = 1e-3;
+    const real turned[DIM_MAX][DIM_MAX] = {{c * (1 + stretch) - 1, -s}, {s * (1 + stretch), c - 1}};
+    struct both b;
+    real sum = 0;
+    both_make(&b, &k);
+    struct particles *p = &b.s.c.p;
+    const struct bonds *bonds = &b.s.c.bonds;
+    for (int64_t i = 0; i < p->n; i++) p->kind[i] = p->X[0][i] > k.split * CLOUD_SPACING ? KIND_MPM : KIND_PD;
+    cloud_bonds(&b.s.c);
+    cloud_strain(&b.s.c, turned);
+    for (int64_t i = 0; i < p->n; i++) p->end_rotation[0][i] = c - 1, p->end_rotation[1][i] = s;
+    forces(&b, k.model);
+    for (int64_t row = 0; row < bonds->rows; row++) sum += state_row_energy(bonds, p, row, 0);
+    const real all = state_energy_table[2][k.model](bonds, p);
+    if (!(fabs(sum / all - 1) < 1e-9)) fail_msg("%g J of rows, %g J in all", sum, all);
+    patch_free(&b.s);
+}
+
+/* Bonds that are stiffer than the point: what is left of their part T leaves the rest V C - T no negative eigenvalue,
+ * and takes nothing away where it has positive ones: the rest times what was taken is 0, as tensors. */
+static void test_positive(void **state)
+{
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        const int n = symmetric_count(dim);
+        const struct partners k = {.plan = {.space = dim == 2 ? SPACE_PLANE_STRESS : SPACE_SOLID,
+                                            .count = {5, 4, dim == 3 ? 3 : 1}, .horizon = 2.015},
+                                   .model = PD_OSPD, .poisson = 0.2, .split = 2};
+        struct both b;
+        real T[SYM_MAX * SYM_MAX], C[SYM_MAX * SYM_MAX], rest[SYM_MAX * SYM_MAX], taken[SYM_MAX * SYM_MAX], before;
+        both_make(&b, &k);
+        cloud_source(&b.s.c);
+        const struct material *m = &b.s.c.material[b.s.c.p.material[0]];
+        const real V = b.s.c.p.volume0[0];
+        material_stiffness(m, dim, C);
+        uint64_t seed = 7;
+        for (int a = 0; a < n; a++)
+            for (int c = 0; c <= a; c++) T[a * n + c] = T[c * n + a] = V * m->c11 * cloud_between(&seed, -1, 1.5);
+        for (int a = 0; a < n * n; a++) rest[a] = T[a];
+        partial_positive_bonds(T, &b.s.c.p, &b.s.c.source, 0);
+        before = 0;
+        for (int a = 0; a < n; a++)
+            for (int c = 0; c < n; c++) { /* components of shear count twice: a root of 2 for each */
+                const real root = (a < dim ? 1 : sqrt(2)) * (c < dim ? 1 : sqrt(2));
+                const real own = a < dim && c < dim ? (a == c ? m->c11 : m->c12) : a == c ? m->shear : 0;
+                taken[a * n + c] = root * (rest[a * n + c] - T[a * n + c]);
+                rest[a * n + c] = root * (V * own - T[a * n + c]);
+                before += square(taken[a * n + c]);
+            }
+        assert_true(before > square(0.1 * V * m->c11));
+        for (int a = 0; a < n; a++)
+            for (int c = 0; c < n; c++) {
+                real product = 0;
+                for (int e = 0; e < n; e++) product += rest[a * n + e] * taken[e * n + c];
+                assert_true(fabs(product) < 1e-9 * square(V * m->c11));
+            }
+        cloud_free(&b.s.c);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_flat), cmocka_unit_test(test_flat_solid),
                                        cmocka_unit_test(test_torque), cmocka_unit_test(test_energy),
-                                       cmocka_unit_test(test_response)};
+                                       cmocka_unit_test(test_response), cmocka_unit_test(test_positive),
+                                       cmocka_unit_test(test_rows)};
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

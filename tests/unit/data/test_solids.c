@@ -370,6 +370,39 @@ static void test_polygon_faults(void **state)
     }
 }
 
+/* ---- cracks and planes of symmetry ------------------------------------------------------------------------------- */
+
+/* Of a crack across a plane what is inside stays, with its image behind it, corners in reverse; one that lies farther
+ * inside than bonds reach has none; of two planes a corner has three images. */
+static void test_mirrored_cracks(void **state)
+{
+    (void)state;
+    real across[2][DIM_MAX] = {{-0.7, 0.9}, {1.3, 2.9}}, far[2][DIM_MAX] = {{3.2, 4}, {5, 4.7}};
+    const struct crack crack[] = {{.n = 2, .corner = across}, {.n = 2, .corner = far}};
+    const struct mirror_plane plane[] = {{.axis = 0, .outside = -1, .at = 0.3}, {.axis = 1, .outside = -1, .at = 1.9}};
+    struct crack_list list;
+    cracks_mirrored(&list, crack, 2, plane, 1, 1.1, 1e-9);
+    assert_int_equal(list.n, 3);
+    const real meets = 0.9 + 2.9 - 0.9 - 1; /* the crack meets the plane x = 0.3 half-way, at y = 1.9 */
+    const real expected[3][2][2] = {{{0.3, meets}, {1.3, 2.9}}, {{3.2, 4}, {5, 4.7}}, {{-0.7, 2.9}, {0.3, meets}}};
+    for (int k = 0; k < 3; k++)
+        for (int a = 0; a < 2; a++)
+            for (int d = 0; d < 2; d++) assert_true(fabs(list.crack[k].corner[a][d] - expected[k][a][d]) < 1e-12);
+    assert_true(list.of[0] == 0 && list.of[1] == 1 && list.of[2] == 0);
+    crack_list_free(&list);
+    cracks_mirrored(&list, crack, 1, plane, 2, 1.1, 1e-9);
+    assert_int_equal(list.n, 4);
+    for (int k = 0; k < 4; k++) { /* ends away from the corner of the planes, all four mirrored */
+        const struct crack *c = &list.crack[k];
+        const real *end = hypot(c->corner[0][0] - 0.3, c->corner[0][1] - 1.9) > 0.5 ? c->corner[0] : c->corner[1];
+        assert_true(fabs(fabs(end[0] - 0.3) - 1) < 1e-12 && fabs(fabs(end[1] - 1.9) - 1) < 1e-12);
+        for (int other = 0; other < k; other++) assert_true(list.crack[other].corner[0][0] != c->corner[0][0] ||
+                                                            list.crack[other].corner[0][1] != c->corner[0][1] ||
+                                                            list.crack[other].corner[1][1] != c->corner[1][1]);
+    }
+    crack_list_free(&list);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -377,7 +410,7 @@ int main(void)
         cmocka_unit_test(test_quarter_turns),   cmocka_unit_test(test_gear),
         cmocka_unit_test(test_grid_and_mirror), cmocka_unit_test(test_intersection),
         cmocka_unit_test(test_polygon_faults),  cmocka_unit_test(test_index_of_list),
-        cmocka_unit_test(test_index_of_copies),
+        cmocka_unit_test(test_index_of_copies), cmocka_unit_test(test_mirrored_cracks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

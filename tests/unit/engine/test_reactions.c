@@ -35,6 +35,23 @@ static void test_reactions(void **state)
     solution_free(&a), solution_free(&b);
 }
 
+/* Particles in a clamped plane stay where they are; the others go where the static solver has them. */
+static void test_clamped_plane(void **state)
+{
+    (void)state;
+    static const char plane[] = "boundary=[{mirror: {axis: x, at: 0, tangential: held}}, "
+                                "{traction: [0.7 MPa, 1.3 MPa], face: x+, time: {ramp: {until: 1 s}}}]";
+    struct solution a, b;
+    solution_run(&a, QUARTER, plane, "solver=static", "steps.number=2", "solver_tolerance=1e-8", NULL);
+    solution_run(&b, QUARTER, plane, "solver=cg", "solver_tolerance=1e-8", NULL);
+    solution_done(&a), solution_done(&b);
+    assert_true(solution_difference(&a, &b) < 1e-5);
+    for (int64_t i = 0; i < a.e.part.n; i++)
+        if (fabs(a.e.part.X[0][i]) < 1e-9)
+            for (int d = 0; d < 2; d++) assert_true(fabs(a.e.part.x[d][i] - a.e.part.X[d][i]) < 1e-16);
+    solution_free(&a), solution_free(&b);
+}
+
 /* A plate on a foot: the reaction is the traction times its face; the work of loads that grow evenly is half of their
  * last values times the displacement of the face. */
 static void test_foot(void **state)
@@ -194,6 +211,7 @@ static void test_others_pass(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_reactions), cmocka_unit_test(test_foot),
+                                       cmocka_unit_test(test_clamped_plane),
                                        cmocka_unit_test(test_mirrored_nodes), cmocka_unit_test(test_ramp),
                                        cmocka_unit_test(test_ramp_below),
                                        cmocka_unit_test(test_shear_beside_clamps), cmocka_unit_test(test_others_pass)};

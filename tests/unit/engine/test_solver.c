@@ -124,7 +124,8 @@ static void test_integrals(void **state)
         {.kind = TIME_CONSTANT}, {.kind = TIME_STEP, .from = 0.25, .until = 1.5},
         {.kind = TIME_STEP, .from = -1, .until = 1.5}, {.kind = TIME_PULSE, .from = 0.25, .until = 1.5},
         {.kind = TIME_PULSE, .from = -0.5, .until = 3}, {.kind = TIME_RAMP, .from = 0.25, .until = 1.5},
-        {.kind = TIME_RAMP, .from = -0.5, .until = 3}, {.kind = TIME_TABLE, .n = 4, .t = t, .value = value}};
+        {.kind = TIME_RAMP, .from = -0.5, .until = 3}, {.kind = TIME_RAMP, .from = -0.9, .until = -0.3},
+        {.kind = TIME_TABLE, .n = 4, .t = t, .value = value}};
     for (size_t k = 0; k < COUNT_OF(f); k++)
         for (real end = 0.125; end < 2.2; end += 0.25) {
             real sum = 0;                   /* midpoint rule: exact but for a piece with a jump, and h^2 of the pulse */
@@ -388,6 +389,25 @@ static void test_limits(void **state)
     solution_free(&a);
 }
 
+/* Each pair of materials has its limit: that of a body at rest beside it, of another material, counts for none. */
+static void test_strength_of_pairs(void **state)
+{
+    (void)state;
+    static const char two[] =
+        "space: plane stress\nthickness: 0.37 mm\nduration: 1 s\nmethod: pd\n"
+        "particles: {spacing: 0.5 mm, horizon: 3.015}\n"
+        "materials:\n  - {name: weak, young: 20000 GPa, density: 1000, critical_stretch: 1e-9}\n"
+        "  - {name: strong, young: 20000 GPa, density: 1000, critical_stretch: 1e-3}\nbodies:\n"
+        "  - {name: rests, material: weak, shape: {box: {from: [20 mm, 0], to: [24 mm, 3 mm]}}}\n"
+        "  - {name: bears, material: strong, shape: {box: {from: [0, 0], to: [5 mm, 5 mm]}}}\n"
+        "boundary:\n  - {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, 1.1 mm]}}}\n"
+        "  - {traction: [0, 1.7 MPa], face: y+, body: bears}\n";
+    struct solution a;
+    solve(&a, two, "solver=cg", NULL), solved(&a);
+    assert_int_equal(a.e.solver.past_limit, 0);
+    solution_free(&a);
+}
+
 /* Bonds far beyond their critical stretch are counted and hold. */
 static void test_strength(void **state)
 {
@@ -427,7 +447,8 @@ int main(void)
         cmocka_unit_test(test_crack), cmocka_unit_test(test_models), cmocka_unit_test(test_crack_coupled),
         cmocka_unit_test(test_irregular),
         cmocka_unit_test(test_quarter), cmocka_unit_test(test_on_plane), cmocka_unit_test(test_solid),
-        cmocka_unit_test(test_limits), cmocka_unit_test(test_strength), cmocka_unit_test(test_unloaded),
+        cmocka_unit_test(test_limits), cmocka_unit_test(test_strength_of_pairs),
+        cmocka_unit_test(test_strength), cmocka_unit_test(test_unloaded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

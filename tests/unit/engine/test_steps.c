@@ -275,12 +275,32 @@ static void test_let_go(void **state)
     solution_free(&a);
 }
 
+/* Under control of an opening two places have moved apart by what is prescribed, in as many parts as steps. */
+static void test_opening(void **state)
+{
+    (void)state;
+    static const char *const steps[] = {
+        "steps={number: 3, control: opening, from: [-4.75 mm, 0.75 mm], to: [-4.25 mm, -0.75 mm], opening: 0.37 nm}"};
+    struct solution a;
+    solution_run(&a, WHOLE CRACK "boundary:\n  - {traction: [0, 1 MPa], face: y+, time: {ramp: {until: 1 s}}}\n" FOOT,
+                 "solver=static", steps[0], EXACT, NULL);
+    solution_done(&a);
+    const struct particles *p = &a.e.part;
+    const int64_t i = solution_at(&a, -4.75e-3, 0.75e-3, 0), j = solution_at(&a, -4.25e-3, -0.75e-3, 0);
+    const real opened = hypot(p->x[0][i] - p->x[0][j], p->x[1][i] - p->x[1][j]) -
+                        hypot(p->X[0][i] - p->X[0][j], p->X[1][i] - p->X[1][j]);
+    near_to("opening", opened, 0.37e-9, 2e-4);
+    assert_int_equal(a.e.clock.step, 3);
+    solution_free(&a);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_models),  cmocka_unit_test(test_variants), cmocka_unit_test(test_points),
         cmocka_unit_test(test_quarter), cmocka_unit_test(test_parted),   cmocka_unit_test(test_motions),
-        cmocka_unit_test(test_trial),   cmocka_unit_test(test_let_go),
+        cmocka_unit_test(test_trial),   cmocka_unit_test(test_opening),
+                                       cmocka_unit_test(test_let_go),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -120,6 +120,38 @@ static void slices_show_damage(void **state)
 }
 
 /* One particle that flies changes neither the rectangle nor the colours, and is counted. */
+/* Of layers that are damaged nearly alike, within 2 %, the one nearest to the middle; one with 9 tenths of the most,
+ * nearer still, is none of them. Points of several sizes have the spacing of the smallest. */
+static void slices_are_near_the_middle(void **state)
+{
+    (void)state;
+    static const float damage[] = {0, 0.5F, 0.496F, 0.45F, 0, 0, 0.1F, 0};
+    struct frame f = block_make(9, 9, 8, 3);
+    for (int64_t i = 0; i < f.n; i++) f.damage[i] = damage[i / 81];
+    struct look look = {.normal = 2};
+    assert_int_equal(look_settle(&look, &f), OK);
+    assert_float_equal(look.layer, -1.5e-3, 1e-8);
+    f.spacing = NEW("test.spacing", f.n, float);
+    for (int64_t i = 0; i < f.n; i++) f.spacing[i] = i == 37 ? 0.7e-3F : 2.8e-3F;
+    assert_float_equal(frame_spacing(&f), 0.7e-3, 1e-9);
+    frame_free(&f);
+}
+
+/* Axes have the prefix that leaves numbers from 1 to 1000. */
+static void axes_have_prefixes(void **state)
+{
+    (void)state;
+    static const struct { double largest, factor; const char *name; } axis[] = {
+        {3.2e9, 1e9, "GPa"}, {7e6, 1e6, "MPa"}, {2.5e3, 1e3, "kPa"}, {40, 1, "Pa"}, {0.3, 1e-3, "mPa"},
+        {3.2e-5, 1e-6, "µPa"}, {4e-9, 1e-9, "nPa"}, {0, 1, "Pa"}, {-5e4, 1e3, "kPa"}};
+    for (size_t k = 0; k < COUNT_OF(axis); k++) {
+        const struct unit u = unit_for(axis[k].largest, "Pa");
+        assert_true(fabs(u.factor / axis[k].factor - 1) < 1e-12);
+        assert_string_equal(u.name, axis[k].name);
+    }
+    assert_true(unit_for_length(0.04).factor == 1e-3 && unit_for_length(40).factor == 1);
+}
+
 static void one_particle_sets_no_scale(void **state)
 {
     (void)state;
@@ -219,7 +251,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fields_follow_from_stress),  cmocka_unit_test(unknown_fields_are_refused),
         cmocka_unit_test(fields_name_components),
-        cmocka_unit_test(slices_show_damage),         cmocka_unit_test(one_particle_sets_no_scale),
+        cmocka_unit_test(slices_show_damage),         cmocka_unit_test(slices_are_near_the_middle),
+        cmocka_unit_test(axes_have_prefixes),         cmocka_unit_test(one_particle_sets_no_scale),
         cmocka_unit_test(solids_are_seen_from_outside), cmocka_unit_test(cameras_are_right_handed),
         cmocka_unit_test(colours_keep_their_order),   cmocka_unit_test(words_have_units),
     };

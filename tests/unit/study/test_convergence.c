@@ -2,11 +2,16 @@
 #include "tests/support/near.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "auto/scene_read.h"
+#include "output/output_files.h"
 #include "study/convergence_study.h"
 #include "study/pilot.h"
+#include "study/uncertainty.h"
 
 /* ---- convergence ------------------------------------------------------------------------------------------------- */
 
@@ -257,6 +262,43 @@ static void levels_are_apart(void **state)
     for (int k = 0; k < 4; k++) assert_true(fabs(to.at[k][0] / (0.29 * pow(sqrt(2), k)) - 1) < 1e-12);
 }
 
+/* ---- a study at hand -------------------------------------------------------------------------------------------- */
+
+/* The interval of a figure is that of the level whose spacing is the scene's, to 5 %; none of others, nor of a study of
+ * another scene. */
+static void intervals_at_hand(void **state)
+{
+    (void)state;
+    static const char table[] =
+        "figure,unit,spacing_0 [m],mean_0,uncertainty_0,spacing_1 [m],mean_1,uncertainty_1,spacing_2 [m],"
+        "uncertainty_2\n"
+        "energy.strain,J,0.00031,7,0.11,0.00044,7.2,0.23,0.00062,0.47\n"
+        "crack.length_end,m,0.00031,3,0.013,0.00044,3.1,,0.00062,0.059\n";
+    char folder[] = "/tmp/cleave_test_XXXXXX", text[] = "name: \"plate\"\n";
+    assert_non_null(mkdtemp(folder));
+    assert_int_equal(chdir(folder), 0);
+    assert_int_equal(mkdir("plate_converge", 0777), 0);
+    assert_int_equal(study_scene_put("plate_converge", text), OK);
+    assert_int_equal(file_put("plate_converge/converge.csv", table, strlen(table)), OK);
+    static const struct { double spacing; int bars; double first; } at[] = {
+        {0.31e-3, 2, 0.11}, {0.44e-3, 1, 0.23}, {0.63e-3, 2, 0.47}, {0.5e-3, 0, 0}};
+    struct scene s = {.name = "plate", .text = text};
+    for (size_t k = 0; k < COUNT_OF(at); k++) {
+        struct error_bar bar[4];
+        s.spacing = at[k].spacing;
+        assert_int_equal(error_bars_at_hand(bar, 4, &s, "plate"), at[k].bars);
+        if (at[k].bars == 0) continue;
+        assert_string_equal(bar[0].figure, "energy.strain");
+        assert_near(bar[0].half_width, at[k].first, 0);
+    }
+    struct error_bar none;
+    s.text = (char[]){"name: \"other\"\n"};
+    assert_int_equal(error_bars_at_hand(&none, 1, &s, "plate"), 0);
+    assert_int_equal(unlink("plate_converge/converge.csv") | unlink("plate_converge/study.yaml"), 0);
+    assert_int_equal(rmdir("plate_converge"), 0);
+    assert_int_equal(chdir("/") | rmdir(folder), 0);
+}
+
 /* ---- pilot runs ----------------------------------------------------------------------------------------------------
  */
 
@@ -300,6 +342,7 @@ int main(void)
         cmocka_unit_test(intervals_as_defined),          cmocka_unit_test(intervals_hold_what_they_name),
         cmocka_unit_test(bias_widens_intervals),         cmocka_unit_test(pilots_begin_where_lengths_are_seen),
         cmocka_unit_test(levels_are_apart),
+        cmocka_unit_test(intervals_at_hand),
         cmocka_unit_test(student_as_published),          cmocka_unit_test(steps_of_a_figure_are_errors),
         cmocka_unit_test(spacings_fit_faces_and_cracks),
     };
