@@ -51,8 +51,34 @@ static void test_fragments(void **state)
     cloud_free(&c);
 }
 
+/* Particles without bonds are no fragments: how many they are, and what they weigh together. */
+static void test_alone(void **state)
+{
+    (void)state;
+    enum { COLUMNS = 6 };
+    struct cloud c;
+    struct fragments f;
+    cloud_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {COLUMNS}, .horizon = 1.015});
+    struct particles *p = &c.p;
+    real corner[3][1][DIM_MAX] = {{{CLOUD_SPACING}}, {{2 * CLOUD_SPACING}}, {{5 * CLOUD_SPACING}}}, alone = 0;
+    const struct crack crack[] = {
+        {.n = 1, .corner = corner[0]}, {.n = 1, .corner = corner[1]}, {.n = 1, .corner = corner[2]}};
+    for (int64_t i = 0; i < p->n; i++) p->mass[i] *= 1.3 + 0.7 * (real)i;
+    cloud_source(&c);
+    c.source.crack = crack, c.source.cracks = 3;
+    bonds_make(&c.bonds, NULL, p, &c.source);
+    fragments_find(&f, &c.bonds, p);
+    assert_int_equal(f.n, 1);
+    assert_int_equal(f.fragment[0].particles, 3);
+    assert_int_equal(f.singles, 3);
+    for (int64_t i = 0; i < p->n; i++) alone += i < 2 || i == 5 ? p->mass[i] : 0;
+    assert_close(f.mass_singles, alone, 1e-12);
+    fragments_free(&f);
+    cloud_free(&c);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fragments)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fragments), cmocka_unit_test(test_alone)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

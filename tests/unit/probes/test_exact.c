@@ -368,13 +368,14 @@ static void bars_drawn_at_the_left(void **state)
     assert_ok(probes_make(&s, &r, 1, &b.o));
     for (int i = 0; i < 200; i++) {
         const struct exact_values v = exact_at(&e, 1 - b.p.X[0][i], t);
-        b.p.x[0][i] = b.p.X[0][i] - v.displacement, b.p.v[0][i] = -v.velocity, b.p.stress[0][i] = v.stress;
+        b.p.x[0][i] = b.p.X[0][i] - v.displacement + 3e-7, b.p.v[0][i] = -v.velocity, b.p.stress[0][i] = v.stress;
     }
     b.o.t = b.o.t_velocity = t;
     probes_figures(&s, &b.o, keep, &f);
     assert_near(figure(&f, "L1"), 0, 1e-9);
     assert_near(figure(&f, "L1_velocity"), 0, 1e-9);
     assert_near(figure(&f, "plateau"), 1, 1e-9);
+    assert_close(figure(&f, "L2_displacement"), 3e-7, 1e-6);
     probes_free(&s);
     particles_free(&b.p);
 }

@@ -347,6 +347,28 @@ static void probe_of_a_spall(void **state)
     body_free(&bar.b);
 }
 
+/* Planes side by side that part together are one fracture, in their middle. */
+static void probe_of_a_wide_spall(void **state)
+{
+    (void)state;
+    struct bar bar;
+    struct probes s;
+    struct figure_list l = {0};
+    body_make(&bar.b, 1, (const int[]){30});
+    for (int64_t i = 0; i < bar.b.p.n; i++) bar.b.p.kind[i] = KIND_PD;
+    bar_bond(&bar);
+    struct probe_request request = {.name = "spall", .kind = PROBE_SPALL};
+    struct observed o = bar_seen(&bar, 1);
+    assert_ok(probes_make(&s, &request, 1, &o));
+    for (int k = 23; k <= 25; k++) bar_cut(&bar, k, 1);
+    probes_step(&s, &o);
+    probes_figures(&s, &o, figure_keep, &l);
+    assert_near(figure(&l, "spall", "position"), 24, 1e-12);
+    probes_free(&s);
+    bonds_free(&bar.bonds);
+    body_free(&bar.b);
+}
+
 /* Material points on both sides within a bond's reach still hold a plane together, until they are cut themselves. */
 static void probe_of_a_spall_knows_the_grid(void **state)
 {
@@ -470,7 +492,7 @@ int main(void)
         cmocka_unit_test(probe_of_a_pulse),
         cmocka_unit_test(probe_of_a_turning_body),
         cmocka_unit_test(probe_of_a_tip),
-        cmocka_unit_test(probe_of_a_spall),
+        cmocka_unit_test(probe_of_a_spall), cmocka_unit_test(probe_of_a_wide_spall),
         cmocka_unit_test(probe_of_a_spall_knows_the_grid),
         cmocka_unit_test(probe_of_a_break),
         cmocka_unit_test(profile_of_a_line),
