@@ -39,6 +39,24 @@ none "$work/rub" absorbed plastic fracture external_work mpm_share
 is "all particles are peridynamic" "$(least "$work/rub" particles_pd) $(least "$work/rub" pd_share)" "140 1"
 between "balance" "$(column "$work/rub" balance_error 1)" -0.01 0.01
 
+# The share that rests while a wave enters a bar: of each sample that of the steps since the last one, over all of them the summary's.
+cat >"$work/rest.yaml" <<'END'
+space: line
+section: 0.37 cm^2
+duration: 30 us
+method: pd
+material: {young: 72 GPa, density: 2440}
+body: {box: {from: [0], to: [0.3]}}
+particles: {spacing: 1 mm}
+boundary: [{traction: [3 MPa], face: x+}]
+output: {samples: 12, frames: 0}
+END
+holds "run" "$cleave" run "$work/rest.yaml" -t 1 -o "$work/rest" >"$work/said" 2>&1
+mean=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "rest_share") at = k; next }
+    { sum += $at * ($2 - before); before = $2 } END { print sum / before }' "$work/rest/history.csv")
+between "share at rest" "$mean" 0.3 0.95
+near "share at rest, of all steps" "$mean" "$(figure "$work/rest" rest_share)" 0.02
+
 # A bar of points that flies against an absorbing face, which takes rho c (v/2)^2 A t: half of the energy in a transit.
 cat >"$work/ring.yaml" <<'END'
 space: line

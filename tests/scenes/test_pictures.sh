@@ -179,6 +179,22 @@ holds "a picture that is cut short: $(cat err)" grep -q "full.png" err
 holds "the whole one stays" cmp full.png before.png
 is "nothing half drawn" "$(echo full*)" full.png
 
+# ---- curves: numbers of a history in the units of their axes ---------------------------------------------------------
+
+printf '#!/bin/sh\nexec tee -a "%s/all" | "%s" "$@"\n' "$work" "$(PATH=${PATH#*:} command -v gnuplot)" >bin/gnuplot
+mkdir curves
+cat >curves/history.csv <<'END'
+time [s],step,load_time [s],kinetic [J],strain [J],external_work [J],crack_length [m],pd_share [1],pull.force_x [N],pull.force_y [N],pull.displacement_x [m],pull.displacement_y [m]
+0,0,0,0,0,0,0,0.02,0,0,0,0
+1,1,1,0,0.0037,0.0041,0,0.03,500,1200,0,2.3e-05
+2,2,2,0,0.0052,0.0099,0.0042,0.055,0,900,0,5.7e-05
+END
+"$cleave" plot curves >out 2>err
+is "plot of a history: $(cat err)" $? 0
+for line in "2 4.2 5.5" "2 5.2 9.9" "23 1.3" "57 0.9"; do holds "numbers of a curve: $line" grep -a -q "^$line$" all; done
+holds "their sum leaves work out" grep -a -q 'using 1:(0+$2) with' all
+for label in "crack length \[mm\]" "force \[kN\]" "displacement \[µm\]" "energy \[mJ\]"; do holds "an axis: $label" grep -a -q "$label" all; done
+
 # ffmpeg as far as it matters here: it reads pictures, writes a film of one box, and can fail or wait.
 cat >bin/ffmpeg <<'END'
 #!/bin/sh

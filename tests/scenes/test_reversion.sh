@@ -55,6 +55,7 @@ for frame in current reference; do
     same "$frame on 2 and 3 threads, interrupted after 30 and 70 lines" "$work/${frame}1" "$work/stopped"
     sound ${frame}1 0.05
     between "$frame: share half-way" "$(column "$work/${frame}1" pd_share 16e-6)" 0.3 0.45
+    between "$frame: most at any time" "$(f ${frame}1 conversion.pd_share_max)" "$(column "$work/${frame}1" pd_share 16e-6)" 0.6
     between "$frame: share once it has passed" "$(column "$work/${frame}1" pd_share 32e-6)" 0 0.001
     between "$frame: returned" "$(f ${frame}1 conversion.returned)" 2400 3000
     between "$frame: a few times at the most" "$(f ${frame}1 conversion.returns_most)" 1 3

@@ -125,9 +125,34 @@ static void test_points_convert_by_their_own(void **state)
     check_points("reference");
 }
 
+/* Points convert at alpha times the stress at the critical stretch: of what has yielded that of its hardening line. The
+ * damping of the interface takes so many c/h. */
+static void test_triggers(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "space: plane stress\nthickness: 0.37 mm\nduration: 5 us\nmethod: adaptive\nmaterials:\n"
+        "  - {name: brittle, young: 70 GPa, density: 2700, critical_stretch: 1.3e-3}\n"
+        "  - {name: ductile, young: 192 GPa, density: 7900, critical_stretch: 4e-3, yield_stress: 310 MPa,\n"
+        "     yield_tangent: 23 GPa}\nbodies:\n"
+        "  - {name: low, material: brittle, shape: {box: {from: [0, 0], to: [9 mm, 6 mm]}}}\n"
+        "  - {name: high, material: ductile, shape: {box: {from: [0, 8 mm], to: [9 mm, 14 mm]}}}\n"
+        "particles: {spacing: 1 mm}\nconversion: {alpha: 0.62}\ninterface_damping: 0.07\ntime: {step: 20 ns}\n"
+        "pd: {region: {box: {from: [-inf, -inf], to: [3 mm, inf]}}}\n";
+    struct engine e = {0};
+    struct scene s;
+    make(&e, &s, text);
+    assert_close(e.tables.elastic[0].trigger, 0.62 * 70e9 * 1.3e-3, 1e-12);
+    assert_close(e.tables.elastic[1].trigger, 0.62 * (310e6 + 23e9 * (4e-3 - 310e6 / 192e9)), 1e-12);
+    const real fastest = real_max(s.material[0].wave_speed, s.material[1].wave_speed);
+    assert_close(e.coupling.damping_share, 0.07 * fastest * 20e-9 / (s.cell * 1e-3), 1e-12);
+    drop(&e, &s);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows_are_watched),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_triggers),
+                                       cmocka_unit_test(test_rows_are_watched),
                                        cmocka_unit_test(test_weakest_breaks_first),
                                        cmocka_unit_test(test_points_convert_by_their_own)};
     return cmocka_run_group_tests(tests, NULL, NULL);
