@@ -405,9 +405,9 @@ static void say_stretched(struct engine *e)
         const real strain = stress_principal(stress, p->dim) / m->young;
         if (!(strain > STRETCH_MOST)) continue;
         snprintf(text, sizeof text,
-                 "points in mpm.frame current are stretched by %.0f %% at t = %.3g s, round x = %.4g m: from some 10 %% "
-                 "on they come apart (mpm.transfer apic) or gain energy (flip), whatever the shape; mpm.frame reference "
-                 "bears any stretch", 100 * strain, e->clock.t, p->x[0][i]);
+                 "points in mpm.frame current are stretched by %.0f %% at t = %.3g s, round x = %.4g m: from some 10 "
+                 "%% on they come apart (mpm.transfer apic) or gain energy (flip), whatever the shape; mpm.frame "
+                 "reference bears any stretch", 100 * strain, e->clock.t, p->x[0][i]);
         engine_say(e, text);
         return;
     }
