@@ -33,7 +33,8 @@ static const struct figure_group {
     {"rigid.#", "x y z velocity_x velocity_y velocity_z force_max patch", NULL, NULL},
     {"fragments", "count mass_max particles_alone mass_alone", of_fragments, "bonds that break in time, or cracks"},
     {"crack", "start_time start_step driven_start_time driven_start_step driven_bonds tip_start_time tip_start_step "
-              "arrest_time arrest_step length_end angle_deg tied tip_speed_max tip_speed_mean", scene_cracks, "cracks or bonds that break"},
+              "arrest_time arrest_step length_end angle_deg tied tip_speed_max tip_speed_mean",
+     scene_cracks, "cracks or bonds that break"},
     {"crack.tips.#", "body origin_x origin_y origin_z x y z growth angle_deg start_time start_step arrest_time "
                      "arrest_step speed_max speed_mean", scene_cracks, "cracks or bonds that break"},
     {"conversion", "first_time x y z pd_share_start pd_share_end pd_share_max converted returned returns_most "

@@ -354,8 +354,7 @@ static void lattice_sums_of_fitted_gradients(void **state)
 
 /* A body force b along the crack, borne by sigma_11 = E* a x alone, with b = -E* a, leaves K and J as they are,
  * whatever the contour: u_1 = a (x^2 + c y^2)/2, u_2 = -c a x y with c = lambda/(lambda + 2 G) is that field, faces of
- * the crack free. With the tip turned against the lattice the force is turned, too. Without its term K is off by 1.7
- * and 5.6 %. */
+ * the crack free. With the tip turned the force is turned, too. Without its term K is off by 1.7 and 5.6 %. */
 static void body_forces_leave_the_factors(void **state)
 {
     (void)state;

@@ -11,8 +11,7 @@ static void figure_keep(void *context, const char *probe, const char *quantity, 
     struct figure_list *l = context;
     assert_true(l->n < 64);
     snprintf(l->entry[l->n].probe, NAME_MAX_LENGTH, "%s", probe);
-    snprintf(l->entry[l->n].quantity, NAME_MAX_LENGTH, "%s", quantity);
-    l->entry[l->n++].value = value;
+    snprintf(l->entry[l->n].quantity, NAME_MAX_LENGTH, "%s", quantity), l->entry[l->n++].value = value;
 }
 
 static real figure(const struct figure_list *l, const char *probe, const char *quantity)
