@@ -46,8 +46,7 @@ static real mirrored_edge(const struct engine *e, const struct solid *a, int d)
     return from && to ? INFINITY : (from || to ? 2 : 1) * (a->to[d] - a->from[d]);
 }
 
-/* Smallest edge, mirror images included, diameter or wall of a solid [m]; INFINITY: it has none. */
-static real solid_size(const struct engine *e, const struct solid *a)
+real solid_size(const struct engine *e, const struct solid *a)
 {
     real least = INFINITY;
     for (int d = 0; d < e->scene->dim && solid_is(a, SOLID_BOX); d++) least = real_min(least, mirrored_edge(e, a, d));
@@ -61,11 +60,6 @@ static const struct { double layers; int bonds[2], rotating[2], uncorrected[2]; 
     {3, {80, 80}, {64, 67}, {80, 80}}, {4, {4, 21}, {18, 34}, {36, 51}}, {5, {2, 12}, {10, 30}, {28, 48}},
     {7, {2, 8}, {3, 12}, {23, 39}},    {10, {2, 6}, {2, 4}, {17, 31}}};
 #define USUAL_HORIZON 0.5                /* spacings from 3.015 within which these hold */
-/* Poisson's ratios beyond 0.4, in plane strain and space: bending of 10 layers, falling with their number [%] */
-#define SOFT_LAYERS 10
-#define SOFT_MOST 2.0                    /* less is not worth a line [%] */
-static double nearly_incompressible(double poisson) { return poisson > 0.47 ? 30 : 15; }
-
 int stiffness_error(const struct scene *s, enum surface_rule surface, double layers)
 {
     size_t row = 0;
@@ -93,44 +87,20 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
             "breaks)");
 }
 
-/* Families of nearly incompressible materials: measured with ospd and mospd in plane strain, by static bending. */
-static void advise_incompressible(const struct engine *e, FILE *out)
-{
-    const struct scene *s = e->scene;
-    if (s->method != METHOD_PD || s->model == MODEL_BOND || (s->space != SPACE_PLANE_STRAIN && s->dim < 3)) return;
-    for (int b = 0; b < s->bodies; b++) {
-        real poisson = 0;
-        for (int m = 0; m < s->materials; m++)
-            if (scene_body_has(&s->body[b], m)) poisson = real_max(poisson, s->material[m].poisson);
-        for (int k = 0; k < s->body[b].shape.n && poisson > 0.4; k++) {
-            const struct solid *a = &s->body[b].shape.solid[k];
-            const double layers = solid_size(e, a) / s->spacing;
-            const double off = nearly_incompressible(poisson) * SOFT_LAYERS / layers;
-            if (a->subtract || !(off >= SOFT_MOST)) continue;
-            fprintf(out, "unresolved: body %s: at a Poisson's ratio of %.3g families near faces are too stiff: %.0f "
-                    "layers bend about %.0f %% too little, less with more layers\n",
-                    s->body[b].name, poisson, layers, off);
-        }
-    }
-}
-
 /* Parts of bodies thinner than FEATURE horizons. What a shape subtracts cuts bonds and cells, however thin it is. */
 static void advise_features(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
-    for (int b = 0; b < s->bodies && s->dim > 1; b++)
-        for (int k = 0; k < s->body[b].shape.n; k++) {
-            const struct solid *a = &s->body[b].shape.solid[k];
-            const real size = solid_size(e, a);
-            if (s->method == METHOD_MPM || k > 0 || a->subtract || !(size < FEATURE * horizon_of(s))) continue;
-            fprintf(out,
-                    "unresolved: body %s: a part of %.4g m is %.2g horizons (%.3g spacings); below %d horizons most of "
-                    "it feels cut-off families: spacing %.2g m would do",
-                    s->body[b].name, size, size / horizon_of(s), size / s->spacing, FEATURE,
-                    size / (FEATURE * s->horizon));
-            if (s->method == METHOD_PD) advise_thin(s, size / s->spacing, out);
-            fprintf(out, "\n");
-        }
+    for (int b = 0; b < s->bodies && s->dim > 1 && s->method != METHOD_MPM; b++) {
+        const double layers = check_layers(e, b, FEATURE * s->horizon), size = layers * s->spacing;
+        if (!isfinite(layers)) continue;
+        fprintf(out,
+                "unresolved: body %s: a part of %.4g m is %.2g horizons (%.3g spacings); below %d horizons most of "
+                "it feels cut-off families: spacing %.2g m would do",
+                s->body[b].name, size, size / horizon_of(s), layers, FEATURE, size / (FEATURE * s->horizon));
+        if (s->method == METHOD_PD) advise_thin(s, layers, out);
+        fprintf(out, "\n");
+    }
 }
 
 /* Is this end of a pre-crack a tip, as the body goes on there? */

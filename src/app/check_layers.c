@@ -1,0 +1,153 @@
+/* Thin parts of bodies of any shape, in layers of particles: what cut-off families and locking cells do to them. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "check_parts.h"
+
+#define CELLS_MOST 2e7                   /* of the box round a body: larger ones take too long */
+#define SHARE_LEAST 0.1                  /* of its particles; smaller thin parts are edges and tips */
+enum { RUNS_MOST = 64 };                 /* layers that are counted */
+
+/* Sites of a body's particles in the box round them. */
+struct layer_map {
+    int dim;
+    int64_t n[DIM_MAX], stride[DIM_MAX];
+    real low[DIM_MAX], spacing;          /* [m] */
+    uint8_t *filled;                     /* [sites] */
+    bool mirror[DIM_MAX][2];             /* a plane of symmetry behind the lowest, the highest site of an axis */
+};
+
+static int64_t layer_site(const struct layer_map *m, const struct particles *p, int64_t i)
+{
+    int64_t site = 0;
+    for (int d = 0; d < m->dim; d++) site += m->stride[d] * llround((p->X[d][i] - m->low[d]) / m->spacing);
+    return site;
+}
+
+/* False, with nothing to free: too many sites. */
+static bool layer_map_make(struct layer_map *m, const struct engine *e, int body)
+{
+    const struct particles *p = &e->part;
+    real high[DIM_MAX], sites = 1;
+    *m = (struct layer_map){.dim = p->dim, .spacing = e->scene->spacing};
+    for (int d = 0; d < p->dim; d++) {
+        m->low[d] = INFINITY, high[d] = -INFINITY;
+        for (int64_t i = 0; i < p->n; i++)
+            if (p->body[i] == body)
+                m->low[d] = real_min(m->low[d], p->X[d][i]), high[d] = real_max(high[d], p->X[d][i]);
+        sites *= (high[d] - m->low[d]) / m->spacing + 2;
+    }
+    if (!(sites <= CELLS_MOST)) return false;
+    int64_t all = 1;
+    for (int d = 0; d < p->dim; d++) {
+        m->n[d] = llround((high[d] - m->low[d]) / m->spacing) + 1, m->stride[d] = all, all *= m->n[d];
+        for (int k = 0; k < e->source.mirrors; k++) {
+            const struct mirror_plane *plane = &e->source.mirror[k];
+            if (plane->axis != d) continue;
+            m->mirror[d][0] |= fabs(plane->at - m->low[d]) < 0.6 * m->spacing;
+            m->mirror[d][1] |= fabs(plane->at - high[d]) < 0.6 * m->spacing;
+        }
+    }
+    m->filled = NEW("check.layers", all, uint8_t);
+    for (int64_t i = 0; i < p->n; i++)
+        if (p->body[i] == body) m->filled[layer_site(m, p, i)] = 1;
+    return true;
+}
+
+/* Particles that follow each other from a site along an axis, up or down, the site left out; *mirrored: they end at a
+ * plane of symmetry. */
+static int layer_run(const struct layer_map *m, const int64_t *from, int axis, int way, bool *mirrored)
+{
+    int64_t at = from[axis], site = 0;
+    int run = 0;
+    for (int d = 0; d < m->dim; d++) site += from[d] * m->stride[d];
+    for (*mirrored = false; run < RUNS_MOST; run++) {
+        at += way, site += way * m->stride[axis];
+        if (at < 0 || at >= m->n[axis]) {
+            *mirrored = m->mirror[axis][way > 0];
+            return run;
+        }
+        if (!m->filled[site]) return run;
+    }
+    return run;
+}
+
+/* Layers across the body at a site, the fewest along the axes; slanting parts have up to 1.4 times as many. */
+static double site_layers(const struct layer_map *m, const int64_t *at)
+{
+    double least = RUNS_MOST;
+    for (int d = 0; d < m->dim; d++) {
+        bool mirrored[2];
+        const int up = layer_run(m, at, d, 1, &mirrored[1]), down = layer_run(m, at, d, -1, &mirrored[0]);
+        if (mirrored[0] && mirrored[1]) continue;
+        least = fmin(least, (1 + up + down) * (mirrored[0] || mirrored[1] ? 2 : 1));
+    }
+    return least;
+}
+
+/* Layers across the thin parts of a body, their median; INFINITY: less than a tenth of it is thinner than `most`. */
+static double body_layers(const struct engine *e, int body, double most)
+{
+    const struct particles *p = &e->part;
+    int64_t count[RUNS_MOST + 1] = {0}, all = 0, thin = 0, seen = 0;
+    struct layer_map m;
+    if (!layer_map_make(&m, e, body)) return INFINITY;
+    for (int64_t i = 0; i < p->n; i++) {
+        int64_t at[DIM_MAX] = {0};
+        if (p->body[i] != body) continue;
+        const int64_t site = layer_site(&m, p, i);
+        for (int d = 0; d < m.dim; d++) at[d] = site / m.stride[d] % m.n[d];
+        const double layers = site_layers(&m, at);
+        all++;
+        if (layers < most) thin++, count[(int)layers]++;
+    }
+    memory_free(m.filled);
+    int half = 0;
+    while (half < RUNS_MOST && 2 * (seen += count[half]) < thin) half++;
+    return (double)thin < SHARE_LEAST * (double)all ? INFINITY : half;
+}
+
+double check_layers(const struct engine *e, int body, double most)
+{
+    const struct scene *s = e->scene;
+    real least = INFINITY;
+    bool known = s->body[body].joined == body && s->body[body].shape.n == 1 && !s->body[body].file;
+    for (int b = 0; b < s->bodies; b++) known = known && (b == body || s->body[b].joined != body);
+    if (s->body[body].joined != body) return INFINITY;
+    if (known) least = solid_size(e, &s->body[body].shape.solid[0]) / s->spacing;
+    if (isfinite(least)) return least < most ? least : INFINITY;
+    return body_layers(e, body, real_min(most, RUNS_MOST - 1));
+}
+
+/* ---- nearly incompressible bodies -------------------------------------------------------------------------------- */
+
+/* How far bending is off, in plane strain and space [%]. Families of 10 layers: by static bending with ospd and mospd;
+ * cells of two spacings 44 layers high: by Cook's membrane; both fall with the number of layers. */
+static const struct { double poisson; int families, cells; } soft[] = {
+    {0.4, 15, 0}, {0.47, 30, 0}, {0.485, 30, 8}, {0.495, 30, 20}, {0.4995, 30, 38}};
+#define FAMILY_LAYERS 10
+#define CELL_LAYERS 44
+#define SOFT_MOST 2.0                    /* less is not worth a line [%] */
+
+void advise_incompressible(const struct engine *e, FILE *out)
+{
+    const struct scene *s = e->scene;
+    const bool families = s->method == METHOD_PD;
+    if ((families && s->model == MODEL_BOND) || (s->space != SPACE_PLANE_STRAIN && s->dim < 3)) return;
+    for (int b = 0; b < s->bodies; b++) {
+        real poisson = 0;
+        int row = -1;
+        for (int m = 0; m < s->materials; m++)
+            if (scene_body_has(&s->body[b], m)) poisson = real_max(poisson, s->material[m].poisson);
+        while (row + 1 < (int)COUNT_OF(soft) && poisson > soft[row + 1].poisson) row++;
+        if (row < 0 || s->body[b].joined != b) continue;
+        const double layers = fmin(check_layers(e, b, RUNS_MOST - 1), RUNS_MOST);
+        const double off = families ? soft[row].families * FAMILY_LAYERS / layers
+                                    : soft[row].cells * fmin(1.5, sqrt(CELL_LAYERS / layers));
+        if (!(off >= SOFT_MOST)) continue;
+        fprintf(out, "unresolved: body %s: at a Poisson's ratio of %.4g %s: %s%.0f layers bend about %.0f %% too "
+                "little, less with more layers%s\n", s->body[b].name, poisson,
+                families ? "families near faces are too stiff" : "cells of two spacings lock",
+                layers < RUNS_MOST - 1 ? "" : "more than ", layers, off, families ? "" : " and a smaller ratio");
+    }
+}
