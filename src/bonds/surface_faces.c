@@ -45,7 +45,7 @@ static struct face face_seen(const struct raw_faces *raw, int64_t j)
     return f;
 }
 
-/* Weight of what is seen over a bond, falling to 0 one spacing beyond the longest. */
+/* Weight of what is seen over a bond, falling to 0 one spacing beyond the lattice steps that hold the family. */
 static real nearness(const struct offsets *o, int k) { return fmax(1 - o->length[k] / (o->reach + 1), 0); }
 
 /* Means over the faces that look the same way as that of a particle: normal, and variance of places along it. */

@@ -126,6 +126,8 @@ is "bars of chance say so" "$(grep -c 'mean and standard deviation over particle
 grep -q yerrorbars drawn && pass || fail "no bars"
 mean=$(compute "($(figure seeds/density=2000,seed=1 energy.kinetic) + $(figure seeds/density=2000,seed=2 energy.kinetic)) / 2")
 near "a point is the mean of its runs" "$(awk '/^\$p0_0/ { at = 1; next } at { print $2; exit }' drawn)" "$mean" 1e-6
+apart=$(compute "($(figure seeds/density=2000,seed=1 energy.kinetic) - $(figure seeds/density=2000,seed=2 energy.kinetic)) / sqrt(2)")
+near "its bar is the standard deviation of two" "$(awk '/^\$p0_0/ { at = 1; next } at { print $3; exit }' drawn)" "${apart#-}" 1e-3
 
 # ---- failures are counted, what is wrong is refused before anything runs ------------------------------------------------
 

@@ -371,6 +371,26 @@ static void echo_says_it_without_auto(void **state)
     }
 }
 
+/* Without a static solver, what is at rest is loaded slowly: over 30 transits of a plate with a hole, 1 m at 100 m/s,
+ * by half a pulse. */
+static void what_rests_is_loaded_slowly(void **state)
+{
+    (void)state;
+    static const char from[] = AUTO "solver: static\naccuracy: 5 %\nspace: plane stress\nthickness: 1\nduration: 1\n"
+        "material: {young: 80000/9, density: 1}\n"
+        "body: [{box: {from: [-0.5, -0.2], to: [0.5, 0.2]}}, {subtract: {disc: {centre: [0, 0], radius: 0.05}}}]\n"
+        "boundary: [{traction: [3e-3, 0], face: x+}, {traction: [-3e-3, 0], face: x-}]\n";
+    struct scene s;
+    const status read = read_text(&s, from);
+    if (read != OK) fail_msg("%s", status_message());
+    assert_true(s.solver == SOLVER_EXPLICIT && fabs(s.duration / 0.3 - 1) < 1e-9);
+    for (int k = 0; k < 2; k++) {
+        const struct time_function *time = &s.boundary[k].time;
+        assert_true(time->kind == TIME_PULSE && time->from == 0 && fabs(time->until / 0.6 - 1) < 1e-9);
+    }
+    scene_free(&s);
+}
+
 /* A suddenly loaded crack is cheapest as a gap of one cell of points, from where it came in to its tip, and the
  * probe finds it; one that grows is none. */
 static void crack_becomes_a_gap(void **state)
@@ -456,7 +476,7 @@ int main(void)
         cmocka_unit_test(scenes_that_are_like_nothing),
         cmocka_unit_test(spacing_fits),
         cmocka_unit_test(echo_says_it_without_auto),
-        cmocka_unit_test(crack_becomes_a_gap),
+        cmocka_unit_test(what_rests_is_loaded_slowly), cmocka_unit_test(crack_becomes_a_gap),
         cmocka_unit_test(what_is_written_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

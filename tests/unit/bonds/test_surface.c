@@ -217,6 +217,34 @@ static void factors_are_least(void **state)
                                      .surface = SURFACE_MOMENTS});
 }
 
+/* ---- faces ------------------------------------------------------------------------------------------------------- */
+
+/* Along a row across a plate, far from its other sides: the areas of both faces are at the faces, half a spacing beyond
+ * the outer particles. What a particle sees of a flat face is the sum of 1 - r/4 over its bonds of up to two spacings
+ * (in a horizon that three steps hold), over that of a particle in it, 1 + 2 (3/4 + 1/2), and counts with its third
+ * power. */
+static void faces_are_at_their_places(void **state)
+{
+    (void)state;
+    enum { WIDE = 11, HIGH = 19 };
+    const struct cloud_plan plan = {.space = SPACE_PLANE_STRESS, .count = {WIDE, HIGH}, .horizon = 2.015,
+                                    .surface = SURFACE_MOMENTS};
+    const real seen[] = {1, (0.75 + 2 * (1 - sqrt(2) / 4)) / 3.5, 0.5 / 3.5};
+    struct plain s;
+    real sum = 0, moment = 0;
+    plain_make(&s, &plan);
+    for (int k = 0; k < WIDE; k++) {
+        const int64_t t = s.body.place[HIGH / 2 * WIDE + k];
+        const int deep = k < WIDE / 2 ? k : WIDE - 1 - k;
+        if (t < 0) continue;
+        sum += s.faces.area[t][0], moment += s.faces.area[t][0] * (k + 0.5);
+        if (deep < 3 && !(fabs(s.faces.normal2[t][0][0] - pow(seen[deep], 3)) < 1e-9))
+            fail_msg("%d deep: %g", deep, s.faces.normal2[t][0][0]);
+    }
+    if (!(fabs(sum) < 1e-9 && fabs(moment - WIDE) < 1e-9)) fail_msg("areas %g, their moment %g", sum, moment);
+    plain_free(&s);
+}
+
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
 /* Pure bending, u = k (x y, -(x^2 + nu y^2 - nu z^2)/2, -nu y z), leaves all faces free but the ends: energy per length
@@ -301,6 +329,7 @@ static void half_is_as_the_whole(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(factors_are_least),
+                                       cmocka_unit_test(faces_are_at_their_places),
                                        cmocka_unit_test(bending_has_the_energy_of_a_beam),
                                        cmocka_unit_test(half_is_as_the_whole)};
     team_make(0);

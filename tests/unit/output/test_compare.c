@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "../src/app/commands.h"
+#include "../src/app/compare_lammps.h"
 #include "plot/plot.h"
 #include "output/history.h"
 #include "base/memory.h"
@@ -243,6 +244,27 @@ static void unequal_runs_are_told_apart(void **state)
     assert_non_null(strstr(printed, "comparable particle by particle: no"));
 }
 
+/* Two particles that LAMMPS moved by -1.3 mm and 2.2 mm and of whose bonds made there it broke 0.25 and 0.5, when 0.4
+ * and 0 were broken from the start: damage 0.55 and 0.5. */
+static void runs_of_lammps_are_read(void **state)
+{
+    (void)state;
+    struct frame f;
+    assert_int_equal(mkdir("lammps", 0700), 0);
+    put("lammps/in.lammps", "units si\ntimestep 2.5e-8\n");
+    put("lammps/check.csv", "id,X [m],Y [m],Z [m],x [m],y [m],z [m],damage,damage_start\n"
+                            "2,3e-3,7e-3,0,3e-3,7e-3,0,0.5,0\n1,1.5e-3,0,0,1.5e-3,0,0,0.55,0.4\n");
+    put("lammps/plate.dump",
+        "ITEM: TIMESTEP\n40\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS mm mm mm\n-1 1\n-1 1\n-2 2\n"
+        "ITEM: ATOMS id x y z vx vy vz c_damage \n1 2e-4 0 0 3 -5 0 0.25\n2 3e-3 9.2e-3 0 0 7 0 0.5\n");
+    assert_int_equal(lammps_run_frame(&f, "lammps", 40), OK);
+    assert_true(f.n == 2 && f.dim == 2 && f.step == 40 && fabs(f.t / 1e-6 - 1) < 1e-12);
+    assert_true(fabs(f.u[0][0] + 1.3e-3) < 1e-9 && fabs(f.u[1][1] - 2.2e-3) < 1e-9 && f.X[1][1] == 7e-3F);
+    assert_true(f.v[1][0] == -5 && f.v[1][1] == 7);
+    assert_true(fabs(f.damage[0] - 0.55) < 1e-6 && fabs(f.damage[1] - 0.5) < 1e-6);
+    frame_free(&f);
+}
+
 static void damaged_files_are_refused(void **state)
 {
     (void)state;
@@ -397,7 +419,7 @@ int main(void)
         cmocka_unit_test(figures_are_found),          cmocka_unit_test(absent_figures_are_refused),
         cmocka_unit_test(unsound_files_are_refused),  cmocka_unit_test(history_is_read_by_name),
         cmocka_unit_test(runs_are_compared),          cmocka_unit_test(unequal_runs_are_told_apart),
-        cmocka_unit_test(stress_across_is_compared),
+        cmocka_unit_test(stress_across_is_compared),  cmocka_unit_test(runs_of_lammps_are_read),
         cmocka_unit_test(damaged_files_are_refused),  cmocka_unit_test(wrong_words_are_refused),
         cmocka_unit_test(missing_gnuplot_is_named),   cmocka_unit_test(pictures_are_drawn),
         cmocka_unit_test(bodies_are_closed_and_gaps_open),
