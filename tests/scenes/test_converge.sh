@@ -112,6 +112,12 @@ is "both ends are drawn, no line between them" "$(awk '/^\$w/ { last = "" } /^(E
     NF == 2 && $1 ~ /^-?[0-9.]+$/ && path { side = $1 < 0; if (last != "" && side != last) jumps++; last = side; seen[side] = 1 }
     /<< EOD/ { path = /^\$w/ } END { print jumps + 0, seen[0] + seen[1] }' drawn)" "0 2"
 
+# of single runs means are the runs; spacings are in millimetres
+points() { awk -v set="\$$1" '$1 == set { at = 1; next } $1 == "EOD" { at = 0 } at { print $1, $2 }' drawn | sort -g; }
+is "means of single runs" "$(points m0)" "$(points r0)"
+spacing=$(sed -n 's/^ *spacing: \([0-9.e-]*\).*/\1/p' "$(ls -d tips/spacing*/ | head -n 1)scene.yaml")
+holds "a spacing in mm: $spacing m" grep -q "^$(compute "1e3 * $spacing" | cut -c 1-5)" drawn
+
 # ---- known answers ---------------------------------------------------------------------------------------------------
 
 # 33 figures of bars and plates; single runs of a spacing differ in nothing here, so that chance has no part: 29 or more of them hold.

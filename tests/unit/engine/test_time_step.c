@@ -168,6 +168,23 @@ static void incompressible_parts_take_short_steps(void **state)
     assert_close(critical[1], critical[0] * sqrt(5. / 3 / (1 + 0.47 / 0.53)), 1e-12);
 }
 
+/* Frames are of the steps nearest to their times: 0.7, 2.3 and 8.6 steps of 20 ns. */
+static void frames_are_nearest(void **state)
+{
+    (void)state;
+    static const char text[] = PLATE "duration: 0.2 us\ntime: {step: 20 ns}\nmethod: pd\n"
+                                     "output: {times: [14 ns, 46 ns, 172 ns]}\n";
+    static const int64_t nearest[] = {0, 1, 2, 9};
+    struct scene s;
+    static struct engine e;
+    if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    e.report.quiet = true;
+    if (engine_make(&e, &s, NULL) != OK) fail_msg("%s", status_message());
+    for (int k = 1; k <= 3; k++) assert_int_equal(engine_frame_step(&e, k), nearest[k]);
+    engine_free(&e);
+    scene_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(levels_divide_the_steps),
@@ -175,6 +192,7 @@ int main(void)
                                        cmocka_unit_test(masses_are_of_their_material),
                                        cmocka_unit_test(lattices_of_all_materials),
                                        cmocka_unit_test(incompressible_parts_take_short_steps),
-                                       cmocka_unit_test(safety_and_damping)};
+                                       cmocka_unit_test(safety_and_damping),
+                                       cmocka_unit_test(frames_are_nearest)};
     return cmocka_run_group_tests(tests, folder_enter, folder_leave);
 }

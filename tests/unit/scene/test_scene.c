@@ -183,6 +183,19 @@ static void test_block(void **state)
     scene_free(&s);
 }
 
+/* A turn at 21/s about an axis of length 7 is one at w = (9, -18, 6)/s: rows of w x. */
+static void test_turn(void **state)
+{
+    (void)state;
+    static const char value[] = "[{rotation: {centre: [1 mm, 2 mm, 0], axis: [3, -6, 2], rate: 21 1/s}}]";
+    const struct scene_override turn = {"initial", value};
+    static const real rows[] = {0, -6, -18, 6, 0, -9, 18, 9, 0};
+    struct scene s = read_ok(block, &turn, 1);
+    for (int k = 0; k < 9; k++) assert_true(fabs(s.initial->velocity_gradient[k] - rows[k]) < 1e-12);
+    assert_true(s.initial->sets_velocity && s.initial->centre[1] == 2e-3);
+    scene_free(&s);
+}
+
 /* ---- units ------------------------------------------------------------------------------------------------------- */
 
 static void test_units(void **state)
@@ -323,7 +336,7 @@ int main(void)
         cmocka_unit_test(test_plate_conditions),
         cmocka_unit_test(test_plate_probes),
         cmocka_unit_test(test_bar_and_defaults),
-        cmocka_unit_test(test_block),
+        cmocka_unit_test(test_block), cmocka_unit_test(test_turn),
         cmocka_unit_test(test_growth),
         cmocka_unit_test(test_closed_forms_and_frame_times),
         cmocka_unit_test(test_units),
