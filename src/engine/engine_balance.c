@@ -8,6 +8,9 @@
 #include "base/memory.h"
 #include "base/team.h"
 
+#define GAIN_MOST 0.01       /* share of what loads may have worked beyond the mean that a solution may gain */
+enum { TRIES_MOST = 4, MORE_STRIDES = 4 };
+
 /* ---- loads and supports ------------------------------------------------------------------------------------------ */
 
 /* Applied forces at t, into `applied` [dim][particles of the body]. */
@@ -162,7 +165,7 @@ static real account_end(struct account *a, struct engine *e, real *const *before
 {
     struct statics *s = &e->statics;
     real range[2] = {0};
-    e->loads.work += s->balance.bent;
+    if (!statics_touched(e)) e->loads.work += s->balance.bent;      /* else forces change on the way by what touches */
     for (int d = 0; d < e->part.dim; d++) {
         for (int64_t k = 0; k < s->balance.n; k++) {
             const real way = s->balance.u.of[d][k] - a->u.of[d][k], now = s->balance.f.of[d][k], was = a->f.of[d][k];
@@ -183,19 +186,24 @@ static real account_end(struct account *a, struct engine *e, real *const *before
 }
 
 /* Books what was lost on the way since `lost` [J]. Where points yield or faces close, forces change other than evenly
- * on it, and loads and supports work other than the mean of both ends times it: less by up to `range` [J], or more,
- * since nothing else gives energy. Only what is beyond is lost. */
-static void lost_book(struct engine *e, real lost, real range, bool touches)
+ * on it, and loads and supports work other than the mean of both ends times it: less by up to `range` [J], or more;
+ * where faces touch by as much at the most, as forces grow. Only what is beyond is lost, or comes from nowhere: faces
+ * have gone through each other on the way, and hold the body in a state that loads cannot have led to. Returns whether
+ * that is so. */
+static bool lost_book(struct engine *e, real lost, real range, bool touches)
 {
     real *now = &e->statics.balance.lost;
-    const real uneven = e->part.relief[0] || touches ? real_min(*now - lost, range) : 0;
+    real uneven = e->part.relief[0] || touches ? real_min(*now - lost, range) : 0;
+    if (touches && !e->part.relief[0]) uneven = real_max(uneven, -range);
     e->loads.work -= uneven, *now -= uneven;
     e->coupling.damped += *now - lost;
+    return touches && !e->part.relief[0] && lost - *now > GAIN_MOST * range;
 }
 
 static status unbalanced(const struct engine *e);
 
-static status solve_at(struct engine *e, real t)
+/* *crossed: faces have gone through each other. */
+static status solve_at(struct engine *e, real t, bool *crossed)
 {
     struct statics *s = &e->statics;
     struct account account;
@@ -220,9 +228,9 @@ static status solve_at(struct engine *e, real t)
     loads_mirror(&e->loads, &e->part);
     e->statics.t = t;
     const real worked = e->loads.work + e->loads.constraint_work, range = account_end(&account, e, before);
-    const bool touched = s->touches;
+    const bool touched = statics_touched(e);
     const real rigids = statics_touch_end(e, e->loads.work + e->loads.constraint_work - worked, lost);
-    lost_book(e, lost, range + rigids, touched || s->touches);
+    *crossed = lost_book(e, lost, range + rigids, touched || s->touches);
     for (int d = 0; d < e->part.dim; d++) memory_free(before[d]);
     statics_react(e);
     s->solutions++;
@@ -230,12 +238,34 @@ static status solve_at(struct engine *e, real t)
     return found == OK ? OK : unbalanced(e);
 }
 
+/* The way to t in strides. */
+static status solve_in(struct engine *e, real t, int strides, bool *crossed)
+{
+    const real from = e->statics.t;
+    *crossed = false;
+    for (int k = 1; k <= strides && !*crossed; k++)
+        TRY(solve_at(e, k == strides ? t : from + (t - from) * k / strides, crossed));
+    return OK;
+}
+
+/* In more strides where faces have gone through each other; what yields has no way back, and makes its way once. */
 status statics_solve(struct engine *e, real t)
 {
-    const int strides = statics_strides(e, t);
-    const real from = e->statics.t;
-    for (int k = 1; k < strides; k++) TRY(solve_at(e, from + (t - from) * k / strides));
-    return solve_at(e, t);
+    int strides = statics_strides(e, t);
+    bool crossed = false;
+    if (!statics_meets(e) || e->part.relief[0] || e->bonds.plastic_stretch) return solve_in(e, t, strides, &crossed);
+    for (int k = 0; k < TRIES_MOST; k++, strides *= MORE_STRIDES) {
+        struct stand stand;
+        stand_take(&stand, e);
+        const status solved = solve_in(e, t, strides, &crossed);
+        if (solved != OK || !crossed || t == stand.t) {
+            stand_free(&stand, e);
+            return solved;
+        }
+        stand_give(&stand, e, NULL);
+    }
+    return status_set(FAILED, "load step %lld, t = %.6g s: faces go through each other on the way to equilibrium; more "
+                      "load steps, or a larger spacing, are expected", (long long)e->clock.step + 1, t);
 }
 
 /* FAILED, with the place of the largest residual and what helps. */

@@ -38,6 +38,8 @@ real statics_applied_norm(const struct engine *e);
  * rigid bodies is from that by one of both forces [J]. Square of their way up to t [m^2]. What a trial changes, and as
  * it was. */
 bool statics_meets(const struct engine *e);
+/* Does anything touch, at the beginning of a solution or now? */
+bool statics_touched(const struct engine *e);
 void statics_touch_start(struct engine *e);
 int statics_strides(const struct engine *e, real t);
 void statics_touch_begin(struct engine *e, real t);

@@ -63,6 +63,8 @@ static real energy_here(struct engine *e)
     return engine_strain_energy(e) + contact_energy(&e->contact, &e->part) + bond_plastic_work(&e->bonds);
 }
 
+bool statics_touched(const struct engine *e) { return e->statics.touches || e->contact.touching > 0; }
+
 /* What touches has its energies before the solution; where nothing does, no piece is held by it either. */
 void statics_touch_begin(struct engine *e, real t)
 {
@@ -72,14 +74,14 @@ void statics_touch_begin(struct engine *e, real t)
     s->touches = false, q->reach = 0;
     if (!statics_meets(e)) return;
     statics_touch_start(e);
-    if (touched) q->force(e, &q->u, &q->f), s->energy = energy_here(e);
+    q->force(e, &q->u, &q->f);
+    s->energy = energy_here(e) - (touched ? 0 : contact_energy(&e->contact, &e->part));
     for (int k = 0; k < e->scene->rigids; k++) rigid_put(&e->rigid[k], t);
     s->touches = touch_search(e, CARRIED) > 0 || touched;
     s->largest = q->largest;
     if (!s->touches) return;
     pieces_follow(e);
     q->force(e, &q->u, &q->f);
-    if (!touched) s->energy = energy_here(e) - contact_energy(&e->contact, &e->part);
     q->reach = contact_sight(&e->contact);
 }
 
@@ -119,7 +121,7 @@ real statics_touch_end(struct engine *e, real work, real lost)
         rigid_book(&e->rigid[k]);
         work += e->rigid[k].work - before;
     }
-    if (s->touches) q->lost = lost + work - (energy_here(e) - s->energy);
+    if (statics_touched(e)) q->lost = lost + work - (energy_here(e) - s->energy);
     s->touches = e->contact.touching > 0;
     return range;
 }

@@ -132,4 +132,40 @@ calm "$work/let_go" "$work/bend.yaml" -s 'steps={number: 6, then: explicit}' -t 
 near "let go: the same peak" "$(figure "$work/let_go" rigid.2.force_max)" "$(most bend roller_force_y)" 2e-2
 between "let go: balance" "$(figure "$work/let_go" energy.balance_error)" -1e-3 1e-3
 refused "a body that flies" "$work/no" 'flies' "$work/bend.yaml" -s bodies.3.mass=1kg
+# ---- faces of a slender body that press ----------------------------------------------------------------------------------
+
+# A beam of 8 layers, slit to its middle along half of its length, on two supports, pressed in the middle: its faces press and slide
+# (mode II). What it stores is half of force times way but for rotations, 1e-3, in one load step or many; and beside the whole beam
+# it bears 2 L^3/(2 L^3 + 3 a^3) = 0.56 of the load, with beams of 4 layers that are each 10 % too stiff.
+cat >"$work/slit.yaml" <<'END'
+variables: {h: 0.129 mm}
+space: plane stress
+thickness: 0.7 mm
+duration: 1 s
+method: pd
+solver: static
+steps: {number: 1, control: load}
+material: {young: 71.7 GPa, density: 2700, energy_release_rate: 10 kJ/m^2}
+body: {box: {from: [0, 0], to: [15.03 mm, 1.032 mm]}}
+particles: {spacing: h}
+cracks: [{from: [-1 mm, 0.516 mm], to: [6.06 mm, 0.516 mm]}]
+boundary:
+  - {name: left, fixed: [y], region: {box: {from: [0.06 mm - 1.01*h, -inf], to: [0.06 mm + 1.01*h, h]}}}
+  - {name: right, fixed: [y], region: {box: {from: [14.97 mm - 1.01*h, -inf], to: [14.97 mm + 1.01*h, h]}}}
+  - {name: top, displacement: [free, -0.02 mm], region: {box: {from: [7.5 mm - 1.01*h, 1.032 mm - h], to: [7.5 mm + 1.01*h, inf]}}, time: {ramp: {until: 1 s}}}
+  - {name: mid, fixed: [x], region: {box: {from: [7.5 mm - 1.01*h, 1.032 mm - h], to: [7.5 mm + 1.01*h, inf]}}}
+output: {frames: 0}
+probes: [{reaction: {boundary: top}}]
+END
+for n in 1 4; do start "slit$n" "$work/slit.yaml" -s steps.number=$n; done
+start whole "$work/slit.yaml" -s cracks=[]
+wait
+for n in 1 4; do
+    stored=$(compute "$(last slit$n strain) + $(last slit$n contact)")
+    between "slit beam, $n steps: energy" "$(compute "$stored/(0.5 * 20e-6 * $(f slit$n probes.reaction.force_max))")" 0.998 1.002
+    between "slit beam, $n steps: balance" "$(f slit$n energy.balance_error)" -1e-6 1e-6
+    between "slit beam, $n steps: load" "$(compute "$(f slit$n probes.reaction.force_max)/$(f whole probes.reaction.force_max)")" 0.50 0.62
+done
+near "slit beam: whatever the steps" "$(f slit1 probes.reaction.force_max)" "$(f slit4 probes.reaction.force_max)" 1e-4
+
 finish

@@ -224,7 +224,7 @@ static void slits_of_doubled_nodes(void **state)
         assert_non_null(file);
         fputs(text, file);
         fclose(file);
-        assert_ok(geometry_read(&g, "slit.msh", dim, 1));
+        assert_ok(geometry_read(&g, "slit.msh", dim, 1, 1e-3));
         unlink("slit.msh");
         geometry_slits(&g.whole, &crack, &n);
         assert_int_equal(n, 1);
