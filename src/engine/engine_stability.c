@@ -213,8 +213,8 @@ void engine_remedy(const struct engine *e, const struct rise *rise, real value, 
     char others[256];
     const enum rise_rate rate = rise_rate(rise, e->clock.step, value, &steps);
     if (scene_in_steps(e->scene)) {      /* no step in time */
-        snprintf(text, room, "in an equilibrium: more load steps (steps.number), or a smaller solver_tolerance, are the "
-                 "way to find where it comes from; please report the scene");
+        snprintf(text, room, "in an equilibrium: more load steps (steps.number), or a smaller solver_tolerance, are "
+                 "the way to find where it comes from; please report the scene");
         return;
     }
     if (load_explanation(e, steps, text, room)) return;
