@@ -25,12 +25,15 @@ struct energy_balance {
     real balance_error;                  /* (E - E_0 - work) / largest of |E|, |work| so far [1] */
     real momentum[DIM_MAX];              /* [kg m/s] */
     real momentum_error;                 /* |p - p_0 - impulse| / largest sum |m v|, most so far [1] */
+    real spin_error;                     /* |L - L_0| / largest sum |L| of free bodies, most so far; NAN: unknown [1] */
 };
 
 struct diagnostics {
     struct energy_balance now;
     real energy_start, energy_scale;     /* [J] */
     real momentum_start[DIM_MAX], momentum_scale; /* [kg m/s] */
+    real spin_start[DIM_MAX], spin_scale; /* about the centre of mass [kg m^2/s] */
+    bool turns;                          /* spin_start is known: nothing outside acts on the bodies */
     bool started;
     real break_time;                     /* first bond broken by load, driven particles' aside; NAN before [s] */
     real break_place[DIM_MAX];           /* reference place of a cut of that step (fracture/places.h) [m] */
@@ -67,6 +70,13 @@ void diagnostics_momentum(struct diagnostics *w, const struct particles *p, cons
 
 /* Computes that momentum alone, by component [dim, kg m/s]; returns the sum of |m v|, by which errors are measured. */
 real diagnostics_momentum_of(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum);
+
+/* Angular momentum of all bodies, [DIM_MAX], about their centre of mass: of particles and of the nodes of a mesh for
+ * its points (NULL: none); returns the sum of the sizes of that of each [kg m^2/s]. With APIC what gradients of points
+ * hold is left out. */
+real diagnostics_spin_of(const struct particles *p, const struct mesh *mesh, int bodies, real *spin);
+/* Compares that with the start; only where nothing outside the bodies acts on them. */
+void diagnostics_spin(struct diagnostics *w, const struct particles *p, const struct mesh *mesh, int bodies);
 
 /* Fills the energies of `now` [J] and the work of loads and supports [J] for time t. After diagnostics_momentum. */
 void diagnostics_balance(struct diagnostics *w, real t, const struct energy *energy, real work);

@@ -5,7 +5,8 @@
 #include "check_parts.h"
 
 #define CELLS_MOST 2e7                   /* of the box round a body: larger ones take too long */
-#define SHARE_LEAST 0.1                  /* of its particles; smaller thin parts are edges and tips */
+/* Parts that are measured are called thin from half as many layers on: steps of curved faces take some. */
+#define SHARE_LEAST 0.5                  /* of its particles; a smaller share are edges and steps of faces */
 enum { RUNS_MOST = 64 };                 /* layers that are counted */
 
 /* Sites of a body's particles in the box round them. */
@@ -85,7 +86,7 @@ static double site_layers(const struct layer_map *m, const int64_t *at)
     return least;
 }
 
-/* Layers across the thin parts of a body, their median; INFINITY: less than a tenth of it is thinner than `most`. */
+/* Layers across the thin parts of a body, their median; INFINITY: less than half of it is thinner than `most`. */
 static double body_layers(const struct engine *e, int body, double most)
 {
     const struct particles *p = &e->part;
@@ -116,7 +117,7 @@ double check_layers(const struct engine *e, int body, double most)
     if (s->body[body].joined != body) return INFINITY;
     if (known) least = solid_size(e, &s->body[body].shape.solid[0]) / s->spacing;
     if (isfinite(least)) return least < most ? least : INFINITY;
-    return body_layers(e, body, real_min(most, RUNS_MOST - 1));
+    return body_layers(e, body, real_min(0.5 * most, RUNS_MOST - 1));
 }
 
 /* ---- nearly incompressible bodies -------------------------------------------------------------------------------- */
@@ -141,7 +142,7 @@ void advise_incompressible(const struct engine *e, FILE *out)
             if (scene_body_has(&s->body[b], m)) poisson = real_max(poisson, s->material[m].poisson);
         while (row + 1 < (int)COUNT_OF(soft) && poisson > soft[row + 1].poisson) row++;
         if (row < 0 || s->body[b].joined != b) continue;
-        const double layers = fmin(check_layers(e, b, RUNS_MOST - 1), RUNS_MOST);
+        const double layers = fmin(check_layers(e, b, 2 * RUNS_MOST), RUNS_MOST);
         const double off = families ? soft[row].families * FAMILY_LAYERS / layers
                                     : soft[row].cells * fmin(1.5, sqrt(CELL_LAYERS / layers));
         if (!(off >= SOFT_MOST)) continue;

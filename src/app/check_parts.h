@@ -54,7 +54,7 @@ void say_pieces(const struct engine *e);
 
 /* Smallest edge, mirror images included, diameter or wall of a solid [m]; INFINITY: it has none (check_advice.c). */
 real solid_size(const struct engine *e, const struct solid *a);
-/* Layers of particles across the thin parts of a body and those joined to it; INFINITY: less than a tenth of it is
+/* Layers of particles across the thin parts of a body and those joined to it; INFINITY: less than half of it is
  * thinner than `most` layers, or the body is joined to another, which is asked in its place. */
 double check_layers(const struct engine *e, int body, double most);
 /* Bodies that nearly keep their volume, whose families or cells are too stiff. */

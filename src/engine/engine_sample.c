@@ -143,6 +143,14 @@ static void time_momentum(struct engine *e, const struct velocity_time *now)
         e->diagnostics.now.momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * after[d]);
 }
 
+/* Does nothing outside the deforming bodies act on them, and have all of them particles or nodes of one mesh? */
+static bool is_free(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    return s->dim > 1 && scene_moves(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
+           e->reference.levels.n == 0;
+}
+
 /* Samples all quantities but energies: stress, momentum, tips, probes. */
 static void sample_state(struct engine *e)
 {
@@ -151,6 +159,9 @@ static void sample_state(struct engine *e)
     if (wants_stress(e->scene)) engine_stress(e);
     engine_rigid_keep(e);
     diagnostics_momentum(&e->diagnostics, &e->part, nodes, grids, e->loads.impulse);
+    if (is_free(e))
+        diagnostics_spin(&e->diagnostics, &e->part, e->reference.mesh.points > 0 ? &e->reference.mesh : NULL,
+                         e->scene->bodies);
     tips_sample(&e->fracture.tips, &e->part, &e->cells, e->clock.t);
     struct observed o = engine_observed(e);
     probes_sample(&e->probing.probes, &o);

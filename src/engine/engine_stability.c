@@ -459,9 +459,25 @@ static void say_released(struct engine *e)
     engine_say(e, text);
 }
 
+#define SPIN_DOUBTFUL 0.05 /* share of the angular momentum of bodies; APIC leaves up to 4 % of it to gradients */
+
+/* Says that bodies have lost, or gained, angular momentum that nothing took from them. */
+static void say_spin(struct engine *e)
+{
+    const real error = e->diagnostics.now.spin_error;
+    char text[300];
+    if (!e->diagnostics.turns || !(error > SPIN_DOUBTFUL)) return;
+    snprintf(text, sizeof text,
+             "%.0f %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error): in "
+             "mpm.frame current mpm.transfer apic keeps it to some percent, flip does not; method pd and mpm.frame "
+             "reference keep it", 100 * error);
+    engine_say(e, text);
+}
+
 void engine_say_balance(struct engine *e)
 {
     if (e->report.excerpt) return;
+    say_spin(e);
     say_released(e);
     const real error = e->diagnostics.now.balance_error;
     const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;

@@ -195,6 +195,7 @@ static void put_energy_balance(struct json *j, const struct energy_balance *l)
     json_real(j, "balance_error", l->balance_error);
     json_close(j, '}');
     json_real(j, "momentum_error", l->momentum_error);
+    json_real(j, "angular_momentum_error", l->spin_error);
 }
 
 /* Pairs in contact at once and their largest overlap, in a run with contact. */

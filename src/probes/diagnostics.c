@@ -12,7 +12,8 @@
 
 void diagnostics_make(struct diagnostics *w)
 {
-    *w = (struct diagnostics){.break_time = NAN, .break_place = {NAN, NAN, NAN}, .driven_time = NAN};
+    *w = (struct diagnostics){.break_time = NAN, .break_place = {NAN, NAN, NAN}, .driven_time = NAN,
+                               .now.spin_error = NAN};
 }
 
 /* ---- sums over particles ----------------------------------------------------------------------------------------- */
@@ -413,6 +414,9 @@ status diagnostics_archive(struct diagnostics *w, struct archive *a)
     ARCHIVE_VALUE(a, "diagnostics/energy_scale", w->energy_scale);
     ARCHIVE_VALUE(a, "diagnostics/momentum_start", w->momentum_start);
     ARCHIVE_VALUE(a, "diagnostics/momentum_scale", w->momentum_scale);
+    ARCHIVE_VALUE(a, "diagnostics/spin_start", w->spin_start);
+    ARCHIVE_VALUE(a, "diagnostics/spin_scale", w->spin_scale);
+    ARCHIVE_VALUE(a, "diagnostics/turns", w->turns);
     ARCHIVE_VALUE(a, "diagnostics/started", w->started);
     ARCHIVE_VALUE(a, "diagnostics/break_time", w->break_time);
     ARCHIVE_VALUE(a, "diagnostics/break_place", w->break_place);

@@ -22,8 +22,8 @@ static const struct figure_group {
     const char *needs;
 } groups[] = {
     {"", "steps time_step time_step_critical time_end particles particles_made particles_pd_start particles_pd_end "
-         "bonds_peak momentum_error threads wall_seconds loop_seconds memory_peak_bytes ns_per_particle_step "
-         "ns_per_bond_step rest_share", NULL, NULL},
+         "bonds_peak momentum_error angular_momentum_error threads wall_seconds loop_seconds memory_peak_bytes "
+         "ns_per_particle_step ns_per_bond_step rest_share", NULL, NULL},
     {"levels", "changes", NULL, NULL},
     {"solver", "steps residual bonds_past_limit", of_rest, "`solver: relaxation` or `cg`"},
     {"load_steps", "steps load_time equilibria directions overload bonds_broken released crack_area release_rate",

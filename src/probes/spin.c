@@ -1,0 +1,81 @@
+/* Angular momentum of all bodies about their common centre of mass, which no force between them changes. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "probes/diagnostics.h"
+
+/* Mass [kg], first moments of mass [kg m], momentum [kg m/s] and angular momentum about the origin [kg m^2/s]. */
+struct turning { real mass, place[DIM_MAX], momentum[DIM_MAX], spin[DIM_MAX]; };
+
+static void turning_add(struct turning *to, real mass, const real *x, const real *v)
+{
+    to->mass += mass;
+    for (int d = 0; d < DIM_MAX; d++) {
+        const int a = (d + 1) % 3, b = (d + 2) % 3;
+        to->place[d] += mass * x[d], to->momentum[d] += mass * v[d];
+        to->spin[d] += mass * (x[a] * v[b] - x[b] * v[a]);
+    }
+}
+
+/* About a place that moves with `velocity`: spin - place x momentum - moment x velocity + mass place x velocity. */
+static void turning_about(const struct turning *t, const real *place, const real *velocity, real *spin)
+{
+    for (int d = 0; d < DIM_MAX; d++) {
+        const int a = (d + 1) % 3, b = (d + 2) % 3;
+        spin[d] = t->spin[d] - (place[a] * t->momentum[b] - place[b] * t->momentum[a])
+                - (t->place[a] * velocity[b] - t->place[b] * velocity[a])
+                + t->mass * (place[a] * velocity[b] - place[b] * velocity[a]);
+    }
+}
+
+real diagnostics_spin_of(const struct particles *p, const struct mesh *mesh, int bodies, real *spin)
+{
+    struct turning *body = NEW("probes.spin", bodies + 1, struct turning), all = {0};
+    for (int64_t i = 0; i < p->n; i++) {
+        real x[DIM_MAX] = {0}, v[DIM_MAX] = {0};
+        if (p->flag[i] & FLAG_MESHED) continue;
+        for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i], v[d] = p->v[d][i];
+        turning_add(&body[p->body[i]], p->mass[i], x, v);
+    }
+    for (int64_t I = 0; mesh && I < mesh->grid.n; I++) {
+        const struct grid *g = &mesh->grid;
+        real x[DIM_MAX] = {0}, v[DIM_MAX] = {0};
+        if (!(g->mass[I] > 0)) continue;
+        for (int d = 0; d < g->dim; d++) {
+            x[d] = grid_position(g, d, mesh_base(mesh, I) / g->stride[d] % g->count[d]) + mesh->displacement[d][I];
+            v[d] = g->velocity[d][I];
+        }
+        turning_add(&body[bodies], g->mass[I], x, v);
+    }
+    for (int b = 0; b <= bodies; b++) {
+        all.mass += body[b].mass;
+        for (int d = 0; d < DIM_MAX; d++) {
+            all.place[d] += body[b].place[d], all.momentum[d] += body[b].momentum[d];
+            all.spin[d] += body[b].spin[d];
+        }
+    }
+    real place[DIM_MAX], velocity[DIM_MAX], size = 0, own[DIM_MAX];
+    for (int d = 0; d < DIM_MAX; d++) place[d] = all.place[d] / all.mass, velocity[d] = all.momentum[d] / all.mass;
+    turning_about(&all, place, velocity, spin);
+    for (int b = 0; b <= bodies; b++) {
+        turning_about(&body[b], place, velocity, own);
+        size += sqrt(dot(own, own, DIM_MAX));
+    }
+    memory_free(body);
+    return size;
+}
+
+void diagnostics_spin(struct diagnostics *w, const struct particles *p, const struct mesh *mesh, int bodies)
+{
+    real spin[DIM_MAX], missing2 = 0;
+    const real size = diagnostics_spin_of(p, mesh, bodies, spin);
+    for (int d = 0; d < DIM_MAX; d++) {
+        if (!w->turns) w->spin_start[d] = spin[d];
+        missing2 += square(spin[d] - w->spin_start[d]);
+    }
+    if (!w->turns) w->now.spin_error = 0;
+    w->turns = true;
+    w->spin_scale = real_max(w->spin_scale, size);
+    if (w->spin_scale > 0) w->now.spin_error = real_max(w->now.spin_error, sqrt(missing2) / w->spin_scale);
+}
