@@ -136,6 +136,13 @@ static void joined_and_mirrored(void **state)
     assert_false(voids_between(&v, 3, a, b, NULL));
     left.to[0] = 0.09 * SPACING;                 /* now the body ends before the plane */
     assert_true(voids_between(&v, 3, a, b, NULL));
+    left.to[0] = 0.1 * SPACING;                  /* a slot half a spacing before the plane has its image behind it */
+    struct solid slotted[2] = {left, block()};
+    slotted[1].subtract = true, slotted[1].from[0] = -0.55 * SPACING, slotted[1].to[0] = -0.45 * SPACING;
+    r[0] = (struct region){.n = 2, .solid = slotted};
+    const real before[DIM_MAX] = {-0.2 * SPACING}, nearer[DIM_MAX] = {0.6 * SPACING}, beyond[DIM_MAX] = {0.9 * SPACING};
+    assert_false(voids_between(&v, 3, before, nearer, NULL));
+    assert_true(voids_between(&v, 3, before, beyond, NULL));
 }
 
 /* Bits of particles on a lattice round a slot, beside all pairs one by one. */
