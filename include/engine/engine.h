@@ -129,6 +129,7 @@ struct stability {
     real mass;                           /* of the body [kg] */
     bool diverged;                       /* a peridynamic particle moves faster than waves */
     bool lost;                           /* an energy of the last sample is no finite number */
+    bool stretched;                      /* the run has said that points are stretched past the reach of the law */
 };
 
 /* Probes and what they compare with. */

@@ -5,9 +5,10 @@
 
 #include "base/memory.h"
 
+#define SEAM 1e-5                        /* half the width of the widest gap that counts as closed [spacings] */
 #define STEP_FINE 1e-6                   /* least step along a line, as a share of its length, of the first steps ... */
 #define STEP_COARSE 1e-3                 /* ... and of later ones: lines along faces inside the shape */
-enum { FINE_STEPS = 64 };
+enum { FINE_STEPS = 400 };
 
 bool region_has_image(const struct region *r)
 {
@@ -70,7 +71,7 @@ static real line_inside(const struct voids *v, int body, const struct void_line 
         real X[DIM_MAX];
         line_place(v, l, at, X);
         const real level = void_level(v, body, X);
-        if (level > 2 * ON_SURFACE * v->spacing) return at;
+        if (level > SEAM * v->spacing) return at;
         at += real_max(-level, (k < FINE_STEPS ? STEP_FINE : STEP_COARSE) * l->way);
     }
     return l->way;

@@ -401,7 +401,7 @@ static void say_stretched(struct engine *e)
 {
     const struct particles *p = &e->part;
     const int n = symmetric_count(p->dim);
-    for (int64_t i = 0; i < p->n && p->n_free > 0; i++) {
+    for (int64_t i = 0; i < p->n && p->n_free > 0 && !e->stability.stretched; i++) {
         const struct material *m = &e->scene->material[p->material[i]];
         real stress[SYM_MAX];
         char text[360];
@@ -414,7 +414,7 @@ static void say_stretched(struct engine *e)
                  "%% on they come apart (mpm.transfer apic) or gain energy (flip), whatever the shape; mpm.frame "
                  "reference bears any stretch", 100 * strain, e->clock.t, p->x[0][i]);
         engine_say(e, text);
-        return;
+        e->stability.stretched = true;
     }
 }
 

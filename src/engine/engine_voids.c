@@ -19,7 +19,7 @@ static real engine_voids_reach(const struct engine *e)
 static bool may_have_voids(const struct scene *s)
 {
     bool any = false;
-    for (int b = 0; b < s->bodies && s->dim > 1; b++)
+    for (int b = 0; b < s->bodies; b++)
         any |= !s->body[b].file && (s->body[b].joined != b || region_has_voids(&s->body[b].shape));
     return any;
 }
@@ -58,11 +58,14 @@ void engine_voids_make(struct engine *e)
     e->source.voids = v;
 }
 
+/* Can voids not cut the mesh? A cut parts a line; where a mirror lies between nodes there are no extra ones. */
+static bool mesh_uncut(const struct engine *e) { return e->part.dim == 1 || engine_mirror_between(e); }
+
 void engine_voids_convert(struct engine *e)
 {
     struct particles *p = &e->part;
     const struct voids *v = e->source.voids;
-    const bool uncut = engine_mirror_between(e);
+    const bool uncut = mesh_uncut(e);
     for (int64_t i = 0; i < p->n && v; i++)
         if (v->near[i] & VOID_ACROSS && (uncut || !(p->flag[i] & FLAG_MESHED))) p->kind[i] = KIND_PD;
 }
@@ -90,7 +93,7 @@ static void closed_add(struct closed *to, int64_t i)
 static struct closed closed_on_grid(const struct engine *e)
 {
     const struct particles *p = &e->part;
-    const bool uncut = engine_mirror_between(e);
+    const bool uncut = mesh_uncut(e);
     struct closed found = {0};
     for (int64_t i = 0; i < p->n && e->source.voids; i++)
         if (e->source.voids->near[i] & VOID_ACROSS && p->kind[i] == KIND_MPM && (uncut || !(p->flag[i] & FLAG_MESHED)))
@@ -127,8 +130,8 @@ static struct closed closed_in_lattice(const struct engine *e, int b, real reach
         if (e->scene->body[p->body[i]].joined != b) continue;
         near_find(&near, &e->cells, p, i, reach, false);
         next_along(p, i, &near, next);
-        for (int a = 0; a < 2 * p->dim; a++)
-            beside += next[a] < 1.01 * spacing, across += next[a] > 1.5 * spacing && next[a] <= reach;
+        for (int d = 0; d < p->dim; d++) beside += real_min(next[2 * d], next[2 * d + 1]) < 1.01 * spacing;
+        for (int a = 0; a < 2 * p->dim; a++) across += next[a] > 1.5 * spacing && next[a] <= reach;
         all++, regular += beside >= p->dim;
         if (across > 0) closed_add(&found, i);
     }
@@ -150,11 +153,11 @@ void engine_voids_warn(const struct engine *e, struct warnings *to)
     const struct closed grid = closed_on_grid(e);
     char place[96];
     if (grid.n > 0)
-        warnings_add(to, "body %s has a void too narrow for the grid of mpm.frame current, at %s m: %lld points share "
-                     "nodes with points on the other side; mpm.frame reference, method pd and method adaptive keep it "
-                     "open, a smaller particles.spacing does, too",
+        warnings_add(to, "body %s has a void too narrow for its grid, at %s m: %lld points share "
+                     "nodes with points on the other side; %smethod pd and method adaptive keep it open, a smaller "
+                     "particles.spacing does, too",
                      s->body[e->part.body[grid.first]].name, void_place_text(&e->part, grid.first, place),
-                     (long long)grid.n);
+                     (long long)grid.n, mesh_uncut(e) ? "" : "mpm.frame reference, ");
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
         if (s->body[b].joined != b || surface_known(s, b)) continue;
         const struct closed gap = closed_in_lattice(e, b, engine_voids_reach(e));
