@@ -64,6 +64,8 @@ real tips_speed(const struct tips *t, int k);
 const struct tip *tips_longest(const struct tips *t);
 /* Number of ends, of all tips, that have grown as far as the longest, within a spacing; 0: none has grown. */
 int64_t tips_tied(const struct tips *t);
+/* Does a crack run along a plane of symmetry, so that the body has one of its faces? */
+bool tip_on_mirror(const struct tips *t, const struct tip *tip, const struct mirror_plane *mirror, int mirrors);
 /* What areas depend on beside tips. */
 struct tip_surroundings {
     const struct mirror_plane *mirror;   /* planes of symmetry */

@@ -41,8 +41,23 @@ real toughness_of(const struct engine *e, const struct material *m)
     return elastic * taken / (0.5 * square(limit));
 }
 
+/* Share of the area of cracks that the body has: half where they all run along planes of symmetry, across axis d (-1:
+ * any). */
+static real advance_share(const struct engine *e, int d)
+{
+    const struct tips *t = &e->fracture.tips;
+    bool on = t->n > 0;
+    for (int k = 0; k < t->n && on; k++) {
+        bool any = false;
+        for (int m = 0; m < e->source.mirrors; m++)
+            any |= (d < 0 || e->source.mirror[m].axis == d) && tip_on_mirror(t, &t->tip[k], &e->source.mirror[m], 1);
+        on = any;
+    }
+    return on ? 0.5 : 1;
+}
+
 /* Length of the front of a crack in space [m]: of the edges of pre-cracks in the body, no more than the body's shortest
- * side and no less than a spacing; 1 in the plane. */
+ * side, of which a plane of symmetry along the crack leaves half, and no less than a spacing; 1 in the plane. */
 static real front_length(const struct engine *e)
 {
     const struct tips *t = &e->fracture.tips;
@@ -50,7 +65,7 @@ static real front_length(const struct engine *e)
     if (e->part.dim < 3) return 1;
     for (int d = 0; d < 3; d++) {
         particles_extent(&e->part, e->part.n, d, &low, &high);
-        length = real_min(length, high - low + e->scene->spacing);
+        length = real_min(length, (high - low + e->scene->spacing) / advance_share(e, d));
     }
     for (int k = 0; k < t->n; k++)
         if (t->tip[k].from_crack) edges += 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, 3));
@@ -86,7 +101,8 @@ real toughness_between(const struct engine *e, int64_t i, int64_t j)
 static real advance_area(const struct engine *e)
 {
     const struct scene *s = e->scene;
-    return ADVANCE_SPACINGS * (s->dim > 1 ? s->spacing : 1) * scene_section(s) * front_length(e);
+    const real ahead = ADVANCE_SPACINGS * (s->dim > 1 ? s->spacing : 1);
+    return advance_share(e, -1) * ahead * scene_section(s) * front_length(e);
 }
 
 /* Pairs of bonds that may break between two equilibria: along a front, of each spacing of it. */

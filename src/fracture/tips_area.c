@@ -76,8 +76,7 @@ static int64_t strip_length(const uint8_t *cell, int64_t deepest)
     return end;
 }
 
-/* Does a crack run along a plane of symmetry, so that the body has one of its faces? */
-static bool tip_on_mirror(const struct tips *t, const struct tip *tip, const struct mirror_plane *mirror, int mirrors)
+bool tip_on_mirror(const struct tips *t, const struct tip *tip, const struct mirror_plane *mirror, int mirrors)
 {
     bool on = false;
     for (int m = 0; m < mirrors; m++) {

@@ -47,7 +47,9 @@ status csv_line(struct csv_file *c, bool *more)
 
 void csv_separate(struct csv_file *c)
 {
-    c->separator = strchr(c->text, ';') ? ';' : strchr(c->text, '\t') ? '\t' : ',';
+    int commas = 0, tabs = 0;
+    for (const char *at = c->text; *at; at++) commas += *at == ',', tabs += *at == '\t';
+    c->separator = strchr(c->text, ';') ? ';' : tabs > commas ? '\t' : ',';
 }
 
 /* A field without blanks round it, and without double quotes. */

@@ -229,6 +229,8 @@ says "plates of bonds that yield" "warning: material material: bonds yield one b
 near "a plate of bonds that yield" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^reaction.force_x/) c = k; next }
     { f = $c < 0 ? -$c : $c } END { print f / 12e-6 / 300e6 }' "$work/yield/history.csv")" "$(compute "$1 + 0.04 / 2")" 0.04
 holds "the run says it" grep -q 'bonds yield one by one' "$work/yield/summary.json"
+says "points that convert to bonds that yield" 'bonds, which points convert to, yield one by one' "$yield" -s method=adaptive -s steps= \
+    -s solver=explicit -s duration=1us -s 'boundary.0.time={ramp: {until: 1 us}}' -s material.critical_stretch=0.2
 set -- $(limit 1)
 says "solids of bonds that yield" "a solid of them bears about $(printf %.2f "$1") times .* across by $(printf %.2f "$2") of" "$bar" -s material.yield_stress=100MPa \
     -s solver=explicit -s duration=1us

@@ -147,4 +147,35 @@ up="{polygon: [[2.2 mm, 1.2 mm, -1 mm], [8.3 mm, 0.7 mm, -1 mm], [8.3 mm, 0.7 mm
 down="{polygon: [[2.2 mm, -1.2 mm, 5.3 mm], [8.3 mm, -0.7 mm, 5.3 mm], [8.3 mm, -0.7 mm, -1 mm], [2.2 mm, -1.2 mm, -1 mm]]}"
 for method in pd adaptive; do both solid_$method "$half" "$whole" "$up" "$up, $down" -s method=$method; done
 
+# ---- advances in equilibrium ------------------------------------------------------------------------------------------------
+
+# A quarter of a penny at an edge in space: an advance of the half has half the area, at the same load. Behind its peak the whole finds no
+# further equilibrium, so that only the peaks are compared.
+cat >"$work/quarter.yaml" <<END
+space: solid
+duration: 1 s
+method: pd
+solver: static
+steps: {number: 12, control: energy}
+material: {young: 70 GPa, density: 2500, energy_release_rate: 20 J/m^2}
+body: {box: {from: [0, 0, 0], to: [6 mm, 6 mm, 4 mm]}}
+particles: {spacing: 1 mm}
+cracks: [{polygon: [[-1 mm, -1 mm, 0], [3 mm, -1 mm, 0], [2.1 mm, 2.1 mm, 0], [-1 mm, 3 mm, 0]]}]
+boundary:
+  - {mirror: {axis: z, at: 0}}
+  - {name: top, traction: [0, 0, 60 MPa], face: z+, time: {ramp: {until: 1 s}}}
+output: {frames: 0}
+probes: [{reaction: {boundary: top}}]
+END
+sed 's/  - {mirror.*/  - {traction: [0, 0, -60 MPa], face: z-, time: {ramp: {until: 1 s}}}/; s/from: \[0, 0, 0\]/from: [0, 0, -4 mm]/' \
+    "$work/quarter.yaml" >"$work/quarters.yaml"
+pull()
+{
+    "$cleave" run "$work/$1.yaml" -q -o "$work/$1" >/dev/null 2>&1
+    awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /force_z/) c = k; next }
+        { f = $c < 0 ? -$c : $c; if (f > most) most = f } END { print most }' "$work/$1/history.csv"
+}
+whole=$(pull quarters)
+between "advances of the half" "$(compute "$(pull quarter) / $whole - 1")" -1e-6 1e-6
+
 finish

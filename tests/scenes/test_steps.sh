@@ -171,7 +171,8 @@ between "interface: root of its toughness" "$(awk -v a="$(peak tough)" -v b="$(p
 # ---- a crack in space that no front leads ------------------------------------------------------------------------------
 
 # A penny crack in a block, an eighth by mirrors: bonds take it through what is left, at 0.98 of G_c per area all the way (bonds across a
-# plane hold 0.98), and the run ends before nothing is left: area of the section less that of the polygon, half of it for one of two faces.
+# plane hold 0.98), and the run ends before nothing is left: area of the section less that of the polygon, half of it for one of two faces,
+# within one advance, 0.17 of it: the last one breaks bonds that still join the faces.
 cat >"$work/penny.yaml" <<'END'
 variables: {a: 6 mm, L: 16 mm, pull: 40 MPa}
 space: solid
@@ -196,7 +197,7 @@ holds "penny: it says that the crack goes through" grep -q 'the crack goes throu
 between "penny: balance" "$(figure "$work/penny" energy.balance_error)" -1e-3 1e-3
 between "penny: release rate" "$(figure "$work/penny" load_steps.release_rate)" 19 21
 between "penny: the last release rate" "$(last "$work/penny" release_rate)" 19 21
-between "penny: area" "$(compute "$(figure "$work/penny" load_steps.crack_area)/(0.5 * (256e-6 - 27e-6))")" 0.85 1.1
+between "penny: area" "$(compute "$(figure "$work/penny" load_steps.crack_area)/(0.5 * (256e-6 - 27e-6))")" 0.83 1.17
 
 # ---- check -----------------------------------------------------------------------------------------------------------
 

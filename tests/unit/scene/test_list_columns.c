@@ -88,7 +88,8 @@ static void lists_of_programs_are_read(void **state)
         "x\ty [mm]  volume\tblock_id\n0.5\t1000 2e-3\t2\n",
         "x y\tblock_id volume\t\n\t0.5 1 2 2e-3\n",
         "#\tx \ty\tblock_id \tvolume\n0.5 1\t2 2e-3\n",
-        "the node\tx\ty\tvolume\tblock_id\n\t0.5\t1\t2e-3\t2\n"};
+        "the node\tx\ty\tvolume\tblock_id\n\t0.5\t1\t2e-3\t2\n",
+        "x,\ty,volume,\tblock_id\n0.5,\t1,2e-3,2\n"}; /* a tab behind a comma is a blank */
     for (size_t k = 0; k < COUNT_OF(text); k++) {
         struct setting s;
         struct particles p;
