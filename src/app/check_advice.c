@@ -264,7 +264,7 @@ static void advise_formulas(const struct engine *e, FILE *out)
 {
     for (int m = 0; m <= PULL_MOMENTS; m++) {
         if (loads_finite(&e->loads, &e->part, e->scene->duration * m / PULL_MOMENTS) == OK) continue;
-        fprintf(out, "unresolved: %s: the run stops there\n", status_message());
+        fprintf(out, "unresolved: %s: a step at that time would stop the run\n", status_message());
         return;
     }
 }

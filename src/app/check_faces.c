@@ -23,7 +23,7 @@ struct ends {
 /* What looks elsewhere. */
 struct elsewhere {
     real area, other, angle; /* of the face; of what looks elsewhere [m^2]; its angle times area [degree m^2] */
-    real aligned;            /* what looks along the axis: its end that lies deepest [m], outwards */
+    real aligned, last;      /* what looks along the axis: its ends that lie deepest and farthest out [m] */
 };
 
 static int64_t place_of(const struct ends *c, const real *X, real spacing)
@@ -92,16 +92,32 @@ static real cosine_at(const struct engine *e, const struct boundary *b, const st
     return 1 / sqrt(1 + slope2);
 }
 
-static void elsewhere_add(struct elsewhere *w, const struct engine *e, const struct boundary *b, int64_t i, real area,
-                          real cosine)
+/* Adds up the cubes of a face that show from a place along its axis on (-INFINITY: all). */
+static struct elsewhere elsewhere_from(const struct engine *e, const struct boundary *b, const struct face *f,
+                                       const struct ends *c, real from)
 {
-    const real angle = acos(real_max(-1, real_min(1, cosine))) * 180 / M_PI;
-    const real end = b->side * e->part.X[b->face][i] - 0.5 * e->scene->spacing;
-    w->area += area;
-    if (angle > ELSEWHERE)
-        w->other += area, w->angle += angle * area;
-    else
-        w->aligned = real_min(w->aligned, end);
+    struct elsewhere w = {.aligned = INFINITY, .last = -INFINITY};
+    for (int64_t i = 0; i < e->part.n; i++) {
+        const real area = f->normal[i], end = b->side * e->part.X[b->face][i] - 0.5 * e->scene->spacing;
+        if (!(area > 0) || end < from - 1e-3 * e->scene->spacing) continue;
+        const real angle = acos(real_max(-1, real_min(1, cosine_at(e, b, c, i)))) * 180 / M_PI;
+        w.area += area;
+        if (angle > ELSEWHERE) w.other += area, w.angle += angle * area;
+        else w.aligned = real_min(w.aligned, end), w.last = real_max(w.last, end);
+    }
+    return w;
+}
+
+/* Where a region would begin that leaves out nearly all that looks elsewhere; INFINITY: no plane does. */
+static real elsewhere_cut(const struct engine *e, const struct boundary *b, const struct face *f, const struct ends *c,
+                          const struct elsewhere *all)
+{
+    for (int k = 0; k < 2 && isfinite(all->aligned); k++) {
+        const real from = k == 0 ? all->aligned : all->last;
+        const struct elsewhere w = elsewhere_from(e, b, f, c, from);
+        if (!(w.other > SHARE_LEAST * w.area)) return from;
+    }
+    return INFINITY;
 }
 
 /* Do all bodies of a face have a shape whose normals are known? */
@@ -122,16 +138,16 @@ static bool has_normals(const struct scene *s, const struct boundary *b)
 void say_elsewhere(const struct engine *e, const struct boundary *b)
 {
     const struct scene *s = e->scene;
-    struct elsewhere w = {.aligned = INFINITY};
+    struct elsewhere w = {0};
     struct ends c = {0};
+    real cut = INFINITY;
     struct face f;
     if (s->dim == 1 || !(s->spacing > 0)) return;
     uint8_t *selected = NEW("check.selected", e->part.n, uint8_t);
     load_region(b, &e->part, s->spacing, selected);
     face_make(&f, b, &e->part, selected, s->spacing, false);
     if (has_normals(s, b) || ends_make(&c, e, b, &f))
-        for (int64_t i = 0; i < e->part.n; i++)
-            if (f.normal[i] > 0) elsewhere_add(&w, e, b, i, f.normal[i], cosine_at(e, b, &c, i));
+        w = elsewhere_from(e, b, &f, &c, -INFINITY), cut = elsewhere_cut(e, b, &f, &c, &w);
     memory_free(c.height);
     face_free(&f);
     memory_free(selected);
@@ -139,9 +155,9 @@ void say_elsewhere(const struct engine *e, const struct boundary *b)
     printf("; %.0f %% of the area that shows on %c%c looks elsewhere, by %.0f degrees in the mean",
            100 * w.other / w.area, "xyz"[b->face], b -> side > 0 ? '+' : '-', w.angle / w.other);
     if (b->region.n > 0) return;
-    if (isfinite(w.aligned))
+    if (isfinite(cut))
         printf(": with a region where %c %s %.6g m nearly all of that is left out", "xyz"[b->face],
-               b -> side > 0 ? ">=" : "<=", b->side * w.aligned);
+               b -> side > 0 ? ">=" : "<=", b->side * cut);
     else
         printf(": a region picks what is meant");
 }

@@ -92,7 +92,7 @@ checked "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}' -s 'boun
 amounts 'load           b: traction on x+, 20 particles, 20 m^2; force (40, 0) N, moment about the origin -400 N m when it is largest, at 0.00025 s'
 amounts 'support        d: x driven on x-, 10 particles; by (-0.002, 0) m when it is largest, at 0.0003 s, by (0.001, 0) m at the end, at most 6.67 m/s'
 holds "formula" grep -q '^support  *f: .*; by (-0.002, 0) m when it is largest, at 0.000665 s, by (-0.001414, 0) m at the end' "$work/said"
-says "formula without value" 'boundary b: its formula has no finite value at ([^)]*) m, 0.00051 s: the run stops there' "$work/disc.yaml" \
+says "formula without value" 'boundary b: its formula has no finite value at ([^)]*) m, 0.00051 s: a step at that time would stop the run' "$work/disc.yaml" \
     -s 'boundary=[{traction: ["2 Pa*sqrt(1-t/(0.5 ms))", 0], face: x+, name: b}]'
 # Points of the current frame share no nodes beyond twice their distance: a body of 20 that is pulled by 40, and back.
 says "pulled apart on the way" 'pulled to 3[.0-9]* times its length' "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}' \
