@@ -324,6 +324,22 @@ static real power_now(const struct particles *p, const struct reference_frame *r
     return power + levels_power(&reference->levels);
 }
 
+/* The part of it on nodes of meshes that loads hold or drive [W]: work of these loads, no change of velocity. */
+static real power_of_walls(const struct reference_frame *reference)
+{
+    const struct mesh_levels *levels = &reference->levels;
+    real power = 0;
+    for (int level = 0; level <= levels->n && reference->mesh.points > 0; level++) {
+        const struct grid *g = level > 0 ? &levels->at[level].mesh.grid : &reference->mesh.grid;
+        for (int64_t k = 0; k < g->walls; k++) {
+            const int d = g->wall[k].component;
+            const int64_t I = g->wall[k].node;
+            power += (real)(1 << level) * g->velocity[d][I] * g->force[d][I];
+        }
+    }
+    return power;
+}
+
 /* Adds to reactions what the nodes of a mesh that loads hold bear by the present forces. */
 static void reactions_add(struct loads *l, const struct grid *g)
 {
@@ -345,8 +361,8 @@ static void reactions_at_end(struct engine *e)
 }
 
 /* Sum of v . f by the forces after the last step, which no motion follows [W]: no bond breaks, and the accounts of
- * loads but for reactions are restored. *held: work of walls of the grid in that step [J]; the work of driven particles
- * and of nodes of a mesh is part of the power. */
+ * loads but for reactions are restored. *held: work of walls of grids and meshes in that step [J], which is no part of
+ * the power; that of driven particles is. */
 static real power_last(struct engine *e, real *held)
 {
     const struct loads account = e->loads;
@@ -360,7 +376,8 @@ static real power_last(struct engine *e, real *held)
     loads_apply(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
     if (e->reference.mesh.points > 0) engine_nodes_force(e);
     const real power = power_now(&e->part, &e->reference) + engine_grid_power(e, e->clock.t + 0.5 * e->clock.dt);
-    *held = e->loads.constraint_work - account.constraint_work;
+    const real walls = power_of_walls(&e->reference);
+    *held = e->loads.constraint_work - account.constraint_work - e->clock.dt * walls;
     reactions_at_end(e);
     for (int b = 0; b < e->loads.n; b++) {
         array_copy(own[b].reaction, e->loads.load[b].reaction, DIM_MAX, sizeof(real));
@@ -371,7 +388,7 @@ static real power_last(struct engine *e, real *held)
     e->loads.work = account.work, e->loads.constraint_work = account.constraint_work;
     e->loads.absorbing.idle = e->loads.ended = false;
     memory_free(own);
-    return power;
+    return power - walls;
 }
 
 /* The last sample. No force follows the last step: kinetic energy is 1/2 m v- . v+, as in all samples before, with v+
