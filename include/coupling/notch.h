@@ -1,5 +1,5 @@
-/* What stands for the pre-cracks of a scene where material points are in the reference frame: cut bonds along all of a
- * crack, or a slit of the mesh with cut bonds round its ends only. */
+/* Pre-cracks of a scene in a body whose points are in the reference frame: either bonds are cut along all of a crack,
+ * or the mesh has a slit there and bonds are cut round its ends only. */
 #ifndef CLEAVE_NOTCH
 #define CLEAVE_NOTCH
 

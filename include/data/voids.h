@@ -35,7 +35,7 @@ void voids_find(struct voids *v, const struct particles *p, const struct cells *
 /* Does a void lie between places a and b of a body? Symmetric in a and b. *across (NULL: not asked): do its faces there
  * look at each other? Gaps of up to 2e-5 spacings are seams, as round-off leaves them: closed. */
 bool voids_between(const struct voids *v, int body, const real *a, const real *b, bool *across);
-/* The same of two particles; v NULL: no. Quick for particles that have no void near. */
+/* Does a void lie between two particles of a body? v NULL: no. Quick for particles that have no void near. */
 bool voids_part(const struct voids *v, const struct particles *p, int64_t i, int64_t j);
 /* How deep particle i is in the shape of its body, at least [m]. */
 real voids_depth(const struct voids *v, const struct particles *p, int64_t i);

@@ -95,6 +95,14 @@ struct load {
     int outside;                         /* MIRROR: side of the plane without body, -1 or +1 */
 };
 
+/* Does a formula of a boundary depend on time? */
+static inline bool boundary_in_time(const struct boundary *b)
+{
+    bool in_time = false;
+    for (int d = 0; d < DIM_MAX; d++) in_time |= b->formula[d].in_time;
+    return in_time;
+}
+
 /* Returns the time of which a formula of a boundary is asked at time t [s]. */
 static inline real boundary_time(const struct boundary *b, real t)
 {

@@ -69,11 +69,9 @@ static real largest_at(const struct load *l, const struct particles *p, vector_f
 static struct instant instant_of(const struct load *l, const struct particles *p, real duration)
 {
     const struct boundary *b = l->boundary;
-    bool in_time = false;
     real most;
-    for (int d = 0; d < p->dim; d++) in_time |= b->formula[d].in_time;
     if (b->frozen) return (struct instant){duration, "at the end"};
-    if (in_time) {
+    if (boundary_in_time(b)) {
         const real worst = largest_at(l, p, load_force_at, duration);
         return (struct instant){worst, worst < duration ? "when it is largest" : "at the end"};
     }

@@ -403,10 +403,11 @@ static void say_stretched(struct engine *e)
     const int n = symmetric_count(p->dim);
     for (int64_t i = 0; i < p->n && p->n_free > 0 && !e->stability.stretched; i++) {
         const struct material *m = &e->scene->material[p->material[i]];
-        real stress[SYM_MAX];
+        real stress[SYM_MAX], sum = 0;
         char text[360];
         if (p->kind[i] != KIND_MPM || p->flag[i] & FLAG_MESHED || material_yields(m)) continue;
-        for (int c = 0; c < n; c++) stress[c] = p->stress[c][i];
+        for (int c = 0; c < n; c++) stress[c] = p->stress[c][i], sum += square(stress[c]);
+        if (2 * sum < square(STRETCH_MOST * m->young)) continue;   /* no less than the square of a principal stress */
         const real strain = stress_principal(stress, p->dim) / m->young;
         if (!(strain > STRETCH_MOST)) continue;
         snprintf(text, sizeof text,

@@ -24,14 +24,22 @@ static bool may_have_voids(const struct scene *s)
     return any;
 }
 
-/* Lists the solids of bodies that may have voids: of bodies joined to others all. */
+/* Have a body and what is joined to it a surface that is known, none of lists and images? */
+static bool surface_known(const struct scene *s, int body)
+{
+    bool known = true;
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].joined == body) known = known && !s->body[b].file && !region_has_image(&s->body[b].shape);
+    return known;
+}
+
+/* Lists the solids of bodies that may have voids and whose surface is known: of bodies joined to others all. */
 static void list_shapes(const struct scene *s, struct voids *v)
 {
     uint8_t *wanted = NEW("voids.wanted", s->bodies, uint8_t);
     for (int b = 0; b < s->bodies; b++)
-        if (s->body[b].joined != b || region_has_voids(&s->body[b].shape)) wanted[s->body[b].joined] = 1;
-    for (int b = 0; b < s->bodies; b++)          /* of a part without a known surface, none of the whole */
-        if (s->body[b].file || region_has_image(&s->body[b].shape)) wanted[s->body[b].joined] = 0;
+        if (s->body[b].joined != b || region_has_voids(&s->body[b].shape))
+            wanted[s->body[b].joined] = surface_known(s, s->body[b].joined);
     v->shape = NEW("voids.shape", s->bodies, const struct region *);
     v->body = NEW("voids.body", s->bodies, int);
     for (int b = 0; b < s->bodies; b++)
@@ -137,14 +145,6 @@ static struct closed closed_in_lattice(const struct engine *e, int b, real reach
     }
     memory_free(near.at);
     return 2 * regular > all ? found : (struct closed){0};
-}
-
-static bool surface_known(const struct scene *s, int body)
-{
-    bool known = true;
-    for (int b = 0; b < s->bodies; b++)
-        if (s->body[b].joined == body) known = known && !s->body[b].file && !region_has_image(&s->body[b].shape);
-    return known;
 }
 
 void engine_voids_warn(const struct engine *e, struct warnings *to)

@@ -51,9 +51,7 @@ void load_displacement_at(const struct load *l, const struct particles *p, int64
 
 status load_displacement_known(const struct boundary *b)
 {
-    bool in_time = false;
-    for (int d = 0; d < DIM_MAX; d++) in_time |= b->formula[d].in_time;
-    if (b->kind != BOUNDARY_VELOCITY || b->displaces || b->frozen || !in_time) return OK;
+    if (b->kind != BOUNDARY_VELOCITY || b->displaces || b->frozen || !boundary_in_time(b)) return OK;
     return status_set(REFUSED,
                       "boundary %s: a velocity by a formula of t does not tell how far it goes; displacement by a "
                       "formula of t, or velocity times a function of time, is expected",

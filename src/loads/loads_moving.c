@@ -43,9 +43,7 @@ status loads_finite(const struct loads *l, const struct particles *p, real t)
 {
     for (int b = 0; b < l->n; b++) {
         const struct boundary *by = l->load[b].boundary;
-        bool in_time = false;
-        for (int d = 0; d < p->dim; d++) in_time |= by->formula[d].in_time;
-        if (in_time) TRY(status_at(by->place, formula_finite(&l->load[b], p, t, FAILED)));
+        if (boundary_in_time(by)) TRY(status_at(by->place, formula_finite(&l->load[b], p, t, FAILED)));
     }
     return OK;
 }
@@ -65,14 +63,11 @@ static void shares_part(struct load *l, const struct particles *p, bool with, re
 status load_formula_make(struct load *l, const struct particles *p)
 {
     const struct boundary *b = l->boundary;
-    bool any = false, in_time = false;
-    for (int d = 0; d < p->dim; d++) {
-        any |= b->formula[d].n > 0;
-        in_time |= b->formula[d].in_time && !b->frozen;
-    }
+    bool any = false;
+    for (int d = 0; d < p->dim; d++) any |= b->formula[d].n > 0;
     if (any) TRY(formula_finite(l, p, 0, REFUSED));
     if (!boundary_is_force(b) || l->n == 0) return OK;
-    l->moving = l->surface || in_time;
+    l->moving = l->surface || (boundary_in_time(b) && !b->frozen);
     if (any) shares_part(l, p, !l->moving, b->frozen_at);
     for (int d = 0; d < p->dim && l->moving; d++) {
         l->base[d] = NEW("loads.base", l->n, real);
