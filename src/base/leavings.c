@@ -3,7 +3,6 @@
 
 #include <pthread.h>
 #include <signal.h>
-#include <stdbool.h>
 #include <string.h>
 #include <sys/types.h>
 #include <sys/wait.h>
@@ -29,7 +28,7 @@ static void on_end(int number)
         return;
     }
     for (int k = 0; k < LEAVINGS; k++) {
-        if (leavings[k].process > 0 && kill((pid_t)leavings[k].process, SIGKILL) == 0)
+        if (leavings[k].process > 0 && kill(-(pid_t)leavings[k].process, SIGKILL) == 0)
             waitpid((pid_t)leavings[k].process, NULL, 0);
         if (leavings[k].path[0]) unlink(leavings[k].path);
     }
@@ -37,10 +36,11 @@ static void on_end(int number)
     raise(number);
 }
 
+static const int ends[] = {SIGINT, SIGTERM, SIGHUP};
+
 /* Sets the handler where a signal would end the process. */
 static void leavings_watch(void)
 {
-    static const int ends[] = {SIGINT, SIGTERM, SIGHUP};
     static bool watched;
     if (!watched) maker = pthread_self();
     for (size_t k = 0; k < sizeof ends / sizeof *ends && !watched; k++) {
@@ -56,5 +56,20 @@ void leaving_set(enum leaving which, const char *path, int process)
     leavings[which].process = 0;
     leavings[which].path[0] = '\0';
     if (path && strlen(path) < PATH_LONGEST) strcpy(leavings[which].path, path);
+    if (process > 0) setpgid(process, process);      /* as leavings_child, whichever comes first */
     leavings[which].process = process;
+}
+
+void leavings_hold(bool hold)
+{
+    sigset_t these;
+    sigemptyset(&these);
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) sigaddset(&these, ends[k]);
+    pthread_sigmask(hold ? SIG_BLOCK : SIG_UNBLOCK, &these, NULL);
+}
+
+void leavings_child(void)
+{
+    setpgid(0, 0);
+    leavings_hold(false);
 }

@@ -93,7 +93,7 @@ static void turn_back(const struct placement *i, const real *b, int dim, real *t
 
 static real image_support(const struct solid *s, const struct placement *i, const real *along, int dim)
 {
-    real own[DIM_MAX];
+    real own[DIM_MAX] = {0};
     turn_back(i, along, dim, own);
     return solid_types[s->kind].support(s, own, dim) + dot(i->shift, along, dim);
 }

@@ -102,7 +102,7 @@ status source_real(struct source *s, const char *what, real *value)
 
 status source_whole(struct source *s, const char *what, int64_t *value)
 {
-    real number;
+    real number = 0;
     TRY(text_real(s, what, &number));
     if (number != floor(number) || fabs(number) > 9e15)
         return source_fault(s, "%s is %.17g; a whole number is expected", what, number);

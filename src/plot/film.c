@@ -29,6 +29,7 @@ struct ffmpeg {
 static _Noreturn void become_ffmpeg(char *const *word, int from, int complaints)
 {
     const int nothing = open("/dev/null", O_RDWR);
+    leavings_child();
     signal(SIGPIPE, SIG_DFL);
     dup2(from < 0 ? nothing : from, STDIN_FILENO);
     dup2(complaints < 0 ? nothing : complaints, STDOUT_FILENO);
@@ -74,13 +75,15 @@ static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet)
     if (!gif) memcpy(word + 16, h264, sizeof h264);
     *f = (struct ffmpeg){.to = -1, .complaints = tmpfile()};
     if (!pipe_make(ends)) return status_set(FAILED, "%s: no pipe to ffmpeg: %s", sheet.path, strerror(errno));
+    leavings_hold(true);
     f->process = (int)fork();
     if (f->process == 0) become_ffmpeg(word, ends[0], f->complaints ? fileno(f->complaints) : -1);
     const int cause = errno;
+    if (f->process > 0) leaving_set(LEAVING_FILM, aside.text, f->process);
+    leavings_hold(false);
     close(ends[0]);
     f->to = ends[1];
     if (f->process < 0) return status_set(FAILED, "%s: ffmpeg cannot be started: %s", sheet.path, strerror(cause));
-    leaving_set(LEAVING_FILM, aside.text, f->process);
     return OK;
 }
 

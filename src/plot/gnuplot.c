@@ -36,6 +36,7 @@ void gnuplot_quote(FILE *to, const char *text)
 /* Child process: standard input is the pipe, output and errors go to the file `complaints`; executes gnuplot. */
 static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
 {
+    leavings_child();
     signal(SIGPIPE, SIG_DFL);
     dup2(pipe_ends[0], STDIN_FILENO);
     dup2(complaints, STDOUT_FILENO);
@@ -137,13 +138,15 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
         return status_set(FAILED, "%s: out of memory", path);
     }
     g->format = format;
+    leavings_hold(true);
     status s = file_guard(path);
     if (s == OK) s = gnuplot_start(g);
+    if (s == OK) leaving_set(LEAVING_PICTURE, g->aside, g->process);
+    leavings_hold(false);
     if (s != OK) {
         gnuplot_release(g);
         return s;
     }
-    leaving_set(LEAVING_PICTURE, g->aside, g->process);
     set_terminal(g, format, width, height);
     set_style(g->to);
     return OK;

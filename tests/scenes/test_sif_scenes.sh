@@ -42,6 +42,7 @@ start inclined_75 "$work/inclined_75.yaml" $half
     start relaxation edge_crack_k1 $coarse -s solver=relaxation; wait
     start coupled edge_crack_k1 $coarse -s method=adaptive -s solver=relaxation -s mpm.transfer=apic \
         -s 'pd.region={box: {from: [0, 1.6 mm], to: [8.4 mm, 8.4 mm]}}'
+    wait
 )
 wait
 
