@@ -10,6 +10,8 @@ void kernels_choose(struct kernels *k, int dim, enum pd_model model, enum shape 
     k->pd_move = pd_move_table[dim];
     k->p2g = p2g_table[dim][shape][transfer];
     k->remap = remap_table[dim][shape];
+    k->turn_gather = turn_gather_table[dim][shape];
+    k->turn_scatter = turn_scatter_table[dim][shape];
     k->g2p = g2p_table[dim][shape][transfer];
     k->spread = spread_table[dim][shape];
     INVARIANT(k->bond_force && k->bond_energy && k->bond_stress && k->pd_move && k->p2g && k->remap && k->g2p &&

@@ -74,6 +74,7 @@ struct transfer_data {
     real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start) [s] */
     bool momentum_only;                  /* grid-coupled peridynamic particles: no stress to give or update */
     const uint8_t *bonded;               /* [n] not 0: bonds meet this material point; NULL: they meet none */
+    real *turn[3];                       /* [n] of points that turn (data/turning.h); in the plane the last alone */
 };
 
 /* How peridynamic particles move in a step. */
@@ -163,6 +164,12 @@ typedef void p2g_fn(struct grid *g, const struct particles *p, const struct tran
 /* v_p += sum N (f/m dt), then momentum of the second map, with the same weights (steps 4 and 6; MUSL, FLIP only). */
 typedef void remap_fn(struct grid *g, struct particles *p, const struct transfer_data *t);
 
+/* The two halves of that map for points that turn (remap_turn.c): v_p += sum N (f/m dt), and turn becomes the angular
+ * momentum that a point lacks [kg m^2/s]; then momentum m N (v_p + turn x (x_I - x_p)) to the nodes, turn the spin of
+ * the point's group [1/s]. Planes and solids. */
+typedef void turn_gather_fn(const struct grid *g, struct particles *p, const struct transfer_data *t);
+typedef void turn_scatter_fn(struct grid *g, const struct particles *p, const struct transfer_data *t);
+
 /* x_p += dt sum N v, velocity gradient, strain, spin, stress, volume, conversion flag (steps 4, 7, 8); with APIC
  * also v_p and its gradient; plastic strain of materials that yield. Returns how many points entered another cell. */
 typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct transfer_data *t);
@@ -178,6 +185,8 @@ struct kernels {                         /* chosen once, before the loop        
     pd_move_fn *pd_move;
     p2g_fn *p2g;
     remap_fn *remap;
+    turn_gather_fn *turn_gather;         /* NULL on a line */
+    turn_scatter_fn *turn_scatter;
     g2p_fn *g2p;
     spread_fn *spread;
 };
@@ -192,6 +201,8 @@ KERNEL_TABLE(state_precompute_fn, state_precompute_table, [PD_MODELS]);
 KERNEL_TABLE(pd_move_fn, pd_move_table, );
 KERNEL_TABLE(p2g_fn, p2g_table, [SHAPES][TRANSFERS]);
 KERNEL_TABLE(remap_fn, remap_table, [SHAPES]);
+KERNEL_TABLE(turn_gather_fn, turn_gather_table, [SHAPES]);
+KERNEL_TABLE(turn_scatter_fn, turn_scatter_table, [SHAPES]);
 KERNEL_TABLE(g2p_fn, g2p_table, [SHAPES][TRANSFERS]);
 KERNEL_TABLE(spread_fn, spread_table, [SHAPES]);
 

@@ -25,6 +25,7 @@
 #include "mesh/mesh_make.h"
 #include "output/output.h"
 #include "data/particles.h"
+#include "data/turning.h"
 #include "probes/probes.h"
 #include "active/active_points.h"
 #include "coupling/interface_zone.h"
@@ -77,6 +78,7 @@ struct grid_method {
     struct grid_field *field;
     struct grid_contact contact;         /* between fields */
     struct active_points active;         /* which of them the transfers leave out */
+    struct turning_groups turning;              /* groups of them that turn together (FLIP) */
     struct transfer_data transfer;
     bool sort_needed;                    /* points moved to other cells or converted */
     real smallest_mass;                  /* of a node that moves [kg] */
@@ -333,6 +335,8 @@ bool engine_has_mesh(const struct engine *e);
 bool engine_frame_allowed(const struct engine *e, int body);
 /* Sets origin and node distance of the grid, by the frames. */
 void engine_grid_make(struct engine *e);
+/* Groups of points that turn together, where bodies may turn (engine_turning.c). */
+void engine_turning_make(struct engine *e);
 /* Places of a node [m] where the body begins at `from`, in a mesh midway between particles of a lattice with a place at
  * `site`. */
 void engine_grid_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor);

@@ -305,6 +305,14 @@ static ALWAYS_INLINE row_of_nodes stencil_along(const struct cell_stencil *s, in
     return (nodes - s->t[d][at]) * h;
 }
 
+/* The same for all points of a stencil, one lane each, to node or row k. */
+static ALWAYS_INLINE row_of_points stencil_lanes(const struct cell_stencil *s, int k, real h, int d, const int dim,
+                                                 const enum shape shape)
+{
+    const int node = !IS_FACE(dim, shape) ? k - 1 : d == 0 ? k % 2 : d == 1 ? k / 2 : k;
+    return (node - s->t[d]) * h;
+}
+
 static ALWAYS_INLINE real stencil_across(const struct cell_stencil *s, int at, real h, int d, int k, const int dim,
                                          const enum shape shape)
 {

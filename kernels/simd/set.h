@@ -11,7 +11,8 @@
     X(state_stress_table) X(state_precompute_table) X(bond_forces) X(bond_break_row_block) X(bond_fade) X(bond_mend)   \
     X(bond_part) X(bond_row_block_stretch) X(state_row_energy)                                                         \
     X(bond_plastic_work) X(pd_move_table) X(kernels_choose) X(particles_diverged)                                      \
-    X(p2g_table) X(remap_table) X(g2p_table) X(spread_table) X(plastic_return) X(grid_clear) X(grid_advance)           \
+    X(p2g_table) X(remap_table) X(turn_gather_table) X(turn_scatter_table) X(g2p_table) X(spread_table)                \
+    X(plastic_return) X(grid_clear) X(grid_advance)                                                                    \
     X(grid_constrain) X(grid_remapped) X(mesh_clear) X(mesh_force) X(mesh_move) X(mesh_points_move)                    \
     X(mesh_exposed_move) X(mesh_listed_move)                                                                           \
     X(mesh_exposed_force) X(mesh_points_stress) X(mesh_points_mark) X(mesh_kinetic) X(mesh_kick) X(mesh_strain)        \

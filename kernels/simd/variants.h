@@ -16,6 +16,11 @@
     X(2, LINEAR) X(2, GIMP) X(2, CPGIMP) X(2, QUADRATIC) X(2, CUBIC)            \
     X(3, LINEAR) X(3, GIMP) X(3, CPGIMP) X(3, QUADRATIC) X(3, CUBIC)
 
+/* Those in which bodies can turn. */
+#define SHAPE_VARIANTS_TURNING(X)                                              \
+    X(2, LINEAR) X(2, GIMP) X(2, CPGIMP) X(2, QUADRATIC) X(2, CUBIC)            \
+    X(3, LINEAR) X(3, GIMP) X(3, CPGIMP) X(3, QUADRATIC) X(3, CUBIC)
+
 #define TRANSFER_VARIANTS(X, D, S) X(D, S, FLIP) X(D, S, APIC)
 
 #endif

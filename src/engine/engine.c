@@ -67,8 +67,9 @@ static status points_sort(struct engine *e)
 /* Leaves cells that no motion has reached out of the transfers. */
 static void update_active_points(struct engine *e)
 {
-    if (!e->scene->active_set || e->mpm.active.over || e->mpm.fields > 1 || coupling_moves_by_grid(e->coupling.kind) ||
-        !scene_moves(e->scene))
+    const struct grid_method *mpm = &e->mpm;
+    if (!e->scene->active_set || mpm->active.over || mpm->fields > 1 || mpm->turning.groups > 0 ||
+        coupling_moves_by_grid(e->coupling.kind) || !scene_moves(e->scene))
         return;
     e->mpm.transfer.order =
         active_points_update(&e->mpm.active, &e->mpm.field[0].order, e->mpm.transfer.order, &e->part,
@@ -151,7 +152,13 @@ static void grids_remap(struct engine *e, const struct grid_side *side)
     const struct transfer_data grid_coupled = grid_coupled_data(&e->mpm, &e->coupling);
     for (int k = 0; k < e->mpm.fields; k++) {
         const struct transfer_data own = field_data(&e->mpm, k);
-        e->kernels.remap(&e->mpm.field[k].grid, &e->part, &own);
+        if (e->mpm.turning.groups == 0) e->kernels.remap(&e->mpm.field[k].grid, &e->part, &own);
+        else e->kernels.turn_gather(&e->mpm.field[k].grid, &e->part, &own);
+    }
+    if (e->mpm.turning.groups > 0) turning_share(&e->mpm.turning, &e->part, e->scene->spacing);
+    for (int k = 0; k < e->mpm.fields && e->mpm.turning.groups > 0; k++) {
+        const struct transfer_data own = field_data(&e->mpm, k);
+        e->kernels.turn_scatter(&e->mpm.field[k].grid, &e->part, &own);
     }
     if (e->part.n_grid_coupled > 0) e->kernels.remap(&e->mpm.field[0].grid, &e->part, &grid_coupled);
     lap(&e->report.laps, LAP_SCATTER);

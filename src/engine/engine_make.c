@@ -426,7 +426,8 @@ status engine_make_again(struct engine *e, const struct scene *s, struct output 
                              engine_body_apart(s, 1) + s->rigids >= 0 && !coupling_unified(s->coupling);
     e->mpm.transfer = (struct transfer_data){
         &e->mpm.field[0].order, &e->coupling.partial, e->tables.elastic, 0.5 * s->spacing, e->clock.dt, e->clock.dt,
-        false, NULL};
+        false, NULL, {NULL}};
+    engine_turning_make(e);
     return make_probes(e);
 }
 
@@ -454,7 +455,7 @@ void engine_free(struct engine *e)
     partial_stress_free(&e->coupling.partial);
     interface_zone_free(&e->coupling.zone);
     memory_free(e->coupling.bonded);
-    active_points_free(&e->mpm.active);
+    active_points_free(&e->mpm.active), turning_free(&e->mpm.turning);
     grid_coupled_free(&e->coupling.grid_coupled);
     for (int k = 0; k < e->mpm.fields; k++) {
         struct grid_field *f = &e->mpm.field[k];
@@ -462,8 +463,7 @@ void engine_free(struct engine *e)
         transfer_order_free(&f->order);
         memory_free(f->held.held), memory_free(f->list);
     }
-    memory_free(e->mpm.field);
-    grid_contact_free(&e->mpm.contact);
+    memory_free(e->mpm.field), grid_contact_free(&e->mpm.contact);
     engine_damping_free(e);
     bonds_free(&e->bonds);
     contact_free(&e->contact);

@@ -112,7 +112,7 @@ status source_whole(struct source *s, const char *what, int64_t *value)
 
 status source_int(struct source *s, const char *what, int64_t *value)
 {
-    int32_t number;
+    int32_t number = 0;
     if (!s->binary) return source_whole(s, what, value);
     TRY(bytes_take(s, what, &number, sizeof number));
     *value = number;

@@ -1,0 +1,134 @@
+/* The second map of MUSL for points that turn (data/turning.h), in two halves, since what the points of a group have
+ * gained is shared out between them: points receive the change of the nodal velocities and what of its angular momentum
+ * they lack; then nodes receive the velocity of the points, continued to the place of the node as a rotation. */
+#include "kernels/kernels.h"
+#include "scatter.h"
+#include "shape.h"
+#include "kernels/simd/variants.h"
+
+/* Component c of a vector product has the terms a b - b a of these. */
+#define FIRST(c) (((c) + 1) % 3)
+#define SECOND(c) (((c) + 2) % 3)
+/* Components of a spin: z alone in the plane. */
+#define SPIN_FROM(dim) ((dim) == 2 ? 2 : 0)
+
+/* ---- nodes to points --------------------------------------------------------------------------------------------- */
+
+/* Adds the change of the nodal velocities to the n listed points, at most AT_ONCE, of cell c; turn becomes the angular
+ * momentum m sum N (x_I - x_p) x dv_I that a point cannot take [kg m^2/s]. */
+static ALWAYS_INLINE void turn_gather_points(const struct grid *g, const struct cell *c, struct particles *p,
+                                             const struct transfer_data *t, const int32_t *list, int n, const int dim,
+                                             const enum shape shape)
+{
+    const int along = ROW_DIMS(dim, shape);
+    struct cell_stencil s;
+    row_of_points gain[DIM_MAX], arm[DIM_MAX][DIM_MAX];          /* arm[e][d]: sum N (x_I - x_p)_e dv_d */
+    cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
+    for (int d = 0; d < dim; d++) {
+        gain[d] = points_of(0);
+        for (int e = 0; e < dim; e++) arm[e][d] = points_of(0);
+    }
+    FOR_ANY_TOUCHED(&s, dim, shape) {
+        const row_of_points weight = stencil_rows(&s, k1, k2, dim, shape);
+        for (int d = 0; d < dim; d++) {
+            const real *change = g->force[d] + cell_row(c, g, k1, k2, dim);
+            row_of_points sum = points_of(0), far[2] = {points_of(0), points_of(0)};
+            FOR_NODES(dim, shape) {
+                const row_of_points part = s.N[k] * change[row_node(g, k, dim, shape)];
+                sum += part;
+                for (int e = 0; e < along; e++) far[e] += part * stencil_lanes(&s, k, g->h, e, dim, shape);
+            }
+            gain[d] += weight * sum;
+            for (int e = 0; e < along; e++) arm[e][d] += weight * far[e];
+            for (int e = along; e < dim; e++)
+                arm[e][d] += weight * sum * stencil_lanes(&s, e == 1 ? k1 : k2, g->h, e, dim, shape);
+        }
+    }
+    const row_of_points mass = points_load(p->mass, s.point, dim);
+    for (int d = 0; d < dim; d++) points_store(p->v[d], s.point, points_load(p->v[d], s.point, dim) + gain[d], dim);
+    for (int e = SPIN_FROM(dim); e < 3; e++)
+        points_store(t->turn[e], s.point, mass * (arm[FIRST(e)][SECOND(e)] - arm[SECOND(e)][FIRST(e)]), dim);
+}
+
+#define GATHER(D, S)                                                                                                   \
+    static void turn_gather_##D##d_##S(const struct grid *g, struct particles *p, const struct transfer_data *t)       \
+    {                                                                                                                  \
+        const struct transfer_order *o = t->order;                                                                     \
+        _Pragma("omp parallel for schedule(static)")                                                                   \
+        for (int32_t k = 0; k < o->cells; k++) {                                                                       \
+            const int32_t *list = o->particle + o->cell_start[k], n = o->cell_start[k + 1] - o->cell_start[k];         \
+            const struct cell c = cell_make(g, p, list[0], D, SHAPE_##S);                                              \
+            for (int m = 0; m < n; m += AT_ONCE(D))                                                                    \
+                turn_gather_points(g, &c, p, t, list + m, at_once(n - m, D), D, SHAPE_##S);                            \
+        }                                                                                                              \
+    }
+SHAPE_VARIANTS_TURNING(GATHER)
+
+/* ---- points to nodes --------------------------------------------------------------------------------------------- */
+
+/* Sums of momentum by rows of the nodes of a cell [kg m/s]. */
+typedef row_of_nodes cell_rows[DIM_MAX][ROWS_MAX];
+
+/* Adds the momentum m N (v + w x (x_I - x_p)) of point `at`, w the spin of its group (turn). */
+static ALWAYS_INLINE void turn_scatter_point(cell_rows sum, const struct grid *g, const struct particles *p,
+                                             const struct transfer_data *t, const struct cell_stencil *s, int at,
+                                             const int dim, const enum shape shape)
+{
+    const int along = ROW_DIMS(dim, shape);
+    const int64_t i = s->point[at];
+    const row_of_nodes mass = p->mass[i] * stencil_touch(s, at, g->h, dim, shape).N;
+    real slope[DIM_MAX][DIM_MAX] = {{0}};
+    row_of_nodes momentum[DIM_MAX];
+    for (int c = SPIN_FROM(dim); c < 3; c++) {
+        slope[SECOND(c)][FIRST(c)] = t->turn[c][i];
+        slope[FIRST(c)][SECOND(c)] = -t->turn[c][i];
+    }
+    for (int d = 0; d < dim; d++) {
+        row_of_nodes speed = row_of(p->v[d][i]);
+        for (int e = 0; e < along; e++)
+            if (e != d) speed += slope[d][e] * stencil_along(s, at, g->h, e, dim, shape);
+        momentum[d] = mass * speed;
+    }
+    FOR_TOUCHED(s, at, dim, shape) {
+        const real weight = stencil_row(s, at, k1, k2, dim, shape);
+        for (int d = 0; d < dim; d++) {
+            row_of_nodes given = momentum[d];
+            for (int e = along; e < dim; e++)
+                if (e != d)
+                    given += mass * (slope[d][e] * stencil_across(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape));
+            sum[d][PATCH(dim, shape)] += weight * given;
+        }
+    }
+}
+
+static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct particles *p,
+                                            const struct transfer_data *t, const int32_t *list, int n, const int dim,
+                                            const enum shape shape)
+{
+    const struct cell c = cell_make(g, p, list[0], dim, shape);
+    cell_rows sum;
+    FOR_ROWS(dim, shape)
+        for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_of(0);
+    for (int k = 0; k < n; k += AT_ONCE(dim)) {
+        struct cell_stencil s;
+        const int points = at_once(n - k, dim);
+        cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
+        stencil_transpose(&s, dim, shape);
+        for (int at = 0; at < points; at++) turn_scatter_point(sum, g, p, t, &s, at, dim, shape);
+    }
+    FOR_ROWS(dim, shape)
+        for (int d = 0; d < dim; d++)
+            nodes_add(g, g->momentum[d] + cell_row(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim, shape);
+}
+
+#define TURN_SCATTER(D, S)                                                                                             \
+    static void turn_scatter_##D##d_##S(struct grid *g, const struct particles *p, const struct transfer_data *t)      \
+    {                                                                                                                  \
+        SCATTER(D, t, g, p, turn_scatter_cell(&nodes, &points, &data, list, n, D, SHAPE_##S));                         \
+    }
+SHAPE_VARIANTS_TURNING(TURN_SCATTER)
+
+#define GATHER_ENTRY(D, S) [D][SHAPE_##S] = turn_gather_##D##d_##S,
+turn_gather_fn *const turn_gather_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS_TURNING(GATHER_ENTRY)};
+#define SCATTER_ENTRY(D, S) [D][SHAPE_##S] = turn_scatter_##D##d_##S,
+turn_scatter_fn *const turn_scatter_table[DIM_MAX + 1][SHAPES] = {SHAPE_VARIANTS_TURNING(SCATTER_ENTRY)};

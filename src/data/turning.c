@@ -1,0 +1,268 @@
+/* Material points that turn together. A group's sums are added by one thread in the order of its members, and those of
+ * groups in their order, so that the bits do not depend on the number of threads. */
+#include "data/turning.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+#define LEAST_ARM 0.05 /* least radius of inertia of a group [spacings]: of single points and, in space, lines of them */
+
+/* ---- making ------------------------------------------------------------------------------------------------------ */
+
+/* A particle and its group. */
+struct member { int64_t place[DIM_MAX]; int32_t body, particle; };
+
+static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int body_b)
+{
+    if (body_a != body_b) return body_a < body_b ? -1 : 1;
+    for (int d = DIM_MAX; d-- > 0;)
+        if (a[d] != b[d]) return a[d] < b[d] ? -1 : 1;
+    return 0;
+}
+
+static int by_member(const void *a, const void *b)
+{
+    const struct member *p = a, *q = b;
+    const int order = order_of_places(p->place, p->body, q->place, q->body);
+    return order ? order : (p->particle > q->particle) - (p->particle < q->particle);
+}
+
+static int by_group(const void *a, const void *b)
+{
+    const struct turning_group *p = a, *q = b;
+    return order_of_places(p->place, p->body, q->place, q->body);
+}
+
+/* The particles in the order of groups; edges of groups are counted from the lowest particle. */
+static struct member *members_sorted(const struct particles *p, real edge)
+{
+    struct member *all = NEW("turning.sorted", p->n, struct member);
+    real low[DIM_MAX], high;
+    for (int d = 0; d < p->dim; d++) particles_extent(p, p->n, d, &low[d], &high);
+    for (int64_t i = 0; i < p->n; i++) {
+        all[i].body = p->body[i], all[i].particle = (int32_t)i;
+        for (int d = 0; d < p->dim; d++)
+            all[i].place[d] = (int64_t)floor((p->X[d][i] - low[d]) / edge + 0.25 / TURNING_EDGE);
+    }
+    array_sort(all, p->n, sizeof *all, by_member);
+    return all;
+}
+
+/* Finds the neighbours of group g. */
+static void groups_near(struct turning_groups *t, int32_t g)
+{
+    struct turning_group *own = &t->group[g];
+    for (int k = 0, n = 0; k < 27; k++) {
+        const int step[DIM_MAX] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+        if (k == 13) continue;
+        struct turning_group like = {.body = own->body};
+        for (int d = 0; d < DIM_MAX; d++) like.place[d] = own->place[d] + step[d];
+        const struct turning_group *at = bsearch(&like, t->group, (size_t)t->groups, sizeof like, by_group);
+        own->near[n++] = at ? (int32_t)(at - t->group) : -1;
+    }
+}
+
+void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const bool *held)
+{
+    struct member *all = members_sorted(p, TURNING_EDGE * spacing);
+    turning_free(t);
+    for (int64_t k = 0; k < p->n; k++)
+        t->groups += k == 0 || order_of_places(all[k].place, all[k].body, all[k - 1].place, all[k - 1].body) != 0;
+    t->group = NEW("turning.group", t->groups, struct turning_group);
+    t->member = NEW("turning.member", p->n, int32_t);
+    for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) t->turn[c] = NEW("turning.turn", p->n, real);
+    struct turning_group *g = t->group - 1;
+    for (int64_t k = 0; k < p->n; k++) {
+        if (k == 0 || order_of_places(all[k].place, all[k].body, all[k - 1].place, all[k - 1].body) != 0) {
+            g++;
+            *g = (struct turning_group){.body = all[k].body, .first = k, .held = held[all[k].body]};
+            memcpy(g->place, all[k].place, sizeof g->place);
+        }
+        t->member[k] = all[k].particle, g->end = k + 1;
+    }
+#pragma omp parallel for schedule(static)
+    for (int32_t k = 0; k < t->groups; k++) groups_near(t, k);
+    memory_free(all);
+}
+
+void turning_free(struct turning_groups *t)
+{
+    memory_free(t->group), memory_free(t->member);
+    for (int c = 0; c < 3; c++) memory_free(t->turn[c]);
+    *t = (struct turning_groups){0};
+}
+
+/* ---- sums of a group --------------------------------------------------------------------------------------------- */
+
+static bool on_grid(const struct particles *p, int32_t i)
+{
+    return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED);
+}
+
+/* Loop over the members i of group g that are on the grid. */
+#define FOR_POINTS(t, g, p, i)                                                                                         \
+    for (int64_t m = (g)->first; m < (g)->end; m++)                                                                    \
+        for (int32_t i = (t)->member[m], once = on_grid(p, i); once; once = 0)
+
+static void sum_mass(const struct turning_groups *t, struct turning_group *g, const struct particles *p)
+{
+    g->points = 0, g->mass = 0;
+    memset(g->moment, 0, sizeof g->moment), memset(g->sum, 0, sizeof g->sum), memset(g->inertia, 0, sizeof g->inertia);
+    FOR_POINTS(t, g, p, i) {
+        g->points++, g->mass += p->mass[i];
+        for (int d = 0; d < p->dim; d++) g->moment[d] += p->mass[i] * p->x[d][i];
+        for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) g->sum[c] += t->turn[c][i];
+    }
+}
+
+static void arm_of(const struct particles *p, int32_t i, const struct turning_group *root, real *r)
+{
+    for (int d = 0; d < DIM_MAX; d++) r[d] = d < p->dim ? p->x[d][i] - root->moment[d] : 0;
+}
+
+static void turning_cross(const real *a, const real *b, real *c)
+{
+    for (int d = 0; d < 3; d++) c[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
+}
+
+/* Inertia about the centre of the root. */
+static void sum_inertia(const struct turning_groups *t, struct turning_group *g, const struct particles *p)
+{
+    const struct turning_group *root = &t->group[g->root];
+    real sum[3][3] = {{0}}, r[DIM_MAX];
+    FOR_POINTS(t, g, p, i) {
+        arm_of(p, i, root, r);
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b <= a; b++) sum[a][b] += p->mass[i] * ((a == b ? dot(r, r, 3) : 0) - r[a] * r[b]);
+    }
+    memcpy(g->inertia, sum, sizeof sum);
+}
+
+/* Members gain the spin of their root, and the group's sum is their angular momentum about the root's centre. */
+static void gain(const struct turning_groups *t, struct turning_group *g, struct particles *p)
+{
+    const struct turning_group *root = &t->group[g->root];
+    real r[DIM_MAX], more[3], own[3];
+    memset(g->sum, 0, sizeof g->sum);
+    FOR_POINTS(t, g, p, i) {
+        real v[3] = {0};
+        arm_of(p, i, root, r);
+        turning_cross(root->spin, r, more);
+        for (int d = 0; d < p->dim; d++) v[d] = p->v[d][i] += more[d];
+        turning_cross(r, v, own);
+        for (int c = 0; c < 3; c++) g->sum[c] += p->mass[i] * own[c];
+    }
+}
+
+static void tell(struct turning_groups *t, const struct turning_group *g, const struct particles *p)
+{
+    const struct turning_group *root = &t->group[g->root];
+    FOR_POINTS(t, g, p, i)
+        for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) t->turn[c][i] = root->spin[c];
+}
+
+/* ---- groups ------------------------------------------------------------------------------------------------------ */
+
+static int32_t group_root(const struct turning_groups *t, int32_t g)
+{
+    while (t->group[g].root != g) g = t->group[g].root;
+    return g;
+}
+
+/* Groups of few points become part of the neighbour that has most. */
+static void few_join(struct turning_groups *t)
+{
+    for (int32_t g = 0; g < t->groups; g++) t->group[g].root = g;
+    for (int32_t g = 0; g < t->groups; g++) {
+        const struct turning_group *own = &t->group[g];
+        int32_t most = -1;
+        if (own->points == 0 || own->points >= TURNING_FEW) continue;
+        for (int k = 0; k < TURNING_NEAR; k++) {
+            const int32_t near = own->near[k];
+            if (near >= 0 && t->group[near].points > (most < 0 ? 0 : t->group[most].points)) most = near;
+        }
+        if (most >= 0) t->group[group_root(t, g)].root = group_root(t, most);
+    }
+    for (int32_t g = 0; g < t->groups; g++) t->group[g].root = group_root(t, g);
+}
+
+/* Of a symmetric tensor whose lower half is given. */
+static real inertia_determinant(const real J[3][3])
+{
+    const real d = J[1][0], e = J[2][0], f = J[2][1];
+    return J[0][0] * (J[1][1] * J[2][2] - f * f) + d * (e * f - d * J[2][2]) + e * (d * f - J[1][1] * e);
+}
+
+/* Solves J w = sum for such a tensor. */
+static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
+{
+    if (dim == 2) {
+        w[0] = w[1] = 0, w[2] = sum[2] / J[2][2];
+        return;
+    }
+    const real a = J[0][0], b = J[1][1], c = J[2][2], d = J[1][0], e = J[2][0], f = J[2][1];
+    const real all = inertia_determinant(J), A = b * c - f * f, B = e * f - d * c, C = d * f - b * e, D = d * e - a * f;
+    w[0] = (A * sum[0] + B * sum[1] + C * sum[2]) / all;
+    w[1] = (B * sum[0] + (a * c - e * e) * sum[1] + D * sum[2]) / all;
+    w[2] = (C * sum[0] + D * sum[1] + (a * b - d * d) * sum[2]) / all;
+}
+
+/* Spins of roots by the sums of their groups. */
+static void spins_find(struct turning_groups *t, int dim)
+{
+    for (int32_t g = 0; g < t->groups; g++) {
+        const struct turning_group *own = &t->group[g];
+        for (int c = 0; c < 3 && own->root != g; c++) t->group[own->root].sum[c] += own->sum[c];
+    }
+    for (int32_t g = 0; g < t->groups; g++) {
+        struct turning_group *own = &t->group[g];
+        memset(own->spin, 0, sizeof own->spin);
+        if (own->root == g && own->mass > 0 && !own->held) spin_solve(own->inertia, own->sum, dim, own->spin);
+    }
+}
+
+/* Centres of roots. */
+static void centres_find(struct turning_groups *t)
+{
+    for (int32_t g = 0; g < t->groups; g++) {
+        const struct turning_group *own = &t->group[g];
+        struct turning_group *root = &t->group[own->root];
+        if (own == root) continue;
+        root->mass += own->mass;
+        for (int d = 0; d < DIM_MAX; d++) root->moment[d] += own->moment[d];
+    }
+    for (int32_t g = 0; g < t->groups; g++)
+        for (int d = 0; d < DIM_MAX && t->group[g].mass > 0; d++) t->group[g].moment[d] /= t->group[g].mass;
+}
+
+/* Inertia of roots; where it has next to none about some axis, with that of LEAST_ARM. */
+static void inertias_find(struct turning_groups *t, real spacing, int dim)
+{
+    for (int32_t g = 0; g < t->groups; g++) {
+        const struct turning_group *own = &t->group[g];
+        for (int a = 0; a < 3 && own->root != g; a++)
+            for (int b = 0; b <= a; b++) t->group[own->root].inertia[a][b] += own->inertia[a][b];
+    }
+    for (int32_t g = 0; g < t->groups; g++) {
+        real(*J)[3] = t->group[g].inertia;
+        const real least = t->group[g].mass * square(LEAST_ARM * spacing), half = (J[0][0] + J[1][1] + J[2][2]) / 2;
+        const bool thin = dim == 2 ? J[2][2] < least : inertia_determinant(J) < least * square(half);
+        for (int a = 0; a < 3 && thin; a++) J[a][a] += least;
+    }
+}
+
+void turning_share(struct turning_groups *t, struct particles *p, real spacing)
+{
+#define EACH_GROUP(CALL) TEAM_LOOP(t->groups > 16, for (int32_t g = 0; g < t->groups; g++) CALL;)
+    EACH_GROUP(sum_mass(t, &t->group[g], p));
+    few_join(t);
+    centres_find(t);
+    EACH_GROUP(sum_inertia(t, &t->group[g], p));
+    inertias_find(t, spacing, p->dim);
+    spins_find(t, p->dim);                           /* what they gain */
+    EACH_GROUP(gain(t, &t->group[g], p));
+    spins_find(t, p->dim);                           /* what they have */
+    EACH_GROUP(tell(t, &t->group[g], p));
+}

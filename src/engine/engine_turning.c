@@ -1,0 +1,29 @@
+/* Points that turn in groups (data/turning.h), in the step. */
+#include "base/memory.h"
+#include "engine/engine.h"
+
+/* Marks the bodies whose particles a support holds; one that turns them keeps no body from turning. */
+static void mark_held(const struct engine *e, bool *held)
+{
+    for (int b = 0; b < e->loads.n; b++) {
+        const struct load *l = &e->loads.load[b];
+        if (l->boundary->kind != BOUNDARY_VELOCITY || l->boundary->rotates) continue;
+        for (int64_t k = 0; k < l->n; k++) held[e->part.body[l->particle[k]]] = true;
+    }
+}
+
+void engine_turning_make(struct engine *e)
+{
+    const struct scene *s = e->scene;
+    bool mirrored = e->source.mirrors > 0;
+    for (int b = 0; b < s->boundaries; b++) mirrored |= s->boundary[b].kind == BOUNDARY_MIRROR;
+    if (e->part.dim < 2 || s->transfer != TRANSFER_FLIP || !scene_moves(s) || mirrored || s->method == METHOD_PD ||
+        coupling_moves_by_grid(e->coupling.kind) || coupling_unified(e->coupling.kind))
+        return;
+    bool *held = NEW("engine.held", s->bodies, bool), all = true;
+    mark_held(e, held);
+    for (int b = 0; b < s->bodies; b++) all &= held[b];
+    if (!all) turning_make(&e->mpm.turning, &e->part, s->spacing, held);
+    for (int c = 0; c < 3; c++) e->mpm.transfer.turn[c] = e->mpm.turning.turn[c];
+    memory_free(held);
+}

@@ -1,0 +1,223 @@
+/* Points that turn in groups (data/turning.h): what the two halves of the second map keep, of any motion, for all
+ * shapes, in the plane and in space. */
+#include <stdarg.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <cmocka.h>
+
+#include "tests/support/cloud.h"
+#include "data/transfer_order.h"
+#include "data/turning.h"
+#include "kernels/kernels.h"
+
+/* Of the largest term: sums of some hundred terms, of weights with errors of 1e-15. */
+#define CLOSE 1e-12
+
+struct scene {
+    struct cloud c;
+    struct grid g;
+    struct transfer_order order;
+    struct turning_groups turning;
+    struct transfer_data t;
+    uint64_t seed;
+    int dim, shape;
+};
+
+/* A shaken cloud of two bodies, of which every fifth particle is peridynamic; the second has a few points left. */
+static void scene_make(struct scene *s, int dim, int shape)
+{
+    static const int count[DIM_MAX + 1][DIM_MAX] = {{0}, {0}, {15, 11}, {9, 8, 7}};
+    struct cloud_plan plan = {.space = dim == 2 ? SPACE_PLANE_STRESS : SPACE_SOLID, .horizon = 3, .shake = 0.3,
+                              .seed = 5, .optional = shape == SHAPE_CPGIMP ? WITH_STRETCH : 0};
+    const bool held[2] = {false};
+    bool changed;
+    real from[DIM_MAX], to[DIM_MAX];
+    *s = (struct scene){.seed = 31, .dim = dim, .shape = shape};
+    memcpy(plan.count, count[dim], sizeof plan.count);
+    cloud_make(&s->c, &plan);
+    struct particles *p = &s->c.p;
+    for (int64_t i = 0; i < p->n; i++) {
+        p->body[i] = p->X[0][i] > 8.3 * CLOUD_SPACING;
+        p->kind[i] = cloud_random(&s->seed) < (p->body[i] ? 0.6 : 0.2) ? KIND_PD : KIND_MPM;
+        for (int d = 0; d < dim; d++) p->v[d][i] = cloud_between(&s->seed, -3, 5);
+    }
+    particles_list(p);
+    s->g = (struct grid){.dim = dim, .h = 2 * CLOUD_SPACING};
+    for (int d = 0; d < dim; d++) {
+        s->g.anchor[d] = (3.17 + d) * CLOUD_SPACING;
+        particles_extent(p, p->n, d, &from[d], &to[d]);
+    }
+    assert_int_equal(grid_cover(&s->g, from, to, 100000, &changed), OK);
+    transfer_order_sort(&s->order, p, p->list_free, p->n_free, &s->g);
+    turning_make(&s->turning, p, CLOUD_SPACING, held);
+    s->t = (struct transfer_data){.order = &s->order, .half_width = 0.5 * CLOUD_SPACING, .dt = 1, .dt_velocity = 1};
+    struct partial_stress none = {0};
+    struct elastic elastic[CLOUD_MATERIALS] = {{0}};
+    s->t.partial = &none, s->t.elastic = elastic;
+    grid_clear(&s->g);
+    p2g_table[dim][shape][TRANSFER_FLIP](&s->g, p, &s->t);
+    s->t.partial = NULL, s->t.elastic = NULL;
+    for (int c = 0; c < 3; c++) s->t.turn[c] = s->turning.turn[c];
+}
+
+static void scene_free(struct scene *s)
+{
+    turning_free(&s->turning);
+    transfer_order_free(&s->order);
+    grid_free(&s->g);
+    cloud_free(&s->c);
+}
+
+static void node_place(const struct grid *g, int64_t I, real *x)
+{
+    for (int d = 0; d < 3; d++) x[d] = d < g->dim ? grid_position(g, d, I / g->stride[d] % g->count[d]) : 0;
+}
+
+/* Adds m a, and m x x a, to six sums; their magnitudes to size[2]. */
+static void moments_add(real m, const real *x, const real *a, real *sum, real *size)
+{
+    for (int c = 0; c < 3; c++) {
+        const real turn = m * (x[(c + 1) % 3] * a[(c + 2) % 3] - x[(c + 2) % 3] * a[(c + 1) % 3]);
+        sum[c] += m * a[c], sum[3 + c] += turn;
+        size[0] += fabs(m * a[c]), size[1] += fabs(turn);
+    }
+}
+
+static void points_moments(const struct particles *p, real *const *v, real *sum, real *size)
+{
+    for (int64_t k = 0; k < p->n_free; k++) {
+        const int32_t i = p->list_free[k];
+        real x[3] = {0}, own[3] = {0};
+        for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i], own[d] = v[d][i];
+        moments_add(p->mass[i], x, own, sum, size);
+    }
+}
+
+/* Gives points any change of nodal velocities. */
+static void gather(struct scene *s)
+{
+    for (int64_t I = 0; I < s->g.n; I++)
+        for (int d = 0; d < s->dim; d++)
+            s->g.force[d][I] = s->g.mass[I] > 0 ? cloud_between(&s->seed, -2, 1) : 0;
+    turn_gather_table[s->dim][s->shape](&s->g, &s->c.p, &s->t);
+    turning_share(&s->turning, &s->c.p, CLOUD_SPACING);
+}
+
+/* Nodal velocities of the second map, of points that nothing has changed. */
+static void scatter(struct scene *s)
+{
+    for (int c = 0; c < 3; c++)
+        if (s->turning.turn[c]) array_fill_bytes(s->turning.turn[c], 0, s->c.p.n, sizeof(real));
+    turning_share(&s->turning, &s->c.p, CLOUD_SPACING);
+    for (int d = 0; d < s->dim; d++) array_fill_bytes(s->g.momentum[d], 0, s->g.n, sizeof(real));
+    turn_scatter_table[s->dim][s->shape](&s->g, &s->c.p, &s->t);
+    for (int d = 0; d < s->dim; d++)
+        for (int64_t I = 0; I < s->g.n; I++) s->g.momentum[d][I] /= s->g.mass[I] > 0 ? s->g.mass[I] : 1;
+}
+
+/* Points have gained the momentum and the angular momentum of the change of the nodes. */
+static void keeps_moments(struct scene *s)
+{
+    real given[6] = {0}, before[6] = {0}, after[6] = {0}, size[2] = {0}, none[2];
+    points_moments(&s->c.p, s->c.p.v, before, size);
+    gather(s);
+    points_moments(&s->c.p, s->c.p.v, after, none);
+    for (int64_t I = 0; I < s->g.n; I++) {
+        real x[3], change[3] = {0};
+        node_place(&s->g, I, x);
+        for (int d = 0; d < s->dim; d++) change[d] = s->g.force[d][I];
+        moments_add(s->g.mass[I], x, change, given, size);
+    }
+    for (int c = 0; c < 6; c++) assert_true(fabs(after[c] - before[c] - given[c]) <= CLOSE * size[c / 3]);
+}
+
+/* Nodes of a body that turns and flies have the velocity of their place. */
+static void turns_rigidly(struct scene *s)
+{
+    struct particles *p = &s->c.p;
+    const real spin[3] = {s->dim == 2 ? 0 : 70, s->dim == 2 ? 0 : -310, 520}, flight[3] = {11, -7, 3};
+    for (int64_t i = 0; i < p->n; i++) {
+        real x[3] = {0};
+        for (int d = 0; d < s->dim; d++) x[d] = p->x[d][i];
+        for (int d = 0; d < s->dim; d++)
+            p->v[d][i] = flight[d] + spin[(d + 1) % 3] * x[(d + 2) % 3] - spin[(d + 2) % 3] * x[(d + 1) % 3];
+    }
+    scatter(s);
+    for (int64_t I = 0; I < s->g.n; I++) {
+        real x[3];
+        node_place(&s->g, I, x);
+        if (!(s->g.mass[I] > 1e-6 * p->mass[0])) continue; /* a weight near 0 has few digits */
+        for (int d = 0; d < s->dim; d++) {
+            const real right = flight[d] + spin[(d + 1) % 3] * x[(d + 2) % 3] - spin[(d + 2) % 3] * x[(d + 1) % 3];
+            assert_true(fabs(s->g.momentum[d][I] - right) <= 1e-7 * 11);
+        }
+    }
+}
+
+/* Both halves are adjoint in the mass: what points gain along their velocity is what nodes gain along theirs. */
+static void keeps_energy(struct scene *s)
+{
+    struct particles *p = &s->c.p;
+    real *old[DIM_MAX], points = 0, nodes = 0, size = 0;
+    scatter(s);
+    for (int d = 0; d < s->dim; d++) {
+        old[d] = BARE("test.old", p->n, real);
+        array_copy(old[d], p->v[d], p->n, sizeof(real));
+    }
+    gather(s);
+    for (int d = 0; d < s->dim; d++) {
+        for (int64_t k = 0; k < p->n_free; k++) {
+            const int32_t i = p->list_free[k];
+            points += p->mass[i] * old[d][i] * (p->v[d][i] - old[d][i]);
+        }
+        for (int64_t I = 0; I < s->g.n; I++) {
+            const real part = s->g.mass[I] * s->g.force[d][I] * s->g.momentum[d][I];
+            nodes += part, size += fabs(part);
+        }
+        memory_free(old[d]);
+    }
+    assert_true(size > 0 && fabs(points - nodes) <= CLOSE * size);
+}
+
+static void for_all(void (*check)(struct scene *s))
+{
+    for (int dim = 2; dim <= DIM_MAX; dim++)
+        for (int shape = 0; shape < SHAPES; shape++) {
+            struct scene s;
+            scene_make(&s, dim, shape);
+            check(&s);
+            scene_free(&s);
+        }
+}
+
+static void test_moments(void **state) { (void)state, for_all(keeps_moments); }
+static void test_rigid(void **state) { (void)state, for_all(turns_rigidly); }
+static void test_energy(void **state) { (void)state, for_all(keeps_energy); }
+
+/* Points of a body that is held are left as they are; those of few groups join others; a point alone gains nothing. */
+static void test_groups(void **state)
+{
+    struct scene s;
+    (void)state;
+    scene_make(&s, 2, SHAPE_LINEAR);
+    struct particles *p = &s.c.p;
+    for (int64_t i = 0; i < p->n; i++) p->kind[i] = p->body[i] == 0 || i == p->n - 1 ? KIND_MPM : KIND_PD;
+    particles_list(p);
+    for (int64_t k = 0; k < p->n; k++) s.turning.turn[2][k] = 1e-9;
+    const real alone = p->v[1][p->n - 1];
+    turning_share(&s.turning, p, CLOUD_SPACING);
+    assert_true(p->v[1][p->n - 1] == alone);
+    for (int32_t g = 0; g < s.turning.groups; g++) {
+        const struct turning_group *own = &s.turning.group[g], *root = &s.turning.group[own->root];
+        assert_true(own->points == 0 || own->body == 1 || own->points >= TURNING_FEW || own->root != g);
+        assert_true(root->root == own->root && root->body == own->body);
+    }
+    scene_free(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_moments), cmocka_unit_test(test_rigid),
+                                       cmocka_unit_test(test_energy), cmocka_unit_test(test_groups)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
