@@ -10,9 +10,8 @@
  *     m_j dv_j = -k sum_i m_i s ((d_i - d_j) . e_ij) e_ij      (d = 0 outside the zone),  dv = -k B^T B v
  *
  * All exchanges are central and in pairs: the exchange itself keeps momentum and angular momentum to the last digits, a
- * rigid motion and in whole neighbourhoods a uniform strain rate are not touched, energy only falls. What FLIP hands on
- * to the grid afterwards does not keep angular momentum: two blocks that collide aside lose 43 % with it, 13 % without
- * (tests/scenes/test_history.sh). Long waves lose (wave number x spacing)^4. */
+ * rigid motion and in whole neighbourhoods a uniform strain rate are not touched, energy only falls. Long waves lose
+ * (wave number x spacing)^4. */
 #ifndef CLEAVE_INTERFACE_ZONE
 #define CLEAVE_INTERFACE_ZONE
 

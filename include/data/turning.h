@@ -35,15 +35,19 @@ struct turning_group {
 struct turning_groups {
     int32_t groups;                      /* 0: points do not turn in groups */
     struct turning_group *group;         /* ascending by body and place */
-    int32_t *member;                     /* [n] particles, ascending in a group */
+    int32_t *member;                     /* [n] particles, in a group by their places */
     real *turn[3];                       /* [n] what a point lacks [kg m^2/s], then its group's spin [1/s]; 2D: last */
 };
 
-/* Groups of all particles, whether they are on the grid now or not. held: [bodies] bodies that supports hold. */
-void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const bool *held);
+/* Groups of all particles, whether they are on the grid now or not. one: [bodies] the first body that is one with this
+ * one; held: [bodies] supports hold it. */
+void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const int *one, const bool *held);
 void turning_free(struct turning_groups *t);
 
-/* Gives the points of each group what they lack (turn), and sets turn to the spin of their group. */
-void turning_share(struct turning_groups *t, struct particles *p, real spacing);
+/* Before a step on the grid: finds centres and inertias, and sets turn to the spin of each point's group. */
+void turning_begin(struct turning_groups *t, struct particles *p, real spacing);
+/* Gives the points of each group what they lack (turn), and sets turn to their spin again; positions are those of
+ * turning_begin. */
+void turning_share(struct turning_groups *t, struct particles *p);
 
 #endif

@@ -2,7 +2,9 @@
  * block, colour by colour (struct transfer_order), so that a node has one writer at a time and always the same order of
  * terms.
  *
- *     m_I = sum m N,   P_I = sum m v N   (APIC: m (v + L (x_I - x_p)) N),   f_I = sum (N f - V sigma_given . grad N)
+ *     m_I = sum m N,   P_I = sum m v N,   f_I = sum (N f - V sigma_given . grad N)
+ *
+ * with v + L (x_I - x_p) in place of v for APIC, and v + w x (x_I - x_p) for points that turn (data/turning.h).
  *
  * Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point. Reads about 120 bytes per point in 2D; the nodes
  * of a block stay in cache. */
@@ -46,6 +48,21 @@ static ALWAYS_INLINE void p2g_skew(cell_sums sum, const struct particles *p, con
     }
 }
 
+/* Do points give nodes their velocity continued to the place of the node? */
+static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim, const enum transfer transfer)
+{
+    return transfer == TRANSFER_APIC || (dim > 1 && t->turn[2] && !t->momentum_only);
+}
+
+/* Slope of component d along e by which point i does so [1/s]. */
+static ALWAYS_INLINE real slope_given(const struct particles *p, const struct transfer_data *t, int64_t i, int d, int e,
+                                      const int dim, const enum transfer transfer)
+{
+    if (transfer == TRANSFER_APIC) return p->gradient[d * dim + e][i];
+    if (d == e) return 0;
+    return e == (d + 1) % 3 ? -t->turn[3 - d - e][i] : t->turn[3 - d - e][i];
+}
+
 /* Adds mass, momentum and force of point `at` to the sums of its cell. Factors of the directions along a row, which all
  * rows share, are computed once. */
 static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, const struct particles *p,
@@ -61,16 +78,16 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
     const real m = p->mass[i], volume = p->volume[i];
     for (int k = 0; k < dim * (dim + 1) / 2; k++) stress[k] *= volume;
     const row_of_nodes mass = m * row.N;
-    row_of_nodes momentum[DIM_MAX], force[DIM_MAX], sheared[DIM_MAX][DIM_MAX], pull[SYM_MAX];
+    row_of_nodes momentum[DIM_MAX], force[DIM_MAX], pull[SYM_MAX];
+    real slope[DIM_MAX][DIM_MAX] = {{0}};
+    const bool continued = continues(t, dim, transfer);
     for (int k = 0; k < dim * (dim + 1) / 2; k++) pull[k] = stress[k] * row.N;
     for (int d = 0; d < dim; d++) {
         row_of_nodes speed = row_of(p->v[d][i]);
-        if (transfer == TRANSFER_APIC)
-            for (int e = 0; e < dim; e++) {
-                const real slope = p->gradient[d * dim + e][i];
-                if (e < along) speed += slope * stencil_along(s, at, g->h, e, dim, shape);
-                else sheared[d][e] = slope * mass;
-            }
+        for (int e = 0; e < dim && continued; e++) {
+            slope[d][e] = slope_given(p, t, i, d, e, dim, transfer);
+            if (e < along) speed += slope[d][e] * stencil_along(s, at, g->h, e, dim, shape);
+        }
         momentum[d] = mass * speed;
         force[d] = p->f[d][i] * row.N;
         for (int e = 0; e < along; e++) force[d] -= stress[symmetric_place(d, e, dim)] * row.D[e];
@@ -82,8 +99,8 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
         for (int d = 0; d < dim; d++) {
             row_of_nodes carried = momentum[d], pushed = sum[1 + dim + d][k] + force[d] * weight;
             for (int e = along; e < dim; e++) {
-                if (transfer == TRANSFER_APIC)
-                    carried += sheared[d][e] * stencil_across(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape);
+                if (continued)
+                    carried += slope[d][e] * mass * stencil_across(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape);
                 pushed -= pull[symmetric_place(d, e, dim)] * stencil_slope(s, at, k1, k2, e, dim, shape);
             }
             sum[1 + d][k] += carried * weight;

@@ -196,7 +196,7 @@ void grid_contact_find(struct grid_contact *c, const struct grid_side *side, con
  * stopped their approach would give energy; it leaves them this share of their parting speed as approach. That is no
  * proof: while contact of two bodies has given more energy than taken, impulses act on what approaches before the step,
  * too, which only takes. */
-#define RETURNED 1.3
+#define RETURNED 1.6
 
 /* Speed along the direction `along` that an impulse may take, by the relative velocities before and now [m/s]. */
 static real speed_taken(const real *before, const real *now, const real *along, bool strict, int dim)

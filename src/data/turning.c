@@ -7,12 +7,12 @@
 
 #include "base/memory.h"
 
-#define LEAST_ARM 0.05 /* least radius of inertia of a group [spacings]: of single points and, in space, lines of them */
+#define LEAST_ARM 0.05 /* least radius of inertia of a group [spacings]: of single points and, in space, of lines */
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
 /* A particle and its group. */
-struct member { int64_t place[DIM_MAX]; int32_t body, particle; };
+struct member { real X[DIM_MAX]; int64_t place[DIM_MAX]; int32_t body, particle; };
 
 static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int body_b)
 {
@@ -26,6 +26,8 @@ static int by_member(const void *a, const void *b)
 {
     const struct member *p = a, *q = b;
     const int order = order_of_places(p->place, p->body, q->place, q->body);
+    for (int d = DIM_MAX; d-- > 0 && !order;)
+        if (p->X[d] != q->X[d]) return p->X[d] < q->X[d] ? -1 : 1;
     return order ? order : (p->particle > q->particle) - (p->particle < q->particle);
 }
 
@@ -35,14 +37,16 @@ static int by_group(const void *a, const void *b)
     return order_of_places(p->place, p->body, q->place, q->body);
 }
 
-/* The particles in the order of groups; edges of groups are counted from the lowest particle. */
-static struct member *members_sorted(const struct particles *p, real edge)
+/* The particles in the order of groups, and in these of places: those of bodies that are one may have any numbers.
+ * Groups are counted from the lowest particle. */
+static struct member *members_sorted(const struct particles *p, real edge, const int *one)
 {
     struct member *all = NEW("turning.sorted", p->n, struct member);
     real low[DIM_MAX], high;
     for (int d = 0; d < p->dim; d++) particles_extent(p, p->n, d, &low[d], &high);
     for (int64_t i = 0; i < p->n; i++) {
-        all[i].body = p->body[i], all[i].particle = (int32_t)i;
+        all[i].body = one[p->body[i]], all[i].particle = (int32_t)i;
+        for (int d = 0; d < p->dim; d++) all[i].X[d] = p->X[d][i];
         for (int d = 0; d < p->dim; d++)
             all[i].place[d] = (int64_t)floor((p->X[d][i] - low[d]) / edge + 0.25 / TURNING_EDGE);
     }
@@ -64,9 +68,9 @@ static void groups_near(struct turning_groups *t, int32_t g)
     }
 }
 
-void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const bool *held)
+void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const int *one, const bool *held)
 {
-    struct member *all = members_sorted(p, TURNING_EDGE * spacing);
+    struct member *all = members_sorted(p, TURNING_EDGE * spacing, one);
     turning_free(t);
     for (int64_t k = 0; k < p->n; k++)
         t->groups += k == 0 || order_of_places(all[k].place, all[k].body, all[k - 1].place, all[k - 1].body) != 0;
@@ -109,12 +113,18 @@ static bool on_grid(const struct particles *p, int32_t i)
 static void sum_mass(const struct turning_groups *t, struct turning_group *g, const struct particles *p)
 {
     g->points = 0, g->mass = 0;
-    memset(g->moment, 0, sizeof g->moment), memset(g->sum, 0, sizeof g->sum), memset(g->inertia, 0, sizeof g->inertia);
+    memset(g->moment, 0, sizeof g->moment);
     FOR_POINTS(t, g, p, i) {
         g->points++, g->mass += p->mass[i];
         for (int d = 0; d < p->dim; d++) g->moment[d] += p->mass[i] * p->x[d][i];
-        for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) g->sum[c] += t->turn[c][i];
     }
+}
+
+static void sum_lack(const struct turning_groups *t, struct turning_group *g, const struct particles *p)
+{
+    memset(g->sum, 0, sizeof g->sum);
+    FOR_POINTS(t, g, p, i)
+        for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) g->sum[c] += t->turn[c][i];
 }
 
 static void arm_of(const struct particles *p, int32_t i, const struct turning_group *root, real *r)
@@ -122,18 +132,24 @@ static void arm_of(const struct particles *p, int32_t i, const struct turning_gr
     for (int d = 0; d < DIM_MAX; d++) r[d] = d < p->dim ? p->x[d][i] - root->moment[d] : 0;
 }
 
-static void turning_cross(const real *a, const real *b, real *c)
+/* Adds the angular momentum of point i with the arm r. */
+static void spin_add(const struct particles *p, int32_t i, const real *r, real *sum)
 {
-    for (int d = 0; d < 3; d++) c[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
+    for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) {
+        const int a = (c + 1) % 3, b = (c + 2) % 3;
+        sum[c] += p->mass[i] * (r[a] * p->v[b][i] - r[b] * p->v[a][i]);
+    }
 }
 
-/* Inertia about the centre of the root. */
+/* Inertia and angular momentum about the centre of the root. */
 static void sum_inertia(const struct turning_groups *t, struct turning_group *g, const struct particles *p)
 {
     const struct turning_group *root = &t->group[g->root];
     real sum[3][3] = {{0}}, r[DIM_MAX];
+    memset(g->sum, 0, sizeof g->sum);
     FOR_POINTS(t, g, p, i) {
         arm_of(p, i, root, r);
+        spin_add(p, i, r, g->sum);
         for (int a = 0; a < 3; a++)
             for (int b = 0; b <= a; b++) sum[a][b] += p->mass[i] * ((a == b ? dot(r, r, 3) : 0) - r[a] * r[b]);
     }
@@ -144,15 +160,13 @@ static void sum_inertia(const struct turning_groups *t, struct turning_group *g,
 static void gain(const struct turning_groups *t, struct turning_group *g, struct particles *p)
 {
     const struct turning_group *root = &t->group[g->root];
-    real r[DIM_MAX], more[3], own[3];
+    real r[DIM_MAX];
     memset(g->sum, 0, sizeof g->sum);
     FOR_POINTS(t, g, p, i) {
-        real v[3] = {0};
         arm_of(p, i, root, r);
-        turning_cross(root->spin, r, more);
-        for (int d = 0; d < p->dim; d++) v[d] = p->v[d][i] += more[d];
-        turning_cross(r, v, own);
-        for (int c = 0; c < 3; c++) g->sum[c] += p->mass[i] * own[c];
+        for (int d = 0; d < p->dim; d++)
+            p->v[d][i] += root->spin[(d + 1) % 3] * r[(d + 2) % 3] - root->spin[(d + 2) % 3] * r[(d + 1) % 3];
+        spin_add(p, i, r, g->sum);
     }
 }
 
@@ -253,14 +267,22 @@ static void inertias_find(struct turning_groups *t, real spacing, int dim)
     }
 }
 
-void turning_share(struct turning_groups *t, struct particles *p, real spacing)
-{
 #define EACH_GROUP(CALL) TEAM_LOOP(t->groups > 16, for (int32_t g = 0; g < t->groups; g++) CALL;)
+
+void turning_begin(struct turning_groups *t, struct particles *p, real spacing)
+{
     EACH_GROUP(sum_mass(t, &t->group[g], p));
     few_join(t);
     centres_find(t);
     EACH_GROUP(sum_inertia(t, &t->group[g], p));
     inertias_find(t, spacing, p->dim);
+    spins_find(t, p->dim);
+    EACH_GROUP(tell(t, &t->group[g], p));
+}
+
+void turning_share(struct turning_groups *t, struct particles *p)
+{
+    EACH_GROUP(sum_lack(t, &t->group[g], p));
     spins_find(t, p->dim);                           /* what they gain */
     EACH_GROUP(gain(t, &t->group[g], p));
     spins_find(t, p->dim);                           /* what they have */

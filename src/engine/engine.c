@@ -110,6 +110,7 @@ static struct transfer_data field_data(const struct grid_method *mpm, int k)
 static void grid_take(struct engine *e)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(&e->mpm, &e->coupling);
+    if (e->mpm.turning.groups > 0) turning_begin(&e->mpm.turning, &e->part, e->scene->spacing);
     for (int k = 0; k < e->mpm.fields; k++) {
         const struct transfer_data own = field_data(&e->mpm, k);
         grid_clear(&e->mpm.field[k].grid);
@@ -155,7 +156,7 @@ static void grids_remap(struct engine *e, const struct grid_side *side)
         if (e->mpm.turning.groups == 0) e->kernels.remap(&e->mpm.field[k].grid, &e->part, &own);
         else e->kernels.turn_gather(&e->mpm.field[k].grid, &e->part, &own);
     }
-    if (e->mpm.turning.groups > 0) turning_share(&e->mpm.turning, &e->part, e->scene->spacing);
+    if (e->mpm.turning.groups > 0) turning_share(&e->mpm.turning, &e->part);
     for (int k = 0; k < e->mpm.fields && e->mpm.turning.groups > 0; k++) {
         const struct transfer_data own = field_data(&e->mpm, k);
         e->kernels.turn_scatter(&e->mpm.field[k].grid, &e->part, &own);

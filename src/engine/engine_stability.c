@@ -460,18 +460,21 @@ static void say_released(struct engine *e)
     engine_say(e, text);
 }
 
-#define SPIN_DOUBTFUL 0.05 /* share of the angular momentum of bodies; APIC leaves up to 4 % of it to gradients */
+#define SPIN_DOUBTFUL 0.01 /* share of the angular momentum of bodies */
 
 /* Says that bodies have lost, or gained, angular momentum that nothing took from them. */
 static void say_spin(struct engine *e)
 {
     const real error = e->diagnostics.now.spin_error;
-    char text[300];
+    const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
+    char text[360];
     if (!e->diagnostics.turns || !(error > SPIN_DOUBTFUL)) return;
     snprintf(text, sizeof text,
-             "%.0f %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error): in "
-             "mpm.frame current mpm.transfer apic keeps it to some percent, flip does not; method pd and mpm.frame "
-             "reference keep it", 100 * error);
+             "%.2g %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error)%s%s",
+             100 * error,
+             apic ? ": mpm.transfer apic leaves some percent to velocity gradients, flip keeps it to 0.1 to 1 %" : "",
+             e->scene->contact_friction > 0 ? "; friction acts on particles, not at the faces between them, and takes "
+                                              "some percent of what a collision gives" : "");
     engine_say(e, text);
 }
 

@@ -2,13 +2,16 @@
 #include "base/memory.h"
 #include "engine/engine.h"
 
+/* The first of the bodies that are one with body b on the grid: joined ones, or all of a single grid. */
+static int first_of(const struct engine *e, int b) { return e->mpm.fields > 1 ? e->scene->body[b].joined : 0; }
+
 /* Marks the bodies whose particles a support holds; one that turns them keeps no body from turning. */
 static void mark_held(const struct engine *e, bool *held)
 {
     for (int b = 0; b < e->loads.n; b++) {
         const struct load *l = &e->loads.load[b];
         if (l->boundary->kind != BOUNDARY_VELOCITY || l->boundary->rotates) continue;
-        for (int64_t k = 0; k < l->n; k++) held[e->part.body[l->particle[k]]] = true;
+        for (int64_t k = 0; k < l->n; k++) held[first_of(e, e->part.body[l->particle[k]])] = true;
     }
 }
 
@@ -21,9 +24,10 @@ void engine_turning_make(struct engine *e)
         coupling_moves_by_grid(e->coupling.kind) || coupling_unified(e->coupling.kind))
         return;
     bool *held = NEW("engine.held", s->bodies, bool), all = true;
+    int *one = NEW("engine.one", s->bodies, int);
     mark_held(e, held);
-    for (int b = 0; b < s->bodies; b++) all &= held[b];
-    if (!all) turning_make(&e->mpm.turning, &e->part, s->spacing, held);
+    for (int b = 0; b < s->bodies; b++) one[b] = first_of(e, b), all &= held[one[b]];
+    if (!all) turning_make(&e->mpm.turning, &e->part, s->spacing, one, held);
     for (int c = 0; c < 3; c++) e->mpm.transfer.turn[c] = e->mpm.turning.turn[c];
-    memory_free(held);
+    memory_free(held), memory_free(one);
 }

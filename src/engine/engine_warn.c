@@ -19,15 +19,6 @@ static bool bonds_are_cut(const struct bonds *b)
 static const char *const coupling_name[] = {
     [COUPLING_PM] = "pm", [COUPLING_PG] = "pg", [COUPLING_PMG] = "pmg", [COUPLING_PGG] = "pgg"};
 
-/* True if no support keeps the body from rotating. */
-static bool may_rotate(const struct scene *s)
-{
-    bool held = s->dim == 1;
-    for (int b = 0; b < s->boundaries; b++)
-        held |= s->boundary[b].kind == BOUNDARY_MIRROR || s->boundary[b].kind == BOUNDARY_VELOCITY;
-    return !held;
-}
-
 /* Does a scene set a body turning? */
 static bool spins(const struct scene *s)
 {
@@ -46,7 +37,7 @@ static bool spins(const struct scene *s)
 static void warn_of_spin(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
-    if (scene_moves(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 && spins(s))
+    if (scene_moves(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 && spins(s) && e->mpm.turning.groups == 0)
         warnings_add(to, "mpm.transfer flip does not keep the spin of bodies in mpm.frame current: a plate of 20 x 10 "
                      "points loses 7 %% of its angular momentum in 0.3 rad, 28 %% in half a turn, under stresses 100 "
                      "times too large; apic loses 2e-5");
@@ -69,11 +60,6 @@ static void warn_of_method(const struct engine *e, struct warnings *to)
             "coupling %s is as published: no energy stands behind its forces, and a long run may gain some; watch "
             "energy.balance_error, or use partial stress",
             coupling_name[e->coupling.kind]);
-    if (s->method == METHOD_ADAPTIVE && may_rotate(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 &&
-        e->part.n_of[KIND_PD] > 0)
-        warnings_add(to, "in bodies that turn, FLIP points beside bonds gain energy (2 to 6 %% in four turns) and "
-                         "interface_damping brakes "
-                         "slow turns; mpm.transfer apic and the reference frame do neither");
     bool driven = false;
     for (int b = 0; b < s->boundaries; b++) driven |= s->boundary[b].kind == BOUNDARY_VELOCITY;
     if (driven && e->part.n_free > 0 && (s->shape == SHAPE_QUADRATIC || s->shape == SHAPE_CUBIC))

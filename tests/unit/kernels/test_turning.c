@@ -30,6 +30,7 @@ static void scene_make(struct scene *s, int dim, int shape)
     struct cloud_plan plan = {.space = dim == 2 ? SPACE_PLANE_STRESS : SPACE_SOLID, .horizon = 3, .shake = 0.3,
                               .seed = 5, .optional = shape == SHAPE_CPGIMP ? WITH_STRETCH : 0};
     const bool held[2] = {false};
+    const int one[2] = {0, 1};
     bool changed;
     real from[DIM_MAX], to[DIM_MAX];
     *s = (struct scene){.seed = 31, .dim = dim, .shape = shape};
@@ -49,7 +50,7 @@ static void scene_make(struct scene *s, int dim, int shape)
     }
     assert_int_equal(grid_cover(&s->g, from, to, 100000, &changed), OK);
     transfer_order_sort(&s->order, p, p->list_free, p->n_free, &s->g);
-    turning_make(&s->turning, p, CLOUD_SPACING, held);
+    turning_make(&s->turning, p, CLOUD_SPACING, one, held);
     s->t = (struct transfer_data){.order = &s->order, .half_width = 0.5 * CLOUD_SPACING, .dt = 1, .dt_velocity = 1};
     struct partial_stress none = {0};
     struct elastic elastic[CLOUD_MATERIALS] = {{0}};
@@ -99,16 +100,15 @@ static void gather(struct scene *s)
     for (int64_t I = 0; I < s->g.n; I++)
         for (int d = 0; d < s->dim; d++)
             s->g.force[d][I] = s->g.mass[I] > 0 ? cloud_between(&s->seed, -2, 1) : 0;
+    turning_begin(&s->turning, &s->c.p, CLOUD_SPACING);
     turn_gather_table[s->dim][s->shape](&s->g, &s->c.p, &s->t);
-    turning_share(&s->turning, &s->c.p, CLOUD_SPACING);
+    turning_share(&s->turning, &s->c.p);
 }
 
 /* Nodal velocities of the second map, of points that nothing has changed. */
 static void scatter(struct scene *s)
 {
-    for (int c = 0; c < 3; c++)
-        if (s->turning.turn[c]) array_fill_bytes(s->turning.turn[c], 0, s->c.p.n, sizeof(real));
-    turning_share(&s->turning, &s->c.p, CLOUD_SPACING);
+    turning_begin(&s->turning, &s->c.p, CLOUD_SPACING);
     for (int d = 0; d < s->dim; d++) array_fill_bytes(s->g.momentum[d], 0, s->g.n, sizeof(real));
     turn_scatter_table[s->dim][s->shape](&s->g, &s->c.p, &s->t);
     for (int d = 0; d < s->dim; d++)
@@ -203,9 +203,10 @@ static void test_groups(void **state)
     struct particles *p = &s.c.p;
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = p->body[i] == 0 || i == p->n - 1 ? KIND_MPM : KIND_PD;
     particles_list(p);
+    turning_begin(&s.turning, p, CLOUD_SPACING);
     for (int64_t k = 0; k < p->n; k++) s.turning.turn[2][k] = 1e-9;
     const real alone = p->v[1][p->n - 1];
-    turning_share(&s.turning, p, CLOUD_SPACING);
+    turning_share(&s.turning, p);
     assert_true(p->v[1][p->n - 1] == alone);
     for (int32_t g = 0; g < s.turning.groups; g++) {
         const struct turning_group *own = &s.turning.group[g], *root = &s.turning.group[own->root];
