@@ -22,8 +22,9 @@ enum { TURNING_EDGE = 6, TURNING_FEW = 12, TURNING_NEAR = 26 };
 struct turning_group {
     int64_t place[DIM_MAX];              /* in group edges */
     int32_t body, points;                /* points: on the grid now */
+    int32_t off;                         /* how far it is from the middle, along all axes [half edges] */
     int64_t first, end;                  /* its particles: member[first] .. member[end - 1] */
-    int32_t near[TURNING_NEAR];          /* neighbours of its body; -1: none */
+    int32_t near[TURNING_NEAR];          /* neighbours of its body, along axes first; -1: none */
     int32_t root;                        /* the group that it is part of now */
     bool held;                           /* a support holds points of its body, which is left as FLIP has it */
     real mass, moment[DIM_MAX];          /* [kg], [kg m]; of a root of all its groups, moment then the centre [m] */

@@ -12,7 +12,7 @@
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
 /* A particle and its group. */
-struct member { real X[DIM_MAX]; int64_t place[DIM_MAX]; int32_t body, particle; };
+struct member { real X[DIM_MAX]; int64_t place[DIM_MAX]; int32_t body, particle, off; };
 
 static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int body_b)
 {
@@ -37,18 +37,32 @@ static int by_group(const void *a, const void *b)
     return order_of_places(p->place, p->body, q->place, q->body);
 }
 
-/* The particles in the order of groups, and in these of places: those of bodies that are one may have any numbers.
- * Groups are counted from the lowest particle. */
-static struct member *members_sorted(const struct particles *p, real edge, const int *one)
+/* Group of a place u spacings from the middle of n rows: groups are counted from the middle, so that bodies that mirror
+ * each other have groups that do. */
+static int64_t group_place(real u, bool odd)
+{
+    const real far = floor((fabs(u) + (odd ? (TURNING_EDGE - 1) / 2.0 : TURNING_EDGE)) / TURNING_EDGE);
+    return (int64_t)(u < 0 ? -far : far - !odd);
+}
+
+/* The particles in the order of groups, and in these of places: those of bodies that are one may have any numbers. */
+static struct member *members_sorted(const struct particles *p, real spacing, const int *one)
 {
     struct member *all = NEW("turning.sorted", p->n, struct member);
-    real low[DIM_MAX], high;
-    for (int d = 0; d < p->dim; d++) particles_extent(p, p->n, d, &low[d], &high);
+    real middle[DIM_MAX] = {0};
+    bool odd[DIM_MAX] = {false};
+    for (int d = 0; d < p->dim; d++) {
+        real low, high;
+        particles_extent(p, p->n, d, &low, &high);
+        middle[d] = 0.5 * (low + high), odd[d] = (int64_t)nearbyint((high - low) / spacing) % 2 == 0;
+    }
     for (int64_t i = 0; i < p->n; i++) {
         all[i].body = one[p->body[i]], all[i].particle = (int32_t)i;
         for (int d = 0; d < p->dim; d++) all[i].X[d] = p->X[d][i];
-        for (int d = 0; d < p->dim; d++)
-            all[i].place[d] = (int64_t)floor((p->X[d][i] - low[d]) / edge + 0.25 / TURNING_EDGE);
+        for (int d = 0; d < p->dim; d++) {
+            all[i].place[d] = group_place((p->X[d][i] - middle[d]) / spacing, odd[d]);
+            all[i].off += (int32_t)llabs(2 * all[i].place[d] + !odd[d]);
+        }
     }
     array_sort(all, p->n, sizeof *all, by_member);
     return all;
@@ -58,9 +72,9 @@ static struct member *members_sorted(const struct particles *p, real edge, const
 static void groups_near(struct turning_groups *t, int32_t g)
 {
     struct turning_group *own = &t->group[g];
-    for (int k = 0, n = 0; k < 27; k++) {
-        const int step[DIM_MAX] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
-        if (k == 13) continue;
+    for (int k = 0, n = 0; k < 81; k++) {
+        const int step[DIM_MAX] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 % 3 - 1};
+        if (abs(step[0]) + abs(step[1]) + abs(step[2]) != 1 + k / 27) continue;
         struct turning_group like = {.body = own->body};
         for (int d = 0; d < DIM_MAX; d++) like.place[d] = own->place[d] + step[d];
         const struct turning_group *at = bsearch(&like, t->group, (size_t)t->groups, sizeof like, by_group);
@@ -70,7 +84,7 @@ static void groups_near(struct turning_groups *t, int32_t g)
 
 void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const int *one, const bool *held)
 {
-    struct member *all = members_sorted(p, TURNING_EDGE * spacing, one);
+    struct member *all = members_sorted(p, spacing, one);
     turning_free(t);
     for (int64_t k = 0; k < p->n; k++)
         t->groups += k == 0 || order_of_places(all[k].place, all[k].body, all[k - 1].place, all[k - 1].body) != 0;
@@ -81,7 +95,7 @@ void turning_make(struct turning_groups *t, const struct particles *p, real spac
     for (int64_t k = 0; k < p->n; k++) {
         if (k == 0 || order_of_places(all[k].place, all[k].body, all[k - 1].place, all[k - 1].body) != 0) {
             g++;
-            *g = (struct turning_group){.body = all[k].body, .first = k, .held = held[all[k].body]};
+            *g = (struct turning_group){.body = all[k].body, .first = k, .off = all[k].off, .held = held[all[k].body]};
             memcpy(g->place, all[k].place, sizeof g->place);
         }
         t->member[k] = all[k].particle, g->end = k + 1;
@@ -185,17 +199,24 @@ static int32_t group_root(const struct turning_groups *t, int32_t g)
     return g;
 }
 
-/* Groups of few points become part of the neighbour that has most. */
+/* Along how many axes neighbour k of a group lies off it. */
+static int axes_of_near(int k) { return k < 6 ? 1 : k < 18 ? 2 : 3; }
+
+/* Groups of few points become part of the neighbour that has most; of equal ones, of one along an axis and near the
+ * middle. */
 static void few_join(struct turning_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) t->group[g].root = g;
     for (int32_t g = 0; g < t->groups; g++) {
         const struct turning_group *own = &t->group[g];
-        int32_t most = -1;
+        int32_t most = -1, best = 0, off = 0, axes = 0;
         if (own->points == 0 || own->points >= TURNING_FEW) continue;
         for (int k = 0; k < TURNING_NEAR; k++) {
-            const int32_t near = own->near[k];
-            if (near >= 0 && t->group[near].points > (most < 0 ? 0 : t->group[most].points)) most = near;
+            const struct turning_group *near = own->near[k] < 0 ? NULL : &t->group[own->near[k]];
+            if (!near || near->points == 0 || group_root(t, own->near[k]) == g) continue;
+            const bool nearer = near->points == best && axes_of_near(k) == axes && near->off < off;
+            if (near->points > best || nearer)
+                most = own->near[k], best = near->points, off = near->off, axes = axes_of_near(k);
         }
         if (most >= 0) t->group[group_root(t, g)].root = group_root(t, most);
     }

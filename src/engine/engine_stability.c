@@ -470,8 +470,8 @@ static void say_spin(struct engine *e)
     char text[360];
     if (!e->diagnostics.turns || !(error > SPIN_DOUBTFUL)) return;
     snprintf(text, sizeof text,
-             "%.2g %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error)%s%s",
-             100 * error,
+             "%.*f %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error)%s%s",
+             error < 0.095, 100 * error,
              apic ? ": mpm.transfer apic leaves some percent to velocity gradients, flip keeps it to 0.1 to 1 %" : "",
              e->scene->contact_friction > 0 ? "; friction acts on particles, not at the faces between them, and takes "
                                               "some percent of what a collision gives" : "");

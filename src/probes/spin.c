@@ -5,12 +5,15 @@
 #include "base/memory.h"
 #include "probes/diagnostics.h"
 
-/* Mass [kg], first moments of mass [kg m], momentum [kg m/s] and angular momentum about the origin [kg m^2/s]. */
-struct turning { real mass, place[DIM_MAX], momentum[DIM_MAX], spin[DIM_MAX]; };
+/* Mass [kg], first moments of mass [kg m], momentum [kg m/s], angular momentum about the origin [kg m^2/s], sums of
+ * m x^2 [kg m^2] and m v^2 [J]. */
+struct turning { real mass, place[DIM_MAX], momentum[DIM_MAX], spin[DIM_MAX], inertia, twice_kinetic; };
+
+#define LEAST_TURN 0.01 /* least size of angular momentum: as a share of the most that motion of this energy has */
 
 static void turning_add(struct turning *to, real mass, const real *x, const real *v)
 {
-    to->mass += mass;
+    to->mass += mass, to->inertia += mass * dot(x, x, DIM_MAX), to->twice_kinetic += mass * dot(v, v, DIM_MAX);
     for (int d = 0; d < DIM_MAX; d++) {
         const int a = (d + 1) % 3, b = (d + 2) % 3;
         to->place[d] += mass * x[d], to->momentum[d] += mass * v[d];
@@ -49,7 +52,7 @@ real diagnostics_spin_of(const struct particles *p, const struct mesh *mesh, int
         turning_add(&body[bodies], g->mass[I], x, v);
     }
     for (int b = 0; b <= bodies; b++) {
-        all.mass += body[b].mass;
+        all.mass += body[b].mass, all.inertia += body[b].inertia, all.twice_kinetic += body[b].twice_kinetic;
         for (int d = 0; d < DIM_MAX; d++) {
             all.place[d] += body[b].place[d], all.momentum[d] += body[b].momentum[d];
             all.spin[d] += body[b].spin[d];
@@ -63,7 +66,9 @@ real diagnostics_spin_of(const struct particles *p, const struct mesh *mesh, int
         size += sqrt(dot(own, own, DIM_MAX));
     }
     memory_free(body);
-    return size;
+    const real inertia = all.inertia - all.mass * dot(place, place, DIM_MAX),
+               kinetic = all.twice_kinetic - all.mass * dot(velocity, velocity, DIM_MAX);
+    return real_max(size, LEAST_TURN * sqrt(real_max(0, inertia) * real_max(0, kinetic)));
 }
 
 void diagnostics_spin(struct diagnostics *w, const struct particles *p, const struct mesh *mesh, int bodies)

@@ -144,6 +144,8 @@ needs='^levels  *this far field needs cells of'
 says "levels by the size" "$needs 4 spacings at most (boundary pull is sudden; the body is 200 spacings across, 50" "$far"
 says "levels by a ramp" "$needs 8 spacings at most (boundary pull rises within 6e-07 s = 23 spacings of wave)" "$far" -s "$ramp"
 says "levels and a quick ramp" "$needs 4 spacings at most (boundary pull rises .* = 3.84 spacings of wave; the body" "$far" -s "$quick"
+late=$(pulls 'ramp: {from: 5 us, until: 5.1 us}')
+says "a quick ramp, whenever it begins" 'boundary pull changes within 3.84 spacings of wave: below' "$far" -s "$late"
 says "levels by a pulse" "$needs 4 spacings at most (boundary pull is 76.8 spacings of wave long)" "$far" -s "$pulse"
 says "levels by nothing" "$needs 32 spacings at most (nothing loads it)" "$far" -s boundary=[]
 says "levels: cells" '^levels  *[0-9]* cells of 2 spacings, [0-9]* cells of 4 spacings, [0-9]* cells of 8' "$far" -s "$ramp"

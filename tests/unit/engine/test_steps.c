@@ -36,6 +36,23 @@
 #define STATIC "solver=static", "steps.number=1"
 #define EXACT "solver_tolerance=1e-7"
 
+/* ---- work of a stretch ------------------------------------------------------------------------------------------- */
+
+/* Up to a stretch, of a bond of stiffness 1 that yields and hardens: the sum of small steps under its curve. */
+static void test_stretch_work(void **state)
+{
+    (void)state;
+    enum { STEPS = 100000 };
+    const real yield = 0.0031, hardening = 0.27, end = 0.0123;
+    real work = 0;
+    for (int k = 0; k < STEPS; k++) {
+        const real at = (k + 0.5) * end / STEPS, beyond = fmax(0, at - yield);
+        work += end / STEPS * (at - beyond + hardening / (1 + hardening) * beyond);
+    }
+    near_to("work", stretch_work(end, yield, hardening), work, 1e-8);
+    near_to("elastic", stretch_work(0.9 * yield, yield, hardening), 0.5 * 0.81 * yield * yield, 1e-12);
+}
+
 /* ---- against the static solvers ---------------------------------------------------------------------------------- */
 
 /* Every model of bonds, in the plane and in space, with loads and with what is driven: the same up to what a residual
@@ -297,7 +314,8 @@ static void test_opening(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_models),  cmocka_unit_test(test_variants), cmocka_unit_test(test_points),
+        cmocka_unit_test(test_stretch_work), cmocka_unit_test(test_models), cmocka_unit_test(test_variants),
+        cmocka_unit_test(test_points),
         cmocka_unit_test(test_quarter), cmocka_unit_test(test_parted),   cmocka_unit_test(test_motions),
         cmocka_unit_test(test_trial),   cmocka_unit_test(test_opening),
                                        cmocka_unit_test(test_let_go),
