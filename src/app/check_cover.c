@@ -9,6 +9,46 @@
 #define CELLS_MOST 6e6 /* of the box round a body: larger ones take too long */
 enum { PLACES = 64 };  /* within a cell that a face crosses; parts of several cells are known by more */
 
+bool piece_contains(const struct piece *p, const real *X, real tolerance)
+{
+    const struct scene_body *b = &p->scene->body[p->body];
+    return region_contains(&b->shape, X, p->scene->dim, tolerance) &&
+           (p->material == ANY_MATERIAL || scene_material_at(p->scene, b, X, b->material) == p->material);
+}
+
+/* Can points of a piece be within a distance of X? False for what the parts leave of the body's own material. */
+static bool piece_near(const struct piece *p, const real *X, real distance)
+{
+    const struct scene_body *b = &p->scene->body[p->body];
+    bool near = p->material == ANY_MATERIAL;
+    for (int k = 0; k < b->parts && !near; k++)
+        near = b->part[k].material == p->material && region_contains(&b->part[k].region, X, p->scene->dim, distance);
+    return near && region_contains(&b->shape, X, p->scene->dim, distance);
+}
+
+bool piece_bounds(const struct piece *p, real from[DIM_MAX], real to[DIM_MAX])
+{
+    const struct scene_body *b = &p->scene->body[p->body];
+    const int dim = p->scene->dim;
+    real low[DIM_MAX], high[DIM_MAX];
+    bool any = false;
+    if (!region_bounds(&b->shape, dim, from, to)) return false;
+    if (p->material == ANY_MATERIAL || p->material == b->material) return true;
+    for (int d = 0; d < dim; d++) low[d] = to[d], high[d] = from[d];
+    for (int k = 0; k < b->parts; k++) {
+        real begin[DIM_MAX], end[DIM_MAX];
+        if (b->part[k].material != p->material) continue;
+        if (!region_bounds(&b->part[k].region, dim, begin, end)) return true;
+        for (int d = 0; d < dim; d++) low[d] = real_min(low[d], begin[d]), high[d] = real_max(high[d], end[d]);
+        any = true;
+    }
+    for (int d = 0; d < dim; d++) {
+        from[d] = real_max(from[d], low[d]), to[d] = real_min(to[d], high[d]);
+        any = any && from[d] < to[d];
+    }
+    return any;
+}
+
 static int64_t cover_index(const struct cover *c, const int64_t *at)
 {
     return (at[2] * c->n[1] + at[1]) * c->n[0] + at[0];
@@ -28,7 +68,7 @@ static void cell_middle(const struct cover *c, int64_t cell, real *X)
 
 /* Does a face cross a cell, as far as its neighbours tell? They are filled and it is not, or the other way round; or
  * there are none, and the shape comes near. */
-static bool is_crossed(const struct cover *c, const struct region *shape, int64_t cell)
+static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cell)
 {
     int64_t at[DIM_MAX];
     real X[DIM_MAX];
@@ -46,7 +86,7 @@ static bool is_crossed(const struct cover *c, const struct region *shape, int64_
     }
     if (beside || c->filled[cell]) return beside;
     cell_middle(c, cell, X);
-    return region_contains(shape, X, c->dim, 0.5 * sqrt(c->dim) * c->spacing);
+    return piece_near(p, X, 0.5 * sqrt(c->dim) * c->spacing);
 }
 
 /* Can a cell that a face crosses have several? It stands alone along an axis, or between two others, or beside none. */
@@ -87,33 +127,36 @@ static real share_behind(const struct cover *c, const struct region *shape, cons
 
 /* Share of a cell by places of a Weyl sequence (Roberts' constants), which begins elsewhere in each cell. plane: one
  * face crosses it. */
-static real share_within_cell(const struct cover *c, const struct region *shape, int64_t cell, bool plane)
+static real share_within_cell(const struct cover *c, const struct piece *p, int64_t cell, bool plane)
 {
     static const real step[][DIM_MAX] = {{0.7548776662466927, 0.5698402909980532},
                                          {0.8191725133961645, 0.6710436067037893, 0.5497004779019703}};
     real middle[DIM_MAX], X[DIM_MAX] = {0};
     int inside = 0;
     cell_middle(c, cell, middle);
-    if (plane) return share_behind(c, shape, middle);
+    if (plane) return share_behind(c, &p->scene->body[p->body].shape, middle);
     for (int k = 0; k < PLACES; k++) {
         for (int d = 0; d < c->dim; d++) {
             const real turn = step[c->dim - 2][d] * (real)(cell % 65521 * PLACES + k) + 0.5;
             X[d] = middle[d] + (turn - floor(turn) - 0.5) * c->spacing;
         }
-        inside += region_contains(shape, X, c->dim, 0);
+        inside += piece_contains(p, X, 0);
     }
     return (real)inside / PLACES;
 }
 
-bool cover_make(struct cover *c, const struct scene *s, int body)
+bool cover_make(struct cover *c, const struct piece *p)
 {
-    const struct region *shape = &s->body[body].shape;
-    const bool dear = is_dear(shape);
+    const struct scene *s = p->scene;
+    const bool dear = p->material == ANY_MATERIAL && is_dear(&s->body[p->body].shape);
     real from[DIM_MAX], to[DIM_MAX], all = 1;
     *c = (struct cover){.dim = s->dim, .spacing = s->spacing, .n = {1, 1, 1}};
-    if (s->body[body].file || s->dim < 2 || !(s->spacing > 0)) return false;
-    if (!region_bounds(shape, s->dim, from, to) || fill_place(s, body, c->first) != OK) return false;
-    for (int d = 0; d < s->dim; d++) all *= (to[d] - c->first[d]) / s->spacing + 3;
+    if (s->body[p->body].file || s->dim < 2 || !(s->spacing > 0)) return false;
+    if (!piece_bounds(p, from, to) || fill_place(s, p->body, c->first) != OK) return false;
+    for (int d = 0; d < s->dim; d++) {
+        c->first[d] += real_max(0, floor((from[d] - c->first[d]) / s->spacing) - 1) * s->spacing;
+        all *= (to[d] - c->first[d]) / s->spacing + 3;
+    }
     if (!(all < CELLS_MOST)) return false;
     for (int d = 0; d < s->dim; d++) c->n[d] = (int64_t)((to[d] - c->first[d]) / s->spacing) + 2;
     c->cells = c->n[0] * c->n[1] * c->n[2];
@@ -123,12 +166,12 @@ bool cover_make(struct cover *c, const struct scene *s, int body)
     for (int64_t k = 0; k < c->cells; k++) {
         real X[DIM_MAX];
         cell_middle(c, k, X);
-        c->filled[k] = region_contains(shape, X, c->dim, ON_SURFACE * s->spacing);
+        c->filled[k] = piece_contains(p, X, ON_SURFACE * s->spacing);
     }
 #pragma omp parallel for schedule(dynamic, 1024)
     for (int64_t k = 0; k < c->cells; k++)
         c->share[k] =
-            is_crossed(c, shape, k) ? (float)share_within_cell(c, shape, k, dear && !is_thin(c, k)) : c->filled[k];
+            is_crossed(c, p, k) ? (float)share_within_cell(c, p, k, dear && !is_thin(c, k)) : c->filled[k];
     return true;
 }
 

@@ -5,8 +5,8 @@
 #include <stdio.h>
 
 #include "base/memory.h"
-#include "check_cover.h"
 #include "check_parts.h"
+#include "check_uneven.h"
 
 #define OFF_LEAST 0.02    /* of the area of sections, */
 #define OFF_SLANTING 0.05 /* where their faces slant or are curved, which steps follow no better */
@@ -16,9 +16,8 @@
 enum {
     SLICES = 8,
     SLICES_LEAST = 3,
-    SLICES_SLANTING = 32,
-    SAID = 3
-}; /* of a part that are taken together; parts of a body that are named */
+    SLICES_SLANTING = 32
+}; /* of a part that are taken together */
 
 /* What hangs together in a slice of cells across an axis. */
 struct section {
@@ -33,15 +32,8 @@ struct sections {
     int64_t stride, side[2]; /* from a cell to the next slice; to neighbours in the slice */
     int32_t n, room;
     struct section *section;
-    int32_t *of; /* [cells] section of a cell, -1: none */
-};
-
-/* A part that is off. */
-struct uneven {
-    real off, width, filled; /* share of its sections; along `axis`: width, and that of its particles [m] */
-    real at[DIM_MAX];
-    int axis, across; /* of the width; of the section */
-    bool measured;    /* the width is that through the place */
+    int32_t *of;    /* [cells] section of a cell, -1: none */
+    uint8_t *named; /* [cells] bit d: part of a width along axis d that is too large or too small */
 };
 
 static bool is_covered(const struct cover *c, int64_t cell) { return c->filled[cell] || c->share[cell] > COVERED; }
@@ -86,10 +78,10 @@ static int32_t larger(const struct sections *s, int32_t a, int32_t b)
     return a < 0 ? b : b < 0 || s->section[a].area >= s->section[b].area ? a : b;
 }
 
-static void sections_make(struct sections *s, const struct cover *c, int axis)
+static void sections_make(struct sections *s, const struct cover *c, int axis, uint8_t *named)
 {
     const int64_t stride[DIM_MAX] = {1, c->n[0], c->n[0] * c->n[1]};
-    *s = (struct sections){.cover = c, .axis = axis, .stride = stride[axis]};
+    *s = (struct sections){.cover = c, .axis = axis, .stride = stride[axis], .named = named};
     s->across[0] = (axis + 1) % DIM_MAX, s->across[1] = (axis + 2) % DIM_MAX;
     for (int k = 0; k < 2; k++) s->side[k] = stride[s->across[k]];
     s->of = NEW("check.sections", c->cells, int32_t);
@@ -172,25 +164,6 @@ static struct uneven uneven_of(const struct sections *s, int32_t number, real of
     return u;
 }
 
-/* Keeps the worst parts; of those that are as wide the worst. */
-static int uneven_keep(struct uneven *kept, int n, const struct uneven *u)
-{
-    int place = n;
-    for (int k = 0; k < n; k++)
-        if (fabs(kept[k].width - u->width) < 0.05 * u->width) {
-            if (fabs(kept[k].off) >= fabs(u->off)) return n;
-            place = k;
-        }
-    if (place == n && n < SAID) n++;
-    if (place == SAID) place = SAID - 1;
-    if (place < n - 1 || fabs(kept[place].off) < fabs(u->off)) kept[place] = *u;
-    for (int k = place; k > 0 && fabs(kept[k].off) > fabs(kept[k - 1].off); k--) {
-        const struct uneven other = kept[k];
-        kept[k] = kept[k - 1], kept[k - 1] = other;
-    }
-    return n;
-}
-
 /* Adds up sections of a part from one on, at most `most`. */
 struct stretch {
     int slices;
@@ -212,110 +185,76 @@ static struct stretch stretch_from(const struct sections *s, int32_t first, int 
     return t;
 }
 
+/* Marks the cells of a part, section by section both ways from one of them, as those of a width along `axis`. */
+static void part_mark(const struct sections *s, int32_t from, int axis)
+{
+    const real area = s->section[from].area;
+    int32_t first = from;
+    while (goes_on_alike(s, s->section[first].before, area)) first = s->section[first].before;
+    for (int32_t k = first; goes_on_alike(s, k, area); k = s->section[k].after) {
+        const int64_t base = s->section[k].slice * s->stride;
+        for (int64_t a = 0; a < s->cover->n[s->across[0]]; a++)
+            for (int64_t b = 0; b < s->cover->n[s->across[1]]; b++) {
+                const int64_t cell = base + a * s->side[0] + b * s->side[1];
+                if (s->of[cell] == k) s->named[cell] |= (uint8_t)(1 << axis);
+            }
+    }
+}
+
 /* Looks along a part from one of its sections on: SLICES of them, or all if there are fewer. Where they are uneven, as
  * faces slant, four times as many, over which steps even out. */
-static int part_judge(const struct sections *s, int32_t first, struct uneven *kept, int n)
+static void part_judge(const struct sections *s, int32_t first, struct uneven_list *list)
 {
     const struct section *begin = &s->section[first];
     struct stretch t = stretch_from(s, first, SLICES);
     if (!t.even) t = stretch_from(s, first, SLICES_SLANTING);
     const bool short_one =
         t.slices < SLICES && (t.slices < SLICES_LEAST || goes_on_alike(s, begin->before, begin->area));
-    if (t.slices == 0 || (t.even ? short_one : t.slices < SLICES_SLANTING)) return n;
+    if (t.slices == 0 || (t.even ? short_one : t.slices < SLICES_SLANTING)) return;
     const real off = t.filled / t.area - 1;
-    if (!(fabs(off) > (t.even ? OFF_LEAST : OFF_SLANTING)) || (n == SAID && fabs(off) <= fabs(kept[SAID - 1].off)))
-        return n;
+    if (!(fabs(off) > (t.even ? OFF_LEAST : OFF_SLANTING)) || !uneven_matters(list, off)) return;
     const struct uneven u = uneven_of(s, t.middle, off);
-    return u.width > 0 ? uneven_keep(kept, n, &u) : n;
+    if (!(u.width > 0)) return;
+    const bool known = s->named[s->section[t.middle].cell] & 1 << u.axis;
+    if (!known) part_mark(s, t.middle, u.axis);
+    uneven_keep(list, &u, known);
 }
 
-/* Distance from X to where the shape ends along an axis, by halving [m]. */
-static real end_along(const struct region *shape, int dim, const real *X, int axis, real step)
+/* Judges the sections of a piece across each axis. */
+static void piece_sections(struct uneven_list *list, const struct cover *c, uint8_t *named)
 {
-    enum { STEPS_MOST = 4000, HALVINGS = 30 };
-    real Y[DIM_MAX], inside = 0;
-    for (int d = 0; d < DIM_MAX; d++) Y[d] = X[d];
-    for (int k = 1; k < STEPS_MOST; k++, inside += step) {
-        Y[axis] = X[axis] + k * step;
-        if (!region_contains(shape, Y, dim, 0)) break;
+    for (int axis = 0; axis < c->dim; axis++) {
+        struct sections s;
+        sections_make(&s, c, axis, named);
+        for (int32_t k = 0; k < s.n; k++) part_judge(&s, k, list);
+        sections_free(&s);
     }
-    real outside = inside + step;
-    for (int k = 0; k < HALVINGS; k++) {
-        const real middle = 0.5 * (inside + outside);
-        Y[axis] = X[axis] + middle;
-        if (region_contains(shape, Y, dim, 0))
-            inside = middle;
-        else
-            outside = middle;
-    }
-    return fabs(inside);
 }
 
-/* Replaces the width of a part, which is known to a few percent, by the one through its place, if that is much alike
- * and is what makes the sections uneven.
- */
-static void width_measure(struct uneven *u, const struct region *shape, int dim, real spacing)
+/* Judges the narrow parts of a body, or of its parts of one material: the piece of the list. */
+static void piece_judge(struct uneven_list *list, const struct engine *e)
 {
-    if (!region_contains(shape, u->at, dim, 0)) return;
-    const real width =
-        end_along(shape, dim, u->at, u->axis, 0.05 * spacing) + end_along(shape, dim, u->at, u->axis, -0.05 * spacing);
-    u->measured = fabs(width - u->width) < 0.1 * u->width && fabs(u->filled - width) > 0.5 * fabs(u->off) * width;
-    if (u->measured) u->width = width;
-}
-
-/* The next larger and smaller spacing that divide a width, cut to six digits. */
-static void say_spacings(real width, real spacing, FILE *out)
-{
-    const real more = ceil(width / spacing * (1 - 1e-3)), fewer = more - 1;
-    fprintf(out, "%.6g m", width / more * (1 - 5e-7));
-    if (fewer >= 1) fprintf(out, " or %.6g m", width / fewer * (1 - 5e-7));
-}
-
-static void say_place(const real *at, int dim, FILE *out)
-{
-    for (int d = 0; d < dim; d++) fprintf(out, "%s%.4g", d ? ", " : "(", at[d]);
-    fprintf(out, ") m");
-}
-
-/* Parts whose width is known; where there is none of these, the worst section. */
-static void say_uneven(const struct scene *s, int body, struct uneven *kept, int n, FILE *out)
-{
-    int measured = 0;
-    for (int k = 0; k < n; k++) {
-        struct uneven *u = &kept[k];
-        width_measure(u, &s->body[body].shape, s->dim, s->spacing);
-        if (!u->measured) continue;
-        fprintf(out, "unresolved: body %s: a part %.4g m wide along %c, at ", s->body[body].name, u->width,
-                "xyz"[u->axis]);
-        say_place(u->at, s->dim, out);
-        fprintf(out, ", is %.4g m of particles: its sections are %.1f %% too %s; particles.spacing ", u->filled,
-                100 * fabs(u->off), u->off > 0 ? "large" : "small");
-        say_spacings(u->width, s->spacing, out);
-        fprintf(out, " divides it\n");
-        measured++;
-    }
-    if (measured > 0 || n == 0) return;
-    fprintf(out, "unresolved: body %s: its section across %c at ", s->body[body].name, "xyz"[kept[0].across]);
-    say_place(kept[0].at, s->dim, out);
-    fprintf(out, " is %.1f %% too %s, as steps of particles fill it; a smaller particles.spacing is closer\n",
-            100 * fabs(kept[0].off), kept[0].off > 0 ? "large" : "small");
+    struct cover c;
+    if (e->scene->dim == 1) judge_lengths(list);
+    if (e->scene->dim == 1 || !cover_make(&c, &list->piece)) return;
+    uint8_t *named = NEW("check.named", c.cells, uint8_t);
+    piece_sections(list, &c, named);
+    judge_necks(list, e, &c, named);
+    memory_free(named);
+    cover_free(&c);
 }
 
 void advise_sections(const struct engine *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies; b++) {
-        struct uneven kept[SAID] = {{0}};
-        struct cover c;
-        int n = 0;
-        if (!cover_make(&c, s, b)) continue;
-        for (int axis = 0; axis < c.dim; axis++) {
-            struct sections sections;
-            sections_make(&sections, &c, axis);
-            for (int32_t k = 0; k < sections.n; k++) n = part_judge(&sections, k, kept, n);
-            sections_free(&sections);
+        struct uneven_list list = {.piece = {.scene = s, .body = b, .material = ANY_MATERIAL}};
+        if (s->body[b].file) continue;
+        piece_judge(&list, e);
+        for (int m = 0; m < s->materials && s->body[b].parts > 0; m++) {
+            list.piece.material = m;
+            if (scene_body_has(&s->body[b], m)) piece_judge(&list, e);
         }
-        cover_free(&c);
-        say_uneven(s, b, kept, n, out);
+        say_uneven(&list, out);
     }
 }

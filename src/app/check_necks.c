@@ -1,0 +1,406 @@
+/* Necks of bodies: ligaments between a hole, a notch or a slot and an edge, which have too many or too few rows of
+ * particles for their width. Runs of particles along one axis are compared along another one: a neck is a run that is
+ * shorter than those on both sides of it. There the width along the axis is measured beside the rows. Both count by
+ * the compliance of the neck: their inverses, in the mean over a length equal to the width. */
+#include <math.h>
+
+#include "base/arrays.h"
+#include "base/memory.h"
+#include "check_uneven.h"
+#include "scene/fill.h"
+
+#define NARROW 12       /* rows; in wider necks a row is less than the errors that are allowed */
+#define COVERED 0.02    /* share of a cell that counts */
+#define WITHIN 1e-6     /* depth from which on a point is not on the surface [spacings] */
+#define OFF_LEAST 0.02  /* relative error of necks in the mean; also at the narrowest place, */
+#define OFF_CURVED 0.05 /* unless the sides are curved or slanted, which lattices follow in steps */
+#define GROWTH 0.25     /* by which a neck is wider on both sides [spacings] */
+#define LENGTH_OFF 0.02 /* of pieces in a line */
+#define POINTS_MOST 4e6 /* of pieces in a line; longer ones take too long */
+enum {
+    LONGEST = 64,   /* columns of one number of rows; longer ones are no neck but a part */
+    SAMPLES = 5,    /* lines in a column of cells; odd, so that the lattice is one of them */
+    FINE = 32,      /* points in a cell where the piece ends within it */
+    NECKS_MOST = 64 /* that are measured in a piece */
+};
+
+struct necks {
+    const struct cover *cover;
+    const struct engine *engine;
+    const struct piece *piece;
+    int axis; /* of the widths */
+    int64_t stride[DIM_MAX];
+    uint8_t *rows;  /* [cells] 1 + particles in the run along the axis that the cell is in, at most NARROW; 0: it
+                       is in none */
+    uint8_t *seen;  /* [cells] belongs to runs that were compared */
+    int64_t *stack; /* [cells] */
+    int measured;
+};
+
+/* The width of a piece along an axis, on a line. */
+struct chord {
+    real middle, width;
+};
+
+/* Does a run go on, from a cell, at the next one along the axis? Runs are of particles, or of cells without particles
+ * that the piece covers in part. way: -1 or 1. */
+static bool run_goes_on(const struct necks *k, int64_t cell, int way)
+{
+    const struct cover *c = k->cover;
+    const int64_t next = cell + way * k->stride[k->axis];
+    int64_t at[DIM_MAX];
+    cover_place(c, cell, at);
+    if (at[k->axis] + way < 0 || at[k->axis] + way >= c->n[k->axis]) return false;
+    return c->filled[next] == c->filled[cell] && (c->filled[next] || c->share[next] > COVERED);
+}
+
+/* Number of cells of the run that begins at a cell. */
+static int64_t run_span(const struct necks *k, int64_t from)
+{
+    int64_t n = 1;
+    while (run_goes_on(k, from + (n - 1) * k->stride[k->axis], 1)) n++;
+    return n;
+}
+
+/* Is there a particle beside a run, before it or after it along the axis? */
+static bool run_touches(const struct necks *k, int64_t from, int64_t n)
+{
+    const struct cover *c = k->cover;
+    int64_t at[DIM_MAX];
+    cover_place(c, from, at);
+    return (at[k->axis] > 0 && c->filled[from - k->stride[k->axis]]) ||
+           (at[k->axis] + n < c->n[k->axis] && c->filled[from + n * k->stride[k->axis]]);
+}
+
+/* Counts the particles of all runs along the axis. Covered cells without particles are a run if they touch none. */
+static void rows_count(struct necks *k)
+{
+    const struct cover *c = k->cover;
+    array_fill_bytes(k->rows, 0, c->cells, sizeof *k->rows);
+    for (int64_t cell = 0; cell < c->cells; cell++) {
+        if ((!c->filled[cell] && c->share[cell] <= COVERED) || run_goes_on(k, cell, -1)) continue;
+        const int64_t n = run_span(k, cell);
+        if (!c->filled[cell] && run_touches(k, cell, n)) continue;
+        for (int64_t m = 0; m < n; m++)
+            k->rows[cell + m * k->stride[k->axis]] = (uint8_t)(1 + (c->filled[cell] ? (n < NARROW ? n : NARROW) : 0));
+    }
+}
+
+/* Returns a cell of the longest run beside the run of a cell, or -1. Runs are beside each other if they have
+ * neighbouring cells. way: -1 or 1 along the axis `across`. */
+static int64_t run_beside(const struct necks *k, int64_t cell, int across, int way)
+{
+    const struct cover *c = k->cover;
+    int64_t at[DIM_MAX], found = -1, from = cell;
+    cover_place(c, cell, at);
+    if (at[across] + way < 0 || at[across] + way >= c->n[across]) return -1;
+    while (run_goes_on(k, from, -1)) from -= k->stride[k->axis];
+    const int64_t n = run_span(k, from);
+    for (int64_t m = 0; m < n; m++) {
+        const int64_t beside = from + m * k->stride[k->axis] + way * k->stride[across];
+        if (k->rows[beside] > 0 && (found < 0 || k->rows[beside] > k->rows[found])) found = beside;
+    }
+    return found;
+}
+
+/* Is a cell the last one before a plane of symmetry across an axis? */
+static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
+{
+    const struct engine *e = k->engine;
+    int64_t at[DIM_MAX];
+    bool found = false;
+    cover_place(k->cover, cell, at);
+    const real X = k->cover->first[across] + (real)at[across] * k->cover->spacing;
+    for (int m = 0; m < e->source.mirrors; m++)
+        found |= e->source.mirror[m].axis == across && e->source.mirror[m].outside == way &&
+                 fabs(e->source.mirror[m].at - X) < 0.6 * k->cover->spacing;
+    return found;
+}
+
+static void cell_point(const struct cover *c, int64_t cell, real *X)
+{
+    int64_t at[DIM_MAX];
+    cover_place(c, cell, at);
+    for (int d = 0; d < DIM_MAX; d++) X[d] = d < c->dim ? c->first[d] + (real)at[d] * c->spacing : 0;
+}
+
+/* Measures the piece along the axis through X. Returns false if X is outside or on the surface. */
+static bool chord_measure(const struct necks *k, const real *X, struct chord *chord)
+{
+    const real h = k->cover->spacing, most = 2 * NARROW * h;
+    if (!piece_contains(k->piece, X, -WITHIN * h)) return false;
+    const real down = piece_end(k->piece, X, k->axis, -0.25 * h, most);
+    const real up = piece_end(k->piece, X, k->axis, 0.25 * h, most);
+    chord->middle = X[k->axis] + 0.5 * (up - down), chord->width = up + down;
+    return true;
+}
+
+/* Chords beside each other across a neck, SAMPLES in a column, from `first` to `last`; number 0 is on the lattice. */
+enum { CHORDS_MOST = SAMPLES * (LONGEST + 8 * NARROW) };
+struct chords {
+    int across, first, last;                 /* axis; numbers of chords, first <= 0 <= last */
+    bool mirrored[2];                        /* it ends at a plane of symmetry */
+    real X[DIM_MAX];                         /* point of chord 0 */
+    struct chord chord[2 * CHORDS_MOST + 1]; /* chord m is [CHORDS_MOST + m] */
+};
+
+static struct chord *chord_of(struct chords *p, int m) { return &p->chord[CHORDS_MOST + m]; }
+
+/* Measures chords from the first one to both sides, each through the middle of the one before. reach: on each side. */
+static bool chords_measure(struct chords *p, const struct necks *k, const int *reach)
+{
+    real X[DIM_MAX];
+    for (int d = 0; d < DIM_MAX; d++) X[d] = p->X[d];
+    real *along = &X[k->axis];
+    for (int m = 0; !chord_measure(k, X, chord_of(p, 0)); m++, *along += k->cover->spacing / FINE)
+        if (m == 0)
+            *along -= 0.5 * k->cover->spacing;
+        else if (m > 2 * FINE)
+            return false;
+    p->first = p->last = 0;
+    for (int side = 0; side < 2; side++) {
+        const int way = side ? 1 : -1;
+        for (int m = way; abs(m) <= reach[side]; m += way) {
+            X[k->axis] = chord_of(p, m - way)->middle;
+            X[p->across] = p->X[p->across] + m * k->cover->spacing / SAMPLES;
+            if (!chord_measure(k, X, chord_of(p, m))) break;
+            if (side)
+                p->last = m;
+            else
+                p->first = m;
+        }
+    }
+    return true;
+}
+
+/* Returns the number of the narrowest chord from..to, the middle one of those that are as narrow. */
+static int chords_narrowest(struct chords *p, int from, int to, real tolerance)
+{
+    int best = from, end;
+    for (int m = from; m <= to; m++)
+        if (chord_of(p, m)->width < chord_of(p, best)->width - tolerance) best = m;
+    for (end = best; end < to && chord_of(p, end + 1)->width < chord_of(p, best)->width + tolerance;) end++;
+    return (best + end) / 2;
+}
+
+/* Rows of particles in the column of a chord: those between the ends of the chord on the lattice. */
+static real chord_rows(struct chords *p, const struct necks *k, int m)
+{
+    const int column = (int)floor((m + 0.5 * SAMPLES) / SAMPLES) * SAMPLES;
+    const real h = k->cover->spacing, first = k->cover->first[k->axis];
+    if (column < p->first || column > p->last) return NAN;
+    const struct chord *c = chord_of(p, column);
+    const real low = (c->middle - 0.5 * c->width - first) / h, high = (c->middle + 0.5 * c->width - first) / h;
+    return floor(high + ON_SURFACE) - ceil(low - ON_SURFACE) + 1;
+}
+
+/* Does the piece widen on both sides of its narrowest chord, by more than its middle shifts? In bent strips of one
+ * width the middle shifts more. *even: it widens by half a spacing or more at once, on both sides. */
+static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool *even)
+{
+    const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
+    real growth[2] = {0}, shift[2] = {0};
+    *even = true;
+    for (int side = 0; side < 2; side++) {
+        const int way = side ? 1 : -1, end = side ? p->last : p->first;
+        if (p->mirrored[side]) continue;
+        for (int m = narrowest; m != end && growth[side] < GROWTH * h; m += way) {
+            growth[side] = chord_of(p, m + way)->width - width;
+            shift[side] = chord_of(p, m + way)->middle - chord_of(p, narrowest)->middle;
+            *even = *even && (growth[side] < 1e-3 * h || growth[side] > 0.5 * h);
+        }
+        if (growth[side] < GROWTH * h) return false;
+    }
+    for (int side = 0; side < 2; side++)
+        if (p->mirrored[side]) growth[side] = growth[!side], shift[side] = shift[!side];
+    return fabs(shift[0] + shift[1]) < 0.75 * (growth[0] + growth[1]);
+}
+
+/* Relative error of a neck: of its rows, by the mean of the inverse widths over a length equal to its width. */
+static real neck_off(struct chords *p, const struct necks *k, int narrowest)
+{
+    const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
+    const int half = (int)real_max(SAMPLES / 2, 0.5 * SAMPLES * width / h);
+    real exact = 0, filled = 0;
+    for (int m = narrowest - half; m <= narrowest + half; m++) {
+        if (m < p->first || m > p->last) continue;
+        exact += 1 / chord_of(p, m)->width, filled += 1 / (h * chord_rows(p, k, m));
+    }
+    return exact / filled - 1;
+}
+
+/* Returns a cell of the run of particles through a neck, or -1: the cell that the middle of the neck is in. */
+static int64_t neck_cell(const struct necks *k, const struct uneven *u)
+{
+    int64_t cell = 0;
+    for (int d = 0; d < k->cover->dim; d++) {
+        const int64_t at = llround((u->at[d] - k->cover->first[d]) / k->cover->spacing);
+        if (at < 0 || at >= k->cover->n[d]) return -1;
+        cell += at * k->stride[d];
+    }
+    return k->rows[cell] > 0 ? cell : -1;
+}
+
+/* Is the width less at the last place along an axis that is in the piece, within a spacing from X? */
+static bool narrows_to(const struct necks *k, real *X, int axis, int way, real width)
+{
+    struct chord chord = {X[k->axis], width};
+    for (int m = 0; m < 2 * FINE; m++) {
+        X[axis] += way * k->cover->spacing / FINE, X[k->axis] = chord.middle;
+        if (!chord_measure(k, X, &chord)) break;
+    }
+    return chord.width < 0.95 * width;
+}
+
+/* Is the width nowhere less along the third axis, up to where the piece ends there or widens? Sections of round rods
+ * are narrower at their sides; section by section (check_sections.c) they are compared as a whole. */
+static bool is_least_across(const struct necks *k, int64_t cell, int third, real width)
+{
+    for (int way = -1; way <= 1; way += 2) {
+        int64_t at = cell, next;
+        real X[DIM_MAX];
+        while ((next = run_beside(k, at, third, way)) >= 0 && k->rows[next] == k->rows[cell]) at = next;
+        if (next >= 0 && k->rows[next] < k->rows[cell]) return false;
+        cell_point(k->cover, at, X);
+        if (next < 0 && narrows_to(k, X, third, way, width)) return false;
+    }
+    return true;
+}
+
+/* Returns the neck at the narrowest chord; of a curved one the narrowest place is that of a parabola through three
+ * chords. */
+static struct uneven neck_at(struct chords *p, const struct necks *k, int narrowest, real rows)
+{
+    const real h = k->cover->spacing;
+    struct chord best = *chord_of(p, narrowest), other;
+    struct uneven u = {.filled = rows * h, .axis = k->axis, .across = p->across, .measured = true};
+    for (int d = 0; d < DIM_MAX; d++) u.at[d] = p->X[d];
+    u.at[p->across] += narrowest * h / SAMPLES, u.at[k->axis] = best.middle;
+    if (narrowest > p->first && narrowest < p->last) {
+        const real before = chord_of(p, narrowest - 1)->width, after = chord_of(p, narrowest + 1)->width;
+        const real bend = before - 2 * best.width + after;
+        real X[DIM_MAX];
+        for (int d = 0; d < DIM_MAX; d++) X[d] = u.at[d];
+        X[p->across] += bend > 0 ? 0.5 * (before - after) / bend * h / SAMPLES : 0;
+        if (chord_measure(k, X, &other) && other.width < best.width) {
+            best = other, u.at[p->across] = X[p->across], u.at[k->axis] = best.middle;
+        }
+    }
+    u.width = best.width, u.off = u.filled / u.width - 1;
+    return u;
+}
+
+/* Adds a neck to the list if it is off. cell: of its first column, on the lattice; columns: with as many rows. */
+static void neck_judge(struct uneven_list *list, const struct necks *k, struct chords *p, int64_t cell, int columns)
+{
+    const real h = k->cover->spacing, rows = k->rows[cell] - 1;
+    const int reach = SAMPLES * (int)(2 * rows + 4), past = (columns - 1) * SAMPLES;
+    bool even;
+    cell_point(k->cover, cell, p->X);
+    const int ends[2] = {p->mirrored[0] ? SAMPLES / 2 : reach, past + (p->mirrored[1] ? SAMPLES / 2 : reach)};
+    if (!chords_measure(p, k, ends)) return;
+    const int from = p->first > -SAMPLES ? p->first : -SAMPLES;
+    const int to = p->last < past + SAMPLES ? p->last : past + SAMPLES;
+    const int narrowest = chords_narrowest(p, from, to, 1e-3 * h);
+    const struct uneven u = neck_at(p, k, narrowest, rows);
+    if (!(u.width < NARROW * h) || !is_neck(p, k, narrowest, &even)) return;
+    const real least = even ? OFF_LEAST : OFF_CURVED, mean = neck_off(p, k, narrowest);
+    if (!(u.off * mean > 0 && fabs(u.off) > least && fabs(mean) > OFF_LEAST)) return;
+    const int64_t middle = neck_cell(k, &u);
+    for (int d = 0; d < k->cover->dim; d++)
+        if (d != p->across && d != k->axis && (middle < 0 || !is_least_across(k, middle, d, u.width))) return;
+    uneven_keep(list, &u, false);
+}
+
+/* Marks the runs of one number of rows that lie beside each other: they are one neck, and were compared. */
+static void neck_mark(struct necks *k, int64_t cell)
+{
+    int64_t top = 0;
+    k->stack[top++] = cell, k->seen[cell] = 1;
+    while (top > 0) {
+        const int64_t here = k->stack[--top];
+        int64_t at[DIM_MAX];
+        cover_place(k->cover, here, at);
+        for (int way = -1; way <= 1; way += 2)
+            for (int d = 0; d < k->cover->dim; d++) {
+                const int64_t next = here + way * k->stride[d];
+                if (at[d] + way < 0 || at[d] + way >= k->cover->n[d]) continue;
+                if (k->seen[next] || k->rows[next] != k->rows[cell]) continue;
+                k->seen[next] = 1, k->stack[top++] = next;
+            }
+    }
+}
+
+/* Follows runs of one number of rows across, from one that is the first of them, and judges them if they are a neck. */
+static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell, int across)
+{
+    const int64_t before = run_beside(k, cell, across, -1);
+    bool mirrored[2] = {before < 0 && at_mirror(k, cell, across, -1)};
+    int columns = 1;
+    if (!mirrored[0] && (before < 0 || k->rows[before] <= k->rows[cell])) return;
+    int64_t last = cell, next;
+    while ((next = run_beside(k, last, across, 1)) >= 0 && k->rows[next] == k->rows[cell] && columns < LONGEST)
+        last = next, columns++;
+    mirrored[1] = next < 0 && at_mirror(k, last, across, 1);
+    if (mirrored[0] && mirrored[1]) return;
+    if (!mirrored[1] && (next < 0 || k->rows[next] <= k->rows[cell])) return;
+    struct chords *p = NEW("check.chords", 1, struct chords);
+    p->across = across, p->mirrored[0] = mirrored[0], p->mirrored[1] = mirrored[1];
+    k->measured++;
+    neck_judge(list, k, p, cell, columns);
+    neck_mark(k, cell);
+    memory_free(p);
+}
+
+void judge_necks(struct uneven_list *list, const struct engine *e, const struct cover *c, uint8_t *named)
+{
+    struct necks k = {.cover = c, .engine = e, .piece = &list->piece};
+    k.stride[0] = 1, k.stride[1] = c->n[0], k.stride[2] = c->n[0] * c->n[1];
+    k.rows = NEW("check.rows", c->cells, uint8_t);
+    k.seen = NEW("check.seen", c->cells, uint8_t);
+    k.stack = NEW("check.stack", c->cells, int64_t);
+    for (k.axis = 0; k.axis < c->dim; k.axis++) {
+        rows_count(&k);
+        array_fill_bytes(k.seen, 0, c->cells, sizeof *k.seen);
+        for (int64_t cell = 0; cell < c->cells && k.measured < NECKS_MOST; cell++) {
+            if (k.rows[cell] == 0 || k.rows[cell] > NARROW || k.seen[cell] || named[cell] & 1 << k.axis) continue;
+            if (run_goes_on(&k, cell, -1)) continue;
+            for (int d = 0; d < c->dim && !k.seen[cell]; d++)
+                if (d != k.axis) neck_follow(list, &k, cell, d);
+        }
+    }
+    memory_free(k.rows);
+    memory_free(k.seen);
+    memory_free(k.stack);
+}
+
+/* Adds a piece of a line from `low` to `high` [m] if its particles are too many or too few. first: position of a
+ * particle of the lattice [m]. */
+static void length_judge(struct uneven_list *list, real low, real high, real first)
+{
+    const real h = list->piece.scene->spacing;
+    const real rows = floor((high - first) / h + ON_SURFACE) - ceil((low - first) / h - ON_SURFACE) + 1;
+    const struct uneven u = {.off = rows * h / (high - low) - 1,
+                             .width = high - low,
+                             .filled = rows * h,
+                             .at = {0.5 * (low + high)},
+                             .measured = true};
+    if (fabs(u.off) > LENGTH_OFF) uneven_keep(list, &u, false);
+}
+
+void judge_lengths(struct uneven_list *list)
+{
+    const struct piece *p = &list->piece;
+    const struct scene *s = p->scene;
+    real from[DIM_MAX], to[DIM_MAX], first[DIM_MAX], X[DIM_MAX] = {0};
+    if (s->body[p->body].file || !(s->spacing > 0) || !piece_bounds(p, from, to)) return;
+    const real step = 0.25 * s->spacing, steps = (to[0] - from[0]) / step;
+    if (!(steps < POINTS_MOST) || fill_place(s, p->body, first) != OK) return;
+    for (real m = 0.5; m < steps; m++) {
+        X[0] = from[0] + m * step;
+        if (!piece_contains(p, X, 0)) continue;
+        const real low = X[0] - piece_end(p, X, 0, -step, INFINITY), high = X[0] + piece_end(p, X, 0, step, INFINITY);
+        length_judge(list, low, high, first[0]);
+        while (m < steps && from[0] + m * step < high) m++;
+    }
+}

@@ -1,0 +1,177 @@
+/* The list of the narrow parts that hold too many or too few rows of particles, and what `cleave check` prints. */
+#include "check_uneven.h"
+
+#include <math.h>
+
+#include "scene/fill.h"
+
+#define SAME_WIDTH 0.05 /* relative difference of widths that are counted together */
+#define SAME_PLACE 2    /* distance within which a width is the same one [spacings] */
+enum { TRIED = 8 };     /* numbers of rows for which a spacing is sought */
+
+/* Is the error of a part smaller than that of all on a full list? Errors of equal parts differ by sampling. */
+bool uneven_matters(const struct uneven_list *list, real off)
+{
+    return list->n < UNEVEN_MOST || fabs(off) > 0.9 * fabs(list->part[list->n - 1].off);
+}
+
+static bool same_width(const struct uneven *a, const struct uneven *b)
+{
+    return fabs(a->width - b->width) < SAME_WIDTH * b->width && a->off * b->off > 0;
+}
+
+/* Were both measured at one place, one in the body and one in its part of a material? */
+static bool same_place(const struct uneven *a, const struct uneven *b, const struct scene *s)
+{
+    real r2 = 0;
+    for (int d = 0; d < s->dim; d++) r2 += square(a->at[d] - b->at[d]);
+    return a->axis == b->axis && r2 < square(SAME_PLACE * s->spacing);
+}
+
+void uneven_keep(struct uneven_list *list, const struct uneven *u, bool known)
+{
+    struct uneven *part = list->part, added = *u;
+    int place = list->n;
+    added.material = list->piece.material;
+    for (int k = 0; k < list->n && place == list->n; k++)
+        if (same_width(&part[k], u)) place = k;
+    if (place < list->n) {
+        struct uneven *like = &part[place];
+        known = known || (like->material != added.material && same_place(like, u, list->piece.scene));
+        like->more += !known;
+        if (fabs(like->off) >= fabs(u->off)) return;
+        added.more = like->more;
+    } else if (list->n < UNEVEN_MOST) {
+        list->n++;
+    } else {
+        place = UNEVEN_MOST - 1;
+        if (fabs(part[place].off) >= fabs(u->off)) return;
+    }
+    part[place] = added;
+    for (int k = place; k > 0 && fabs(part[k].off) > fabs(part[k - 1].off); k--) {
+        const struct uneven other = part[k];
+        part[k] = part[k - 1], part[k - 1] = other;
+    }
+}
+
+real piece_end(const struct piece *p, const real *X, int axis, real step, real most)
+{
+    enum { HALVINGS = 30 };
+    real Y[DIM_MAX], inside = 0;
+    for (int d = 0; d < DIM_MAX; d++) Y[d] = X[d];
+    for (int k = 1;; k++, inside += step) {
+        if (fabs(inside) >= most) return most;
+        Y[axis] = X[axis] + k * step;
+        if (!piece_contains(p, Y, 0)) break;
+    }
+    real outside = inside + step;
+    for (int k = 0; k < HALVINGS; k++) {
+        const real middle = 0.5 * (inside + outside);
+        Y[axis] = X[axis] + middle;
+        if (piece_contains(p, Y, 0))
+            inside = middle;
+        else
+            outside = middle;
+    }
+    return fabs(inside);
+}
+
+/* Ends of a part along its axis [m]. */
+static void width_ends(const struct piece *p, const struct uneven *u, real *low, real *high)
+{
+    const real h = p->scene->spacing, most = 4000 * h;
+    *low = u->at[u->axis] - piece_end(p, u->at, u->axis, -0.05 * h, most);
+    *high = u->at[u->axis] + piece_end(p, u->at, u->axis, 0.05 * h, most);
+}
+
+/* Replaces the width of a part, which is known to a few percent, by the one through its place, if that is much alike
+ * and is what makes the sections uneven. */
+static void width_measure(struct uneven *u, const struct piece *p)
+{
+    real low, high;
+    if (u->measured || !piece_contains(p, u->at, 0)) return;
+    width_ends(p, u, &low, &high);
+    const real width = high - low;
+    u->measured = fabs(width - u->width) < 0.1 * u->width && fabs(u->filled - width) > 0.5 * fabs(u->off) * width;
+    if (u->measured) u->width = width;
+}
+
+/* Rows between low and high on the lattice of a body at another spacing; -1: it has none. */
+static int64_t rows_at(const struct piece *p, int axis, real low, real high, real spacing)
+{
+    struct scene other = *p->scene;
+    real X[DIM_MAX] = {0};
+    other.spacing = spacing;
+    if (fill_place(&other, p->body, X) != OK) return -1;
+    const real first = ceil((low - X[axis]) / spacing - ON_SURFACE);
+    const real last = floor((high - X[axis]) / spacing + ON_SURFACE);
+    return (int64_t)(last - first) + 1;
+}
+
+/* Prints the nearest smaller and larger spacing that divide a width and whose lattice has that many rows in it, cut to
+ * six digits. */
+static void say_spacings(const struct uneven *u, const struct piece *p, FILE *out)
+{
+    real low, high;
+    const real more = ceil(u->width / p->scene->spacing * (1 - 1e-3));
+    int said = 0;
+    width_ends(p, u, &low, &high);
+    for (int side = 0; side < 2; side++)
+        for (int k = 0; k < TRIED; k++) {
+            const real rows = side == 0 ? more + k : more - 1 - k;
+            if (rows < 1) break;
+            char text[32];
+            snprintf(text, sizeof text, "%.6g", u->width / rows * (1 - 5e-7));
+            if (rows_at(p, u->axis, low, high, strtod(text, NULL)) != (int64_t)rows) continue;
+            fprintf(out, "%s%s m", said++ ? " or " : "; particles.spacing ", text);
+            break;
+        }
+    fprintf(out, said ? " divides it\n" : "; a smaller particles.spacing is closer\n");
+}
+
+static void say_place(const real *at, int dim, FILE *out)
+{
+    for (int d = 0; d < dim; d++) fprintf(out, "%s%.4g", d ? ", " : dim > 1 ? "(" : "", at[d]);
+    fprintf(out, dim > 1 ? ") m" : " m");
+}
+
+/* Prints the name of the body, that of the part's material if it is one of several, and the place. */
+static void say_owner(const struct uneven *u, const struct piece *p, FILE *out)
+{
+    fprintf(out, "unresolved: body %s: ", p->scene->body[p->body].name);
+    if (u->material != ANY_MATERIAL) fprintf(out, "material %s: ", p->scene->material[u->material].name);
+}
+
+void say_uneven(struct uneven_list *list, FILE *out)
+{
+    const int dim = list->piece.scene->dim;
+    int measured = 0;
+    for (int k = 0; k < list->n; k++) {
+        struct uneven *u = &list->part[k];
+        const struct piece p = {list->piece.scene, list->piece.body, u->material};
+        width_measure(u, &p);
+        if (!u->measured) continue;
+        say_owner(u, &p, out);
+        fprintf(out, "a part %.4g m ", u->width);
+        if (dim > 1)
+            fprintf(out, "wide along %c, at ", "xyz"[u->axis]);
+        else
+            fprintf(out, "long, at ");
+        say_place(u->at, dim, out);
+        if (u->more > 0) fprintf(out, " (and %d more like it)", u->more);
+        fprintf(out, ", is %.4g m of particles: %s %.1f %% too %s", u->filled, dim > 1 ? "its sections are" : "it is",
+                100 * fabs(u->off),
+                dim == 1     ? u->off > 0 ? "long" : "short"
+                : u->off > 0 ? "large"
+                             : "small");
+        say_spacings(u, &p, out);
+        measured++;
+    }
+    if (measured > 0 || list->n == 0) return;
+    const struct uneven *worst = &list->part[0];
+    say_owner(worst, &list->piece, out);
+    fprintf(out, "its section across %c at ", "xyz"[worst->across]);
+    say_place(worst->at, dim, out);
+    fprintf(out, " is %.1f %% too %s, as steps of particles fill it; a smaller particles.spacing is closer\n",
+            100 * fabs(worst->off), worst->off > 0 ? "large" : "small");
+}

@@ -1,0 +1,48 @@
+/* Narrow parts of bodies that hold too many or too few rows of particles for their width: the list of the worst. */
+#ifndef CLEAVE_CHECK_UNEVEN
+#define CLEAVE_CHECK_UNEVEN
+
+#include <stdio.h>
+
+#include "check_cover.h"
+#include "engine/engine.h"
+
+/* A part whose width and rows of particles differ. */
+struct uneven {
+    real off, width, filled; /* relative error of its section [1]; along `axis`: width, rows times spacing [m] */
+    real at[DIM_MAX];        /* a point in the middle of it [m] */
+    int axis, across;        /* of the width; of the section */
+    int material, more;      /* index, or ANY_MATERIAL; number of other parts of the same width */
+    bool measured;           /* the width is that through the point `at` */
+};
+
+/* The worst parts of a body, the worst first. */
+enum { UNEVEN_MOST = 3 };
+struct uneven_list {
+    struct piece piece; /* that is being judged */
+    int n;
+    struct uneven part[UNEVEN_MOST];
+};
+
+/* Can a part that is off by this be one of the worst, or like one of them? */
+bool uneven_matters(const struct uneven_list *list, real off);
+
+/* Adds a part to the list, or counts it with another of the same width. known: it is a part that was added before, of
+ * which the worst section is kept. */
+void uneven_keep(struct uneven_list *list, const struct uneven *u, bool known);
+
+/* Measures where a line along `axis` through X leaves the piece, from X in the positive or the negative direction,
+ * by steps and bisection. Returns the distance [m], or `most` if it is larger. step: signed [m]. */
+real piece_end(const struct piece *p, const real *X, int axis, real step, real most);
+
+/* Prints a line for each part of the list whose width is known; if there is none of these, for the worst section. */
+void say_uneven(struct uneven_list *list, FILE *out);
+
+/* Adds the necks of a piece: parts that widen on both sides, such as the ligament between a hole and an edge
+ * (check_necks.c). named: [cells] bit d of a cell: it belongs to a part that was added, of a width along axis d. */
+void judge_necks(struct uneven_list *list, const struct engine *e, const struct cover *c, uint8_t *named);
+
+/* Adds the pieces of a body in a line whose length is no multiple of the spacing (check_necks.c). */
+void judge_lengths(struct uneven_list *list);
+
+#endif
