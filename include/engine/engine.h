@@ -423,6 +423,8 @@ status engine_archive(void *engine, struct archive *a);
 void engine_warn(struct engine *e);
 /* Warns of particles that have no neighbour (engine_warn_lone.c). */
 void engine_warn_of_lone(const struct engine *e, struct warnings *to);
+/* Warnings of loads whose speed breaks bonds beside what they drive (engine_warn_speed.c). */
+void engine_warn_of_speed(const struct engine *e, struct warnings *to);
 /* A warning of a running run: into e->report.warnings and, the first time, on standard error. */
 void engine_say(struct engine *e, const char *text);
 /* Rigid bodies (engine_rigid.c): made at the start; their forces booked after those of contact; their motion; kinetic

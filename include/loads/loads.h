@@ -292,6 +292,14 @@ real load_displacing_speed(const struct load *l, const struct particles *p, real
  * places, and that which its particles have in p, the state at t = 0; on circles the difference of speeds; 0 of
  * displacements [m/s]. */
 real load_velocity_jump(const struct load *l, const struct particles *p, real t);
+/* Computes the largest change of the velocity that a load (velocity or displacement) prescribes within a span of time,
+ * between the times 0 and t; before 0 its particles have the velocity in p. Changes are sampled at MOMENTS times, at
+ * least one spacing of these apart, and at some places. within: the span [s]. Returns a speed [m/s]. */
+real load_velocity_change(const struct load *l, const struct particles *p, real t, real within);
+/* Computes by how much the velocities that two loads prescribe, each less that of its particles in p, differ at most
+ * between the times 0 and t, in the components that both drive. Returns 0 if there are none, INFINITY if one of them
+ * rotates or depends on the place [m/s]. */
+real loads_velocity_apart(const struct load *a, const struct load *b, const struct particles *p, real t);
 
 #define LOADS_TOLERANCE ON_SURFACE       /* of a spacing: points on a region's border belong to it    */
 

@@ -131,30 +131,6 @@ static void warn_of_yielding_bonds(const struct scene *s, struct warnings *to)
                          s->space == SPACE_PLANE_STRAIN ? "1" : "0.5");
 }
 
-/* A face that is moved at v strains what is behind it by v/c at once. */
-static void warn_of_speed(const struct engine *e, struct warnings *to)
-{
-    const struct scene *s = e->scene;
-    real bears = INFINITY;
-    for (int m = 0; m < s->materials; m++)
-        bears = real_min(bears, s->material[m].critical_stretch * s->material[m].wave_speed);
-    for (int b = 0; b < e->loads.n && s->solver == SOLVER_EXPLICIT && s->method != METHOD_MPM; b++) {
-        const real speed = load_displacing_speed(&e->loads.load[b], &e->part, s->duration);
-        if (speed > bears)
-            warnings_add(to,
-                         "boundary %s: its displacement grows by up to %.3g m/s; bonds beside it break at %.3g m/s, "
-                         "the critical stretch times the wave speed: a longer time is expected, if it is no blow",
-                         s->boundary[b].name, speed, bears);
-        const real jump = load_velocity_jump(&e->loads.load[b], &e->part, s->duration);
-        if (jump > bears)
-            warnings_add(to,
-                         "boundary %s: its velocity is up to %.3g m/s beside that of what it drives at t = 0; bonds "
-                         "beside it break at %.3g m/s, the critical stretch times the wave speed: a lower velocity is "
-                         "expected, if it is no blow",
-                         s->boundary[b].name, jump, bears);
-    }
-}
-
 static void warn_of_solver(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -366,7 +342,7 @@ void engine_warn(struct engine *e)
     warn_of_lists(e->scene, to);
     warn_of_probes(e->scene, to);
     engine_warn_of_lone(e, to);
-    warn_of_speed(e, to);
+    engine_warn_of_speed(e, to);
     warn_of_solver(e, to);
     warn_of_empty(e, to);
     warn_of_mirrors(e->scene, &e->mpm, to);

@@ -156,3 +156,60 @@ real load_velocity_jump(const struct load *l, const struct particles *p, real t)
     }
     return most;
 }
+
+enum { LAGS = 9 }; /* of the time within which a velocity may change, each 0.6 of the one before: no period hides */
+
+/* Change of the velocity of the k-th particle of a load from time t - lag to t; before 0 it has its own [m/s]. */
+static real velocity_change_at(const struct load *l, const struct particles *p, int64_t k, const struct driving by[2])
+{
+    const bool own = by[0].t <= 0;
+    real X[DIM_MAX], change2 = 0, now2 = 0, then2 = 0;
+    particle_place(p, l->particle[k], X);
+    for (int d = 0; d < p->dim; d++) {
+        if (!(l->boundary->components >> d & 1)) continue;
+        const real now = driving_at(&by[1], X, d, false);
+        const real then = own ? p->v[d][l->particle[k]] : driving_at(&by[0], X, d, false);
+        change2 += square(now - then), now2 += square(now), then2 += square(then);
+    }
+    return l->boundary->rotates ? fabs(sqrt(now2) - sqrt(then2)) : sqrt(change2);
+}
+
+real load_velocity_change(const struct load *l, const struct particles *p, real t, real within)
+{
+    const struct boundary *b = l->boundary;
+    const real step = t / (MOMENTS - 1), dt = 0.02 * real_max(within, step);
+    real most = 0;
+    for (int m = 0; m < MOMENTS + b->time.n; m++) {
+        const real moment = m < MOMENTS ? step * m : b->time.t[m - MOMENTS];
+        const real at = real_min(moment, t - 0.5 * dt); /* displacements by formulas stay as they are after the end */
+        if (!(moment >= 0 && moment <= t)) continue;
+        real lag = real_max(within, step);
+        for (int n = 0; n < LAGS; n++, lag *= 0.6) {
+            const struct driving by[] = {driving_make(b, p->dim, at - lag, dt), driving_make(b, p->dim, at, dt)};
+            for (int64_t k = 0; k < l->n; k += drives_by_place(b) ? 1 + l->n / PLACES : l->n)
+                most = real_max(most, velocity_change_at(l, p, k, by));
+        }
+    }
+    return most;
+}
+
+real loads_velocity_apart(const struct load *a, const struct load *b, const struct particles *p, real t)
+{
+    const unsigned both = a->boundary->components & b->boundary->components;
+    real most = 0;
+    if (both == 0 || a->n == 0 || b->n == 0) return 0;
+    if (drives_by_place(a->boundary) || drives_by_place(b->boundary)) return INFINITY;
+    for (int m = 0; m < MOMENTS; m++) {
+        const real at = t * m / (MOMENTS - 1), dt = t / MOMENTS;
+        const struct driving by[] = {driving_make(a->boundary, p->dim, at, dt),
+                                     driving_make(b->boundary, p->dim, at, dt)};
+        real X[2][DIM_MAX], apart2 = 0;
+        particle_place(p, a->particle[0], X[0]), particle_place(p, b->particle[0], X[1]);
+        for (int d = 0; d < p->dim; d++)
+            if (both >> d & 1)
+                apart2 += square(driving_at(&by[0], X[0], d, false) - p->v[d][a->particle[0]] -
+                                 driving_at(&by[1], X[1], d, false) + p->v[d][b->particle[0]]);
+        most = real_max(most, sqrt(apart2));
+    }
+    return most;
+}

@@ -236,4 +236,39 @@ says "solids of bonds that yield" "a solid of them bears about $(printf %.2f "$1
     -s solver=explicit -s duration=1us
 silent "points that yield" 'one by one' "$yield" -s method=mpm
 silent "a bar of bonds that yield" "one by one" inputs/bar_plastic.yaml -s method=pd
+# ---- speeds ------------------------------------------------------------------------------------------------------------
+
+# Bonds break at 5.4 m/s; a wave crosses the body in 2.1 us. What nothing holds follows a velocity that grows to 20 m/s in 1 ms, but not
+# one that grows in 1 us; what is held does not follow.
+cat >"$work/free.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 1 ms
+method: pd
+material: {young: 70 GPa, density: 2700, critical_stretch: 0.1 %}
+body: {box: {from: [0, 0], to: [10 mm, 5 mm]}}
+particles: {spacing: 0.5 mm}
+boundary:
+  - {name: pull, velocity: [20, free], face: x+, time: {ramp: {until: 1 ms}}}
+  - {name: other, traction: [0, 0], face: x-}
+output: {frames: 0, samples: 20}
+END
+free=$work/free.yaml changes='boundary pull: its velocity changes by up to 20 m/s within the 2.07e-06 s' held='boundary pull: its velocity is up to 20 m/s beside'
+alike='boundary.other={name: other, velocity: [20, free], face: x-, time: {ramp: {until: 1 ms}}}'
+silent "a slow ramp on a free body" 'beside it break' "$free"
+says "a fast ramp on a free body" "$changes" "$free" -s 'boundary.pull.time={ramp: {until: 1 us}}'
+says "a step on a free body" "$changes" "$free" -s 'boundary.pull.time={step: {from: 1 us, until: 1 s}}'
+says "a constant velocity of a free body" "$changes" "$free" -s 'boundary.pull.time={table: [[0, 1], [1 s, 1]]}'
+says "a slow ramp, then a spike" "$changes" "$free" -s 'boundary.pull.time={table: [[0, 0], [0.5 ms, 1], [0.501 ms, 0], [1 ms, 0]]}'
+says "a slow ramp on a held body" "$held" "$free" -s 'boundary.other={name: other, fixed: [x], face: x-}'
+says "a slow ramp on a body against a mirror" "$held" "$free" -s 'boundary.other={mirror: {axis: x, at: 0}}'
+silent "a slow ramp along a mirror" 'beside it break' "$free" -s 'boundary.other={mirror: {axis: y, at: 0}}'
+silent "a slow ramp on a body held across it" 'beside it break' "$free" -s 'boundary.other={name: other, fixed: [y], face: x-}'
+silent "slow ramps alike at both ends" 'beside it break' "$free" -s "$alike"
+says "opposite slow ramps" "$held" "$free" -s "$alike" -s 'boundary.other.velocity=[-20, free]'
+silent "a displacement that grows slowly faster" 'beside it break' "$free" -s \
+    "boundary.pull={name: pull, displacement: ['10 mm*(t/(1 ms))^2', free], face: x+}"
+says "a displacement that begins with a jump of its velocity" 'changes by up to 10 m/s within' "$free" -s \
+    "boundary.pull={name: pull, displacement: ['10 mm*t/(1 ms)', free], face: x+}"
+
 finish

@@ -1,0 +1,113 @@
+/* Warnings of velocities and displacements so fast that bonds beside what is driven break. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "engine/engine.h"
+
+/* Marks the bodies, those joined counted as one, of which a load has particles. body: [bodies], by lowest number. */
+static void bodies_mark(const struct engine *e, const struct load *l, bool *body)
+{
+    for (int b = 0; b < e->scene->bodies; b++) body[b] = false;
+    for (int64_t k = 0; k < l->n; k++) body[e->scene->body[e->part.body[l->particle[k]]].joined] = true;
+}
+
+/* Has a load particles in marked bodies? */
+static bool load_meets(const struct engine *e, const struct load *l, const bool *body)
+{
+    bool any = false;
+    for (int64_t k = 0; k < l->n && !any; k++) any = body[e->scene->body[e->part.body[l->particle[k]]].joined];
+    return any;
+}
+
+/* Returns true if load number `which` finds nothing that keeps its bodies from moving with it: no mirror across its
+ * components, no absorbing face, damping or other body, no load that drives the same components otherwise by more than
+ * `slow` [m/s]. body: its bodies. */
+static bool moves_freely(const struct engine *e, int which, const bool *body, real slow)
+{
+    const struct scene *s = e->scene;
+    const struct load *own = &e->loads.load[which];
+    bool freely = s->damping == 0 && !scene_bodies_meet(s);
+    for (int b = 0; b < e->loads.n && freely; b++) {
+        const struct load *l = &e->loads.load[b];
+        const unsigned both = l->boundary->components & own->boundary->components;
+        switch (l->boundary->kind) {
+        case BOUNDARY_ABSORBING: freely = false; break;
+        case BOUNDARY_MIRROR:
+            freely = !is_clamp(l->boundary, s->dim) && !(own->boundary->components >> l->boundary->axis & 1);
+            break;
+        case BOUNDARY_VELOCITY:
+            freely = b == which || both == 0 || !load_meets(e, l, body) ||
+                     loads_velocity_apart(own, l, &e->part, s->duration) <= slow;
+            break;
+        default: break;
+        }
+    }
+    return freely;
+}
+
+/* Time that a wave takes across marked bodies, by the diagonal of the box around each and the slowest material [s]. */
+static real body_crossing_time(const struct engine *e, const bool *body)
+{
+    const struct particles *p = &e->part;
+    const struct scene *s = e->scene;
+    real slowest = INFINITY, most = 0;
+    for (int m = 0; m < s->materials; m++) slowest = real_min(slowest, s->material[m].wave_speed);
+    for (int b = 0; b < s->bodies; b++) {
+        real low[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, high[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
+        real size2 = 0;
+        for (int64_t i = 0; body[b] && i < p->n; i++) {
+            real X[DIM_MAX];
+            if (s->body[p->body[i]].joined != b) continue;
+            particle_place(p, i, X);
+            for (int d = 0; d < p->dim; d++) low[d] = real_min(low[d], X[d]), high[d] = real_max(high[d], X[d]);
+        }
+        for (int d = 0; d < p->dim && high[d] >= low[d]; d++) size2 += square(high[d] - low[d] + s->spacing);
+        most = real_max(most, sqrt(size2));
+    }
+    return most / slowest;
+}
+
+/* Warns of load number `which` on bodies that move freely: only what changes faster than a wave crosses them strains
+ * them. bears: speed at which bonds break [m/s]. */
+static void warn_of_change(const struct engine *e, int which, const bool *body, real bears, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    const real within = body_crossing_time(e, body);
+    const real change = load_velocity_change(&e->loads.load[which], &e->part, s->duration, within);
+    if (change > bears)
+        warnings_add(to,
+                     "boundary %s: its velocity changes by up to %.3g m/s within the %.3g s that a wave takes across "
+                     "what it drives; bonds beside it break at %.3g m/s, the critical stretch times the wave speed: a "
+                     "slower change is expected, if it is no blow",
+                     s->boundary[which].name, change, within, bears);
+}
+
+/* A face that is moved at v strains what is behind it by v/c at once. */
+void engine_warn_of_speed(const struct engine *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    real bears = INFINITY;
+    bool *body = NEW("warn.bodies", s->bodies, bool);
+    for (int m = 0; m < s->materials; m++)
+        bears = real_min(bears, s->material[m].critical_stretch * s->material[m].wave_speed);
+    for (int b = 0; b < e->loads.n && s->solver == SOLVER_EXPLICIT && s->method != METHOD_MPM; b++) {
+        const struct load *l = &e->loads.load[b];
+        const real speed = load_displacing_speed(l, &e->part, s->duration);
+        const real jump = load_velocity_jump(l, &e->part, s->duration);
+        if (!(speed > bears || jump > bears)) continue;
+        bodies_mark(e, l, body);
+        if (isfinite(speed) && moves_freely(e, b, body, bears)) warn_of_change(e, b, body, bears, to);
+        else if (speed > bears)
+            warnings_add(to,
+                         "boundary %s: its displacement grows by up to %.3g m/s; bonds beside it break at %.3g m/s, "
+                         "the critical stretch times the wave speed: a longer time is expected, if it is no blow",
+                         s->boundary[b].name, speed, bears);
+        else
+            warnings_add(to,
+                         "boundary %s: its velocity is up to %.3g m/s beside that of what it drives at t = 0; bonds "
+                         "beside it break at %.3g m/s, the critical stretch times the wave speed: a lower velocity is "
+                         "expected, if it is no blow",
+                         s->boundary[b].name, jump, bears);
+    }
+    memory_free(body);
+}
