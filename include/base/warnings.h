@@ -11,6 +11,8 @@ struct warnings { int n; char **text; };
 
 /* One more, unless it is there. True: it is new. */
 bool warnings_add(struct warnings *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Adds those of another list from number `first` on. */
+void warnings_join(struct warnings *w, const struct warnings *from, int first);
 /* From the `first` on, a line each: `warning: text`. */
 void warnings_print(const struct warnings *w, int first, FILE *out);
 /* Those read back join those that are there. */

@@ -197,7 +197,10 @@ static void say_pilot(const struct pilot_wish *w, const char *scene)
 static status check_cost(struct engine *e, const struct run_arguments *a, int threads, double start)
 {
     struct cost cost = {.make = team_clock() - start};
-    TRY(cost_measure(&cost, e, a));
+    const status result = cost_measure(&cost, e, a);
+    warnings_print(&cost.found, 0, stdout);
+    warnings_free(&cost.found);
+    TRY(result);
     say_contact_cost(e, &cost);
     say_cost(e, &cost, threads);
     say_levels_saving(e, &cost);

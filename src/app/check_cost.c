@@ -33,7 +33,7 @@ static status time_steps(struct engine *e, double *step)
     const int64_t period = e->clock.steps / samples > 0 ? e->clock.steps / samples : 1;
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
-    e->report.quiet = true;
+    e->report.quiet = e->report.trial = true;
     TRY(engine_report_start(e));
     const double begun = team_clock();
     TRY(engine_step(e));
@@ -100,7 +100,7 @@ static status make_other(struct scene *s, struct engine *e, const struct run_arg
 static double all_steps(struct engine *e)
 {
     const double start = team_clock();
-    e->report.quiet = true;
+    e->report.quiet = e->report.trial = true;
     memory_reuse(true);
     if (engine_report_start(e) != OK) return NAN;
     laps_start(&e->report.laps);
@@ -112,8 +112,9 @@ static double all_steps(struct engine *e)
 }
 
 /* Time of all steps of another scene [s]: measured where `whole`, else extrapolated from the first steps; NAN:
- * unknown. */
-static double try_other(const struct run_arguments *a, const char *key, const char *value, bool whole)
+ * unknown. found: takes the warnings of its steps, if not NULL. */
+static double try_other(const struct run_arguments *a, const char *key, const char *value, bool whole,
+                        struct warnings *found)
 {
     struct scene s = {0};
     struct engine e = {0};
@@ -123,6 +124,7 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
         else if (time_steps(&e, &seconds) == OK) seconds *= (double)e.clock.steps;
         else seconds = NAN;
     }
+    if (found) warnings_join(found, &e.report.warnings, 0);
     engine_free(&e);
     scene_free(&s);
     return seconds;
@@ -139,7 +141,8 @@ static double growth_of(struct cost *c, const struct engine *e, const struct run
     c->coarser = ceil(pow(first / SECONDS_WHOLE, 1.0 / s->dim) * 4) / 4;
     if (c->coarser <= 1 || c->coarser > COARSER_MOST) return NAN;
     snprintf(value, sizeof value, "%.17g", c->coarser * s->spacing);
-    c->growth = try_other(a, "particles.spacing", value, true) / try_other(a, "particles.spacing", value, false);
+    c->growth = try_other(a, "particles.spacing", value, true, NULL) /
+                try_other(a, "particles.spacing", value, false, NULL);
     return c->growth;
 }
 
@@ -163,8 +166,14 @@ static void cost_run(struct cost *c, const struct engine *e, const struct run_ar
 {
     const double first = c->step * (double)e->clock.steps;
     double loop = NAN;
-    if (first < PATIENCE * SECONDS_WHOLE) loop = try_other(a, NULL, NULL, true);
+    struct warnings found = {0};
+    if (first < PATIENCE * SECONDS_WHOLE) loop = try_other(a, NULL, NULL, true, &found);
     c->basis = COST_TRIED;
+    if (!isnan(loop)) { /* those of the first steps are among them, perhaps at a time that differs in its last digits */
+        warnings_free(&c->found);
+        warnings_join(&c->found, &found, 0);
+    }
+    warnings_free(&found);
     if (isnan(loop)) {
         const double growth = growth_of(c, e, a, first);
         c->basis = isnan(growth) ? COST_FIRST : COST_SCALED;
@@ -200,7 +209,7 @@ static void cost_peridynamic(struct cost *c, const struct engine *e, const struc
     const double n = (double)e->part.n_body, bonds = n * family_size(&e->source.family);
     double loop = NAN;
     if (s->method != METHOD_ADAPTIVE) return;
-    if (bonds < BONDS_MOST) loop = try_other(a, "method", "pd", false);
+    if (bonds < BONDS_MOST) loop = try_other(a, "method", "pd", false, NULL);
     else if (e->part.n < e->part.n_body)
         loop = n * (double)e->clock.steps * step_peridynamic(a, s->spacing * pow(bonds / BONDS_TRIED, 1.0 / s->dim));
     c->all_peridynamic = c->make + loop + c->output;
@@ -214,10 +223,14 @@ static double output_bytes(const struct engine *e)
 
 status cost_measure(struct cost *c, struct engine *e, const struct run_arguments *a)
 {
+    const int known = e->report.warnings.n;
     c->all_peridynamic = NAN;
+    e->report.trial = true;
     if (scene_in_steps(e->scene)) {
         c->output = output_seconds(e) + FILE_SECONDS * e->scene->steps.number; /* a checkpoint after each load step */
-        TRY(cost_load_steps(c, e));
+        const status result = cost_load_steps(c, e);
+        warnings_join(&c->found, &e->report.warnings, known);
+        TRY(result);
         c->bytes = (double)memory_peak() + output_bytes(e);
         return OK;
     }
@@ -227,7 +240,9 @@ status cost_measure(struct cost *c, struct engine *e, const struct run_arguments
         c->bytes = (double)memory_peak() + output_bytes(e);
         return OK;
     }
-    TRY(time_steps(e, &c->step));
+    const status result = time_steps(e, &c->step);
+    warnings_join(&c->found, &e->report.warnings, known);
+    TRY(result);
     c->contact = time_contact(e) / c->step;
     c->bytes = (double)memory_peak() + output_bytes(e);
     c->output = output_seconds(e);

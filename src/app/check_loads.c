@@ -57,11 +57,12 @@ static real square_sum(const struct load *l, const struct particles *p, vector_f
 static real largest_at(const struct load *l, const struct particles *p, vector_fn *vector, real duration)
 {
     const struct time_function *f = &l->boundary->time;
-    real best = duration, most = square_sum(l, p, vector, duration) * (1 + NOTHING);
+    const real last = square_sum(l, p, vector, duration) * (1 + NOTHING);
+    real best = duration, most = isfinite(last) ? last : -1;
     for (int k = 0; k < MOMENTS + f->n; k++) {
         const real t = k < MOMENTS ? duration * k / MOMENTS : f->t[k - MOMENTS];
         const real now = t >= 0 && t < duration ? square_sum(l, p, vector, t) : 0;
-        if (now > most) best = t, most = now;
+        if (now > most && isfinite(now)) best = t, most = now;
     }
     return best;
 }
@@ -210,6 +211,10 @@ static void say_force(const struct engine *e, const struct load *l)
     const int dim = e->part.dim;
     const struct instant at = instant_of(l, &e->part, e->scene->duration);
     const struct resultant r = resultant_at(l, &e->part, at.t);
+    if (!isfinite(dot(r.force, r.force, DIM_MAX) + dot(r.moment, r.moment, DIM_MAX))) {
+        printf("; its force has no finite value at %.4g s", at.t);
+        return;
+    }
     printf("; force ");
     say_vector(r.force, dim);
     printf(" N");
@@ -244,8 +249,11 @@ static void say_mean_displacement(const struct engine *e, const struct load *l, 
         load_displacement_at(l, &e->part, k, t, u);
         for (int d = 0; d < e->part.dim; d++) mean[d] += u[d] / (real)l->n;
     }
-    if (isfinite(mean[0] + mean[1] + mean[2])) say_vector(mean, e->part.dim);
-    else printf("what is no number of");
+    if (!isfinite(mean[0] + mean[1] + mean[2])) {
+        printf("no finite value");
+        return;
+    }
+    say_vector(mean, e->part.dim);
     printf(" m%s", drives_by_place(l->boundary) ? " in the mean" : "");
 }
 
@@ -262,7 +270,8 @@ static void say_displacement(const struct engine *e, const struct load *l)
     }
     say_mean_displacement(e, l, end);
     printf(" at the end");
-    if (explicit) printf(", at most %.3g m/s", load_displacing_speed(l, &e->part, e->scene->duration));
+    const real speed = explicit ? load_displacing_speed(l, &e->part, e->scene->duration) : INFINITY;
+    if (isfinite(speed)) printf(", at most %.3g m/s", speed);
 }
 
 static void say_load(const struct engine *e, int which)

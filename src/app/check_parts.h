@@ -27,6 +27,7 @@ struct cost {
     double coarser, growth;              /* SCALED: factor on the spacing; all steps over first ones [1] */
     double all_peridynamic;              /* a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
     double bytes;                        /* peak memory of a run without conversion [byte] */
+    struct warnings found;               /* by the trial steps of this scene, of all of them if they were taken */
 };
 
 /* Takes steps and times them, with the current team; the engine cannot be used afterwards. `a`: the arguments of its

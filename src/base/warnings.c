@@ -25,6 +25,11 @@ bool warnings_add(struct warnings *w, const char *format, ...)
     return true;
 }
 
+void warnings_join(struct warnings *w, const struct warnings *from, int first)
+{
+    for (int k = first; k < from->n; k++) warnings_add(w, "%s", from->text[k]);
+}
+
 void warnings_print(const struct warnings *w, int first, FILE *out)
 {
     for (int k = first; k < w->n; k++) fprintf(out, "warning: %s\n", w->text[k]);

@@ -353,6 +353,6 @@ void engine_warn(struct engine *e)
 
 void engine_say(struct engine *e, const char *text)
 {
-    if (warnings_add(&e->report.warnings, "%s", text))
+    if (warnings_add(&e->report.warnings, "%s", text) && !e->report.trial)
         warnings_print(&e->report.warnings, e->report.warnings.n - 1, stderr);
 }

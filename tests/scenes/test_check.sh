@@ -93,7 +93,9 @@ amounts 'load           b: traction on x+, 20 particles, 20 m^2; force (40, 0) N
 amounts 'support        d: x driven on x-, 10 particles; by (-0.002, 0) m when it is largest, at 0.0003 s, by (0.001, 0) m at the end, at most 6.67 m/s'
 holds "formula" grep -q '^support  *f: .*; by (-0.002, 0) m when it is largest, at 0.000665 s, by (-0.001414, 0) m at the end' "$work/said"
 says "formula without value" 'boundary b: its formula has no finite value at ([^)]*) m, 0.00051 s: a step at that time would stop the run' "$work/disc.yaml" \
-    -s 'boundary=[{traction: ["2 Pa*sqrt(1-t/(0.5 ms))", 0], face: x+, name: b}]'
+    -s 'body={box: {from: [0, 0], to: [20, 20]}}' -s 'boundary=[{traction: ["2 Pa*sqrt(1-t/(0.5 ms))", 0], face: x+, name: b}]'
+holds "formula without value at the end: the largest force" grep -q '; force (40, 0) N, .* when it is largest, at 0 s$' "$work/said"
+holds "no figure that is none" sh -c "! grep -qE '(nan|inf)[,) ]' '$work/said'"
 # Points of the current frame share no nodes beyond twice their distance: a body of 20 that is pulled by 40, and back.
 says "pulled apart on the way" 'pulled to 3[.0-9]* times its length' "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}' \
     -s mpm.frame=current -s duration=1s -s 'boundary=[{displacement: ["40 m*sin(pi*t/(1 s))", free], face: x+, depth: 1}, {fixed: [x], face: x-, depth: 1}]'
@@ -353,5 +355,21 @@ warned "a published coupling" 'coupling pgg .* no energy' inputs/plate_crack.yam
 silent "one that is not used" 'no energy' plate_crack -s coupling=pgg -s method=pd
 "$cleave" run "$two" -q -o "$work/warned" $apart
 is "nothing to warn of: an empty list" "$(grep -c '"warnings": \[\]' "$work/warned/summary.json")" 1
+# A grip that tears off in the trial steps, of which some are taken twice, is one warning.
+cat >"$work/grip.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 0.4 ms
+method: pd
+material: {young: 1 GPa, density: 2000, critical_stretch: 1 %}
+body: {box: {from: [0, 0], to: [10 mm, 10 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {name: top, displacement: [free, 0.4 mm], face: y+, depth: 1 mm, time: {ramp: {until: 1 ms}}}
+  - {name: foot, fixed: [x, y], face: y-, depth: 1 mm}
+output: {frames: 2, samples: 40}
+END
+costs "a grip tears off on trial" '^warning: boundary foot: bonds of the particles that it drives break' "$work/grip.yaml"
+is "a grip tears off on trial: said once" "$(cat "$work/said" "$work/err" | grep -c 'bonds of the particles that it drives')" 1
 
 finish
