@@ -26,10 +26,13 @@ struct surface_weights {
     uint8_t *mirrors;                    /* [n] in which it looks like its class: a bit for each axis */
     real *factor;                        /* [classes offsets] on the weight of a bond [1] */
     real *weighted;                      /* [classes] sum w r^2 of the family, of reference particles [m^2] */
+    int64_t apart[2];                    /* where REFUSED: a particle, and the first neighbour or image of one that is
+                                            not whole spacings away */
 };
 
-/* Finds them for particles of a lattice (REFUSED: they stand on none). Models with rotations (`rotates`) have another
- * alpha: their neighbours' rotations differ where strain is not uniform, and that takes energy of its own. */
+/* Finds them for particles of a lattice (REFUSED: they are on none, as to->apart shows). Models with rotations
+ * (`rotates`) have another alpha: their neighbours' rotations differ where strain is not uniform, and that takes energy
+ * of its own. */
 status surface_make(struct surface_weights *to, const struct particles *p, const struct bond_source *s, bool rotates);
 void surface_free(struct surface_weights *w);
 

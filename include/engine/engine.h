@@ -442,6 +442,8 @@ int engine_rigid_columns(const struct engine *e, struct column *column);   /* co
 void engine_rigid_keep(struct engine *e);
 void engine_rigid_mean(struct engine *e);
 void engine_rigid_kick(struct engine *e);
+/* Makes the weights of bonds near faces. REFUSED where particles are on no lattice (engine_surface.c). */
+status engine_surface_make(struct engine *e);
 /* REFUSED where bodies that the scene joins are apart (engine_joined.c). */
 status engine_joined_check(const struct engine *e);
 /* What they cannot do (engine_rigid_check.c): REFUSED before the start; FAILED where one moves too far in a step; said

@@ -29,7 +29,7 @@ status surface_make(struct surface_weights *to, const struct particles *p, const
     struct near_faces b;
     struct faces f;
     struct alike a;
-    TRY(near_faces_make(&b, p, s));
+    TRY(near_faces_make(&b, p, s, to->apart));
     faces_make(&f, &b, rotates);
     alike_make(&a, &b);
     real *factor = NEW("surface.factors", a.groups, real);

@@ -192,7 +192,24 @@ static bool near_list(struct near_faces *b, const struct site_map *map)
     return lattice;
 }
 
-status near_faces_make(struct near_faces *b, const struct particles *p, const struct bond_source *s)
+/* Finds the first particle with a neighbour, not beyond a pre-crack, that is not whole spacings away, and that. */
+static void apart_find(const struct near_faces *b, const struct site_map *map, int64_t apart[2])
+{
+    const struct bond_source *s = b->source;
+    const int room = bonds_room(s);
+    int32_t *found = NEW("surface.found", room, int32_t);
+    apart[0] = apart[1] = -1;
+    for (int64_t i = 0; i < b->p->n && apart[0] < 0; i++) {
+        const int n = family_of(map, s, b->p, (int32_t)i, found, room);
+        for (int k = 0; k < n && apart[0] < 0; k++)
+            if (offset_between(&b->offset, b->p, s->family.spacing, i, found[k]) < 0 &&
+                !(cracks_near(s, b->p, i) && cracks_part(s->crack, s->cracks, b->p, i, found[k])))
+                apart[0] = i, apart[1] = found[k];
+    }
+    memory_free(found);
+}
+
+status near_faces_make(struct near_faces *b, const struct particles *p, const struct bond_source *s, int64_t apart[2])
 {
     struct site_map map = {0};
     *b = (struct near_faces){.p = p, .source = s};
@@ -200,10 +217,11 @@ status near_faces_make(struct near_faces *b, const struct particles *p, const st
     b->whole = NEW("surface.whole", p->n, uint8_t);
     site_map_make(&map, s, p);
     const bool lattice = whole_mark(b, &map) && near_list(b, &map);
+    if (!lattice) apart_find(b, &map, apart);
     site_map_free(&map);
     if (lattice) return OK;
     near_faces_free(b);
-    return status_set(REFUSED, "pd.surface moments wants particles on a lattice; volume or none is expected");
+    return status_set(REFUSED, "pd.surface: moments requires particles on a lattice; volume or none is expected");
 }
 
 void near_faces_free(struct near_faces *b)

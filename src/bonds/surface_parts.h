@@ -46,8 +46,8 @@ static inline bool is_whole(const struct near_faces *b, int64_t j)
 /* The same bond in the row of its other end: number of the offset there. */
 int twin_offset(const struct near_faces *b, const struct seen *to, int k);
 
-/* REFUSED: not on a lattice. */
-status near_faces_make(struct near_faces *b, const struct particles *p, const struct bond_source *s);
+/* REFUSED: not on a lattice; apart: the first particle with a neighbour that is not whole spacings away, and that. */
+status near_faces_make(struct near_faces *b, const struct particles *p, const struct bond_source *s, int64_t apart[2]);
 void near_faces_free(struct near_faces *b);
 
 /* What faces ask of the particles near them. */

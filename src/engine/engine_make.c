@@ -138,10 +138,7 @@ static status make_bonds(struct engine *e, struct predecessor *before)
         bonds_neighbour_volume(e->tables.neighbour_volume, &e->part, &e->source);
         e->source.neighbour_volume = e->tables.neighbour_volume;
     }
-    if (s->surface == SURFACE_MOMENTS && has_peridynamics(s)) {
-        TRY(surface_make(&e->tables.surface, &e->part, &e->source, e->source.rotates));
-        e->source.surface = &e->tables.surface;
-    }
+    if (s->surface == SURFACE_MOMENTS && has_peridynamics(s)) TRY(engine_surface_make(e));
     if (s->method == METHOD_ADAPTIVE) TRY(engine_notch_convert(e));
     if (before) engine_take_particles(e, before);    /* slits are those of the start, whatever has converted since */
     bonds_make(&e->bonds, NULL, &e->part, &e->source);

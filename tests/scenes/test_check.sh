@@ -355,6 +355,31 @@ warned "a published coupling" 'coupling pgg .* no energy' inputs/plate_crack.yam
 silent "one that is not used" 'no energy' plate_crack -s coupling=pgg -s method=pd
 "$cleave" run "$two" -q -o "$work/warned" $apart
 is "nothing to warn of: an empty list" "$(grep -c '"warnings": \[\]' "$work/warned/summary.json")" 1
+# Weights of bonds near faces require one lattice, beyond mirrors and interfaces, too: a refusal names where it ends.
+# refused WHAT PATTERN SCENE [ARGUMENT...]: check refuses the scene with a line that holds the pattern.
+refused() { what=$1 pattern=$2; shift 2; "$cleave" check "$@" --no-trial >/dev/null 2>"$work/err"; holds "$what: $(cat "$work/err")" grep -qF "$pattern" "$work/err"; }
+cat >"$work/rows.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 1 us
+method: pd
+material: {young: 70 GPa, density: 2700}
+bodies:
+  - {name: ring, shape: {ring: {centre: [0, 0], radius: 15 mm, inner: 7.3 mm}}}
+  - {name: core, shape: {disc: {centre: [0, 0], radius: 7.3 mm}}}
+interfaces: [{bodies: [ring, core]}]
+particles: {spacing: 1 mm}
+output: {frames: 0, samples: 1}
+END
+rows=$work/rows.yaml
+refused "two lattices at an interface" 'bodies ring and core are joined, but not on one lattice: their particles at (' "$rows"
+refused "two lattices: how far off" ') m are (1.5, 2.5) spacings apart; whole numbers (sizes and places of both in whole spacings), or pd.surface volume, are' "$rows"
+says "one lattice at an interface" 'is sound' "$rows" -s bodies.ring.shape.ring.inner=8mm -s bodies.core.shape.disc.radius=8mm
+says "two lattices, which surface volume takes" 'is sound' "$rows" -s pd.surface=volume
+refused "rows beside a mirror" 'body body: its lattice does not go on beyond the mirror of boundary half at y = 0 m: its first row is 0.25 spacings from it; 0.5 (' \
+    "$rows" -s bodies= -s interfaces= -s 'boundary=[{name: half, mirror: {axis: y, at: 0}}]' -s 'body={box: {from: [0, 0], to: [40 mm, 3.5 mm]}}'
+says "rows that fit a mirror" 'is sound' \
+    "$rows" -s bodies= -s interfaces= -s 'boundary=[{name: half, mirror: {axis: y, at: 0}}]' -s 'body={box: {from: [0, 0], to: [40 mm, 3 mm]}}'
 # A grip that tears off in the trial steps, of which some are taken twice, is one warning.
 cat >"$work/grip.yaml" <<'END'
 space: plane stress

@@ -122,7 +122,8 @@ static void plain_make(struct plain *s, const struct cloud_plan *plan)
     cloud_make(&s->cloud, plan);
     cloud_exact(&s->cloud);
     cloud_source(&s->cloud);
-    assert_int_equal(near_faces_make(&s->body, &s->cloud.p, &s->cloud.source), OK);
+    int64_t apart[2];
+    assert_int_equal(near_faces_make(&s->body, &s->cloud.p, &s->cloud.source, apart), OK);
     faces_make(&s->faces, &s->body, false);
     const struct offsets *o = &s->body.offset;
     real third[DIM_MAX][DIM_MAX][DIM_MAX] = {{{0}}}, bonds = 0, squared = 0;
