@@ -178,6 +178,7 @@ struct run_report {
     double checkpoint_seconds;           /* of the longest checkpoint so far */
     int64_t step_started;                /* first step of this process */
     struct warnings warnings;            /* what engine_warn and the run found */
+    bool yield_said;                     /* bonds have yielded, and it was said how they do */
     bool trial;                          /* steps are taken on trial: warnings are stored, not printed */
     struct particles more;               /* points of coarse cells in the last frame, and their spacings [m] */
     real *more_spacing;
@@ -426,6 +427,10 @@ void engine_warn(struct engine *e);
 void engine_warn_of_lone(const struct engine *e, struct warnings *to);
 /* Warnings of loads whose speed breaks bonds beside what they drive (engine_warn_speed.c). */
 void engine_warn_of_speed(const struct engine *e, struct warnings *to);
+/* Warns how bonds of materials that yield differ from von Mises' law. */
+void engine_warn_of_yielding(const struct scene *s, struct warnings *to);
+/* The same warning of a running run, once bonds have yielded. */
+void engine_say_yielding(struct engine *e);
 /* A warning of a running run: into e->report.warnings and, the first time, unless on trial, on standard error. */
 void engine_say(struct engine *e, const char *text);
 /* Rigid bodies (engine_rigid.c): made at the start; their forces booked after those of contact; their motion; kinetic

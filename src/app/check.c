@@ -229,6 +229,7 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
         say_time_step(&e);
         say_contact(&e);
         engine_warn(&e);
+        engine_warn_of_yielding(e.scene, &e.report.warnings);
         warnings_print(&e.report.warnings, 0, stdout);
         advise(&e, stdout);
         if (trial) result = check_cost(&e, a, threads, start);

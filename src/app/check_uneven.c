@@ -108,22 +108,40 @@ static int64_t rows_at(const struct piece *p, int axis, real low, real high, rea
     return (int64_t)(last - first) + 1;
 }
 
+/* A unit of length. */
+struct length_unit { real size; const char *name; };
+
+/* The largest unit in which a spacing is not below 0.1. */
+static struct length_unit unit_for(real spacing)
+{
+    static const struct length_unit unit[] = {{1, "m"}, {1e-3, "mm"}, {1e-6, "um"}, {1e-9, "nm"}};
+    size_t k = 0;
+    while (k + 1 < COUNT_OF(unit) && spacing < 0.0999 * unit[k].size) k++;
+    return unit[k];
+}
+
 /* Prints the nearest smaller and larger spacing that divide a width and whose lattice has that many rows in it, cut to
- * six digits. */
+ * six digits; where the present one divides it, what makes it fit. */
 static void say_spacings(const struct uneven *u, const struct piece *p, FILE *out)
 {
+    const struct length_unit unit = unit_for(p->scene->spacing);
+    const real cells = u->width / p->scene->spacing, more = ceil(cells * (1 - 1e-3));
     real low, high;
-    const real more = ceil(u->width / p->scene->spacing * (1 - 1e-3));
     int said = 0;
+    if (fabs(cells - nearbyint(cells)) < 1e-3 * cells) {
+        fprintf(out, "; particles.spacing divides it, but its faces lie beside the lattice of the body's first solid: "
+                     "moved by half a spacing they would not\n");
+        return;
+    }
     width_ends(p, u, &low, &high);
     for (int side = 0; side < 2; side++)
         for (int k = 0; k < TRIED; k++) {
             const real rows = side == 0 ? more + k : more - 1 - k;
             if (rows < 1) break;
             char text[32];
-            snprintf(text, sizeof text, "%.6g", u->width / rows * (1 - 5e-7));
-            if (rows_at(p, u->axis, low, high, strtod(text, NULL)) != (int64_t)rows) continue;
-            fprintf(out, "%s%s m", said++ ? " or " : "; particles.spacing ", text);
+            snprintf(text, sizeof text, "%.6g", u->width / rows / unit.size * (1 - 5e-7));
+            if (rows_at(p, u->axis, low, high, strtod(text, NULL) * unit.size) != (int64_t)rows) continue;
+            fprintf(out, "%s%s %s", said++ ? " or " : "; particles.spacing ", text, unit.name);
             break;
         }
     fprintf(out, said ? " divides it\n" : "; a smaller particles.spacing is closer\n");

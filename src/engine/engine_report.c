@@ -250,6 +250,7 @@ status engine_report(struct engine *e)
     TRY(e->report.history_status);
     TRY(engine_energy_check(e));
     if (e->clock.step == e->clock.steps) engine_say_balance(e);
+    if (e->clock.step == e->clock.steps || scene_in_steps(e->scene)) engine_say_yielding(e);
     if (e->report.out) {
         const unsigned due = frames_due(e, e->clock.step);
         if (due) TRY(write_frames(e, due));

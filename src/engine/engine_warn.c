@@ -117,7 +117,7 @@ static const struct {
                   [SPACE_PLANE_STRAIN] = {"plate in plane strain", 1.30, 1.76, 0.20},
                   [SPACE_SOLID] = {"solid", 1.83, 2.21, 0.14}};
 
-static void warn_of_yielding_bonds(const struct scene *s, struct warnings *to)
+void engine_warn_of_yielding(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->materials && s->method != METHOD_MPM && s->dim > 1; m++)
         if (material_yields(&s->material[m]))
@@ -338,7 +338,6 @@ void engine_warn(struct engine *e)
     warn_of_spin(e, to);
     warn_of_idle_keys(e, to);
     warn_of_materials(e->scene, &e->tables, to);
-    warn_of_yielding_bonds(e->scene, to);
     warn_of_lists(e->scene, to);
     warn_of_probes(e->scene, to);
     engine_warn_of_lone(e, to);
@@ -349,6 +348,18 @@ void engine_warn(struct engine *e)
     warn_of_contact(e->scene, &e->reference, &e->coupling, to);
     warn_of_touch(e, to);
     engine_voids_warn(e, to);
+}
+
+void engine_say_yielding(struct engine *e)
+{
+    bool yields = false;
+    if (e->report.yield_said || !e->bonds.plastic_path) return;
+    for (int64_t row = 0; row < e->bonds.rows && !yields; row++) yields = bond_row_plastic_path(&e->bonds, row) > 0;
+    if (!yields) return;
+    const int known = e->report.warnings.n;
+    e->report.yield_said = true;
+    engine_warn_of_yielding(e->scene, &e->report.warnings);
+    if (!e->report.trial) warnings_print(&e->report.warnings, known, stderr);
 }
 
 void engine_say(struct engine *e, const char *text)

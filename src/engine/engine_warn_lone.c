@@ -1,5 +1,6 @@
 /* Warnings of particles that nothing joins to others: they feel no force and fly away, or leave an equilibrium
  * without a solution. */
+#include <math.h>
 #include <stdio.h>
 
 #include "base/memory.h"
@@ -55,11 +56,75 @@ static void lone_count(const struct engine *e, struct lone *lone)
     memory_free(near.at);
 }
 
+/* ---- lists without volumes --------------------------------------------------------------------------------------- */
+
+enum { SAMPLED = 128 };      /* particles of a list that are looked at */
+#define APART_MOST 1.25      /* [spacings] median distance of nearest neighbours; close packings have 1.12 */
+#define CROWDED_MOST 1.6     /* times the particles that a lattice has within NEAR */
+#define NEAR 2.5             /* [spacings] */
+
+static int apart_order(const void *a, const void *b)
+{
+    const real x = *(const real *)a, y = *(const real *)b;
+    return (x > y) - (x < y);
+}
+
+/* Median of n numbers, which are sorted. */
+static real median_sorted(real *a, int n)
+{
+    array_sort(a, n, sizeof *a, apart_order);
+    return a[n / 2];
+}
+
+/* Sets the distance of the nearest neighbour of a particle, INFINITY if there is none within NEAR, and the number of
+ * those within. */
+static void surroundings(const struct engine *e, struct near *near, int64_t i, real *apart, real *count)
+{
+    const struct particles *p = &e->part;
+    real least2 = INFINITY;
+    near_find(near, &e->cells, p, i, NEAR * e->scene->spacing, false);
+    for (int k = 0; k < near->n; k++) {
+        real distance2 = 0;
+        for (int d = 0; d < p->dim; d++) distance2 += square(p->X[d][near->at[k]] - p->X[d][i]);
+        least2 = real_min(least2, distance2);
+    }
+    *apart = sqrt(least2), *count = near->n + 1;
+}
+
+/* Warns of a list without volumes, which have that of the spacing, whose particles are farther apart or denser. */
+static void warn_of_list_spacing(const struct engine *e, int body, struct warnings *to)
+{
+    static const real ball[] = {0, 2 * NEAR, 3.14159 * NEAR * NEAR, 4.18879 * NEAR * NEAR * NEAR};
+    const struct particles *p = &e->part;
+    const struct scene_body *b = &e->scene->body[body];
+    const real spacing = e->scene->spacing;
+    real apart[SAMPLED], count[SAMPLED];
+    struct near near = {0};
+    int64_t own = 0;
+    int n = 0;
+    for (int64_t i = 0; i < p->n; i++) own += p->body[i] == b->joined;
+    for (int64_t i = 0, k = 0; i < p->n && n < SAMPLED; i++)
+        if (p->body[i] == b->joined && k++ % (own / SAMPLED + 1) == 0)
+            surroundings(e, &near, i, &apart[n], &count[n]), n++;
+    memory_free(near.at);
+    if (own <= MASS_POINTS) return;
+    const real distance = median_sorted(apart, n), share = median_sorted(count, n) / ball[p->dim];
+    if (share > CROWDED_MOST || (isfinite(distance) && distance > APART_MOST * spacing))
+        warnings_add(to,
+                     "%.200s has no volumes: each particle has that of the spacing of %.4g m, and nearest neighbours "
+                     "are %.4g m apart, so that masses and forces are those of another body; particles.spacing "
+                     "%.4g m, or a column volume, is expected",
+                     b->file, spacing, distance, distance);
+}
+
 void engine_warn_of_lone(const struct engine *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
     struct lone *lone = NEW("warn.lone", s->bodies, struct lone);
     lone_count(e, lone);
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].file && !s->body[b].list.volumes && s->body[b].joined == b && s->spacing > 0)
+            warn_of_list_spacing(e, b, to);
     for (int b = 0; b < s->bodies; b++) {
         real X[DIM_MAX] = {0};
         char place[96] = "";

@@ -165,11 +165,15 @@ ribs()
     what=$1 width=$2 axis=$3 off=$4; shift 4
     says "$what" "^unresolved: body body: a part $width m wide along $axis, at .* its sections are .* divides it" "$frame" "$@"
     between "$what" "$(sed -n "s/.* a part $width m .* sections are \([0-9.]*\) %.*/\1/p" "$work/said")" "$(compute "$off - 1")" "$(compute "$off + 1")"
-    for spacing in $(sed -n "s/.* a part $width m .*particles.spacing \([0-9.]*\) m or \([0-9.]*\) m divides it/\1 \2/p" "$work/said"); do
-        silent "$what at $spacing m" "a part $width m" "$frame" "$@" -s particles.spacing="$spacing"
+    for spacing in $(sed -n "s/.* a part $width m .*particles.spacing \([0-9.]*\) mm or \([0-9.]*\) mm divides it/\1 \2/p" "$work/said"); do
+        silent "$what at $spacing mm" "a part $width m" "$frame" "$@" -s particles.spacing="${spacing}mm"
     done
 }
 ribs "ribs of a frame" 0.0025 y 20
+says "a strip half a spacing beside the lattice" 'a part 0.003 m wide .*: its sections are 33.* % too large; particles.spacing divides it, but its faces' "$frame" \
+    -s 'body=[{box: {from: [0, 0], to: [40 mm, 20 mm]}}, {box: {from: [40 mm, 8.5 mm], to: [60 mm, 11.5 mm]}}]'
+silent "a strip on the lattice" 'a part 0.003 m wide' "$frame" \
+    -s 'body=[{box: {from: [0, 0], to: [40 mm, 20 mm]}}, {box: {from: [40 mm, 8 mm], to: [60 mm, 11 mm]}}]'
 ribs "a web on a flange" 0.0026 x 15.4 -s 'body=[{box: {from: [0, 0], to: [60 mm, 20 mm]}}, {box: {from: [20 mm, 20 mm], to: [22.6 mm, 40 mm]}}]'
 ribs "a plate" 0.0033 z 9.1 $solid -s 'body={box: {from: [0, 0, 0], to: [60 mm, 20 mm, 3.3 mm]}}'
 ribs "an extruded strip" 0.0033 y 9.1 $solid -s 'body={extrude: {shape: {polygon: {corners: [[0, 0], [20 mm, 0], [20 mm, 3.3 mm], [0, 3.3 mm]]}},
@@ -229,6 +233,8 @@ says "plates of bonds that yield" "warning: material material: bonds yield one b
 near "a plate of bonds that yield" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^reaction.force_x/) c = k; next }
     { f = $c < 0 ? -$c : $c } END { print f / 12e-6 / 300e6 }' "$work/yield/history.csv")" "$(compute "$1 + 0.04 / 2")" 0.04
 holds "the run says it" grep -q 'bonds yield one by one' "$work/yield/summary.json"
+"$cleave" run "$yield" -q -o "$work/elastic" -s 'boundary.0.displacement=[0.002 mm, free]' >/dev/null 2>&1
+holds "a run in which no bond yields does not" grep -q '"warnings": \[\]' "$work/elastic/summary.json"
 says "points that convert to bonds that yield" 'bonds, which points convert to, yield one by one' "$yield" -s method=adaptive -s steps= \
     -s solver=explicit -s duration=1us -s 'boundary.0.time={ramp: {until: 1 us}}' -s material.critical_stretch=0.2
 set -- $(limit 1)
@@ -236,6 +242,19 @@ says "solids of bonds that yield" "a solid of them bears about $(printf %.2f "$1
     -s solver=explicit -s duration=1us
 silent "points that yield" 'one by one' "$yield" -s method=mpm
 silent "a bar of bonds that yield" "one by one" inputs/bar_plastic.yaml -s method=pd
+# ---- lists without volumes ---------------------------------------------------------------------------------------------
+
+# 20 x 10 particles of a list without volumes, which have that of the spacing.
+awk 'BEGIN { print "x [mm], y [mm]"; for (i = 0; i < 20; i++) for (j = 0; j < 10; j++) print 2 * i ", " 2 * j }' >"$work/lone.csv"
+apart='lone.csv has no volumes: each particle has that of the spacing of 0.001 m, and nearest neighbours are 0.002 m apart.*particles.spacing 0.002 m,'
+says "a list wider than its spacing" "warning: .*$apart" "$work/lone.yaml"
+says "a list denser than its spacing" 'the spacing of 0.004 m, and nearest neighbours are 0.002 m apart' "$work/lone.yaml" -s particles.spacing=4mm
+silent "a list at its spacing" 'apart, so that' "$work/lone.yaml" -s particles.spacing=2mm
+"$cleave" run "$work/lone.yaml" -q -o "$work/wide" >/dev/null 2>"$work/said"
+holds "the run says it: $(cat "$work/said")" grep -q "$apart" "$work/said"
+awk -F, 'NR == 1 { print $0 ", volume [mm^3]"; next } { print $0 ", 4" }' "$work/lone.csv" >"$work/wide.csv"
+silent "a wide list with volumes" 'apart, so that' "$work/lone.yaml" -s bodies.p.particles=wide.csv
+
 # ---- speeds ------------------------------------------------------------------------------------------------------------
 
 # Bonds break at 5.4 m/s; a wave crosses the body in 2.1 us. What nothing holds follows a velocity that grows to 20 m/s in 1 ms, but not
