@@ -96,8 +96,9 @@ static void advise_features(const struct engine *e, FILE *out)
         if (!isfinite(layers)) continue;
         fprintf(out,
                 "unresolved: body %s: a part of %.4g m is %.2g horizons (%.3g spacings); below %d horizons most of "
-                "it feels cut-off families: spacing %.2g m would do",
-                s->body[b].name, size, size / horizon_of(s), layers, FEATURE, size / (FEATURE * s->horizon));
+                "it feels cut-off families: spacing %s would do",
+                s->body[b].name, size, size / horizon_of(s), layers, FEATURE,
+                length_in_words(size / (FEATURE * s->horizon), 2, s->spacing).text);
         if (s->method == METHOD_PD) advise_thin(s, layers, out);
         fprintf(out, "\n");
     }
@@ -195,14 +196,16 @@ static void advise_waves(const struct engine *e, FILE *out)
         if (s->boundary[b].kind != BOUNDARY_MIRROR && length < WAVE)
             fprintf(
                 out,
-                "unresolved: boundary %s changes within %.3g spacings of wave: below %d waves disperse; spacing %.2g m "
+                "unresolved: boundary %s changes within %.3g spacings of wave: below %d waves disperse; spacing %s "
                 "or a slower load\n",
-                s->boundary[b].name, length, WAVE, s->spacing * length / WAVE);
+                s->boundary[b].name, length, WAVE,
+                length_in_words(s->spacing * length / WAVE, 2, s->spacing).text);
     }
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_pulse && s->initial[k].pulse.width < WAVE * s->spacing)
-            fprintf(out, "unresolved: an initial pulse is %.3g spacings wide: below %d it disperses; spacing %.2g m\n",
-                    s->initial[k].pulse.width / s->spacing, WAVE, s->initial[k].pulse.width / WAVE);
+            fprintf(out, "unresolved: an initial pulse is %.3g spacings wide: below %d it disperses; spacing %s\n",
+                    s->initial[k].pulse.width / s->spacing, WAVE,
+                    length_in_words(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
 }
 
 /* Coarse cells that the scene gives and that do not carry its loads. */

@@ -76,6 +76,9 @@ void advise_units(const struct engine *e, FILE *out);
 
 /* Writes a line for each narrow part whose sections hold too many or too few particles, and spacings that divide it. */
 void advise_sections(const struct engine *e, FILE *out);
+/* Writes a length to `digits` digits, in the largest unit in which the present spacing is not below 0.1. */
+struct length_text { char text[32]; };
+struct length_text length_in_words(real length, int digits, real spacing);
 
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
 

@@ -147,6 +147,14 @@ static void say_spacings(const struct uneven *u, const struct piece *p, FILE *ou
     fprintf(out, said ? " divides it\n" : "; a smaller particles.spacing is closer\n");
 }
 
+struct length_text length_in_words(real length, int digits, real spacing)
+{
+    const struct length_unit unit = unit_for(spacing);
+    struct length_text out;
+    snprintf(out.text, sizeof out.text, "%.*g %s", digits, length / unit.size, unit.name);
+    return out;
+}
+
 static void say_place(const real *at, int dim, FILE *out)
 {
     for (int d = 0; d < dim; d++) fprintf(out, "%s%.4g", d ? ", " : dim > 1 ? "(" : "", at[d]);

@@ -206,6 +206,7 @@ rollers() { sed "/name: $1/d" inputs/plate_pulse.yaml >"$work/rollers.yaml"; }
 silent "thin between mirrors" 'unresolved: body' plate_impact_3d
 rollers high
 says "thin beside a mirror" 'unresolved: body body: a part of 0.008 m is 2.7 horizons (8 spacings)' "$work/rollers.yaml"
+holds "a spacing is advised in the unit of the scene" grep -q 'feels cut-off families: spacing [0-9.]* mm would do' "$work/said"
 silent "thick beside a mirror" 'unresolved: body' "$work/rollers.yaml" -s "body={box: {from: [0, 0], to: [1024 mm, 8 mm]}}"
 silent "narrow hole" 'unresolved: body' plate_hole -s particles.spacing=2mm
 silent "wide hole" 'unresolved: body' plate_hole
