@@ -54,8 +54,8 @@ static status spin(const struct limits_row *r, double *to)
 }
 
 /* FLIP with points in groups (data/turning.h) 0.2 MPa, 1e-7 and 2e-6 at 10 m/s, where FLIP alone has 110 MPa, 1.5 and
- * 1.4 % and 1 GPa, 3.8 and 5 % at 100 m/s; APIC 0.1 MPa, 1e-6 and 2e-5; 10 MPa, 3e-5 and 0.25 %; bonds 1e-15 and 2e-4. In
- * the reference frame the body grows with its centrifugal stress. */
+ * 1.4 % and 1 GPa, 3.8 and 5 % at 100 m/s; APIC 0.1 MPa, 1e-6 and 2e-5; 10 MPa, 3e-5 and 0.25 %; bonds 1e-15 and 2e-4.
+ * In the reference frame the body grows with its centrifugal stress. */
 #define POINTS(shape, transfer) .set = {"method", "mpm", "mpm.shape", shape, "mpm.transfer", transfer}
 #define REFERENCE .set = {"method", "mpm", "mpm.frame", "reference"}
 static const struct limits_row spins[] = {

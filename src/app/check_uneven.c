@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "check_parts.h"
 #include "scene/fill.h"
 
 #define SAME_WIDTH 0.05 /* relative difference of widths that are counted together */
@@ -112,7 +113,7 @@ static int64_t rows_at(const struct piece *p, int axis, real low, real high, rea
 struct length_unit { real size; const char *name; };
 
 /* The largest unit in which a spacing is not below 0.1. */
-static struct length_unit unit_for(real spacing)
+static struct length_unit unit_of_spacing(real spacing)
 {
     static const struct length_unit unit[] = {{1, "m"}, {1e-3, "mm"}, {1e-6, "um"}, {1e-9, "nm"}};
     size_t k = 0;
@@ -124,7 +125,7 @@ static struct length_unit unit_for(real spacing)
  * six digits; where the present one divides it, what makes it fit. */
 static void say_spacings(const struct uneven *u, const struct piece *p, FILE *out)
 {
-    const struct length_unit unit = unit_for(p->scene->spacing);
+    const struct length_unit unit = unit_of_spacing(p->scene->spacing);
     const real cells = u->width / p->scene->spacing, more = ceil(cells * (1 - 1e-3));
     real low, high;
     int said = 0;
@@ -149,7 +150,7 @@ static void say_spacings(const struct uneven *u, const struct piece *p, FILE *ou
 
 struct length_text length_in_words(real length, int digits, real spacing)
 {
-    const struct length_unit unit = unit_for(spacing);
+    const struct length_unit unit = unit_of_spacing(spacing);
     struct length_text out;
     snprintf(out.text, sizeof out.text, "%.*g %s", digits, length / unit.size, unit.name);
     return out;
