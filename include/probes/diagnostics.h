@@ -25,6 +25,7 @@ struct energy_balance {
     real balance_error;                  /* (E - E_0 - work) / largest of |E|, |work| so far [1] */
     real momentum[DIM_MAX];              /* [kg m/s] */
     real momentum_error;                 /* |p - p_0 - impulse| / largest sum |m v|, most so far [1] */
+    real spin[DIM_MAX];                  /* L: angular momentum of free bodies about their centre [kg m^2/s] */
     real spin_error;                     /* |L - L_0| / largest sum |L| of free bodies, most so far; NAN: unknown [1] */
 };
 

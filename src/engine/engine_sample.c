@@ -27,6 +27,24 @@ static real inactive_since_sample(const struct run_clock *clock, struct run_repo
     return share;
 }
 
+/* Does nothing outside the deforming bodies act on them, and have all of them particles or nodes of one mesh? */
+static bool is_free(const struct engine *e)
+{
+    const struct scene *s = e->scene;
+    return s->dim > 1 && scene_moves(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
+           e->reference.levels.n == 0;
+}
+
+/* Columns of the angular momentum of free bodies, NULL: only counted. Returns how many. */
+static int spin_columns(const struct engine *e, struct column *column)
+{
+    static const char *const name[] = {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};
+    int n = 0;
+    for (int d = e->part.dim == 2 ? 2 : 0; d < 3 && is_free(e); d++, n++)
+        if (column) column[n] = (struct column){.unit = "kg m^2/s"}, strcpy(column[n].name, name[d]);
+    return n;
+}
+
 /* Fills one line of history.csv, the record [RECORD_FIXED + columns of probes]. */
 static void fill_record(struct engine *e)
 {
@@ -47,7 +65,10 @@ static void fill_record(struct engine *e)
     for (int c = 0; c < e->probing.probes.columns; c++) r[RECORD_FIXED + c] = e->probing.probes.value[c];
     r += RECORD_FIXED + e->probing.probes.columns;
     engine_rigid_record(e, r);
-    statics_record(e, r + engine_rigid_columns(e, NULL));
+    r += engine_rigid_columns(e, NULL);
+    statics_record(e, r);
+    r += statics_columns(e, NULL);
+    for (int c = 0; c < spin_columns(e, NULL); c++) r[c] = l->spin[e->part.dim == 2 ? 2 : c];
 }
 
 status engine_history_start(struct engine *e, bool resume)
@@ -55,7 +76,7 @@ status engine_history_start(struct engine *e, bool resume)
     struct run_report *report = &e->report;
     const struct probes *probes = &e->probing.probes;
     const int rigid = RECORD_FIXED + probes->columns, own = rigid + engine_rigid_columns(e, NULL);
-    const int columns = own + statics_columns(e, NULL);
+    const int spin = own + statics_columns(e, NULL), columns = spin + spin_columns(e, NULL);
     report->record = NEW("report.record", columns, real);
     if (!report->out) return OK;
     struct column *column = NEW("report.columns", columns, struct column);
@@ -63,6 +84,7 @@ status engine_history_start(struct engine *e, bool resume)
     for (int c = 0; c < probes->columns; c++) column[RECORD_FIXED + c] = probes->column[c];
     engine_rigid_columns(e, column + rigid);
     statics_columns(e, column + own);
+    spin_columns(e, column + spin);
     status s = output_history_open(report->out, column, columns, resume);
     memory_free(column);
     return s;
@@ -141,14 +163,6 @@ static void time_momentum(struct engine *e, const struct velocity_time *now)
     diagnostics_momentum_of(&e->part, nodes, grids, after);
     for (int d = 0; d < e->part.dim; d++)
         e->diagnostics.now.momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * after[d]);
-}
-
-/* Does nothing outside the deforming bodies act on them, and have all of them particles or nodes of one mesh? */
-static bool is_free(const struct engine *e)
-{
-    const struct scene *s = e->scene;
-    return s->dim > 1 && scene_moves(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
-           e->reference.levels.n == 0;
 }
 
 /* Samples all quantities but energies: stress, momentum, tips, probes. */

@@ -195,16 +195,21 @@ static void wall_add(struct grid *g, const struct driven_by *by, int64_t I, cons
     grid_add_wall(g, &(struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity, change, place, 0});
 }
 
-/* Adds walls at the nodes that have at least half of their mass from driven points. */
-static void driven_walls(struct loads *l, int which, struct grid *g, const struct driven_by *by)
+/* Adds walls at the nodes that have at least half of their mass from driven points, but for those that the load's
+ * region holds already: a second wall would count the inertia of the node as a reaction. */
+static void driven_walls(struct loads *l, int which, struct grid *g, const struct driven_by *by,
+                         const struct particles *p)
 {
-    const struct boundary *b = l->load[which].boundary;
+    const struct load *load = &l->load[which];
+    const bool region = !load->boundary->rotates && load_holds(load, g, p);
     for (int64_t I = 0; I < g->n; I++) {
         real x[DIM_MAX];
         if (l->share[I] <= 0 || l->share[I] < 0.5 * (1 - 1e-9) * g->mass[I]) continue;
         node_at(g, NULL, I, x);
         for (int d = 0; d < g->dim; d++)
-            if (b->components >> d & 1) wall_add(g, by, I, x, d, which, false);
+            if (load->boundary->components >> d & 1 &&
+                !(region && node_constrained(load, g, x, LOADS_TOLERANCE * l->spacing, d)))
+                wall_add(g, by, I, x, d, which, false);
     }
 }
 
@@ -241,7 +246,7 @@ void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, 
     constrained_walls(held, g, NULL, by, false);
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY && driven_share(l, &l->load[b], g, p, k, half_width) > 0)
-            driven_walls(l, b, g, &by[b]);
+            driven_walls(l, b, g, &by[b], p);
     loads_dashpots(l, g, p, k, half_width);
 }
 

@@ -77,6 +77,7 @@ void diagnostics_spin(struct diagnostics *w, const struct particles *p, const st
     const real size = diagnostics_spin_of(p, mesh, bodies, spin);
     for (int d = 0; d < DIM_MAX; d++) {
         if (!w->turns) w->spin_start[d] = spin[d];
+        w->now.spin[d] = spin[d];
         missing2 += square(spin[d] - w->spin_start[d]);
     }
     if (!w->turns) w->now.spin_error = 0;
