@@ -40,9 +40,10 @@ struct turning_groups {
     real *turn[3];                       /* [n] what a point lacks [kg m^2/s], then its group's spin [1/s]; 2D: last */
 };
 
-/* Groups of all particles, whether they are on the grid now or not. one: [bodies] the first body that is one with this
- * one; held: [bodies] supports hold it. */
-void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const int *one, const bool *held);
+/* Groups of all particles, whether they are on the grid now or not. middle: where groups are counted from [m]; one:
+ * [bodies] the first body that is one with this one; held: [bodies] supports hold it. */
+void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const real *middle,
+                  const int *one, const bool *held);
 void turning_free(struct turning_groups *t);
 
 /* Before a step on the grid: finds centres and inertias, and sets turn to the spin of each point's group. */

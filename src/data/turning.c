@@ -37,8 +37,7 @@ static int by_group(const void *a, const void *b)
     return order_of_places(p->place, p->body, q->place, q->body);
 }
 
-/* Group of a place u spacings from the middle of n rows: groups are counted from the middle, so that bodies that mirror
- * each other have groups that do. */
+/* Group of a place u spacings from the middle; odd: the middle is that of a group. */
 static int64_t group_place(real u, bool odd)
 {
     const real far = floor((fabs(u) + (odd ? (TURNING_EDGE - 1) / 2.0 : TURNING_EDGE)) / TURNING_EDGE);
@@ -46,15 +45,15 @@ static int64_t group_place(real u, bool odd)
 }
 
 /* The particles in the order of groups, and in these of places: those of bodies that are one may have any numbers. */
-static struct member *members_sorted(const struct particles *p, real spacing, const int *one)
+static struct member *members_sorted(const struct particles *p, real spacing, const real *middle, const int *one)
 {
     struct member *all = NEW("turning.sorted", p->n, struct member);
-    real middle[DIM_MAX] = {0};
-    bool odd[DIM_MAX] = {false};
+    bool odd[DIM_MAX] = {false};                     /* a row of particles lies on the middle */
     for (int d = 0; d < p->dim; d++) {
         real low, high;
         particles_extent(p, p->n, d, &low, &high);
-        middle[d] = 0.5 * (low + high), odd[d] = (int64_t)nearbyint((high - low) / spacing) % 2 == 0;
+        const real rows = (low - middle[d]) / spacing;
+        odd[d] = fabs(rows - nearbyint(rows)) < 0.25;
     }
     for (int64_t i = 0; i < p->n; i++) {
         all[i].body = one[p->body[i]], all[i].particle = (int32_t)i;
@@ -82,9 +81,10 @@ static void groups_near(struct turning_groups *t, int32_t g)
     }
 }
 
-void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const int *one, const bool *held)
+void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const real *middle,
+                  const int *one, const bool *held)
 {
-    struct member *all = members_sorted(p, spacing, one);
+    struct member *all = members_sorted(p, spacing, middle, one);
     turning_free(t);
     for (int64_t k = 0; k < p->n; k++)
         t->groups += k == 0 || order_of_places(all[k].place, all[k].body, all[k - 1].place, all[k - 1].body) != 0;

@@ -15,19 +15,33 @@ static void mark_held(const struct engine *e, bool *held)
     }
 }
 
+/* Where groups are counted from, so that bodies that mirror each other have groups that do: planes of symmetry, else
+ * the middle of all bodies. */
+static void turning_middle(const struct engine *e, real *middle)
+{
+    for (int d = 0; d < e->part.dim; d++) {
+        real low, high;
+        particles_extent(&e->part, e->part.n, d, &low, &high);
+        middle[d] = 0.5 * (low + high);
+    }
+    for (int b = 0; b < e->scene->boundaries; b++)
+        if (e->scene->boundary[b].kind == BOUNDARY_MIRROR)
+            middle[e->scene->boundary[b].axis] = e->scene->boundary[b].at;
+}
+
 void engine_turning_make(struct engine *e)
 {
     const struct scene *s = e->scene;
-    bool mirrored = e->source.mirrors > 0;
-    for (int b = 0; b < s->boundaries; b++) mirrored |= s->boundary[b].kind == BOUNDARY_MIRROR;
-    if (e->part.dim < 2 || s->transfer != TRANSFER_FLIP || !scene_moves(s) || mirrored || s->method == METHOD_PD ||
+    if (e->part.dim < 2 || s->transfer != TRANSFER_FLIP || !scene_moves(s) || s->method == METHOD_PD ||
         coupling_moves_by_grid(e->coupling.kind) || coupling_unified(e->coupling.kind))
         return;
     bool *held = NEW("engine.held", s->bodies, bool), all = true;
     int *one = NEW("engine.one", s->bodies, int);
+    real middle[DIM_MAX];
     mark_held(e, held);
+    turning_middle(e, middle);
     for (int b = 0; b < s->bodies; b++) one[b] = first_of(e, b), all &= held[one[b]];
-    if (!all) turning_make(&e->mpm.turning, &e->part, s->spacing, one, held);
+    if (!all) turning_make(&e->mpm.turning, &e->part, s->spacing, middle, one, held);
     for (int c = 0; c < 3; c++) e->mpm.transfer.turn[c] = e->mpm.turning.turn[c];
     memory_free(held), memory_free(one);
 }
