@@ -10,8 +10,7 @@
  * continued by the spin w of the group; one is the adjoint of the other in the mass, so that energies balance:
  *     v_p += (J^-1 sum lack) x r_p,   w = J^-1 sum m r x v,   P_I = sum m N (v_p + w x (x_I - x_p))
  * Momentum and angular momentum are kept, and no rotation of a group strains it. Groups of fewer than TURNING_FEW
- * points join a neighbour: they have too little inertia J. Positions move on with nodal velocities, as before: the
- * difference of those from the velocities of points leaves some 1e-3 of the angular momentum in a long run. */
+ * points join a neighbour: they have too little inertia J. Points move with the velocities of the second map. */
 #ifndef CLEAVE_TURNING
 #define CLEAVE_TURNING
 

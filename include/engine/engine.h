@@ -468,6 +468,10 @@ status engine_stability_check(struct engine *e);
  * than results should be trusted with. */
 status engine_energy_check(struct engine *e);
 void engine_say_balance(struct engine *e);
+/* Energy that bonds released as they broke and had not held [J]. */
+real engine_released(const struct diagnostics *w);
+/* Is all energy so far below what round-off makes? */
+bool engine_is_round_off(const struct engine *e);
 status engine_divergence_check(const struct engine *e, bool peridynamic, bool meshed);
 void engine_remedy(const struct engine *e, const struct rise *rise, real value, char *text, size_t room);
 /* Read-only inputs of probes. */

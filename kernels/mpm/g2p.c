@@ -2,7 +2,7 @@
  * step, and FLAG_STRESSED where the largest principal stress exceeds the trigger (Zeng et al. 2022, eqs. 32, 40, 43-49,
  * corrected: L from the second map, rotation W sigma - sigma W).
  *     FLIP (MUSL)    x += dt sum N v_I,   L = sum v2_I (x) grad N   with the velocity v2 of the second map
- *       with bonds   x += dt sum N v2_I   for points at which bonds end
+ *       with bonds   x += dt sum N v2_I   for points at which bonds end, and for those that turn (data/turning.h)
  *     APIC           v = sum N v_I,   x += dt v,   L = sum v_I (x) grad N
  * Eq. 40 moves all points with v_I. Bond forces act on points through N M^-1 N^T, whose adjoint in the mass is the
  * second map. Where bonds depend on the positions of points, motion with v2 makes the linear step the leap-frog scheme
@@ -121,11 +121,12 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     return points_signs((row_of_points)~inside);
 }
 
-/* -1 for points at which bonds end and, with momentum_only, for all points; 1 for all other points. */
+/* -1 for points at which bonds end, with momentum_only and where points turn for all; 1 for all others. */
 static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
 {
-    row_of_points bonded = points_of(t->momentum_only ? -1 : 1);
-    for (int k = 0; t->bonded && !t->momentum_only && k < AT_ONCE(dim); k++) bonded[k] = t->bonded[point[k]] ? -1 : 1;
+    const bool all = t->momentum_only || t->turn[2];
+    row_of_points bonded = points_of(all ? -1 : 1);
+    for (int k = 0; t->bonded && !all && k < AT_ONCE(dim); k++) bonded[k] = t->bonded[point[k]] ? -1 : 1;
     return bonded;
 }
 

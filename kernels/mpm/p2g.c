@@ -14,6 +14,7 @@
 #include "scatter.h"
 #include "shape.h"
 #include "stress.h"
+#include "turn.h"
 #include "kernels/simd/variants.h"
 
 /* Sums over the points of a cell, by rows of its nodes: mass, momentum, force. */
@@ -59,8 +60,7 @@ static ALWAYS_INLINE real slope_given(const struct particles *p, const struct tr
                                       const int dim, const enum transfer transfer)
 {
     if (transfer == TRANSFER_APIC) return p->gradient[d * dim + e][i];
-    if (d == e) return 0;
-    return e == (d + 1) % 3 ? -t->turn[3 - d - e][i] : t->turn[3 - d - e][i];
+    return turn_slope(t, i, d, e, 0.5, dim);
 }
 
 /* Adds mass, momentum and force of point `at` to the sums of its cell. Factors of the directions along a row, which all

@@ -4,6 +4,7 @@
 #include "kernels/kernels.h"
 #include "scatter.h"
 #include "shape.h"
+#include "turn.h"
 #include "kernels/simd/variants.h"
 
 /* Component c of a vector product has the terms a b - b a of these. */
@@ -79,14 +80,11 @@ static ALWAYS_INLINE void turn_scatter_point(cell_rows sum, const struct grid *g
     const row_of_nodes mass = p->mass[i] * stencil_touch(s, at, g->h, dim, shape).N;
     real slope[DIM_MAX][DIM_MAX] = {{0}};
     row_of_nodes momentum[DIM_MAX];
-    for (int c = SPIN_FROM(dim); c < 3; c++) {
-        slope[SECOND(c)][FIRST(c)] = t->turn[c][i];
-        slope[FIRST(c)][SECOND(c)] = -t->turn[c][i];
-    }
+    for (int d = 0; d < dim; d++)
+        for (int e = 0; e < dim; e++) slope[d][e] = turn_slope(t, i, d, e, -0.5, dim);
     for (int d = 0; d < dim; d++) {
         row_of_nodes speed = row_of(p->v[d][i]);
-        for (int e = 0; e < along; e++)
-            if (e != d) speed += slope[d][e] * stencil_along(s, at, g->h, e, dim, shape);
+        for (int e = 0; e < along; e++) speed += slope[d][e] * stencil_along(s, at, g->h, e, dim, shape);
         momentum[d] = mass * speed;
     }
     FOR_TOUCHED(s, at, dim, shape) {
@@ -94,8 +92,7 @@ static ALWAYS_INLINE void turn_scatter_point(cell_rows sum, const struct grid *g
         for (int d = 0; d < dim; d++) {
             row_of_nodes given = momentum[d];
             for (int e = along; e < dim; e++)
-                if (e != d)
-                    given += mass * (slope[d][e] * stencil_across(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape));
+                given += mass * (slope[d][e] * stencil_across(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape));
             sum[d][PATCH(dim, shape)] += weight * given;
         }
     }

@@ -9,7 +9,6 @@
 #define LOAD_SHARE_LEAST 0.5 /* least share of a motion by loads that explain it: speeds double at free faces */
 #define LARGE_STRAIN 0.1                 /* initial strain; its stresses are a tenth of the modulus */
 #define ENERGY_STEPS 50                  /* steps before the energy check begins */
-#define ENERGY_DOUBTFUL 0.05      /* share lost or gained that is warned of: ten times that of scenes in inputs/ */
 #define ENERGY_OF_ROUND_OFF 1e-24        /* [kinetic energy of the body at its wave speed] */
 /* share of all energies that no stable run gains: the first steps of a jump in velocity show 0.1, unstable runs that
  * break all bonds 0.9 */
@@ -354,14 +353,14 @@ static int64_t fastest_particle(const struct particles *p)
     return fastest;
 }
 
-static bool is_round_off(const struct engine *e)
+bool engine_is_round_off(const struct engine *e)
 {
     return e->diagnostics.energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * e->stability.mass * square(e->tables.wave_speed);
 }
 
 /* What bonds released as they broke without ever having held it [J]. A row of a state-based model may hold more after a
  * break than before: its dilatation changes. */
-static real energy_released(const struct diagnostics *w) { return real_max(0, -w->now.energy.fracture); }
+real engine_released(const struct diagnostics *w) { return real_max(0, -w->now.energy.fracture); }
 
 /* True if the body has more energy than stable runs gain. The balance of the first steps is left out, where half a step
  * of a load is a large share of all energy, but for steps above the critical one. */
@@ -369,7 +368,7 @@ static bool gains(const struct run_clock *clock, const struct diagnostics *w)
 {
     const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;
     return (counts && w->now.balance_error > ENERGY_FROM_NOWHERE) ||
-           energy_released(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
+           engine_released(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
 }
 
 /* True if velocities change sign in every step, by a step above the critical one. */
@@ -430,13 +429,13 @@ status engine_energy_check(struct engine *e)
             "supports and initial state are meant (`cleave check`)",
             (long long)e->clock.step, e->clock.t);
     const struct diagnostics *w = &e->diagnostics;
-    const real excess = w->now.balance_error * w->energy_scale + energy_released(w);
+    const real excess = w->now.balance_error * w->energy_scale + engine_released(w);
     const bool last = e->clock.step == e->clock.steps && !scene_at_rest(e->scene);
     char what[96], remedy[ENGINE_REMEDY];
     if (!e->report.sampling.due && !last) return OK;
     rise_note(&e->stability.excess, e->clock.step, excess);
     say_stretched(e);
-    if (is_round_off(e)) return OK;
+    if (engine_is_round_off(e)) return OK;
     if (swings(&e->clock, &w->now.energy)) {
         say_step(e->scene, &e->clock, remedy, sizeof remedy);
         return unstable(e, "whose velocities change sign in every step", remedy);
@@ -445,54 +444,4 @@ status engine_energy_check(struct engine *e)
     snprintf(what, sizeof what, "with %.0f %% of its energy from nowhere", 100 * excess / w->energy_scale);
     engine_remedy(e, &e->stability.excess, excess, remedy, sizeof remedy);
     return unstable(e, what, remedy);
-}
-
-/* Says that breaking bonds released more than they had held. */
-static void say_released(struct engine *e)
-{
-    char text[320];
-    const real released = energy_released(&e->diagnostics);
-    if (scene_at_rest(e->scene) || released <= ENERGY_DOUBTFUL * e->diagnostics.energy_scale) return;
-    snprintf(text, sizeof text,
-             "bonds released %.3g J as they broke that they had not held (energy.fracture %.3g): families of model %s "
-             "under pressure gain energy where they lose bonds; compare with model: bond, do not trust what came after",
-             released, -released, e->scene->model == MODEL_OSPD ? "ospd" : "mospd");
-    engine_say(e, text);
-}
-
-#define SPIN_DOUBTFUL 0.01 /* share of the angular momentum of bodies */
-
-/* Says that bodies have lost, or gained, angular momentum that nothing took from them. */
-static void say_spin(struct engine *e)
-{
-    const real error = e->diagnostics.now.spin_error;
-    const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
-    char text[360];
-    if (!e->diagnostics.turns || !(error > SPIN_DOUBTFUL)) return;
-    snprintf(text, sizeof text,
-             "%.*f %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error)%s%s",
-             error < 0.095, 100 * error,
-             apic ? ": mpm.transfer apic leaves some percent to velocity gradients, flip keeps it to 0.1 to 1 %" : "",
-             e->scene->contact_friction > 0 ? "; friction acts on particles, not at the faces between them, and takes "
-                                              "some percent of what a collision gives" : "");
-    engine_say(e, text);
-}
-
-void engine_say_balance(struct engine *e)
-{
-    if (e->report.excerpt) return;
-    say_spin(e);
-    say_released(e);
-    const real error = e->diagnostics.now.balance_error;
-    const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
-    char text[320];
-    if (scene_at_rest(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || is_round_off(e)) return;
-    snprintf(
-        text, sizeof text,
-        "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows when: do not trust what came after",
-        100 * fabs(error), error < 0 ? "is lost" : "comes from nowhere", error,
-        error < 0 && apic
-            ? ": APIC damps what its grid does not resolve, mpm.transfer flip and mpm.frame reference keep it"
-            : "");
-    engine_say(e, text);
 }

@@ -91,8 +91,8 @@ calm "$work/away" "$work/three.yaml" -s contact.friction=0 -s "boundary=[{fixed:
     -s "bodies=[{name: w, shape: {box: {from: [0, 0], to: [8 mm, 10 mm]}}}, {name: m, velocity: [20 m/s, 0], shape: {box: {from: [8 mm, 0], to: [20 mm, 10 mm]}}}]"
 between "a body beside a held one" "$(compute "$(last away momentum_x) / (20 * 12e-3 * 10e-3 * 10e-3 * 7800)")" 0.999999 1.000001
 
-# Five rattles of a disc in a ring: contact gives no more than it has taken, but for what it gives within one of them (0 to 0.4 %
-# of the energy by the last digits; without its account: 900 times the energy in ten).
+# Five rattles of a disc in a ring: contact gives no more than it has taken, but for what it gives within one of them (0.1 to
+# 0.3 % of the energy) and what the balance is off in 6,000 steps (0.4 to 0.7 %); without its account: 900 times the energy in ten.
 cat >"$work/rattle.yaml" <<'E'
 space: plane stress
 thickness: 1 mm
@@ -107,7 +107,7 @@ output: {frames: 1, samples: 150}
 E
 calm "$work/rattle" "$work/rattle.yaml"
 between "a disc in a ring: kinetic and strain energy over that of the start" "$(awk -F, 'NR == 2 { start = $3 }
-    NR > 2 && $3 + $4 > most { most = $3 + $4 } END { print most / start }' "$work/rattle/history.csv")" 0.5 1.006
+    NR > 2 && $3 + $4 > most { most = $3 + $4 } END { print most / start }' "$work/rattle/history.csv")" 0.5 1.01
 
 # ---- adaptive: what comes near another body becomes particles -----------------------------------------------------------
 

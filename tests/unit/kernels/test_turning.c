@@ -51,7 +51,7 @@ static void scene_make(struct scene *s, int dim, int shape)
     assert_int_equal(grid_cover(&s->g, from, to, 100000, &changed), OK);
     transfer_order_sort(&s->order, p, p->list_free, p->n_free, &s->g);
     turning_make(&s->turning, p, CLOUD_SPACING, (const real[]){0.0081, 0.0052, 0.0037}, one, held);
-    s->t = (struct transfer_data){.order = &s->order, .half_width = 0.5 * CLOUD_SPACING, .dt = 1, .dt_velocity = 1};
+    s->t = (struct transfer_data){.order = &s->order, .half_width = 0.5 * CLOUD_SPACING, .dt = 1e-14, .dt_velocity = 1};
     struct partial_stress none = {0};
     struct elastic elastic[CLOUD_MATERIALS] = {{0}};
     s->t.partial = &none, s->t.elastic = elastic;
