@@ -74,6 +74,7 @@ struct transfer_data {
     real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start) [s] */
     bool momentum_only;                  /* grid-coupled peridynamic particles: no stress to give or update */
     const uint8_t *bonded;               /* [n] not 0: bonds meet this material point; NULL: they meet none */
+    bool second_map;                     /* FLIP: all points move with the velocities of the second map */
     real *turn[3];                       /* [n] of points that turn (data/turning.h); in the plane the last alone */
 };
 

@@ -10,7 +10,8 @@
  * continued by the spin w of the group; one is the adjoint of the other in the mass, so that energies balance:
  *     v_p += (J^-1 sum lack) x r_p,   w = J^-1 sum m r x v,   P_I = sum m N (v_p + w x (x_I - x_p))
  * Momentum and angular momentum are kept, and no rotation of a group strains it. Groups of fewer than TURNING_FEW
- * points join a neighbour: they have too little inertia J. Points move with the velocities of the second map. */
+ * points join a neighbour: they have too little inertia J. Points move with the velocities of the second map, but in
+ * hand-shake. */
 #ifndef CLEAVE_TURNING
 #define CLEAVE_TURNING
 

@@ -121,10 +121,10 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     return points_signs((row_of_points)~inside);
 }
 
-/* -1 for points at which bonds end, with momentum_only and where points turn for all; 1 for all others. */
+/* -1 for points at which bonds end, with momentum_only and second_map for all points; 1 for all other points. */
 static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
 {
-    const bool all = t->momentum_only || t->turn[2];
+    const bool all = t->momentum_only || t->second_map;
     row_of_points bonded = points_of(all ? -1 : 1);
     for (int k = 0; t->bonded && !all && k < AT_ONCE(dim); k++) bonded[k] = t->bonded[point[k]] ? -1 : 1;
     return bonded;

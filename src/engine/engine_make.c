@@ -423,7 +423,7 @@ status engine_make_again(struct engine *e, const struct scene *s, struct output 
                              engine_body_apart(s, 1) + s->rigids >= 0 && !coupling_unified(s->coupling);
     e->mpm.transfer = (struct transfer_data){
         &e->mpm.field[0].order, &e->coupling.partial, e->tables.elastic, 0.5 * s->spacing, e->clock.dt, e->clock.dt,
-        false, NULL, {NULL}};
+        false, NULL, false, {NULL}};
     engine_turning_make(e);
     return make_probes(e);
 }

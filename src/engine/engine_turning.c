@@ -43,5 +43,7 @@ void engine_turning_make(struct engine *e)
     for (int b = 0; b < s->bodies; b++) one[b] = first_of(e, b), all &= held[one[b]];
     if (!all) turning_make(&e->mpm.turning, &e->part, s->spacing, middle, one, held);
     for (int c = 0; c < 3; c++) e->mpm.transfer.turn[c] = e->mpm.turning.turn[c];
+    /* with it hand-shake gains 1e-7 of its energy a step */
+    e->mpm.transfer.second_map = e->mpm.turning.groups > 0 && e->coupling.kind != COUPLING_HANDSHAKE;
     memory_free(held), memory_free(one);
 }
