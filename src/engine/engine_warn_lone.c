@@ -62,6 +62,8 @@ enum { SAMPLED = 128 };      /* particles of a list that are looked at */
 #define APART_MOST 1.25      /* [spacings] median distance of nearest neighbours; close packings have 1.12 */
 #define CROWDED_MOST 1.6     /* times the particles that a lattice has within NEAR */
 #define NEAR 2.5             /* [spacings] */
+#define ALIKE 0.01           /* share by which distances of nearest neighbours of a lattice differ: digits of lists */
+#define LATTICE_OFF 0.02     /* share by which the distance of a lattice may be off the spacing */
 
 static int apart_order(const void *a, const void *b)
 {
@@ -76,16 +78,19 @@ static real median_sorted(real *a, int n)
     return a[n / 2];
 }
 
-/* Sets the distance of the nearest neighbour of a particle, INFINITY if there is none within NEAR, and the number of
- * those within. */
-static void surroundings(const struct engine *e, struct near *near, int64_t i, real *apart, real *count)
+/* Sets the distance of the nearest neighbour of a particle, INFINITY if there is none within NEAR, the number of
+ * those within, and of those at the least distance. */
+static void surroundings(const struct engine *e, struct near *near, int64_t i, real *apart, real *count, real *beside)
 {
     const struct particles *p = &e->part;
     real least2 = INFINITY;
+    *beside = 0;
     near_find(near, &e->cells, p, i, NEAR * e->scene->spacing, false);
     for (int k = 0; k < near->n; k++) {
         real distance2 = 0;
         for (int d = 0; d < p->dim; d++) distance2 += square(p->X[d][near->at[k]] - p->X[d][i]);
+        *beside = distance2 < square(1 + ALIKE) * least2 ? (distance2 < square(1 - ALIKE) * least2 ? 1 : *beside + 1)
+                                                         : *beside;
         least2 = real_min(least2, distance2);
     }
     *apart = sqrt(least2), *count = near->n + 1;
@@ -98,18 +103,21 @@ static void warn_of_list_spacing(const struct engine *e, int body, struct warnin
     const struct particles *p = &e->part;
     const struct scene_body *b = &e->scene->body[body];
     const real spacing = e->scene->spacing;
-    real apart[SAMPLED], count[SAMPLED];
+    real apart[SAMPLED], count[SAMPLED], beside[SAMPLED];
     struct near near = {0};
     int64_t own = 0;
     int n = 0;
     for (int64_t i = 0; i < p->n; i++) own += p->body[i] == b->joined;
     for (int64_t i = 0, k = 0; i < p->n && n < SAMPLED; i++)
         if (p->body[i] == b->joined && k++ % (own / SAMPLED + 1) == 0)
-            surroundings(e, &near, i, &apart[n], &count[n]), n++;
+            surroundings(e, &near, i, &apart[n], &count[n], &beside[n]), n++;
     memory_free(near.at);
     if (own <= MASS_POINTS) return;
     const real distance = median_sorted(apart, n), share = median_sorted(count, n) / ball[p->dim];
-    if (share > CROWDED_MOST || (isfinite(distance) && distance > APART_MOST * spacing))
+    /* a square or cubic lattice: all as far apart, 2 neighbours an axis inside */
+    const bool lattice = apart[n - 1] < (1 + ALIKE) * apart[0] && median_sorted(beside, n) <= 2 * p->dim;
+    if (share > CROWDED_MOST || (isfinite(distance) && distance > APART_MOST * spacing) ||
+        (lattice && fabs(distance / spacing - 1) > LATTICE_OFF))
         warnings_add(to,
                      "%.200s has no volumes: each particle has that of the spacing of %.4g m, and nearest neighbours "
                      "are %.4g m apart, so that masses and forces are those of another body; particles.spacing "
