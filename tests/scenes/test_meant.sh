@@ -249,6 +249,12 @@ awk 'BEGIN { print "x [mm], y [mm]"; for (i = 0; i < 20; i++) for (j = 0; j < 10
 apart='lone.csv has no volumes: each particle has that of the spacing of 0.001 m, and nearest neighbours are 0.002 m apart.*particles.spacing 0.002 m,'
 says "a list wider than its spacing" "warning: .*$apart" "$work/lone.yaml"
 says "a list denser than its spacing" 'the spacing of 0.004 m, and nearest neighbours are 0.002 m apart' "$work/lone.yaml" -s particles.spacing=4mm
+says "a lattice a little wider" 'the spacing of 0.0018 m, and nearest neighbours are 0.002 m apart' "$work/lone.yaml" -s particles.spacing=1.8mm
+says "a lattice a little denser" 'the spacing of 0.0021 m, and nearest neighbours are 0.002 m apart' "$work/lone.yaml" -s particles.spacing=2.1mm
+# equilateral triangles of the same area are 1.0746 spacings apart
+awk 'BEGIN { print "x [mm], y [mm]"; a = 2 * 1.0745699
+    for (i = 0; i < 20; i++) for (j = 0; j < 10; j++) printf "%.7f, %.7f\n", a * (i + 0.5 * (j % 2)), a * j * sqrt(0.75) }' >"$work/hexagons.csv"
+silent "triangles of the same area" 'apart, so that' "$work/lone.yaml" -s bodies.p.particles=hexagons.csv -s particles.spacing=2mm
 silent "a list at its spacing" 'apart, so that' "$work/lone.yaml" -s particles.spacing=2mm
 "$cleave" run "$work/lone.yaml" -q -o "$work/wide" >/dev/null 2>"$work/said"
 holds "the run says it: $(cat "$work/said")" grep -q "$apart" "$work/said"
