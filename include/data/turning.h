@@ -34,7 +34,7 @@ struct turning_group {
 };
 
 struct turning_groups {
-    int32_t groups;                      /* 0: points do not turn in groups */
+    int32_t groups;                      /* number of them; 0: points do not turn in groups */
     struct turning_group *group;         /* ascending by body and place */
     int32_t *member;                     /* [n] particles, in a group by their places */
     real *turn[3];                       /* [n] what a point lacks [kg m^2/s], then its group's spin [1/s]; 2D: last */

@@ -78,7 +78,7 @@ struct grid_method {
     struct grid_field *field;
     struct grid_contact contact;         /* between fields */
     struct active_points active;         /* which of them the transfers leave out */
-    struct turning_groups turning;              /* groups of them that turn together (FLIP) */
+    struct turning_groups turning;       /* groups of them that turn together (FLIP) */
     struct transfer_data transfer;
     bool sort_needed;                    /* points moved to other cells or converted */
     real smallest_mass;                  /* of a node that moves [kg] */

@@ -4,7 +4,7 @@
  *
  *     m_I = sum m N,   P_I = sum m v N,   f_I = sum (N f - V sigma_given . grad N)
  *
- * with v + L (x_I - x_p) in place of v for APIC, and v + w x (x_I - x_p) for points that turn (data/turning.h).
+ * with v + L (x_I - x_p) in place of v for APIC and for points that turn, whose L is turn_slope (turn.h).
  *
  * Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point. Reads about 120 bytes per point in 2D; the nodes
  * of a block stay in cache. */

@@ -114,6 +114,7 @@ void turning_free(struct turning_groups *t)
 
 /* ---- sums of a group --------------------------------------------------------------------------------------------- */
 
+/* Is particle i a point of the grid, not of the mesh? */
 static bool on_grid(const struct particles *p, int32_t i)
 {
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED);
