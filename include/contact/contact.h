@@ -23,13 +23,8 @@
 #include "bonds/bonds.h"
 #include "loads/loads.h"
 #include "rigid/rigid.h"
+#include "scene/requests.h"
 
-enum contact_between { CONTACT_NONE, CONTACT_BODIES, CONTACT_ALL };
-enum contact_form { CONTACT_SURFACE, CONTACT_PAIR };
-/* Of pairs: one spacing and what the top of this file says; or the rule of LAMMPS' peri/pmb, for comparison: the least
- * of 0.9 of the distance in the reference state and 1.35 spacings, also between particles that a bond joins, with the
- * stiffness 15 c V_i V_j/delta of the scene's own horizon. */
-enum contact_distance { DISTANCE_SPACING, DISTANCE_LAMMPS };
 
 /* Depth of a face below a particle, in spacings, by the density that it feels there (contact_face.c). */
 enum { PROFILE_NODES = 86 };

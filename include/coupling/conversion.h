@@ -10,29 +10,7 @@
 #include "data/cells.h"
 #include "kernels/kernels.h"
 #include "loads/loads.h"
-
-enum coupling {
-    COUPLING_PARTIAL_STRESS,
-    COUPLING_HANDSHAKE,                  /* Zeng et al. 2022                                                     */
-    COUPLING_PM, COUPLING_PG,            /* Zeng et al. 2021: hand-shake, and the grid moves what lies in the cells at
-                                            the interface; with linear and with GIMP shapes                     */
-    COUPLING_PMG, COUPLING_PGG           /* the same on one unified grid, which moves everything                 */
-};
-/* What stands for pre-cracks in the reference frame (notch.h). */
-enum notch_rule { NOTCH_AUTO, NOTCH_SLIT, NOTCH_BONDS };
-enum { CONVERT_ON_BREAK = 1, CONVERT_ON_STRESS = 2 };
-
-struct conversion_rule {
-    unsigned criteria;                   /* sum of CONVERT_ON_* */
-    real stress;                         /* sigma_max [Pa]; NAN: E s_c */
-    real alpha;                          /* share of it that triggers */
-    bool block;                          /* the triggered particle takes its horizon neighbours along */
-    real tips;                           /* peridynamic from the start round ends of pre-cracks [horizons] */
-    enum notch_rule notch;
-    bool reverts;                        /* particles revert to material points (reversion.h) */
-    real hold_time;                      /* after a stress that was low for so long [horizon/c] */
-    real low_stress;                     /* low: share of the stress that converts */
-};
+#include "scene/requests.h"
 
 /* True if a criterion marked a particle for conversion in this step. */
 bool convert_due(const struct particles *p);

@@ -36,22 +36,8 @@
 #include "base/archive.h"
 #include "bonds/bonds.h"
 #include "data/cells.h"
+#include "scene/requests.h"
 #include "sif.h"
-
-/* As the scene specifies it. */
-struct growth_rule {
-    char name[NAME_MAX_LENGTH];
-    real at[DIM_MAX];                    /* where the tip starts [m] */
-    real direction[DIM_MAX];             /* unit vector */
-    real speed;                          /* of the tip; NAN: such that K_eq stays at the toughness [m/s] */
-    real fastest;                        /* bound of that; NAN: 0.9 of the Rayleigh speed [m/s] */
-    real start;                          /* it does not move before [s] */
-    real length;                         /* it stops there; INFINITY: never [m] */
-    real damping, exponent;              /* damping NAN: half a horizon [m] [1] */
-    real smoothing;                      /* with a probe, NAN: a quarter of a horizon [m] */
-    char probe[NAME_MAX_LENGTH];         /* sif probe that controls it; "": none */
-    real toughness;                      /* K_Ic: it grows while K_eq is at least this [Pa m^(1/2)] */
-};
 
 /* Factors that control a crack, when they were taken, and the direction of the tip in whose frame: the crack turns
  * away from that direction until new factors are taken. */
@@ -78,9 +64,6 @@ struct growth {
     int64_t n, room;
     struct fading *fading;
 };
-
-/* Does its speed follow the toughness? */
-bool growth_follows(const struct growth_rule *rule);
 
 void growth_make(struct growth *g, const struct growth_rule *rule);
 void growth_free(struct growth *g);

@@ -16,6 +16,7 @@
 #include "bonds/bonds.h"
 #include "data/cells.h"
 #include "data/particles.h"
+#include "scene/requests.h"
 #include "sif_fields.h"
 
 /* ---- gradients at particles (sif_gradient.c) --------------------------------------------------------------------- */
@@ -27,10 +28,6 @@ struct sight {
     int cracks;
     const struct bonds *bonds;           /* NULL: without */
 };
-
-/* MLS: moving least squares with a complete quadratic, exact for it; where fewer than six particles are visible, or on
- * a line, linear. PDDO: the first-order peridynamic differential operator, weight delta/r, exact for linear fields. */
-enum gradient_method { GRADIENT_MLS, GRADIENT_PDDO };
 
 struct gradient_rule {
     enum gradient_method method;
@@ -58,10 +55,6 @@ void gradient_of(const struct gradient_stencil *s, int64_t i, const real *const 
 /* ---- the integral (sif.c) ---------------------------------------------------------------------------------------- */
 
 struct contour { real inner, outer; };   /* where q leaves 1 and reaches 0 [m] */
-/* q over z = (r - inner)/(outer - inner): 1 - 10 z^3 + 15 z^4 - 6 z^5; 1 - 3 z^2 + 2 z^3; 1 - z. The smoother, the more
- * accurate is the sum over particles: with exact gradients and outer = 10 spacings 0.07 %, 0.6 % and some per cent. */
-enum sif_weight { SIF_QUINTIC, SIF_CUBIC, SIF_LINEAR };
-enum sif_stress { SIF_HOOKE, SIF_PARTICLE };
 
 /* A tip and how to integrate round it. */
 struct sif_tip {

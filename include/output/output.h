@@ -14,7 +14,7 @@
 #include "output_lock.h"
 #include "data/particles.h"
 #include "data/region.h"
-#include "probes/probes.h"
+#include "column.h"
 
 enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE };    /* what to do with an older run */
 

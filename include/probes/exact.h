@@ -15,8 +15,7 @@
 #define CLEAVE_EXACT
 
 #include "data/region.h"
-
-enum exact_form { EXACT_STEP_BAR, EXACT_PLASTIC_BAR, EXACT_PULSE, EXACT_MANUFACTURED, EXACT_FORMS };
+#include "scene/requests.h"
 
 struct exact {
     enum exact_form form;

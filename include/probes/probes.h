@@ -8,6 +8,8 @@
 #include "base/archive.h"
 #include "bonds/bonds.h"
 #include "fracture/growth.h"
+#include "output/column.h"
+#include "scene/requests.h"
 #include "data/cells.h"
 #include "exact.h"
 #include "loads/loads.h"
@@ -15,24 +17,6 @@
 #include "data/region.h"
 #include "fracture/sif.h"
 #include "fracture/tips.h"
-
-enum probe_kind {
-    PROBE_TIP,               /* one crack tip (the longest, or the one nearest to `at`)                    */
-    PROBE_BREAK,             /* first cut bond in a region                                                 */
-    PROBE_REACTION,          /* force of the support at a named boundary                                   */
-    PROBE_PATCH,             /* largest nodal force residual over stress x h under uniform strain          */
-    PROBE_SPALL,             /* separated end of a bar                                                     */
-    PROBE_POINT,             /* displacement, velocity, stress, damage of the particle nearest to `at`     */
-    PROBE_LINE,              /* profile from `from` to `to` in `points` stations, at the end and per frame */
-    PROBE_ENERGY,            /* energies of the particles of a region                                      */
-    PROBE_MOMENTUM,          /* momentum of the particles of a region                                      */
-    PROBE_PULSE,             /* wave packet at an interface: what came back, what went on                  */
-    PROBE_EXACT,             /* a bar against a closed form                                                */
-    PROBE_SIF,               /* stress-intensity factors of a crack tip                                    */
-    PROBE_GROWTH,            /* a crack with prescribed or SIF-controlled growth: its tip, its path        */
-    PROBE_RIGID,             /* a body that turns as a whole (plane)                                       */
-    PROBES
-};
 
 /* Figures of EXACT; all but the last three by the stress of bond flux (probes_parts.h), those with `_strain` the
  * same of E x strain against E x exact strain; strain by central differences over the neighbours in the bar:
@@ -42,35 +26,6 @@ enum probe_kind {
  *   strain_elastic, strain_plastic     mean strain ahead of and behind the plastic front [1]
  *   end_displacement        of the outermost particle at the loaded end, half a spacing inside [m]
  *   L1_velocity, L2_velocity, L2_displacement     as L1 and L2, with velocities when they are known */
-
-/* As the scene specifies it. */
-struct probe_request {
-    char name[NAME_MAX_LENGTH];          /* default: its kind */
-    char place[PLACE_LENGTH];            /* in the scene */
-    enum probe_kind kind;
-    struct region region;                /* BREAK, PATCH, ENERGY, MOMENTUM, RIGID; empty: everywhere */
-    bool has_at; real at[DIM_MAX];       /* TIP, POINT, SIF; PULSE: a point of the interface [m] */
-    bool has_direction;                  /* SIF */
-    real direction[DIM_MAX];             /* PULSE: its normal, along which the packet comes; SIF: ahead of the tip */
-    real from[DIM_MAX], to[DIM_MAX];     /* LINE [m] */
-    int points;                          /* LINE */
-    char boundary[NAME_MAX_LENGTH];      /* REACTION: name of the boundary condition */
-    char of[NAME_MAX_LENGTH];            /* GROWTH: name of the crack; "": the first */
-    real experiment;                     /* GROWTH: angle in an experiment, for pictures; NAN: none [degree] */
-    enum exact_form form;                /* EXACT; and for a manufactured solution [m] [s] [m] [m]: */
-    real amplitude, period, wavelength, origin;
-    struct number_list contours;         /* SIF: outer radii to compare; none: 0.6, 0.8 and 1 times `outer` [m] */
-    real inner, outer, core;             /* SIF; NAN or 0: half of outer; 20 spacings; 1.5 horizons [m] */
-    real reach;                          /* SIF: rho_m in spacings; 0: 1.5 [1] */
-    real speed;                          /* SIF: of a moving tip; NAN: measured [m/s] */
-    int diffraction;                     /* SIF */
-    enum sif_weight weight;
-    enum gradient_method gradient;
-    enum sif_stress stress;
-};
-
-/* A column of history.csv or a figure of summary.json. */
-struct column { char name[2 * NAME_MAX_LENGTH]; char unit[16]; };
 
 /* The same run on material points alone (engine_baseline), at its end. */
 struct baseline {

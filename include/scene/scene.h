@@ -1,5 +1,6 @@
 /* Room `scene`: what a user asks for, read and checked, and the particles that follow from it. It knows materials,
- * regions, loads and probes as requests; auto, engine, commands and benches call it.
+ * regions and loads, and what it asks of the parts of a run (requests.h); the parts, the engine, commands and benches
+ * call it.
  *
  * A scene: everything a run needs, as read and checked, in SI units. Only scene_yaml.c uses libyaml (info.c reads
  * its version). */
@@ -8,16 +9,13 @@
 
 #include <stdio.h>
 
-#include "contact/contact.h"
 #include "bonds/bonds.h"
-#include "coupling/conversion.h"
-#include "fracture/growth.h"
 #include "kernels/kernels.h"
 #include "loads/loads.h"
 #include "data/material.h"
-#include "probes/probes.h"
 #include "data/region.h"
 #include "particle_list.h"
+#include "requests.h"
 
 /* METHOD_AUTO and FRAME_AUTO are requests, and SOLVER_STATIC with METHOD_AUTO: reading a scene resolves them. Otherwise
  * SOLVER_STATIC is that of load steps. */

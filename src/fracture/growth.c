@@ -24,8 +24,6 @@ void growth_free(struct growth *g)
     memset(g, 0, sizeof *g);
 }
 
-bool growth_follows(const struct growth_rule *rule) { return isnan(rule->speed); }
-
 /* ---- target speed of a crack that follows its toughness ---------------------------------------------------------- */
 
 /* One step of the law in the header: the speed that the last factors require, once for each set of factors. */
