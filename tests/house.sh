@@ -8,7 +8,7 @@ sources=$(find src include kernels bench tests -name '*.[ch]' | sort)
 program=$(find src include kernels bench -name '*.[ch]' | sort)
 
 # Rooms from the ground up; rooms on one line stand side by side and may use each other in that order.
-rooms="base data bonds kernels simd loads output geometry scene auto rigid mesh active contact coupling fracture solver probes engine export plot study bench app"
+rooms="base data bonds kernels simd loads output geometry scene auto run rigid mesh active contact coupling fracture solver probes engine export plot study bench app"
 
 # nothing WHAT: the file `found` is empty; else it is the failure.
 found=$work/found
@@ -52,6 +52,10 @@ nothing "calls that lead up"
 grep -nE "\\b(b|bonds|old)(->|\.)(nbr|inverse_length|common|stencil|column|column_count|first|implicit|changed|shell_length|made|aligned)\\b" \
     $(find src -name '*.[ch]' ! -path 'src/bonds/*') | grep -E "(b->|bonds(->|\.)|old->)(nbr|inverse_length|common|stencil|column|column_count|first|implicit|changed|shell_length|made|aligned)(\[|\)|;|,| )" >"$found"
 nothing "storage of bonds used outside its room"
+
+# Energies are named in their table alone (include/run/ledger.h), those whose names mean nothing else.
+grep -nE '"(damped|absorbed|external_work)"' $(echo "$program" | grep -v 'run/ledger') >"$found"
+nothing "energies named outside the ledger"
 
 # A broken invariant is one line for a user: INVARIANT of include/base/base.h, not assert of C.
 grep -nE '\bassert(\(|\.h)' $program >"$found"

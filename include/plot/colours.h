@@ -24,7 +24,4 @@ struct colour colour_faded(struct colour c, double share);
 /* `share` 1: the colour as it is; 0: black. */
 struct colour colour_shaded(struct colour c, double share);
 
-/* As gnuplot writes it, of an energy by its column of history.csv; each has one in every picture. */
-const char *energy_colour(const char *column);
-
 #endif

@@ -8,15 +8,7 @@
 #include "kernels/kernels.h"
 #include "loads/loads.h"
 #include "data/particles.h"
-
-struct energy {
-    real kinetic;                        /* 1/2 m v_before . v_after of the velocity update [J] */
-    real strain, plastic;                /* of bonds and material points [J] */
-    real fracture;                       /* of bonds broken [J] */
-    real contact;                        /* of pairs in contact (contact.h) [J] */
-    real damped;                         /* taken by the interface damping (interface_zone.h) [J] */
-    real absorbed;                       /* that has left through absorbing faces (loads/absorbing.h) [J] */
-};
+#include "run/ledger.h"
 
 struct energy_balance {
     real time;                           /* [s] */

@@ -12,6 +12,7 @@
 #include "output/output.h"
 #include "plot/plot.h"
 #include "output/summary_read.h"
+#include "run/ledger.h"
 
 enum { KEY_LENGTH = 64 };
 
@@ -215,19 +216,10 @@ static double last_of(const struct history *h, const char *name)
 /* Compares the last lines of both history.csv. */
 static status compare_energies(const struct pair *p)
 {
-    static const struct { const char *name, *label, *unit; } figure[] = {
-        {"time", "time", "s"},
-        {"kinetic", "kinetic", "J"},
-        {"strain", "strain", "J"},
-        {"plastic", "plastic", "J"},
-        {"fracture", "fracture", "J"},
-        {"contact", "contact", "J"},
-        {"damped", "damped", "J"},
-        {"absorbed", "absorbed", "J"},
-        {"external_work", "external work", "J"},
-        {"balance_error", "balance error", ""},
-        {"momentum_error", "momentum error", ""},
-        {"pd_share", "peridynamic share", ""},
+    static const struct { const char *name, *label; } figure[] = {
+        {"balance_error", "balance error"},
+        {"momentum_error", "momentum error"},
+        {"pd_share", "peridynamic share"},
     };
     struct history h[2];
     for (int k = 0; k < 2; k++) {
@@ -242,9 +234,11 @@ static status compare_energies(const struct pair *p)
         return s;
     }
     print_head("at the end of history.csv");
+    compare_print_row("time", "s", last_of(&h[0], "time"), last_of(&h[1], "time"));
+    for (int k = 0; k < LEDGER_ROWS; k++)
+        compare_print_row(ledger[k].label, "J", last_of(&h[0], ledger[k].name), last_of(&h[1], ledger[k].name));
     for (int k = 0; k < (int)COUNT_OF(figure); k++)
-        compare_print_row(figure[k].label, figure[k].unit, last_of(&h[0], figure[k].name),
-                          last_of(&h[1], figure[k].name));
+        compare_print_row(figure[k].label, "", last_of(&h[0], figure[k].name), last_of(&h[1], figure[k].name));
     for (int k = 0; k < 2; k++) history_free(&h[k]);
     return OK;
 }

@@ -11,12 +11,13 @@
 
 enum { RECORD_FIXED = 24 };
 
+/* Columns that every run has; those between are rows of the ledger. */
 static const struct column fixed_columns[RECORD_FIXED] = {
-    {"time", "s"}, {"step", ""}, {"kinetic", "J"}, {"strain", "J"}, {"plastic", "J"}, {"fracture", "J"},
-    {"external_work", "J"}, {"balance_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"},
-    {"momentum_z", "kg m/s"}, {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"bonds", ""},
-    {"crack_length", "m"}, {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"}, {"damped", "J"}, {"mpm_share", ""},
-    {"rest_share", ""}, {"contact", "J"}, {"absorbed", "J"}};
+    [0] = {"time", "s"}, {"step", ""},
+    [7] = {"balance_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"}, {"momentum_z", "kg m/s"},
+    {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"bonds", ""}, {"crack_length", "m"},
+    {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"},
+    [20] = {"mpm_share", ""}, {"rest_share", ""}};
 
 /* Mean inactive share of the body over the steps since the last sample; 0 where there was none. */
 static real inactive_since_sample(const struct run_clock *clock, struct run_report *report)
@@ -49,19 +50,20 @@ static int spin_columns(const struct engine *e, struct column *column)
 static void fill_record(struct engine *e)
 {
     const struct energy_balance *l = &e->diagnostics.now;
-    const struct energy *u = &l->energy;
     const struct tip *tip = tips_longest(&e->fracture.tips);
     real *r = e->report.record;
     const real *place = tip ? tip->place : (const real[DIM_MAX]){NAN, NAN, NAN};
     const int dim = e->part.dim;
     const real n = (real)e->part.n_body, pd = (real)e->report.sampling.pd;
     const real fixed[RECORD_FIXED] = {
-        l->time, (real)e->clock.step, u->kinetic, u->strain, u->plastic, u->fracture, l->external_work,
-        l->balance_error, l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, pd, pd / n,
+        [0] = l->time, (real)e->clock.step,
+        [7] = l->balance_error, l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, pd, pd / n,
         (real)e->report.sampling.bonds, tip ? tip->growth : 0, place[0], dim > 1 ? place[1] : NAN,
-        dim > 2 ? place[2] : NAN, u->damped, 1 - pd / n, inactive_since_sample(&e->clock, &e->report),
-        u->contact, u->absorbed};
+        dim > 2 ? place[2] : NAN,
+        [20] = 1 - pd / n, inactive_since_sample(&e->clock, &e->report)};
     memcpy(r, fixed, sizeof fixed);
+    for (int k = 0; k < ENERGIES; k++) r[ledger[k].column] = l->energy.of[k];
+    r[ledger[LEDGER_WORK].column] = l->external_work;
     for (int c = 0; c < e->probing.probes.columns; c++) r[RECORD_FIXED + c] = e->probing.probes.value[c];
     r += RECORD_FIXED + e->probing.probes.columns;
     engine_rigid_record(e, r);
@@ -81,6 +83,11 @@ status engine_history_start(struct engine *e, bool resume)
     if (!report->out) return OK;
     struct column *column = NEW("report.columns", columns, struct column);
     memcpy(column, fixed_columns, sizeof fixed_columns);
+    for (int k = 0; k < LEDGER_ROWS; k++) {
+        struct column *energy = &column[ledger[k].column];
+        INVARIANT(energy->name[0] == 0);
+        snprintf(energy->name, sizeof energy->name, "%s", ledger[k].name), strcpy(energy->unit, "J");
+    }
     for (int c = 0; c < probes->columns; c++) column[RECORD_FIXED + c] = probes->column[c];
     engine_rigid_columns(e, column + rigid);
     statics_columns(e, column + own);
@@ -211,9 +218,7 @@ static void sample_write(struct engine *e, const struct velocity_time *now, real
     probes_sample_end(&e->probing.probes, &o, now);
     time_momentum(e, now);
     sampling->energy.kinetic = kinetic;
-    const struct energy *u = &sampling->energy;
-    const real all = kinetic + u->strain + u->plastic + u->fracture + u->contact + u->damped + u->absorbed + work;
-    e->stability.lost = !isfinite(all);
+    e->stability.lost = !isfinite(energy_sum(&sampling->energy) + work);
     if (e->stability.lost) return;               /* engine_energy_check reports it; nothing is written */
     diagnostics_balance(&e->diagnostics, e->clock.t, &sampling->energy, work);
     fill_record(e);

@@ -184,14 +184,8 @@ static void put_choice(struct json *j, const struct scene_choice *c)
 static void put_energy_balance(struct json *j, const struct energy_balance *l)
 {
     json_open(j, "energy", '{');
-    json_real(j, "kinetic", l->energy.kinetic);
-    json_real(j, "strain", l->energy.strain);
-    json_real(j, "plastic", l->energy.plastic);
-    json_real(j, "fracture", l->energy.fracture);
-    json_real(j, "contact", l->energy.contact);
-    json_real(j, "damped", l->energy.damped);
-    json_real(j, "absorbed", l->energy.absorbed);
-    json_real(j, "external_work", l->external_work);
+    for (int k = 0; k < ENERGIES; k++) json_real(j, ledger[k].name, l->energy.of[k]);
+    json_real(j, ledger[LEDGER_WORK].name, l->external_work);
     json_real(j, "balance_error", l->balance_error);
     json_close(j, '}');
     json_real(j, "momentum_error", l->momentum_error);

@@ -79,14 +79,3 @@ struct colour colour_shaded(struct colour c, double share)
                            (uint8_t)lround(share * c.blue), c.alpha};
 }
 
-/* Okabe & Ito (2008), and greys for what leaves. */
-const char *energy_colour(const char *column)
-{
-    static const struct { const char *column, *colour; } table[] = {
-        {"kinetic", "#0072b2"}, {"strain", "#009e73"},   {"plastic", "#e69f00"},
-        {"fracture", "#d55e00"}, {"contact", "#cc79a7"}, {"damped", "#56b4e9"},
-        {"absorbed", "#999999"}, {"external_work", "#000000"}};
-    for (size_t k = 0; k < COUNT_OF(table); k++)
-        if (strcmp(column, table[k].column) == 0) return table[k].colour;
-    return "#3d3d3d";
-}

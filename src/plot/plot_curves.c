@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "output/pictures.h"
 #include "plot/plot.h"
+#include "run/ledger.h"
 
 enum { POINTS_MAX = 4000, CURVES_MAX = 8 };
 
@@ -94,7 +95,7 @@ static status draw_crack(struct sheet sheet, const char *title, const struct ser
 
 struct energies {
     int column[CURVES_MAX];
-    const char *name[CURVES_MAX], *label[CURVES_MAX];
+    const struct ledger_row *row[CURVES_MAX];
     double factor[CURVES_MAX];
     int n;
     struct unit joule;
@@ -106,20 +107,15 @@ struct energies {
 /* Chooses the columns of energies that exist and can be seen. */
 static void choose_energies(struct energies *e, const struct history *h)
 {
-    static const struct { const char *name, *label; } known[] = {
-        {"kinetic", "kinetic"}, {"strain", "strain"},   {"plastic", "plastic"},
-        {"fracture", "fracture"}, {"contact", "contact"}, {"damped", "damped"},
-        {"absorbed", "absorbed"}, {"external_work", "external work"}};
     double largest = 0;
     *e = (struct energies){0};
-    for (int k = 0; k < (int)COUNT_OF(known); k++)
-        largest = fmax(largest, curves_largest(h, history_column(h, known[k].name)));
-    for (int k = 0; k < (int)COUNT_OF(known); k++) {
-        const int column = history_column(h, known[k].name);
+    for (int k = 0; k < LEDGER_ROWS; k++)
+        largest = fmax(largest, curves_largest(h, history_column(h, ledger[k].name)));
+    for (int k = 0; k < LEDGER_ROWS; k++) {
+        const int column = history_column(h, ledger[k].name);
         if (column < 0 || !(curves_largest(h, column) > ENERGY_SHOWN * largest)) continue;
         e->column[e->n] = column;
-        e->name[e->n] = known[k].name;
-        e->label[e->n++] = known[k].label;
+        e->row[e->n++] = &ledger[k];
     }
     e->joule = unit_for(largest, "J");
     for (int k = 0; k < e->n; k++) e->factor[k] = e->joule.factor;
@@ -131,12 +127,11 @@ static void plot_energies(FILE *to, const struct energies *e)
     fputs("plot ", to);
     for (int k = 0; k < e->n; k++)
         fprintf(to, "$data using 1:%d with lines lw 2.2 lc rgb '%s' title '%s', ", k + 2,
-                energy_colour(e->name[k]), e->label[k]);
+                e->row[k]->colour, e->row[k]->label);
     fputs("$data using 1:(0", to);
     for (int k = 0; k < e->n; k++)
-        if (strcmp(e->label[k], "external work") != 0) fprintf(to, "+$%d", k + 2);
-    fprintf(to, ") with lines lw 1.6 dt (6,4) lc rgb '%s' title 'sum'\n",
-            energy_colour("sum"));
+        if (e->row[k] != &ledger[LEDGER_WORK]) fprintf(to, "+$%d", k + 2);
+    fputs(") with lines lw 1.6 dt (6,4) lc rgb '#3d3d3d' title 'sum'\n", to);
 }
 
 /* A round distance of tics that leaves one or two of them between 0 and `top`. */

@@ -274,28 +274,20 @@ void diagnostics_momentum(struct diagnostics *w, const struct particles *p, cons
         w->now.momentum_error = real_max(w->now.momentum_error, sqrt(missing2) / w->momentum_scale);
 }
 
-static real balance_energy(const struct energy_balance *l)
-{
-    const struct energy *e = &l->energy;
-    return e->kinetic + e->strain + e->plastic + e->fracture + e->contact + e->damped + e->absorbed;
-}
-
 real diagnostics_energy_change(const struct diagnostics *w)
 {
     if (!(w->energy_start > 0)) return NAN;
-    return (balance_energy(&w->now) - w->now.energy.damped - w->now.external_work) / w->energy_start - 1;
+    return (energy_sum(&w->now.energy) - w->now.energy.damped - w->now.external_work) / w->energy_start - 1;
 }
 
 /* Error of the energy balance, relative to the largest energy or work so far. */
 static void balance_of(struct diagnostics *w)
 {
     struct energy_balance *l = &w->now;
-    real energy = balance_energy(l);
+    real energy = energy_sum(&l->energy);
     if (!w->started) w->energy_start = energy - l->external_work;
-    const struct energy *e = &l->energy;
-    real stored = fabs(e->kinetic) + fabs(e->strain) + fabs(e->plastic) + fabs(e->fracture) + fabs(e->contact) +
-                  fabs(e->damped) + fabs(e->absorbed);
-    w->energy_scale = real_max(w->energy_scale, real_max(stored, fabs(l->external_work)));
+    const real size = energy_size(&l->energy);
+    w->energy_scale = real_max(w->energy_scale, real_max(size, fabs(l->external_work)));
     l->balance_error = w->energy_scale > 0 ? (energy - w->energy_start - l->external_work) / w->energy_scale : 0;
 }
 
