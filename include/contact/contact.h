@@ -18,7 +18,7 @@
 #ifndef CLEAVE_CONTACT
 #define CLEAVE_CONTACT
 
-#include "active/active_rows.h"
+#include "loads/active_rows.h"
 #include "base/archive.h"
 #include "bonds/bonds.h"
 #include "loads/loads.h"

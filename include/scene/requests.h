@@ -26,6 +26,10 @@ enum coupling {
                                             the interface; with linear and with GIMP shapes                     */
     COUPLING_PMG, COUPLING_PGG           /* the same on one unified grid, which moves everything                 */
 };
+/* Does the grid move peridynamic particles with this coupling, and all of them? */
+static inline bool coupling_moves_by_grid(enum coupling c) { return c >= COUPLING_PM; }
+static inline bool coupling_unified(enum coupling c) { return c == COUPLING_PMG || c == COUPLING_PGG; }
+
 /* What stands for pre-cracks in the reference frame (notch.h). */
 enum notch_rule { NOTCH_AUTO, NOTCH_SLIT, NOTCH_BONDS };
 enum { CONVERT_ON_BREAK = 1, CONVERT_ON_STRESS = 2 };

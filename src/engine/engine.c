@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "active/active_rows.h"
+#include "loads/active_rows.h"
 #include "engine/engine.h"
 #include "engine_report.h"
 #include "base/memory.h"

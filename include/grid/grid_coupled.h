@@ -5,9 +5,9 @@
 #ifndef CLEAVE_GRID_COUPLED
 #define CLEAVE_GRID_COUPLED
 
-#include "conversion.h"
 #include "data/grid.h"
 #include "data/transfer_order.h"
+#include "scene/requests.h"
 
 struct grid_coupled {
     struct transfer_order order;         /* of the grid-coupled particles */
@@ -15,10 +15,6 @@ struct grid_coupled {
     uint8_t *occupied;                   /* [cells_room] cells of the grid that hold a material point */
     int64_t n, room, cells_room;
 };
-
-/* Does the grid move peridynamic particles with this coupling, and all of them? */
-static inline bool coupling_moves_by_grid(enum coupling c) { return c >= COUPLING_PM; }
-static inline bool coupling_unified(enum coupling c) { return c == COUPLING_PMG || c == COUPLING_PGG; }
 
 /* Before the forces of a step: lists and flags (FLAG_GRID_COUPLED) the peridynamic particles that the grid moves, and
  * sorts them. At the interface these are the particles in cells that share a node with a cell that holds a material

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "contact/contact_grid.h"
+#include "grid/contact_grid.h"
 
 #define AROUND 2                         /* cells, over which normals are smoothed */
 

@@ -1,5 +1,5 @@
 /* Which cells of material points nothing has reached. */
-#include "active/active_points.h"
+#include "grid/active_points.h"
 
 #include <string.h>
 

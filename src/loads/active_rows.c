@@ -1,5 +1,5 @@
 /* The active set of row blocks: which row blocks of bonds are inactive, and which motion activates. */
-#include "active/active_rows.h"
+#include "loads/active_rows.h"
 
 #include <string.h>
 

@@ -1,7 +1,4 @@
-/* Room `active`: what no wave has reached is not computed. The active set itself is data/active_set.h, that of the mesh
- * mesh/active_nodes.h. It knows bonds, loads and grids; the engine calls it.
- *
- * The active set of row blocks of bonds (data/active_set.h). */
+/* The active set of row blocks of bonds (data/active_set.h). */
 #ifndef CLEAVE_ACTIVE_ROWS
 #define CLEAVE_ACTIVE_ROWS
 

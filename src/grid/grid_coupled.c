@@ -1,5 +1,5 @@
 /* Selection of the peridynamic particles that the grid moves (grid-coupled particles). */
-#include "coupling/grid_coupled.h"
+#include "grid/grid_coupled.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,6 +5,7 @@
 #include "base/archive.h"
 #include "data/grid.h"
 #include "data/transfer_order.h"
+#include "data/particles.h"
 
 /* The grid of a body, its points, and the nodes that they can reach, counted from the anchor. */
 struct grid_side {
