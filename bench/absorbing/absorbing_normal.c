@@ -5,6 +5,7 @@
 
 #include "absorbing_bench.h"
 #include "base/memory.h"
+#include "probes/diagnostics.h"
 
 /* A strip of so many spacings between mirrors; the pulse starts in its middle, and what comes back is the difference to
  * a strip twice as long. */
@@ -41,7 +42,7 @@ static int normal_scene(char *text, size_t room, const struct absorbing_method *
 static status normal_run(const struct absorbing_method *m, int dim, int width, int length, real **v,
                          struct absorbing_pulse *figure)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     char text[2048];
     double before = 0;
@@ -52,9 +53,9 @@ static status normal_run(const struct absorbing_method *m, int dim, int width, i
         ran = engine_step(&e);
         figure->back = fmax(figure->back, before - e.loads.absorbing.energy);
         before = e.loads.absorbing.energy;
-        figure->balance = fmax(figure->balance, fabs(e.diagnostics.now.balance_error));
+        figure->balance = fmax(figure->balance, fabs(e.diagnostics->now.balance_error));
     }
-    figure->back /= e.diagnostics.energy_start;
+    figure->back /= e.diagnostics->energy_start;
     engine_mesh_sync(&e);
     *v = BARE("bench.v", e.part.n, real);
     array_copy(*v, e.part.v[0], e.part.n, sizeof(real));

@@ -52,7 +52,7 @@ static struct oblique oblique_of(bool shear, double angle, double wavelength)
 /* Amplitudes of U and V at the station, by frequency, of a strip `along` spacings long [m]. */
 static status oblique_run(const struct oblique *o, const struct absorbing_method *m, int along, double complex *sum)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     char text[2048];
     const double h = ABSORBING_SPACING;

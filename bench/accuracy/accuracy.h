@@ -89,9 +89,9 @@ struct accuracy_problem {
     int samples;                         /* its tips are looked at so often; 0: once */
     double seconds, quick_seconds;       /* it takes about, until measured */
     void (*scene)(const struct accuracy_point *p, struct accuracy_scene *s);
-    status (*run)(const struct accuracy_point *p, struct engine *e); /* NULL: engine_run */
+    status (*run)(const struct accuracy_point *p, struct run *e); /* NULL: engine_run */
     /* Relative error and its parts, of a run that reached its end. */
-    status (*measure)(const struct accuracy_point *p, struct engine *e, double *error, double *part);
+    status (*measure)(const struct accuracy_point *p, struct run *e, double *error, double *part);
     bool (*applies)(const struct accuracy_point *p); /* NULL: every point of the families */
 };
 extern const struct accuracy_problem *const accuracy_problem[];
@@ -117,7 +117,7 @@ bool accuracy_is_coarse(const struct accuracy_method *method);
 const char *accuracy_solver(const struct accuracy_point *p);
 
 /* Helps for `measure`: a figure of a probe (NAN: none), in memory. */
-double accuracy_figure(const struct engine *e, const char *probe, const char *quantity);
+double accuracy_figure(const struct run *e, const char *probe, const char *quantity);
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 

@@ -37,7 +37,7 @@ static void accuracy_bar_make_scene(const struct accuracy_point *p, struct accur
 static double pulse_rms(double amplitude) { return amplitude * sqrt(0.1 * sqrt(0.5 * M_PI) / 1.6); }
 
 /* Stress and velocity carry the same energy. A front is of no order in the mean square: there the mean counts. */
-static status accuracy_bar_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_bar_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const double impedance = 100;                /* rho c [Pa s/m] */
     if (p->at == STEP) {

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "accuracy.h"
+#include "probes/probes.h"
 
 /* Component `axis` of a mode: coefficients of products of Legendre polynomials over the body, from -1 to 1. */
 struct term { int axis, degree[DIM_MAX]; double of; };
@@ -82,7 +83,7 @@ static void mode_at(const void *context, const real *X, real *v)
 }
 
 /* Momentum in the mode. */
-static double part_in_mode(const struct mode *m, const struct engine *e)
+static double part_in_mode(const struct mode *m, const struct run *e)
 {
     const struct particles *p = engine_observed(e).part;
     double sum = 0;
@@ -96,7 +97,7 @@ static double part_in_mode(const struct mode *m, const struct engine *e)
 }
 
 /* In pieces of 1/300 of the run, to the second zero, between the last two of which the line is straight. */
-static status accuracy_beam_run(const struct accuracy_point *p, struct engine *e)
+static status accuracy_beam_run(const struct accuracy_point *p, struct run *e)
 {
     const struct mode *m = mode_of(p);
     double before = 0, t_before = 0;
@@ -117,7 +118,7 @@ static status accuracy_beam_run(const struct accuracy_point *p, struct engine *e
     return OK;
 }
 
-static status accuracy_beam_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_beam_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     (void)e;
     part[0] = measured / mode_of(p)->frequency - 1;

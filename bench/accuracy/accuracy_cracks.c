@@ -65,7 +65,7 @@ static void accuracy_cracks_make_scene(const struct accuracy_point *p, struct ac
 }
 
 /* Shares of the size of both factors. */
-static status accuracy_cracks_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_cracks_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     static const char *const factor[2] = {"K_I", "K_II"};
     const double size = pull * sqrt(M_PI * length[p->at]), *wanted = exact[p->at];

@@ -7,6 +7,8 @@
 
 #include "accuracy.h"
 #include "accuracy_reference.h"
+#include "fracture/tips.h"
+#include "fracture/fracture_part.h"
 
 enum { KALTHOFF, PULLED };
 
@@ -79,9 +81,9 @@ static double time_of(const struct tips *t, double length)
 
 /* Angle, away from the middle of the plate, of the damaged particles of both cracks about a ring round their start
  * [rad]. */
-static double angle_at(const struct engine *e, double radius, double width)
+static double angle_at(const struct run *e, double radius, double width)
 {
-    const struct tips *t = &e->fracture.tips;
+    const struct tips *t = &e->fracture->tips;
     double along = 0, across = 0;
     for (int64_t i = 0; i < e->part.n; i++) {
         const int k = t->label[i] - 1;
@@ -95,9 +97,9 @@ static double angle_at(const struct engine *e, double radius, double width)
     return along != 0 || across != 0 ? atan2(across, along) : NAN;
 }
 
-struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struct engine *e)
+struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struct run *e)
 {
-    const struct tips *t = &e->fracture.tips;
+    const struct tips *t = &e->fracture->tips;
     struct fracture f = {.start = time_of(t, watched[p->at].start), .speed = NAN};
     int n = 0;
     for (int k = 0; k < t->n; k++)
@@ -115,7 +117,7 @@ struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struc
 static double accuracy_fracture_off(double value, double wanted) { return isfinite(value) ? value / wanted - 1 : -1; }
 
 /* Path: how far it lies beside the other, over the distance from its start, and its length. */
-static status accuracy_fracture_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_fracture_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct fracture f = accuracy_fracture_of(p, e), *wanted = &fracture_reference[p->at][FRACTURE_QUARTER];
     double beside2 = 0;
@@ -182,7 +184,7 @@ const struct accuracy_problem accuracy_fracture = {
 static status print_reference(const struct accuracy_point *p)
 {
     struct accuracy_scene from;
-    struct engine e;
+    struct run e;
     struct scene s;
     accuracy_scene_make(p, &from);
     TRY(bench_engine_make(&e, &s, p->problem->name, from.text, bench_overrides_ready(&from.set), from.set.n));

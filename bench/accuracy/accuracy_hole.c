@@ -80,7 +80,7 @@ static void accuracy_hole_make_scene(const struct accuracy_point *p, struct accu
 /* ---- errors ------------------------------------------------------------------------------------------------------ */
 
 /* Displacements in the ring, and at the hole's ends the mean strain across the axis, of which u_y/y is a difference. */
-static status accuracy_hole_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_hole_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct particles *q = &e->part;
     const double h = 10.0 / p->resolution;

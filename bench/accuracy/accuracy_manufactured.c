@@ -5,6 +5,7 @@
 #include "accuracy.h"
 #include "engine/engine.h"
 #include "bench/common/manufactured.h"
+#include "probes/probes.h"
 
 /* P waves run at 100 m/s; both parts of the motion, with and without rotation, are there. */
 #define MOTION .amplitude = 1e-7, .period = 14e-3, .length = 2, .c12 = 1e4 / 3, .shear = 1e4 / 3, .density = 1
@@ -50,7 +51,7 @@ static void add_stress(const struct particles *p, int64_t i, const real *stiffne
     }
 }
 
-static status accuracy_manufactured_measure(const struct accuracy_point *q, struct engine *e, double *error,
+static status accuracy_manufactured_measure(const struct accuracy_point *q, struct run *e, double *error,
                                             double *part)
 {
     const struct manufactured *m = accuracy_manufactured_motion_of(q);

@@ -5,6 +5,7 @@
 
 #include "accuracy.h"
 #include "engine/engine.h"
+#include "probes/probes.h"
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
@@ -19,7 +20,7 @@ static void pulse_scene(const struct accuracy_point *p, struct accuracy_scene *s
         "initial: [{pulse: {at: [0.2], direction: [1], width: 0.25, velocity: 1 mm/s}}]\nprobes: [exact: pulse]\n");
 }
 
-static status pulse_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status pulse_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const double rms = 1e-3 * sqrt(0.0625 * sqrt(0.5 * M_PI) / 3), impedance = sqrt(200e9 * 7850);
     (void)p;
@@ -41,7 +42,7 @@ static void step_scene(const struct accuracy_point *p, struct accuracy_scene *s)
         "probes: [exact: step bar]\n");
 }
 
-static status step_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status step_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     (void)p;
     part[0] = accuracy_figure(e, "exact", "L1") / 1e3;
@@ -61,7 +62,7 @@ static void spall_scene(const struct accuracy_point *p, struct accuracy_scene *s
         "initial: [{velocity: [-20], region: {box: {from: [0.9], to: [1]}}}]\nprobes: [spall]\n");
 }
 
-static status spall_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status spall_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     (void)p;
     part[0] = accuracy_figure(e, "spall", "time") / (1 / sqrt(70e9 / 2700)) - 1;
@@ -80,7 +81,7 @@ static void wave_scene(const struct accuracy_point *p, struct accuracy_scene *s)
     bench_override(&s->set, "material.poisson", "%s", poisson[p->at]);
 }
 
-static status wave_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status wave_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     return accuracy_wave.measure(p, e, error, part);
 }
@@ -98,7 +99,7 @@ static void crack_scene(const struct accuracy_point *p, struct accuracy_scene *s
     bench_override(&s->set, "solver", "static");
 }
 
-static status crack_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status crack_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     (void)p;
     part[0] = fabs(accuracy_figure(e, "sif", "K_I")) / (10e6 * sqrt(M_PI * 15e-3)) / 3.009 - 1;
@@ -122,7 +123,7 @@ static void hole_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 }
 
 /* The exact field is that of a radius of 1 m, 1 GPa and 10 kPa (accuracy_hole.c); from 1.5 to 3 radii. */
-static status hole_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status hole_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct particles *q = &e->part;
     const double scale = hole_radius * (hole_pull / 1e4) * (1e9 / hole_young);
@@ -157,7 +158,7 @@ static void column_scene(const struct accuracy_point *p, struct accuracy_scene *
     fclose(to);
 }
 
-static status column_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status column_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct observed seen = engine_observed(e);
     struct wave_pulse w = column_pulse;

@@ -32,7 +32,7 @@ static void accuracy_spall_make_scene(const struct accuracy_point *p, struct acc
 }
 
 /* A bar that does not break is off by all there is. */
-static status accuracy_spall_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_spall_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     (void)p;
     part[0] = accuracy_figure(e, "spall", "time") / time_exact - 1;

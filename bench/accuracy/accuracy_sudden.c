@@ -7,6 +7,8 @@
 
 #include "accuracy.h"
 #include "fracture/sif_fields.h"
+#include "mesh/mesh_part.h"
+#include "mesh/levels.h"
 
 enum { REST, MOVING };
 
@@ -45,11 +47,11 @@ static void accuracy_sudden_make_scene(const struct accuracy_point *p, struct ac
 }
 
 /* In pieces: the last step of each is a sample, at which all levels of coarse cells are at the same time. */
-static status accuracy_sudden_run(const struct accuracy_point *p, struct engine *e)
+static status accuracy_sudden_run(const struct accuracy_point *p, struct run *e)
 {
     const struct crack_medium m = crack_medium_of(&e->scene->material[0], e->scene->space);
     const double slower = p->at == MOVING ? crack_speed_factor(&m, SPEED_EXACT, speed) : 1;
-    const int64_t stride = levels_stride(&e->reference.levels);
+    const int64_t stride = levels_stride(&e->frame->levels);
     for (int k = 0; k < INSTANTS; k++) {
         const int64_t whole = stride * llround(instant[k] / (e->clock.dt * (double)stride));
         const int64_t until = k < INSTANTS - 1 ? whole : e->clock.steps;
@@ -62,7 +64,7 @@ static status accuracy_sudden_run(const struct accuracy_point *p, struct engine 
 }
 
 /* The mean, and what is left about it. */
-static status accuracy_sudden_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_sudden_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     (void)p, (void)e;
     double mean = 0, square = 0;

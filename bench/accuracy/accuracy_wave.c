@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "accuracy.h"
+#include "probes/probes.h"
 
 /* Those of the table, and after them those of accuracy_others.c. */
 enum { WAVES = ACCURACY_CASES + 4 };
@@ -98,7 +99,7 @@ static double best_shift(const struct wave_pulse *w, const struct particles *p, 
 }
 
 /* A shift by `phase` radii makes an error of |phase|, root mean square, as an amplitude off by as much does. */
-static status accuracy_wave_measure(const struct accuracy_point *p, struct engine *e, double *error, double *part)
+static status accuracy_wave_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct wave_pulse w = pulse_of(p);
     const struct observed seen = engine_observed(e);

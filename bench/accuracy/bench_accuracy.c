@@ -7,10 +7,11 @@
 
 #include "accuracy.h"
 #include "base/memory.h"
+#include "step/report.h"
 
 /* ---- figures of a run -------------------------------------------------------------------------------------------- */
 
-double accuracy_figure(const struct engine *e, const char *probe, const char *quantity)
+double accuracy_figure(const struct run *e, const char *probe, const char *quantity)
 {
     struct bench_figure figure = {probe, quantity, NAN};
     bench_figures_take(e, &figure, 1);
@@ -38,7 +39,7 @@ void accuracy_result_clear(struct accuracy_result *r)
 status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene *from, int team,
                           struct accuracy_result *r, struct scene_choice *choice)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     struct accuracy_point at = *p;
     team_make(team + 1);
@@ -48,7 +49,7 @@ status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene 
     const double before = processor_seconds();
     status ran = p->problem->run ? p->problem->run(&at, &e) : engine_run(&e);
     const double busy = team == 0 ? processor_seconds() - before : INFINITY;
-    r->seconds[team] = fmin(r->seconds[team], fmin(e.report.loop_seconds, busy));
+    r->seconds[team] = fmin(r->seconds[team], fmin(e.report->loop_seconds, busy));
     r->particles = (double)e.part.n, r->steps = (double)e.clock.step, r->stable = ran == OK;
     if (ran == OK && !r->known) ran = p->problem->measure(&at, &e, &r->error, r->part);
     bench_engine_free(&e, &s);

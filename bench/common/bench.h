@@ -61,14 +61,14 @@ status bench_readme_end(struct bench_readme *r, const char *name, bool quick, st
 
 /* Reads a scene (`text` NULL: the file `path`) with overrides and makes its engine, without output. The scene must stay
  * where it is. */
-status bench_engine_make(struct engine *e, struct scene *s, const char *path, const char *text,
+status bench_engine_make(struct run *e, struct scene *s, const char *path, const char *text,
                          const struct scene_override *override, int overrides);
-void bench_engine_free(struct engine *e, struct scene *s);
+void bench_engine_free(struct run *e, struct scene *s);
 /* Gives all particles, and the nodes of the reference frame, the velocity field(context, X) [m/s]. */
 typedef void bench_field(const void *context, const real *X, real *v);
-void bench_engine_start(struct engine *e, bench_field *field, const void *context);
+void bench_engine_start(struct run *e, bench_field *field, const void *context);
 /* Goes on to the end of step `until`; the last step is a sample. Adds up laps over calls. */
-status bench_engine_run(struct engine *e, int64_t until, struct laps *spent);
+status bench_engine_run(struct run *e, int64_t until, struct laps *spent);
 /* Texts of overrides, made on the way; `at` points into them only once all are added (bench_overrides_ready). */
 enum { OVERRIDES_MAX = 24, OVERRIDE_LENGTH = 160 };
 struct bench_overrides {
@@ -83,7 +83,7 @@ void bench_override(struct bench_overrides *o, const char *key, const char *valu
 const struct scene_override *bench_overrides_ready(struct bench_overrides *o);
 struct bench_figure { const char *probe, *quantity; double value; };
 /* Those that probes of a run have; the others keep their value. */
-void bench_figures_take(const struct engine *e, struct bench_figure *figure, int n);
+void bench_figures_take(const struct run *e, struct bench_figure *figure, int n);
 /* Runs a scene to its end, and its twin on material points if a pulse probe compares with it, and reads figures of
  * its probes: NAN where it has none. */
 status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n);
@@ -125,7 +125,7 @@ struct bench_block {
 enum { BENCH_BLOCKS = 10 };
 extern const struct bench_block bench_blocks[BENCH_BLOCKS];
 /* About so many particles, at least 12 along an edge; `out` may be NULL. Free with bench_engine_free. */
-status bench_block_make(struct engine *e, struct scene *s, const struct bench_block *b, double particles, int64_t steps,
+status bench_block_make(struct run *e, struct scene *s, const struct bench_block *b, double particles, int64_t steps,
                         int frames, struct output *out);
 
 /* ---- the benches ------------------------------------------------------------------------------------------------- */

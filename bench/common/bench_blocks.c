@@ -5,6 +5,7 @@
 
 #include "auto/scene_read.h"
 #include "bench.h"
+#include "step/report.h"
 
 const struct bench_block bench_blocks[BENCH_BLOCKS] = {
     {"pd", 2, "pd", "current"},           {"mpm", 2, "mpm", "current"},
@@ -61,7 +62,7 @@ static void block_text(FILE *to, const struct bench_block *b, double particles, 
     block_parts(to, b, edge);
 }
 
-status bench_block_make(struct engine *e, struct scene *s, const struct bench_block *b, double particles, int64_t steps,
+status bench_block_make(struct run *e, struct scene *s, const struct bench_block *b, double particles, int64_t steps,
                         int frames, struct output *out)
 {
     char text[2048];
@@ -69,11 +70,11 @@ status bench_block_make(struct engine *e, struct scene *s, const struct bench_bl
     if (!to) return status_set(FAILED, "bench: out of memory");
     block_text(to, b, particles, steps, frames);
     fclose(to);
-    *e = (struct engine){0};
+    *e = (struct run){0};
     *s = (struct scene){0};
     TRY(scene_read_text(s, text, strlen(text), "block", NULL, 0));
     status made = engine_make(e, s, out);
-    e->report.quiet = true;
+    e->report->quiet = true;
     if (made != OK) bench_engine_free(e, s);
     return made;
 }

@@ -18,6 +18,10 @@
 #include "base/memory.h"
 #include "output/output_files.h"
 #include "output/summary_read.h"
+#include "step/report.h"
+#include "mesh/mesh_part.h"
+#include "probes/probes.h"
+#include "probes/probes_part.h"
 
 extern char **environ;
 
@@ -36,51 +40,51 @@ status bench_scenes_needed(const char *bench, const char *const *path, size_t n)
     return OK;
 }
 
-status bench_engine_make(struct engine *e, struct scene *s, const char *path, const char *text,
+status bench_engine_make(struct run *e, struct scene *s, const char *path, const char *text,
                          const struct scene_override *override, int overrides)
 {
-    *e = (struct engine){0};
+    *e = (struct run){0};
     *s = (struct scene){0};
     if (text)
         TRY(scene_read_text(s, text, strlen(text), path, override, overrides));
     else
         TRY(scene_read(s, path, override, overrides));
     status made = engine_make(e, s, NULL);
-    e->report.quiet = true;
+    e->report->quiet = true;
     if (made != OK) bench_engine_free(e, s);
     return made;
 }
 
-void bench_engine_free(struct engine *e, struct scene *s)
+void bench_engine_free(struct run *e, struct scene *s)
 {
     engine_free(e);
     scene_free(s);
 }
 
-status bench_engine_run(struct engine *e, int64_t until, struct laps *spent)
+status bench_engine_run(struct run *e, int64_t until, struct laps *spent)
 {
     const int64_t steps = e->clock.steps;
-    memory_free(e->report.record); /* each call of engine_run makes its own */
-    e->report.record = NULL;
+    memory_free(e->report->record); /* each call of engine_run makes its own */
+    e->report->record = NULL;
     e->clock.steps = until < steps ? until : steps;
     status ran = engine_run(e);
     e->clock.steps = steps;
-    for (int k = 0; spent && k < LAPS; k++) spent->spent[k] += e->report.laps.spent[k];
+    for (int k = 0; spent && k < LAPS; k++) spent->spent[k] += e->laps.spent[k];
     return ran;
 }
 
-void bench_engine_start(struct engine *e, bench_field *field, const void *context)
+void bench_engine_start(struct run *e, bench_field *field, const void *context)
 {
-    struct grid *g = &e->reference.mesh.grid;
+    struct grid *g = &e->frame->mesh.grid;
     real X[DIM_MAX], v[DIM_MAX];
     for (int64_t i = 0; i < e->part.n; i++) {
         for (int d = 0; d < e->part.dim; d++) X[d] = e->part.X[d][i];
         field(context, X, v);
         for (int d = 0; d < e->part.dim; d++) e->part.v[d][i] = v[d];
     }
-    for (int64_t I = 0; e->reference.mesh.points > 0 && I < g->n; I++) {
-        if (!(e->reference.mesh.inverse_mass[I] > 0)) continue;
-        const int64_t at = mesh_base(&e->reference.mesh, I);
+    for (int64_t I = 0; e->frame->mesh.points > 0 && I < g->n; I++) {
+        if (!(e->frame->mesh.inverse_mass[I] > 0)) continue;
+        const int64_t at = mesh_base(&e->frame->mesh, I);
         for (int d = 0; d < g->dim; d++) X[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
         field(context, X, v);
         for (int d = 0; d < g->dim; d++) g->velocity[d][I] = v[d];
@@ -114,15 +118,15 @@ static void take_figure(void *context, const char *probe, const char *quantity, 
         if (!strcmp(w->figure[k].probe, probe) && !strcmp(w->figure[k].quantity, quantity)) w->figure[k].value = value;
 }
 
-void bench_figures_take(const struct engine *e, struct bench_figure *figure, int n)
+void bench_figures_take(const struct run *e, struct bench_figure *figure, int n)
 {
     const struct observed seen = engine_observed(e);
-    probes_figures(&e->probing.probes, &seen, take_figure, &(struct wanted_figures){figure, n});
+    probes_figures(&e->probing->probes, &seen, take_figure, &(struct wanted_figures){figure, n});
 }
 
 status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     for (int k = 0; k < n; k++) figure[k].value = NAN;
     TRY(bench_engine_make(&e, &s, path, text, bench_overrides_ready(o), o->n));

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "contact_bench.h"
 
-status contact_engine(struct engine *e, struct scene *s, const char *text, ...)
+status contact_engine(struct run *e, struct scene *s, const char *text, ...)
 {
     char whole[4096];
     va_list more;
@@ -17,7 +17,7 @@ status contact_engine(struct engine *e, struct scene *s, const char *text, ...)
     return bench_engine_make(e, s, "contact", whole, NULL, 0);
 }
 
-struct contact_motion contact_motion_of(const struct engine *e, int body)
+struct contact_motion contact_motion_of(const struct run *e, int body)
 {
     const struct particles *p = &e->part;
     struct contact_motion m = {0};

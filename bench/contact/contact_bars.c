@@ -2,11 +2,13 @@
 #include <math.h>
 
 #include "contact_bench.h"
+#include "contact/contact.h"
+#include "probes/diagnostics.h"
 
 #define YOUNG 200e9
 #define DENSITY (YOUNG / (CONTACT_WAVE * CONTACT_WAVE))
 
-static status bars_make(struct engine *e, struct scene *s, const struct contact_case *c, double until)
+static status bars_make(struct run *e, struct scene *s, const struct contact_case *c, double until)
 {
     const double D = CONTACT_SPACING, gap = 0.1 * D;
     return contact_engine(e, s,
@@ -23,7 +25,7 @@ static status bars_make(struct engine *e, struct scene *s, const struct contact_
  * energy error. */
 struct contact_course { double from, until, force, error; };
 
-static status bars_run(struct engine *e, struct contact_course *seen)
+static status bars_run(struct run *e, struct contact_course *seen)
 {
     double before = contact_motion_of(e, 0).v[0];
     *seen = (struct contact_course){INFINITY, -INFINITY, 0, 0};
@@ -34,8 +36,8 @@ static status bars_run(struct engine *e, struct contact_course *seen)
         const struct contact_motion a = contact_motion_of(e, 0);
         const double force = fabs(a.v[0] - before) * a.mass / e->clock.dt;
         if (force > seen->force) seen->force = force;
-        if (e->contact.touching > 0) seen->from = fmin(seen->from, e->clock.t), seen->until = e->clock.t;
-        seen->error = fmax(seen->error, fabs(e->diagnostics.now.balance_error));
+        if (e->contact->touching > 0) seen->from = fmin(seen->from, e->clock.t), seen->until = e->clock.t;
+        seen->error = fmax(seen->error, fabs(e->diagnostics->now.balance_error));
         before = a.v[0];
     }
     return engine_report_end(e);
@@ -44,7 +46,7 @@ static status bars_run(struct engine *e, struct contact_course *seen)
 /* Bars of the same length and opposite velocities. */
 status contact_bars(const struct contact_case *c, double *figure)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     struct contact_course seen;
     const double v = c->given[2] * CONTACT_WAVE, L = c->given[0] * CONTACT_SPACING;
@@ -63,7 +65,7 @@ status contact_bars(const struct contact_case *c, double *figure)
 /* A bar flies at one of twice its length at rest. */
 status contact_striker(const struct contact_case *c, double *figure)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     struct contact_course seen;
     const double v = c->given[2] * CONTACT_WAVE, L = c->given[0] * CONTACT_SPACING;
@@ -81,7 +83,7 @@ status contact_striker(const struct contact_case *c, double *figure)
 /* A plane bar of given[0] x given[0]/5 particles between two fixed walls, 5 spacings of way each. */
 status contact_bounces(const struct contact_case *c, double *figure)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     struct contact_course seen;
     const double D = CONTACT_SPACING, n = c->given[0], v = c->given[2] * CONTACT_WAVE, room = 5 * D;
@@ -97,7 +99,7 @@ status contact_bounces(const struct contact_case *c, double *figure)
     const status ran = bars_run(&e, &seen);
     if (ran == OK) {
         figure[0] = seen.error;
-        figure[1] = e.diagnostics.now.momentum_error;
+        figure[1] = e.diagnostics->now.momentum_error;
     }
     bench_engine_free(&e, &s);
     return ran;

@@ -26,11 +26,11 @@ extern const int contact_cases_count;
 bool contact_case_holds(const struct contact_case *c, const double *figure);
 
 /* An engine of a scene written by printf; free with bench_engine_free. */
-status contact_engine(struct engine *e, struct scene *s, const char *text, ...) __attribute__((format(printf, 3, 4)));
+status contact_engine(struct run *e, struct scene *s, const char *text, ...) __attribute__((format(printf, 3, 4)));
 
 /* Motion of a body, by its particles: mean velocity [m/s], spin in the plane [1/s]. */
 struct contact_motion { double mass, x[DIM_MAX], v[DIM_MAX], spin; };
-struct contact_motion contact_motion_of(const struct engine *e, int body);
+struct contact_motion contact_motion_of(const struct run *e, int body);
 
 /* contact_bars.c: two bars of `given[0]` and `given[1]` particles, speeds given[2] and given[3] wave speeds: relative
  * speed after over before, duration over 2 L/c, largest force over that of a bar, energy error. */

@@ -2,9 +2,10 @@
 #include <math.h>
 
 #include "contact_bench.h"
+#include "probes/diagnostics.h"
 
 /* Runs to the end; the line of centres when they are closest, which turns while they touch. */
-static status discs_run(struct engine *e, double *normal)
+static status discs_run(struct run *e, double *normal)
 {
     double least = INFINITY;
     TRY(engine_report_start(e));
@@ -20,7 +21,7 @@ static status discs_run(struct engine *e, double *normal)
 
 status contact_discs(const struct contact_case *c, double *figure)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     const double D = CONTACT_SPACING, R = c->given[0] * D, v = c->given[1] * CONTACT_WAVE, turn = c->given[3];
     const double angle = asin(0.5 * c->given[2]), gap = 0.3 * D, far = R + 0.5 * gap;
@@ -42,7 +43,7 @@ status contact_discs(const struct contact_case *c, double *figure)
         figure[0] = (wx * mx + wy * my) / (2 * (vx * mx + vy * my));
         figure[1] = angle > 0 ? (wy * mx - wx * my) / (2 * (vx * my - vy * mx)) : 1;
         figure[2] = 0.5 * (a.spin + b.spin) * R / v;
-        figure[3] = fabs(e.diagnostics.now.balance_error);
+        figure[3] = fabs(e.diagnostics->now.balance_error);
     }
     bench_engine_free(&e, &s);
     return ran;

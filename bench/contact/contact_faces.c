@@ -4,13 +4,16 @@
 
 #include "base/memory.h"
 #include "contact_bench.h"
+#include "contact/contact.h"
+#include "rigid/rigid_part.h"
+#include "probes/diagnostics.h"
 
 /* Mean force of the upper end over the second half of the run, while the ends rest [N]. */
 struct block_force { double normal, along, overlap; };
 
 static status block_run(const struct contact_case *c, bool cut, struct block_force *f)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     const double D = CONTACT_SPACING, edge = c->given[0] * D, time = 60 * edge / CONTACT_WAVE;
     const double ramp = 0.5 * time, shift = c->given[1] * edge / ramp, slip = c->given[2] * D / ramp;
@@ -36,7 +39,7 @@ static status block_run(const struct contact_case *c, bool cut, struct block_for
         f->normal += e.loads.load[1].reaction[1], f->along += e.loads.load[1].reaction[0], n++;
     }
     f->normal /= (double)n, f->along /= (double)n;
-    f->overlap = e.contact.overlap_most / D;
+    f->overlap = e.contact->overlap_most / D;
     bench_engine_free(&e, &s);
     return ran;
 }
@@ -59,7 +62,7 @@ status contact_block(const struct contact_case *c, double *figure)
  * the approach while it grows from a tenth of the largest to the largest. */
 status contact_hertz_space(const struct contact_case *c, double *figure)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     const double D = CONTACT_SPACING, R = c->given[0] * D, v = c->given[1] * CONTACT_WAVE, E = 200e9, nu = 0.25;
     const double density = E / (CONTACT_WAVE * CONTACT_WAVE), mass = density * 4 / 3. * acos(-1) * R * R * R;
@@ -80,7 +83,7 @@ status contact_hertz_space(const struct contact_case *c, double *figure)
         way[n] = start - contact_motion_of(&e, 0).x[2];
         if (n == 0) start = contact_motion_of(&e, 0).x[2], way[n] = 0;
         ran = engine_step(&e);
-        force[n] = -e.rigid[0].force[2];
+        force[n] = -e.rigid->body[0].force[2];
         if (force[n] > 0) from = fmin(from, e.clock.t), until = e.clock.t;
         if (force[n] > largest) largest = force[n];
     }
@@ -92,7 +95,7 @@ status contact_hertz_space(const struct contact_case *c, double *figure)
     figure[0] = (sum[0] * sum[4] - sum[1] * sum[2]) / (sum[0] * sum[3] - sum[1] * sum[1]);
     figure[1] = (until - from) / time;
     figure[2] = contact_motion_of(&e, 0).v[2] / v;
-    figure[3] = fabs(e.diagnostics.now.balance_error);
+    figure[3] = fabs(e.diagnostics->now.balance_error);
     memory_free(force), memory_free(way);
     bench_engine_free(&e, &s);
     return ran;

@@ -2,11 +2,12 @@
 #include <math.h>
 
 #include "contact_bench.h"
+#include "probes/diagnostics.h"
 
 /* A block of 12 x 8 particles: on a rigid floor, or on a row of a deformable one that is held below. */
 status contact_slope(const struct contact_case *c, double *figure)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     const double D = CONTACT_SPACING, slope = atan(c->given[0]), friction = c->given[1], E = 200e9, density = 8000;
     const double g = 1e-4 * E / (density * 8 * D), settle = 100e-6, slide = sqrt(2 * 20 * D / (g * sin(slope)));
@@ -41,7 +42,7 @@ status contact_slope(const struct contact_case *c, double *figure)
     const struct contact_motion m = contact_motion_of(&e, 0);
     figure[0] = (m.v[0] - at) / (e.clock.t - then) / (g * sin(slope));
     figure[1] = (m.x[0] - from) / D;
-    figure[2] = fabs(e.diagnostics.now.balance_error);
+    figure[2] = fabs(e.diagnostics->now.balance_error);
     bench_engine_free(&e, &s);
     return ran;
 }

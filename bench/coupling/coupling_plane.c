@@ -6,6 +6,7 @@
 
 #include "coupling.h"
 #include "base/memory.h"
+#include "probes/probes.h"
 
 enum { BLOCK = 4, AWAY = 12 }; /* [spacings] */
 enum { WEIGHTS = 2 };
@@ -32,7 +33,7 @@ static struct strip strip_of(int interface, double width)
 }
 
 /* One run; row.way < 0: material points alone. */
-static status strip_make(struct engine *e, struct scene *scene, const struct strip *s, const struct plane_row *row)
+static status strip_make(struct run *e, struct scene *scene, const struct strip *s, const struct plane_row *row)
 {
     struct bench_overrides o = {0};
     if (row->way >= 0)
@@ -62,7 +63,7 @@ struct plain {
 /* Particles are made and sorted before any is peridynamic, so all runs number them alike. */
 static status plain_make(struct plain *b, const struct strip *s, struct plane_row row)
 {
-    struct engine e;
+    struct run e;
     struct scene scene;
     row.way = -1;
     TRY(strip_make(&e, &scene, s, &row));
@@ -109,7 +110,7 @@ static double largest_block(const struct strip *s, const struct particles *p, co
 }
 
 /* Close to the interface only where the pulse has passed: where it is, the sides differ by what each makes of it. */
-static void coupling_plane_compare(struct plane_row *r, const struct strip *s, const struct engine *e,
+static void coupling_plane_compare(struct plane_row *r, const struct strip *s, const struct run *e,
                                    const struct plain *b)
 {
     const struct particles *p = &e->part;
@@ -130,7 +131,7 @@ static void coupling_plane_compare(struct plane_row *r, const struct strip *s, c
 
 static status row_measure(struct plane_row *r, const struct strip *s, const struct plain *b)
 {
-    struct engine e;
+    struct run e;
     struct scene scene;
     TRY(strip_make(&e, &scene, s, r));
     status ran = engine_run(&e);

@@ -21,7 +21,7 @@ struct pulse_picture {
     struct snapshot shot[COLUMNS][TIMES];
 };
 
-static status pulse_bar_make(struct engine *e, struct scene *s, int way)
+static status pulse_bar_make(struct run *e, struct scene *s, int way)
 {
     struct bench_overrides o = {0};
     if (way >= 0)
@@ -48,7 +48,7 @@ static void coupling_pulse_take(struct snapshot *shot, const struct particles *p
 
 static status column_run(struct pulse_picture *picture, int column)
 {
-    struct engine e[2]; /* coupled; material points alone */
+    struct run e[2]; /* coupled; material points alone */
     struct scene s[2];
     TRY(pulse_bar_make(&e[0], &s[0], column_way[column]));
     status ran = pulse_bar_make(&e[1], &s[1], -1);

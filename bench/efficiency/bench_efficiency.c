@@ -9,6 +9,8 @@
 #include "efficiency.h"
 #include "plot/gnuplot.h"
 #include "base/memory.h"
+#include "step/report.h"
+#include "fracture/tips.h"
 
 enum { BARS = 5 };     /* ways that have a colour */
 enum {
@@ -23,7 +25,7 @@ enum part { PART_BONDS, PART_POINTS, PART_CONVERSION, PART_SAMPLES, PARTS };
 static const char *const part_name[PARTS] = {"bonds", "points", "conversion", "samples"};
 
 /* One run of one method. Figures of the fracture are the same in every repetition. */
-struct run {
+struct run_times {
     double seconds[REPETITIONS];
     double part[PARTS][REPETITIONS]; /* of them, time of each part [s] */
     struct crack_ends ends;
@@ -34,7 +36,7 @@ struct result {
     const struct scene_case *scene;
     int64_t particles, steps;
     double dt;
-    struct run run[WAYS];
+    struct run_times run[WAYS];
     double t[WAYS], t_r[WAYS];                                                    /* [s] [1] */
     double t_r_stepping[WAYS];                                                    /* the same of the steps alone [1] */
     double t_r_bound[WAYS];                                                   /* the same if conversion were free [1] */
@@ -49,18 +51,18 @@ struct efficiency {
     struct result *result;
 };
 
-static status make(struct engine *e, struct scene *s, const struct result *x, int way)
+static status make(struct run *e, struct scene *s, const struct result *x, int way)
 {
     return efficiency_make(e, s, x->scene, way, x->dt);
 }
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
-static double pd_share(const struct engine *e) { return (double)e->part.n_of[KIND_PD] / (double)e->part.n; }
+static double pd_share(const struct run *e) { return (double)e->part.n_of[KIND_PD] / (double)e->part.n; }
 
 /* The loop in SAMPLES pieces: the share is noted at the end of each. Not timed: a loop that ends brings everything
  * up to date. */
-static status run_pieces(struct run *r, struct engine *e)
+static status run_pieces(struct run_times *r, struct run *e)
 {
     r->share[0] = pd_share(e);
     for (int k = 1; k <= SAMPLES; k++) {
@@ -71,7 +73,7 @@ static status run_pieces(struct run *r, struct engine *e)
 }
 
 /* Time of each part of a loop, from its laps. */
-static void parts_keep(struct run *r, const double *spent, int repetition)
+static void parts_keep(struct run_times *r, const double *spent, int repetition)
 {
     r->part[PART_BONDS][repetition] = spent[LAP_BONDS];
     r->part[PART_POINTS][repetition] = spent[LAP_SCATTER] + spent[LAP_GRID] + spent[LAP_GATHER];
@@ -82,12 +84,12 @@ static void parts_keep(struct run *r, const double *spent, int repetition)
 static status efficiency_run_once(struct result *x, int way, int repetition)
 {
     struct scene s;
-    struct engine e;
+    struct run e;
     TRY(make(&e, &s, x, way));
-    struct run *r = &x->run[way];
+    struct run_times *r = &x->run[way];
     status ran = bench_engine_run(&e, e.clock.steps, NULL);
-    r->seconds[repetition] = e.report.loop_seconds;
-    parts_keep(r, e.report.laps.spent, repetition);
+    r->seconds[repetition] = e.report->loop_seconds;
+    parts_keep(r, e.laps.spent, repetition);
     x->particles = e.part.n, x->steps = e.clock.steps;
     if (ran == OK) crack_ends_keep(&r->ends, &e);
     bench_engine_free(&e, &s);
@@ -97,7 +99,7 @@ static status efficiency_run_once(struct result *x, int way, int repetition)
 static status run_shares(struct result *x, int way)
 {
     struct scene s;
-    struct engine e;
+    struct run e;
     TRY(make(&e, &s, x, way));
     s.samples = 0; /* none but the last of each piece */
     status ran = run_pieces(&x->run[way], &e);
@@ -123,7 +125,7 @@ static void compare_tips(struct result *x, int way, int dim)
 }
 
 /* Time of loops less that of a part: of the step's own work, or as if rows and partial cells came for nothing [s]. */
-static double median_without(const struct run *r, enum part part, int repetitions)
+static double median_without(const struct run_times *r, enum part part, int repetitions)
 {
     double t[REPETITIONS];
     for (int k = 0; k < repetitions; k++) t[k] = r->seconds[k] - r->part[part][k];
@@ -131,7 +133,7 @@ static double median_without(const struct run *r, enum part part, int repetition
 }
 
 /* Share of loops that is neither bonds nor material points [1]. */
-static double median_rest(const struct run *r, int repetitions)
+static double median_rest(const struct run_times *r, int repetitions)
 {
     double t[REPETITIONS];
     for (int k = 0; k < repetitions; k++)
@@ -204,7 +206,7 @@ static void print_way(const struct result *x, int way)
 }
 
 /* Share at a time, from the nearest note. */
-static double share_at(const struct run *r, double t)
+static double share_at(const struct run_times *r, double t)
 {
     int best = 0;
     for (int k = 1; k <= SAMPLES; k++)

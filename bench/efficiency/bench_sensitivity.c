@@ -9,6 +9,7 @@
 #include "efficiency.h"
 #include "plot/gnuplot.h"
 #include "base/memory.h"
+#include "fracture/tips.h"
 
 enum { STEPS = 9, STEPS_QUICK = 3, METHODS = 2 };
 #define STEP_RANGE 0.1
@@ -40,7 +41,7 @@ static double factor_of(int run, int runs) { return 1 + STEP_RANGE * (2.0 * run 
 static status sensitivity_run_once(struct scatter *x, int method, double dt, struct crack_ends *ends)
 {
     struct scene s;
-    struct engine e;
+    struct run e;
     TRY(efficiency_make(&e, &s, x->scene, way_of[method], dt));
     x->spacing = s.spacing;
     status ran = bench_engine_run(&e, e.clock.steps, NULL);

@@ -3,6 +3,7 @@
 #define CLEAVE_BENCH_EFFICIENCY
 
 #include "bench/common/bench.h"
+#include "fracture/tips.h"
 
 /* What the paper says of the share of peridynamic particles. */
 struct mark {
@@ -34,7 +35,7 @@ extern const struct way efficiency_way[WAYS];
 
 /* Scene and engine of a method; time step 0: its own. The correction of surfaces is for bonds alone: state-based
  * families know what they have left. */
-status efficiency_make(struct engine *e, struct scene *s, const struct scene_case *c, int way, double dt);
+status efficiency_make(struct run *e, struct scene *s, const struct scene_case *c, int way, double dt);
 bool efficiency_of_bonds(const struct scene_case *c);
 /* Finer scenes are long, and one way is enough to see what finer means. */
 bool efficiency_is_run(const struct scene_case *c, int way);
@@ -52,7 +53,7 @@ struct crack_ends {
     int tips, longest;                   /* longest -1: none grew */
     double start;                        /* first cut bond [s] */
 };
-void crack_ends_keep(struct crack_ends *c, const struct engine *e);
+void crack_ends_keep(struct crack_ends *c, const struct run *e);
 /* The tip of the other method that started nearest to where this one did; NULL without. */
 const struct tip *crack_partner(const struct crack_ends *other, const struct tip *tip);
 double place_distance(const real *a, const real *b);

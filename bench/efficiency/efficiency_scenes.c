@@ -1,5 +1,8 @@
 /* Scenes that are run by full peridynamics and adaptively, and where their cracks end. */
 #include "efficiency.h"
+#include "fracture/fracture_part.h"
+#include "probes/diagnostics.h"
+#include "fracture/tips.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -44,7 +47,7 @@ const struct way efficiency_way[WAYS] = {
 
 bool efficiency_of_bonds(const struct scene_case *c) { return strcmp(c->model, "bond") == 0; }
 
-status efficiency_make(struct engine *e, struct scene *s, const struct scene_case *c, int way, double dt)
+status efficiency_make(struct run *e, struct scene *s, const struct scene_case *c, int way, double dt)
 {
     char step[32], samples[16];
     const struct way *w = &efficiency_way[way];
@@ -78,7 +81,7 @@ status efficiency_step(const struct scene_case *c, double *dt)
     *dt = INFINITY;
     for (int way = 0; way < WAYS; way++) {
         struct scene s;
-        struct engine e;
+        struct run e;
         if (!efficiency_is_run(c, way)) continue;
         TRY(efficiency_make(&e, &s, c, way, 0));
         *dt = fmin(*dt, e.clock.dt);
@@ -102,13 +105,13 @@ void efficiency_tic(FILE *to, const struct scene_case *scene)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-void crack_ends_keep(struct crack_ends *c, const struct engine *e)
+void crack_ends_keep(struct crack_ends *c, const struct run *e)
 {
-    const struct tip *longest = tips_longest(&e->fracture.tips);
-    memcpy(c->tip, e->fracture.tips.tip, sizeof c->tip);
-    c->tips = e->fracture.tips.n;
-    c->longest = longest ? (int)(longest - e->fracture.tips.tip) : -1;
-    c->start = e->diagnostics.break_time;
+    const struct tip *longest = tips_longest(&e->fracture->tips);
+    memcpy(c->tip, e->fracture->tips.tip, sizeof c->tip);
+    c->tips = e->fracture->tips.n;
+    c->longest = longest ? (int)(longest - e->fracture->tips.tip) : -1;
+    c->start = e->diagnostics->break_time;
 }
 
 double place_distance(const real *a, const real *b)

@@ -18,7 +18,7 @@ enum { BEAM_BISECTIONS = 6, BEAM_STEPS = 3 };
 /* Does the beam crack from below near its middle? */
 static status beam_middle(double gamma, double safety, double spacing, bool *middle)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     struct bench_overrides o = {0};
     /* in the middle between two columns of particles, as in the scene */

@@ -60,7 +60,7 @@ static void surf_field(const struct surf *s, const struct particles *p, int64_t 
 }
 
 /* All particles begin in the field, at its velocity; those of the edge are listed. */
-static void surf_start(struct surf *s, struct engine *e)
+static void surf_start(struct surf *s, struct run *e)
 {
     struct particles *p = &e->part;
     double u[2], v[2];
@@ -108,7 +108,7 @@ static double surf_line_slope(const struct surf_line *l)
     return (l->n * l->xy - l->x * l->y) / (l->n * l->xx - l->x * l->x);
 }
 
-static status surf_go(struct surf *s, struct engine *e, double spacing, struct surf_figures *found)
+static status surf_go(struct surf *s, struct run *e, double spacing, struct surf_figures *found)
 {
     const double until = (SURF_WIDTH - SURF_NOTCH) / s->speed;
     struct surf_line taken = {0}, place = {0};
@@ -131,7 +131,7 @@ static status surf_go(struct surf *s, struct engine *e, double spacing, struct s
 status surf_run(double spacing, double share, double speed, double safety, struct surf_figures *found, double *rayleigh)
 {
     char text[2048];
-    struct engine e;
+    struct run e;
     struct scene scene;
     struct bench_overrides o = {0};
     FILE *to = fmemopen(text, sizeof text, "w");

@@ -31,7 +31,7 @@ static const double vortex_spacings[] = {0.1, 0.05, 0.025, 0.0125}; /* [m] */
 enum { VORTEX_SPACINGS = COUNT_OF(vortex_spacings) };
 
 /* The load of the scene, one everywhere, gets a share of its own for either component: force times volume. */
-static void vortex_load(struct engine *e, const struct vortex *v)
+static void vortex_load(struct run *e, const struct vortex *v)
 {
     struct load *load = &e->loads.load[0];
     const struct particles *p = &e->part;
@@ -47,7 +47,7 @@ static void vortex_load(struct engine *e, const struct vortex *v)
 }
 
 /* Root of the mean square of the error of displacements, over that of displacements. */
-static double vortex_error(struct engine *e, const struct vortex *v)
+static double vortex_error(struct run *e, const struct vortex *v)
 {
     const struct particles *p = &e->part;
     double wrong = 0, size = 0;
@@ -61,7 +61,7 @@ static double vortex_error(struct engine *e, const struct vortex *v)
     return sqrt(wrong / size);
 }
 
-static status vortex_go(struct engine *e, const struct vortex *v)
+static status vortex_go(struct run *e, const struct vortex *v)
 {
     TRY(engine_report_start(e));
     while (e->clock.step < e->clock.steps) {
@@ -76,7 +76,7 @@ status vortex_run(enum vortex_way way, double spacing, double *error)
 {
     const struct vortex_case *c = &vortex_cases[way];
     char text[1024];
-    struct engine e;
+    struct run e;
     struct scene scene;
     snprintf(text, sizeof text,
              "name: vortex\nspace: plane stress\nthickness: 1 m\nduration: %g\n%s"

@@ -6,6 +6,9 @@
 #include "kernel_bench.h"
 #include "base/memory.h"
 #include "kernels/simd/variants.h"
+#include "contact/contact.h"
+#include "grid/grid_part.h"
+#include "mesh/mesh_part.h"
 
 #define BOND_JOBS(D, M)                                                                                                \
     {BOND_FORCE, D, .model = PD_##M, .variant = #M}, {BOND_ENERGY, D, .model = PD_##M, .variant = #M},                 \
@@ -28,7 +31,7 @@ static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND
 /* ---- ground ------------------------------------------------------------------------------------------------------ */
 
 /* About 80,000 particles at 0.5 mm; nothing ever breaks. */
-static status kernels_body_make(struct engine *e, struct scene *s, int dim, const char *method, const char *model,
+static status kernels_body_make(struct run *e, struct scene *s, int dim, const char *method, const char *model,
                                 const char *mpm, const char *more, bool yields)
 {
     static const char *const space[DIM_MAX + 1] = {NULL, "line\nsection: 1 mm^2", "plane stress\nthickness: 10 mm",
@@ -54,7 +57,7 @@ static status kernels_body_make(struct engine *e, struct scene *s, int dim, cons
 }
 
 /* Moves one half of a cut body by 0.02 spacings against the other. */
-static void faces_press(struct engine *e)
+static void faces_press(struct run *e)
 {
     real low, high;
     particles_extent(&e->part, e->part.n, 0, &low, &high);
@@ -77,11 +80,12 @@ static status ground_make(struct ground *g, int dim)
     TRY(kernels_body_make(&g->engine[MESH], &g->scene[MESH], dim, "mpm", "bond", mesh, "", false));
     TRY(kernels_body_make(&g->engine[CUT], &g->scene[CUT], dim, "pd", "bond", points_of, cut[dim], false));
     faces_press(&g->engine[CUT]);
-    struct engine *points = &g->engine[POINTS];
-    points->mpm.transfer.dt = points->mpm.transfer.dt_velocity = 1e-12; /* repeated calls leave the state as it is */
+    struct run *points = &g->engine[POINTS];
+    points->grid->transfer.dt = points->grid->transfer.dt_velocity =
+        1e-12; /* repeated calls leave the state as it is */
     g->list = NEW("bench.list", points->part.n, int32_t);
     g->value = NEW("bench.value", points->part.n, real);
-    g->field = NEW("bench.field", points->mpm.field[0].grid.n, real);
+    g->field = NEW("bench.field", points->grid->field[0].grid.n, real);
     for (int64_t i = 0; i < points->part.n; i++) g->list[i] = (int32_t)i, g->value[i] = 1;
     return OK;
 }
@@ -96,14 +100,14 @@ static void ground_free(struct ground *g)
 
 /* ---- timing ------------------------------------------------------------------------------------------------------ */
 
-static struct engine *bonds_of(const struct job *j, struct ground *g)
+static struct run *bonds_of(const struct job *j, struct ground *g)
 {
     return &g->engine[j->model >= PD_OSPD ? STATES : j->model == PD_BOND_PLASTIC ? YIELDING : BONDS];
 }
 
 static void job_call(const struct job *j, struct ground *g)
 {
-    struct engine *pd = bonds_of(j, g), *e = &g->engine[POINTS], *m = &g->engine[MESH], *cut = &g->engine[CUT];
+    struct run *pd = bonds_of(j, g), *e = &g->engine[POINTS], *m = &g->engine[MESH], *cut = &g->engine[CUT];
     struct kernels k;
     kernels_choose(&k, j->dim, j->model, j->shape, j->transfer);
     real impulse[DIM_MAX] = {0}, work = 0;
@@ -122,44 +126,44 @@ static void job_call(const struct job *j, struct ground *g)
                               &(struct pd_motion){1e-12, 1e-12, INFINITY, NULL, false});
         break;
     case P2G:
-        p2g_table[j->dim][j->shape][j->transfer](&e->mpm.field[0].grid, &e->part, &e->mpm.transfer);
+        p2g_table[j->dim][j->shape][j->transfer](&e->grid->field[0].grid, &e->part, &e->grid->transfer);
         break;
     case REMAP:
-        remap_table[j->dim][j->shape](&e->mpm.field[0].grid, &e->part, &e->mpm.transfer);
+        remap_table[j->dim][j->shape](&e->grid->field[0].grid, &e->part, &e->grid->transfer);
         break;
     case G2P:
-        g2p_table[j->dim][j->shape][j->transfer](&e->mpm.field[0].grid, &e->part, &e->mpm.transfer);
+        g2p_table[j->dim][j->shape][j->transfer](&e->grid->field[0].grid, &e->part, &e->grid->transfer);
         break;
     case SPREAD:
-        spread_table[j->dim][j->shape](&e->mpm.field[0].grid, &e->part, e->mpm.transfer.half_width, g->list, e->part.n,
-                                       g->value, g->field);
+        spread_table[j->dim][j->shape](&e->grid->field[0].grid, &e->part, e->grid->transfer.half_width, g->list,
+                                       e->part.n, g->value, g->field);
         break;
     case GRID_CLEAR:
-        grid_clear(&e->mpm.field[0].grid);
+        grid_clear(&e->grid->field[0].grid);
         break;
     case GRID_MOVE:
-        grid_move(&e->mpm.field[0].grid, TRANSFER_FLIP, 1e-12, e->mpm.smallest_mass, impulse, &work);
+        grid_move(&e->grid->field[0].grid, TRANSFER_FLIP, 1e-12, e->grid->smallest_mass, impulse, &work);
         break;
     case MESH_CLEAR:
-        mesh_clear(&m->reference.mesh);
+        mesh_clear(&m->frame->mesh);
         break;
     case MESH_FORCE:
-        mesh_force(&m->reference.mesh, &m->part, m->reference.elastic, j->finite);
+        mesh_force(&m->frame->mesh, &m->part, m->frame->elastic, j->finite);
         break;
     case MESH_MOVE:
-        mesh_move(&m->reference.mesh, 1e-12, 1e-12, impulse, &work);
+        mesh_move(&m->frame->mesh, 1e-12, 1e-12, impulse, &work);
         break;
     case CONTACT_SEARCH:
-        contact_update(&cut->contact, &cut->part, &cut->bonds, &cut->loads, &cut->source.family, 0, cut->contact.broken,
-                       cut->contact.changed + 1);
+        contact_update(cut->contact, &cut->part, &cut->bonds, &cut->loads, &cut->source.family, 0, cut->contact->broken,
+                       cut->contact->changed + 1);
         break;
     case CONTACT_FORCE:
-        contact_update(&cut->contact, &cut->part, &cut->bonds, &cut->loads, &cut->source.family, 0, cut->contact.broken,
-                       cut->contact.changed);
-        contact_force(&cut->contact, &cut->part, 0);
+        contact_update(cut->contact, &cut->part, &cut->bonds, &cut->loads, &cut->source.family, 0, cut->contact->broken,
+                       cut->contact->changed);
+        contact_force(cut->contact, &cut->part, 0);
         break;
     default:
-        grid_remapped(&e->mpm.field[0].grid, e->mpm.smallest_mass);
+        grid_remapped(&e->grid->field[0].grid, e->grid->smallest_mass);
     }
 }
 
@@ -188,7 +192,7 @@ static void time_all(struct kernel_bench *b, int repetitions)
         }
         b->limits.triad = fmax(b->limits.triad, microbench_triad_run(triad));
         for (int k = 0; k < b->jobs; k++) job_time(&b->job[k], &b->ground[b->job[k].dim]);
-        for (int d = 1; d <= DIM_MAX; d++) grid_clear(&b->ground[d].engine[POINTS].mpm.field[0].grid);
+        for (int d = 1; d <= DIM_MAX; d++) grid_clear(&b->ground[d].engine[POINTS].grid->field[0].grid);
     }
     for (int d = 1; d <= DIM_MAX; d++) microbench_lattice_free(cell_stencil[d]);
     microbench_triad_free(triad);
@@ -211,9 +215,9 @@ static double column_bytes(const struct bonds *b)
 }
 
 /* Of a particle near a face: its pairs twice, what it feels, its account; its place and force. */
-static double contact_bytes(const struct engine *e)
+static double contact_bytes(const struct run *e)
 {
-    const struct contact *c = &e->contact;
+    const struct contact *c = e->contact;
     return 8.0 * (double)c->pairs / (double)c->rows + 2 * sizeof *c->face + 2 * sizeof *c->balance +
            3 * sizeof(real) * (double)e->part.dim;
 }
@@ -223,9 +227,9 @@ static double contact_bytes(const struct engine *e)
 static double job_bytes(const struct job *j, struct ground *g)
 {
     const double mesh_node = sizeof(real) / (double)(1 << j->dim);
-    const struct engine *e = &g->engine[POINTS], *pd = bonds_of(j, g);
+    const struct run *e = &g->engine[POINTS], *pd = bonds_of(j, g);
     const double r = sizeof(real), dim = j->dim, symmetric = symmetric_count(j->dim);
-    const double node = r * (double)e->mpm.field[0].grid.n / (double)e->part.n;
+    const double node = r * (double)e->grid->field[0].grid.n / (double)e->part.n;
     const double stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
     /* state-based: two sweeps; yielding: two numbers read and written, and the pair of materials */
     const double columns = (double)pd->bonds.columns / (double)pd->part.n;

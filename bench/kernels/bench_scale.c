@@ -12,6 +12,7 @@
 #include "plot/gnuplot.h"
 #include "base/memory.h"
 #include "output/output_files.h"
+#include "step/report.h"
 
 enum { SIZES = 4, DIMS = 2, STEPS_WARM = 2, PIECES = 4, FRAME_EVERY = 100, FRAMES = 6 };
 static const double size_of[SIZES] = {1e4, 1e5, 1e6, 1e7};
@@ -57,7 +58,7 @@ static bool machine_holds(const struct bench_block *block, double particles)
 static status time_frames(struct size_result *r, const struct bench_block *block, double particles)
 {
     struct scene s;
-    struct engine e;
+    struct run e;
     struct output out = {0};
     struct bench_child folder = {0};
     TRY(bench_folder_make());
@@ -66,7 +67,7 @@ static status time_frames(struct size_result *r, const struct bench_block *block
     status ran = output_open(&out, folder.folder, s.text, OUTPUT_OVERWRITE, false);
     if (ran == OK) {
         ran = engine_run(&e);
-        r->frame = e.report.laps.spent[LAP_OUTPUT] / FRAMES;
+        r->frame = e.laps.spent[LAP_OUTPUT] / FRAMES;
         FILE *f = fopen(path_join(folder.folder, "frames/000001.hdf").text, "r");
         if (f && fseek(f, 0, SEEK_END) == 0) r->frame_bytes = (double)ftell(f) / (double)e.part.n;
         if (f) fclose(f);
@@ -86,7 +87,7 @@ static double output_share(const struct size_result *r) { return r->frame / (FRA
 static status time_size(struct size_result *r, const struct bench_block *block, double particles, double visits)
 {
     struct scene s;
-    struct engine e;
+    struct run e;
     const int64_t steps = 2 + (int64_t)(visits / particles);
     const double before = memory_from_here(), start = team_clock();
     TRY(bench_block_make(&e, &s, block, particles, STEPS_WARM + PIECES * steps, 0, NULL));
@@ -94,9 +95,9 @@ static status time_size(struct size_result *r, const struct bench_block *block, 
     r->particles = (double)e.part.n, r->bonds = (double)e.bonds.n;
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
     for (int k = 1; k <= PIECES && ran == OK; k++) {
-        const double spent = e.report.loop_seconds;
+        const double spent = e.report->loop_seconds;
         ran = bench_engine_run(&e, STEPS_WARM + k * steps, NULL);
-        r->step = fmin(r->step, (e.report.loop_seconds - spent) / (double)steps);
+        r->step = fmin(r->step, (e.report->loop_seconds - spent) / (double)steps);
     }
     r->bytes = ((double)memory_peak() - before) / r->particles;
     r->frame = NAN;

@@ -68,7 +68,7 @@ static status targets_time_way(struct targets_bench *b, int which)
     const struct way *w = &ways[which];
     struct timing *t = &b->way[which];
     struct scene s;
-    struct engine e;
+    struct run e;
     team_make(1);
     TRY(bench_engine_make(&e, &s, SCENE, NULL, w->override, w->overrides));
     const real rate = w->sampled ? (real)s.samples / (real)e.clock.steps : 0; /* samples a step */

@@ -7,6 +7,7 @@
 #include "bench/common/bench.h"
 #include "plot/gnuplot.h"
 #include "base/memory.h"
+#include "step/report.h"
 
 enum { TEAMS_MAX = 24, DIM_OF_WAYS = 2, STEPS_WARM = 3, PIECES = 4, SCALINGS = 2 };
 static const char *const scaling_name[SCALINGS] = {"strong", "weak"};
@@ -42,16 +43,16 @@ static double efficiency(const struct threads_bench *b, int way, int scaling, in
 static status time_block(struct threads_bench *b, int way, int scaling, int t, double particles, int64_t steps)
 {
     struct scene s;
-    struct engine e;
+    struct run e;
     double *best = &b->step[way][scaling][t];
     team_make(b->team[t]);
     TRY(bench_block_make(&e, &s, &bench_blocks[way], particles, STEPS_WARM + PIECES * steps, 0, NULL));
     b->particles[way][scaling][t] = (double)e.part.n;
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
     for (int k = 1; k <= PIECES && ran == OK; k++) {
-        const double before = e.report.loop_seconds;
+        const double before = e.report->loop_seconds;
         ran = bench_engine_run(&e, STEPS_WARM + k * steps, NULL);
-        *best = fmin(*best, (e.report.loop_seconds - before) / (double)steps);
+        *best = fmin(*best, (e.report->loop_seconds - before) / (double)steps);
     }
     bench_engine_free(&e, &s);
     return ran;

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "bench/common/bench.h"
+#include "contact/contact.h"
 
 enum job_kind {
     BOND_FORCE,
@@ -43,7 +44,7 @@ struct job {
 enum { BONDS, POINTS, STATES, MESH, YIELDING, CUT, GROUNDS };
 struct ground {
     struct scene scene[GROUNDS];
-    struct engine engine[GROUNDS];
+    struct run engine[GROUNDS];
     int32_t *list;
     real *value, *field;                 /* of spread */
 };
@@ -65,7 +66,7 @@ static inline bool on_bonds(const struct job *j) { return j->kind <= BOND_STRESS
 /* Of contact: those near a face. */
 static inline int64_t job_particles(const struct job *j, const struct ground *g)
 {
-    if (j->kind >= CONTACT_SEARCH) return g->engine[CUT].contact.rows;
+    if (j->kind >= CONTACT_SEARCH) return g->engine[CUT].contact->rows;
     return g->engine[j->kind >= MESH_CLEAR ? MESH : j->kind > PD_MOVE ? POINTS : BONDS].part.n;
 }
 

@@ -4,6 +4,7 @@
 
 #include "plot/gnuplot.h"
 #include "kernel_bench.h"
+#include "contact/contact.h"
 
 static const char *const job_name[JOB_KINDS] = {"bond_force", "bond_energy", "bond_stress",  "pd_move",
                                                 "p2g",        "remap",       "g2p",          "spread",

@@ -22,6 +22,7 @@
 #include "base/memory.h"
 #include "base/memory_stream.h"
 #include "output/output_files.h"
+#include "step/report.h"
 
 extern char **environ;
 
@@ -110,7 +111,7 @@ static void scene_text(FILE *to, const struct peer_case *c, int edge)
                 -0.0312 * edge * SPACING, 0.1123 * edge * SPACING, 0.0357 * edge * SPACING);
 }
 
-static status peer_engine(struct engine *e, struct scene *s, const struct peer_case *c, int edge)
+static status peer_engine(struct run *e, struct scene *s, const struct peer_case *c, int edge)
 {
     char text[2048];
     FILE *to = fmemopen(text, sizeof text, "w");
@@ -123,7 +124,7 @@ static status peer_engine(struct engine *e, struct scene *s, const struct peer_c
 /* ---- the input of LAMMPS ----------------------------------------------------------------------------------------- */
 
 /* Bonds that the cracks cut: calls for each pair once. */
-static int64_t cut_pairs(const struct engine *e, int *type, int *types, FILE *exclude)
+static int64_t cut_pairs(const struct run *e, int *type, int *types, FILE *exclude)
 {
     const struct particles *p = &e->part;
     int32_t found[512];
@@ -144,7 +145,7 @@ static int64_t cut_pairs(const struct engine *e, int *type, int *types, FILE *ex
     return cut;
 }
 
-static void write_data(FILE *to, const struct engine *e, const int *type, int types, double half)
+static void write_data(FILE *to, const struct run *e, const int *type, int types, double half)
 {
     const struct particles *p = &e->part;
     const char *box = "xlo xhi\0ylo yhi\0zlo zhi";
@@ -162,7 +163,7 @@ static void write_data(FILE *to, const struct engine *e, const int *type, int ty
         fprintf(to, "%d %.17g %.17g %.17g\n", p->id[i] + 1, p->v[0][i], p->v[1][i], p->dim > 2 ? p->v[2][i] : 0);
 }
 
-static void write_law(FILE *to, const struct engine *e, const struct peer_case *c)
+static void write_law(FILE *to, const struct run *e, const struct peer_case *c)
 {
     const struct material *m = e->scene->material;
     const double horizon = e->source.family.horizon, limit = m->critical_stretch;
@@ -175,7 +176,7 @@ static void write_law(FILE *to, const struct engine *e, const struct peer_case *
         fprintf(to, "%.17g %.17g %.17g %.17g 0.0\n", 4 * (m->c12 + m->shear) / 9, 8 * m->shear / 15, horizon, limit);
 }
 
-static void write_script(FILE *to, const struct engine *e, const struct peer_case *c, const char *exclude)
+static void write_script(FILE *to, const struct run *e, const struct peer_case *c, const char *exclude)
 {
     fprintf(to, "units si\nboundary s s %c\natom_style peri\natom_modify map array sort 0 0.0\nneighbor %.17g bin\n",
             c->dim == 2 ? 'f' : 's', 0.3 * SPACING);
@@ -195,7 +196,7 @@ static FILE *create(const char *name, status *s)
     return to;
 }
 
-static status write_input(const struct engine *e, const struct peer_case *c, int edge, struct peer_result *r)
+static status write_input(const struct run *e, const struct peer_case *c, int edge, struct peer_result *r)
 {
     status s = OK;
     char *exclude = NULL;
@@ -273,7 +274,7 @@ static status peer_solution(struct solution *s, int64_t n)
                : status_set(FAILED, "bench peers: lmp has left %lld particles of %lld", (long long)read, (long long)n);
 }
 
-static void peers_compare(struct peer_result *r, const struct engine *e, const struct solution *peer,
+static void peers_compare(struct peer_result *r, const struct run *e, const struct solution *peer,
                           const real *damage_start)
 {
     const struct particles *p = &e->part;
@@ -297,7 +298,7 @@ static void peers_compare(struct peer_result *r, const struct engine *e, const s
 static status run_both(struct peer_result *r, const struct peer_case *c, int edge, struct solution *peer)
 {
     struct scene s;
-    struct engine e;
+    struct run e;
     double spent = 0;
     TRY(peer_engine(&e, &s, c, edge));
     real *damage = NEW("peers.damage", e.part.n, real);
@@ -312,7 +313,7 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
     if (ran == OK) ran = peer_seconds(&spent);
     if (ran == OK) ran = peer_solution(peer, e.part.n);
     if (ran == OK) {
-        r->own = fmin(r->own, e.report.loop_seconds / STEPS), r->peer = fmin(r->peer, spent);
+        r->own = fmin(r->own, e.report->loop_seconds / STEPS), r->peer = fmin(r->peer, spent);
         /* there the last places have broken bonds already */
         e.kernels.bond_force(&e.bonds, &e.part, &e.source.limit, NULL);
         peers_compare(r, &e, peer, damage);

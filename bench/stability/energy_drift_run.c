@@ -6,6 +6,10 @@
 
 #include "energy_drift.h"
 #include "base/memory.h"
+#include "mesh/mesh_part.h"
+#include "probes/diagnostics.h"
+#include "step/report.h"
+#include "coupling/coupling_part.h"
 
 #define LOUD 1e-4                        /* velocities over that of waves: strains of 1e-4, nothing breaks */
 enum { SAMPLES = 400 };
@@ -15,23 +19,23 @@ enum { SAMPLES = 400 };
 /* What has mass and moves by itself: particles, but those of a mesh, then nodes. */
 struct mover { real m, x[DIM_MAX], *v[DIM_MAX]; };
 
-static int64_t energy_drift_run_movers_of(const struct engine *e)
+static int64_t energy_drift_run_movers_of(const struct run *e)
 {
-    return e->part.n + (e->reference.mesh.points > 0 ? e->reference.mesh.grid.n : 0);
+    return e->part.n + (e->frame->mesh.points > 0 ? e->frame->mesh.grid.n : 0);
 }
 
-static struct mover mover_at(const struct engine *e, int64_t k)
+static struct mover mover_at(const struct run *e, int64_t k)
 {
     const struct particles *p = &e->part;
-    const struct grid *g = &e->reference.mesh.grid;
+    const struct grid *g = &e->frame->mesh.grid;
     struct mover a = {0};
-    const int64_t I = k - p->n, at = I < 0 ? I : mesh_base(&e->reference.mesh, I);
+    const int64_t I = k - p->n, at = I < 0 ? I : mesh_base(&e->frame->mesh, I);
     if (I < 0) a.m = p->flag[k] & FLAG_MESHED ? 0 : p->mass[k];
     else a.m = g->mass[I];
     for (int d = 0; d < p->dim; d++) {
         a.v[d] = I < 0 ? &p->v[d][k] : &g->velocity[d][I];
         a.x[d] = I < 0 ? p->x[d][k]
-                       : grid_position(g, d, at / g->stride[d] % g->count[d]) + e->reference.mesh.displacement[d][I];
+                       : grid_position(g, d, at / g->stride[d] % g->count[d]) + e->frame->mesh.displacement[d][I];
     }
     return a;
 }
@@ -42,7 +46,7 @@ static int turns_of(int dim) { return dim * (dim - 1) / 2; }
 static void turn_axes(int t, int *a, int *b) { *a = t, *b = (t + 1) % DIM_MAX; }
 
 /* Sums of m (x - x0) x v about the axes, and of m |x - x0| |v|; x0 is the centre of mass. */
-static void angular_momentum(const struct engine *e, const real *centre, real *L, real *size)
+static void angular_momentum(const struct run *e, const real *centre, real *L, real *size)
 {
     for (int t = 0; t < DIM_MAX; t++) L[t] = 0;
     *size = 0;
@@ -60,7 +64,7 @@ static void angular_momentum(const struct engine *e, const real *centre, real *L
     }
 }
 
-static void centre_of(const struct engine *e, real *centre)
+static void centre_of(const struct run *e, real *centre)
 {
     real mass = 0;
     for (int d = 0; d < DIM_MAX; d++) centre[d] = 0;
@@ -74,7 +78,7 @@ static void centre_of(const struct engine *e, real *centre)
 
 /* Turns bodies back by the mean of what they turn about each axis: a body that turns on has another energy at small
  * strain. Exact for bodies as symmetric as ours. */
-static void stop_turning(struct engine *e, const real *centre)
+static void stop_turning(struct run *e, const real *centre)
 {
     real L[DIM_MAX], size, inertia[DIM_MAX] = {0};
     angular_momentum(e, centre, L, &size);
@@ -92,7 +96,7 @@ static void stop_turning(struct engine *e, const real *centre)
 }
 
 /* Velocities at random, as seldom moving or turning as a whole as may be. */
-static void energy_drift_run_shake(struct engine *e, const real *centre)
+static void energy_drift_run_shake(struct run *e, const real *centre)
 {
     uint64_t seed = 1;
     for (int d = 0; d < e->part.dim; d++) {
@@ -114,11 +118,11 @@ static void energy_drift_run_shake(struct engine *e, const real *centre)
 /* Velocities of particles and nodes before a step. */
 struct earlier { real *v[2][DIM_MAX]; };
 
-static void earlier_make(struct earlier *b, const struct engine *e)
+static void earlier_make(struct earlier *b, const struct run *e)
 {
     for (int d = 0; d < e->part.dim; d++) {
         b->v[0][d] = NEW("lasting.before", e->part.n, real);
-        b->v[1][d] = NEW("lasting.before", e->reference.mesh.grid.n + 1, real);
+        b->v[1][d] = NEW("lasting.before", e->frame->mesh.grid.n + 1, real);
     }
 }
 
@@ -128,19 +132,19 @@ static void earlier_free(struct earlier *b)
         for (int d = 0; d < DIM_MAX; d++) memory_free(b->v[k][d]);
 }
 
-static void earlier_take(struct earlier *b, const struct engine *e)
+static void earlier_take(struct earlier *b, const struct run *e)
 {
     for (int d = 0; d < e->part.dim; d++) {
         array_copy(b->v[0][d], e->part.v[d], e->part.n, sizeof(real));
-        if (e->reference.mesh.points > 0)
-            array_copy(b->v[1][d], e->reference.mesh.grid.velocity[d], e->reference.mesh.grid.n, sizeof(real));
+        if (e->frame->mesh.points > 0)
+            array_copy(b->v[1][d], e->frame->mesh.grid.velocity[d], e->frame->mesh.grid.n, sizeof(real));
     }
 }
 
 /* 1/2 m v_before . v_after, and in `after` 1/2 m v_after^2. The first is what leap-frog steps conserve beside the
  * energy of places. The energy balance has the same of bonds and cells, but of material points the mean of both
  * squares, which is more: by a quarter of itself where all is noise. */
-static real kinetic_between(const struct earlier *b, const struct engine *e, real *after)
+static real kinetic_between(const struct earlier *b, const struct run *e, real *after)
 {
     real sum = 0;
     *after = 0;
@@ -158,7 +162,7 @@ static real kinetic_between(const struct earlier *b, const struct engine *e, rea
 /* ---- the run ----------------------------------------------------------------------------------------------------- */
 
 /* So many steps of the automatic step of the scene, with evenly spread samples. */
-static status energy_drift_body_make(struct engine *e, struct scene *s, const struct drift_case *l, int64_t steps)
+static status energy_drift_body_make(struct run *e, struct scene *s, const struct drift_case *l, int64_t steps)
 {
     struct bench_overrides o = {0};
     char text[4096];
@@ -176,9 +180,9 @@ static status energy_drift_body_make(struct engine *e, struct scene *s, const st
 /* `energy` is what stable steps keep, `plain` has the squares of velocities after the step in it. */
 struct course { int n; double step[SAMPLES + 8], energy[SAMPLES + 8], plain[SAMPLES + 8], work[SAMPLES + 8]; };
 
-static void course_add(struct course *c, const struct engine *e, const struct earlier *before)
+static void course_add(struct course *c, const struct run *e, const struct earlier *before)
 {
-    const struct energy_balance *now = &e->diagnostics.now;
+    const struct energy_balance *now = &e->diagnostics->now;
     const struct energy *u = &now->energy;
     if (c->n >= (int)COUNT_OF(c->step)) return;
     c->step[c->n] = (double)e->clock.step;
@@ -218,12 +222,12 @@ static void judge(const struct course *c, struct lasting *to)
 }
 
 /* A held body's angular momentum goes into its support, and small strain knows no rotations. */
-static bool energy_drift_run_is_free(const struct engine *e)
+static bool energy_drift_run_is_free(const struct run *e)
 {
-    return e->scene->boundaries == 0 && e->part.dim > 1 && !(e->reference.mesh.points > 0 && e->scene->small_strain);
+    return e->scene->boundaries == 0 && e->part.dim > 1 && !(e->frame->mesh.points > 0 && e->scene->small_strain);
 }
 
-static double turned(const struct engine *e, const real *centre, const real *L, real size)
+static double turned(const struct run *e, const real *centre, const real *L, real size)
 {
     real now[DIM_MAX], scale, most = 0;
     angular_momentum(e, centre, now, &scale);
@@ -231,7 +235,7 @@ static double turned(const struct engine *e, const real *centre, const real *L, 
     return most / size;
 }
 
-static status energy_drift_run_body(struct engine *e, const struct drift_case *l, struct lasting *to)
+static status energy_drift_run_body(struct run *e, const struct drift_case *l, struct lasting *to)
 {
     struct course *c = NEW("lasting.course", 1, struct course);
     struct earlier before = {{{0}}};
@@ -240,20 +244,20 @@ static status energy_drift_run_body(struct engine *e, const struct drift_case *l
     centre_of(e, centre);
     if (!l->moves) energy_drift_run_shake(e, centre);
     status s = bench_engine_run(e, 1, NULL);             /* makes the record of the first sample, of step 0 */
-    c->energy[c->n] = c->plain[c->n] = e->diagnostics.energy_start, c->n++;
+    c->energy[c->n] = c->plain[c->n] = e->diagnostics->energy_start, c->n++;
     angular_momentum(e, centre, L, &size);
     to->free = energy_drift_run_is_free(e), to->turn = to->free ? 0 : NAN;
     while (s == OK && e->clock.step < e->clock.steps) {
         earlier_take(&before, e);
         s = engine_step(e);
         if (s == OK) s = engine_stability_check(e);
-        if (s != OK || !e->report.sampling.due) continue;
+        if (s != OK || !e->report->sampling.due) continue;
         course_add(c, e, &before);
         if (to->free) to->turn = fmax(to->turn, turned(e, centre, L, size));
     }
     judge(c, to);
     to->stopped = s == OK ? 0 : e->clock.step > 0 ? e->clock.step : 1;
-    to->converted = (double)(e->part.n_of[KIND_PD] - e->coupling.conversion.start) / (double)e->part.n;
+    to->converted = (double)(e->part.n_of[KIND_PD] - e->coupling->conversion.start) / (double)e->part.n;
     if (s != OK) snprintf(to->why, sizeof to->why, "%s", status_message());
     memory_free(c);
     earlier_free(&before);
@@ -262,7 +266,7 @@ static status energy_drift_run_body(struct engine *e, const struct drift_case *l
 
 status drift_run(const struct drift_case *l, int64_t steps, struct lasting *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     const int team = omp_get_max_threads();
     *to = (struct lasting){.steps = steps};

@@ -44,7 +44,7 @@ bool limits_holds(const struct limits_scene *s, const double *figure)
     return true;
 }
 
-status limits_make(struct engine *e, struct scene *s, const struct limits_row *r, const char *text, ...)
+status limits_make(struct run *e, struct scene *s, const struct limits_row *r, const char *text, ...)
 {
     struct bench_overrides o = {0};
     char whole[4096];

@@ -37,7 +37,7 @@ int limits_figures(const struct limits_scene *s);
 bool limits_holds(const struct limits_scene *s, const double *figure);
 
 /* The engine of a scene with what the row sets; `text` as printf writes it. Free with bench_engine_free. */
-status limits_make(struct engine *e, struct scene *s, const struct limits_row *r, const char *text, ...)
+status limits_make(struct run *e, struct scene *s, const struct limits_row *r, const char *text, ...)
     __attribute__((format(printf, 4, 5)));
 
 #endif

@@ -2,6 +2,8 @@
 #include <math.h>
 
 #include "limits_scenes.h"
+#include "probes/diagnostics.h"
+#include "mesh/mesh_part.h"
 
 /* ---- particles that come off ------------------------------------------------------------------------------------- */
 
@@ -9,7 +11,7 @@
  * at a fifth of the critical one bonds leave some percent of this energy too much or too little. */
 static status single(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     TRY(limits_make(&e, &s, r, "space: plane stress\nthickness: 1e-3\nduration: 2e-5\ntime: {safety: 0.2}\n"
                      "material: {young: 72e9, density: 2440, critical_stretch: 0.01, poisson: 1/3}\n"
@@ -20,8 +22,8 @@ static status single(const struct limits_row *r, double *to)
     const status ran = engine_run(&e);
     const int64_t i = e.part.n - 1;
     to[0] = isfinite(e.part.x[0][i]) && e.part.v[0][i] > 100 ? 0 : 1;
-    to[1] = e.diagnostics.now.momentum_error;
-    to[2] = fabs(e.diagnostics.now.balance_error);
+    to[1] = e.diagnostics->now.momentum_error;
+    to[2] = fabs(e.diagnostics->now.balance_error);
     bench_engine_free(&e, &s);
     return ran;
 }
@@ -56,7 +58,7 @@ static int inverted(const struct particles *p)
 /* Halves of a plate meet at +-`given` of the wave speed of a bar. */
 static status inversion(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     TRY(limits_make(
         &e, &s, r,
@@ -67,9 +69,9 @@ static status inversion(const struct limits_row *r, double *to)
         "output: {frames: 0, samples: 10}\n",
         100 * r->given, -100 * r->given));
     const status ran = engine_run(&e);
-    if (e.reference.mesh.points > 0) engine_mesh_sync(&e);
+    if (e.frame->mesh.points > 0) engine_mesh_sync(&e);
     to[0] = inverted(&e.part);
-    to[1] = fabs(e.diagnostics.now.balance_error);
+    to[1] = fabs(e.diagnostics->now.balance_error);
     bench_engine_free(&e, &s);
     return ran;
 }
@@ -103,7 +105,7 @@ const struct limits_scene limits_inversion = {"compression past inversion",
 /* ---- faces of a crack that close --------------------------------------------------------------------------------- */
 
 /* How far the columns beside the crack have gone into each other, in spacings. */
-static double overlap(const struct engine *e)
+static double overlap(const struct run *e)
 {
     const struct particles *p = &e->part;
     double left = -INFINITY, right = INFINITY;
@@ -120,7 +122,7 @@ static double overlap(const struct engine *e)
  * momentum that they keep. */
 static status closing(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     TRY(limits_make(&e, &s, r,
                      "space: plane stress\nthickness: 1\nduration: 0.25\nmaterial: {young: 1e4, density: 1}\n"

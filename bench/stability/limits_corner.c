@@ -2,6 +2,9 @@
 #include <math.h>
 
 #include "limits_scenes.h"
+#include "coupling/coupling_part.h"
+#include "mesh/mesh_part.h"
+#include "probes/diagnostics.h"
 
 /* A plane wave of tension between mirrors, 32 spacings long. Below, bonds reach to x = 50 from the start; above,
  * what the wave tightens to half its peak becomes peridynamic, so that the front comes from x = 30 along the
@@ -14,7 +17,7 @@
 /* `given`: up to where bonds reach at the start [mm]; 40: the interface is flat. */
 static status corner(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     const double c = sqrt(72e9 * 9 / 8 / 2440), peak = 2440 * c * SPEED;
     TRY(limits_make(&e, &s, r,
@@ -28,12 +31,12 @@ static status corner(const struct limits_row *r, double *to)
                      35e-3 / c, r->given, peak, START, WIDTH, -SPEED));
     const status ran = engine_run(&e);
     const struct particles *p = &e.part;
-    const bool converts = e.coupling.conversion.converted > 0 || e.scene->method != METHOD_ADAPTIVE;
-    if (e.reference.mesh.points > 0) engine_mesh_sync(&e);
+    const bool converts = e.coupling->conversion.converted > 0 || e.scene->method != METHOD_ADAPTIVE;
+    if (e.frame->mesh.points > 0) engine_mesh_sync(&e);
     to[0] = converts ? 0 : INFINITY;
     for (int64_t i = 0; i < p->n; i++) to[0] = fmax(to[0], fabs(p->v[1][i]) / SPEED);
-    to[1] = fabs(e.diagnostics.now.balance_error);
-    to[2] = e.diagnostics.now.momentum_error;
+    to[1] = fabs(e.diagnostics->now.balance_error);
+    to[2] = e.diagnostics->now.momentum_error;
     bench_engine_free(&e, &s);
     return ran;
 }

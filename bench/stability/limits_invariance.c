@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "limits_scenes.h"
+#include "probes/diagnostics.h"
 
 /* x' = scale (x, y), in the other order if `turned`, x against its axis if `mirrored`; particles from a list in the
  * order of the lattice (1) or shuffled (2). */
@@ -104,7 +105,7 @@ static void put_plate(FILE *to, const struct twin *t, const struct limits_row *r
     fputs("}\nconversion: {criteria: none}\n", to);
 }
 
-static status plate_run(struct engine *e, struct scene *s, const struct twin *t, const struct limits_row *r)
+static status plate_run(struct run *e, struct scene *s, const struct twin *t, const struct limits_row *r)
 {
     char text[4096], list[64] = "";
     if (t->listed) TRY(list_write(t, list));
@@ -128,10 +129,10 @@ static int64_t twin_of(const struct particles *p, int64_t i, const struct partic
 
 /* Largest difference of velocities, and of displacements over lengths, of the largest; infinite where bonds broke,
  * particles are missing or nothing moves. */
-static double difference(const struct engine *a, const struct engine *b, const struct twin *t)
+static double difference(const struct run *a, const struct run *b, const struct twin *t)
 {
     double speed = 0, shift = 0, most_speed = 0, most_shift = 0;
-    if (a->part.n != b->part.n || a->diagnostics.bonds_broken || b->diagnostics.bonds_broken) return INFINITY;
+    if (a->part.n != b->part.n || a->diagnostics->bonds_broken || b->diagnostics->bonds_broken) return INFINITY;
     for (int64_t i = 0; i < a->part.n; i++) {
         const int64_t k = twin_of(&a->part, i, &b->part, t);
         if (k < 0) return INFINITY;
@@ -150,7 +151,7 @@ static double difference(const struct engine *a, const struct engine *b, const s
 static status limits_invariance_compare(const struct twin *one, const struct twin *other, const struct limits_row *r,
                                         double *to)
 {
-    struct engine a, b;
+    struct run a, b;
     struct scene of_a, of_b;
     TRY(plate_run(&a, &of_a, one, r));
     const status ran = plate_run(&b, &of_b, other, r);

@@ -9,7 +9,7 @@
 struct matrix { int64_t n; real *at; };
 
 /* Column by column; what differs between both halves is the error of differences, 1e-7. */
-static struct matrix matrix_of(struct engine *e)
+static struct matrix matrix_of(struct run *e)
 {
     struct bond_body body = bond_body_make(&e->bonds, &e->part, e->kernels.bond_force, NULL, e->scene->spacing);
     struct matrix m = {.n = e->part.dim * e->part.n};
@@ -74,7 +74,7 @@ static real bound(const struct matrix *m)
 #define NOTHING 1e-6                /* of the stiffest mode: differences leave 1e-7, the softest elastic one has 1e-2 */
 enum { RIGID = 3 };
 
-static status square_make(struct engine *e, struct scene *s, const struct limits_row *r, double poisson)
+static status square_make(struct run *e, struct scene *s, const struct limits_row *r, double poisson)
 {
     return limits_make(e, s, r, "space: plane stress\nthickness: 1e-3\nduration: 1e-6\nmethod: pd\n"
                         "material: {young: 72e9, density: 2440, poisson: %.17g}\n"
@@ -86,7 +86,7 @@ static status square_make(struct engine *e, struct scene *s, const struct limits
 
 static status modes(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     TRY(square_make(&e, &s, r, 1.0 / 3));
     struct matrix m = matrix_of(&e);
@@ -125,7 +125,7 @@ const struct limits_scene limits_modes_figure = {
 
 static status softest(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     TRY(square_make(&e, &s, r, 0.3));
     struct matrix m = matrix_of(&e);

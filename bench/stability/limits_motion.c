@@ -3,6 +3,9 @@
 
 #include "engine/engine.h"
 #include "limits_scenes.h"
+#include "mesh/mesh_part.h"
+#include "coupling/coupling_part.h"
+#include "probes/diagnostics.h"
 
 /* ---- rigid rotation ---------------------------------------------------------------------------------------------- */
 
@@ -20,10 +23,10 @@ static struct turning turning_of(const struct particles *p)
 
 /* To the end of the scene: shear [MPa], of material points where there are some, and what angular momentum and kinetic
  * energy have changed by. */
-static status limits_motion_turn(struct engine *e, double *to)
+static status limits_motion_turn(struct run *e, double *to)
 {
     const struct particles *p = &e->part;
-    if (e->reference.mesh.points > 0) engine_mesh_sync(e);
+    if (e->frame->mesh.points > 0) engine_mesh_sync(e);
     const struct turning start = turning_of(p);
     TRY(engine_run(e));
     const struct turning end = turning_of(p);
@@ -40,7 +43,7 @@ static status limits_motion_turn(struct engine *e, double *to)
 /* Corners at `given` m/s, a tenth of a turn at 10 m/s, a whole one at 100 m/s. */
 static status spin(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     const double rate = r->given / 14.1421356237e-3;
     TRY(limits_make(&e, &s, r, "space: plane stress\nthickness: 1 mm\nduration: 888.5766 us\n"
@@ -78,7 +81,7 @@ const struct limits_scene limits_spin = {"rigid spin of a square", "%g m/s", TUR
 /* Radius 10 mm, edge at 100 m/s, one turn, peridynamic within 4 mm. */
 static status disc(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     TRY(limits_make(&e, &s, r, "space: plane stress\nthickness: 1e-3\nduration: 6.2831853e-4\nmethod: adaptive\n"
                      "material: {young: 192e9, density: 8000}\nbody: {disc: {centre: [0, 0], radius: 10e-3}}\n"
@@ -116,10 +119,10 @@ static void lame(const void *context, const real *X, real *v)
 }
 
 /* Momentum of the body in this mode. */
-static double projection(struct engine *e)
+static double projection(struct run *e)
 {
     double sum = 0;
-    if (e->reference.mesh.points > 0) engine_mesh_sync(e);
+    if (e->frame->mesh.points > 0) engine_mesh_sync(e);
     for (int64_t i = 0; i < e->part.n; i++) {
         const real X[2] = {e->part.X[0][i], e->part.X[1][i]};
         real v[2];
@@ -133,7 +136,7 @@ static double projection(struct engine *e)
  * behind. */
 enum { STANDS = 9 };
 
-static status periods(struct engine *e, double *steps)
+static status periods(struct run *e, double *steps)
 {
     double before = projection(e);
     int times = 0;
@@ -152,7 +155,7 @@ static status periods(struct engine *e, double *steps)
 /* `given`: Poisson's ratio. */
 static status shear(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     double steps = 0;
     TRY(limits_make(&e, &s, r,
@@ -211,17 +214,17 @@ const struct limits_scene limits_shear = {"shear at constant volume", "nu %.4g",
 
 /* ---- long runs --------------------------------------------------------------------------------------------------- */
 
-static double energy_of(struct engine *e)
+static double energy_of(struct run *e)
 {
-    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->reference.mesh) +
+    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh) +
            e->kernels.bond_energy(&e->bonds, &e->part) +
-           mesh_strain(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain) +
-           diagnostics_strain(&e->part, e->scene->material, &e->coupling.partial);
+           mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain) +
+           diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial);
 }
 
 /* A million steps of a free vibrating plate: what its energy changes by, mean of the last fiftieth over that of the
  * first. */
-static status million_steps(struct engine *e, double *to)
+static status million_steps(struct run *e, double *to)
 {
     double mean[2] = {0};
     TRY(bench_engine_run(e, 1, NULL));
@@ -236,7 +239,7 @@ static status million_steps(struct engine *e, double *to)
 
 static status million(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     TRY(limits_make(&e, &s, r,
                      "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: pd\nmaterial: {young: 72e9, "
@@ -268,7 +271,7 @@ static void first_mode(const void *context, const real *X, real *v)
 /* Ten periods: share of its energy that is lost. Peaks fall between samples: 1e-3. */
 static status vibration(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     double first = 0, last = 0;
     TRY(limits_make(&e, &s, r,
@@ -279,7 +282,7 @@ static status vibration(const struct limits_row *r, double *to)
     const int64_t period = e.clock.steps / 10;
     while (ran == OK && e.clock.step < e.clock.steps - 1) {
         ran = engine_step(&e);
-        const double kinetic = diagnostics_kinetic(&e.part) + mesh_kinetic(&e.reference.mesh);
+        const double kinetic = diagnostics_kinetic(&e.part) + mesh_kinetic(&e.frame->mesh);
         if (e.clock.step < period) first = fmax(first, kinetic);
         if (e.clock.step >= e.clock.steps - period) last = fmax(last, kinetic);
     }

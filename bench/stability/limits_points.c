@@ -2,6 +2,9 @@
 #include <math.h>
 
 #include "limits_scenes.h"
+#include "grid/grid_part.h"
+#include "mesh/mesh_part.h"
+#include "probes/diagnostics.h"
 
 #define BAR                                                                                                            \
     "space: line\nmaterial: {young: 1e4, density: 1}\nparticles: {spacing: 0.01}\noutput: {frames: 0, samples: 1}\n"
@@ -22,7 +25,7 @@ static void stretch(struct particles *p, double lambda, double shift)
 static status crossing(const struct limits_row *r, double *to)
 {
     const double lambda = r->given;
-    struct engine e;
+    struct run e;
     struct scene s;
     status done = OK;
     TRY(limits_make(&e, &s, r, BAR "duration: 1e-3\nmethod: mpm\nbody: {box: {from: [0], to: [0.6]}}\n"));
@@ -30,15 +33,15 @@ static status crossing(const struct limits_row *r, double *to)
     for (int place = 0; place < 64 && done == OK; place++) {
         real from[DIM_MAX] = {-0.1}, until[DIM_MAX] = {0.1 + 0.6 * lambda};
         bool changed;
-        stretch(&e.part, lambda, (place + 0.37) / 64 * e.mpm.field[0].grid.h);
-        done = grid_cover(&e.mpm.field[0].grid, from, until, 100000, &changed);
+        stretch(&e.part, lambda, (place + 0.37) / 64 * e.grid->field[0].grid.h);
+        done = grid_cover(&e.grid->field[0].grid, from, until, 100000, &changed);
         if (done != OK) break;
-        transfer_order_sort(&e.mpm.field[0].order, &e.part, e.part.list_free, e.part.n_free, &e.mpm.field[0].grid);
-        grid_clear(&e.mpm.field[0].grid);
-        e.kernels.p2g(&e.mpm.field[0].grid, &e.part, &e.mpm.transfer);
-        for (int64_t I = 0; I < e.mpm.field[0].grid.n; I++) {
-            const double x = grid_position(&e.mpm.field[0].grid, 0, I);
-            if (x > 0.15 && x < 0.6 * lambda - 0.1) *to = fmax(*to, fabs(e.mpm.field[0].grid.force[0][I]));
+        transfer_order_sort(&e.grid->field[0].order, &e.part, e.part.list_free, e.part.n_free, &e.grid->field[0].grid);
+        grid_clear(&e.grid->field[0].grid);
+        e.kernels.p2g(&e.grid->field[0].grid, &e.part, &e.grid->transfer);
+        for (int64_t I = 0; I < e.grid->field[0].grid.n; I++) {
+            const double x = grid_position(&e.grid->field[0].grid, 0, I);
+            if (x > 0.15 && x < 0.6 * lambda - 0.1) *to = fmax(*to, fabs(e.grid->field[0].grid.force[0][I]));
         }
     }
     bench_engine_free(&e, &s);
@@ -85,7 +88,7 @@ const struct limits_scene limits_crossing = {"uniform stress, stretched",
  * reach. Rates of stress add up to E ln lambda, the strain of the reference frame is lambda - 1. */
 static status homologous(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     TRY(limits_make(&e, &s, r,
                      BAR "duration: 0.01\ntime: {step: 1e-5}\nmethod: mpm\nbody: {box: {from: [-2.5], to: [2.5]}}\n"
@@ -93,7 +96,7 @@ static status homologous(const struct limits_row *r, double *to)
                      r->given / 0.01));
     const status ran = engine_run(&e);
     *to = 0;
-    const bool meshed = e.reference.mesh.points > 0;
+    const bool meshed = e.frame->mesh.points > 0;
     const double stress = 1e4 * (meshed ? r->given : log(1 + r->given));
     if (meshed) engine_mesh_sync(&e);
     for (int64_t i = 0; i < e.part.n; i++)
@@ -125,7 +128,7 @@ const struct limits_scene limits_homologous = {
  * steps. */
 static status null_mode(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     TRY(limits_make(&e, &s, r, BAR "duration: 1\nmethod: mpm\nbody: {box: {from: [0], to: [0.8]}}\n"));
     for (int64_t i = 0; i < e.part.n; i++) e.part.v[0][i] = i % 2 ? 1e-3 : -1e-3;
@@ -154,7 +157,7 @@ const struct limits_scene limits_null_mode = {"null mode +-v",
  * that moves as it is: largest stress over rho c v, after 300 s at c = 1 m/s. */
 static status on_faces(const struct limits_row *r, double *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     *to = 0;
     TRY(limits_make(&e, &s, r, "space: plane stress\nthickness: 1\nduration: 300\nmethod: mpm\n"

@@ -20,7 +20,7 @@ status stability_caught(const struct stability_case *c, double times, double *st
                                      "[3e-3, 3e-3, 3e-3], direction: [1, 0.2, 0.1]"};
     struct stability_limits l;
     struct bench_overrides o = {0};
-    struct engine e;
+    struct run e;
     struct scene s;
     char text[4096];
     TRY(stability_observe(c, 250, 0, &l));

@@ -9,6 +9,10 @@
 #include <string.h>
 
 #include "stability.h"
+#include "mesh/mesh_part.h"
+#include "step/stability.h"
+#include "grid/grid_part.h"
+#include "probes/diagnostics.h"
 
 #define QUIET 1e-8                       /* over c: linear, and round-off is 1e-8 of it                */
 #define LOUD 1e-4                        /* over c, of a real run that nothing breaks or converts      */
@@ -19,30 +23,30 @@
 /* ---- a shaken body ----------------------------------------------------------------------------------------------- */
 
 /* Velocities at random, without the mean that would carry the body away, and then one that does. */
-static void stability_limit_shake(struct engine *e, double speed, double drift)
+static void stability_limit_shake(struct run *e, double speed, double drift)
 {
     struct particles *p = &e->part;
-    struct grid *g = &e->reference.mesh.grid;
+    struct grid *g = &e->frame->mesh.grid;
     uint64_t seed = 1;
     for (int d = 0; d < p->dim; d++) {
         double mean = 0;
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] = speed * bench_random(&seed);
-        for (int64_t i = 0; i < p->n; i++) mean += p->mass[i] * p->v[d][i] / e->stability.mass;
+        for (int64_t i = 0; i < p->n; i++) mean += p->mass[i] * p->v[d][i] / e->stability->mass;
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] += drift - mean;
-        for (int64_t I = 0; e->reference.mesh.points > 0 && I < g->n; I++)
-            if (e->reference.mesh.inverse_mass[I] > 0) g->velocity[d][I] = speed * bench_random(&seed);
+        for (int64_t I = 0; e->frame->mesh.points > 0 && I < g->n; I++)
+            if (e->frame->mesh.inverse_mass[I] > 0) g->velocity[d][I] = speed * bench_random(&seed);
     }
 }
 
 /* Kinetic energy in motion against the drift. */
-static double motion(const struct engine *e, double drift)
+static double motion(const struct run *e, double drift)
 {
-    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->reference.mesh) -
-           0.5 * e->stability.mass * e->part.dim * drift * drift;
+    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh) -
+           0.5 * e->stability->mass * e->part.dim * drift * drift;
 }
 
 /* Long enough that its only sample is the first step. */
-static status limit_block_make(struct engine *e, struct scene *s, const struct stability_case *c, double dt)
+static status limit_block_make(struct run *e, struct scene *s, const struct stability_case *c, double dt)
 {
     struct bench_overrides o = {0};
     char text[4096];
@@ -56,7 +60,7 @@ static status limit_block_make(struct engine *e, struct scene *s, const struct s
 
 status stability_stays(const struct stability_case *c, double dt, struct stability_shake how, bool *stays)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     TRY(limit_block_make(&e, &s, c, dt));
     const double drift = how.drift * e.tables.wave_speed;
@@ -94,7 +98,7 @@ static status limit_of(const struct stability_case *c, double critical, int step
 }
 
 /* sqrt(2 rho/sum c V/xi) of the stiffest row (Silling & Askari 2005). */
-static double silling_step(const struct engine *e)
+static double silling_step(const struct run *e)
 {
     const struct bonds *b = &e->bonds;
     double most = 0;
@@ -109,11 +113,11 @@ static double silling_step(const struct engine *e)
 
 static status predict(const struct stability_case *c, struct stability_limits *to)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     TRY(limit_block_make(&e, &s, c, 0));
     to->critical = e.clock.dt_critical, to->automatic = s.safety * e.clock.dt_critical;
-    to->unit = (c->group == GROUP_POINTS ? e.mpm.field[0].grid.h : s.spacing) / e.tables.wave_speed;
+    to->unit = (c->group == GROUP_POINTS ? e.grid->field[0].grid.h : s.spacing) / e.tables.wave_speed;
     to->gershgorin = to->silling = NAN;
     if (s.method == METHOD_PD && s.model == MODEL_BOND)
         to->gershgorin = bonds_critical_step_made(&e.bonds, &e.part), to->silling = silling_step(&e);

@@ -4,6 +4,7 @@
 
 #include "engine/engine.h"
 #include "output/output_files.h"
+#include "step/report.h"
 
 /* The folder of the pilot runs of a run: its own name with _pilot behind it. */
 struct path pilot_folder(const char *folder);

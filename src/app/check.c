@@ -6,8 +6,12 @@
 #include "check_parts.h"
 #include "commands.h"
 #include "engine/engine.h"
+#include "mesh/mesh_part.h"
+#include "contact/contact.h"
+#include "grid/grid_part.h"
+#include "coupling/coupling_part.h"
 
-static void say_particles(const struct engine *e)
+static void say_particles(const struct run *e)
 {
     int64_t driven = 0;
     for (int64_t i = 0; i < e->part.n; i++) driven += (e->part.flag[i] & FLAG_DRIVEN) != 0;
@@ -20,15 +24,15 @@ static void say_particles(const struct engine *e)
     printf("\nbonds          %lld directed in %lld rows\n", (long long)e->bonds.n, (long long)e->bonds.rows);
 }
 
-static void say_frames(const struct engine *e)
+static void say_frames(const struct run *e)
 {
     for (int b = 0; b < e->scene->bodies; b++)
-        if (e->reference.choice[b].reason)
+        if (e->frame->choice[b].reason)
             printf("frame          body %s: %s, as %s\n", e->scene->body[b].name,
-                   e->reference.choice[b].reference ? "reference" : "current", e->reference.choice[b].reason);
-    if (e->reference.mesh.points > 0)
+                   e->frame->choice[b].reference ? "reference" : "current", e->frame->choice[b].reason);
+    if (e->frame->mesh.points > 0)
         printf("mesh           %lld points in cells of two spacings: linear cells, state on the nodes\n",
-               (long long)e->reference.mesh.points);
+               (long long)e->frame->mesh.points);
 }
 
 /* Names of the first few bodies from one to end, joined ones as a+b, and how many more there are. */
@@ -69,25 +73,25 @@ static void say_contact_of_bonds(const struct scene *s)
 }
 
 /* What contact costs: its share of a step, and steps that are shorter for it. */
-static void say_contact_cost(const struct engine *e, const struct cost *c)
+static void say_contact_cost(const struct run *e, const struct cost *c)
 {
     const struct run_clock *clock = &e->clock;
     const double shorter = clock->dt / (e->scene->safety * clock->dt_critical);
-    if (scene_in_steps(e->scene) || !(c->contact > 0) || e->contact.rows == 0) return;
+    if (scene_in_steps(e->scene) || !(c->contact > 0) || e->contact->rows == 0) return;
     printf("contact        looks at %lld of %lld particles, those near a face: %.1f %% of a step at first",
-           (long long)e->contact.rows, (long long)e->part.n, 1e2 * c->contact);
+           (long long)e->contact->rows, (long long)e->part.n, 1e2 * c->contact);
     if (e->scene->time_step == 0 && shorter < 0.999) printf("; steps are %.2f times as long as without", shorter);
     putchar('\n');
 }
 
-static void say_contact(const struct engine *e)
+static void say_contact(const struct run *e)
 {
     int on_grid = 0;
     if (e->scene->method != METHOD_MPM) say_contact_of_bonds(e->scene);
     for (int b = 0; b < e->scene->bodies; b++)
-        on_grid += e->scene->method != METHOD_PD && !e->reference.choice[b].reference;
+        on_grid += e->scene->method != METHOD_PD && !e->frame->choice[b].reference;
     if (on_grid < 2) return;
-    if (e->mpm.fields < 2)
+    if (e->grid->fields < 2)
         printf("contact        bodies that meet through the grid share its velocity: they stick until a gap of two "
                "cells opens\n");
     else {
@@ -100,10 +104,10 @@ static void say_contact(const struct engine *e)
 }
 
 /* What stands for the first few pre-cracks. */
-static void say_notches(const struct engine *e)
+static void say_notches(const struct run *e)
 {
     enum { SAID = 6 };
-    const int n = e->coupling.notches.n;
+    const int n = e->coupling->notches.n;
     char text[256];
     for (int k = 0; k < n && k < SAID; k++) {
         engine_notch_text(e, k, text, sizeof text);
@@ -112,7 +116,7 @@ static void say_notches(const struct engine *e)
     if (n > SAID) printf("notch          and %d more\n", n - SAID);
 }
 
-static void say_time_step(const struct engine *e)
+static void say_time_step(const struct run *e)
 {
     if (scene_in_steps(e->scene))
         say_load_steps(e);
@@ -126,7 +130,7 @@ static void say_time_step(const struct engine *e)
 }
 
 /* Basis of the estimated run time. */
-static void say_basis(const struct engine *e, const struct cost *c)
+static void say_basis(const struct run *e, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
         printf("; steps take %.2g times the first ones, as where the spacing is %.3g times as large", c->growth,
@@ -137,7 +141,7 @@ static void say_basis(const struct engine *e, const struct cost *c)
     if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", c->all_peridynamic);
 }
 
-static void say_cost(const struct engine *e, const struct cost *c, int threads)
+static void say_cost(const struct run *e, const struct cost *c, int threads)
 {
     const char *many = threads > 1 ? "s" : "";
     if (scene_in_steps(e->scene))
@@ -164,7 +168,7 @@ static void say_scatter(const struct particles *p, int material)
     if (most > 0) printf(", both by factors of %.3g to %.3g", least, most);
 }
 
-static void say_materials(const struct engine *e)
+static void say_materials(const struct run *e)
 {
     for (int m = 0; m < e->scene->materials; m++) {
         const struct material *a = &e->scene->material[m];
@@ -194,7 +198,7 @@ static void say_pilot(const struct pilot_wish *w, const char *scene)
 
 /* Estimates run time and memory by trial steps and prints both. start: time on team_clock when the reading of the scene
  * began [s]. The engine cannot be used afterwards. FAILED if one of the first steps fails. */
-static status check_cost(struct engine *e, const struct run_arguments *a, int threads, double start)
+static status check_cost(struct run *e, const struct run_arguments *a, int threads, double start)
 {
     struct cost cost = {.make = team_clock() - start};
     const status result = cost_measure(&cost, e, a);
@@ -211,7 +215,7 @@ static status check_cost(struct engine *e, const struct run_arguments *a, int th
  * check_cost. REFUSED or FAILED if the set-up or a trial step is. */
 static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
-    struct engine e = {0};
+    struct run e = {0};
     s->active_set = false;                             /* cost with the whole body active */
     status result = engine_make(&e, s, NULL);
     if (result == OK) {
@@ -229,8 +233,8 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
         say_time_step(&e);
         say_contact(&e);
         engine_warn(&e);
-        engine_warn_of_yielding(e.scene, &e.report.warnings);
-        warnings_print(&e.report.warnings, 0, stdout);
+        engine_warn_of_yielding(e.scene, &e.warnings);
+        warnings_print(&e.warnings, 0, stdout);
         advise(&e, stdout);
         if (trial) result = check_cost(&e, a, threads, start);
     }

@@ -14,6 +14,10 @@
 #include <string.h>
 
 #include "check_parts.h"
+#include "fracture/fracture_part.h"
+#include "fracture/tips.h"
+#include "probes/probes_part.h"
+#include "mesh/mesh_part.h"
 
 #define FEATURE 4                        /* horizons */
 #define WAVE 16                          /* spacings */
@@ -34,7 +38,7 @@ static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; 
 /* ---- parts that are not resolved --------------------------------------------------------------------------------- */
 
 /* Edge of a box along d with its images beyond planes of symmetry [m]; INFINITY: it lies between two of them. */
-static real mirrored_edge(const struct engine *e, const struct solid *a, int d)
+static real mirrored_edge(const struct run *e, const struct solid *a, int d)
 {
     const real near = ON_MIRROR * e->scene->spacing;
     bool from = false, to = false;
@@ -46,7 +50,7 @@ static real mirrored_edge(const struct engine *e, const struct solid *a, int d)
     return from && to ? INFINITY : (from || to ? 2 : 1) * (a->to[d] - a->from[d]);
 }
 
-real solid_size(const struct engine *e, const struct solid *a)
+real solid_size(const struct run *e, const struct solid *a)
 {
     real least = INFINITY;
     for (int d = 0; d < e->scene->dim && solid_is(a, SOLID_BOX); d++) least = real_min(least, mirrored_edge(e, a, d));
@@ -88,7 +92,7 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
 }
 
 /* Parts of bodies thinner than FEATURE horizons. What a shape subtracts cuts bonds and cells, however thin it is. */
-static void advise_features(const struct engine *e, FILE *out)
+static void advise_features(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies && s->dim > 1 && s->method != METHOD_MPM; b++) {
@@ -105,16 +109,16 @@ static void advise_features(const struct engine *e, FILE *out)
 }
 
 /* Is this end of a pre-crack a tip, as the body goes on there? */
-static bool is_tip(const struct engine *e, const real *end)
+static bool is_tip(const struct run *e, const real *end)
 {
-    const struct tips *t = &e->fracture.tips;
+    const struct tips *t = &e->fracture->tips;
     for (int k = 0; k < t->n; k++)
         if (t->tip[k].from_crack && arrays_equal(t->tip[k].origin, end, t->dim, sizeof *end)) return true;
     return false;
 }
 
 /* Share of a crack that lies in bodies. */
-static real share_within(const struct engine *e, const real *from, const real *to)
+static real share_within(const struct run *e, const real *from, const real *to)
 {
     enum { PLACES = 1000 };
     const struct scene *s = e->scene;
@@ -131,7 +135,7 @@ static real share_within(const struct engine *e, const real *from, const real *t
 
 /* Cracks whose two tips are not FEATURE horizons apart. What comes from a face or a plane of symmetry is half of a
  * crack of twice the length. */
-static void advise_cracks(const struct engine *e, FILE *out)
+static void advise_cracks(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
@@ -167,7 +171,7 @@ static bool at_stepped_face(const struct scene *s, const struct region *shape, c
 
 /* Point probes of stress at curved or slanted faces: measured with the elliptic membrane LE1 of NAFEMS, 20 to 80 points
  * across. */
-static void advise_faces(const struct engine *e, FILE *out)
+static void advise_faces(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int k = 0; k < s->probes && s->method != METHOD_PD && s->dim > 1; k++)
@@ -188,7 +192,7 @@ static real rise_time(const struct time_function *f)
 }
 
 /* Loads and pulses shorter than WAVE spacings. */
-static void advise_waves(const struct engine *e, FILE *out)
+static void advise_waves(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->boundaries && scene_moves(s); b++) {
@@ -209,18 +213,18 @@ static void advise_waves(const struct engine *e, FILE *out)
 }
 
 /* Coarse cells that the scene gives and that do not carry its loads. */
-static void advise_levels(const struct engine *e, FILE *out)
+static void advise_levels(const struct run *e, FILE *out)
 {
     char text[1024];
     if (engine_levels_coarse(e, text, sizeof text)) fprintf(out, "unresolved: %s\n", text);
 }
 
 /* Body of a particle; joined ones are one. */
-static int body_of(const struct engine *e, int32_t i) { return e->scene->body[e->part.body[i]].joined; }
+static int body_of(const struct run *e, int32_t i) { return e->scene->body[e->part.body[i]].joined; }
 
 /* Number of pairs of a body's particles near a crack's end, within their horizon, that the crack cuts if longer by 1e-7
  * of its length and does not cut if shorter by as much. */
-static int64_t tied_bonds(const struct engine *e, const struct crack *c, int end, int32_t *found, int room)
+static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, int32_t *found, int room)
 {
     const struct particles *p = &e->part;
     real corner[2][2][DIM_MAX], hair[DIM_MAX];
@@ -245,7 +249,7 @@ static int64_t tied_bonds(const struct engine *e, const struct crack *c, int end
 }
 
 /* Crack ends that lie exactly on bonds. */
-static void advise_ties(const struct engine *e, FILE *out)
+static void advise_ties(const struct run *e, FILE *out)
 {
     enum { ROOM = 1024 };
     int32_t found[ROOM];
@@ -263,7 +267,7 @@ static void advise_ties(const struct engine *e, FILE *out)
 }
 
 /* Formulas without a value at some time of the run. */
-static void advise_formulas(const struct engine *e, FILE *out)
+static void advise_formulas(const struct run *e, FILE *out)
 {
     for (int m = 0; m <= PULL_MOMENTS; m++) {
         if (loads_finite(&e->loads, &e->part, e->scene->duration * m / PULL_MOMENTS) == OK) continue;
@@ -285,7 +289,7 @@ static void pulled_span(const struct load *l, const struct particles *p, int d, 
 }
 
 /* Finds unintended separation: points of the current frame that are pulled more than a cell apart share no nodes. */
-static void advise_separation(const struct engine *e, FILE *out)
+static void advise_separation(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int d = 0; d < s->dim && s->method == METHOD_MPM && e->part.n_free > 0; d++) {
@@ -325,7 +329,7 @@ static void advise_model(const struct scene *s, FILE *out)
 
 /* Largest stress that the speeds and tractions of boundaries and initial states can make [Pa]; INFINITY: unknown, with
  * body forces, tables in time, or waves that add up. */
-static real stress_reached(const struct engine *e)
+static real stress_reached(const struct run *e)
 {
     const struct scene *s = e->scene;
     real low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, speed2 = 0, density = 0, traction = 0;
@@ -348,18 +352,18 @@ static real stress_reached(const struct engine *e)
     }
     for (int d = 0; d < s->dim; d++) speed2 += square(high[d] - low[d]);
     for (int m = 0; m < s->materials; m++) density = real_max(density, s->material[m].density);
-    return REACHED * (density * e->tables.wave_speed * sqrt(speed2) + traction) + e->probing.strain_stress;
+    return REACHED * (density * e->tables.wave_speed * sqrt(speed2) + traction) + e->probing->strain_stress;
 }
 
 /* Bodies in the current frame that the reference frame could hold. */
-static void advise_frame(const struct engine *e, FILE *out)
+static void advise_frame(const struct run *e, FILE *out)
 {
     const real reached = stress_reached(e);
     for (int b = 0; b < e->scene->bodies; b++) {
         real strain = 0;
         for (int m = 0; m < e->scene->materials; m++)
             if (scene_body_has(&e->scene->body[b], m)) strain = real_max(strain, reached / e->scene->material[m].young);
-        if (e->reference.choice[b].reference || !engine_frame_allowed(e, b)) continue;
+        if (e->frame->choice[b].reference || !engine_frame_allowed(e, b)) continue;
         fprintf(out, "unneeded: body %s in mpm.frame current: it meets no other body", e->scene->body[b].name);
         if (strain < LITTLE) fprintf(out, " and waves strain it by %.2g at the most", strain);
         fprintf(out, "; its material points cost a tenth to a thirtieth in frame %s\n",
@@ -376,7 +380,7 @@ static bool has_notch(const struct scene *s)
 }
 
 /* Peridynamics where no bond can break, and nothing meets rigid bodies, which material points cannot. */
-static void advise_method(const struct engine *e, FILE *out)
+static void advise_method(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     real weakest = INFINITY;
@@ -397,7 +401,7 @@ static void advise_method(const struct engine *e, FILE *out)
                 s->method == METHOD_PD ? "pd" : "adaptive", reached, weakest);
 }
 
-static void advise_symmetry(const struct engine *e, FILE *out)
+static void advise_symmetry(const struct run *e, FILE *out)
 {
     real at;
     for (int axis = 0; axis < e->part.dim && e->part.dim > 1; axis++)
@@ -409,7 +413,7 @@ static void advise_symmetry(const struct engine *e, FILE *out)
                     'x' + axis, at, (long long)e->part.n);
 }
 
-void advise(const struct engine *e, FILE *out)
+void advise(const struct run *e, FILE *out)
 {
     advise_units(e, out);
     advise_features(e, out);

@@ -9,6 +9,10 @@
 #include "check_parts.h"
 #include "engine/engine.h"
 #include "base/memory.h"
+#include "step/report.h"
+#include "contact/contact.h"
+#include "probes/probes_part.h"
+#include "probes/probes.h"
 
 enum { PERIODS_MOST = 200 };
 #define SECONDS_ENOUGH 0.15
@@ -27,13 +31,13 @@ enum { PERIODS_MOST = 200 };
 
 /* Median time of a step [s] after the first one, which has cold caches; measured from sample to sample, so that samples
  * are included. */
-static status time_steps(struct engine *e, double *step)
+static status time_steps(struct run *e, double *step)
 {
     const int64_t samples = e->scene->samples > 0 ? e->scene->samples : 1;
     const int64_t period = e->clock.steps / samples > 0 ? e->clock.steps / samples : 1;
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
-    e->report.quiet = e->report.trial = true;
+    e->report->quiet = e->report->trial = true;
     TRY(engine_report_start(e));
     const double begun = team_clock();
     TRY(engine_step(e));
@@ -52,7 +56,7 @@ static status time_steps(struct engine *e, double *step)
 }
 
 /* Median time of one evaluation of bond forces [s]. */
-static double time_force(struct engine *e)
+static double time_force(struct run *e)
 {
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
@@ -65,15 +69,15 @@ static double time_force(struct engine *e)
 }
 
 /* Time of contact in a step, where it stands [s]. */
-static double time_contact(struct engine *e)
+static double time_contact(struct run *e)
 {
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
     while (n < PERIODS_MOST && (all < 0.1 * SECONDS_ENOUGH || n < 3)) {
         const double start = team_clock();
-        contact_update(&e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
-                       e->contact.broken, e->contact.changed);
-        contact_force(&e->contact, &e->part, 0);
+        contact_update(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
+                       e->contact->broken, e->contact->changed);
+        contact_force(e->contact, &e->part, 0);
         all += spent[n++] = team_clock() - start;
     }
     return median_of(spent, n);
@@ -83,7 +87,7 @@ static double time_contact(struct engine *e)
 
 /* Makes scene and engine with one more override (key NULL: none); the caller frees both in any case. rest: keep
  * inactive parts. */
-static status make_other(struct scene *s, struct engine *e, const struct run_arguments *a, const char *key,
+static status make_other(struct scene *s, struct run *e, const struct run_arguments *a, const char *key,
                          const char *value, bool rest)
 {
     struct scene_override *override = NEW("check.override", a->overrides + 1, struct scene_override);
@@ -97,13 +101,13 @@ static status make_other(struct scene *s, struct engine *e, const struct run_arg
 }
 
 /* Time of all steps [s]; NAN if they fail or take far longer than expected. */
-static double all_steps(struct engine *e)
+static double all_steps(struct run *e)
 {
     const double start = team_clock();
-    e->report.quiet = e->report.trial = true;
+    e->report->quiet = e->report->trial = true;
     memory_reuse(true);
     if (engine_report_start(e) != OK) return NAN;
-    laps_start(&e->report.laps);
+    laps_start(&e->laps);
     while (e->clock.step < e->clock.steps) {
         if (engine_step(e) != OK || engine_stability_check(e) != OK || engine_report(e) != OK) return NAN;
         if (team_clock() - start > PATIENCE * SECONDS_WHOLE) return NAN;
@@ -117,14 +121,14 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
                         struct warnings *found)
 {
     struct scene s = {0};
-    struct engine e = {0};
+    struct run e = {0};
     double seconds = NAN;
     if (make_other(&s, &e, a, key, value, whole) == OK) {
         if (whole) seconds = all_steps(&e);
         else if (time_steps(&e, &seconds) == OK) seconds *= (double)e.clock.steps;
         else seconds = NAN;
     }
-    if (found) warnings_join(found, &e.report.warnings, 0);
+    if (found) warnings_join(found, &e.warnings, 0);
     engine_free(&e);
     scene_free(&s);
     return seconds;
@@ -132,7 +136,7 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
 
 /* Time of all steps over that expected from the first ones, in the same scene with larger particles; NAN: unknown.
  * first: expected time of this scene [s]. */
-static double growth_of(struct cost *c, const struct engine *e, const struct run_arguments *a, double first)
+static double growth_of(struct cost *c, const struct run *e, const struct run_arguments *a, double first)
 {
     const struct scene *s = e->scene;
     char value[32];
@@ -152,17 +156,17 @@ static double growth_of(struct cost *c, const struct engine *e, const struct run
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
 /* Time of output [s]: frames, the initial one and two checkpoints included. */
-static double output_seconds(const struct engine *e)
+static double output_seconds(const struct run *e)
 {
     double files = (double)(e->scene->frames < e->clock.steps ? e->scene->frames : e->clock.steps) + 3;
     for (int k = 0; k < e->scene->n_series; k++)         /* of regions: of each, all particles are brought up to date */
         files += fmin(e->scene->duration / e->scene->series[k].every, (double)e->clock.steps) + 1;
     return files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n +
-                    FILE_SECONDS * (double)probes_profiled(&e->probing.probes));
+                    FILE_SECONDS * (double)probes_profiled(&e->probing->probes));
 }
 
 /* Time and basis of the whole run. */
-static void cost_run(struct cost *c, const struct engine *e, const struct run_arguments *a)
+static void cost_run(struct cost *c, const struct run *e, const struct run_arguments *a)
 {
     const double first = c->step * (double)e->clock.steps;
     double loop = NAN;
@@ -186,7 +190,7 @@ static void cost_run(struct cost *c, const struct engine *e, const struct run_ar
 static double step_peridynamic(const struct run_arguments *a, double spacing)
 {
     struct scene s = {0};
-    struct engine e = {0};
+    struct run e = {0};
     struct run_arguments coarse = *a;
     double seconds = NAN;
     char value[32];
@@ -203,7 +207,7 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
 }
 
 /* A run with all particles peridynamic: by its first steps, or of too many bonds by those of larger particles. */
-static void cost_peridynamic(struct cost *c, const struct engine *e, const struct run_arguments *a)
+static void cost_peridynamic(struct cost *c, const struct run *e, const struct run_arguments *a)
 {
     const struct scene *s = e->scene;
     const double n = (double)e->part.n_body, bonds = n * family_size(&e->source.family);
@@ -216,20 +220,20 @@ static void cost_peridynamic(struct cost *c, const struct engine *e, const struc
 }
 
 /* What the run has beyond the steps so far [byte]. */
-static double output_bytes(const struct engine *e)
+static double output_bytes(const struct run *e)
 {
     return OUTPUT_BYTES + (double)e->part.n * (FRAME_BYTES + (e->scene->method == METHOD_MPM ? 0 : PARTS_BYTES));
 }
 
-status cost_measure(struct cost *c, struct engine *e, const struct run_arguments *a)
+status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a)
 {
-    const int known = e->report.warnings.n;
+    const int known = e->warnings.n;
     c->all_peridynamic = NAN;
-    e->report.trial = true;
+    e->report->trial = true;
     if (scene_in_steps(e->scene)) {
         c->output = output_seconds(e) + FILE_SECONDS * e->scene->steps.number; /* a checkpoint after each load step */
         const status result = cost_load_steps(c, e);
-        warnings_join(&c->found, &e->report.warnings, known);
+        warnings_join(&c->found, &e->warnings, known);
         TRY(result);
         c->bytes = (double)memory_peak() + output_bytes(e);
         return OK;
@@ -241,7 +245,7 @@ status cost_measure(struct cost *c, struct engine *e, const struct run_arguments
         return OK;
     }
     const status result = time_steps(e, &c->step);
-    warnings_join(&c->found, &e->report.warnings, known);
+    warnings_join(&c->found, &e->warnings, known);
     TRY(result);
     c->contact = time_contact(e) / c->step;
     c->bytes = (double)memory_peak() + output_bytes(e);

@@ -35,7 +35,7 @@ static int64_t place_of(const struct ends *c, const real *X, real spacing)
 }
 
 /* The ends of columns with an area; false where they are too scattered for a table. */
-static bool ends_make(struct ends *c, const struct engine *e, const struct boundary *b, const struct face *f)
+static bool ends_make(struct ends *c, const struct run *e, const struct boundary *b, const struct face *f)
 {
     const struct particles *p = &e->part;
     const real spacing = e->scene->spacing;
@@ -78,7 +78,7 @@ static real slope_along(const struct ends *c, int64_t place, int k)
 }
 
 /* Cosine of the angle between the axis of a face and the surface at particle i, whose cube shows there. */
-static real cosine_at(const struct engine *e, const struct boundary *b, const struct ends *c, int64_t i)
+static real cosine_at(const struct run *e, const struct boundary *b, const struct ends *c, int64_t i)
 {
     const struct region *shape = &e->scene->body[e->part.body[i]].shape;
     real X[DIM_MAX], normal[DIM_MAX] = {0}, slope2 = 0;
@@ -93,7 +93,7 @@ static real cosine_at(const struct engine *e, const struct boundary *b, const st
 }
 
 /* Adds up the cubes of a face that show from a place along its axis on (-INFINITY: all). */
-static struct elsewhere elsewhere_from(const struct engine *e, const struct boundary *b, const struct face *f,
+static struct elsewhere elsewhere_from(const struct run *e, const struct boundary *b, const struct face *f,
                                        const struct ends *c, real from)
 {
     struct elsewhere w = {.aligned = INFINITY, .last = -INFINITY};
@@ -109,7 +109,7 @@ static struct elsewhere elsewhere_from(const struct engine *e, const struct boun
 }
 
 /* Where a region would begin that leaves out nearly all that looks elsewhere; INFINITY: no plane does. */
-static real elsewhere_cut(const struct engine *e, const struct boundary *b, const struct face *f, const struct ends *c,
+static real elsewhere_cut(const struct run *e, const struct boundary *b, const struct face *f, const struct ends *c,
                           const struct elsewhere *all)
 {
     for (int k = 0; k < 2 && isfinite(all->aligned); k++) {
@@ -135,7 +135,7 @@ static bool has_normals(const struct scene *s, const struct boundary *b)
     return all;
 }
 
-void say_elsewhere(const struct engine *e, const struct boundary *b)
+void say_elsewhere(const struct run *e, const struct boundary *b)
 {
     const struct scene *s = e->scene;
     struct elsewhere w = {0};

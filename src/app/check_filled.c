@@ -14,7 +14,7 @@ static bool all_boxes(const struct region *shape)
 }
 
 /* Particles of a body, also those that are not made where it is the only one; joined bodies count as the first. */
-static int64_t particles_of(const struct engine *e, int body)
+static int64_t particles_of(const struct run *e, int body)
 {
     int64_t n = 0;
     if (e->scene->bodies == 1) return e->part.n_body;
@@ -22,7 +22,7 @@ static int64_t particles_of(const struct engine *e, int body)
     return n;
 }
 
-void say_filled(const struct engine *e)
+void say_filled(const struct run *e)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies; b++) {

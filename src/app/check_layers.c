@@ -26,7 +26,7 @@ static int64_t layer_site(const struct layer_map *m, const struct particles *p, 
 }
 
 /* False, with nothing to free: too many sites. */
-static bool layer_map_make(struct layer_map *m, const struct engine *e, int body)
+static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
 {
     const struct particles *p = &e->part;
     real high[DIM_MAX], sites = 1;
@@ -87,7 +87,7 @@ static double site_layers(const struct layer_map *m, const int64_t *at)
 }
 
 /* Layers across the thin parts of a body, their median; INFINITY: less than half of it is thinner than `most`. */
-static double body_layers(const struct engine *e, int body, double most)
+static double body_layers(const struct run *e, int body, double most)
 {
     const struct particles *p = &e->part;
     int64_t count[RUNS_MOST + 1] = {0}, all = 0, thin = 0, seen = 0;
@@ -108,7 +108,7 @@ static double body_layers(const struct engine *e, int body, double most)
     return (double)thin < SHARE_LEAST * (double)all ? INFINITY : half;
 }
 
-double check_layers(const struct engine *e, int body, double most)
+double check_layers(const struct run *e, int body, double most)
 {
     const struct scene *s = e->scene;
     real least = INFINITY;
@@ -137,7 +137,7 @@ static double soft_cells(double poisson, double layers)
 #define SOFT_CELLS 0.45
 #define SOFT_MOST 2.0                    /* less is not worth a line [%] */
 
-void advise_incompressible(const struct engine *e, FILE *out)
+void advise_incompressible(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     const bool families = s->method == METHOD_PD;

@@ -3,12 +3,14 @@
 #include <stdio.h>
 
 #include "check_parts.h"
+#include "mesh/mesh_part.h"
+#include "mesh/levels.h"
 
-void say_levels(const struct engine *e)
+void say_levels(const struct run *e)
 {
-    const struct mesh_levels *l = &e->reference.levels;
+    const struct mesh_levels *l = &e->frame->levels;
     char text[1024];
-    if (e->reference.mesh.points == 0 || scene_at_rest(e->scene)) return;
+    if (e->frame->mesh.points == 0 || scene_at_rest(e->scene)) return;
     engine_levels_text(e, text, sizeof text);
     if (!e->scene->choice.made) printf("levels         %s\n", text);       /* else engine_choice_print has said it */
     for (int level = 0; level <= l->n && l->n > 0; level++)
@@ -47,9 +49,9 @@ static double points_in_coarse_cells(const struct mesh_levels *l, int dim)
     return n;
 }
 
-void say_levels_saving(const struct engine *e, const struct cost *c)
+void say_levels_saving(const struct run *e, const struct cost *c)
 {
-    const struct mesh_levels *l = &e->reference.levels;
+    const struct mesh_levels *l = &e->frame->levels;
     char all[32], made[32], few[32], memory[32], whole[32], now[32], then[32];
     const bool millions = e->part.n_body >= 1000000;
     double cells = 0;

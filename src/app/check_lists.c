@@ -9,7 +9,7 @@
 enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
 
 /* Is there a particle of a body near X? */
-static bool body_at(const struct engine *e, int body, const real *X)
+static bool body_at(const struct run *e, int body, const real *X)
 {
     enum { ROOM = 64 };
     int32_t found[ROOM];
@@ -21,7 +21,7 @@ static bool body_at(const struct engine *e, int body, const real *X)
 
 /* Layers of a body through particle i along the axis in which they are fewest, up to LAYERS_MOST; planes of symmetry do
  * not end a body. */
-static int layers_at(const struct engine *e, int64_t i)
+static int layers_at(const struct run *e, int64_t i)
 {
     const struct particles *p = &e->part;
     const real spacing = e->scene->spacing;
@@ -45,7 +45,7 @@ static int layers_at(const struct engine *e, int64_t i)
 }
 
 /* Layers of the thinnest part of a body that holds THIN_SHARE of it. */
-static int thinnest(const struct engine *e, int body)
+static int thinnest(const struct run *e, int body)
 {
     const struct particles *p = &e->part;
     int64_t count[LAYERS_MOST + 1] = {0}, all = 0, own = 0;
@@ -63,7 +63,7 @@ static int thinnest(const struct engine *e, int body)
     return LAYERS_MOST;
 }
 
-void advise_lists(const struct engine *e, FILE *out)
+void advise_lists(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     if (s->method != METHOD_PD || s->dim == 1 || s->surface == SURFACE_MOMENTS || !(s->spacing > 0)) return;

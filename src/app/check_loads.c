@@ -119,7 +119,7 @@ static void say_vector(const real *a, int n)
 
 /* The faces on which a pressure acts, beside the shapes of their bodies. */
 struct faced {
-    const struct engine *e;
+    const struct run *e;
     real area;       /* of the faces [m^2] */
     real along, off; /* projected to the shapes' surfaces [m^2]; times the distance from them,
                         outside positive [m^3] */
@@ -157,7 +157,7 @@ static void face_beside_shape(void *context, int32_t i, int axis, int side, real
 /* Steps of a slanting or curved surface have more area than it, and lie about it; by how much they lie beside it in the
  * mean, the volume between both over the area, is what a bore is wider than its shape: the flux of the shape's normals
  * through closed steps is that through the surface. */
-static void say_pressed(const struct engine *e, int which)
+static void say_pressed(const struct run *e, int which)
 {
     const struct load *l = &e->loads.load[which];
     const real spacing = e->scene->spacing;
@@ -194,7 +194,7 @@ static bool face_exact(const struct scene *s, const struct boundary *b, real *ar
     return *area > 0;
 }
 
-static void say_traction_area(const struct engine *e, const struct load *l)
+static void say_traction_area(const struct run *e, const struct load *l)
 {
     real area = 0, exact;
     for (int64_t k = 0; k < l->n; k++)
@@ -206,7 +206,7 @@ static void say_traction_area(const struct engine *e, const struct load *l)
 
 /* ---- lines ------------------------------------------------------------------------------------------------------- */
 
-static void say_force(const struct engine *e, const struct load *l)
+static void say_force(const struct run *e, const struct load *l)
 {
     const int dim = e->part.dim;
     const struct instant at = instant_of(l, &e->part, e->scene->duration);
@@ -224,7 +224,7 @@ static void say_force(const struct engine *e, const struct load *l)
     if (at.why[0] == 'w') printf(", at %.4g s", at.t);
 }
 
-static void say_support(const struct engine *e, const struct load *l)
+static void say_support(const struct run *e, const struct load *l)
 {
     const struct boundary *b = l->boundary;
     const char *between = "";
@@ -242,7 +242,7 @@ static void say_support(const struct engine *e, const struct load *l)
     printf(b->rotates ? "on circles" : moves ? " driven" : " held");
 }
 
-static void say_mean_displacement(const struct engine *e, const struct load *l, real t)
+static void say_mean_displacement(const struct run *e, const struct load *l, real t)
 {
     real mean[DIM_MAX] = {0}, u[DIM_MAX];
     for (int64_t k = 0; k < l->n; k++) {
@@ -258,7 +258,7 @@ static void say_mean_displacement(const struct engine *e, const struct load *l, 
 }
 
 /* Mean displacement when it is largest and at the end, and how fast it grows in time. */
-static void say_displacement(const struct engine *e, const struct load *l)
+static void say_displacement(const struct run *e, const struct load *l)
 {
     const bool explicit = e->scene->solver == SOLVER_EXPLICIT, frozen = l->boundary->frozen;
     const real end = frozen ? INFINITY : e->scene->duration;
@@ -274,7 +274,7 @@ static void say_displacement(const struct engine *e, const struct load *l)
     if (isfinite(speed)) printf(", at most %.3g m/s", speed);
 }
 
-static void say_load(const struct engine *e, int which)
+static void say_load(const struct run *e, int which)
 {
     static const char *const words[] = {[BOUNDARY_TRACTION] = "traction",
                                         [BOUNDARY_BODY_FORCE] = "body force",
@@ -298,7 +298,7 @@ static void say_load(const struct engine *e, int which)
     putchar('\n');
 }
 
-void say_loads(const struct engine *e)
+void say_loads(const struct run *e)
 {
     for (int b = 0; b < e->loads.n && b < SAID; b++) say_load(e, b);
     if (e->loads.n > SAID) printf("load           and %d more loads and supports\n", e->loads.n - SAID);

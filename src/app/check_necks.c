@@ -26,7 +26,7 @@ enum {
 
 struct necks {
     const struct cover *cover;
-    const struct engine *engine;
+    const struct run *engine;
     const struct piece *piece;
     int axis; /* of the widths */
     int64_t stride[DIM_MAX];
@@ -106,7 +106,7 @@ static int64_t run_beside(const struct necks *k, int64_t cell, int across, int w
 /* Is a cell the last one before a plane of symmetry across an axis? */
 static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
 {
-    const struct engine *e = k->engine;
+    const struct run *e = k->engine;
     int64_t at[DIM_MAX];
     bool found = false;
     cover_place(k->cover, cell, at);
@@ -352,7 +352,7 @@ static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell,
     memory_free(p);
 }
 
-void judge_necks(struct uneven_list *list, const struct engine *e, const struct cover *c, uint8_t *named)
+void judge_necks(struct uneven_list *list, const struct run *e, const struct cover *c, uint8_t *named)
 {
     struct necks k = {.cover = c, .engine = e, .piece = &list->piece};
     k.stride[0] = 1, k.stride[1] = c->n[0], k.stride[2] = c->n[0] * c->n[1];

@@ -32,50 +32,50 @@ struct cost {
 
 /* Takes steps and times them, with the current team; the engine cannot be used afterwards. `a`: the arguments of its
  * scene. FAILED if one of the first steps fails. */
-status cost_measure(struct cost *c, struct engine *e, const struct run_arguments *a);
+status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a);
 
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 
 /* Load steps: the solver and what leads cracks; advice; the cost, by the first equilibrium: FAILED where there is none;
  * the line about it. */
-void say_load_steps(const struct engine *e);
-void advise_load_steps(const struct engine *e, FILE *out);
-status cost_load_steps(struct cost *c, struct engine *e);
-void say_load_steps_cost(const struct engine *e, const struct cost *c, int threads);
+void say_load_steps(const struct run *e);
+void advise_load_steps(const struct run *e, FILE *out);
+status cost_load_steps(struct cost *c, struct run *e);
+void say_load_steps_cost(const struct run *e, const struct cost *c, int threads);
 
 /* ---- check_shapes.c ---------------------------------------------------------------------------------------------- */
 
 /* Files that solids are made of: closed or open, what they enclose. */
-void say_shapes(const struct engine *e);
+void say_shapes(const struct run *e);
 
 /* Bodies in several pieces that no bond joins (check_pieces.c). */
-void say_pieces(const struct engine *e);
+void say_pieces(const struct run *e);
 
 /* ---- check_layers.c ---------------------------------------------------------------------------------------------- */
 
 /* Smallest edge, mirror images included, diameter or wall of a solid [m]; INFINITY: it has none (check_advice.c). */
-real solid_size(const struct engine *e, const struct solid *a);
+real solid_size(const struct run *e, const struct solid *a);
 /* Layers of particles across the thin parts of a body and those joined to it; INFINITY: less than half of it is
  * thinner than `most` layers, or the body is joined to another, which is asked in its place. */
-double check_layers(const struct engine *e, int body, double most);
+double check_layers(const struct run *e, int body, double most);
 /* Bodies that nearly keep their volume, whose families or cells are too stiff. */
-void advise_incompressible(const struct engine *e, FILE *out);
+void advise_incompressible(const struct run *e, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
 
 /* Coarse cells: how large, how many and why; what they save. */
-void say_levels(const struct engine *e);
-void say_levels_saving(const struct engine *e, const struct cost *c);
+void say_levels(const struct run *e);
+void say_levels_saving(const struct run *e, const struct cost *c);
 
 /* ---- check_units.c ----------------------------------------------------------------------------------------------- */
 
 /* Writes a line for each number that looks like one of another unit. */
-void advise_units(const struct engine *e, FILE *out);
+void advise_units(const struct run *e, FILE *out);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
 
 /* Writes a line for each narrow part whose sections hold too many or too few particles, and spacings that divide it. */
-void advise_sections(const struct engine *e, FILE *out);
+void advise_sections(const struct run *e, FILE *out);
 /* Writes a length to `digits` digits, in the largest unit in which the present spacing is not below 0.1. */
 struct length_text { char text[32]; };
 struct length_text length_in_words(real length, int digits, real spacing);
@@ -83,26 +83,26 @@ struct length_text length_in_words(real length, int digits, real spacing);
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
 
 /* Loads and supports: particles, areas, forces and moments. */
-void say_loads(const struct engine *e);
+void say_loads(const struct run *e);
 
 /* Share of the area of a load's or support's face that looks elsewhere than along its axis, by which angle, and the
  * region that leaves it out (check_faces.c). */
-void say_elsewhere(const struct engine *e, const struct boundary *b);
+void say_elsewhere(const struct run *e, const struct boundary *b);
 
 /* Volume of the particles of bodies that are not boxes, beside that of their shapes (check_filled.c). */
-void say_filled(const struct engine *e);
+void say_filled(const struct run *e);
 
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
 /* Writes a line, with numbers, for each part of the scene that is not resolved, and for each that is not needed. The
  * engine has taken no step. */
-void advise(const struct engine *e, FILE *out);
+void advise(const struct run *e, FILE *out);
 /* How far the stiffness of a part of so many layers is off, with a rule for families near faces [%]. */
 int stiffness_error(const struct scene *s, enum surface_rule surface, double layers);
 /* Thin parts of bodies from lists that are no lattice (check_lists.c). */
-void advise_lists(const struct engine *e, FILE *out);
+void advise_lists(const struct run *e, FILE *out);
 /* True if the scene equals its mirror image in the plane across `axis` through the middle of its particles, at *at [m]
  * (check_symmetry.c). */
-bool scene_is_mirrored(const struct engine *e, int axis, real *at);
+bool scene_is_mirrored(const struct run *e, int axis, real *at);
 
 #endif

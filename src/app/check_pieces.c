@@ -8,7 +8,7 @@
 
 /* Marks fragments of which a support drives or holds a particle; beside planes of symmetry, which may hold them, all.
  * */
-static void mark_driven(const struct engine *e, const struct fragments *f, bool *driven)
+static void mark_driven(const struct run *e, const struct fragments *f, bool *driven)
 {
     for (int64_t k = 0; k < f->n; k++) driven[k] = e->source.mirrors > 0;
     for (int64_t i = 0; i < e->part.n; i++)
@@ -16,7 +16,7 @@ static void mark_driven(const struct engine *e, const struct fragments *f, bool 
 }
 
 /* The pieces of a body beside its heaviest one; particles without any bond are named by a warning. */
-static void say_body(const struct engine *e, const struct fragments *f, const bool *driven, int body)
+static void say_body(const struct run *e, const struct fragments *f, const bool *driven, int body)
 {
     const struct scene *s = e->scene;
     int64_t pieces = 0, particles = 0, free_ones = 0, first = -1;
@@ -35,7 +35,7 @@ static void say_body(const struct engine *e, const struct fragments *f, const bo
     printf(") m%s\n", free_ones > 0 ? "; nothing holds some of them, and there is no equilibrium" : "");
 }
 
-void say_pieces(const struct engine *e)
+void say_pieces(const struct run *e)
 {
     struct fragments f;
     if (e->scene->method != METHOD_PD) return;

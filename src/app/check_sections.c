@@ -232,7 +232,7 @@ static void piece_sections(struct uneven_list *list, const struct cover *c, uint
 }
 
 /* Judges the narrow parts of a body, or of its parts of one material: the piece of the list. */
-static void piece_judge(struct uneven_list *list, const struct engine *e)
+static void piece_judge(struct uneven_list *list, const struct run *e)
 {
     struct cover c;
     if (e->scene->dim == 1) judge_lengths(list);
@@ -244,7 +244,7 @@ static void piece_judge(struct uneven_list *list, const struct engine *e)
     cover_free(&c);
 }
 
-void advise_sections(const struct engine *e, FILE *out)
+void advise_sections(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies; b++) {

@@ -38,7 +38,7 @@ static void say_hull(const struct shape_file *f)
     printf("%s\n", f->geometry.sets > 12 ? ", .." : "");
 }
 
-static void say_image(const struct engine *e, const struct shape_file *f)
+static void say_image(const struct run *e, const struct shape_file *f)
 {
     const struct voxels *v = &f->voxels;
     printf("shape          %s%s: %lld x %lld", shown_name(f->path[0]).text, f->files > 1 ? " .." : "",
@@ -51,7 +51,7 @@ static void say_image(const struct engine *e, const struct shape_file *f)
     putchar('\n');
 }
 
-void say_shapes(const struct engine *e)
+void say_shapes(const struct run *e)
 {
     for (const struct shape_file *f = e->scene->shapes; f; f = f->next) {
         if (f->kind == SHAPE_IMAGE) say_image(e, f);

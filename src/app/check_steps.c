@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "check_parts.h"
+#include "fracture/fracture_part.h"
+#include "fracture/tips.h"
 
 #define AT_ONCE 1e-3   /* share of the largest loads that is there before the first load step */
 #define FALLS 1e-6     /* share by which loads fall that is no round-off */
@@ -17,20 +19,20 @@ enum { PIN_MOST = 2, GRIP_LEAST = 12 }; /* widths of supports on which bodies tu
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
 /* Tips of pre-cracks. */
-static int tips_of_cracks(const struct engine *e)
+static int tips_of_cracks(const struct run *e)
 {
     int n = 0;
-    for (int k = 0; k < e->fracture.tips.n; k++) n += e->fracture.tips.tip[k].from_crack;
+    for (int k = 0; k < e->fracture->tips.n; k++) n += e->fracture->tips.tip[k].from_crack;
     return n;
 }
 
-static bool is_led(const struct engine *e)
+static bool is_led(const struct run *e)
 {
     return tips_of_cracks(e) > 0 && engine_led_fault(e) == NULL;
 }
 
 /* How far bodies go on from a tip, straight ahead (side 1) or back (-1) [m]; 0 where they are lists of particles. */
-static real way_within(const struct engine *e, const struct tip *tip, int side)
+static real way_within(const struct run *e, const struct tip *tip, int side)
 {
     const struct scene *s = e->scene;
     const real most = 2 * (particles_longest(&e->part) + s->spacing), step = 0.5 * s->spacing;
@@ -46,7 +48,7 @@ static real way_within(const struct engine *e, const struct tip *tip, int side)
 }
 
 /* Length of the pre-crack that ends at a tip, as far as it lies in bodies; INFINITY: not known [m]. */
-static real crack_behind(const struct engine *e, const struct tip *tip)
+static real crack_behind(const struct run *e, const struct tip *tip)
 {
     const struct scene *s = e->scene;
     for (int k = 0; k < s->cracks && s->dim == 2; k++)
@@ -60,7 +62,7 @@ static real crack_behind(const struct engine *e, const struct tip *tip)
     return INFINITY;
 }
 
-void say_load_steps(const struct engine *e)
+void say_load_steps(const struct run *e)
 {
     static const char *const by[] = {[CONTROL_LOAD] = "by load time", [CONTROL_ENERGY] = "at the most, by energy",
                                      [CONTROL_OPENING] = "by an opening"};
@@ -83,7 +85,7 @@ void say_load_steps(const struct engine *e)
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
 
 /* Loads that do not grow from nothing. */
-static void advise_growth(const struct engine *e, FILE *out)
+static void advise_growth(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     real most = 0, before = 0, falls = NAN;
@@ -105,11 +107,11 @@ static void advise_growth(const struct engine *e, FILE *out)
 }
 
 /* Tips with little crack behind them or little body ahead. */
-static void advise_lengths(const struct engine *e, FILE *out)
+static void advise_lengths(const struct run *e, FILE *out)
 {
     const real h = e->scene->spacing;
-    for (int k = 0; k < e->fracture.tips.n; k++) {
-        const struct tip *tip = &e->fracture.tips.tip[k];
+    for (int k = 0; k < e->fracture->tips.n; k++) {
+        const struct tip *tip = &e->fracture->tips.tip[k];
         const real ahead = way_within(e, tip, 1) / h, behind = crack_behind(e, tip) / h;
         const bool short_crack = behind < FEW, short_way = ahead > 0 && ahead < FEW;
         if (!tip->from_crack || (!short_crack && !short_way)) continue;
@@ -122,7 +124,7 @@ static void advise_lengths(const struct engine *e, FILE *out)
 }
 
 /* Spacings over which particles of a load lie along an axis; 0: over all of the bodies. */
-static int support_width(const struct engine *e, const struct load *l, int axis)
+static int support_width(const struct run *e, const struct load *l, int axis)
 {
     const real h = e->scene->spacing;
     real low = INFINITY, high = -INFINITY, from, to;
@@ -135,7 +137,7 @@ static int support_width(const struct engine *e, const struct load *l, int axis)
 }
 
 /* Pins and rollers that hold the rotation of the body on them: some columns of particles, too few for a grip. */
-static void advise_supports(const struct engine *e, FILE *out)
+static void advise_supports(const struct run *e, FILE *out)
 {
     for (int b = 0; b < e->loads.n; b++) {
         const struct load *l = &e->loads.load[b];
@@ -153,7 +155,7 @@ static void advise_supports(const struct engine *e, FILE *out)
     }
 }
 
-void advise_load_steps(const struct engine *e, FILE *out)
+void advise_load_steps(const struct run *e, FILE *out)
 {
     if (!scene_in_steps(e->scene)) return;
     advise_growth(e, out);
@@ -164,7 +166,7 @@ void advise_load_steps(const struct engine *e, FILE *out)
 /* ---- cost -------------------------------------------------------------------------------------------------------- */
 
 /* Equilibria of an advance: of bonds that break one pair after another, or as many as the scene lets break at once. */
-static double equilibria_of_advance(const struct engine *e)
+static double equilibria_of_advance(const struct run *e)
 {
     const struct scene *s = e->scene;
     const struct family *f = &e->source.family;
@@ -181,18 +183,18 @@ static double equilibria_of_advance(const struct engine *e)
 }
 
 /* Advances of all cracks, at the most. */
-static double advances_of(const struct engine *e)
+static double advances_of(const struct run *e)
 {
     const struct scene *s = e->scene;
     double way = 0;
     if (!scene_bonds_break(s)) return 0;
     if (s->steps.control == CONTROL_ENERGY) return s->steps.number;
-    for (int k = 0; k < e->fracture.tips.n; k++) way += way_within(e, &e->fracture.tips.tip[k], 1);
+    for (int k = 0; k < e->fracture->tips.n; k++) way += way_within(e, &e->fracture->tips.tip[k], 1);
     if (way == 0) way = particles_longest(&e->part);
     return way / (SPACINGS * s->spacing);
 }
 
-status cost_load_steps(struct cost *c, struct engine *e)
+status cost_load_steps(struct cost *c, struct run *e)
 {
     const double began = team_clock();
     const real first = e->scene->duration / e->scene->steps.number;
@@ -204,7 +206,7 @@ status cost_load_steps(struct cost *c, struct engine *e)
     return OK;
 }
 
-void say_load_steps_cost(const struct engine *e, const struct cost *c, int threads)
+void say_load_steps_cost(const struct run *e, const struct cost *c, int threads)
 {
     printf("run time       up to about %.2g s on %d thread%s: at most some %.2g equilibria of %.2g s", c->run, threads,
            threads > 1 ? "s" : "", c->equilibria, c->step);

@@ -7,11 +7,13 @@
 
 #include "check_parts.h"
 #include "base/memory.h"
+#include "probes/probes.h"
+#include "probes/probes_part.h"
 
 #define NEAR_ENOUGH 1e-6                 /* [spacings], and share of a largest component */
 
 /* Index of the particle of the body at X [m], [dim]; -1: none. */
-static int64_t particle_at(const struct engine *e, const real *X)
+static int64_t particle_at(const struct run *e, const real *X)
 {
     int32_t found[4];
     const int n = cells_near(&e->cells, &e->part, X, NEAR_ENOUGH * e->scene->spacing, -1, found, COUNT_OF(found));
@@ -35,7 +37,7 @@ static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
 }
 
 /* True if material, body, kind, volume and damage by cracks are equal at twins. */
-static bool matter_agrees(const struct engine *e, const int32_t *twin)
+static bool matter_agrees(const struct run *e, const int32_t *twin)
 {
     const struct particles *p = &e->part;
     for (int64_t i = 0; i < p->n; i++)
@@ -58,7 +60,7 @@ static real load_mark(const struct boundary *b)
 
 /* Sums, per particle, of the marked loads on component d into `ask`, [n], and of the marks of driving loads into
  * `held`, [n]. */
-static void loads_ask(const struct engine *e, int d, real *ask, real *held)
+static void loads_ask(const struct run *e, int d, real *ask, real *held)
 {
     array_fill_bytes(ask, 0, e->part.n, sizeof *ask);
     array_fill_bytes(held, 0, e->part.n, sizeof *held);
@@ -79,7 +81,7 @@ static void loads_ask(const struct engine *e, int d, real *ask, real *held)
 }
 
 /* True if loads, constraints and initial velocities are mirror images across `axis`. */
-static bool loads_agree(const struct engine *e, int axis, const int32_t *twin)
+static bool loads_agree(const struct run *e, int axis, const int32_t *twin)
 {
     const struct particles *p = &e->part;
     real *ask = NEW("check.ask", p->n, real), *held = NEW("check.held", p->n, real);
@@ -100,7 +102,7 @@ static bool loads_agree(const struct engine *e, int axis, const int32_t *twin)
 
 /* Finds the mirror image of every particle in the plane at `at` [m], twin[n]; false if a particle has none, or is its
  * own: then half a layer would be left. */
-static bool mirror_twins_find(const struct engine *e, int axis, real at, int32_t *twin)
+static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *twin)
 {
     const struct particles *p = &e->part;
     for (int64_t i = 0; i < p->n; i++) {
@@ -115,7 +117,7 @@ static bool mirror_twins_find(const struct engine *e, int axis, real at, int32_t
 }
 
 /* Is rigid body b the mirror image of a? By how far both are from some of the particles and their images. */
-static bool rigid_twins(const struct engine *e, int axis, real at, const struct scene_body *a,
+static bool rigid_twins(const struct run *e, int axis, real at, const struct scene_body *a,
                         const struct scene_body *b)
 {
     enum { PLACES = 1000 };
@@ -136,7 +138,7 @@ static bool rigid_twins(const struct engine *e, int axis, real at, const struct 
     return same;
 }
 
-static bool rigid_bodies_agree(const struct engine *e, int axis, real at)
+static bool rigid_bodies_agree(const struct run *e, int axis, real at)
 {
     const struct scene_body *rigid = e->scene->body + e->scene->bodies;
     for (int a = 0; a < e->scene->rigids; a++) {
@@ -151,7 +153,7 @@ static bool rigid_bodies_agree(const struct engine *e, int axis, real at)
 static bool same_number(real a, real b) { return a == b || (isnan(a) && isnan(b)); }
 
 /* Has every crack that grows a mirror image that grows alike? */
-static bool growths_agree(const struct engine *e, int axis, real at)
+static bool growths_agree(const struct run *e, int axis, real at)
 {
     const struct scene *s = e->scene;
     for (int k = 0; k < s->growths; k++) {
@@ -174,18 +176,18 @@ static bool growths_agree(const struct engine *e, int axis, real at)
 }
 
 /* Does no ring of stress-intensity factors cross the plane? */
-static bool rings_clear(const struct engine *e, int axis, real at)
+static bool rings_clear(const struct run *e, int axis, real at)
 {
     const struct observed seen = engine_observed(e);
-    for (int k = 0; k < e->probing.probes.n; k++) {
+    for (int k = 0; k < e->probing->probes.n; k++) {
         real place[2], radius;
-        if (!probes_sif_ring(&e->probing.probes, k, &seen, place, &radius)) continue;
+        if (!probes_sif_ring(&e->probing->probes, k, &seen, place, &radius)) continue;
         if (fabs(place[axis] - at) < radius) return false;
     }
     return true;
 }
 
-bool scene_is_mirrored(const struct engine *e, int axis, real *at)
+bool scene_is_mirrored(const struct run *e, int axis, real *at)
 {
     const struct particles *p = &e->part;
     real low, high;

@@ -40,7 +40,7 @@ void say_uneven(struct uneven_list *list, FILE *out);
 
 /* Adds the necks of a piece: parts that widen on both sides, such as the ligament between a hole and an edge
  * (check_necks.c). named: [cells] bit d of a cell: it belongs to a part that was added, of a width along axis d. */
-void judge_necks(struct uneven_list *list, const struct engine *e, const struct cover *c, uint8_t *named);
+void judge_necks(struct uneven_list *list, const struct run *e, const struct cover *c, uint8_t *named);
 
 /* Adds the pieces of a body in a line whose length is no multiple of the spacing (check_necks.c). */
 void judge_lengths(struct uneven_list *list);

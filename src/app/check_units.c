@@ -11,7 +11,7 @@
 #define STRAIN_LIKELY 0.2   /* load over modulus */
 
 /* In the time of the run waves do not reach the next particle: lengths, the modulus or the time have another unit. */
-static void unlikely_duration(const struct engine *e, FILE *out)
+static void unlikely_duration(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     const real way = e->tables.wave_speed * s->duration;
@@ -59,7 +59,7 @@ static void unlikely_loads(const struct scene *s, FILE *out)
     }
 }
 
-void advise_units(const struct engine *e, FILE *out)
+void advise_units(const struct run *e, FILE *out)
 {
     unlikely_duration(e, out);
     unlikely_materials(e->scene, out);

@@ -9,16 +9,23 @@
 #include "engine/engine.h"
 #include "study/pilot.h"
 #include "study/uncertainty.h"
+#include "fracture/fracture_part.h"
+#include "probes/diagnostics.h"
+#include "fracture/tips.h"
+#include "quasistatic/statics.h"
+#include "coupling/coupling_part.h"
+#include "step/report.h"
+#include "output/output.h"
 
 /* ---- run --------------------------------------------------------------------------------------------------------- */
 
 /* When bonds broke first, and where how many did; how far cracks have come. */
-static void print_breaks(const struct engine *e)
+static void print_breaks(const struct run *e)
 {
-    const struct diagnostics *w = &e->diagnostics;
-    const struct tip *tip = tips_longest(&e->fracture.tips);
+    const struct diagnostics *w = e->diagnostics;
+    const struct tip *tip = tips_longest(&e->fracture->tips);
     const bool in_steps = scene_in_steps(e->scene), broke = !isnan(w->break_time);
-    const int64_t tied = tips_tied(&e->fracture.tips);
+    const int64_t tied = tips_tied(&e->fracture->tips);
     if (broke && in_steps) printf("  first bond broken in load step %.0f", w->break_time / e->clock.dt);
     else if (broke) printf("  first bond broken at %.4g s", w->break_time);
     if (broke && w->break_ends > 1) printf(" at %lld places", (long long)w->break_ends);
@@ -32,25 +39,25 @@ static void print_breaks(const struct engine *e)
     else printf("  first bond of driven particles broken at %.4g s\n", w->driven_time);
 }
 
-static void print_summary(const struct engine *e, const char *folder, double wall)
+static void print_summary(const struct run *e, const char *folder, double wall)
 {
     const struct shown_name shown = shown_name(folder);
     const bool in_steps = scene_in_steps(e->scene);
     printf("%s: %lld particles, ", e->scene->name, (long long)e->part.n_body);
     if (in_steps)
-        printf("%lld load steps, %lld equilibria, %.1f s\n", (long long)e->clock.step, (long long)e->statics.solutions,
+        printf("%lld load steps, %lld equilibria, %.1f s\n", (long long)e->clock.step, (long long)e->statics->solutions,
                wall);
     else
         printf("%lld steps of %.4g s, %.1f s\n", (long long)e->clock.step, e->clock.dt, wall);
     print_breaks(e);
-    if (in_steps && e->statics.record.area > 0)
-        printf("  released %.4g J over %.4g m^2 of new crack: %.4g J/m^2\n", e->statics.record.released,
-               e->statics.record.area, e->statics.record.released / e->statics.record.area);
+    if (in_steps && e->statics->record.area > 0)
+        printf("  released %.4g J over %.4g m^2 of new crack: %.4g J/m^2\n", e->statics->record.released,
+               e->statics->record.area, e->statics->record.released / e->statics->record.area);
     printf("  peridynamic share %.2f %% at the start, %.2f %% at the end\n",
-           100.0 * (double)e->coupling.conversion.start / (double)e->part.n_body,
+           100.0 * (double)e->coupling->conversion.start / (double)e->part.n_body,
            100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n_body);
-    printf("  energy balance %.2g, momentum %.2g\n", e->diagnostics.now.balance_error,
-           e->diagnostics.now.momentum_error);
+    printf("  energy balance %.2g, momentum %.2g\n", e->diagnostics->now.balance_error,
+           e->diagnostics->now.momentum_error);
     printf("  results in %s; open %s/frames.hdf.series in ParaView, or draw them with: cleave plot %s\n", shown.text,
            shown.text, shown.text);
 }
@@ -68,22 +75,22 @@ static status open_folder(struct output *out, const struct scene *s, const struc
 }
 
 /* Makes the engine, opens the folder, runs to the end and writes the summary. */
-static status run_engine(struct engine *e, const struct scene *s, struct output *out, const struct run_arguments *a,
+static status run_engine(struct run *e, const struct scene *s, struct output *out, const struct run_arguments *a,
                          int threads)
 {
     double start = team_clock();
     TRY(engine_make(e, s, out));             /* first: a scene that is refused leaves no folder behind */
     TRY(open_folder(out, s, a));
-    e->report.quiet = a->quiet;
+    e->report->quiet = a->quiet;
     if (!a->quiet) engine_choice_print(e, stderr);
     engine_warn(e);
     char coarse[1024];
-    if (engine_levels_coarse(e, coarse, sizeof coarse)) warnings_add(&e->report.warnings, "%s", coarse);
-    warnings_print(&e->report.warnings, 0, stderr);
+    if (engine_levels_coarse(e, coarse, sizeof coarse)) warnings_add(&e->warnings, "%s", coarse);
+    warnings_print(&e->warnings, 0, stderr);
     if (threads > 2 * omp_get_num_procs())
         fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads,
                 omp_get_num_procs());
-    e->report.stop = stop_signals();
+    e->report->stop = stop_signals();
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
     output_temporal_remove(out);
     status ran = engine_run(e);
@@ -93,8 +100,8 @@ static status run_engine(struct engine *e, const struct scene *s, struct output 
         if (temporal != OK) ran = temporal;
     }
     struct error_bar bar[ERROR_BARS_MOST];
-    e->report.bar = bar;
-    e->report.bars = error_bars_at_hand(bar, ERROR_BARS_MOST, s, out->folder);
+    e->report->bar = bar;
+    e->report->bars = error_bars_at_hand(bar, ERROR_BARS_MOST, s, out->folder);
     status written = ran == REFUSED ? OK : summary_write(e, ran, threads, team_clock() - start);
     if (ran != OK) return ran;
     TRY(written);
@@ -111,7 +118,7 @@ status command_run(int argc, char **argv)
                        "run SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]"));
     int threads = team_make(a.threads);
     struct scene s = {0};
-    struct engine e = {0};
+    struct run e = {0};
     struct output out = {0};
     status result = pilot_scene_read(&s, &pilot, a.scene, a.override, a.overrides, a.folder,
                                      (struct study_way){.quiet = a.quiet, .stop = stop});

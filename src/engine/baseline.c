@@ -4,6 +4,9 @@
 
 #include "engine/engine.h"
 #include "base/memory.h"
+#include "probes/probes_part.h"
+#include "probes/probes.h"
+#include "step/report.h"
 
 /* True if the scene has a pulse probe and is not itself on material points alone. */
 static bool wanted(const struct scene *s)
@@ -15,27 +18,27 @@ static bool wanted(const struct scene *s)
 
 /* Copies velocities and energy change of the finished reference run `twin`. Both runs number their particles alike,
  * since these are made and sorted before any becomes peridynamic. */
-static void baseline_keep(struct engine *e, const struct engine *twin)
+static void baseline_keep(struct run *e, const struct run *twin)
 {
     const struct particles *p = &twin->part;
     for (int d = 0; d < p->dim; d++) {
-        e->probing.baseline.v[d] = NEW("baseline.v", p->n, real);
-        array_copy(e->probing.baseline.v[d], p->v[d], p->n, sizeof *p->v[d]);
+        e->probing->baseline.v[d] = NEW("baseline.v", p->n, real);
+        array_copy(e->probing->baseline.v[d], p->v[d], p->n, sizeof *p->v[d]);
     }
-    e->probing.baseline.energy_change = engine_observed(twin).energy_change;
-    e->probing.has_baseline = true;
+    e->probing->baseline.energy_change = engine_observed(twin).energy_change;
+    e->probing->has_baseline = true;
 }
 
-status engine_baseline(struct engine *e)
+status engine_baseline(struct run *e)
 {
     if (!wanted(e->scene)) return OK;
     struct scene scene = *e->scene;
-    struct engine twin = {0};
+    struct run twin = {0};
     scene.method = METHOD_MPM;
     scene.probes = 0;
     scene.time_step = e->clock.dt;
     status s = engine_make(&twin, &scene, NULL);
-    twin.report.quiet = true;
+    twin.report->quiet = true;
     if (s == OK) s = engine_run(&twin);
     if (s == OK) baseline_keep(e, &twin);
     engine_free(&twin);

@@ -7,6 +7,22 @@
 #include "engine/engine.h"
 #include "engine_report.h"
 #include "base/memory.h"
+#include "grid/grid_part.h"
+#include "coupling/coupling_part.h"
+#include "grid/contact_grid.h"
+#include "grid/active_points.h"
+#include "grid/grid_coupled.h"
+#include "data/turning.h"
+#include "probes/probes_part.h"
+#include "fracture/fracture_part.h"
+#include "step/report.h"
+#include "rigid/rigid_part.h"
+#include "mesh/mesh_part.h"
+#include "probes/diagnostics.h"
+#include "contact/contact.h"
+#include "step/stability.h"
+#include "probes/probes.h"
+#include "fracture/growth.h"
 
 /* ---- one step on the grid ---------------------------------------------------------------------------------------- */
 
@@ -35,17 +51,17 @@ static void field_list(struct grid_field *f, const struct particles *p)
 }
 
 /* Extends a grid over its particles and sorts the material points by cells. */
-static status field_sort(struct engine *e, struct grid_field *f)
+static status field_sort(struct run *e, struct grid_field *f)
 {
     const struct particles *p = &e->part;
     real from[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, to[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
     bool changed;
-    if (e->mpm.fields > 1) field_list(f, p);
+    if (e->grid->fields > 1) field_list(f, p);
     const int32_t *list = f->list ? f->list : p->list_free;
     const int64_t n = f->list ? f->n : p->n_free;
     for (int k = 0; k < KINDS; k++)
         if (k == KIND_MPM) bounds_widen(p, list, n, from, to);
-        else if (coupling_unified(e->coupling.kind)) bounds_widen(p, p->list[k], p->n_of[k], from, to);
+        else if (coupling_unified(e->coupling_kind)) bounds_widen(p, p->list[k], p->n_of[k], from, to);
     for (int d = 0; d < p->dim && (n > 0 || !f->list); d++)
         if (!isfinite(to[d] - from[d])) return engine_divergence_check(e, true, false);
     int64_t most = 64 * p->n + 1000000;          /* far more than any sound run needs; an index is 32 bits */
@@ -55,46 +71,46 @@ static status field_sort(struct engine *e, struct grid_field *f)
 }
 
 /* Does nothing while no particle has left its cell. */
-static status points_sort(struct engine *e)
+static status points_sort(struct run *e)
 {
-    if (!e->mpm.sort_needed) return OK;
-    for (int k = 0; k < e->mpm.fields; k++) TRY(field_sort(e, &e->mpm.field[k]));
-    e->mpm.transfer.order = &e->mpm.field[0].order;
-    e->mpm.sort_needed = false;
+    if (!e->grid->sort_needed) return OK;
+    for (int k = 0; k < e->grid->fields; k++) TRY(field_sort(e, &e->grid->field[k]));
+    e->grid->transfer.order = &e->grid->field[0].order;
+    e->grid->sort_needed = false;
     return OK;
 }
 
 /* Leaves cells that no motion has reached out of the transfers. */
-static void update_active_points(struct engine *e)
+static void update_active_points(struct run *e)
 {
-    const struct grid_method *mpm = &e->mpm;
+    const struct grid_method *mpm = e->grid;
     if (!e->scene->active_set || mpm->active.over || mpm->fields > 1 || mpm->turning.groups > 0 ||
-        coupling_moves_by_grid(e->coupling.kind) || !scene_moves(e->scene))
+        coupling_moves_by_grid(e->coupling_kind) || !scene_moves(e->scene))
         return;
-    e->mpm.transfer.order =
-        active_points_update(&e->mpm.active, &e->mpm.field[0].order, e->mpm.transfer.order, &e->part,
-                             &e->mpm.field[0].grid, &e->bonds, &e->loads, e->scene->shape, e->scene->transfer);
+    e->grid->transfer.order =
+        active_points_update(&e->grid->active, &e->grid->field[0].order, e->grid->transfer.order, &e->part,
+                             &e->grid->field[0].grid, &e->bonds, &e->loads, e->scene->shape, e->scene->transfer);
 }
 
 /* Sorts the points on the grid in this step into cells. */
-static status grid_sort(struct engine *e)
+static status grid_sort(struct run *e)
 {
-    if (e->part.n_free == 0 && !coupling_unified(e->coupling.kind)) {
-        grid_coupled_none(&e->coupling.grid_coupled, &e->part);
+    if (e->part.n_free == 0 && !coupling_unified(e->coupling_kind)) {
+        grid_coupled_none(&e->grid->coupled, &e->part);
         return OK;
     }
-    if (!e->mpm.sort_needed && e->clock.step % ACTIVE_POINTS_STEPS == 0) update_active_points(e);
+    if (!e->grid->sort_needed && e->clock.step % ACTIVE_POINTS_STEPS == 0) update_active_points(e);
     TRY(points_sort(e));
-    if (coupling_moves_by_grid(e->coupling.kind))
-        grid_coupled_select(&e->coupling.grid_coupled, e->coupling.kind, &e->part, &e->mpm.field[0].grid);
+    if (coupling_moves_by_grid(e->coupling_kind))
+        grid_coupled_select(&e->grid->coupled, e->coupling_kind, &e->part, &e->grid->field[0].grid);
     return OK;
 }
 
 /* Transfer of the grid-coupled peridynamic particles (coupling pm .. pgg). */
-static struct transfer_data grid_coupled_data(const struct grid_method *mpm, const struct coupling_state *coupling)
+static struct transfer_data grid_coupled_data(const struct grid_method *mpm)
 {
     struct transfer_data grid_coupled = mpm->transfer;
-    grid_coupled.order = &coupling->grid_coupled.order, grid_coupled.momentum_only = true;
+    grid_coupled.order = &mpm->coupled.order, grid_coupled.momentum_only = true;
     return grid_coupled;
 }
 
@@ -107,22 +123,22 @@ static struct transfer_data field_data(const struct grid_method *mpm, int k)
 }
 
 /* Maps mass, momentum and force of all particles on the grids to their nodes. */
-static void grid_take(struct engine *e)
+static void grid_take(struct run *e)
 {
-    const struct transfer_data grid_coupled = grid_coupled_data(&e->mpm, &e->coupling);
-    if (e->mpm.turning.groups > 0) turning_begin(&e->mpm.turning, &e->part, e->scene->spacing);
-    for (int k = 0; k < e->mpm.fields; k++) {
-        const struct transfer_data own = field_data(&e->mpm, k);
-        grid_clear(&e->mpm.field[k].grid);
-        e->kernels.p2g(&e->mpm.field[k].grid, &e->part, &own);
+    const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
+    if (e->grid->turning.groups > 0) turning_begin(&e->grid->turning, &e->part, e->scene->spacing);
+    for (int k = 0; k < e->grid->fields; k++) {
+        const struct transfer_data own = field_data(e->grid, k);
+        grid_clear(&e->grid->field[k].grid);
+        e->kernels.p2g(&e->grid->field[k].grid, &e->part, &own);
     }
-    if (e->part.n_grid_coupled > 0) e->kernels.p2g(&e->mpm.field[0].grid, &e->part, &grid_coupled);
+    if (e->part.n_grid_coupled > 0) e->kernels.p2g(&e->grid->field[0].grid, &e->part, &grid_coupled);
 }
 
 /* Where bodies on grids of their own may meet in this step; [fields] sides, NULL of a single grid. */
-static struct grid_side *meeting_find(struct engine *e)
+static struct grid_side *meeting_find(struct run *e)
 {
-    struct grid_method *mpm = &e->mpm;
+    struct grid_method *mpm = e->grid;
     if (mpm->fields < 2) return NULL;
     struct grid_side *side = NEW("engine.sides", mpm->fields, struct grid_side);
     for (int k = 0; k < mpm->fields; k++)
@@ -132,9 +148,9 @@ static struct grid_side *meeting_find(struct engine *e)
 }
 
 /* Nodes move under forces, contact, walls and mirrors; dt: of velocities [s]. */
-static void grids_move(struct engine *e, const struct grid_side *side, real middle, real dt)
+static void grids_move(struct run *e, const struct grid_side *side, real middle, real dt)
 {
-    struct grid_method *mpm = &e->mpm;
+    struct grid_method *mpm = e->grid;
     const enum transfer transfer = e->scene->transfer;
     for (int k = 0; k < mpm->fields; k++) {
         struct grid_field *f = &mpm->field[k];
@@ -142,77 +158,77 @@ static void grids_move(struct engine *e, const struct grid_side *side, real midd
                     e->clock.dt);
         grid_advance(&f->grid, transfer, dt, mpm->smallest_mass);
     }
-    if (side) e->coupling.damped += grid_contact_exchange(&mpm->contact, side);
+    if (side) e->damped += grid_contact_exchange(&mpm->contact, side);
     for (int k = 0; k < mpm->fields; k++)
         grid_constrain(&mpm->field[k].grid, transfer, mpm->smallest_mass, e->loads.impulse, &e->loads.constraint_work);
 }
 
 /* Points receive the change of nodal velocities, and give their momentum back to the nodes. */
-static void grids_remap(struct engine *e, const struct grid_side *side)
+static void grids_remap(struct run *e, const struct grid_side *side)
 {
-    const struct transfer_data grid_coupled = grid_coupled_data(&e->mpm, &e->coupling);
-    for (int k = 0; k < e->mpm.fields; k++) {
-        const struct transfer_data own = field_data(&e->mpm, k);
-        if (e->mpm.turning.groups == 0) e->kernels.remap(&e->mpm.field[k].grid, &e->part, &own);
-        else e->kernels.turn_gather(&e->mpm.field[k].grid, &e->part, &own);
+    const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
+    for (int k = 0; k < e->grid->fields; k++) {
+        const struct transfer_data own = field_data(e->grid, k);
+        if (e->grid->turning.groups == 0) e->kernels.remap(&e->grid->field[k].grid, &e->part, &own);
+        else e->kernels.turn_gather(&e->grid->field[k].grid, &e->part, &own);
     }
-    if (e->mpm.turning.groups > 0) turning_share(&e->mpm.turning, &e->part);
-    for (int k = 0; k < e->mpm.fields && e->mpm.turning.groups > 0; k++) {
-        const struct transfer_data own = field_data(&e->mpm, k);
-        e->kernels.turn_scatter(&e->mpm.field[k].grid, &e->part, &own);
+    if (e->grid->turning.groups > 0) turning_share(&e->grid->turning, &e->part);
+    for (int k = 0; k < e->grid->fields && e->grid->turning.groups > 0; k++) {
+        const struct transfer_data own = field_data(e->grid, k);
+        e->kernels.turn_scatter(&e->grid->field[k].grid, &e->part, &own);
     }
-    if (e->part.n_grid_coupled > 0) e->kernels.remap(&e->mpm.field[0].grid, &e->part, &grid_coupled);
-    lap(&e->report.laps, LAP_SCATTER);
-    for (int k = 0; k < e->mpm.fields; k++) grid_remapped(&e->mpm.field[k].grid, e->mpm.smallest_mass);
-    if (side) e->coupling.damped += grid_contact_remapped(&e->mpm.contact, side);
-    lap(&e->report.laps, LAP_GRID);
+    if (e->part.n_grid_coupled > 0) e->kernels.remap(&e->grid->field[0].grid, &e->part, &grid_coupled);
+    lap(&e->laps, LAP_SCATTER);
+    for (int k = 0; k < e->grid->fields; k++) grid_remapped(&e->grid->field[k].grid, e->grid->smallest_mass);
+    if (side) e->damped += grid_contact_remapped(&e->grid->contact, side);
+    lap(&e->laps, LAP_GRID);
 }
 
 /* One step of the grids and of all particles on them. middle: time in the middle of the step [s]. Numbers are steps of
  * the algorithm. */
-static void step_grid(struct engine *e, real middle)
+static void step_grid(struct run *e, real middle)
 {
     struct particles *p = &e->part;
-    const struct transfer_data grid_coupled = grid_coupled_data(&e->mpm, &e->coupling);
+    const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
     int64_t moved = 0;
 
     grid_take(e);                                                           /* 1, 3: mass, momentum, force to nodes */
-    lap(&e->report.laps, LAP_SCATTER);
+    lap(&e->laps, LAP_SCATTER);
     engine_residual(e);
     struct grid_side *side = meeting_find(e);
-    grids_move(e, side, middle, e->mpm.transfer.dt_velocity);               /* 3: nodes move */
-    lap(&e->report.laps, LAP_GRID);
+    grids_move(e, side, middle, e->grid->transfer.dt_velocity);               /* 3: nodes move */
+    lap(&e->laps, LAP_GRID);
     if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side);          /* 4, 6: velocity; momentum back to nodes */
-    if (side) grid_contact_clock(&e->mpm.contact, e->clock.t);
-    for (int k = 0; k < e->mpm.fields; k++) {                               /* 4, 7: position, strain, stress */
-        const struct transfer_data own = field_data(&e->mpm, k);
-        moved += e->kernels.g2p(&e->mpm.field[k].grid, p, &own);
+    if (side) grid_contact_clock(&e->grid->contact, e->clock.t);
+    for (int k = 0; k < e->grid->fields; k++) {                               /* 4, 7: position, strain, stress */
+        const struct transfer_data own = field_data(e->grid, k);
+        moved += e->kernels.g2p(&e->grid->field[k].grid, p, &own);
     }
-    if (p->n_grid_coupled > 0) moved += e->kernels.g2p(&e->mpm.field[0].grid, p, &grid_coupled);
+    if (p->n_grid_coupled > 0) moved += e->kernels.g2p(&e->grid->field[0].grid, p, &grid_coupled);
     memory_free(side);
-    e->mpm.sort_needed = moved > 0;
-    if (p->end_strain) partial_ends_update(&e->coupling.partial, p, e->scene->material);
-    lap(&e->report.laps, LAP_GATHER);
+    e->grid->sort_needed = moved > 0;
+    if (p->end_strain) partial_ends_update(&e->coupling->partial, p, e->scene->material);
+    lap(&e->laps, LAP_GATHER);
 }
 
 /* Sum of P . f/m of the nodes before they move, over the change that forces, contact and walls make [W]. */
-real engine_grid_power(struct engine *e, real middle)
+real engine_grid_power(struct run *e, real middle)
 {
     real power = 0;
     if (e->part.n_free + e->part.n_grid_coupled == 0 || grid_sort(e) != OK) return 0;
     grid_take(e);
-    real **momentum = NEW("engine.momenta", e->mpm.fields, real *);
-    for (int k = 0; k < e->mpm.fields; k++) {
-        const struct grid *g = &e->mpm.field[k].grid;
+    real **momentum = NEW("engine.momenta", e->grid->fields, real *);
+    for (int k = 0; k < e->grid->fields; k++) {
+        const struct grid *g = &e->grid->field[k].grid;
         momentum[k] = BARE("engine.momentum", g->n * g->dim, real);
         for (int d = 0; d < g->dim; d++) array_copy(momentum[k] + d * g->n, g->momentum[d], g->n, sizeof(real));
     }
     struct grid_side *side = meeting_find(e);
-    const real damped = e->coupling.damped;
+    const real damped = e->damped;
     grids_move(e, side, middle, e->clock.dt);
-    e->coupling.damped = damped;
-    for (int k = 0; k < e->mpm.fields; k++) {
-        const struct grid *g = &e->mpm.field[k].grid;
+    e->damped = damped;
+    for (int k = 0; k < e->grid->fields; k++) {
+        const struct grid *g = &e->grid->field[k].grid;
         for (int d = 0; d < g->dim; d++) /* once per run; serial, so that the sum does not depend on threads */
             for (int64_t I = 0; I < g->n; I++) power += momentum[k][d * g->n + I] * g->force[d][I] / e->clock.dt;
         memory_free(momentum[k]);
@@ -223,31 +239,31 @@ real engine_grid_power(struct engine *e, real middle)
 }
 
 /* Nothing moves on the grid: its walls constrain no node, and residuals are those of particles. */
-static void step_without_grid(struct engine *e)
+static void step_without_grid(struct run *e)
 {
-    for (int k = 0; k < e->mpm.fields; k++) grid_idle(&e->mpm.field[k].grid);
+    for (int k = 0; k < e->grid->fields; k++) grid_idle(&e->grid->field[k].grid);
     engine_residual(e);
 }
 
 /* Advances the growing cracks by one step; returns the number of directed bonds released. */
-static int64_t grow(struct engine *e)
+static int64_t grow(struct run *e)
 {
     int64_t released = 0;
     for (int k = 0; k < e->scene->growths; k++) {
         struct control r;
-        const bool known = probes_sif_control(&e->probing.probes, e->scene->growth[k].probe, &r);
-        released += growth_step(&e->fracture.growth[k], &e->bonds, &e->part, &e->source, known ? &r : NULL, e->clock.t,
+        const bool known = probes_sif_control(&e->probing->probes, e->scene->growth[k].probe, &r);
+        released += growth_step(&e->fracture->growth[k], &e->bonds, &e->part, &e->source, known ? &r : NULL, e->clock.t,
                                 e->clock.dt);
     }
     return released;
 }
 
 /* Updates the stress share of material points where bonds fade; convert() has updated it for broken bonds. */
-static void renew_partial(struct engine *e, bool changed)
+static void renew_partial(struct run *e, bool changed)
 {
-    if (!e->coupling.uses_partial || e->scene->growths == 0) return;
-    for (int k = 0; k < e->scene->growths; k++) changed |= e->fracture.growth[k].n > 0;
-    if (changed) partial_stress_make(&e->coupling.partial, &e->part, &e->bonds, &e->source, NULL, 0);
+    if (!e->coupling->uses_partial || e->scene->growths == 0) return;
+    for (int k = 0; k < e->scene->growths; k++) changed |= e->fracture->growth[k].n > 0;
+    if (changed) partial_stress_make(&e->coupling->partial, &e->part, &e->bonds, &e->source, NULL, 0);
 }
 
 /* ---- the step ---------------------------------------------------------------------------------------------------- */
@@ -270,142 +286,142 @@ static bool sweep_moves(const struct scene *s, const struct run_report *report)
 }
 
 /* Marks material points that other bodies have come near. */
-static void approach(struct engine *e)
+static void approach(struct run *e)
 {
     engine_mesh_sync_points(e, NULL, 0);
-    approach_mark(&e->part, e->scene->bodies, e->rigid, e->scene->rigids, APPROACH_REACH * e->scene->spacing);
+    approach_mark(&e->part, e->scene->bodies, e->rigid->body, e->scene->rigids, APPROACH_REACH * e->scene->spacing);
 }
 
 /* May a point have been marked for conversion in this step, or a bond have changed? Points on the grid say nothing of
  * it; of the mesh its cells say that their points may be. */
-static bool may_convert(const struct engine *e, const struct step *now)
+static bool may_convert(const struct run *e, const struct step *now)
 {
-    return now->broken > 0 || e->coupling.approaches || e->part.n_free > 0 || e->part.n_grid_coupled > 0 ||
-           e->scene->growths > 0 || scene_in_steps(e->scene) || e->part.low_since || e->reference.levels.returned ||
-           mesh_stressed(&e->reference.mesh);
+    return now->broken > 0 || e->coupling->approaches || e->part.n_free > 0 || e->part.n_grid_coupled > 0 ||
+           e->scene->growths > 0 || scene_in_steps(e->scene) || e->part.low_since || e->frame->levels.returned ||
+           mesh_stressed(&e->frame->mesh);
 }
 
 static void meet_others(void *context, const int32_t *list, int64_t n)
 {
-    struct engine *e = context;
-    contact_add(&e->contact, &e->bonds, &e->source.family, list, n);
+    struct run *e = context;
+    contact_add(e->contact, &e->bonds, &e->source.family, list, n);
 }
 
 /* Material points that become peridynamic, and what follows from them and from broken bonds: the active set, partial
  * stresses, the interface zone, partial cells. */
-static void convert_points(struct engine *e, struct step *now)
+static void convert_points(struct run *e, struct step *now)
 {
     if (e->scene->active_set) active_rows_update(&e->bonds, &e->part, &e->loads);
-    if (e->coupling.approaches && e->clock.step % APPROACH_STEPS == 0) approach(e);
+    if (e->coupling->approaches && e->clock.step % APPROACH_STEPS == 0) approach(e);
     const bool looked = engine_notch_approach(e);
     engine_breaks(e, now->broken);
     if (!looked && !may_convert(e, now)) {
-        lap(&e->report.laps, LAP_CONVERT);
+        lap(&e->laps, LAP_CONVERT);
         return;
     }
     const struct conversion_sync sync = {engine_mesh_sync_points, e, meet_others};
     engine_levels_guard(e);
-    now->converted = convert(&e->coupling.conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
-                             e->coupling.uses_partial ? &e->coupling.partial : NULL, &sync, e->clock.t);
-    if (now->converted > 0) engine_interface_make(e), e->mpm.sort_needed = true;
+    now->converted = convert(&e->coupling->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
+                             e->coupling->uses_partial ? &e->coupling->partial : NULL, &sync, e->clock.t);
+    if (now->converted > 0) engine_interface_make(e), e->grid->sort_needed = true;
     renew_partial(e, now->broken > 0 || now->converted > 0);
     engine_mesh_follow(e, now->converted);
-    lap(&e->report.laps, LAP_CONVERT);
+    lap(&e->laps, LAP_CONVERT);
 }
 
 /* Conversion between load steps: a step without motion. True if particles have converted. */
-bool engine_convert(struct engine *e, int64_t broken)
+bool engine_convert(struct run *e, int64_t broken)
 {
     struct step now = {.broken = broken};
-    if (e->reference.mesh.points > 0 && e->scene->method == METHOD_ADAPTIVE)
-        mesh_points_mark(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain);
+    if (e->frame->mesh.points > 0 && e->scene->method == METHOD_ADAPTIVE)
+        mesh_points_mark(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
     convert_points(e, &now);
     return now.converted > 0;
 }
 
 /* Particles that revert, the velocities of a sample, the cells of material points, the first half of the interface
  * damping. */
-static status prepare(struct engine *e, struct step *now)
+static status prepare(struct run *e, struct step *now)
 {
     TRY(engine_levels_follow(e));
     now->middle = e->clock.t + 0.5 * e->clock.dt;
     now->dt_velocity = (e->clock.step == 0 ? 0.5 : 1) * e->clock.dt * engine_damping_share(e);
-    e->mpm.transfer.dt_velocity = now->dt_velocity;
-    if (e->coupling.approaches && e->clock.step == 0) convert_points(e, now);    /* bodies that touch at the start */
+    e->grid->transfer.dt_velocity = now->dt_velocity;
+    if (e->coupling->approaches && e->clock.step == 0) convert_points(e, now);    /* bodies that touch at the start */
     engine_revert(e);
-    contact_update(&e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
-                   e->diagnostics.bonds_broken, e->coupling.conversion.converted + e->coupling.conversion.reverted);
+    contact_update(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
+                   e->diagnostics->bonds_broken, e->coupling->conversion.converted + e->coupling->conversion.reverted);
     now->motion = (struct pd_motion){e->clock.dt, now->dt_velocity, e->tables.wave_speed, e->loads.loaded, false};
-    e->mpm.transfer.bonded = e->coupling.bonded;      /* reversion may have freed it */
-    lap(&e->report.laps, LAP_CONVERT);
+    e->grid->transfer.bonded = e->coupling->bonded;      /* reversion may have freed it */
+    lap(&e->laps, LAP_CONVERT);
     engine_sample_begin(e);
-    lap(&e->report.laps, LAP_SAMPLE);
+    lap(&e->laps, LAP_SAMPLE);
     TRY(grid_sort(e));
-    now->damps = e->coupling.zone.points > 0 && e->coupling.damping_share > 0;
+    now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;
     if (now->damps) {
-        e->coupling.damped += interface_damp_begin(&e->coupling.zone, &e->part, e->coupling.damping_share);
+        e->damped += interface_damp_begin(&e->coupling->zone, &e->part, e->coupling->damping_share);
         loads_mirror(&e->loads, &e->part);       /* bonds that break ask images for their velocity */
     }
     engine_damping_begin(e);
-    lap(&e->report.laps, LAP_GRID);
+    lap(&e->laps, LAP_GRID);
     return OK;
 }
 
 /* Forces of bonds, contact and loads, and bonds that break; the energies of a sample; cracks that grow. */
-static void forces(struct engine *e, struct step *now)
+static void forces(struct run *e, struct step *now)
 {
     loads_clear(&e->loads, &e->part);
     now->broken = bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit,
-                              sweep_moves(e->scene, &e->report) ? &now->motion : NULL);
-    e->contact.recorded = e->contact.push[0] && engine_frame_follows(e);
-    contact_force(&e->contact, &e->part, e->clock.step > 0 ? e->clock.dt : 0);
-    contact_clock(&e->contact, e->clock.t);
+                              sweep_moves(e->scene, e->report) ? &now->motion : NULL);
+    e->contact->recorded = e->contact->push[0] && engine_frame_follows(e);
+    contact_force(e->contact, &e->part, e->clock.step > 0 ? e->clock.dt : 0);
+    contact_clock(e->contact, e->clock.t);
     engine_rigid_book(e, now->dt_velocity);
     loads_apply(&e->loads, &e->part, now->middle, e->clock.dt, now->dt_velocity);
-    lap(&e->report.laps, LAP_BONDS);
+    lap(&e->laps, LAP_BONDS);
     engine_sample_energy(e);
     now->broken += grow(e);
-    lap(&e->report.laps, LAP_SAMPLE);
+    lap(&e->laps, LAP_SAMPLE);
 }
 
 /* Moves the peridynamic particles that have not moved in the sweep of forces: the loaded ones, or all. */
-static void move_peridynamic(struct engine *e, struct pd_motion *motion)
+static void move_peridynamic(struct run *e, struct pd_motion *motion)
 {
     struct particles *p = &e->part;
     const struct loads *l = &e->loads;
-    motion->diverged |= sweep_moves(e->scene, &e->report) ? e->kernels.pd_move(p, l->list, l->listed, motion)
+    motion->diverged |= sweep_moves(e->scene, e->report) ? e->kernels.pd_move(p, l->list, l->listed, motion)
                                          : e->kernels.pd_move(p, p->list[KIND_PD], p->n_of[KIND_PD], motion);
-    e->stability.diverged = motion->diverged;
+    e->stability->diverged = motion->diverged;
 }
 
 /* Motion: peridynamic particles, points on the grid, nodes of the mesh; supports hold their particles. */
-static void move(struct engine *e, struct step *now)
+static void move(struct run *e, struct step *now)
 {
     struct particles *p = &e->part;
     move_peridynamic(e, &now->motion);
     engine_rigid_move(e, now->middle, now->dt_velocity / engine_damping_share(e));      /* these are not damped */
-    lap(&e->report.laps, LAP_BONDS);
+    lap(&e->laps, LAP_BONDS);
     if (p->n_free + p->n_grid_coupled > 0) step_grid(e, now->middle);
     else step_without_grid(e);
-    if (now->damps) e->coupling.damped += interface_damp_end(&e->coupling.zone, p);
+    if (now->damps) e->damped += interface_damp_end(&e->coupling->zone, p);
     engine_mesh_move(e, now->middle, now->dt_velocity);
-    for (int k = 0; k < e->mpm.fields; k++) loads_react(&e->loads, &e->mpm.field[k].grid, now->dt_velocity);
-    if (loads_hold(&e->loads, p, now->middle, e->clock.dt)) e->mpm.sort_needed = true;
+    for (int k = 0; k < e->grid->fields; k++) loads_react(&e->loads, &e->grid->field[k].grid, now->dt_velocity);
+    if (loads_hold(&e->loads, p, now->middle, e->clock.dt)) e->grid->sort_needed = true;
     loads_mirror(&e->loads, p);
-    lap(&e->report.laps, LAP_GRID);
+    lap(&e->laps, LAP_GRID);
 }
 
 /* The line of history.csv of a sample, at t_n; damping; then t and the step advance. */
-static void finish(struct engine *e)
+static void finish(struct run *e)
 {
     const real loss = engine_damping_loss(e);
-    e->coupling.damped += loss;
-    e->report.sampling.energy.damped += loss;
+    e->damped += loss;
+    e->report->sampling.energy.damped += loss;
     engine_sample_end(e);
     engine_damping_end(e);
     e->clock.t = (real)(e->clock.step + 1) * e->clock.dt;
     e->clock.step++;
-    lap(&e->report.laps, LAP_SAMPLE);
+    lap(&e->laps, LAP_SAMPLE);
 }
 
 /* One step of the algorithm of Zeng et al. 2022, section 4, as corrected (MUSL, leap-frog start):
@@ -420,7 +436,7 @@ static void finish(struct engine *e)
  *     8  conversion                                                            convert_points
  *
  * Bonds break by the positions that step 4 of the step before has left, which is step 5 of the paper one step later. */
-status engine_step(struct engine *e)
+status engine_step(struct run *e)
 {
     struct step now = {0};
     TRY(prepare(e, &now));
@@ -431,13 +447,13 @@ status engine_step(struct engine *e)
     return OK;
 }
 
-status engine_run(struct engine *e)
+status engine_run(struct run *e)
 {
     memory_reuse(true);
     if (scene_at_rest(e->scene)) return engine_solve(e);
     if (scene_in_steps(e->scene)) return engine_steps(e);
     TRY(engine_report_start(e));
-    laps_start(&e->report.laps);
+    laps_start(&e->laps);
     while (e->clock.step < e->clock.steps) {
         TRY(engine_step(e));
         TRY(engine_stability_check(e));

@@ -12,14 +12,14 @@ static struct impedance impedance_of(const struct material *m, real c11, real sh
 }
 
 /* State-based families have the constants of their material, bonds those of the lattice. */
-static struct impedance impedance_lattice(const struct engine *e, const struct material *m)
+static struct impedance impedance_lattice(const struct run *e, const struct material *m)
 {
     real c11, c12;
     family_constants(&e->source.family, m, &c11, &c12);
     return impedance_of(m, c11, e->scene->dim > 1 ? c12 : 0);
 }
 
-void engine_absorbing_make(struct engine *e)
+void engine_absorbing_make(struct run *e)
 {
     const struct scene *s = e->scene;
     const struct impedance *all[MOVERS];

@@ -17,6 +17,11 @@
 
 #include "base/memory.h"
 #include "engine_statics.h"
+#include "quasistatic/statics.h"
+#include "fracture/fracture_part.h"
+#include "fracture/tips.h"
+#include "step/report.h"
+#include "solver/equilibrium.h"
 
 #define STRESSED 0.85        /* overload below which no first advance is looked for */
 #define STRESSED_FURTHER 0.5 /* nor one after others: between two, a lattice lets bonds off */
@@ -27,11 +32,11 @@ enum { ADVANCE_SPACINGS = 2, LOOKS_MOST = 6 };
 
 /* ---- what a body releases ---------------------------------------------------------------------------------------- */
 
-real statics_released(const struct engine *e) { return bonds_fracture_energy(&e->bonds) + e->statics.balance.lost; }
+real statics_released(const struct run *e) { return bonds_fracture_energy(&e->bonds) + e->statics->balance.lost; }
 
 /* Energy per area that the bonds across a plane of the lattice take to their limits; of state-based models, whose bonds
  * have no energy of their own, G_c as given [J/m^2]. */
-real toughness_of(const struct engine *e, const struct material *m)
+real toughness_of(const struct run *e, const struct material *m)
 {
     const bool given = e->scene->model != MODEL_BOND && !isnan(m->energy_release_rate);
     if (given) return m->energy_release_rate;
@@ -43,9 +48,9 @@ real toughness_of(const struct engine *e, const struct material *m)
 
 /* Share of the area of cracks that the body has: half where they all run along planes of symmetry, across axis d (-1:
  * any). */
-static real advance_share(const struct engine *e, int d)
+static real advance_share(const struct run *e, int d)
 {
-    const struct tips *t = &e->fracture.tips;
+    const struct tips *t = &e->fracture->tips;
     bool on = t->n > 0;
     for (int k = 0; k < t->n && on; k++) {
         bool any = false;
@@ -58,9 +63,9 @@ static real advance_share(const struct engine *e, int d)
 
 /* Length of the front of a crack in space [m]: of the edges of pre-cracks in the body, no more than the body's shortest
  * side, of which a plane of symmetry along the crack leaves half, and no less than a spacing; 1 in the plane. */
-static real front_length(const struct engine *e)
+static real front_length(const struct run *e)
 {
-    const struct tips *t = &e->fracture.tips;
+    const struct tips *t = &e->fracture->tips;
     real length = INFINITY, edges = 0, low, high;
     if (e->part.dim < 3) return 1;
     for (int d = 0; d < 3; d++) {
@@ -74,7 +79,7 @@ static real front_length(const struct engine *e)
 
 /* Of bonds between materials a and b: of an interface as given, in state-based models of the weaker material; of bonds
  * with energies of their own, these at their limit. */
-static real toughness_of_pair(const struct engine *e, int a, int b)
+static real toughness_of_pair(const struct run *e, int a, int b)
 {
     const struct scene *s = e->scene;
     const struct material *one = &s->material[a], *other = &s->material[b];
@@ -91,14 +96,14 @@ static real toughness_of_pair(const struct engine *e, int a, int b)
     return family_crossing_energy(&e->source.family, one) * 2 * d / (c + d) * square(limit / one->critical_stretch);
 }
 
-real toughness_between(const struct engine *e, int64_t i, int64_t j)
+real toughness_between(const struct run *e, int64_t i, int64_t j)
 {
     const struct particles *p = &e->part;
     return toughness_of_pair(e, p->material[i], p->material[j]) * square(bond_strength(p, i, j));
 }
 
 /* Area of an advance [m^2]. */
-static real advance_area(const struct engine *e)
+static real advance_area(const struct run *e)
 {
     const struct scene *s = e->scene;
     const real ahead = ADVANCE_SPACINGS * (s->dim > 1 ? s->spacing : 1);
@@ -106,7 +111,7 @@ static real advance_area(const struct engine *e)
 }
 
 /* Pairs of bonds that may break between two equilibria: along a front, of each spacing of it. */
-static int64_t breaks_most(const struct engine *e)
+static int64_t breaks_most(const struct run *e)
 {
     const real along = e->part.dim < 3 ? 1 : front_length(e) / e->scene->spacing;
     return (int64_t)(e->scene->steps.breaks * real_max(1, along));
@@ -115,7 +120,7 @@ static int64_t breaks_most(const struct engine *e)
 /* ---- size of loads ----------------------------------------------------------------------------------------------- */
 
 /* Sum of squares of what supports and rigid bodies go up to t; where they do not move, of applied forces. */
-real statics_load_size(const struct engine *e, real t)
+real statics_load_size(const struct run *e, real t)
 {
     real sum = 0, forces = 0;
     for (int b = 0; b < e->loads.n; b++) {
@@ -137,9 +142,9 @@ real statics_load_size(const struct engine *e, real t)
 
 enum { SECANTS_MOST = 30 };
 
-real statics_time_of_size(const struct engine *e, real size)
+real statics_time_of_size(const struct run *e, real size)
 {
-    real from = e->statics.t, at_from = statics_load_size(e, from);
+    real from = e->statics->t, at_from = statics_load_size(e, from);
     real t = at_from > 0 ? from * size / at_from : from;
     for (int k = 0; k < SECANTS_MOST; k++) {
         const real at = statics_load_size(e, t), slope = (at - at_from) / (t - from);
@@ -153,21 +158,21 @@ real statics_time_of_size(const struct engine *e, real size)
 /* ---- advances ---------------------------------------------------------------------------------------------------- */
 
 /* A step that is broken off leaves the checkpoint of the one before it. */
-status statics_go(struct engine *e, real t)
+status statics_go(struct run *e, real t)
 {
-    if (e->report.stop && *e->report.stop)
+    if (e->report->stop && *e->report->stop)
         return status_set(INTERRUPTED, "interrupted in load step %lld of %lld; go on with --resume",
                           (long long)e->clock.step + 1, (long long)e->clock.steps);
     TRY(statics_solve(e, t));
-    e->statics.overload = statics_overload(e);
+    e->statics->overload = statics_overload(e);
     return OK;
 }
 
 /* An advance more: bonds break at this pseudo-time, onto the end of the list. What fronts in space have left of a body
  * as they reached its other side tears in larger pieces: no load hangs on its way. */
-static status advance_try(struct engine *e, struct advance *a)
+static status advance_try(struct run *e, struct advance *a)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     const real before = statics_released(e), given = e->scene->steps.energy;
     const real cost = given > 0 ? given * (1 - 1e-3) : INFINITY, wide = advance_area(e) * (1 - 1e-3);
     const int64_t most = breaks_most(e);
@@ -188,15 +193,15 @@ static status advance_try(struct engine *e, struct advance *a)
     return OK;
 }
 
-void stand_take(struct stand *k, struct engine *e)
+void stand_take(struct stand *k, struct run *e)
 {
-    const struct equilibrium *q = &e->statics.balance;
+    const struct equilibrium *q = &e->statics->balance;
     statics_plastic_keep(e);
-    *k = (struct stand){.t = e->statics.t,
-                        .overload = e->statics.overload,
+    *k = (struct stand){.t = e->statics->t,
+                        .overload = e->statics->overload,
                         .lost = q->lost,
-                        .damped = e->coupling.damped,
-                        .touches = e->statics.touches,
+                        .damped = e->damped,
+                        .touches = e->statics->touches,
                         .work = e->loads.work,
                         .constraint_work = e->loads.constraint_work};
     statics_touch_take(e, &k->touch);
@@ -208,22 +213,22 @@ void stand_take(struct stand *k, struct engine *e)
     }
 }
 
-void stand_free(struct stand *k, const struct engine *e)
+void stand_free(struct stand *k, const struct run *e)
 {
     memory_archive_free(&k->touch);
     for (int d = 0; d < e->part.dim; d++) memory_free(k->u.of[d]), memory_free(k->f.of[d]);
 }
 
-void stand_give(struct stand *k, struct engine *e, const struct break_list *broken)
+void stand_give(struct stand *k, struct run *e, const struct break_list *broken)
 {
-    struct equilibrium *q = &e->statics.balance;
+    struct equilibrium *q = &e->statics->balance;
     if (broken) statics_mend(e, broken);
     statics_touch_give(e, &k->touch);
     statics_plastic_restore(e);
-    if (e->statics.t != k->t) statics_applied_make(e, k->t);
-    e->statics.t = k->t;
-    e->statics.overload = k->overload, e->statics.touches = k->touches;
-    q->lost = k->lost, e->coupling.damped = k->damped;
+    if (e->statics->t != k->t) statics_applied_make(e, k->t);
+    e->statics->t = k->t;
+    e->statics->overload = k->overload, e->statics->touches = k->touches;
+    q->lost = k->lost, e->damped = k->damped;
     e->loads.work = k->work, e->loads.constraint_work = k->constraint_work;
     for (int d = 0; d < q->dim; d++) {
         array_copy(q->u.of[d], k->u.of[d], q->n, sizeof(real));
@@ -252,17 +257,17 @@ struct advance advance_before(const struct advance *first, const struct advance 
 }
 
 /* Has nothing advanced yet, and is there a pre-crack? */
-static bool pre_crack_stands(const struct engine *e)
+static bool pre_crack_stands(const struct run *e)
 {
     bool stands = false;
-    for (int k = 0; k < e->fracture.tips.n; k++) stands |= e->fracture.tips.tip[k].from_crack;
-    return stands && e->statics.behind.cost == 0;
+    for (int k = 0; k < e->fracture->tips.n; k++) stands |= e->fracture->tips.tip[k].from_crack;
+    return stands && e->statics->behind.cost == 0;
 }
 
 /* Looks for the next advance under the loads that there are. */
-static status look_here(struct engine *e)
+static status look_here(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     struct stand stand;
     struct advance second;
     if (led_leads(e)) {
@@ -286,9 +291,9 @@ static status look_here(struct engine *e)
 
 /* Looks under the loads at which it comes, until these are what it says there. What it releases grows with the square
  * of what loads strain, which may be their size less a way on which nothing touches: secants of its root. */
-static status look_there(struct engine *e)
+static status look_there(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     struct stand stand;
     stand_take(&stand, e);
     status looked = OK;
@@ -308,22 +313,22 @@ static status look_there(struct engine *e)
 
 /* What a body releases goes with the square of its loads where their size is that of its strains: not where a way is
  * gone before anything touches, or faces close. */
-status statics_look_ahead(struct engine *e)
+status statics_look_ahead(struct run *e)
 {
     TRY(look_here(e));
-    return e->statics.touches ? look_there(e) : OK;
+    return e->statics->touches ? look_there(e) : OK;
 }
 
-status statics_advance_balanced(struct engine *e)
+status statics_advance_balanced(struct run *e)
 {
-    const real size = size_of_advance(&e->statics.ahead);
+    const real size = size_of_advance(&e->statics->ahead);
     if (isfinite(size)) TRY(statics_go(e, statics_time_of_size(e, size)));
     return statics_advance(e);
 }
 
-int64_t statics_advance_break(struct engine *e)
+int64_t statics_advance_break(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     const int64_t broken = s->next.n;
     statics_break_listed(e, &s->next);
     led_advance(e);
@@ -332,24 +337,24 @@ int64_t statics_advance_break(struct engine *e)
     return broken;
 }
 
-status statics_advance_settle(struct engine *e, int64_t broken)
+status statics_advance_settle(struct run *e, int64_t broken)
 {
-    TRY(statics_go(e, e->statics.t));
+    TRY(statics_go(e, e->statics->t));
     statics_plastic_keep(e);
     return statics_convert(e, broken);
 }
 
-status statics_advance(struct engine *e) { return statics_advance_settle(e, statics_advance_break(e)); }
+status statics_advance(struct run *e) { return statics_advance_settle(e, statics_advance_break(e)); }
 
-status statics_convert(struct engine *e, int64_t broken)
+status statics_convert(struct run *e, int64_t broken)
 {
     while (engine_convert(e, broken)) {
         broken = 0;
         statics_precondition_free(e);
         statics_unknowns_free(e);
         statics_unknowns_make(e);
-        e->statics.next.n = 0;
-        TRY(statics_go(e, e->statics.t));
+        e->statics->next.n = 0;
+        TRY(statics_go(e, e->statics->t));
     }
     return OK;
 }

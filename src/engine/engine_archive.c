@@ -7,6 +7,26 @@
 #include "engine_statics.h"
 #include "base/memory.h"
 #include "simd/simd.h"
+#include "coupling/coupling_part.h"
+#include "grid/grid_part.h"
+#include "mesh/mesh_part.h"
+#include "probes/probes_part.h"
+#include "step/report.h"
+#include "rigid/rigid_part.h"
+#include "contact/contact.h"
+#include "step/stability.h"
+#include "fracture/fracture_part.h"
+#include "coupling/conversion.h"
+#include "mesh/levels.h"
+#include "mesh/mesh_make.h"
+#include "rigid/rigid.h"
+#include "grid/contact_grid.h"
+#include "solver/solver.h"
+#include "probes/diagnostics.h"
+#include "fracture/tips.h"
+#include "fracture/growth.h"
+#include "probes/probes.h"
+#include "output/output.h"
 
 /* Saves or restores all fields of the particles, images included. */
 static status particles_archive(struct particles *p, struct archive *a, int optional)
@@ -46,17 +66,17 @@ static status particles_check(const struct scene *s, const struct particles *p)
 }
 
 /* Makes again all that follows from the particles; the rest is read back. */
-static void engine_archive_rebuild(struct engine *e)
+static void engine_archive_rebuild(struct run *e)
 {
     particles_list(&e->part);
     bonds_free(&e->bonds);
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
-    partial_stress_free(&e->coupling.partial);
-    e->mpm.sort_needed = true;
+    partial_stress_free(&e->coupling->partial);
+    e->grid->sort_needed = true;
 }
 
 /* Warns if a checkpoint was written with another set of kernels: sets agree to round-off only. */
-static status kernels_archive(struct engine *e, struct archive *a)
+static status kernels_archive(struct run *e, struct archive *a)
 {
     char text[256];
     const struct simd_set *now = simd_in_use();
@@ -76,7 +96,7 @@ static status kernels_archive(struct engine *e, struct archive *a)
 
 status engine_archive(void *engine, struct archive *a)
 {
-    struct engine *e = engine;
+    struct run *e = engine;
     TRY(kernels_archive(e, a));
     TRY(engine_hollow_archive(e, a));
     TRY(particles_archive(&e->part, a, e->optional));
@@ -86,45 +106,46 @@ status engine_archive(void *engine, struct archive *a)
     if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source);
     if (!a->saving) {
         engine_partial_make(e);
-        levels_free(&e->reference.levels);
-        mesh_free(&e->reference.mesh);
-        memory_free(e->reference.elastic);
+        levels_free(&e->frame->levels);
+        mesh_free(&e->frame->mesh);
+        memory_free(e->frame->elastic);
         TRY(engine_mesh_make(e, true));
         TRY(engine_levels_make(e, true));
     }
-    TRY(mesh_archive(&e->reference.mesh, a));
-    TRY(levels_archive(&e->reference.levels, &e->part, &e->reference.source, a));
+    TRY(mesh_archive(&e->frame->mesh, a));
+    TRY(levels_archive(&e->frame->levels, &e->part, &e->frame->source, a));
     if (!a->saving) engine_ends_update(e);
     ARCHIVE_VALUE(a, "engine/t", e->clock.t);
     ARCHIVE_VALUE(a, "engine/step", e->clock.step);
     ARCHIVE_VALUE(a, "engine/steps", e->clock.steps);
     ARCHIVE_VALUE(a, "engine/dt", e->clock.dt);
-    ARCHIVE_VALUE(a, "engine/damped", e->coupling.damped);
-    ARCHIVE_VALUE(a, "engine/residual_step0", e->probing.residual_step0);
-    ARCHIVE_VALUE(a, "engine/particle_steps", e->report.particle_steps);
-    ARCHIVE_VALUE(a, "engine/bond_visits", e->report.bond_visits);
-    ARCHIVE_VALUE(a, "engine/inactive", e->report.inactive);
-    ARCHIVE_VALUE(a, "engine/sampled", e->report.sampled);
+    ARCHIVE_VALUE(a, "engine/damped", e->damped);
+    ARCHIVE_VALUE(a, "engine/residual_step0", e->probing->residual_step0);
+    ARCHIVE_VALUE(a, "engine/particle_steps", e->report->particle_steps);
+    ARCHIVE_VALUE(a, "engine/bond_visits", e->report->bond_visits);
+    ARCHIVE_VALUE(a, "engine/inactive", e->report->inactive);
+    ARCHIVE_VALUE(a, "engine/sampled", e->report->sampled);
     TRY(active_set_archive(&e->bonds.active, "bonds", a));
-    TRY(active_set_archive(&e->reference.mesh.active, "mesh", a));
-    ARCHIVE_VALUE(a, "engine/loop_seconds", e->report.loop_seconds);
+    TRY(active_set_archive(&e->frame->mesh.active, "mesh", a));
+    ARCHIVE_VALUE(a, "engine/loop_seconds", e->report->loop_seconds);
     TRY(loads_archive(&e->loads, a));
-    for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_archive(&e->rigid[k], k, a));
-    e->contact.marked = scene_in_steps(e->scene);
-    TRY(contact_archive(&e->contact, &e->part, a));
-    if (!a->saving && e->contact.made && !e->contact.touch) contact_follow(&e->contact, &e->part, &e->bonds, &e->loads);
-    if (e->mpm.fields > 1) TRY(grid_contact_archive(&e->mpm.contact, a));
-    TRY(solver_archive(&e->solver, a));
+    for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_archive(&e->rigid->body[k], k, a));
+    e->contact->marked = scene_in_steps(e->scene);
+    TRY(contact_archive(e->contact, &e->part, a));
+    if (!a->saving && e->contact->made && !e->contact->touch)
+        contact_follow(e->contact, &e->part, &e->bonds, &e->loads);
+    if (e->grid->fields > 1) TRY(grid_contact_archive(&e->grid->contact, a));
+    TRY(solver_archive(e->solver, a));
     TRY(statics_archive(e, a));
-    TRY(conversion_archive(&e->coupling.conversion, a));
-    TRY(diagnostics_archive(&e->diagnostics, a));
-    ARCHIVE_VALUE(a, "engine/speed_rise", e->stability.speed);
-    ARCHIVE_VALUE(a, "engine/excess_rise", e->stability.excess);
-    TRY(tips_archive(&e->fracture.tips, a));
-    for (int k = 0; k < e->scene->growths; k++) TRY(growth_archive(&e->fracture.growth[k], k, a));
-    TRY(probes_archive(&e->probing.probes, a));
-    const int known = e->report.warnings.n;
-    TRY(warnings_archive(&e->report.warnings, a));
-    warnings_print(&e->report.warnings, known, stderr);
-    return output_archive(e->report.out, a);
+    TRY(conversion_archive(&e->coupling->conversion, a));
+    TRY(diagnostics_archive(e->diagnostics, a));
+    ARCHIVE_VALUE(a, "engine/speed_rise", e->stability->speed);
+    ARCHIVE_VALUE(a, "engine/excess_rise", e->stability->excess);
+    TRY(tips_archive(&e->fracture->tips, a));
+    for (int k = 0; k < e->scene->growths; k++) TRY(growth_archive(&e->fracture->growth[k], k, a));
+    TRY(probes_archive(&e->probing->probes, a));
+    const int known = e->warnings.n;
+    TRY(warnings_archive(&e->warnings, a));
+    warnings_print(&e->warnings, known, stderr);
+    return output_archive(e->report->out, a);
 }

@@ -7,6 +7,9 @@
 
 #include "base/memory.h"
 #include "base/team.h"
+#include "quasistatic/statics.h"
+#include "mesh/mesh_part.h"
+#include "contact/contact.h"
 
 #define GAIN_MOST 0.01       /* share of what loads may have worked beyond the mean that a solution may gain */
 enum { TRIES_MOST = 4, MORE_STRIDES = 4 };
@@ -14,29 +17,29 @@ enum { TRIES_MOST = 4, MORE_STRIDES = 4 };
 /* ---- loads and supports ------------------------------------------------------------------------------------------ */
 
 /* Applied forces at t, into `applied` [dim][particles of the body]. */
-void statics_applied_make(struct engine *e, real t)
+void statics_applied_make(struct run *e, real t)
 {
     const struct particles *p = &e->part;
     for (int d = 0; d < p->dim; d++) {
-        if (!e->statics.applied[d]) e->statics.applied[d] = NEW("statics.applied", p->n, real);
-        array_fill_bytes(e->statics.applied[d], 0, p->n, sizeof(real));
+        if (!e->statics->applied[d]) e->statics->applied[d] = NEW("statics.applied", p->n, real);
+        array_fill_bytes(e->statics->applied[d], 0, p->n, sizeof(real));
     }
     for (int b = 0; b < e->loads.n; b++) {
         const struct load *l = &e->loads.load[b];
         for (int64_t k = 0; boundary_is_force(l->boundary) && k < l->n; k++) {
             real force[DIM_MAX];
             load_force_at(l, p, k, t, force);
-            for (int d = 0; d < p->dim; d++) e->statics.applied[d][l->particle[k]] += force[d];
+            for (int d = 0; d < p->dim; d++) e->statics->applied[d][l->particle[k]] += force[d];
         }
     }
 }
 
 /* Place of a node of the unknowns [m]. */
-void statics_node_place(const struct engine *e, int64_t k, real *X)
+void statics_node_place(const struct run *e, int64_t k, real *X)
 {
-    const struct mesh *mesh = &e->reference.mesh;
-    const int32_t i = e->statics.node[k];
-    if (k < e->statics.particles) {
+    const struct mesh *mesh = &e->frame->mesh;
+    const int32_t i = e->statics->node[k];
+    if (k < e->statics->particles) {
         particle_place(&e->part, i, X);
         return;
     }
@@ -46,9 +49,9 @@ void statics_node_place(const struct engine *e, int64_t k, real *X)
 }
 
 /* How much more of the same t makes of supports and loads, of which `before` were there; 0 where it makes others. */
-static real growth_to(const struct engine *e, real t, real *const *before)
+static real growth_to(const struct run *e, real t, real *const *before)
 {
-    const struct statics *s = &e->statics;
+    const struct statics *s = e->statics;
     real now = 0, was = 0;
     for (int64_t k = 0; k < s->balance.n; k++)
         for (int d = 0; d < e->part.dim; d++) {
@@ -57,14 +60,14 @@ static real growth_to(const struct engine *e, real t, real *const *before)
         }
     for (int d = 0; d < e->part.dim && was == 0; d++)
         for (int64_t i = 0; i < e->part.n; i++) now += s->applied[d][i] * before[d][i], was += square(before[d][i]);
-    return was > 0 && t != e->statics.t ? now / was - 1 : 0;
+    return was > 0 && t != e->statics->t ? now / was - 1 : 0;
 }
 
 /* The way to pseudo-time t: of supports what is prescribed, of the rest what a linear body does under proportional
  * loads. `before`: the applied forces until now. */
-static void way_make(struct engine *e, real t, real *const *before)
+static void way_make(struct run *e, real t, real *const *before)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     struct displacing by[BOUNDARIES_MAX];
     for (int b = 0; b < e->loads.n; b++) by[b] = displacing_make(e->loads.load[b].boundary, e->part.dim, t);
     for (int64_t k = 0; k < s->balance.n; k++) {
@@ -85,9 +88,9 @@ static void way_make(struct engine *e, real t, real *const *before)
 
 /* Norm of applied forces on free components of particles, on points of the mesh that nothing drives, and of what rigid
  * bodies push [N]. */
-real statics_applied_norm(const struct engine *e)
+real statics_applied_norm(const struct run *e)
 {
-    const struct statics *s = &e->statics;
+    const struct statics *s = e->statics;
     const struct particles *p = &e->part;
     real sum = 0;
     for (int d = 0; d < p->dim; d++) {
@@ -96,11 +99,11 @@ real statics_applied_norm(const struct engine *e)
         for (int64_t i = 0; i < p->n; i++)
             if (p->kind[i] != KIND_PD && !(p->flag[i] & FLAG_DRIVEN)) sum += square(s->applied[d][i]);
     }
-    return hypot(sqrt(sum), contact_rigid_norm(&e->contact, p));
+    return hypot(sqrt(sum), contact_rigid_norm(e->contact, p));
 }
 
 /* Norm of the forces that the round-off of positions makes, with a margin of ten [N]. */
-static real round_off_of(const struct engine *e)
+static real round_off_of(const struct run *e)
 {
     real sum = 0;
     for (int64_t r = 0; r < e->bonds.rows; r++) {
@@ -112,14 +115,14 @@ static real round_off_of(const struct engine *e)
 }
 
 /* Books the forces of supports and loads, and their displacements. */
-void statics_react(struct engine *e)
+void statics_react(struct run *e)
 {
-    const struct statics *s = &e->statics;
+    const struct statics *s = e->statics;
     for (int b = 0; b < e->loads.n; b++) {
         struct load *l = &e->loads.load[b];
-        if (boundary_is_force(l->boundary)) load_applied_sum(l, &e->part, e->statics.t);
+        if (boundary_is_force(l->boundary)) load_applied_sum(l, &e->part, e->statics->t);
         if (l->boundary->kind != BOUNDARY_VELOCITY) continue;
-        const struct displacing by = displacing_make(l->boundary, e->part.dim, e->statics.t);
+        const struct displacing by = displacing_make(l->boundary, e->part.dim, e->statics->t);
         memset(l->reaction, 0, sizeof l->reaction);
         for (int d = 0; d < e->part.dim; d++) {
             real sum = 0, X[DIM_MAX] = {0};
@@ -142,9 +145,9 @@ struct account {
     real *applied[DIM_MAX];
 };
 
-static void account_begin(struct account *a, const struct engine *e)
+static void account_begin(struct account *a, const struct run *e)
 {
-    const struct statics *s = &e->statics;
+    const struct statics *s = e->statics;
     for (int d = 0; d < e->part.dim; d++) {
         a->u.of[d] = BARE("statics.account", s->balance.n, real);
         a->f.of[d] = BARE("statics.account", s->balance.n, real);
@@ -161,9 +164,9 @@ static void account_begin(struct account *a, const struct engine *e)
 /* Work of supports and of applied forces over the step, each by the mean of its forces at both ends, and what the bend
  * of the way adds; *before holds where loaded particles were. Returns how far that is from the work of loads that are
  * there as in the end, or as in the beginning, on the whole way [J]. */
-static real account_end(struct account *a, struct engine *e, real *const *before)
+static real account_end(struct account *a, struct run *e, real *const *before)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     real range[2] = {0};
     if (!statics_touched(e)) e->loads.work += s->balance.bent;      /* else forces change on the way by what touches */
     for (int d = 0; d < e->part.dim; d++) {
@@ -190,22 +193,22 @@ static real account_end(struct account *a, struct engine *e, real *const *before
  * where faces touch by as much at the most, as forces grow. Only what is beyond is lost, or comes from nowhere: faces
  * have gone through each other on the way, and hold the body in a state that loads cannot have led to. Returns whether
  * that is so. */
-static bool lost_book(struct engine *e, real lost, real range, bool touches)
+static bool lost_book(struct run *e, real lost, real range, bool touches)
 {
-    real *now = &e->statics.balance.lost;
+    real *now = &e->statics->balance.lost;
     real uneven = e->part.relief[0] || touches ? real_min(*now - lost, range) : 0;
     if (touches && !e->part.relief[0]) uneven = real_max(uneven, -range);
     e->loads.work -= uneven, *now -= uneven;
-    e->coupling.damped += *now - lost;
+    e->damped += *now - lost;
     return touches && !e->part.relief[0] && lost - *now > GAIN_MOST * range;
 }
 
-static status unbalanced(const struct engine *e);
+static status unbalanced(const struct run *e);
 
 /* *crossed: faces have gone through each other. */
-static status solve_at(struct engine *e, real t, bool *crossed)
+static status solve_at(struct run *e, real t, bool *crossed)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     struct account account;
     real *before[DIM_MAX] = {0};
     const int64_t asked = s->balance.directions;
@@ -226,7 +229,7 @@ static status solve_at(struct engine *e, real t, bool *crossed)
     statics_flow(e);
     engine_mesh_sync(e);
     loads_mirror(&e->loads, &e->part);
-    e->statics.t = t;
+    e->statics->t = t;
     const real worked = e->loads.work + e->loads.constraint_work, range = account_end(&account, e, before);
     const bool touched = statics_touched(e);
     const real rigids = statics_touch_end(e, e->loads.work + e->loads.constraint_work - worked, lost);
@@ -239,9 +242,9 @@ static status solve_at(struct engine *e, real t, bool *crossed)
 }
 
 /* The way to t in strides. */
-static status solve_in(struct engine *e, real t, int strides, bool *crossed)
+static status solve_in(struct run *e, real t, int strides, bool *crossed)
 {
-    const real from = e->statics.t;
+    const real from = e->statics->t;
     *crossed = false;
     for (int k = 1; k <= strides && !*crossed; k++)
         TRY(solve_at(e, k == strides ? t : from + (t - from) * k / strides, crossed));
@@ -249,7 +252,7 @@ static status solve_in(struct engine *e, real t, int strides, bool *crossed)
 }
 
 /* In more strides where faces have gone through each other; what yields has no way back, and makes its way once. */
-status statics_solve(struct engine *e, real t)
+status statics_solve(struct run *e, real t)
 {
     int strides = statics_strides(e, t);
     bool crossed = false;
@@ -269,9 +272,9 @@ status statics_solve(struct engine *e, real t)
 }
 
 /* FAILED, with the place of the largest residual and what helps. */
-static status unbalanced(const struct engine *e)
+static status unbalanced(const struct run *e)
 {
-    const struct statics *s = &e->statics;
+    const struct statics *s = e->statics;
     real X[DIM_MAX] = {0};
     if (s->balance.n > 0) statics_node_place(e, s->balance.worst, X);
     return status_set(FAILED,
@@ -279,6 +282,6 @@ static status unbalanced(const struct engine *e)
                       "wanted), most of it near x = %.6g, y = %.6g, z = %.6g m; see whether every part is held and "
                       "loads are what the body bears, or choose %ssteps.control energy, more steps, or a larger "
                       "solver_tolerance",
-                      (long long)e->clock.step + 1, e->statics.t, s->balance.residual, e->scene->solver_tolerance, X[0],
-                      X[1], X[2], e->part.relief[0] ? "a yield_tangent of a thousandth of young, " : "");
+                      (long long)e->clock.step + 1, e->statics->t, s->balance.residual, e->scene->solver_tolerance,
+                      X[0], X[1], X[2], e->part.relief[0] ? "a yield_tangent of a thousandth of young, " : "");
 }

@@ -16,6 +16,9 @@
 #include "base/memory.h"
 #include "base/team.h"
 #include "engine/engine.h"
+#include "mesh/mesh_part.h"
+#include "step/damping.h"
+#include "step/report.h"
 
 #define EXPONENT_MOST 50.0 /* of what is then no more */
 
@@ -56,27 +59,27 @@ static void slow_block(const void *context, int64_t first, int64_t end, real *su
         }
 }
 
-static real damping_exponent(const struct engine *e)
+static real damping_exponent(const struct run *e)
 {
     return real_min(e->scene->damping * e->clock.dt, EXPONENT_MOST);
 }
 
-real engine_damping_share(const struct engine *e) { return exp(-0.5 * damping_exponent(e)); }
+real engine_damping_share(const struct run *e) { return exp(-0.5 * damping_exponent(e)); }
 
 /* Particles and nodes; returns how many of the two there are. */
-static int damped_find(struct engine *e, struct damped *all, int64_t *n)
+static int damped_find(struct run *e, struct damped *all, int64_t *n)
 {
     struct particles *p = &e->part;
-    struct grid *nodes = &e->reference.mesh.grid;
+    struct grid *nodes = &e->frame->mesh.grid;
     const real factor = exp(-damping_exponent(e));
     n[0] = p->n, n[1] = nodes->n;
-    all[0] = (struct damped){p->dim, factor, p->mass, p->v, e->damping.before[0], p->flag};
-    all[1] = (struct damped){p->dim, factor, nodes->mass, nodes->velocity, e->damping.before[1], NULL};
-    return e->reference.mesh.points > 0 ? 2 : 1;
+    all[0] = (struct damped){p->dim, factor, p->mass, p->v, e->damping->before[0], p->flag};
+    all[1] = (struct damped){p->dim, factor, nodes->mass, nodes->velocity, e->damping->before[1], NULL};
+    return e->frame->mesh.points > 0 ? 2 : 1;
 }
 
 /* Multiplies all velocities by the factor; returns the kinetic energy before it [J]. */
-static real slow_all(struct engine *e, real factor)
+static real slow_all(struct run *e, real factor)
 {
     struct damped all[2];
     int64_t n[2];
@@ -96,15 +99,15 @@ static real slow_all(struct engine *e, real factor)
 }
 
 /* The half of a decay before the first kick, which samples of the start do not see. */
-static void damping_start(struct engine *e)
+static void damping_start(struct run *e)
 {
     const real share = engine_damping_share(e);
-    e->coupling.damped += (1 - share) * slow_all(e, share);
-    for (int d = 0; d < e->part.dim && e->report.sampling.before[d]; d++)
-        for (int64_t i = 0; i < e->part.n; i++) e->report.sampling.before[d][i] *= share;
+    e->damped += (1 - share) * slow_all(e, share);
+    for (int d = 0; d < e->part.dim && e->report->sampling.before[d]; d++)
+        for (int64_t i = 0; i < e->part.n; i++) e->report->sampling.before[d][i] *= share;
 }
 
-void engine_damping_begin(struct engine *e)
+void engine_damping_begin(struct run *e)
 {
     struct damped all[2];
     int64_t n[2];
@@ -113,12 +116,12 @@ void engine_damping_begin(struct engine *e)
     const int kinds = damped_find(e, all, n);
     for (int k = 0; k < kinds; k++)
         for (int d = 0; d < e->part.dim; d++) {
-            if (!e->damping.before[k][d]) e->damping.before[k][d] = NEW("engine.damping", n[k], real);
-            array_copy(e->damping.before[k][d], all[k].v[d], n[k], sizeof(real));
+            if (!e->damping->before[k][d]) e->damping->before[k][d] = NEW("engine.damping", n[k], real);
+            array_copy(e->damping->before[k][d], all[k].v[d], n[k], sizeof(real));
         }
 }
 
-real engine_damping_loss(struct engine *e)
+real engine_damping_loss(struct run *e)
 {
     struct damped all[2];
     int64_t n[2];
@@ -129,19 +132,13 @@ real engine_damping_loss(struct engine *e)
     return loss / engine_damping_share(e);
 }
 
-real engine_damping_last(const struct engine *e, real kinetic_before, real kinetic)
+real engine_damping_last(const struct run *e, real kinetic_before, real kinetic)
 {
     const real grown = exp(damping_exponent(e));
     return e->clock.step > 0 ? (grown - 1) * (grown * kinetic_before + kinetic) / engine_damping_share(e) : 0;
 }
 
-void engine_damping_end(struct engine *e)
+void engine_damping_end(struct run *e)
 {
     if (e->scene->damping > 0) slow_all(e, exp(-damping_exponent(e)));
-}
-
-void engine_damping_free(struct engine *e)
-{
-    for (int k = 0; k < 2; k++)
-        for (int d = 0; d < DIM_MAX; d++) memory_free(e->damping.before[k][d]);
 }

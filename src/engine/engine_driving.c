@@ -48,7 +48,7 @@ static status starts_at_rest(const struct boundary *b, const struct particles *p
     return OK;
 }
 
-status engine_driving_check(const struct engine *e, bool start)
+status engine_driving_check(const struct run *e, bool start)
 {
     const struct particles *p = &e->part;
     for (int k = 0; k < e->loads.n; k++) {

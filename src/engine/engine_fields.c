@@ -4,6 +4,9 @@
 
 #include "base/memory.h"
 #include "engine_report.h"
+#include "mesh/mesh_part.h"
+#include "step/report.h"
+#include "output/output.h"
 
 #define NEAR_REACH 1.5 /* neighbours of material points: those of a lattice with diagonals [spacings] */
 #define SHAPE_LEAST 1e-6 /* determinant of neighbours that span space, over that of a ball */
@@ -48,7 +51,7 @@ static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const
 }
 
 /* Of a peridynamic particle: over its intact bonds. */
-static void gradient_of_bonds(const struct engine *e, int64_t i, real *const *H)
+static void gradient_of_bonds(const struct run *e, int64_t i, real *const *H)
 {
     struct gradient_sum sum = {{{0}}, {{0}}};
     for (struct bond_iterator it = bonds_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
@@ -58,7 +61,7 @@ static void gradient_of_bonds(const struct engine *e, int64_t i, real *const *H)
 
 /* Of a material point on the grid: over the nearest points of its body on its side of pre-cracks, but peridynamic ones
  * with broken bonds, behind which a crack may pass. */
-static void gradient_of_points(const struct engine *e, struct near *near, int64_t i, real *const *H)
+static void gradient_of_points(const struct run *e, struct near *near, int64_t i, real *const *H)
 {
     const struct particles *p = &e->part;
     struct gradient_sum sum = {{{0}}, {{0}}};
@@ -74,16 +77,16 @@ static void gradient_of_points(const struct engine *e, struct near *near, int64_
 }
 
 /* Is a particle a point of the mesh of the reference frame? */
-static bool in_mesh(const struct engine *e, int64_t i)
+static bool in_mesh(const struct run *e, int64_t i)
 {
-    return e->reference.mesh.points > 0 && e->reference.mesh.place[i] >= 0;
+    return e->frame->mesh.points > 0 && e->frame->mesh.place[i] >= 0;
 }
 
-static void gradients_make(const struct engine *e, real **H)
+static void gradients_make(const struct run *e, real **H)
 {
     const struct particles *p = &e->part;
     for (int k = 0; k < p->dim * p->dim; k++) H[k] = NEW("report.gradient", p->n, real);
-    if (e->reference.mesh.points > 0) mesh_points_gradient(&e->reference.mesh, H);
+    if (e->frame->mesh.points > 0) mesh_points_gradient(&e->frame->mesh, H);
 #pragma omp parallel
     {
         struct near near = {0};
@@ -99,7 +102,7 @@ static void gradients_make(const struct engine *e, real **H)
 
 /* Of material points sigma_y a + H a^2/2 of the equivalent plastic strain a; of peridynamic particles half that of
  * their bonds. */
-static real *plastic_work_make(const struct engine *e)
+static real *plastic_work_make(const struct run *e)
 {
     const struct particles *p = &e->part;
     if (!p->plastic_strain && !e->bonds.plastic_path) return NULL;
@@ -117,7 +120,7 @@ static real *plastic_work_make(const struct engine *e)
 
 /* The equivalent plastic strain: of points their own, of peridynamic particles the mean plastic path of their bonds.
  * NULL: no bond yields. */
-static real *plastic_strain_make(const struct engine *e)
+static real *plastic_strain_make(const struct run *e)
 {
     const struct particles *p = &e->part;
     if (!e->bonds.plastic_path) return NULL;
@@ -130,9 +133,9 @@ static real *plastic_strain_make(const struct engine *e)
     return strain;
 }
 
-static uint8_t *cell_levels_make(const struct engine *e)
+static uint8_t *cell_levels_make(const struct run *e)
 {
-    const struct mesh *mesh = &e->reference.mesh;
+    const struct mesh *mesh = &e->frame->mesh;
     uint8_t *level = NEW("report.level", e->part.n, uint8_t);
     for (int64_t i = 0; i < e->part.n && mesh->level; i++)
         if (in_mesh(e, i)) level[i] = mesh->level[mesh->place[i] >> e->part.dim];
@@ -140,17 +143,17 @@ static uint8_t *cell_levels_make(const struct engine *e)
 }
 
 /* Of points of coarse cells: their spacing doubles from level to level. */
-static uint8_t *point_levels_make(const struct engine *e)
+static uint8_t *point_levels_make(const struct run *e)
 {
-    uint8_t *level = NEW("report.level", e->report.more.n, uint8_t);
-    for (int64_t i = 0; i < e->report.more.n; i++)
-        level[i] = (uint8_t)lround(log2(e->report.more_spacing[i] / e->scene->spacing));
+    uint8_t *level = NEW("report.level", e->report->more.n, uint8_t);
+    for (int64_t i = 0; i < e->report->more.n; i++)
+        level[i] = (uint8_t)lround(log2(e->report->more_spacing[i] / e->scene->spacing));
     return level;
 }
 
 /* ---- a frame ----------------------------------------------------------------------------------------------------- */
 
-void engine_fields_make(struct engine *e, unsigned asked, struct frame_extra *extra)
+void engine_fields_make(struct run *e, unsigned asked, struct frame_extra *extra)
 {
     extra->asked = asked, extra->material = e->scene->material, extra->space = e->scene->space;
     if (asked & (ASK_STRAIN | ASK_DENSITY)) gradients_make(e, extra->state.gradient);
@@ -158,7 +161,7 @@ void engine_fields_make(struct engine *e, unsigned asked, struct frame_extra *ex
     extra->state.plastic_strain = plastic_strain_make(e);
     if (asked & ASK_LEVEL) extra->state.level = cell_levels_make(e);
     if (!extra->more) return;
-    for (int k = 0; k < DIM_MAX * DIM_MAX; k++) extra->more_state.gradient[k] = e->report.more_gradient[k];
+    for (int k = 0; k < DIM_MAX * DIM_MAX; k++) extra->more_state.gradient[k] = e->report->more_gradient[k];
     if (asked & ASK_LEVEL) extra->more_state.level = point_levels_make(e);
 }
 

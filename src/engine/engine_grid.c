@@ -3,6 +3,8 @@
 
 #include "engine/engine.h"
 #include "base/memory.h"
+#include "grid/grid_part.h"
+#include "grid/contact_grid.h"
 
 /* Coordinate of a node [m]: mpm.origin, else the first mirror across this axis, else the lower corner of the body.
  * Nodes beyond a mirror move as exact images only if the mirror is on a node or half-way between two. */
@@ -38,14 +40,14 @@ int engine_body_apart(const struct scene *s, int k)
 }
 
 /* A grid for each body where material points of several meet, else one. */
-static void make_fields(struct engine *e)
+static void make_fields(struct run *e)
 {
     const struct scene *s = e->scene;
     const bool meet = !scene_at_rest(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
                       !coupling_moves_by_grid(s->coupling);
-    e->mpm.fields = 1;
-    while (meet && engine_body_apart(s, e->mpm.fields) >= 0) e->mpm.fields++;
-    e->mpm.field = NEW("engine.fields", e->mpm.fields, struct grid_field);
+    e->grid->fields = 1;
+    while (meet && engine_body_apart(s, e->grid->fields) >= 0) e->grid->fields++;
+    e->grid->field = NEW("engine.fields", e->grid->fields, struct grid_field);
 }
 
 /* How far shapes reach beyond the neighbours of their cell [m]. */
@@ -57,12 +59,12 @@ static real shape_reach(const struct scene *s)
 }
 
 /* The lower corner of the body is that of the first shape, or of the particles of a list. */
-void engine_grid_make(struct engine *e)
+void engine_grid_make(struct run *e)
 {
     const struct scene *s = e->scene;
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
-    if (!e->mpm.field) make_fields(e);
-    struct grid *g = &e->mpm.field[0].grid;
+    if (!e->grid->field) make_fields(e);
+    struct grid *g = &e->grid->field[0].grid;
     g->dim = s->dim;
     g->h = s->cell * s->spacing;
     bool bounded = s->body[0].shape.n > 0 && region_bounds(&s->body[0].shape, s->dim, from, to);
@@ -78,19 +80,19 @@ void engine_grid_make(struct engine *e)
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
     const real light = !scene_at_rest(s) ? GRID_MASS_LIGHT : GRID_MASS_STATIC;
     const real full = lightest * pow(g->h, s->dim) * section;
-    e->mpm.smallest_mass = GRID_MASS_SMALLEST * full;
+    e->grid->smallest_mass = GRID_MASS_SMALLEST * full;
     g->light_mass = s->transfer == TRANSFER_APIC ? light * full : 0;
-    for (int k = 0; k < e->mpm.fields && e->mpm.fields > 1; k++) {
-        e->mpm.field[k].grid = *g;
-        e->mpm.field[k].grid.body = 1 + engine_body_apart(s, k);
+    for (int k = 0; k < e->grid->fields && e->grid->fields > 1; k++) {
+        e->grid->field[k].grid = *g;
+        e->grid->field[k].grid.body = 1 + engine_body_apart(s, k);
     }
-    grid_contact_free(&e->mpm.contact);
-    e->mpm.contact = (struct grid_contact){.friction = s->contact_friction,
+    grid_contact_free(&e->grid->contact);
+    e->grid->contact = (struct grid_contact){.friction = s->contact_friction,
                                            .spacing = s->spacing,
                                            .half_width = shape_reach(s),
-                                           .smallest_mass = e->mpm.smallest_mass,
+                                           .smallest_mass = e->grid->smallest_mass,
                                            .began = NAN,
                                            .ended = NAN};
-    grid_contact_make(&e->mpm.contact, e->mpm.fields);
-    e->mpm.sort_needed = true;
+    grid_contact_make(&e->grid->contact, e->grid->fields);
+    e->grid->sort_needed = true;
 }

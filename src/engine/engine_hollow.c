@@ -6,6 +6,14 @@
 
 #include "base/memory.h"
 #include "engine/engine.h"
+#include "data/hollow.h"
+#include "mesh/mesh_part.h"
+#include "step/report.h"
+#include "scene/fill.h"
+#include "coupling/notch.h"
+#include "mesh/mesh_make.h"
+#include "mesh/levels.h"
+#include "output/output.h"
 
 enum { PAYS = 400000 };                  /* particles that need not be made, from which on that saves time */
 enum { AHEAD = 4 };                      /* cells beyond those of level 0 that have particles: cracks run on */
@@ -122,7 +130,7 @@ static bool probed(const struct scene *s, const real *X, real h)
 }
 
 /* Must any particle of cell I be made? */
-static bool cell_needed(const struct engine *e, const struct hollow *h, int64_t I)
+static bool cell_needed(const struct run *e, const struct hollow *h, int64_t I)
 {
     const struct scene *s = e->scene;
     for (int c = 0; c < 1 << s->dim; c++) {
@@ -135,9 +143,9 @@ static bool cell_needed(const struct engine *e, const struct hollow *h, int64_t 
     return false;
 }
 
-status engine_hollow_plan(struct engine *e)
+status engine_hollow_plan(struct run *e)
 {
-    struct hollow *h = &e->reference.hollow;
+    struct hollow *h = &e->frame->hollow;
     int64_t absent = 0;
     if (h->whole || engine_hollow_obstacle(e->scene)) return OK;
     TRY(box_find(&h->box, e->scene));
@@ -190,9 +198,9 @@ static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *leve
     return absent;
 }
 
-bool engine_hollow_start(struct engine *e, const uint8_t *level)
+bool engine_hollow_start(struct run *e, const uint8_t *level)
 {
-    struct reference_frame *r = &e->reference;
+    struct reference_frame *r = e->frame;
     if (!r->hollow.absent) return true;
     if (r->hollow.restored) return false;        /* the checkpoint has the levels, too */
     if (!level) {                                /* no coarse cells */
@@ -210,15 +218,15 @@ bool engine_hollow_start(struct engine *e, const uint8_t *level)
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-status engine_hollow_follow(struct engine *e, const uint8_t *level)
+status engine_hollow_follow(struct run *e, const uint8_t *level)
 {
-    struct hollow *h = &e->reference.hollow;
-    if (!any_lacks(&e->reference.mesh, level)) return OK;
-    if (e->report.out) {
-        TRY(output_wait(e->report.out));
-        output_particles_changed(e->report.out);
+    struct hollow *h = &e->frame->hollow;
+    if (!any_lacks(&e->frame->mesh, level)) return OK;
+    if (e->report->out) {
+        TRY(output_wait(e->report->out));
+        output_particles_changed(e->report->out);
     }
-    uint8_t *absent = absent_with(&e->reference, level, AHEAD);
+    uint8_t *absent = absent_with(e->frame, level, AHEAD);
     memory_free(h->absent);
     h->absent = absent;
     return engine_replace(e);
@@ -227,25 +235,27 @@ status engine_hollow_follow(struct engine *e, const uint8_t *level)
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */
 
 /* Makes the run again with the cells hollow that a checkpoint has so. */
-static status remake(struct engine *e, uint8_t *absent)
+static status remake(struct run *e, uint8_t *absent)
 {
-    const struct run_report report = e->report, empty = {.out = NULL};
+    struct run_report *const report = e->report;
+    const struct warnings warnings = e->warnings;
+    const struct laps laps = e->laps;
     const struct scene *s = e->scene;
-    struct hollow hollow = e->reference.hollow;
+    struct hollow hollow = e->frame->hollow;
     memory_free(hollow.absent);
     hollow.absent = absent, hollow.restored = true;
-    e->reference.hollow = (struct hollow){0};
-    e->report = empty;
+    e->frame->hollow = (struct hollow){0};
+    e->report = NULL, e->warnings = (struct warnings){0};
     engine_free(e);
     const status made = engine_make_again(e, s, NULL, hollow, NULL);
-    memory_free(e->report.record);
-    e->report = report;
+    memory_free(e->report->record), memory_free(e->report);
+    e->report = report, e->warnings = warnings, e->laps = laps;
     return made;
 }
 
-status engine_hollow_archive(struct engine *e, struct archive *a)
+status engine_hollow_archive(struct run *e, struct archive *a)
 {
-    struct hollow *h = &e->reference.hollow;
+    struct hollow *h = &e->frame->hollow;
     int64_t n = h->absent ? h->box.n : 0;
     ARCHIVE_VALUE(a, "hollow/cells", n);
     if (n == 0 && (a->saving || !h->absent)) return OK;

@@ -3,6 +3,9 @@
 
 #include "base/memory.h"
 #include "engine/engine.h"
+#include "step/report.h"
+#include "mesh/mesh_part.h"
+#include "mesh/levels.h"
 
 /* Places, volumes and marks of the points of a cell from number `first` on; `point` [2^dim] their numbers. */
 static void cell_points(struct particles *p, const struct mesh *mesh, const struct scene *s, int64_t cell,
@@ -22,48 +25,48 @@ static void cell_points(struct particles *p, const struct mesh *mesh, const stru
 }
 
 /* Points of the listed cells of a level, from number `first` on, with the motion of its nodes. */
-static void level_points(struct engine *e, int level, const int64_t *cell, int64_t cells, int64_t first)
+static void level_points(struct run *e, int level, const int64_t *cell, int64_t cells, int64_t first)
 {
-    struct particles *p = &e->report.more;
-    struct mesh mesh = e->reference.levels.at[level].mesh;
+    struct particles *p = &e->report->more;
+    struct mesh mesh = e->frame->levels.at[level].mesh;
     const int dim = p->dim;
     mesh.point = BARE("report.point", mesh.grid.n << dim, int32_t);
     for (int64_t k = 0; k < mesh.grid.n << dim; k++) mesh.point[k] = -1;
     for (int64_t k = 0; k < cells; k++)
         cell_points(p, &mesh, e->scene, cell[k], first + (k << dim), mesh.point + (cell[k] << dim));
     mesh_points_move(&mesh, p);
-    mesh_points_stress(&mesh, p, e->reference.elastic, !e->scene->small_strain);
-    if (e->report.more_gradient[0]) mesh_points_gradient(&mesh, e->report.more_gradient);
+    mesh_points_stress(&mesh, p, e->frame->elastic, !e->scene->small_strain);
+    if (e->report->more_gradient[0]) mesh_points_gradient(&mesh, e->report->more_gradient);
     for (int64_t i = first; i < first + (cells << dim); i++) {
-        e->report.more_spacing[i] = 0.5 * mesh.grid.h;
+        e->report->more_spacing[i] = 0.5 * mesh.grid.h;
         p->id[i] += (int32_t)e->part.n_body;
     }
     memory_free(mesh.point);
 }
 
-void engine_hollow_points_free(struct engine *e)
+void engine_hollow_points_free(struct run *e)
 {
-    particles_free(&e->report.more);
-    memory_free(e->report.more_spacing);
-    e->report.more_spacing = NULL;
+    particles_free(&e->report->more);
+    memory_free(e->report->more_spacing);
+    e->report->more_spacing = NULL;
     for (int k = 0; k < DIM_MAX * DIM_MAX; k++) {
-        memory_free(e->report.more_gradient[k]);
-        e->report.more_gradient[k] = NULL;
+        memory_free(e->report->more_gradient[k]);
+        e->report->more_gradient[k] = NULL;
     }
 }
 
-bool engine_hollow_points(struct engine *e, bool gradients)
+bool engine_hollow_points(struct run *e, bool gradients)
 {
-    struct mesh_levels *l = &e->reference.levels;
+    struct mesh_levels *l = &e->frame->levels;
     int64_t cells[LEVELS_MAX + 1] = {0}, points = 0;
     engine_hollow_points_free(e);
-    if (!e->reference.hollow.absent) return false;
+    if (!e->frame->hollow.absent) return false;
     for (int level = 1; level <= l->n; level++) points += (cells[level] = levels_hollow(l, level, NULL)) << e->part.dim;
-    particles_make(&e->report.more, e->part.dim, points, 0);
-    e->report.more.plane_strain = e->part.plane_strain;
-    e->report.more_spacing = NEW("report.spacing", points, real);
+    particles_make(&e->report->more, e->part.dim, points, 0);
+    e->report->more.plane_strain = e->part.plane_strain;
+    e->report->more_spacing = NEW("report.spacing", points, real);
     for (int k = 0; k < e->part.dim * e->part.dim && gradients; k++)
-        e->report.more_gradient[k] = NEW("report.gradient", points, real);
+        e->report->more_gradient[k] = NEW("report.gradient", points, real);
     for (int level = 1, first = 0; level <= l->n; first += (int)cells[level] << e->part.dim, level++) {
         int64_t *cell = BARE("report.cell", cells[level], int64_t);
         levels_hollow(l, level, cell);

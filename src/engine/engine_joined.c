@@ -3,7 +3,7 @@
 #include "engine/engine.h"
 
 /* Does a particle of one lie within the horizon of a particle of the other, by their shapes? */
-static bool are_near(const struct engine *e, const struct region *one, const struct region *other)
+static bool are_near(const struct run *e, const struct region *one, const struct region *other)
 {
     const struct particles *p = &e->part;
     const real tolerance = ON_SURFACE * e->scene->spacing;
@@ -23,7 +23,7 @@ static bool are_near(const struct engine *e, const struct region *one, const str
     return found;
 }
 
-status engine_joined_check(const struct engine *e)
+status engine_joined_check(const struct run *e)
 {
     const struct scene *s = e->scene;
     for (int k = 0; k < s->interfaces; k++) {

@@ -11,6 +11,10 @@
 #include "base/memory.h"
 #include "engine_statics.h"
 #include "fracture/tip_fit.h"
+#include "quasistatic/statics.h"
+#include "fracture/fracture_part.h"
+#include "fracture/tips.h"
+#include "contact/contact.h"
 
 #define INNER 1.0     /* of the ring of the fit [horizons] */
 #define WIDTH 7.0     /* of the ring [spacings] */
@@ -34,12 +38,12 @@ enum { ADVANCE_SPACINGS = 2, ROW_LEAST = 4 };
 static real led_distance(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
 
 /* Length of the longest pre-crack that ends at the tip, and whether one begins there. */
-static void cracks_behind(const struct engine *e, struct led_tip *tip)
+static void cracks_behind(const struct run *e, struct led_tip *tip)
 {
     const struct scene *s = e->scene;
     for (int k = 0; k < s->cracks; k++) {
         real at[2][DIM_MAX] = {{0}};
-        led_segment(&e->statics.led.plane, &s->crack[k], s->dim, at);
+        led_segment(&e->statics->led.plane, &s->crack[k], s->dim, at);
         for (int end = 0; end < 2; end++) {
             if (led_distance(at[end], tip->place) > HERE * s->spacing) continue;
             tip->sees = real_max(tip->sees, led_distance(at[0], at[1]));
@@ -49,16 +53,16 @@ static void cracks_behind(const struct engine *e, struct led_tip *tip)
 }
 
 /* Is the tip on a plane of symmetry, and goes along it? */
-static bool on_mirror(const struct engine *e, const struct led_tip *tip)
+static bool on_mirror(const struct run *e, const struct led_tip *tip)
 {
     real ahead[2];
     led_ahead(tip->place, e->scene->spacing, tip->last, ahead);
-    return led_on_mirror(e, &e->statics.led.plane, tip->place, ahead);
+    return led_on_mirror(e, &e->statics->led.plane, tip->place, ahead);
 }
 
 /* Rows of a lattice lie on one face of a crack that goes along them, as crack_cuts counts them. The tip begins halfway
  * to the next row, where bonds have been cut, and stays clear of what round-off would say of the row. */
-static void leave_row(struct engine *e, struct led_tip *tip)
+static void leave_row(struct run *e, struct led_tip *tip)
 {
     const real h = e->scene->spacing, *along = tip->along;
     real next = h;
@@ -79,10 +83,10 @@ static void leave_row(struct engine *e, struct led_tip *tip)
     led_free_behind(e, tip);
 }
 
-static void led_start(struct engine *e)
+static void led_start(struct run *e)
 {
-    struct led *l = &e->statics.led;
-    const struct tips *t = &e->fracture.tips;
+    struct led *l = &e->statics->led;
+    const struct tips *t = &e->fracture->tips;
     l->known = true;
     for (int k = 0; k < t->n; k++) {
         const struct tip *from = &t->tip[k];
@@ -102,7 +106,7 @@ static void led_start(struct engine *e)
 }
 
 /* Why no tip is led, else NULL. */
-static const char *led_fault(const struct engine *e, struct led_plane *plane)
+static const char *led_fault(const struct run *e, struct led_plane *plane)
 {
     const struct scene *s = e->scene;
     const bool one = s->bodies == 1 && s->materials == 1;    /* hoop stress knows no toughness */
@@ -111,9 +115,9 @@ static const char *led_fault(const struct engine *e, struct led_plane *plane)
     return s->steps.path == PATH_AUTO && !one ? "there are several bodies or materials" : led_plane_find(e, plane);
 }
 
-const char *engine_led_fault(const struct engine *e) { return led_fault(e, &(struct led_plane){0}); }
+const char *engine_led_fault(const struct run *e) { return led_fault(e, &(struct led_plane){0}); }
 
-status led_check(const struct engine *e)
+status led_check(const struct run *e)
 {
     const char *fault = NULL;
     if (!scene_in_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
@@ -125,9 +129,9 @@ status led_check(const struct engine *e)
                  : OK;
 }
 
-bool led_leads(struct engine *e)
+bool led_leads(struct run *e)
 {
-    struct led *l = &e->statics.led;
+    struct led *l = &e->statics->led;
     if (!l->plane.made) l->fault = led_fault(e, &l->plane);
     if (l->fault) return false;
     if (!l->known) led_start(e);
@@ -138,7 +142,7 @@ bool led_leads(struct engine *e)
 
 /* ---- factors ----------------------------------------------------------------------------------------------------- */
 
-static const struct material *material_at(const struct engine *e, const struct led_tip *tip)
+static const struct material *material_at(const struct run *e, const struct led_tip *tip)
 {
     const struct particles *p = &e->part;
     int64_t nearest = 0;
@@ -152,9 +156,9 @@ static const struct material *material_at(const struct engine *e, const struct l
 }
 
 /* Pre-cracks, and what tips have cut, in the plane of the tips; cracks_now_free frees the list. */
-static struct crack *cracks_now(const struct engine *e, int *n)
+static struct crack *cracks_now(const struct run *e, int *n)
 {
-    const struct led *l = &e->statics.led;
+    const struct led *l = &e->statics->led;
     const struct crack_list *before = &e->tables.cracks;
     struct crack *crack = NEW("led.cracks", before->n + l->stretches + 1, struct crack);
     real(*corner)[DIM_MAX] = memory_new("led.corners", 2 * (before->n + 1), sizeof *corner);
@@ -176,25 +180,25 @@ static void cracks_now_free(struct crack *crack, int n)
 
 /* The medium round a tip. In space, at a radius of half of the thickness and more, sides have let the stress along the
  * front go (Nakamura & Parks 1988), which a ring's mean radius decides. */
-static struct crack_medium medium_at(const struct engine *e, const struct led_tip *tip, real radius)
+static struct crack_medium medium_at(const struct run *e, const struct led_tip *tip, real radius)
 {
     enum space space = e->scene->space;
     if (e->part.dim == 3) {
         real ahead[2];
         led_ahead(tip->place, e->scene->spacing, tip->last, ahead);
-        const bool thin = led_width(e, &e->statics.led.plane, tip->place, ahead) < 2 * radius;
+        const bool thin = led_width(e, &e->statics->led.plane, tip->place, ahead) < 2 * radius;
         space = thin ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN;
     }
     return crack_medium_of(material_at(e, tip), space);
 }
 
-bool led_measure(const struct engine *e, const struct led_tip *tip, real K[MODES])
+bool led_measure(const struct run *e, const struct led_tip *tip, real K[MODES])
 {
     const real h = e->scene->spacing, inner = real_max(3 * h, INNER * e->source.family.horizon);
     struct tip_view view = {.inner = inner, .outer = inner + WIDTH * h, .body = tip->body};
     for (int d = 0; d < 2; d++)
         view.place[d] = tip->place[d], view.along[d] = tip->along[d], view.last[d] = tip->last[d];
-    memcpy(view.axis, e->statics.led.plane.axis, sizeof view.axis);
+    memcpy(view.axis, e->statics->led.plane.axis, sizeof view.axis);
     view.outer = real_min(view.outer, real_max(tip->sees, LEAST * h));
     view.medium = medium_at(e, tip, 0.5 * (view.inner + view.outer));
     struct crack *crack = cracks_now(e, &view.cracks);
@@ -202,12 +206,12 @@ bool led_measure(const struct engine *e, const struct led_tip *tip, real K[MODES
     const bool seen = tip_fit(&view, &e->part, K);
     cracks_now_free(crack, view.cracks);
     if (on_mirror(e, tip)) K[MODE_II] = 0;
-    const bool meets = e->contact.law.between == CONTACT_ALL && e->contact.touching > 0;
+    const bool meets = e->contact->law.between == CONTACT_ALL && e->contact->touching > 0;
     if (meets) K[MODE_I] = real_max(K[MODE_I], 0); /* closed: the forces between its faces show */
     return seen;
 }
 
-void led_turn(const struct engine *e, struct led_tip *tip)
+void led_turn(const struct run *e, struct led_tip *tip)
 {
     if (tip->hold > AHEAD * e->scene->spacing || !led_measure(e, tip, tip->K)) {
         for (int d = 0; d < 2; d++) tip->heading[d] = tip->last[d];
@@ -228,17 +232,17 @@ static const struct led_tip *tip_farthest(const struct led *l, bool on)
     return first;
 }
 
-void led_factors(struct engine *e, real K[MODES])
+void led_factors(struct run *e, real K[MODES])
 {
-    const struct led_tip *first = led_leads(e) ? tip_farthest(&e->statics.led, true) : NULL;
+    const struct led_tip *first = led_leads(e) ? tip_farthest(&e->statics->led, true) : NULL;
     K[MODE_I] = K[MODE_II] = NAN;
     if (first) led_measure(e, first, K);
 }
 
-void led_place(const struct engine *e, real place[DIM_MAX])
+void led_place(const struct run *e, real place[DIM_MAX])
 {
-    const struct led_plane *plane = &e->statics.led.plane;
-    const struct led_tip *first = tip_farthest(&e->statics.led, false);
+    const struct led_plane *plane = &e->statics->led.plane;
+    const struct led_tip *first = tip_farthest(&e->statics->led, false);
     for (int d = 0; d < DIM_MAX; d++)
         place[d] = first ? first->place[0] * plane->axis[0][d] + first->place[1] * plane->axis[1][d] +
                                plane->middle * plane->front[d]
@@ -265,7 +269,7 @@ static bool ends_here(const struct crack *c, const struct led_tip *tip, real wit
     return led_distance(c->corner[0], tip->place) <= within || led_distance(c->corner[1], tip->place) <= within;
 }
 
-void led_next_place(const struct engine *e, const struct led_tip *tip, real place[2])
+void led_next_place(const struct run *e, const struct led_tip *tip, real place[2])
 {
     const struct scene *s = e->scene;
     const real h = s->spacing;
@@ -275,7 +279,7 @@ void led_next_place(const struct engine *e, const struct led_tip *tip, real plac
     led_ahead(tip->place, h, tip->heading, to);
     if (s->steps.energy > 0)
         way = s->steps.energy /
-              (led_toughness(e, tip) * real_max(h, led_width(e, &e->statics.led.plane, tip->place, to)));
+              (led_toughness(e, tip) * real_max(h, led_width(e, &e->statics->led.plane, tip->place, to)));
     struct crack *crack = cracks_now(e, &cracks);
     led_ahead(tip->place, way, tip->heading, to);
     for (int k = 0; k < cracks; k++)
@@ -284,16 +288,16 @@ void led_next_place(const struct engine *e, const struct led_tip *tip, real plac
     cracks_now_free(crack, cracks);
 }
 
-real led_toughness(const struct engine *e, const struct led_tip *tip) { return toughness_of(e, material_at(e, tip)); }
+real led_toughness(const struct run *e, const struct led_tip *tip) { return toughness_of(e, material_at(e, tip)); }
 
 /* Can the crack go on? */
-static bool body_is_ahead(const struct engine *e, const struct led_tip *tip)
+static bool body_is_ahead(const struct run *e, const struct led_tip *tip)
 {
     const struct particles *p = &e->part;
     const real h = e->scene->spacing;
     real ahead[2];
     led_ahead(tip->place, h, tip->heading, ahead);
-    const real wide = p->dim == 2 ? 1 : led_width(e, &e->statics.led.plane, tip->place, ahead) / h;
+    const real wide = p->dim == 2 ? 1 : led_width(e, &e->statics->led.plane, tip->place, ahead) / h;
     int free_ones = 0;
     for (int64_t i = 0; i < p->n_all; i++) {
         real X[2];
@@ -329,14 +333,14 @@ static void frame_follow(struct led_tip *tip, real way, real h)
     tip->hold = real_max(0, tip->hold - way);
 }
 
-void led_move(struct engine *e, int k)
+void led_move(struct run *e, int k)
 {
-    struct led_tip *tip = &e->statics.led.tip[k];
+    struct led_tip *tip = &e->statics->led.tip[k];
     const real h = e->scene->spacing;
     real to[2];
     led_next_place(e, tip, to);
     const real way = led_distance(to, tip->place);
-    led_path_add(&e->statics.led, k, to);
+    led_path_add(&e->statics->led, k, to);
     frame_follow(tip, way, h);
     for (int d = 0; d < 2; d++) tip->last[d] = tip->heading[d], tip->place[d] = to[d];
     tip->grown += way, tip->sees += way;
@@ -344,9 +348,9 @@ void led_move(struct engine *e, int k)
     tip->ended = !body_is_ahead(e, tip) || led_distance(to, tip->place) < REST * h;
 }
 
-void led_lose(struct engine *e)
+void led_lose(struct run *e)
 {
-    for (int k = 0; k < e->statics.led.n; k++) e->statics.led.tip[k].ended = true;
+    for (int k = 0; k < e->statics->led.n; k++) e->statics->led.tip[k].ended = true;
 }
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
@@ -357,9 +361,9 @@ void led_free(struct led *l)
     memset(l, 0, sizeof *l);
 }
 
-status led_archive(struct engine *e, struct archive *a)
+status led_archive(struct run *e, struct archive *a)
 {
-    struct led *l = &e->statics.led;
+    struct led *l = &e->statics->led;
     ARCHIVE_VALUE(a, "statics/led", l->known);
     ARCHIVE_VALUE(a, "statics/led_n", l->n);
     ARCHIVE_VALUE(a, "statics/led_tips", l->tip);

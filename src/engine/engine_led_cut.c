@@ -6,6 +6,7 @@
 #include "engine_statics.h"
 #include "kernels/kernels.h"
 #include "kernels/pd/bond_last.h"
+#include "quasistatic/statics.h"
 
 #define STRESSED 0.5  /* overload below which nothing is tried */
 #define AGAIN 1.25    /* growth of loads after which what is not due is tried anew */
@@ -16,7 +17,7 @@ enum { CLAIMS_MOST = 4 };
 /* ---- bonds that a stretch cuts ----------------------------------------------------------------------------------- */
 
 /* Adds the bonds of a row that one of the ways cuts. */
-static void cut_row(const struct engine *e, const struct crack_list *ways, int64_t r, struct break_list *l)
+static void cut_row(const struct run *e, const struct crack_list *ways, int64_t r, struct break_list *l)
 {
     real X[DIM_MAX] = {0}, Y[DIM_MAX] = {0};
     bool close = false;
@@ -34,7 +35,7 @@ static void cut_row(const struct engine *e, const struct crack_list *ways, int64
 }
 
 /* A stretch of a tip's way, and its images in planes of symmetry. */
-static void ways_of(const struct engine *e, const struct led_tip *tip, const real from[2], const real to[2],
+static void ways_of(const struct run *e, const struct led_tip *tip, const real from[2], const real to[2],
                     struct crack_list *ways)
 {
     real corner[2][DIM_MAX] = {{0}};
@@ -42,13 +43,13 @@ static void ways_of(const struct engine *e, const struct led_tip *tip, const rea
     for (int d = 0; d < 2; d++)
         corner[tip->reversed][d] = from[d], corner[!tip->reversed][d] = to[d] + beyond * tip->heading[d];
     const struct crack path = {.n = 2, .corner = corner};
-    cracks_mirrored(ways, &path, 1, e->statics.led.plane.mirror, e->statics.led.plane.mirrors,
+    cracks_mirrored(ways, &path, 1, e->statics->led.plane.mirror, e->statics->led.plane.mirrors,
                     e->source.family.cutoff, ON_SURFACE * e->scene->spacing);
 }
 
 /* What the bonds of a stretch cost is that of its area [J]: state-based bonds have no energy of their own, and in space
  * those of the sides of a body have weights of faces, and some at the tip of a pre-crack have been cut with it. */
-static void stretch_price(const struct engine *e, const struct led_tip *tip, struct break_list *l)
+static void stretch_price(const struct run *e, const struct led_tip *tip, struct break_list *l)
 {
     const bool state_based = e->scene->model != MODEL_BOND;
     real to[2], sum = 0;
@@ -60,7 +61,7 @@ static void stretch_price(const struct engine *e, const struct led_tip *tip, str
 }
 
 /* All of what the next stretch of a tip cuts; returns what it costs [J]. */
-static real stretch_list(const struct engine *e, const struct led_tip *tip, struct break_list *l)
+static real stretch_list(const struct run *e, const struct led_tip *tip, struct break_list *l)
 {
     struct crack_list ways;
     real cost = 0, to[2];
@@ -73,7 +74,7 @@ static real stretch_list(const struct engine *e, const struct led_tip *tip, stru
     return cost;
 }
 
-void led_free_behind(struct engine *e, const struct led_tip *tip)
+void led_free_behind(struct run *e, const struct led_tip *tip)
 {
     const real length = real_min(tip->sees, e->source.family.cutoff + 2 * e->scene->spacing);
     struct break_list list = {0};
@@ -91,7 +92,7 @@ void led_free_behind(struct engine *e, const struct led_tip *tip)
 /* ---- trials ------------------------------------------------------------------------------------------------------ */
 
 /* Marks material points round the next stretch for conversion, since cracks need bonds. Returns their number. */
-static int64_t stretch_claim(struct engine *e, const struct led_tip *tip)
+static int64_t stretch_claim(struct run *e, const struct led_tip *tip)
 {
     struct particles *p = &e->part;
     real to[DIM_MAX] = {0}, from[DIM_MAX] = {tip->place[0], tip->place[1]};
@@ -109,9 +110,9 @@ static int64_t stretch_claim(struct engine *e, const struct led_tip *tip)
 }
 
 /* Tips turn to where they go; what they are to cut becomes peridynamic. */
-static status tips_turn(struct engine *e)
+static status tips_turn(struct run *e)
 {
-    struct led *l = &e->statics.led;
+    struct led *l = &e->statics->led;
     int64_t claimed = 1;
     for (int round = 0; round < CLAIMS_MOST && claimed > 0; round++) {
         claimed = 0;
@@ -123,18 +124,18 @@ static status tips_turn(struct engine *e)
 }
 
 /* Breaks bonds, and says what the body releases by it. */
-static status list_try(struct engine *e, const struct break_list *l, struct advance *a)
+static status list_try(struct run *e, const struct break_list *l, struct advance *a)
 {
     const real before = statics_released(e);
     statics_break_listed(e, l);
-    const status tried = statics_go(e, e->statics.t);
-    a->release = (statics_released(e) - before) / square(statics_load_size(e, e->statics.t));
+    const status tried = statics_go(e, e->statics->t);
+    a->release = (statics_released(e) - before) / square(statics_load_size(e, e->statics->t));
     return tried;
 }
 
 /* The stretch behind the tip of a pre-crack that has not grown, by the next one and the one after it, straight on. The
  * next one is broken. */
-static status behind_first_find(struct engine *e, struct led_tip *tip)
+static status behind_first_find(struct run *e, struct led_tip *tip)
 {
     struct led_tip beyond = *tip;
     struct break_list list = {0};
@@ -152,7 +153,7 @@ static status behind_first_find(struct engine *e, struct led_tip *tip)
 }
 
 /* Breaks the bonds of a tip's next stretch on trial. */
-static status stretch_try(struct engine *e, struct led_tip *tip, const struct break_list *l)
+static status stretch_try(struct run *e, struct led_tip *tip, const struct break_list *l)
 {
     struct stand stand;
     stand_take(&stand, e);
@@ -170,9 +171,9 @@ static bool list_has(const struct break_list *l, const struct broken_bond *recor
 }
 
 /* The next advance: the tip whose stretch comes first, and those that come with it. */
-static void advance_choose(struct engine *e, struct break_list *list)
+static void advance_choose(struct run *e, struct break_list *list)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     struct led *l = &s->led;
     real first = INFINITY;
     s->ahead = s->behind = (struct advance){0};
@@ -191,9 +192,9 @@ static void advance_choose(struct engine *e, struct break_list *list)
 
 /* Tips that come together release more than each of them beside the others as they are. What they release at once is
  * shared among them; the stretches behind them are such shares, too, but before the first advance. */
-static status together_try(struct engine *e)
+static status together_try(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     struct stand stand;
     const real apart = s->ahead.release;
     int comes = 0;
@@ -211,7 +212,7 @@ static status together_try(struct engine *e)
 }
 
 /* Compressed tips do not advance; one that has nothing to cut has arrived. */
-static status tip_try(struct engine *e, struct led_tip *tip, struct break_list *list)
+static status tip_try(struct run *e, struct led_tip *tip, struct break_list *list)
 {
     tip->ahead = (struct advance){0}, tip->due = INFINITY;
     if (tip->ended || !(tip->K[0] >= 0)) return OK;
@@ -223,9 +224,9 @@ static status tip_try(struct engine *e, struct led_tip *tip, struct break_list *
     return OK;
 }
 
-status led_look_ahead(struct engine *e)
+status led_look_ahead(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     struct break_list list[LED_MAX] = {{0}};
     status tried = OK;
     const real size = statics_load_size(e, s->t);
@@ -240,9 +241,9 @@ status led_look_ahead(struct engine *e)
     return tried;
 }
 
-void led_advance(struct engine *e)
+void led_advance(struct run *e)
 {
-    struct led *l = &e->statics.led;
+    struct led *l = &e->statics->led;
     for (int k = 0; k < l->n; k++) {
         struct led_tip *tip = &l->tip[k];
         tip->behind = tip->comes ? tip->ahead : (struct advance){0};

@@ -8,6 +8,9 @@
 
 #include "base/memory.h"
 #include "engine_statics.h"
+#include "quasistatic/statics.h"
+#include "fracture/fracture_part.h"
+#include "fracture/tips.h"
 
 #define STRAIGHT 1e-6  /* sine of an angle that is none */
 #define NUDGE 1e-6     /* by which places between particles belong to one of them [spacings] */
@@ -46,18 +49,18 @@ void led_project(const struct led_plane *plane, const real *X, int dim, real to[
     for (int a = 0; a < 2; a++) to[a] = dot(plane->axis[a], X, dim);
 }
 
-void led_project_particle(const struct engine *e, int64_t i, real to[2])
+void led_project_particle(const struct run *e, int64_t i, real to[2])
 {
     real X[DIM_MAX] = {0};
     particle_place(&e->part, i, X);
-    led_project(&e->statics.led.plane, X, e->part.dim, to);
+    led_project(&e->statics->led.plane, X, e->part.dim, to);
 }
 
 /* ---- what has to be so in space ---------------------------------------------------------------------------------- */
 
-static const char *front_find(const struct engine *e, struct led_plane *plane)
+static const char *front_find(const struct run *e, struct led_plane *plane)
 {
-    const struct tips *t = &e->fracture.tips;
+    const struct tips *t = &e->fracture->tips;
     bool found = false;
     for (int k = 0; k < t->n; k++) {
         real along[DIM_MAX], turn[DIM_MAX];
@@ -72,15 +75,15 @@ static const char *front_find(const struct engine *e, struct led_plane *plane)
     return found ? NULL : "no pre-crack ends in the body";
 }
 
-static void front_middle(const struct engine *e, struct led_plane *plane)
+static void front_middle(const struct run *e, struct led_plane *plane)
 {
-    const struct tips *t = &e->fracture.tips;
+    const struct tips *t = &e->fracture->tips;
     for (int k = t->n - 1; k >= 0; k--)
         if (t->tip[k].from_crack) plane->middle = dot(plane->front, t->tip[k].origin, 3);
 }
 
 /* A plane of symmetry lies along the fronts, or across them. */
-static const char *mirrors_find(const struct engine *e, struct led_plane *plane)
+static const char *mirrors_find(const struct run *e, struct led_plane *plane)
 {
     for (int k = 0; k < e->source.mirrors; k++) {
         struct mirror_plane m = e->source.mirror[k];
@@ -114,7 +117,7 @@ bool led_segment(const struct led_plane *plane, const struct crack *c, int dim, 
     return fabs(dot(area, plane->front, 3)) <= STRAIGHT * size;
 }
 
-static const char *cracks_check(const struct engine *e, const struct led_plane *plane)
+static const char *cracks_check(const struct run *e, const struct led_plane *plane)
 {
     const struct crack_list *l = &e->tables.cracks;
     for (int k = 0; k < l->n; k++) {
@@ -131,9 +134,9 @@ static const char *cracks_check(const struct engine *e, const struct led_plane *
 }
 
 /* Fronts end where the body does. */
-static const char *fronts_check(const struct engine *e, const struct led_plane *plane)
+static const char *fronts_check(const struct run *e, const struct led_plane *plane)
 {
-    const struct tips *t = &e->fracture.tips;
+    const struct tips *t = &e->fracture->tips;
     const real h = e->scene->spacing;
     for (int k = 0; k < t->n; k++) {
         real at[2][2], along[2];
@@ -147,7 +150,7 @@ static const char *fronts_check(const struct engine *e, const struct led_plane *
     return NULL;
 }
 
-const char *led_plane_find(const struct engine *e, struct led_plane *plane)
+const char *led_plane_find(const struct run *e, struct led_plane *plane)
 {
     const char *fault = NULL;
     *plane = (struct led_plane){.made = true};
@@ -165,7 +168,7 @@ const char *led_plane_find(const struct engine *e, struct led_plane *plane)
 /* ---- areas ------------------------------------------------------------------------------------------------------- */
 
 /* Is a particle on a plane of symmetry along the front, so that half of it belongs to the body? */
-static real share_beside_mirrors(const struct engine *e, const struct led_plane *plane, int64_t i)
+static real share_beside_mirrors(const struct run *e, const struct led_plane *plane, int64_t i)
 {
     real share = 1;
     for (int k = 0; k < e->source.mirrors; k++) {
@@ -177,7 +180,7 @@ static real share_beside_mirrors(const struct engine *e, const struct led_plane 
 }
 
 /* Length within the box of a particle of the line along the front through P [m]. */
-static real chord(const struct engine *e, const struct led_plane *plane, const real *P, int64_t i)
+static real chord(const struct run *e, const struct led_plane *plane, const real *P, int64_t i)
 {
     const real half = 0.5 * cbrt(e->part.volume0[i]);
     real low = -INFINITY, high = INFINITY;
@@ -193,7 +196,7 @@ static real chord(const struct engine *e, const struct led_plane *plane, const r
     return real_max(0, high - low);
 }
 
-real led_width(const struct engine *e, const struct led_plane *plane, const real *from, const real *to)
+real led_width(const struct run *e, const struct led_plane *plane, const real *from, const real *to)
 {
     const struct particles *p = &e->part;
     const real a[DIM_MAX] = {from[0], from[1]}, b[DIM_MAX] = {to[0], to[1]};
@@ -213,7 +216,7 @@ real led_width(const struct engine *e, const struct led_plane *plane, const real
     return sum / SAMPLES;
 }
 
-bool led_on_mirror(const struct engine *e, const struct led_plane *plane, const real *from, const real *to)
+bool led_on_mirror(const struct run *e, const struct led_plane *plane, const real *from, const real *to)
 {
     bool on = false;
     for (int k = 0; k < plane->mirrors; k++) {
@@ -224,9 +227,9 @@ bool led_on_mirror(const struct engine *e, const struct led_plane *plane, const 
     return on;
 }
 
-real led_face_area(const struct engine *e, const real *from, const real *to)
+real led_face_area(const struct run *e, const real *from, const real *to)
 {
-    const struct led_plane *plane = &e->statics.led.plane;
+    const struct led_plane *plane = &e->statics->led.plane;
     const real length = hypot(to[0] - from[0], to[1] - from[1]);
     return length * led_width(e, plane, from, to) * (led_on_mirror(e, plane, from, to) ? 0.5 : 1);
 }

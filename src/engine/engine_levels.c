@@ -4,6 +4,12 @@
 
 #include "base/memory.h"
 #include "engine/engine.h"
+#include "mesh/mesh_part.h"
+#include "mesh/levels.h"
+#include "probes/probes.h"
+#include "probes/probes_part.h"
+#include "coupling/coupling_part.h"
+#include "step/stability.h"
 
 /* Cells of level 0 round peridynamic particles, beyond those that let points convert: cracks run some way between two
  * changes. Cells merge later than they split. */
@@ -47,9 +53,9 @@ static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64
 }
 
 /* Marks the cells beside mirrors that are not on nodes of all levels. */
-static void demand_mirrors(const struct engine *e, uint8_t *demand)
+static void demand_mirrors(const struct run *e, uint8_t *demand)
 {
-    const struct mesh_levels *l = &e->reference.levels;
+    const struct mesh_levels *l = &e->frame->levels;
     const struct grid *g = &l->fine->grid;
     for (int b = 0; b < e->loads.n; b++) {
         const struct boundary *mirror = e->loads.load[b].boundary;
@@ -73,15 +79,15 @@ static void demand_slits(const struct mesh *mesh, uint8_t *demand)
 
 /* Marks the cells of level 0 in the ring of a sif probe and about it (`demand` NULL: none). Is any of them part of a
  * coarser one? */
-static bool ring_cells(const struct engine *e, int probe, uint8_t *demand)
+static bool ring_cells(const struct run *e, int probe, uint8_t *demand)
 {
     const struct observed seen = engine_observed(e);
-    const struct mesh_levels *l = &e->reference.levels;
+    const struct mesh_levels *l = &e->frame->levels;
     const struct grid *g = &l->fine->grid;
     real place[2], radius;
     int64_t from[2], to[2];
     bool coarse = false;
-    if (!probes_sif_ring(&e->probing.probes, probe, &seen, place, &radius)) return false;
+    if (!probes_sif_ring(&e->probing->probes, probe, &seen, place, &radius)) return false;
     radius += AROUND_RING * e->scene->spacing;
     for (int d = 0; d < 2; d++) {
         from[d] = grid_cell(g, d, place[d] - radius) - g->first[d];
@@ -100,10 +106,10 @@ static bool ring_cells(const struct engine *e, int probe, uint8_t *demand)
 }
 
 /* The same of all sif probes: they want accelerations, which coarse cells have at some steps only. */
-static bool rings_cells(const struct engine *e, uint8_t *demand)
+static bool rings_cells(const struct run *e, uint8_t *demand)
 {
     bool coarse = false;
-    for (int k = 0; k < e->probing.probes.n; k++) coarse |= ring_cells(e, k, demand);
+    for (int k = 0; k < e->probing->probes.n; k++) coarse |= ring_cells(e, k, demand);
     return coarse;
 }
 
@@ -116,9 +122,9 @@ static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t 
 /* Cells of level 0 that must stay so: within `more` cells beyond the roomy ones of peridynamic particles and where
  * something is wanted, FLANK_MORE farther from several slits, and within one of a single slit, of what loads act on and
  * of mirrors. The caller frees them. */
-static uint8_t *demand_make(const struct engine *e, int more)
+static uint8_t *demand_make(const struct run *e, int more)
 {
-    const struct mesh_levels *l = &e->reference.levels;
+    const struct mesh_levels *l = &e->frame->levels;
     const struct particles *p = &e->part;
     const int64_t n = l->fine->grid.n;
     uint8_t *demand = NEW("levels.demand", n, uint8_t), *fixed = NEW("levels.fixed", n, uint8_t);
@@ -127,7 +133,7 @@ static uint8_t *demand_make(const struct engine *e, int more)
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) demand[cell_of(l->fine, p, p->list[KIND_PD][k])] = 1;
     levels_dilate(l, demand, l->roomy_cells + more);
     demand_slits(l->fine, flank);
-    levels_dilate(l, flank, e->coupling.notches.slits > 1 ? l->roomy_cells + more + FLANK_MORE : 1);
+    levels_dilate(l, flank, e->coupling->notches.slits > 1 ? l->roomy_cells + more + FLANK_MORE : 1);
     marks_add(l, flank, demand);
     memory_free(flank);
     for (int b = 0; b < e->loads.n; b++)
@@ -160,14 +166,14 @@ static void demand_add(const struct mesh_levels *l, int level, const uint8_t *ma
 
 /* Marks [fine->grid.n] the cells whose stress exceeds `share` of that at which they convert, with those around them:
  * coarse ones, or all; NULL: there are none. The caller frees them. */
-static uint8_t *stressed_cells(const struct engine *e, real share, bool all)
+static uint8_t *stressed_cells(const struct run *e, real share, bool all)
 {
-    const struct mesh_levels *l = &e->reference.levels;
+    const struct mesh_levels *l = &e->frame->levels;
     uint8_t *cells = NULL;
     for (int level = all ? 0 : 1; level <= l->n; level++) {
         const struct mesh *mesh = level_mesh_of(l, level);
         uint8_t *mark = NEW("levels.mark", mesh->grid.n, uint8_t);
-        mesh_cells_mark(mesh, e->reference.elastic, share, all, mark, !e->scene->small_strain);
+        mesh_cells_mark(mesh, e->frame->elastic, share, all, mark, !e->scene->small_strain);
         if (memchr(mark, 1, (size_t)mesh->grid.n)) {
             if (!cells) cells = NEW("levels.cells", l->fine->grid.n, uint8_t);
             demand_add(l, level, mark, cells);
@@ -186,48 +192,48 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
 }
 
 /* Lowers bounds of levels to what the thickness of the body allows; levels that the scene gives stay. */
-static void limit_by_room(const struct engine *e, uint8_t *limit)
+static void limit_by_room(const struct run *e, uint8_t *limit)
 {
-    const struct reference_frame *r = &e->reference;
+    const struct reference_frame *r = e->frame;
     for (int64_t I = 0; I < r->mesh.grid.n && r->room && e->scene->levels == LEVELS_AUTO; I++)
         if (r->room[I] < limit[I]) limit[I] = r->room[I];
 }
 
 /* The levels that cells may have next, of which coarser ones than now hold the motion there is. Changes limit. */
-static void next_levels(struct engine *e, const uint8_t *demand, uint8_t *limit, uint8_t *level)
+static void next_levels(struct run *e, const uint8_t *demand, uint8_t *limit, uint8_t *level)
 {
-    struct mesh_levels *l = &e->reference.levels;
+    struct mesh_levels *l = &e->frame->levels;
     levels_map(l, &e->part, demand, limit, level);
     if (!any_merges(l, level)) return;
-    const real most = ROUGH * (engine_mesh_kinetic(&e->reference) + engine_mesh_strain(e)) / e->stability.mass;
+    const real most = ROUGH * (engine_mesh_kinetic(e->frame) + engine_mesh_strain(e)) / e->stability->mass;
     levels_prolong(l);
     while (levels_limit_rough(l, level, most, limit)) levels_map(l, &e->part, demand, limit, level);
 }
 
-void engine_levels_found(struct engine *e)
+void engine_levels_found(struct run *e)
 {
-    struct mesh_levels *l = &e->reference.levels;
+    struct mesh_levels *l = &e->frame->levels;
     for (int k = 1; k <= l->n; k++) loads_level_find(&e->loads, &l->at[k].held, &l->at[k].mesh.grid, &e->part);
     engine_mesh_follow_points(e);
 }
 
 /* Changes the levels; what that does to the energy is booked as damped. */
-static void change(struct engine *e, const uint8_t *level)
+static void change(struct run *e, const uint8_t *level)
 {
-    struct reference_frame *r = &e->reference;
+    struct reference_frame *r = e->frame;
     const bool finite = !e->scene->small_strain;
     const real dt = e->clock.step > 0 ? e->clock.dt : 0;     /* at first velocities are those of the same time */
     levels_half_kick(&r->levels, &e->part, r->elastic, finite, dt);
     const real before = engine_mesh_kinetic(r) + engine_mesh_strain(e);
     levels_change(&r->levels, &e->part, &r->source, level);
     engine_levels_found(e);
-    e->coupling.damped += before - engine_mesh_kinetic(r) - engine_mesh_strain(e);
+    e->damped += before - engine_mesh_kinetic(r) - engine_mesh_strain(e);
     levels_half_kick(&r->levels, &e->part, r->elastic, finite, -dt);
 }
 
-status engine_levels_make(struct engine *e, bool restored)
+status engine_levels_make(struct run *e, bool restored)
 {
-    struct reference_frame *r = &e->reference;
+    struct reference_frame *r = e->frame;
     const struct scene *s = e->scene;
     real density[UINT8_MAX], fastest = 0;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
@@ -260,7 +266,7 @@ status engine_levels_make(struct engine *e, bool restored)
     next_levels(e, demand, limit, level);
     if (engine_hollow_start(e, level)) change(e, level);
     memory_free(limit);
-    e->coupling.damped = 0;                      /* the run begins with what the coarse cells have */
+    e->damped = 0;                      /* the run begins with what the coarse cells have */
     memory_free(demand);
     memory_free(stressed);
     memory_free(level);
@@ -279,9 +285,9 @@ static bool any_stressed(const struct mesh_levels *l)
 }
 
 /* Bounds of the levels at the next change: cells become finer at once, and coarser where they have been calm. */
-static void limits_find(struct engine *e, bool looks, uint8_t *limit)
+static void limits_find(struct run *e, bool looks, uint8_t *limit)
 {
-    struct mesh_levels *l = &e->reference.levels;
+    struct mesh_levels *l = &e->frame->levels;
     const int64_t n = l->fine->grid.n;
     array_copy(limit, l->level, n, 1);
     if (!looks) return;
@@ -297,9 +303,9 @@ static void limits_find(struct engine *e, bool looks, uint8_t *limit)
 }
 
 /* Points that lost a bond near coarse cells convert now that these are finer: all material points in their cells. */
-static void lost_bonds_return(struct engine *e)
+static void lost_bonds_return(struct run *e)
 {
-    struct mesh_levels *l = &e->reference.levels;
+    struct mesh_levels *l = &e->frame->levels;
     struct particles *p = &e->part;
     if (!l->any_wanted) return;
     for (int64_t k = 0; k < p->n_of[KIND_MPM]; k++) {
@@ -309,9 +315,9 @@ static void lost_bonds_return(struct engine *e)
     array_fill_bytes(l->wanted, WANTED_NOT, l->fine->grid.n, 1);
 }
 
-status engine_levels_follow(struct engine *e)
+status engine_levels_follow(struct run *e)
 {
-    struct mesh_levels *l = &e->reference.levels;
+    struct mesh_levels *l = &e->frame->levels;
     if (l->n == 0 || e->clock.step == 0 || e->clock.step % levels_stride(l) != 0) return OK;
     const bool looks = e->clock.step % LOOK_STEPS == 0;
     levels_sync(l);
@@ -345,14 +351,14 @@ static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
     if (waits) p->flag[i] &= (uint8_t)~marks;
 }
 
-void engine_levels_guard(struct engine *e)
+void engine_levels_guard(struct run *e)
 {
     struct particles *p = &e->part;
-    e->reference.levels.returned = false;
-    if (e->reference.levels.n == 0 || !convert_due(p)) return;
+    e->frame->levels.returned = false;
+    if (e->frame->levels.n == 0 || !convert_due(p)) return;
     for (int64_t first = 0; first < p->n; first += LANES) {
         if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND))) continue;
-        for (int64_t i = first; i < first + LANES && i < p->n; i++) point_guard(&e->reference.levels, p, i);
+        for (int64_t i = first; i < first + LANES && i < p->n; i++) point_guard(&e->frame->levels, p, i);
     }
 }
 
@@ -363,9 +369,9 @@ real engine_mesh_kinetic(const struct reference_frame *reference)
     return mesh_kinetic(&reference->mesh) + levels_kinetic(&reference->levels);
 }
 
-real engine_mesh_strain(struct engine *e)
+real engine_mesh_strain(struct run *e)
 {
-    struct reference_frame *r = &e->reference;
+    struct reference_frame *r = e->frame;
     const bool finite = !e->scene->small_strain;
     return mesh_strain(&r->mesh, &e->part, r->elastic, finite) +
            levels_strain(&r->levels, &e->part, r->elastic, finite);

@@ -10,6 +10,9 @@
 #include "auto/scene_read.h"
 #include "base/memory.h"
 #include "engine/engine.h"
+#include "mesh/mesh_part.h"
+#include "mesh/mesh_make.h"
+#include "mesh/levels.h"
 
 enum { PAYS = 100000 };                  /* particles of a body from which on coarse cells save time */
 #define RISES 2.5                        /* edges of a cell in the rise of a front or pulse, at least */
@@ -57,7 +60,7 @@ static real slowest_waves(const struct scene *s)
 }
 
 /* The load that asks for the smallest cells. */
-static struct load_rise sharpest_rise(const struct engine *e, real across)
+static struct load_rise sharpest_rise(const struct run *e, real across)
 {
     const struct scene *s = e->scene;
     const real c = slowest_waves(s), D = s->spacing;
@@ -84,11 +87,11 @@ static struct load_rise sharpest_rise(const struct engine *e, real across)
 }
 
 /* Least extent of the bodies in the plane, in space the middle one, in spacings. */
-static real spacings_across(const struct engine *e)
+static real spacings_across(const struct run *e)
 {
     const struct scene *s = e->scene;
     real extent[DIM_MAX] = {0}, low[DIM_MAX], high[DIM_MAX];
-    const bool made = !e->reference.hollow.absent || !region_bounds(&s->body[0].shape, s->dim, low, high);
+    const bool made = !e->frame->hollow.absent || !region_bounds(&s->body[0].shape, s->dim, low, high);
     for (int d = 0; d < s->dim; d++) {
         if (made) particles_extent(&e->part, e->part.n, d, &low[d], &high[d]), high[d] += s->spacing;
         extent[d] = (high[d] - low[d]) / s->spacing;
@@ -101,9 +104,9 @@ static real spacings_across(const struct engine *e)
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-void engine_levels_room(struct engine *e)
+void engine_levels_room(struct run *e)
 {
-    struct reference_frame *r = &e->reference;
+    struct reference_frame *r = e->frame;
     const struct scene *s = e->scene;
     if (!scene_moves(s) || r->mesh.points == 0 || s->levels == 0) return;
     if (s->levels == LEVELS_AUTO && e->part.n_body < PAYS) return;
@@ -111,13 +114,13 @@ void engine_levels_room(struct engine *e)
     r->room_most = mesh_room(&r->mesh, e->source.mirror, e->source.mirrors, r->room);
 }
 
-struct levels_choice engine_levels_choice(const struct engine *e)
+struct levels_choice engine_levels_choice(const struct run *e)
 {
     const struct scene *s = e->scene;
     struct levels_choice c = {.given = s->levels != LEVELS_AUTO, .across = spacings_across(e)};
     c.rise = sharpest_rise(e, c.across);
     if (!scene_moves(s)) c.why = LEVELS_AT_REST;
-    else if (e->reference.mesh.points == 0) c.why = LEVELS_NO_MESH;
+    else if (e->frame->mesh.points == 0) c.why = LEVELS_NO_MESH;
     else if (e->part.n_body < PAYS) c.why = LEVELS_FEW;
     else if (s->damping > 0) c.why = LEVELS_DAMPED;
     else if (s->time_step > LEVELS_STEP_MOST * e->clock.dt_critical) c.why = LEVELS_LONG_STEP;
@@ -125,14 +128,14 @@ struct levels_choice engine_levels_choice(const struct engine *e)
         const real most = edge_for(&c.rise, c.across, ACROSS);
         while (c.automatic < LEVELS_MAX && (real)(4 << c.automatic) <= most * (1 + 1e-6)) c.automatic++;
         c.why = LEVELS_BY_LOADS;
-        if (e->reference.room && e->reference.room_most < c.automatic)
-            c.automatic = e->reference.room_most, c.why = LEVELS_THIN;
+        if (e->frame->room && e->frame->room_most < c.automatic)
+            c.automatic = e->frame->room_most, c.why = LEVELS_THIN;
     }
     c.levels = c.why == LEVELS_AT_REST || c.why == LEVELS_NO_MESH ? 0 : c.given ? s->levels : c.automatic;
     return c;
 }
 
-int engine_levels_number(const struct engine *e) { return engine_levels_choice(e).levels; }
+int engine_levels_number(const struct run *e) { return engine_levels_choice(e).levels; }
 
 /* ---- in words ---------------------------------------------------------------------------------------------------- */
 
@@ -163,7 +166,7 @@ static void want_text(const struct levels_choice *c, int edge, int edges, char *
 }
 
 /* Why auto takes as many as it does. */
-static void automatic_text(const struct engine *e, const struct levels_choice *c, char *text, size_t room)
+static void automatic_text(const struct run *e, const struct levels_choice *c, char *text, size_t room)
 {
     char load[256], want[160];
     const int edge = 2 << c->automatic;
@@ -193,7 +196,7 @@ static void automatic_text(const struct engine *e, const struct levels_choice *c
                  "%d or more of such cells)", edge, load, c->across, ACROSS);
 }
 
-void engine_levels_text(const struct engine *e, char *text, size_t room)
+void engine_levels_text(const struct run *e, char *text, size_t room)
 {
     const struct levels_choice c = engine_levels_choice(e);
     char why[600];
@@ -203,19 +206,19 @@ void engine_levels_text(const struct engine *e, char *text, size_t room)
     else snprintf(text, room, "cells of up to %d spacings by mpm.levels; auto: %s", 2 << c.levels, why);
 }
 
-void engine_choice_print(const struct engine *e, FILE *out)
+void engine_choice_print(const struct run *e, FILE *out)
 {
     char text[1024];
     scene_choice_print(e->scene, out);
-    if (!e->scene->choice.made || e->reference.mesh.points == 0 || scene_at_rest(e->scene)) return;
+    if (!e->scene->choice.made || e->frame->mesh.points == 0 || scene_at_rest(e->scene)) return;
     engine_levels_text(e, text, sizeof text);
     fprintf(out, "auto           levels: %s\n", text);
 }
 
 /* Coarse cells that the scene gives, where the body is too thin for them; false: there are none. */
-static bool thin_text(const struct engine *e, char *text, size_t room)
+static bool thin_text(const struct run *e, char *text, size_t room)
 {
-    const struct reference_frame *r = &e->reference;
+    const struct reference_frame *r = e->frame;
     const struct grid *g = &r->mesh.grid;
     int64_t thin = 0, coarse = 0, first = 0;
     int level = 0;
@@ -234,7 +237,7 @@ static bool thin_text(const struct engine *e, char *text, size_t room)
     return true;
 }
 
-bool engine_levels_coarse(const struct engine *e, char *text, size_t room)
+bool engine_levels_coarse(const struct run *e, char *text, size_t room)
 {
     struct levels_choice c = engine_levels_choice(e);
     char load[256], want[160];

@@ -3,7 +3,26 @@
 #include <string.h>
 
 #include "engine_statics.h"
+#include "parts.h"
 #include "base/memory.h"
+#include "coupling/coupling_part.h"
+#include "grid/grid_part.h"
+#include "fracture/fracture_part.h"
+#include "probes/probes_part.h"
+#include "quasistatic/statics.h"
+#include "probes/probes.h"
+#include "coupling/conversion.h"
+#include "probes/diagnostics.h"
+#include "rigid/rigid_part.h"
+#include "mesh/mesh_part.h"
+#include "step/report.h"
+#include "step/stability.h"
+#include "data/hollow.h"
+#include "contact/contact.h"
+#include "scene/fill.h"
+#include "output/output.h"
+#include "mesh/levels.h"
+#include "mesh/mesh_make.h"
 
 static bool has_peridynamics(const struct scene *s) { return s->method != METHOD_MPM; }
 
@@ -126,7 +145,7 @@ static void make_mirrors(const struct scene *s, const struct loads *loads, struc
 }
 
 /* Converts the initial peridynamic particles and makes the bonds. */
-static status make_bonds(struct engine *e, struct predecessor *before)
+static status make_bonds(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
     make_mirrors(e->scene, &e->loads, &e->tables, &e->source);
@@ -143,27 +162,27 @@ static status make_bonds(struct engine *e, struct predecessor *before)
     if (before) engine_take_particles(e, before);    /* slits are those of the start, whatever has converted since */
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
     if (before) engine_take_bonds(e, before);
-    e->coupling.conversion.first_time = NAN;
-    e->coupling.conversion.start = e->coupling.conversion.peak = e->part.n_of[KIND_PD];
-    e->coupling.conversion.peak_bonds = e->bonds.n;
+    e->coupling->conversion.first_time = NAN;
+    e->coupling->conversion.start = e->coupling->conversion.peak = e->part.n_of[KIND_PD];
+    e->coupling->conversion.peak_bonds = e->bonds.n;
     return OK;
 }
 
-void engine_partial_make(struct engine *e)
+void engine_partial_make(struct run *e)
 {
-    e->coupling.kind = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
-    e->coupling.partial.gives_all = e->coupling.kind != COUPLING_PARTIAL_STRESS;
-    e->coupling.uses_partial = !e->coupling.partial.gives_all || e->part.end_strain;
-    if (e->coupling.uses_partial) partial_stress_make(&e->coupling.partial, &e->part, &e->bonds, &e->source, NULL, 0);
+    e->coupling_kind = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
+    e->coupling->partial.gives_all = e->coupling_kind != COUPLING_PARTIAL_STRESS;
+    e->coupling->uses_partial = !e->coupling->partial.gives_all || e->part.end_strain;
+    if (e->coupling->uses_partial) partial_stress_make(&e->coupling->partial, &e->part, &e->bonds, &e->source, NULL, 0);
     engine_interface_make(e);
 }
 
 #define DAMPING_SHARE_MOST (1.0 / 16)        /* interface_zone.h */
 
-static void make_interface_damping_share(struct engine *e)
+static void make_interface_damping_share(struct run *e)
 {
-    e->coupling.damping_share =
-        real_min(e->scene->interface_damping * e->tables.wave_speed * e->clock.dt / e->mpm.field[0].grid.h,
+    e->coupling->damping_share =
+        real_min(e->scene->interface_damping * e->tables.wave_speed * e->clock.dt / e->grid->field[0].grid.h,
                  DAMPING_SHARE_MOST);
 }
 
@@ -214,7 +233,7 @@ static real particles_now(const struct scene *s, const struct particles *p, real
 }
 
 /* Of n particles with whole families or without; longest: edge of their box [spacings]. */
-static real memory_of(const struct engine *e, real n, real longest, bool families)
+static real memory_of(const struct run *e, real n, real longest, bool families)
 {
     const struct scene *s = e->scene;
     const real bonds = families ? e->source.family.full / e->source.family.cell_volume : 1;
@@ -223,14 +242,14 @@ static real memory_of(const struct engine *e, real n, real longest, bool familie
     return n * (BYTES_PER_PARTICLE + bonds * (follow ? BYTES_PER_BOND_LATTICE : BYTES_PER_BOND));
 }
 
-real engine_memory(const struct engine *e)
+real engine_memory(const struct run *e)
 {
     real longest;
     const real n = particles_now(e->scene, &e->part, &longest);
     return memory_of(e, n, longest, e->scene->method == METHOD_PD);
 }
 
-real engine_memory_peridynamic(const struct engine *e)
+real engine_memory_peridynamic(const struct run *e)
 {
     real longest;
     particles_expected(e->scene, &longest);
@@ -238,7 +257,7 @@ real engine_memory_peridynamic(const struct engine *e)
 }
 
 /* REFUSED if a run needs more memory than is available. */
-static status make_affordable(const struct engine *e)
+static status make_affordable(const struct run *e)
 {
     const real memory = (real)team_memory(), bytes = engine_memory(e);
     real longest;
@@ -248,6 +267,15 @@ static status make_affordable(const struct engine *e)
         "about %.2g particles would need some %.2g GB, and %.2g can be had (%s); choose a larger particles.spacing",
         particles_now(e->scene, &e->part, &longest), bytes * 1e-9, memory * 1e-9,
         team_memory_limit());
+}
+
+static void tables_free(struct material_tables *t)
+{
+    memory_free(t->pair_stretch), memory_free(t->pair_yield), memory_free(t->pair_hardening);
+    memory_free(t->elastic), memory_free(t->modulus), memory_free(t->impedance);
+    memory_free(t->mirror_axis), memory_free(t->mirror), crack_list_free(&t->cracks);
+    voids_free(&t->voids), memory_free(t->void_mirror);
+    memory_free(t->neighbour_volume), surface_free(&t->surface);
 }
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
@@ -260,34 +288,34 @@ static real largest_stress(const struct particles *p)
     return most;
 }
 
-struct observed engine_observed(const struct engine *e)
+struct observed engine_observed(const struct run *e)
 {
     const struct scene *s = e->scene;
     return (struct observed){
         .part = &e->part,
         .cells = &e->cells, .bonds = &e->bonds,
         .loads = &e->loads,
-        .grid = &e->mpm.field[0].grid,
-        .tips = &e->fracture.tips,
+        .grid = &e->grid->field[0].grid,
+        .tips = &e->fracture->tips,
         .material = s->material,
-        .partial = &e->coupling.partial,
+        .partial = &e->coupling->partial,
         .spacing = s->spacing,
         .thickness = e->source.family.section,
-        .strain_stress = e->probing.strain_stress,
-        .residual_step0 = e->probing.residual_step0,
+        .strain_stress = e->probing->strain_stress,
+        .residual_step0 = e->probing->residual_step0,
         .t = e->clock.t,
-        .in_steps = scene_in_steps(s), .load_step = e->statics.record.step,
+        .in_steps = scene_in_steps(s), .load_step = e->statics->record.step,
         .t_velocity = e->clock.step > 0 && scene_moves(s) ? e->clock.t - 0.5 * e->clock.dt : e->clock.t,
-        .pulse = e->probing.pulse,
-        .pulses = e->probing.pulses,
+        .pulse = e->probing->pulse,
+        .pulses = e->probing->pulses,
         .space = s->space,
         .horizon = e->source.family.horizon,
         .crack = s->crack,
         .cracks = s->cracks,
-        .energy_change = diagnostics_energy_change(&e->diagnostics),
-        .growth = e->fracture.growth,
+        .energy_change = diagnostics_energy_change(e->diagnostics),
+        .growth = e->fracture->growth,
         .growths = s->growths,
-        .baseline = e->probing.has_baseline ? &e->probing.baseline : NULL};
+        .baseline = e->probing->has_baseline ? &e->probing->baseline : NULL};
 }
 
 static void make_pulses(const struct scene *s, struct probing *probing)
@@ -327,7 +355,7 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
 }
 
 /* Critical step and time step, or those of the run that goes on. */
-static status make_time(struct engine *e, const struct predecessor *before)
+static status make_time(struct run *e, const struct predecessor *before)
 {
     if (!before) return named(e->scene, engine_time_make(e));
     e->clock = before->run->clock;
@@ -336,17 +364,17 @@ static status make_time(struct engine *e, const struct predecessor *before)
     return OK;
 }
 
-static void make_contact(struct engine *e)
+static void make_contact(struct run *e)
 {
     const struct scene *s = e->scene;
     const struct contact_law law = {
         .form = s->contact_form, .distance = s->contact_distance, .friction = s->contact_friction};
-    contact_make(&e->contact, !scene_at_rest(s) && has_peridynamics(s) ? s->contact_between : CONTACT_NONE,
-                 law, s->contact_stiffness, &e->source, e->shape, e->rigid, s->rigids);
+    contact_make(e->contact, !scene_at_rest(s) && has_peridynamics(s) ? s->contact_between : CONTACT_NONE,
+                 law, s->contact_stiffness, &e->source, e->rigid->shape, e->rigid->body, s->rigids);
 }
 
 /* Materials, kernels, and the particles that are made. */
-static status make_particles(struct engine *e)
+static status make_particles(struct run *e)
 {
     const struct scene *s = e->scene;
     e->optional = optional_arrays(s);
@@ -354,31 +382,31 @@ static status make_particles(struct engine *e)
     make_family(s, &e->source);
     kernels_choose(&e->kernels, s->dim, law_of(s, &e->source), s->shape, s->transfer);
     TRY(named(s, engine_hollow_plan(e)));
-    if (!e->reference.hollow.absent) TRY(named(s, make_affordable(e)));
-    TRY(fill_particles(&e->part, s, &e->reference.hollow, e->optional));
+    if (!e->frame->hollow.absent) TRY(named(s, make_affordable(e)));
+    TRY(fill_particles(&e->part, s, &e->frame->hollow, e->optional));
     engine_strength_found(e);
     return named(s, make_affordable(e));     /* with the actual number of particles */
 }
 
 /* What looks at the run: tips, growing cracks, probes. */
-static status make_probes(struct engine *e)
+static status make_probes(struct run *e)
 {
     const struct scene *s = e->scene;
-    e->probing.strain_stress = largest_stress(&e->part);
-    tips_make(&e->fracture.tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
+    e->probing->strain_stress = largest_stress(&e->part);
+    tips_make(&e->fracture->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
     engine_notch_tips(e);
     TRY(named(s, led_check(e)));
-    e->fracture.growth = NEW("engine.growth", s->growths, struct growth);
-    for (int k = 0; k < s->growths; k++) growth_make(&e->fracture.growth[k], &s->growth[k]);
+    e->fracture->growth = NEW("engine.growth", s->growths, struct growth);
+    for (int k = 0; k < s->growths; k++) growth_make(&e->fracture->growth[k], &s->growth[k]);
     if (scene_at_rest(s)) TRY(named(s, engine_solver_make(e)));
-    diagnostics_make(&e->diagnostics);
-    make_pulses(e->scene, &e->probing);
+    diagnostics_make(e->diagnostics);
+    make_pulses(e->scene, e->probing);
     struct observed o = engine_observed(e);
-    return named(s, probes_make(&e->probing.probes, s->probe, s->probes, &o));
+    return named(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
 }
 
 /* Loads, bonds, mesh: from the particles to the time step. */
-static status make_forces(struct engine *e, struct predecessor *before)
+static status make_forces(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
     TRY(named(s, engine_frames(e)));
@@ -404,94 +432,56 @@ static status make_forces(struct engine *e, struct predecessor *before)
     return make_time(e, before);
 }
 
-status engine_make_again(struct engine *e, const struct scene *s, struct output *out, struct hollow hollow,
+status engine_make_again(struct run *e, const struct scene *s, struct output *out, struct hollow hollow,
                          struct predecessor *before)
 {
     memset(e, 0, sizeof *e);
+    run_parts_make(e);
     e->scene = s;
-    e->report.out = out;
-    e->report.began = team_clock();
-    e->reference.hollow = hollow;
+    e->report->out = out;
+    e->report->began = team_clock();
+    e->frame->hollow = hollow;
     TRY(make_particles(e));
     TRY(named(s, engine_reversion_check(e->scene)));
     TRY(make_forces(e, before));
-    for (int64_t i = 0; i < e->part.n; i++) e->stability.mass += e->part.mass[i];
-    e->stability.mass += (real)(e->part.n_body - e->part.n) * e->part.mass[0];
+    for (int64_t i = 0; i < e->part.n; i++) e->stability->mass += e->part.mass[i];
+    e->stability->mass += (real)(e->part.n_body - e->part.n) * e->part.mass[0];
     if (!before) TRY(named(s, engine_levels_make(e, false)));
     make_interface_damping_share(e);
-    e->coupling.approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE && s->contact_convert &&
-                             engine_body_apart(s, 1) + s->rigids >= 0 && !coupling_unified(s->coupling);
-    e->mpm.transfer = (struct transfer_data){
-        &e->mpm.field[0].order, &e->coupling.partial, e->tables.elastic, 0.5 * s->spacing, e->clock.dt, e->clock.dt,
+    e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&
+                              s->contact_convert && engine_body_apart(s, 1) + s->rigids >= 0 &&
+                              !coupling_unified(s->coupling);
+    e->grid->transfer = (struct transfer_data){
+        &e->grid->field[0].order, &e->coupling->partial, e->tables.elastic, 0.5 * s->spacing, e->clock.dt, e->clock.dt,
         false, NULL, false, {NULL}};
     engine_turning_make(e);
     return make_probes(e);
 }
 
-status engine_make(struct engine *e, const struct scene *s, struct output *out)
+status engine_make(struct run *e, const struct scene *s, struct output *out)
 {
     struct hollow hollow = {0};
     for (;;) {
         TRY(engine_make_again(e, s, out, hollow, NULL));
-        if (!e->reference.lacks) return OK;
-        hollow = e->reference.hollow;
-        e->reference.hollow = (struct hollow){0};
+        if (!e->frame->lacks) return OK;
+        hollow = e->frame->hollow;
+        e->frame->hollow = (struct hollow){0};
         engine_free(e);
     }
 }
 
-void engine_free(struct engine *e)
+void engine_free(struct run *e)
 {
     memory_reuse(false);
-    if (e->report.out) (void)output_wait(e->report.out);   /* a frame being written still reads the particles */
-    probes_free(&e->probing.probes);
-    for (int d = 0; d < DIM_MAX; d++) memory_free(e->probing.baseline.v[d]), memory_free(e->report.sampling.before[d]);
-    memory_free(e->report.sampling.motion), tips_free(&e->fracture.tips);
-    for (int k = 0; e->fracture.growth && k < e->scene->growths; k++) growth_free(&e->fracture.growth[k]);
-    memory_free(e->fracture.growth);
-    partial_stress_free(&e->coupling.partial);
-    interface_zone_free(&e->coupling.zone);
-    memory_free(e->coupling.bonded);
-    active_points_free(&e->mpm.active), turning_free(&e->mpm.turning);
-    grid_coupled_free(&e->coupling.grid_coupled);
-    for (int k = 0; k < e->mpm.fields; k++) {
-        struct grid_field *f = &e->mpm.field[k];
-        grid_free(&f->grid);
-        transfer_order_free(&f->order);
-        memory_free(f->held.held), memory_free(f->list);
-    }
-    memory_free(e->mpm.field), grid_contact_free(&e->mpm.contact);
-    engine_damping_free(e);
+    if (e->report && e->report->out)
+        (void)output_wait(e->report->out); /* a frame being written still reads the particles */
+    run_parts_free(e);
     bonds_free(&e->bonds);
-    contact_free(&e->contact);
-    memory_free(e->rigid), memory_free(e->shape);
     cells_free(&e->cells);
     loads_free(&e->loads);
     particles_free(&e->part);
-    memory_free(e->coupling.start_region.solid);
-    notches_free(&e->coupling.notches);
-    solver_free(&e->solver), statics_free(e), led_free(&e->statics.led);
     memory_free(e->boundary);
-    memory_free(e->tables.pair_stretch);
-    memory_free(e->tables.impedance);
-    memory_free(e->tables.modulus);
-    memory_free(e->tables.mirror_axis);
-    memory_free(e->tables.mirror);
-    crack_list_free(&e->tables.cracks), engine_voids_free(e);
-    memory_free(e->tables.pair_yield);
-    memory_free(e->tables.pair_hardening);
-    memory_free(e->tables.neighbour_volume);
-    surface_free(&e->tables.surface);
-    memory_free(e->tables.elastic);
-    memory_free(e->reference.elastic);
-    memory_free(e->reference.coarse), memory_free(e->reference.room);
-    memory_free(e->reference.choice);
-    levels_free(&e->reference.levels);
-    mesh_free(&e->reference.mesh);
-    hollow_free(&e->reference.hollow);
-    engine_hollow_points_free(e);
-    memory_free(e->report.record);
-    memory_free(e->probing.pulse);
-    warnings_free(&e->report.warnings);
+    tables_free(&e->tables);
+    warnings_free(&e->warnings);
     memset(e, 0, sizeof *e);
 }

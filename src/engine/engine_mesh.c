@@ -7,6 +7,12 @@
 #include "engine/engine.h"
 #include "engine_report.h"
 #include "base/memory.h"
+#include "grid/grid_part.h"
+#include "mesh/mesh_part.h"
+#include "coupling/coupling_part.h"
+#include "mesh/mesh_make.h"
+#include "coupling/conversion.h"
+#include "mesh/levels.h"
 
 /* ---- choice of the frame ----------------------------------------------------------------------------------------- */
 
@@ -25,44 +31,44 @@ static void take_frame(struct frame_choice *f, bool reference, const char *reaso
     *f = (struct frame_choice){reference, reason};
 }
 
-static void engine_mesh_mark(struct engine *e)
+static void engine_mesh_mark(struct run *e)
 {
     for (int64_t i = 0; i < e->part.n; i++)
-        if (e->reference.choice[e->part.body[i]].reference) e->part.flag[i] |= FLAG_MESHED;
+        if (e->frame->choice[e->part.body[i]].reference) e->part.flag[i] |= FLAG_MESHED;
 }
 
-status engine_frames(struct engine *e)
+status engine_frames(struct run *e)
 {
     const struct scene *s = e->scene;
-    e->reference.choice = NEW("engine.frame", s->bodies, struct frame_choice);
+    e->frame->choice = NEW("engine.frame", s->bodies, struct frame_choice);
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++) {
         const enum grid_frame said = s->body[b].frame;
         const char *why = scene_frame_unsupported(s, b);
         if (why && said == FRAME_REFERENCE)
             return status_set(REFUSED, "mpm.frame: body %s cannot be in the reference frame: %s", s->body[b].name, why);
-        take_frame(&e->reference.choice[b], said != FRAME_CURRENT,
+        take_frame(&e->frame->choice[b], said != FRAME_CURRENT,
                    said == FRAME_REFERENCE ? "the scene says so" : s->body[b].frame_reason);
     }
     engine_grid_make(e);
     if (s->bodies == 1 && s->body[0].frame == FRAME_AUTO && s->method != METHOD_PD) {
-        const char *why = doubt(&e->part, &e->mpm, &e->reference.hollow);
-        take_frame(&e->reference.choice[0], !why, why ? why : "it keeps its neighbours and meets no other body");
+        const char *why = doubt(&e->part, e->grid, &e->frame->hollow);
+        take_frame(&e->frame->choice[0], !why, why ? why : "it keeps its neighbours and meets no other body");
         if (why) engine_grid_make(e);
     }
     engine_mesh_mark(e);
     return OK;
 }
 
-bool engine_frame_allowed(const struct engine *e, int body)
+bool engine_frame_allowed(const struct run *e, int body)
 {
     return !scene_frame_not_default(e->scene, body) &&
-           mesh_pieces(&e->part, &e->mpm.field[0].grid, &e->reference.hollow) == 1;
+           mesh_pieces(&e->part, &e->grid->field[0].grid, &e->frame->hollow) == 1;
 }
 
-bool engine_has_mesh(const struct engine *e)
+bool engine_has_mesh(const struct run *e)
 {
     for (int b = 0; b < e->scene->bodies; b++)
-        if (e->reference.choice[b].reference) return true;
+        if (e->frame->choice[b].reference) return true;
     return false;
 }
 
@@ -77,38 +83,38 @@ static void lattice_constants(const struct particles *p, const struct bond_sourc
 }
 
 /* Elastic constants of the cells: of the material, or of its bonds on the lattice (mpm.constants). */
-static void make_constants(struct engine *e)
+static void make_constants(struct run *e)
 {
     const struct scene *s = e->scene;
-    e->reference.elastic = NEW("engine.cell_elastic", s->materials, struct elastic);
+    e->frame->elastic = NEW("engine.cell_elastic", s->materials, struct elastic);
     for (int m = 0; m < s->materials; m++) {
-        e->reference.elastic[m] = e->tables.elastic[m];
-        if (s->lattice_constants) lattice_constants(&e->part, &e->source, &s->material[m], &e->reference.elastic[m]);
+        e->frame->elastic[m] = e->tables.elastic[m];
+        if (s->lattice_constants) lattice_constants(&e->part, &e->source, &s->material[m], &e->frame->elastic[m]);
     }
-    e->reference.source = (struct mesh_source){.elastic = e->reference.elastic,
+    e->frame->source = (struct mesh_source){.elastic = e->frame->elastic,
                                           .isotropic = e->tables.elastic,
                                           .materials = s->materials,
-                                          .partial = e->coupling.uses_partial ? &e->coupling.partial : NULL,
-                                          .hollow = &e->reference.hollow,
-                                          .slit = e->coupling.notches.slit,
-                                          .slits = e->coupling.notches.slits,
+                                          .partial = e->coupling->uses_partial ? &e->coupling->partial : NULL,
+                                          .hollow = &e->frame->hollow,
+                                          .slit = e->coupling->notches.slit,
+                                          .slits = e->coupling->notches.slits,
                                           .voids = engine_mirror_between(e) ? NULL : e->source.voids,
                                           .mirror = e->source.mirror,
                                           .mirrors = e->source.mirrors};
 }
 
-void engine_mesh_follow_points(struct engine *e)
+void engine_mesh_follow_points(struct run *e)
 {
-    mesh_find_exposed(&e->reference.mesh, &e->part, &e->bonds, &e->loads);
-    loads_mesh_find(&e->loads, &e->reference.mesh, &e->part);
-    e->coupling.partial.touches = 0;
+    mesh_find_exposed(&e->frame->mesh, &e->part, &e->bonds, &e->loads);
+    loads_mesh_find(&e->loads, &e->frame->mesh, &e->part);
+    e->coupling->partial.touches = 0;
 }
 
-status engine_mesh_make(struct engine *e, bool still)
+status engine_mesh_make(struct run *e, bool still)
 {
     make_constants(e);
-    e->reference.source.still = still;
-    TRY(mesh_make(&e->reference.mesh, &e->part, &e->mpm.field[0].grid, &e->reference.source));
+    e->frame->source.still = still;
+    TRY(mesh_make(&e->frame->mesh, &e->part, &e->grid->field[0].grid, &e->frame->source));
     /* a mesh made anew after a restart has no mirrors, though its box is unchanged */
     e->loads.constrained_mesh.count[0] = 0;
     engine_levels_room(e);
@@ -118,14 +124,14 @@ status engine_mesh_make(struct engine *e, bool still)
 
 /* Conversion may leave any number of points in a cell. With partial stress no such cell has a smaller critical step
  * than the cells of the start; with hand-shake a cell with a single point has. */
-real engine_mesh_critical_step(const struct engine *e)
+real engine_mesh_critical_step(const struct run *e)
 {
     const struct scene *s = e->scene;
     real density[UINT8_MAX], step = INFINITY;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
-    if (e->reference.mesh.points > 0)
-        step = mesh_critical_step(&e->reference.mesh, &e->reference.source, density,
-                                  s->method == METHOD_ADAPTIVE && e->coupling.kind != COUPLING_PARTIAL_STRESS);
+    if (e->frame->mesh.points > 0)
+        step = mesh_critical_step(&e->frame->mesh, &e->frame->source, density,
+                                  s->method == METHOD_ADAPTIVE && e->coupling_kind != COUPLING_PARTIAL_STRESS);
     return step;
 }
 
@@ -138,28 +144,28 @@ static void exposed_follow(const struct scene *s, struct particles *p, struct re
     mesh_ends_update(&reference->mesh, p, !s->small_strain);
 }
 
-void engine_ends_update(struct engine *e)
+void engine_ends_update(struct run *e)
 {
     if (!e->part.end_strain) return;
-    partial_ends_update(&e->coupling.partial, &e->part, e->scene->material);
-    if (e->reference.mesh.points > 0) mesh_ends_update(&e->reference.mesh, &e->part, !e->scene->small_strain);
+    partial_ends_update(&e->coupling->partial, &e->part, e->scene->material);
+    if (e->frame->mesh.points > 0) mesh_ends_update(&e->frame->mesh, &e->part, !e->scene->small_strain);
 }
 
-void engine_nodes_force(struct engine *e)
+void engine_nodes_force(struct run *e)
 {
     const bool finite = !e->scene->small_strain;
-    struct mesh_levels *levels = &e->reference.levels;
-    mesh_clear(&e->reference.mesh);
-    mesh_exposed_force(&e->reference.mesh, &e->part);
-    mesh_force(&e->reference.mesh, &e->part, e->reference.elastic, finite);
-    levels_force(levels, &e->part, e->reference.coarse, finite, levels_due(levels, e->clock.step));
+    struct mesh_levels *levels = &e->frame->levels;
+    mesh_clear(&e->frame->mesh);
+    mesh_exposed_force(&e->frame->mesh, &e->part);
+    mesh_force(&e->frame->mesh, &e->part, e->frame->elastic, finite);
+    levels_force(levels, &e->part, e->frame->coarse, finite, levels_due(levels, e->clock.step));
 }
 
 /* Walls of the mesh and of the coarse cells that move in this step, these by longer ones. */
-static void nodes_walls(struct engine *e, real middle, int due)
+static void nodes_walls(struct run *e, real middle, int due)
 {
-    struct mesh_levels *levels = &e->reference.levels;
-    loads_mesh_walls(&e->loads, &e->reference.mesh, middle, e->clock.dt);
+    struct mesh_levels *levels = &e->frame->levels;
+    loads_mesh_walls(&e->loads, &e->frame->mesh, middle, e->clock.dt);
     for (int level = 1; level <= due; level++) {
         const real dt = (real)(1 << level) * e->clock.dt;
         loads_level_walls(&e->loads, &levels->at[level].held, &levels->at[level].mesh.grid,
@@ -167,58 +173,58 @@ static void nodes_walls(struct engine *e, real middle, int due)
     }
 }
 
-static void nodes_react(struct engine *e, real dt_velocity, int due)
+static void nodes_react(struct run *e, real dt_velocity, int due)
 {
-    loads_react(&e->loads, &e->reference.mesh.grid, dt_velocity);
+    loads_react(&e->loads, &e->frame->mesh.grid, dt_velocity);
     for (int level = 1; level <= due; level++)
-        loads_react(&e->loads, &e->reference.levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
+        loads_react(&e->loads, &e->frame->levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
 }
 
-void engine_forces(struct engine *e)
+void engine_forces(struct run *e)
 {
-    const bool has_mesh = e->reference.mesh.points > 0;
-    if (has_mesh) exposed_follow(e->scene, &e->part, &e->reference);
+    const bool has_mesh = e->frame->mesh.points > 0;
+    if (has_mesh) exposed_follow(e->scene, &e->part, e->frame);
     loads_mirror(&e->loads, &e->part);
     loads_clear(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit, NULL);
     if (has_mesh) engine_nodes_force(e);
 }
 
-void engine_mesh_move(struct engine *e, real middle, real dt_velocity)
+void engine_mesh_move(struct run *e, real middle, real dt_velocity)
 {
-    struct mesh *mesh = &e->reference.mesh;
-    struct mesh_levels *levels = &e->reference.levels;
+    struct mesh *mesh = &e->frame->mesh;
+    struct mesh_levels *levels = &e->frame->levels;
     const bool finite = !e->scene->small_strain;
     const int due = levels_due(levels, e->clock.step);
     if (mesh->points == 0) return;
     engine_nodes_force(e);
     engine_residual_of(e, &mesh->grid);
-    if (e->scene->method == METHOD_ADAPTIVE) mesh_points_mark(mesh, &e->part, e->reference.elastic, finite);
+    if (e->scene->method == METHOD_ADAPTIVE) mesh_points_mark(mesh, &e->part, e->frame->elastic, finite);
     nodes_walls(e, middle, due);
-    e->reference.speed =
+    e->frame->speed =
         levels->n > 0
             ? levels_move(levels, e->clock.dt, dt_velocity, due, e->loads.impulse, &e->loads.constraint_work)
             : mesh_move(mesh, e->clock.dt, dt_velocity, e->loads.impulse, &e->loads.constraint_work);
     nodes_react(e, dt_velocity, due);
-    exposed_follow(e->scene, &e->part, &e->reference);
+    exposed_follow(e->scene, &e->part, e->frame);
     if (e->scene->active_set && levels->n == 0) active_nodes_update(mesh, &e->loads);
 }
 
-void engine_mesh_sync(struct engine *e)
+void engine_mesh_sync(struct run *e)
 {
-    if (e->reference.mesh.points == 0) return;
-    levels_prolong_points(&e->reference.levels);
-    mesh_points_move(&e->reference.mesh, &e->part);
-    mesh_points_stress(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain);
+    if (e->frame->mesh.points == 0) return;
+    levels_prolong_points(&e->frame->levels);
+    mesh_points_move(&e->frame->mesh, &e->part);
+    mesh_points_stress(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
     loads_mirror(&e->loads, &e->part);
 }
 
 void engine_mesh_sync_points(void *engine, const int32_t *list, int64_t n)
 {
-    struct engine *e = engine;
-    if (e->reference.mesh.points == 0) return;
-    if (list) mesh_listed_move(&e->reference.mesh, &e->part, list, n);
-    else levels_prolong_points(&e->reference.levels), mesh_points_move(&e->reference.mesh, &e->part);
+    struct run *e = engine;
+    if (e->frame->mesh.points == 0) return;
+    if (list) mesh_listed_move(&e->frame->mesh, &e->part, list, n);
+    else levels_prolong_points(&e->frame->levels), mesh_points_move(&e->frame->mesh, &e->part);
     loads_mirror(&e->loads, &e->part);
 }
 
@@ -231,27 +237,27 @@ static bool refresh(struct particles *p, struct reference_frame *reference, stru
                                           coupling->partial.touched, coupling->partial.touches);
 }
 
-void engine_mesh_follow(struct engine *e, int64_t converted)
+void engine_mesh_follow(struct run *e, int64_t converted)
 {
-    if (e->reference.mesh.points > 0 && (converted > 0 || e->coupling.partial.touches > 0) &&
-        !refresh(&e->part, &e->reference, &e->coupling, converted)) {
-        e->coupling.damped += mesh_follow(&e->reference.mesh, &e->part, &e->reference.source,
-                                          e->coupling.partial.touched, e->coupling.partial.touches);
+    if (e->frame->mesh.points > 0 && (converted > 0 || e->coupling->partial.touches > 0) &&
+        !refresh(&e->part, e->frame, e->coupling, converted)) {
+        e->damped += mesh_follow(&e->frame->mesh, &e->part, &e->frame->source,
+                                          e->coupling->partial.touched, e->coupling->partial.touches);
         engine_mesh_follow_points(e);
     }
-    if (converted > 0 || e->coupling.partial.touches > 0) engine_ends_update(e);
-    e->coupling.partial.touches = 0;
+    if (converted > 0 || e->coupling->partial.touches > 0) engine_ends_update(e);
+    e->coupling->partial.touches = 0;
 }
 
-void engine_mesh_insert(struct engine *e, const int32_t *list, int64_t n)
+void engine_mesh_insert(struct run *e, const int32_t *list, int64_t n)
 {
     int32_t *own = NEW("engine.own", n, int32_t);
     int64_t m = 0;
     for (int64_t k = 0; k < n; k++)
-        if (e->reference.mesh.place && e->reference.choice[e->part.body[list[k]]].reference) own[m++] = list[k];
+        if (e->frame->mesh.place && e->frame->choice[e->part.body[list[k]]].reference) own[m++] = list[k];
     if (m > 0) {
-        e->coupling.damped += mesh_insert(&e->reference.mesh, &e->part, own, m);
-        active_nodes_all(&e->reference.mesh);
+        e->damped += mesh_insert(&e->frame->mesh, &e->part, own, m);
+        active_nodes_all(&e->frame->mesh);
     }
     memory_free(own);
     engine_mesh_follow(e, n);

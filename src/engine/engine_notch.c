@@ -4,6 +4,12 @@
 
 #include "coupling/approach.h"
 #include "engine/engine.h"
+#include "grid/grid_part.h"
+#include "coupling/notch.h"
+#include "coupling/coupling_part.h"
+#include "fracture/fracture_part.h"
+#include "coupling/conversion.h"
+#include "fracture/tips.h"
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
@@ -19,10 +25,10 @@ static const char *scene_obstacle(const struct scene *s)
     return NULL;
 }
 
-bool engine_mirror_between(const struct engine *e)
+bool engine_mirror_between(const struct run *e)
 {
     const struct scene *s = e->scene;
-    const struct grid *g = &e->mpm.field[0].grid;
+    const struct grid *g = &e->grid->field[0].grid;
     for (int b = 0; b < s->boundaries; b++) {
         const real nodes = (s->boundary[b].at - g->anchor[s->boundary[b].axis]) / g->h;
         if (s->boundary[b].kind == BOUNDARY_MIRROR && fabs(nodes - nearbyint(nodes)) > 1e-6) return true;
@@ -30,7 +36,7 @@ bool engine_mirror_between(const struct engine *e)
     return false;
 }
 
-static const char *obstacle_of(const struct engine *e)
+static const char *obstacle_of(const struct run *e)
 {
     const char *why = scene_obstacle(e->scene);
     if (!why && !engine_has_mesh(e)) why = "there are no material points in the reference frame";
@@ -47,26 +53,26 @@ static status notches_check(const struct scene *s, const struct notches *n)
     return OK;
 }
 
-status engine_notch_convert(struct engine *e)
+status engine_notch_convert(struct run *e)
 {
     const struct scene *s = e->scene;
-    struct notches *n = &e->coupling.notches;
+    struct notches *n = &e->coupling->notches;
     const real tips = s->conversion.tips * e->source.family.horizon;
     const real radius = tips > 0 ? real_max(tips, NOTCH_ZONE_LEAST * s->spacing) : NOTCH_ZONE * s->spacing;
     notches_make(n, &e->part, &e->source, radius, obstacle_of(e));
     TRY(notches_check(s, n));
     struct bond_source cut = e->source;
     cut.crack = n->cut, cut.cracks = n->cuts;
-    convert_region(&e->coupling.start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source, tips);
+    convert_region(&e->coupling->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source, tips);
     notches_convert(n, &e->part, &e->source);
     engine_voids_convert(e);
-    convert_start(&e->part, &cut, e->coupling.start_region.n > 0 ? &e->coupling.start_region : NULL);
+    convert_start(&e->part, &cut, e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
     return OK;
 }
 
-void engine_notch_text(const struct engine *e, int crack, char *text, size_t room)
+void engine_notch_text(const struct run *e, int crack, char *text, size_t room)
 {
-    const struct notches *n = &e->coupling.notches;
+    const struct notches *n = &e->coupling->notches;
     if (n->notch[crack].slit)
         snprintf(text, room, "slit of the mesh, bonds within %.3g spacings of its ends", n->radius / e->scene->spacing);
     else snprintf(text, room, "cut bonds: %s", n->notch[crack].reason);
@@ -74,14 +80,14 @@ void engine_notch_text(const struct engine *e, int crack, char *text, size_t roo
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-void engine_notch_tips(struct engine *e)
+void engine_notch_tips(struct run *e)
 {
-    if (e->coupling.notches.lost) tips_before(&e->fracture.tips, e->coupling.notches.lost);
+    if (e->coupling->notches.lost) tips_before(&e->fracture->tips, e->coupling->notches.lost);
 }
 
-bool engine_notch_approach(struct engine *e)
+bool engine_notch_approach(struct run *e)
 {
-    const struct notches *n = &e->coupling.notches;
+    const struct notches *n = &e->coupling->notches;
     if (n->faces == 0 || e->scene->contact_between != CONTACT_ALL || e->clock.step % APPROACH_STEPS != 0) return false;
     engine_mesh_sync_points(e, n->face, n->faces);
     notches_approach(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);

@@ -8,18 +8,19 @@
 #include "base/memory.h"
 #include "kernels/kernels.h"
 #include "kernels/pd/bond_last.h"
+#include "quasistatic/statics.h"
 
 #define ALIKE 1e-7 /* bonds whose loads differ by less break together: round-off decides no order */
 
 /* Stretch of a bond over its limit. A limit of 0 or less is passed by any stretch above it. */
-static real overload_of(const struct engine *e, const struct bond *bond, int32_t i)
+static real overload_of(const struct run *e, const struct bond *bond, int32_t i)
 {
     const real stretch = stretch_ago(&e->part, bond->inverse_length, i, bond->nbr, 0);
     return stretch / stretch_limit(&e->part, &e->source.limit, i, bond->nbr);
 }
 
 /* No bond stands below this stretch at its limit. */
-static real limit_least(const struct engine *e)
+static real limit_least(const struct run *e)
 {
     const struct bond_limit *limit = &e->source.limit;
     real least = INFINITY, weakest = 1;
@@ -29,7 +30,7 @@ static real limit_least(const struct engine *e)
 }
 
 /* The larger of `most` and the largest of a row block. */
-static real row_block_overload(const struct engine *e, int64_t g, real weakest, real most)
+static real row_block_overload(const struct run *e, int64_t g, real weakest, real most)
 {
     if (bond_row_block_stretch(&e->bonds, &e->part, g) <= most * weakest) return most;
     for (int64_t r = g * LANES; r < (g + 1) * LANES && r < e->bonds.rows; r++)
@@ -38,7 +39,7 @@ static real row_block_overload(const struct engine *e, int64_t g, real weakest, 
     return most;
 }
 
-real statics_overload(const struct engine *e)
+real statics_overload(const struct run *e)
 {
     const real weakest = limit_least(e);
     real most = 0;
@@ -61,7 +62,7 @@ real stretch_work(real elastic, real yield, real hardening)
 
 /* Half of what a bond of particle i takes to its limit from where it bears nothing: what it holds, and the work that is
  * left to be done on it [J]. Of one that yields, what it has dissipated before is gone and costs no more. */
-static real half_to_limit(const struct engine *e, const struct bond *bond, int32_t i)
+static real half_to_limit(const struct run *e, const struct bond *bond, int32_t i)
 {
     const struct bonds *b = &e->bonds;
     const real limit = stretch_limit(&e->part, &e->source.limit, i, bond->nbr);
@@ -75,7 +76,7 @@ static real half_to_limit(const struct engine *e, const struct bond *bond, int32
     return 0.5 * b->stiffness * bond->w * work / bond->inverse_length;
 }
 
-struct broken_bond statics_bond_record(const struct engine *e, const struct bond *bond, int64_t row)
+struct broken_bond statics_bond_record(const struct run *e, const struct bond *bond, int64_t row)
 {
     const struct bonds *b = &e->bonds;
     const int32_t i = b->particle[row];
@@ -99,7 +100,7 @@ struct overloads {
     struct broken_bond *record;
 };
 
-static void overloads_add(struct overloads *o, const struct engine *e, const struct bond *bond, int64_t r, real over)
+static void overloads_add(struct overloads *o, const struct run *e, const struct bond *bond, int64_t r, real over)
 {
     if (o->n == o->room) {
         const int64_t room = o->room ? 2 * o->room : 64;
@@ -112,7 +113,7 @@ static void overloads_add(struct overloads *o, const struct engine *e, const str
 }
 
 /* Adds those of a row block whose overload is above `least`, in the order of rows. */
-static void row_block_overloads(struct overloads *o, const struct engine *e, int64_t g, real least)
+static void row_block_overloads(struct overloads *o, const struct run *e, int64_t g, real least)
 {
     for (int64_t r = g * LANES; r < (g + 1) * LANES && r < e->bonds.rows; r++)
         for (struct bond_iterator it = bonds_of_row(&e->bonds, r); bond_next(&it);) {
@@ -155,7 +156,7 @@ static real broken_add(struct break_list *l, const real *load, const struct brok
 }
 
 /* Breaks the bond of a record, half of whose energy its row books. */
-static void record_break(struct engine *e, const struct broken_bond *record)
+static void record_break(struct run *e, const struct broken_bond *record)
 {
     struct bond_limit limit = e->source.limit;
     limit.last_force = LAST_FORCE_NONE;
@@ -164,10 +165,10 @@ static void record_break(struct engine *e, const struct broken_bond *record)
 
 /* State-based bonds have no energy of their own: in a linear body, what a break takes is what it takes at the limit
  * times the square of the overload. */
-int64_t statics_break(struct engine *e, real share, int64_t most, real *cost, real *area)
+int64_t statics_break(struct run *e, real share, int64_t most, real *cost, real *area)
 {
-    struct break_list *l = &e->statics.next;
-    const real least = e->statics.overload * (1 - real_max(share, ALIKE)), before = bonds_fracture_energy(&e->bonds);
+    struct break_list *l = &e->statics->next;
+    const real least = e->statics->overload * (1 - real_max(share, ALIKE)), before = bonds_fracture_energy(&e->bonds);
     const real weakest = limit_least(e);
     struct overloads o = {0};
     for (int64_t g = 0; g < e->bonds.row_blocks; g++)
@@ -176,7 +177,7 @@ int64_t statics_break(struct engine *e, real share, int64_t most, real *cost, re
     const int64_t had = l->n;
     const real square_mean = broken_add(l, o.load, o.record, o.n, down_to);
     for (int64_t k = had; k < l->n; k++) record_break(e, &l->bond[k]);
-    e->statics.stale = e->statics.parted = true;
+    e->statics->stale = e->statics->parted = true;
     const real held = (bonds_fracture_energy(&e->bonds) - before) / square_mean;
     for (int64_t k = had; k < l->n && e->scene->model != MODEL_BOND; k++) l->bond[k].held = held / (real)(l->n - had);
     for (int64_t k = had; k < l->n; k++) {
@@ -189,7 +190,7 @@ int64_t statics_break(struct engine *e, real share, int64_t most, real *cost, re
 }
 
 /* All at once: what the later ones of the list hold at their limits shows only as the first are gone. */
-void statics_break_listed(struct engine *e, const struct break_list *l)
+void statics_break_listed(struct run *e, const struct break_list *l)
 {
     real more = 0;
     for (int64_t k = 0; k < l->n; k++) {
@@ -198,14 +199,14 @@ void statics_break_listed(struct engine *e, const struct break_list *l)
         const real before = *booked;
         record_break(e, record);
         more += *booked - before - record->held;
-        e->statics.record.broken += record->held / toughness_between(e, record->i, record->j);
+        e->statics->record.broken += record->held / toughness_between(e, record->i, record->j);
         *booked = before + record->held;
     }
-    e->statics.balance.lost += more, e->coupling.damped += more;
-    e->statics.stale = e->statics.parted = true;
+    e->statics->balance.lost += more, e->damped += more;
+    e->statics->stale = e->statics->parted = true;
 }
 
-void statics_mend(struct engine *e, const struct break_list *l)
+void statics_mend(struct run *e, const struct break_list *l)
 {
     for (int64_t k = l->n; k-- > 0;) {
         const struct broken_bond *record = &l->bond[k];
@@ -215,11 +216,11 @@ void statics_mend(struct engine *e, const struct break_list *l)
         if (e->bonds.plastic_stretch) e->bonds.plastic_work[record->row] = record->plastic;
         e->part.damage[record->i] = record->damage, e->part.flag[record->i] = record->flag;
     }
-    if (l->n > 0) e->statics.stale = e->statics.parted = true;
+    if (l->n > 0) e->statics->stale = e->statics->parted = true;
 }
 
 /* Finds the bonds of a list by their particles: rows have been made anew. */
-static void list_find(const struct engine *e, struct break_list *l)
+static void list_find(const struct run *e, struct break_list *l)
 {
     for (int64_t k = 0; k < l->n; k++) {
         struct broken_bond *record = &l->bond[k];
@@ -229,9 +230,9 @@ static void list_find(const struct engine *e, struct break_list *l)
     }
 }
 
-status statics_list_archive(struct engine *e, struct archive *a)
+status statics_list_archive(struct run *e, struct archive *a)
 {
-    struct break_list *l = &e->statics.next;
+    struct break_list *l = &e->statics->next;
     ARCHIVE_VALUE(a, "statics/next", l->n);
     if (!a->saving && l->n > l->room) {
         l->bond = memory_resize("statics.broken", l->bond, l->room, l->n, sizeof *l->bond);

@@ -8,6 +8,10 @@
 
 #include "base/memory.h"
 #include "engine_statics.h"
+#include "mesh/mesh_part.h"
+#include "quasistatic/statics.h"
+#include "contact/contact.h"
+#include "mesh/mesh_make.h"
 
 enum { MODES_MOST = 6 };  /* rigid motions of a piece in space */
 #define HELD_LEAST 1e-9   /* resistance of a motion, over the largest, from which on it is held */
@@ -37,9 +41,9 @@ struct numbers {
     int32_t *particle, *node;
 };
 
-static void cells_join(const struct engine *e, int32_t *parent, const struct numbers *number)
+static void cells_join(const struct run *e, int32_t *parent, const struct numbers *number)
 {
-    const struct mesh *mesh = &e->reference.mesh;
+    const struct mesh *mesh = &e->frame->mesh;
     for (int64_t I = 0; I < mesh->grid.n && mesh->points > 0; I++) {
         int32_t first = -1;
         if (!mesh_cell_holds(mesh, I)) continue;
@@ -52,9 +56,9 @@ static void cells_join(const struct engine *e, int32_t *parent, const struct num
     }
 }
 
-static int32_t number_of(const struct engine *e, const struct numbers *number, int64_t i)
+static int32_t number_of(const struct run *e, const struct numbers *number, int64_t i)
 {
-    const struct mesh *mesh = &e->reference.mesh;
+    const struct mesh *mesh = &e->frame->mesh;
     if (number->particle[i] >= 0 || mesh->points == 0 || mesh->place[i] < 0) return number->particle[i];
     for (int c = 0; c < 1 << e->part.dim; c++) {
         const int32_t k = number->node[mesh_node(mesh, mesh->place[i] >> e->part.dim, c)];
@@ -63,7 +67,7 @@ static int32_t number_of(const struct engine *e, const struct numbers *number, i
     return -1;
 }
 
-static void bonded_join(const struct engine *e, int32_t *parent, const struct numbers *number)
+static void bonded_join(const struct run *e, int32_t *parent, const struct numbers *number)
 {
     for (int64_t r = 0; r < e->bonds.rows; r++) {
         const int32_t a = number_of(e, number, e->bonds.particle[r]);
@@ -75,10 +79,10 @@ static void bonded_join(const struct engine *e, int32_t *parent, const struct nu
     }
 }
 
-static struct numbers unknowns_number(const struct engine *e)
+static struct numbers unknowns_number(const struct run *e)
 {
-    const struct statics *s = &e->statics;
-    const struct mesh *mesh = &e->reference.mesh;
+    const struct statics *s = e->statics;
+    const struct mesh *mesh = &e->frame->mesh;
     const int64_t places = mesh->points > 0 ? mesh->grid.n : 0;
     struct numbers n = {BARE("pieces.particle", e->part.n, int32_t), BARE("pieces.node", places, int32_t)};
     array_fill_bytes(n.particle, -1, e->part.n, sizeof *n.particle);
@@ -116,10 +120,10 @@ static void motion_at(const struct candidate *c, int dim, int k, const real *x, 
     u[b] = (x[a] - c->centre[a]) / c->radius;
 }
 
-static void node_now(const struct engine *e, int64_t k, real *x)
+static void node_now(const struct run *e, int64_t k, real *x)
 {
     statics_node_place(e, k, x);
-    for (int d = 0; d < e->part.dim; d++) x[d] += e->statics.balance.u.of[d][k];
+    for (int d = 0; d < e->part.dim; d++) x[d] += e->statics->balance.u.of[d][k];
 }
 
 /* One direction n.u in which the motions of a piece are held: adds its share to their resistance. */
@@ -129,23 +133,23 @@ static void resist(struct candidate *c, int m, const real *along)
         for (int b = 0; b < m; b++) c->resistance[a][b] += along[a] * along[b];
 }
 
-static void supports_resist(const struct engine *e, struct candidate *of, const int32_t *piece)
+static void supports_resist(const struct run *e, struct candidate *of, const int32_t *piece)
 {
     const int dim = e->part.dim, m = motions(dim);
-    for (int64_t k = 0; k < e->statics.balance.n; k++) {
+    for (int64_t k = 0; k < e->statics->balance.n; k++) {
         real x[DIM_MAX], u[MODES_MOST][DIM_MAX], along[MODES_MOST];
-        if (!e->statics.balance.held[k]) continue;
+        if (!e->statics->balance.held[k]) continue;
         node_now(e, k, x);
         for (int a = 0; a < m; a++) motion_at(&of[piece[k]], dim, a, x, u[a]);
         for (int d = 0; d < dim; d++) {
-            if (!(e->statics.balance.held[k] >> d & 1)) continue;
+            if (!(e->statics->balance.held[k] >> d & 1)) continue;
             for (int a = 0; a < m; a++) along[a] = u[a][d];
             resist(&of[piece[k]], m, along);
         }
     }
 }
 
-void statics_image_signs(const struct engine *e, int64_t i, real sign[DIM_MAX])
+void statics_image_signs(const struct run *e, int64_t i, real sign[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++) sign[d] = 1;
     for (; i >= e->part.n; i = e->loads.image[i - e->part.n].source) {
@@ -156,7 +160,7 @@ void statics_image_signs(const struct engine *e, int64_t i, real sign[DIM_MAX])
 }
 
 /* A bond to an image resists what lengthens it. */
-static void image_resists(const struct engine *e, struct candidate *c, int64_t i, int64_t image)
+static void image_resists(const struct run *e, struct candidate *c, int64_t i, int64_t image)
 {
     const struct particles *p = &e->part;
     const int dim = p->dim, m = motions(dim);
@@ -173,7 +177,7 @@ static void image_resists(const struct engine *e, struct candidate *c, int64_t i
     resist(c, m, along);
 }
 
-static void images_resist(const struct engine *e, struct candidate *of, const int32_t *piece,
+static void images_resist(const struct run *e, struct candidate *of, const int32_t *piece,
                           const struct numbers *number)
 {
     for (int64_t r = 0; r < e->bonds.rows && e->loads.images > 0; r++) {
@@ -184,10 +188,10 @@ static void images_resist(const struct engine *e, struct candidate *of, const in
 }
 
 /* A node beyond a plane of symmetry moves as its image does, and with the cells that it is a corner of. */
-static void mirror_nodes_resist(const struct engine *e, struct candidate *of, const int32_t *piece,
+static void mirror_nodes_resist(const struct run *e, struct candidate *of, const int32_t *piece,
                                 const struct numbers *number)
 {
-    const struct mesh *mesh = &e->reference.mesh;
+    const struct mesh *mesh = &e->frame->mesh;
     const int dim = e->part.dim, m = motions(dim);
     for (int64_t q = 0; mesh->points > 0 && q < mesh->grid.mirror_nodes; q++) {
         const struct mirror_node *node = &mesh->grid.mirror_node[q];
@@ -209,7 +213,7 @@ static void mirror_nodes_resist(const struct engine *e, struct candidate *of, co
 }
 
 struct touched {
-    const struct engine *e;
+    const struct run *e;
     struct candidate *of;
     const int32_t *piece;
     const struct numbers *number;
@@ -317,14 +321,14 @@ static void motions_orthonormal(struct free_piece *f, int dim)
 }
 
 /* Motions of the nodes of a piece that nothing holds in `count` of them. */
-static void free_piece_make(const struct engine *e, struct free_piece *f, const struct candidate *c, int64_t which,
+static void free_piece_make(const struct run *e, struct free_piece *f, const struct candidate *c, int64_t which,
                             const int32_t *piece, real free[MODES_MOST][MODES_MOST], int count)
 {
     const int dim = e->part.dim, m = motions(dim);
     *f = (struct free_piece){.n = 0, .motions = count};
     f->node = BARE("pieces.node", c->n, int32_t);
     f->motion = NEW("pieces.motion", c->n * dim * MODES_MOST, real);
-    for (int64_t k = 0; k < e->statics.balance.n; k++) {
+    for (int64_t k = 0; k < e->statics->balance.n; k++) {
         real x[DIM_MAX], u[DIM_MAX];
         if (piece[k] != which) continue;
         node_now(e, k, x);
@@ -332,7 +336,7 @@ static void free_piece_make(const struct engine *e, struct free_piece *f, const 
             motion_at(c, dim, a, x, u);
             for (int b = 0; b < count; b++)
                 for (int d = 0; d < dim; d++)
-                    if (!(e->statics.balance.held[k] >> d & 1))
+                    if (!(e->statics->balance.held[k] >> d & 1))
                         f->motion[(f->n * dim + d) * MODES_MOST + b] += free[b][a] * u[d];
         }
         f->node[f->n++] = (int32_t)k;
@@ -341,9 +345,9 @@ static void free_piece_make(const struct engine *e, struct free_piece *f, const 
 }
 
 /* Pieces in the order of their first nodes: their numbers by node, and where they are. */
-static struct candidate *candidates_make(const struct engine *e, int32_t *parent, int32_t *piece, int64_t *n)
+static struct candidate *candidates_make(const struct run *e, int32_t *parent, int32_t *piece, int64_t *n)
 {
-    const int64_t nodes = e->statics.balance.n;
+    const int64_t nodes = e->statics->balance.n;
     int64_t count = 0;
     for (int64_t k = 0; k < nodes; k++) /* a root comes before what hangs on it */
         piece[k] = parent[k] == k ? (int32_t)count++ : piece[root_node(parent, (int32_t)k)];
@@ -366,9 +370,9 @@ static struct candidate *candidates_make(const struct engine *e, int32_t *parent
     return c;
 }
 
-void statics_pieces_make(struct engine *e)
+void statics_pieces_make(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     const int m = motions(e->part.dim);
     struct numbers number = unknowns_number(e);
     int32_t *parent = BARE("pieces.parent", s->balance.n, int32_t);
@@ -384,7 +388,7 @@ void statics_pieces_make(struct engine *e)
     supports_resist(e, c, piece);
     images_resist(e, c, piece, &number);
     mirror_nodes_resist(e, c, piece, &number);
-    contact_terms(&e->contact, &e->part, contact_resists, &(struct touched){e, c, piece, &number});
+    contact_terms(e->contact, &e->part, contact_resists, &(struct touched){e, c, piece, &number});
     for (int64_t q = 0; q < n; q++) s->pieces += motions_free(&c[q], m, free) > 0;
     s->piece = NEW("pieces.free", s->pieces, struct free_piece);
     s->pieces = 0;
@@ -398,17 +402,17 @@ void statics_pieces_make(struct engine *e)
     unknowns_number_free(&number);
 }
 
-void statics_pieces_free(struct engine *e)
+void statics_pieces_free(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     for (int64_t q = 0; q < s->pieces; q++) memory_free(s->piece[q].node), memory_free(s->piece[q].motion);
     memory_free(s->piece);
     s->piece = NULL, s->pieces = 0;
 }
 
-void statics_pieces_hold(const struct engine *e, struct field *v)
+void statics_pieces_hold(const struct run *e, struct field *v)
 {
-    const struct statics *s = &e->statics;
+    const struct statics *s = e->statics;
     const int dim = e->part.dim;
 #pragma omp parallel for schedule(dynamic)
     for (int64_t q = 0; q < s->pieces; q++) {
@@ -427,9 +431,9 @@ void statics_pieces_hold(const struct engine *e, struct field *v)
 
 /* Of the loads on a piece along its free motions: the largest share that does not cancel [1], that motion, and the sum
  * of their sizes there. */
-static real unheld_share(const struct engine *e, const struct free_piece *f, real *size)
+static real unheld_share(const struct run *e, const struct free_piece *f, real *size)
 {
-    const struct statics *s = &e->statics;
+    const struct statics *s = e->statics;
     real most = 0;
     *size = 0;
     for (int a = 0; a < f->motions; a++) {
@@ -447,17 +451,17 @@ static real unheld_share(const struct engine *e, const struct free_piece *f, rea
 
 /* Sum of all applied forces, each by its size, over the root of the number of nodes of a piece: as unheld_share adds.
  */
-static real applied_sum(const struct engine *e, int64_t nodes)
+static real applied_sum(const struct run *e, int64_t nodes)
 {
     real sum = 0;
     for (int d = 0; d < e->part.dim; d++)
-        for (int64_t i = 0; i < e->part.n; i++) sum += fabs(e->statics.applied[d][i]);
+        for (int64_t i = 0; i < e->part.n; i++) sum += fabs(e->statics->applied[d][i]);
     return sum / sqrt((real)nodes);
 }
 
-status statics_unheld(const struct engine *e)
+status statics_unheld(const struct run *e)
 {
-    const struct statics *s = &e->statics;
+    const struct statics *s = e->statics;
     for (int64_t q = 0; q < s->pieces && s->applied[0]; q++) {
         const struct free_piece *f = &s->piece[q];
         real size, X[DIM_MAX] = {0};

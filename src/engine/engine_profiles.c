@@ -4,6 +4,9 @@
 
 #include "engine_report.h"
 #include "output/output_files.h"
+#include "probes/probes.h"
+#include "probes/probes_part.h"
+#include "step/report.h"
 
 /* What profiles of lines and of bars begin with (probes_profiles.c). */
 static const char *const profile_begin[] = {"s [m],", "x [m],"};
@@ -15,22 +18,22 @@ static status engine_profiles_put(void *folder, const char *name, const char *te
     return file_put_unsettled(path.text, text, length);
 }
 
-status engine_profiles_write(struct engine *e)
+status engine_profiles_write(struct run *e)
 {
     const struct observed o = engine_observed(e);
-    if (probes_profiled(&e->probing.probes) == 0) return OK;
-    TRY(probes_profiles(&e->probing.probes, &o, engine_profiles_put, e->report.out->folder,
-                       e->report.out->series[0].frames - 1));
-    return file_settle(path_join(e->report.out->folder, "history.csv").text);
+    if (probes_profiled(&e->probing->probes) == 0) return OK;
+    TRY(probes_profiles(&e->probing->probes, &o, engine_profiles_put, e->report->out->folder,
+                       e->report->out->series[0].frames - 1));
+    return file_settle(path_join(e->report->out->folder, "history.csv").text);
 }
 
-void engine_profiles_check(struct engine *e)
+void engine_profiles_check(struct run *e)
 {
     char text[PATH_NAME_ROOM + 120], name[PROFILE_NAME], first[PROFILE_NAME] = "";
     int64_t lost = 0;
-    for (int frame = 0; frame < e->report.out->series[0].frames; frame++)
-        for (int k = 0; probes_profile_name(&e->probing.probes, k, frame, name); k++) {
-            if (path_is_file(path_join(e->report.out->folder, name).text)) continue;
+    for (int frame = 0; frame < e->report->out->series[0].frames; frame++)
+        for (int k = 0; probes_profile_name(&e->probing->probes, k, frame, name); k++) {
+            if (path_is_file(path_join(e->report->out->folder, name).text)) continue;
             if (lost++ == 0) snprintf(first, sizeof first, "%s", name);
         }
     if (lost == 0) return;
@@ -48,10 +51,10 @@ static bool profile_remove(const char *path)
     return file_begin_guard(path, profile_begin, COUNT_OF(profile_begin)) != OK || unlink(path) == 0;
 }
 
-void engine_profiles_remove(struct engine *e)
+void engine_profiles_remove(struct run *e)
 {
     char name[PROFILE_NAME];
-    for (int k = 0; probes_profile_name(&e->probing.probes, k, 0, name); k++)
-        for (int frame = 0; probes_profile_name(&e->probing.probes, k, frame, name); frame++)
-            if (!profile_remove(path_join(e->report.out->folder, name).text)) break;
+    for (int k = 0; probes_profile_name(&e->probing->probes, k, 0, name); k++)
+        for (int frame = 0; probes_profile_name(&e->probing->probes, k, frame, name); frame++)
+            if (!profile_remove(path_join(e->report->out->folder, name).text)) break;
 }

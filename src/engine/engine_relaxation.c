@@ -3,11 +3,15 @@
 #include <math.h>
 
 #include "engine_relaxation.h"
+#include "grid/grid_part.h"
+#include "coupling/coupling_part.h"
+#include "solver/solver.h"
+#include "probes/diagnostics.h"
 
 #define ESTIMATE_STEPS 10                    /* steps between estimates of damping and residual */
 #define MOTION_SMALL 1e-6                        /* kinetic over strain energy of a body at rest */
 
-real grid_relaxation_ramp(const struct engine *e)
+real grid_relaxation_ramp(const struct run *e)
 {
     const real twice = 2 * (particles_longest(&e->part) + e->scene->spacing);
     return ceil(twice / (e->tables.wave_speed * e->clock.dt)) * e->clock.dt;
@@ -55,16 +59,16 @@ static real reactions_norm(const struct loads *loads, int dim)
 
 /* Updates damping and residual; *done at equilibrium. The slowest motion has nearly the form of the deflection, so its
  * frequency is omega^2 = 2 U/sum m u^2 (Rayleigh), with the strain energy U; critical damping is 2 omega. */
-static void estimate(struct engine *e, bool *done)
+static void estimate(struct run *e, bool *done)
 {
-    struct solver *s = &e->solver;
+    struct solver *s = e->solver;
     real nodes = 0, particles, motion[2];
     const real strain = e->kernels.bond_energy(&e->bonds, &e->part) +
-                        diagnostics_strain(&e->part, e->scene->material, &e->coupling.partial);
+                        diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial);
     team_sums(e->part.n, 2, motion_block, &e->part, motion);
     s->damping = motion[0] > 0 ? real_min(2 * sqrt(2 * strain / motion[0]) * e->clock.dt, 1) : 0;
     if (e->part.n_of[KIND_MPM] + e->part.n_grid_coupled > 0)
-        team_sums(e->mpm.field[0].grid.n, 1, node_block, &e->mpm, &nodes);
+        team_sums(e->grid->field[0].grid.n, 1, node_block, e->grid, &nodes);
     team_sums(e->part.n, 1, particle_block, &e->part, &particles);
     solver_scale(s, reactions_norm(&e->loads, e->part.dim), sqrt(nodes + particles));
     *done = e->clock.t > s->ramp_time * (1 + 1e-9) && s->residual <= e->scene->solver_tolerance &&
@@ -72,10 +76,10 @@ static void estimate(struct engine *e, bool *done)
 }
 
 /* Damps the velocities, and their gradients (APIC), by one step. */
-static void damp_velocities(struct engine *e)
+static void damp_velocities(struct run *e)
 {
     struct particles *p = &e->part;
-    const real keep = (2 - e->solver.damping) / (2 + e->solver.damping);
+    const real keep = (2 - e->solver->damping) / (2 + e->solver->damping);
     const int gradients = e->optional & WITH_GRADIENT ? p->dim * p->dim : 0;
     for (int d = 0; d < p->dim; d++) {
 #pragma omp parallel for schedule(static)
@@ -88,7 +92,7 @@ static void damp_velocities(struct engine *e)
     loads_mirror(&e->loads, p);
 }
 
-status grid_relaxation_step(struct engine *e, bool *done)
+status grid_relaxation_step(struct run *e, bool *done)
 {
     TRY(engine_step(e));
     TRY(engine_stability_check(e));

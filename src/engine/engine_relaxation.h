@@ -5,9 +5,9 @@
 #include "engine/engine.h"
 
 /* Time in which loads grow [s]: whole steps in which a wave crosses the body twice. */
-real grid_relaxation_ramp(const struct engine *e);
+real grid_relaxation_ramp(const struct run *e);
 
 /* A step in time; *done at equilibrium. */
-status grid_relaxation_step(struct engine *e, bool *done);
+status grid_relaxation_step(struct run *e, bool *done);
 
 #endif

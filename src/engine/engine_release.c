@@ -6,6 +6,13 @@
 
 #include "engine_report.h"
 #include "engine_statics.h"
+#include "rigid/rigid_part.h"
+#include "rigid/rigid.h"
+#include "mesh/mesh_part.h"
+#include "probes/diagnostics.h"
+#include "quasistatic/statics.h"
+#include "grid/grid_part.h"
+#include "contact/contact.h"
 
 #define CROSSINGS_QUIET 3.0   /* crossings of the body by waves, without a bond that breaks, to be quiet */
 #define CROSSINGS_DAMPED 40.0 /* the same, that damping may take at the most */
@@ -16,7 +23,7 @@ enum { LOOK_STEPS = 20 };     /* steps between looks at its energies */
 #define RELEASE_STEPS_MOST (INT64_MAX / 4)
 
 /* Loads and supports stay as they are at pseudo-time t. */
-static void boundaries_hold(struct engine *e, real t)
+static void boundaries_hold(struct run *e, real t)
 {
     for (int b = 0; b < e->scene->boundaries; b++) {
         const struct boundary *from = &e->scene->boundary[b];
@@ -35,57 +42,57 @@ static void boundaries_hold(struct engine *e, real t)
     }
 }
 
-static void boundaries_follow(struct engine *e)
+static void boundaries_follow(struct run *e)
 {
     array_copy(e->boundary, e->scene->boundary, e->scene->boundaries, sizeof *e->boundary);
 }
 
 /* Rigid bodies stay where they are; those that are driven go on. */
-static void rigids_hold(struct engine *e, bool hold)
+static void rigids_hold(struct run *e, bool hold)
 {
     for (int k = 0; k < e->scene->rigids; k++) {
-        struct rigid_body *r = &e->rigid[k];
+        struct rigid_body *r = &e->rigid->body[k];
         const bool driven = dot(r->speed, r->speed, r->dim) > 0;
         r->motion = driven && !hold ? RIGID_DRIVEN : RIGID_FIXED;
     }
 }
 
 /* All that moves keeps this share of its velocity. */
-static void velocities_scale(struct engine *e, real share)
+static void velocities_scale(struct run *e, real share)
 {
     struct particles *p = &e->part;
-    const struct grid *g = &e->reference.mesh.grid;
+    const struct grid *g = &e->frame->mesh.grid;
     for (int d = 0; d < p->dim; d++) {
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] *= share;
-        for (int64_t I = 0; e->reference.mesh.points > 0 && I < g->n; I++) g->velocity[d][I] *= share;
+        for (int64_t I = 0; e->frame->mesh.points > 0 && I < g->n; I++) g->velocity[d][I] *= share;
     }
     loads_mirror(&e->loads, p);
 }
 
-static real motion_of(const struct engine *e)
+static real motion_of(const struct run *e)
 {
-    return diagnostics_kinetic(&e->part) + engine_mesh_kinetic(&e->reference);
+    return diagnostics_kinetic(&e->part) + engine_mesh_kinetic(e->frame);
 }
 
 /* Time that waves need across the body [s]. */
-static real crossing_time(const struct engine *e)
+static real crossing_time(const struct run *e)
 {
     return (particles_longest(&e->part) + e->scene->spacing) / e->tables.wave_speed;
 }
 
 /* Steps in time until the body is at rest. Its clock is that of the release. */
-static status steps_in_time(struct engine *e, int64_t *broken)
+static status steps_in_time(struct run *e, int64_t *broken)
 {
     const real quiet = CROSSINGS_QUIET * crossing_time(e), damping = 2 / crossing_time(e);
     const int64_t most = (int64_t)ceil(CROSSINGS_MOST * crossing_time(e) / e->clock.dt);
     const int64_t damped_most = (int64_t)ceil(CROSSINGS_DAMPED * crossing_time(e) / e->clock.dt);
-    int64_t last = 0, damped = 0, had = e->diagnostics.bonds_broken;
+    int64_t last = 0, damped = 0, had = e->diagnostics->bonds_broken;
     *broken = 0;
     for (int64_t k = 0; k < most && damped < damped_most; k++) {
         TRY(engine_step(e));
         TRY(engine_divergence_check(e, true, true));
-        if (e->diagnostics.bonds_broken > had) *broken += e->diagnostics.bonds_broken - had, last = k, damped = 0;
-        had = e->diagnostics.bonds_broken;
+        if (e->diagnostics->bonds_broken > had) *broken += e->diagnostics->bonds_broken - had, last = k, damped = 0;
+        had = e->diagnostics->bonds_broken;
         if ((real)(k - last) * e->clock.dt < quiet) continue;
         velocities_scale(e, 1 - damping * e->clock.dt);
         damped++;
@@ -95,25 +102,25 @@ static status steps_in_time(struct engine *e, int64_t *broken)
 }
 
 /* Energy that the body has and that bonds have taken, less the work of loads [J]. */
-static real energy_held(struct engine *e)
+static real energy_held(struct run *e)
 {
-    return engine_strain_energy(e) + contact_energy(&e->contact, &e->part) + bonds_fracture_energy(&e->bonds) -
+    return engine_strain_energy(e) + contact_energy(e->contact, &e->part) + bonds_fracture_energy(&e->bonds) -
            e->loads.work - e->loads.constraint_work;
 }
 
-status statics_release(struct engine *e)
+status statics_release(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     const struct run_clock clock = e->clock;
-    const real before = energy_held(e), damped = e->coupling.damped;
+    const real before = energy_held(e), damped = e->damped;
     const int64_t broken = statics_advance_break(e);
     int64_t more;
     velocities_scale(e, 0);
     boundaries_hold(e, s->t);
     rigids_hold(e, true);
-    contact_unmark(&e->contact);
+    contact_unmark(e->contact);
     e->clock = (struct run_clock){clock.t, s->dt, clock.dt_critical, 1, RELEASE_STEPS_MOST, 1};
-    e->mpm.transfer.dt = s->dt;
+    e->grid->transfer.dt = s->dt;
     const status moved = steps_in_time(e, &more);
     s->released_time += (real)(e->clock.step - 1) * s->dt;
     e->clock = clock;
@@ -123,7 +130,7 @@ status statics_release(struct engine *e)
     TRY(moved);
     if (more > 0) led_lose(e);
     const real lost = before - energy_held(e);
-    s->balance.lost += lost, e->coupling.damped = damped + lost;
+    s->balance.lost += lost, e->damped = damped + lost;
     statics_precondition_free(e);
     statics_unknowns_free(e);
     statics_unknowns_make(e);

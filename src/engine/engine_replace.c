@@ -4,10 +4,24 @@
 
 #include "base/memory.h"
 #include "engine/engine.h"
+#include "mesh/mesh_part.h"
+#include "coupling/coupling_part.h"
+#include "mesh/levels.h"
+#include "probes/probes_part.h"
+#include "step/stability.h"
+#include "step/report.h"
+#include "data/hollow.h"
+#include "contact/contact.h"
+#include "fracture/fracture_part.h"
+#include "mesh/mesh_make.h"
+#include "coupling/conversion.h"
+#include "coupling/interface_zone.h"
+#include "probes/probes.h"
+#include "fracture/tips.h"
 
 /* Numbers of the particles and images of `old` in e, -1: not there. Both are in the order of their ids. The caller
  * frees them. */
-static int32_t *numbers_now(const struct engine *e, const struct engine *old)
+static int32_t *numbers_now(const struct run *e, const struct run *old)
 {
     const struct particles *p = &e->part, *q = &old->part;
     int32_t *now = NEW("replace.now", q->n_all, int32_t);
@@ -30,7 +44,7 @@ static int32_t *numbers_now(const struct engine *e, const struct engine *old)
     return now;
 }
 
-void engine_take_particles(struct engine *e, struct predecessor *before)
+void engine_take_particles(struct run *e, struct predecessor *before)
 {
     before->now = numbers_now(e, before->run);
     particles_take(&e->part, &before->run->part, before->now, e->optional);
@@ -38,9 +52,9 @@ void engine_take_particles(struct engine *e, struct predecessor *before)
     bonds_images_follow(&e->part, &e->source);
 }
 
-void engine_take_bonds(struct engine *e, const struct predecessor *before)
+void engine_take_bonds(struct run *e, const struct predecessor *before)
 {
-    struct engine *old = before->run;
+    struct run *old = before->run;
     bonds_take(&e->bonds, &e->part, &old->bonds, &old->part, before->now);
     state_weigh(&e->bonds, &e->part, &e->source);
     bonds_free(&old->bonds);
@@ -49,17 +63,17 @@ void engine_take_bonds(struct engine *e, const struct predecessor *before)
 
 /* Frees what is made anew from particles and scene: large bodies have no room for two of it. Of the mesh the motion of
  * its nodes is left. */
-static void leave_derived(struct engine *e)
+static void leave_derived(struct run *e)
 {
-    struct mesh *mesh = &e->reference.mesh, moved = {.grid = {.n = mesh->grid.n, .dim = mesh->grid.dim}};
+    struct mesh *mesh = &e->frame->mesh, moved = {.grid = {.n = mesh->grid.n, .dim = mesh->grid.dim}};
     for (int d = 0; d < e->part.dim; d++) {
         moved.displacement[d] = mesh->displacement[d], moved.grid.velocity[d] = mesh->grid.velocity[d];
         mesh->displacement[d] = mesh->grid.velocity[d] = NULL;
     }
     mesh_free(mesh);
     *mesh = moved;
-    partial_stress_free(&e->coupling.partial);
-    interface_zone_free(&e->coupling.zone);
+    partial_stress_free(&e->coupling->partial);
+    interface_zone_free(&e->coupling->zone);
     cells_free(&e->cells);
 }
 
@@ -72,9 +86,9 @@ static void swap_arrays(real **a, real **b, int dim)
 }
 
 /* The motion of all nodes, and the coarse cells. */
-static void nodes_take(struct engine *e, struct engine *old)
+static void nodes_take(struct run *e, struct run *old)
 {
-    struct reference_frame *r = &e->reference, *was = &old->reference;
+    struct reference_frame *r = e->frame, *was = old->frame;
     INVARIANT(r->mesh.grid.n == was->mesh.grid.n);
     swap_arrays(r->mesh.displacement, was->mesh.displacement, e->part.dim);
     swap_arrays(r->mesh.grid.velocity, was->mesh.grid.velocity, e->part.dim);
@@ -90,36 +104,38 @@ static void nodes_take(struct engine *e, struct engine *old)
 }
 
 /* Accounts and figures that do not depend on which particles are made. */
-static void accounts_take(struct engine *e, struct engine *old)
+static void accounts_take(struct run *e, struct run *old)
 {
     loads_take(&e->loads, &old->loads);
-    probes_take(&e->probing.probes, &old->probing.probes);
-    e->coupling.damped = old->coupling.damped;
-    e->coupling.conversion = old->coupling.conversion;
-    e->diagnostics = old->diagnostics;
-    const real mass = e->stability.mass;         /* as a restart would sum it, over the particles that are made */
-    e->stability = old->stability;
-    e->stability.mass = mass;
-    e->probing.residual_step0 = old->probing.residual_step0;
-    e->report = old->report;
-    old->report = (struct run_report){.out = NULL};
+    probes_take(&e->probing->probes, &old->probing->probes);
+    e->damped = old->damped;
+    e->coupling->conversion = old->coupling->conversion;
+    *e->diagnostics = *old->diagnostics;
+    const real mass = e->stability->mass;         /* as a restart would sum it, over the particles that are made */
+    *e->stability = *old->stability;
+    e->stability->mass = mass;
+    e->probing->residual_step0 = old->probing->residual_step0;
+    e->warnings = old->warnings, e->laps = old->laps;
+    old->warnings = (struct warnings){0};
+    *e->report = *old->report;
+    *old->report = (struct run_report){.out = NULL};
 }
 
-status engine_replace(struct engine *e)
+status engine_replace(struct run *e)
 {
-    struct engine *old = NEW("replace.old", 1, struct engine);
+    struct run *old = NEW("replace.old", 1, struct run);
     struct predecessor before = {.run = old};
+    const struct hollow hollow = e->frame->hollow;
     *old = *e;
-    old->reference.hollow = (struct hollow){0};
-    old->reference.levels.fine = &old->reference.mesh;
+    old->frame->hollow = (struct hollow){0};
     memory_reuse(false);
     leave_derived(old);
-    status s = engine_make_again(e, old->scene, NULL, e->reference.hollow, &before);
+    status s = engine_make_again(e, old->scene, NULL, hollow, &before);
     if (s == OK) {
         nodes_take(e, old);
-        contact_take(&e->contact, &old->contact, before.now, e->part.n);
-        if (e->contact.made) contact_follow(&e->contact, &e->part, &e->bonds, &e->loads);
-        tips_take(&e->fracture.tips, &old->fracture.tips, before.now);
+        contact_take(e->contact, old->contact, before.now, e->part.n);
+        if (e->contact->made) contact_follow(e->contact, &e->part, &e->bonds, &e->loads);
+        tips_take(&e->fracture->tips, &old->fracture->tips, before.now);
         accounts_take(e, old);
     }
     memory_free(before.now);

@@ -9,6 +9,13 @@
 #include "base/memory.h"
 #include "fracture/fragments.h"
 #include "output/output_files.h"
+#include "step/report.h"
+#include "output/output.h"
+#include "contact/contact.h"
+#include "fracture/fracture_part.h"
+#include "quasistatic/statics.h"
+#include "fracture/tips.h"
+#include "mesh/mesh_part.h"
 
 #define PROGRESS_SECONDS 0.5             /* between progress lines on a terminal */
 #define PROGRESS_SECONDS_FILE 60.0       /* and in files                         */
@@ -70,30 +77,30 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
         (long long)clock->step, clock->t, (int)p->id[first]);
 }
 
-int64_t engine_frames_number(const struct engine *e)
+int64_t engine_frames_number(const struct run *e)
 {
     const int64_t most = e->clock.steps / e->clock.stride;
     return e->scene->frames < most ? e->scene->frames : most;
 }
 
-int64_t engine_frame_step(const struct engine *e, int64_t k)
+int64_t engine_frame_step(const struct run *e, int64_t k)
 {
     return frame_step(e->scene, &e->clock, k, engine_frames_number(e));
 }
 
 /* Is the next frame of the body due once so many steps are done? */
-static bool body_frame_due(const struct engine *e, int64_t step)
+static bool body_frame_due(const struct run *e, int64_t step)
 {
-    const int frames = e->report.out->series[0].frames;
+    const int frames = e->report->out->series[0].frames;
     return frames <= engine_frames_number(e) && step >= engine_frame_step(e, frames);
 }
 
 /* Is the next frame of a region due? Where its time passes more than once in a step, a step writes one; the last one is
  * that of the end. */
-static bool region_frame_due(const struct engine *e, int k, int64_t step)
+static bool region_frame_due(const struct run *e, int k, int64_t step)
 {
     const real every = e->scene->series[k - 1].every, duration = e->scene->duration;
-    const int frames = e->report.out->series[k].frames;
+    const int frames = e->report->out->series[k].frames;
     if (frames > (int64_t)ceil(duration / every * (1 - 1e-12))) return false;
     const int64_t due = (int64_t)floor(real_min((real)frames * every, duration) / e->clock.dt + 0.5);
     return step >= (due < e->clock.steps ? common_step(&e->clock, due) : e->clock.steps);
@@ -101,41 +108,41 @@ static bool region_frame_due(const struct engine *e, int k, int64_t step)
 
 /* Bits of the series, 0 the body's, of which a frame is due once so many steps are done. Those of solvers that are not
  * explicit: at the start and at the end. */
-static unsigned frames_due(const struct engine *e, int64_t step)
+static unsigned frames_due(const struct run *e, int64_t step)
 {
     const bool at_rest = scene_at_rest(e->scene), last = step == e->clock.steps;
     unsigned due = 0;
-    if (!e->report.out || (at_rest && step > 0 && !last)) return 0;
-    for (int k = 0; k <= e->report.out->n_series; k++)
+    if (!e->report->out || (at_rest && step > 0 && !last)) return 0;
+    for (int k = 0; k <= e->report->out->n_series; k++)
         if (k == 0 ? body_frame_due(e, step) : at_rest || region_frame_due(e, k, step)) due |= 1u << k;
     return due;
 }
 
-bool engine_frame_follows(const struct engine *e) { return frames_due(e, e->clock.step + 1) != 0; }
+bool engine_frame_follows(const struct run *e) { return frames_due(e, e->clock.step + 1) != 0; }
 
 /* Fields that the frames of series k are asked for. */
-static unsigned asked_of(const struct engine *e, int k)
+static unsigned asked_of(const struct run *e, int k)
 {
     return k > 0 && e->scene->series[k - 1].fields ? e->scene->series[k - 1].fields : e->scene->fields;
 }
 
 /* A frame of each series that is due. Before the first step nothing has been pushed. */
-static status write_frames(struct engine *e, unsigned due)
+static status write_frames(struct run *e, unsigned due)
 {
     const bool parts = e->scene->method == METHOD_PD && scene_cracks(e->scene);
-    struct output *out = e->report.out;
+    struct output *out = e->report->out;
     struct fragments fragments = {0};
     unsigned asked = 0;
     status s = OK;
-    if (e->report.more.n > 0) TRY(output_wait(out));     /* which still reads them */
+    if (e->report->more.n > 0) TRY(output_wait(out));     /* which still reads them */
     engine_sync(e);
     TRY(frame_sound(&e->clock, &e->part));
     if (parts) fragments_find(&fragments, &e->bonds, &e->part);
     for (int k = 0; k <= out->n_series; k++)
         if (due >> k & 1) asked |= asked_of(e, k);
-    struct frame_extra extra = {.push = e->contact.push[0] ? e->contact.push : NULL, .fragment = fragments.of};
+    struct frame_extra extra = {.push = e->contact->push[0] ? e->contact->push : NULL, .fragment = fragments.of};
     if (engine_hollow_points(e, asked & (ASK_STRAIN | ASK_DENSITY))) {
-        extra.more = &e->report.more, extra.more_spacing = e->report.more_spacing;
+        extra.more = &e->report->more, extra.more_spacing = e->report->more_spacing;
         extra.spacing = e->scene->spacing;
     }
     engine_fields_make(e, asked, &extra);
@@ -149,12 +156,12 @@ static status write_frames(struct engine *e, unsigned due)
     return s == OK && due & 1 ? engine_profiles_write(e) : s;
 }
 
-static status write_checkpoint(struct engine *e)
+static status write_checkpoint(struct run *e)
 {
     engine_mesh_sync(e);
-    e->report.last_checkpoint = team_clock();
-    TRY(checkpoint_write(e->report.out, e->scene->text, engine_archive, e));
-    e->report.checkpoint_seconds = real_max(e->report.checkpoint_seconds, team_clock() - e->report.last_checkpoint);
+    e->report->last_checkpoint = team_clock();
+    TRY(checkpoint_write(e->report->out, e->scene->text, engine_archive, e));
+    e->report->checkpoint_seconds = real_max(e->report->checkpoint_seconds, team_clock() - e->report->last_checkpoint);
     return OK;
 }
 
@@ -165,19 +172,19 @@ static bool wall_is_over(const struct scene *s, const struct run_report *report)
 }
 
 /* Warns of frames and profiles that a resumed run had written and that are lost. */
-static status say_lost(struct engine *e)
+static status say_lost(struct run *e)
 {
     char text[PATH_NAME_ROOM + 200];
     int lost;
-    TRY(output_frames_check(e->report.out, &lost, text, sizeof text));
+    TRY(output_frames_check(e->report->out, &lost, text, sizeof text));
     if (lost > 0) engine_say(e, text);
     engine_profiles_check(e);
     return OK;
 }
 
-status engine_report_start(struct engine *e)
+status engine_report_start(struct run *e)
 {
-    struct run_report *r = &e->report;
+    struct run_report *r = e->report;
     r->started = r->last_progress = r->last_checkpoint = team_clock();
     r->step_started = e->clock.step;
     r->loop_before = r->loop_seconds;
@@ -185,7 +192,7 @@ status engine_report_start(struct engine *e)
     const bool resumed = r->out && r->out->series[0].frames > 0;
     TRY(engine_history_start(e, resumed));
     if (!r->out) return OK;
-    contact_record(&e->contact, &e->part);
+    contact_record(e->contact, &e->part);
     if (resumed) return say_lost(e);
     engine_profiles_remove(e);
     TRY(write_frames(e, frames_due(e, 0) | 1));      /* the body's, also where it is the only one */
@@ -202,23 +209,23 @@ static void duration_text(char *text, size_t size, double seconds)
 }
 
 /* Prints the progress line if it is due; `last`: after the last step. */
-static void progress(struct engine *e, bool last)
+static void progress(struct run *e, bool last)
 {
     bool terminal = isatty(STDERR_FILENO);
     double now = team_clock();
-    if (e->report.quiet ||
-        (!last && now - e->report.last_progress < (terminal ? PROGRESS_SECONDS : PROGRESS_SECONDS_FILE)))
+    if (e->report->quiet ||
+        (!last && now - e->report->last_progress < (terminal ? PROGRESS_SECONDS : PROGRESS_SECONDS_FILE)))
         return;
     if (last && !terminal) return;
-    e->report.last_progress = now;
-    double rate = (double)(e->clock.step - e->report.step_started) / real_max(now - e->report.started, 1e-9);
+    e->report->last_progress = now;
+    double rate = (double)(e->clock.step - e->report->step_started) / real_max(now - e->report->started, 1e-9);
     char left[32];
     duration_text(left, sizeof left, rate > 0 ? (double)(e->clock.steps - e->clock.step) / rate : 0);
-    const struct tip *tip = tips_longest(&e->fracture.tips);
+    const struct tip *tip = tips_longest(&e->fracture->tips);
     const char *const from = terminal ? "\r" : "";
     if (scene_in_steps(e->scene))
         fprintf(stderr, "%sload step %lld/%lld  load time %.4g s  %lld equilibria  at most %s left", from,
-                (long long)e->clock.step, (long long)e->clock.steps, e->statics.t, (long long)e->statics.solutions,
+                (long long)e->clock.step, (long long)e->clock.steps, e->statics->t, (long long)e->statics->solutions,
                 left);
     else
         fprintf(stderr, "%sstep %lld/%lld  t = %.4g s  %.0f steps/s  %s left", from, (long long)e->clock.step,
@@ -230,33 +237,33 @@ static void progress(struct engine *e, bool last)
 
 /* ---- after a step ------------------------------------------------------------------------------------------------ */
 
-real engine_inactive_share(const struct engine *e)
+real engine_inactive_share(const struct run *e)
 {
     real at_rest = inactive_share(&e->bonds.active) * (real)e->part.n_of[KIND_PD];
-    if (e->reference.mesh.points > 0)
-        at_rest += inactive_share(&e->reference.mesh.active) * (real)e->reference.mesh.points;
+    if (e->frame->mesh.points > 0)
+        at_rest += inactive_share(&e->frame->mesh.active) * (real)e->frame->mesh.points;
     return at_rest / (real)e->part.n;
 }
 
-status engine_report(struct engine *e)
+status engine_report(struct run *e)
 {
-    e->report.particle_steps[KIND_PD] += e->part.n_of[KIND_PD];
-    e->report.particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
-    e->report.bond_visits += e->bonds.n;
-    e->report.inactive += engine_inactive_share(e);
-    lap(&e->report.laps, LAP_SAMPLE);
+    e->report->particle_steps[KIND_PD] += e->part.n_of[KIND_PD];
+    e->report->particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
+    e->report->bond_visits += e->bonds.n;
+    e->report->inactive += engine_inactive_share(e);
+    lap(&e->laps, LAP_SAMPLE);
     /* before any checkpoint, so that a finished run has nothing left to write */
     if (e->clock.step == e->clock.steps && !scene_in_steps(e->scene)) engine_sample_last(e);
-    TRY(e->report.history_status);
+    TRY(e->report->history_status);
     TRY(engine_energy_check(e));
     if (e->clock.step == e->clock.steps) engine_say_balance(e);
     if (e->clock.step == e->clock.steps || scene_in_steps(e->scene)) engine_say_yielding(e);
-    if (e->report.out) {
+    if (e->report->out) {
         const unsigned due = frames_due(e, e->clock.step);
         if (due) TRY(write_frames(e, due));
-        const bool late = wall_is_over(e->scene, &e->report), stop = late || (e->report.stop && *e->report.stop);
+        const bool late = wall_is_over(e->scene, e->report), stop = late || (e->report->stop && *e->report->stop);
         if (stop || scene_in_steps(e->scene) ||
-            team_clock() - e->report.last_checkpoint > e->scene->checkpoint_interval)
+            team_clock() - e->report->last_checkpoint > e->scene->checkpoint_interval)
             TRY(write_checkpoint(e));
         if (stop && e->clock.step < e->clock.steps)
             return status_set(INTERRUPTED, "%s at step %lld of %lld; go on with --resume",
@@ -264,15 +271,15 @@ status engine_report(struct engine *e)
                               (long long)e->clock.steps);
     }
     progress(e, false);
-    lap(&e->report.laps, LAP_OUTPUT);
-    e->report.loop_seconds = e->report.loop_before - e->report.laps.spent[LAP_OUTPUT];
-    for (int k = 0; k < LAPS; k++) e->report.loop_seconds += e->report.laps.spent[k];
+    lap(&e->laps, LAP_OUTPUT);
+    e->report->loop_seconds = e->report->loop_before - e->laps.spent[LAP_OUTPUT];
+    for (int k = 0; k < LAPS; k++) e->report->loop_seconds += e->laps.spent[k];
     return OK;
 }
 
-status engine_report_end(struct engine *e)
+status engine_report_end(struct run *e)
 {
     progress(e, true);
-    if (e->report.out) TRY(output_wait(e->report.out));
-    return e->report.out && e->clock.step > e->report.step_started ? write_checkpoint(e) : OK;
+    if (e->report->out) TRY(output_wait(e->report->out));
+    return e->report->out && e->clock.step > e->report->step_started ? write_checkpoint(e) : OK;
 }

@@ -2,6 +2,9 @@
 #include <math.h>
 
 #include "engine_report.h"
+#include "probes/probes_part.h"
+#include "mesh/mesh_part.h"
+#include "grid/grid_part.h"
 
 static bool in_patch(const struct scene *s, const real *x)
 {
@@ -18,24 +21,24 @@ static bool wants_residual(const struct scene *s, const struct run_clock *clock)
     return wanted && clock->step == 0;
 }
 
-void engine_residual_of(struct engine *e, const struct grid *g)
+void engine_residual_of(struct run *e, const struct grid *g)
 {
-    real x[DIM_MAX], *most = &e->probing.residual_step0;
+    real x[DIM_MAX], *most = &e->probing->residual_step0;
     if (!wants_residual(e->scene, &e->clock)) return;
     for (int64_t I = 0; I < g->n; I++) {
-        const int64_t at = g == &e->reference.mesh.grid ? mesh_base(&e->reference.mesh, I) : I;
+        const int64_t at = g == &e->frame->mesh.grid ? mesh_base(&e->frame->mesh, I) : I;
         for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
         for (int d = 0; d < g->dim; d++)
             if (in_patch(e->scene, x)) *most = real_max(*most, fabs(g->force[d][I]));
     }
 }
 
-void engine_residual(struct engine *e)
+void engine_residual(struct run *e)
 {
     const struct particles *p = &e->part;
-    real x[DIM_MAX], *most = &e->probing.residual_step0;
+    real x[DIM_MAX], *most = &e->probing->residual_step0;
     if (!wants_residual(e->scene, &e->clock)) return;
-    for (int k = 0; k < e->mpm.fields; k++) engine_residual_of(e, &e->mpm.field[k].grid);
+    for (int k = 0; k < e->grid->fields; k++) engine_residual_of(e, &e->grid->field[k].grid);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         int32_t i = p->list[KIND_PD][k];
         if (particle_on_grid(p, i)) continue;

@@ -5,6 +5,12 @@
 #include "engine_report.h"
 #include "base/memory.h"
 #include "coupling/reversion.h"
+#include "coupling/coupling_part.h"
+#include "mesh/mesh_part.h"
+#include "grid/grid_part.h"
+#include "contact/contact.h"
+#include "coupling/interface_zone.h"
+#include "probes/diagnostics.h"
 
 /* Steps between checks: a wave crosses one horizon, half of a family, so that no wave passes a family between two
  * checks. */
@@ -30,52 +36,52 @@ status engine_reversion_check(const struct scene *s)
 }
 
 /* Marks material points with bonds, e->bonded [n], for FLIP. */
-static void bonded_make(struct engine *e)
+static void bonded_make(struct run *e)
 {
     const struct bonds *b = &e->bonds;
     if (b->rows == 0) {                  /* all have reverted: no point is beside bonds */
-        memory_free(e->coupling.bonded);
-        e->coupling.bonded = NULL;
+        memory_free(e->coupling->bonded);
+        e->coupling->bonded = NULL;
         return;
     }
     if (e->scene->transfer != TRANSFER_FLIP || e->part.n_free == 0) return;
-    if (!e->coupling.bonded) e->coupling.bonded = NEW("engine.bonded", e->part.n, uint8_t);
+    if (!e->coupling->bonded) e->coupling->bonded = NEW("engine.bonded", e->part.n, uint8_t);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < e->part.n; i++)
-        e->coupling.bonded[i] = e->part.kind[i] == KIND_MPM && bonds_has(b, i);
+        e->coupling->bonded[i] = e->part.kind[i] == KIND_MPM && bonds_has(b, i);
 }
 
-void engine_interface_make(struct engine *e)
+void engine_interface_make(struct run *e)
 {
     bonded_make(e);
-    if (e->part.n_free == 0) interface_zone_free(&e->coupling.zone);
-    if (e->coupling.kind == COUPLING_PARTIAL_STRESS && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0)
-        interface_zone_make(&e->coupling.zone, &e->part, &e->source);
+    if (e->part.n_free == 0) interface_zone_free(&e->coupling->zone);
+    if (e->coupling_kind == COUPLING_PARTIAL_STRESS && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0)
+        interface_zone_make(&e->coupling->zone, &e->part, &e->source);
 }
 
 /* Energy of the body at the current positions [J]. */
-static real energy_now(struct engine *e)
+static real energy_now(struct run *e)
 {
     if (e->source.modulus) engine_stress(e);
     return e->kernels.bond_energy(&e->bonds, &e->part) +
-           diagnostics_strain(&e->part, e->scene->material, &e->coupling.partial) +
-           mesh_strain(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain) +
-           diagnostics_kinetic(&e->part) + mesh_kinetic(&e->reference.mesh);
+           diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial) +
+           mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain) +
+           diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh);
 }
 
 /* Reverts the listed particles, [n], and records the change of energy. */
-static void revert_listed(struct engine *e, const int32_t *list, int64_t n)
+static void revert_listed(struct run *e, const int32_t *list, int64_t n)
 {
     const real before = energy_now(e);
-    reversion_apply(&e->coupling.conversion, &e->part, &e->bonds, &e->source,
-                    e->coupling.uses_partial ? &e->coupling.partial : NULL, list, n);
+    reversion_apply(&e->coupling->conversion, &e->part, &e->bonds, &e->source,
+                    e->coupling->uses_partial ? &e->coupling->partial : NULL, list, n);
     engine_mesh_insert(e, list, n);
     engine_interface_make(e);
-    e->mpm.sort_needed = e->contact.due = true;
-    e->coupling.conversion.reversion_energy += energy_now(e) - before;
+    e->grid->sort_needed = e->contact->due = true;
+    e->coupling->conversion.reversion_energy += energy_now(e) - before;
 }
 
-void engine_revert(struct engine *e)
+void engine_revert(struct run *e)
 {
     const struct scene *s = e->scene;
     int32_t *list;
@@ -86,7 +92,7 @@ void engine_revert(struct engine *e)
     const int64_t n = reversion_choose(
         &(struct reversion_rule){.source = &e->source,
                                  .elastic = e->tables.elastic,
-                                 .kept = e->coupling.start_region.n > 0 ? &e->coupling.start_region : NULL,
+                                 .kept = e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL,
                                  .low_stress = s->conversion.low_stress,
                                  .hold_time =
                                      s->conversion.hold_time * e->source.family.horizon / e->tables.wave_speed},

@@ -4,14 +4,16 @@
 #include <string.h>
 
 #include "engine/engine.h"
+#include "rigid/rigid_part.h"
+#include "rigid/rigid.h"
 
 #define DEEP_MOST 0.6                    /* of a particle's centre in a rigid body at the start [spacings] */
 #define WAY_MOST 0.5                     /* in a step [spacings]: contact pushes over one */
 
 /* REFUSED where a rigid body holds particles. */
-static status check_room(const struct engine *e, int k)
+static status check_room(const struct run *e, int k)
 {
-    const struct rigid_body *r = &e->rigid[k];
+    const struct rigid_body *r = &e->rigid->body[k];
     const struct particles *p = &e->part;
     real deepest = 0, normal[DIM_MAX], x[DIM_MAX] = {0};
     int64_t at = -1;
@@ -27,9 +29,9 @@ static status check_room(const struct engine *e, int k)
 }
 
 /* REFUSED where the image of a body that flies would be another one. */
-static status check_mirrors(const struct engine *e, int k)
+static status check_mirrors(const struct run *e, int k)
 {
-    const struct rigid_body *r = &e->rigid[k];
+    const struct rigid_body *r = &e->rigid->body[k];
     const struct scene *s = e->scene;
     real from[DIM_MAX], to[DIM_MAX];
     if (r->motion != RIGID_FREE || !region_bounds(r->shape, s->dim, from, to)) return OK;
@@ -45,7 +47,7 @@ static status check_mirrors(const struct engine *e, int k)
     return OK;
 }
 
-status engine_rigid_check(const struct engine *e)
+status engine_rigid_check(const struct run *e)
 {
     for (int k = 0; k < e->scene->rigids; k++) {
         const char *place = e->scene->body[e->scene->bodies + k].place;
@@ -56,10 +58,10 @@ status engine_rigid_check(const struct engine *e)
 }
 
 /* FAILED for a body that would pass through particles between two steps. */
-status engine_rigid_speed_check(const struct engine *e)
+status engine_rigid_speed_check(const struct run *e)
 {
     for (int k = 0; k < e->scene->rigids; k++) {
-        const struct rigid_body *r = &e->rigid[k];
+        const struct rigid_body *r = &e->rigid->body[k];
         const real turning = sqrt(dot(r->spin, r->spin, DIM_MAX)) * r->radius;
         const real way = (sqrt(dot(r->v, r->v, DIM_MAX)) + turning) * e->clock.dt / e->scene->spacing;
         if (way <= WAY_MOST) continue;
@@ -73,7 +75,7 @@ status engine_rigid_speed_check(const struct engine *e)
 }
 
 /* Is a point of a lattice in r, a spacing inside it, also inside the other? */
-static bool have_met(const struct engine *e, const struct rigid_body *r, const struct rigid_body *other)
+static bool have_met(const struct run *e, const struct rigid_body *r, const struct rigid_body *other)
 {
     real from[DIM_MAX], to[DIM_MAX], x[DIM_MAX] = {0}, normal[DIM_MAX];
     const real spacing = e->scene->spacing;
@@ -97,16 +99,18 @@ static bool have_met(const struct engine *e, const struct rigid_body *r, const s
 }
 
 /* Says once that two of them, one of which flies, are inside each other. */
-void engine_rigid_meet(struct engine *e)
+void engine_rigid_meet(struct run *e)
 {
-    for (int a = 0; a < e->scene->rigids && !e->rigid_met; a++)
-        for (int b = 0; b < e->scene->rigids && !e->rigid_met; b++) {
+    for (int a = 0; a < e->scene->rigids && !e->rigid->met; a++)
+        for (int b = 0; b < e->scene->rigids && !e->rigid->met; b++) {
             char text[320];
-            if (a == b || e->rigid[a].motion != RIGID_FREE || !have_met(e, &e->rigid[a], &e->rigid[b])) continue;
+            if (a == b || e->rigid->body[a].motion != RIGID_FREE ||
+                !have_met(e, &e->rigid->body[a], &e->rigid->body[b]))
+                continue;
             snprintf(text, sizeof text,
                      "rigid bodies %.60s and %.60s are inside each other at t = %.3g s: they meet particles, not each "
-                     "other", e->rigid[a].name, e->rigid[b].name, e->clock.t);
+                     "other", e->rigid->body[a].name, e->rigid->body[b].name, e->clock.t);
             engine_say(e, text);
-            e->rigid_met = true;
+            e->rigid->met = true;
         }
 }

@@ -6,6 +6,22 @@
 #include "base/memory.h"
 #include "engine_report.h"
 #include "engine_statics.h"
+#include "step/report.h"
+#include "mesh/mesh_part.h"
+#include "output/column.h"
+#include "probes/diagnostics.h"
+#include "fracture/fracture_part.h"
+#include "fracture/tips.h"
+#include "probes/probes_part.h"
+#include "probes/probes.h"
+#include "output/output.h"
+#include "coupling/conversion.h"
+#include "mesh/levels.h"
+#include "coupling/coupling_part.h"
+#include "step/stability.h"
+#include "grid/grid_part.h"
+#include "quasistatic/statics.h"
+#include "contact/contact.h"
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
@@ -29,15 +45,15 @@ static real inactive_since_sample(const struct run_clock *clock, struct run_repo
 }
 
 /* Does nothing outside the deforming bodies act on them, and have all of them particles or nodes of one mesh? */
-static bool is_free(const struct engine *e)
+static bool is_free(const struct run *e)
 {
     const struct scene *s = e->scene;
     return s->dim > 1 && scene_moves(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
-           e->reference.levels.n == 0;
+           e->frame->levels.n == 0;
 }
 
 /* Columns of the angular momentum of free bodies, NULL: only counted. Returns how many. */
-static int spin_columns(const struct engine *e, struct column *column)
+static int spin_columns(const struct run *e, struct column *column)
 {
     static const char *const name[] = {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};
     int n = 0;
@@ -47,25 +63,25 @@ static int spin_columns(const struct engine *e, struct column *column)
 }
 
 /* Fills one line of history.csv, the record [RECORD_FIXED + columns of probes]. */
-static void fill_record(struct engine *e)
+static void fill_record(struct run *e)
 {
-    const struct energy_balance *l = &e->diagnostics.now;
-    const struct tip *tip = tips_longest(&e->fracture.tips);
-    real *r = e->report.record;
+    const struct energy_balance *l = &e->diagnostics->now;
+    const struct tip *tip = tips_longest(&e->fracture->tips);
+    real *r = e->report->record;
     const real *place = tip ? tip->place : (const real[DIM_MAX]){NAN, NAN, NAN};
     const int dim = e->part.dim;
-    const real n = (real)e->part.n_body, pd = (real)e->report.sampling.pd;
+    const real n = (real)e->part.n_body, pd = (real)e->report->sampling.pd;
     const real fixed[RECORD_FIXED] = {
         [0] = l->time, (real)e->clock.step,
         [7] = l->balance_error, l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, pd, pd / n,
-        (real)e->report.sampling.bonds, tip ? tip->growth : 0, place[0], dim > 1 ? place[1] : NAN,
+        (real)e->report->sampling.bonds, tip ? tip->growth : 0, place[0], dim > 1 ? place[1] : NAN,
         dim > 2 ? place[2] : NAN,
-        [20] = 1 - pd / n, inactive_since_sample(&e->clock, &e->report)};
+        [20] = 1 - pd / n, inactive_since_sample(&e->clock, e->report)};
     memcpy(r, fixed, sizeof fixed);
     for (int k = 0; k < ENERGIES; k++) r[ledger[k].column] = l->energy.of[k];
     r[ledger[LEDGER_WORK].column] = l->external_work;
-    for (int c = 0; c < e->probing.probes.columns; c++) r[RECORD_FIXED + c] = e->probing.probes.value[c];
-    r += RECORD_FIXED + e->probing.probes.columns;
+    for (int c = 0; c < e->probing->probes.columns; c++) r[RECORD_FIXED + c] = e->probing->probes.value[c];
+    r += RECORD_FIXED + e->probing->probes.columns;
     engine_rigid_record(e, r);
     r += engine_rigid_columns(e, NULL);
     statics_record(e, r);
@@ -73,10 +89,10 @@ static void fill_record(struct engine *e)
     for (int c = 0; c < spin_columns(e, NULL); c++) r[c] = l->spin[e->part.dim == 2 ? 2 : c];
 }
 
-status engine_history_start(struct engine *e, bool resume)
+status engine_history_start(struct run *e, bool resume)
 {
-    struct run_report *report = &e->report;
-    const struct probes *probes = &e->probing.probes;
+    struct run_report *report = e->report;
+    const struct probes *probes = &e->probing->probes;
     const int rigid = RECORD_FIXED + probes->columns, own = rigid + engine_rigid_columns(e, NULL);
     const int spin = own + statics_columns(e, NULL), columns = spin + spin_columns(e, NULL);
     report->record = NEW("report.record", columns, real);
@@ -112,20 +128,20 @@ static bool wants_stress(const struct scene *s)
 
 /* State precompute is anew at the current positions: a step moves particles after its forces, so that stresses in a
  * turning body would else include the rotation of a step. */
-void engine_stress(struct engine *e)
+void engine_stress(struct run *e)
 {
     states_precompute(&e->bonds, &e->part, &e->source);
     e->kernels.bond_stress(&e->bonds, &e->part);
 }
 
-void engine_sync(struct engine *e)
+void engine_sync(struct run *e)
 {
     engine_mesh_sync(e);
     engine_stress(e);
 }
 
 /* Updates the points of a mesh for probes of the motion of particles; damage and bonds are always up to date. */
-static void sync_probes(struct engine *e)
+static void sync_probes(struct run *e)
 {
     bool motion = false;
     for (int k = 0; k < e->scene->probes; k++) {
@@ -141,89 +157,89 @@ static real kinetic_now(const struct particles *p, const struct reference_frame 
 }
 
 /* Meshes of the reference frame and of its coarse cells, whose nodes have momentum; returns their number. */
-static int meshes(const struct engine *e, const struct grid *nodes[LEVELS_MAX + 1])
+static int meshes(const struct run *e, const struct grid *nodes[LEVELS_MAX + 1])
 {
-    const struct mesh_levels *levels = &e->reference.levels;
-    nodes[0] = &e->reference.mesh.grid;
+    const struct mesh_levels *levels = &e->frame->levels;
+    nodes[0] = &e->frame->mesh.grid;
     for (int level = 1; level <= levels->n; level++) nodes[level] = &levels->at[level].mesh.grid;
     return 1 + levels->n;
 }
 
 /* Keeps the momentum before a step. */
-static void keep_momentum(struct engine *e)
+static void keep_momentum(struct run *e)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
     const int grids = meshes(e, nodes);
-    e->report.sampling.t_velocity = engine_observed(e).t_velocity;
-    diagnostics_momentum_of(&e->part, nodes, grids, e->report.sampling.momentum);
+    e->report->sampling.t_velocity = engine_observed(e).t_velocity;
+    diagnostics_momentum_of(&e->part, nodes, grids, e->report->sampling.momentum);
 }
 
 /* Sets the momentum of a sample to that of its own time, linear between those of the velocities before and after. */
-static void time_momentum(struct engine *e, const struct velocity_time *now)
+static void time_momentum(struct run *e, const struct velocity_time *now)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
     const int grids = meshes(e, nodes);
-    const struct sampling *s = &e->report.sampling;
+    const struct sampling *s = &e->report->sampling;
     real after[DIM_MAX];
     if (!scene_moves(e->scene)) return;
     const real share = (e->clock.t - s->t_velocity) / (now->t - s->t_velocity);
     diagnostics_momentum_of(&e->part, nodes, grids, after);
     for (int d = 0; d < e->part.dim; d++)
-        e->diagnostics.now.momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * after[d]);
+        e->diagnostics->now.momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * after[d]);
 }
 
 /* Samples all quantities but energies: stress, momentum, tips, probes. */
-static void sample_state(struct engine *e)
+static void sample_state(struct run *e)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
     const int grids = meshes(e, nodes);
     if (wants_stress(e->scene)) engine_stress(e);
     engine_rigid_keep(e);
-    diagnostics_momentum(&e->diagnostics, &e->part, nodes, grids, e->loads.impulse);
+    diagnostics_momentum(e->diagnostics, &e->part, nodes, grids, e->loads.impulse);
     if (is_free(e))
-        diagnostics_spin(&e->diagnostics, &e->part, e->reference.mesh.points > 0 ? &e->reference.mesh : NULL,
+        diagnostics_spin(e->diagnostics, &e->part, e->frame->mesh.points > 0 ? &e->frame->mesh : NULL,
                          e->scene->bodies);
-    tips_sample(&e->fracture.tips, &e->part, &e->cells, e->clock.t);
+    tips_sample(&e->fracture->tips, &e->part, &e->cells, e->clock.t);
     struct observed o = engine_observed(e);
-    probes_sample(&e->probing.probes, &o);
+    probes_sample(&e->probing->probes, &o);
 }
 
-real engine_strain_energy(struct engine *e)
+real engine_strain_energy(struct run *e)
 {
     return e->kernels.bond_energy(&e->bonds, &e->part) +
-           diagnostics_strain(&e->part, e->scene->material, &e->coupling.partial) + engine_mesh_strain(e);
+           diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial) + engine_mesh_strain(e);
 }
 
 /* Energies of a sample at the current positions, but the kinetic energy [J]. */
-static void sample_energies(struct engine *e)
+static void sample_energies(struct run *e)
 {
     const struct material *m = e->scene->material;
-    e->report.sampling.pd = e->part.n_of[KIND_PD], e->report.sampling.bonds = e->bonds.n;
-    e->report.sampling.energy = (struct energy){
+    e->report->sampling.pd = e->part.n_of[KIND_PD], e->report->sampling.bonds = e->bonds.n;
+    e->report->sampling.energy = (struct energy){
         .strain = engine_strain_energy(e),
-        .plastic = bond_plastic_work(&e->bonds) + diagnostics_plastic(&e->part, m, &e->coupling.partial),
+        .plastic = bond_plastic_work(&e->bonds) + diagnostics_plastic(&e->part, m, &e->coupling->partial),
         .fracture = bonds_fracture_energy(&e->bonds),
-        .contact = contact_energy(&e->contact, &e->part),
-        .damped = e->coupling.damped + contact_friction_work(&e->contact),
+        .contact = contact_energy(e->contact, &e->part),
+        .damped = e->damped + contact_friction_work(e->contact),
         .absorbed = e->loads.absorbing.energy,
     };
 }
 
 /* Completes a sample and writes its line. now: of the present velocities; kinetic, work [J]. */
-static void sample_write(struct engine *e, const struct velocity_time *now, real kinetic, real work)
+static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
-    struct sampling *sampling = &e->report.sampling;
+    struct sampling *sampling = &e->report->sampling;
     sync_probes(e);
     struct observed o = engine_observed(e);
-    probes_sample_end(&e->probing.probes, &o, now);
+    probes_sample_end(&e->probing->probes, &o, now);
     time_momentum(e, now);
     sampling->energy.kinetic = kinetic;
-    e->stability.lost = !isfinite(energy_sum(&sampling->energy) + work);
-    if (e->stability.lost) return;               /* engine_energy_check reports it; nothing is written */
-    diagnostics_balance(&e->diagnostics, e->clock.t, &sampling->energy, work);
+    e->stability->lost = !isfinite(energy_sum(&sampling->energy) + work);
+    if (e->stability->lost) return;               /* engine_energy_check reports it; nothing is written */
+    diagnostics_balance(e->diagnostics, e->clock.t, &sampling->energy, work);
     fill_record(e);
-    if (e->report.out && e->report.history_status == OK)
-        e->report.history_status = output_history(e->report.out, e->report.record);
+    if (e->report->out && e->report->history_status == OK)
+        e->report->history_status = output_history(e->report->out, e->report->record);
 }
 
 /* Keeps the velocities before a step: forces on the grid appear at points only as a change of their velocity. */
@@ -239,17 +255,17 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
 /* Excess of the mean of the kinetic energies before and after a step over 1/2 m v_before . v_after [J]
  * (diagnostics_kick). Dashpots take part of a kick while it lasts: with half of what they take in it booked, what is
  * kept is that of the other forces alone. */
-static real kick_now(const struct engine *e)
+static real kick_now(const struct run *e)
 {
-    const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling.kind);
-    const real dt = e->mpm.transfer.dt_velocity;
-    return diagnostics_kick(&e->part, grid ? e->report.sampling.before : NULL, dt) + mesh_kick(&e->reference.mesh, dt) +
-           levels_kick(&e->reference.levels, dt) - e->loads.absorbing.kick;
+    const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling_kind);
+    const real dt = e->grid->transfer.dt_velocity;
+    return diagnostics_kick(&e->part, grid ? e->report->sampling.before : NULL, dt) + mesh_kick(&e->frame->mesh, dt) +
+           levels_kick(&e->frame->levels, dt) - e->loads.absorbing.kick;
 }
 
-void engine_sample_begin(struct engine *e)
+void engine_sample_begin(struct run *e)
 {
-    struct sampling *sampling = &e->report.sampling;
+    struct sampling *sampling = &e->report->sampling;
     sampling->due = engine_sample_due(e->scene, &e->clock);
     sampling->work = e->loads.work;
     sampling->constraint_work = e->loads.constraint_work;
@@ -259,18 +275,18 @@ void engine_sample_begin(struct engine *e)
     if (sampling->due) sample_state(e), engine_rigid_meet(e);
     else if (wants_stress(e->scene)) engine_stress(e);
     struct observed o = engine_observed(e);
-    probes_keep(&e->probing.probes, &o);
-    keep_velocities(sampling, &e->part, e->coupling.kind);
+    probes_keep(&e->probing->probes, &o);
+    keep_velocities(sampling, &e->part, e->coupling_kind);
     keep_momentum(e);
-    sampling->kinetic = kinetic_now(&e->part, &e->reference);
+    sampling->kinetic = kinetic_now(&e->part, e->frame);
     sampling->rigid = engine_rigid_energy(e).before;
 }
 
-void engine_sample_energy(struct engine *e)
+void engine_sample_energy(struct run *e)
 {
-    if (!e->report.sampling.due) return;
+    if (!e->report->sampling.due) return;
     sample_energies(e);
-    e->report.sampling.rigid_work = engine_rigid_energy(e).work;
+    e->report->sampling.rigid_work = engine_rigid_energy(e).work;
 }
 
 /* True if a boundary drives particles at a speed, so that velocities jump in the first step. */
@@ -286,27 +302,27 @@ static bool velocity_jumps(const struct scene *s)
 /* Twice the excess of the start [J]: leap-frog keeps 1/2 m v- . v+, v+- = v +- a dt/2, and not the 1/2 m v^2 of the
  * start. 0 where the first step changes velocities by more than forces do and the two cannot be separated: with APIC,
  * for points beside driven ones, and for bodies that meet. */
-static real start_excess(const struct engine *e)
+static real start_excess(const struct run *e)
 {
     const bool kept = e->part.n_free == 0 || (e->scene->transfer == TRANSFER_FLIP && !velocity_jumps(e->scene) &&
-                                              e->mpm.contact.touching == 0);
+                                              e->grid->contact.touching == 0);
     return kept ? 2 * kick_now(e) : 0;
 }
 
-void engine_sample_end(struct engine *e)
+void engine_sample_end(struct run *e)
 {
-    struct sampling *sampling = &e->report.sampling;
+    struct sampling *sampling = &e->report->sampling;
     const bool first = e->clock.step == 0;
     const struct velocity_time now = {e->clock.t + 0.5 * e->clock.dt, first ? 1 : 1 / engine_damping_share(e)};
     if (!sampling->due) return;
     if (first) {                             /* velocities of t = 0, not of half a step before; nothing is damped yet */
         sampling->energy.damped = sampling->energy.absorbed = 0;
         sample_write(e, &now, sampling->kinetic + sampling->rigid, sampling->work);
-        e->diagnostics.energy_start -= start_excess(e) / engine_damping_share(e);
+        e->diagnostics->energy_start -= start_excess(e) / engine_damping_share(e);
         return;
     }
-    real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&e->part, &e->reference)) - kick_now(e);
-    sampling->energy.damped += e->mpm.contact.begun;
+    real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&e->part, e->frame)) - kick_now(e);
+    sampling->energy.damped += e->grid->contact.begun;
     sampling->energy.absorbed = 0.5 * (sampling->absorbed + e->loads.absorbing.energy);
     const struct rigid_energy rigid = engine_rigid_energy(e);
     engine_rigid_mean(e);
@@ -314,14 +330,14 @@ void engine_sample_end(struct engine *e)
                  sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
 }
 
-void engine_sample_rest(struct engine *e)
+void engine_sample_rest(struct run *e)
 {
     sample_state(e);
     sample_energies(e);
     sample_write(e, &(struct velocity_time){e->clock.t, 1}, 0, 0);
 }
 
-void engine_sample_equilibrium(struct engine *e)
+void engine_sample_equilibrium(struct run *e)
 {
     sample_state(e);
     sample_energies(e);
@@ -368,13 +384,13 @@ static void reactions_add(struct loads *l, const struct grid *g)
 
 /* Completes the reactions of the loads, those on particles being known, by those on nodes that the forces after the
  * last step have met. */
-static void reactions_at_end(struct engine *e)
+static void reactions_at_end(struct run *e)
 {
-    const struct mesh_levels *levels = &e->reference.levels;
-    for (int k = 0; k < e->mpm.fields && e->part.n_free + e->part.n_grid_coupled > 0; k++)
-        loads_react(&e->loads, &e->mpm.field[k].grid, e->clock.dt);
-    if (e->reference.mesh.points == 0) return;
-    reactions_add(&e->loads, &e->reference.mesh.grid);
+    const struct mesh_levels *levels = &e->frame->levels;
+    for (int k = 0; k < e->grid->fields && e->part.n_free + e->part.n_grid_coupled > 0; k++)
+        loads_react(&e->loads, &e->grid->field[k].grid, e->clock.dt);
+    if (e->frame->mesh.points == 0) return;
+    reactions_add(&e->loads, &e->frame->mesh.grid);
     for (int level = 1; level <= levels_due(levels, e->clock.step); level++)
         reactions_add(&e->loads, &levels->at[level].mesh.grid);
 }
@@ -382,7 +398,7 @@ static void reactions_at_end(struct engine *e)
 /* Sum of v . f by the forces after the last step, which no motion follows [W]: no bond breaks, and the accounts of
  * loads but for reactions are restored. *held: work of walls of grids and meshes in that step [J], which is no part of
  * the power; that of driven particles is. */
-static real power_last(struct engine *e, real *held)
+static real power_last(struct run *e, real *held)
 {
     const struct loads account = e->loads;
     struct load *own = BARE("report.load", e->loads.n, struct load);
@@ -391,11 +407,11 @@ static real power_last(struct engine *e, real *held)
     e->loads.absorbing.idle = e->loads.ended = true;
     loads_clear(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
-    contact_force(&e->contact, &e->part, 0);
+    contact_force(e->contact, &e->part, 0);
     loads_apply(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
-    if (e->reference.mesh.points > 0) engine_nodes_force(e);
-    const real power = power_now(&e->part, &e->reference) + engine_grid_power(e, e->clock.t + 0.5 * e->clock.dt);
-    const real walls = power_of_walls(&e->reference);
+    if (e->frame->mesh.points > 0) engine_nodes_force(e);
+    const real power = power_now(&e->part, e->frame) + engine_grid_power(e, e->clock.t + 0.5 * e->clock.dt);
+    const real walls = power_of_walls(e->frame);
     *held = e->loads.constraint_work - account.constraint_work - e->clock.dt * walls;
     reactions_at_end(e);
     for (int b = 0; b < e->loads.n; b++) {
@@ -412,19 +428,19 @@ static real power_last(struct engine *e, real *held)
 
 /* The last sample. No force follows the last step: kinetic energy is 1/2 m v- . v+, as in all samples before, with v+
  * after the kick of the forces at the end. */
-void engine_sample_last(struct engine *e)
+void engine_sample_last(struct run *e)
 {
     real held = 0;
     states_precompute(&e->bonds, &e->part, &e->source);
     engine_mesh_sync(e);                         /* positions, velocities and stresses of points of the mesh */
     sample_state(e);
     sample_energies(e);
-    real kinetic = kinetic_now(&e->part, &e->reference);
+    real kinetic = kinetic_now(&e->part, e->frame);
     const real before = kinetic;
     const real kick = e->clock.dt * engine_damping_share(e);
     if (scene_moves(e->scene)) kinetic += 0.5 * kick * power_last(e, &held);
-    e->report.sampling.energy.damped += engine_damping_last(e, before, kinetic);
-    e->report.sampling.energy.damped += e->mpm.contact.begun;
+    e->report->sampling.energy.damped += engine_damping_last(e, before, kinetic);
+    e->report->sampling.energy.damped += e->grid->contact.begun;
     const struct rigid_energy rigid = engine_rigid_energy(e);
     const struct velocity_time now = {e->clock.t - 0.5 * e->clock.dt, 1 / square(engine_damping_share(e))};
     engine_rigid_kick(e);
@@ -432,14 +448,14 @@ void engine_sample_last(struct engine *e)
                  e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);
 }
 
-void engine_probes_step(struct engine *e)
+void engine_probes_step(struct run *e)
 {
     struct observed o = engine_observed(e);
-    probes_step(&e->probing.probes, &o);
+    probes_step(&e->probing->probes, &o);
 }
 
 /* Says that the first bonds of driven particles break, with the first boundary that drives such particles. */
-static void say_torn(struct engine *e, real t)
+static void say_torn(struct run *e, real t)
 {
     const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;
     const char *name = "";
@@ -452,7 +468,7 @@ static void say_torn(struct engine *e, real t)
             tears |= (e->part.flag[l->particle[k]] & both) == both;
         if (tears) name = l->boundary->name, others++;
     }
-    if (scene_in_steps(e->scene)) snprintf(when, sizeof when, "in load step %lld", (long long)e->statics.record.step);
+    if (scene_in_steps(e->scene)) snprintf(when, sizeof when, "in load step %lld", (long long)e->statics->record.step);
     else snprintf(when, sizeof when, "at %.4g s", t);
     snprintf(text, sizeof text,
              "boundary %s%s: bonds of the particles that it drives break, the first %s: a grip that tears off pulls no "
@@ -461,14 +477,14 @@ static void say_torn(struct engine *e, real t)
     engine_say(e, text);
 }
 
-void engine_breaks(struct engine *e, int64_t broken)
+void engine_breaks(struct run *e, int64_t broken)
 {
     const bool in_steps = scene_in_steps(e->scene);  /* whose bonds break before its end, which is its time */
     const real step = e->scene->duration / (real)e->scene->steps.number;
-    const real t = in_steps ? step * (real)e->statics.record.step : e->clock.t;
+    const real t = in_steps ? step * (real)e->statics->record.step : e->clock.t;
     struct observed o = engine_observed(e);
-    if (diagnostics_breaks(&e->diagnostics, &e->part, e->source.family.horizon, broken, t)) say_torn(e, t);
+    if (diagnostics_breaks(e->diagnostics, &e->part, e->source.family.horizon, broken, t)) say_torn(e, t);
     if (scene_moves(e->scene)) engine_probes_step(e);
     o.t = t;
-    if (in_steps && broken > 0) probes_breaks(&e->probing.probes, &o);
+    if (in_steps && broken > 0) probes_breaks(&e->probing->probes, &o);
 }

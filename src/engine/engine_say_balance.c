@@ -3,16 +3,19 @@
 #include <stdio.h>
 
 #include "engine/engine.h"
+#include "probes/diagnostics.h"
+#include "coupling/coupling_part.h"
+#include "step/report.h"
 
 #define ENERGY_DOUBTFUL 0.05 /* share lost or gained that is warned of: ten times that of scenes in inputs/ */
 #define DAMPED_DOUBTFUL 0.1  /* share damped beside bonds: three times the most of scenes in inputs/ */
 
 /* Says that breaking bonds released more than they had held. */
-static void say_released(struct engine *e)
+static void say_released(struct run *e)
 {
     char text[320];
-    const real released = engine_released(&e->diagnostics);
-    if (scene_at_rest(e->scene) || released <= ENERGY_DOUBTFUL * e->diagnostics.energy_scale) return;
+    const real released = engine_released(e->diagnostics);
+    if (scene_at_rest(e->scene) || released <= ENERGY_DOUBTFUL * e->diagnostics->energy_scale) return;
     snprintf(text, sizeof text,
              "bonds released %.3g J as they broke that they had not held (energy.fracture %.3g): families of model %s "
              "under pressure gain energy where they lose bonds; compare with model: bond, do not trust what came after",
@@ -23,12 +26,12 @@ static void say_released(struct engine *e)
 #define SPIN_DOUBTFUL 0.01 /* share of the angular momentum of bodies */
 
 /* Says that bodies have lost, or gained, angular momentum that nothing took from them. */
-static void say_spin(struct engine *e)
+static void say_spin(struct run *e)
 {
-    const real error = e->diagnostics.now.spin_error;
+    const real error = e->diagnostics->now.spin_error;
     const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
     char text[360];
-    if (!e->diagnostics.turns || !(error > SPIN_DOUBTFUL)) return;
+    if (!e->diagnostics->turns || !(error > SPIN_DOUBTFUL)) return;
     snprintf(text, sizeof text,
              "%.*f %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error)%s%s",
              error < 0.095, 100 * error,
@@ -39,11 +42,11 @@ static void say_spin(struct engine *e)
 }
 
 /* Says that the interface zone took motion that was more than noise. */
-static void say_damped(struct engine *e)
+static void say_damped(struct run *e)
 {
     char text[320];
-    const real share = e->coupling.damped / e->diagnostics.energy_scale;
-    if (!(e->coupling.damping_share > 0) || e->coupling.zone.points == 0 || e->scene->damping > 0 ||
+    const real share = e->damped / e->diagnostics->energy_scale;
+    if (!(e->coupling->damping_share > 0) || e->coupling->zone.points == 0 || e->scene->damping > 0 ||
         !scene_moves(e->scene) || !(share > DAMPED_DOUBTFUL) || engine_is_round_off(e))
         return;
     snprintf(text, sizeof text,
@@ -53,13 +56,13 @@ static void say_damped(struct engine *e)
     engine_say(e, text);
 }
 
-void engine_say_balance(struct engine *e)
+void engine_say_balance(struct run *e)
 {
-    if (e->report.excerpt) return;
+    if (e->report->excerpt) return;
     say_spin(e);
     say_released(e);
     say_damped(e);
-    const real error = e->diagnostics.now.balance_error;
+    const real error = e->diagnostics->now.balance_error;
     const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
     char text[320];
     if (scene_at_rest(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || engine_is_round_off(e)) return;

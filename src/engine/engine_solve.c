@@ -7,21 +7,23 @@
 #include "engine_relaxation.h"
 #include "engine_report.h"
 #include "kernels/pd/bond_laws.h"
+#include "solver/solver.h"
+#include "step/report.h"
 
-static struct static_body static_body_of(struct engine *e)
+static struct static_body static_body_of(struct run *e)
 {
     return (struct static_body){&e->part, &e->bonds, &e->loads, e->kernels.bond_force, e->scene->material,
                                 e->scene->spacing, e->scene->solver_tolerance, e->scene->bodies};
 }
 
-status engine_solver_make(struct engine *e)
+status engine_solver_make(struct run *e)
 {
     const struct scene *s = e->scene;
     const struct static_body body = static_body_of(e);
     const real ramp_time = s->method == METHOD_PD ? 1 : grid_relaxation_ramp(e);
     loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
-    TRY(solver_make(&e->solver, &body, ramp_time));
-    if (s->method == METHOD_PD) solver_iteration_make(&e->solver, &body, s->solver == SOLVER_CG);
+    TRY(solver_make(e->solver, &body, ramp_time));
+    if (s->method == METHOD_PD) solver_iteration_make(e->solver, &body, s->solver == SOLVER_CG);
     else
         for (int b = 0; b < e->loads.n; b++)     /* the steps on the grid add it up */
             memset(e->loads.load[b].displacement, 0, sizeof e->loads.load[b].displacement);
@@ -29,7 +31,7 @@ status engine_solver_make(struct engine *e)
 }
 
 /* Intact bonds beyond the stretch at which a run in time would break them. */
-static int64_t bonds_past_limit(const struct engine *e)
+static int64_t bonds_past_limit(const struct run *e)
 {
     const struct bonds *b = &e->bonds;
     const struct particles *p = &e->part;
@@ -44,20 +46,20 @@ static int64_t bonds_past_limit(const struct engine *e)
     return past;
 }
 
-static void say_past_limit(struct engine *e)
+static void say_past_limit(struct run *e)
 {
     char text[160];
     snprintf(text, sizeof text,
              "%lld bonds are beyond their critical stretch in the solution, and none broke: smaller loads, or "
              "solver explicit",
-             (long long)e->solver.past_limit);
-    if (e->solver.past_limit > 0) engine_say(e, text);
+             (long long)e->solver->past_limit);
+    if (e->solver->past_limit > 0) engine_say(e, text);
 }
 
 #define STRAIN_LARGE 0.1                 /* beyond it neither straight bonds nor Hooke's law describe a solid */
 
 /* Warns of stresses that no solid bears: Hooke's law has an equilibrium under any load. */
-static void say_large_strain(struct engine *e)
+static void say_large_strain(struct run *e)
 {
     const struct particles *p = &e->part;
     real most = 0;
@@ -74,7 +76,7 @@ static void say_large_strain(struct engine *e)
 }
 
 /* Completes a solution: the body at rest at the end of the duration. */
-static void solver_finish(struct engine *e)
+static void solver_finish(struct run *e)
 {
     struct particles *p = &e->part;
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->v[d], 0, p->n_all, sizeof(real));
@@ -85,18 +87,18 @@ static void solver_finish(struct engine *e)
     memset(e->loads.impulse, 0, sizeof e->loads.impulse);
     e->clock.t = e->scene->duration;
     e->clock.steps = e->clock.step;
-    e->report.sampling.due = false;
-    e->report.sampling.kinetic = 0, e->report.sampling.constraint_work = e->loads.constraint_work;
+    e->report->sampling.due = false;
+    e->report->sampling.kinetic = 0, e->report->sampling.constraint_work = e->loads.constraint_work;
     engine_probes_step(e);
-    e->solver.past_limit = bonds_past_limit(e);
+    e->solver->past_limit = bonds_past_limit(e);
     say_past_limit(e);
     say_large_strain(e);
 }
 
 /* FAILED with the reason why no equilibrium was found. */
-static status not_converged(const struct engine *e)
+static status not_converged(const struct run *e)
 {
-    const struct solver *s = &e->solver;
+    const struct solver *s = e->solver;
     if (!(s->residual < INFINITY))
         return status_set(FAILED,
                           "the solver diverged at step %lld; smaller loads are expected, or solver relaxation in "
@@ -114,35 +116,35 @@ static status not_converged(const struct engine *e)
 }
 
 /* One step: of an iteration of bonds, or in time on the grid. */
-static status solve_step(struct engine *e, bool *done)
+static status solve_step(struct run *e, bool *done)
 {
     const struct static_body body = static_body_of(e);
     if (e->scene->method != METHOD_PD) return grid_relaxation_step(e, done);
-    TRY((e->scene->solver == SOLVER_CG ? cg_step : relaxation_step)(&e->solver, &body, e->clock.step, done));
-    lap(&e->report.laps, LAP_BONDS);
+    TRY((e->scene->solver == SOLVER_CG ? cg_step : relaxation_step)(e->solver, &body, e->clock.step, done));
+    lap(&e->laps, LAP_BONDS);
     e->clock.step++;
     return OK;
 }
 
 /* The sample of the start, and the forces before the first step, from which relaxation takes differences. */
-static void solve_start(struct engine *e)
+static void solve_start(struct run *e)
 {
     if (e->scene->method != METHOD_PD) return;
     if (e->clock.step == 0) engine_sample_rest(e);
     for (int d = 0; d < e->part.dim; d++)
-        array_copy(e->solver.before.of[d], e->part.f[d], e->part.n, sizeof(real));
+        array_copy(e->solver->before.of[d], e->part.f[d], e->part.n, sizeof(real));
 }
 
-status engine_solve(struct engine *e)
+status engine_solve(struct run *e)
 {
     TRY(engine_report_start(e));
-    laps_start(&e->report.laps);
+    laps_start(&e->laps);
     solve_start(e);
     while (e->clock.step < e->clock.steps) {
         bool done = false;
         TRY(solve_step(e, &done));
         if (done) solver_finish(e);
-        else if (e->clock.step >= e->clock.steps || isnan(e->solver.residual)) return not_converged(e);
+        else if (e->clock.step >= e->clock.steps || isnan(e->solver->residual)) return not_converged(e);
         TRY(engine_report(e));
     }
     return engine_report_end(e);

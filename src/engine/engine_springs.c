@@ -8,10 +8,15 @@
 
 #include "base/memory.h"
 #include "solver/multigrid.h"
+#include "mesh/mesh_part.h"
+#include "quasistatic/statics.h"
+#include "contact/contact.h"
+#include "solver/solver.h"
+#include "mesh/mesh_make.h"
 
 /* The matrix while it is made: entries are counted first, then filled in. */
 struct springs {
-    const struct engine *e;
+    const struct run *e;
     const int32_t *particle_at, *node_at; /* unknown of a particle, of a node; -1: none */
     const int8_t (*sign)[DIM_MAX];        /* [nodes of the mesh] of nodes that follow their image; NULL: none do */
     struct block_matrix *a;
@@ -43,7 +48,7 @@ struct movers {
 static struct movers movers_of(const struct springs *s, int64_t i)
 {
     struct movers m = {0};
-    const struct mesh *mesh = &s->e->reference.mesh;
+    const struct mesh *mesh = &s->e->frame->mesh;
     if (s->particle_at[i] >= 0) return (struct movers){1, {s->particle_at[i]}, {1}};
     if (mesh->points == 0 || mesh->place[i] < 0) return m;
     const int dim = s->a->dim, place = mesh->place[i] & ((1 << dim) - 1);
@@ -70,7 +75,7 @@ static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
     for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][bond->nbr] - p->X[d][i]) * bond->inverse_length;
     for (int k = 0; k < own.n; k++) {
         const real stiffness =
-            s->e->bonds.stiffness * bond->w * bond->inverse_length * own.share[k] * s->e->statics.weight[own.node[k]];
+            s->e->bonds.stiffness * bond->w * bond->inverse_length * own.share[k] * s->e->statics->weight[own.node[k]];
         for (int m = 0; m < own.n + other.n; m++) {
             const bool here = m < own.n;
             const real share = here ? own.share[m] : -other.share[m - own.n];
@@ -101,7 +106,7 @@ static void contact_add_spring(void *context, const struct contact_term *t)
             const struct movers other = movers_of_end(s, t->particle[j], back);
             for (int k = 0; k < own.n; k++)
                 for (int m = 0; m < other.n; m++) {
-                    const real share = own.share[k] * other.share[m] * s->e->statics.weight[own.node[k]];
+                    const real share = own.share[k] * other.share[m] * s->e->statics->weight[own.node[k]];
                     for (int a = 0; a < dim; a++)
                         for (int c = 0; c < dim; c++)
                             K[a][c] = t->stiffness * share * sign[a] * t->along[i][a] * back[c] * t->along[j][c];
@@ -115,10 +120,10 @@ static void contact_add_spring(void *context, const struct contact_term *t)
 
 static void cell_add(struct springs *s, int64_t I)
 {
-    const struct mesh *mesh = &s->e->reference.mesh;
+    const struct mesh *mesh = &s->e->frame->mesh;
     const int dim = s->a->dim, corners = 1 << dim, n = corners * dim;
     real K[CELL_UNKNOWNS_MAX * CELL_UNKNOWNS_MAX];
-    if (!mesh_cell_stiffness(mesh, s->e->reference.elastic, &s->e->part, I, K)) return;
+    if (!mesh_cell_stiffness(mesh, s->e->frame->elastic, &s->e->part, I, K)) return;
     for (int c = 0; c < corners; c++)
         for (int b = 0; b < corners; b++) {
             const int64_t row = mesh_node(mesh, I, c), column = mesh_node(mesh, I, b);
@@ -139,7 +144,7 @@ static void cell_add(struct springs *s, int64_t I)
 static void springs_visit(struct springs *s)
 {
     const struct bonds *b = &s->e->bonds;
-    const struct mesh *mesh = &s->e->reference.mesh;
+    const struct mesh *mesh = &s->e->frame->mesh;
 #pragma omp parallel for schedule(static)
     for (int64_t r = 0; r < b->rows; r++)
         if (s->particle_at[b->particle[r]] >= 0) springs_row_add(s, r);
@@ -147,7 +152,7 @@ static void springs_visit(struct springs *s)
         if (s->particle_at[b->particle[r]] < 0) springs_row_add(s, r);
     for (int64_t I = 0; mesh->points > 0 && I < mesh->grid.n; I++)
         if (mesh_cell_holds(mesh, I)) cell_add(s, I);
-    contact_terms(&s->e->contact, &s->e->part, contact_add_spring, s);
+    contact_terms(s->e->contact, &s->e->part, contact_add_spring, s);
 }
 
 /* Sorts the entries of a row by column and adds up those of one column; returns how many are left. */
@@ -219,10 +224,10 @@ static void matrix_scale(struct block_matrix *a)
     for (int64_t k = 0; k < n && most > 0; k++) a->block[k] /= most;
 }
 
-static struct block_matrix *matrix_make(const struct engine *e)
+static struct block_matrix *matrix_make(const struct run *e)
 {
-    const struct statics *s = &e->statics;
-    const struct mesh *mesh = &e->reference.mesh;
+    const struct statics *s = e->statics;
+    const struct mesh *mesh = &e->frame->mesh;
     const int64_t nodes = mesh->points > 0 ? mesh->grid.n : 0;
     int32_t *particle_at = BARE("springs.particle_at", e->part.n, int32_t);
     int32_t *node_at = BARE("springs.node_at", nodes, int32_t);
@@ -250,9 +255,9 @@ static struct block_matrix *matrix_make(const struct engine *e)
 
 /* ---- the preconditioner ------------------------------------------------------------------------------------------ */
 
-void statics_precondition_free(struct engine *e)
+void statics_precondition_free(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     if (s->precondition) multigrid_free(s->precondition);
     s->precondition = NULL;
     if (!s->matrix) return;
@@ -263,9 +268,9 @@ void statics_precondition_free(struct engine *e)
     s->matrix = NULL;
 }
 
-void statics_precondition_make(struct engine *e)
+void statics_precondition_make(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     real *place[DIM_MAX] = {0};
     s->matrix = matrix_make(e);
     for (int d = 0; d < e->part.dim; d++) place[d] = BARE("springs.place", s->balance.n, real);
@@ -281,17 +286,17 @@ void statics_precondition_make(struct engine *e)
 
 void statics_precondition(void *engine, const struct field *r, struct field *z)
 {
-    struct engine *e = engine;
-    if (!e->statics.precondition) statics_precondition_make(e);
-    multigrid_apply(e->statics.precondition, r->of, z->of);
+    struct run *e = engine;
+    if (!e->statics->precondition) statics_precondition_make(e);
+    multigrid_apply(e->statics->precondition, r->of, z->of);
     statics_pieces_hold(e, z);
 }
 
 /* Bonds that have broken since are in it still: it is made anew once a solution takes half as many directions again as
  * the first one with it, and eight more. */
-void statics_precondition_watch(struct engine *e, int64_t directions)
+void statics_precondition_watch(struct run *e, int64_t directions)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     if (!s->precondition) return;
     if (s->directions == 0)
         s->directions = directions;

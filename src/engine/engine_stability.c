@@ -5,6 +5,15 @@
 
 #include "kernels/mpm/stress.h"
 #include "engine/engine.h"
+#include "mesh/mesh_part.h"
+#include "step/stability.h"
+#include "probes/diagnostics.h"
+#include "coupling/coupling_part.h"
+#include "contact/contact.h"
+#include "step/report.h"
+#include "base/rise.h"
+#include "mesh/mesh_make.h"
+#include "mesh/levels.h"
 
 #define LOAD_SHARE_LEAST 0.5 /* least share of a motion by loads that explain it: speeds double at free faces */
 #define LARGE_STRAIN 0.1                 /* initial strain; its stresses are a tenth of the modulus */
@@ -32,11 +41,11 @@ static real fastest_now(const struct particles *p, const struct reference_frame 
     return reference->mesh.points > 0 ? real_max(moving, reference->speed) : moving;
 }
 
-void engine_stability_check_make(struct engine *e)
+void engine_stability_check_make(struct run *e)
 {
-    e->stability.start_speed = real_max(diagnostics_fastest(&e->part, e->part.list[KIND_PD], e->part.n_of[KIND_PD]),
+    e->stability->start_speed = real_max(diagnostics_fastest(&e->part, e->part.list[KIND_PD], e->part.n_of[KIND_PD]),
                               diagnostics_fastest(&e->part, e->part.list[KIND_MPM], e->part.n_of[KIND_MPM]));
-    rise_note(&e->stability.speed, 0, square(e->stability.start_speed));
+    rise_note(&e->stability->speed, 0, square(e->stability->start_speed));
 }
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
@@ -74,10 +83,10 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
 }
 
 /* True if initial energy and work of loads are at least LOAD_SHARE_LEAST times the kinetic energy. */
-static bool loads_explain_motion(const struct engine *e)
+static bool loads_explain_motion(const struct run *e)
 {
-    const real kinetic = diagnostics_kinetic(&e->part) + engine_mesh_kinetic(&e->reference);
-    const real given = e->diagnostics.energy_start + e->loads.work + e->loads.constraint_work;
+    const real kinetic = diagnostics_kinetic(&e->part) + engine_mesh_kinetic(e->frame);
+    const real given = e->diagnostics->energy_start + e->loads.work + e->loads.constraint_work;
     return !isfinite(kinetic) || given >= LOAD_SHARE_LEAST * kinetic;
 }
 
@@ -93,7 +102,7 @@ static real engine_stability_start_strain(const struct scene *s)
 
 /* Writes to `text` which load or initial state explains the motion; false if none does. steps: of the last tenfold
  * rise. */
-static bool load_explanation(const struct engine *e, real steps, char *text, size_t room)
+static bool load_explanation(const struct run *e, real steps, char *text, size_t room)
 {
     static const char *const unit[] = {"m/s", "Pa", "N/m^3", "", "", "Pa"};
     static const char *const word[] = {"velocity", "traction", "body force", "", "", "pressure"};
@@ -102,13 +111,13 @@ static bool load_explanation(const struct engine *e, real steps, char *text, siz
     const struct load *worst = NULL;
     real speed = LOAD_SHARE_LEAST * e->tables.wave_speed;
     if (!loads_explain_motion(e)) return false;
-    if (e->stability.start_speed >= speed) {
+    if (e->stability->start_speed >= speed) {
         snprintf(
             text, room,
             "no smaller time step helps: the scene starts with %.3g m/s, %.3g times the wave speed; see whether the "
             "velocities of "
             "its bodies and of `initial` are meant, and in which unit",
-            e->stability.start_speed, e->stability.start_speed / e->tables.wave_speed);
+            e->stability->start_speed, e->stability->start_speed / e->tables.wave_speed);
         return true;
     }
     if (engine_stability_start_strain(e->scene) >= LARGE_STRAIN) {
@@ -161,14 +170,14 @@ static bool holds_images(const struct scene *s)
 /* Lists the alternatives of a scene where something gains energy: another choice for each of its parts that may be left
  * out. */
 static void say_others(const struct scene *s, const struct reference_frame *reference,
-                       const struct coupling_state *coupling, char *text, size_t room)
+                       enum coupling coupling, char *text, size_t room)
 {
     const char *other[8];
     int n = 0;
     if (s->method == METHOD_ADAPTIVE) other[n++] = "method: pd";
     if (s->method != METHOD_PD)
         other[n++] = reference->mesh.points > 0 ? "mpm.frame: current" : "mpm.frame: reference";
-    if (coupling->kind != COUPLING_PARTIAL_STRESS && s->method == METHOD_ADAPTIVE)
+    if (coupling != COUPLING_PARTIAL_STRESS && s->method == METHOD_ADAPTIVE)
         other[n++] = "coupling: partial stress";
     if (s->method != METHOD_PD && reference->mesh.points == 0 && s->transfer == TRANSFER_FLIP)
         other[n++] = "mpm.transfer: apic";
@@ -195,7 +204,7 @@ static real shortest_bond(const struct bonds *b, const struct particles *p)
 }
 
 /* Says how far bonds are squeezed, if so far that it explains what happens. */
-static bool squeeze_explanation(const struct engine *e, char *text, size_t room)
+static bool squeeze_explanation(const struct run *e, char *text, size_t room)
 {
     const real least = shortest_bond(&e->bonds, &e->part);
     if (!(least < SQUEEZED)) return false;
@@ -206,7 +215,7 @@ static bool squeeze_explanation(const struct engine *e, char *text, size_t room)
     return true;
 }
 
-void engine_remedy(const struct engine *e, const struct rise *rise, real value, char *text, size_t room)
+void engine_remedy(const struct run *e, const struct rise *rise, real value, char *text, size_t room)
 {
     real steps;
     char others[256];
@@ -222,13 +231,13 @@ void engine_remedy(const struct engine *e, const struct rise *rise, real value, 
         say_step(e->scene, &e->clock, text, room);
         return;
     }
-    say_others(e->scene, &e->reference, &e->coupling, others, sizeof others);
+    say_others(e->scene, e->frame, e->coupling_kind, others, sizeof others);
     if (rate == RISE_UNSURE) {
         const int used = say_step(e->scene, &e->clock, text, room);
         snprintf(text + used, room - (size_t)used, "; if it is no better then, something gains energy: try %s", others);
         return;
     }
-    if (e->diagnostics.now.balance_error < 0 && e->diagnostics.now.energy.fracture >= 0) {
+    if (e->diagnostics->now.balance_error < 0 && e->diagnostics->now.energy.fracture >= 0) {
         snprintf(text, room,
                  "a smaller step (now %.2f of the critical %.3g s) need not help, and the balance of energies shows no "
                  "gain: loads or supports may drive it; see whether they are meant, or try %s",
@@ -245,14 +254,14 @@ void engine_remedy(const struct engine *e, const struct rise *rise, real value, 
 
 /* ---- divergence and inversion ------------------------------------------------------------------------------------ */
 
-status engine_divergence_check(const struct engine *e, bool peridynamic, bool meshed)
+status engine_divergence_check(const struct run *e, bool peridynamic, bool meshed)
 {
     char remedy[ENGINE_REMEDY];
     const status s =
         diagnostics_divergence(&e->part, peridynamic, meshed, e->tables.wave_speed, e->clock.step, e->clock.t);
     if (s == OK) return OK;
-    const real speed = fastest_now(&e->part, &e->reference), limit = e->tables.wave_speed;
-    engine_remedy(e, &e->stability.speed, square(isfinite(speed) && speed > limit ? speed : limit), remedy,
+    const real speed = fastest_now(&e->part, e->frame), limit = e->tables.wave_speed;
+    engine_remedy(e, &e->stability->speed, square(isfinite(speed) && speed > limit ? speed : limit), remedy,
                   sizeof remedy);
     return status_set(s, "%s; %s", status_message(), remedy);
 }
@@ -284,9 +293,9 @@ static status inversion_check(const struct run_clock *clock, const struct partic
 #define OVERLAP_MOST 0.9                 /* beyond, particles pass each other */
 
 /* Says once that particles in contact overlap much; FAILED where they are about to pass each other. */
-static status overlap_check(struct engine *e)
+static status overlap_check(struct run *e)
 {
-    const struct contact *c = &e->contact;
+    const struct contact *c = e->contact;
     const real overlap = c->overlap / e->scene->spacing;
     char text[320];
     if (!(overlap > OVERLAP_DOUBTFUL)) return OK;
@@ -301,8 +310,8 @@ static status overlap_check(struct engine *e)
                           (long long)e->clock.step, e->clock.t, (int)p->id[i], p->x[0][i], p->dim > 1 ? p->x[1][i] : 0,
                           p->dim > 2 ? p->x[2][i] : 0, overlap, e->tables.wave_speed, e->scene->contact_stiffness);
     }
-    if (e->contact.overlap_said) return OK;
-    e->contact.overlap_said = true;
+    if (e->contact->overlap_said) return OK;
+    e->contact->overlap_said = true;
     snprintf(text, sizeof text,
              "particles in contact overlap by more than %.1f spacings (contact.overlap_max in the summary): pressures "
              "there are no longer those of the material; a larger contact.stiffness overlaps less",
@@ -314,7 +323,7 @@ static status overlap_check(struct engine *e)
 /* FAILED where a formula had no finite value in the step that has been made, which asks for values at its ends and
  * middle, of the step before and of the next: then the impulse is no number. At the end of the run all formulas are
  * asked once. */
-static status formula_check(const struct engine *e)
+static status formula_check(const struct run *e)
 {
     const struct run_clock *clock = &e->clock;
     const real *impulse = e->loads.impulse;
@@ -324,18 +333,18 @@ static status formula_check(const struct engine *e)
     return clock->step == clock->steps ? loads_finite(&e->loads, &e->part, clock->t) : OK;
 }
 
-status engine_stability_check(struct engine *e)
+status engine_stability_check(struct run *e)
 {
     const bool diverged =
-        e->reference.mesh.points > 0 && !(e->reference.speed <= e->tables.wave_speed / sqrt(e->part.dim));
+        e->frame->mesh.points > 0 && !(e->frame->speed <= e->tables.wave_speed / sqrt(e->part.dim));
     TRY(formula_check(e));
     if (diverged) engine_mesh_sync_points(e, NULL, 0);
-    TRY(engine_divergence_check(e, e->stability.diverged || e->part.n_grid_coupled > 0, diverged));
-    TRY(inversion_check(&e->clock, &e->part, &e->reference));
+    TRY(engine_divergence_check(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
+    TRY(inversion_check(&e->clock, &e->part, e->frame));
     TRY(overlap_check(e));
     TRY(engine_rigid_speed_check(e));
     if (e->clock.step % RISE_STRIDE == 0)
-        rise_note(&e->stability.speed, e->clock.step, square(fastest_now(&e->part, &e->reference)));
+        rise_note(&e->stability->speed, e->clock.step, square(fastest_now(&e->part, e->frame)));
     return OK;
 }
 
@@ -353,9 +362,9 @@ static int64_t fastest_particle(const struct particles *p)
     return fastest;
 }
 
-bool engine_is_round_off(const struct engine *e)
+bool engine_is_round_off(const struct run *e)
 {
-    return e->diagnostics.energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * e->stability.mass * square(e->tables.wave_speed);
+    return e->diagnostics->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * e->stability->mass * square(e->tables.wave_speed);
 }
 
 /* What bonds released as they broke without ever having held it [J]. A row of a state-based model may hold more after a
@@ -378,7 +387,7 @@ static bool swings(const struct run_clock *clock, const struct energy *energy)
 }
 
 /* FAILED with step, time and the fastest particle of "a body " and `what`. */
-static status unstable(const struct engine *e, const char *what, const char *remedy)
+static status unstable(const struct run *e, const char *what, const char *remedy)
 {
     const struct particles *p = &e->part;
     const int64_t i = fastest_particle(p);
@@ -396,11 +405,11 @@ static status unstable(const struct engine *e, const char *what, const char *rem
 #define STRETCH_MOST 0.08
 
 /* Says that points in the current frame are stretched farther than their grid holds them together. */
-static void say_stretched(struct engine *e)
+static void say_stretched(struct run *e)
 {
     const struct particles *p = &e->part;
     const int n = symmetric_count(p->dim);
-    for (int64_t i = 0; i < p->n && p->n_free > 0 && !e->stability.stretched; i++) {
+    for (int64_t i = 0; i < p->n && p->n_free > 0 && !e->stability->stretched; i++) {
         const struct material *m = &e->scene->material[p->material[i]];
         real stress[SYM_MAX], sum = 0;
         char text[360];
@@ -414,26 +423,26 @@ static void say_stretched(struct engine *e)
                  "%% on they come apart (mpm.transfer apic) or gain energy (flip), whatever the shape; mpm.frame "
                  "reference bears any stretch", 100 * strain, e->clock.t, p->x[0][i]);
         engine_say(e, text);
-        e->stability.stretched = true;
+        e->stability->stretched = true;
     }
 }
 
 /* For unstable runs without a particle that is too fast for diagnostics_divergence: a body that breaks all its bonds,
  * or one that swings. A body at rest, whose energy is round-off, is left out. */
-status engine_energy_check(struct engine *e)
+status engine_energy_check(struct run *e)
 {
-    if (e->stability.lost)
+    if (e->stability->lost)
         return status_set(
             FAILED,
             "step %lld, t = %.4g s: an energy is no finite number, though all places are; see whether material, "
             "supports and initial state are meant (`cleave check`)",
             (long long)e->clock.step, e->clock.t);
-    const struct diagnostics *w = &e->diagnostics;
+    const struct diagnostics *w = e->diagnostics;
     const real excess = w->now.balance_error * w->energy_scale + engine_released(w);
     const bool last = e->clock.step == e->clock.steps && !scene_at_rest(e->scene);
     char what[96], remedy[ENGINE_REMEDY];
-    if (!e->report.sampling.due && !last) return OK;
-    rise_note(&e->stability.excess, e->clock.step, excess);
+    if (!e->report->sampling.due && !last) return OK;
+    rise_note(&e->stability->excess, e->clock.step, excess);
     say_stretched(e);
     if (engine_is_round_off(e)) return OK;
     if (swings(&e->clock, &w->now.energy)) {
@@ -442,6 +451,6 @@ status engine_energy_check(struct engine *e)
     }
     if (!gains(&e->clock, w)) return OK;
     snprintf(what, sizeof what, "with %.0f %% of its energy from nowhere", 100 * excess / w->energy_scale);
-    engine_remedy(e, &e->stability.excess, excess, remedy, sizeof remedy);
+    engine_remedy(e, &e->stability->excess, excess, remedy, sizeof remedy);
     return unstable(e, what, remedy);
 }

@@ -8,6 +8,10 @@
 #include "base/memory.h"
 #include "base/team.h"
 #include "kernels/kernels.h"
+#include "mesh/mesh_part.h"
+#include "quasistatic/statics.h"
+#include "solver/equilibrium.h"
+#include "contact/contact.h"
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
@@ -22,10 +26,10 @@ static uint8_t *nodes_that_follow(const struct mesh *mesh)
 }
 
 /* Counts the unknowns, or lists them where there is room. */
-static int64_t nodes_list(const struct engine *e, int32_t *node, int64_t *particles)
+static int64_t nodes_list(const struct run *e, int32_t *node, int64_t *particles)
 {
     const struct particles *p = &e->part;
-    const struct mesh *mesh = &e->reference.mesh;
+    const struct mesh *mesh = &e->frame->mesh;
     int64_t n = 0;
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++, n++)
         if (node) node[n] = p->list[KIND_PD][k];
@@ -48,9 +52,9 @@ static void statics_hold(struct statics *s, int64_t k, int d, int load)
 }
 
 /* Particles on planes of symmetry: no force takes them off the plane, and half of each belongs to the body. */
-static void particles_on_mirrors(struct engine *e)
+static void particles_on_mirrors(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     const struct particles *p = &e->part;
     for (int b = 0; b < e->loads.n; b++) {
         const struct boundary *m = e->loads.load[b].boundary;
@@ -66,7 +70,7 @@ static void particles_on_mirrors(struct engine *e)
 }
 
 /* Components that supports hold, of particles and of nodes; of two that overlap the later one holds. */
-static void supports_hold(struct engine *e, const int32_t *particle_at, const int32_t *node_of_mesh)
+static void supports_hold(struct run *e, const int32_t *particle_at, const int32_t *node_of_mesh)
 {
     const struct constrained_set *walls = &e->loads.constrained_mesh;
     for (int b = 0; b < e->loads.n; b++) {
@@ -74,28 +78,28 @@ static void supports_hold(struct engine *e, const int32_t *particle_at, const in
         for (int64_t q = 0; load->boundary->kind == BOUNDARY_VELOCITY && q < load->n; q++)
             for (int d = 0; d < e->part.dim; d++)
                 if (particle_at[load->particle[q]] >= 0 && load->boundary->components >> d & 1)
-                    statics_hold(&e->statics, particle_at[load->particle[q]], d, b);
+                    statics_hold(e->statics, particle_at[load->particle[q]], d, b);
     }
-    for (int64_t q = 0; e->reference.mesh.points > 0 && q < walls->n; q++) {
+    for (int64_t q = 0; e->frame->mesh.points > 0 && q < walls->n; q++) {
         const struct held *h = &walls->held[q];
         const bool drives = e->loads.load[h->load].boundary->kind == BOUNDARY_VELOCITY;
         if (node_of_mesh[h->node] >= 0)
-            statics_hold(&e->statics, node_of_mesh[h->node], h->component, drives ? h->load : -1);
+            statics_hold(e->statics, node_of_mesh[h->node], h->component, drives ? h->load : -1);
     }
 }
 
 /* Displacements where particles and nodes are now. */
-static void displacements_take(struct engine *e)
+static void displacements_take(struct run *e)
 {
-    const struct statics *s = &e->statics;
+    const struct statics *s = e->statics;
     for (int d = 0; d < e->part.dim; d++)
         for (int64_t k = 0; k < s->balance.n; k++)
             s->balance.u.of[d][k] = k < s->particles ? e->part.x[d][s->node[k]] - e->part.X[d][s->node[k]]
-                                                     : e->reference.mesh.displacement[d][s->node[k]];
+                                                     : e->frame->mesh.displacement[d][s->node[k]];
 }
 
 /* Stiffness of the body at unit strain: sum E V [J]. */
-static real energy_at_unit_strain(const struct engine *e)
+static real energy_at_unit_strain(const struct run *e)
 {
     real sum = 0;
     for (int64_t i = 0; i < e->part.n; i++) sum += e->scene->material[e->part.material[i]].young * e->part.volume0[i];
@@ -104,10 +108,10 @@ static real energy_at_unit_strain(const struct engine *e)
 
 static void statics_forces(void *context, const struct field *u, struct field *f);
 
-void statics_unknowns_make(struct engine *e)
+void statics_unknowns_make(struct run *e)
 {
-    struct statics *s = &e->statics;
-    const struct mesh *mesh = &e->reference.mesh;
+    struct statics *s = e->statics;
+    const struct mesh *mesh = &e->frame->mesh;
     const int64_t n = nodes_list(e, NULL, &s->particles), places = mesh->points > 0 ? mesh->grid.n : 0;
     int32_t *particle_at = BARE("statics.particle_at", e->part.n, int32_t);
     int32_t *node_at = BARE("statics.node_at", places, int32_t);
@@ -149,9 +153,9 @@ void statics_unknowns_make(struct engine *e)
     memory_free(node_at);
 }
 
-void statics_unknowns_free(struct engine *e)
+void statics_unknowns_free(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     const struct equilibrium kept = s->balance;
     statics_pieces_free(e);
     equilibrium_free(&s->balance);
@@ -165,9 +169,9 @@ void statics_unknowns_free(struct engine *e)
     s->way = (struct field){{0}};
 }
 
-void statics_free(struct engine *e)
+void statics_free(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     statics_precondition_free(e);
     statics_unknowns_free(e);
     for (int d = 0; d < DIM_MAX; d++) memory_free(s->applied[d]), s->applied[d] = NULL;
@@ -176,9 +180,9 @@ void statics_free(struct engine *e)
     s->next = (struct break_list){0};
 }
 
-status statics_archive(struct engine *e, struct archive *a)
+status statics_archive(struct run *e, struct archive *a)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     struct equilibrium *q = &s->balance;
     if (!scene_in_steps(e->scene)) return OK;
     if (!a->saving || !s->node) statics_unknowns_free(e), statics_unknowns_make(e);
@@ -209,16 +213,16 @@ status statics_archive(struct engine *e, struct archive *a)
     ARCHIVE_VALUE(a, "statics/directions", q->directions);
     ARCHIVE_VALUE(a, "statics/solutions", s->solutions);
     ARCHIVE_VALUE(a, "statics/record", s->record);
-    if (!a->saving) statics_applied_make(e, e->statics.t), statics_plastic_keep(e);
+    if (!a->saving) statics_applied_make(e, e->statics->t), statics_plastic_keep(e);
     return OK;
 }
 
 /* ---- forces ------------------------------------------------------------------------------------------------------ */
 
-void statics_place(struct engine *e, const struct field *u)
+void statics_place(struct run *e, const struct field *u)
 {
-    const struct statics *s = &e->statics;
-    struct mesh *mesh = &e->reference.mesh;
+    const struct statics *s = e->statics;
+    struct mesh *mesh = &e->frame->mesh;
     struct particles *p = &e->part;
     for (int d = 0; d < p->dim; d++) {
 #pragma omp parallel for schedule(static)
@@ -245,7 +249,7 @@ static void mirror_nodes_give(struct mesh *mesh)
 }
 
 /* The arrays of what yields, and how many bytes they are; returns their number. */
-static int plastic_state(const struct engine *e, real *array[PLASTIC_MOST], size_t size[PLASTIC_MOST])
+static int plastic_state(const struct run *e, real *array[PLASTIC_MOST], size_t size[PLASTIC_MOST])
 {
     const struct particles *p = &e->part;
     real *const of_bonds[] = {e->bonds.plastic_stretch, e->bonds.plastic_path};
@@ -260,17 +264,17 @@ static int plastic_state(const struct engine *e, real *array[PLASTIC_MOST], size
     return n;
 }
 
-void statics_plastic_restore(struct engine *e)
+void statics_plastic_restore(struct run *e)
 {
     real *array[PLASTIC_MOST];
     size_t size[PLASTIC_MOST];
     const int n = plastic_state(e, array, size);
-    for (int k = 0; k < n && e->statics.plastic[k]; k++) array_copy(array[k], e->statics.plastic[k], 1, size[k]);
+    for (int k = 0; k < n && e->statics->plastic[k]; k++) array_copy(array[k], e->statics->plastic[k], 1, size[k]);
 }
 
-void statics_plastic_keep(struct engine *e)
+void statics_plastic_keep(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     real *array[PLASTIC_MOST];
     size_t size[PLASTIC_MOST];
     const int n = plastic_state(e, array, size);
@@ -281,42 +285,42 @@ void statics_plastic_keep(struct engine *e)
     }
 }
 
-static void applied_add(struct engine *e)
+static void applied_add(struct run *e)
 {
     struct particles *p = &e->part;
-    for (int b = 0; b < e->loads.n && e->statics.applied[0]; b++) {
+    for (int b = 0; b < e->loads.n && e->statics->applied[0]; b++) {
         const struct load *l = &e->loads.load[b];
         if (!boundary_is_force(l->boundary) || l->leader != b) continue;
         for (int d = 0; d < p->dim; d++)
-            for (int64_t k = 0; k < l->n; k++) p->f[d][l->particle[k]] += e->statics.applied[d][l->particle[k]];
+            for (int64_t k = 0; k < l->n; k++) p->f[d][l->particle[k]] += e->statics->applied[d][l->particle[k]];
     }
 }
 
 /* The forces of a step (engine.c) without motion: of bonds, contact, loads and cells. */
-static void forces_here(struct engine *e)
+static void forces_here(struct run *e)
 {
-    const bool has_mesh = e->reference.mesh.points > 0;
+    const bool has_mesh = e->frame->mesh.points > 0;
     if (has_mesh) {
-        mesh_exposed_move(&e->reference.mesh, &e->part);
-        mesh_ends_update(&e->reference.mesh, &e->part, !e->scene->small_strain);
+        mesh_exposed_move(&e->frame->mesh, &e->part);
+        mesh_ends_update(&e->frame->mesh, &e->part, !e->scene->small_strain);
     }
     loads_mirror(&e->loads, &e->part);
     loads_clear(&e->loads, &e->part);
     statics_plastic_restore(e); /* whatever has been tried since the last equilibrium */
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
-    contact_force(&e->contact, &e->part, 0);
+    contact_force(e->contact, &e->part, 0);
     applied_add(e);
-    if (has_mesh) engine_nodes_force(e), mirror_nodes_give(&e->reference.mesh);
+    if (has_mesh) engine_nodes_force(e), mirror_nodes_give(&e->frame->mesh);
 }
 
 static void statics_forces(void *context, const struct field *u, struct field *f)
 {
-    struct engine *e = context;
-    const struct statics *s = &e->statics;
+    struct run *e = context;
+    const struct statics *s = e->statics;
     statics_place(e, u);
     forces_here(e);
     for (int d = 0; d < e->part.dim; d++) {
-        const real *part = e->part.f[d], *node = e->reference.mesh.grid.force[d];
+        const real *part = e->part.f[d], *node = e->frame->mesh.grid.force[d];
 #pragma omp parallel for schedule(static)
         for (int64_t k = 0; k < s->balance.n; k++)
             f->of[d][k] = k < s->particles ? s->weight[k] * part[s->node[k]] : node[s->node[k]];
@@ -324,8 +328,8 @@ static void statics_forces(void *context, const struct field *u, struct field *f
     statics_pieces_hold(e, f);
 }
 
-void statics_flow(struct engine *e)
+void statics_flow(struct run *e)
 {
-    statics_place(e, &e->statics.balance.u);
-    if (e->statics.plastic[0]) forces_here(e);
+    statics_place(e, &e->statics->balance.u);
+    if (e->statics->plastic[0]) forces_here(e);
 }

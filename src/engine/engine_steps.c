@@ -4,6 +4,13 @@
 
 #include "engine_report.h"
 #include "engine_statics.h"
+#include "probes/diagnostics.h"
+#include "quasistatic/statics.h"
+#include "rigid/rigid_part.h"
+#include "mesh/mesh_part.h"
+#include "contact/contact.h"
+#include "rigid/rigid.h"
+#include "fracture/sif_fields.h"
 
 #define OPENING_ERROR 1e-4 /* of an opening that is prescribed */
 #define FAR_BEYOND 1.2     /* overload from which on loads are too large to begin with */
@@ -19,21 +26,21 @@ enum { SECANTS_MOST = 12, APPROACHES_MOST = 12 };
 /* Size of the loads at which the advance ahead comes while they grow: of the first one that at which a pre-crack is in
  * balance; of later ones that at which they pay for themselves, so that loads swing about those of a crack that grows
  * evenly. */
-static real size_to_come(const struct engine *e)
+static real size_to_come(const struct run *e)
 {
-    const struct statics *s = &e->statics;
-    return e->diagnostics.bonds_broken > 0 ? real_max(s->due, size_of_advance(&s->ahead)) : s->due;
+    const struct statics *s = e->statics;
+    return e->diagnostics->bonds_broken > 0 ? real_max(s->due, size_of_advance(&s->ahead)) : s->due;
 }
 
 /* A state that loads have led to: it counts for the largest forces. */
-static void state_note(struct engine *e)
+static void state_note(struct run *e)
 {
     engine_probes_step(e);
-    for (int k = 0; k < e->scene->rigids; k++) rigid_note(&e->rigid[k]);
+    for (int k = 0; k < e->scene->rigids; k++) rigid_note(&e->rigid->body[k]);
 }
 
 /* Goes to loads of this size, between two pseudo-times. */
-static status go_to_size(struct engine *e, real size, real least, real most)
+static status go_to_size(struct run *e, real size, real least, real most)
 {
     return statics_go(e, real_min(real_max(statics_time_of_size(e, size), least), most));
 }
@@ -41,9 +48,9 @@ static status go_to_size(struct engine *e, real size, real least, real most)
 /* Goes to t, or where bonds come near their limits before it, there: far beyond them energies are those of a body that
  * would long have broken, what an advance releases drowns in their round-off, and bonds have yielded that never would.
  * Looks for what advances. */
-static status approach_loads(struct engine *e, real t)
+static status approach_loads(struct run *e, real t)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     const real from = s->t, low = statics_load_size(e, from), at_low = s->overload;
     bool far = true;
     for (int k = 0; k < APPROACHES_MOST && far; k++) {
@@ -67,9 +74,9 @@ static status approach_loads(struct engine *e, real t)
 /* The advance ahead, at the loads at which it comes or, where it would have come under less, under those of the one
  * before it, *size; what supports bear there counts for their largest force. Before the pseudo-time t, if loads get
  * there. */
-static status advance_under_loads(struct engine *e, real *size, real from, real t)
+static status advance_under_loads(struct run *e, real *size, real from, real t)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     const bool follows = size_to_come(e) <= *size;
     *size = real_max(*size, size_to_come(e));
     const real loads = statics_load_size(e, t);
@@ -84,9 +91,9 @@ static status advance_under_loads(struct engine *e, real *size, real from, real 
 }
 
 /* Pseudo-time grows to t; on the way the crack advances as long as that pays. Loads that fall have no way back. */
-static status step_by_load(struct engine *e, real t)
+static status step_by_load(struct run *e, real t)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     const real from = s->t, loads = statics_load_size(e, t);
     real size = statics_load_size(e, from);
     for (;;) {
@@ -99,9 +106,9 @@ static status step_by_load(struct engine *e, real t)
 
 /* One advance of the crack, then the pseudo-time at which the next one is due; as long as none is, as much pseudo-time
  * as the duration has for a step. */
-static status step_by_energy(struct engine *e, real most)
+static status step_by_energy(struct run *e, real most)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     const real t = real_min(s->t + most, e->scene->duration);
     if (s->advances) TRY(statics_advance_balanced(e));
     TRY(statics_look_ahead(e));
@@ -116,11 +123,11 @@ static status step_by_energy(struct engine *e, real most)
 }
 
 /* How far the places of control opening have moved apart [m]. */
-static real opening_now(const struct engine *e)
+static real opening_now(const struct run *e)
 {
     real now = 0, was = 0;
     for (int d = 0; d < e->part.dim; d++) {
-        const int64_t a = e->statics.opens[0], b = e->statics.opens[1];
+        const int64_t a = e->statics->opens[0], b = e->statics->opens[1];
         now += square(e->part.x[d][b] - e->part.x[d][a]);
         was += square(e->part.X[d][b] - e->part.X[d][a]);
     }
@@ -128,39 +135,39 @@ static real opening_now(const struct engine *e)
 }
 
 /* Goes to the pseudo-time at which the opening has this width [m], by secants from `t` [s] on. */
-static status open_to(struct engine *e, real wanted, real t)
+static status open_to(struct run *e, real wanted, real t)
 {
-    real from = e->statics.t, at_from = opening_now(e);
+    real from = e->statics->t, at_from = opening_now(e);
     for (int k = 0; k < SECANTS_MOST; k++) {
         TRY(statics_go(e, real_max(t, 0)));
-        const real at = opening_now(e), slope = (at - at_from) / (e->statics.t - from);
-        if (fabs(at - wanted) <= OPENING_ERROR * fabs(wanted) || e->statics.t == from || !(slope != 0)) return OK;
-        from = e->statics.t, at_from = at;
+        const real at = opening_now(e), slope = (at - at_from) / (e->statics->t - from);
+        if (fabs(at - wanted) <= OPENING_ERROR * fabs(wanted) || e->statics->t == from || !(slope != 0)) return OK;
+        from = e->statics->t, at_from = at;
         t = from + (wanted - at) / slope;
     }
     return OK;
 }
 
 /* Does the advance ahead come before the opening is as wide as wanted? Both grow with the loads. */
-static bool comes_before(const struct engine *e, real wanted)
+static bool comes_before(const struct run *e, real wanted)
 {
-    const struct statics *s = &e->statics;
+    const struct statics *s = e->statics;
     const real now = opening_now(e), size = statics_load_size(e, s->t);
     return s->next.n > 0 && now > 0 && now / size * size_to_come(e) < wanted;
 }
 
 /* The opening grows by a step; pseudo-time follows, and on the way the crack advances as long as that pays. */
-static status step_by_opening(struct engine *e)
+static status step_by_opening(struct run *e)
 {
     const struct scene_steps *s = &e->scene->steps;
     const real wanted = s->opening * (real)(e->clock.step + 1) / (real)s->number, now = opening_now(e);
-    const real first = e->statics.t + e->scene->duration / (real)s->number;
+    const real first = e->statics->t + e->scene->duration / (real)s->number;
     bool open = false;
-    if (e->statics.next.n == 0) TRY(approach_loads(e, now > 0 ? e->statics.t * wanted / now : first));
+    if (e->statics->next.n == 0) TRY(approach_loads(e, now > 0 ? e->statics->t * wanted / now : first));
     while (!open || comes_before(e, wanted)) {
         open = !comes_before(e, wanted);
         if (open) {
-            TRY(open_to(e, wanted, opening_now(e) > 0 ? e->statics.t * wanted / opening_now(e) : first));
+            TRY(open_to(e, wanted, opening_now(e) > 0 ? e->statics->t * wanted / opening_now(e) : first));
             TRY(statics_convert(e, 0));
         } else {
             TRY(go_to_size(e, size_to_come(e), 0, INFINITY));
@@ -178,9 +185,9 @@ static status step_by_opening(struct engine *e)
  * the same bits. The motions of unconstrained pieces are those of where the pieces are now. The preconditioner stays
  * where a resumed run can rebuild it: not if bonds have broken since it was made, nor with springs of contact, which
  * depend on where particles were at that time. */
-static void load_step_begin(struct engine *e)
+static void load_step_begin(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     statics_pieces_make(e);
     if (s->stale || statics_meets(e)) statics_precondition_free(e);
     else if (s->kept && !s->precondition) statics_precondition_make(e);
@@ -188,7 +195,7 @@ static void load_step_begin(struct engine *e)
     s->directions = 0;
 }
 
-static status load_step(struct engine *e)
+static status load_step(struct run *e)
 {
     const struct scene *s = e->scene;
     const real most = s->duration / (real)s->steps.number;
@@ -205,7 +212,7 @@ static status load_step(struct engine *e)
 }
 
 /* REFUSED where the opening is that of one place, or of none in the body. */
-static status check_opening(const struct engine *e)
+static status check_opening(const struct run *e)
 {
     const struct scene_steps *s = &e->scene->steps;
     const real *const at[] = {s->from, s->to};
@@ -226,7 +233,7 @@ static status check_opening(const struct engine *e)
 }
 
 /* REFUSED where loads and supports do not follow the pseudo-time: the crack would wait for others in vain. */
-static status check_growth(const struct engine *e)
+static status check_growth(const struct run *e)
 {
     const real whole = e->scene->duration, size = statics_load_size(e, whole);
     const real half = statics_load_size(e, 0.5 * whole), quarter = statics_load_size(e, 0.25 * whole);
@@ -236,28 +243,28 @@ static status check_growth(const struct engine *e)
                       whole);
 }
 
-status statics_check(const struct engine *e)
+status statics_check(const struct run *e)
 {
     const struct scene *s = e->scene;
     if (!scene_in_steps(s)) return OK;
     if (s->steps.control == CONTROL_OPENING) TRY(check_opening(e));
     TRY(check_growth(e));
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++)
-        if (!e->reference.choice[b].reference)
+        if (!e->frame->choice[b].reference)
             return status_set(REFUSED,
                               "solver: load steps want material points in the reference frame, and body %s is not in "
                               "it%s%s; method: pd, or solver: explicit, is expected",
-                              s->body[b].name, e->reference.choice[b].reason ? ": " : "",
-                              e->reference.choice[b].reason ? e->reference.choice[b].reason : "");
+                              s->body[b].name, e->frame->choice[b].reason ? ": " : "",
+                              e->frame->choice[b].reason ? e->frame->choice[b].reason : "");
     return OK;
 }
 
 /* Says that a crack has been pressed shut. */
-static void say_closed(struct engine *e)
+static void say_closed(struct run *e)
 {
     real K[MODES];
     led_factors(e, K);
-    if (K[MODE_I] < 0 && e->contact.law.between == CONTACT_NONE)
+    if (K[MODE_I] < 0 && e->contact->law.between == CONTACT_NONE)
         engine_say(e, "K_I of a crack is negative: its faces are pressed together, and pass through each other without "
                       "contact.between: all");
 }
@@ -265,7 +272,7 @@ static void say_closed(struct engine *e)
 #define FLOW_LARGE 0.1 /* plastic strain beyond which strains are no small ones */
 
 /* Says that points have flowed farther than strains that add up describe: without hardening, beyond a limit load. */
-static void say_flowed(struct engine *e)
+static void say_flowed(struct run *e)
 {
     real most = 0;
     char text[200];
@@ -278,19 +285,19 @@ static void say_flowed(struct engine *e)
 }
 
 /* Says that a rigid body has gone its way and pushed nothing: past the body, or a body that nothing holds before it. */
-static void say_missed(struct engine *e)
+static void say_missed(struct run *e)
 {
     for (int k = 0; k < e->scene->rigids; k++) {
-        const struct rigid_body *r = &e->rigid[k];
+        const struct rigid_body *r = &e->rigid->body[k];
         char text[160];
         snprintf(text, sizeof text,
                  "rigid body %.60s went its way and pushed nothing: see whether it meets a body, and what holds that",
                  r->name);
-        if (r->motion == RIGID_DRIVEN && r->force_most <= ROUND_OFF * e->statics.balance.largest) engine_say(e, text);
+        if (r->motion == RIGID_DRIVEN && r->force_most <= ROUND_OFF * e->statics->balance.largest) engine_say(e, text);
     }
 }
 
-static void say_at_end(struct engine *e)
+static void say_at_end(struct run *e)
 {
     say_closed(e);
     say_flowed(e);
@@ -299,29 +306,29 @@ static void say_at_end(struct engine *e)
 
 /* FAILED if loads carry a piece away. Where a crack goes through under control energy, they have gone back as far as
  * they can, and the curve is whole: *apart. */
-static status check_held(struct engine *e, bool *apart)
+static status check_held(struct run *e, bool *apart)
 {
-    const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics.bonds_broken > 0;
+    const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics->bonds_broken > 0;
     const status held = statics_unheld(e);
-    *apart = parts && (held != OK || e->statics.severs);
+    *apart = parts && (held != OK || e->statics->severs);
     if (*apart)
         engine_say(e, "the crack goes through: after its next advance next to nothing holds a piece of the body under "
                       "its loads, and the run ends before it");
     return parts ? OK : held;
 }
 
-status engine_steps(struct engine *e)
+status engine_steps(struct run *e)
 {
     TRY(engine_report_start(e));
-    laps_start(&e->report.laps);
-    if (!e->statics.node) statics_unknowns_make(e); /* a run that goes on has them */
+    laps_start(&e->laps);
+    if (!e->statics->node) statics_unknowns_make(e); /* a run that goes on has them */
     statics_touch_start(e);
-    e->statics.opens[0] = particles_nearest(&e->part, e->scene->steps.from);
-    e->statics.opens[1] = particles_nearest(&e->part, e->scene->steps.to);
+    e->statics->opens[0] = particles_nearest(&e->part, e->scene->steps.from);
+    e->statics->opens[1] = particles_nearest(&e->part, e->scene->steps.to);
     led_leads(e);                                   /* of a run that goes on, too: finds the plane of its tips */
     if (e->clock.step == 0) engine_sample_rest(e);
     while (e->clock.step < e->clock.steps) {
-        e->statics.record.step = e->clock.step + 1;
+        e->statics->record.step = e->clock.step + 1;
         bool apart;
         TRY(load_step(e));
         TRY(check_held(e, &apart));
@@ -332,8 +339,8 @@ status engine_steps(struct engine *e)
         state_note(e);
         engine_sample_equilibrium(e);
         statics_record_keep(e);
-        if (e->statics.t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
-        lap(&e->report.laps, LAP_BONDS);
+        if (e->statics->t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
+        lap(&e->laps, LAP_BONDS);
         if (e->clock.step == e->clock.steps) say_at_end(e);
         TRY(engine_report(e));
     }

@@ -3,12 +3,17 @@
 #include <string.h>
 
 #include "engine_statics.h"
+#include "fracture/fracture_part.h"
+#include "fracture/tips.h"
+#include "quasistatic/statics.h"
+#include "probes/diagnostics.h"
+#include "fracture/sif_fields.h"
 
 #define GROWTH 4 /* spacings of growth over which a release rate is taken: a length comes in steps of one */
 
 enum { STATICS_COLUMNS = 13 };                    /* in the plane one less */
 
-int statics_columns(const struct engine *e, struct column *column)
+int statics_columns(const struct run *e, struct column *column)
 {
     static const struct column own[STATICS_COLUMNS] = {
         {"load_time", "s"},        {"overload", ""},       {"released", "J"},  {"crack_area", "m^2"},
@@ -23,9 +28,9 @@ int statics_columns(const struct engine *e, struct column *column)
 
 /* Area by which the cracks grow over a spacing: as wide as all fronts of pre-cracks, else as one spacing [m^2]; in line
  * the section. */
-static real growth_by_spacing(const struct engine *e)
+static real growth_by_spacing(const struct run *e)
 {
-    const struct tips *t = &e->fracture.tips;
+    const struct tips *t = &e->fracture->tips;
     const real section = scene_section(e->scene);
     real wide = 0;
     if (t->dim == 1) return section;
@@ -50,9 +55,9 @@ static real damage_beside_cut(const struct scene *s)
 }
 
 /* Area of the paths of tips that are led [m^2]. */
-static real led_paths_area(const struct engine *e)
+static real led_paths_area(const struct run *e)
 {
-    const struct led *l = &e->statics.led;
+    const struct led *l = &e->statics->led;
     real area = 0;
     for (int64_t k = 0; k < l->stretches; k++) area += led_face_area(e, l->path[k].at[0], l->path[k].at[1]);
     return area;
@@ -62,14 +67,14 @@ static real led_paths_area(const struct engine *e)
  * come, of these; in space, where no front is led, of the bonds that have broken, each by its share of the area that it
  * crosses; and the release rate over the last two growths. Of damaged particles, whose lengths come in steps of a
  * spacing, a growth is some spacings. A load step without growth changes no rate. */
-static void measure(struct engine *e)
+static void measure(struct run *e)
 {
-    struct steps_record *r = &e->statics.record;
+    struct steps_record *r = &e->statics->record;
     const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, scene_section(e->scene),
                                             0.5 * damage_beside_cut(e->scene)};
     const real led = led_paths_area(e), spacing = growth_by_spacing(e);
     const bool solid = e->part.dim == 3 && led == 0;
-    const real damaged = solid ? r->broken : tips_area(&e->fracture.tips, &e->part, &around);
+    const real damaged = solid ? r->broken : tips_area(&e->fracture->tips, &e->part, &around);
     const bool by_paths = led > 0 && damaged <= led + 1.5 * spacing;
     const real area = by_paths ? led : damaged, growth = by_paths || solid ? 0 : GROWTH * spacing;
     r->released = statics_released(e);
@@ -81,13 +86,13 @@ static void measure(struct engine *e)
     r->mark[1] = (struct release_mark){area, r->released};
 }
 
-void statics_record(struct engine *e, real *record)
+void statics_record(struct run *e, real *record)
 {
-    const struct statics *s = &e->statics;
+    const struct statics *s = e->statics;
     real place[DIM_MAX];
     if (!scene_in_steps(e->scene)) return;
     measure(e);
-    const real rate = s->record.area > 0 ? s->record.rate : NAN, bonds = 0.5 * (real)e->diagnostics.bonds_broken;
+    const real rate = s->record.area > 0 ? s->record.rate : NAN, bonds = 0.5 * (real)e->diagnostics->bonds_broken;
     const real own[STATICS_COLUMNS - MODES - DIM_MAX] = {
         s->t, s->overload, s->record.released, s->record.area, rate, bonds,
         (real)(s->balance.directions - s->record.directions), (real)(s->solutions - s->record.solutions)};
@@ -97,17 +102,17 @@ void statics_record(struct engine *e, real *record)
     array_copy(record + COUNT_OF(own) + MODES, place, e->part.dim < 3 ? 2 : 3, sizeof *place);
 }
 
-real engine_load_size(const struct engine *e, real t) { return statics_load_size(e, t); }
+real engine_load_size(const struct run *e, real t) { return statics_load_size(e, t); }
 
-status engine_equilibrium_try(struct engine *e, real t)
+status engine_equilibrium_try(struct run *e, real t)
 {
     statics_unknowns_make(e);
     TRY(statics_go(e, t));
     return statics_unheld(e);
 }
 
-void statics_record_keep(struct engine *e)
+void statics_record_keep(struct run *e)
 {
-    struct statics *s = &e->statics;
+    struct statics *s = e->statics;
     s->record.directions = s->balance.directions, s->record.solutions = s->solutions;
 }

@@ -2,7 +2,7 @@
  * points themselves with their own (point_trigger). */
 #include "engine/engine.h"
 
-void engine_strength_found(struct engine *e)
+void engine_strength_found(struct run *e)
 {
     const struct particles *p = &e->part;
     for (int64_t i = 0; i < p->n && p->strength; i++) {

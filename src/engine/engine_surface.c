@@ -16,7 +16,7 @@ static const char *vector_in_words(char *text, const real *a, int dim)
 }
 
 /* Number of the mirror that lies half-way between two places along an axis; -1: none. */
-static int mirror_between(const struct engine *e, const real *X, const real *Y, int axis)
+static int mirror_between(const struct run *e, const real *X, const real *Y, int axis)
 {
     for (int b = 0; b < e->loads.n; b++) {
         const struct boundary *m = e->loads.load[b].boundary;
@@ -27,7 +27,7 @@ static int mirror_between(const struct engine *e, const real *X, const real *Y, 
 }
 
 /* Returns the number of the body that a particle was made for, of those joined to its own, by their shapes. */
-static int body_made_for(const struct engine *e, const real *X, int body)
+static int body_made_for(const struct run *e, const real *X, int body)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies; b++)
@@ -38,7 +38,7 @@ static int body_made_for(const struct engine *e, const real *X, int body)
 }
 
 /* REFUSED: the rows of particle i are not on, nor half a spacing beside, the plane of mirror number `mirror`. */
-static status refuse_rows(const struct engine *e, int64_t i, int mirror)
+static status refuse_rows(const struct run *e, int64_t i, int mirror)
 {
     const struct boundary *m = e->loads.load[mirror].boundary;
     real X[DIM_MAX];
@@ -53,7 +53,7 @@ static status refuse_rows(const struct engine *e, int64_t i, int mirror)
 }
 
 /* REFUSED: particles i < n and j are not whole spacings apart. */
-static status refuse_apart(const struct engine *e, int64_t i, int64_t j)
+static status refuse_apart(const struct run *e, int64_t i, int64_t j)
 {
     const struct particles *p = &e->part;
     const struct scene *s = e->scene;
@@ -83,7 +83,7 @@ static status refuse_apart(const struct engine *e, int64_t i, int64_t j)
                       own, here, there, apart);
 }
 
-status engine_surface_make(struct engine *e)
+status engine_surface_make(struct run *e)
 {
     struct surface_weights *w = &e->tables.surface;
     const status s = surface_make(w, &e->part, &e->source, e->source.rotates);

@@ -4,6 +4,12 @@
 #include <math.h>
 
 #include "engine/engine.h"
+#include "step/stability.h"
+#include "grid/grid_part.h"
+#include "coupling/coupling_part.h"
+#include "quasistatic/statics.h"
+#include "contact/contact.h"
+#include "mesh/levels.h"
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
@@ -39,10 +45,10 @@ static real volume_share(const struct scene *s, const struct material_tables *ta
     return sqrt(observed / most);
 }
 
-static real engine_time_fastest(const struct engine *e)
+static real engine_time_fastest(const struct run *e)
 {
     const struct scene *s = e->scene;
-    real speed = e->stability.start_speed;
+    real speed = e->stability->start_speed;
     for (int b = 0; b < s->boundaries; b++)
         if (s->boundary[b].displaces && s->solver == SOLVER_EXPLICIT)
             speed = real_max(speed, load_displacing_speed(&e->loads.load[b], &e->part, s->duration));
@@ -51,10 +57,10 @@ static real engine_time_fastest(const struct engine *e)
     return speed;
 }
 
-static real critical_of_points(const struct engine *e)
+static real critical_of_points(const struct run *e)
 {
     if (e->part.n_free + e->part.n_grid_coupled == 0) return INFINITY;
-    return points_share(e->scene) * volume_share(e->scene, &e->tables, &e->part) * e->mpm.field[0].grid.h /
+    return points_share(e->scene) * volume_share(e->scene, &e->tables, &e->part) * e->grid->field[0].grid.h /
            (e->tables.wave_speed + engine_time_fastest(e));
 }
 
@@ -68,23 +74,23 @@ static const real moved_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4,
  * worst where few particles share a node. */
 static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
 
-static real share_of_coupling(const struct scene *s, const struct coupling_state *coupling)
+static real share_of_coupling(const struct scene *s, enum coupling coupling)
 {
     const bool two = s->cell >= 2;
-    if (coupling_unified(coupling->kind)) return moved_by_grid[two][s->dim];
-    return coupling_moves_by_grid(coupling->kind) && s->transfer == TRANSFER_FLIP
+    if (coupling_unified(coupling)) return moved_by_grid[two][s->dim];
+    return coupling_moves_by_grid(coupling) && s->transfer == TRANSFER_FLIP
                ? met_by_grid[two][s->dim]
                : 1;
 }
 
 /* Force kernel of elastic bonds: yielding bonds are no stiffer. */
-static bond_force_fn *elastic_force(const struct engine *e)
+static bond_force_fn *elastic_force(const struct run *e)
 {
     return e->scene->model == MODEL_BOND ? bond_force_table[e->part.dim][PD_BOND] : e->kernels.bond_force;
 }
 
 /* Smallest critical step of the lattices of all materials [s]; *bound: the smallest of their bounds [s]. */
-static real critical_of_lattices(struct engine *e, real *bound)
+static real critical_of_lattices(struct run *e, real *bound)
 {
     const struct scene *s = e->scene;
     real step = INFINITY, longest[DIM_MAX], low, high;
@@ -111,7 +117,7 @@ enum { ITERATED_MOST = 15000 };          /* particles: an iteration has some 30 
 /* Critical step of bonds [s]. By iteration on the body where all of it is peridynamic. Where particles convert later,
  * or are many on a lattice, by iteration on a block of this lattice, reduced as the bound over all particles is smaller
  * than that of the block: scattered particles, corrected surfaces, heavy neighbours. */
-static real critical_of_bonds(struct engine *e)
+static real critical_of_bonds(struct run *e)
 {
     const struct scene *s = e->scene;
     real bound;
@@ -122,7 +128,7 @@ static real critical_of_bonds(struct engine *e)
     }
     const real step = critical_of_lattices(e, &bound);
     const real share = real_min(1, bonds_critical_step(&e->part, &e->source) / bound);
-    return share * step * share_of_coupling(e->scene, &e->coupling);
+    return share * step * share_of_coupling(e->scene, e->coupling_kind);
 }
 
 /* ---- the step ---------------------------------------------------------------------------------------------------- */
@@ -155,7 +161,7 @@ static real contact_safety(const struct scene *s)
 static real damping_step(const struct scene *s) { return s->damping > 0 ? 0.5 / s->damping : INFINITY; }
 
 /* Stiffness of the cores of bonds that the step bears, as kernels/pd/bond_core.h has it; of no step: the most. */
-static real core_stiffness(const struct engine *e)
+static real core_stiffness(const struct run *e)
 {
     if (!scene_moves(e->scene)) return CORE_STIFFNESS;
     return real_max(0, real_min(CORE_STIFFNESS, square(e->clock.dt_critical / e->clock.dt) - 1));
@@ -174,13 +180,13 @@ static real lightest_share(const struct scene *s, const struct particles *p)
 
 /* The critical step is the smallest limit of all methods, whichever kinds are present at the start, since particles
  * convert. */
-status engine_time_make(struct engine *e)
+status engine_time_make(struct run *e)
 {
     const struct scene *s = e->scene;
     e->clock.dt_critical =
         real_min(real_min(critical_of_bonds(e), critical_of_points(e)), engine_mesh_critical_step(e)) *
         sqrt(lightest_share(s, &e->part));
-    const real contact = contact_critical_step(&e->contact, &e->part, s->material, e->clock.dt_critical);
+    const real contact = contact_critical_step(e->contact, &e->part, s->material, e->clock.dt_critical);
     const real safety = engine_levels_number(e) > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;
     const real automatic =
         real_min(damping_step(s), real_min(safety * e->clock.dt_critical, contact_safety(s) * contact));
@@ -190,7 +196,7 @@ status engine_time_make(struct engine *e)
         return status_set(REFUSED,
                           "time.step: %.4g s is more than mpm.levels above 0 bears, %.4g s (%.2f of the critical step)",
                           dt, LEVELS_STEP_MOST * e->clock.dt_critical, LEVELS_STEP_MOST);
-    e->statics.dt = dt;
+    e->statics->dt = dt;
     if (scene_in_steps(s)) e->clock.steps = s->steps.number, e->clock.dt = s->duration / s->steps.number;
     else if (scene_moves(s)) TRY(make_steps(e->scene, &e->clock, dt));
     else e->clock.steps = s->solver_steps, e->clock.dt = dt;

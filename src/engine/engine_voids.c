@@ -10,7 +10,7 @@
 #define ALONG 0.999                      /* least cosine between an axis and a way along it */
 
 /* Distance up to which bonds or cells join particles [m]. */
-static real engine_voids_reach(const struct engine *e)
+static real engine_voids_reach(const struct run *e)
 {
     const real cells = e->scene->method == METHOD_PD ? 0 : CELLS_REACH * e->scene->cell * e->scene->spacing;
     return real_max(e->scene->method == METHOD_MPM ? 0 : e->source.family.cutoff, cells);
@@ -48,7 +48,7 @@ static void list_shapes(const struct scene *s, struct voids *v)
     memory_free(wanted);
 }
 
-void engine_voids_make(struct engine *e)
+void engine_voids_make(struct run *e)
 {
     const struct scene *s = e->scene;
     struct voids *v = &e->tables.voids;
@@ -67,9 +67,9 @@ void engine_voids_make(struct engine *e)
 }
 
 /* Can voids not cut the mesh? A cut parts a line; where a mirror lies between nodes there are no extra ones. */
-static bool mesh_uncut(const struct engine *e) { return e->part.dim == 1 || engine_mirror_between(e); }
+static bool mesh_uncut(const struct run *e) { return e->part.dim == 1 || engine_mirror_between(e); }
 
-void engine_voids_convert(struct engine *e)
+void engine_voids_convert(struct run *e)
 {
     struct particles *p = &e->part;
     const struct voids *v = e->source.voids;
@@ -98,7 +98,7 @@ static void closed_add(struct closed *to, int64_t i)
 }
 
 /* Of bodies whose surface is known: material points on a grid that no void cuts. */
-static struct closed closed_on_grid(const struct engine *e)
+static struct closed closed_on_grid(const struct run *e)
 {
     const struct particles *p = &e->part;
     const bool uncut = mesh_uncut(e);
@@ -125,7 +125,7 @@ static void next_along(const struct particles *p, int64_t i, const struct near *
 }
 
 /* Of body b, whose surface is not known: particles of a lattice between which sites are empty, nearer than `reach`. */
-static struct closed closed_in_lattice(const struct engine *e, int b, real reach)
+static struct closed closed_in_lattice(const struct run *e, int b, real reach)
 {
     const struct particles *p = &e->part;
     const real spacing = e->scene->spacing;
@@ -147,7 +147,7 @@ static struct closed closed_in_lattice(const struct engine *e, int b, real reach
     return 2 * regular > all ? found : (struct closed){0};
 }
 
-void engine_voids_warn(const struct engine *e, struct warnings *to)
+void engine_voids_warn(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
     const struct closed grid = closed_on_grid(e);
@@ -168,10 +168,4 @@ void engine_voids_warn(const struct engine *e, struct warnings *to)
                      s->body[b].name, void_place_text(&e->part, gap.first, place), (long long)gap.n,
                      s->method == METHOD_MPM ? "cells" : s->method == METHOD_PD ? "bonds" : "bonds and cells");
     }
-}
-
-void engine_voids_free(struct engine *e)
-{
-    voids_free(&e->tables.voids);
-    memory_free(e->tables.void_mirror);
 }

@@ -6,6 +6,12 @@
 #include "base/memory.h"
 #include "engine/engine.h"
 #include "engine_statics.h"
+#include "grid/grid_part.h"
+#include "mesh/mesh_part.h"
+#include "solver/solver.h"
+#include "coupling/coupling_part.h"
+#include "step/report.h"
+#include "output/output.h"
 
 /* True if pre-cracks have cut a bond. */
 static bool bonds_are_cut(const struct bonds *b)
@@ -34,32 +40,33 @@ static bool spins(const struct scene *s)
 }
 
 /* Measured with a plate that turns freely, edges at 30 m/s, cells of two spacings. */
-static void warn_of_spin(const struct engine *e, struct warnings *to)
+static void warn_of_spin(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
-    if (scene_moves(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 && spins(s) && e->mpm.turning.groups == 0)
+    if (scene_moves(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 && spins(s) &&
+        e->grid->turning.groups == 0)
         warnings_add(to, "mpm.transfer flip does not keep the spin of bodies in mpm.frame current: a plate of 20 x 10 "
                      "points loses 7 %% of its angular momentum in 0.3 rad, 28 %% in half a turn, under stresses 100 "
                      "times too large; apic loses 2e-5");
 }
 
 /* Method, coupling, transfer and time step. */
-static void warn_of_method(const struct engine *e, struct warnings *to)
+static void warn_of_method(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
     if (scene_moves(s) && e->clock.dt > e->clock.dt_critical)
         warnings_add(to, "the time step is above the critical one: expect a run that blows up");
     if (s->method == METHOD_MPM && s->cracks > 0)
         warnings_add(to, "method mpm has one velocity field and ignores the pre-cracks; pd or adaptive represent them");
-    if ((e->coupling.kind == COUPLING_PM || e->coupling.kind == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
+    if ((e->coupling_kind == COUPLING_PM || e->coupling_kind == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
         warnings_add(to,
                      "coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and pgg");
-    if (coupling_moves_by_grid(e->coupling.kind))
+    if (coupling_moves_by_grid(e->coupling_kind))
         warnings_add(
             to,
             "coupling %s is as published: no energy stands behind its forces, and a long run may gain some; watch "
             "energy.balance_error, or use partial stress",
-            coupling_name[e->coupling.kind]);
+            coupling_name[e->coupling_kind]);
     bool driven = false;
     for (int b = 0; b < s->boundaries; b++) driven |= s->boundary[b].kind == BOUNDARY_VELOCITY;
     if (driven && e->part.n_free > 0 && (s->shape == SHAPE_QUADRATIC || s->shape == SHAPE_CUBIC))
@@ -73,17 +80,17 @@ static void warn_of_method(const struct engine *e, struct warnings *to)
 }
 
 /* Keys of coarse cells and slits where there are none. */
-static void warn_of_idle_keys(const struct engine *e, struct warnings *to)
+static void warn_of_idle_keys(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
     const char *why = s->method == METHOD_PD              ? "method pd has no cells"
                       : !scene_moves(s)      ? "a static solver has no use for coarse cells"
-                      : e->reference.mesh.points == 0     ? "no material points are in the reference frame"
+                      : e->frame->mesh.points == 0     ? "no material points are in the reference frame"
                                                           : NULL;
     const char *all = engine_hollow_obstacle(s);
     if (s->levels != LEVELS_AUTO && s->levels > 0 && why)
         warnings_add(to, "mpm.levels: %d has no effect, as %s; auto or 0 is expected", s->levels, why);
-    if (s->fill == FILL_NEEDED && (why || all || e->reference.levels.n == 0))
+    if (s->fill == FILL_NEEDED && (why || all || e->frame->levels.n == 0))
         warnings_add(to, "mpm.fill: needed has no effect, all particles are made, as %s; auto or all is expected",
                      why ? why : all ? all : "there are no coarse cells");
     if (s->conversion.notch == NOTCH_SLIT && s->cracks > 0 && s->method != METHOD_ADAPTIVE)
@@ -131,7 +138,7 @@ void engine_warn_of_yielding(const struct scene *s, struct warnings *to)
                          s->space == SPACE_PLANE_STRAIN ? "1" : "0.5");
 }
 
-static void warn_of_solver(const struct engine *e, struct warnings *to)
+static void warn_of_solver(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
     for (int m = 0; m < s->materials && scene_in_steps(s); m++)
@@ -149,15 +156,15 @@ static void warn_of_solver(const struct engine *e, struct warnings *to)
     if (s->bodies > 1 || s->cracks > 0)
         warnings_add(to, "bodies and faces of cracks do not meet in a static equilibrium: they pass through each other "
                      "where they close");
-    if (e->solver.applied == 0 && solver_largest(&e->solver.driven, s->dim, e->part.n) == 0)
+    if (e->solver->applied == 0 && solver_largest(&e->solver->driven, s->dim, e->part.n) == 0)
         warnings_add(to, "nothing loads the body at t = %.4g s: forces have their value at the end of the duration "
                      "there (a step that ends before has none)", s->duration);
 }
 
 /* Does a region hold a particle? Where some are not made it may hold points of coarse cells alone: true. */
-static bool region_is_met(const struct engine *e, const struct region *region)
+static bool region_is_met(const struct run *e, const struct region *region)
 {
-    bool any = e->reference.hollow.absent != NULL;
+    bool any = e->frame->hollow.absent != NULL;
     for (int64_t i = 0; i < e->part.n && !any; i++) {
         real X[DIM_MAX];
         particle_place(&e->part, i, X);
@@ -187,7 +194,7 @@ static void warn_of_lists(const struct scene *s, struct warnings *to)
 }
 
 /* A field that is asked for by name, and that no frame will have. */
-static void warn_of_fields(const struct engine *e, struct warnings *to)
+static void warn_of_fields(const struct run *e, struct warnings *to)
 {
     enum { ASK_PLASTIC_STRAIN = 1 << 4, ASK_OTHERS = ASK_LEVEL | ASK_STRAIN | ASK_PLASTIC_WORK };
     const unsigned asked = e->scene->fields;
@@ -196,7 +203,7 @@ static void warn_of_fields(const struct engine *e, struct warnings *to)
         warnings_add(to, "output.fields: no material here yields, and frames will have no plastic_strain");
 }
 
-static void warn_of_empty(const struct engine *e, struct warnings *to)
+static void warn_of_empty(const struct run *e, struct warnings *to)
 {
     warn_of_fields(e, to);
     for (int k = 0; k < e->scene->n_series; k++)
@@ -286,7 +293,7 @@ static bool engine_warn_at_rest(const struct particles *p, int64_t i, int64_t j)
 
 /* Sets touch[a * bodies + b], a < b, if particles of bodies a and b are neighbours at the start and move together.
  * Returns the number of such pairs of bodies. */
-static int touching(const struct engine *e, bool *touch)
+static int touching(const struct run *e, bool *touch)
 {
     const struct particles *p = &e->part;
     const int bodies = e->scene->bodies;
@@ -308,7 +315,7 @@ static int touching(const struct engine *e, bool *touch)
 }
 
 /* Bodies that touch at the start. */
-static void warn_of_touch(const struct engine *e, struct warnings *to)
+static void warn_of_touch(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
     char name[2 * NAME_MAX_LENGTH + 8];
@@ -324,14 +331,14 @@ static void warn_of_touch(const struct engine *e, struct warnings *to)
     if (names.all > 0)
         warnings_add(to, "bodies touch at the start (%s) and are not joined: no bond goes from one body to another%s",
                      names.text,
-                     s->method == METHOD_PD || e->mpm.fields > 1
+                     s->method == METHOD_PD || e->grid->fields > 1
                          ? ""
                          : "; on the grid of mpm.frame current they stick until a gap of two cells opens");
 }
 
-void engine_warn(struct engine *e)
+void engine_warn(struct run *e)
 {
-    struct warnings *to = &e->report.warnings;
+    struct warnings *to = &e->warnings;
     if (e->scene->renamed[0])
         warnings_add(to, "%s; earlier names work in this version, with the same meaning", e->scene->renamed);
     warn_of_method(e, to);
@@ -344,26 +351,26 @@ void engine_warn(struct engine *e)
     engine_warn_of_speed(e, to);
     warn_of_solver(e, to);
     warn_of_empty(e, to);
-    warn_of_mirrors(e->scene, &e->mpm, to);
-    warn_of_contact(e->scene, &e->reference, &e->coupling, to);
+    warn_of_mirrors(e->scene, e->grid, to);
+    warn_of_contact(e->scene, e->frame, e->coupling, to);
     warn_of_touch(e, to);
     engine_voids_warn(e, to);
 }
 
-void engine_say_yielding(struct engine *e)
+void engine_say_yielding(struct run *e)
 {
     bool yields = false;
-    if (e->report.yield_said || !e->bonds.plastic_path) return;
+    if (e->report->yield_said || !e->bonds.plastic_path) return;
     for (int64_t row = 0; row < e->bonds.rows && !yields; row++) yields = bond_row_plastic_path(&e->bonds, row) > 0;
     if (!yields) return;
-    const int known = e->report.warnings.n;
-    e->report.yield_said = true;
-    engine_warn_of_yielding(e->scene, &e->report.warnings);
-    if (!e->report.trial) warnings_print(&e->report.warnings, known, stderr);
+    const int known = e->warnings.n;
+    e->report->yield_said = true;
+    engine_warn_of_yielding(e->scene, &e->warnings);
+    if (!e->report->trial) warnings_print(&e->warnings, known, stderr);
 }
 
-void engine_say(struct engine *e, const char *text)
+void engine_say(struct run *e, const char *text)
 {
-    if (warnings_add(&e->report.warnings, "%s", text) && !e->report.trial)
-        warnings_print(&e->report.warnings, e->report.warnings.n - 1, stderr);
+    if (warnings_add(&e->warnings, "%s", text) && !e->report->trial)
+        warnings_print(&e->warnings, e->warnings.n - 1, stderr);
 }

@@ -38,7 +38,7 @@ static bool from_file(const struct scene *s, int body)
 
 /* Counts peridynamic particles by their rows of bonds, and material points of bodies from files by what lies within a
  * cell of theirs. */
-static void lone_count(const struct engine *e, struct lone *lone)
+static void lone_count(const struct run *e, struct lone *lone)
 {
     const struct particles *p = &e->part;
     const struct scene *s = e->scene;
@@ -80,7 +80,7 @@ static real median_sorted(real *a, int n)
 
 /* Sets the distance of the nearest neighbour of a particle, INFINITY if there is none within NEAR, the number of
  * those within, and of those at the least distance. */
-static void surroundings(const struct engine *e, struct near *near, int64_t i, real *apart, real *count, real *beside)
+static void surroundings(const struct run *e, struct near *near, int64_t i, real *apart, real *count, real *beside)
 {
     const struct particles *p = &e->part;
     real least2 = INFINITY;
@@ -97,7 +97,7 @@ static void surroundings(const struct engine *e, struct near *near, int64_t i, r
 }
 
 /* Warns of a list without volumes, which have that of the spacing, whose particles are farther apart or denser. */
-static void warn_of_list_spacing(const struct engine *e, int body, struct warnings *to)
+static void warn_of_list_spacing(const struct run *e, int body, struct warnings *to)
 {
     static const real ball[] = {0, 2 * NEAR, 3.14159 * NEAR * NEAR, 4.18879 * NEAR * NEAR * NEAR};
     const struct particles *p = &e->part;
@@ -125,7 +125,7 @@ static void warn_of_list_spacing(const struct engine *e, int body, struct warnin
                      b->file, spacing, distance, distance);
 }
 
-void engine_warn_of_lone(const struct engine *e, struct warnings *to)
+void engine_warn_of_lone(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
     struct lone *lone = NEW("warn.lone", s->bodies, struct lone);

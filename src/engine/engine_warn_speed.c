@@ -5,14 +5,14 @@
 #include "engine/engine.h"
 
 /* Marks the bodies, those joined counted as one, of which a load has particles. body: [bodies], by lowest number. */
-static void bodies_mark(const struct engine *e, const struct load *l, bool *body)
+static void bodies_mark(const struct run *e, const struct load *l, bool *body)
 {
     for (int b = 0; b < e->scene->bodies; b++) body[b] = false;
     for (int64_t k = 0; k < l->n; k++) body[e->scene->body[e->part.body[l->particle[k]]].joined] = true;
 }
 
 /* Has a load particles in marked bodies? */
-static bool load_meets(const struct engine *e, const struct load *l, const bool *body)
+static bool load_meets(const struct run *e, const struct load *l, const bool *body)
 {
     bool any = false;
     for (int64_t k = 0; k < l->n && !any; k++) any = body[e->scene->body[e->part.body[l->particle[k]]].joined];
@@ -22,7 +22,7 @@ static bool load_meets(const struct engine *e, const struct load *l, const bool 
 /* Returns true if load number `which` finds nothing that keeps its bodies from moving with it: no mirror across its
  * components, no absorbing face, damping or other body, no load that drives the same components otherwise by more than
  * `slow` [m/s]. body: its bodies. */
-static bool moves_freely(const struct engine *e, int which, const bool *body, real slow)
+static bool moves_freely(const struct run *e, int which, const bool *body, real slow)
 {
     const struct scene *s = e->scene;
     const struct load *own = &e->loads.load[which];
@@ -46,7 +46,7 @@ static bool moves_freely(const struct engine *e, int which, const bool *body, re
 }
 
 /* Time that a wave takes across marked bodies, by the diagonal of the box around each and the slowest material [s]. */
-static real body_crossing_time(const struct engine *e, const bool *body)
+static real body_crossing_time(const struct run *e, const bool *body)
 {
     const struct particles *p = &e->part;
     const struct scene *s = e->scene;
@@ -69,7 +69,7 @@ static real body_crossing_time(const struct engine *e, const bool *body)
 
 /* Warns of load number `which` on bodies that move freely: only what changes faster than a wave crosses them strains
  * them. bears: speed at which bonds break [m/s]. */
-static void warn_of_change(const struct engine *e, int which, const bool *body, real bears, struct warnings *to)
+static void warn_of_change(const struct run *e, int which, const bool *body, real bears, struct warnings *to)
 {
     const struct scene *s = e->scene;
     const real within = body_crossing_time(e, body);
@@ -83,7 +83,7 @@ static void warn_of_change(const struct engine *e, int which, const bool *body, 
 }
 
 /* A face that is moved at v strains what is behind it by v/c at once. */
-void engine_warn_of_speed(const struct engine *e, struct warnings *to)
+void engine_warn_of_speed(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
     real bears = INFINITY;

@@ -2,6 +2,9 @@
 #include <math.h>
 
 #include "engine_statics.h"
+#include "rigid/rigid_part.h"
+#include "quasistatic/statics.h"
+#include "rigid/rigid.h"
 
 #define SIDEWAYS 1e-3 /* share of the largest loads from which others are no round-off */
 enum { LOOKS = 64, PLACES = 1024 }; /* load times, and particles of each load, that are looked at */
@@ -9,7 +12,7 @@ enum { LOOKS = 64, PLACES = 1024 }; /* load times, and particles of each load, t
 /* Prescribed displacements of supports and rigid bodies at two load times, multiplied [m^2]; applied forces [N^2]. */
 enum { WAYS, FORCES, SORTS };
 
-static void products(const struct engine *e, real t, real u, real *product)
+static void products(const struct run *e, real t, real u, real *product)
 {
     const int dim = e->part.dim;
     product[WAYS] = product[FORCES] = 0;
@@ -31,8 +34,8 @@ static void products(const struct engine *e, real t, real u, real *product)
     }
     for (int k = 0; k < e->scene->rigids; k++) {
         real x[DIM_MAX], y[DIM_MAX];
-        rigid_shift(&e->rigid[k], t, x);
-        rigid_shift(&e->rigid[k], u, y);
+        rigid_shift(&e->rigid->body[k], t, x);
+        rigid_shift(&e->rigid->body[k], u, y);
         product[WAYS] += dot(x, y, dim);
     }
 }
@@ -43,7 +46,7 @@ struct worst { real largest, back, beside; };
 /* Looks at a load time. found: products of the largest, and of what is found so far beyond it. */
 struct search { real largest[SORTS], back[SORTS], beside[SORTS]; };
 
-static void largest_try(const struct engine *e, real t, struct worst *worst, struct search *found)
+static void largest_try(const struct run *e, real t, struct worst *worst, struct search *found)
 {
     real own[SORTS];
     products(e, t, t, own);
@@ -51,7 +54,7 @@ static void largest_try(const struct engine *e, real t, struct worst *worst, str
         if (own[c] > found->largest[c] * (1 + 1e-9)) found->largest[c] = own[c], worst[c].largest = t;
 }
 
-static void others_try(const struct engine *e, real t, struct worst *worst, struct search *found)
+static void others_try(const struct run *e, real t, struct worst *worst, struct search *found)
 {
     for (int c = 0; c < SORTS; c++) {
         real own[SORTS], with[SORTS];
@@ -66,10 +69,10 @@ static void others_try(const struct engine *e, real t, struct worst *worst, stru
     }
 }
 
-typedef void look_fn(const struct engine *e, real t, struct worst *worst, struct search *found);
+typedef void look_fn(const struct run *e, real t, struct worst *worst, struct search *found);
 
 /* Looks at load times that are evenly spread, and at those of tables. */
-static void look_all(const struct engine *e, look_fn *look, struct worst *worst, struct search *found)
+static void look_all(const struct run *e, look_fn *look, struct worst *worst, struct search *found)
 {
     const real end = e->scene->duration;
     for (int k = 1; k <= LOOKS; k++) look(e, end * k / LOOKS, worst, found);
@@ -81,15 +84,15 @@ static void look_all(const struct engine *e, look_fn *look, struct worst *worst,
 }
 
 /* The equilibrium at load time t: keeps it if bonds are nearer to their limits than so far. */
-static status worst_try(struct engine *e, real t, real *at, real *overload)
+static status worst_try(struct run *e, real t, real *at, real *overload)
 {
     if (isnan(t)) return OK;
     TRY(statics_go(e, t));
-    if (e->statics.overload > *overload) *overload = e->statics.overload, *at = t;
+    if (e->statics->overload > *overload) *overload = e->statics->overload, *at = t;
     return OK;
 }
 
-status engine_overload_worst(struct engine *e, real first, real *at, real *overload)
+status engine_overload_worst(struct run *e, real first, real *at, real *overload)
 {
     struct worst worst[SORTS] = {{NAN, NAN, NAN}, {NAN, NAN, NAN}};
     struct search found = {{0}, {0}, {0}};
@@ -101,7 +104,7 @@ status engine_overload_worst(struct engine *e, real first, real *at, real *overl
     const int sort = found.largest[WAYS] > 0 ? WAYS : FORCES;
     const bool alone = !(found.largest[WAYS] > 0 && found.largest[FORCES] > 0);
     if (alone && isnan(worst[sort].back) && isnan(worst[sort].beside) && before[sort] > 0) { /* they only grow */
-        *overload = e->statics.overload * sqrt(found.largest[sort] / before[sort]), *at = worst[sort].largest;
+        *overload = e->statics->overload * sqrt(found.largest[sort] / before[sort]), *at = worst[sort].largest;
         return OK;
     }
     for (int c = 0; c < SORTS; c++) {

@@ -8,87 +8,29 @@
 #include "fracture/fragments.h"
 #include "base/memory.h"
 #include "base/memory_stream.h"
+#include "output/json.h"
 #include "simd/simd.h"
-
-/* ---- JSON -------------------------------------------------------------------------------------------------------- */
-
-enum { DIGITS_EXACT = 17, DIGITS_TIMING = 9 };   /* 17 digits give back the same double */
-
-/* A text under construction. `filled`: the innermost object has an entry. */
-struct json { FILE *file; int depth; bool filled; };
-
-static void json_string(struct json *j, const char *text)
-{
-    fputc('"', j->file);
-    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
-        if (*c == '"' || *c == '\\') fprintf(j->file, "\\%c", *c);
-        else if (*c < 0x20) fprintf(j->file, "\\u%04x", *c);
-        else fputc(*c, j->file);
-    }
-    fputc('"', j->file);
-}
-
-/* Starts an entry; key NULL inside a list. */
-static void json_key(struct json *j, const char *key)
-{
-    fprintf(j->file, "%s\n%*s", j->filled ? "," : "", 2 * j->depth, "");
-    j->filled = true;
-    if (!key) return;
-    json_string(j, key);
-    fputs(": ", j->file);
-}
-
-static void json_open(struct json *j, const char *key, char bracket)
-{
-    json_key(j, key);
-    fputc(bracket, j->file);
-    j->depth++;
-    j->filled = false;
-}
-
-static void json_close(struct json *j, char bracket)
-{
-    j->depth--;
-    if (j->filled) fprintf(j->file, "\n%*s", 2 * j->depth, "");
-    fputc(bracket, j->file);
-    j->filled = true;
-}
-
-static void json_text(struct json *j, const char *key, const char *text)
-{
-    json_key(j, key);
-    json_string(j, text);
-}
-
-static void json_count(struct json *j, const char *key, int64_t value)
-{
-    json_key(j, key);
-    fprintf(j->file, "%lld", (long long)value);
-}
-
-/* A figure that a run does not have (NaN, infinite) is left out. */
-static void json_number(struct json *j, const char *key, real value, int digits)
-{
-    if (!isfinite(value)) return;
-    json_key(j, key);
-    fprintf(j->file, "%.*g", digits, value);
-}
-
-static void json_real(struct json *j, const char *key, real value) { json_number(j, key, value, DIGITS_EXACT); }
-
-/* x, y, z of a point, as far as the space has them; `prefix` stands before the letter. */
-static void json_point(struct json *j, const char *prefix, const real *x, int dim)
-{
-    for (int d = 0; d < dim; d++) {
-        char key[NAME_MAX_LENGTH];
-        snprintf(key, sizeof key, "%s%c", prefix, "xyz"[d]);
-        json_real(j, key, x[d]);
-    }
-}
+#include "coupling/coupling_part.h"
+#include "mesh/mesh_part.h"
+#include "mesh/levels.h"
+#include "solver/solver.h"
+#include "quasistatic/statics.h"
+#include "probes/diagnostics.h"
+#include "grid/grid_part.h"
+#include "contact/contact.h"
+#include "grid/contact_grid.h"
+#include "rigid/rigid_part.h"
+#include "rigid/rigid.h"
+#include "step/report.h"
+#include "fracture/tips.h"
+#include "fracture/fracture_part.h"
+#include "output/output.h"
+#include "probes/probes.h"
+#include "probes/probes_part.h"
 
 /* ---- physical figures -------------------------------------------------------------------------------------------- */
 
-static void put_run(struct json *j, const struct engine *e, status s, const char *message)
+static void put_run(struct json *j, const struct run *e, status s, const char *message)
 {
     static const char *const method[] = {[METHOD_PD] = "pd", [METHOD_MPM] = "mpm", [METHOD_ADAPTIVE] = "adaptive"};
     json_text(j, "name", e->scene->name);
@@ -102,15 +44,15 @@ static void put_run(struct json *j, const struct engine *e, status s, const char
     json_real(j, "time_end", e->clock.t);
     json_count(j, "particles", e->part.n_body);
     json_count(j, "particles_made", e->part.n);
-    json_count(j, "particles_pd_start", e->coupling.conversion.start);
+    json_count(j, "particles_pd_start", e->coupling->conversion.start);
     json_count(j, "particles_pd_end", e->part.n_of[KIND_PD]);
-    json_count(j, "bonds_peak", e->coupling.conversion.peak_bonds);
+    json_count(j, "bonds_peak", e->coupling->conversion.peak_bonds);
 }
 
 /* Coarse cells, by level, and how often they have changed. */
-static void put_levels(struct json *j, const struct engine *e)
+static void put_levels(struct json *j, const struct run *e)
 {
-    const struct mesh_levels *l = &e->reference.levels;
+    const struct mesh_levels *l = &e->frame->levels;
     if (l->n == 0) return;
     json_open(j, "levels", '{');
     json_open(j, "cells", '[');
@@ -127,24 +69,24 @@ static void put_warnings(struct json *j, const struct warnings *w)
     json_close(j, ']');
 }
 
-static void put_solver(struct json *j, const struct engine *e)
+static void put_solver(struct json *j, const struct run *e)
 {
     static const char *const name[] = {[SOLVER_RELAXATION] = "relaxation", [SOLVER_CG] = "cg"};
     if (!scene_at_rest(e->scene)) return;
     json_open(j, "solver", '{');
     json_text(j, "name", name[e->scene->solver]);
     json_count(j, "steps", e->clock.step);
-    json_real(j, "residual", e->solver.residual);
-    json_count(j, "bonds_past_limit", e->solver.past_limit);
+    json_real(j, "residual", e->solver->residual);
+    json_count(j, "bonds_past_limit", e->solver->past_limit);
     json_close(j, '}');
 }
 
 /* Load steps, what they took and what they released. */
-static void put_load_steps(struct json *j, const struct engine *e)
+static void put_load_steps(struct json *j, const struct run *e)
 {
     static const char *const control[] = {
         [CONTROL_LOAD] = "load", [CONTROL_ENERGY] = "energy", [CONTROL_OPENING] = "opening"};
-    const struct statics *s = &e->statics;
+    const struct statics *s = e->statics;
     if (!scene_in_steps(e->scene)) return;
     json_open(j, "load_steps", '{');
     json_text(j, "control", control[e->scene->steps.control]);
@@ -153,7 +95,7 @@ static void put_load_steps(struct json *j, const struct engine *e)
     json_count(j, "equilibria", s->solutions);
     json_count(j, "directions", s->balance.directions);
     json_real(j, "overload", s->overload);
-    json_count(j, "bonds_broken", e->diagnostics.bonds_broken / 2);
+    json_count(j, "bonds_broken", e->diagnostics->bonds_broken / 2);
     json_real(j, "released", s->record.released);
     json_real(j, "crack_area", s->record.area);
     json_real(j, "release_rate", s->record.area > 0 ? s->record.released / s->record.area : NAN);
@@ -212,13 +154,13 @@ static void put_contact(struct json *j, const struct contact *c, const struct gr
 }
 
 /* Rigid bodies at the end, and the largest force on each. */
-static void put_rigid(struct json *j, const struct engine *e)
+static void put_rigid(struct json *j, const struct run *e)
 {
     static const char *const velocity[] = {"velocity_x", "velocity_y", "velocity_z"};
     if (e->scene->rigids == 0) return;
     json_open(j, "rigid", '[');
     for (int k = 0; k < e->scene->rigids; k++) {
-        const struct rigid_body *r = &e->rigid[k];
+        const struct rigid_body *r = &e->rigid->body[k];
         real v[DIM_MAX];
         engine_rigid_velocity(e, k, v);
         json_open(j, NULL, '{');
@@ -226,7 +168,7 @@ static void put_rigid(struct json *j, const struct engine *e)
         json_point(j, "", r->x, r->dim);
         for (int d = 0; d < r->dim; d++) json_real(j, velocity[d], v[d]);
         json_real(j, "force_max", r->force_most);
-        json_real(j, "patch", contact_patch(&e->contact, &e->part, k));
+        json_real(j, "patch", contact_patch(e->contact, &e->part, k));
         json_close(j, '}');
     }
     json_close(j, ']');
@@ -235,10 +177,10 @@ static void put_rigid(struct json *j, const struct engine *e)
 /* ---- fragments --------------------------------------------------------------------------------------------------- */
 
 /* Bodies of bonds that have lost some. */
-static bool has_fragments(const struct engine *e)
+static bool has_fragments(const struct run *e)
 {
     return e->scene->method == METHOD_PD && !scene_at_rest(e->scene) &&
-           (e->diagnostics.bonds_broken > 0 || e->scene->cracks > 0);
+           (e->diagnostics->bonds_broken > 0 || e->scene->cracks > 0);
 }
 
 static void put_fragments(struct json *j, const struct fragments *f)
@@ -252,7 +194,7 @@ static void put_fragments(struct json *j, const struct fragments *f)
 }
 
 /* fragments.csv: a line each, the heaviest first. */
-static void fragments_print(FILE *file, const struct engine *e, const struct fragments *f)
+static void fragments_print(FILE *file, const struct run *e, const struct fragments *f)
 {
     static const char axis[] = "xyz";
     const int dim = e->part.dim;
@@ -269,7 +211,7 @@ static void fragments_print(FILE *file, const struct engine *e, const struct fra
     }
 }
 
-static status fragments_write(const struct engine *e, const struct fragments *f)
+static status fragments_write(const struct run *e, const struct fragments *f)
 {
     char *text = NULL;
     size_t length = 0;
@@ -277,7 +219,7 @@ static status fragments_write(const struct engine *e, const struct fragments *f)
     if (!file) return status_set(FAILED, "cannot write fragments.csv: out of memory");
     fragments_print(file, e, f);
     const bool whole = fclose(file) == 0;
-    const status written = whole ? output_text(e->report.out, "fragments.csv", text, length)
+    const status written = whole ? output_text(e->report->out, "fragments.csv", text, length)
                                  : status_set(FAILED, "cannot write fragments.csv: out of memory");
     free(text);
     return written;
@@ -286,7 +228,7 @@ static status fragments_write(const struct engine *e, const struct fragments *f)
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
 /* When something was: the time, in load steps their number. */
-static void put_when(struct json *j, const struct engine *e, const char *what, real t)
+static void put_when(struct json *j, const struct run *e, const char *what, real t)
 {
     char key[NAME_MAX_LENGTH];
     const bool in_steps = scene_in_steps(e->scene);
@@ -295,7 +237,7 @@ static void put_when(struct json *j, const struct engine *e, const char *what, r
     else if (!isnan(t)) json_count(j, key, (int64_t)floor(t / e->clock.dt + 0.5));
 }
 
-static void put_tip(struct json *j, const struct engine *e, const struct tip *tip)
+static void put_tip(struct json *j, const struct run *e, const struct tip *tip)
 {
     const int dim = e->part.dim;
     json_open(j, NULL, '{');
@@ -312,7 +254,7 @@ static void put_tip(struct json *j, const struct engine *e, const struct tip *ti
 }
 
 /* Bonds of driven particles that loads have broken; of one between two of them both count. */
-static int64_t driven_bonds(const struct engine *e)
+static int64_t driven_bonds(const struct run *e)
 {
     int64_t broken = 0;
     for (int64_t row = 0; row < e->bonds.rows; row++)
@@ -320,27 +262,27 @@ static int64_t driven_bonds(const struct engine *e)
     return broken;
 }
 
-static void put_crack(struct json *j, const struct engine *e)
+static void put_crack(struct json *j, const struct run *e)
 {
-    const struct tip *longest = tips_longest(&e->fracture.tips);
+    const struct tip *longest = tips_longest(&e->fracture->tips);
     int dim = e->part.dim;
     json_open(j, "crack", '{');
-    put_when(j, e, "start", e->diagnostics.break_time);
-    put_when(j, e, "driven_start", e->diagnostics.driven_time);
-    if (!isnan(e->diagnostics.driven_time)) json_count(j, "driven_bonds", driven_bonds(e));
+    put_when(j, e, "start", e->diagnostics->break_time);
+    put_when(j, e, "driven_start", e->diagnostics->driven_time);
+    if (!isnan(e->diagnostics->driven_time)) json_count(j, "driven_bonds", driven_bonds(e));
     if (longest) {
         put_when(j, e, "tip_start", longest->start_time);
         put_when(j, e, "arrest", longest->arrest_time);
         json_real(j, "length_end", longest->growth);
         json_real(j, "angle_deg", tip_angle(longest, dim));
-        json_count(j, "tied", tips_tied(&e->fracture.tips));
+        json_count(j, "tied", tips_tied(&e->fracture->tips));
     }
     if (longest && !scene_in_steps(e->scene)) {
         json_real(j, "tip_speed_max", longest->speed_max);
         json_real(j, "tip_speed_mean", longest->speed_mean);
     }
     json_open(j, "tips", '[');
-    for (int k = 0; k < e->fracture.tips.n; k++) put_tip(j, e, &e->fracture.tips.tip[k]);
+    for (int k = 0; k < e->fracture->tips.n; k++) put_tip(j, e, &e->fracture->tips.tip[k]);
     json_close(j, ']');
     json_close(j, '}');
 }
@@ -354,22 +296,22 @@ static int reversions_most(const struct particles *p)
 }
 
 /* What stands for each of the first pre-cracks. */
-static void put_notches(struct json *j, const struct engine *e)
+static void put_notches(struct json *j, const struct run *e)
 {
     enum { SAID = 16 };
     char text[256];
-    if (e->coupling.notches.n == 0) return;
+    if (e->coupling->notches.n == 0) return;
     json_open(j, "notches", '[');
-    for (int k = 0; k < e->coupling.notches.n && k < SAID; k++) {
+    for (int k = 0; k < e->coupling->notches.n && k < SAID; k++) {
         engine_notch_text(e, k, text, sizeof text);
         json_text(j, NULL, text);
     }
     json_close(j, ']');
 }
 
-static void put_conversion(struct json *j, const struct engine *e)
+static void put_conversion(struct json *j, const struct run *e)
 {
-    const struct conversion *c = &e->coupling.conversion;
+    const struct conversion *c = &e->coupling->conversion;
     real n = (real)e->part.n_body, start = (real)c->start / n, end = (real)e->part.n_of[KIND_PD] / n;
     json_open(j, "conversion", '{');
     if (isfinite(c->first_time) && c->events > 0) {
@@ -406,12 +348,12 @@ static void put_figure(void *context, const char *probe, const char *quantity, r
     json_real(sink->json, quantity, value);
 }
 
-static void put_probes(struct json *j, const struct engine *e)
+static void put_probes(struct json *j, const struct run *e)
 {
     struct observed o = engine_observed(e);
     struct probe_sink sink = {.json = j};
     json_open(j, "probes", '{');
-    probes_figures(&e->probing.probes, &o, put_figure, &sink);
+    probes_figures(&e->probing->probes, &o, put_figure, &sink);
     if (sink.open) json_close(j, '}');
     json_close(j, '}');
 }
@@ -428,51 +370,51 @@ static void put_error_bars(struct json *j, const struct run_report *r)
 /* ---- figures of the machine -------------------------------------------------------------------------------------- */
 
 /* Figures that depend on the machine: threads, kernels, times, memory; laps: parts of the loop of this process [s]. */
-static void put_machine(struct json *j, const struct engine *e, int threads, double wall_seconds)
+static void put_machine(struct json *j, const struct run *e, int threads, double wall_seconds)
 {
-    real steps = 0, ns = 1e9 * e->report.loop_seconds;
-    for (int k = 0; k < KINDS; k++) steps += (real)e->report.particle_steps[k];
+    real steps = 0, ns = 1e9 * e->report->loop_seconds;
+    for (int k = 0; k < KINDS; k++) steps += (real)e->report->particle_steps[k];
     json_count(j, "threads", threads);
     json_text(j, "kernels", simd_in_use()->name);
-    json_number(j, "wall_seconds", wall_seconds, DIGITS_TIMING);
-    json_number(j, "loop_seconds", e->report.loop_seconds, DIGITS_TIMING);
+    json_number(j, "wall_seconds", wall_seconds, JSON_TIMING);
+    json_number(j, "loop_seconds", e->report->loop_seconds, JSON_TIMING);
     json_count(j, "memory_peak_bytes", memory_peak());
-    json_number(j, "ns_per_particle_step", ns / steps, DIGITS_TIMING);
-    json_number(j, "ns_per_bond_step", ns / (real)e->report.bond_visits, DIGITS_TIMING);
-    json_number(j, "rest_share", e->report.inactive / (real)(e->clock.step > 0 ? e->clock.step : 1), DIGITS_TIMING);
+    json_number(j, "ns_per_particle_step", ns / steps, JSON_TIMING);
+    json_number(j, "ns_per_bond_step", ns / (real)e->report->bond_visits, JSON_TIMING);
+    json_number(j, "rest_share", e->report->inactive / (real)(e->clock.step > 0 ? e->clock.step : 1), JSON_TIMING);
     json_open(j, "laps", '{');
-    for (int k = 0; k < LAPS; k++) json_number(j, lap_name[k], e->report.laps.spent[k], DIGITS_TIMING);
+    for (int k = 0; k < LAPS; k++) json_number(j, lap_name[k], e->laps.spent[k], JSON_TIMING);
     json_close(j, '}');
 }
 
-static void summary_print(FILE *file, const struct engine *e, const struct fragments *fragments, status s,
+static void summary_print(FILE *file, const struct run *e, const struct fragments *fragments, status s,
                           const char *message, int threads, double wall_seconds)
 {
     struct json j = {.file = file, .depth = 1};
     fputc('{', file);
     put_run(&j, e, s, message);
-    put_warnings(&j, &e->report.warnings);
+    put_warnings(&j, &e->warnings);
     put_solver(&j, e);
     put_load_steps(&j, e);
     put_choice(&j, &e->scene->choice);
-    put_energy_balance(&j, &e->diagnostics.now);
-    put_contact(&j, &e->contact, &e->mpm);
+    put_energy_balance(&j, &e->diagnostics->now);
+    put_contact(&j, e->contact, e->grid);
     put_rigid(&j, e);
     if (has_fragments(e)) put_fragments(&j, fragments);
     put_crack(&j, e);
     put_conversion(&j, e);
     put_levels(&j, e);
     put_probes(&j, e);
-    put_error_bars(&j, &e->report);
+    put_error_bars(&j, e->report);
     put_machine(&j, e, threads, wall_seconds);
     fputs("\n}\n", file);
 }
 
-status summary_write(const struct engine *e, status s, int threads, double wall_seconds)
+status summary_write(const struct run *e, status s, int threads, double wall_seconds)
 {
     char message[1024], *text = NULL;
     size_t length = 0;
-    if (!e->report.out) return OK;
+    if (!e->report->out) return OK;
     snprintf(message, sizeof message, "%s", status_message());
     struct fragments fragments = {0};
     if (has_fragments(e)) {
@@ -484,7 +426,7 @@ status summary_write(const struct engine *e, status s, int threads, double wall_
     summary_print(file, e, &fragments, s, message, threads, wall_seconds);
     fragments_free(&fragments);
     const bool whole = fclose(file) == 0;
-    status written = whole ? output_text(e->report.out, "summary.json", text, length)
+    status written = whole ? output_text(e->report->out, "summary.json", text, length)
                            : status_set(FAILED, "cannot write summary.json: out of memory");
     free(text);
     /* The cause of a failed run has precedence over a fault of writing its summary. */

@@ -52,7 +52,7 @@ static status bond_refuse(const struct exported *x, int64_t i, const char *what)
 /* Marks the bonds of particle i in `bonded`; how many through *n. */
 static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int *n)
 {
-    const struct engine *e = x->e;
+    const struct run *e = x->e;
     *n = 0;
     for (struct bond_iterator it = bonds_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);) {
         if (it.bond.w == 0) continue;
@@ -70,7 +70,7 @@ static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int
 /* Neighbours of i in LAMMPS, into found; how many. */
 static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int room)
 {
-    const struct engine *e = x->e;
+    const struct run *e = x->e;
     real X[DIM_MAX];
     int kept = 0;
     particle_place(&e->part, i, X);

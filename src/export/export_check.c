@@ -3,9 +3,10 @@
 
 #include "base/memory.h"
 #include "export_parts.h"
+#include "step/report.h"
 
 /* Volume of the neighbours that intact bonds of every particle lead to: LAMMPS counts damage by it [m^3]. */
-static void joined_volume(real *volume, const struct engine *e)
+static void joined_volume(real *volume, const struct run *e)
 {
     for (int64_t i = 0; i < e->part.n; i++) {
         volume[i] = 0;
@@ -14,7 +15,7 @@ static void joined_volume(real *volume, const struct engine *e)
     }
 }
 
-static void check_rows_write(FILE *to, const struct engine *e, const real *before, const real *after,
+static void check_rows_write(FILE *to, const struct run *e, const real *before, const real *after,
                              const real *damage)
 {
     const struct particles *p = &e->part;
@@ -34,13 +35,13 @@ int64_t lammps_check_steps(const struct exported *x)
 
 status lammps_check_write(FILE *to, struct exported *x)
 {
-    struct engine *e = x->e;
+    struct run *e = x->e;
     const int64_t n = e->part.n, steps = e->clock.steps;
     real *before = NEW("check.before", n, real), *after = NEW("check.after", n, real),
          *damage = NEW("check.damage", n, real);
     joined_volume(before, e);
     array_copy(damage, e->part.damage, n, sizeof *damage);
-    e->report.quiet = e->report.excerpt = true;
+    e->report->quiet = e->report->excerpt = true;
     e->clock.steps = lammps_check_steps(x);
     const status ran = engine_run(e);
     e->clock.steps = steps;

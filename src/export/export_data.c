@@ -59,7 +59,7 @@ static void columns_write(FILE *to, const struct exported *x)
 
 static void bonds_write(FILE *to, const struct exported *x)
 {
-    const struct engine *e = x->e;
+    const struct run *e = x->e;
     const uint8_t *material = e->part.material;
     int64_t k = 0;
     fputs("\nBonds\n\n", to);

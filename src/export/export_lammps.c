@@ -265,7 +265,7 @@ static status export_write(struct exported *x)
 status export_lammps(const struct export_request *request)
 {
     struct scene s = {0};
-    struct engine *e = NEW("export.engine", 1, struct engine);
+    struct run *e = NEW("export.engine", 1, struct run);
     struct exported *x = NEW("export", 1, struct exported);
     x->s = &s, x->e = e, x->request = request, x->bond_style = request->bond_style;
     status result = scene_to_export(&s, &x->settings, request);

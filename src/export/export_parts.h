@@ -60,7 +60,7 @@ enum { LOADS_MOST = 28, COLUMNS_MOST = DIM_MAX * (LOADS_MOST + 1) }; /* LAMMPS h
 /* What both programs say of one scene. */
 struct exported {
     const struct scene *s;
-    struct engine *e;
+    struct run *e;
     const struct export_request *request;
     struct lammps_settings settings; /* what was laid over the scene */
     bool bond_style;

@@ -151,7 +151,7 @@ static void test_write(FILE *to, int64_t steps)
 }
 
 /* Steps between the frames of this program, where they are one number; 0: they differ. */
-static int64_t frame_distance(const struct engine *e, int64_t frames)
+static int64_t frame_distance(const struct run *e, int64_t frames)
 {
     const int64_t first = engine_frame_step(e, 1);
     for (int64_t k = 2; k <= frames; k++)
@@ -164,7 +164,7 @@ static void frames_write(FILE *to, const struct exported *x)
 {
     static const char columns[] = "plate.dump id x y z vx vy vz c_damage\n"
                                   "dump_modify frames sort id format float %.17g";
-    const struct engine *e = x->e;
+    const struct run *e = x->e;
     const int64_t frames = engine_frames_number(e), steps = e->clock.steps;
     int64_t every = frames > 0 ? frame_distance(e, frames) : steps;
     if (every == 0 && frames > FRAMES_MOST) {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "rigid/rigid_part.h"
 
 enum { ARROWS_MOST = 22, ARROWS_FIELD = 60, ARROWS_BAR = 4, HOW = 160, TEXT = 160 };
 
@@ -51,14 +52,14 @@ static const char *unit_of_value(const struct boundary *b)
 struct acting { double t, most; int64_t particles; bool varies; };
 
 /* Static solvers have boundaries of their own, whose velocities are those of their ramp. */
-static const struct boundary *boundary_of(const struct engine *e, const struct load *l)
+static const struct boundary *boundary_of(const struct run *e, const struct load *l)
 {
     const int64_t number = l - e->loads.load;
     return number < e->scene->boundaries ? &e->scene->boundary[number] : l->boundary;
 }
 
 /* What a load does to its k-th particle at t; returns the size [unit_of_value]. */
-static double vector_at(const struct engine *e, const struct load *l, int64_t k, double t, real *vector)
+static double vector_at(const struct run *e, const struct load *l, int64_t k, double t, real *vector)
 {
     const struct particles *p = &e->part;
     const struct boundary *b = boundary_of(e, l);
@@ -85,7 +86,7 @@ static double vector_at(const struct engine *e, const struct load *l, int64_t k,
 }
 
 /* Looks at a load at t; at every n-th particle. */
-static struct acting acting_at(const struct engine *e, const struct load *l, const uint8_t *on, double t, int64_t every)
+static struct acting acting_at(const struct run *e, const struct load *l, const uint8_t *on, double t, int64_t every)
 {
     struct acting a = {.t = t};
     double least = INFINITY;
@@ -109,7 +110,7 @@ static void face_on(void *context, int32_t particle, int axis, int side, real ar
 }
 
 /* Which particles have a face on which a pressure acts: the layer behind bears a share, too, that is none [n]. */
-static uint8_t *faces_of_pressure(const struct engine *e, const struct load *l)
+static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
 {
     const struct particles *p = &e->part;
     uint8_t *selected = NEW("plot.selected", p->n, uint8_t), *on = NEW("plot.on", p->n, uint8_t);
@@ -121,7 +122,7 @@ static uint8_t *faces_of_pressure(const struct engine *e, const struct load *l)
 }
 
 /* Moments at which a load is looked at: those of its function of time, and MOMENTS even ones. */
-static struct acting acting_of(const struct engine *e, const struct load *l, const uint8_t *on)
+static struct acting acting_of(const struct run *e, const struct load *l, const uint8_t *on)
 {
     enum { MOMENTS = 32, LOOKED_AT = 400 };
     const struct time_function *f = &boundary_of(e, l)->time;
@@ -300,7 +301,7 @@ static void boundary_mark(struct marks *m, int number)
 /* Points over arrows, which would hide them. */
 void marks_loads(struct marks *m)
 {
-    const struct engine *e = m->engine;
+    const struct run *e = m->engine;
     for (int pass = 0; pass < 2; pass++)
         for (int b = 0; b < e->loads.n; b++)
             if (is_support(e->loads.load[b].boundary, e->scene->dim) == pass) boundary_mark(m, b);
@@ -323,7 +324,7 @@ static void rigid_arrows(struct marks *m, double fastest)
         const real *v = s->body[s->bodies + k].velocity;
         double vector[DIM_MAX] = {0};
         for (int d = 0; d < s->dim; d++) vector[d] = m->arrow * v[d] / fastest;
-        if (value_size(v, s->dim) > 0) mark_place(m, m->engine->rigid[k].x, vector);
+        if (value_size(v, s->dim) > 0) mark_place(m, m->engine->rigid->body[k].x, vector);
     }
 }
 

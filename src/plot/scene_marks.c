@@ -1,5 +1,11 @@
 /* Pre-cracks, probes and levels over the particles of a scene; and how marks are drawn. */
 #include "scene_marks.h"
+#include "fracture/tips.h"
+#include "probes/probes.h"
+#include "mesh/levels.h"
+#include "fracture/fracture_part.h"
+#include "probes/probes_part.h"
+#include "mesh/mesh_part.h"
 
 #include <math.h>
 #include <string.h>
@@ -107,7 +113,7 @@ static void circle_line(struct marks *m, const real *centre, double radius)
 /* Crack tips at the start: a probe of tips follows the longest. */
 static void tip_marks(struct marks *m)
 {
-    const struct tips *t = &m->engine->fracture.tips;
+    const struct tips *t = &m->engine->fracture->tips;
     for (int k = 0; k < t->n; k++) mark_place(m, t->tip[k].origin, NULL);
 }
 
@@ -121,7 +127,7 @@ static void probe_mark(struct marks *m, int k, const char *text)
     static const char point[] = "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'";
     static const char line[] = "with lines lw 1.6 dt (7,4) lc rgb '#5b2a86'";
     mark_begin(m);
-    if (probes_sif_ring(&m->engine->probing.probes, k, &seen, from, &radius)) {
+    if (probes_sif_ring(&m->engine->probing->probes, k, &seen, from, &radius)) {
         circle_line(m, from, radius);
         mark_end(m, line, text);
     } else if (p->kind == PROBE_LINE) {
@@ -131,7 +137,7 @@ static void probe_mark(struct marks *m, int k, const char *text)
     } else if (p->has_at) {
         mark_place(m, p->at, NULL);
         mark_end(m, point, text);
-    } else if (p->kind == PROBE_TIP && m->engine->fracture.tips.n > 0) {
+    } else if (p->kind == PROBE_TIP && m->engine->fracture->tips.n > 0) {
         tip_marks(m);
         mark_end(m, point, text);
     } else if (p->region.n > 0 && region_bounds(&p->region, s->dim, from, to)) {
@@ -197,7 +203,7 @@ static bool is_corner_cell(const struct mesh_levels *l, int64_t cell, int64_t *k
 
 static int64_t level_cells_draw(struct marks *m, int level)
 {
-    const struct mesh_levels *l = &m->engine->reference.levels;
+    const struct mesh_levels *l = &m->engine->frame->levels;
     const struct grid *g = &l->fine->grid;
     int64_t n = 0;
     for (int64_t I = 0; I < g->n; I++) {
@@ -215,7 +221,7 @@ static int64_t level_cells_draw(struct marks *m, int level)
 void marks_levels(struct marks *m)
 {
     static const char *const colour[LEVELS_MAX + 1] = {"", "#9a9a9a", "#7a7a7a", "#5a5a5a", "#3a3a3a"};
-    const struct mesh_levels *l = &m->engine->reference.levels;
+    const struct mesh_levels *l = &m->engine->frame->levels;
     for (int level = 1; level <= l->n && m->engine->part.dim == 2; level++) {
         char text[96], how[96];
         mark_begin(m);

@@ -8,7 +8,7 @@
 /* Data go to gnuplot at once, the parts of its plot command are collected. */
 struct marks {
     FILE *to, *plot;
-    const struct engine *engine;
+    const struct run *engine;
     struct camera camera;
     double metre;                        /* [m] of a unit of the axes */
     double from[2], to_corner[2];        /* the rectangle that is shown [m] */

@@ -12,6 +12,7 @@
 #include "maps_parts.h"
 #include "output/output_files.h"
 #include "scene_marks.h"
+#include "step/report.h"
 
 /* Room round the panel, its size, and the height of a line of the key [pixel]. */
 enum { PICTURE_LEFT = 100, PICTURE_KEY = 400, PICTURE_ABOVE = 66, PICTURE_BELOW = 66, KEY_LINE = 23 };
@@ -45,7 +46,7 @@ static void cloud_add(struct cloud *c, const real *x, int dim, double size, stru
 }
 
 /* Places of the particles with their colours; `spacing` NULL: all that of the scene. */
-static void cloud_add_particles(struct cloud *c, const struct engine *e, const struct particles *p, const real *spacing)
+static void cloud_add_particles(struct cloud *c, const struct run *e, const struct particles *p, const real *spacing)
 {
     const struct scene *s = e->scene;
     const bool both = e->part.n_of[KIND_PD] > 0 && e->part.n_of[KIND_MPM] > 0;
@@ -60,7 +61,7 @@ static void cloud_add_particles(struct cloud *c, const struct engine *e, const s
 
 /* The box of a rigid body, of one without bounds the part of it beside the particles; sites along each axis of a
  * lattice that shows it. Returns the number of sites, and through `step` their distance. */
-static int64_t rigid_sites(const struct engine *e, const struct region *shape, real *from, int64_t *count, double *step)
+static int64_t rigid_sites(const struct run *e, const struct region *shape, real *from, int64_t *count, double *step)
 {
     const struct scene *s = e->scene;
     real to[DIM_MAX];
@@ -80,7 +81,7 @@ static int64_t rigid_sites(const struct engine *e, const struct region *shape, r
     return n;
 }
 
-static void cloud_add_rigid(struct cloud *c, const struct engine *e, const struct region *shape)
+static void cloud_add_rigid(struct cloud *c, const struct run *e, const struct region *shape)
 {
     const int dim = e->scene->dim;
     real from[DIM_MAX] = {0};
@@ -96,14 +97,14 @@ static void cloud_add_rigid(struct cloud *c, const struct engine *e, const struc
 }
 
 /* Everything that has a place, from the engine. */
-static void scene_cloud(struct cloud *c, struct engine *e, const struct camera *camera)
+static void scene_cloud(struct cloud *c, struct run *e, const struct camera *camera)
 {
     const struct scene *s = e->scene;
     real from[DIM_MAX];
     int64_t count[DIM_MAX];
     double step;
     const bool hollow = engine_hollow_points(e, false);
-    int64_t room = e->part.n + (hollow ? e->report.more.n : 0);
+    int64_t room = e->part.n + (hollow ? e->report->more.n : 0);
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
         room += rigid_sites(e, &s->body[b].shape, from, count, &step);
     *c = (struct cloud){.axis = {0, 1}, .normal = -1, .spacing = s->spacing, .aligned = true,
@@ -114,7 +115,7 @@ static void scene_cloud(struct cloud *c, struct engine *e, const struct camera *
     c->size = NEW("plot.size", room, float);
     c->colour = NEW("plot.colour", room, struct colour);
     cloud_add_particles(c, e, &e->part, NULL);
-    if (hollow) cloud_add_particles(c, e, &e->report.more, e->report.more_spacing);
+    if (hollow) cloud_add_particles(c, e, &e->report->more, e->report->more_spacing);
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) cloud_add_rigid(c, e, &s->body[b].shape);
     if (s->dim == 1) c->tall = BAR_HALF * (c->to[0] - c->from[0]);
 }
@@ -122,7 +123,7 @@ static void scene_cloud(struct cloud *c, struct engine *e, const struct camera *
 /* ---- key --------------------------------------------------------------------------------------------------------- */
 
 /* Particles of a part, hollow cells left out. */
-static int64_t count_part(const struct engine *e, int number)
+static int64_t count_part(const struct run *e, int number)
 {
     int64_t n = 0;
     for (int64_t i = 0; i < e->part.n; i++) n += part_number(e->scene, &e->part, i) == number;
@@ -145,7 +146,7 @@ static void rigid_words(char *text, const struct scene_body *b, int dim)
 
 static void key_of_parts(struct marks *m)
 {
-    const struct engine *e = m->engine;
+    const struct run *e = m->engine;
     const struct scene *s = e->scene;
     const int parts = s->materials > 1 ? s->materials : s->bodies;
     char text[TEXT_ROOM];
@@ -202,7 +203,7 @@ static struct layout scene_layout(const struct view *v, int lines)
     return l;
 }
 
-static void draw_scene_title(FILE *to, const struct layout *l, const struct engine *e)
+static void draw_scene_title(FILE *to, const struct layout *l, const struct run *e)
 {
     const struct scene *s = e->scene;
     const struct unit metre = unit_for_length(s->spacing);
@@ -243,7 +244,7 @@ static void plot_scene(FILE *to, const struct layout *l, const struct view *v, c
     memory_free(pixel);
 }
 
-static status draw_scene(struct sheet sheet, struct engine *e, struct cloud *c)
+static status draw_scene(struct sheet sheet, struct run *e, struct cloud *c)
 {
     struct gnuplot g;
     char *elements = NULL;
@@ -283,7 +284,7 @@ static status scene_sheet(struct path *path, const struct scene *s, const struct
     return picture_destination(path, r->out ? r->out : "results/", name, r->overwrite);
 }
 
-static status draw_made(struct engine *e, const struct scene *s, const struct plot_request *r)
+static status draw_made(struct run *e, const struct scene *s, const struct plot_request *r)
 {
     struct path path;
     struct cloud c;
@@ -307,7 +308,7 @@ status scene_picture(const char *path, const struct scene_override *override, in
                      const struct plot_request *r)
 {
     struct scene s = {0};
-    struct engine e = {0};
+    struct run e = {0};
     struct pilot_wish pilot;
     if (picture_moves(r->format)) return status_set(REFUSED, "plot: --scene draws one picture: png, svg or pdf");
     TRY(scene_read_or_wish(&s, &pilot, path, override, overrides));

@@ -10,6 +10,7 @@
 #include "output/output.h"
 #include "output/output_files.h"
 #include "study/study.h"
+#include "step/report.h"
 
 #define SAME_LEVEL 0.05 /* spacings of a level's runs differ by less from that of the scene [1] */
 

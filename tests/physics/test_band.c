@@ -9,6 +9,9 @@
 
 #include "auto/scene_read.h"
 #include "engine/engine.h"
+#include "fracture/fracture_part.h"
+#include "fracture/tips.h"
+#include "probes/diagnostics.h"
 
 #define SCENE "inputs/plate_crack.yaml"
 
@@ -19,7 +22,7 @@ struct band { real width, growth, fracture; };           /* [m], [m], [J] */
 
 /* Width of what is newly damaged: its area over the length by which both tips grew. Behind the ends of the
  * pre-crack, where particles are damaged from the start, nothing counts. */
-static real band_width(const struct engine *e, real growth)
+static real band_width(const struct run *e, real growth)
 {
     const struct particles *p = &e->part;
     real area = 0;
@@ -34,12 +37,12 @@ static struct band band_of(const char *spacing, const char *method)
 {
     const struct scene_override override[] = {{"particles.spacing", spacing}, {"method", method}};
     struct scene s;
-    struct engine e = {0};
+    struct run e = {0};
     if (scene_read(&s, SCENE, override, COUNT_OF(override)) != OK) fail_msg("%s", status_message());
     if (engine_make(&e, &s, NULL) != OK || engine_run(&e) != OK) fail_msg("%s", status_message());
-    const struct tip *tip = tips_longest(&e.fracture.tips);
+    const struct tip *tip = tips_longest(&e.fracture->tips);
     assert_non_null(tip);
-    struct band b = {band_width(&e, tip->growth), tip->growth, e.diagnostics.now.energy.fracture};
+    struct band b = {band_width(&e, tip->growth), tip->growth, e.diagnostics->now.energy.fracture};
     engine_free(&e);
     scene_free(&s);
     return b;

@@ -13,6 +13,9 @@
 #include "../bench/common/bench.h"
 #include "base/memory.h"
 #include "tests/support/near.h"
+#include "grid/grid_part.h"
+#include "coupling/coupling_part.h"
+#include "probes/diagnostics.h"
 
 #define AMPLITUDE 1e-5      /* of c: bonds turn by its square, which a pair of opposite motions leaves of third order */
 #define SYMMETRIC 1e-8         /* of the largest entry: places have ten spacings, 1e-15/1e-5 of a motion, a few times */
@@ -33,10 +36,11 @@ static const struct block line = {"line", "24 mm", "0.13 mm", "{box: {from: 7 mm
                           cube = {"solid", "4 mm, 4 mm, 4 mm", "0.13 mm, 0.37 mm, 0.7 mm",
                                   "{box: {from: [-inf, -inf, -inf], to: [2 mm, inf, inf]}}"};
 
-struct run { struct engine e; struct scene s; };
+struct held_run { struct run e; struct scene s; };
 
 /* `poisson` NULL: that of bonds; `more`: further keys, one a line. */
-static void run_make(struct run *r, const struct block *b, const char *method, const char *poisson, const char *more)
+static void run_make(struct held_run *r, const struct block *b, const char *method, const char *poisson,
+                     const char *more)
 {
     char text[2048];
     const bool flat = !strncmp(b->space, "plane", 5), bar = !strcmp(b->space, "line");
@@ -62,7 +66,7 @@ static void run_make(struct run *r, const struct block *b, const char *method, c
 
 struct places { real *x[DIM_MAX], *volume; };
 
-static void at_rest(struct run *r, const struct places *was)
+static void at_rest(struct held_run *r, const struct places *was)
 {
     struct particles *p = &r->e.part;
     for (int64_t i = 0; i < p->n; i++) p->volume[i] = was->volume[i];
@@ -72,7 +76,7 @@ static void at_rest(struct run *r, const struct places *was)
         for (int64_t i = 0; i < p->n; i++) p->stretch[d][i] = 1;
     for (int c = 0; c < symmetric_count(p->dim); c++)
         for (int64_t i = 0; i < p->n; i++) p->stress[c][i] = 0;
-    r->e.mpm.sort_needed = true;
+    r->e.grid->sort_needed = true;
 }
 
 /* n x n each. */
@@ -87,14 +91,14 @@ static void add_column(const struct particles *p, real *to, int n, int k, real u
 /* After a step with one velocity of one particle, with interface damping, velocities are column k of Q; of steps
  * without, what they lose in the second is column k of dt^2 W, and those after the third are kept. Half of each
  * sign's. */
-static void column(struct run *r, const struct places *was, int k, real sign, struct operators *o)
+static void column(struct held_run *r, const struct places *was, int k, real sign, struct operators *o)
 {
     struct particles *p = &r->e.part;
-    const real share = r->e.coupling.damping_share, unit = sign * AMPLITUDE * r->e.tables.wave_speed;
+    const real share = r->e.coupling->damping_share, unit = sign * AMPLITUDE * r->e.tables.wave_speed;
     for (int damped = 1; damped >= 0; damped--) {
         at_rest(r, was);
         p->v[k % p->dim][k / p->dim] = unit;
-        r->e.coupling.damping_share = damped ? share : 0;
+        r->e.coupling->damping_share = damped ? share : 0;
         assert_ok(engine_step(&r->e));
         add_column(p, damped ? o->Q : o->W, o->n, k, 2 * unit);
     }
@@ -102,11 +106,11 @@ static void column(struct run *r, const struct places *was, int k, real sign, st
     add_column(p, o->W, o->n, k, -2 * unit);
     assert_ok(engine_step(&r->e));
     add_column(p, o->third, o->n, k, 2 * unit);
-    r->e.coupling.damping_share = share;
+    r->e.coupling->damping_share = share;
 }
 
 /* Q and dt^2 W of motions scaled by the root of the mass, so that symmetric in mass is symmetric. */
-static void operators_make(struct run *r, struct operators *o)
+static void operators_make(struct held_run *r, struct operators *o)
 {
     struct particles *p = &r->e.part;
     const int n = o->n = (int)p->n * p->dim;
@@ -200,7 +204,7 @@ static const struct { const struct block *block; const char *more; } one_energy[
 static void check_one_energy(const struct block *b, const char *more)
 {
     char keys[256];
-    struct run *r = NEW("test.run", 1, struct run);
+    struct held_run *r = NEW("test.run", 1, struct held_run);
     const char *const particles = strstr(more, "particles: {");
     if (particles)
         snprintf(keys, sizeof keys, "%.*sparticles: {spacing: 1 mm, %s", (int)(particles - more), more, particles + 12);
@@ -233,7 +237,7 @@ static void test_one_energy(void **state)
 
 /* Kinetic energy after so many steps from velocities at random, 1e-8 of c, over that at the start; infinite if
  * stopped. */
-static real shaken(struct run *r, int steps)
+static real shaken(struct held_run *r, int steps)
 {
     struct particles *p = &r->e.part;
     uint64_t seed = 1;
@@ -261,7 +265,7 @@ static void test_apic(void **state)
         {&disc, "adaptive", "1/3", "coupling: pg\nmpm: {transfer: apic}\n"},
     };
     for (size_t k = 0; k < COUNT_OF(run); k++) {
-        struct run *r = NEW("test.run", 1, struct run);
+        struct held_run *r = NEW("test.run", 1, struct held_run);
         struct block at = *run[k].block;
         char keys[256];
         snprintf(keys, sizeof keys, "particles: {spacing: 1 mm}\n%s", run[k].more);
@@ -278,7 +282,7 @@ static void test_apic(void **state)
 static void test_plate(void **state)
 {
     (void)state;
-    struct run *r = NEW("test.run", 1, struct run);
+    struct held_run *r = NEW("test.run", 1, struct held_run);
     struct bench_overrides o = {0};
     bench_override(&o, "time.safety", "0.8");
     assert_ok(bench_engine_make(
@@ -293,12 +297,12 @@ static void test_plate(void **state)
     while (r->e.clock.step < 10000) {
         assert_ok(engine_step(&r->e));
         if (r->e.clock.step < 1000) continue;  /* what ended the record's first step is extrapolated */
-        if (!(fabs(r->e.diagnostics.now.balance_error) < 1e-5))
-            print_message("step %d: %g\n", (int)r->e.clock.step, r->e.diagnostics.now.balance_error);
+        if (!(fabs(r->e.diagnostics->now.balance_error) < 1e-5))
+            print_message("step %d: %g\n", (int)r->e.clock.step, r->e.diagnostics->now.balance_error);
         /* weights change with strains of 2e-5 and turns of 0.4 degrees */
-        assert_true(fabs(r->e.diagnostics.now.balance_error) < 1e-5);
+        assert_true(fabs(r->e.diagnostics->now.balance_error) < 1e-5);
     }
-    const struct energy *u = &r->e.diagnostics.now.energy;
+    const struct energy *u = &r->e.diagnostics->now.energy;
     assert_true(u->kinetic + u->strain < start);
     bench_engine_free(&r->e, &r->s);
     memory_free(r);
@@ -323,7 +327,7 @@ static void test_turning(void **state)
         {plane, "bond", "partial stress"}, {plane, "mospd", "partial stress"}, {plane, "ospd", "handshake"},
         {solid, "bond", "partial stress"}, {solid, "mospd", "handshake"}};
     for (size_t k = 0; k < COUNT_OF(ball); k++) {
-        struct run *r = NEW("test.run", 1, struct run);
+        struct held_run *r = NEW("test.run", 1, struct held_run);
         char text[1024];
         snprintf(text, sizeof text,
                  "name: disc\nmethod: adaptive\nmodel: %s\ncoupling: %s\nmpm: {frame: current, transfer: apic}\n"
@@ -332,7 +336,7 @@ static void test_turning(void **state)
                  ball[k].model, ball[k].coupling, ball[k].text);
         assert_ok(bench_engine_make(&r->e, &r->s, "disc", text, NULL, 0));
         assert_ok(engine_run(&r->e));
-        const real off = r->e.diagnostics.now.balance_error;
+        const real off = r->e.diagnostics->now.balance_error;
         if (!(fabs(off) < 3e-4)) fail_msg("%s, %s, %dD: balance %.2e", ball[k].model, ball[k].coupling, r->s.dim, off);
         bench_engine_free(&r->e, &r->s);
         memory_free(r);

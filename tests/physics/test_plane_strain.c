@@ -7,6 +7,7 @@
 #include "engine/engine.h"
 #include "tests/support/near.h"
 #include "output/output.h"
+#include "step/report.h"
 
 #define FOLDER "run"
 enum { ROW_KEYS = 6 };
@@ -52,7 +53,7 @@ static const struct row uniform[] = {
     {"adaptive mospd reference", {HALF, STATES("mospd"), {"mpm.frame", "reference"}}},
 };
 
-struct ran { struct scene s; struct engine e; struct output o; };
+struct ran { struct scene s; struct run e; struct output o; };
 
 static void run(struct ran *r, const char *text, const struct scene_override *key)
 {
@@ -63,7 +64,7 @@ static void run(struct ran *r, const char *text, const struct scene_override *ke
     if (scene_read_text(&r->s, text, strlen(text), "test.yaml", key, keys) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(&r->e, &r->s, &r->o));
     assert_ok(output_open(&r->o, FOLDER, r->s.text, OUTPUT_OVERWRITE, false));
-    r->e.report.quiet = true;
+    r->e.report->quiet = true;
     assert_ok(engine_run(&r->e));
 }
 

@@ -10,6 +10,7 @@
 
 #include "bench/common/bench.h"
 #include "bench/common/handbook.h"
+#include "quasistatic/statics.h"
 
 static const double young = 3e9, toughness = 300; /* of the scenes [Pa], [J/m^2] */
 
@@ -21,14 +22,14 @@ struct outcome {
 
 static struct outcome outcome_of(const char *scene, struct bench_overrides *o, const struct specimen *specimen)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     struct bench_figure peak = {"reaction", "force_max", NAN};
     bench_override(o, "output.frames", "0");
     if (bench_engine_make(&e, &s, scene, NULL, bench_overrides_ready(o), o->n) != OK || engine_run(&e) != OK)
         fail_msg("%s: %s", scene, status_message());
     bench_figures_take(&e, &peak, 1);
-    const struct steps_record *record = &e.statics.record;
+    const struct steps_record *record = &e.statics->record;
     struct outcome found = {peak.value, NAN, specimen->crack + record->area / specimen->thickness,
                             record->released / record->area};
     for (int b = 0; b < e.loads.n; b++)

@@ -111,7 +111,7 @@ static void test_caught(void **state)
 
 static double automatic_of(const char *text, const char *key, const char *value)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     struct bench_overrides o = {0};
     if (key) bench_override(&o, key, "%s", value);

@@ -11,6 +11,7 @@
 #include "fuzz.h"
 #include "base/memory.h"
 #include "output/output_files.h"
+#include "step/report.h"
 
 enum { STEPS = 3 };
 static const char text[] =
@@ -24,20 +25,20 @@ static struct scene scene;
 static struct output out;
 
 /* An engine of the scene whose output is in the folder `fuzz_run`. */
-static void begin(struct engine *e)
+static void begin(struct run *e)
 {
     if (!scene.text && scene_read_text(&scene, text, strlen(text), "fuzz", NULL, 0) != OK)
         fuzz_fail("the scene", status_message());
-    *e = (struct engine){.report.quiet = true};
+    *e = (struct run){0};
     if (engine_make(e, &scene, &out) != OK) fuzz_fail("the engine", status_message());
-    e->report.quiet = true;
+    e->report->quiet = true;
     if (!out.folder && output_open(&out, "fuzz_run", scene.text, OUTPUT_OVERWRITE, false) != OK)
         fuzz_fail("the folder", status_message());
 }
 
 uint8_t *fuzz_checkpoint_seed(size_t *n)
 {
-    struct engine e;
+    struct run e;
     char *bytes = NULL;
     begin(&e);
     if (engine_run(&e) != OK || file_get("fuzz_run/checkpoint.previous.h5", &bytes, n) != OK)
@@ -62,13 +63,13 @@ static void put_checkpoint(const uint8_t *bytes, size_t n)
 
 void fuzz_checkpoint(const uint8_t *bytes, size_t n)
 {
-    struct engine e;
+    struct run e;
     begin(&e);
     put_checkpoint(bytes, n);
     status_set(OK, "%s", "");
     status s = checkpoint_read(&out, scene.text, engine_archive, &e);
     if (s == OK) {
-        e.report.out = NULL;
+        e.report->out = NULL;
         if (e.clock.steps > e.clock.step && e.clock.step >= 0)
             e.clock.steps = e.clock.step + STEPS < e.clock.steps ? e.clock.step + STEPS : e.clock.steps;
         s = engine_run(&e);

@@ -9,6 +9,8 @@
 #include "auto/scene_read.h"
 #include "engine/engine.h"
 #include "fuzz.h"
+#include "probes/diagnostics.h"
+#include "step/report.h"
 
 enum { STEPS = 12, TEXT = 8192 };
 
@@ -146,7 +148,7 @@ static void add_loads(struct maker *m, const double *edge)
 }
 
 /* Nothing that is no number, unless the run said so. */
-static void judge(const struct engine *e, const char *when)
+static void judge(const struct run *e, const char *when)
 {
     const struct particles *p = &e->part;
     for (int64_t i = 0; i < p->n; i++) {
@@ -157,19 +159,19 @@ static void judge(const struct engine *e, const char *when)
             if (!isfinite(p->stress[k][i])) fuzz_fail("a stress that is no number", when);
         if (!(p->damage[i] >= -1e-9 && p->damage[i] <= 1 + 1e-9)) fuzz_fail("damage is not within 0 and 1", when);
     }
-    if (!isfinite(e->diagnostics.now.balance_error) || !isfinite(e->diagnostics.now.momentum_error))
+    if (!isfinite(e->diagnostics->now.balance_error) || !isfinite(e->diagnostics->now.momentum_error))
         fuzz_fail("a balance that is no number", when);
 }
 
 static void run(const char *text)
 {
     struct scene s = {0};
-    struct engine e = {0};
+    struct run e = {0};
     status_set(OK, "%s", "");
     status done = scene_read_text(&s, text, strlen(text), "valid", NULL, 0);
     if (done == OK) {
         done = engine_make(&e, &s, NULL);
-        e.report.quiet = true;
+        e.report->quiet = true;
         if (done == OK) judge(&e, "at the start");
         if (e.clock.steps > STEPS) e.clock.steps = STEPS;
         if (done == OK && (done = engine_run(&e)) == OK) judge(&e, "at the end");

@@ -9,12 +9,13 @@
 #include "../bench/stability/stability.h"
 #include "eigen.h"
 #include "base/memory.h"
+#include "mesh/mesh_part.h"
 
 /* Component d of particle `at`, or of a node of the mesh. */
 struct unknown { bool node; int32_t at; int d; };
 
 struct operator {
-    struct engine e;
+    struct run e;
     struct scene s;
     int64_t n;
     struct unknown *unknown;             /* [n] */
@@ -37,13 +38,13 @@ struct spectrum {
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
 /* Components of particles that a driven region holds, and of nodes that walls hold or that follow others. */
-static inline uint8_t *operator_held(struct engine *e, bool node)
+static inline uint8_t *operator_held(struct run *e, bool node)
 {
-    const int64_t n = node ? e->reference.mesh.grid.n : e->part.n;
+    const int64_t n = node ? e->frame->mesh.grid.n : e->part.n;
     uint8_t *held = NEW("test.held", n + 1, uint8_t);
     if (node) {
-        const struct grid *g = &e->reference.mesh.grid;
-        loads_mesh_walls(&e->loads, &e->reference.mesh, 0, e->clock.dt);
+        const struct grid *g = &e->frame->mesh.grid;
+        loads_mesh_walls(&e->loads, &e->frame->mesh, 0, e->clock.dt);
         for (int64_t k = 0; k < g->walls; k++) held[g->wall[k].node] |= (uint8_t)(1 << g->wall[k].component);
         for (int64_t k = 0; k < g->mirror_nodes; k++) held[g->mirror_node[k].node] = 7;
         return held;
@@ -65,9 +66,9 @@ static inline void operator_add(struct operator *o, bool node, const uint8_t *he
 
 static inline void operator_unknowns(struct operator *o)
 {
-    struct engine *e = &o->e;
-    const struct grid *g = &e->reference.mesh.grid;
-    const int64_t nodes = e->reference.mesh.points > 0 ? g->n : 0;
+    struct run *e = &o->e;
+    const struct grid *g = &e->frame->mesh.grid;
+    const int64_t nodes = e->frame->mesh.points > 0 ? g->n : 0;
     uint8_t *held = operator_held(e, false), *held_node = nodes > 0 ? operator_held(e, true) : NULL;
     real *mass = NEW("test.node_mass", nodes + 1, real);
     for (int64_t I = 0; I < nodes; I++) mass[I] = g->mass[I];
@@ -90,21 +91,21 @@ static inline void operator_unknowns(struct operator *o)
 
 static inline void operator_place(struct operator *o, struct unknown q, real u)
 {
-    struct engine *e = &o->e;
-    if (q.node) e->reference.mesh.displacement[q.d][q.at] = u;
+    struct run *e = &o->e;
+    if (q.node) e->frame->mesh.displacement[q.d][q.at] = u;
     else e->part.x[q.d][q.at] = e->part.X[q.d][q.at] + u;
 }
 
 /* Nodes beyond planes of symmetry follow their images, which take the forces on them: as mesh_move has it. */
 static inline void operator_forces(struct operator *o, real *f)
 {
-    struct engine *e = &o->e;
-    struct grid *g = &e->reference.mesh.grid;
-    const int64_t mirror_nodes = e->reference.mesh.points > 0 ? g->mirror_nodes : 0;
+    struct run *e = &o->e;
+    struct grid *g = &e->frame->mesh.grid;
+    const int64_t mirror_nodes = e->frame->mesh.points > 0 ? g->mirror_nodes : 0;
     for (int64_t k = 0; k < mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)
-            e->reference.mesh.displacement[d][g->mirror_node[k].node] =
-                g->mirror_node[k].sign[d] * e->reference.mesh.displacement[d][g->mirror_node[k].image];
+            e->frame->mesh.displacement[d][g->mirror_node[k].node] =
+                g->mirror_node[k].sign[d] * e->frame->mesh.displacement[d][g->mirror_node[k].image];
     if (getenv("OPERATOR_SHOW")) engine_mesh_sync(e);
     engine_forces(e);
     for (int64_t k = 0; k < mirror_nodes; k++)
@@ -159,7 +160,7 @@ static inline void operator_free(struct operator *o)
 /* The energy balance's energy of bonds and cells beside half u K u. */
 static inline real operator_energy(struct operator *o)
 {
-    struct engine *e = &o->e;
+    struct run *e = &o->e;
     uint64_t seed = 3;
     real *u = NEW("test.u", o->n, real), *f = NEW("test.f", o->n, real), half = 0;
     for (int64_t k = 0; k < o->n; k++) {
@@ -168,7 +169,7 @@ static inline real operator_energy(struct operator *o)
     }
     operator_forces(o, f);
     const real W = e->kernels.bond_energy(&e->bonds, &e->part) +
-                   mesh_strain(&e->reference.mesh, &e->part, e->reference.elastic, !o->s.small_strain);
+                   mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !o->s.small_strain);
     for (int64_t k = 0; k < o->n * o->n; k++) half += 0.5 * u[k / o->n] * o->K[k] * u[k % o->n];
     for (int64_t k = 0; k < o->n; k++) operator_place(o, o->unknown[k], 0);
     memory_free(u);
@@ -209,7 +210,7 @@ static inline void operator_dump(const struct operator *o, const char *path)
     fprintf(to, "# %lld unknowns: node at component X Y Z mass; then K\n", (long long)o->n);
     for (int64_t k = 0; k < o->n; k++) {
         const struct unknown q = o->unknown[k];
-        const struct grid *g = &o->e.reference.mesh.grid;
+        const struct grid *g = &o->e.frame->mesh.grid;
         fprintf(to, "%d %d %d", q.node, q.at, q.d);
         for (int d = 0; d < DIM_MAX; d++)
             fprintf(to, " %.9g",

@@ -113,7 +113,7 @@ static void points_are_as_far_off_as_measured(void **state)
         const struct accuracy_point p = {cheap[k].problem, method, cheap[k].at, cheap[k].resolution,
                                          method->family & ACCURACY_MPM ? 0 : ACCURACY_HORIZON, ACCURACY_STEP};
         struct accuracy_scene from;
-        struct engine e;
+        struct run e;
         struct scene s;
         double error, part[ACCURACY_PARTS];
         assert_true(!p.problem->applies || p.problem->applies(&p));

@@ -8,6 +8,8 @@
 #include "engine/engine.h"
 #include "src/contact/contact_internal.h"
 #include "tests/support/near.h"
+#include "step/report.h"
+#include "probes/diagnostics.h"
 
 /* A body that flies at a cracked one, whose crack closes. */
 static const char plane[] =
@@ -44,25 +46,25 @@ static const char turned[] =
     "{velocity: [free, 40 m/s, free], region: {half-space: {point: [0, 0, 6 mm], normal: [0, 0, -1]}}}]\n"
     "output: {frames: 1, samples: 1000}\n";
 
-static struct engine *contact_run(struct scene *s, const char *text, const char *law)
+static struct run *contact_run(struct scene *s, const char *text, const char *law)
 {
     const struct scene_override set = {"contact.law", law};
-    struct engine *e = NEW("test.engine", 1, struct engine);
+    struct run *e = NEW("test.engine", 1, struct run);
     if (scene_read_text(s, text, strlen(text), "contact.yaml", &set, 1) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(e, s, NULL));
-    e->report.quiet = true;
+    e->report->quiet = true;
     assert_ok(engine_report_start(e));
     return e;
 }
 
-static void contact_end(struct engine *e, struct scene *s)
+static void contact_end(struct run *e, struct scene *s)
 {
     engine_free(e);
     memory_free(e);
     scene_free(s);
 }
 
-static bool has_bond(const struct engine *e, int64_t i, int64_t j)
+static bool has_bond(const struct run *e, int64_t i, int64_t j)
 {
     for (struct bond_iterator it = bonds_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
         if (it.bond.w != 0 && it.bond.nbr == j) return true;
@@ -77,7 +79,7 @@ static real length(const struct particles *p, real *const *place, int64_t i, int
 }
 
 /* k of two particles [N/m]: 15 c V V/delta, of two materials the harmonic mean. */
-static real plain_stiffness(const struct engine *e, int64_t i, int64_t j)
+static real plain_stiffness(const struct run *e, int64_t i, int64_t j)
 {
     const struct particles *p = &e->part;
     struct family family = e->source.family;
@@ -87,7 +89,7 @@ static real plain_stiffness(const struct engine *e, int64_t i, int64_t j)
     return 15 * (2 * a * b / (a + b)) * p->volume0[i] * p->volume0[j] / (3.015 * e->scene->spacing);
 }
 
-static bool may_meet(const struct engine *e, int64_t i, int64_t j)
+static bool may_meet(const struct run *e, int64_t i, int64_t j)
 {
     const struct particles *p = &e->part;
     if (i == j || (e->scene->contact_between == CONTACT_BODIES && p->body[i] == p->body[j])) return false;
@@ -96,7 +98,7 @@ static bool may_meet(const struct engine *e, int64_t i, int64_t j)
 
 /* Law `pair`: sum over all pairs of particles without a bond, closer than a spacing and than they were. f: [dim n];
  * returns the energy [J]. */
-static real plain_pairs(const struct engine *e, real *f)
+static real plain_pairs(const struct run *e, real *f)
 {
     const struct particles *p = &e->part;
     real energy = 0;
@@ -142,7 +144,7 @@ static real height_of(int dim, real density)
 }
 
 /* How much higher than half a spacing above a particle the surface of its body, a ball or a box, is [spacings]. */
-static real plain_rise(const struct engine *e, int64_t i)
+static real plain_rise(const struct run *e, int64_t i)
 {
     const struct particles *p = &e->part;
     const struct solid *solid = e->scene->body[p->body[i]].shape.solid;
@@ -158,9 +160,9 @@ static real plain_rise(const struct engine *e, int64_t i)
 
 /* What particle i feels of those near faces that it may meet, now or in the reference state: height above their
  * surface [spacings]. *softest: k of the softest pair [N/m]. */
-static real plain_height(const struct engine *e, int64_t i, real *const *place, real *softest)
+static real plain_height(const struct run *e, int64_t i, real *const *place, real *softest)
 {
-    const struct contact *c = &e->contact;
+    const struct contact *c = e->contact;
     real density = 0, rise = 0;
     *softest = INFINITY;
     for (int64_t k = 0; k < c->rows; k++) {
@@ -175,11 +177,11 @@ static real plain_height(const struct engine *e, int64_t i, real *const *place, 
 
 /* Energy of all that a particle feels: 1/4 k (zero - height)^2, zero: that of its own surface and half a spacing, or
  * less if the reference state is closer. */
-static real plain_faces(const struct engine *e)
+static real plain_faces(const struct run *e)
 {
     real energy = 0, softest;
-    for (int64_t k = 0; k < e->contact.rows; k++) {
-        const int32_t i = e->contact.particle[k];
+    for (int64_t k = 0; k < e->contact->rows; k++) {
+        const int32_t i = e->contact->particle[k];
         const real height = plain_height(e, i, e->part.x, &softest);
         if (height >= 1 + plain_rise(e, i)) continue;
         const real zero = real_min(1 + plain_rise(e, i), plain_height(e, i, e->part.X, &softest));
@@ -189,15 +191,15 @@ static real plain_faces(const struct engine *e)
 }
 
 /* Forces of contact alone, into part.f. */
-static void contact_alone(struct engine *e)
+static void contact_alone(struct run *e)
 {
     for (int d = 0; d < e->part.dim; d++) memset(e->part.f[d], 0, (size_t)e->part.n * sizeof(real));
-    contact_follow(&e->contact, &e->part, &e->bonds, &e->loads);
-    contact_force(&e->contact, &e->part, 0);
+    contact_follow(e->contact, &e->part, &e->bonds, &e->loads);
+    contact_force(e->contact, &e->part, 0);
 }
 
 /* Third law: momentum and angular momentum, to the round-off of forces of up to a dozen pairs. */
-static void check_third_law(const struct engine *e)
+static void check_third_law(const struct run *e)
 {
     const struct particles *p = &e->part;
     real most = 0, sum[DIM_MAX] = {0}, moment[DIM_MAX] = {0};
@@ -218,16 +220,16 @@ static void check_third_law(const struct engine *e)
 
 /* Pairs: forces and energy to round-off. Faces: the energy within what 1e-6 spacings in the table of heights make;
  * forces are its gradient. */
-static void check_plain(struct engine *e)
+static void check_plain(struct run *e)
 {
     const struct particles *p = &e->part;
     real *f = NEW("test.f", p->n * p->dim, real), most = 0;
     contact_alone(e);
-    const real found = contact_energy(&e->contact, p);
+    const real found = contact_energy(e->contact, p);
     if (e->scene->contact_form == CONTACT_SURFACE) {
         const real energy = plain_faces(e);
         const real k = plain_stiffness(e, 0, 0) * square(e->scene->spacing);
-        assert_near(found, energy, 1e-6 * sqrt(k * energy * (real)(e->contact.touching + 1)));
+        assert_near(found, energy, 1e-6 * sqrt(k * energy * (real)(e->contact->touching + 1)));
     } else {
         const real energy = plain_pairs(e, f);
         for (int64_t k = 0; k < p->n * p->dim; k++) most = real_max(most, fabs(f[k]));
@@ -241,20 +243,20 @@ static void check_plain(struct engine *e)
 
 /* -dE/dx of the particle with the deepest overlap, by a central difference over 1e-6 of a spacing: pairs that open in
  * it leave (1e-6)^2 of k. */
-static void check_gradient(struct engine *e)
+static void check_gradient(struct run *e)
 {
     struct particles *p = &e->part;
     contact_alone(e);
-    const int32_t i = e->contact.deepest;
+    const int32_t i = e->contact->deepest;
     const real h = 1e-6 * e->scene->spacing;
     real most = 0;
     for (int d = 0; d < p->dim; d++) most = real_max(most, fabs(p->f[d][i]));
     for (int d = 0; d < p->dim; d++) {
         const real x = p->x[d][i];
         p->x[d][i] = x + h;
-        const real above = contact_energy(&e->contact, p);
+        const real above = contact_energy(e->contact, p);
         p->x[d][i] = x - h;
-        const real below = contact_energy(&e->contact, p);
+        const real below = contact_energy(e->contact, p);
         p->x[d][i] = x;
         assert_near(p->f[d][i], (below - above) / (2 * h), 1e-4 * most);
     }
@@ -264,19 +266,19 @@ static void check_gradient(struct engine *e)
 static void check_collision(const char *text, const char *law, real pairs_least)
 {
     struct scene s;
-    struct engine *e = contact_run(&s, text, law);
+    struct run *e = contact_run(&s, text, law);
     int64_t seen = 0;
     while (e->clock.step < e->clock.steps) {
         assert_ok(engine_step(e));
         assert_ok(engine_stability_check(e));
         if (e->clock.step % 4 > 0) continue;
         check_plain(e);
-        if (e->contact.touching == 0) continue;
+        if (e->contact->touching == 0) continue;
         check_gradient(e);
         seen++;
     }
-    if (seen < 3 || (real)e->contact.pairs_most < pairs_least)
-        fail_msg("seen %d times, %d pairs", (int)seen, (int)e->contact.pairs_most);
+    if (seen < 3 || (real)e->contact->pairs_most < pairs_least)
+        fail_msg("seen %d times, %d pairs", (int)seen, (int)e->contact->pairs_most);
     contact_end(e, &s);
 }
 
@@ -302,9 +304,9 @@ static void test_space(void **state)
 }
 
 /* Of faces, without what takes back the energy that a time step gave (contact_balance.c). */
-static void check_law_gradient(struct engine *e)
+static void check_law_gradient(struct run *e)
 {
-    struct contact *c = &e->contact;
+    struct contact *c = e->contact;
     real *drag = NEW("test.drag", c->rows, real);
     for (int64_t row = 0; row < c->rows; row++) drag[row] = c->balance[row].drag, c->balance[row].drag = 0;
     check_gradient(e);
@@ -318,13 +320,13 @@ static void test_steps(void **state)
 {
     (void)state;
     struct scene s;
-    struct engine *e = contact_run(&s, turned, "surface");
+    struct run *e = contact_run(&s, turned, "surface");
     real most = 0;
     int64_t seen = 0;
     while (e->clock.step < e->clock.steps) {
         assert_ok(engine_step(e));
-        most = real_max(most, fabs(e->diagnostics.now.balance_error));
-        if (e->contact.touching == 0) continue;
+        most = real_max(most, fabs(e->diagnostics->now.balance_error));
+        if (e->contact->touching == 0) continue;
         if (seen % 8 == 0) check_law_gradient(e);
         seen++;
     }
@@ -339,11 +341,11 @@ static void test_stiffness(void **state)
 {
     (void)state;
     struct scene s;
-    struct engine *e = contact_run(&s, line, "pair");
-    assert_near(e->contact.law.stiffness[0] * square(4e-6 * 1e-3), 15 / 3.015 / 6 * 200e9 * 4e-6 / 1e-3, 1);
+    struct run *e = contact_run(&s, line, "pair");
+    assert_near(e->contact->law.stiffness[0] * square(4e-6 * 1e-3), 15 / 3.015 / 6 * 200e9 * 4e-6 / 1e-3, 1);
     contact_end(e, &s);
     e = contact_run(&s, plane, "pair");
-    assert_near(e->contact.law.stiffness[0] * square(2e-3 * 1e-6), 0.51 * 200e9 * 2e-3, 0.03 * 0.51 * 200e9 * 2e-3);
+    assert_near(e->contact->law.stiffness[0] * square(2e-3 * 1e-6), 0.51 * 200e9 * 2e-3, 0.03 * 0.51 * 200e9 * 2e-3);
     contact_end(e, &s);
 }
 
@@ -358,9 +360,9 @@ static void check_rest(const char *law)
         "cracks: [{from: [5 mm, -1 mm], to: [5 mm, 8 mm]}]\nparticles: {spacing: 1 mm}\n"
         "contact: {between: all}\ntime: {step: 0.1 us}\noutput: {frames: 1, samples: 10}\n";
     struct scene s;
-    struct engine *e = contact_run(&s, text, law);
+    struct run *e = contact_run(&s, text, law);
     for (int step = 0; step < 1000; step++) assert_ok(engine_step(e));
-    assert_true(e->contact.pairs > 50);
+    assert_true(e->contact->pairs > 50);
     for (int d = 0; d < 2; d++)
         for (int64_t i = 0; i < e->part.n; i++) assert_true(e->part.v[d][i] == 0);
     contact_end(e, &s);

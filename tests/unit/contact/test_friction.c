@@ -9,6 +9,8 @@
 #include "src/contact/contact_internal.h"
 #include "src/engine/engine_report.h"
 #include "tests/support/near.h"
+#include "step/report.h"
+#include "rigid/rigid_part.h"
 
 /* A spring of 3 kN/m on a face with the normal (0, 0.6, 0.8): it holds up to 0.2 N, then slides with that force; what
  * the motion gives is stored or lost, and goes when both part. */
@@ -50,34 +52,34 @@ static void spring_follows_its_face(void **state)
 
 /* ---- in a body --------------------------------------------------------------------------------------------------- */
 
-static struct engine *body_begin(struct scene *s, const char *text)
+static struct run *body_begin(struct scene *s, const char *text)
 {
-    struct engine *e = NEW("test.engine", 1, struct engine);
+    struct run *e = NEW("test.engine", 1, struct run);
     if (scene_read_text(s, text, strlen(text), "friction.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(e, s, NULL));
-    e->report.quiet = true;
+    e->report->quiet = true;
     assert_ok(engine_report_start(e));
     return e;
 }
 
-static void body_end(struct engine *e, struct scene *s)
+static void body_end(struct run *e, struct scene *s)
 {
     engine_free(e);
     memory_free(e);
     scene_free(s);
 }
 
-static void look(struct engine *e)
+static void look(struct run *e)
 {
-    contact_update(&e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
+    contact_update(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
 }
 
-static void forces_at(struct engine *e, real dt)
+static void forces_at(struct run *e, real dt)
 {
     struct particles *p = &e->part;
     look(e);
     for (int d = 0; d < p->dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
-    contact_force(&e->contact, p, dt);
+    contact_force(e->contact, p, dt);
 }
 
 
@@ -93,13 +95,13 @@ static void rigid_force_is_a_gradient(void **state)
 {
     (void)state;
     struct scene s;
-    struct engine *e = body_begin(&s, pressed);
+    struct run *e = body_begin(&s, pressed);
     struct particles *p = &e->part;
-    struct rigid_body *r = &e->rigid[0];
+    struct rigid_body *r = &e->rigid->body[0];
     look(e);
     r->x[1] -= 0.1e-3;
     forces_at(e, 0);
-    const real energy = contact_energy(&e->contact, p), step = 1e-9;
+    const real energy = contact_energy(e->contact, p), step = 1e-9;
     const real force[] = {r->force[0], r->force[1]}, moment = r->moment[2];
     real sum[2] = {0}, turning = 0, own[2] = {0};
     int32_t one = -1;
@@ -116,7 +118,7 @@ static void rigid_force_is_a_gradient(void **state)
         real work[2];
         for (int side = 0; side < 2; side++) {
             p->x[d][one] += (side ? -1 : 1) * step;
-            work[side] = contact_energy(&e->contact, p);
+            work[side] = contact_energy(e->contact, p);
             p->x[d][one] -= (side ? -1 : 1) * step;
         }
         assert_near(own[d], -(work[0] - work[1]) / (2 * step), 1e-5 * hypot(own[0], own[1]));
@@ -136,9 +138,9 @@ static void rigid_moment(void **state)
 {
     (void)state;
     struct scene s;
-    struct engine *e = body_begin(&s, pivoted);
+    struct run *e = body_begin(&s, pivoted);
     struct particles *p = &e->part;
-    struct rigid_body *r = &e->rigid[0];
+    struct rigid_body *r = &e->rigid->body[0];
     real force = 0, turning = 0;
     look(e);
     r->x[1] -= 0.1e-3;
@@ -167,7 +169,7 @@ static void faces_rub(void **state)
 {
     (void)state;
     struct scene s;
-    struct engine *e = body_begin(&s, blocks);
+    struct run *e = body_begin(&s, blocks);
     struct particles *p = &e->part;
     real drag[2] = {0}, press[2] = {0};
     look(e);
@@ -176,15 +178,15 @@ static void faces_rub(void **state)
         p->v[0][i] = 7, p->v[1][i] = 2;
     }
     for (int k = 0; k < 3; k++) forces_at(e, 1e-7);
-    assert_near(contact_friction_stored(&e->contact), 0, 1e-20);
-    assert_near(contact_friction_work(&e->contact), 0, 1e-20);
+    assert_near(contact_friction_stored(e->contact), 0, 1e-20);
+    assert_near(contact_friction_work(e->contact), 0, 1e-20);
     for (int64_t i = 0; i < p->n; i++) p->v[0][i] = p->body[i] == 1 ? 9 : 7, p->v[1][i] = 0;
     for (int k = 0; k < 400; k++) forces_at(e, 1e-7);    /* 80 um: springs have long given way */
     for (int64_t i = 0; i < p->n; i++) drag[p->body[i]] += p->f[0][i], press[p->body[i]] += p->f[1][i];
     assert_true(press[1] > 0);
     assert_near(drag[0] + drag[1], 0, 1e-9 * press[1]);
     assert_close(drag[1], -0.3 * press[1], 0.02);        /* forces at the ends of the face lean */
-    assert_true(contact_friction_work(&e->contact) > 0);
+    assert_true(contact_friction_work(e->contact) > 0);
     body_end(e, &s);
 }
 
@@ -211,9 +213,9 @@ static void rigid_body_rubs(void **state)
 {
     (void)state;
     struct scene s;
-    struct engine *e = body_begin(&s, barred);
+    struct run *e = body_begin(&s, barred);
     struct particles *p = &e->part;
-    struct rigid_body *r = &e->rigid[0];
+    struct rigid_body *r = &e->rigid->body[0];
     real force[2];
     look(e);
     r->x[1] -= 0.05e-3, r->v[0] = 7, r->v[1] = 2, r->spin[2] = 130;
@@ -222,8 +224,8 @@ static void rigid_body_rubs(void **state)
         p->v[1][i] = 2 + 130 * (p->x[0][i] - r->x[0]);
     }
     for (int k = 0; k < 3; k++) forces_at(e, 1e-7);
-    assert_near(contact_friction_stored(&e->contact), 0, 1e-20);
-    assert_near(contact_friction_work(&e->contact), 0, 1e-20);
+    assert_near(contact_friction_stored(e->contact), 0, 1e-20);
+    assert_near(contact_friction_work(e->contact), 0, 1e-20);
     r->spin[2] = 0;
     for (int64_t i = 0; i < p->n; i++) p->v[0][i] = 5.4, p->v[1][i] = 2;
     for (int k = 0; k < 400; k++) forces_at(e, 1e-7);    /* 64 um: springs have long given way */
@@ -231,12 +233,12 @@ static void rigid_body_rubs(void **state)
     assert_true(force[1] < 0);
     assert_close(force[0], -0.3 * force[1], 1e-9);
     assert_close(r->force[0], 0.3 * force[1], 1e-9);
-    const real before = contact_friction_work(&e->contact), lost = -0.3 * force[1] * 1.6 * 7e-7;
+    const real before = contact_friction_work(e->contact), lost = -0.3 * force[1] * 1.6 * 7e-7;
     for (int k = 0; k < 7; k++) forces_at(e, 1e-7);
-    assert_close(contact_friction_work(&e->contact) - before, lost, 1e-9);
-    e->report.sampling.due = true, e->coupling.damped = 0.021;
+    assert_close(contact_friction_work(e->contact) - before, lost, 1e-9);
+    e->report->sampling.due = true, e->damped = 0.021;
     engine_sample_energy(e);
-    assert_close(e->report.sampling.energy.damped, 0.021 + before + lost, 1e-9);
+    assert_close(e->report->sampling.energy.damped, 0.021 + before + lost, 1e-9);
     assert_true(lost > 1e-6 * 0.021);                    /* it counts beside the other */
     body_end(e, &s);
 }
@@ -247,9 +249,9 @@ static void weights_of_sizes(void **state)
 {
     (void)state;
     struct scene s;
-    struct engine *e = body_begin(&s, blocks);
+    struct run *e = body_begin(&s, blocks);
     struct particles *p = &e->part;
-    struct contact *c = &e->contact;
+    struct contact *c = e->contact;
     int tried = 0;
     for (int64_t i = 0; i < p->n; i++)
         if (p->body[i] == 1) p->volume0[i] *= square(1.3);

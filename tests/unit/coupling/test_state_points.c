@@ -9,6 +9,9 @@
 #include "tests/support/near.h"
 #include "tests/support/sets.h"
 #include "base/team.h"
+#include "mesh/mesh_part.h"
+#include "coupling/coupling_part.h"
+#include "coupling/conversion.h"
 
 #define TURN_MOST 0.2                    /* of a particle [rad] */
 #define SHAKE 0.02                       /* of places [spacings]: strains of some percent */
@@ -27,7 +30,7 @@ static const char block[] =
     "pd: {region: {ball: {centre: [6 mm, 0, 3 mm], radius: 3 mm}}}\n"
     "boundary: [{mirror: {axis: y, at: 0, tangential: free}}]\n";
 
-static void engine_from(struct engine *e, struct scene *s, const char *text)
+static void engine_from(struct run *e, struct scene *s, const char *text)
 {
     if (scene_read_text(s, text, strlen(text), "points.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_int_equal(engine_make(e, s, NULL), OK);
@@ -36,17 +39,17 @@ static void engine_from(struct engine *e, struct scene *s, const char *text)
 /* ---- gradient ---------------------------------------------------------------------------------------------------- */
 
 /* Turned about z and shaken; a mirror's plane stays. */
-static real shaken(const struct engine *e, const real *X, int d, uint64_t *seed)
+static real shaken(const struct run *e, const real *X, int d, uint64_t *seed)
 {
     const real angle = TURN_MOST * X[0] / 20e-3;
     const real rotation[3] = {-angle * X[1], angle * X[1], 0.5 * angle * X[1]};
     return rotation[d] + cloud_between(seed, -SHAKE, SHAKE) * e->scene->spacing;
 }
 
-static void shake(struct engine *e)
+static void shake(struct run *e)
 {
     struct particles *p = &e->part;
-    struct mesh *mesh = &e->reference.mesh;
+    struct mesh *mesh = &e->frame->mesh;
     uint64_t seed = 5;
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX] = {0};
@@ -61,15 +64,15 @@ static void shake(struct engine *e)
     }
 }
 
-static real energy_of(struct engine *e)
+static real energy_of(struct run *e)
 {
     engine_forces(e);
     return e->kernels.bond_energy(&e->bonds, &e->part) +
-           mesh_strain(&e->reference.mesh, &e->part, e->reference.elastic, !e->scene->small_strain);
+           mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
 }
 
 /* Force on one component against the slope of the energy. */
-static void check_slope(struct engine *e, real *place, const real *force, real scale)
+static void check_slope(struct run *e, real *place, const real *force, real scale)
 {
     const real step = 1e-5 * e->scene->spacing, was = *place;
     *place = was + step;
@@ -81,7 +84,7 @@ static void check_slope(struct engine *e, real *place, const real *force, real s
     assert_near(-(above - below) / (2 * step), *force, 1e-6 * scale);
 }
 
-static real largest(const struct engine *e)
+static real largest(const struct run *e)
 {
     real most = 0;
     for (int64_t i = 0; i < e->part.n; i++)
@@ -91,10 +94,10 @@ static real largest(const struct engine *e)
 
 /* Every few unknowns, of both kinds. What moves with an image or a plane of symmetry is left out: nodes beyond or on
  * it. */
-static void check_gradient(struct engine *e)
+static void check_gradient(struct run *e)
 {
     struct particles *p = &e->part;
-    struct mesh *mesh = &e->reference.mesh;
+    struct mesh *mesh = &e->frame->mesh;
     int64_t particles = 0, nodes = 0;
     shake(e);
     (void)energy_of(e);
@@ -119,7 +122,7 @@ static void test_gradient(void **state)
                              *const coupling[] = {"partial stress", "handshake"};
     for (int k = 0; k < 8; k++) {
         struct scene s;
-        struct engine e = {0};
+        struct run e = {0};
         char whole[2048];
         snprintf(whole, sizeof whole, "%smodel: %s\ncoupling: %s\nmpm: {frame: reference}\n", text[k / 4], model[k % 2],
                  coupling[k / 2 % 2]);
@@ -133,7 +136,7 @@ static void test_gradient(void **state)
 /* ---- a point on the grid ----------------------------------------------------------------------------------------- */
 
 /* Pressure of the strain that its bonds see and the rest by its stress; its own rotation. */
-static void check_point(const struct engine *e, int64_t row)
+static void check_point(const struct run *e, int64_t row)
 {
     const struct bonds *b = &e->bonds;
     const struct particles *p = &e->part;
@@ -141,7 +144,7 @@ static void check_point(const struct engine *e, int64_t row)
     const int dim = p->dim, n = symmetric_count(dim);
     const struct state_modulus *m = &b->state.modulus[0];
     const real share = p->volume0[i] / b->state.weighted[row],
-               *local = e->coupling.partial.local + e->coupling.partial.index[i] * n;
+               *local = e->coupling->partial.local + e->coupling->partial.index[i] * n;
     real S = 0, compliance[SYM_MAX * SYM_MAX];
     material_compliance(&e->scene->material[0], dim, compliance);
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
@@ -160,7 +163,7 @@ static void check_point(const struct engine *e, int64_t row)
 static void check_points(const char *text)
 {
     struct scene s;
-    struct engine e = {0};
+    struct run e = {0};
     char whole[2048];
     int64_t points = 0;
     uint64_t seed = 3;
@@ -173,8 +176,8 @@ static void check_points(const char *text)
     states_precompute(&e.bonds, &e.part, &e.source);
     for (int64_t row = 0; row < e.bonds.rows; row++) {
         const int64_t i = e.bonds.particle[row];
-        if (e.part.kind[i] != KIND_MPM || e.coupling.partial.index[i] < 0 ||
-            !partial_end(&e.coupling.partial, i, e.part.dim))
+        if (e.part.kind[i] != KIND_MPM || e.coupling->partial.index[i] < 0 ||
+            !partial_end(&e.coupling->partial, i, e.part.dim))
             continue;
         check_point(&e, row);
         points++;
@@ -213,7 +216,7 @@ static void same_partials(const struct partial_stress *a, const struct partial_s
 static void check_partials(const char *text)
 {
     struct scene s;
-    struct engine e = {0};
+    struct run e = {0};
     struct bonds searched;
     struct partial_stress again = {0};
     char whole[2048];
@@ -222,15 +225,15 @@ static void check_partials(const char *text)
     int64_t point = 0;
     while (e.part.kind[point] != KIND_MPM || e.bonds.row_of[point] < 0) point++;
     e.part.flag[point] |= FLAG_STRESSED;
-    assert_true(
-        convert(&e.coupling.conversion, &s.conversion, &e.part, &e.bonds, &e.source, &e.coupling.partial, NULL, 0) > 0);
+    assert_true(convert(&e.coupling->conversion, &s.conversion, &e.part, &e.bonds, &e.source, &e.coupling->partial,
+                        NULL, 0) > 0);
     assert_non_null(e.bonds.site_map);
     bonds_make(&searched, NULL, &e.part, &e.source);
     struct site_map *sites = searched.site_map;
     searched.site_map = NULL;
     partial_stress_make(&again, &e.part, &searched, &e.source, NULL, 0);
     searched.site_map = sites;
-    same_partials(&e.coupling.partial, &again, e.part.n, e.part.dim);
+    same_partials(&e.coupling->partial, &again, e.part.n, e.part.dim);
     partial_stress_free(&again);
     bonds_free(&searched);
     engine_free(&e);

@@ -9,6 +9,10 @@
 #include "engine/engine.h"
 #include "tests/support/same.h"
 #include "kernels/simd/variants.h"
+#include "step/report.h"
+#include "mesh/mesh_part.h"
+#include "grid/grid_part.h"
+#include "grid/active_points.h"
 
 /* ---- nothing at rest is 0 ---------------------------------------------------------------------------------------- */
 
@@ -80,50 +84,50 @@ static const char mirror[] =
 static const char late[] = ", {body_force: [1e9, 0], region: {box: {from: [60 mm, -10 mm], to: [70 mm, 10 mm]}}, time: "
                            "{step: {from: 6 us, until: 8 us}}}";
 
-static struct engine *run_make(struct scene *s, const char *body, const char *boundary, const char *more,
+static struct run *run_make(struct scene *s, const char *body, const char *boundary, const char *more,
                                const char *keys, bool rest)
 {
     char text[4096], edges[1024];
-    struct engine *e = NEW("test.engine", 1, struct engine);
+    struct run *e = NEW("test.engine", 1, struct run);
     snprintf(edges, sizeof edges, boundary, more);
     snprintf(text, sizeof text, "%s%s%s\ntime: {active_set: %s, step: 0.08 us}\n", body, edges, keys,
              rest ? "true" : "false");
     if (scene_read_text(s, text, strlen(text), "active_set.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(e, s, NULL));
-    e->report.quiet = true;
+    e->report->quiet = true;
     assert_ok(engine_report_start(e));
     return e;
 }
 
-static void run_free(struct engine *e, struct scene *s)
+static void run_free(struct run *e, struct scene *s)
 {
     engine_free(e);
     memory_free(e);
     scene_free(s);
 }
 
-static void same_bits(const struct engine *a, const struct engine *b)
+static void same_bits(const struct run *a, const struct run *b)
 {
     const struct particles *p = &a->part, *q = &b->part;
     assert_int_equal(p->n_of[KIND_PD], q->n_of[KIND_PD]);
     assert_same_particles(p, q, a->optional);
     assert_memory_equal(a->loads.impulse, b->loads.impulse, sizeof a->loads.impulse);
-    assert_int_equal(a->reference.mesh.points, b->reference.mesh.points);
-    for (int d = 0; d < p->dim && a->reference.mesh.points > 0; d++) {
-        assert_memory_equal(a->reference.mesh.displacement[d], b->reference.mesh.displacement[d],
-                            (size_t)a->reference.mesh.grid.n * sizeof(real));
-        assert_memory_equal(a->reference.mesh.grid.velocity[d], b->reference.mesh.grid.velocity[d],
-                            (size_t)a->reference.mesh.grid.n * sizeof(real));
+    assert_int_equal(a->frame->mesh.points, b->frame->mesh.points);
+    for (int d = 0; d < p->dim && a->frame->mesh.points > 0; d++) {
+        assert_memory_equal(a->frame->mesh.displacement[d], b->frame->mesh.displacement[d],
+                            (size_t)a->frame->mesh.grid.n * sizeof(real));
+        assert_memory_equal(a->frame->mesh.grid.velocity[d], b->frame->mesh.grid.velocity[d],
+                            (size_t)a->frame->mesh.grid.n * sizeof(real));
     }
     const real energy = a->kernels.bond_energy(&a->bonds, p);
     assert_memory_equal(&energy, &(real){b->kernels.bond_energy(&b->bonds, q)}, sizeof energy);
 }
 
 /* Of the body, or of the points on the grid. */
-static real sleeping(const struct engine *e)
+static real sleeping(const struct run *e)
 {
-    const struct transfer_order *active = e->mpm.transfer.order;
-    const struct transfer_order *all = &e->mpm.field[0].order;
+    const struct transfer_order *active = e->grid->transfer.order;
+    const struct transfer_order *all = &e->grid->field[0].order;
     const real points = all->n > 0 && active != all ? 1 - (real)active->n / (real)all->n : 0;
     return real_max(engine_inactive_share(e), points);
 }
@@ -134,7 +138,7 @@ static real sleeping(const struct engine *e)
 static int64_t check_same(const char *body, const char *boundary, const char *more, const char *keys, real early)
 {
     struct scene s[2];
-    struct engine *on = run_make(&s[0], body, boundary, more, keys, true),
+    struct run *on = run_make(&s[0], body, boundary, more, keys, true),
                   *off = run_make(&s[1], body, boundary, more, keys, false);
     assert_true(on->clock.steps > 50);
     const int64_t before = on->part.n_of[KIND_PD];

@@ -12,6 +12,10 @@
 #include "tests/support/scene_with.h"
 #include "base/memory.h"
 #include "engine/engine.h"
+#include "step/report.h"
+#include "probes/diagnostics.h"
+#include "rigid/rigid_part.h"
+#include "rigid/rigid.h"
 
 #define BLOCK                                                                                                          \
     "space: plane strain\nthickness: 0.37 m\nduration: 1 ms\nmethod: pd\n"                                             \
@@ -22,23 +26,22 @@
     "material: {young: 72 GPa, poisson: 0, density: 2440}\nbody: {box: {from: [0], to: [1 m]}}\n"                      \
     "particles: {spacing: 20 mm}\n"
 
-struct run {
+struct finished_run {
     struct scene s;
-    struct engine e;
+    struct run e;
 };
 
 /* Runs a scene with the overrides `key=value`, up to NULL. */
-static status run_status(struct run *a, const char *text, va_list list)
+static status run_status(struct finished_run *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
     TRY(scene_with(&a->s, text, list));
-    a->e.report.quiet = true;
     TRY(engine_make(&a->e, &a->s, NULL));
-    a->e.report.quiet = true;
+    a->e.report->quiet = true;
     return engine_run(&a->e);
 }
 
-static void run(struct run *a, const char *text, ...)
+static void run(struct finished_run *a, const char *text, ...)
 {
     va_list list;
     va_start(list, text);
@@ -47,23 +50,23 @@ static void run(struct run *a, const char *text, ...)
     if (s != OK) fail_msg("%s", status_message());
 }
 
-static void run_end(struct run *a)
+static void run_end(struct finished_run *a)
 {
     engine_free(&a->e);
     scene_free(&a->s);
 }
 
 /* Worst of a balance that the run has kept, to this tolerance. */
-static void balanced(const struct run *a, real tolerance)
+static void balanced(const struct finished_run *a, real tolerance)
 {
-    const struct energy_balance *now = &a->e.diagnostics.now;
+    const struct energy_balance *now = &a->e.diagnostics->now;
     if (!(fabs(now->balance_error) <= tolerance)) fail_msg("balance %g > %g", now->balance_error, tolerance);
     if (!(now->momentum_error <= 1e-12)) fail_msg("momentum %g", now->momentum_error);
 }
 
-static real energy_of(const struct run *a)
+static real energy_of(const struct finished_run *a)
 {
-    return a->e.diagnostics.now.energy.kinetic + a->e.diagnostics.now.energy.strain;
+    return a->e.diagnostics->now.energy.kinetic + a->e.diagnostics->now.energy.strain;
 }
 
 static const char *const frames[][2] = {{"method=pd", "mpm.frame=auto"},
@@ -78,9 +81,9 @@ static void gravity_makes_bodies_fall(void **state)
     (void)state;
     const real mass = 1.5 * 0.37, energy = 0.5 * mass * square(9.81e-3); /* after 1 ms [kg], [J] */
     for (size_t k = 0; k < FRAMES; k++) {
-        struct run a;
+        struct finished_run a;
         run(&a, BLOCK, frames[k][0], frames[k][1], "gravity=[0, -9.81 m/s^2]", NULL);
-        const struct energy_balance *now = &a.e.diagnostics.now;
+        const struct energy_balance *now = &a.e.diagnostics->now;
         const real steps2 = square((real)a.e.clock.steps); /* 1/2 m v- . v+, v+- = g (t +- dt/2) */
         assert_true(fabs(now->energy.kinetic - energy * (1 - 0.25 / steps2)) < 0.01 * energy);
         assert_true(fabs(now->external_work - energy) < 1e-9 * energy);
@@ -102,10 +105,10 @@ static void gravity_makes_rigid_bodies_fall(void **state)
         "     shape: {disc: {centre: [90 mm, 20 mm], radius: 11 mm}}}\n"
         "particles: {spacing: 5 mm}\n";
     const real a[2] = {1.3, -9.81 + 3.1 / 1.7}, T = 1e-3, block = 1.5 * 0.37;
-    struct run r;
+    struct finished_run r;
     run(&r, bodies, NULL);
-    const struct rigid_body *ball = &r.e.rigid[0];
-    const struct energy_balance *now = &r.e.diagnostics.now;
+    const struct rigid_body *ball = &r.e.rigid->body[0];
+    const struct energy_balance *now = &r.e.diagnostics->now;
     const real work = 0.5 * (1.7 * (square(a[0]) + square(a[1])) + block * (square(1.3) + square(9.81))) * square(T);
     for (int d = 0; d < 2; d++) {
         assert_true(fabs((ball->x[d] - ball->centre[d]) / (0.5 * a[d] * square(T)) - 1) < 1e-9);
@@ -128,9 +131,9 @@ static void rigid_bodies_take_momentum(void **state)
         "  - {name: block, shape: {box: {from: [0, 0], to: [30 mm, 50 mm]}}}\n"
         "  - {name: plate, rigid: true, shape: {box: {from: [-20 mm, -20 mm], to: [50 mm, 0]}}}\n"
         "particles: {spacing: 5 mm}\n";
-    struct run r;
+    struct finished_run r;
     run(&r, floor, NULL);
-    assert_true(r.e.rigid[0].force_most > 1 && fabs(r.e.loads.impulse[1]) > 0.1);
+    assert_true(r.e.rigid->body[0].force_most > 1 && fabs(r.e.loads.impulse[1]) > 0.1);
     balanced(&r, 0.02);                                  /* steps of an eighth of a collision */
     run_end(&r);
 }
@@ -139,7 +142,7 @@ static void rigid_bodies_take_momentum(void **state)
 static void gravity_rests_on_a_support(void **state)
 {
     (void)state;
-    struct run a;
+    struct finished_run a;
     run(&a, BAR, "solver=cg", "gravity=[-9.81 m/s^2]", "boundary=[{mirror: {axis: x, at: 0, tangential: held}}]", NULL);
     const struct particles *p = &a.e.part;
     const real X = p->X[0][p->n - 1], exact = -2440 * 9.81 / 72e9 * (X - 0.5 * X * X);
@@ -154,12 +157,12 @@ static void damping_is_that_of_an_oscillator(void **state)
     static const char halves[] = "initial=[{velocity: [1 m/s], region: {box: {from: [0.5 m], to: [inf]}}}, "
                                  "{velocity: [-1 m/s], region: {box: {from: [-inf], to: [0.5 m]}}}]";
     for (size_t k = 0; k < FRAMES; k++) {
-        struct run a;
+        struct finished_run a;
         run(&a, BAR, frames[k][0], frames[k][1], "damping=1000 1/s", halves, NULL);
-        const real start = a.e.diagnostics.energy_start;
+        const real start = a.e.diagnostics->energy_start;
         /* modes near the shortest wave see c dt/4 of it, here 0.5 %, the current frame loses 0.3 % by itself */
         assert_true(fabs(-log(energy_of(&a) / start) / 3 - 1) < 0.02);
-        assert_true(fabs(a.e.diagnostics.now.energy.damped - start + energy_of(&a)) < 1e-3 * start);
+        assert_true(fabs(a.e.diagnostics->now.energy.damped - start + energy_of(&a)) < 1e-3 * start);
         balanced(&a, k == 2 ? 1e-3 : 1e-10);
         run_end(&a);
     }
@@ -172,7 +175,7 @@ static void damping_bears_a_steady_force(void **state)
     (void)state;
     for (size_t k = 0; k < FRAMES; k++)
         for (real rate = 1e3; rate < 2e5; rate *= 10) {
-            struct run a;
+            struct finished_run a;
             char damping[40];
             snprintf(damping, sizeof damping, "damping=%g 1/s", rate);
             run(&a, BAR, frames[k][0], frames[k][1], damping, "gravity=[1000 m/s^2]", "initial=[{velocity: [1 m/s]}]",
@@ -190,7 +193,7 @@ static void damping_bears_a_steady_force(void **state)
  * velocities are [1/s]. */
 static real spin_after(const char *method, const char *transfer, const char *damping)
 {
-    struct run a;
+    struct finished_run a;
     real spin = 0, inertia = 0;
     run(&a, BLOCK, method, transfer, damping, "time.step=20 us", "mpm.frame=current",
         "body={box: {from: [0, 0], to: [25 mm, 25 mm]}}",
@@ -222,12 +225,12 @@ static void any_damping_only_takes(void **state)
 {
     (void)state;
     for (real rate = 1e4; rate < 1e11; rate *= 1e3) {
-        struct run a;
+        struct finished_run a;
         char damping[40];
         snprintf(damping, sizeof damping, "damping=%g 1/s", rate);
         run(&a, BLOCK, damping, "time.step=50 us", "initial=[{displacement_gradient: [[1e-7, 0], [0, 0]]}]", NULL);
-        assert_true(energy_of(&a) <= (1 + 1e-12) * a.e.diagnostics.energy_start);
-        assert_true(fabs(a.e.diagnostics.now.balance_error) < 1e-7); /* coordinates are rounded, strains are 1e-7 */
+        assert_true(energy_of(&a) <= (1 + 1e-12) * a.e.diagnostics->energy_start);
+        assert_true(fabs(a.e.diagnostics->now.balance_error) < 1e-7); /* coordinates are rounded, strains are 1e-7 */
         run_end(&a);
     }
 }
@@ -247,7 +250,7 @@ static void any_damping_only_takes(void **state)
     "particles: {spacing: 5 mm}\n"
 
 /* Resultant and moment of the forces that the loads put on the particles as they are, over sum |f| and sum |f| |x|. */
-static real loads_left(struct run *a)
+static real loads_left(struct finished_run *a)
 {
     struct particles *p = &a->e.part;
     const struct load *l = &a->e.loads.load[0];
@@ -273,7 +276,7 @@ static void pressure_all_round_is_balanced(void **state)
     static const char *const bodies[] = {SQUARE, HOLED, CUBE};
     for (int k = 0; k < 2; k++)
         for (int b = 0; b < 3; b++) {
-            struct run a;
+            struct finished_run a;
             run(&a, bodies[b], follow[k], "duration=1 us", "pd.surface=none", NULL);
             assert_true(loads_left(&a) < 1e-12);
             run_end(&a);
@@ -284,7 +287,7 @@ static void pressure_all_round_is_balanced(void **state)
 static void pressure_shrinks_a_body(void **state)
 {
     (void)state;
-    struct run a;
+    struct finished_run a;
     run(&a, SQUARE, "solver=cg", "solver_tolerance=1e-9", "particles.spacing=2 mm", "boundary=[{pressure: 1 Pa}]",
         NULL);
     const struct particles *p = &a.e.part;
@@ -309,7 +312,7 @@ static void pressure_spares_mirrored_faces(void **state)
                                          "body={box: {from: [0, 0, 0], to: [30 mm, 45 mm, 20 mm]}}"};
     const real area[2][DIM_MAX] = {{45e-3 * 0.37, 30e-3 * 0.37}, {45e-3 * 20e-3, 30e-3 * 20e-3, 30e-3 * 45e-3}};
     for (int k = 0; k < 4; k++) {
-        struct run a;
+        struct finished_run a;
         char text[300];
         const int solid = k / 2;
         snprintf(text, sizeof text,
@@ -330,7 +333,7 @@ static void pressure_spares_mirrored_faces(void **state)
 static void pressure_follows_a_turning_body(void **state)
 {
     (void)state;
-    struct run a;
+    struct finished_run a;
     run(&a, SQUARE, "initial=[{rotation: {centre: [20 mm, 20 mm], rate: 200 1/s}}]", "duration=20 ms",
         "boundary=[{pressure: 5 kPa, follow: true, time: {ramp: {until: 10 ms}}}]", NULL);
     assert_true(loads_left(&a) < 1e-12);
@@ -362,7 +365,7 @@ static void pressure_follows_beside_mirrors(void **state)
     snprintf(quarter, sizeof quarter, "body=[%s, {intersect: {box: {from: [0, 0], to: [1, 1]}}}]", tube);
     snprintf(mirrors, sizeof mirrors, "boundary=[%s, {mirror: {axis: x, at: 0}}, {mirror: {axis: y, at: 0}}]", load);
     for (size_t k = 0; k < 2; k++) {                     /* bonds; the mesh of the reference frame */
-        struct run a, b;
+        struct finished_run a, b;
         real most = 0, off = 0;
         run(&a, SQUARE, frames[k][0], frames[k][1], quarter, mirrors, "duration=2 ms", NULL);
         run(&b, SQUARE, frames[k][0], frames[k][1], whole, alone, "duration=2 ms", NULL);
@@ -391,7 +394,7 @@ static void rotation_drives_on_circles(void **state)
 {
     (void)state;
     for (size_t k = 0; k < FRAMES; k++) {
-        struct run a;
+        struct finished_run a;
         run(&a, SQUARE, frames[k][0], frames[k][1], "duration=10 ms",
             "boundary=[{rotation: {centre: [0, 0], rate: 200 1/s}}]", NULL);
         struct particles *p = &a.e.part;
@@ -416,16 +419,16 @@ static void formulas_are_what_they_say(void **state)
          "boundary=[{body_force: [1e5 N/m^3*pulse(t/(1 ms)), 0*x*1 N/m^4]}]"},
         {"boundary=[{pressure: 3 kPa}]", "boundary=[{pressure: 3 kPa*step(t/s + 1)}]"}};
     for (size_t k = 0; k < 3; k++) {
-        struct run a, b;
+        struct finished_run a, b;
         run(&a, SQUARE, loads[k][0], "duration=1 ms", NULL);
         run(&b, SQUARE, loads[k][1], "duration=1 ms", NULL);
-        const real one = a.e.diagnostics.now.external_work, other = b.e.diagnostics.now.external_work;
+        const real one = a.e.diagnostics->now.external_work, other = b.e.diagnostics->now.external_work;
         assert_true(one != 0 && fabs(one - other) < 1e-9 * fabs(one));
         balanced(&b, 1e-2);
         run_end(&a), run_end(&b);
     }
     for (size_t k = 0; k < FRAMES; k++) {
-        struct run a;
+        struct finished_run a;
         if (k == 2) continue; /* frame current refuses it */
         run(&a, SQUARE, frames[k][0], frames[k][1], "boundary=[{velocity: [x/(1 s), -2*y/(1 s)]}]", NULL);
         engine_sync(&a.e);
@@ -446,7 +449,7 @@ static void initial_velocities_are_formulas(void **state)
     char duration[40];
     snprintf(duration, sizeof duration, "duration=%.9g s", 0.5 / c);
     for (size_t k = 0; k < FRAMES; k++) {
-        struct run a;
+        struct finished_run a;
         real along = 0, squares = 0;
         run(&a, BAR, frames[k][0], frames[k][1], duration, mode, NULL);
         const struct particles *p = &a.e.part;
@@ -458,8 +461,8 @@ static void initial_velocities_are_formulas(void **state)
         const real off = along / squares / (2 / (acos(-1) * c)) - 1;
         if (!(fabs(off) < 0.01)) fail_msg("%s %s: amplitude off by %g", frames[k][0], frames[k][1], off);
         const real energy = 0.25 * 2440 * 0.73e-4 * 4;
-        if (!(fabs(a.e.diagnostics.energy_start / energy - 1) < 5e-3))                        /* lumped cells: 0.3 % */
-            fail_msg("%s %s: energy %g", frames[k][0], frames[k][1], a.e.diagnostics.energy_start);
+        if (!(fabs(a.e.diagnostics->energy_start / energy - 1) < 5e-3))                        /* lumped cells: 0.3 % */
+            fail_msg("%s %s: energy %g", frames[k][0], frames[k][1], a.e.diagnostics->energy_start);
         balanced(&a, k == 2 ? 1e-3 : 1e-10);
         assert_non_null(strstr(a.s.text, "velocity: [\"2 m/s*cos(pi*x/m)\"]"));
         run_end(&a);

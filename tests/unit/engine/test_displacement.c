@@ -14,6 +14,8 @@
 #include "src/engine/engine_report.h"
 #include "tests/support/scene_with.h"
 #include "tests/support/near.h"
+#include "probes/diagnostics.h"
+#include "step/report.h"
 
 #define BAR                                                                                                            \
     "space: line\nsection: 1 cm^2\nduration: 0.5 ms\nmethod: pd\n"                                                     \
@@ -29,23 +31,23 @@
     "body: {box: {from: [0, 0, 0], to: [10 mm, 8 mm, 8 mm]}}\nparticles: {spacing: 1 mm, horizon: 2.015}\npd: "        \
     "{surface: none}\n"
 
-struct run {
+struct scene_run {
     struct scene s;
-    struct engine e;
+    struct run e;
 };
 
 /* Makes the engine of a scene with the overrides `key=value`, up to NULL. */
-static status run_make(struct run *a, const char *text, va_list list)
+static status run_make(struct scene_run *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
     TRY(scene_with(&a->s, text, list));
-    a->e.report.quiet = true;
+    a->e.report->quiet = true;
     const status s = engine_make(&a->e, &a->s, NULL);
-    a->e.report.quiet = true;
+    a->e.report->quiet = true;
     return s;
 }
 
-static void make(struct run *a, const char *text, ...)
+static void make(struct scene_run *a, const char *text, ...)
 {
     va_list list;
     va_start(list, text);
@@ -54,12 +56,12 @@ static void make(struct run *a, const char *text, ...)
     if (s != OK) fail_msg("%s", status_message());
 }
 
-static void run_all(struct run *a)
+static void run_all(struct scene_run *a)
 {
     if (engine_run(&a->e) != OK) fail_msg("%s", status_message());
 }
 
-static void run_end(struct run *a)
+static void run_end(struct scene_run *a)
 {
     engine_free(&a->e);
     scene_free(&a->s);
@@ -78,7 +80,7 @@ enum { WAYS = sizeof ways / sizeof *ways };
 
 /* Worst distance of the particles beyond `from` along x from reference place plus u along x, over the last bit of the
  * farthest place [1]. */
-static real off_place(const struct run *a, real from, real u)
+static real off_place(const struct scene_run *a, real from, real u)
 {
     const struct particles *p = &a->e.part;
     real most = 0, far = 0;
@@ -110,7 +112,7 @@ static void check_places(const char *scene, real from, real size, real duration)
                                       : ", 1, 1",
              1.7 * duration);
     for (int way = 0; way < WAYS; way++) {
-        struct run a;
+        struct scene_run a;
         make(&a, scene, ways[way][0], ways[way][1], ways[way][2], boundary, NULL);
         assert_ok(engine_report_start(&a.e));
         const real within = from + 2 * a.s.spacing; /* cells of which all nodes are driven */
@@ -145,7 +147,7 @@ static void formulas_are_in_place(void **state)
     static const char *const drive =
         "boundary=[{displacement: [\"0.01*x*(t/(10 us))^2\", \"(0.002*x - 0.003*y)*ramp(t/(10 us))\"]}]";
     for (int way = 0; way < 2; way++) {
-        struct run a;
+        struct scene_run a;
         make(&a, PLATE, ways[way][0], ways[way][1], drive, NULL);
         run_all(&a);
         engine_sync(&a.e);
@@ -170,7 +172,7 @@ static void reaction_is_hookes(void **state)
         "region: {box: {from: [0.88], to: [1]}}, time: {pulse: {until: 2.4 ms}}}]";
     const real kL = acos(-1) / 1.2e-3 / sqrt(72e9 / 2440) * 0.76, inertia = 0.5 * (1 + kL / tan(kL));
     static const real balance[WAYS] = {1e-9, 1e-9, 2e-3, 2e-3, 1e-9, 2e-3};
-    struct run a;
+    struct scene_run a;
     make(&a, BAR, "solver=cg", "duration=1.2 ms", pulled, NULL);
     run_all(&a);
     const real bonds = a.e.loads.load[1].reaction[0], nodes = 72e9 * 1e-4 * 1e-4 / 0.76;
@@ -182,7 +184,7 @@ static void reaction_is_hookes(void **state)
         const struct load *grip = &a.e.loads.load[1];
         assert_close(grip->displacement[0], 1e-4, 1e-12);
         assert_close(grip->reaction[0], (way == 0 ? bonds : nodes) * inertia, 0.03);
-        const struct energy_balance *now = &a.e.diagnostics.now;
+        const struct energy_balance *now = &a.e.diagnostics->now;
         assert_close(now->external_work, 0.5 * (way == 0 ? bonds : nodes) * 1e-4, 0.02);
         if (!(fabs(now->balance_error) <= balance[way])) fail_msg("way %d: balance %g", way, now->balance_error);
         assert_true(now->momentum_error <= 1e-12);
@@ -198,7 +200,7 @@ static void reaction_is_hookes(void **state)
 static void check_patch(const char *scene, const char *solver, const char *model, const char *drive, const real *strain,
                         const real *stress)
 {
-    struct run a;
+    struct scene_run a;
     make(&a, scene, solver, model, drive, "solver_tolerance=1e-7", "duration=1 s", NULL);
     run_all(&a);
     engine_stress(&a.e);
@@ -216,7 +218,7 @@ static void check_patch(const char *scene, const char *solver, const char *model
         free += !driven;
     }
     assert_true(free >= 24);
-    const struct energy_balance *now = &a.e.diagnostics.now;
+    const struct energy_balance *now = &a.e.diagnostics->now;
     assert_close(now->external_work, now->energy.strain, 1e-4);
     run_end(&a);
 }
@@ -253,7 +255,7 @@ static void uniform_strain_is_uniform_stress(void **state)
 /* Number of driven particles. */
 static int64_t layer_of(const char *scene, const char *method, const char *body, const char *boundary)
 {
-    struct run a;
+    struct scene_run a;
     make(&a, scene, method, body, boundary, NULL);
     const int64_t n = a.e.loads.load[0].n;
     run_end(&a);
@@ -292,7 +294,7 @@ static void faces_hold_nodes(void **state)
 {
     (void)state;
     for (int way = 1; way < 4; way++) {
-        struct run a;
+        struct scene_run a;
         make(&a, BAR, ways[way][0], ways[way][1], ways[way][2], "duration=3 ms",
              "boundary=[{fixed: all, face: x-}, {displacement: [1e-4], face: x+, time: {pulse: {until: 6 ms}}}]", NULL);
         run_all(&a);
@@ -305,7 +307,7 @@ static void faces_hold_nodes(void **state)
 
 static status refusal(const char *scene, ...)
 {
-    struct run a;
+    struct scene_run a;
     va_list list;
     va_start(list, scene);
     const status s = run_make(&a, scene, list);

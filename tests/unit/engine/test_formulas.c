@@ -10,33 +10,33 @@
 
 #include "tests/support/scene_with.h"
 #include "engine/engine.h"
+#include "step/report.h"
 
 #define TILE                                                                                                           \
     "space: plane stress\nthickness: 0.37 mm\nduration: 5 us\n"                                                        \
     "material: {young: 72 GPa, density: 2440}\nbody: {box: {from: [0, 0], to: [8 mm, 6 mm]}}\n"                        \
     "particles: {spacing: 1 mm}\n"
 
-struct run {
+struct scene_run {
     struct scene s;
-    struct engine e;
+    struct run e;
 };
 
 /* Runs a scene with the overrides `key=value`, up to NULL. */
-static status run_of(struct run *a, const char *text, ...)
+static status run_of(struct scene_run *a, const char *text, ...)
 {
     va_list list;
     memset(a, 0, sizeof *a);
-    a->e.report.quiet = true;
     va_start(list, text);
     const status s = scene_with(&a->s, text, list);
     va_end(list);
     TRY(s);
     TRY(engine_make(&a->e, &a->s, NULL));
-    a->e.report.quiet = true;
+    a->e.report->quiet = true;
     return engine_run(&a->e);
 }
 
-static void run_end(struct run *a)
+static void run_end(struct scene_run *a)
 {
     engine_free(&a->e);
     scene_free(&a->s);
@@ -65,7 +65,7 @@ static void formulas_without_value_stop_the_run(void **state)
         for (size_t m = 0; m < sizeof solver / sizeof *solver; m++)
             for (size_t k = 0; k < 3; k++) {
                 char text[512];
-                struct run a;
+                struct scene_run a;
                 if (m > 2 && l > 3) continue; /* load steps refuse these */
                 snprintf(text, sizeof text,
                          "boundary=[{name: pull, %ssqrt(1-t/%s)'%s, %s}, {fixed: [x, y], face: y-, depth: 1 mm}]",

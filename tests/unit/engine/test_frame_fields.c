@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "engine/engine.h"
 #include "output/output_hdf5.h"
+#include "step/report.h"
 
 /* ---- a run and its frames ---------------------------------------------------------------------------------------- */
 
@@ -24,12 +25,12 @@ static void run_text(const char *text, bool begins)
 {
     struct scene s;
     struct output o;
-    struct engine e;
+    struct run e;
     nftw("run", remove_one, 8, FTW_DEPTH | FTW_PHYS);
     if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_int_equal(output_open(&o, "run", s.text, OUTPUT_OVERWRITE, false), OK);
     if (engine_make(&e, &s, &o) != OK) fail_msg("%s", status_message());
-    e.report.quiet = true;
+    e.report->quiet = true;
     if ((begins ? engine_report_start(&e) : engine_run(&e)) != OK) fail_msg("%s", status_message());
     assert_int_equal(output_wait(&o), OK);
     engine_free(&e);

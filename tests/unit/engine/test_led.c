@@ -12,19 +12,20 @@
 #include "bench/common/handbook.h"
 #include "engine/engine.h"
 #include "fracture/sif_fields.h"
+#include "step/report.h"
+#include "quasistatic/statics.h"
 
 static const real degree = 3.14159265358979323846 / 180;
 
 struct solution {
     struct scene s;
-    struct engine e;
+    struct run e;
 };
 
 static void run(struct solution *a, const char *text)
 {
     memset(a, 0, sizeof *a);
     if (scene_read_text(&a->s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    a->e.report.quiet = true;
     if (engine_make(&a->e, &a->s, NULL) != OK || engine_run(&a->e) != OK) fail_msg("%s", status_message());
 }
 
@@ -62,7 +63,7 @@ static void test_kink(void **state)
     for (real angle = 15; angle < 80; angle += 60) {
         struct solution a;
         plate(&a, angle, 5, "");
-        const struct led *l = &a.e.statics.led;
+        const struct led *l = &a.e.statics->led;
         const real K[MODES] = {cos(angle * degree), sin(angle * degree)}, expected = crack_direction(K) / degree;
         assert_int_equal(l->n, 2);
         for (int k = 0; k < 2; k++) {
@@ -98,7 +99,7 @@ static void test_bend(void **state)
     (void)state;
     struct solution a;
     run(&a, BEND);
-    const struct led *l = &a.e.statics.led;
+    const struct led *l = &a.e.statics->led;
     assert_int_equal(l->n, 1);
     assert_in_range(l->stretches, 7, 10);
     for (int64_t k = 0; k < l->stretches; k++) {
@@ -160,16 +161,16 @@ static void test_fronts(void **state)
         for (int k = 0; k < 2; k++) {
             struct solution a;
             block(&a, orders[askew > 0][k], askew, 3);
-            const struct led *l = &a.e.statics.led;
-            const struct steps_record *r = &a.e.statics.record;
+            const struct led *l = &a.e.statics->led;
+            const struct steps_record *r = &a.e.statics->record;
             const real width = 4e-3 / cos(askew * degree), area = 2e-3 * width * (real)l->stretches;
             assert_int_equal(l->n, 1);
             assert_int_equal(l->stretches, 2);
             assert_true(fabs(r->area / area - 1) < 1e-6);
             if (fabs(r->released / area / 300 - 0.985) > 0.015) fail_msg("released: %g G_c", r->released / area / 300);
             for (int d = 0; d < 2; d++) assert_true(fabs(dot(l->tip[0].heading, l->tip[0].last, 2) - 1) < 1e-9);
-            if (k > 0 && fabs(a.e.statics.t / size - 1) > 1e-4) fail_msg("%g, %g", a.e.statics.t, size);
-            size = a.e.statics.t;
+            if (k > 0 && fabs(a.e.statics->t / size - 1) > 1e-4) fail_msg("%g, %g", a.e.statics->t, size);
+            size = a.e.statics->t;
             solution_free(&a);
         }
     }
@@ -193,7 +194,7 @@ static void test_kink_through(void **state)
              "  - {traction: [0, -20 MPa, 0], face: y-, time: {ramp: {until: 1 s}}}\n",
              -c, -s + 0.25, c, s + 0.25, c, s + 0.25, -c, -s + 0.25);
     run(&a, text);
-    const struct led *l = &a.e.statics.led;
+    const struct led *l = &a.e.statics->led;
     const real K[MODES] = {cos(angle * degree), sin(angle * degree)}, expected = crack_direction(K) / degree;
     assert_int_equal(l->n, 2);
     assert_true(l->stretches >= 2);

@@ -13,10 +13,11 @@
 #include "engine/engine.h"
 #include "fracture/sif_fields.h"
 #include "src/engine/engine_statics.h"
+#include "step/report.h"
 
 struct solution {
     struct scene s;
-    struct engine e;
+    struct run e;
 };
 
 /* Makes the engine of a scene and finds its crack tips, of which there is one. */
@@ -24,11 +25,10 @@ static const struct led_tip *solution_begin(struct solution *a, const char *text
 {
     memset(a, 0, sizeof *a);
     if (scene_read_text(&a->s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    a->e.report.quiet = true;
     if (engine_make(&a->e, &a->s, NULL) != OK) fail_msg("%s", status_message());
     assert_true(led_leads(&a->e));
-    assert_int_equal(a->e.statics.led.n, 1);
-    return &a->e.statics.led.tip[0];
+    assert_int_equal(a->e.statics->led.n, 1);
+    return &a->e.statics->led.tip[0];
 }
 
 static void solution_free(struct solution *a)
@@ -39,7 +39,7 @@ static void solution_free(struct solution *a)
 
 /* Gives all particles the displacements of the crack-tip field with the factors K [Pa m^(1/2)] about the tip, for the
  * plane state `space`. */
-static void field_set(struct engine *e, const struct led_tip *tip, enum space space, const real K[MODES])
+static void field_set(struct run *e, const struct led_tip *tip, enum space space, const real K[MODES])
 {
     struct particles *p = &e->part;
     struct material m = e->scene->material[0];
@@ -57,7 +57,7 @@ static void field_set(struct engine *e, const struct led_tip *tip, enum space sp
             u[1] += K[mode] * (a[1] * f.displacement[0] + a[0] * f.displacement[1]);
         }
         for (int d = 0; d < 3; d++)
-            p->x[d][i] = p->X[d][i] + u[0] * e->statics.led.plane.axis[0][d] + u[1] * e->statics.led.plane.axis[1][d];
+            p->x[d][i] = p->X[d][i] + u[0] * e->statics->led.plane.axis[0][d] + u[1] * e->statics->led.plane.axis[1][d];
     }
 }
 
@@ -158,12 +158,12 @@ static void test_release_rate(void **state)
     (void)state;
     struct solution a;
     solution_begin(&a, plate);
-    struct led *led = &a.e.statics.led;
+    struct led *led = &a.e.statics->led;
     led->path = NEW("test.path", 3, struct led_stretch), led->room = 3;
     for (int k = 0; k < 4; k++) {
         real record[20];
         if (k > 0) led->path[led->stretches++] = (struct led_stretch){{{grown[k - 1]}, {grown[k]}}, 0};
-        a.e.statics.balance.lost = released[k];
+        a.e.statics->balance.lost = released[k];
         statics_record(&a.e, record);
         assert_true(fabs(record[2] - released[k]) <= 1e-12 * released[k]);
         assert_true(fabs(record[3] - 0.37e-3 * grown[k]) <= 1e-12 * grown[k]);
@@ -190,7 +190,7 @@ static void test_rate_of_damage(void **state)
         for (int64_t i = 0; i < p->n; i++)
             if (p->X[0][i] > 7e-3 && p->X[0][i] < (7 + k) * 1e-3 && fabs(p->X[1][i] - 4e-3) < 0.6e-3)
                 p->damage[i] = 0.45;
-        a.e.statics.balance.lost = released[k];
+        a.e.statics->balance.lost = released[k];
         statics_record(&a.e, record);
         const int since = k > 8 ? 4 : 0;
         const real rate = (released[k] - released[since]) / (0.37e-3 * 1e-3 * (k - since));

@@ -10,13 +10,14 @@
 #include "auto/scene_read.h"
 #include "engine/engine.h"
 #include "base/memory.h"
+#include "step/report.h"
 
 /* Scenes take more and more: the process remembers its largest only. */
 static void takes_what_it_says(const char *space, const char *box, const char *particles, double *taken)
 {
     char text[1024];
     struct scene s = {0};
-    struct engine e = {0};
+    struct run e = {0};
     snprintf(
         text, sizeof text,
         "name: block\nspace: %s\nmethod: pd\nduration: 1 us\ntime: {step: 50 ns}\nparticles: {%s}\nbody: {box: {%s}}\n"
@@ -24,7 +25,7 @@ static void takes_what_it_says(const char *space, const char *box, const char *p
         space, particles, box);
     if (scene_read_text(&s, text, strlen(text), "block", NULL, 0) != OK) fail_msg("%s", status_message());
     if (engine_make(&e, &s, NULL) != OK) fail_msg("%s", status_message());
-    e.report.quiet = true;
+    e.report->quiet = true;
     if (engine_run(&e) != OK) fail_msg("%s", status_message());
     *taken = (double)memory_peak();
     const double said = engine_memory(&e);

@@ -11,6 +11,9 @@
 #include <cmocka.h>
 
 #include "tests/support/solution.h"
+#include "step/report.h"
+#include "probes/diagnostics.h"
+#include "grid/grid_part.h"
 
 /* A quarter of a plate; the first row and column of particles lie in the planes of symmetry. */
 #define QUARTER                                                                                                        \
@@ -73,7 +76,7 @@ static void test_foot(void **state)
     real work = 0;
     for (int d = 0; d < 2; d++) work += 0.5 * pull[d] * a.e.loads.load[0].displacement[d];
     near_to("work", a.e.loads.work, work, 1e-4);
-    near_to("energy", a.e.diagnostics.now.energy.strain, work, 1e-4);
+    near_to("energy", a.e.diagnostics->now.energy.strain, work, 1e-4);
     solution_free(&a);
 }
 
@@ -208,7 +211,7 @@ static void test_others_pass(void **state)
     solution_run(&a, bars, NULL), solution_done(&a);
     for (int64_t i = 0; i < a.e.part.n; i++)
         if (a.e.part.body[i] == 1) near_to("velocity", a.e.part.v[0][i], -300, 1e-9);
-    assert_true(a.e.part.n == 40 && a.e.mpm.fields > 1);
+    assert_true(a.e.part.n == 40 && a.e.grid->fields > 1);
     solution_free(&a);
 }
 

@@ -6,17 +6,19 @@
 #include "auto/scene_read.h"
 #include "engine/engine.h"
 #include "tests/support/near.h"
+#include "step/report.h"
+#include "coupling/coupling_part.h"
 
-static void make(struct engine *e, struct scene *s, const char *text)
+static void make(struct run *e, struct scene *s, const char *text)
 {
     omp_set_num_threads(2);
     if (scene_read_text(s, text, strlen(text), "scatter.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(e, s, NULL));
-    e->report.quiet = true;
+    e->report->quiet = true;
     assert_ok(engine_report_start(e));
 }
 
-static void drop(struct engine *e, struct scene *s)
+static void drop(struct run *e, struct scene *s)
 {
     engine_free(e);
     scene_free(s);
@@ -30,7 +32,7 @@ static void drop(struct engine *e, struct scene *s)
     "contact: {between: none}\ntime: {step: 2e-8}\noutput: {frames: 0, samples: 1}\n"
 
 /* The least limit of a row's intact bonds; INFINITY without one. */
-static real least_of(const struct engine *e, int64_t row)
+static real least_of(const struct run *e, int64_t row)
 {
     const struct particles *p = &e->part;
     const int32_t i = e->bonds.particle[row];
@@ -45,7 +47,7 @@ static real least_of(const struct engine *e, int64_t row)
 static void test_rows_are_watched(void **state)
 {
     (void)state;
-    struct engine e = {0};
+    struct run e = {0};
     struct scene s;
     make(&e, &s, PLATE("pd"));
     assert_true(e.bonds.rows == e.part.n && e.loads.images > 0);
@@ -55,7 +57,7 @@ static void test_rows_are_watched(void **state)
     drop(&e, &s);
 }
 
-static int64_t broken_in(const struct engine *e)
+static int64_t broken_in(const struct run *e)
 {
     int64_t broken = 0;
     for (int64_t row = 0; row < e->bonds.rows; row++) broken += e->bonds.broken[row];
@@ -65,7 +67,7 @@ static int64_t broken_in(const struct engine *e)
 /* Stretch of the shortest bond to break, and whether all others are below their limits, after every step. */
 static void check_breaks(const char *text)
 {
-    struct engine e = {0};
+    struct run e = {0};
     struct scene s;
     make(&e, &s, text);
     const struct particles *p = &e.part;
@@ -100,7 +102,7 @@ static void test_weakest_breaks_first(void **state)
  * marked, and no others. */
 static void check_points(const char *frame)
 {
-    struct engine e = {0};
+    struct run e = {0};
     struct scene s;
     char text[1024];
     snprintf(text, sizeof text, PLATE("adaptive") "conversion: {block: false}\nmpm: {frame: %s}\n", frame);
@@ -139,13 +141,13 @@ static void test_triggers(void **state)
         "  - {name: high, material: ductile, shape: {box: {from: [0, 8 mm], to: [9 mm, 14 mm]}}}\n"
         "particles: {spacing: 1 mm}\nconversion: {alpha: 0.62}\ninterface_damping: 0.07\ntime: {step: 20 ns}\n"
         "pd: {region: {box: {from: [-inf, -inf], to: [3 mm, inf]}}}\n";
-    struct engine e = {0};
+    struct run e = {0};
     struct scene s;
     make(&e, &s, text);
     assert_close(e.tables.elastic[0].trigger, 0.62 * 70e9 * 1.3e-3, 1e-12);
     assert_close(e.tables.elastic[1].trigger, 0.62 * (310e6 + 23e9 * (4e-3 - 310e6 / 192e9)), 1e-12);
     const real fastest = real_max(s.material[0].wave_speed, s.material[1].wave_speed);
-    assert_close(e.coupling.damping_share, 0.07 * fastest * 20e-9 / (s.cell * 1e-3), 1e-12);
+    assert_close(e.coupling->damping_share, 0.07 * fastest * 20e-9 / (s.cell * 1e-3), 1e-12);
     drop(&e, &s);
 }
 

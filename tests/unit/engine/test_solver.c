@@ -11,6 +11,11 @@
 
 #include "auto/scene_read.h"
 #include "engine/engine.h"
+#include "step/report.h"
+#include "solver/solver.h"
+#include "probes/diagnostics.h"
+#include "probes/probes_part.h"
+#include "probes/probes.h"
 
 /* Strains are 1e-6 and less in all scenes: what is linear in the solution is so to 1e-5. */
 #define BAR \
@@ -26,7 +31,7 @@
 #define PULLED "boundary:\n  - {traction: [0, 1 MPa], face: y+}\n  - {traction: [0, -1 MPa], face: y-}\n"
 #define CRACKED WHOLE "cracks:\n  - {from: [-6 mm, 0], to: [0, 0]}\n" PULLED
 
-struct solution { struct scene s; struct engine e; status made, ran; };
+struct solution { struct scene s; struct run e; status made, ran; };
 
 /* Solves a scene with the overrides `key=value`, up to NULL. */
 static void solve(struct solution *a, const char *text, ...)
@@ -45,16 +50,15 @@ static void solve(struct solution *a, const char *text, ...)
     va_end(list);
     memset(a, 0, sizeof *a);
     if (scene_read_text(&a->s, text, strlen(text), "test.yaml", override, n) != OK) fail_msg("%s", status_message());
-    a->e.report.quiet = true;
     a->made = engine_make(&a->e, &a->s, NULL);
-    a->e.report.quiet = true;
+    a->e.report->quiet = true;
     a->ran = a->made == OK ? engine_run(&a->e) : a->made;
 }
 
 static void solved(const struct solution *a)
 {
     if (a->ran != OK) fail_msg("%s", status_message());
-    assert_true(a->e.solver.residual <= a->s.solver_tolerance);
+    assert_true(a->e.solver->residual <= a->s.solver_tolerance);
     assert_true(a->e.clock.t == a->s.duration);
     for (int d = 0; d < a->e.part.dim; d++)
         for (int64_t i = 0; i < a->e.part.n; i++) assert_true(a->e.part.v[d][i] == 0);
@@ -150,8 +154,8 @@ static void test_bar_traction(void **state)
         solved(&a);
         near("strain", strain(&a, 0, quarter_place, far_place), 1e-6, 1e-5);
         near("end", moved(&a, 0, 0.995, 0), 0.995e-6, 2e-3);
-        near("energy", a.e.diagnostics.now.energy.strain, a.e.diagnostics.now.external_work, 1e-5);
-        near("work", a.e.diagnostics.now.external_work, 0.5 * 1e6 * moved(&a, 0, 0.995, 0), 1e-9);
+        near("energy", a.e.diagnostics->now.energy.strain, a.e.diagnostics->now.external_work, 1e-5);
+        near("work", a.e.diagnostics->now.external_work, 0.5 * 1e6 * moved(&a, 0, 0.995, 0), 1e-9);
         solution_free(&a);
     }
 }
@@ -169,7 +173,7 @@ static void test_bar_support(void **state)
         near("displacement", moved(&a, 0, 0.995, 0), 1e-6, 1e-7);    /* round-off of positions in 100 steps */
         near("displacement of the load", a.e.loads.load[1].displacement[0], 1e-6, 1e-12);
         near("reaction", a.e.loads.load[1].reaction[0], 1e12 * strain(&a, 0, quarter_place, far_place), 1e-5);
-        near("energy", a.e.diagnostics.now.energy.strain, a.e.diagnostics.now.external_work, 1e-5);
+        near("energy", a.e.diagnostics->now.energy.strain, a.e.diagnostics->now.external_work, 1e-5);
         solution_free(&a);
     }
 }
@@ -205,7 +209,7 @@ static void test_points_support(void **state)
           "probes: [{reaction: {boundary: end}}]\n", "solver=relaxation", "method=mpm", NULL);
     solved(&a);
     const struct observed o = {.loads = &a.e.loads, .part = &a.e.part};
-    probes_figures(&a.e.probing.probes, &o, reaction_keep, figure);
+    probes_figures(&a.e.probing->probes, &o, reaction_keep, figure);
     near("reaction", figure[0], 1e12 * strain(&a, 0, quarter_place, far_place), 1e-3);
     assert_true(figure[0] == figure[1] && figure[0] == a.e.loads.load[1].reaction[0]);
     solution_free(&a);
@@ -223,7 +227,7 @@ static void test_bar_points(void **state)
         solved(&a);
         assert_true((a.e.part.n_of[KIND_PD] > 0) == (k == 1));
         near("strain", strain(&a, 0, (real[]){0.105, 0}, (real[]){0.905, 0}), 1e-6, 2e-4);
-        near("energy", a.e.diagnostics.now.energy.strain, a.e.diagnostics.now.external_work, 1e-4);
+        near("energy", a.e.diagnostics->now.energy.strain, a.e.diagnostics->now.external_work, 1e-4);
         solution_free(&a);
     }
 }
@@ -243,7 +247,7 @@ static void test_plate(void **state)
         const real across = strain(&a, 0, (real[]){-2.5e-3, 0.1e-3}, (real[]){2.5e-3, 0.1e-3});
         near("strain along", along, 1e6 / 2e13, run[k].tolerance);
         near("Poisson's ratio", -across / along, 1.0 / 3, 0.05);
-        near("energy", a.e.diagnostics.now.energy.strain, a.e.diagnostics.now.external_work, 2e-4);
+        near("energy", a.e.diagnostics->now.energy.strain, a.e.diagnostics->now.external_work, 2e-4);
         solution_free(&a);
     }
 }
@@ -257,8 +261,8 @@ static void test_crack(void **state)
     solve(&b, CRACKED, "solver=cg", "solver_tolerance=1e-7", NULL);
     solved(&a), solved(&b);
     assert_true(difference(&a, &b) < 1e-4);
-    near("energy", a.e.diagnostics.now.energy.strain, b.e.diagnostics.now.energy.strain, 1e-5);
-    near("energy of cg", b.e.diagnostics.now.energy.strain, b.e.diagnostics.now.external_work, 1e-5);
+    near("energy", a.e.diagnostics->now.energy.strain, b.e.diagnostics->now.energy.strain, 1e-5);
+    near("energy of cg", b.e.diagnostics->now.energy.strain, b.e.diagnostics->now.external_work, 1e-5);
     assert_true(a.e.clock.step < 2000 && b.e.clock.step < 300);
     solution_free(&a);
     solve(&a, CRACKED, "solver=cg", "solver_tolerance=1e-8", NULL);
@@ -277,8 +281,8 @@ static void test_models(void **state)
         solve(&b, CRACKED, "solver=cg", "solver_tolerance=1e-6", model[k], "material.poisson=0.25", NULL);
         solved(&a), solved(&b);
         assert_true(difference(&a, &b) < 1e-4);
-        near("energy", a.e.diagnostics.now.energy.strain, a.e.diagnostics.now.external_work, 1e-4);
-        near("energy of cg", b.e.diagnostics.now.energy.strain, b.e.diagnostics.now.external_work, 1e-4);
+        near("energy", a.e.diagnostics->now.energy.strain, a.e.diagnostics->now.external_work, 1e-4);
+        near("energy of cg", b.e.diagnostics->now.energy.strain, b.e.diagnostics->now.external_work, 1e-4);
         solution_free(&a), solution_free(&b);
     }
 }
@@ -295,7 +299,7 @@ static void test_crack_coupled(void **state)
     const real opening[2] = {moved(&a, 1, -4.9e-3, 0.1e-3) - moved(&a, 1, -4.9e-3, -0.1e-3),
                              moved(&b, 1, -4.9e-3, 0.1e-3) - moved(&b, 1, -4.9e-3, -0.1e-3)};
     near("opening", opening[0], opening[1], 0.03);
-    near("energy", a.e.diagnostics.now.energy.strain, a.e.diagnostics.now.external_work, 1e-3);
+    near("energy", a.e.diagnostics->now.energy.strain, a.e.diagnostics->now.external_work, 1e-3);
     solution_free(&a), solution_free(&b);
 }
 
@@ -313,7 +317,7 @@ static void test_irregular(void **state)
           "material.young=2000 GPa", NULL);
     solved(&a), solved(&b);
     assert_true(difference(&a, &b) < 1e-4);
-    near("energy of cg", b.e.diagnostics.now.energy.strain, b.e.diagnostics.now.external_work, 1e-4);
+    near("energy of cg", b.e.diagnostics->now.energy.strain, b.e.diagnostics->now.external_work, 1e-4);
     solution_free(&a), solution_free(&b);
 }
 
@@ -330,7 +334,7 @@ static void test_quarter(void **state)
         solve(&part, QUARTER("0", "5 mm"), solver[k], "solver_tolerance=1e-7", NULL);
         solved(&whole), solved(&part);
         assert_true(difference(&whole, &part) < 1e-5);
-        near("energy", part.e.diagnostics.now.energy.strain, 0.25 * whole.e.diagnostics.now.energy.strain, 1e-5);
+        near("energy", part.e.diagnostics->now.energy.strain, 0.25 * whole.e.diagnostics->now.energy.strain, 1e-5);
         solution_free(&whole), solution_free(&part);
     }
 }
@@ -381,7 +385,7 @@ static void test_limits(void **state)
     solve(&a, CRACKED, "solver=cg", "solver_tolerance=1e-12", NULL);
     assert_int_equal(a.ran, FAILED);
     assert_non_null(strstr(status_message(), "round-off leaves 1e-8 of compact bodies"));
-    assert_true(a.e.solver.best < 1e-7);
+    assert_true(a.e.solver->best < 1e-7);
     solution_free(&a);
     solve(&a, WHOLE "boundary:\n  - {traction: [0, 1 MPa], face: y+}\n", "solver=cg", NULL);
     assert_int_equal(a.made, REFUSED);
@@ -404,7 +408,7 @@ static void test_strength_of_pairs(void **state)
         "  - {traction: [0, 1.7 MPa], face: y+, body: bears}\n";
     struct solution a;
     solve(&a, two, "solver=cg", NULL), solved(&a);
-    assert_int_equal(a.e.solver.past_limit, 0);
+    assert_int_equal(a.e.solver->past_limit, 0);
     solution_free(&a);
 }
 
@@ -416,7 +420,7 @@ static void test_strength(void **state)
     solve(&a, CRACKED, "solver=relaxation", "material.critical_stretch=1e-7", NULL);
     solve(&b, CRACKED, "solver=relaxation", NULL);
     solved(&a), solved(&b);
-    assert_true(a.e.solver.past_limit > 0 && b.e.solver.past_limit == 0);
+    assert_true(a.e.solver->past_limit > 0 && b.e.solver->past_limit == 0);
     assert_true(difference(&a, &b) == 0);
     solution_free(&a), solution_free(&b);
 }

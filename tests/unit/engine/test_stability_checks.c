@@ -103,7 +103,7 @@ static const char plate[] =
 /* The remedy for a value that has grown tenfold in so many steps until step 20000, where nothing loads the plate. */
 static void remedy_of(const char *key, const char *value, real tenfold, char *remedy)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     struct bench_overrides o = {0};
     if (key) bench_override(&o, key, "%s", value);
@@ -144,7 +144,7 @@ static void slow_growth_is_no_matter_of_the_step(void **state)
 /* Runs the plate with overrides up to NULL, which must be stopped; the message. */
 static const char *stopped(const char *const *method, const char *const *set)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     struct bench_overrides o = {0};
     for (; *method; method += 2) bench_override(&o, method[0], "%s", method[1]);

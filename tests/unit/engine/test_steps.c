@@ -11,6 +11,9 @@
 
 #include "src/engine/engine_statics.h"
 #include "tests/support/solution.h"
+#include "step/report.h"
+#include "probes/diagnostics.h"
+#include "contact/contact.h"
 
 /* Strains are 1e-6 and less: what is linear in the solution is so to 1e-5. */
 #define PLATE                                                                                                          \
@@ -70,8 +73,8 @@ static void test_models(void **state)
             solution_run(&b, scene[k], "solver=cg", EXACT, model[m], poisson, NULL);
             solution_done(&a), solution_done(&b);
             assert_true(solution_difference(&a, &b) < 5e-6);
-            near_to("energy", a.e.diagnostics.now.energy.strain, a.e.diagnostics.now.external_work, 1e-6);
-            assert_true(a.e.statics.balance.directions < 40);
+            near_to("energy", a.e.diagnostics->now.energy.strain, a.e.diagnostics->now.external_work, 1e-6);
+            assert_true(a.e.statics->balance.directions < 40);
             solution_free(&a), solution_free(&b);
         }
 }
@@ -105,7 +108,7 @@ static void test_points(void **state)
     solution_done(&a), solution_done(&b);
     assert_true(solution_difference(&a, &b) < 5e-5);
     near_to("reaction", a.e.loads.load[1].reaction[1], -10, 1e-6);
-    near_to("energy", a.e.diagnostics.now.energy.strain, a.e.diagnostics.now.external_work, 1e-6);
+    near_to("energy", a.e.diagnostics->now.energy.strain, a.e.diagnostics->now.external_work, 1e-6);
     solution_free(&a), solution_free(&b);
 }
 
@@ -123,9 +126,9 @@ static void test_quarter(void **state)
         solution_run(&part, QUARTER("0", "5 mm"), STATIC, EXACT, method[k][0], method[k][1], NULL);
         solution_done(&whole), solution_done(&part);
         assert_true(solution_difference(&whole, &part) < 1e-6);
-        near_to("energy", 4 * part.e.diagnostics.now.energy.strain, whole.e.diagnostics.now.energy.strain, 1e-6);
-        const int64_t directions = whole.e.statics.balance.directions; /* springs to images are no foundation */
-        assert_in_range(part.e.statics.balance.directions, 1, directions + 4);
+        near_to("energy", 4 * part.e.diagnostics->now.energy.strain, whole.e.diagnostics->now.energy.strain, 1e-6);
+        const int64_t directions = whole.e.statics->balance.directions; /* springs to images are no foundation */
+        assert_in_range(part.e.statics->balance.directions, 1, directions + 4);
         solution_free(&whole), solution_free(&part);
     }
 }
@@ -174,8 +177,8 @@ static void test_motions(void **state)
         solution_make(&a, body[k].scene, STATIC, body[k].method, body[k].frame, NULL);
         solution_done(&a);
         statics_unknowns_make(&a.e);
-        assert_int_equal(a.e.statics.pieces, body[k].pieces);
-        if (body[k].pieces > 0) assert_int_equal(a.e.statics.piece[0].motions, body[k].motions);
+        assert_int_equal(a.e.statics->pieces, body[k].pieces);
+        if (body[k].pieces > 0) assert_int_equal(a.e.statics->piece[0].motions, body[k].motions);
         statics_free(&a.e);
         solution_free(&a);
     }
@@ -202,24 +205,24 @@ static void trace_add(struct trace *t, const void *data, size_t size)
     memcpy(t->data + t->size, data, size);
     t->size += size;
 }
-static void trace_take(struct trace *t, const struct engine *e)
+static void trace_take(struct trace *t, const struct run *e)
 {
     const struct bonds *b = &e->bonds;
     const real energy[] = {bonds_fracture_energy(b),
                            b->plastic_stretch ? bond_plastic_work(b) : 0,
                            e->loads.work,
                            e->loads.constraint_work,
-                           e->statics.balance.lost,
-                           e->coupling.damped,
+                           e->statics->balance.lost,
+                           e->damped,
                            e->loads.load[0].reaction[1],
-                           e->statics.overload};
+                           e->statics->overload};
     *t = (struct trace){0};
     trace_add(t, energy, sizeof energy);
     trace_add(t, b->broken_volume, (size_t)b->rows * sizeof *b->broken_volume);
     for (int d = 0; d < e->part.dim; d++) {
         trace_add(t, e->part.x[d], (size_t)e->part.n * sizeof(real));
-        trace_add(t, e->statics.balance.u.of[d], (size_t)e->statics.balance.n * sizeof(real));
-        trace_add(t, e->statics.balance.f.of[d], (size_t)e->statics.balance.n * sizeof(real));
+        trace_add(t, e->statics->balance.u.of[d], (size_t)e->statics->balance.n * sizeof(real));
+        trace_add(t, e->statics->balance.f.of[d], (size_t)e->statics->balance.n * sizeof(real));
     }
     trace_add(t, e->part.damage, (size_t)e->part.n * sizeof(real));
     trace_add(t, e->part.flag, (size_t)e->part.n);
@@ -245,7 +248,7 @@ static void test_trial(void **state)
         if (k == 0) assert_true(bond_plastic_work(&a.e.bonds) > 0);
         trace_take(&before, &a.e);
         assert_int_equal(statics_look_ahead(&a.e), OK);
-        assert_true(a.e.statics.next.n > 0 || a.e.statics.led.n > 0);
+        assert_true(a.e.statics->next.n > 0 || a.e.statics->led.n > 0);
         trace_take(&after, &a.e);
         assert_int_equal(before.size, after.size);
         assert_memory_equal(before.data, after.data, before.size);
@@ -278,16 +281,16 @@ static void test_let_go(void **state)
     struct particles *p = &a.e.part;
     statics_unknowns_make(&a.e);
     assert_int_equal(statics_go(&a.e, 0.6), OK);
-    const real rests = contact_energy(&a.e.contact, p), lost = a.e.statics.balance.lost, damped = a.e.coupling.damped;
+    const real rests = contact_energy(a.e.contact, p), lost = a.e.statics->balance.lost, damped = a.e.damped;
     for (int64_t i = 0; i < p->n; i++)
         if (p->X[1][i] > 4e-3) p->x[1][i] -= push;
-    const real pushed = contact_energy(&a.e.contact, p);
+    const real pushed = contact_energy(a.e.contact, p);
     assert_true(rests > 0 && pushed > 100 * rests);
     assert_int_equal(statics_release(&a.e), OK);
     /* the tolerance of equilibria is 1e-5 */
-    near_to("contact", contact_energy(&a.e.contact, p), rests, 1e-4);
-    near_to("lost", a.e.statics.balance.lost - lost, pushed - rests - force * push, 1e-5);
-    near_to("damped", a.e.coupling.damped - damped, pushed - rests - force * push, 1e-5);
+    near_to("contact", contact_energy(a.e.contact, p), rests, 1e-4);
+    near_to("lost", a.e.statics->balance.lost - lost, pushed - rests - force * push, 1e-5);
+    near_to("damped", a.e.damped - damped, pushed - rests - force * push, 1e-5);
     statics_free(&a.e);
     solution_free(&a);
 }

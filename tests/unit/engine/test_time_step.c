@@ -10,6 +10,7 @@
 #include "engine/engine.h"
 #include "tests/support/folder.h"
 #include "tests/support/near.h"
+#include "step/report.h"
 
 
 static void put(const char *path, const char *text)
@@ -23,9 +24,8 @@ static void put(const char *path, const char *text)
 /* The clock of a scene before its first step, and of one with files. */
 static struct run_clock clock_made(struct scene *s)
 {
-    static struct engine e;
+    static struct run e;
     memset(&e, 0, sizeof e);
-    e.report.quiet = true;
     if (engine_make(&e, s, NULL) != OK) fail_msg("%s", status_message());
     const struct run_clock clock = e.clock;
     engine_free(&e);
@@ -176,9 +176,8 @@ static void frames_are_nearest(void **state)
                                      "output: {times: [14 ns, 46 ns, 172 ns]}\n";
     static const int64_t nearest[] = {0, 1, 2, 9};
     struct scene s;
-    static struct engine e;
+    static struct run e;
     if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    e.report.quiet = true;
     if (engine_make(&e, &s, NULL) != OK) fail_msg("%s", status_message());
     for (int k = 1; k <= 3; k++) assert_int_equal(engine_frame_step(&e, k), nearest[k]);
     engine_free(&e);

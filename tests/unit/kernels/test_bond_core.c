@@ -17,23 +17,23 @@ static const char chain[] = "name: squeezed\nspace: line\nsection: 1\nmethod: pd
                             "material: {young: 1e4, density: 1}\nbody: {box: {from: [0], to: [20]}}\n"
                             "particles: {spacing: 1, horizon: 1.015}\npd: {surface: none}\n";
 
-static struct engine *make(struct scene *s, const char *text, const char *model)
+static struct run *make(struct scene *s, const char *text, const char *model)
 {
     const struct scene_override set = {"model", model};
-    struct engine *e = NEW("test.engine", 1, struct engine);
+    struct run *e = NEW("test.engine", 1, struct run);
     if (scene_read_text(s, text, strlen(text), "squeezed.yaml", &set, 1) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(e, s, NULL));
     return e;
 }
 
-static void end(struct engine *e, struct scene *s)
+static void end(struct run *e, struct scene *s)
 {
     engine_free(e);
     memory_free(e);
     scene_free(s);
 }
 
-static real energy_now(struct engine *e)
+static real energy_now(struct run *e)
 {
     for (int d = 0; d < e->part.dim; d++) memset(e->part.f[d], 0, (size_t)e->part.n * sizeof(real));
     e->kernels.bond_force(&e->bonds, &e->part, &bond_limit_never, NULL);
@@ -41,7 +41,7 @@ static real energy_now(struct engine *e)
 }
 
 /* Lengths along x to `squeeze`, and each place moved by up to 0.05 spacings. */
-static void squeeze(struct engine *e, real share)
+static void squeeze(struct run *e, real share)
 {
     struct particles *p = &e->part;
     for (int64_t i = 0; i < p->n; i++)
@@ -53,7 +53,7 @@ static void squeeze(struct engine *e, real share)
 static void check_gradient(const char *model)
 {
     struct scene s;
-    struct engine *e = make(&s, block, model);
+    struct run *e = make(&s, block, model);
     struct particles *p = &e->part;
     squeeze(e, 0.45);
     for (int64_t i = 0; i < p->n; i += 5)
@@ -88,7 +88,7 @@ static void chain_has_the_closed_form(void **state)
 {
     (void)state;
     struct scene s;
-    struct engine *e = make(&s, chain, "bond");
+    struct run *e = make(&s, chain, "bond");
     struct particles *p = &e->part;
     real k = 0;
     for (real l = 0.95; l > 0.2; l -= 0.05) {

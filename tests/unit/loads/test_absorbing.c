@@ -9,6 +9,7 @@
 #include "bench/common/bench.h"
 #include "tests/support/cloud.h"
 #include "tests/support/near.h"
+#include "probes/diagnostics.h"
 
 static const char bonds[] = "method: pd", cells[] = "method: mpm\nmpm: {frame: reference}",
                   flip[] = "method: mpm\nmpm: {frame: current}",
@@ -79,7 +80,7 @@ struct left { real start, rest, absorbed, balance, momentum, most, back; };
 /* Runs a scene to its end. */
 static struct left run_text(const char *text)
 {
-    struct engine e;
+    struct run e;
     struct scene s;
     struct left m = {0};
     real before = 0;
@@ -89,14 +90,14 @@ static struct left run_text(const char *text)
         assert_ok(engine_step(&e));
         m.back = real_max(m.back, before - e.loads.absorbing.energy);
         before = e.loads.absorbing.energy;
-        const struct energy_balance *now = &e.diagnostics.now;
+        const struct energy_balance *now = &e.diagnostics->now;
         m.most = real_max(m.most, now->energy.kinetic + now->energy.strain);
         m.balance = real_max(m.balance, fabs(now->balance_error));
     }
     assert_ok(engine_report_end(&e));
-    m.start = e.diagnostics.energy_start, m.absorbed = e.diagnostics.now.energy.absorbed;
-    m.rest = e.diagnostics.now.energy.kinetic + e.diagnostics.now.energy.strain;
-    m.momentum = e.diagnostics.now.momentum_error;
+    m.start = e.diagnostics->energy_start, m.absorbed = e.diagnostics->now.energy.absorbed;
+    m.rest = e.diagnostics->now.energy.kinetic + e.diagnostics->now.energy.strain;
+    m.momentum = e.diagnostics->now.momentum_error;
     bench_engine_free(&e, &s);
     return m;
 }

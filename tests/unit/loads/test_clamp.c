@@ -16,6 +16,8 @@
 #include "base/memory.h"
 #include "tests/support/near.h"
 #include "base/team.h"
+#include "step/report.h"
+#include "probes/diagnostics.h"
 
 /* Differences of forces: a step of 2e-5 of a spacing has a second-order error below 1e-9 of the largest entry, and
  * the last bits of stretches, 2^-49, are 1e-10 of it. */
@@ -37,7 +39,7 @@
     "space: solid\nduration: 1 us\nmethod: pd\nmaterial: {young: 200 GPa, poisson: 1/4, density: 7850}\n"              \
     "body: {box: {from: [0, 0, 0], to: [4 mm, 5 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 2.015}\n"
 
-struct body { struct scene s; struct engine e; };
+struct body { struct scene s; struct run e; };
 
 /* A scene with the overrides `key=value`, NULL behind the last. */
 static void body_make(struct body *a, const char *text, const char *const *with)
@@ -54,7 +56,7 @@ static void body_make(struct body *a, const char *text, const char *const *with)
     memset(a, 0, sizeof *a);
     assert_ok(scene_read_text(&a->s, text, strlen(text), "clamp.yaml", override, n));
     assert_ok(engine_make(&a->e, &a->s, NULL));
-    a->e.report.quiet = true;
+    a->e.report->quiet = true;
 }
 
 static void body_free(struct body *a)
@@ -64,13 +66,13 @@ static void body_free(struct body *a)
 }
 
 /* The calls of the engine in a step, nothing breaking. */
-static void forces(struct engine *e)
+static void forces(struct run *e)
 {
     loads_mirror(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit, NULL);
 }
 
-static real energy(struct engine *e)
+static real energy(struct run *e)
 {
     forces(e);
     return e->kernels.bond_energy(&e->bonds, &e->part);
@@ -79,7 +81,7 @@ static real energy(struct engine *e)
 /* ---- the operator ------------------------------------------------------------------------------------------------ */
 
 /* -df/dx at the reference positions, n by n. */
-static real *stiffness_of(struct engine *e)
+static real *stiffness_of(struct run *e)
 {
     struct particles *p = &e->part;
     const int64_t n = p->dim * p->n;
@@ -97,7 +99,7 @@ static real *stiffness_of(struct engine *e)
     return K;
 }
 
-static void check_operator(struct engine *e, const char *name)
+static void check_operator(struct run *e, const char *name)
 {
     const int64_t n = e->part.dim * e->part.n;
     real *K = stiffness_of(e), largest = 0, skew = 0;
@@ -118,7 +120,7 @@ static void check_operator(struct engine *e, const char *name)
 }
 
 /* Far from the reference positions: the energy that rows count changes as forces say, along random motions. */
-static void check_gradient(struct engine *e, const char *name)
+static void check_gradient(struct run *e, const char *name)
 {
     struct particles *p = &e->part;
     const real h = e->scene->spacing;
@@ -249,16 +251,16 @@ static void test_threads(void **state)
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
 /* Runs to the end; returns the largest error of the energy balance on the way. */
-static real run(struct engine *e)
+static real run(struct run *e)
 {
     real most = 0;
     assert_ok(engine_report_start(e));
     while (e->clock.step < e->clock.steps) {
         assert_ok(engine_step(e));
         assert_ok(engine_report(e));
-        most = real_max(most, fabs(e->diagnostics.now.balance_error));
+        most = real_max(most, fabs(e->diagnostics->now.balance_error));
     }
-    assert_true(e->diagnostics.now.momentum_error < 1e-11);    /* round-off of 1e5 steps; supports are in the account */
+    assert_true(e->diagnostics->now.momentum_error < 1e-11); /* round-off of 1e5 steps; supports are in the account */
     return most;
 }
 
@@ -383,7 +385,7 @@ static void test_torn(void **state)
             int64_t broken = 0;
             body_make(&a, TORN, (const char *const[]){model[k], fine ? "time.safety=0.125" : "time.safety=0.5", NULL});
             run(&a.e);                   /* on the way bonds that break in a sampled step have one side of it only */
-            error[fine] = fabs(a.e.diagnostics.now.balance_error);
+            error[fine] = fabs(a.e.diagnostics->now.balance_error);
             for (int64_t q = 0; q < a.e.bonds.clamped.n; q++) broken += a.e.bonds.w[a.e.bonds.clamped.entry[q]] == 0;
             assert_true(broken > a.e.bonds.clamped.n / 2);
             body_free(&a);

@@ -9,6 +9,10 @@
 #include "scene/fill.h"
 #include "base/memory.h"
 #include "tests/support/near.h"
+#include "step/report.h"
+#include "mesh/mesh_part.h"
+#include "probes/probes.h"
+#include "probes/diagnostics.h"
 
 #define H 1e-3                           /* spacing [m] */
 #define T 2e-3                           /* thickness of plates [m] */
@@ -355,7 +359,7 @@ static void check_impulse(const struct solid_shown *q, int64_t columns, const ch
 {
     enum { STEPS = 12 };
     struct scene s;
-    struct engine *e = NEW("test.engine", 1, struct engine);
+    struct run *e = NEW("test.engine", 1, struct run);
     struct diagnostics w;
     char text[TEXT];
     const bool three = strcmp(q->space, "solid") == 0, one = strcmp(q->space, "line") == 0;
@@ -377,11 +381,11 @@ static void check_impulse(const struct solid_shown *q, int64_t columns, const ch
                      : "3e5, -2e5");
     if (scene_read_text(&s, text, strlen(text), "faces.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     if (engine_make(e, &s, NULL) != OK) fail_msg("%s", status_message());
-    e->report.quiet = true;
+    e->report->quiet = true;
     assert_ok(engine_report_start(e));
     for (int step = 0; step < STEPS; step++) assert_ok(engine_step(e));
     diagnostics_make(&w);
-    const struct grid *nodes[] = {&e->reference.mesh.grid};
+    const struct grid *nodes[] = {&e->frame->mesh.grid};
     diagnostics_momentum(&w, &e->part, nodes, 1, (const real[DIM_MAX]){0});
     const real t = engine_observed(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) *
                                                           (one     ? 3e-6

@@ -17,6 +17,12 @@
 #include "base/memory.h"
 #include "output/output_files.h"
 #include "output/output_hdf5.h"
+#include "step/report.h"
+#include "probes/diagnostics.h"
+#include "coupling/coupling_part.h"
+#include "coupling/conversion.h"
+#include "fracture/fracture_part.h"
+#include "fracture/tips.h"
 
 static const char scene_text[] = "name: \"toy\"\nspace: plane stress\n";
 enum { PARTICLES = 1000 };
@@ -417,17 +423,17 @@ static void summary_has_the_figures(void **state)
     (void)state;
     struct output o;
     struct scene s = {.name = "a \"b\"\n", .method = METHOD_ADAPTIVE, .dim = 2, .spacing = 1e-3, .thickness = 1};
-    struct engine *e = NEW("test.engine", 1, struct engine);
+    struct run *e = NEW("test.engine", 1, struct run);
     char *text;
     size_t length;
     open_fresh(&o, "summary", false);
-    e->scene = &s, e->report.out = &o, e->clock.step = 7, e->clock.t = 0.1, e->report.loop_seconds = 1e-3;
+    e->scene = &s, e->report->out = &o, e->clock.step = 7, e->clock.t = 0.1, e->report->loop_seconds = 1e-3;
     e->part.n = e->part.n_body = 4, e->part.dim = 2, e->part.n_of[KIND_PD] = 3;
-    e->report.particle_steps[KIND_PD] = 1000;
-    e->diagnostics.break_time = NAN;
-    e->coupling.conversion = (struct conversion){.first_time = 0.05, .events = 1, .start = 1, .first_place = {1, 2}};
-    e->fracture.tips = (struct tips){.dim = 2, .n = 1, .spacing = 1e-3};
-    e->fracture.tips.tip[0] = (struct tip){.along = {1}, .place = {0, 2e-3}, .growth = 2e-3, .start_time = 0.06,
+    e->report->particle_steps[KIND_PD] = 1000;
+    e->diagnostics->break_time = NAN;
+    e->coupling->conversion = (struct conversion){.first_time = 0.05, .events = 1, .start = 1, .first_place = {1, 2}};
+    e->fracture->tips = (struct tips){.dim = 2, .n = 1, .spacing = 1e-3};
+    e->fracture->tips.tip[0] = (struct tip){.along = {1}, .place = {0, 2e-3}, .growth = 2e-3, .start_time = 0.06,
                                   .arrest_time = 0.08, .first_time = 0.05, .particles = 2};
     assert_int_equal(summary_write(e, OK, 2, 1.5), OK);
     assert_int_equal(file_get("summary/summary.json", &text, &length), OK);

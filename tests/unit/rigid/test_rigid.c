@@ -5,6 +5,7 @@
 #include "engine/engine.h"
 #include "rigid/rigid.h"
 #include "tests/support/near.h"
+#include "rigid/rigid_part.h"
 
 /* ---- distances --------------------------------------------------------------------------------------------------- */
 
@@ -209,9 +210,9 @@ static void test_record(void **state)
             body[b].x[d] = body[b].centre[d] = 17.25 + d + 30 * b, body[b].v[d] = 20.75 + d + 30 * b;
         }
     }
-    static struct engine e;
+    static struct run e;
     struct scene scene = {.rigids = 2};
-    e.scene = &scene, e.rigid = body, e.clock.dt = 0.03;
+    e.scene = &scene, e.rigid->body = body, e.clock.dt = 0.03;
     for (int dim = 1; dim <= 3; dim++) {
         struct column column[24];
         real record[24], kinetic = 0, kick = 0;

@@ -6,6 +6,7 @@
 #include "auto/scene_read.h"
 #include "base/memory.h"
 #include "tests/support/setting.h"
+#include "scene/fill.h"
 
 /* ---- lattices ---------------------------------------------------------------------------------------------------- */
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "tests/support/setting.h"
+#include "scene/fill.h"
 
 /* Writes `text` to a file in the test's folder and makes it the list of body 0. */
 static void list_written(struct setting *s, char *name, const char *text)

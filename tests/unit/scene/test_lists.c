@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "tests/support/setting.h"
+#include "scene/fill.h"
 
 /* Writes `text` to a file in the test's folder and makes it the list of body 0. */
 static void list_of(struct setting *s, char *name, const char *text)

@@ -1,4 +1,6 @@
-/* Load steps (`solver: static` with `steps`): the body is led through states of equilibrium, and bonds break between
+/* Room `quasistatic`: load steps. It knows every part and the step; the engine calls it.
+ *
+ * Load steps (`solver: static` with `steps`): the body is led through states of equilibrium, and bonds break between
  * them. Time is a pseudo-time of which loads and supports are functions; nothing has inertia. */
 #ifndef CLEAVE_STATICS
 #define CLEAVE_STATICS

@@ -1,0 +1,21 @@
+/* Bookkeeping of the parts of a run. What a part does in a step is called by name (engine.c); what each of them has to
+ * do for a run as a whole stands in a row here, and the engine's table of parts (engine/parts.c) goes through the rows.
+ */
+#ifndef CLEAVE_PART
+#define CLEAVE_PART
+
+#include <stddef.h>
+
+#include "run/run.h"
+
+/* Any function may be NULL. */
+struct part {
+    const char *name;
+    size_t at, size;               /* of its pointer in struct run; of what that points to [byte] */
+    void (*free)(struct run *run); /* what it owns, but not itself */
+};
+
+/* Place and size of a part: the member of struct run, and the type that it points to. */
+#define PART(member, type) .name = #member, .at = offsetof(struct run, member), .size = sizeof(struct type)
+
+#endif

@@ -1,0 +1,14 @@
+/* Cracks, as a part of a run. */
+#include "fracture/fracture_part.h"
+#include "base/memory.h"
+#include "run/part.h"
+
+static void fracture_free_all(struct run *e)
+{
+    struct fracture_state *f = e->fracture;
+    tips_free(&f->tips);
+    for (int k = 0; f->growth && k < e->scene->growths; k++) growth_free(&f->growth[k]);
+    memory_free(f->growth);
+}
+
+const struct part part_fracture = {PART(fracture, fracture_state), .free = fracture_free_all};

@@ -1,0 +1,73 @@
+/* JSON, entry by entry. */
+#include "output/json.h"
+
+#include <math.h>
+
+static void json_string(struct json *j, const char *text)
+{
+    fputc('"', j->file);
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        if (*c == '"' || *c == '\\') fprintf(j->file, "\\%c", *c);
+        else if (*c < 0x20) fprintf(j->file, "\\u%04x", *c);
+        else fputc(*c, j->file);
+    }
+    fputc('"', j->file);
+}
+
+/* Starts an entry; key NULL inside a list. */
+static void json_key(struct json *j, const char *key)
+{
+    fprintf(j->file, "%s\n%*s", j->filled ? "," : "", 2 * j->depth, "");
+    j->filled = true;
+    if (!key) return;
+    json_string(j, key);
+    fputs(": ", j->file);
+}
+
+void json_open(struct json *j, const char *key, char bracket)
+{
+    json_key(j, key);
+    fputc(bracket, j->file);
+    j->depth++;
+    j->filled = false;
+}
+
+void json_close(struct json *j, char bracket)
+{
+    j->depth--;
+    if (j->filled) fprintf(j->file, "\n%*s", 2 * j->depth, "");
+    fputc(bracket, j->file);
+    j->filled = true;
+}
+
+void json_text(struct json *j, const char *key, const char *text)
+{
+    json_key(j, key);
+    json_string(j, text);
+}
+
+void json_count(struct json *j, const char *key, int64_t value)
+{
+    json_key(j, key);
+    fprintf(j->file, "%lld", (long long)value);
+}
+
+/* A figure that a run does not have (NaN, infinite) is left out. */
+void json_number(struct json *j, const char *key, real value, int digits)
+{
+    if (!isfinite(value)) return;
+    json_key(j, key);
+    fprintf(j->file, "%.*g", digits, value);
+}
+
+void json_real(struct json *j, const char *key, real value) { json_number(j, key, value, JSON_EXACT); }
+
+/* x, y, z of a point, as far as the space has them; `prefix` stands before the letter. */
+void json_point(struct json *j, const char *prefix, const real *x, int dim)
+{
+    for (int d = 0; d < dim; d++) {
+        char key[NAME_MAX_LENGTH];
+        snprintf(key, sizeof key, "%s%c", prefix, "xyz"[d]);
+        json_real(j, key, x[d]);
+    }
+}
