@@ -6,6 +6,8 @@
 #include "absorbing_bench.h"
 #include "base/memory.h"
 #include "probes/diagnostics.h"
+#include "step/report.h"
+#include "mesh/mesh_part.h"
 
 /* A strip of so many spacings between mirrors; the pulse starts in its middle, and what comes back is the difference to
  * a strip twice as long. */
@@ -48,7 +50,7 @@ static status normal_run(const struct absorbing_method *m, int dim, int width, i
     double before = 0;
     normal_scene(text, sizeof text, m, dim, width, length);
     TRY(bench_engine_make(&e, &s, "absorbing", text, NULL, 0));
-    status ran = engine_report_start(&e);
+    status ran = report_start(&e);
     while (ran == OK && e.clock.step < e.clock.steps) {
         ran = engine_step(&e);
         figure->back = fmax(figure->back, before - e.loads.absorbing.energy);
@@ -56,7 +58,7 @@ static status normal_run(const struct absorbing_method *m, int dim, int width, i
         figure->balance = fmax(figure->balance, fabs(e.diagnostics->now.balance_error));
     }
     figure->back /= e.diagnostics->energy_start;
-    engine_mesh_sync(&e);
+    frame_sync(&e);
     *v = BARE("bench.v", e.part.n, real);
     array_copy(*v, e.part.v[0], e.part.n, sizeof(real));
     bench_engine_free(&e, &s);

@@ -9,6 +9,8 @@
 
 #include "absorbing_bench.h"
 #include "base/memory.h"
+#include "step/report.h"
+#include "mesh/mesh_part.h"
 
 /* Of the strip: mirrors `across` spacings apart, the face at x = `along` spacings, the packet's centre and its radius,
  * where it is observed [m]; slowness along y, frequency [1/s]; the amplitudes there by frequency. */
@@ -65,10 +67,10 @@ static status oblique_run(const struct oblique *o, const struct absorbing_method
     TRY(bench_engine_make(&e, &s, "absorbing", text, NULL, 0));
     bench_engine_start(&e, packet, o);
     sum[0] = sum[1] = 0;
-    status ran = engine_report_start(&e);
+    status ran = report_start(&e);
     while (ran == OK && e.clock.step < e.clock.steps) {
         ran = engine_step(&e);
-        engine_mesh_sync(&e);
+        frame_sync(&e);
         const double complex turn = cexp(_Complex_I * o->frequency * (e.clock.t - 0.5 * e.clock.dt)) * e.clock.dt;
         for (int64_t i = 0; i < e.part.n; i++) {
             if (fabs(e.part.X[0][i] - o->station) > 0.1 * h) continue;

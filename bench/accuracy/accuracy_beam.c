@@ -7,6 +7,7 @@
 
 #include "accuracy.h"
 #include "probes/probes.h"
+#include "step/step.h"
 
 /* Component `axis` of a mode: coefficients of products of Legendre polynomials over the body, from -1 to 1. */
 struct term { int axis, degree[DIM_MAX]; double of; };
@@ -85,7 +86,7 @@ static void mode_at(const void *context, const real *X, real *v)
 /* Momentum in the mode. */
 static double part_in_mode(const struct mode *m, const struct run *e)
 {
-    const struct particles *p = engine_observed(e).part;
+    const struct particles *p = run_observed(e).part;
     double sum = 0;
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX] = {0}, v[DIM_MAX];
@@ -106,8 +107,8 @@ static status accuracy_beam_run(const struct accuracy_point *p, struct run *e)
     bench_engine_start(e, mode_at, m);
     for (int k = 1; k <= 300; k++) {
         TRY(bench_engine_run(e, e->clock.steps * k / 300, NULL));
-        engine_sync(e);
-        const double now = part_in_mode(m, e), t = engine_observed(e).t_velocity;
+        run_sync(e);
+        const double now = part_in_mode(m, e), t = run_observed(e).t_velocity;
         zeros += k > 1 && now * before < 0;
         if (zeros == 2) {
             measured = 1.5 * M_PI / (t_before + (t - t_before) * before / (before - now));

@@ -6,6 +6,8 @@
 #include "engine/engine.h"
 #include "bench/common/manufactured.h"
 #include "probes/probes.h"
+#include "step/step.h"
+#include "run/energies.h"
 
 /* P waves run at 100 m/s; both parts of the motion, with and without rotation, are there. */
 #define MOTION .amplitude = 1e-7, .period = 14e-3, .length = 2, .c12 = 1e4 / 3, .shear = 1e4 / 3, .density = 1
@@ -56,10 +58,10 @@ static status accuracy_manufactured_measure(const struct accuracy_point *q, stru
 {
     const struct manufactured *m = accuracy_manufactured_motion_of(q);
     const struct particles *p = &e->part;
-    const struct observed seen = engine_observed(e);
+    const struct observed seen = run_observed(e);
     real stiffness[SYM_MAX * SYM_MAX];
     double off[2] = {0}, all[2] = {0};
-    engine_stress(e);
+    run_stress(e);
     material_stiffness(seen.material, p->dim, stiffness);
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX];

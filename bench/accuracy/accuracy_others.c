@@ -6,6 +6,7 @@
 #include "accuracy.h"
 #include "engine/engine.h"
 #include "probes/probes.h"
+#include "step/step.h"
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
@@ -160,7 +161,7 @@ static void column_scene(const struct accuracy_point *p, struct accuracy_scene *
 
 static status column_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
-    const struct observed seen = engine_observed(e);
+    const struct observed seen = run_observed(e);
     struct wave_pulse w = column_pulse;
     double off2 = 0, size2 = 0;
     (void)p;

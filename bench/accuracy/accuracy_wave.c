@@ -6,6 +6,7 @@
 
 #include "accuracy.h"
 #include "probes/probes.h"
+#include "step/step.h"
 
 /* Those of the table, and after them those of accuracy_others.c. */
 enum { WAVES = ACCURACY_CASES + 4 };
@@ -102,7 +103,7 @@ static double best_shift(const struct wave_pulse *w, const struct particles *p, 
 static status accuracy_wave_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct wave_pulse w = pulse_of(p);
-    const struct observed seen = engine_observed(e);
+    const struct observed seen = run_observed(e);
     const struct material *m = seen.material;
     const double gone = (w.transverse ? m->shear_speed : m->wave_speed) * seen.t_velocity;
     const double shift = best_shift(&w, seen.part, gone);

@@ -22,6 +22,7 @@
 #include "mesh/mesh_part.h"
 #include "probes/probes.h"
 #include "probes/probes_part.h"
+#include "step/step.h"
 
 extern char **environ;
 
@@ -120,7 +121,7 @@ static void take_figure(void *context, const char *probe, const char *quantity, 
 
 void bench_figures_take(const struct run *e, struct bench_figure *figure, int n)
 {
-    const struct observed seen = engine_observed(e);
+    const struct observed seen = run_observed(e);
     probes_figures(&e->probing->probes, &seen, take_figure, &(struct wanted_figures){figure, n});
 }
 

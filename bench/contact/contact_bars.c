@@ -4,6 +4,8 @@
 #include "contact_bench.h"
 #include "contact/contact.h"
 #include "probes/diagnostics.h"
+#include "step/report.h"
+#include "step/stability.h"
 
 #define YOUNG 200e9
 #define DENSITY (YOUNG / (CONTACT_WAVE * CONTACT_WAVE))
@@ -29,10 +31,10 @@ static status bars_run(struct run *e, struct contact_course *seen)
 {
     double before = contact_motion_of(e, 0).v[0];
     *seen = (struct contact_course){INFINITY, -INFINITY, 0, 0};
-    TRY(engine_report_start(e));
+    TRY(report_start(e));
     while (e->clock.step < e->clock.steps) {
         TRY(engine_step(e));
-        TRY(engine_stability_check(e));
+        TRY(stability_check(e));
         const struct contact_motion a = contact_motion_of(e, 0);
         const double force = fabs(a.v[0] - before) * a.mass / e->clock.dt;
         if (force > seen->force) seen->force = force;
@@ -40,7 +42,7 @@ static status bars_run(struct run *e, struct contact_course *seen)
         seen->error = fmax(seen->error, fabs(e->diagnostics->now.balance_error));
         before = a.v[0];
     }
-    return engine_report_end(e);
+    return report_end(e);
 }
 
 /* Bars of the same length and opposite velocities. */

@@ -3,20 +3,22 @@
 
 #include "contact_bench.h"
 #include "probes/diagnostics.h"
+#include "step/report.h"
+#include "step/stability.h"
 
 /* Runs to the end; the line of centres when they are closest, which turns while they touch. */
 static status discs_run(struct run *e, double *normal)
 {
     double least = INFINITY;
-    TRY(engine_report_start(e));
+    TRY(report_start(e));
     while (e->clock.step < e->clock.steps) {
         TRY(engine_step(e));
-        TRY(engine_stability_check(e));
+        TRY(stability_check(e));
         const struct contact_motion a = contact_motion_of(e, 0), b = contact_motion_of(e, 1);
         const double x = b.x[0] - a.x[0], y = b.x[1] - a.x[1], far = hypot(x, y);
         if (far < least) least = far, normal[0] = x / far, normal[1] = y / far;
     }
-    return engine_report_end(e);
+    return report_end(e);
 }
 
 status contact_discs(const struct contact_case *c, double *figure)

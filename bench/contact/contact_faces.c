@@ -7,6 +7,7 @@
 #include "contact/contact.h"
 #include "rigid/rigid_part.h"
 #include "probes/diagnostics.h"
+#include "step/report.h"
 
 /* Mean force of the upper end over the second half of the run, while the ends rest [N]. */
 struct block_force { double normal, along, overlap; };
@@ -32,7 +33,7 @@ static status block_run(const struct contact_case *c, bool cut, struct block_for
                        "contact: {between: all, law: %s}\noutput: {frames: 0, samples: 10}\n",
                        time, D, edge, edge, crack, 2 * D, slip, -shift, edge - 2 * D, ramp, c->law));
     int64_t n = 0;
-    status ran = engine_report_start(&e);
+    status ran = report_start(&e);
     while (ran == OK && e.clock.step < e.clock.steps) {
         ran = engine_step(&e);
         if (e.clock.t < ramp) continue;
@@ -77,7 +78,7 @@ status contact_hertz_space(const struct contact_case *c, double *figure)
     double sum[5] = {0}, from = INFINITY, until = 0, largest = 0, start = 0;
     const int64_t steps = e.clock.steps;
     double *force = NEW("bench.force", steps, double), *way = NEW("bench.way", steps, double);
-    status ran = engine_report_start(&e);
+    status ran = report_start(&e);
     while (ran == OK && e.clock.step < steps) {
         const int64_t n = e.clock.step;
         way[n] = start - contact_motion_of(&e, 0).x[2];

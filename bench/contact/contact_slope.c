@@ -3,6 +3,7 @@
 
 #include "contact_bench.h"
 #include "probes/diagnostics.h"
+#include "step/report.h"
 
 /* A block of 12 x 8 particles: on a rigid floor, or on a row of a deformable one that is held below. */
 status contact_slope(const struct contact_case *c, double *figure)
@@ -32,13 +33,13 @@ status contact_slope(const struct contact_case *c, double *figure)
                        2 * settle + slide, E, density, D, 12 * D, 8 * D, floor, held, -density * g * cos(slope), settle,
                        density * g * sin(slope), settle, 1.001 * settle, friction));
     double from = 0, at = 0, then = 0;
-    status ran = engine_report_start(&e);
+    status ran = report_start(&e);
     while (ran == OK && e.clock.step < e.clock.steps) {
         ran = engine_step(&e);
         const struct contact_motion m = contact_motion_of(&e, 0);
         if (e.clock.t < 2 * settle) from = m.x[0], at = m.v[0], then = e.clock.t;
     }
-    if (ran == OK) ran = engine_report_end(&e);
+    if (ran == OK) ran = report_end(&e);
     const struct contact_motion m = contact_motion_of(&e, 0);
     figure[0] = (m.v[0] - at) / (e.clock.t - then) / (g * sin(slope));
     figure[1] = (m.x[0] - from) / D;

@@ -21,7 +21,7 @@ enum {
 };
 
 /* Parts of a loop. */
-enum part { PART_BONDS, PART_POINTS, PART_CONVERSION, PART_SAMPLES, PARTS };
+enum loop_part { PART_BONDS, PART_POINTS, PART_CONVERSION, PART_SAMPLES, PARTS };
 static const char *const part_name[PARTS] = {"bonds", "points", "conversion", "samples"};
 
 /* One run of one method. Figures of the fracture are the same in every repetition. */
@@ -125,7 +125,7 @@ static void compare_tips(struct result *x, int way, int dim)
 }
 
 /* Time of loops less that of a part: of the step's own work, or as if rows and partial cells came for nothing [s]. */
-static double median_without(const struct run_times *r, enum part part, int repetitions)
+static double median_without(const struct run_times *r, enum loop_part part, int repetitions)
 {
     double t[REPETITIONS];
     for (int k = 0; k < repetitions; k++) t[k] = r->seconds[k] - r->part[part][k];

@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "experiments.h"
 #include "fracture/sif_fields.h"
+#include "step/report.h"
 
 #define SURF_WIDTH 0.1      /* of the plate, from x = 0 [m] */
 #define SURF_HEIGHT 0.02    /* half of it [m] */
@@ -113,7 +114,7 @@ static status surf_go(struct surf *s, struct run *e, double spacing, struct surf
     const double until = (SURF_WIDTH - SURF_NOTCH) / s->speed;
     struct surf_line taken = {0}, place = {0};
     double tip = 0;
-    TRY(engine_report_start(e));
+    TRY(report_start(e));
     for (int64_t step = 0; e->clock.t < until && tip < SURF_TO; step++) {
         surf_edge_move(s, &e->part, e->clock.t);
         TRY(engine_step(e));

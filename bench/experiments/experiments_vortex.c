@@ -10,6 +10,9 @@
 #include "base/memory.h"
 #include "experiments.h"
 #include "vortex.h"
+#include "step/step.h"
+#include "step/report.h"
+#include "step/stability.h"
 
 #define VORTEX_PERIOD 0.06 /* two transits of the radius by waves [s] */
 #define VORTEX_HALF 1.2    /* edge of the body: beyond R = 1 nothing moves [m] */
@@ -51,7 +54,7 @@ static double vortex_error(struct run *e, const struct vortex *v)
 {
     const struct particles *p = &e->part;
     double wrong = 0, size = 0;
-    engine_sync(e);
+    run_sync(e);
     for (int64_t i = 0; i < p->n; i++) {
         const double X[2] = {p->X[0][i], p->X[1][i]};
         double x[2];
@@ -63,11 +66,11 @@ static double vortex_error(struct run *e, const struct vortex *v)
 
 static status vortex_go(struct run *e, const struct vortex *v)
 {
-    TRY(engine_report_start(e));
+    TRY(report_start(e));
     while (e->clock.step < e->clock.steps) {
         vortex_load(e, v);
         TRY(engine_step(e));
-        TRY(engine_stability_check(e));
+        TRY(stability_check(e));
     }
     return OK;
 }

@@ -10,6 +10,7 @@
 #include "probes/diagnostics.h"
 #include "step/report.h"
 #include "coupling/coupling_part.h"
+#include "step/stability.h"
 
 #define LOUD 1e-4                        /* velocities over that of waves: strains of 1e-4, nothing breaks */
 enum { SAMPLES = 400 };
@@ -250,7 +251,7 @@ static status energy_drift_run_body(struct run *e, const struct drift_case *l, s
     while (s == OK && e->clock.step < e->clock.steps) {
         earlier_take(&before, e);
         s = engine_step(e);
-        if (s == OK) s = engine_stability_check(e);
+        if (s == OK) s = stability_check(e);
         if (s != OK || !e->report->sampling.due) continue;
         course_add(c, e, &before);
         if (to->free) to->turn = fmax(to->turn, turned(e, centre, L, size));

@@ -31,7 +31,7 @@ static void stability_limit_shake(struct run *e, double speed, double drift)
     for (int d = 0; d < p->dim; d++) {
         double mean = 0;
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] = speed * bench_random(&seed);
-        for (int64_t i = 0; i < p->n; i++) mean += p->mass[i] * p->v[d][i] / e->stability->mass;
+        for (int64_t i = 0; i < p->n; i++) mean += p->mass[i] * p->v[d][i] / e->mass;
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] += drift - mean;
         for (int64_t I = 0; e->frame->mesh.points > 0 && I < g->n; I++)
             if (e->frame->mesh.inverse_mass[I] > 0) g->velocity[d][I] = speed * bench_random(&seed);
@@ -42,7 +42,7 @@ static void stability_limit_shake(struct run *e, double speed, double drift)
 static double motion(const struct run *e, double drift)
 {
     return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh) -
-           0.5 * e->stability->mass * e->part.dim * drift * drift;
+           0.5 * e->mass * e->part.dim * drift * drift;
 }
 
 /* Long enough that its only sample is the first step. */

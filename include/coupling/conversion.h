@@ -12,9 +12,6 @@
 #include "loads/loads.h"
 #include "scene/requests.h"
 
-/* True if a criterion marked a particle for conversion in this step. */
-bool convert_due(const struct particles *p);
-
 /* What conversion has done so far. */
 struct conversion {
     real first_time;                     /* [s], NAN before */
@@ -63,11 +60,5 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
 void partial_ends_update(const struct partial_stress *partial, struct particles *p, const struct material *material);
 void partial_stress_free(struct partial_stress *partial);
 status conversion_archive(struct conversion *c, struct archive *a);
-
-/* States of families at the present positions; nothing for bond-based models. */
-static inline void states_precompute(struct bonds *b, struct particles *p, const struct bond_source *s)
-{
-    if (s->modulus) state_precompute_table[p->dim][s->rotates ? PD_MOSPD : PD_OSPD](b, p);
-}
 
 #endif

@@ -6,11 +6,12 @@
 #include "coupling/conversion.h"
 #include "coupling/interface_zone.h"
 #include "coupling/notch.h"
+#include "mesh/mesh_make.h"
 #include "run/run.h"
 
 /* Where peridynamic particles and material points meet, and how one becomes the other. */
 struct coupling_state {
-    bool approaches;                  /* bodies meet: material points near others become peridynamic */
+    bool approaches; /* bodies meet: material points near others become peridynamic */
     struct partial_stress partial;
     bool uses_partial;          /* partial stresses and ends of state-based bonds are made */
     uint8_t *bonded;            /* [n] 1: bonds meet this point of the grid (FLIP); NULL: they meet none */
@@ -20,5 +21,40 @@ struct coupling_state {
     struct notches notches;     /* what stands for pre-cracks */
     struct region start_region; /* peridynamic from the start; no solid: none */
 };
+
+/* Which coupling there is; partial stresses and the interface zone for the bonds of now. */
+void coupling_partial_make(struct run *e);
+/* What the mesh of the reference frame needs to know of: partial stresses, slits. */
+struct mesh_source coupling_cuts(const struct run *e);
+/* Makes the interface zone and the list of material points that have bonds anew. */
+void interface_make(struct run *e);
+/* Updates material points at the end of state-based bonds from their cells, or from their stress. */
+void ends_update(struct run *e);
+
+/* Pre-cracks as slits of the mesh or cut bonds, and what is peridynamic from the start. REFUSED where the scene wants
+ * what cannot be. */
+status notch_convert(struct run *e);
+/* What stands for pre-crack number `crack`, in words. */
+void notch_text(const struct run *e, int crack, char *text, size_t room);
+/* Marks points at faces of slits that meet. False: nothing was looked at in this step. */
+bool notch_approach(struct run *e);
+/* Marks as peridynamic the particles on both sides of narrow voids that cut no mesh: a grid would close them. */
+void voids_convert(struct run *e);
+/* Warns of voids that the run closes: narrow ones on the grid of the current frame, and in lists and images. */
+void voids_warn(const struct run *e, struct warnings *to);
+
+/* Conversion (step 8 of the algorithm). Marks what bodies and faces have come near, and follows waves in the active
+ * set; true: points may have been marked at faces of slits. */
+bool conversion_mark(struct run *e);
+/* Converts what is marked, with all that follows from it and from `broken` directed bonds; marked: what conversion_mark
+ * returned; fades: bonds are fading. Returns the number of particles converted. */
+int64_t conversion_pass(struct run *e, int64_t broken, bool marked, bool fades);
+/* The mesh, and points at ends of bonds, after so many particles have converted. */
+void conversion_follow(struct run *e, int64_t converted);
+
+/* REFUSED for scenes that do not allow reversion. */
+status reversion_check(const struct scene *s);
+/* Reverts particles that are due, before a step. */
+void revert(struct run *e);
 
 #endif

@@ -5,10 +5,6 @@
 
 #include "bonds/bonds.h"
 
-/* Radius of the zone round the end of a slit where bonds are cut: that of conversion.tips, but no less; where it names
- * none [spacings]. The first bond of kalthoff_winkler then breaks when it does with bonds cut all along, to 0.6 %. */
-#define NOTCH_ZONE_LEAST 6.0
-#define NOTCH_ZONE 8.0
 /* Faces of a slit become peridynamic before they are so much nearer than at the start [spacings]. */
 #define NOTCH_GAP 1e-4
 

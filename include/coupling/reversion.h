@@ -13,7 +13,7 @@ struct reversion_rule {
     real hold_time;                      /* how long it must have been [s] */
 };
 
-/* Checks every peridynamic particle, by its present stress (engine_stress before), at intervals of the caller. Returns
+/* Checks every peridynamic particle, by its present stress (run_stress before), at intervals of the caller. Returns
  * how many may become material points, and the ascending list of them, which the caller frees. A
  * particle may if
  *     it and all peridynamic particles of its family have had a low stress for the hold time, outside `kept`;

@@ -50,7 +50,7 @@ struct particles {
     real *mass;                          /* [kg] */
     real *volume0, *volume;              /* reference and current volume [m^3] */
     /* Cauchy stress [Pa]. Of points on the grid: written by g2p in every step. Of points of a mesh: by
-     * engine_mesh_sync, of peridynamic particles: by engine_stress, both for frames (engine_sync) and for samples
+     * frame_sync, of peridynamic particles: by run_stress, both for frames (run_sync) and for samples
      * and reversion that read it, and stale in between. */
     real *stress[SYM_MAX];
     real *gradient[DIM_MAX * DIM_MAX];   /* velocity gradient dv_a/dx_b at [a dim + b], only APIC [1/s] */
@@ -212,5 +212,8 @@ static inline bool lattice_site(real X, real origin, real spacing, real *site)
 
 /* Rebuilds n_of and list from kind, n_free and list_free from flag. */
 void particles_list(struct particles *p);
+
+/* True if a criterion marked a particle for conversion in this step. */
+bool convert_due(const struct particles *p);
 
 #endif

@@ -12,4 +12,9 @@ struct fracture_state {
     struct growth *growth; /* [scene->growths] */
 };
 
+/* Tips of pre-cracks that are slits, before the first sample of tips. */
+void cracks_notches(struct run *e);
+/* Do bonds fade along growing cracks? */
+bool cracks_fade(const struct run *e);
+
 #endif

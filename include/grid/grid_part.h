@@ -26,11 +26,36 @@ struct grid_method {
     struct grid_field *field;
     struct grid_contact contact;   /* between fields */
     struct active_points active;   /* which of them the transfers leave out */
-    struct grid_coupled coupled; /* peridynamic particles that the grid moves (coupling pm .. pgg) */
+    struct grid_coupled coupled;   /* peridynamic particles that the grid moves (coupling pm .. pgg) */
     struct turning_groups turning; /* groups of them that turn together (FLIP) */
     struct transfer_data transfer;
     bool sort_needed;   /* points moved to other cells or converted */
     real smallest_mass; /* of a node that moves [kg] */
 };
+
+/* Makes the grids of a run, with their nodes where its bodies want them; `meshed`: there are bodies in the reference
+ * frame, whose particles lie midway between nodes. A second call moves the nodes. */
+void grid_part_make(struct run *e, bool meshed);
+/* Makes the groups of points that turn together, where bodies may turn (FLIP). */
+void grid_turning_make(struct run *e);
+/* Sets `anchor` to a place of a node [m] where the body begins at `from`; `meshed`: midway between particles of a
+ * lattice with a place at `site`. */
+void grid_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor);
+/* Number of the body that comes k-th, those that are joined counted as one; -1: there is none. */
+int body_apart(const struct scene *s, int k);
+/* Does a mirror lie between two nodes? Nodes beyond it follow others one by one, extra nodes of a slit do not. */
+bool grid_mirror_between(const struct run *e);
+
+/* Sorts the points on the grid in this step into cells. *lost: a place is not finite, and nothing is sorted. FAILED
+ * where the grid would have too many nodes. */
+status grid_sort(struct run *e, bool *lost);
+/* Steps 1 and 3 of the algorithm: mass, momentum and forces of points to the nodes. */
+void grid_map(struct run *e);
+/* Steps 3, 4, 6 and 7: nodes move, points follow, their strain and stress. middle: time in the middle of the step [s].
+ */
+void grid_step(struct run *e, real middle);
+/* Sum of v . f over points on the grid where they are now, without any motion [W]; accounts of loads change. `middle`:
+ * half a step later [s]. */
+real grid_power(struct run *e, real middle);
 
 #endif

@@ -13,6 +13,18 @@ struct frame_choice {
     const char *reason;
 };
 
+/* A disc that keeps the smallest cells: the ring of a sif probe [m]. */
+struct frame_ring {
+    real place[2], radius;
+};
+
+/* Points of hollow coarse cells in the last frame. */
+struct hollow_points {
+    struct particles part;
+    real *spacing;                     /* [m] */
+    real *gradient[DIM_MAX * DIM_MAX]; /* of their displacement, where frames are asked for strain [1] */
+};
+
 /* Bodies in the reference frame: a mesh of cells fixed to the material. */
 struct reference_frame {
     struct frame_choice *choice; /* [bodies] */
@@ -25,7 +37,108 @@ struct reference_frame {
     struct hollow hollow;      /* cells whose particles are not made */
     bool lacks;                /* particles that the start needs are not made: it must be made again */
     struct elastic *coarse;    /* [materials] of coarse cells, which split at less than the trigger */
-    real speed;                /* largest component of a nodal velocity [m/s] */
+    int rings;
+    struct frame_ring *ring; /* [scene->probes] discs of the smallest cells, now */
+    struct hollow_points shown;
+    real speed; /* largest component of a nodal velocity [m/s] */
 };
+
+/* Chooses the frame of each body, with the reason, and marks the particles of those in the reference frame; makes the
+ * grid, which the choice needs. REFUSED where the scene asks for what cannot be. */
+status frames_choose(struct run *e);
+/* Is any body in the reference frame? */
+bool frame_any(const struct run *e);
+/* Would `auto` put this body into the reference frame, did the scene not require the current one? */
+bool frame_allowed(const struct run *e, int body);
+/* Makes the mesh; `cuts`: its partial stresses and slits; still: the caller sets the motion of its nodes. */
+status frame_make(struct run *e, const struct mesh_source *cuts, bool still);
+/* The smallest critical step of its cells, whatever converts; INFINITY: there are none [s]. */
+real frame_critical_step(const struct run *e);
+/* Finds exposed points and loaded nodes anew, after points or levels have changed. */
+void frame_follow_points(struct run *e);
+/* Updates the exposed points, to which bonds reach, from their nodes. */
+void frame_exposed_follow(struct run *e);
+
+/* Forces of the nodes: of bonds, already in part.f, and of cells. */
+void frame_force(struct run *e);
+/* Moves the nodes under these forces and the exposed points with them. middle: time in the middle of the step;
+ * velocities move on by dt_velocity [s]. */
+void frame_move(struct run *e, real middle, real dt_velocity);
+/* Brings positions, velocities and stresses of all points up to date. */
+void frame_sync(struct run *e);
+/* The motion of n listed points alone (list NULL: of all). run: struct run, as conversion_sync wants it. */
+void frame_sync_points(void *run, const int32_t *list, int64_t n);
+/* Follows conversion and broken bonds: so many particles have converted, partial stresses of the `touches` points
+ * `touched` have changed. Returns true where points and loads of the mesh were found anew. */
+bool frame_follow(struct run *e, int64_t converted, const int32_t *touched, int64_t touches);
+/* Takes n particles back that have become material points again. */
+void frame_insert(struct run *e, const int32_t *list, int64_t n);
+/* Energy of all nodes, of all cells [J]. */
+real frame_kinetic(const struct reference_frame *reference);
+real frame_strain(struct run *e);
+
+/* The load of a scene that asks for the smallest cells, by how long it takes to rise. */
+enum rise_kind { RISE_NONE, RISE_BOUNDARY, RISE_INITIAL, RISE_BODY };
+struct load_rise {
+    enum rise_kind kind;
+    int number;          /* of it in the scene */
+    bool pulse;          /* comes and goes: rises in a quarter of its length */
+    real seconds, waves; /* [s], in spacings of wave */
+};
+/* How many levels of coarse cells there are, and why `mpm.levels: auto` takes as many as it does. */
+enum levels_why {
+    LEVELS_BY_LOADS,
+    LEVELS_AT_REST,
+    LEVELS_NO_MESH,
+    LEVELS_FEW,
+    LEVELS_DAMPED,
+    LEVELS_LONG_STEP,
+    LEVELS_THIN
+};
+struct levels_choice {
+    int levels, automatic; /* in this run; of auto */
+    bool given;            /* by the scene */
+    enum levels_why why;
+    real across; /* the body [spacings] */
+    struct load_rise rise;
+};
+
+/* Finds which levels of coarse cells the thickness of the body allows, where the scene may have any. */
+void frame_levels_room(struct run *e);
+/* The choice, once the critical step is known. */
+struct levels_choice frame_levels_choice(const struct run *e);
+/* The same in words. */
+void frame_levels_text(const struct run *e, char *text, size_t room);
+/* Are the levels that the scene gives too coarse for its loads? Then says so in words. */
+bool frame_levels_coarse(const struct run *e, char *text, size_t room);
+/* The number of levels. */
+int frame_levels_number(const struct run *e);
+/* Makes coarse cells once the time step is known, with the levels of the start unless `restored`. */
+status frame_levels_make(struct run *e, bool restored);
+/* Are levels looked at before this step? */
+bool frame_levels_due(const struct run *e);
+/* The levels that cells are to have next [mesh.grid.n], for the caller to free; NULL: those that they have. */
+uint8_t *frame_levels_plan(struct run *e);
+/* Changes the levels; all cells of level 0 have particles. */
+void frame_levels_apply(struct run *e, const uint8_t *level);
+/* Before conversion: points near coarse cells wait until those are finer. */
+void frame_levels_guard(struct run *e);
+/* Finds walls of coarse cells, exposed points and loads, after levels have changed. */
+void frame_levels_found(struct run *e);
+
+/* Why all particles are made; NULL: some need not be. */
+const char *frame_hollow_obstacle(const struct scene *s);
+/* Finds the cells whose particles need not be made, before any are. */
+status frame_hollow_plan(struct run *e);
+/* With the levels of the start (NULL: none): false where particles are missing, and the run has to be made again. */
+bool frame_hollow_start(struct run *e, const uint8_t *level);
+/* Have cells of level 0 no particles, with these levels? */
+bool frame_hollow_lacks(const struct run *e, const uint8_t *level);
+/* The cells to be hollow with these levels, once the run is made again. */
+void frame_hollow_change(struct run *e, const uint8_t *level);
+/* Points of hollow coarse cells for a frame, into frame->shown, with the gradient of their displacement if wanted;
+ * false: there are none. */
+bool frame_hollow_points(struct run *e, bool gradients);
+void frame_hollow_points_free(struct run *e);
 
 #endif

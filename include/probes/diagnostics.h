@@ -8,6 +8,7 @@
 #include "kernels/kernels.h"
 #include "loads/loads.h"
 #include "data/particles.h"
+#include "run/energies.h"
 #include "run/ledger.h"
 
 struct energy_balance {
@@ -38,31 +39,10 @@ struct diagnostics {
 /* Nothing seen yet. Call once, before step 0. */
 void diagnostics_make(struct diagnostics *w);
 
-/* Kinetic energy 1/2 sum m v^2 of the body, without points of a mesh, which has its own [J]. */
-real diagnostics_kinetic(const struct particles *p);
-/* Strain energy of the material points on the grid: 1/2 sum sigma_given : C^-1 sigma V, and in plane strain what
- * flow has added to sigma_zz [J]. */
-real diagnostics_strain(const struct particles *p, const struct material *m, const struct partial_stress *partial);
-
-/* The same of the material points among `n` listed particles. */
-real diagnostics_strain_of(const struct particles *p, const struct material *m, const struct partial_stress *partial,
-                     const int32_t *list, int64_t n);
-
-/* Plastic work of the material points: sum V (sigma_y a + H a^2/2) of the accumulated plastic strain a [J]. */
-real diagnostics_plastic(const struct particles *p, const struct material *m, const struct partial_stress *partial);
-
-/* What the mean of 1/2 m v^2 before and after a leap-frog kick has too much over 1/2 m v_before . v_after, the
- * kinetic energy that the scheme conserves: 1/4 sum m (v - before)^2 of the body without points of a mesh; `before`
- * NULL where nothing is on the grid: 1/4 sum m (dt f/m)^2, f as it was [J]. */
-real diagnostics_kick(const struct particles *p, real *const *before, real dt);
-
 /* Momentum of p, and of the nodes of a mesh for its points (NULL: none), beside the impulse [N s] of loads and
  * supports up to the same velocities. */
 void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
                           const real *impulse);
-
-/* Computes that momentum alone, by component [dim, kg m/s]; returns the sum of |m v|, by which errors are measured. */
-real diagnostics_momentum_of(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum);
 
 /* Angular momentum of all bodies, [DIM_MAX], about their centre of mass: of particles and of the nodes of a mesh for
  * its points (NULL: none); returns the sum of the sizes of that of each, no less than 1 % of what their motion has if

@@ -3,6 +3,7 @@
 #define CLEAVE_PROBES_PART
 
 #include "probes/diagnostics.h"
+#include "output/output.h"
 #include "probes/probes.h"
 #include "run/run.h"
 
@@ -16,5 +17,22 @@ struct probing {
     real residual_step0; /* largest nodal force of the first step, for patch probes [N] */
     real strain_stress;  /* largest component of the initial stress [Pa] */
 };
+
+/* Largest component of the stress of particles, at the start [Pa]. */
+real largest_stress(const struct particles *p);
+/* The pulses of the initial states of a scene. */
+void make_pulses(const struct scene *s, struct probing *probing);
+/* Advances the growing cracks by one step, those that a sif probe controls by its factors; returns the number of
+ * directed bonds released. */
+int64_t cracks_grow(struct run *e);
+/* Keeps the largest nodal force of the first step, for patch probes: of points and nodes of grids, of particles; of the
+ * nodes of grid g. Between forces and motion. */
+void residual_keep(struct run *e);
+void residual_keep_of(struct run *e, const struct grid *g);
+/* Profiles of probes: written with the frame that `out` has just written; a warning of those that a resumed run lacks;
+ * those of an older run removed, before a run that replaces it. */
+status profiles_write(struct run *e, struct output *out, const struct observed *o);
+void profiles_check(struct run *e, struct output *out);
+void profiles_remove(struct run *e, struct output *out);
 
 #endif

@@ -28,7 +28,7 @@ struct break_list {
  * of the size of its loads. */
 struct advance { real cost, release; };
 
-/* A crack tip that is led (engine_led.c); in space a front, by its place in the plane across it. */
+/* A crack tip that is led (led.c); in space a front, by its place in the plane across it. */
 struct led_tip {
     real start[2], place[2];             /* where it started, where it is: reference positions [m] */
     real along[2], heading[2];           /* unit vectors: frame of its factors; where it goes */
@@ -45,7 +45,7 @@ struct led_tip {
     real due;                            /* size of the loads at which the stretch ahead comes */
 };
 /* The plane in which tips are led: of the body, or in space the one across the fronts of its cracks, which are
- * straight, parallel, and go through the body (engine_led_plane.c). */
+ * straight, parallel, and go through the body (led_plane.c). */
 struct led_plane {
     bool made;
     real axis[2][DIM_MAX], front[DIM_MAX]; /* unit vectors: of the plane; along the fronts, 0 in a plane body */
@@ -66,7 +66,7 @@ struct led {
     struct led_stretch *path;            /* [stretches] what they have cut, in its order */
 };
 
-/* What history.csv says of a load step beside what it says of all runs (engine_steps_record.c). */
+/* What history.csv says of a load step beside what it says of all runs (steps_record.c). */
 struct release_mark { real area, released; };    /* [m^2], [J] */
 struct steps_record {
     struct release_mark mark[2];         /* the release rate is that of the growth since the first one */
@@ -106,7 +106,6 @@ struct statics {
     int64_t directions;                  /* that the first solution with it took; 0: none yet */
     real *plastic[PLASTIC_MOST];         /* what yields, at the last equilibrium (plastic_state); NULL: no more */
     real t;                              /* pseudo-time of loads and supports [s] */
-    real dt;                             /* step in time that the body would bear [s] */
     real overload;                       /* largest stretch over its limit of the last equilibrium [1] */
     struct break_list next;              /* bonds of the next advance; none: it has not been looked for */
     struct advance ahead, behind;        /* the next advance, and the last; cost 0: none */

@@ -9,7 +9,7 @@
 
 /* X(name, colour, column) for each energy [J]: its name in history.csv, summary.json and struct energy, its colour in
  * pictures (Okabe & Ito 2008, and greys for what leaves), its column in history.csv. Sums run in this order. A new
- * energy is a row here, and its value in sample_energies (engine_sample.c).
+ * energy is a row here, and its value in sample_energies (sample.c).
  *
  *     kinetic    1/2 m v_before . v_after of the velocity update
  *     strain     of bonds and material points

@@ -1,4 +1,4 @@
-/* Bookkeeping of the parts of a run. What a part does in a step is called by name (engine.c); what each of them has to
+/* Bookkeeping of the parts of a run. What a part does in a step is called by name (step.c); what each of them has to
  * do for a run as a whole stands in a row here, and the engine's table of parts (engine/parts.c) goes through the rows.
  */
 #ifndef CLEAVE_PART
@@ -6,6 +6,7 @@
 
 #include <stddef.h>
 
+#include "output/column.h"
 #include "run/run.h"
 
 /* Any function may be NULL. */
@@ -13,6 +14,8 @@ struct part {
     const char *name;
     size_t at, size;               /* of its pointer in struct run; of what that points to [byte] */
     void (*free)(struct run *run); /* what it owns, but not itself */
+    int (*columns)(const struct run *run, struct column *column); /* of history.csv; column NULL: only how many */
+    void (*record)(struct run *run, real *value);                 /* their values, at the time of a sample */
 };
 
 /* Place and size of a part: the member of struct run, and the type that it points to. */

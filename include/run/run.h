@@ -16,6 +16,8 @@
 struct run_clock {
     real t, dt, dt_critical; /* [s] */
     int64_t step, steps;     /* done; of the whole run */
+    int64_t load_step;       /* the one at hand or just done; 0: none */
+    real dt_bears;           /* step in time that the body would bear; of load steps, too [s] */
     int stride;              /* steps after which all levels of cells are at one time: samples, frames */
 };
 
@@ -37,7 +39,7 @@ struct material_tables {
 };
 
 /* What all parts of a run work on, by value, and its parts, each of which only those files look into that include its
- * header. Made and freed by the engine (engine_make.c); a part is NULL until then. */
+ * header. Made and freed by the engine (make.c); a part is NULL until then. */
 struct run {
     const struct scene *scene; /* borrowed */
     struct kernels kernels;
@@ -51,8 +53,10 @@ struct run {
     struct loads loads;
     struct boundary *boundary;   /* of a static problem, in its pseudo-time (loads_static.c) */
     enum coupling coupling_kind; /* of the scene; hand-shake where nothing meets */
+    real mass;                   /* of the body [kg] */
     real damped;                 /* energy that damping and conversion of moving cells took so far [J] */
     struct warnings warnings;    /* what engine_warn and the run found */
+    bool trial;                  /* steps are taken on trial: warnings are stored, not printed */
     struct laps laps;
     struct grid_method *grid;        /* material points on the grid of the current frame: grid/grid_part.h */
     struct reference_frame *frame;   /* bodies in the reference frame: mesh/mesh_part.h */
@@ -67,6 +71,8 @@ struct run {
     struct stability *stability;     /* step/stability.h */
     struct run_report *report;       /* step/report.h */
     struct statics *statics;         /* load steps: quasistatic/statics.h */
+    const struct part *const *parts; /* all of them, up to NULL: run/part.h */
+    status (*save)(void *run, struct archive *a); /* saves or restores the state between two steps */
 };
 
 #endif

@@ -32,6 +32,10 @@ static inline bool coupling_unified(enum coupling c) { return c == COUPLING_PMG 
 
 /* What stands for pre-cracks in the reference frame (notch.h). */
 enum notch_rule { NOTCH_AUTO, NOTCH_SLIT, NOTCH_BONDS };
+/* Radius of the zone round the end of a slit where bonds are cut: that of conversion.tips, but no less; where it names
+ * none [spacings]. The first bond of kalthoff_winkler then breaks when it does with bonds cut all along, to 0.6 %. */
+#define NOTCH_ZONE_LEAST 6.0
+#define NOTCH_ZONE 8.0
 enum { CONVERT_ON_BREAK = 1, CONVERT_ON_STRESS = 2 };
 
 struct conversion_rule {

@@ -103,7 +103,7 @@ struct scene_series {
     unsigned fields;                     /* bits of FRAME_FIELD_WORDS; 0: those of the scene */
 };
 
-/* Load steps of solver static (engine_steps.c). */
+/* Load steps of solver static (load_steps.c). */
 enum steps_control { CONTROL_LOAD, CONTROL_ENERGY, CONTROL_OPENING };
 enum steps_then { THEN_EQUILIBRIUM, THEN_EXPLICIT };
 enum steps_path { PATH_AUTO, PATH_BONDS, PATH_HOOP };

@@ -1,6 +1,6 @@
 /* Room `solver`: static equilibrium of peridynamic bodies instead of steps in time, by adaptive dynamic relaxation or
  * conjugate gradients. It knows particles, bonds and loads, but neither scenes nor the engine, whose file
- * engine_solve.c drives it.
+ * solve.c drives it.
  *
  * Bonds do not break while solving. Forces have their value at the end of the scene's duration, and driven particles
  * are where they have moved to until then. */
@@ -52,7 +52,7 @@ struct static_body {
 };
 
 /* Driven components and applied forces after `ramp_time` of the loads [s]; velocities become 0. REFUSED for loads
- * without equilibrium. Enough for a relaxation on the grid (engine_relaxation.c). */
+ * without equilibrium. Enough for a relaxation on the grid (relaxation.c). */
 status solver_make(struct solver *s, const struct static_body *body, real ramp_time);
 /* What relaxation_step and cg_step (conjugate_gradients) need besides. */
 void solver_iteration_make(struct solver *s, const struct static_body *body, bool conjugate_gradients);

@@ -1,5 +1,4 @@
-/* Room `step`: one step in time, its samples, reports, checks of stability. It knows every part but load steps; those
- * and the engine call it. */
+/* What a run leaves and says, and when. */
 #ifndef CLEAVE_REPORT
 #define CLEAVE_REPORT
 
@@ -9,7 +8,7 @@
 #include "run/run.h"
 
 /* A sample that is being taken: it describes t_n, and its parts are taken between the phases of the step from t_n
- * (engine_report.h). */
+ * (sample.h). */
 struct sampling {
     bool due;
     real kinetic, work, constraint_work, absorbed; /* [J] before the step */
@@ -18,7 +17,6 @@ struct sampling {
     real rigid, rigid_work;                        /* of rigid bodies: kinetic at the begin; work up to t_n [J] */
     int64_t pd, bonds;                             /* peridynamic particles and directed bonds at t_n */
     real t_velocity, momentum[DIM_MAX]; /* time of the velocities before the step [s]; momentum then [kg m/s] */
-    real *motion;                       /* [scene->rigids, 2 DIM_MAX] centres [m] and velocities [m/s] at t_n */
 };
 
 /* Half-width of the 95 % interval of a figure of the summary, from a study of convergence (study/uncertainty.h). */
@@ -46,15 +44,36 @@ struct run_report {
     double checkpoint_seconds;                             /* of the longest checkpoint so far */
     int64_t step_started;                                  /* first step of this process */
     bool yield_said;                                       /* bonds have yielded, and it was said how they do */
-    bool trial;            /* steps are taken on trial: warnings are stored, not printed */
-    struct particles more; /* points of coarse cells in the last frame, and their spacings [m] */
-    real *more_spacing;
-    real *more_gradient[DIM_MAX * DIM_MAX]; /* of their displacement, where frames are asked for strain [1] */
-    bool excerpt;                           /* the first steps of a run, for the export: no word on its balance */
+    bool excerpt; /* the first steps of a run, for the export: no word on its balance */
     bool quiet;
+    char note[96];               /* of load steps, for the progress line */
     const struct error_bar *bar; /* borrowed, for the summary; NULL: no study is at hand */
     int bars;
     const volatile sig_atomic_t *stop; /* set by a signal: checkpoint and leave; NULL: never */
 };
+
+/* How many frames of the body follow the one of t = 0; the step of frame k. */
+int64_t report_frames(const struct run *e);
+int64_t report_frame_step(const struct run *e, int64_t k);
+/* Does a frame follow the step to come? */
+bool report_frame_follows(const struct run *e);
+/* Is the step to come one of those that samples are spread over? */
+bool report_sample_due(const struct scene *s, const struct run_clock *clock);
+/* Before the first step of this process: history file, frame 0, first checkpoint; a restart has the last two already.
+ */
+status report_start(struct run *e);
+/* After every step: frame, checkpoint and progress line if due; INTERRUPTED after a checkpoint if a signal came. */
+status report_step(struct run *e);
+/* After the last step. */
+status report_end(struct run *e);
+/* Share of the body at rest now (data/active_set.h). */
+real report_inactive_share(const struct run *e);
+/* Warnings at the end: of energy and angular momentum that were not kept; of bonds that have yielded. */
+void say_balance(struct run *e);
+void say_yielding(struct run *e);
+/* What a frame is asked for that particles do not keep: made once all particles are up to date and extra->more is
+ * known; freed when the frame has been begun. */
+void fields_make(struct run *e, unsigned asked, struct frame_extra *extra);
+void fields_free(struct frame_extra *extra);
 
 #endif

@@ -10,6 +10,7 @@
 #include "contact/contact.h"
 #include "grid/grid_part.h"
 #include "coupling/coupling_part.h"
+#include "run/say.h"
 
 static void say_particles(const struct run *e)
 {
@@ -110,7 +111,7 @@ static void say_notches(const struct run *e)
     const int n = e->coupling->notches.n;
     char text[256];
     for (int k = 0; k < n && k < SAID; k++) {
-        engine_notch_text(e, k, text, sizeof text);
+        notch_text(e, k, text, sizeof text);
         printf("notch          crack %d: %s\n", k + 1, text);
     }
     if (n > SAID) printf("notch          and %d more\n", n - SAID);
@@ -233,7 +234,7 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
         say_time_step(&e);
         say_contact(&e);
         engine_warn(&e);
-        engine_warn_of_yielding(e.scene, &e.warnings);
+        warn_of_yielding(e.scene, &e.warnings);
         warnings_print(&e.warnings, 0, stdout);
         advise(&e, stdout);
         if (trial) result = check_cost(&e, a, threads, start);

@@ -216,7 +216,7 @@ static void advise_waves(const struct run *e, FILE *out)
 static void advise_levels(const struct run *e, FILE *out)
 {
     char text[1024];
-    if (engine_levels_coarse(e, text, sizeof text)) fprintf(out, "unresolved: %s\n", text);
+    if (frame_levels_coarse(e, text, sizeof text)) fprintf(out, "unresolved: %s\n", text);
 }
 
 /* Body of a particle; joined ones are one. */
@@ -363,7 +363,7 @@ static void advise_frame(const struct run *e, FILE *out)
         real strain = 0;
         for (int m = 0; m < e->scene->materials; m++)
             if (scene_body_has(&e->scene->body[b], m)) strain = real_max(strain, reached / e->scene->material[m].young);
-        if (e->frame->choice[b].reference || !engine_frame_allowed(e, b)) continue;
+        if (e->frame->choice[b].reference || !frame_allowed(e, b)) continue;
         fprintf(out, "unneeded: body %s in mpm.frame current: it meets no other body", e->scene->body[b].name);
         if (strain < LITTLE) fprintf(out, " and waves strain it by %.2g at the most", strain);
         fprintf(out, "; its material points cost a tenth to a thirtieth in frame %s\n",

@@ -13,6 +13,8 @@
 #include "contact/contact.h"
 #include "probes/probes_part.h"
 #include "probes/probes.h"
+#include "step/step.h"
+#include "step/stability.h"
 
 enum { PERIODS_MOST = 200 };
 #define SECONDS_ENOUGH 0.15
@@ -37,8 +39,8 @@ static status time_steps(struct run *e, double *step)
     const int64_t period = e->clock.steps / samples > 0 ? e->clock.steps / samples : 1;
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
-    e->report->quiet = e->report->trial = true;
-    TRY(engine_report_start(e));
+    e->report->quiet = e->trial = true;
+    TRY(report_start(e));
     const double begun = team_clock();
     TRY(engine_step(e));
     const double first = team_clock() - begun;
@@ -62,7 +64,7 @@ static double time_force(struct run *e)
     int n = 0;
     while (n < PERIODS_MOST && (all < SECONDS_ENOUGH || n < 3)) {
         const double start = team_clock();
-        engine_forces(e);
+        run_forces(e);
         all += spent[n++] = team_clock() - start;
     }
     return median_of(spent, n);
@@ -104,12 +106,12 @@ static status make_other(struct scene *s, struct run *e, const struct run_argume
 static double all_steps(struct run *e)
 {
     const double start = team_clock();
-    e->report->quiet = e->report->trial = true;
+    e->report->quiet = e->trial = true;
     memory_reuse(true);
-    if (engine_report_start(e) != OK) return NAN;
+    if (report_start(e) != OK) return NAN;
     laps_start(&e->laps);
     while (e->clock.step < e->clock.steps) {
-        if (engine_step(e) != OK || engine_stability_check(e) != OK || engine_report(e) != OK) return NAN;
+        if (engine_step(e) != OK || stability_check(e) != OK || report_step(e) != OK) return NAN;
         if (team_clock() - start > PATIENCE * SECONDS_WHOLE) return NAN;
     }
     return engine_baseline(e) == OK ? team_clock() - start : NAN;
@@ -229,7 +231,7 @@ status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a
 {
     const int known = e->warnings.n;
     c->all_peridynamic = NAN;
-    e->report->trial = true;
+    e->trial = true;
     if (scene_in_steps(e->scene)) {
         c->output = output_seconds(e) + FILE_SECONDS * e->scene->steps.number; /* a checkpoint after each load step */
         const status result = cost_load_steps(c, e);

@@ -11,7 +11,7 @@ void say_levels(const struct run *e)
     const struct mesh_levels *l = &e->frame->levels;
     char text[1024];
     if (e->frame->mesh.points == 0 || scene_at_rest(e->scene)) return;
-    engine_levels_text(e, text, sizeof text);
+    frame_levels_text(e, text, sizeof text);
     if (!e->scene->choice.made) printf("levels         %s\n", text);       /* else engine_choice_print has said it */
     for (int level = 0; level <= l->n && l->n > 0; level++)
         printf("%s%lld cells of %d spacings%s", level == 0 ? "levels         " : ", ",
@@ -65,7 +65,7 @@ void say_levels_saving(const struct run *e, const struct cost *c)
                many(points_in_coarse_cells(l, e->part.dim), millions, few),
                many((double)e->part.n_body, millions, all), many(cells, false, made));
     printf("; memory %s", much_memory(c->bytes, memory));
-    const double peridynamic = engine_memory_peridynamic(e);
+    const double peridynamic = run_memory_peridynamic(e);
     if (e->scene->method == METHOD_ADAPTIVE && peridynamic > c->bytes)
         printf(" instead of %s", much_memory(peridynamic, whole));
     printf("; %s %s", c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about",

@@ -6,6 +6,7 @@
 #include "check_parts.h"
 #include "fracture/fracture_part.h"
 #include "fracture/tips.h"
+#include "quasistatic/load_steps.h"
 
 #define AT_ONCE 1e-3   /* share of the largest loads that is there before the first load step */
 #define FALLS 1e-6     /* share by which loads fall that is no round-off */

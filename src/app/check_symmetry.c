@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "probes/probes.h"
 #include "probes/probes_part.h"
+#include "step/step.h"
 
 #define NEAR_ENOUGH 1e-6                 /* [spacings], and share of a largest component */
 
@@ -178,7 +179,7 @@ static bool growths_agree(const struct run *e, int axis, real at)
 /* Does no ring of stress-intensity factors cross the plane? */
 static bool rings_clear(const struct run *e, int axis, real at)
 {
-    const struct observed seen = engine_observed(e);
+    const struct observed seen = run_observed(e);
     for (int k = 0; k < e->probing->probes.n; k++) {
         real place[2], radius;
         if (!probes_sif_ring(&e->probing->probes, k, &seen, place, &radius)) continue;

@@ -16,6 +16,7 @@
 #include "coupling/coupling_part.h"
 #include "step/report.h"
 #include "output/output.h"
+#include "mesh/mesh_part.h"
 
 /* ---- run --------------------------------------------------------------------------------------------------------- */
 
@@ -85,7 +86,7 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
     if (!a->quiet) engine_choice_print(e, stderr);
     engine_warn(e);
     char coarse[1024];
-    if (engine_levels_coarse(e, coarse, sizeof coarse)) warnings_add(&e->warnings, "%s", coarse);
+    if (frame_levels_coarse(e, coarse, sizeof coarse)) warnings_add(&e->warnings, "%s", coarse);
     warnings_print(&e->warnings, 0, stderr);
     if (threads > 2 * omp_get_num_procs())
         fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads,

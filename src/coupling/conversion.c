@@ -77,16 +77,6 @@ static bool triggers(const struct conversion_rule *rule, const struct particles 
     return p->kind[i] == KIND_MPM && (p->flag[i] & wanted);
 }
 
-/* Eight particles at a time; entries beyond the body are images, which never have these flags. */
-bool convert_due(const struct particles *p)
-{
-    uint64_t any = 0;
-#pragma omp parallel for simd schedule(static) reduction(| : any)
-    for (int64_t i = 0; i < p->n; i += LANES)
-        any |= eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_LOST_BOND | FLAG_STRESSED | FLAG_NEAR);
-    return any != 0;
-}
-
 /* Does a bond of particle i, intact or not, end at a material point? */
 static bool conversion_meets_points(const struct bonds *b, const struct particles *p, int64_t i)
 {

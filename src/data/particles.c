@@ -252,3 +252,13 @@ void particles_list(struct particles *p)
         i += alike;
     }
 }
+
+/* Eight particles at a time; entries beyond the body are images, which never have these flags. */
+bool convert_due(const struct particles *p)
+{
+    uint64_t any = 0;
+#pragma omp parallel for simd schedule(static) reduction(| : any)
+    for (int64_t i = 0; i < p->n; i += LANES)
+        any |= eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_LOST_BOND | FLAG_STRESSED | FLAG_NEAR);
+    return any != 0;
+}

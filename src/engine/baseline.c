@@ -5,8 +5,8 @@
 #include "engine/engine.h"
 #include "base/memory.h"
 #include "probes/probes_part.h"
-#include "probes/probes.h"
 #include "step/report.h"
+#include "step/step.h"
 
 /* True if the scene has a pulse probe and is not itself on material points alone. */
 static bool wanted(const struct scene *s)
@@ -25,7 +25,7 @@ static void baseline_keep(struct run *e, const struct run *twin)
         e->probing->baseline.v[d] = NEW("baseline.v", p->n, real);
         array_copy(e->probing->baseline.v[d], p->v[d], p->n, sizeof *p->v[d]);
     }
-    e->probing->baseline.energy_change = engine_observed(twin).energy_change;
+    e->probing->baseline.energy_change = run_observed(twin).energy_change;
     e->probing->has_baseline = true;
 }
 

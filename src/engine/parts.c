@@ -11,22 +11,23 @@ extern const struct part part_grid, part_frame, part_rigid, part_contact, part_c
 
 static const struct part *const parts[] = {
     &part_grid,     &part_frame,       &part_rigid,   &part_contact, &part_coupling,  &part_fracture, &part_solver,
-    &part_statics,  &part_diagnostics, &part_probing, &part_damping, &part_stability, &part_report};
+    &part_statics,  &part_diagnostics, &part_probing, &part_damping, &part_stability, &part_report, NULL};
 
 /* The pointer of a part in a run. */
 static void **part_place(struct run *e, const struct part *p) { return (void **)((char *)e + p->at); }
 
 void run_parts_make(struct run *e)
 {
-    for (size_t k = 0; k < COUNT_OF(parts); k++)
+    e->parts = parts;
+    for (size_t k = 0; k < COUNT_OF(parts) - 1; k++)
         *part_place(e, parts[k]) = memory_new(parts[k]->name, 1, parts[k]->size);
 }
 
 void run_parts_free(struct run *e)
 {
-    for (size_t k = 0; k < COUNT_OF(parts); k++)
+    for (size_t k = 0; k < COUNT_OF(parts) - 1; k++)
         if (parts[k]->free && *part_place(e, parts[k])) parts[k]->free(e);
-    for (size_t k = 0; k < COUNT_OF(parts); k++) {
+    for (size_t k = 0; k < COUNT_OF(parts) - 1; k++) {
         void **place = part_place(e, parts[k]);
         memory_free(*place), *place = NULL;
     }

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine_report.h"
 #include "fracture/fragments.h"
 #include "base/memory.h"
 #include "base/memory_stream.h"
@@ -12,21 +11,15 @@
 #include "simd/simd.h"
 #include "coupling/coupling_part.h"
 #include "mesh/mesh_part.h"
-#include "mesh/levels.h"
-#include "solver/solver.h"
 #include "quasistatic/statics.h"
-#include "probes/diagnostics.h"
 #include "grid/grid_part.h"
 #include "contact/contact.h"
-#include "grid/contact_grid.h"
 #include "rigid/rigid_part.h"
-#include "rigid/rigid.h"
 #include "step/report.h"
-#include "fracture/tips.h"
 #include "fracture/fracture_part.h"
 #include "output/output.h"
-#include "probes/probes.h"
 #include "probes/probes_part.h"
+#include "step/step.h"
 
 /* ---- physical figures -------------------------------------------------------------------------------------------- */
 
@@ -162,7 +155,7 @@ static void put_rigid(struct json *j, const struct run *e)
     for (int k = 0; k < e->scene->rigids; k++) {
         const struct rigid_body *r = &e->rigid->body[k];
         real v[DIM_MAX];
-        engine_rigid_velocity(e, k, v);
+        rigids_velocity(e, k, v);
         json_open(j, NULL, '{');
         json_text(j, "name", r->name);
         json_point(j, "", r->x, r->dim);
@@ -303,7 +296,7 @@ static void put_notches(struct json *j, const struct run *e)
     if (e->coupling->notches.n == 0) return;
     json_open(j, "notches", '[');
     for (int k = 0; k < e->coupling->notches.n && k < SAID; k++) {
-        engine_notch_text(e, k, text, sizeof text);
+        notch_text(e, k, text, sizeof text);
         json_text(j, NULL, text);
     }
     json_close(j, ']');
@@ -350,7 +343,7 @@ static void put_figure(void *context, const char *probe, const char *quantity, r
 
 static void put_probes(struct json *j, const struct run *e)
 {
-    struct observed o = engine_observed(e);
+    struct observed o = run_observed(e);
     struct probe_sink sink = {.json = j};
     json_open(j, "probes", '{');
     probes_figures(&e->probing->probes, &o, put_figure, &sink);

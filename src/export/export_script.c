@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "export_parts.h"
+#include "step/report.h"
 
 #define SKIN 0.3 /* of the neighbour list [spacings] */
 #define FRAMES_MOST 1000 /* at uneven steps: as terms of a variable */
@@ -153,9 +154,9 @@ static void test_write(FILE *to, int64_t steps)
 /* Steps between the frames of this program, where they are one number; 0: they differ. */
 static int64_t frame_distance(const struct run *e, int64_t frames)
 {
-    const int64_t first = engine_frame_step(e, 1);
+    const int64_t first = report_frame_step(e, 1);
     for (int64_t k = 2; k <= frames; k++)
-        if (engine_frame_step(e, k) != k * first) return 0;
+        if (report_frame_step(e, k) != k * first) return 0;
     return first;
 }
 
@@ -165,7 +166,7 @@ static void frames_write(FILE *to, const struct exported *x)
     static const char columns[] = "plate.dump id x y z vx vy vz c_damage\n"
                                   "dump_modify frames sort id format float %.17g";
     const struct run *e = x->e;
-    const int64_t frames = engine_frames_number(e), steps = e->clock.steps;
+    const int64_t frames = report_frames(e), steps = e->clock.steps;
     int64_t every = frames > 0 ? frame_distance(e, frames) : steps;
     if (every == 0 && frames > FRAMES_MOST) {
         every = steps / frames;
@@ -175,9 +176,9 @@ static void frames_write(FILE *to, const struct exported *x)
         fprintf(to, "dump frames all custom %lld %s\n", (long long)every, columns);
         return;
     }
-    fprintf(to, "variable next equal %lld", (long long)engine_frame_step(e, 1));
+    fprintf(to, "variable next equal %lld", (long long)report_frame_step(e, 1));
     for (int64_t k = 1; k <= frames; k++) {
-        const int64_t here = engine_frame_step(e, k), next = k < frames ? engine_frame_step(e, k + 1) : steps + 1;
+        const int64_t here = report_frame_step(e, k), next = k < frames ? report_frame_step(e, k + 1) : steps + 1;
         if (next > here) fprintf(to, "+(step>=%lld)*%lld", (long long)here, (long long)(next - here));
     }
     fprintf(to, "\ndump frames all custom %lld %s every v_next first yes\n", (long long)steps, columns);

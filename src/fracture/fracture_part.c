@@ -1,6 +1,7 @@
 /* Cracks, as a part of a run. */
 #include "fracture/fracture_part.h"
 #include "base/memory.h"
+#include "coupling/coupling_part.h"
 #include "run/part.h"
 
 static void fracture_free_all(struct run *e)
@@ -9,6 +10,19 @@ static void fracture_free_all(struct run *e)
     tips_free(&f->tips);
     for (int k = 0; f->growth && k < e->scene->growths; k++) growth_free(&f->growth[k]);
     memory_free(f->growth);
+}
+
+
+void cracks_notches(struct run *e)
+{
+    if (e->coupling->notches.lost) tips_before(&e->fracture->tips, e->coupling->notches.lost);
+}
+
+bool cracks_fade(const struct run *e)
+{
+    bool fades = false;
+    for (int k = 0; k < e->scene->growths; k++) fades |= e->fracture->growth[k].n > 0;
+    return fades;
 }
 
 const struct part part_fracture = {PART(fracture, fracture_state), .free = fracture_free_all};

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "fracture/tips.h"
 #include "tips_parts.h"
 
 #define AHEAD_REACH 1.2                  /* radius of the search for particles ahead of an end [spacings] */

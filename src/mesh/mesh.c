@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "mesh/active_nodes.h"
 #include "base/memory.h"
 #include "mesh_parts.h"
 #include "base/team.h"

@@ -6,6 +6,7 @@
 #include "fracture/fracture_part.h"
 #include "probes/probes_part.h"
 #include "mesh/mesh_part.h"
+#include "step/step.h"
 
 #include <math.h>
 #include <string.h>
@@ -122,7 +123,7 @@ static void probe_mark(struct marks *m, int k, const char *text)
 {
     const struct scene *s = m->engine->scene;
     const struct probe_request *p = &s->probe[k];
-    const struct observed seen = engine_observed(m->engine);
+    const struct observed seen = run_observed(m->engine);
     real from[DIM_MAX] = {0}, to[DIM_MAX] = {0}, radius;
     static const char point[] = "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'";
     static const char line[] = "with lines lw 1.6 dt (7,4) lc rgb '#5b2a86'";

@@ -13,6 +13,7 @@
 #include "output/output_files.h"
 #include "scene_marks.h"
 #include "step/report.h"
+#include "mesh/mesh_part.h"
 
 /* Room round the panel, its size, and the height of a line of the key [pixel]. */
 enum { PICTURE_LEFT = 100, PICTURE_KEY = 400, PICTURE_ABOVE = 66, PICTURE_BELOW = 66, KEY_LINE = 23 };
@@ -103,8 +104,8 @@ static void scene_cloud(struct cloud *c, struct run *e, const struct camera *cam
     real from[DIM_MAX];
     int64_t count[DIM_MAX];
     double step;
-    const bool hollow = engine_hollow_points(e, false);
-    int64_t room = e->part.n + (hollow ? e->report->more.n : 0);
+    const bool hollow = frame_hollow_points(e, false);
+    int64_t room = e->part.n + (hollow ? e->frame->shown.part.n : 0);
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
         room += rigid_sites(e, &s->body[b].shape, from, count, &step);
     *c = (struct cloud){.axis = {0, 1}, .normal = -1, .spacing = s->spacing, .aligned = true,
@@ -115,7 +116,7 @@ static void scene_cloud(struct cloud *c, struct run *e, const struct camera *cam
     c->size = NEW("plot.size", room, float);
     c->colour = NEW("plot.colour", room, struct colour);
     cloud_add_particles(c, e, &e->part, NULL);
-    if (hollow) cloud_add_particles(c, e, &e->report->more, e->report->more_spacing);
+    if (hollow) cloud_add_particles(c, e, &e->frame->shown.part, e->frame->shown.spacing);
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) cloud_add_rigid(c, e, &s->body[b].shape);
     if (s->dim == 1) c->tall = BAR_HALF * (c->to[0] - c->from[0]);
 }

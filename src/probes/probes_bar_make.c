@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "probes/probes.h"
 #include "probes_parts.h"
 
 static const char *const form_names[EXACT_FORMS] = {"step bar", "plastic bar", "pulse", "manufactured"};

@@ -1,6 +1,7 @@
 /* Probes and the balance of energy, as parts of a run. */
 #include "probes/probes_part.h"
 #include "base/memory.h"
+#include "fracture/fracture_part.h"
 #include "run/part.h"
 
 static void probing_free_all(struct run *e)
@@ -9,6 +10,34 @@ static void probing_free_all(struct run *e)
     probes_free(&q->probes);
     for (int d = 0; d < DIM_MAX; d++) memory_free(q->baseline.v[d]);
     memory_free(q->pulse);
+}
+
+
+int64_t cracks_grow(struct run *e)
+{
+    int64_t released = 0;
+    for (int k = 0; k < e->scene->growths; k++) {
+        struct control r;
+        const bool known = probes_sif_control(&e->probing->probes, e->scene->growth[k].probe, &r);
+        released += growth_step(&e->fracture->growth[k], &e->bonds, &e->part, &e->source, known ? &r : NULL, e->clock.t,
+                                e->clock.dt);
+    }
+    return released;
+}
+
+real largest_stress(const struct particles *p)
+{
+    real most = 0;
+    for (int c = 0; c < symmetric_count(p->dim); c++)
+        for (int64_t i = 0; i < p->n; i++) most = real_max(most, fabs(p->stress[c][i]));
+    return most;
+}
+
+void make_pulses(const struct scene *s, struct probing *probing)
+{
+    probing->pulse = NEW("engine.pulse", s->initials, struct wave_pulse);
+    for (int k = 0; k < s->initials; k++)
+        if (s->initial[k].sets_pulse) probing->pulse[probing->pulses++] = s->initial[k].pulse;
 }
 
 const struct part part_probing = {PART(probing, probing), .free = probing_free_all};

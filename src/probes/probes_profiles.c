@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "probes/probes.h"
 #include "base/memory_stream.h"
 #include "probes_parts.h"
 

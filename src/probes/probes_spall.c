@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "base/memory.h"
-#include "probes/probes.h"
 #include "probes_parts.h"
 
 /* A body cut into columns, one spacing wide along x; plane k lies between columns k and k + 1. */

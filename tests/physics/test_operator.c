@@ -16,6 +16,7 @@
 #include "tests/support/near.h"
 #include "tests/support/operator.h"
 #include "mesh/mesh_part.h"
+#include "step/step.h"
 
 #define SYMMETRIC 1e-8                   /* of the largest entry: differences leave 1e-11 */
 #define LEDGER 1e-6                      /* terms of third order at displacements of 1e-6 spacings */

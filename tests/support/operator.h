@@ -10,6 +10,7 @@
 #include "eigen.h"
 #include "base/memory.h"
 #include "mesh/mesh_part.h"
+#include "step/step.h"
 
 /* Component d of particle `at`, or of a node of the mesh. */
 struct unknown { bool node; int32_t at; int d; };
@@ -106,8 +107,8 @@ static inline void operator_forces(struct operator *o, real *f)
         for (int d = 0; d < g->dim; d++)
             e->frame->mesh.displacement[d][g->mirror_node[k].node] =
                 g->mirror_node[k].sign[d] * e->frame->mesh.displacement[d][g->mirror_node[k].image];
-    if (getenv("OPERATOR_SHOW")) engine_mesh_sync(e);
-    engine_forces(e);
+    if (getenv("OPERATOR_SHOW")) frame_sync(e);
+    run_forces(e);
     for (int64_t k = 0; k < mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)
             g->force[d][g->mirror_node[k].image] += g->mirror_node[k].sign[d] * g->force[d][g->mirror_node[k].node];

@@ -10,6 +10,7 @@
 #include "tests/support/near.h"
 #include "step/report.h"
 #include "probes/diagnostics.h"
+#include "step/stability.h"
 
 /* A body that flies at a cracked one, whose crack closes. */
 static const char plane[] =
@@ -53,7 +54,7 @@ static struct run *contact_run(struct scene *s, const char *text, const char *la
     if (scene_read_text(s, text, strlen(text), "contact.yaml", &set, 1) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(e, s, NULL));
     e->report->quiet = true;
-    assert_ok(engine_report_start(e));
+    assert_ok(report_start(e));
     return e;
 }
 
@@ -270,7 +271,7 @@ static void check_collision(const char *text, const char *law, real pairs_least)
     int64_t seen = 0;
     while (e->clock.step < e->clock.steps) {
         assert_ok(engine_step(e));
-        assert_ok(engine_stability_check(e));
+        assert_ok(stability_check(e));
         if (e->clock.step % 4 > 0) continue;
         check_plain(e);
         if (e->contact->touching == 0) continue;

@@ -7,10 +7,10 @@
 #include "base/memory.h"
 #include "engine/engine.h"
 #include "src/contact/contact_internal.h"
-#include "src/engine/engine_report.h"
 #include "tests/support/near.h"
 #include "step/report.h"
 #include "rigid/rigid_part.h"
+#include "step/sample.h"
 
 /* A spring of 3 kN/m on a face with the normal (0, 0.6, 0.8): it holds up to 0.2 N, then slides with that force; what
  * the motion gives is stored or lost, and goes when both part. */
@@ -58,7 +58,7 @@ static struct run *body_begin(struct scene *s, const char *text)
     if (scene_read_text(s, text, strlen(text), "friction.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(e, s, NULL));
     e->report->quiet = true;
-    assert_ok(engine_report_start(e));
+    assert_ok(report_start(e));
     return e;
 }
 
@@ -237,7 +237,7 @@ static void rigid_body_rubs(void **state)
     for (int k = 0; k < 7; k++) forces_at(e, 1e-7);
     assert_close(contact_friction_work(e->contact) - before, lost, 1e-9);
     e->report->sampling.due = true, e->damped = 0.021;
-    engine_sample_energy(e);
+    sample_energy(e);
     assert_close(e->report->sampling.energy.damped, 0.021 + before + lost, 1e-9);
     assert_true(lost > 1e-6 * 0.021);                    /* it counts beside the other */
     body_end(e, &s);

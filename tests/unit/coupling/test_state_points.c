@@ -12,6 +12,8 @@
 #include "mesh/mesh_part.h"
 #include "coupling/coupling_part.h"
 #include "coupling/conversion.h"
+#include "step/step.h"
+#include "run/energies.h"
 
 #define TURN_MOST 0.2                    /* of a particle [rad] */
 #define SHAKE 0.02                       /* of places [spacings]: strains of some percent */
@@ -66,7 +68,7 @@ static void shake(struct run *e)
 
 static real energy_of(struct run *e)
 {
-    engine_forces(e);
+    run_forces(e);
     return e->kernels.bond_energy(&e->bonds, &e->part) +
            mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
 }
@@ -172,7 +174,7 @@ static void check_points(const char *text)
     shake(&e);
     for (int64_t i = 0; i < e.part.n; i++)
         for (int c = 0; c < symmetric_count(e.part.dim); c++) e.part.stress[c][i] = cloud_between(&seed, -1e9, 1e9);
-    engine_ends_update(&e);
+    ends_update(&e);
     states_precompute(&e.bonds, &e.part, &e.source);
     for (int64_t row = 0; row < e.bonds.rows; row++) {
         const int64_t i = e.bonds.particle[row];

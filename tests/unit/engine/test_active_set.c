@@ -95,7 +95,7 @@ static struct run *run_make(struct scene *s, const char *body, const char *bound
     if (scene_read_text(s, text, strlen(text), "active_set.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(e, s, NULL));
     e->report->quiet = true;
-    assert_ok(engine_report_start(e));
+    assert_ok(report_start(e));
     return e;
 }
 
@@ -129,7 +129,7 @@ static real sleeping(const struct run *e)
     const struct transfer_order *active = e->grid->transfer.order;
     const struct transfer_order *all = &e->grid->field[0].order;
     const real points = all->n > 0 && active != all ? 1 - (real)active->n / (real)all->n : 0;
-    return real_max(engine_inactive_share(e), points);
+    return real_max(report_inactive_share(e), points);
 }
 
 /* Runs it with and without; they agree after every tenth step. At least `early` of the body is inactive after a

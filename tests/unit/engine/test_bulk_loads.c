@@ -16,6 +16,7 @@
 #include "probes/diagnostics.h"
 #include "rigid/rigid_part.h"
 #include "rigid/rigid.h"
+#include "step/step.h"
 
 #define BLOCK                                                                                                          \
     "space: plane strain\nthickness: 0.37 m\nduration: 1 ms\nmethod: pd\n"                                             \
@@ -369,7 +370,7 @@ static void pressure_follows_beside_mirrors(void **state)
         real most = 0, off = 0;
         run(&a, SQUARE, frames[k][0], frames[k][1], quarter, mirrors, "duration=2 ms", NULL);
         run(&b, SQUARE, frames[k][0], frames[k][1], whole, alone, "duration=2 ms", NULL);
-        engine_sync(&a.e), engine_sync(&b.e);
+        run_sync(&a.e), run_sync(&b.e);
         for (int64_t i = 0; i < a.e.part.n; i++) {
             const struct particles *p = &a.e.part, *q = &b.e.part;
             real X[DIM_MAX];
@@ -398,7 +399,7 @@ static void rotation_drives_on_circles(void **state)
         run(&a, SQUARE, frames[k][0], frames[k][1], "duration=10 ms",
             "boundary=[{rotation: {centre: [0, 0], rate: 200 1/s}}]", NULL);
         struct particles *p = &a.e.part;
-        engine_sync(&a.e);
+        run_sync(&a.e);
         for (int64_t i = 0; i < p->n; i++) {
             const real X = p->X[0][i], Y = p->X[1][i], c = cos(2), s = sin(2);
             const real away = hypot(p->x[0][i] - (c * X - s * Y), p->x[1][i] - (s * X + c * Y));
@@ -431,7 +432,7 @@ static void formulas_are_what_they_say(void **state)
         struct finished_run a;
         if (k == 2) continue; /* frame current refuses it */
         run(&a, SQUARE, frames[k][0], frames[k][1], "boundary=[{velocity: [x/(1 s), -2*y/(1 s)]}]", NULL);
-        engine_sync(&a.e);
+        run_sync(&a.e);
         for (int64_t i = 0; i < a.e.part.n; i++)
             assert_true(fabs(a.e.part.x[0][i] - a.e.part.X[0][i] * 1.004) < 1e-9 &&
                         fabs(a.e.part.x[1][i] - a.e.part.X[1][i] * 0.992) < 1e-9);
@@ -453,7 +454,7 @@ static void initial_velocities_are_formulas(void **state)
         real along = 0, squares = 0;
         run(&a, BAR, frames[k][0], frames[k][1], duration, mode, NULL);
         const struct particles *p = &a.e.part;
-        engine_sync(&a.e);
+        run_sync(&a.e);
         for (int64_t i = 0; i < p->n; i++) {
             const real shape = cos(acos(-1) * p->X[0][i]);
             along += (p->x[0][i] - p->X[0][i]) * shape, squares += square(shape);

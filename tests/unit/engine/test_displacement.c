@@ -11,11 +11,11 @@
 #include <cmocka.h>
 
 #include "engine/engine.h"
-#include "src/engine/engine_report.h"
 #include "tests/support/scene_with.h"
 #include "tests/support/near.h"
 #include "probes/diagnostics.h"
 #include "step/report.h"
+#include "step/step.h"
 
 #define BAR                                                                                                            \
     "space: line\nsection: 1 cm^2\nduration: 0.5 ms\nmethod: pd\n"                                                     \
@@ -114,14 +114,14 @@ static void check_places(const char *scene, real from, real size, real duration)
     for (int way = 0; way < WAYS; way++) {
         struct scene_run a;
         make(&a, scene, ways[way][0], ways[way][1], ways[way][2], boundary, NULL);
-        assert_ok(engine_report_start(&a.e));
+        assert_ok(report_start(&a.e));
         const real within = from + 2 * a.s.spacing; /* cells of which all nodes are driven */
         real most = 0, far = 0;
         int64_t steps = 0;
         for (; a.e.clock.t < duration; steps++) {
             if (engine_step(&a.e) != OK) fail_msg("%s", status_message());
             const real u = size * square(sin(acos(-1) * a.e.clock.t / (1.7 * duration)));
-            engine_sync(&a.e);
+            run_sync(&a.e);
             far = real_max(far, fabs(u));
             most = real_max(most, off_place(&a, strstr(ways[way][1], "current") ? from : within, u));
             assert_close(a.e.loads.load[0].displacement[0], u, 1e-12);
@@ -150,7 +150,7 @@ static void formulas_are_in_place(void **state)
         struct scene_run a;
         make(&a, PLATE, ways[way][0], ways[way][1], drive, NULL);
         run_all(&a);
-        engine_sync(&a.e);
+        run_sync(&a.e);
         const struct particles *p = &a.e.part;
         for (int64_t i = 0; i < p->n; i++) {
             const real X = p->X[0][i], Y = p->X[1][i];
@@ -203,7 +203,7 @@ static void check_patch(const char *scene, const char *solver, const char *model
     struct scene_run a;
     make(&a, scene, solver, model, drive, "solver_tolerance=1e-7", "duration=1 s", NULL);
     run_all(&a);
-    engine_stress(&a.e);
+    run_stress(&a.e);
     const struct particles *p = &a.e.part;
     const real far = particles_longest(p), within = 1e-4 * fabs(strain[0]) * far;
     int64_t free = 0;

@@ -31,7 +31,7 @@ static void run_text(const char *text, bool begins)
     assert_int_equal(output_open(&o, "run", s.text, OUTPUT_OVERWRITE, false), OK);
     if (engine_make(&e, &s, &o) != OK) fail_msg("%s", status_message());
     e.report->quiet = true;
-    if ((begins ? engine_report_start(&e) : engine_run(&e)) != OK) fail_msg("%s", status_message());
+    if ((begins ? report_start(&e) : engine_run(&e)) != OK) fail_msg("%s", status_message());
     assert_int_equal(output_wait(&o), OK);
     engine_free(&e);
     output_close(&o);

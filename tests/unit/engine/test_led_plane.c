@@ -12,7 +12,7 @@
 #include "base/memory.h"
 #include "engine/engine.h"
 #include "fracture/sif_fields.h"
-#include "src/engine/engine_statics.h"
+#include "src/quasistatic/statics_internal.h"
 #include "step/report.h"
 
 struct solution {

@@ -15,7 +15,7 @@ static void make(struct run *e, struct scene *s, const char *text)
     if (scene_read_text(s, text, strlen(text), "scatter.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(e, s, NULL));
     e->report->quiet = true;
-    assert_ok(engine_report_start(e));
+    assert_ok(report_start(e));
 }
 
 static void drop(struct run *e, struct scene *s)

@@ -10,6 +10,7 @@
 #include "../bench/common/bench.h"
 #include "tests/support/near.h"
 #include "base/rise.h"
+#include "step/stability.h"
 
 /* ---- how long a rise took ---------------------------------------------------------------------------------------- */
 
@@ -111,14 +112,14 @@ static void remedy_of(const char *key, const char *value, real tenfold, char *re
     const struct rise r = rising(tenfold, 200);
     e.clock.step = 20000, e.clock.t = 20000 * e.clock.dt;
     e.part.v[0][0] = 1;                                  /* which no load has paid for */
-    engine_remedy(&e, &r, 1, remedy, ENGINE_REMEDY);
+    stability_remedy(&e, &r, 1, remedy, REMEDY_LENGTH);
     bench_engine_free(&e, &s);
 }
 
 static void slow_growth_is_no_matter_of_the_step(void **state)
 {
     (void)state;
-    char remedy[ENGINE_REMEDY];
+    char remedy[REMEDY_LENGTH];
     remedy_of(NULL, NULL, 1000, remedy);
     assert_null(strstr(remedy, "choose a smaller"));
     assert_non_null(strstr(remedy, "it took 1000 steps to grow tenfold"));

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "src/engine/engine_statics.h"
+#include "src/quasistatic/statics_internal.h"
 #include "tests/support/solution.h"
 #include "step/report.h"
 #include "probes/diagnostics.h"

@@ -1,6 +1,6 @@
 /* State-based peridynamics: patch tests against classical energies, finite rotation, force as the exact
  * gradient of energy on irregular cracked bodies, momentum and angular momentum, and the critical step. */
-#include "engine/critical_step.h"
+#include "run/critical_step.h"
 #include "kernels/kernels.h"
 
 #include "tests/support/cloud.h"

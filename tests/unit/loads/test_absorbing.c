@@ -10,6 +10,7 @@
 #include "tests/support/cloud.h"
 #include "tests/support/near.h"
 #include "probes/diagnostics.h"
+#include "step/report.h"
 
 static const char bonds[] = "method: pd", cells[] = "method: mpm\nmpm: {frame: reference}",
                   flip[] = "method: mpm\nmpm: {frame: current}",
@@ -85,7 +86,7 @@ static struct left run_text(const char *text)
     struct left m = {0};
     real before = 0;
     assert_ok(bench_engine_make(&e, &s, "absorbing", text, NULL, 0));
-    assert_ok(engine_report_start(&e));
+    assert_ok(report_start(&e));
     while (e.clock.step < e.clock.steps) {
         assert_ok(engine_step(&e));
         m.back = real_max(m.back, before - e.loads.absorbing.energy);
@@ -94,7 +95,7 @@ static struct left run_text(const char *text)
         m.most = real_max(m.most, now->energy.kinetic + now->energy.strain);
         m.balance = real_max(m.balance, fabs(now->balance_error));
     }
-    assert_ok(engine_report_end(&e));
+    assert_ok(report_end(&e));
     m.start = e.diagnostics->energy_start, m.absorbed = e.diagnostics->now.energy.absorbed;
     m.rest = e.diagnostics->now.energy.kinetic + e.diagnostics->now.energy.strain;
     m.momentum = e.diagnostics->now.momentum_error;

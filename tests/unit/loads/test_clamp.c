@@ -254,10 +254,10 @@ static void test_threads(void **state)
 static real run(struct run *e)
 {
     real most = 0;
-    assert_ok(engine_report_start(e));
+    assert_ok(report_start(e));
     while (e->clock.step < e->clock.steps) {
         assert_ok(engine_step(e));
-        assert_ok(engine_report(e));
+        assert_ok(report_step(e));
         most = real_max(most, fabs(e->diagnostics->now.balance_error));
     }
     assert_true(e->diagnostics->now.momentum_error < 1e-11); /* round-off of 1e5 steps; supports are in the account */

@@ -13,6 +13,7 @@
 #include "mesh/mesh_part.h"
 #include "probes/probes.h"
 #include "probes/diagnostics.h"
+#include "step/step.h"
 
 #define H 1e-3                           /* spacing [m] */
 #define T 2e-3                           /* thickness of plates [m] */
@@ -382,12 +383,12 @@ static void check_impulse(const struct solid_shown *q, int64_t columns, const ch
     if (scene_read_text(&s, text, strlen(text), "faces.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     if (engine_make(e, &s, NULL) != OK) fail_msg("%s", status_message());
     e->report->quiet = true;
-    assert_ok(engine_report_start(e));
+    assert_ok(report_start(e));
     for (int step = 0; step < STEPS; step++) assert_ok(engine_step(e));
     diagnostics_make(&w);
     const struct grid *nodes[] = {&e->frame->mesh.grid};
     diagnostics_momentum(&w, &e->part, nodes, 1, (const real[DIM_MAX]){0});
-    const real t = engine_observed(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) *
+    const real t = run_observed(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) *
                                                           (one     ? 3e-6
                                                            : three ? 1
                                                                    : T);

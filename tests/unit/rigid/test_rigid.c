@@ -218,10 +218,10 @@ static void test_record(void **state)
         real record[24], kinetic = 0, kick = 0;
         int wanted = 0;
         e.part.dim = body[0].dim = body[1].dim = dim;
-        const int n = engine_rigid_columns(&e, NULL);
-        assert_int_equal(engine_rigid_columns(&e, column), n);
-        engine_rigid_keep(&e);
-        engine_rigid_record(&e, record);
+        const int n = rigids_columns(&e, NULL);
+        assert_int_equal(rigids_columns(&e, column), n);
+        rigids_keep(&e);
+        rigids_record(&e, record);
         for (int b = 0; b < 2; b++) {
             const real *const from[] = {body[b].force, body[b].moment, body[b].x, body[b].v};
             for (int d = 0; d < dim; d++) {
@@ -236,7 +236,7 @@ static void test_record(void **state)
                 }
         }
         assert_int_equal(n, wanted);
-        const struct rigid_energy sum = engine_rigid_energy(&e);
+        const struct rigid_energy sum = rigids_energy(&e);
         assert_close(sum.before, kinetic, 1e-14);
         assert_close(sum.last, kinetic + kick, 1e-14);
         assert_close(sum.step, 0.9 + 2.6, 1e-14);

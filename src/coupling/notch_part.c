@@ -1,0 +1,74 @@
+/* Pre-cracks in the reference frame: slits of the mesh or cut bonds. */
+#include <math.h>
+#include <stdio.h>
+
+#include "grid/grid_part.h"
+#include "coupling/coupling_part.h"
+#include "mesh/mesh_part.h"
+
+/* ---- choice ------------------------------------------------------------------------------------------------------ */
+
+/* Why no pre-crack of the scene is a slit; NULL: some may be. */
+static const char *scene_obstacle(const struct scene *s)
+{
+    if (s->conversion.notch == NOTCH_BONDS) return "the scene says so";
+    if (s->growths > 0) return "growth lets bonds along cracks fade";
+    for (int k = 0; k < s->probes; k++)
+        if (s->probe[k].kind == PROBE_SIF) return "a sif probe looks at the bonds of its crack";
+    if (s->contact_between == CONTACT_ALL && !s->contact_convert)
+        return "with contact.convert false the faces of a slit would pass through each other";
+    return NULL;
+}
+
+static const char *obstacle_of(const struct run *e)
+{
+    const char *why = scene_obstacle(e->scene);
+    if (!why && !frame_any(e)) why = "there are no material points in the reference frame";
+    if (!why && grid_mirror_between(e)) why = "a mirror lies between two nodes of the mesh";
+    return why;
+}
+
+static status notches_check(const struct scene *s, const struct notches *n)
+{
+    for (int k = 0; k < n->n && s->conversion.notch == NOTCH_SLIT; k++)
+        if (!n->notch[k].slit)
+            return status_set(REFUSED, "conversion.notch: crack %d cannot be a slit: %s; auto and bonds can do it",
+                              k + 1, n->notch[k].reason);
+    return OK;
+}
+
+status notch_convert(struct run *e)
+{
+    const struct scene *s = e->scene;
+    struct notches *n = &e->coupling->notches;
+    const real tips = s->conversion.tips * e->source.family.horizon;
+    const real radius = tips > 0 ? real_max(tips, NOTCH_ZONE_LEAST * s->spacing) : NOTCH_ZONE * s->spacing;
+    notches_make(n, &e->part, &e->source, radius, obstacle_of(e));
+    TRY(notches_check(s, n));
+    struct bond_source cut = e->source;
+    cut.crack = n->cut, cut.cracks = n->cuts;
+    convert_region(&e->coupling->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source, tips);
+    notches_convert(n, &e->part, &e->source);
+    voids_convert(e);
+    convert_start(&e->part, &cut, e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
+    return OK;
+}
+
+void notch_text(const struct run *e, int crack, char *text, size_t room)
+{
+    const struct notches *n = &e->coupling->notches;
+    if (n->notch[crack].slit)
+        snprintf(text, room, "slit of the mesh, bonds within %.3g spacings of its ends", n->radius / e->scene->spacing);
+    else snprintf(text, room, "cut bonds: %s", n->notch[crack].reason);
+}
+
+/* ---- in a run ---------------------------------------------------------------------------------------------------- */
+
+bool notch_approach(struct run *e)
+{
+    const struct notches *n = &e->coupling->notches;
+    if (n->faces == 0 || e->scene->contact_between != CONTACT_ALL || e->clock.step % APPROACH_STEPS != 0) return false;
+    frame_sync_points(e, n->face, n->faces);
+    notches_approach(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);
+    return true;
+}

@@ -1,0 +1,77 @@
+/* Reversion of peridynamic particles to material points: when it is checked, and what follows it. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "coupling/reversion.h"
+#include "coupling/coupling_part.h"
+#include "mesh/mesh_part.h"
+#include "grid/grid_part.h"
+#include "contact/contact.h"
+#include "run/energies.h"
+
+/* Steps between checks: a wave crosses one horizon, half of a family, so that no wave passes a family between two
+ * checks. */
+static int64_t period(const struct run_clock *clock, const struct material_tables *tables,
+                      const struct bond_source *source)
+{
+    const int64_t steps = (int64_t)floor(source->family.horizon / (tables->wave_speed * clock->dt));
+    return steps > 1 ? steps : 1;
+}
+
+status reversion_check(const struct scene *s)
+{
+    const char *why = NULL;
+    if (!s->conversion.reverts || s->method != METHOD_ADAPTIVE) return OK;
+    if (!(s->conversion.criteria & CONVERT_ON_STRESS)) why = "criteria with stress, which says what a low one is";
+    if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
+        why = "coupling partial stress or handshake";
+    if (s->growths > 0) why = "no growth, whose bonds fade";
+    if (scene_at_rest(s)) why = "solver explicit";
+    for (int m = 0; m < s->materials; m++)
+        if (material_yields(&s->material[m])) why = "materials that do not yield";
+    return why ? status_set(REFUSED, "conversion.reversion: true goes with %s", why) : OK;
+}
+
+/* Energy of the body at the current positions [J]. */
+static real energy_now(struct run *e)
+{
+    if (e->source.modulus) run_stress(e);
+    return e->kernels.bond_energy(&e->bonds, &e->part) +
+           diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial) +
+           mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain) +
+           diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh);
+}
+
+/* Reverts the listed particles, [n], and records the change of energy. */
+static void revert_listed(struct run *e, const int32_t *list, int64_t n)
+{
+    const real before = energy_now(e);
+    reversion_apply(&e->coupling->conversion, &e->part, &e->bonds, &e->source,
+                    e->coupling->uses_partial ? &e->coupling->partial : NULL, list, n);
+    frame_insert(e, list, n);
+    conversion_follow(e, n);
+    frame_sync_points(e, NULL, e->part.n);
+    interface_make(e);
+    e->grid->sort_needed = e->contact->due = true;
+    e->coupling->conversion.reversion_energy += energy_now(e) - before;
+}
+
+void revert(struct run *e)
+{
+    const struct scene *s = e->scene;
+    int32_t *list;
+    if (!e->part.low_since || e->clock.step == 0 || e->clock.step % period(&e->clock, &e->tables, &e->source) != 0 ||
+        e->part.n_of[KIND_PD] == 0)
+        return;
+    run_stress(e);
+    const int64_t n = reversion_choose(
+        &(struct reversion_rule){.source = &e->source,
+                                 .elastic = e->tables.elastic,
+                                 .kept = e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL,
+                                 .low_stress = s->conversion.low_stress,
+                                 .hold_time =
+                                     s->conversion.hold_time * e->source.family.horizon / e->tables.wave_speed},
+        &e->part, &e->bonds, e->clock.t, &list);
+    if (n > 0) revert_listed(e, list, n);
+    memory_free(list);
+}

@@ -1,0 +1,111 @@
+/* Voids too narrow for a grid: particles beside them become peridynamic, or the run says that it closes them. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "grid/grid_part.h"
+#include "run/make.h"
+
+#define ALONG 0.999                      /* least cosine between an axis and a way along it */
+
+/* Can voids not cut the mesh? A cut parts a line; where a mirror lies between nodes there are no extra ones. */
+static bool mesh_uncut(const struct run *e) { return e->part.dim == 1 || grid_mirror_between(e); }
+
+void voids_convert(struct run *e)
+{
+    struct particles *p = &e->part;
+    const struct voids *v = e->source.voids;
+    const bool uncut = mesh_uncut(e);
+    for (int64_t i = 0; i < p->n && v; i++)
+        if (v->near[i] & VOID_ACROSS && (uncut || !(p->flag[i] & FLAG_MESHED))) p->kind[i] = KIND_PD;
+}
+
+/* Writes the place of a particle as "(x, y)" [m]. Returns `text`. */
+static const char *void_place_text(const struct particles *p, int64_t i, char text[96])
+{
+    int used = snprintf(text, 96, "(");
+    for (int d = 0; d < p->dim; d++) used += snprintf(text + used, 96 - used, "%s%.4g", d > 0 ? ", " : "", p->X[d][i]);
+    snprintf(text + used, 96 - used, ")");
+    return text;
+}
+
+/* Particles at voids that the run closes: their number, and the first. */
+struct closed { int64_t n, first; };
+
+static void closed_add(struct closed *to, int64_t i)
+{
+    if (to->n++ == 0) to->first = i;
+}
+
+/* Of bodies whose surface is known: material points on a grid that no void cuts. */
+static struct closed closed_on_grid(const struct run *e)
+{
+    const struct particles *p = &e->part;
+    const bool uncut = mesh_uncut(e);
+    struct closed found = {0};
+    for (int64_t i = 0; i < p->n && e->source.voids; i++)
+        if (e->source.voids->near[i] & VOID_ACROSS && p->kind[i] == KIND_MPM && (uncut || !(p->flag[i] & FLAG_MESHED)))
+            closed_add(&found, i);
+    return found;
+}
+
+/* Distances from particle i to the nearest neighbours along the axes, down and up [2 dim, m]; INFINITY: none. */
+static void next_along(const struct particles *p, int64_t i, const struct near *near, real *next)
+{
+    for (int a = 0; a < 2 * p->dim; a++) next[a] = INFINITY;
+    for (int k = 0; k < near->n; k++) {
+        const int32_t j = near->at[k];
+        real way[DIM_MAX], r2 = 0;
+        for (int d = 0; d < p->dim; d++) way[d] = p->X[d][j] - p->X[d][i], r2 += square(way[d]);
+        for (int d = 0; d < p->dim && p->body[j] == p->body[i]; d++) {
+            real *to = &next[2 * d + (way[d] > 0)];
+            if (square(way[d]) > square(ALONG) * r2) *to = real_min(*to, sqrt(r2));
+        }
+    }
+}
+
+/* Of body b, whose surface is not known: particles of a lattice between which sites are empty, nearer than `reach`. */
+static struct closed closed_in_lattice(const struct run *e, int b, real reach)
+{
+    const struct particles *p = &e->part;
+    const real spacing = e->scene->spacing;
+    struct closed found = {0};
+    struct near near = {0};
+    int64_t all = 0, regular = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        real next[2 * DIM_MAX];
+        int beside = 0, across = 0;
+        if (e->scene->body[p->body[i]].joined != b) continue;
+        near_find(&near, &e->cells, p, i, reach, false);
+        next_along(p, i, &near, next);
+        for (int d = 0; d < p->dim; d++) beside += real_min(next[2 * d], next[2 * d + 1]) < 1.01 * spacing;
+        for (int a = 0; a < 2 * p->dim; a++) across += next[a] > 1.5 * spacing && next[a] <= reach;
+        all++, regular += beside >= p->dim;
+        if (across > 0) closed_add(&found, i);
+    }
+    memory_free(near.at);
+    return 2 * regular > all ? found : (struct closed){0};
+}
+
+void voids_warn(const struct run *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    const struct closed grid = closed_on_grid(e);
+    char place[96];
+    if (grid.n > 0)
+        warnings_add(to, "body %s has a void too narrow for its grid, at %s m: %lld points share "
+                     "nodes with points on the other side; %smethod pd and method adaptive keep it open, a smaller "
+                     "particles.spacing does, too",
+                     s->body[e->part.body[grid.first]].name, void_place_text(&e->part, grid.first, place),
+                     (long long)grid.n, mesh_uncut(e) ? "" : "mpm.frame reference, ");
+    for (int b = 0; b < s->bodies && s->dim > 1; b++) {
+        if (s->body[b].joined != b || surface_known(s, b)) continue;
+        const struct closed gap = closed_in_lattice(e, b, voids_reach(e));
+        if (gap.n == 0) continue;
+        warnings_add(to, "body %s has a void of one or two particles' width at %s m, at %lld particles in all: of "
+                     "lists and images only particles are known, and %s join what is on both sides; cracks say where "
+                     "there are free faces, a smaller particles.spacing widens the void",
+                     s->body[b].name, void_place_text(&e->part, gap.first, place), (long long)gap.n,
+                     s->method == METHOD_MPM ? "cells" : s->method == METHOD_PD ? "bonds" : "bonds and cells");
+    }
+}

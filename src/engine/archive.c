@@ -1,0 +1,145 @@
+/* State of the engine in checkpoints: what is saved and restored, and what is made again. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "engine_internal.h"
+#include "quasistatic/load_steps.h"
+#include "base/memory.h"
+#include "simd/simd.h"
+#include "coupling/coupling_part.h"
+#include "grid/grid_part.h"
+#include "mesh/mesh_part.h"
+#include "probes/probes_part.h"
+#include "step/report.h"
+#include "rigid/rigid_part.h"
+#include "contact/contact.h"
+#include "step/stability.h"
+#include "fracture/fracture_part.h"
+#include "solver/solver.h"
+#include "output/output.h"
+#include "run/say.h"
+
+/* Saves or restores all fields of the particles, images included. */
+static status particles_archive(struct particles *p, struct archive *a, int optional)
+{
+    for (int f = 0; f < particle_fields_count; f++) {
+        const struct particle_field *field = &particle_fields[f];
+        for (int k = 0; k < field->count(p->dim, optional); k++) {
+            char name[64];
+            snprintf(name, sizeof name, "particles/%s%d", field->name, k);
+            TRY(a->exchange(a, name, particle_array(p, field, k), (size_t)p->n_all * field->size));
+        }
+    }
+    return OK;
+}
+
+#define FAR_AWAY 1e7                     /* [spacings], as too_far in fill.c */
+
+/* FAILED for a state that no run can have: a checkpoint with intact bytes may still hold one. Indices into arrays and
+ * positions are checked before use. */
+static status particles_check(const struct scene *s, const struct particles *p)
+{
+    for (int64_t i = 0; i < p->n_all; i++) {
+        real sum = 0;
+        bool good = p->kind[i] < KINDS && p->material[i] < s->materials && p->body[i] < s->bodies && p->mass[i] > 0 &&
+                    isfinite(p->mass[i]);
+        good = good && (i >= p->n || (p->id[i] >= 0 && p->id[i] < p->n_body));
+        for (int d = 0; d < p->dim; d++) {
+            good = good && (i >= p->n || fabs(p->X[d][i]) <= FAR_AWAY * s->spacing || !(s->spacing > 0));
+            sum += 0 * (p->X[d][i] + p->x[d][i] + p->v[d][i]);
+        }
+        if (!good || !(sum == 0))
+            return status_set(FAILED,
+                              "cannot resume: particle %lld of the checkpoint is in no state that a run can be in",
+                              (long long)i);
+    }
+    return OK;
+}
+
+/* Makes again all that follows from the particles; the rest is read back. */
+static void engine_archive_rebuild(struct run *e)
+{
+    particles_list(&e->part);
+    bonds_free(&e->bonds);
+    bonds_make(&e->bonds, NULL, &e->part, &e->source);
+    partial_stress_free(&e->coupling->partial);
+    e->grid->sort_needed = true;
+}
+
+/* Warns if a checkpoint was written with another set of kernels: sets agree to round-off only. */
+static status kernels_archive(struct run *e, struct archive *a)
+{
+    char text[256];
+    const struct simd_set *now = simd_in_use();
+    char then[16] = {0};
+    snprintf(then, sizeof then, "%s", now->name);
+    ARCHIVE_VALUE(a, "engine/kernels", then);
+    then[sizeof then - 1] = 0;
+    if (strcmp(then, now->name) == 0) return OK;
+    snprintf(text, sizeof text,
+             "the checkpoint was written with %s kernels and the run goes on with %s: the same to round-off, not to "
+             "the last bit; "
+             "CLEAVE_SIMD=%s keeps the bits, where the processor runs them",
+             then, now->name, then);
+    run_say(e, text);
+    return OK;
+}
+
+status engine_archive(void *engine, struct archive *a)
+{
+    struct run *e = engine;
+    TRY(kernels_archive(e, a));
+    TRY(restore_hollow(e, a));
+    TRY(particles_archive(&e->part, a, e->optional));
+    if (!a->saving) TRY(particles_check(e->scene, &e->part));
+    if (!a->saving) engine_archive_rebuild(e);
+    TRY(bonds_archive(&e->bonds, &e->part, a));
+    if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source);
+    if (!a->saving) {
+        coupling_partial_make(e);
+        levels_free(&e->frame->levels);
+        mesh_free(&e->frame->mesh);
+        memory_free(e->frame->elastic);
+        const struct mesh_source cuts = coupling_cuts(e);
+        TRY(frame_make(e, &cuts, true));
+        e->coupling->partial.touches = 0;
+        TRY(frame_levels_make(e, true));
+    }
+    TRY(mesh_archive(&e->frame->mesh, a));
+    TRY(levels_archive(&e->frame->levels, &e->part, &e->frame->source, a));
+    if (!a->saving) ends_update(e);
+    ARCHIVE_VALUE(a, "engine/t", e->clock.t);
+    ARCHIVE_VALUE(a, "engine/step", e->clock.step);
+    ARCHIVE_VALUE(a, "engine/steps", e->clock.steps);
+    ARCHIVE_VALUE(a, "engine/dt", e->clock.dt);
+    ARCHIVE_VALUE(a, "engine/damped", e->damped);
+    ARCHIVE_VALUE(a, "engine/residual_step0", e->probing->residual_step0);
+    ARCHIVE_VALUE(a, "engine/particle_steps", e->report->particle_steps);
+    ARCHIVE_VALUE(a, "engine/bond_visits", e->report->bond_visits);
+    ARCHIVE_VALUE(a, "engine/inactive", e->report->inactive);
+    ARCHIVE_VALUE(a, "engine/sampled", e->report->sampled);
+    TRY(active_set_archive(&e->bonds.active, "bonds", a));
+    TRY(active_set_archive(&e->frame->mesh.active, "mesh", a));
+    ARCHIVE_VALUE(a, "engine/loop_seconds", e->report->loop_seconds);
+    TRY(loads_archive(&e->loads, a));
+    for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_archive(&e->rigid->body[k], k, a));
+    e->contact->marked = scene_in_steps(e->scene);
+    TRY(contact_archive(e->contact, &e->part, a));
+    if (!a->saving && e->contact->made && !e->contact->touch)
+        contact_follow(e->contact, &e->part, &e->bonds, &e->loads);
+    if (e->grid->fields > 1) TRY(grid_contact_archive(&e->grid->contact, a));
+    TRY(solver_archive(e->solver, a));
+    TRY(statics_archive(e, a));
+    TRY(conversion_archive(&e->coupling->conversion, a));
+    TRY(diagnostics_archive(e->diagnostics, a));
+    ARCHIVE_VALUE(a, "engine/speed_rise", e->stability->speed);
+    ARCHIVE_VALUE(a, "engine/excess_rise", e->stability->excess);
+    TRY(tips_archive(&e->fracture->tips, a));
+    for (int k = 0; k < e->scene->growths; k++) TRY(growth_archive(&e->fracture->growth[k], k, a));
+    TRY(probes_archive(&e->probing->probes, a));
+    const int known = e->warnings.n;
+    TRY(warnings_archive(&e->warnings, a));
+    warnings_print(&e->warnings, known, stderr);
+    return output_archive(e->report->out, a);
+}

@@ -1,0 +1,30 @@
+/* What the files of the engine share. */
+#ifndef CLEAVE_ENGINE_INTERNAL
+#define CLEAVE_ENGINE_INTERNAL
+
+#include "data/hollow.h"
+#include "engine/engine.h"
+
+/* A run whose place another takes that has other particles. */
+struct predecessor {
+    struct run *run;
+    int32_t *now; /* [its particles and images] their numbers in the other, -1: not there */
+};
+/* engine_make with these cells hollow. `before` not NULL: with its particles, bonds and time; the rest that its steps
+ * have changed, and levels of cells, are left to the caller. */
+status engine_make_again(struct run *e, const struct scene *s, struct output *out, struct hollow hollow,
+                         struct predecessor *before);
+/* Makes a run again with the particles that these levels of cells need, and goes on where it was. */
+status engine_refill(struct run *e, const uint8_t *level);
+/* What a run takes of its predecessor while it is made: particles, once it has images; what load has broken. */
+void engine_take_particles(struct run *e, struct predecessor *before);
+void engine_take_bonds(struct run *e, const struct predecessor *before);
+/* Saves or restores the cells that are hollow; where they differ, the run is made again. */
+status restore_hollow(struct run *e, struct archive *a);
+
+/* Warns of particles that have no neighbour. */
+void engine_warn_of_lone(const struct run *e, struct warnings *to);
+/* Warns of loads whose speed breaks bonds beside what they drive. */
+void engine_warn_of_speed(const struct run *e, struct warnings *to);
+
+#endif

@@ -1,0 +1,440 @@
+/* The engine before its first step: scene -> particles -> loads -> bonds -> grid -> time step. */
+#include <math.h>
+#include <string.h>
+
+#include "engine/engine.h"
+#include "engine_internal.h"
+#include "quasistatic/load_steps.h"
+#include "parts.h"
+#include "base/memory.h"
+#include "coupling/coupling_part.h"
+#include "grid/grid_part.h"
+#include "fracture/fracture_part.h"
+#include "probes/probes_part.h"
+#include "quasistatic/statics.h"
+#include "probes/probes.h"
+#include "coupling/conversion.h"
+#include "probes/diagnostics.h"
+#include "rigid/rigid_part.h"
+#include "mesh/mesh_part.h"
+#include "step/report.h"
+#include "step/stability.h"
+#include "data/hollow.h"
+#include "contact/contact.h"
+#include "scene/fill.h"
+#include "output/output.h"
+#include "mesh/levels.h"
+#include "mesh/mesh_make.h"
+#include "run/make.h"
+#include "step/step.h"
+
+static bool has_peridynamics(const struct scene *s) { return s->method != METHOD_MPM; }
+
+/* ---- materials --------------------------------------------------------------------------------------------------- */
+
+static void make_limits(const struct scene *s, struct material_tables *tables, struct bond_source *source)
+{
+    tables->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
+    for (int a = 0; a < s->materials; a++)       /* a bond between two materials has the strength of the weaker one */
+        for (int b = 0; b < s->materials; b++)
+            tables->pair_stretch[a * s->materials + b] =
+                real_min(s->material[a].critical_stretch, s->material[b].critical_stretch);
+    for (int k = 0; k < s->interfaces; k++) {
+        const struct scene_interface *face = &s->interface[k];
+        const int a = s->body[face->body[0]].material, b = s->body[face->body[1]].material;
+        if (!(face->critical_stretch > 0)) continue;
+        tables->pair_stretch[a * s->materials + b] = face->critical_stretch;
+        tables->pair_stretch[b * s->materials + a] = face->critical_stretch;
+    }
+    source->limit = (struct bond_limit){tables->pair_stretch, s->materials, s->last_force, 0};
+    if (scene_at_rest(s)) source->limit = bond_limit_never;    /* no bond breaks in a static solution */
+}
+
+/* Yield of bonds by the material that yields first: s_y = sigma_y/E and H_b/k_e = H/E, its own curve in a bar. */
+static void make_yields(const struct scene *s, struct material_tables *tables, struct bond_source *source)
+{
+    bool any = false;
+    for (int m = 0; m < s->materials; m++) any = any || material_yields(&s->material[m]);
+    if (!any) return;
+    tables->pair_yield = NEW("engine.pair_yield", s->materials * s->materials, real);
+    tables->pair_hardening = NEW("engine.pair_hardening", s->materials * s->materials, real);
+    for (int a = 0; a < s->materials; a++)
+        for (int b = 0; b < s->materials; b++) {
+            const struct material *m = &s->material[a], *n = &s->material[b];
+            const real first = material_yields(m) ? m->yield_stress / m->young : INFINITY;
+            const real second = material_yields(n) ? n->yield_stress / n->young : INFINITY;
+            const struct material *soft = second < first ? n : m;
+            tables->pair_yield[a * s->materials + b] = real_min(first, second);
+            tables->pair_hardening[a * s->materials + b] =
+                material_yields(soft) ? soft->yield_hardening / soft->young : 0;
+        }
+    source->yield = (struct bond_yield){tables->pair_yield, tables->pair_hardening, s->materials};
+}
+
+/* Moduli of state-based models: A and B of kernels/pd/state_laws.h. */
+static void make_states(const struct scene *s, struct material_tables *tables, struct bond_source *source)
+{
+    if (s->model == MODEL_BOND) return;
+    tables->modulus = NEW("engine.modulus", s->materials, struct state_modulus);
+    for (int k = 0; k < s->materials; k++)
+        tables->modulus[k] = state_modulus_of(&s->material[k], s->space, s->model == MODEL_MOSPD);
+    source->modulus = tables->modulus;
+    source->local = !s->bulk, source->rotates = s->model == MODEL_MOSPD;
+}
+
+/* Principal stress at which material points convert [Pa]: alpha times conversion.stress, by default the stress at s_c
+ * (E s_c where nothing yields). With a larger stress points may pass the strain at which bonds break. INFINITY: no
+ * conversion; only adaptive runs convert. */
+static real conversion_trigger(const struct scene *s, const struct material *m)
+{
+    if (s->method != METHOD_ADAPTIVE || !(s->conversion.criteria & CONVERT_ON_STRESS)) return INFINITY;
+    real most = isnan(s->conversion.stress) ? material_stress_at(m, m->critical_stretch) : s->conversion.stress;
+    return s->conversion.alpha * most;
+}
+
+/* Constants of the materials for the kernels, and limits of their bonds. */
+static void make_materials(const struct scene *s, struct material_tables *tables, struct bond_source *source)
+{
+    tables->elastic = NEW("engine.elastic", s->materials, struct elastic);
+    for (int m = 0; m < s->materials; m++) {
+        const struct material *given = &s->material[m];
+        tables->wave_speed = real_max(tables->wave_speed, given->wave_speed);
+        tables->elastic[m] = (struct elastic){.c11 = given->c11,
+                                                .c12 = given->c12,
+                                                .shear = given->shear,
+                                                .space = s->space,
+                                                .poisson = given->poisson,
+                                                .trigger = conversion_trigger(s, given),
+                                                .trigger_mean = conversion_trigger(s, given)};
+        if (!material_yields(given)) continue;
+        tables->elastic[m].yield = given->yield_stress;
+        tables->elastic[m].hardening = given->yield_hardening;
+    }
+    make_limits(s, tables, source);
+    make_yields(s, tables, source);
+    make_states(s, tables, source);
+}
+
+/* ---- peridynamics ------------------------------------------------------------------------------------------------ */
+
+static void make_family(const struct scene *s, struct bond_source *source)
+{
+    struct family *f = &source->family;
+    f->volume = s->volume, f->calibration = s->calibration, f->surface = s->surface, f->shells = s->shells;
+    f->influence = s->influence;
+    family_make(f, s->space, s->spacing, s->horizon, scene_section(s));
+    source->material = s->material, source->materials = s->materials;
+}
+
+/* Planes of symmetry, and the pre-cracks that bonds know. */
+static void make_mirrors(const struct scene *s, const struct loads *loads, struct material_tables *tables,
+                         struct bond_source *source)
+{
+    const real tolerance = LOADS_TOLERANCE * s->spacing;
+    tables->mirror_axis = NEW("engine.mirror_axis", s->boundaries, int);
+    for (int b = 0; b < s->boundaries; b++)
+        tables->mirror_axis[b] = is_clamp(&s->boundary[b], s->dim) ? -1 : s->boundary[b].axis;
+    source->mirror_axis = tables->mirror_axis;
+    tables->mirror = NEW("engine.mirror", s->boundaries, struct mirror_plane);
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_MIRROR && !is_clamp(&s->boundary[b], s->dim))
+            tables->mirror[source->mirrors++] =
+                (struct mirror_plane){s->boundary[b].axis, loads->load[b].outside, s->boundary[b].at};
+    source->mirror = tables->mirror;
+    if (!has_peridynamics(s)) return;
+    source->given = s->crack, source->givens = s->cracks;
+    cracks_mirrored(&tables->cracks, s->crack, s->cracks, source->mirror, source->mirrors, source->family.cutoff,
+                    tolerance);
+    source->crack = tables->cracks.crack, source->cracks = tables->cracks.n, source->crack_of = tables->cracks.of;
+}
+
+/* Converts the initial peridynamic particles and makes the bonds. */
+static status make_bonds(struct run *e, struct predecessor *before)
+{
+    const struct scene *s = e->scene;
+    make_mirrors(e->scene, &e->loads, &e->tables, &e->source);
+    e->source.image = e->loads.image;
+    run_voids_make(e);
+    e->source.room = bonds_room(&e->source);
+    if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {
+        e->tables.neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
+        bonds_neighbour_volume(e->tables.neighbour_volume, &e->part, &e->source);
+        e->source.neighbour_volume = e->tables.neighbour_volume;
+    }
+    if (s->surface == SURFACE_MOMENTS && has_peridynamics(s)) TRY(run_surface_make(e));
+    if (s->method == METHOD_ADAPTIVE) TRY(notch_convert(e));
+    if (before) engine_take_particles(e, before);    /* slits are those of the start, whatever has converted since */
+    bonds_make(&e->bonds, NULL, &e->part, &e->source);
+    if (before) engine_take_bonds(e, before);
+    e->coupling->conversion.first_time = NAN;
+    e->coupling->conversion.start = e->coupling->conversion.peak = e->part.n_of[KIND_PD];
+    e->coupling->conversion.peak_bonds = e->bonds.n;
+    return OK;
+}
+
+#define DAMPING_SHARE_MOST (1.0 / 16)        /* interface_zone.h */
+
+static void make_interface_damping_share(struct run *e)
+{
+    e->coupling->damping_share =
+        real_min(e->scene->interface_damping * e->tables.wave_speed * e->clock.dt / e->grid->field[0].grid.h,
+                 DAMPING_SHARE_MOST);
+}
+
+/* ---- memory ------------------------------------------------------------------------------------------------------ */
+
+/* As measured on blocks of 10^6 particles: */
+#define BYTES_PER_PARTICLE 320.0         /* fields, cells, lists, its part of the grid, a frame being written */
+/* implicit bonds: stencils at surfaces; bonds at cracks and at ends of lines are stored */
+#define BYTES_PER_BOND_LATTICE 3.0
+#define EXACT_MOST 6000.0             /* [spacings] places of longer bodies may be rounded (fill.c): bonds are stored */
+
+/* Share of its box from..to [m] that a shape fills, by evenly spaced places. */
+static real share_filled(const struct region *shape, const real *from, const real *to, int dim)
+{
+    enum { ACROSS = 24 };
+    int inside = 0, all = 1;
+    for (int d = 0; d < dim; d++) all *= ACROSS;
+    for (int k = 0; k < all; k++) {
+        real X[DIM_MAX] = {0};
+        for (int d = 0, rest = k; d < dim; d++, rest /= ACROSS)
+            X[d] = from[d] + (rest % ACROSS + 0.5) / ACROSS * (to[d] - from[d]);
+        inside += region_contains(shape, X, dim, 0);
+    }
+    return real_max(inside, 1) / all;
+}
+
+/* Expected number of lattice particles. *longest: the longest edge of the boxes of all bodies [spacings]. */
+static real particles_expected(const struct scene *s, real *longest)
+{
+    real n = 0, from[DIM_MAX], to[DIM_MAX];
+    *longest = 0;
+    for (int b = 0; b < s->bodies; b++) {
+        if (s->body[b].file || !region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
+        real count = share_filled(&s->body[b].shape, from, to, s->dim);
+        for (int d = 0; d < s->dim; d++) {
+            count *= (to[d] - from[d]) / s->spacing;
+            *longest = real_max(*longest, (to[d] - from[d]) / s->spacing);
+        }
+        n += count;
+    }
+    return n;
+}
+
+static real particles_now(const struct scene *s, const struct particles *p, real *longest)
+{
+    const real expected = particles_expected(s, longest);
+    return p->n > 0 ? (real)p->n : expected;
+}
+
+/* Of n particles with whole families or without; longest: edge of their box [spacings]. */
+static real memory_of(const struct run *e, real n, real longest, bool families)
+{
+    const struct scene *s = e->scene;
+    const real bonds = families ? e->source.family.full / e->source.family.cell_volume : 1;
+    bool follow = s->irregularity == 0 && !e->source.yield.stretch && longest < EXACT_MOST;
+    for (int b = 0; b < s->bodies; b++) follow = follow && !s->body[b].file;
+    return n * (BYTES_PER_PARTICLE + bonds * (follow ? BYTES_PER_BOND_LATTICE : BYTES_PER_BOND));
+}
+
+real run_memory(const struct run *e)
+{
+    real longest;
+    const real n = particles_now(e->scene, &e->part, &longest);
+    return memory_of(e, n, longest, e->scene->method == METHOD_PD);
+}
+
+real run_memory_peridynamic(const struct run *e)
+{
+    real longest;
+    particles_expected(e->scene, &longest);
+    return memory_of(e, (real)e->part.n_body, longest, true);
+}
+
+/* REFUSED if a run needs more memory than is available. */
+static status make_affordable(const struct run *e)
+{
+    const real memory = (real)team_memory(), bytes = run_memory(e);
+    real longest;
+    if (memory <= 0 || bytes <= memory) return OK;
+    return status_set(
+        REFUSED,
+        "about %.2g particles would need some %.2g GB, and %.2g can be had (%s); choose a larger particles.spacing",
+        particles_now(e->scene, &e->part, &longest), bytes * 1e-9, memory * 1e-9,
+        team_memory_limit());
+}
+
+static void tables_free(struct material_tables *t)
+{
+    memory_free(t->pair_stretch), memory_free(t->pair_yield), memory_free(t->pair_hardening);
+    memory_free(t->elastic), memory_free(t->modulus), memory_free(t->impedance);
+    memory_free(t->mirror_axis), memory_free(t->mirror), crack_list_free(&t->cracks);
+    voids_free(&t->voids), memory_free(t->void_mirror);
+    memory_free(t->neighbour_volume), surface_free(&t->surface);
+}
+
+/* ---- all --------------------------------------------------------------------------------------------------------- */
+
+/* Puts the scene file in front of a refusal that has no place in it. */
+static status named(const struct scene *s, status made)
+{
+    char place[PLACE_LENGTH];
+    snprintf(place, sizeof place, "%.500s: ", s->path);
+    return status_at(place, made);
+}
+
+/* Optional arrays of the particles that the scene calls for. */
+static int optional_arrays(const struct scene *s)
+{
+    int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
+    for (int m = 0; m < s->materials && s->method != METHOD_PD; m++)
+        if (material_yields(&s->material[m])) optional |= WITH_PLASTIC | (scene_in_steps(s) ? WITH_RELIEF : 0);
+    if (optional & WITH_PLASTIC && s->space == SPACE_PLANE_STRAIN) optional |= WITH_OUT_OF_PLANE;
+    if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) optional |= WITH_REVERSION;
+    if (s->method != METHOD_MPM && scene_scatters(s)) optional |= WITH_STRENGTH;
+    if (s->method == METHOD_ADAPTIVE && s->model != MODEL_BOND)
+        optional |= WITH_ENDS | (s->model == MODEL_MOSPD ? WITH_ROTATIONS : 0);
+    return optional;
+}
+
+static enum pd_model law_of(const struct scene *s, const struct bond_source *source)
+{
+    if (s->model == MODEL_OSPD) return PD_OSPD;
+    if (s->model == MODEL_MOSPD) return PD_MOSPD;
+    return source->yield.stretch ? PD_BOND_PLASTIC : PD_BOND;
+}
+
+/* Critical step and time step, or those of the run that goes on. */
+static status make_time(struct run *e, const struct predecessor *before)
+{
+    if (!before) return named(e->scene, time_step_make(e));
+    e->clock = before->run->clock;
+    e->source.limit.dt = before->run->source.limit.dt;
+    e->source.core = e->bonds.core = before->run->source.core;
+    return OK;
+}
+
+static void make_contact(struct run *e)
+{
+    const struct scene *s = e->scene;
+    const struct contact_law law = {
+        .form = s->contact_form, .distance = s->contact_distance, .friction = s->contact_friction};
+    contact_make(e->contact, !scene_at_rest(s) && has_peridynamics(s) ? s->contact_between : CONTACT_NONE,
+                 law, s->contact_stiffness, &e->source, e->rigid->shape, e->rigid->body, s->rigids);
+}
+
+/* Materials, kernels, and the particles that are made. */
+static status make_particles(struct run *e)
+{
+    const struct scene *s = e->scene;
+    e->optional = optional_arrays(s);
+    make_materials(s, &e->tables, &e->source);
+    make_family(s, &e->source);
+    kernels_choose(&e->kernels, s->dim, law_of(s, &e->source), s->shape, s->transfer);
+    TRY(named(s, frame_hollow_plan(e)));
+    if (!e->frame->hollow.absent) TRY(named(s, make_affordable(e)));
+    TRY(fill_particles(&e->part, s, &e->frame->hollow, e->optional));
+    strength_found(e);
+    return named(s, make_affordable(e));     /* with the actual number of particles */
+}
+
+/* What looks at the run: tips, growing cracks, probes. */
+static status make_probes(struct run *e)
+{
+    const struct scene *s = e->scene;
+    e->probing->strain_stress = largest_stress(&e->part);
+    tips_make(&e->fracture->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
+    cracks_notches(e);
+    TRY(named(s, led_check(e)));
+    e->fracture->growth = NEW("engine.growth", s->growths, struct growth);
+    for (int k = 0; k < s->growths; k++) growth_make(&e->fracture->growth[k], &s->growth[k]);
+    if (scene_at_rest(s)) TRY(named(s, engine_solver_make(e)));
+    diagnostics_make(e->diagnostics);
+    make_pulses(e->scene, e->probing);
+    struct observed o = run_observed(e);
+    return named(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
+}
+
+/* Loads, bonds, mesh: from the particles to the time step. */
+static status make_forces(struct run *e, struct predecessor *before)
+{
+    const struct scene *s = e->scene;
+    TRY(named(s, frames_choose(e)));
+    if (!scene_moves(s)) e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
+    if (scene_at_rest(s)) loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
+    else if (e->boundary) array_copy(e->boundary, s->boundary, s->boundaries, sizeof *e->boundary);
+    TRY(named(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part, s->spacing,
+                            e->source.family.cutoff, e->optional)));
+    absorbing_make_all(e);
+    cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
+    e->source.cells = &e->cells;
+    TRY(make_bonds(e, before));
+    TRY(rigids_make(e));
+    TRY(rigids_check(e));
+    TRY(named(s, joined_check(e)));
+    TRY(named(s, statics_check(e)));
+    make_contact(e);
+    coupling_partial_make(e);
+    const struct mesh_source cuts = coupling_cuts(e);
+    TRY(named(s, frame_make(e, &cuts, before != NULL)));
+    e->coupling->partial.touches = 0;
+    TRY(driving_check(e, before == NULL));
+    ends_update(e);
+    stability_make(e);
+    return make_time(e, before);
+}
+
+status engine_make_again(struct run *e, const struct scene *s, struct output *out, struct hollow hollow,
+                         struct predecessor *before)
+{
+    memset(e, 0, sizeof *e);
+    run_parts_make(e);
+    e->save = engine_archive;
+    e->scene = s;
+    e->report->out = out;
+    e->report->began = team_clock();
+    e->frame->hollow = hollow;
+    TRY(make_particles(e));
+    TRY(named(s, reversion_check(e->scene)));
+    TRY(make_forces(e, before));
+    for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
+    e->mass += (real)(e->part.n_body - e->part.n) * e->part.mass[0];
+    if (!before) TRY(named(s, frame_levels_make(e, false)));
+    make_interface_damping_share(e);
+    e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&
+                              s->contact_convert && body_apart(s, 1) + s->rigids >= 0 &&
+                              !coupling_unified(s->coupling);
+    e->grid->transfer = (struct transfer_data){
+        &e->grid->field[0].order, &e->coupling->partial, e->tables.elastic, 0.5 * s->spacing, e->clock.dt, e->clock.dt,
+        false, NULL, false, {NULL}};
+    grid_turning_make(e);
+    return make_probes(e);
+}
+
+status engine_make(struct run *e, const struct scene *s, struct output *out)
+{
+    struct hollow hollow = {0};
+    for (;;) {
+        TRY(engine_make_again(e, s, out, hollow, NULL));
+        if (!e->frame->lacks) return OK;
+        hollow = e->frame->hollow;
+        e->frame->hollow = (struct hollow){0};
+        engine_free(e);
+    }
+}
+
+void engine_free(struct run *e)
+{
+    memory_reuse(false);
+    if (e->report && e->report->out)
+        (void)output_wait(e->report->out); /* a frame being written still reads the particles */
+    run_parts_free(e);
+    bonds_free(&e->bonds);
+    cells_free(&e->cells);
+    loads_free(&e->loads);
+    particles_free(&e->part);
+    memory_free(e->boundary);
+    tables_free(&e->tables);
+    warnings_free(&e->warnings);
+    memset(e, 0, sizeof *e);
+}

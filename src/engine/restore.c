@@ -1,0 +1,39 @@
+/* Runs whose particles a checkpoint, or the next levels of cells, want to be others. */
+#include "base/memory.h"
+#include "engine_internal.h"
+#include "mesh/mesh_part.h"
+#include "step/report.h"
+
+/* Makes the run again with the cells hollow that a checkpoint has so. */
+static status remake(struct run *e, uint8_t *absent)
+{
+    struct run_report *const report = e->report;
+    const struct warnings warnings = e->warnings;
+    const struct laps laps = e->laps;
+    const struct scene *s = e->scene;
+    struct hollow hollow = e->frame->hollow;
+    memory_free(hollow.absent);
+    hollow.absent = absent, hollow.restored = true;
+    e->frame->hollow = (struct hollow){0};
+    e->report = NULL, e->warnings = (struct warnings){0};
+    engine_free(e);
+    const status made = engine_make_again(e, s, NULL, hollow, NULL);
+    memory_free(e->report->record), memory_free(e->report);
+    e->report = report, e->warnings = warnings, e->laps = laps;
+    return made;
+}
+
+status restore_hollow(struct run *e, struct archive *a)
+{
+    struct hollow *h = &e->frame->hollow;
+    int64_t n = h->absent ? h->box.n : 0;
+    ARCHIVE_VALUE(a, "hollow/cells", n);
+    if (n == 0 && (a->saving || !h->absent)) return OK;
+    if (a->saving) return a->exchange(a, "hollow/absent", h->absent, (size_t)n);
+    if (n > 0 && n != h->box.n) return status_set(FAILED, "cannot resume: the checkpoint is of another body");
+    uint8_t *absent = n > 0 ? NEW("hollow.absent", n, uint8_t) : NULL;
+    if (n > 0) TRY(a->exchange(a, "hollow/absent", absent, (size_t)n));
+    for (int64_t J = 0; J < n; J++)
+        if (absent[J] > h->whole[J]) return status_set(FAILED, "cannot resume: the checkpoint lacks particles");
+    return remake(e, absent);
+}

@@ -1,0 +1,55 @@
+/* A run: coarse cells follow cracks before a step, then the step, its checks, its reports. */
+
+#include "base/memory.h"
+#include "engine_internal.h"
+#include "mesh/mesh_part.h"
+#include "probes/probes_part.h"
+#include "quasistatic/load_steps.h"
+#include "step/report.h"
+#include "step/stability.h"
+#include "step/step.h"
+
+/* The rings of sif probes, where coarse cells have to stay away from. */
+static void rings_find(struct run *e)
+{
+    const struct observed seen = run_observed(e);
+    struct reference_frame *f = e->frame;
+    if (!f->ring) f->ring = NEW("frame.rings", e->scene->probes, struct frame_ring);
+    f->rings = 0;
+    for (int k = 0; k < e->probing->probes.n; k++)
+        f->rings += probes_sif_ring(&e->probing->probes, k, &seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
+}
+
+/* Levels of cells follow cracks and stress; where finer cells lack particles, the run is made again with them. */
+static status refine(struct run *e)
+{
+    if (!frame_levels_due(e)) return OK;
+    rings_find(e);
+    uint8_t *level = frame_levels_plan(e);
+    if (!level) return OK;
+    const status s = frame_hollow_lacks(e, level) ? engine_refill(e, level) : OK;
+    if (s == OK) frame_levels_apply(e, level);
+    memory_free(level);
+    return s;
+}
+
+status engine_step(struct run *e)
+{
+    TRY(refine(e));
+    return step(e);
+}
+
+status engine_run(struct run *e)
+{
+    memory_reuse(true);
+    if (scene_at_rest(e->scene)) return engine_solve(e);
+    if (scene_in_steps(e->scene)) return engine_steps(e);
+    TRY(report_start(e));
+    laps_start(&e->laps);
+    while (e->clock.step < e->clock.steps) {
+        TRY(engine_step(e));
+        TRY(stability_check(e));
+        TRY(report_step(e));
+    }
+    return report_end(e);
+}

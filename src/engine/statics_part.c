@@ -1,7 +1,0 @@
-/* Load steps, as a part of a run. */
-#include "engine_statics.h"
-#include "run/part.h"
-
-static void statics_free_all(struct run *e) { statics_free(e), led_free(&e->statics->led); }
-
-const struct part part_statics = {PART(statics, statics), .free = statics_free_all};

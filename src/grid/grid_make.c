@@ -1,0 +1,107 @@
+/* The background grid of the engine: where its nodes are. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "grid/grid_part.h"
+
+/* Coordinate of a node [m]: mpm.origin, else the first mirror across this axis, else the lower corner of the body.
+ * Nodes beyond a mirror move as exact images only if the mirror is on a node or half-way between two. */
+static real node_place(const struct scene *s, int axis, real corner)
+{
+    if (s->has_grid_origin) return s->grid_origin[axis];
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_MIRROR && s->boundary[b].axis == axis) return s->boundary[b].at;
+    return corner;
+}
+
+/* The anchor, moved by at most half a spacing to lie midway between particles of a lattice with a place at `site`
+ * [m]. */
+static real between_particles(real anchor, real site, real spacing)
+{
+    const real steps = (site - anchor) / spacing - 0.5;
+    return anchor + (steps - nearbyint(steps)) * spacing;
+}
+
+void grid_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor)
+{
+    for (int d = 0; d < s->dim; d++) {
+        anchor[d] = node_place(s, d, from[d]);
+        if (meshed && anchor[d] == from[d]) anchor[d] = between_particles(anchor[d], site[d], s->spacing);
+    }
+}
+
+int body_apart(const struct scene *s, int k)
+{
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].joined == b && k-- == 0) return b;
+    return -1;
+}
+
+/* A grid for each body where material points of several meet, else one. */
+static void make_fields(struct run *e)
+{
+    const struct scene *s = e->scene;
+    const bool meet = !scene_at_rest(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
+                      !coupling_moves_by_grid(s->coupling);
+    e->grid->fields = 1;
+    while (meet && body_apart(s, e->grid->fields) >= 0) e->grid->fields++;
+    e->grid->field = NEW("engine.fields", e->grid->fields, struct grid_field);
+}
+
+/* How far shapes reach beyond the neighbours of their cell [m]. */
+static real shape_reach(const struct scene *s)
+{
+    const real cell = s->cell * s->spacing;
+    return s->shape == SHAPE_LINEAR ? 0 : s->shape == SHAPE_CUBIC ? cell : s->shape == SHAPE_QUADRATIC ? 0.5 * cell
+                                                                                                : 0.5 * s->spacing;
+}
+
+/* The lower corner of the body is that of the first shape, or of the particles of a list. */
+void grid_part_make(struct run *e, bool meshed)
+{
+    const struct scene *s = e->scene;
+    real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
+    if (!e->grid->field) make_fields(e);
+    struct grid *g = &e->grid->field[0].grid;
+    g->dim = s->dim;
+    g->h = s->cell * s->spacing;
+    bool bounded = s->body[0].shape.n > 0 && region_bounds(&s->body[0].shape, s->dim, from, to);
+    for (int d = 0; d < s->dim; d++) {
+        if (!bounded) {
+            particles_extent(&e->part, e->part.n, d, &from[d], &to[d]);
+            from[d] -= 0.5 * s->spacing;
+        }
+        site[d] = e->part.X[d][0];
+    }
+    grid_anchor(s, from, site, meshed, g->anchor);
+    real section = scene_section(s), lightest = INFINITY;
+    for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
+    const real light = !scene_at_rest(s) ? GRID_MASS_LIGHT : GRID_MASS_STATIC;
+    const real full = lightest * pow(g->h, s->dim) * section;
+    e->grid->smallest_mass = GRID_MASS_SMALLEST * full;
+    g->light_mass = s->transfer == TRANSFER_APIC ? light * full : 0;
+    for (int k = 0; k < e->grid->fields && e->grid->fields > 1; k++) {
+        e->grid->field[k].grid = *g;
+        e->grid->field[k].grid.body = 1 + body_apart(s, k);
+    }
+    grid_contact_free(&e->grid->contact);
+    e->grid->contact = (struct grid_contact){.friction = s->contact_friction,
+                                           .spacing = s->spacing,
+                                           .half_width = shape_reach(s),
+                                           .smallest_mass = e->grid->smallest_mass,
+                                           .began = NAN,
+                                           .ended = NAN};
+    grid_contact_make(&e->grid->contact, e->grid->fields);
+    e->grid->sort_needed = true;
+}
+
+bool grid_mirror_between(const struct run *e)
+{
+    const struct scene *s = e->scene;
+    const struct grid *g = &e->grid->field[0].grid;
+    for (int b = 0; b < s->boundaries; b++) {
+        const real nodes = (s->boundary[b].at - g->anchor[s->boundary[b].axis]) / g->h;
+        if (s->boundary[b].kind == BOUNDARY_MIRROR && fabs(nodes - nearbyint(nodes)) > 1e-6) return true;
+    }
+    return false;
+}

@@ -1,0 +1,220 @@
+/* Particles only where they are needed: cells of two spacings that are part of coarse cells have none. What needs them
+ * is decided once for the start, and anew with the levels of cells: the particles are then made again from the lattice,
+ * with the motion of the nodes around them. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "mesh/mesh_part.h"
+#include "scene/fill.h"
+#include "output/output.h"
+#include "grid/grid_part.h"
+
+enum { PAYS = 400000 };                  /* particles that need not be made, from which on that saves time */
+enum { AHEAD = 4 };                      /* cells beyond those of level 0 that have particles: cracks run on */
+
+/* ---- the start --------------------------------------------------------------------------------------------------- */
+
+const char *frame_hollow_obstacle(const struct scene *s)
+{
+    if (s->fill == FILL_ALL) return "the scene says so";
+    if (s->method == METHOD_PD || scene_at_rest(s) || s->levels == 0) return "there are no coarse cells";
+    if (s->bodies != 1 || s->rigids > 0) return "bodies may meet";
+    if (s->body[0].file) return "they come from a list";
+    if (scene_scatters(s)) return "strength scatters from place to place";
+    if (s->body[0].parts > 0) return "the body has parts of other materials";
+    if (s->body[0].frame == FRAME_CURRENT || scene_frame_not_default(s, 0)) return "the body is in the current frame";
+    if (s->initials > 0 || dot(s->body[0].velocity, s->body[0].velocity, s->dim) > 0) return "the body moves at first";
+    if (s->growths > 0) return "cracks grow by growth";
+    if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) return "peridynamic particles may become points again";
+    if (s->method == METHOD_ADAPTIVE && s->surface == SURFACE_MOMENTS) return "pd.surface moments looks at all faces";
+    if (s->contact_friction > 0) return "faces rub";
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_PRESSURE) return "a pressure looks at all faces";
+    for (int k = 0; k < s->probes; k++) {
+        const enum probe_kind kind = s->probe[k].kind;
+        const bool moves = kind == PROBE_SIF && isfinite(s->material[0].critical_stretch);
+        if (moves) return "the ring of a sif probe may move";
+        if (kind != PROBE_SIF && kind != PROBE_TIP && kind != PROBE_BREAK && kind != PROBE_REACTION &&
+            kind != PROBE_POINT)
+            return "a probe looks at many of them";
+    }
+    return NULL;
+}
+
+/* Box of cells round the body, aligned with the nodes of its mesh. */
+static status box_find(struct grid *box, const struct scene *s)
+{
+    real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
+    TRY(fill_place(s, 0, site));
+    region_bounds(&s->body[0].shape, s->dim, from, to);
+    box->dim = s->dim, box->h = s->cell * s->spacing;
+    grid_anchor(s, from, site, true, box->anchor);
+    return grid_box(box, from, to, INT32_MAX) ? OK : status_set(REFUSED, "too large for the spacing");
+}
+
+/* Must a particle at X be made as the body has pre-cracks? */
+static bool near_cracks(const struct scene *s, const struct bond_source *source, const real *X, real h)
+{
+    const real flank = source->family.cutoff + 2 * h;
+    const real end = flank + source->family.cutoff +
+                     real_max(s->conversion.tips * source->family.horizon, NOTCH_ZONE * s->spacing);
+    for (int k = 0; k < s->cracks; k++) {
+        const struct crack *c = &s->crack[k];
+        if (crack_near(c, X, flank, s->dim)) return true;
+        for (int a = 0; a < c->n; a++) {
+            const real *from = c->corner[a], *to = s->dim == 3 ? c->corner[(a + 1) % c->n] : from;
+            if (segment_distance(from, to, X, s->dim) <= end) return true;
+        }
+    }
+    return false;
+}
+
+/* Does a load act on a particle at X, but for faces? */
+static bool loads_reach(const struct scene *s, const real *X, real tolerance)
+{
+    for (int b = 0; b < s->boundaries; b++) {
+        const struct boundary *load = &s->boundary[b];
+        if (load->kind != BOUNDARY_MIRROR && load->side == 0 &&
+            region_contains(&load->region, X, s->dim, tolerance))
+            return true;
+    }
+    return false;
+}
+
+/* Does a load act on the face of cell I, which it has where the cell beside it is not whole, or on the layer behind
+ * such a face? */
+static bool face_loaded(const struct scene *s, const struct hollow *h, int64_t I, const real *X)
+{
+    for (int b = 0; b < s->boundaries; b++) {
+        const struct boundary *load = &s->boundary[b];
+        if (load->side == 0) continue;
+        const int64_t deep = load->kind == BOUNDARY_VELOCITY ? (int64_t)ceil(load->depth / h->box.h) : 1;
+        for (int64_t k = 1; k <= deep; k++) {
+            const int64_t beside = I + k * load->side * h->box.stride[load->face];
+            if ((beside < 0 || beside >= h->box.n || !h->whole[beside]) &&
+                region_contains(&load->region, X, s->dim, h->box.h))
+                return true;
+        }
+    }
+    return false;
+}
+
+/* Is X within r of the place of a probe, or where it has none of an end of a pre-crack? */
+static bool near_probe(const struct scene *s, const struct probe_request *probe, const real *X, real r)
+{
+    if (probe->has_at) return segment_distance(probe->at, probe->at, X, s->dim) < r;
+    for (int k = 0; k < s->cracks; k++)
+        for (int a = 0; a < s->crack[k].n; a++)
+            if (segment_distance(s->crack[k].corner[a], s->crack[k].corner[a], X, s->dim) < r) return true;
+    return false;
+}
+
+/* Does a probe look at particles within 3 h of X? */
+static bool probed(const struct scene *s, const real *X, real h)
+{
+    for (int k = 0; k < s->probes; k++) {
+        const struct probe_request *probe = &s->probe[k];
+        const struct number_list *ring = &probe->contours;
+        const real outer = probe->outer > 0 ? probe->outer : 20 * s->spacing;
+        const real reach = ring->n > 0 ? real_max(outer, ring->value[ring->n - 1]) : outer;
+        if (probe->kind == PROBE_POINT && near_probe(s, probe, X, 3 * h)) return true;
+        if (probe->kind == PROBE_SIF && near_probe(s, probe, X, reach + 3 * h)) return true;
+    }
+    return false;
+}
+
+/* Must any particle of cell I be made? */
+static bool cell_needed(const struct run *e, const struct hollow *h, int64_t I)
+{
+    const struct scene *s = e->scene;
+    for (int c = 0; c < 1 << s->dim; c++) {
+        real X[DIM_MAX] = {0};
+        for (int d = 0; d < s->dim; d++) X[d] = grid_quarter(&h->box, I, c, d);
+        if (c == 0 && (near_cracks(s, &e->source, X, h->box.h) || probed(s, X, h->box.h))) return true;
+        if (loads_reach(s, X, s->spacing) || face_loaded(s, h, I, X)) return true;
+        if (s->has_pd_region && region_contains(&s->pd_region, X, s->dim, 2 * e->source.family.cutoff)) return true;
+    }
+    return false;
+}
+
+status frame_hollow_plan(struct run *e)
+{
+    struct hollow *h = &e->frame->hollow;
+    int64_t absent = 0;
+    if (h->whole || frame_hollow_obstacle(e->scene)) return OK;
+    TRY(box_find(&h->box, e->scene));
+    const int64_t least = e->scene->fill == FILL_NEEDED ? 0 : PAYS >> h->box.dim;
+    if (h->box.n <= least) return OK;
+    fill_whole(h, e->scene, 0);
+    h->absent = NEW("hollow.absent", h->box.n, uint8_t);
+#pragma omp parallel for schedule(dynamic, 4096) reduction(+ : absent)
+    for (int64_t I = 0; I < h->box.n; I++) {
+        h->absent[I] = h->whole[I] && !cell_needed(e, h, I);
+        absent += h->absent[I];
+    }
+    array_copy(h->whole, h->absent, h->box.n, 1);       /* loads, faces of pre-cracks and probes stay where they are */
+    if (absent > least) return OK;
+    memory_free(h->absent);
+    h->absent = NULL;
+    return OK;
+}
+
+/* ---- levels ------------------------------------------------------------------------------------------------------ */
+
+bool frame_hollow_lacks(const struct run *e, const uint8_t *level)
+{
+    const struct mesh *mesh = &e->frame->mesh;
+    for (int64_t I = 0; I < mesh->grid.n && mesh->absent; I++)
+        if (mesh->absent[I] && level[I] == 0) return true;
+    return false;
+}
+
+/* The cells that need no particles with these levels [box.n]: not those within `ahead` cells of level 0.
+ * Coarse cells are hollow as a whole, or not at all. */
+static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level, int ahead)
+{
+    const struct hollow *h = &r->hollow;
+    const struct grid *g = &r->mesh.grid;
+    uint8_t *absent = NEW("hollow.absent", h->box.n, uint8_t), *keep = NEW("hollow.keep", g->n, uint8_t);
+    for (int64_t I = 0; I < g->n; I++) {         /* also where bonds have taken all points of a cell */
+        const int64_t J = grid_same_cell(g, I, &h->box);
+        keep[I] = level[I] == 0 && (mesh_cell_holds(&r->mesh, I) || (J >= 0 && h->whole[J]));
+    }
+    levels_dilate(&r->levels, keep, ahead);
+    for (int64_t I = 0; I < g->n; I++) {
+        const int64_t J = grid_same_cell(g, I, &h->box);
+        keep[I] = keep[I] || J < 0 || !h->whole[J];
+    }
+    levels_mark_cells(&r->levels, level, keep);
+    for (int64_t I = 0; I < g->n; I++)
+        if (!keep[I]) absent[grid_same_cell(g, I, &h->box)] = 1;
+    memory_free(keep);
+    return absent;
+}
+
+bool frame_hollow_start(struct run *e, const uint8_t *level)
+{
+    struct reference_frame *r = e->frame;
+    if (!r->hollow.absent) return true;
+    if (r->hollow.restored) return false;        /* the checkpoint has the levels, too */
+    if (!level) {                                /* no coarse cells */
+        memory_free(r->hollow.absent);
+        r->hollow.absent = NULL, r->lacks = true;
+        return false;
+    }
+    r->lacks = frame_hollow_lacks(e, level);
+    if (!r->lacks) return true;
+    uint8_t *absent = absent_with(r, level, 0);
+    for (int64_t J = 0; J < r->hollow.box.n; J++) r->hollow.absent[J] &= absent[J];
+    memory_free(absent);
+    return false;
+}
+
+void frame_hollow_change(struct run *e, const uint8_t *level)
+{
+    struct hollow *h = &e->frame->hollow;
+    uint8_t *absent = absent_with(e->frame, level, AHEAD);
+    memory_free(h->absent);
+    h->absent = absent;
+}

@@ -1,0 +1,378 @@
+/* Coarse cells in a run: where, and when they follow cracks and stress. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "mesh/mesh_part.h"
+
+/* Cells of level 0 round peridynamic particles, beyond those that let points convert: cracks run some way between two
+ * changes. Cells merge later than they split. */
+enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 /* spacings: tips run on between looks */ };
+/* Cells between slits and coarse cells beyond those of peridynamic particles: with coarse cells nearer, two slits 5 to
+ * 18 spacings apart whose faces meet gained energy without bounds, one did not; why is not known. */
+enum { FLANK_MORE = 2 };
+#define SPLITS 0.5                       /* of the stress at which points convert */
+#define MERGES 0.25
+#define ROUGH 0.01                       /* of the mean energy per mass: motion that a coarser cell would lose */
+enum { LOOK_STEPS = 256, CALM_LOOKS = 2 };       /* steps between looks for cells to merge; looks that a cell is calm */
+
+/* ---- set-up ------------------------------------------------------------------------------------------------------ */
+
+/* Edge of a lumped cell that disperses waves along an axis as bonds of the lattice do [m]: h^2 = sum xi^6/r^3 over sum
+ * xi^4/r^3; without bonds that of the cells of level 0. */
+static real alike_edge(const struct scene *s)
+{
+    const int reach = (int)s->horizon, planes = s->dim > 1 ? reach : 0, layers = s->dim > 2 ? reach : 0;
+    real above = 0, below = 0;
+    if (s->method == METHOD_MPM) return 2 * s->spacing;
+    for (int k = -layers; k <= layers; k++)
+        for (int j = -planes; j <= planes; j++)
+            for (int i = -reach; i <= reach; i++) {
+                const real r2 = i * i + j * j + k * k;
+                if (r2 == 0 || r2 > square(s->horizon)) continue;
+                above += pow(i, 6) / (r2 * sqrt(r2));
+                below += pow(i, 4) / (r2 * sqrt(r2));
+            }
+    return s->spacing * sqrt(above / below);
+}
+
+/* Cell of the box of level 0 in which particle i is in the reference state; mesh->place may name one beside a slit,
+ * behind the box. */
+static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64_t i)
+{
+    int64_t I = 0;
+    for (int d = 0; d < p->dim; d++)
+        I += (grid_cell(&mesh->grid, d, p->X[d][i]) - mesh->grid.first[d]) * mesh->grid.stride[d];
+    return I;
+}
+
+/* Marks the cells beside mirrors that are not on nodes of all levels. */
+static void demand_mirrors(const struct run *e, uint8_t *demand)
+{
+    const struct mesh_levels *l = &e->frame->levels;
+    const struct grid *g = &l->fine->grid;
+    for (int b = 0; b < e->loads.n; b++) {
+        const struct boundary *mirror = e->loads.load[b].boundary;
+        const int a = mirror->axis;
+        if (mirror->kind != BOUNDARY_MIRROR) continue;
+        const real at = (mirror->at - grid_position(g, a, l->offset[0][a])) / (g->h * (real)levels_stride(l));
+        if (fabs(at - nearbyint(at)) < 1e-6) continue;
+        for (int64_t I = 0; I < g->n; I++) {
+            const real x = grid_position(g, a, I / g->stride[a] % g->count[a]);
+            if (fabs(x + 0.5 * g->h - mirror->at) < 1.6 * g->h) demand[I] = 1;
+        }
+    }
+}
+
+/* Marks the cells beside slits, whose nodes coarse cells do not know. */
+static void demand_slits(const struct mesh *mesh, uint8_t *demand)
+{
+    for (int64_t I = 0; I < mesh->slits.first && mesh->slits.split; I++)
+        for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) demand[I - mesh->corner[c]] = 1;
+}
+
+/* Marks the cells of level 0 in a ring and about it (`demand` NULL: none). Is any of them part of a coarser one? */
+static bool ring_cells(const struct run *e, const struct frame_ring *ring, uint8_t *demand)
+{
+    const struct mesh_levels *l = &e->frame->levels;
+    const struct grid *g = &l->fine->grid;
+    const real radius = ring->radius + AROUND_RING * e->scene->spacing;
+    int64_t from[2], to[2];
+    bool coarse = false;
+    for (int d = 0; d < 2; d++) {
+        from[d] = grid_cell(g, d, ring->place[d] - radius) - g->first[d];
+        to[d] = grid_cell(g, d, ring->place[d] + radius) - g->first[d];
+        from[d] = from[d] > 0 ? from[d] : 0, to[d] = to[d] < g->count[d] - 2 ? to[d] : g->count[d] - 2;
+    }
+    for (int64_t j = from[1]; j <= to[1]; j++)
+        for (int64_t i = from[0]; i <= to[0]; i++) {
+            const real x = grid_position(g, 0, i) + 0.5 * g->h, y = grid_position(g, 1, j) + 0.5 * g->h;
+            const int64_t I = i * g->stride[0] + j * g->stride[1];
+            if (square(x - ring->place[0]) + square(y - ring->place[1]) > square(radius)) continue;
+            coarse |= l->level[I] > 0;
+            if (demand) demand[I] = 1;
+        }
+    return coarse;
+}
+
+/* The same of all rings: they want accelerations, which coarse cells have at some steps only. */
+static bool rings_cells(const struct run *e, uint8_t *demand)
+{
+    bool coarse = false;
+    for (int k = 0; k < e->frame->rings; k++) coarse |= ring_cells(e, &e->frame->ring[k], demand);
+    return coarse;
+}
+
+/* Adds marks to others; NULL: there are none. */
+static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t *mark)
+{
+    for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
+}
+
+/* Cells of level 0 that must stay so: within `more` cells beyond the roomy ones of peridynamic particles and where
+ * something is wanted, FLANK_MORE farther from several slits, and within one of a single slit, of what loads act on and
+ * of mirrors. The caller frees them. */
+static uint8_t *demand_make(const struct run *e, int more)
+{
+    const struct mesh_levels *l = &e->frame->levels;
+    const struct particles *p = &e->part;
+    const int64_t n = l->fine->grid.n;
+    uint8_t *demand = NEW("levels.demand", n, uint8_t), *fixed = NEW("levels.fixed", n, uint8_t);
+    uint8_t *flank = NEW("levels.flank", n, uint8_t);
+    for (int64_t I = 0; I < n; I++) demand[I] = l->wanted[I] != WANTED_NOT;
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) demand[cell_of(l->fine, p, p->list[KIND_PD][k])] = 1;
+    levels_dilate(l, demand, l->roomy_cells + more);
+    demand_slits(l->fine, flank);
+    levels_dilate(l, flank, e->frame->source.slits > 1 ? l->roomy_cells + more + FLANK_MORE : 1);
+    marks_add(l, flank, demand);
+    memory_free(flank);
+    for (int b = 0; b < e->loads.n; b++)
+        for (int64_t k = 0; k < e->loads.load[b].n; k++) fixed[cell_of(l->fine, p, e->loads.load[b].particle[k])] = 1;
+    demand_mirrors(e, fixed);
+    rings_cells(e, fixed);
+    levels_dilate(l, fixed, 1);
+    marks_add(l, fixed, demand);
+    memory_free(fixed);
+    return demand;
+}
+
+/* Marks the cells of level 0 in the marked cells of a level, and those around them. */
+static void demand_add(const struct mesh_levels *l, int level, const uint8_t *mark, uint8_t *demand)
+{
+    const struct grid *fine = &l->fine->grid, *g = &level_mesh_of(l, level)->grid;
+    uint8_t *own = NEW("levels.stressed", fine->n, uint8_t);
+    for (int64_t I = 0; I < fine->n; I++) {
+        int64_t J = 0;
+        if (l->level[I] != level) continue;
+        for (int d = 0; d < g->dim; d++)
+            J += (((I / fine->stride[d] % fine->count[d] - l->offset[0][d]) >> level) + l->offset[level][d]) *
+                 g->stride[d];
+        own[I] = mark[J];
+    }
+    levels_dilate(l, own, AROUND_STRESS);
+    for (int64_t I = 0; I < fine->n; I++) demand[I] |= own[I];
+    memory_free(own);
+}
+
+/* Marks [fine->grid.n] the cells whose stress exceeds `share` of that at which they convert, with those around them:
+ * coarse ones, or all; NULL: there are none. The caller frees them. */
+static uint8_t *stressed_cells(const struct run *e, real share, bool all)
+{
+    const struct mesh_levels *l = &e->frame->levels;
+    uint8_t *cells = NULL;
+    for (int level = all ? 0 : 1; level <= l->n; level++) {
+        const struct mesh *mesh = level_mesh_of(l, level);
+        uint8_t *mark = NEW("levels.mark", mesh->grid.n, uint8_t);
+        mesh_cells_mark(mesh, e->frame->elastic, share, all, mark, !e->scene->small_strain);
+        if (memchr(mark, 1, (size_t)mesh->grid.n)) {
+            if (!cells) cells = NEW("levels.cells", l->fine->grid.n, uint8_t);
+            demand_add(l, level, mark, cells);
+        }
+        memory_free(mark);
+    }
+    return cells;
+}
+
+/* Is a cell coarser in `level` than now? */
+static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
+{
+    bool any = false;
+    for (int64_t I = 0; I < l->fine->grid.n; I++) any |= level[I] > l->level[I];
+    return any;
+}
+
+/* Lowers bounds of levels to what the thickness of the body allows; levels that the scene gives stay. */
+static void limit_by_room(const struct run *e, uint8_t *limit)
+{
+    const struct reference_frame *r = e->frame;
+    for (int64_t I = 0; I < r->mesh.grid.n && r->room && e->scene->levels == LEVELS_AUTO; I++)
+        if (r->room[I] < limit[I]) limit[I] = r->room[I];
+}
+
+/* The levels that cells may have next, of which coarser ones than now hold the motion there is. Changes limit. */
+static void next_levels(struct run *e, const uint8_t *demand, uint8_t *limit, uint8_t *level)
+{
+    struct mesh_levels *l = &e->frame->levels;
+    levels_map(l, &e->part, demand, limit, level);
+    if (!any_merges(l, level)) return;
+    const real most = ROUGH * (frame_kinetic(e->frame) + frame_strain(e)) / e->mass;
+    levels_prolong(l);
+    while (levels_limit_rough(l, level, most, limit)) levels_map(l, &e->part, demand, limit, level);
+}
+
+void frame_levels_found(struct run *e)
+{
+    struct mesh_levels *l = &e->frame->levels;
+    for (int k = 1; k <= l->n; k++) loads_level_find(&e->loads, &l->at[k].held, &l->at[k].mesh.grid, &e->part);
+    frame_follow_points(e);
+}
+
+/* Changes the levels; what that does to the energy is booked as damped. */
+static void change(struct run *e, const uint8_t *level)
+{
+    struct reference_frame *r = e->frame;
+    const bool finite = !e->scene->small_strain;
+    const real dt = e->clock.step > 0 ? e->clock.dt : 0;     /* at first velocities are those of the same time */
+    levels_half_kick(&r->levels, &e->part, r->elastic, finite, dt);
+    const real before = frame_kinetic(r) + frame_strain(e);
+    levels_change(&r->levels, &e->part, &r->source, level);
+    frame_levels_found(e);
+    e->damped += before - frame_kinetic(r) - frame_strain(e);
+    levels_half_kick(&r->levels, &e->part, r->elastic, finite, -dt);
+}
+
+status frame_levels_make(struct run *e, bool restored)
+{
+    struct reference_frame *r = e->frame;
+    const struct scene *s = e->scene;
+    real density[UINT8_MAX], fastest = 0;
+    for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
+    TRY(levels_make(&r->levels, frame_levels_number(e), &r->mesh, &e->part, &r->source, density));
+    memory_free(r->coarse);
+    r->coarse = NEW("engine.coarse_elastic", s->materials, struct elastic);
+    for (int m = 0; m < s->materials; m++) {
+        r->coarse[m] = r->elastic[m];
+        r->coarse[m].trigger *= SPLITS;
+        fastest = real_max(fastest, s->material[m].wave_speed);
+    }
+    if (r->levels.n == 0) {
+        frame_hollow_start(e, NULL);
+        return OK;
+    }
+    levels_match(&r->levels, alike_edge(s), fastest, e->clock.dt);
+    /* a point takes its neighbours along, they have bonds, and families at the ends of those reach one horizon more */
+    const real reach = (s->model == MODEL_BOND ? 1.0 : 1.5) * s->horizon;
+    const int safe = (int)ceil(reach) + 1;
+    levels_distances(&r->levels, safe, safe + (int)ceil(0.5 * s->horizon));
+    for (int k = 1; k <= r->levels.n; k++)
+        loads_level_find(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
+    if (restored) return OK;
+    uint8_t *demand = demand_make(e, ZONE_MORE), *level = NEW("levels.next", r->mesh.grid.n, uint8_t);
+    uint8_t *stressed = stressed_cells(e, SPLITS, true);
+    marks_add(&r->levels, stressed, demand);
+    uint8_t *limit = NEW("levels.limit", r->mesh.grid.n, uint8_t);
+    array_fill_bytes(limit, r->levels.n, r->mesh.grid.n, 1);
+    limit_by_room(e, limit);
+    next_levels(e, demand, limit, level);
+    if (frame_hollow_start(e, level)) change(e, level);
+    memory_free(limit);
+    e->damped = 0;                      /* the run begins with what the coarse cells have */
+    memory_free(demand);
+    memory_free(stressed);
+    memory_free(level);
+    return OK;
+}
+
+/* ---- in a run ---------------------------------------------------------------------------------------------------- */
+
+/* True if a coarse cell may have a point beyond SPLITS of the stress that converts. */
+static bool any_stressed(const struct mesh_levels *l)
+{
+    bool any = false;
+    for (int level = 1; level <= l->n; level++)
+        for (int64_t r = 0; r < l->at[level].mesh.runs; r++) any |= l->at[level].mesh.run[r].stressed;
+    return any;
+}
+
+/* Bounds of the levels at the next change: cells become finer at once, and coarser where they have been calm. */
+static void limits_find(struct run *e, bool looks, uint8_t *limit)
+{
+    struct mesh_levels *l = &e->frame->levels;
+    const int64_t n = l->fine->grid.n;
+    array_copy(limit, l->level, n, 1);
+    if (!looks) return;
+    uint8_t *late = demand_make(e, ZONE_MORE + ZONE_LATE), *stressed = stressed_cells(e, MERGES, true);
+    marks_add(l, stressed, late);
+    for (int64_t I = 0; I < n; I++) {
+        l->calm[I] = late[I] ? 0 : l->calm[I] < CALM_LOOKS ? l->calm[I] + 1 : CALM_LOOKS;
+        if (l->calm[I] == CALM_LOOKS) limit[I] = (uint8_t)l->n;
+    }
+    limit_by_room(e, limit);
+    memory_free(late);
+    memory_free(stressed);
+}
+
+/* Points that lost a bond near coarse cells convert now that these are finer: all material points in their cells. */
+static void lost_bonds_return(struct run *e)
+{
+    struct mesh_levels *l = &e->frame->levels;
+    struct particles *p = &e->part;
+    if (!l->any_wanted) return;
+    for (int64_t k = 0; k < p->n_of[KIND_MPM]; k++) {
+        const int32_t i = p->list[KIND_MPM][k];
+        if (l->wanted[cell_of(l->fine, p, i)] == WANTED_LOST_BOND) p->flag[i] |= FLAG_LOST_BOND, l->returned = true;
+    }
+    array_fill_bytes(l->wanted, WANTED_NOT, l->fine->grid.n, 1);
+}
+
+bool frame_levels_due(const struct run *e)
+{
+    const struct mesh_levels *l = &e->frame->levels;
+    return l->n > 0 && e->clock.step > 0 && e->clock.step % levels_stride(l) == 0;
+}
+
+uint8_t *frame_levels_plan(struct run *e)
+{
+    struct mesh_levels *l = &e->frame->levels;
+    const bool looks = e->clock.step % LOOK_STEPS == 0;
+    levels_sync(l);
+    uint8_t *stressed = any_stressed(l) ? stressed_cells(e, SPLITS, false) : NULL;
+    if (!looks && !stressed && !l->any_wanted && !rings_cells(e, NULL)) return NULL;
+    const int64_t n = l->fine->grid.n;
+    uint8_t *demand = demand_make(e, ZONE_MORE), *limit = NEW("levels.limit", n, uint8_t);
+    uint8_t *level = NEW("levels.next", n, uint8_t);
+    marks_add(l, stressed, demand);
+    limits_find(e, looks, limit);
+    next_levels(e, demand, limit, level);
+    memory_free(demand);
+    memory_free(limit);
+    memory_free(stressed);
+    return level;
+}
+
+void frame_levels_apply(struct run *e, const uint8_t *level)
+{
+    struct mesh_levels *l = &e->frame->levels;
+    if (!arrays_equal(level, l->level, l->fine->grid.n, 1)) change(e, level);
+    lost_bonds_return(e);
+    l->any_wanted = false;
+}
+
+/* A marked point near a coarse cell wants finer ones at the next change, and if it is too near it waits for them. */
+static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
+{
+    const unsigned marks = FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND;
+    const int64_t cell = cell_of(l->fine, p, i);
+    if (!(p->flag[i] & marks) || l->safe[cell] == DISTANCE_ROOMY) return;
+    const bool waits = l->safe[cell] == DISTANCE_UNSAFE && p->kind[i] == KIND_MPM;
+    const uint8_t wanted = waits && p->flag[i] & FLAG_LOST_BOND ? WANTED_LOST_BOND : WANTED_STRESS;
+    if (l->wanted[cell] < wanted) l->wanted[cell] = wanted;
+    l->any_wanted = true;
+    if (waits) p->flag[i] &= (uint8_t)~marks;
+}
+
+void frame_levels_guard(struct run *e)
+{
+    struct particles *p = &e->part;
+    e->frame->levels.returned = false;
+    if (e->frame->levels.n == 0 || !convert_due(p)) return;
+    for (int64_t first = 0; first < p->n; first += LANES) {
+        if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND))) continue;
+        for (int64_t i = first; i < first + LANES && i < p->n; i++) point_guard(&e->frame->levels, p, i);
+    }
+}
+
+/* ---- energies ---------------------------------------------------------------------------------------------------- */
+
+real frame_kinetic(const struct reference_frame *reference)
+{
+    return mesh_kinetic(&reference->mesh) + levels_kinetic(&reference->levels);
+}
+
+real frame_strain(struct run *e)
+{
+    struct reference_frame *r = e->frame;
+    const bool finite = !e->scene->small_strain;
+    return mesh_strain(&r->mesh, &e->part, r->elastic, finite) +
+           levels_strain(&r->levels, &e->part, r->elastic, finite);
+}

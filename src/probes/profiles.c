@@ -1,0 +1,57 @@
+/* The csv files of line and exact probes: written with every frame, checked on a restart, removed before a new run. */
+#include <stdio.h>
+#include <unistd.h>
+
+#include "run/say.h"
+#include "output/output_files.h"
+#include "probes/probes_part.h"
+
+/* What profiles of lines and of bars begin with (probes_profiles.c). */
+static const char *const profile_begin[] = {"s [m],", "x [m],"};
+
+static status profiles_put(void *folder, const char *name, const char *text, size_t length)
+{
+    const struct path path = path_join(folder, name);
+    TRY(file_begin_guard(path.text, profile_begin, COUNT_OF(profile_begin)));
+    return file_put_unsettled(path.text, text, length);
+}
+
+status profiles_write(struct run *e, struct output *out, const struct observed *o)
+{
+    if (probes_profiled(&e->probing->probes) == 0) return OK;
+    TRY(probes_profiles(&e->probing->probes, o, profiles_put, out->folder,
+                       out->series[0].frames - 1));
+    return file_settle(path_join(out->folder, "history.csv").text);
+}
+
+void profiles_check(struct run *e, struct output *out)
+{
+    char text[PATH_NAME_ROOM + 120], name[PROFILE_NAME], first[PROFILE_NAME] = "";
+    int64_t lost = 0;
+    for (int frame = 0; frame < out->series[0].frames; frame++)
+        for (int k = 0; probes_profile_name(&e->probing->probes, k, frame, name); k++) {
+            if (path_is_file(path_join(out->folder, name).text)) continue;
+            if (lost++ == 0) snprintf(first, sizeof first, "%s", name);
+        }
+    if (lost == 0) return;
+    const char *more = "";
+    char others[48];
+    if (lost > 1) snprintf(others, sizeof others, ", and %lld profiles more are", (long long)lost - 1), more = others;
+    snprintf(text, sizeof text, "%s is missing%s: a run of its own would make it again", first, more);
+    run_say(e, text);
+}
+
+/* Removes a profile, and leaves a file of others. False: there is none. */
+static bool profile_remove(const char *path)
+{
+    if (!path_exists(path)) return false;
+    return file_begin_guard(path, profile_begin, COUNT_OF(profile_begin)) != OK || unlink(path) == 0;
+}
+
+void profiles_remove(struct run *e, struct output *out)
+{
+    char name[PROFILE_NAME];
+    for (int k = 0; probes_profile_name(&e->probing->probes, k, 0, name); k++)
+        for (int frame = 0; probes_profile_name(&e->probing->probes, k, frame, name); frame++)
+            if (!profile_remove(path_join(out->folder, name).text)) break;
+}

@@ -1,0 +1,376 @@
+/* Tips of cracks that are led in load steps: where they are, what loads them, where they go.
+ *
+ * A tip goes in the direction of the largest hoop stress of its stress-intensity factors (crack_direction). They are
+ * fitted in a frame that follows the heading over a smoothing length: a tip that turns at once, and is measured in its
+ * new frame round a ring that its kink has not crossed, would swing (fracture/growth.h). Where a pre-crack kinks, the
+ * crack goes straight on until the ring sees no more than the kink. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "statics_internal.h"
+#include "fracture/tip_fit.h"
+#include "fracture/fracture_part.h"
+#include "contact/contact.h"
+
+#define INNER 1.0     /* of the ring of the fit [horizons] */
+#define WIDTH 7.0     /* of the ring [spacings] */
+#define SMOOTHING 2.0 /* of the frame [spacings] */
+#define KINK 0.17     /* turn at the end of a pre-crack that is no curve [rad] */
+#define HOLD 8.0      /* straight on after it [spacings] */
+#define LEAST 6.0     /* outer radius [spacings] */
+#define AHEAD 1e-3    /* [spacings] */
+#define HERE 1e-6     /* from the end of a pre-crack to the tip there [spacings] */
+#define PARALLEL 1e-6 /* sine of an angle that is none */
+#define REST 0.1      /* way to another crack that is none [spacings] */
+#define ON_ROW 0.05   /* from a row of the lattice to a crack along it [spacings] */
+#define ROW_SEEN 8.0  /* length of a row that is looked at [spacings] */
+#define ROWS_APART 0.9 /* rows along an axis of the lattice; cracks along its diagonals do as they are [spacings] */
+#define REACH 1.2     /* of the search for a body ahead [spacings] */
+
+enum { ADVANCE_SPACINGS = 2, ROW_LEAST = 4 };
+
+/* ---- tips -------------------------------------------------------------------------------------------------------- */
+
+static real led_distance(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
+
+/* Length of the longest pre-crack that ends at the tip, and whether one begins there. */
+static void cracks_behind(const struct run *e, struct led_tip *tip)
+{
+    const struct scene *s = e->scene;
+    for (int k = 0; k < s->cracks; k++) {
+        real at[2][DIM_MAX] = {{0}};
+        led_segment(&e->statics->led.plane, &s->crack[k], s->dim, at);
+        for (int end = 0; end < 2; end++) {
+            if (led_distance(at[end], tip->place) > HERE * s->spacing) continue;
+            tip->sees = real_max(tip->sees, led_distance(at[0], at[1]));
+            tip->reversed |= end == 0;
+        }
+    }
+}
+
+/* Is the tip on a plane of symmetry, and goes along it? */
+static bool on_mirror(const struct run *e, const struct led_tip *tip)
+{
+    real ahead[2];
+    led_ahead(tip->place, e->scene->spacing, tip->last, ahead);
+    return led_on_mirror(e, &e->statics->led.plane, tip->place, ahead);
+}
+
+/* Rows of a lattice lie on one face of a crack that goes along them, as crack_cuts counts them. The tip begins halfway
+ * to the next row, where bonds have been cut, and stays clear of what round-off would say of the row. */
+static void leave_row(struct run *e, struct led_tip *tip)
+{
+    const real h = e->scene->spacing, *along = tip->along;
+    real next = h;
+    int64_t on = 0;
+    for (int64_t i = 0; i < e->part.n; i++) {
+        real X[2];
+        led_project_particle(e, i, X);
+        for (int d = 0; d < 2; d++) X[d] -= tip->place[d];
+        const real ahead = dot(along, X, 2), aside = fabs(along[0] * X[1] - along[1] * X[0]);
+        if (e->part.body[i] != tip->body || !(ahead > 0 && ahead < ROW_SEEN * h)) continue;
+        on += aside < ON_ROW * h;
+        next = aside < ON_ROW * h ? next : real_min(next, aside);
+    }
+    const real below = (tip->reversed ? 0.5 : -0.5) * next;
+    if (on < ROW_LEAST || next < ROWS_APART * h || on_mirror(e, tip)) return;
+    tip->place[0] -= below * along[1], tip->place[1] += below * along[0];
+    memcpy(tip->start, tip->place, sizeof tip->start);
+    led_free_behind(e, tip);
+}
+
+static void led_start(struct run *e)
+{
+    struct led *l = &e->statics->led;
+    const struct tips *t = &e->fracture->tips;
+    l->known = true;
+    for (int k = 0; k < t->n; k++) {
+        const struct tip *from = &t->tip[k];
+        real place[2], along[2];
+        if (!from->from_crack) continue;
+        struct led_tip *tip = &l->tip[l->n++];
+        *tip = (struct led_tip){.body = from->body};
+        led_project(&l->plane, from->origin, e->part.dim, place);
+        led_project(&l->plane, from->along, e->part.dim, along);
+        for (int d = 0; d < 2; d++) {
+            tip->start[d] = tip->place[d] = place[d];
+            tip->along[d] = tip->heading[d] = tip->last[d] = along[d];
+        }
+        cracks_behind(e, tip);
+        leave_row(e, tip);
+    }
+}
+
+/* Why no tip is led, else NULL. */
+static const char *led_fault(const struct run *e, struct led_plane *plane)
+{
+    const struct scene *s = e->scene;
+    const bool one = s->bodies == 1 && s->materials == 1;    /* hoop stress knows no toughness */
+    *plane = (struct led_plane){.made = true};
+    if (s->steps.path == PATH_BONDS) return "steps.path is bonds";
+    return s->steps.path == PATH_AUTO && !one ? "there are several bodies or materials" : led_plane_find(e, plane);
+}
+
+const char *engine_led_fault(const struct run *e) { return led_fault(e, &(struct led_plane){0}); }
+
+status led_check(const struct run *e)
+{
+    const char *fault = NULL;
+    if (!scene_in_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
+    fault = engine_led_fault(e);
+    return fault ? status_set(REFUSED,
+                              "steps.path: hoop leads straight fronts that go through the body, and %s; bonds, or "
+                              "auto, is expected",
+                              fault)
+                 : OK;
+}
+
+bool led_leads(struct run *e)
+{
+    struct led *l = &e->statics->led;
+    if (!l->plane.made) l->fault = led_fault(e, &l->plane);
+    if (l->fault) return false;
+    if (!l->known) led_start(e);
+    for (int k = 0; k < l->n; k++)
+        if (!l->tip[k].ended) return true;
+    return false;
+}
+
+/* ---- factors ----------------------------------------------------------------------------------------------------- */
+
+static const struct material *material_at(const struct run *e, const struct led_tip *tip)
+{
+    const struct particles *p = &e->part;
+    int64_t nearest = 0;
+    real least = INFINITY, X[2];
+    for (int64_t i = 0; i < p->n; i++) {
+        if (p->body[i] != tip->body) continue;
+        led_project_particle(e, i, X);
+        if (led_distance(X, tip->place) < least) least = led_distance(X, tip->place), nearest = i;
+    }
+    return &e->scene->material[p->material[nearest]];
+}
+
+/* Pre-cracks, and what tips have cut, in the plane of the tips; cracks_now_free frees the list. */
+static struct crack *cracks_now(const struct run *e, int *n)
+{
+    const struct led *l = &e->statics->led;
+    const struct crack_list *before = &e->tables.cracks;
+    struct crack *crack = NEW("led.cracks", before->n + l->stretches + 1, struct crack);
+    real(*corner)[DIM_MAX] = memory_new("led.corners", 2 * (before->n + 1), sizeof *corner);
+    for (int k = 0; k < before->n; k++) {
+        led_segment(&l->plane, &before->crack[k], e->part.dim, corner + 2 * k);
+        crack[k] = (struct crack){.n = 2, .corner = corner + 2 * k};
+    }
+    for (int64_t k = 0; k < l->stretches; k++) crack[before->n + k] = (struct crack){.n = 2, .corner = l->path[k].at};
+    *n = before->n + (int)l->stretches;
+    crack[*n].corner = corner;
+    return crack;
+}
+
+static void cracks_now_free(struct crack *crack, int n)
+{
+    memory_free(crack[n].corner);
+    memory_free(crack);
+}
+
+/* The medium round a tip. In space, at a radius of half of the thickness and more, sides have let the stress along the
+ * front go (Nakamura & Parks 1988), which a ring's mean radius decides. */
+static struct crack_medium medium_at(const struct run *e, const struct led_tip *tip, real radius)
+{
+    enum space space = e->scene->space;
+    if (e->part.dim == 3) {
+        real ahead[2];
+        led_ahead(tip->place, e->scene->spacing, tip->last, ahead);
+        const bool thin = led_width(e, &e->statics->led.plane, tip->place, ahead) < 2 * radius;
+        space = thin ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN;
+    }
+    return crack_medium_of(material_at(e, tip), space);
+}
+
+bool led_measure(const struct run *e, const struct led_tip *tip, real K[MODES])
+{
+    const real h = e->scene->spacing, inner = real_max(3 * h, INNER * e->source.family.horizon);
+    struct tip_view view = {.inner = inner, .outer = inner + WIDTH * h, .body = tip->body};
+    for (int d = 0; d < 2; d++)
+        view.place[d] = tip->place[d], view.along[d] = tip->along[d], view.last[d] = tip->last[d];
+    memcpy(view.axis, e->statics->led.plane.axis, sizeof view.axis);
+    view.outer = real_min(view.outer, real_max(tip->sees, LEAST * h));
+    view.medium = medium_at(e, tip, 0.5 * (view.inner + view.outer));
+    struct crack *crack = cracks_now(e, &view.cracks);
+    view.crack = crack;
+    const bool seen = tip_fit(&view, &e->part, K);
+    cracks_now_free(crack, view.cracks);
+    if (on_mirror(e, tip)) K[MODE_II] = 0;
+    const bool meets = e->contact->law.between == CONTACT_ALL && e->contact->touching > 0;
+    if (meets) K[MODE_I] = real_max(K[MODE_I], 0); /* closed: the forces between its faces show */
+    return seen;
+}
+
+void led_turn(const struct run *e, struct led_tip *tip)
+{
+    if (tip->hold > AHEAD * e->scene->spacing || !led_measure(e, tip, tip->K)) {
+        for (int d = 0; d < 2; d++) tip->heading[d] = tip->last[d];
+        return;
+    }
+    const real angle = crack_direction(tip->K), c = cos(angle), s = sin(angle), *a = tip->along;
+    tip->heading[0] = c * a[0] - s * a[1], tip->heading[1] = s * a[0] + c * a[1];
+}
+
+/* The tip that has gone farthest, among those that go on if `on`; NULL: there is none. */
+static const struct led_tip *tip_farthest(const struct led *l, bool on)
+{
+    const struct led_tip *first = NULL;
+    for (int k = 0; k < l->n; k++) {
+        const struct led_tip *tip = &l->tip[k];
+        if (!(on && tip->ended) && (!first || tip->grown > first->grown * (1 + ON_SURFACE))) first = tip;
+    }
+    return first;
+}
+
+void led_factors(struct run *e, real K[MODES])
+{
+    const struct led_tip *first = led_leads(e) ? tip_farthest(&e->statics->led, true) : NULL;
+    K[MODE_I] = K[MODE_II] = NAN;
+    if (first) led_measure(e, first, K);
+}
+
+void led_place(const struct run *e, real place[DIM_MAX])
+{
+    const struct led_plane *plane = &e->statics->led.plane;
+    const struct led_tip *first = tip_farthest(&e->statics->led, false);
+    for (int d = 0; d < DIM_MAX; d++)
+        place[d] = first ? first->place[0] * plane->axis[0][d] + first->place[1] * plane->axis[1][d] +
+                               plane->middle * plane->front[d]
+                         : NAN;
+}
+
+/* ---- the way ahead ----------------------------------------------------------------------------------------------- */
+
+/* Share of the way from a to b at which it meets a crack; 1: it meets none. */
+static real meeting_share(const struct crack *c, const real *a, const real *b)
+{
+    const real *p = c->corner[0], *q = c->corner[1];
+    const real way[2] = {b[0] - a[0], b[1] - a[1]}, wall[2] = {q[0] - p[0], q[1] - p[1]};
+    const real across = way[0] * wall[1] - way[1] * wall[0], gap[2] = {p[0] - a[0], p[1] - a[1]};
+    const bool parallel = fabs(across) <= PARALLEL * hypot(way[0], way[1]) * hypot(wall[0], wall[1]);
+    const real share = (gap[0] * wall[1] - gap[1] * wall[0]) / across,
+               at = (gap[0] * way[1] - gap[1] * way[0]) / across;
+    return !parallel && share >= 0 && share < 1 && at >= 0 && at <= 1 ? share : 1;
+}
+
+/* Does a crack end at the tip, as its own last stretch does? */
+static bool ends_here(const struct crack *c, const struct led_tip *tip, real within)
+{
+    return led_distance(c->corner[0], tip->place) <= within || led_distance(c->corner[1], tip->place) <= within;
+}
+
+void led_next_place(const struct run *e, const struct led_tip *tip, real place[2])
+{
+    const struct scene *s = e->scene;
+    const real h = s->spacing;
+    real from[2], to[2], way = ADVANCE_SPACINGS * h, share = 1;
+    int cracks;
+    led_ahead(tip->place, AHEAD * h, tip->heading, from);
+    led_ahead(tip->place, h, tip->heading, to);
+    if (s->steps.energy > 0)
+        way = s->steps.energy /
+              (led_toughness(e, tip) * real_max(h, led_width(e, &e->statics->led.plane, tip->place, to)));
+    struct crack *crack = cracks_now(e, &cracks);
+    led_ahead(tip->place, way, tip->heading, to);
+    for (int k = 0; k < cracks; k++)
+        if (!ends_here(&crack[k], tip, AHEAD * h)) share = real_min(share, meeting_share(&crack[k], from, to));
+    for (int d = 0; d < 2; d++) place[d] = share < 1 ? from[d] + share * (to[d] - from[d]) : to[d];
+    cracks_now_free(crack, cracks);
+}
+
+real led_toughness(const struct run *e, const struct led_tip *tip) { return toughness_of(e, material_at(e, tip)); }
+
+/* Can the crack go on? */
+static bool body_is_ahead(const struct run *e, const struct led_tip *tip)
+{
+    const struct particles *p = &e->part;
+    const real h = e->scene->spacing;
+    real ahead[2];
+    led_ahead(tip->place, h, tip->heading, ahead);
+    const real wide = p->dim == 2 ? 1 : led_width(e, &e->statics->led.plane, tip->place, ahead) / h;
+    int free_ones = 0;
+    for (int64_t i = 0; i < p->n_all; i++) {
+        real X[2];
+        led_project_particle(e, i, X);
+        free_ones += p->body[i] == tip->body && !(p->flag[i] & FLAG_DRIVEN) && led_distance(X, ahead) <= REACH * h;
+    }
+    return wide > 0 && free_ones >= 2 * floor(wide);
+}
+
+static void led_path_add(struct led *l, int k, const real *to)
+{
+    if (l->stretches == l->room) {
+        const int64_t larger = l->room ? 2 * l->room : 64;
+        l->path = memory_resize("led.path", l->path, l->room, larger, sizeof *l->path);
+        l->room = larger;
+    }
+    struct led_stretch *s = &l->path[l->stretches++];
+    const struct led_tip *tip = &l->tip[k];
+    *s = (struct led_stretch){.tip = k};
+    for (int d = 0; d < 2; d++) s->at[tip->reversed][d] = tip->place[d], s->at[!tip->reversed][d] = to[d];
+}
+
+/* The frame follows the heading; at a kink it is the heading. */
+static void turned_frame(struct led_tip *tip, real way, real h)
+{
+    const real *a = tip->last, *b = tip->heading, share = -expm1(-way / (SMOOTHING * h));
+    const bool kink = tip->grown == 0 && fabs(atan2(a[0] * b[1] - a[1] * b[0], dot(a, b, 2))) > KINK;
+    if (kink) tip->hold = HOLD * h, tip->sees = 0;
+    const bool straight = tip->hold > 0;
+    for (int d = 0; d < 2; d++) tip->along[d] += (straight ? 1 : share) * (b[d] - tip->along[d]);
+    const real length = hypot(tip->along[0], tip->along[1]);
+    for (int d = 0; d < 2; d++) tip->along[d] /= length;
+    tip->hold = real_max(0, tip->hold - way);
+}
+
+void led_move(struct run *e, int k)
+{
+    struct led_tip *tip = &e->statics->led.tip[k];
+    const real h = e->scene->spacing;
+    real to[2];
+    led_next_place(e, tip, to);
+    const real way = led_distance(to, tip->place);
+    led_path_add(&e->statics->led, k, to);
+    turned_frame(tip, way, h);
+    for (int d = 0; d < 2; d++) tip->last[d] = tip->heading[d], tip->place[d] = to[d];
+    tip->grown += way, tip->sees += way;
+    led_next_place(e, tip, to);
+    tip->ended = !body_is_ahead(e, tip) || led_distance(to, tip->place) < REST * h;
+}
+
+void led_lose(struct run *e)
+{
+    for (int k = 0; k < e->statics->led.n; k++) e->statics->led.tip[k].ended = true;
+}
+
+/* ---- state ------------------------------------------------------------------------------------------------------- */
+
+void led_free(struct led *l)
+{
+    memory_free(l->path);
+    memset(l, 0, sizeof *l);
+}
+
+status led_archive(struct run *e, struct archive *a)
+{
+    struct led *l = &e->statics->led;
+    ARCHIVE_VALUE(a, "statics/led", l->known);
+    ARCHIVE_VALUE(a, "statics/led_n", l->n);
+    ARCHIVE_VALUE(a, "statics/led_tips", l->tip);
+    ARCHIVE_VALUE(a, "statics/led_tried", l->tried);
+    ARCHIVE_VALUE(a, "statics/led_stretches", l->stretches);
+    if (!a->saving && l->stretches > 0) {
+        memory_free(l->path);
+        l->room = l->stretches;
+        l->path = NEW("led.path", l->room, struct led_stretch);
+    }
+    return l->stretches > 0 ? a->exchange(a, "statics/led_path", l->path, (size_t)l->stretches * sizeof *l->path) : OK;
+}

@@ -1,0 +1,478 @@
+/* Load steps: pieces of a body that nothing holds, and the rigid motions that they are free to make.
+ *
+ * Such a piece has no equilibrium of its own under loads, and none that is unique without. It stays where it is: of the
+ * forces on it, those that would only move it as a whole are left out (as inertia would take them), and so are such
+ * motions of what the preconditioner proposes. What is left is how it deforms. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "statics_internal.h"
+#include "mesh/mesh_part.h"
+#include "contact/contact.h"
+
+enum { MODES_MOST = 6 };  /* rigid motions of a piece in space */
+#define HELD_LEAST 1e-9   /* resistance of a motion, over the largest, from which on it is held */
+#define RESISTS_LEAST 1e-8 /* rate of a gap under a motion of about 1, below which it is round-off [1] */
+#define UNHELD_MOST 0.05  /* share of loads on a free piece that need not cancel: faces of lattices are not even */
+#define UNHELD_SMALL 0.01 /* share of all loads that is too small to end a run */
+#define DROPPED 1e-6      /* what is left of a motion beside those before it, below which it is none of its own */
+
+/* ---- which nodes hang together ----------------------------------------------------------------------------------- */
+
+static int32_t root_node(int32_t *parent, int32_t k)
+{
+    while (parent[k] != k) k = parent[k] = parent[parent[k]];
+    return k;
+}
+
+/* The smaller number becomes the root: the same pieces whatever the order. */
+static void nodes_join(int32_t *parent, int32_t a, int32_t b)
+{
+    const int32_t x = root_node(parent, a), y = root_node(parent, b);
+    if (x < y) parent[y] = x;
+    if (y < x) parent[x] = y;
+}
+
+/* Numbers of the unknowns of particles and of nodes of the mesh; -1: none. Points of the mesh have that of a corner. */
+struct numbers {
+    int32_t *particle, *node;
+};
+
+static void cells_join(const struct run *e, int32_t *parent, const struct numbers *number)
+{
+    const struct mesh *mesh = &e->frame->mesh;
+    for (int64_t I = 0; I < mesh->grid.n && mesh->points > 0; I++) {
+        int32_t first = -1;
+        if (!mesh_cell_holds(mesh, I)) continue;
+        for (int c = 0; c < 1 << e->part.dim; c++) {
+            const int32_t k = number->node[mesh_node(mesh, I, c)];
+            if (k < 0) continue;
+            if (first < 0) first = k;
+            nodes_join(parent, first, k);
+        }
+    }
+}
+
+static int32_t number_of(const struct run *e, const struct numbers *number, int64_t i)
+{
+    const struct mesh *mesh = &e->frame->mesh;
+    if (number->particle[i] >= 0 || mesh->points == 0 || mesh->place[i] < 0) return number->particle[i];
+    for (int c = 0; c < 1 << e->part.dim; c++) {
+        const int32_t k = number->node[mesh_node(mesh, mesh->place[i] >> e->part.dim, c)];
+        if (k >= 0) return k;
+    }
+    return -1;
+}
+
+static void bonded_join(const struct run *e, int32_t *parent, const struct numbers *number)
+{
+    for (int64_t r = 0; r < e->bonds.rows; r++) {
+        const int32_t a = number_of(e, number, e->bonds.particle[r]);
+        for (struct bond_iterator it = bonds_of_row(&e->bonds, r); bond_next(&it);) {
+            if (it.bond.w == 0 || it.bond.nbr >= e->part.n || it.bond.nbr < e->bonds.particle[r]) continue;
+            const int32_t b = number_of(e, number, it.bond.nbr);
+            if (a >= 0 && b >= 0) nodes_join(parent, a, b);
+        }
+    }
+}
+
+static struct numbers unknowns_number(const struct run *e)
+{
+    const struct statics *s = e->statics;
+    const struct mesh *mesh = &e->frame->mesh;
+    const int64_t places = mesh->points > 0 ? mesh->grid.n : 0;
+    struct numbers n = {BARE("pieces.particle", e->part.n, int32_t), BARE("pieces.node", places, int32_t)};
+    array_fill_bytes(n.particle, -1, e->part.n, sizeof *n.particle);
+    array_fill_bytes(n.node, -1, places, sizeof *n.node);
+    for (int64_t k = 0; k < s->balance.n; k++) (k < s->particles ? n.particle : n.node)[s->node[k]] = (int32_t)k;
+    for (int64_t k = 0; k < places && k < mesh->grid.mirror_nodes; k++)
+        n.node[mesh->grid.mirror_node[k].node] = n.node[mesh->grid.mirror_node[k].image];
+    return n;
+}
+
+static void unknowns_number_free(struct numbers *n)
+{
+    memory_free(n->particle);
+    memory_free(n->node);
+}
+
+/* ---- what holds a piece ------------------------------------------------------------------------------------------ */
+
+/* A piece while its rigid motions are looked for. */
+struct candidate {
+    real centre[DIM_MAX], radius;            /* where its nodes are now [m]; root mean square from there [m] */
+    real resistance[MODES_MOST][MODES_MOST]; /* sum of what supports see of two motions [1] */
+    int64_t n;                               /* nodes */
+};
+
+static int motions(int dim) { return dim * (dim + 1) / 2; }
+
+/* Rigid motion k of a piece at x: translations, then rotations, which move its nodes by about one. */
+static void motion_at(const struct candidate *c, int dim, int k, const real *x, real *u)
+{
+    for (int d = 0; d < dim; d++) u[d] = d == k;
+    if (k < dim || c->radius == 0) return;
+    const int a = dim == 2 ? 0 : (k - dim + 1) % 3, b = dim == 2 ? 1 : (k - dim + 2) % 3;
+    u[a] = -(x[b] - c->centre[b]) / c->radius;
+    u[b] = (x[a] - c->centre[a]) / c->radius;
+}
+
+static void node_now(const struct run *e, int64_t k, real *x)
+{
+    statics_node_place(e, k, x);
+    for (int d = 0; d < e->part.dim; d++) x[d] += e->statics->balance.u.of[d][k];
+}
+
+/* One direction n.u in which the motions of a piece are held: adds its share to their resistance. */
+static void resist(struct candidate *c, int m, const real *along)
+{
+    for (int a = 0; a < m; a++)
+        for (int b = 0; b < m; b++) c->resistance[a][b] += along[a] * along[b];
+}
+
+static void supports_resist(const struct run *e, struct candidate *of, const int32_t *piece)
+{
+    const int dim = e->part.dim, m = motions(dim);
+    for (int64_t k = 0; k < e->statics->balance.n; k++) {
+        real x[DIM_MAX], u[MODES_MOST][DIM_MAX], along[MODES_MOST];
+        if (!e->statics->balance.held[k]) continue;
+        node_now(e, k, x);
+        for (int a = 0; a < m; a++) motion_at(&of[piece[k]], dim, a, x, u[a]);
+        for (int d = 0; d < dim; d++) {
+            if (!(e->statics->balance.held[k] >> d & 1)) continue;
+            for (int a = 0; a < m; a++) along[a] = u[a][d];
+            resist(&of[piece[k]], m, along);
+        }
+    }
+}
+
+void statics_image_signs(const struct run *e, int64_t i, real sign[DIM_MAX])
+{
+    for (int d = 0; d < DIM_MAX; d++) sign[d] = 1;
+    for (; i >= e->part.n; i = e->loads.image[i - e->part.n].source) {
+        const struct boundary *b = e->loads.load[e->loads.image[i - e->part.n].load].boundary;
+        for (int d = 0; d < e->part.dim; d++)
+            if (d == b->axis || b->hold_tangential) sign[d] = -sign[d];
+    }
+}
+
+/* A bond to an image resists what lengthens it. */
+static void image_resists(const struct run *e, struct candidate *c, int64_t i, int64_t image)
+{
+    const struct particles *p = &e->part;
+    const int dim = p->dim, m = motions(dim);
+    const int64_t j = image_root(p, e->loads.image, image);
+    real sign[DIM_MAX], x[DIM_MAX], y[DIM_MAX], u[DIM_MAX], v[DIM_MAX], along[MODES_MOST] = {0}, length2 = 0;
+    for (int d = 0; d < dim; d++) x[d] = p->x[d][i], y[d] = p->x[d][j], length2 += square(p->x[d][image] - p->x[d][i]);
+    statics_image_signs(e, image, sign);
+    for (int a = 0; a < m; a++) {
+        motion_at(c, dim, a, x, u);
+        motion_at(c, dim, a, y, v);
+        for (int d = 0; d < dim; d++)
+            along[a] += (p->x[d][image] - p->x[d][i]) / sqrt(length2) * (u[d] - sign[d] * v[d]);
+    }
+    resist(c, m, along);
+}
+
+static void images_resist(const struct run *e, struct candidate *of, const int32_t *piece,
+                          const struct numbers *number)
+{
+    for (int64_t r = 0; r < e->bonds.rows && e->loads.images > 0; r++) {
+        const int32_t i = e->bonds.particle[r], k = number_of(e, number, i);
+        for (struct bond_iterator it = bonds_of_row(&e->bonds, r); bond_next(&it) && k >= 0;)
+            if (it.bond.w != 0 && it.bond.nbr >= e->part.n) image_resists(e, &of[piece[k]], i, it.bond.nbr);
+    }
+}
+
+/* A node beyond a plane of symmetry moves as its image does, and with the cells that it is a corner of. */
+static void mirror_nodes_resist(const struct run *e, struct candidate *of, const int32_t *piece,
+                                const struct numbers *number)
+{
+    const struct mesh *mesh = &e->frame->mesh;
+    const int dim = e->part.dim, m = motions(dim);
+    for (int64_t q = 0; mesh->points > 0 && q < mesh->grid.mirror_nodes; q++) {
+        const struct mirror_node *node = &mesh->grid.mirror_node[q];
+        const int32_t k = number->node[node->image];
+        real x[DIM_MAX], y[DIM_MAX], u[DIM_MAX], v[DIM_MAX], along[DIM_MAX][MODES_MOST];
+        if (k < 0 || !(mesh->grid.mass[node->node] > 0)) continue;
+        for (int d = 0; d < dim; d++) {
+            const int64_t stride = mesh->grid.stride[d], count = mesh->grid.count[d];
+            x[d] = grid_position(&mesh->grid, d, node->node / stride % count) + mesh->displacement[d][node->node];
+            y[d] = grid_position(&mesh->grid, d, node->image / stride % count) + mesh->displacement[d][node->image];
+        }
+        for (int a = 0; a < m; a++) {
+            motion_at(&of[piece[k]], dim, a, x, u);
+            motion_at(&of[piece[k]], dim, a, y, v);
+            for (int d = 0; d < dim; d++) along[d][a] = u[d] - node->sign[d] * v[d];
+        }
+        for (int d = 0; d < dim; d++) resist(&of[piece[k]], m, along[d]);
+    }
+}
+
+struct touched {
+    const struct run *e;
+    struct candidate *of;
+    const int32_t *piece;
+    const struct numbers *number;
+};
+
+/* The piece of a particle or an image, -1: of none. */
+static int32_t piece_of(const struct touched *s, int32_t particle)
+{
+    const int32_t k = number_of(s->e, s->number, image_root(&s->e->part, s->e->loads.image, particle));
+    return k < 0 ? -1 : s->piece[k];
+}
+
+/* How motion a of a piece changes the gap of a contact: by those of its particles that belong to it. */
+static real gap_rate(const struct touched *s, const struct contact_term *t, int32_t which, int a)
+{
+    const struct particles *p = &s->e->part;
+    real rate = 0;
+    for (int q = 0; q < t->n; q++) {
+        const int64_t i = image_root(p, s->e->loads.image, t->particle[q]);
+        real sign[DIM_MAX], x[DIM_MAX], u[DIM_MAX];
+        if (piece_of(s, t->particle[q]) != which) continue;
+        for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
+        statics_image_signs(s->e, t->particle[q], sign);
+        motion_at(&s->of[which], p->dim, a, x, u);
+        for (int d = 0; d < p->dim; d++) rate += sign[d] * t->along[q][d] * u[d];
+    }
+    return rate;
+}
+
+/* A contact resists what changes its gap: each of the pieces that it is of as if the other were held. */
+static void contact_resists(void *context, const struct contact_term *t)
+{
+    const struct touched *s = context;
+    const int dim = s->e->part.dim, m = motions(dim);
+    real length2 = 0, along[MODES_MOST];
+    for (int q = 0; q < t->n; q++) length2 += dot(t->along[q], t->along[q], dim);
+    for (int q = 0; q < t->n && length2 > 0; q++) {
+        const int32_t which = piece_of(s, t->particle[q]);
+        bool seen = which < 0;
+        for (int b = 0; b < q && !seen; b++) seen = piece_of(s, t->particle[b]) == which;
+        if (seen) continue;
+        for (int a = 0; a < m; a++) {
+            along[a] = gap_rate(s, t, which, a) / sqrt(length2);
+            if (fabs(along[a]) < RESISTS_LEAST) along[a] = 0;   /* both faces are of the same piece */
+        }
+        resist(&s->of[which], m, along);
+    }
+}
+
+/* Motions that nothing resists, as combinations of the m that there are, by elimination with full pivots. */
+static int motions_free(const struct candidate *c, int m, real free[MODES_MOST][MODES_MOST])
+{
+    real R[MODES_MOST][MODES_MOST], most = 0;
+    int order[MODES_MOST], held = 0;
+    memcpy(R, c->resistance, sizeof R);
+    for (int a = 0; a < m; a++) order[a] = a, most = real_max(most, R[a][a]);
+    for (; held < m; held++) {
+        int pivot = held;
+        for (int a = held; a < m; a++)
+            if (R[order[a]][order[a]] > R[order[pivot]][order[pivot]]) pivot = a;
+        const int at = order[pivot];
+        if (!(R[at][at] > HELD_LEAST * most)) break;
+        order[pivot] = order[held], order[held] = at;
+        for (int b = 0; b < m; b++) {
+            const real share = R[b][at] / R[at][at];
+            for (int k = 0; k < m && b != at; k++) R[b][k] -= share * R[at][k];
+        }
+    }
+    for (int f = held; f < m; f++)
+        for (int a = 0; a < m; a++) free[f - held][a] = a == order[f];
+    for (int f = held; f < m; f++)
+        for (int a = 0; a < held; a++) free[f - held][order[a]] = -R[order[a]][order[f]] / R[order[a]][order[a]];
+    return m - held;
+}
+
+/* ---- free pieces ------------------------------------------------------------------------------------------------- */
+
+/* Product of two motions of a piece's nodes. */
+static real motion_dot(const struct free_piece *f, int dim, int a, int b)
+{
+    real sum = 0;
+    for (int64_t q = 0; q < f->n * dim; q++) sum += f->motion[q * MODES_MOST + a] * f->motion[q * MODES_MOST + b];
+    return sum;
+}
+
+/* Makes the motions orthonormal over the nodes; those that are none of their own are dropped. */
+static void motions_orthonormal(struct free_piece *f, int dim)
+{
+    int kept = 0;
+    for (int a = 0; a < f->motions; a++) {
+        const real before = sqrt(motion_dot(f, dim, a, a));
+        for (int twice = 0; twice < 2; twice++)
+            for (int b = 0; b < kept; b++) {
+                const real share = motion_dot(f, dim, a, b);
+                for (int64_t q = 0; q < f->n * dim; q++)
+                    f->motion[q * MODES_MOST + a] -= share * f->motion[q * MODES_MOST + b];
+            }
+        const real left = sqrt(motion_dot(f, dim, a, a));
+        if (!(left > DROPPED * before)) continue;
+        for (int64_t q = 0; q < f->n * dim; q++)
+            f->motion[q * MODES_MOST + kept] = f->motion[q * MODES_MOST + a] / left;
+        kept++;
+    }
+    f->motions = kept;
+}
+
+/* Motions of the nodes of a piece that nothing holds in `count` of them. */
+static void free_piece_make(const struct run *e, struct free_piece *f, const struct candidate *c, int64_t which,
+                            const int32_t *piece, real free[MODES_MOST][MODES_MOST], int count)
+{
+    const int dim = e->part.dim, m = motions(dim);
+    *f = (struct free_piece){.n = 0, .motions = count};
+    f->node = BARE("pieces.node", c->n, int32_t);
+    f->motion = NEW("pieces.motion", c->n * dim * MODES_MOST, real);
+    for (int64_t k = 0; k < e->statics->balance.n; k++) {
+        real x[DIM_MAX], u[DIM_MAX];
+        if (piece[k] != which) continue;
+        node_now(e, k, x);
+        for (int a = 0; a < m; a++) {
+            motion_at(c, dim, a, x, u);
+            for (int b = 0; b < count; b++)
+                for (int d = 0; d < dim; d++)
+                    if (!(e->statics->balance.held[k] >> d & 1))
+                        f->motion[(f->n * dim + d) * MODES_MOST + b] += free[b][a] * u[d];
+        }
+        f->node[f->n++] = (int32_t)k;
+    }
+    motions_orthonormal(f, dim);
+}
+
+/* Pieces in the order of their first nodes: their numbers by node, and where they are. */
+static struct candidate *candidates_make(const struct run *e, int32_t *parent, int32_t *piece, int64_t *n)
+{
+    const int64_t nodes = e->statics->balance.n;
+    int64_t count = 0;
+    for (int64_t k = 0; k < nodes; k++) /* a root comes before what hangs on it */
+        piece[k] = parent[k] == k ? (int32_t)count++ : piece[root_node(parent, (int32_t)k)];
+    struct candidate *c = NEW("pieces.candidates", count, struct candidate);
+    for (int64_t k = 0; k < nodes; k++) {
+        real x[DIM_MAX];
+        node_now(e, k, x);
+        c[piece[k]].n++;
+        for (int d = 0; d < e->part.dim; d++) c[piece[k]].centre[d] += x[d];
+    }
+    for (int64_t q = 0; q < count; q++)
+        for (int d = 0; d < e->part.dim; d++) c[q].centre[d] /= (real)c[q].n;
+    for (int64_t k = 0; k < nodes; k++) {
+        real x[DIM_MAX];
+        node_now(e, k, x);
+        for (int d = 0; d < e->part.dim; d++) c[piece[k]].radius += square(x[d] - c[piece[k]].centre[d]);
+    }
+    for (int64_t q = 0; q < count; q++) c[q].radius = sqrt(c[q].radius / (real)c[q].n);
+    *n = count;
+    return c;
+}
+
+void statics_pieces_make(struct run *e)
+{
+    struct statics *s = e->statics;
+    const int m = motions(e->part.dim);
+    struct numbers number = unknowns_number(e);
+    int32_t *parent = BARE("pieces.parent", s->balance.n, int32_t);
+    int32_t *piece = BARE("pieces.piece", s->balance.n, int32_t);
+    int64_t n;
+    real free[MODES_MOST][MODES_MOST];
+    statics_pieces_free(e);
+    s->parted = false;
+    for (int64_t k = 0; k < s->balance.n; k++) parent[k] = (int32_t)k;
+    cells_join(e, parent, &number);
+    bonded_join(e, parent, &number);
+    struct candidate *c = candidates_make(e, parent, piece, &n);
+    supports_resist(e, c, piece);
+    images_resist(e, c, piece, &number);
+    mirror_nodes_resist(e, c, piece, &number);
+    contact_terms(e->contact, &e->part, contact_resists, &(struct touched){e, c, piece, &number});
+    for (int64_t q = 0; q < n; q++) s->pieces += motions_free(&c[q], m, free) > 0;
+    s->piece = NEW("pieces.free", s->pieces, struct free_piece);
+    s->pieces = 0;
+    for (int64_t q = 0; q < n; q++) {
+        const int count = motions_free(&c[q], m, free);
+        if (count > 0) free_piece_make(e, &s->piece[s->pieces++], &c[q], q, piece, free, count);
+    }
+    memory_free(c);
+    memory_free(parent);
+    memory_free(piece);
+    unknowns_number_free(&number);
+}
+
+void statics_pieces_free(struct run *e)
+{
+    struct statics *s = e->statics;
+    for (int64_t q = 0; q < s->pieces; q++) memory_free(s->piece[q].node), memory_free(s->piece[q].motion);
+    memory_free(s->piece);
+    s->piece = NULL, s->pieces = 0;
+}
+
+void statics_pieces_hold(const struct run *e, struct field *v)
+{
+    const struct statics *s = e->statics;
+    const int dim = e->part.dim;
+#pragma omp parallel for schedule(dynamic)
+    for (int64_t q = 0; q < s->pieces; q++) {
+        const struct free_piece *f = &s->piece[q];
+        for (int a = 0; a < f->motions; a++) {
+            real sum = 0;
+            for (int64_t k = 0; k < f->n; k++)
+                for (int d = 0; d < dim; d++) sum += f->motion[(k * dim + d) * MODES_MOST + a] * v->of[d][f->node[k]];
+            for (int64_t k = 0; k < f->n; k++)
+                for (int d = 0; d < dim; d++) v->of[d][f->node[k]] -= sum * f->motion[(k * dim + d) * MODES_MOST + a];
+        }
+    }
+}
+
+/* ---- loads that nothing holds ------------------------------------------------------------------------------------ */
+
+/* Of the loads on a piece along its free motions: the largest share that does not cancel [1], that motion, and the sum
+ * of their sizes there. */
+static real unheld_share(const struct run *e, const struct free_piece *f, real *size)
+{
+    const struct statics *s = e->statics;
+    real most = 0;
+    *size = 0;
+    for (int a = 0; a < f->motions; a++) {
+        real sum = 0, all = 0;
+        for (int64_t k = 0; k < f->n && f->node[k] < s->particles; k++)
+            for (int d = 0; d < e->part.dim; d++) {
+                const real along = f->motion[(k * e->part.dim + d) * MODES_MOST + a] *
+                                   s->applied[d][s->node[f->node[k]]] * s->weight[f->node[k]];
+                sum += along, all += fabs(along);
+            }
+        if (all > 0 && fabs(sum) / all * (all > *size * UNHELD_SMALL) > most) most = fabs(sum) / all, *size = all;
+    }
+    return most;
+}
+
+/* Sum of all applied forces, each by its size, over the root of the number of nodes of a piece: as unheld_share adds.
+ */
+static real applied_sum(const struct run *e, int64_t nodes)
+{
+    real sum = 0;
+    for (int d = 0; d < e->part.dim; d++)
+        for (int64_t i = 0; i < e->part.n; i++) sum += fabs(e->statics->applied[d][i]);
+    return sum / sqrt((real)nodes);
+}
+
+status statics_unheld(const struct run *e)
+{
+    const struct statics *s = e->statics;
+    for (int64_t q = 0; q < s->pieces && s->applied[0]; q++) {
+        const struct free_piece *f = &s->piece[q];
+        real size, X[DIM_MAX] = {0};
+        const real share = unheld_share(e, f, &size);
+        if (share <= UNHELD_MOST || size <= UNHELD_SMALL * applied_sum(e, f->n)) continue;
+        statics_node_place(e, f->node[f->n / 2], X);
+        return status_set(FAILED,
+                          "load step %lld, t = %.6g s: nothing holds %s (%.3g %% of it, round x = %.6g, y = %.6g, "
+                          "z = %.6g m): %.0f %% of the loads on it are not balanced; hold it there, balance its "
+                          "loads, or choose steps.control energy, which goes back with the loads while a crack runs",
+                          (long long)e->clock.step + 1, s->t,
+                          f->n == s->balance.n ? "the body" : "a piece of the body",
+                          100 * (real)f->n / (real)s->balance.n, X[0], X[1], X[2], 100 * share);
+    }
+    return OK;
+}

@@ -1,0 +1,104 @@
+/* Equilibrium of bodies with material points: ordinary steps in time on the grid, with loads that grow and then stay,
+ * and velocities damped near the critical damping of the slowest motion of the body. */
+#include <math.h>
+
+#include "relaxation.h"
+#include "grid/grid_part.h"
+#include "coupling/coupling_part.h"
+#include "solver/solver.h"
+#include "probes/diagnostics.h"
+#include "step/step.h"
+#include "step/stability.h"
+
+#define ESTIMATE_STEPS 10                    /* steps between estimates of damping and residual */
+#define MOTION_SMALL 1e-6                        /* kinetic over strain energy of a body at rest */
+
+real grid_relaxation_ramp(const struct run *e)
+{
+    const real twice = 2 * (particles_longest(&e->part) + e->scene->spacing);
+    return ceil(twice / (e->tables.wave_speed * e->clock.dt)) * e->clock.dt;
+}
+
+/* sum m u^2 and sum m v^2. */
+static void motion_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct particles *p = context;
+    for (int d = 0; d < p->dim; d++)
+        for (int64_t i = first; i < end; i++) {
+            sum[0] += p->mass[i] * square(p->x[d][i] - p->X[d][i]);
+            sum[1] += p->mass[i] * square(p->v[d][i]);
+        }
+}
+
+/* Squares of the forces that still accelerate nodes, and of those on particles that are not on the grid. */
+static void node_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct grid_method *mpm = context;
+    const struct grid *g = &mpm->field[0].grid;
+    for (int d = 0; d < g->dim; d++)
+        for (int64_t I = first; I < end; I++)
+            sum[0] += square(g->mass[I] * g->force[d][I] / mpm->transfer.dt_velocity);
+}
+
+static void particle_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct particles *p = context;
+    for (int64_t i = first; i < end; i++)
+        for (int d = 0; d < p->dim && !particle_on_grid(p, i); d++) sum[0] += square(p->f[d][i]);
+}
+
+/* Norm of the reactions, each shared evenly by its particles [N]. */
+static real reactions_norm(const struct loads *loads, int dim)
+{
+    real sum = 0;
+    for (int b = 0; b < loads->n; b++) {
+        const struct load *l = &loads->load[b];
+        if (l->boundary->kind == BOUNDARY_VELOCITY)
+            sum += dot(l->reaction, l->reaction, dim) / (l->n > 0 ? (real)l->n : 1);
+    }
+    return sqrt(sum);
+}
+
+/* Updates damping and residual; *done at equilibrium. The slowest motion has nearly the form of the deflection, so its
+ * frequency is omega^2 = 2 U/sum m u^2 (Rayleigh), with the strain energy U; critical damping is 2 omega. */
+static void estimate(struct run *e, bool *done)
+{
+    struct solver *s = e->solver;
+    real nodes = 0, particles, motion[2];
+    const real strain = e->kernels.bond_energy(&e->bonds, &e->part) +
+                        diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial);
+    team_sums(e->part.n, 2, motion_block, &e->part, motion);
+    s->damping = motion[0] > 0 ? real_min(2 * sqrt(2 * strain / motion[0]) * e->clock.dt, 1) : 0;
+    if (e->part.n_of[KIND_MPM] + e->part.n_grid_coupled > 0)
+        team_sums(e->grid->field[0].grid.n, 1, node_block, e->grid, &nodes);
+    team_sums(e->part.n, 1, particle_block, &e->part, &particles);
+    solver_scale(s, reactions_norm(&e->loads, e->part.dim), sqrt(nodes + particles));
+    *done = e->clock.t > s->ramp_time * (1 + 1e-9) && s->residual <= e->scene->solver_tolerance &&
+            0.5 * motion[1] <= MOTION_SMALL * strain;
+}
+
+/* Damps the velocities, and their gradients (APIC), by one step. */
+static void damp_velocities(struct run *e)
+{
+    struct particles *p = &e->part;
+    const real keep = (2 - e->solver->damping) / (2 + e->solver->damping);
+    const int gradients = e->optional & WITH_GRADIENT ? p->dim * p->dim : 0;
+    for (int d = 0; d < p->dim; d++) {
+#pragma omp parallel for schedule(static)
+        for (int64_t i = 0; i < p->n; i++) p->v[d][i] *= keep;
+    }
+    for (int k = 0; k < gradients; k++) {
+#pragma omp parallel for schedule(static)
+        for (int64_t i = 0; i < p->n; i++) p->gradient[k][i] *= keep;
+    }
+    loads_mirror(&e->loads, p);
+}
+
+status grid_relaxation_step(struct run *e, bool *done)
+{
+    TRY(step(e));
+    TRY(stability_check(e));
+    if (e->clock.step % ESTIMATE_STEPS == 0) estimate(e, done);
+    damp_velocities(e);
+    return OK;
+}

@@ -1,0 +1,153 @@
+/* Static equilibrium of a scene: the loop round the solvers (solver/solver.h), and what is said of their result. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "relaxation.h"
+#include "kernels/pd/bond_laws.h"
+#include "solver/solver.h"
+#include "step/report.h"
+#include "run/say.h"
+#include "run/energies.h"
+#include "step/sample.h"
+
+static struct static_body static_body_of(struct run *e)
+{
+    return (struct static_body){&e->part, &e->bonds, &e->loads, e->kernels.bond_force, e->scene->material,
+                                e->scene->spacing, e->scene->solver_tolerance, e->scene->bodies};
+}
+
+status engine_solver_make(struct run *e)
+{
+    const struct scene *s = e->scene;
+    const struct static_body body = static_body_of(e);
+    const real ramp_time = s->method == METHOD_PD ? 1 : grid_relaxation_ramp(e);
+    loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
+    TRY(solver_make(e->solver, &body, ramp_time));
+    if (s->method == METHOD_PD) solver_iteration_make(e->solver, &body, s->solver == SOLVER_CG);
+    else
+        for (int b = 0; b < e->loads.n; b++)     /* the steps on the grid add it up */
+            memset(e->loads.load[b].displacement, 0, sizeof e->loads.load[b].displacement);
+    return OK;
+}
+
+/* Intact bonds beyond the stretch at which a run in time would break them. */
+static int64_t bonds_past_limit(const struct run *e)
+{
+    const struct bonds *b = &e->bonds;
+    const struct particles *p = &e->part;
+    int64_t past = 0;
+    for (int64_t r = 0; r < b->rows; r++)
+        for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);) {
+            const int32_t i = b->particle[r], j = it.bond.nbr;
+            const real limit = e->tables.pair_stretch[p->material[i] * e->scene->materials + p->material[j]] *
+                               bond_strength(p, i, j);
+            past += it.bond.w != 0 && j > i && bond_elastic_of(b, p, &it.bond, i) > limit;
+        }
+    return past;
+}
+
+static void say_past_limit(struct run *e)
+{
+    char text[160];
+    snprintf(text, sizeof text,
+             "%lld bonds are beyond their critical stretch in the solution, and none broke: smaller loads, or "
+             "solver explicit",
+             (long long)e->solver->past_limit);
+    if (e->solver->past_limit > 0) run_say(e, text);
+}
+
+#define STRAIN_LARGE 0.1                 /* beyond it neither straight bonds nor Hooke's law describe a solid */
+
+/* Warns of stresses that no solid bears: Hooke's law has an equilibrium under any load. */
+static void say_large_strain(struct run *e)
+{
+    const struct particles *p = &e->part;
+    real most = 0;
+    char text[200];
+    run_stress(e);
+    for (int64_t i = 0; i < p->n; i++)
+        for (int k = 0; k < symmetric_count(p->dim); k++)
+            most = real_max(most, fabs(p->stress[k][i]) / e->scene->material[p->material[i]].young);
+    snprintf(text, sizeof text,
+             "stresses of the solution reach %.2g times Young's modulus: no solid bears that, and elasticity of small "
+             "strains does not describe it; see whether loads are meant, and in which unit",
+             most);
+    if (!(most <= STRAIN_LARGE)) run_say(e, text);
+}
+
+/* Completes a solution: the body at rest at the end of the duration. */
+static void solver_finish(struct run *e)
+{
+    struct particles *p = &e->part;
+    for (int d = 0; d < p->dim; d++) array_fill_bytes(p->v[d], 0, p->n_all, sizeof(real));
+    for (int k = 0; k < p->dim * p->dim && (e->optional & WITH_GRADIENT); k++)
+        array_fill_bytes(p->gradient[k], 0, p->n_all, sizeof(real));
+    loads_mirror(&e->loads, p);
+    loads_static_work(&e->loads, p);
+    memset(e->loads.impulse, 0, sizeof e->loads.impulse);
+    e->clock.t = e->scene->duration;
+    e->clock.steps = e->clock.step;
+    e->report->sampling.due = false;
+    e->report->sampling.kinetic = 0, e->report->sampling.constraint_work = e->loads.constraint_work;
+    sample_probes(e);
+    e->solver->past_limit = bonds_past_limit(e);
+    say_past_limit(e);
+    say_large_strain(e);
+}
+
+/* FAILED with the reason why no equilibrium was found. */
+static status not_converged(const struct run *e)
+{
+    const struct solver *s = e->solver;
+    if (!(s->residual < INFINITY))
+        return status_set(FAILED,
+                          "the solver diverged at step %lld; smaller loads are expected, or solver relaxation in "
+                          "place of cg, or explicit",
+                          (long long)e->clock.step);
+    if (s->residual * s->scale <= s->noise)
+        return status_set(FAILED,
+                          "the residual stays at %.3g of the load, %.3g is wanted: strains are so small that the "
+                          "round-off of positions shows; a larger solver_tolerance is expected",
+                          s->residual, e->scene->solver_tolerance);
+    return status_set(FAILED,
+                      "no equilibrium after %lld steps: the residual is %.3g of the load, %.3g is wanted; raise "
+                      "solver_steps, or see whether every part of the body is held and its loads are balanced",
+                      (long long)e->clock.step, s->residual, e->scene->solver_tolerance);
+}
+
+/* One step: of an iteration of bonds, or in time on the grid. */
+static status solve_step(struct run *e, bool *done)
+{
+    const struct static_body body = static_body_of(e);
+    if (e->scene->method != METHOD_PD) return grid_relaxation_step(e, done);
+    TRY((e->scene->solver == SOLVER_CG ? cg_step : relaxation_step)(e->solver, &body, e->clock.step, done));
+    lap(&e->laps, LAP_BONDS);
+    e->clock.step++;
+    return OK;
+}
+
+/* The sample of the start, and the forces before the first step, from which relaxation takes differences. */
+static void solve_start(struct run *e)
+{
+    if (e->scene->method != METHOD_PD) return;
+    if (e->clock.step == 0) sample_rest(e);
+    for (int d = 0; d < e->part.dim; d++)
+        array_copy(e->solver->before.of[d], e->part.f[d], e->part.n, sizeof(real));
+}
+
+status engine_solve(struct run *e)
+{
+    TRY(report_start(e));
+    laps_start(&e->laps);
+    solve_start(e);
+    while (e->clock.step < e->clock.steps) {
+        bool done = false;
+        TRY(solve_step(e, &done));
+        if (done) solver_finish(e);
+        else if (e->clock.step >= e->clock.steps || isnan(e->solver->residual)) return not_converged(e);
+        TRY(report_step(e));
+    }
+    return report_end(e);
+}

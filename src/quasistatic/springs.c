@@ -1,0 +1,302 @@
+/* Springs of bonds and cells as a matrix of blocks, and the preconditioner of load steps that is made of it. Models
+ * with states are stiffer than their springs; equilibrium asks for their own forces, and the matrix only for how fast.
+ */
+#include "statics_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "solver/multigrid.h"
+#include "mesh/mesh_part.h"
+#include "contact/contact.h"
+
+/* The matrix while it is made: entries are counted first, then filled in. */
+struct springs {
+    const struct run *e;
+    const int32_t *particle_at, *node_at; /* unknown of a particle, of a node; -1: none */
+    const int8_t (*sign)[DIM_MAX];        /* [nodes of the mesh] of nodes that follow their image; NULL: none do */
+    struct block_matrix *a;
+    int64_t *next; /* [n] entry to be filled; NULL: they are counted */
+};
+
+static void entry_add(struct springs *s, int64_t row, int64_t column, const real K[DIM_MAX][DIM_MAX])
+{
+    const int dim = s->a->dim;
+    if (!s->next) {
+        s->a->first[row + 1]++;
+        return;
+    }
+    const int64_t q = s->next[row]++;
+    s->a->column[q] = (int32_t)column;
+    for (int a = 0; a < dim; a++)
+        for (int c = 0; c < dim; c++) s->a->block[q * dim * dim + a * dim + c] = (float)K[a][c];
+}
+
+/* ---- bonds ------------------------------------------------------------------------------------------------------- */
+
+/* What moves a particle: itself, or the corners of its cell. */
+struct movers {
+    int n;
+    int64_t node[CORNERS_MAX];
+    real share[CORNERS_MAX];
+};
+
+static struct movers movers_list(const struct springs *s, int64_t i)
+{
+    struct movers m = {0};
+    const struct mesh *mesh = &s->e->frame->mesh;
+    if (s->particle_at[i] >= 0) return (struct movers){1, {s->particle_at[i]}, {1}};
+    if (mesh->points == 0 || mesh->place[i] < 0) return m;
+    const int dim = s->a->dim, place = mesh->place[i] & ((1 << dim) - 1);
+    for (int c = 0; c < 1 << dim; c++) {
+        const int32_t at = s->node_at[mesh_node(mesh, mesh->place[i] >> dim, c)];
+        if (at >= 0) m.node[m.n] = at, m.share[m.n++] = mesh_weight(dim, c, place);
+    }
+    return m;
+}
+
+/* What moves a particle or an image, and the signs of its components against theirs. */
+static struct movers movers_of_end(const struct springs *s, int64_t i, real sign[DIM_MAX])
+{
+    statics_image_signs(s->e, i, sign);
+    return movers_list(s, image_root(&s->e->part, s->e->loads.image, i));
+}
+
+/* The spring of a bond from particle i: what it adds to the rows of i. */
+static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
+{
+    const struct particles *p = &s->e->part;
+    real n[DIM_MAX] = {0}, K[DIM_MAX][DIM_MAX], sign[DIM_MAX];
+    const struct movers own = movers_list(s, i), other = movers_of_end(s, bond->nbr, sign);
+    for (int d = 0; d < p->dim; d++) n[d] = (p->X[d][bond->nbr] - p->X[d][i]) * bond->inverse_length;
+    for (int k = 0; k < own.n; k++) {
+        const real stiffness =
+            s->e->bonds.stiffness * bond->w * bond->inverse_length * own.share[k] * s->e->statics->weight[own.node[k]];
+        for (int m = 0; m < own.n + other.n; m++) {
+            const bool here = m < own.n;
+            const real share = here ? own.share[m] : -other.share[m - own.n];
+            for (int a = 0; a < p->dim; a++)
+                for (int c = 0; c < p->dim; c++) K[a][c] = stiffness * share * n[a] * n[c] * (here ? 1 : sign[c]);
+            entry_add(s, own.node[k], here ? own.node[m] : other.node[m - own.n], K);
+        }
+    }
+}
+
+static void springs_row_add(struct springs *s, int64_t r)
+{
+    for (struct bond_iterator it = bonds_of_row(&s->e->bonds, r); bond_next(&it);)
+        if (it.bond.w != 0) spring_add(s, s->e->bonds.particle[r], &it.bond);
+}
+
+/* ---- contact ----------------------------------------------------------------------------------------------------- */
+
+/* What touches: stiffness times both derivatives of its gap. */
+static void contact_add_spring(void *context, const struct contact_term *t)
+{
+    struct springs *s = context;
+    const int dim = s->a->dim;
+    real K[DIM_MAX][DIM_MAX], sign[DIM_MAX], back[DIM_MAX];
+    for (int i = 0; i < t->n; i++) {
+        const struct movers own = movers_of_end(s, t->particle[i], sign);
+        for (int j = 0; j < t->n; j++) {
+            const struct movers other = movers_of_end(s, t->particle[j], back);
+            for (int k = 0; k < own.n; k++)
+                for (int m = 0; m < other.n; m++) {
+                    const real share = own.share[k] * other.share[m] * s->e->statics->weight[own.node[k]];
+                    for (int a = 0; a < dim; a++)
+                        for (int c = 0; c < dim; c++)
+                            K[a][c] = t->stiffness * share * sign[a] * t->along[i][a] * back[c] * t->along[j][c];
+                    entry_add(s, own.node[k], other.node[m], K);
+                }
+        }
+    }
+}
+
+/* ---- cells ------------------------------------------------------------------------------------------------------- */
+
+static void cell_add(struct springs *s, int64_t I)
+{
+    const struct mesh *mesh = &s->e->frame->mesh;
+    const int dim = s->a->dim, corners = 1 << dim, n = corners * dim;
+    real K[CELL_UNKNOWNS_MAX * CELL_UNKNOWNS_MAX];
+    if (!mesh_cell_stiffness(mesh, s->e->frame->elastic, &s->e->part, I, K)) return;
+    for (int c = 0; c < corners; c++)
+        for (int b = 0; b < corners; b++) {
+            const int64_t row = mesh_node(mesh, I, c), column = mesh_node(mesh, I, b);
+            real block[DIM_MAX][DIM_MAX];
+            if (s->node_at[row] < 0 || s->node_at[column] < 0) continue;
+            for (int a = 0; a < dim; a++)
+                for (int d = 0; d < dim; d++) {
+                    block[a][d] = K[(b * dim + d) * n + c * dim + a];
+                    if (s->sign) block[a][d] *= s->sign[row][a] * s->sign[column][d];
+                }
+            entry_add(s, s->node_at[row], s->node_at[column], block);
+        }
+}
+
+/* ---- the matrix -------------------------------------------------------------------------------------------------- */
+
+/* Rows of peridynamic particles in parallel: each belongs to one row of bonds. Those of nodes in order. */
+static void springs_visit(struct springs *s)
+{
+    const struct bonds *b = &s->e->bonds;
+    const struct mesh *mesh = &s->e->frame->mesh;
+#pragma omp parallel for schedule(static)
+    for (int64_t r = 0; r < b->rows; r++)
+        if (s->particle_at[b->particle[r]] >= 0) springs_row_add(s, r);
+    for (int64_t r = 0; r < b->rows; r++)
+        if (s->particle_at[b->particle[r]] < 0) springs_row_add(s, r);
+    for (int64_t I = 0; mesh->points > 0 && I < mesh->grid.n; I++)
+        if (mesh_cell_holds(mesh, I)) cell_add(s, I);
+    contact_terms(s->e->contact, &s->e->part, contact_add_spring, s);
+}
+
+/* Sorts the entries of a row by column and adds up those of one column; returns how many are left. */
+static int64_t row_sort(struct block_matrix *a, int64_t first, int64_t end)
+{
+    const int size = a->dim * a->dim;
+    int64_t kept = first;
+    for (int64_t q = first; q < end; q++) {
+        const int32_t column = a->column[q];
+        float block[DIM_MAX * DIM_MAX];
+        int64_t at = kept;
+        array_copy(block, a->block + q * size, size, sizeof(float));
+        while (at > first && a->column[at - 1] >= column) at--;
+        if (at < kept && a->column[at] == column) {
+            for (int k = 0; k < size; k++) a->block[at * size + k] += block[k];
+            continue;
+        }
+        array_copy(a->column + at + 1, a->column + at, kept - at, sizeof *a->column);
+        array_copy(a->block + (at + 1) * size, a->block + at * size, (kept - at) * size, sizeof(float));
+        a->column[at] = column;
+        array_copy(a->block + at * size, block, size, sizeof(float));
+        kept++;
+    }
+    return kept - first;
+}
+
+/* Closes the gaps that sorting has left. */
+static void rows_close(struct block_matrix *a, const int64_t *kept)
+{
+    const int size = a->dim * a->dim;
+    int64_t to = 0;
+    for (int64_t row = 0; row < a->n; row++) {
+        const int64_t from = a->first[row];
+        array_copy(a->column + to, a->column + from, kept[row], sizeof *a->column);
+        array_copy(a->block + to * size, a->block + from * size, kept[row] * size, sizeof(float));
+        a->first[row] = to;
+        to += kept[row];
+    }
+    a->first[a->n] = to;
+}
+
+static void matrix_fill(struct springs *s)
+{
+    struct block_matrix *a = s->a;
+    const real none[DIM_MAX][DIM_MAX] = {{0}};
+    a->first = NEW("springs.first", a->n + 1, int64_t);
+    for (int64_t k = 0; k < a->n; k++) entry_add(s, k, k, none); /* nodes that nothing holds, too */
+    springs_visit(s);
+    for (int64_t k = 0; k < a->n; k++) a->first[k + 1] += a->first[k];
+    a->column = BARE("springs.column", a->first[a->n], int32_t);
+    a->block = BARE("springs.block", a->first[a->n] * a->dim * a->dim, float);
+    s->next = BARE("springs.next", a->n, int64_t);
+    array_copy(s->next, a->first, a->n, sizeof *s->next);
+    for (int64_t k = 0; k < a->n; k++) entry_add(s, k, k, none);
+    springs_visit(s);
+#pragma omp parallel for schedule(static)
+    for (int64_t k = 0; k < a->n; k++) s->next[k] = row_sort(a, a->first[k], a->first[k + 1]);
+    rows_close(a, s->next);
+    memory_free(s->next);
+}
+
+/* Makes the largest entry 1: floats do not bear products of stiffnesses of thick bodies, and conjugate gradients do not
+ * ask for the scale of their preconditioner. */
+static void matrix_scale(struct block_matrix *a)
+{
+    const int64_t n = a->first[a->n] * a->dim * a->dim;
+    float most = 0;
+    for (int64_t k = 0; k < n; k++) most = fmaxf(most, fabsf(a->block[k]));
+    for (int64_t k = 0; k < n && most > 0; k++) a->block[k] /= most;
+}
+
+static struct block_matrix *matrix_make(const struct run *e)
+{
+    const struct statics *s = e->statics;
+    const struct mesh *mesh = &e->frame->mesh;
+    const int64_t nodes = mesh->points > 0 ? mesh->grid.n : 0;
+    int32_t *particle_at = BARE("springs.particle_at", e->part.n, int32_t);
+    int32_t *node_at = BARE("springs.node_at", nodes, int32_t);
+    int8_t(*sign)[DIM_MAX] =
+        mesh->points > 0 && mesh->grid.mirror_nodes > 0 ? memory_new("springs.sign", nodes, sizeof *sign) : NULL;
+    struct block_matrix *a = NEW("springs.matrix", 1, struct block_matrix);
+    a->dim = e->part.dim, a->n = s->balance.n;
+    array_fill_bytes(particle_at, -1, e->part.n, sizeof *particle_at);
+    array_fill_bytes(node_at, -1, nodes, sizeof *node_at);
+    for (int64_t k = 0; k < a->n; k++) (k < s->particles ? particle_at : node_at)[s->node[k]] = (int32_t)k;
+    for (int64_t I = 0; sign && I < nodes; I++) memset(sign[I], 1, sizeof sign[I]);
+    for (int64_t k = 0; sign && k < mesh->grid.mirror_nodes; k++) {
+        const struct mirror_node *m = &mesh->grid.mirror_node[k];
+        node_at[m->node] = node_at[m->image];
+        memcpy(sign[m->node], m->sign, sizeof m->sign);
+    }
+    struct springs springs = {e, particle_at, node_at, (const int8_t(*)[DIM_MAX])sign, a, NULL};
+    matrix_fill(&springs);
+    matrix_scale(a);
+    memory_free(particle_at);
+    memory_free(node_at);
+    memory_free(sign);
+    return a;
+}
+
+/* ---- the preconditioner ------------------------------------------------------------------------------------------ */
+
+void statics_precondition_free(struct run *e)
+{
+    struct statics *s = e->statics;
+    if (s->precondition) multigrid_free(s->precondition);
+    s->precondition = NULL;
+    if (!s->matrix) return;
+    memory_free(s->matrix->first);
+    memory_free(s->matrix->column);
+    memory_free(s->matrix->block);
+    memory_free(s->matrix);
+    s->matrix = NULL;
+}
+
+void statics_precondition_make(struct run *e)
+{
+    struct statics *s = e->statics;
+    real *place[DIM_MAX] = {0};
+    s->matrix = matrix_make(e);
+    for (int d = 0; d < e->part.dim; d++) place[d] = BARE("springs.place", s->balance.n, real);
+    for (int64_t k = 0; k < s->balance.n; k++) {
+        real X[DIM_MAX];
+        statics_node_place(e, k, X);
+        for (int d = 0; d < e->part.dim; d++) place[d][k] = X[d];
+    }
+    multigrid_make(&s->precondition, s->matrix, place, s->balance.held);
+    for (int d = 0; d < e->part.dim; d++) memory_free(place[d]);
+    s->directions = 0, s->stale = false;
+}
+
+void statics_precondition(void *engine, const struct field *r, struct field *z)
+{
+    struct run *e = engine;
+    if (!e->statics->precondition) statics_precondition_make(e);
+    multigrid_apply(e->statics->precondition, r->of, z->of);
+    statics_pieces_hold(e, z);
+}
+
+/* Bonds that have broken since are in it still: it is made anew once a solution takes half as many directions again as
+ * the first one with it, and eight more. */
+void statics_precondition_watch(struct run *e, int64_t directions)
+{
+    struct statics *s = e->statics;
+    if (!s->precondition) return;
+    if (s->directions == 0)
+        s->directions = directions;
+    else if (2 * directions > 3 * s->directions + 16)
+        statics_precondition_free(e);
+}

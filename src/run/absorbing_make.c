@@ -1,0 +1,41 @@
+/* Impedances of absorbing faces: by the elastic constants that bonds on the lattice, points on the grid and cells of
+ * the mesh have. */
+#include <math.h>
+
+#include "run/run.h"
+#include "base/memory.h"
+
+/* rho c_p and rho c_s are the roots of rho c11 and rho G. */
+static struct impedance impedance_of(const struct material *m, real c11, real shear)
+{
+    return (struct impedance){sqrt(m->density * c11), sqrt(m->density * shear)};
+}
+
+/* State-based families have the constants of their material, bonds those of the lattice. */
+static struct impedance impedance_lattice(const struct run *e, const struct material *m)
+{
+    real c11, c12;
+    family_constants(&e->source.family, m, &c11, &c12);
+    return impedance_of(m, c11, e->scene->dim > 1 ? c12 : 0);
+}
+
+void absorbing_make_all(struct run *e)
+{
+    const struct scene *s = e->scene;
+    const struct impedance *all[MOVERS];
+    bool any = false;
+    for (int b = 0; b < s->boundaries; b++) any = any || s->boundary[b].kind == BOUNDARY_ABSORBING;
+    if (!any || scene_at_rest(s)) return;
+    e->tables.impedance = NEW("engine.impedance", (int64_t)MOVERS * s->materials, struct impedance);
+    for (int by = 0; by < MOVERS; by++) {
+        struct impedance *z = e->tables.impedance + by * s->materials;
+        all[by] = z;
+        for (int k = 0; k < s->materials; k++) {
+            const struct material *m = &s->material[k];
+            const bool lattice =
+                by == MOVED_BY_BONDS ? s->model == MODEL_BOND : by == MOVED_BY_MESH && s->lattice_constants;
+            z[k] = lattice ? impedance_lattice(e, m) : impedance_of(m, m->c11, m->shear);
+        }
+    }
+    loads_absorbing_make(&e->loads, &e->part, all);
+}

@@ -1,0 +1,120 @@
+/* Critical time step of bodies of bonds, from their largest frequency. */
+#include "run/critical_step.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/eigenvalue.h"
+#include "base/memory.h"
+
+#define STRAIN 1e-7                  /* strain of the trial motion: its square is negligible, round-off is 1e-9 of it */
+/* The iteration ends some parts in a thousand below omega_max^2, and blocks of lattice have 1 or 2 % less than larger
+ * blocks. */
+#define MARGIN 0.98
+
+struct bond_body bond_body_make(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
+                                real spacing)
+{
+    struct bond_body body = {b, p, force, loads, spacing, NEW("critical.root", p->n, real)};
+    for (int64_t i = 0; i < p->n; i++) body.root[i] = sqrt(p->mass[i]);
+    return body;
+}
+
+void bond_body_free(struct bond_body *body) { memory_free(body->root); }
+
+/* Largest component of a displacement u / sqrt(m), u: [dim n]. */
+static real largest_motion(const struct bond_body *body, const real *u)
+{
+    const struct particles *p = body->p;
+    real most = 0;
+    for (int a = 0; a < p->dim; a++)
+#pragma omp parallel for schedule(static) reduction(max : most)
+        for (int64_t i = 0; i < p->n; i++) most = real_max(most, fabs(u[a * p->n + i]) / body->root[i]);
+    return most;
+}
+
+void bond_body_stiffness(void *context, const real *u, real *y)
+{
+    const struct bond_body *body = context;
+    struct particles *p = body->p;
+    const real most = largest_motion(body, u), scale = most > 0 ? STRAIN * body->spacing / most : 0;
+    for (int a = 0; a < p->dim; a++)
+#pragma omp parallel for schedule(static)
+        for (int64_t i = 0; i < p->n; i++) p->x[a][i] = p->X[a][i] + scale * u[a * p->n + i] / body->root[i];
+    if (body->loads) loads_mirror(body->loads, p);
+    bond_forces(body->force, body->b, p, &bond_limit_never, NULL);
+    for (int a = 0; a < p->dim; a++)
+#pragma omp parallel for schedule(static)
+        for (int64_t i = 0; i < p->n; i++)
+            y[a * p->n + i] = scale > 0 ? -p->f[a][i] / (scale * body->root[i]) : 0;
+}
+
+real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
+                      real spacing)
+{
+    struct bond_body body = bond_body_make(b, p, force, loads, spacing);
+    real *x[DIM_MAX];
+    for (int a = 0; a < p->dim; a++) {
+        x[a] = NEW("critical.x", p->n_all, real);
+        array_copy(x[a], p->x[a], p->n_all, sizeof *x[a]);
+    }
+    const real omega2 = largest_eigenvalue(p->dim * p->n, bond_body_stiffness, &body);
+    for (int a = 0; a < p->dim; a++) {
+        array_copy(p->x[a], x[a], p->n_all, sizeof *x[a]);
+        memory_free(x[a]);
+    }
+    bond_body_free(&body);
+    return omega2 > 0 ? MARGIN * 2 / sqrt(omega2) : INFINITY;
+}
+
+#define BONDS_DEAR 1e7                   /* [bonds] of a block: larger blocks are cut to the size of the body */
+
+/* Particles along the edges of a block of lattice: enough for particles with full families and for waves as long as a
+ * small cost allows. longest: extent of the body [m]. Returns the number of particles of the block. */
+static int64_t edges_of(const struct family *f, const real *longest, int64_t edge[DIM_MAX])
+{
+    static const int times[DIM_MAX + 1] = {0, 8, 2, 1};
+    const int dim = space_dim(f->space);
+    int64_t n = 1;
+    for (int d = 0; d < dim; d++) n *= edge[d] = (2 * (int64_t)ceil(f->cutoff / f->spacing) + 4) * times[dim];
+    if ((real)n * f->full / f->cell_volume < BONDS_DEAR) return n;
+    n = 1;
+    for (int d = 0; d < dim; d++) {
+        if (longest[d] / f->spacing + 2 < (real)edge[d]) edge[d] = (int64_t)(longest[d] / f->spacing) + 2;
+        n *= edge[d];
+    }
+    return n;
+}
+
+real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *force, real density, const real *longest,
+                              real *bound)
+{
+    const struct family *f = &source->family;
+    const int dim = space_dim(f->space);
+    int64_t edge[DIM_MAX];
+    const int64_t n = edges_of(f, longest, edge);
+    struct bond_source s = *source;
+    struct particles p;
+    struct cells cells;
+    struct bonds b;
+    particles_make(&p, dim, n, 0);
+    for (int64_t i = 0, k; i < n; i++) {
+        k = i;
+        for (int d = 0; d < dim; k /= edge[d++]) p.x[d][i] = p.X[d][i] = (real)(k % edge[d]) * f->spacing;
+        p.volume[i] = p.volume0[i] = f->cell_volume;
+        p.mass[i] = density * f->cell_volume;
+        p.kind[i] = KIND_PD;
+    }
+    particles_list(&p);
+    cells_make(&cells, &p, f->cutoff * (1 + 1e-9));
+    s.family.surface = SURFACE_NONE;
+    s.cells = &cells, s.cracks = 0, s.voids = NULL, s.image = NULL;
+    s.room = 0, s.neighbour_volume = NULL, s.surface = NULL;
+    bonds_make(&b, NULL, &p, &s);
+    if (bound) *bound = bonds_critical_step_made(&b, &p);
+    real step = critical_step_of(&b, &p, force, NULL, f->spacing);
+    bonds_free(&b);
+    cells_free(&cells);
+    particles_free(&p);
+    return step;
+}

@@ -1,0 +1,76 @@
+/* Which prescribed velocities and displacements a run bears. */
+#include <math.h>
+
+#include "run/run.h"
+
+/* REFUSED for what goes by place on the grid of the current frame. */
+static status placed_on_grid(const struct boundary *b, const struct particles *p, const struct load *l)
+{
+    for (int64_t k = 0; k < l->n && !b->rotates && drives_by_place(b); k++)
+        if (particle_on_grid(p, l->particle[k]) && !(p->flag[l->particle[k]] & FLAG_MESHED))
+            return status_set(REFUSED,
+                              "boundary %s: a %s by x, y, z is that of reference places, which the grid of mpm.frame "
+                              "current does not know; reference, or method pd, is expected",
+                              b->name, b->displaces ? "displacement" : "velocity");
+    return OK;
+}
+
+#define AT_PLACE 1e-9 /* of a spacing: a displacement so small is none */
+
+/* REFUSED for particles that a displacement drives from reference places and that start elsewhere. */
+static status starts_at_place(const struct boundary *b, const struct particles *p, const struct load *l, real spacing)
+{
+    for (int64_t k = 0; k < l->n; k++)
+        for (int d = 0; d < p->dim; d++) {
+            const real off = p->x[d][l->particle[k]] - p->X[d][l->particle[k]];
+            if (b->components >> d & 1 && !(fabs(off) <= AT_PLACE * spacing))
+                return status_set(REFUSED,
+                                  "boundary %s: a displacement is from the reference place, and `initial` begins with "
+                                  "one of %.4g m along %c there; a velocity, or no initial state there, is expected",
+                                  b->name, off, "xyz"[d]);
+        }
+    return OK;
+}
+
+/* REFUSED for a displacement at t = 0, which would be a jump within the first step. */
+static status starts_at_rest(const struct boundary *b, const struct particles *p, const struct load *l, real spacing)
+{
+    for (int64_t k = 0; k < l->n; k++) {
+        real u[DIM_MAX];
+        load_displacement_at(l, p, k, 0, u);
+        for (int d = 0; d < p->dim; d++)
+            if (!(fabs(u[d]) <= AT_PLACE * spacing))
+                return status_set(REFUSED,
+                                  "boundary %s: its displacement is %.4g m at t = 0 already, a jump within the first "
+                                  "step; one that grows from 0 is expected, as with time: {ramp: {until: 100 us}}",
+                                  b->name, u[d]);
+    }
+    return OK;
+}
+
+status driving_check(const struct run *e, bool start)
+{
+    const struct particles *p = &e->part;
+    for (int k = 0; k < e->loads.n; k++) {
+        const struct load *l = &e->loads.load[k];
+        const struct boundary *b = l->boundary;
+        if (b->kind != BOUNDARY_VELOCITY) continue;
+        TRY(status_at(b->place, placed_on_grid(b, p, l)));
+        if (!b->displaces) continue;
+        if (start) TRY(status_at(b->place, starts_at_place(b, p, l, e->scene->spacing)));
+        if (e->scene->solver != SOLVER_EXPLICIT) continue;
+        TRY(status_at(b->place, starts_at_rest(b, p, l, e->scene->spacing)));
+        const real speed = load_displacing_speed(l, p, e->scene->duration);
+        if (!(speed >= e->tables.wave_speed)) continue;
+        if (isinf(speed))
+            return status_at(b->place, status_set(REFUSED,
+                                                  "boundary %s: its displacement jumps, which no body follows; "
+                                                  "a ramp, a pulse or a table is expected as its time",
+                                                  b->name));
+        return status_at(b->place, status_set(REFUSED,
+                                              "boundary %s: its displacement grows by %.3g m/s, faster than the waves, "
+                                              "%.4g m/s; a longer time is expected for it, or a smaller one",
+                                              b->name, speed, e->tables.wave_speed));
+    }
+    return OK;
+}

@@ -1,0 +1,257 @@
+/* Kinetic energy, momentum, strain energy and plastic work of particles. */
+#include "run/energies.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "base/team.h"
+#include "kernels/mpm/stress.h"
+
+/* ---- sums over particles ----------------------------------------------------------------------------------------- */
+
+/* Particles or nodes: masses [kg] and velocities [m/s]; entries with FLAG_MESHED do not count, `flag` NULL: all
+ * count. */
+struct movers { int dim; const real *mass; real *const *v; const uint8_t *flag; };
+
+/* Sums skip particles moved by the nodes of a mesh this many at a time: few that do not count are visited. */
+enum { MOTION_PIECE = 64 };
+
+/* Are particles first .. end - 1 all moved by the nodes of a mesh? */
+static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
+{
+    uint8_t all = FLAG_MESHED;
+    for (int64_t i = first; i < end; i++) all &= flag[i];
+    return all != 0;
+}
+
+/* Kinetic energy [J], momentum by component and the sum of |m v| [kg m/s]; the sums of a piece stay in registers. */
+struct motion { real kinetic, momentum[DIM_MAX], size; };
+
+/* Adds the motion of entries first .. end - 1; `meshed`: flags are tested, `all`: momentum and |m v|, too. */
+static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int64_t end, struct motion *to,
+                                     const int dim, const bool meshed, const bool all)
+{
+    const real *mass = m->mass, *v0 = m->v[0], *v1 = m->v[dim > 1], *v2 = m->v[dim > 2 ? 2 : 0];
+    const uint8_t *flag = m->flag;
+    real kinetic = 0, p0 = 0, p1 = 0, p2 = 0, size = 0;
+#pragma omp simd reduction(+ : kinetic, p0, p1, p2, size)
+    for (int64_t i = first; i < end; i++) {
+        const real own = meshed && flag[i] & FLAG_MESHED ? 0 : mass[i];
+        const real speed2 = square(v0[i]) + (dim > 1 ? square(v1[i]) : 0) + (dim > 2 ? square(v2[i]) : 0);
+        kinetic += own * speed2;
+        if (!all) continue;
+        p0 += own * v0[i];
+        if (dim > 1) p1 += own * v1[i];
+        if (dim > 2) p2 += own * v2[i];
+        size += own * sqrt(speed2);
+    }
+    to->kinetic += 0.5 * kinetic, to->size += size;
+    to->momentum[0] += p0, to->momentum[1] += p1, to->momentum[2] += p2;
+}
+
+static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, int64_t end, struct motion *to,
+                                       const bool all)
+{
+    const bool meshed = m->flag != NULL;
+    if (meshed && all_meshed(m->flag, first, end)) return;
+    switch (m->dim) {
+    case 1: meshed ? add_motion(m, first, end, to, 1, true, all) : add_motion(m, first, end, to, 1, false, all); break;
+    case 2: meshed ? add_motion(m, first, end, to, 2, true, all) : add_motion(m, first, end, to, 2, false, all); break;
+    default: meshed ? add_motion(m, first, end, to, 3, true, all) : add_motion(m, first, end, to, 3, false, all); break;
+    }
+}
+
+/* Have nodes first .. end - 1 no mass? Coarse cells leave most of those of level 0 so. */
+static bool none_has_mass(const real *mass, int64_t first, int64_t end)
+{
+    real most = 0;
+#pragma omp simd reduction(max : most)
+    for (int64_t I = first; I < end; I++) most = mass[I] > most ? mass[I] : most;
+    return most == 0;
+}
+
+/* Motion of entries first .. end - 1: all sums, or the kinetic energy alone, which needs no roots. */
+static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t first, int64_t end,
+                                                         const bool all)
+{
+    struct motion sum = {0};
+    if (m->flag ? all_meshed(m->flag, first, end) : none_has_mass(m->mass, first, end)) return sum;
+    for (int64_t to; first < end; first = to) {
+        to = first + MOTION_PIECE < end ? first + MOTION_PIECE : end;
+        motion_piece(m, first, to, &sum, all);
+    }
+    return sum;
+}
+
+static void kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    sum[0] += motion_of(context, first, end, false).kinetic;
+}
+
+static struct movers movers_of(const struct particles *p)
+{
+    return (struct movers){p->dim, p->mass, p->v, p->flag};
+}
+
+real diagnostics_kinetic(const struct particles *p)
+{
+    const struct movers m = movers_of(p);
+    real kinetic;
+    team_sums(p->n, 1, kinetic_block, &m, &kinetic);
+    return kinetic;
+}
+
+struct kick { const struct particles *p; real *const *before; real dt; };
+
+/* Adds a quarter of m (change of velocity)^2 of particles first .. end - 1 to the sum [J]. Driven particles are left
+ * out: they move as prescribed, and their work is booked as they move. */
+static real kick_piece(const struct kick *k, int64_t first, int64_t end, real sum)
+{
+    const struct particles *p = k->p;
+    for (int64_t i = first; i < end; i++) {
+        if (p->flag[i] & FLAG_DRIVEN || (k->before ? p->flag[i] & FLAG_MESHED : particle_on_grid(p, i))) continue;
+        real change2 = 0;
+        for (int d = 0; d < p->dim; d++)
+            change2 += square(k->before ? p->v[d][i] - k->before[d][i] : k->dt * p->f[d][i] / p->mass[i]);
+        sum += 0.25 * p->mass[i] * change2;
+    }
+    return sum;
+}
+
+/* That of a block. What is moved by nodes does not count. */
+static void kick_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct kick *k = context;
+    if (all_meshed(k->p->flag, first, end)) return;
+    for (int64_t to; first < end; first = to) {
+        to = first + MOTION_PIECE < end ? first + MOTION_PIECE : end;
+        if (!all_meshed(k->p->flag, first, to)) sum[0] = kick_piece(k, first, to, sum[0]);
+    }
+}
+
+real diagnostics_kick(const struct particles *p, real *const *before, real dt)
+{
+    real sum;
+    team_sums(p->n, 1, kick_block, &(struct kick){p, before, dt}, &sum);
+    return sum;
+}
+
+/* Momentum by component, and behind them the sum of |m v|. */
+static void momentum_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct movers *m = context;
+    const struct motion motion = motion_of(m, first, end, true);
+    for (int d = 0; d < m->dim; d++) sum[d] += motion.momentum[d];
+    sum[m->dim] += motion.size;
+}
+
+/* ---- strain energy and plastic work of material points ----------------------------------------------------------- */
+
+struct strain_sum {
+    const struct particles *p;
+    const struct material *m;
+    const struct partial_stress *partial;
+    const int32_t *list;
+    real (*compliance)[SYM_MAX * SYM_MAX];   /* by material */
+};
+
+/* Share of its energies that point i keeps where it leaves part of its stress to bonds, 1 - tr M/n [1]: exact where
+ * that part is equal for all stresses, as in one dimension. */
+static real own_share(const struct strain_sum *s, int64_t i)
+{
+    const struct partial_stress *partial = s->partial;
+    if (!partial || !partial->index || partial->index[i] < 0) return 1;
+    const int n = symmetric_count(s->p->dim);
+    const real *M = partial->matrix + (int64_t)partial->index[i] * n * n;
+    real trace = 0;
+    for (int a = 0; a < n; a++) trace += M[a * n + a];
+    return 1 - trace / n;
+}
+
+/* Additional strain energy in plane strain after plastic flow [J]: with sigma_zz = nu (sigma_xx + sigma_yy) + delta the
+ * energy per volume has the additional term delta^2/(2E). */
+static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
+{
+    if (!s->p->out_of_plane) return 0;
+    return own_share(s, i) * square(s->p->out_of_plane[i]) / (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
+}
+
+/* Strain energy of the k-th listed particle on the grid [J]; 0 of peridynamic particles. */
+static real strain_term(const void *context, int64_t k)
+{
+    const struct strain_sum *s = context;
+    const struct particles *p = s->p;
+    int64_t i = s->list[k];
+    int n = symmetric_count(p->dim);
+    if (p->kind[i] != KIND_MPM) return 0;
+    real stress[SYM_MAX], given[SYM_MAX], sum = 0;
+    for (int a = 0; a < n; a++) stress[a] = p->stress[a][i];
+    stress_given(p, s->partial, i, given, p->dim);
+    for (int a = 0; a < n; a++) {
+        real strain = 0, times = a < p->dim ? 1 : 2;         /* a shear component stands for two */
+        for (int b = 0; b < n; b++) strain += s->compliance[p->material[i]][a * n + b] * stress[b];
+        sum += times * given[a] * strain;
+    }
+    return 0.5 * sum * p->volume[i] + out_of_plane_energy(s, i);
+}
+
+real diagnostics_strain_of(const struct particles *p, const struct material *m, const struct partial_stress *partial,
+                     const int32_t *list, int64_t n)
+{
+    int materials = 0;
+    for (int64_t k = 0; k < n; k++)
+        if (p->material[list[k]] >= materials) materials = p->material[list[k]] + 1;
+    struct strain_sum s = {.p = p, .m = m, .partial = partial, .list = list};
+    s.compliance = memory_new("diagnostics.compliance", materials, sizeof *s.compliance);
+    for (int k = 0; k < materials; k++) material_compliance(&m[k], p->dim, s.compliance[k]);
+    real sum = team_sum(n, strain_term, &s);
+    memory_free(s.compliance);
+    return sum;
+}
+
+real diagnostics_strain(const struct particles *p, const struct material *m, const struct partial_stress *partial)
+{
+    return diagnostics_strain_of(p, m, partial, p->list_free, p->n_free);
+}
+
+/* Plastic work of a point, V times the integral of (sigma_y + H a) da [J]. */
+static real plastic_term(const void *context, int64_t k)
+{
+    const struct strain_sum *s = context;
+    const struct particles *p = s->p;
+    int64_t i = s->list[k];
+    const struct material *m = &s->m[p->material[i]];
+    const real a = p->plastic_strain[i];
+    if (a == 0) return 0;
+    const real volume = p->flag[i] & FLAG_MESHED ? p->volume0[i] : p->volume[i];
+    return own_share(s, i) * volume * (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
+}
+
+real diagnostics_plastic(const struct particles *p, const struct material *m, const struct partial_stress *partial)
+{
+    if (!p->plastic_strain) return 0;
+    return team_sum(p->n_of[KIND_MPM], plastic_term,
+                    &(struct strain_sum){.p = p, .m = m, .partial = partial, .list = p->list[KIND_MPM]});
+}
+
+real diagnostics_momentum_of(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum)
+{
+    const struct movers m = movers_of(p);
+    real sum[DIM_MAX + 1], more[DIM_MAX + 1];
+    team_sums(p->n, p->dim + 1, momentum_block, &m, sum);
+    for (int g = 0; g < grids && nodes[g]->n > 0; g++) {
+        const struct movers n = {nodes[g]->dim, nodes[g]->mass, nodes[g]->velocity, NULL};
+        team_sums(nodes[g]->n, p->dim + 1, momentum_block, &n, more);
+        for (int k = 0; k <= p->dim; k++) sum[k] += more[k];
+    }
+    for (int d = 0; d < p->dim; d++) momentum[d] = sum[d];
+    return sum[p->dim];
+}
+
+/* State precompute is anew at the current positions: a step moves particles after its forces, so that stresses in a
+ * turning body would else include the rotation of a step. */
+void run_stress(struct run *e)
+{
+    states_precompute(&e->bonds, &e->part, &e->source);
+    e->kernels.bond_stress(&e->bonds, &e->part);
+}

@@ -1,0 +1,92 @@
+/* Weights of bonds near faces, and where the lattice that they require ends. */
+#include <math.h>
+#include <stdio.h>
+
+#include "run/run.h"
+
+enum { TEXT_LONGEST = 96 };
+
+/* Writes numbers as (a, b, c). */
+static const char *vector_in_words(char *text, const real *a, int dim)
+{
+    for (int d = 0, used = 0; d < dim; d++)
+        used += snprintf(text + used, (size_t)(TEXT_LONGEST - used), "%s%.4g%s", d ? ", " : "(", a[d],
+                         d + 1 == dim ? ")" : "");
+    return text;
+}
+
+/* Number of the mirror that lies half-way between two places along an axis; -1: none. */
+static int mirror_between(const struct run *e, const real *X, const real *Y, int axis)
+{
+    for (int b = 0; b < e->loads.n; b++) {
+        const struct boundary *m = e->loads.load[b].boundary;
+        const bool across = (X[axis] - m->at) * (Y[axis] - m->at) <= 0;
+        if (m->kind == BOUNDARY_MIRROR && m->axis == axis && across) return b;
+    }
+    return -1;
+}
+
+/* Returns the number of the body that a particle was made for, of those joined to its own, by their shapes. */
+static int body_made_for(const struct run *e, const real *X, int body)
+{
+    const struct scene *s = e->scene;
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].joined == body && !s->body[b].file &&
+            region_contains(&s->body[b].shape, X, s->dim, ON_SURFACE * s->spacing))
+            return b;
+    return body;
+}
+
+/* REFUSED: the rows of particle i are not on, nor half a spacing beside, the plane of mirror number `mirror`. */
+static status refuse_rows(const struct run *e, int64_t i, int mirror)
+{
+    const struct boundary *m = e->loads.load[mirror].boundary;
+    real X[DIM_MAX];
+    particle_place(&e->part, i, X);
+    const real rows = fabs(X[m->axis] - m->at) / e->scene->spacing, beside = rows - floor(rows);
+    return status_set(REFUSED,
+                      "body %s: its lattice does not go on beyond the mirror of boundary %s at %c = %.6g m: its first "
+                      "row is %.3g spacings from it; 0.5 (a size along %c that is a multiple of particles.spacing), or "
+                      "pd.surface volume, is expected",
+                      e->scene->body[body_made_for(e, X, e->part.body[i])].name, m->name,
+                      "xyz"[m->axis], m->at, beside, "xyz"[m->axis]);
+}
+
+/* REFUSED: particles i < n and j are not whole spacings apart. */
+static status refuse_apart(const struct run *e, int64_t i, int64_t j)
+{
+    const struct particles *p = &e->part;
+    const struct scene *s = e->scene;
+    real X[DIM_MAX], Y[DIM_MAX], steps[DIM_MAX] = {0}, worst = 0;
+    char here[TEXT_LONGEST], there[TEXT_LONGEST], apart[TEXT_LONGEST];
+    int axis = 0;
+    particle_place(p, i, X), particle_place(p, j, Y);
+    for (int d = 0; d < p->dim; d++) {
+        steps[d] = (Y[d] - X[d]) / s->spacing;
+        const real off = fabs(steps[d] - nearbyint(steps[d]));
+        if (off > worst) worst = off, axis = d;
+    }
+    const int mirror = j < p->n ? -1 : mirror_between(e, X, Y, axis);
+    if (mirror >= 0) return refuse_rows(e, i, mirror);
+    vector_in_words(here, X, p->dim), vector_in_words(there, Y, p->dim), vector_in_words(apart, steps, p->dim);
+    const int body = body_made_for(e, X, p->body[i]), beside = body_made_for(e, Y, p->body[j]);
+    const char *own = s->body[body].name, *other = s->body[beside].name;
+    if (body != beside)
+        return status_set(REFUSED,
+                          "bodies %s and %s are joined, but not on one lattice: their particles at %s and %s m are %s "
+                          "spacings apart; whole numbers (sizes and places of both in whole spacings), or pd.surface "
+                          "volume, are expected",
+                          own, other, here, there, apart);
+    return status_set(REFUSED,
+                      "body %s is on no lattice: its particles at %s and %s m are %s spacings apart; whole numbers, or "
+                      "pd.surface volume, are expected",
+                      own, here, there, apart);
+}
+
+status run_surface_make(struct run *e)
+{
+    struct surface_weights *w = &e->tables.surface;
+    const status s = surface_make(w, &e->part, &e->source, e->source.rotates);
+    if (s == OK) e->source.surface = w;
+    return s == REFUSED && w->apart[0] >= 0 ? refuse_apart(e, w->apart[0], w->apart[1]) : s;
+}

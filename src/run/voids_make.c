@@ -1,0 +1,64 @@
+/* Voids of the bodies of a run: what bonds do not cross, and what cuts the mesh. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "run/run.h"
+
+/* Cells of the mesh around one node hold points no farther apart along an axis [cells]. */
+#define CELLS_REACH 1.515
+
+real voids_reach(const struct run *e)
+{
+    const real cells = e->scene->method == METHOD_PD ? 0 : CELLS_REACH * e->scene->cell * e->scene->spacing;
+    return real_max(e->scene->method == METHOD_MPM ? 0 : e->source.family.cutoff, cells);
+}
+
+static bool may_have_voids(const struct scene *s)
+{
+    bool any = false;
+    for (int b = 0; b < s->bodies; b++)
+        any |= !s->body[b].file && (s->body[b].joined != b || region_has_voids(&s->body[b].shape));
+    return any;
+}
+
+bool surface_known(const struct scene *s, int body)
+{
+    bool known = true;
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].joined == body) known = known && !s->body[b].file && !region_has_image(&s->body[b].shape);
+    return known;
+}
+
+/* Lists the solids of bodies that may have voids and whose surface is known: of bodies joined to others all. */
+static void list_shapes(const struct scene *s, struct voids *v)
+{
+    uint8_t *wanted = NEW("voids.wanted", s->bodies, uint8_t);
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].joined != b || region_has_voids(&s->body[b].shape))
+            wanted[s->body[b].joined] = surface_known(s, s->body[b].joined);
+    v->shape = NEW("voids.shape", s->bodies, const struct region *);
+    v->body = NEW("voids.body", s->bodies, int);
+    for (int b = 0; b < s->bodies; b++)
+        if (wanted[s->body[b].joined])
+            v->shape[v->shapes] = &s->body[b].shape, v->body[v->shapes++] = s->body[b].joined;
+    memory_free(wanted);
+}
+
+void run_voids_make(struct run *e)
+{
+    const struct scene *s = e->scene;
+    struct voids *v = &e->tables.voids;
+    if (!may_have_voids(s)) return;
+    *v = (struct voids){.dim = s->dim, .spacing = s->spacing};
+    e->tables.void_mirror = NEW("voids.mirror", s->boundaries, struct mirror_plane);
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_MIRROR)
+            e->tables.void_mirror[v->mirrors++] =
+                (struct mirror_plane){s->boundary[b].axis, e->loads.load[b].outside, s->boundary[b].at};
+    v->mirror = e->tables.void_mirror;
+    list_shapes(s, v);
+    if (v->shapes == 0) return;
+    voids_find(v, &e->part, &e->cells, e->loads.image, voids_reach(e));
+    e->source.voids = v;
+}

@@ -1,0 +1,173 @@
+/* What frames show that particles do not keep, worked out where a run asks for it: displacement gradients, plastic
+ * work, levels of cells. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "mesh/mesh_part.h"
+#include "output/output.h"
+
+#define NEAR_REACH 1.5 /* neighbours of material points: those of a lattice with diagonals [spacings] */
+#define SHAPE_LEAST 1e-6 /* determinant of neighbours that span space, over that of a ball */
+
+/* ---- displacement gradients -------------------------------------------------------------------------------------- */
+
+/* Sums over the neighbours of a particle: K = sum xi xi and M = sum u xi, xi and u their reference place and
+ * displacement against its own. H = M K^-1 fits u = H xi by least squares; it is the shape tensor and the deformation
+ * gradient of Silling et al. 2007, without weights, less 1. */
+struct gradient_sum { real K[3][3], M[3][3]; };
+
+static void gradient_add(struct gradient_sum *s, const struct particles *p, int64_t i, int64_t j)
+{
+    real xi[DIM_MAX], u[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) {
+        xi[d] = p->X[d][j] - p->X[d][i];
+        u[d] = (p->x[d][j] - p->x[d][i]) - xi[d];
+    }
+    for (int a = 0; a < p->dim; a++)
+        for (int b = 0; b < p->dim; b++) s->K[a][b] += xi[a] * xi[b], s->M[a][b] += u[a] * xi[b];
+}
+
+/* H of particle i; 0 where its neighbours do not span the space. */
+static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const *H)
+{
+    real mean = 0, C[3][3];
+    for (int d = 0; d < dim; d++) mean += s->K[d][d] / dim;
+    for (int d = dim; d < 3; d++) s->K[d][d] = mean;
+    for (int a = 0; a < 3; a++)          /* the symmetric K's cofactors */
+        for (int b = 0; b < 3; b++) {
+            const int c = (a + 1) % 3, d = (a + 2) % 3, e = (b + 1) % 3, f = (b + 2) % 3;
+            C[a][b] = s->K[c][e] * s->K[d][f] - s->K[c][f] * s->K[d][e];
+        }
+    const real determinant = s->K[0][0] * C[0][0] + s->K[0][1] * C[0][1] + s->K[0][2] * C[0][2];
+    const bool spans = determinant > SHAPE_LEAST * mean * mean * mean;
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b < dim; b++) {
+            real sum = 0;
+            for (int k = 0; k < dim; k++) sum += s->M[a][k] * C[k][b];
+            H[a * dim + b][i] = spans ? sum / determinant : 0;
+        }
+}
+
+/* Of a peridynamic particle: over its intact bonds. */
+static void gradient_of_bonds(const struct run *e, int64_t i, real *const *H)
+{
+    struct gradient_sum sum = {{{0}}, {{0}}};
+    for (struct bond_iterator it = bonds_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
+        if (it.bond.w != 0) gradient_add(&sum, &e->part, i, it.bond.nbr);
+    gradient_fit(&sum, e->part.dim, i, H);
+}
+
+/* Of a material point on the grid: over the nearest points of its body on its side of pre-cracks, but peridynamic ones
+ * with broken bonds, behind which a crack may pass. */
+static void gradient_of_points(const struct run *e, struct near *near, int64_t i, real *const *H)
+{
+    const struct particles *p = &e->part;
+    struct gradient_sum sum = {{{0}}, {{0}}};
+    near_find(near, &e->cells, p, i, NEAR_REACH * e->scene->spacing, false);
+    for (int k = 0; k < near->n; k++) {
+        const int64_t j = near->at[k];
+        const bool torn = p->kind[j] == KIND_PD && p->damage[j] > 0;
+        if (p->body[j] != p->body[i] || torn || cracks_part(e->source.crack, e->source.cracks, p, i, j) ||
+            voids_part(e->source.voids, p, i, j)) continue;
+        gradient_add(&sum, p, i, j);
+    }
+    gradient_fit(&sum, p->dim, i, H);
+}
+
+/* Is a particle a point of the mesh of the reference frame? */
+static bool in_mesh(const struct run *e, int64_t i)
+{
+    return e->frame->mesh.points > 0 && e->frame->mesh.place[i] >= 0;
+}
+
+static void gradients_make(const struct run *e, real **H)
+{
+    const struct particles *p = &e->part;
+    for (int k = 0; k < p->dim * p->dim; k++) H[k] = NEW("report.gradient", p->n, real);
+    if (e->frame->mesh.points > 0) mesh_points_gradient(&e->frame->mesh, H);
+#pragma omp parallel
+    {
+        struct near near = {0};
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < p->n; i++)
+            if (p->kind[i] == KIND_PD) gradient_of_bonds(e, i, H);
+            else if (!in_mesh(e, i)) gradient_of_points(e, &near, i, H);
+        memory_free(near.at);
+    }
+}
+
+/* ---- plastic work and levels ------------------------------------------------------------------------------------- */
+
+/* Of material points sigma_y a + H a^2/2 of the equivalent plastic strain a; of peridynamic particles half that of
+ * their bonds. */
+static real *plastic_work_make(const struct run *e)
+{
+    const struct particles *p = &e->part;
+    if (!p->plastic_strain && !e->bonds.plastic_path) return NULL;
+    real *work = NEW("report.plastic_work", p->n, real);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++) {
+        const struct material *m = &e->scene->material[p->material[i]];
+        const real a = p->plastic_strain ? p->plastic_strain[i] : 0;
+        const bool bonds = p->kind[i] == KIND_PD && e->bonds.plastic_path && e->bonds.row_of[i] >= 0;
+        if (bonds) work[i] = bond_row_plastic_work(&e->bonds, e->bonds.row_of[i]) / p->volume0[i];
+        else if (a > 0) work[i] = (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
+    }
+    return work;
+}
+
+/* The equivalent plastic strain: of points their own, of peridynamic particles the mean plastic path of their bonds.
+ * NULL: no bond yields. */
+static real *plastic_strain_make(const struct run *e)
+{
+    const struct particles *p = &e->part;
+    if (!e->bonds.plastic_path) return NULL;
+    real *strain = NEW("report.plastic_strain", p->n, real);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++)
+        if (p->kind[i] == KIND_PD && e->bonds.row_of[i] >= 0)
+            strain[i] = bond_row_plastic_path(&e->bonds, e->bonds.row_of[i]);
+        else if (p->plastic_strain) strain[i] = p->plastic_strain[i];
+    return strain;
+}
+
+static uint8_t *cell_levels_make(const struct run *e)
+{
+    const struct mesh *mesh = &e->frame->mesh;
+    uint8_t *level = NEW("report.level", e->part.n, uint8_t);
+    for (int64_t i = 0; i < e->part.n && mesh->level; i++)
+        if (in_mesh(e, i)) level[i] = mesh->level[mesh->place[i] >> e->part.dim];
+    return level;
+}
+
+/* Of points of coarse cells: their spacing doubles from level to level. */
+static uint8_t *point_levels_make(const struct run *e)
+{
+    uint8_t *level = NEW("report.level", e->frame->shown.part.n, uint8_t);
+    for (int64_t i = 0; i < e->frame->shown.part.n; i++)
+        level[i] = (uint8_t)lround(log2(e->frame->shown.spacing[i] / e->scene->spacing));
+    return level;
+}
+
+/* ---- a frame ----------------------------------------------------------------------------------------------------- */
+
+void fields_make(struct run *e, unsigned asked, struct frame_extra *extra)
+{
+    extra->asked = asked, extra->material = e->scene->material, extra->space = e->scene->space;
+    if (asked & (ASK_STRAIN | ASK_DENSITY)) gradients_make(e, extra->state.gradient);
+    if (asked & ASK_PLASTIC_WORK) extra->state.plastic_work = plastic_work_make(e);
+    extra->state.plastic_strain = plastic_strain_make(e);
+    if (asked & ASK_LEVEL) extra->state.level = cell_levels_make(e);
+    if (!extra->more) return;
+    for (int k = 0; k < DIM_MAX * DIM_MAX; k++) extra->more_state.gradient[k] = e->frame->shown.gradient[k];
+    if (asked & ASK_LEVEL) extra->more_state.level = point_levels_make(e);
+}
+
+void fields_free(struct frame_extra *extra)
+{
+    for (int k = 0; k < DIM_MAX * DIM_MAX; k++) memory_free(extra->state.gradient[k]);
+    memory_free(extra->state.plastic_work);
+    memory_free(extra->state.plastic_strain);
+    memory_free(extra->state.level);
+    memory_free(extra->more_state.level);
+}

@@ -1,0 +1,287 @@
+/* Schedule, frames, checkpoints and the progress line of a run. */
+#include "step/report.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "fracture/fragments.h"
+#include "output/output_files.h"
+#include "output/output.h"
+#include "contact/contact.h"
+#include "fracture/fracture_part.h"
+#include "mesh/mesh_part.h"
+#include "step/step.h"
+#include "probes/probes_part.h"
+#include "run/say.h"
+#include "step/sample.h"
+#include "step/stability.h"
+
+#define PROGRESS_SECONDS 0.5             /* between progress lines on a terminal */
+#define PROGRESS_SECONDS_FILE 60.0       /* and in files                         */
+
+/* ---- schedule ---------------------------------------------------------------------------------------------------- */
+
+/* The nearest step at which all levels of cells are at one time. */
+static int64_t common_step(const struct run_clock *clock, int64_t step)
+{
+    return (step + clock->stride / 2) / clock->stride * clock->stride;
+}
+
+/* Returns the step of event k of n evenly spread over the run: k steps / n, rounded, without the product k steps, which
+ * has no room in 64 bits where a run has very many steps. */
+static int64_t due_step(const struct run_clock *clock, int64_t k, int64_t n)
+{
+    if (n <= 0) return clock->steps;
+    return common_step(clock, k * (clock->steps / n) + (k * (clock->steps % n) + n / 2) / n);
+}
+
+/* Step of frame k after the one at t = 0: nearest to its time, or evenly spread. A step writes one frame at the most,
+ * so frames closer than a step are moved apart and keep their number. */
+static int64_t frame_step(const struct scene *s, const struct run_clock *clock, int64_t k, int64_t n)
+{
+    const struct number_list *times = &s->times;
+    if ((times->n == 0 && s->every == 0) || k < 1) return due_step(clock, k, n);
+    const real time = k > n ? 0 : s->every > 0 ? real_min((real)k * s->every, s->duration) : times->value[k - 1];
+    int64_t step = k <= n ? (int64_t)floor(time / clock->dt + 0.5) : clock->steps,
+            last = clock->steps - (n - k);
+    return common_step(clock, step < k ? k : step > last ? last : step);
+}
+
+bool report_sample_due(const struct scene *s, const struct run_clock *clock)
+{
+    const int64_t most = clock->steps / clock->stride, n = s->samples < most ? s->samples : most;
+    if (!scene_moves(s)) return clock->step == 0;    /* and the equilibrium, at the end */
+    return due_step(clock, (clock->step * n + clock->steps / 2) / clock->steps, n) == clock->step;
+}
+
+/* ---- frames and checkpoints -------------------------------------------------------------------------------------- */
+
+/* FAILED if a frame would hold a number that is not finite. The stability check covers positions and speeds of every
+ * step, the energy check the energies of samples; this check covers stresses and the rest of a frame. */
+static status frame_sound(const struct run_clock *clock, const struct particles *p)
+{
+    int64_t first = p->n;
+#pragma omp parallel for schedule(static) reduction(min : first)
+    for (int64_t i = 0; i < p->n; i++) {
+        real sum = 0;
+        for (int k = 0; k < symmetric_count(p->dim); k++) sum += 0 * p->stress[k][i];
+        for (int d = 0; d < p->dim; d++) sum += 0 * (p->x[d][i] + p->v[d][i]);
+        if (!(sum == 0) && i < first) first = i;
+    }
+    if (first == p->n) return OK;
+    return status_set(
+        FAILED,
+        "step %lld, t = %.4g s: particle %d has a stress, place or velocity that is no finite number; see whether "
+        "material, supports and initial state are meant (`cleave check`)",
+        (long long)clock->step, clock->t, (int)p->id[first]);
+}
+
+int64_t report_frames(const struct run *e)
+{
+    const int64_t most = e->clock.steps / e->clock.stride;
+    return e->scene->frames < most ? e->scene->frames : most;
+}
+
+int64_t report_frame_step(const struct run *e, int64_t k)
+{
+    return frame_step(e->scene, &e->clock, k, report_frames(e));
+}
+
+/* Is the next frame of the body due once so many steps are done? */
+static bool body_frame_due(const struct run *e, int64_t step)
+{
+    const int frames = e->report->out->series[0].frames;
+    return frames <= report_frames(e) && step >= report_frame_step(e, frames);
+}
+
+/* Is the next frame of a region due? Where its time passes more than once in a step, a step writes one; the last one is
+ * that of the end. */
+static bool region_frame_due(const struct run *e, int k, int64_t step)
+{
+    const real every = e->scene->series[k - 1].every, duration = e->scene->duration;
+    const int frames = e->report->out->series[k].frames;
+    if (frames > (int64_t)ceil(duration / every * (1 - 1e-12))) return false;
+    const int64_t due = (int64_t)floor(real_min((real)frames * every, duration) / e->clock.dt + 0.5);
+    return step >= (due < e->clock.steps ? common_step(&e->clock, due) : e->clock.steps);
+}
+
+/* Bits of the series, 0 the body's, of which a frame is due once so many steps are done. Those of solvers that are not
+ * explicit: at the start and at the end. */
+static unsigned frames_due(const struct run *e, int64_t step)
+{
+    const bool at_rest = scene_at_rest(e->scene), last = step == e->clock.steps;
+    unsigned due = 0;
+    if (!e->report->out || (at_rest && step > 0 && !last)) return 0;
+    for (int k = 0; k <= e->report->out->n_series; k++)
+        if (k == 0 ? body_frame_due(e, step) : at_rest || region_frame_due(e, k, step)) due |= 1u << k;
+    return due;
+}
+
+bool report_frame_follows(const struct run *e) { return frames_due(e, e->clock.step + 1) != 0; }
+
+/* Fields that the frames of series k are asked for. */
+static unsigned asked_of(const struct run *e, int k)
+{
+    return k > 0 && e->scene->series[k - 1].fields ? e->scene->series[k - 1].fields : e->scene->fields;
+}
+
+/* A frame of each series that is due. Before the first step nothing has been pushed. */
+static status write_frames(struct run *e, unsigned due)
+{
+    const bool parts = e->scene->method == METHOD_PD && scene_cracks(e->scene);
+    struct output *out = e->report->out;
+    struct fragments fragments = {0};
+    unsigned asked = 0;
+    status s = OK;
+    if (e->frame->shown.part.n > 0) TRY(output_wait(out));     /* which still reads them */
+    run_sync(e);
+    TRY(frame_sound(&e->clock, &e->part));
+    if (parts) fragments_find(&fragments, &e->bonds, &e->part);
+    for (int k = 0; k <= out->n_series; k++)
+        if (due >> k & 1) asked |= asked_of(e, k);
+    struct frame_extra extra = {.push = e->contact->push[0] ? e->contact->push : NULL, .fragment = fragments.of};
+    if (frame_hollow_points(e, asked & (ASK_STRAIN | ASK_DENSITY))) {
+        extra.more = &e->frame->shown.part, extra.more_spacing = e->frame->shown.spacing;
+        extra.spacing = e->scene->spacing;
+    }
+    fields_make(e, asked, &extra);
+    for (int k = 0; k <= out->n_series && s == OK; k++) {
+        if (!(due >> k & 1)) continue;
+        extra.asked = asked_of(e, k);
+        s = output_frame_begin(out, k, &e->part, &extra, e->clock.t, e->clock.step, e->scene->text);
+    }
+    fields_free(&extra);
+    fragments_free(&fragments);
+    const struct observed seen = run_observed(e);
+    return s == OK && due & 1 ? profiles_write(e, out, &seen) : s;
+}
+
+static status write_checkpoint(struct run *e)
+{
+    frame_sync(e);
+    e->report->last_checkpoint = team_clock();
+    TRY(checkpoint_write(e->report->out, e->scene->text, e->save, e));
+    e->report->checkpoint_seconds = real_max(e->report->checkpoint_seconds, team_clock() - e->report->last_checkpoint);
+    return OK;
+}
+
+/* True if the wall time left is at most twice that of the longest checkpoint so far. */
+static bool wall_is_over(const struct scene *s, const struct run_report *report)
+{
+    return team_clock() - report->began + 2 * report->checkpoint_seconds >= s->wall;
+}
+
+/* Warns of frames and profiles that a resumed run had written and that are lost. */
+static status say_lost(struct run *e)
+{
+    char text[PATH_NAME_ROOM + 200];
+    int lost;
+    TRY(output_frames_check(e->report->out, &lost, text, sizeof text));
+    if (lost > 0) run_say(e, text);
+    profiles_check(e, e->report->out);
+    return OK;
+}
+
+status report_start(struct run *e)
+{
+    struct run_report *r = e->report;
+    r->started = r->last_progress = r->last_checkpoint = team_clock();
+    r->step_started = e->clock.step;
+    r->loop_before = r->loop_seconds;
+    /* the first checkpoint, of step 0, already counts the first frame */
+    const bool resumed = r->out && r->out->series[0].frames > 0;
+    TRY(sample_start(e, resumed));
+    if (!r->out) return OK;
+    contact_record(e->contact, &e->part);
+    if (resumed) return say_lost(e);
+    profiles_remove(e, r->out);
+    TRY(write_frames(e, frames_due(e, 0) | 1));      /* the body's, also where it is the only one */
+    return write_checkpoint(e);
+}
+
+/* ---- progress ---------------------------------------------------------------------------------------------------- */
+
+static void duration_text(char *text, size_t size, double seconds)
+{
+    if (seconds < 100) snprintf(text, size, "%.0f s", seconds);
+    else if (seconds < 6000) snprintf(text, size, "%.0f min", seconds / 60);
+    else snprintf(text, size, "%.1f h", seconds / 3600);
+}
+
+/* Prints the progress line if it is due; `last`: after the last step. */
+static void progress(struct run *e, bool last)
+{
+    bool terminal = isatty(STDERR_FILENO);
+    double now = team_clock();
+    if (e->report->quiet ||
+        (!last && now - e->report->last_progress < (terminal ? PROGRESS_SECONDS : PROGRESS_SECONDS_FILE)))
+        return;
+    if (last && !terminal) return;
+    e->report->last_progress = now;
+    double rate = (double)(e->clock.step - e->report->step_started) / real_max(now - e->report->started, 1e-9);
+    char left[32];
+    duration_text(left, sizeof left, rate > 0 ? (double)(e->clock.steps - e->clock.step) / rate : 0);
+    const struct tip *tip = tips_longest(&e->fracture->tips);
+    const char *const from = terminal ? "\r" : "";
+    if (scene_in_steps(e->scene))
+        fprintf(stderr, "%sload step %lld/%lld  %s  at most %s left", from, (long long)e->clock.step,
+                (long long)e->clock.steps, e->report->note, left);
+    else
+        fprintf(stderr, "%sstep %lld/%lld  t = %.4g s  %.0f steps/s  %s left", from, (long long)e->clock.step,
+                (long long)e->clock.steps, e->clock.t, rate, left);
+    fprintf(stderr, "  PD %.1f %%  crack %.3g mm%s", 100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n_body,
+            tip ? 1e3 * tip->growth : 0.0, terminal && !last ? "\033[K" : "\n");
+    fflush(stderr);
+}
+
+/* ---- after a step ------------------------------------------------------------------------------------------------ */
+
+real report_inactive_share(const struct run *e)
+{
+    real at_rest = inactive_share(&e->bonds.active) * (real)e->part.n_of[KIND_PD];
+    if (e->frame->mesh.points > 0)
+        at_rest += inactive_share(&e->frame->mesh.active) * (real)e->frame->mesh.points;
+    return at_rest / (real)e->part.n;
+}
+
+status report_step(struct run *e)
+{
+    e->report->particle_steps[KIND_PD] += e->part.n_of[KIND_PD];
+    e->report->particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
+    e->report->bond_visits += e->bonds.n;
+    e->report->inactive += report_inactive_share(e);
+    lap(&e->laps, LAP_SAMPLE);
+    /* before any checkpoint, so that a finished run has nothing left to write */
+    if (e->clock.step == e->clock.steps && !scene_in_steps(e->scene)) sample_last(e);
+    TRY(e->report->history_status);
+    TRY(energy_check(e));
+    if (e->clock.step == e->clock.steps) say_balance(e);
+    if (e->clock.step == e->clock.steps || scene_in_steps(e->scene)) say_yielding(e);
+    if (e->report->out) {
+        const unsigned due = frames_due(e, e->clock.step);
+        if (due) TRY(write_frames(e, due));
+        const bool late = wall_is_over(e->scene, e->report), stop = late || (e->report->stop && *e->report->stop);
+        if (stop || scene_in_steps(e->scene) ||
+            team_clock() - e->report->last_checkpoint > e->scene->checkpoint_interval)
+            TRY(write_checkpoint(e));
+        if (stop && e->clock.step < e->clock.steps)
+            return status_set(INTERRUPTED, "%s at step %lld of %lld; go on with --resume",
+                              late ? "time.wall is over" : "interrupted", (long long)e->clock.step,
+                              (long long)e->clock.steps);
+    }
+    progress(e, false);
+    lap(&e->laps, LAP_OUTPUT);
+    e->report->loop_seconds = e->report->loop_before - e->laps.spent[LAP_OUTPUT];
+    for (int k = 0; k < LAPS; k++) e->report->loop_seconds += e->laps.spent[k];
+    return OK;
+}
+
+status report_end(struct run *e)
+{
+    progress(e, true);
+    if (e->report->out) TRY(output_wait(e->report->out));
+    return e->report->out && e->clock.step > e->report->step_started ? write_checkpoint(e) : OK;
+}

@@ -1,0 +1,486 @@
+/* Samples: the lines of history.csv. The energies of t_n lie between the forces and the motion of a step, the kinetic
+ * energy between the velocities before and after it, so that a sample is taken in three parts. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "run/part.h"
+#include "step/sample.h"
+#include "step/report.h"
+#include "mesh/mesh_part.h"
+#include "fracture/fracture_part.h"
+#include "probes/probes_part.h"
+#include "output/output.h"
+#include "coupling/coupling_part.h"
+#include "step/stability.h"
+#include "grid/grid_part.h"
+#include "contact/contact.h"
+#include "step/step.h"
+#include "rigid/rigid_part.h"
+#include "step/damping.h"
+#include "run/say.h"
+
+/* ---- columns ----------------------------------------------------------------------------------------------------- */
+
+enum { RECORD_FIXED = 24 };
+
+/* Columns that every run has; those between are rows of the ledger. */
+static const struct column fixed_columns[RECORD_FIXED] = {
+    [0] = {"time", "s"}, {"step", ""},
+    [7] = {"balance_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"}, {"momentum_z", "kg m/s"},
+    {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"bonds", ""}, {"crack_length", "m"},
+    {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"},
+    [20] = {"mpm_share", ""}, {"rest_share", ""}};
+
+/* Mean inactive share of the body over the steps since the last sample; 0 where there was none. */
+static real inactive_since_sample(const struct run_clock *clock, struct run_report *report)
+{
+    const int64_t steps = clock->step - report->sampled.step;
+    const real share = steps > 0 ? (report->inactive - report->sampled.inactive) / (real)steps : 0;
+    report->sampled.inactive = report->inactive, report->sampled.step = clock->step;
+    return share;
+}
+
+/* Does nothing outside the deforming bodies act on them, and have all of them particles or nodes of one mesh? */
+static bool is_free(const struct run *e)
+{
+    const struct scene *s = e->scene;
+    return s->dim > 1 && scene_moves(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
+           e->frame->levels.n == 0;
+}
+
+/* Columns of the angular momentum of free bodies, NULL: only counted. Returns how many. */
+static int spin_columns(const struct run *e, struct column *column)
+{
+    static const char *const name[] = {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};
+    int n = 0;
+    for (int d = e->part.dim == 2 ? 2 : 0; d < 3 && is_free(e); d++, n++)
+        if (column) column[n] = (struct column){.unit = "kg m^2/s"}, strcpy(column[n].name, name[d]);
+    return n;
+}
+
+/* Fills one line of history.csv, the record [RECORD_FIXED + columns of probes]. */
+static void fill_record(struct run *e)
+{
+    const struct energy_balance *l = &e->diagnostics->now;
+    const struct tip *tip = tips_longest(&e->fracture->tips);
+    real *r = e->report->record;
+    const real *place = tip ? tip->place : (const real[DIM_MAX]){NAN, NAN, NAN};
+    const int dim = e->part.dim;
+    const real n = (real)e->part.n_body, pd = (real)e->report->sampling.pd;
+    const real fixed[RECORD_FIXED] = {
+        [0] = l->time, (real)e->clock.step,
+        [7] = l->balance_error, l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, pd, pd / n,
+        (real)e->report->sampling.bonds, tip ? tip->growth : 0, place[0], dim > 1 ? place[1] : NAN,
+        dim > 2 ? place[2] : NAN,
+        [20] = 1 - pd / n, inactive_since_sample(&e->clock, e->report)};
+    memcpy(r, fixed, sizeof fixed);
+    for (int k = 0; k < ENERGIES; k++) r[ledger[k].column] = l->energy.of[k];
+    r[ledger[LEDGER_WORK].column] = l->external_work;
+    for (int c = 0; c < e->probing->probes.columns; c++) r[RECORD_FIXED + c] = e->probing->probes.value[c];
+    r += RECORD_FIXED + e->probing->probes.columns;
+    for (const struct part *const *p = e->parts; *p; p++) {
+        if (!(*p)->columns) continue;
+        (*p)->record(e, r);
+        r += (*p)->columns(e, NULL);
+    }
+    for (int c = 0; c < spin_columns(e, NULL); c++) r[c] = l->spin[e->part.dim == 2 ? 2 : c];
+}
+
+/* Columns of probes, of the parts of the run, and of the angular momentum, NULL: only counted. Returns how many. */
+static int own_columns(const struct run *e, struct column *column)
+{
+    const struct probes *probes = &e->probing->probes;
+    int n = probes->columns;
+    for (int c = 0; c < probes->columns && column; c++) column[c] = probes->column[c];
+    for (const struct part *const *p = e->parts; *p; p++)
+        if ((*p)->columns) n += (*p)->columns(e, column ? column + n : NULL);
+    return n + spin_columns(e, column ? column + n : NULL);
+}
+
+status sample_start(struct run *e, bool resume)
+{
+    struct run_report *report = e->report;
+    const int columns = RECORD_FIXED + own_columns(e, NULL);
+    report->record = NEW("report.record", columns, real);
+    if (!report->out) return OK;
+    struct column *column = NEW("report.columns", columns, struct column);
+    memcpy(column, fixed_columns, sizeof fixed_columns);
+    for (int k = 0; k < LEDGER_ROWS; k++) {
+        struct column *energy = &column[ledger[k].column];
+        INVARIANT(energy->name[0] == 0);
+        snprintf(energy->name, sizeof energy->name, "%s", ledger[k].name), strcpy(energy->unit, "J");
+    }
+    own_columns(e, column + RECORD_FIXED);
+    status s = output_history_open(report->out, column, columns, resume);
+    memory_free(column);
+    return s;
+}
+
+/* ---- samples ----------------------------------------------------------------------------------------------------- */
+
+/* True if a probe uses stresses of peridynamic particles, which are computed only then. */
+static bool wants_stress(const struct scene *s)
+{
+    for (int k = 0; k < s->probes; k++) {
+        const struct probe_request *q = &s->probe[k];
+        if (q->kind == PROBE_POINT || q->kind == PROBE_RIGID) return true;
+        if (q->kind == PROBE_SIF && q->stress == SIF_PARTICLE) return true;
+    }
+    return false;
+}
+
+void run_sync(struct run *e)
+{
+    frame_sync(e);
+    run_stress(e);
+}
+
+/* Updates the points of a mesh for probes of the motion of particles; damage and bonds are always up to date. */
+static void sync_probes(struct run *e)
+{
+    bool motion = false;
+    for (int k = 0; k < e->scene->probes; k++) {
+        const enum probe_kind kind = e->scene->probe[k].kind;
+        motion |= kind != PROBE_TIP && kind != PROBE_BREAK && kind != PROBE_REACTION && kind != PROBE_GROWTH;
+    }
+    if (motion) frame_sync(e);
+}
+
+static real kinetic_now(const struct particles *p, const struct reference_frame *reference)
+{
+    return diagnostics_kinetic(p) + frame_kinetic(reference);
+}
+
+/* Meshes of the reference frame and of its coarse cells, whose nodes have momentum; returns their number. */
+static int meshes(const struct run *e, const struct grid *nodes[LEVELS_MAX + 1])
+{
+    const struct mesh_levels *levels = &e->frame->levels;
+    nodes[0] = &e->frame->mesh.grid;
+    for (int level = 1; level <= levels->n; level++) nodes[level] = &levels->at[level].mesh.grid;
+    return 1 + levels->n;
+}
+
+/* Keeps the momentum before a step. */
+static void keep_momentum(struct run *e)
+{
+    const struct grid *nodes[LEVELS_MAX + 1];
+    const int grids = meshes(e, nodes);
+    e->report->sampling.t_velocity = run_observed(e).t_velocity;
+    diagnostics_momentum_of(&e->part, nodes, grids, e->report->sampling.momentum);
+}
+
+/* Sets the momentum of a sample to that of its own time, linear between those of the velocities before and after. */
+static void time_momentum(struct run *e, const struct velocity_time *now)
+{
+    const struct grid *nodes[LEVELS_MAX + 1];
+    const int grids = meshes(e, nodes);
+    const struct sampling *s = &e->report->sampling;
+    real after[DIM_MAX];
+    if (!scene_moves(e->scene)) return;
+    const real share = (e->clock.t - s->t_velocity) / (now->t - s->t_velocity);
+    diagnostics_momentum_of(&e->part, nodes, grids, after);
+    for (int d = 0; d < e->part.dim; d++)
+        e->diagnostics->now.momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * after[d]);
+}
+
+/* Samples all quantities but energies: stress, momentum, tips, probes. */
+static void sample_state(struct run *e)
+{
+    const struct grid *nodes[LEVELS_MAX + 1];
+    const int grids = meshes(e, nodes);
+    if (wants_stress(e->scene)) run_stress(e);
+    rigids_keep(e);
+    diagnostics_momentum(e->diagnostics, &e->part, nodes, grids, e->loads.impulse);
+    if (is_free(e))
+        diagnostics_spin(e->diagnostics, &e->part, e->frame->mesh.points > 0 ? &e->frame->mesh : NULL,
+                         e->scene->bodies);
+    tips_sample(&e->fracture->tips, &e->part, &e->cells, e->clock.t);
+    struct observed o = run_observed(e);
+    probes_sample(&e->probing->probes, &o);
+}
+
+real sample_strain(struct run *e)
+{
+    return e->kernels.bond_energy(&e->bonds, &e->part) +
+           diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial) + frame_strain(e);
+}
+
+/* Energies of a sample at the current positions, but the kinetic energy [J]. */
+static void sample_energies(struct run *e)
+{
+    const struct material *m = e->scene->material;
+    e->report->sampling.pd = e->part.n_of[KIND_PD], e->report->sampling.bonds = e->bonds.n;
+    e->report->sampling.energy = (struct energy){
+        .strain = sample_strain(e),
+        .plastic = bond_plastic_work(&e->bonds) + diagnostics_plastic(&e->part, m, &e->coupling->partial),
+        .fracture = bonds_fracture_energy(&e->bonds),
+        .contact = contact_energy(e->contact, &e->part),
+        .damped = e->damped + contact_friction_work(e->contact),
+        .absorbed = e->loads.absorbing.energy,
+    };
+}
+
+/* Completes a sample and writes its line. now: of the present velocities; kinetic, work [J]. */
+static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
+{
+    struct sampling *sampling = &e->report->sampling;
+    sync_probes(e);
+    struct observed o = run_observed(e);
+    probes_sample_end(&e->probing->probes, &o, now);
+    time_momentum(e, now);
+    sampling->energy.kinetic = kinetic;
+    e->stability->lost = !isfinite(energy_sum(&sampling->energy) + work);
+    if (e->stability->lost) return;               /* energy_check reports it; nothing is written */
+    diagnostics_balance(e->diagnostics, e->clock.t, &sampling->energy, work);
+    fill_record(e);
+    if (e->report->out && e->report->history_status == OK)
+        e->report->history_status = output_history(e->report->out, e->report->record);
+}
+
+/* Keeps the velocities before a step: forces on the grid appear at points only as a change of their velocity. */
+static void keep_velocities(struct sampling *sampling, const struct particles *p, enum coupling kind)
+{
+    if (p->n_free == 0 && !coupling_moves_by_grid(kind)) return;
+    for (int d = 0; d < p->dim; d++) {
+        if (!sampling->before[d]) sampling->before[d] = BARE("report.before", p->n, real);
+        array_copy(sampling->before[d], p->v[d], p->n, sizeof(real));
+    }
+}
+
+/* Excess of the mean of the kinetic energies before and after a step over 1/2 m v_before . v_after [J]
+ * (diagnostics_kick). Dashpots take part of a kick while it lasts: with half of what they take in it booked, what is
+ * kept is that of the other forces alone. */
+static real kick_now(const struct run *e)
+{
+    const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling_kind);
+    const real dt = e->grid->transfer.dt_velocity;
+    return diagnostics_kick(&e->part, grid ? e->report->sampling.before : NULL, dt) + mesh_kick(&e->frame->mesh, dt) +
+           levels_kick(&e->frame->levels, dt) - e->loads.absorbing.kick;
+}
+
+void sample_begin(struct run *e)
+{
+    struct sampling *sampling = &e->report->sampling;
+    sampling->due = report_sample_due(e->scene, &e->clock);
+    sampling->work = e->loads.work;
+    sampling->constraint_work = e->loads.constraint_work;
+    sampling->absorbed = e->loads.absorbing.energy;
+    if (!sampling->due && e->clock.step < e->clock.steps - 1) return;
+    sync_probes(e);
+    if (sampling->due) sample_state(e), rigids_meet(e);
+    else if (wants_stress(e->scene)) run_stress(e);
+    struct observed o = run_observed(e);
+    probes_keep(&e->probing->probes, &o);
+    keep_velocities(sampling, &e->part, e->coupling_kind);
+    keep_momentum(e);
+    sampling->kinetic = kinetic_now(&e->part, e->frame);
+    sampling->rigid = rigids_energy(e).before;
+}
+
+void sample_energy(struct run *e)
+{
+    if (!e->report->sampling.due) return;
+    sample_energies(e);
+    e->report->sampling.rigid_work = rigids_energy(e).work;
+}
+
+/* True if a boundary drives particles at a speed, so that velocities jump in the first step. */
+static bool velocity_jumps(const struct scene *s)
+{
+    bool drives = false;
+    for (int b = 0; b < s->boundaries; b++)
+        drives |=
+            s->boundary[b].kind == BOUNDARY_VELOCITY && dot(s->boundary[b].value, s->boundary[b].value, s->dim) > 0;
+    return drives;
+}
+
+/* Twice the excess of the start [J]: leap-frog keeps 1/2 m v- . v+, v+- = v +- a dt/2, and not the 1/2 m v^2 of the
+ * start. 0 where the first step changes velocities by more than forces do and the two cannot be separated: with APIC,
+ * for points beside driven ones, and for bodies that meet. */
+static real start_excess(const struct run *e)
+{
+    const bool kept = e->part.n_free == 0 || (e->scene->transfer == TRANSFER_FLIP && !velocity_jumps(e->scene) &&
+                                              e->grid->contact.touching == 0);
+    return kept ? 2 * kick_now(e) : 0;
+}
+
+void sample_end(struct run *e)
+{
+    struct sampling *sampling = &e->report->sampling;
+    const bool first = e->clock.step == 0;
+    const struct velocity_time now = {e->clock.t + 0.5 * e->clock.dt, first ? 1 : 1 / damping_share(e)};
+    if (!sampling->due) return;
+    if (first) {                             /* velocities of t = 0, not of half a step before; nothing is damped yet */
+        sampling->energy.damped = sampling->energy.absorbed = 0;
+        sample_write(e, &now, sampling->kinetic + sampling->rigid, sampling->work);
+        e->diagnostics->energy_start -= start_excess(e) / damping_share(e);
+        return;
+    }
+    real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&e->part, e->frame)) - kick_now(e);
+    sampling->energy.damped += e->grid->contact.begun;
+    sampling->energy.absorbed = 0.5 * (sampling->absorbed + e->loads.absorbing.energy);
+    const struct rigid_energy rigid = rigids_energy(e);
+    rigids_mean(e);
+    sample_write(e, &now, kinetic / damping_share(e) + rigid.step,
+                 sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
+}
+
+void sample_rest(struct run *e)
+{
+    sample_state(e);
+    sample_energies(e);
+    sample_write(e, &(struct velocity_time){e->clock.t, 1}, 0, 0);
+}
+
+void sample_equilibrium(struct run *e)
+{
+    sample_state(e);
+    sample_energies(e);
+    sample_write(e, &(struct velocity_time){e->clock.t, 1}, 0,
+                 e->loads.work + e->loads.constraint_work + rigids_energy(e).work);
+}
+
+/* Sum of v . f of particles that bonds move and of nodes in the reference frame [W]; serial, as calls are few. */
+static real power_now(const struct particles *p, const struct reference_frame *reference)
+{
+    const struct grid *g = &reference->mesh.grid;
+    real power = 0;
+    for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
+        const int32_t i = p->list[KIND_PD][k];
+        for (int d = 0; d < p->dim && !particle_on_grid(p, i); d++) power += p->v[d][i] * p->f[d][i];
+    }
+    for (int64_t I = 0; I < g->n && reference->mesh.points > 0; I++)
+        for (int d = 0; d < p->dim; d++) power += g->velocity[d][I] * g->force[d][I];
+    return power + levels_power(&reference->levels);
+}
+
+/* The part of it on nodes of meshes that loads hold or drive [W]: work of these loads, no change of velocity. */
+static real power_of_walls(const struct reference_frame *reference)
+{
+    const struct mesh_levels *levels = &reference->levels;
+    real power = 0;
+    for (int level = 0; level <= levels->n && reference->mesh.points > 0; level++) {
+        const struct grid *g = level > 0 ? &levels->at[level].mesh.grid : &reference->mesh.grid;
+        for (int64_t k = 0; k < g->walls; k++) {
+            const int d = g->wall[k].component;
+            const int64_t I = g->wall[k].node;
+            power += (real)(1 << level) * g->velocity[d][I] * g->force[d][I];
+        }
+    }
+    return power;
+}
+
+/* Adds to reactions what the nodes of a mesh that loads hold bear by the present forces. */
+static void reactions_add(struct loads *l, const struct grid *g)
+{
+    for (int64_t k = 0; k < g->walls; k++)
+        l->load[g->wall[k].load].reaction[g->wall[k].component] -= g->force[g->wall[k].component][g->wall[k].node];
+}
+
+/* Completes the reactions of the loads, those on particles being known, by those on nodes that the forces after the
+ * last step have met. */
+static void reactions_at_end(struct run *e)
+{
+    const struct mesh_levels *levels = &e->frame->levels;
+    for (int k = 0; k < e->grid->fields && e->part.n_free + e->part.n_grid_coupled > 0; k++)
+        loads_react(&e->loads, &e->grid->field[k].grid, e->clock.dt);
+    if (e->frame->mesh.points == 0) return;
+    reactions_add(&e->loads, &e->frame->mesh.grid);
+    for (int level = 1; level <= levels_due(levels, e->clock.step); level++)
+        reactions_add(&e->loads, &levels->at[level].mesh.grid);
+}
+
+/* Sum of v . f by the forces after the last step, which no motion follows [W]: no bond breaks, and the accounts of
+ * loads but for reactions are restored. *held: work of walls of grids and meshes in that step [J], which is no part of
+ * the power; that of driven particles is. */
+static real power_last(struct run *e, real *held)
+{
+    const struct loads account = e->loads;
+    struct load *own = BARE("report.load", e->loads.n, struct load);
+    array_copy(own, e->loads.load, e->loads.n, sizeof *own);
+    const real dt_velocity = e->clock.dt * damping_share(e);
+    e->loads.absorbing.idle = e->loads.ended = true;
+    loads_clear(&e->loads, &e->part);
+    bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
+    contact_force(e->contact, &e->part, 0);
+    loads_apply(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
+    if (e->frame->mesh.points > 0) frame_force(e);
+    const real power = power_now(&e->part, e->frame) + grid_power(e, e->clock.t + 0.5 * e->clock.dt);
+    const real walls = power_of_walls(e->frame);
+    *held = e->loads.constraint_work - account.constraint_work - e->clock.dt * walls;
+    reactions_at_end(e);
+    for (int b = 0; b < e->loads.n; b++) {
+        array_copy(own[b].reaction, e->loads.load[b].reaction, DIM_MAX, sizeof(real));
+        e->loads.load[b] = own[b];
+    }
+    memcpy(e->loads.impulse, account.impulse, sizeof account.impulse);      /* arrays may have grown with the grid */
+    e->loads.absorbing.energy = account.absorbing.energy, e->loads.absorbing.kick = account.absorbing.kick;
+    e->loads.work = account.work, e->loads.constraint_work = account.constraint_work;
+    e->loads.absorbing.idle = e->loads.ended = false;
+    memory_free(own);
+    return power - walls;
+}
+
+/* The last sample. No force follows the last step: kinetic energy is 1/2 m v- . v+, as in all samples before, with v+
+ * after the kick of the forces at the end. */
+void sample_last(struct run *e)
+{
+    real held = 0;
+    states_precompute(&e->bonds, &e->part, &e->source);
+    frame_sync(e);                         /* positions, velocities and stresses of points of the mesh */
+    sample_state(e);
+    sample_energies(e);
+    real kinetic = kinetic_now(&e->part, e->frame);
+    const real before = kinetic;
+    const real kick = e->clock.dt * damping_share(e);
+    if (scene_moves(e->scene)) kinetic += 0.5 * kick * power_last(e, &held);
+    e->report->sampling.energy.damped += damping_last(e, before, kinetic);
+    e->report->sampling.energy.damped += e->grid->contact.begun;
+    const struct rigid_energy rigid = rigids_energy(e);
+    const struct velocity_time now = {e->clock.t - 0.5 * e->clock.dt, 1 / square(damping_share(e))};
+    rigids_kick(e);
+    sample_write(e, &now, kinetic / damping_share(e) + rigid.last,
+                 e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);
+}
+
+void sample_probes(struct run *e)
+{
+    struct observed o = run_observed(e);
+    probes_step(&e->probing->probes, &o);
+}
+
+/* Says that the first bonds of driven particles break, with the first boundary that drives such particles. */
+static void say_torn(struct run *e, real t)
+{
+    const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;
+    const char *name = "";
+    char text[400], when[48];
+    int others = -1;
+    for (int b = e->loads.n; b-- > 0;) {
+        const struct load *l = &e->loads.load[b];
+        bool tears = false;
+        for (int64_t k = 0; k < l->n && l->boundary->kind == BOUNDARY_VELOCITY; k++)
+            tears |= (e->part.flag[l->particle[k]] & both) == both;
+        if (tears) name = l->boundary->name, others++;
+    }
+    if (scene_in_steps(e->scene)) snprintf(when, sizeof when, "in load step %lld", (long long)e->clock.load_step);
+    else snprintf(when, sizeof when, "at %.4g s", t);
+    snprintf(text, sizeof text,
+             "boundary %s%s: bonds of the particles that it drives break, the first %s: a grip that tears off pulls no "
+             "more; they count as crack.driven_bonds, not in crack.start_time and probes",
+             name, others > 0 ? " and others" : "", when);
+    run_say(e, text);
+}
+
+void sample_breaks(struct run *e, int64_t broken)
+{
+    const bool in_steps = scene_in_steps(e->scene);  /* whose bonds break before its end, which is its time */
+    const real step = e->scene->duration / (real)e->scene->steps.number;
+    const real t = in_steps ? step * (real)e->clock.load_step : e->clock.t;
+    struct observed o = run_observed(e);
+    if (diagnostics_breaks(e->diagnostics, &e->part, e->source.family.horizon, broken, t)) say_torn(e, t);
+    if (scene_moves(e->scene)) sample_probes(e);
+    o.t = t;
+    if (in_steps && broken > 0) probes_breaks(&e->probing->probes, &o);
+}

@@ -1,0 +1,90 @@
+/* What a run says at its end of energy and angular momentum that it has not kept. */
+#include <math.h>
+#include <stdio.h>
+
+#include "probes/diagnostics.h"
+#include "coupling/coupling_part.h"
+#include "step/report.h"
+#include "step/stability.h"
+#include "run/say.h"
+
+#define ENERGY_DOUBTFUL 0.05 /* share lost or gained that is warned of: ten times that of scenes in inputs/ */
+#define DAMPED_DOUBTFUL 0.1  /* share damped beside bonds: three times the most of scenes in inputs/ */
+
+/* Says that breaking bonds released more than they had held. */
+static void say_released(struct run *e)
+{
+    char text[320];
+    const real released = energy_released(e->diagnostics);
+    if (scene_at_rest(e->scene) || released <= ENERGY_DOUBTFUL * e->diagnostics->energy_scale) return;
+    snprintf(text, sizeof text,
+             "bonds released %.3g J as they broke that they had not held (energy.fracture %.3g): families of model %s "
+             "under pressure gain energy where they lose bonds; compare with model: bond, do not trust what came after",
+             released, -released, e->scene->model == MODEL_OSPD ? "ospd" : "mospd");
+    run_say(e, text);
+}
+
+#define SPIN_DOUBTFUL 0.01 /* share of the angular momentum of bodies */
+
+/* Says that bodies have lost, or gained, angular momentum that nothing took from them. */
+static void say_spin(struct run *e)
+{
+    const real error = e->diagnostics->now.spin_error;
+    const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
+    char text[360];
+    if (!e->diagnostics->turns || !(error > SPIN_DOUBTFUL)) return;
+    snprintf(text, sizeof text,
+             "%.*f %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error)%s%s",
+             error < 0.095, 100 * error,
+             apic ? ": mpm.transfer apic leaves some percent to velocity gradients, flip keeps it to 0.1 to 1 %" : "",
+             e->scene->contact_friction > 0 ? "; friction acts on particles, not at the faces between them, and takes "
+                                              "some percent of what a collision gives" : "");
+    run_say(e, text);
+}
+
+/* Says that the interface zone took motion that was more than noise. */
+static void say_damped(struct run *e)
+{
+    char text[320];
+    const real share = e->damped / e->diagnostics->energy_scale;
+    if (!(e->coupling->damping_share > 0) || e->coupling->zone.points == 0 || e->scene->damping > 0 ||
+        !scene_moves(e->scene) || !(share > DAMPED_DOUBTFUL) || energy_is_round_off(e))
+        return;
+    snprintf(text, sizeof text,
+             "%.0f %% of the energy was damped beside bonds (energy.damped): interface_damping takes vibrations of "
+             "some spacings, in small bodies all there are; interface_damping: 0 keeps them, as method pd does",
+             100 * share);
+    run_say(e, text);
+}
+
+void say_balance(struct run *e)
+{
+    if (e->report->excerpt) return;
+    say_spin(e);
+    say_released(e);
+    say_damped(e);
+    const real error = e->diagnostics->now.balance_error;
+    const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
+    char text[320];
+    if (scene_at_rest(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || energy_is_round_off(e)) return;
+    snprintf(
+        text, sizeof text,
+        "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows when: do not trust what came after",
+        100 * fabs(error), error < 0 ? "is lost" : "comes from nowhere", error,
+        error < 0 && apic
+            ? ": APIC damps what its grid does not resolve, mpm.transfer flip and mpm.frame reference keep it"
+            : "");
+    run_say(e, text);
+}
+
+void say_yielding(struct run *e)
+{
+    bool yields = false;
+    if (e->report->yield_said || !e->bonds.plastic_path) return;
+    for (int64_t row = 0; row < e->bonds.rows && !yields; row++) yields = bond_row_plastic_path(&e->bonds, row) > 0;
+    if (!yields) return;
+    const int known = e->warnings.n;
+    e->report->yield_said = true;
+    warn_of_yielding(e->scene, &e->warnings);
+    if (!e->trial) warnings_print(&e->warnings, known, stderr);
+}

@@ -1,0 +1,458 @@
+/* Stability checks: when a diverged run is stopped, and its remedy: another step, another load, or neither. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "kernels/mpm/stress.h"
+#include "run/run.h"
+#include "mesh/mesh_part.h"
+#include "step/stability.h"
+#include "probes/diagnostics.h"
+#include "coupling/coupling_part.h"
+#include "contact/contact.h"
+#include "step/report.h"
+#include "base/rise.h"
+#include "mesh/mesh_make.h"
+#include "mesh/levels.h"
+#include "run/say.h"
+#include "rigid/rigid_part.h"
+
+#define LOAD_SHARE_LEAST 0.5 /* least share of a motion by loads that explain it: speeds double at free faces */
+#define LARGE_STRAIN 0.1                 /* initial strain; its stresses are a tenth of the modulus */
+#define ENERGY_STEPS 50                  /* steps before the energy check begins */
+#define ENERGY_OF_ROUND_OFF 1e-24        /* [kinetic energy of the body at its wave speed] */
+/* share of all energies that no stable run gains: the first steps of a jump in velocity show 0.1, unstable runs that
+ * break all bonds 0.9 */
+#define ENERGY_FROM_NOWHERE 0.5
+/* share of all energies that bonds may release as they break without having held it: the scenes of inputs/ show none
+ * with any model, ospd under pressure 0.4 */
+#define RELEASED_FROM_NOWHERE 0.25
+/* kinetic energy 1/2 m v- . v+ below this share of the strain energy, negative: velocities change sign in every step.
+ * Steps below the critical one keep it above -(dt/dt_critical)^2. */
+#define KINETIC_LEAST -0.9
+enum { INVERSION_STEPS = 50 };               /* steps between checks for inverted cells, which cost about half a step */
+enum { MOMENTS = 256 };                  /* samples of a function of time */
+
+/* ---- speeds ------------------------------------------------------------------------------------------------------ */
+
+/* Largest speed, or component of the velocity of a mesh's node [m/s]. */
+static real fastest_now(const struct particles *p, const struct reference_frame *reference)
+{
+    const real moving = real_max(diagnostics_fastest(p, p->list[KIND_PD], p->n_of[KIND_PD]),
+                                 diagnostics_fastest(p, p->list_free, p->n_free));
+    return reference->mesh.points > 0 ? real_max(moving, reference->speed) : moving;
+}
+
+void stability_make(struct run *e)
+{
+    e->stability->start_speed = real_max(diagnostics_fastest(&e->part, e->part.list[KIND_PD], e->part.n_of[KIND_PD]),
+                              diagnostics_fastest(&e->part, e->part.list[KIND_MPM], e->part.n_of[KIND_MPM]));
+    rise_note(&e->stability->speed, 0, square(e->stability->start_speed));
+}
+
+/* ---- loads ------------------------------------------------------------------------------------------------------- */
+
+/* Largest and mean |factor| of a function of time between `from` and `to` [s]. */
+static void factors(const struct time_function *f, real from, real to, real *most, real *mean)
+{
+    *most = *mean = 0;
+    for (int k = 0; k < MOMENTS; k++) {
+        const real factor = fabs(time_function_at(f, from + (k + 0.5) / MOMENTS * (to - from)));
+        *most = real_max(*most, factor);
+        *mean += factor / MOMENTS;
+    }
+}
+
+/* Speed that a load alone gives the fastest of its particles in the last `steps` [m/s]; for a driving boundary the
+ * largest speed that it has prescribed. */
+static real load_speed(const struct run_clock *clock, const struct particles *p, const struct load *load, real steps)
+{
+    const struct boundary *b = load->boundary;
+    const bool drives = b->kind == BOUNDARY_VELOCITY;
+    const real from = drives ? 0 : real_max(0, clock->t - steps * clock->dt);
+    real most, mean, fast2 = 0;
+    if (b->kind == BOUNDARY_MIRROR || b->kind == BOUNDARY_ABSORBING) return 0;
+    factors(&b->time, from, clock->t, &most, &mean);
+    if (b->displaces) return load_displacing_speed(load, p, clock->t + clock->dt);
+    if (drives) return most * sqrt(dot(b->value, b->value, p->dim));
+    for (int64_t k = 0; k < load->n; k++) {
+        real a2 = 0;
+        for (int d = 0; d < p->dim; d++)
+            a2 += square(load->share[d][k] * b->value[d] / p->mass[load->particle[k]]);
+        fast2 = real_max(fast2, a2);
+    }
+    return mean * (clock->t - from) * sqrt(fast2);
+}
+
+/* True if initial energy and work of loads are at least LOAD_SHARE_LEAST times the kinetic energy. */
+static bool loads_explain_motion(const struct run *e)
+{
+    const real kinetic = diagnostics_kinetic(&e->part) + frame_kinetic(e->frame);
+    const real given = e->diagnostics->energy_start + e->loads.work + e->loads.constraint_work;
+    return !isfinite(kinetic) || given >= LOAD_SHARE_LEAST * kinetic;
+}
+
+/* Largest entry of the displacement gradients of the initial states. */
+static real start_strain(const struct scene *s)
+{
+    real most = 0;
+    for (const struct scene_initial *k = s->initial; k < s->initial + s->initials; k++)
+        for (int a = 0; a < s->dim * s->dim && k->sets_strain; a++)
+            most = real_max(most, fabs(k->displacement_gradient[a]));
+    return most;
+}
+
+/* Writes to `text` which load or initial state explains the motion; false if none does. steps: of the last tenfold
+ * rise. */
+static bool load_explanation(const struct run *e, real steps, char *text, size_t room)
+{
+    static const char *const unit[] = {"m/s", "Pa", "N/m^3", "", "", "Pa"};
+    static const char *const word[] = {"velocity", "traction", "body force", "", "", "pressure"};
+    const real window =
+        real_min((real)e->clock.step, isfinite(steps) ? real_max(ceil(steps), RISE_STRIDE) : (real)e->clock.step);
+    const struct load *worst = NULL;
+    real speed = LOAD_SHARE_LEAST * e->tables.wave_speed;
+    if (!loads_explain_motion(e)) return false;
+    if (e->stability->start_speed >= speed) {
+        snprintf(
+            text, room,
+            "no smaller time step helps: the scene starts with %.3g m/s, %.3g times the wave speed; see whether the "
+            "velocities of "
+            "its bodies and of `initial` are meant, and in which unit",
+            e->stability->start_speed, e->stability->start_speed / e->tables.wave_speed);
+        return true;
+    }
+    if (start_strain(e->scene) >= LARGE_STRAIN) {
+        snprintf(text, room,
+                 "no smaller time step helps: the scene starts strained by %.3g, and what that frees throws the body "
+                 "apart; see "
+                 "whether the displacement gradients of `initial` are meant, 0.001 is a strain of 0.1 %%",
+                 start_strain(e->scene));
+        return true;
+    }
+    for (int b = 0; b < e->loads.n; b++) {
+        const real one = load_speed(&e->clock, &e->part, &e->loads.load[b], window);
+        if (one >= speed) speed = one, worst = &e->loads.load[b];
+    }
+    if (!worst) return false;
+    const struct boundary *b = worst->boundary;
+    const real size = sqrt(dot(b->value, b->value, e->part.dim));
+    const real value = b->kind == BOUNDARY_PRESSURE ? fabs(b->value[0]) : size;
+    char within[40] = "";
+    if (b->kind != BOUNDARY_VELOCITY) snprintf(within, sizeof within, " in %.0f step%s", window, window > 1 ? "s" : "");
+    snprintf(
+        text, room,
+        "no smaller time step helps: boundary %s, a %s of %.3g %s, %s its particles %.3g m/s%s, %.3g times the wave "
+        "speed, and loads "
+        "have done %.3g J of work; see whether its value is meant, and in which unit",
+        b->name, b->displaces ? "displacement" : word[b->kind], value,
+        b->displaces ? "m" : b->by_mass ? "N/kg" : unit[b->kind],
+        b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed, within,
+        speed / e->tables.wave_speed, e->loads.work + e->loads.constraint_work);
+    return true;
+}
+
+/* ---- remedy ------------------------------------------------------------------------------------------------------ */
+
+/* Advises a smaller step; returns the length of the text. */
+static int say_step(const struct scene *s, const struct run_clock *clock, char *text, size_t room)
+{
+    return snprintf(text, room, "choose a smaller time.%s (now dt = %.3g s, %.2f of the critical %.3g s)",
+                    s->time_step > 0 ? "step" : "safety", clock->dt, clock->dt / clock->dt_critical,
+                    clock->dt_critical);
+}
+
+static bool holds_images(const struct scene *s)
+{
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_MIRROR && s->boundary[b].hold_tangential) return true;
+    return false;
+}
+
+/* Lists the alternatives of a scene where something gains energy: another choice for each of its parts that may be left
+ * out. */
+static void say_others(const struct scene *s, const struct reference_frame *reference,
+                       enum coupling coupling, char *text, size_t room)
+{
+    const char *other[8];
+    int n = 0;
+    if (s->method == METHOD_ADAPTIVE) other[n++] = "method: pd";
+    if (s->method != METHOD_PD)
+        other[n++] = reference->mesh.points > 0 ? "mpm.frame: current" : "mpm.frame: reference";
+    if (coupling != COUPLING_PARTIAL_STRESS && s->method == METHOD_ADAPTIVE)
+        other[n++] = "coupling: partial stress";
+    if (s->method != METHOD_PD && reference->mesh.points == 0 && s->transfer == TRANSFER_FLIP)
+        other[n++] = "mpm.transfer: apic";
+    if (s->model != MODEL_BOND && s->method != METHOD_MPM) other[n++] = "model: bond";
+    if (holds_images(s)) other[n++] = "`fixed` in place of a mirror that holds";
+    if (n == 0) other[n++] = "method: adaptive";
+    for (int k = 0, used = 0; k < n && used < (int)room; k++)
+        used += snprintf(text + used, room - (size_t)used, "%s%s", k == 0 ? "" : k == n - 1 ? " or " : ", ", other[k]);
+}
+
+#define SQUEEZED 0.4                     /* a bond's length over its own, below which no law here holds */
+
+/* The smallest length of a bond over its own, 1 at the most. */
+static real shortest_bond(const struct bonds *b, const struct particles *p)
+{
+    real least2 = 1;
+    for (int64_t row = 0; row < b->rows; row++)
+        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
+            real length2 = 0;
+            for (int d = 0; d < p->dim; d++) length2 += square(p->x[d][it.bond.nbr] - p->x[d][b->particle[row]]);
+            if (it.bond.w != 0) least2 = real_min(least2, length2 * square(it.bond.inverse_length));
+        }
+    return sqrt(least2);
+}
+
+/* Says how far bonds are squeezed, if so far that it explains what happens. */
+static bool squeeze_explanation(const struct run *e, char *text, size_t room)
+{
+    const real least = shortest_bond(&e->bonds, &e->part);
+    if (!(least < SQUEEZED)) return false;
+    snprintf(text, room,
+             "bonds are squeezed to %.2g of their length, where no law here holds; see whether so much compression is "
+             "meant, or choose a smaller time.safety (now %.2f of the critical %.3g s), which keeps particles apart "
+             "a little farther", least, e->clock.dt / e->clock.dt_critical, e->clock.dt_critical);
+    return true;
+}
+
+void stability_remedy(const struct run *e, const struct rise *rise, real value, char *text, size_t room)
+{
+    real steps;
+    char others[256];
+    const enum rise_rate rate = rise_rate(rise, e->clock.step, value, &steps);
+    if (scene_in_steps(e->scene)) {      /* no step in time */
+        snprintf(text, room, "in an equilibrium: more load steps (steps.number), or a smaller solver_tolerance, are "
+                 "the way to find where it comes from; please report the scene");
+        return;
+    }
+    if (load_explanation(e, steps, text, room)) return;
+    if (e->clock.dt <= e->clock.dt_critical && squeeze_explanation(e, text, room)) return;
+    if (rate == RISE_FAST || e->clock.dt > e->clock.dt_critical || !scene_moves(e->scene)) {
+        say_step(e->scene, &e->clock, text, room);
+        return;
+    }
+    say_others(e->scene, e->frame, e->coupling_kind, others, sizeof others);
+    if (rate == RISE_UNSURE) {
+        const int used = say_step(e->scene, &e->clock, text, room);
+        snprintf(text + used, room - (size_t)used, "; if it is no better then, something gains energy: try %s", others);
+        return;
+    }
+    if (e->diagnostics->now.balance_error < 0 && e->diagnostics->now.energy.fracture >= 0) {
+        snprintf(text, room,
+                 "a smaller step (now %.2f of the critical %.3g s) need not help, and the balance of energies shows no "
+                 "gain: loads or supports may drive it; see whether they are meant, or try %s",
+                 e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
+        return;
+    }
+    snprintf(text, room,
+             "it took %s%.0f steps to grow tenfold, and what a time step too long makes grow takes less than %d: a "
+             "smaller one (now "
+             "%.2f of the critical %.3g s) need not help; something here gains energy: try %s, and report the scene",
+             isfinite(steps) ? "" : "more than ", isfinite(steps) ? steps : (real)RISE_STEPS, RISE_STEPS,
+             e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
+}
+
+/* ---- divergence and inversion ------------------------------------------------------------------------------------ */
+
+status divergence_check(const struct run *e, bool peridynamic, bool meshed)
+{
+    char remedy[REMEDY_LENGTH];
+    const status s =
+        diagnostics_divergence(&e->part, peridynamic, meshed, e->tables.wave_speed, e->clock.step, e->clock.t);
+    if (s == OK) return OK;
+    const real speed = fastest_now(&e->part, e->frame), limit = e->tables.wave_speed;
+    stability_remedy(e, &e->stability->speed, square(isfinite(speed) && speed > limit ? speed : limit), remedy,
+                  sizeof remedy);
+    return status_set(s, "%s; %s", status_message(), remedy);
+}
+
+/* FAILED for an inverted cell of the mesh, which resists like an intact one: neither energy nor speed shows it. */
+static status inversion_check(const struct run_clock *clock, const struct particles *p,
+                              const struct reference_frame *reference)
+{
+    if (reference->mesh.points == 0 || (clock->step % INVERSION_STEPS != 0 && clock->step < clock->steps))
+        return OK;
+    char what[48] = "a coarse cell";
+    real X[DIM_MAX] = {0};
+    const int64_t i = mesh_inverted(&reference->mesh, p);
+    if (i == p->n && !levels_inverted(&reference->levels, X)) return OK;
+    if (i < p->n) {
+        particle_place(p, i, X);
+        snprintf(what, sizeof what, "particle %d", (int)p->id[i]);
+    }
+    return status_set(FAILED,
+                      "inverted at step %lld, t = %.3g s: at %s, from (%.6g, %.6g, %.6g) m, the mesh of the "
+                      "reference frame is squeezed "
+                      "through itself; choose mpm.frame: current, whose points keep their order on the grid, or see "
+                      "whether loads and "
+                      "supports are meant",
+                      (long long)clock->step, clock->t, what, X[0], X[1], X[2]);
+}
+
+#define OVERLAP_DOUBTFUL 0.3             /* [spacings] */
+#define OVERLAP_MOST 0.9                 /* beyond, particles pass each other */
+
+/* Says once that particles in contact overlap much; FAILED where they are about to pass each other. */
+static status overlap_check(struct run *e)
+{
+    const struct contact *c = e->contact;
+    const real overlap = c->overlap / e->scene->spacing;
+    char text[320];
+    if (!(overlap > OVERLAP_DOUBTFUL)) return OK;
+    if (overlap > OVERLAP_MOST) {
+        const struct particles *p = &e->part;
+        const int32_t i = c->deepest;
+        return status_set(FAILED,
+                          "contact at step %lld, t = %.3g s: particle %d, now at (%.6g, %.6g, %.6g) m, is %.2f "
+                          "spacings inside another, which it is about to pass; see whether the speeds (wave speed "
+                          "%.4g m/s) are meant, or choose a larger contact.stiffness (now %.3g) with a smaller "
+                          "time.safety",
+                          (long long)e->clock.step, e->clock.t, (int)p->id[i], p->x[0][i], p->dim > 1 ? p->x[1][i] : 0,
+                          p->dim > 2 ? p->x[2][i] : 0, overlap, e->tables.wave_speed, e->scene->contact_stiffness);
+    }
+    if (e->contact->overlap_said) return OK;
+    e->contact->overlap_said = true;
+    snprintf(text, sizeof text,
+             "particles in contact overlap by more than %.1f spacings (contact.overlap_max in the summary): pressures "
+             "there are no longer those of the material; a larger contact.stiffness overlaps less",
+             OVERLAP_DOUBTFUL);
+    run_say(e, text);
+    return OK;
+}
+
+/* FAILED where a formula had no finite value in the step that has been made, which asks for values at its ends and
+ * middle, of the step before and of the next: then the impulse is no number. At the end of the run all formulas are
+ * asked once. */
+static status formula_check(const struct run *e)
+{
+    const struct run_clock *clock = &e->clock;
+    const real *impulse = e->loads.impulse;
+    if (!isfinite(impulse[0] + impulse[1] + impulse[2]))
+        for (int half = -3; half <= 2; half++)
+            TRY(loads_finite(&e->loads, &e->part, real_max(0, clock->t + 0.5 * half * clock->dt)));
+    return clock->step == clock->steps ? loads_finite(&e->loads, &e->part, clock->t) : OK;
+}
+
+status stability_check(struct run *e)
+{
+    const bool diverged =
+        e->frame->mesh.points > 0 && !(e->frame->speed <= e->tables.wave_speed / sqrt(e->part.dim));
+    TRY(formula_check(e));
+    if (diverged) frame_sync_points(e, NULL, 0);
+    TRY(divergence_check(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
+    TRY(inversion_check(&e->clock, &e->part, e->frame));
+    TRY(overlap_check(e));
+    TRY(rigids_speed_check(e));
+    if (e->clock.step % RISE_STRIDE == 0)
+        rise_note(&e->stability->speed, e->clock.step, square(fastest_now(&e->part, e->frame)));
+    return OK;
+}
+
+/* ---- energy ------------------------------------------------------------------------------------------------------ */
+
+static int64_t fastest_particle(const struct particles *p)
+{
+    int64_t fastest = 0;
+    real most = -1;
+    for (int64_t i = 0; i < p->n; i++) {
+        real speed2 = 0;
+        for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][i]);
+        if (speed2 > most) most = speed2, fastest = i;
+    }
+    return fastest;
+}
+
+bool energy_is_round_off(const struct run *e)
+{
+    return e->diagnostics->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * e->mass * square(e->tables.wave_speed);
+}
+
+/* What bonds released as they broke without ever having held it [J]. A row of a state-based model may hold more after a
+ * break than before: its dilatation changes. */
+real energy_released(const struct diagnostics *w) { return real_max(0, -w->now.energy.fracture); }
+
+/* True if the body has more energy than stable runs gain. The balance of the first steps is left out, where half a step
+ * of a load is a large share of all energy, but for steps above the critical one. */
+static bool gains(const struct run_clock *clock, const struct diagnostics *w)
+{
+    const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;
+    return (counts && w->now.balance_error > ENERGY_FROM_NOWHERE) ||
+           energy_released(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
+}
+
+/* True if velocities change sign in every step, by a step above the critical one. */
+static bool swings(const struct run_clock *clock, const struct energy *energy)
+{
+    return clock->dt > clock->dt_critical && energy->kinetic < KINETIC_LEAST * energy->strain;
+}
+
+/* FAILED with step, time and the fastest particle of "a body " and `what`. */
+static status unstable(const struct run *e, const char *what, const char *remedy)
+{
+    const struct particles *p = &e->part;
+    const int64_t i = fastest_particle(p);
+    char place[96];
+    int used = 0;
+    for (int d = 0; d < p->dim; d++)
+        used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
+    return status_set(FAILED,
+                      "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body %s; %s",
+                      (long long)e->clock.step, e->clock.t, (int)p->id[i], place, what, remedy);
+}
+
+/* Elastic strain of points in the current frame beyond which they come apart: a strip that is pulled tears or gains
+ * energy from strains of 0.09 on, with every shape and transfer (tests/scenes/test_frame.sh). */
+#define STRETCH_MOST 0.08
+
+/* Says that points in the current frame are stretched farther than their grid holds them together. */
+static void say_stretched(struct run *e)
+{
+    const struct particles *p = &e->part;
+    const int n = symmetric_count(p->dim);
+    for (int64_t i = 0; i < p->n && p->n_free > 0 && !e->stability->stretched; i++) {
+        const struct material *m = &e->scene->material[p->material[i]];
+        real stress[SYM_MAX], sum = 0;
+        char text[360];
+        if (p->kind[i] != KIND_MPM || p->flag[i] & FLAG_MESHED || material_yields(m)) continue;
+        for (int c = 0; c < n; c++) stress[c] = p->stress[c][i], sum += square(stress[c]);
+        if (2 * sum < square(STRETCH_MOST * m->young)) continue;   /* no less than the square of a principal stress */
+        const real strain = stress_principal(stress, p->dim) / m->young;
+        if (!(strain > STRETCH_MOST)) continue;
+        snprintf(text, sizeof text,
+                 "points in mpm.frame current are stretched by %.0f %% at t = %.3g s, round x = %.4g m: from some 10 "
+                 "%% on they come apart (mpm.transfer apic) or gain energy (flip), whatever the shape; mpm.frame "
+                 "reference bears any stretch", 100 * strain, e->clock.t, p->x[0][i]);
+        run_say(e, text);
+        e->stability->stretched = true;
+    }
+}
+
+/* For unstable runs without a particle that is too fast for diagnostics_divergence: a body that breaks all its bonds,
+ * or one that swings. A body at rest, whose energy is round-off, is left out. */
+status energy_check(struct run *e)
+{
+    if (e->stability->lost)
+        return status_set(
+            FAILED,
+            "step %lld, t = %.4g s: an energy is no finite number, though all places are; see whether material, "
+            "supports and initial state are meant (`cleave check`)",
+            (long long)e->clock.step, e->clock.t);
+    const struct diagnostics *w = e->diagnostics;
+    const real excess = w->now.balance_error * w->energy_scale + energy_released(w);
+    const bool last = e->clock.step == e->clock.steps && !scene_at_rest(e->scene);
+    char what[96], remedy[REMEDY_LENGTH];
+    if (!e->report->sampling.due && !last) return OK;
+    rise_note(&e->stability->excess, e->clock.step, excess);
+    say_stretched(e);
+    if (energy_is_round_off(e)) return OK;
+    if (swings(&e->clock, &w->now.energy)) {
+        say_step(e->scene, &e->clock, remedy, sizeof remedy);
+        return unstable(e, "whose velocities change sign in every step", remedy);
+    }
+    if (!gains(&e->clock, w)) return OK;
+    snprintf(what, sizeof what, "with %.0f %% of its energy from nowhere", 100 * excess / w->energy_scale);
+    stability_remedy(e, &e->stability->excess, excess, remedy, sizeof remedy);
+    return unstable(e, what, remedy);
+}

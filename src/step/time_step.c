@@ -1,0 +1,204 @@
+/* The critical time step of a scene, and the step that is taken.
+ *
+ * `bench stability` observes the limits independently, by the growth of the largest mode under the step itself. */
+#include <math.h>
+
+#include "step/stability.h"
+#include "grid/grid_part.h"
+#include "contact/contact.h"
+#include "run/critical_step.h"
+#include "mesh/mesh_part.h"
+
+/* ---- material points --------------------------------------------------------------------------------------------- */
+
+/* Critical steps in h/(c + |v|) for n points per cell and direction: slightly below the least that is observed over all
+ * positions of the points in their cells, which a moving body passes through. Strains of re-mapped momentum (FLIP,
+ * MUSL) hardly depend on how little mass the nodes beyond an edge have; strains of the updated velocity (APIC) do:
+ * their share falls with the size of the points. Linear shapes are worst where points are on nodes and round-off
+ * decides their cell (observed over 1500 steps); elsewhere they would allow three times as much. */
+static real points_share(const struct scene *s)
+{
+    const real n = s->cell;
+    const bool apic = s->transfer == TRANSFER_APIC;
+    switch (s->shape) {
+    case SHAPE_LINEAR:
+        if (n < 1.5) return s->dim == 1 ? 0.48 : 0.42;
+        return (fabs(n - 2) < 0.3 ? 0.52 : 0.62) * (1 + 0.4 * (s->dim - 1));
+    case SHAPE_QUADRATIC: return apic ? 0.75 : 1.8;
+    case SHAPE_CUBIC: return apic ? 1.15 : 2.1;
+    default: return apic ? (s->dim == 1 ? 0.89 : 0.84) / (1 + 0.16 * n) : 1.52;
+    }
+}
+
+/* Factor for nearly incompressible materials. Nodes that move against each other in all directions have the stiffness
+ * c11 + (dim - 1) c12, waves c11: near nu = 1/2 the ratio is 2 in the plane and 3 in space. The shares above were
+ * observed up to a ratio of 5/3 (nu 1/4 in space); beyond, limits fall with its root: from nu 0.25 to 0.499 in space by
+ * 0.80 (FLIP) and 0.76 (APIC), where the root gives 0.75. */
+static real volume_share(const struct scene *s, const struct material_tables *tables, const struct particles *p)
+{
+    const real observed = 5.0 / 3;
+    real most = observed;
+    for (int m = 0; m < s->materials; m++)
+        most = real_max(most, 1 + (p->dim - 1) * tables->elastic[m].c12 / tables->elastic[m].c11);
+    return sqrt(observed / most);
+}
+
+static real engine_time_fastest(const struct run *e)
+{
+    const struct scene *s = e->scene;
+    real speed = e->stability->start_speed;
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].displaces && s->solver == SOLVER_EXPLICIT)
+            speed = real_max(speed, load_displacing_speed(&e->loads.load[b], &e->part, s->duration));
+        else if (s->boundary[b].kind == BOUNDARY_VELOCITY && !s->boundary[b].displaces)
+            speed = real_max(speed, sqrt(dot(s->boundary[b].value, s->boundary[b].value, s->dim)));
+    return speed;
+}
+
+static real critical_of_points(const struct run *e)
+{
+    if (e->part.n_free + e->part.n_grid_coupled == 0) return INFINITY;
+    return points_share(e->scene) * volume_share(e->scene, &e->tables, &e->part) * e->grid->field[0].grid.h /
+           (e->tables.wave_speed + engine_time_fastest(e));
+}
+
+/* ---- bonds ------------------------------------------------------------------------------------------------------- */
+
+/* Shares for a grid that moves all particles (pmg, pgg) and does not resolve the shortest waves of the bonds: of the
+ * observed limits of bodies in one, two and three dimensions, with cells of one spacing and of two (`bench
+ * stability`). */
+static const real moved_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4, 2.5}};
+/* Shares for a grid that moves particles near points (pm, pg), where FLIP keeps motion that the grid does not resolve;
+ * worst where few particles share a node. */
+static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
+
+static real share_of_coupling(const struct scene *s, enum coupling coupling)
+{
+    const bool two = s->cell >= 2;
+    if (coupling_unified(coupling)) return moved_by_grid[two][s->dim];
+    return coupling_moves_by_grid(coupling) && s->transfer == TRANSFER_FLIP
+               ? met_by_grid[two][s->dim]
+               : 1;
+}
+
+/* Force kernel of elastic bonds: yielding bonds are no stiffer. */
+static bond_force_fn *elastic_force(const struct run *e)
+{
+    return e->scene->model == MODEL_BOND ? bond_force_table[e->part.dim][PD_BOND] : e->kernels.bond_force;
+}
+
+/* Smallest critical step of the lattices of all materials [s]; *bound: the smallest of their bounds [s]. */
+static real critical_of_lattices(struct run *e, real *bound)
+{
+    const struct scene *s = e->scene;
+    real step = INFINITY, longest[DIM_MAX], low, high;
+    *bound = INFINITY;
+    for (int d = 0; d < s->dim; d++) {
+        particles_extent(&e->part, e->part.n, d, &low, &high);
+        longest[d] = high - low;
+    }
+    for (int m = 0; m < s->materials; m++) {
+        real its_bound;
+        struct bond_source one = e->source;      /* its particles are of material 0 */
+        one.material = &s->material[m], one.materials = 1;
+        if (e->tables.modulus) one.modulus = &e->tables.modulus[m];
+        one.yield = (struct bond_yield){0};
+        step = real_min(step,
+                        critical_step_of_lattice(&one, elastic_force(e), s->material[m].density, longest, &its_bound));
+        *bound = real_min(*bound, its_bound);
+    }
+    return step;
+}
+
+enum { ITERATED_MOST = 15000 };          /* particles: an iteration has some 30 rounds of a few steps each */
+
+/* Critical step of bonds [s]. By iteration on the body where all of it is peridynamic. Where particles convert later,
+ * or are many on a lattice, by iteration on a block of this lattice, reduced as the bound over all particles is smaller
+ * than that of the block: scattered particles, corrected surfaces, heavy neighbours. */
+static real critical_of_bonds(struct run *e)
+{
+    const struct scene *s = e->scene;
+    real bound;
+    if (s->method == METHOD_MPM) return INFINITY;
+    if (s->method == METHOD_PD && (s->irregularity > 0 || e->part.n <= ITERATED_MOST)) {
+        const real step = critical_step_of(&e->bonds, &e->part, elastic_force(e), &e->loads, s->spacing);
+        return isfinite(step) ? step : s->spacing / e->tables.wave_speed;   /* no bond: any step that the loads allow */
+    }
+    const real step = critical_of_lattices(e, &bound);
+    const real share = real_min(1, bonds_critical_step(&e->part, &e->source) / bound);
+    return share * step * share_of_coupling(e->scene, e->coupling_kind);
+}
+
+/* ---- the step ---------------------------------------------------------------------------------------------------- */
+
+#define STEPS_MOST 1e12                  /* as in scene_check.c: more than any machine can do */
+
+static status make_steps(const struct scene *s, struct run_clock *clock, real dt)
+{
+    if (!(s->duration / dt <= STEPS_MOST))
+        return status_set(REFUSED, "duration %.4g s would take %.1e steps of %.4g s; 1e12 is the most", s->duration,
+                          s->duration / dt, dt);
+    clock->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12));    /* a little less: round-off adds no step */
+    if (clock->steps < 1) clock->steps = 1;
+    clock->steps += (clock->stride - clock->steps % clock->stride) % clock->stride;
+    clock->dt = s->duration / (real)clock->steps;
+    return OK;
+}
+
+/* Share of the step that contact allows: it begins and ends within steps, which costs or gives up to k/2 times the
+ * square of the way of a step. Bars of 50 particles change their energy by 0.3 % a collision in a plane at 0.8 of it,
+ * by 0.1 % at 0.5; in a line, where all of a face meets in one step, bars of 100 by 1 % at 0.8 and 0.1 % at 0.35.
+ * Faces of cracks within one body meet gently: 0.7. A step that is meant to be too long is not shortened. */
+static real contact_safety(const struct scene *s)
+{
+    if (!scene_bodies_meet(s)) return s->safety > 1 ? INFINITY : 0.7;
+    return real_min(s->safety, s->dim == 1 ? 0.35 : 0.5);
+}
+
+/* Below it motion against bulk damping is within 1 % of c v = f/m (damping.c); no stability asks for it. */
+static real damping_step(const struct scene *s) { return s->damping > 0 ? 0.5 / s->damping : INFINITY; }
+
+/* Stiffness of the cores of bonds that the step bears, as kernels/pd/bond_core.h has it; of no step: the most. */
+static real core_stiffness(const struct run *e)
+{
+    if (!scene_moves(e->scene)) return CORE_STIFFNESS;
+    return real_max(0, real_min(CORE_STIFFNESS, square(e->clock.dt_critical / e->clock.dt) - 1));
+}
+
+/* Least mass of a particle over that of its material, where lists say it; 1 where none is lighter [1]. */
+static real lightest_share(const struct scene *s, const struct particles *p)
+{
+    real least = 1;
+    bool own = false;
+    for (int b = 0; b < s->bodies; b++) own |= s->body[b].list.mass;
+    for (int64_t i = 0; i < p->n && own; i++)
+        least = real_min(least, p->mass[i] / (s->material[p->material[i]].density * p->volume0[i]));
+    return least;
+}
+
+/* The critical step is the smallest limit of all methods, whichever kinds are present at the start, since particles
+ * convert. */
+status time_step_make(struct run *e)
+{
+    const struct scene *s = e->scene;
+    e->clock.dt_critical =
+        real_min(real_min(critical_of_bonds(e), critical_of_points(e)), frame_critical_step(e)) *
+        sqrt(lightest_share(s, &e->part));
+    const real contact = contact_critical_step(e->contact, &e->part, s->material, e->clock.dt_critical);
+    const real safety = frame_levels_number(e) > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;
+    const real automatic =
+        real_min(damping_step(s), real_min(safety * e->clock.dt_critical, contact_safety(s) * contact));
+    const real dt = s->time_step > 0 ? s->time_step : automatic;
+    e->clock.stride = 1 << frame_levels_number(e);
+    if (e->clock.stride > 1 && dt > LEVELS_STEP_MOST * e->clock.dt_critical * (1 + 1e-9))
+        return status_set(REFUSED,
+                          "time.step: %.4g s is more than mpm.levels above 0 bears, %.4g s (%.2f of the critical step)",
+                          dt, LEVELS_STEP_MOST * e->clock.dt_critical, LEVELS_STEP_MOST);
+    e->clock.dt_bears = dt;
+    if (scene_in_steps(s)) e->clock.steps = s->steps.number, e->clock.dt = s->duration / s->steps.number;
+    else if (scene_moves(s)) TRY(make_steps(e->scene, &e->clock, dt));
+    else e->clock.steps = s->solver_steps, e->clock.dt = dt;
+    e->source.limit.dt = scene_in_steps(s) ? dt : e->clock.dt;
+    e->source.core = e->bonds.core = core_stiffness(e);
+    return OK;
+}
