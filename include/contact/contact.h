@@ -53,6 +53,13 @@ struct contact_spring {
     real stored, lost;                   /* energy it holds; friction's work since the last search [J] */
 };
 
+/* How the particles that one feels carry the drag of its spring (contact_friction.c): by their weights, with a couple
+ * that balances its moment. Computed anew from the spring in every step. */
+struct contact_reaction {
+    real arm[DIM_MAX];                   /* from their weighted mean position to the particle [m] */
+    real turn[DIM_MAX];                  /* moment of the drag about it over their moment of inertia [N/m] */
+};
+
 /* What a particle feels of faces beside it: energy 1/4 k g^2 where the gap g < 0 (contact_face.c). */
 struct contact_face {
     real zero;                           /* height of its own surface, where contact begins [spacings] */
@@ -100,6 +107,7 @@ struct contact {
     struct contact_face *face;           /* faces: [rows] */
     struct contact_balance *balance;     /* faces: [rows] */
     struct contact_spring *spring;       /* [rows], with friction */
+    struct contact_reaction *reaction;   /* [rows], with friction */
     uint8_t *followed;                   /* [rows] what may push it: a row_state of contact_internal.h */
     bool marked;                         /* in equilibria: what is marked pushes, or pulls, and nothing else does */
     uint8_t *touch;                      /* marks, of faces [rows], of pairs [pairs]; NULL: none yet */

@@ -57,6 +57,7 @@ void contact_free(struct contact *c)
     memory_free(c->rise);
     memory_free(c->face);
     memory_free(c->spring);
+    memory_free(c->reaction);
     memory_free(c->followed);
     memory_free(c->touch);
     memory_free(c->balance);
@@ -265,6 +266,7 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
     if (c->law.friction > 0) {
         ARCHIVE_VALUE(a, "contact/friction_work", c->friction_work);
         TRY(contact_stored(a, "contact/spring", (void **)&c->spring, c->rows, sizeof *c->spring));
+        if (!a->saving) memory_free(c->reaction), c->reaction = NEW("contact.reaction", c->rows, struct contact_reaction);
     }
     TRY(contact_rigid_archive(c, a));
     TRY(contact_marks_archive(c, a));

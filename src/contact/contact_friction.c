@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/team.h"
+#include "data/derived_fields.h"
 #include "contact_internal.h"
 
 /* The spring lies in the face, which may have turned since: its length stays. */
@@ -38,12 +39,32 @@ void contact_slide(struct contact_spring *s, int dim, const real *normal, const 
 
 /* ---- faces ------------------------------------------------------------------------------------------------------- */
 
-/* Normal force on the particle of a row as one that feels, and the mean velocity of what it feels. */
-struct contact_pressure { real force[DIM_MAX], velocity[DIM_MAX], density; };
+/* The slip of particle i is measured against the rigid motion of the particles that it feels, extrapolated to x_i. With
+ * their weights w_j, which sum to 1,
+ *
+ *     slip = v_i - v - omega x a,   v = sum_j w_j v_j,   a = x_i - sum_j w_j x_j,
+ *     I omega = sum_j w_j r_j x v_j,   I = sum_j w_j (r_j^2 1 - r_j r_j),   r_j = x_j - sum_k w_k x_k
+ *
+ * and the forces that do work on this slip are the drag f on i and -w_j (f + (I^-1 (a x f)) x r_j) on j: their sum is 0
+ * and so is that of their moments. In directions in which I is singular or nearly so (one felt particle, or in space
+ * felt particles in a line) the rotation is left out, and the moment of the drag remains. */
+#define COUPLE_MOST 10                   /* squares of the forces that balance the moment, over that of the drag */
+#define INERTIA_LEAST 1e-9               /* of the largest principal value: smaller ones are round-off */
 
-static struct contact_pressure pressure_on(const struct contact *c, const struct particles *p, int64_t row)
+/* The particles that the particle of a row feels, as a rigid body. */
+struct contact_partner {
+    real force[DIM_MAX];                 /* normal force on the particle of the row [N] */
+    real density;                        /* sum of the weights before they are normalised */
+    real arm[DIM_MAX];                   /* from the weighted mean position to the particle of the row [m] */
+    real velocity[DIM_MAX];              /* weighted mean [m/s] */
+    real rate[DIM_MAX];                  /* rotation rate omega [1/s] */
+    real inverse[DIM_MAX][DIM_MAX];      /* pseudo-inverse of I [1/m^2] */
+};
+
+/* Computes the normal force, density, mean position and mean velocity. */
+static struct contact_partner partner_of(const struct contact *c, const struct particles *p, int64_t row)
 {
-    struct contact_pressure sum = {{0}, {0}, 0};
+    struct contact_partner sum = {.density = 0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
         const struct contact_weight w = contact_weight(c, p, row, c->other[q]);
         const int32_t j = c->particle[c->other[q]];
@@ -51,27 +72,103 @@ static struct contact_pressure pressure_on(const struct contact *c, const struct
         sum.density += w.weight;
         for (int d = 0; d < p->dim; d++) {
             sum.force[d] -= w.pull * w.apart[d];
+            sum.arm[d] += w.weight * w.apart[d];
             sum.velocity[d] += w.weight * p->v[d][j];
         }
     }
-    for (int d = 0; d < p->dim && sum.density > 0; d++) sum.velocity[d] /= sum.density;
+    for (int d = 0; d < p->dim && sum.density > 0; d++) sum.arm[d] /= sum.density, sum.velocity[d] /= sum.density;
     return sum;
+}
+
+/* Adds share (r^2 1 - r r) to a symmetric tensor (order of tensor_principal). */
+static void inertia_add(real *tensor, const real *r, real share)
+{
+    for (int d = 0; d < 3; d++) {
+        const int a = d, b = (d + 1) % 3;
+        tensor[d] += share * (square(r[b]) + square(r[(d + 2) % 3]));
+        tensor[3 + d] -= share * r[a] * r[b];
+    }
+}
+
+static real quadratic_form(const real *tensor, const real *e)
+{
+    real sum = 0;
+    for (int d = 0; d < 3; d++) sum += tensor[d] * square(e[d]) + 2 * tensor[3 + d] * e[d] * e[(d + 1) % 3];
+    return sum;
+}
+
+/* Pseudo-inverse of I. squares: I with the squares of the weights, which gives the forces that a moment takes. */
+static void partner_invert(struct contact_partner *to, const real *inertia, const real *squares)
+{
+    real value[3], axis[9];
+    tensor_principal(inertia, value, axis);
+    for (int k = 0; k < 3; k++) {
+        const real *e = axis + 3 * k, forces = dot(to->arm, to->arm, 3) * quadratic_form(squares, e);
+        if (!(value[k] > INERTIA_LEAST * value[0] && COUPLE_MOST * square(value[k]) > forces)) continue;
+        for (int a = 0; a < DIM_MAX; a++)
+            for (int b = 0; b < DIM_MAX; b++) to->inverse[a][b] += e[a] * e[b] / value[k];
+    }
+}
+
+/* Computes the rotation rate and the pseudo-inverse; the rest of *to is given. */
+static void partner_turn(struct contact_partner *to, const struct contact *c, const struct particles *p, int64_t row)
+{
+    real inertia[6] = {0}, squares[6] = {0}, momentum[DIM_MAX] = {0};
+    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
+        const struct contact_weight w = contact_weight(c, p, row, c->other[q]);
+        const int32_t j = c->particle[c->other[q]];
+        const real share = w.weight / to->density;
+        real r[DIM_MAX] = {0}, v[DIM_MAX] = {0}, turn[DIM_MAX];
+        if (w.weight == 0) continue;
+        for (int d = 0; d < p->dim; d++) r[d] = to->arm[d] - w.apart[d], v[d] = p->v[d][j] - to->velocity[d];
+        vector_product(r, v, turn);
+        for (int d = 0; d < DIM_MAX; d++) momentum[d] += share * turn[d];
+        inertia_add(inertia, r, share);
+        inertia_add(squares, r, square(share));
+    }
+    partner_invert(to, inertia, squares);
+    for (int d = 0; d < DIM_MAX; d++) to->rate[d] = dot(to->inverse[d], momentum, DIM_MAX);
 }
 
 void contact_face_slide(struct contact *c, const struct particles *p, int64_t row, real dt)
 {
     struct contact_spring *s = &c->spring[row];
+    struct contact_reaction *reaction = &c->reaction[row];
     const real k = 0.5 * c->face[row].stiffness / square(c->size[row]);
     if (c->face[row].push == 0 && s->stored == 0) return;
-    const struct contact_pressure pressure = pressure_on(c, p, row);
-    const real force = sqrt(dot(pressure.force, pressure.force, p->dim));
-    real normal[DIM_MAX], way[DIM_MAX];
+    struct contact_partner partner = partner_of(c, p, row);
+    const real force = sqrt(dot(partner.force, partner.force, p->dim));
+    real normal[DIM_MAX] = {0}, way[DIM_MAX], turning[DIM_MAX], moment[DIM_MAX];
+    if (p->dim > 1 && force > 0) partner_turn(&partner, c, p, row);
+    vector_product(partner.rate, partner.arm, turning);
     for (int d = 0; d < p->dim; d++) {
-        normal[d] = force > 0 ? pressure.force[d] / force : 0;
-        way[d] = (p->v[d][c->particle[row]] - pressure.velocity[d]) * dt;
+        normal[d] = force > 0 ? partner.force[d] / force : 0;
+        way[d] = (p->v[d][c->particle[row]] - partner.velocity[d] - turning[d]) * dt;
     }
-    s->density = pressure.density;
+    s->density = partner.density;
     contact_slide(s, p->dim, normal, way, k, c->law.friction * force);
+    vector_product(partner.arm, s->drag, moment);
+    for (int d = 0; d < DIM_MAX; d++) {
+        reaction->arm[d] = partner.arm[d];
+        reaction->turn[d] = dot(partner.inverse[d], moment, DIM_MAX);
+    }
+}
+
+/* Adds to f the force that the spring of entry l exerts on the particle of a row, which that of l feels. The forces of
+ * an image are those of its particle, mirrored. */
+static void reaction_add(const struct contact *c, const struct particles *p, int64_t l, int64_t row, real *f)
+{
+    const int64_t root = c->root[l];
+    const struct contact_spring *s = &c->spring[root];
+    const struct contact_weight w = contact_weight(c, p, l, row);
+    const real share = w.weight / s->density;
+    real r[DIM_MAX] = {0}, turning[DIM_MAX], side[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) {
+        side[d] = bits_equal(p->X[d][c->particle[l]], p->X[d][c->particle[root]]) ? 1 : -1;
+        r[d] = c->reaction[root].arm[d] - side[d] * w.apart[d];
+    }
+    vector_product(c->reaction[root].turn, r, turning);
+    for (int d = 0; d < p->dim; d++) f[d] -= side[d] * share * (s->drag[d] + turning[d]);
 }
 
 void contact_face_drag(const struct contact *c, struct particles *p, int64_t row)
@@ -79,13 +176,8 @@ void contact_face_drag(const struct contact *c, struct particles *p, int64_t row
     const int32_t i = c->particle[row];
     real f[DIM_MAX];
     for (int d = 0; d < p->dim; d++) f[d] = c->spring[row].drag[d];
-    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const int64_t l = c->other[q];
-        const struct contact_spring *other = &c->spring[c->root[l]];
-        if (c->face[c->root[l]].push == 0) continue;
-        const real share = contact_weight(c, p, l, row).weight / other->density;
-        for (int d = 0; d < p->dim; d++) f[d] -= share * other->drag[d];
-    }
+    for (int64_t q = c->first[row]; q < c->first[row + 1]; q++)
+        if (c->face[c->root[c->other[q]]].push != 0) reaction_add(c, p, c->other[q], row, f);
     for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
 }
 
@@ -110,6 +202,7 @@ void contact_springs_begin(struct contact *c, const struct contact *before)
 {
     if (!(c->law.friction > 0)) return;
     c->spring = NEW("contact.spring", c->rows, struct contact_spring);
+    c->reaction = NEW("contact.reaction", c->rows, struct contact_reaction);
     for (int64_t row = 0; row < c->rows; row++)
         contact_spring_take(&c->spring[row], before->spring,
                             before->made ? contact_row_of(before, c->particle[row]) : -1);

@@ -243,7 +243,7 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     struct contact before = *c;
     c->particle = NULL, c->root = NULL, c->size = NULL, c->rise = NULL;
     c->first = NULL, c->other = NULL, c->distance = NULL;
-    c->face = NULL, c->spring = NULL, c->near = NULL, c->followed = NULL, c->balance = NULL;
+    c->face = NULL, c->spring = NULL, c->reaction = NULL, c->near = NULL, c->followed = NULL, c->balance = NULL;
     c->touch = NULL;
     for (int d = 0; d < DIM_MAX; d++) c->at[d] = NULL;
     list_exposed(c, p, b, f);
