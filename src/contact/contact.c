@@ -266,7 +266,7 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
     if (c->law.friction > 0) {
         ARCHIVE_VALUE(a, "contact/friction_work", c->friction_work);
         TRY(contact_stored(a, "contact/spring", (void **)&c->spring, c->rows, sizeof *c->spring));
-        if (!a->saving) memory_free(c->reaction), c->reaction = NEW("contact.reaction", c->rows, struct contact_reaction);
+        if (!a->saving) contact_reactions_make(c);
     }
     TRY(contact_rigid_archive(c, a));
     TRY(contact_marks_archive(c, a));

@@ -150,12 +150,17 @@ static real face_pull(const struct contact *c, int64_t k, int64_t l)
     return face->push - face->lift * (c->rise[l] - face->mean);
 }
 
-struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
+struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real ago)
 {
     struct contact_weight w = {0};
-    real reach;
+    const int32_t i = c->particle[k], j = c->particle[l];
+    real reach, r2 = 0;
     const real share = field_share(c, p->dim, k, l, &reach);
-    const real r = sqrt(contact_apart(c, p, k, l, w.apart));
+    for (int d = 0; d < p->dim; d++) {
+        w.apart[d] = p->x[d][i] - p->x[d][j] - ago * (p->v[d][i] - p->v[d][j]);
+        r2 += square(w.apart[d]);
+    }
+    const real r = sqrt(r2);
     if (r >= reach || !(r > 0)) return w;
     w.weight = share * kernel(r / reach);
     w.pull = face_pull(c, k, l) * share * kernel_slope(r / reach) / (reach * r);

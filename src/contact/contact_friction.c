@@ -46,27 +46,26 @@ void contact_slide(struct contact_spring *s, int dim, const real *normal, const 
  *     I omega = sum_j w_j r_j x v_j,   I = sum_j w_j (r_j^2 1 - r_j r_j),   r_j = x_j - sum_k w_k x_k
  *
  * and the forces that do work on this slip are the drag f on i and -w_j (f + (I^-1 (a x f)) x r_j) on j: their sum is 0
- * and so is that of their moments. In directions in which I is singular or nearly so (one felt particle, or in space
- * felt particles in a line) the rotation is left out, and the moment of the drag remains. */
+ * and so is the sum of their moments. Rotation about an axis is left out where the particles stand along it (a single
+ * one, and in space a row of them): the moment of the drag about this axis then remains. */
 #define COUPLE_MOST 10                   /* squares of the forces that balance the moment, over that of the drag */
-#define INERTIA_LEAST 1e-9               /* of the largest principal value: smaller ones are round-off */
+#define INERTIA_LEAST 1e-9               /* of the largest principal value of I: smaller ones are round-off */
 
 /* The particles that the particle of a row feels, as a rigid body. */
 struct contact_partner {
     real force[DIM_MAX];                 /* normal force on the particle of the row [N] */
     real density;                        /* sum of the weights before they are normalised */
-    real arm[DIM_MAX];                   /* from the weighted mean position to the particle of the row [m] */
-    real velocity[DIM_MAX];              /* weighted mean [m/s] */
-    real rate[DIM_MAX];                  /* rotation rate omega [1/s] */
+    real arm[DIM_MAX], velocity[DIM_MAX]; /* a [m]; v [m/s] */
     real inverse[DIM_MAX][DIM_MAX];      /* pseudo-inverse of I [1/m^2] */
+    real slip[DIM_MAX];                  /* [m/s] */
 };
 
-/* Computes the normal force, density, mean position and mean velocity. */
-static struct contact_partner partner_of(const struct contact *c, const struct particles *p, int64_t row)
+/* Computes the normal force, density, mean position and mean velocity at the positions x - ago v. */
+static struct contact_partner partner_mean(const struct contact *c, const struct particles *p, int64_t row, real ago)
 {
     struct contact_partner sum = {.density = 0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const struct contact_weight w = contact_weight(c, p, row, c->other[q]);
+        const struct contact_weight w = contact_weight(c, p, row, c->other[q], ago);
         const int32_t j = c->particle[c->other[q]];
         if (w.weight == 0) continue;
         sum.density += w.weight;
@@ -80,24 +79,25 @@ static struct contact_partner partner_of(const struct contact *c, const struct p
     return sum;
 }
 
-/* Adds share (r^2 1 - r r) to a symmetric tensor (order of tensor_principal). */
+/* Adds share (r^2 1 - r r) to a symmetric tensor, in the order of tensor_principal. */
 static void inertia_add(real *tensor, const real *r, real share)
 {
-    for (int d = 0; d < 3; d++) {
-        const int a = d, b = (d + 1) % 3;
-        tensor[d] += share * (square(r[b]) + square(r[(d + 2) % 3]));
-        tensor[3 + d] -= share * r[a] * r[b];
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3;
+        tensor[a] += share * (square(r[b]) + square(r[(a + 2) % 3]));
+        tensor[3 + a] -= share * r[a] * r[b];
     }
 }
 
 static real quadratic_form(const real *tensor, const real *e)
 {
     real sum = 0;
-    for (int d = 0; d < 3; d++) sum += tensor[d] * square(e[d]) + 2 * tensor[3 + d] * e[d] * e[(d + 1) % 3];
+    for (int a = 0; a < 3; a++) sum += tensor[a] * square(e[a]) + 2 * tensor[3 + a] * e[a] * e[(a + 1) % 3];
     return sum;
 }
 
-/* Pseudo-inverse of I. squares: I with the squares of the weights, which gives the forces that a moment takes. */
+/* Computes the pseudo-inverse of I. squares: I with the squares of the weights, by which the forces of a couple are
+ * found. */
 static void partner_invert(struct contact_partner *to, const real *inertia, const real *squares)
 {
     real value[3], axis[9];
@@ -110,47 +110,60 @@ static void partner_invert(struct contact_partner *to, const real *inertia, cons
     }
 }
 
-/* Computes the rotation rate and the pseudo-inverse; the rest of *to is given. */
-static void partner_turn(struct contact_partner *to, const struct contact *c, const struct particles *p, int64_t row)
+/* Computes the pseudo-inverse of I and omega from the means [1/s]. */
+static void partner_turn(struct contact_partner *to, const struct contact *c, const struct particles *p, int64_t row,
+                         real ago, real *omega)
 {
     real inertia[6] = {0}, squares[6] = {0}, momentum[DIM_MAX] = {0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const struct contact_weight w = contact_weight(c, p, row, c->other[q]);
+        const struct contact_weight w = contact_weight(c, p, row, c->other[q], ago);
         const int32_t j = c->particle[c->other[q]];
         const real share = w.weight / to->density;
-        real r[DIM_MAX] = {0}, v[DIM_MAX] = {0}, turn[DIM_MAX];
+        real r[DIM_MAX] = {0}, v[DIM_MAX] = {0}, turning[DIM_MAX];
         if (w.weight == 0) continue;
         for (int d = 0; d < p->dim; d++) r[d] = to->arm[d] - w.apart[d], v[d] = p->v[d][j] - to->velocity[d];
-        vector_product(r, v, turn);
-        for (int d = 0; d < DIM_MAX; d++) momentum[d] += share * turn[d];
+        vector_product(r, v, turning);
+        for (int d = 0; d < DIM_MAX; d++) momentum[d] += share * turning[d];
         inertia_add(inertia, r, share);
         inertia_add(squares, r, square(share));
     }
     partner_invert(to, inertia, squares);
-    for (int d = 0; d < DIM_MAX; d++) to->rate[d] = dot(to->inverse[d], momentum, DIM_MAX);
+    for (int d = 0; d < DIM_MAX; d++) omega[d] = dot(to->inverse[d], momentum, DIM_MAX);
 }
 
+/* Computes all that contact_partner holds at the positions x - ago v. */
+static struct contact_partner partner_at(const struct contact *c, const struct particles *p, int64_t row, real ago)
+{
+    struct contact_partner partner = partner_mean(c, p, row, ago);
+    real omega[DIM_MAX] = {0}, turning[DIM_MAX];
+    if (p->dim > 1 && partner.density > 0) partner_turn(&partner, c, p, row, ago, omega);
+    vector_product(omega, partner.arm, turning);
+    for (int d = 0; d < p->dim; d++)
+        partner.slip[d] = p->v[d][c->particle[row]] - partner.velocity[d] - turning[d];
+    return partner;
+}
+
+/* Half of a step is measured where it began and half where it ends, as leap-frog lets the forces of both work on it. */
 void contact_face_slide(struct contact *c, const struct particles *p, int64_t row, real dt)
 {
     struct contact_spring *s = &c->spring[row];
     struct contact_reaction *reaction = &c->reaction[row];
     const real k = 0.5 * c->face[row].stiffness / square(c->size[row]);
     if (c->face[row].push == 0 && s->stored == 0) return;
-    struct contact_partner partner = partner_of(c, p, row);
-    const real force = sqrt(dot(partner.force, partner.force, p->dim));
-    real normal[DIM_MAX] = {0}, way[DIM_MAX], turning[DIM_MAX], moment[DIM_MAX];
-    if (p->dim > 1 && force > 0) partner_turn(&partner, c, p, row);
-    vector_product(partner.rate, partner.arm, turning);
+    const struct contact_partner now = partner_at(c, p, row, 0), before = partner_at(c, p, row, dt);
+    const real force = sqrt(dot(now.force, now.force, p->dim));
+    const real *first = before.density > 0 ? before.slip : now.slip;
+    real normal[DIM_MAX], way[DIM_MAX], moment[DIM_MAX];
     for (int d = 0; d < p->dim; d++) {
-        normal[d] = force > 0 ? partner.force[d] / force : 0;
-        way[d] = (p->v[d][c->particle[row]] - partner.velocity[d] - turning[d]) * dt;
+        normal[d] = force > 0 ? now.force[d] / force : 0;
+        way[d] = 0.5 * (first[d] + now.slip[d]) * dt;
     }
-    s->density = partner.density;
+    s->density = now.density;
     contact_slide(s, p->dim, normal, way, k, c->law.friction * force);
-    vector_product(partner.arm, s->drag, moment);
+    vector_product(now.arm, s->drag, moment);
     for (int d = 0; d < DIM_MAX; d++) {
-        reaction->arm[d] = partner.arm[d];
-        reaction->turn[d] = dot(partner.inverse[d], moment, DIM_MAX);
+        reaction->arm[d] = now.arm[d];
+        reaction->turn[d] = dot(now.inverse[d], moment, DIM_MAX);
     }
 }
 
@@ -160,7 +173,7 @@ static void reaction_add(const struct contact *c, const struct particles *p, int
 {
     const int64_t root = c->root[l];
     const struct contact_spring *s = &c->spring[root];
-    const struct contact_weight w = contact_weight(c, p, l, row);
+    const struct contact_weight w = contact_weight(c, p, l, row, 0);
     const real share = w.weight / s->density;
     real r[DIM_MAX] = {0}, turning[DIM_MAX], side[DIM_MAX];
     for (int d = 0; d < p->dim; d++) {
@@ -197,12 +210,18 @@ static real springs_sum(const struct contact *c, real (*term)(const void *contex
 real contact_friction_stored(const struct contact *c) { return springs_sum(c, stored_in); }
 real contact_friction_work(const struct contact *c) { return c->friction_work + springs_sum(c, lost_by); }
 
+void contact_reactions_make(struct contact *c)
+{
+    memory_free(c->reaction);
+    c->reaction = NEW("contact.reaction", c->rows, struct contact_reaction);
+}
+
 /* Springs of those that touch go on with their particles; what the others hold is lost. */
 void contact_springs_begin(struct contact *c, const struct contact *before)
 {
     if (!(c->law.friction > 0)) return;
     c->spring = NEW("contact.spring", c->rows, struct contact_spring);
-    c->reaction = NEW("contact.reaction", c->rows, struct contact_reaction);
+    contact_reactions_make(c);
     for (int64_t row = 0; row < c->rows; row++)
         contact_spring_take(&c->spring[row], before->spring,
                             before->made ? contact_row_of(before, c->particle[row]) : -1);

@@ -111,7 +111,9 @@ struct contact_balance contact_balance_begin(const struct contact_balance *befor
 
 /* What entry l adds to what entry k feels: its weight; derivative of the energy of k over r [N/m]; from l to k [m]. */
 struct contact_weight { real weight, pull, apart[DIM_MAX]; };
-struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l);
+/* Computes these for the positions x - ago v [s]; the energy is the present one. */
+struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
+                                     real ago);
 
 /* A step of a spring: its face has the normal `normal` (0: left), the particle went `way` past it [m]; k [N/m]; most:
  * at which it gives way [N], 0 where both have parted. */
@@ -120,6 +122,8 @@ void contact_slide(struct contact_spring *s, int dim, const real *normal, const 
 void contact_face_slide(struct contact *c, const struct particles *p, int64_t row, real dt);
 void contact_face_drag(const struct contact *c, struct particles *p, int64_t row);
 real contact_friction_stored(const struct contact *c);
+/* Makes room for the reactions of all rows; what they hold is computed with the next forces. */
+void contact_reactions_make(struct contact *c);
 void contact_springs_begin(struct contact *c, const struct contact *before);
 void contact_spring_take(struct contact_spring *to, const struct contact_spring *before, int64_t at);
 void contact_friction_settle(struct contact *c, const struct contact *before);
