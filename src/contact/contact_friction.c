@@ -167,30 +167,26 @@ void contact_face_slide(struct contact *c, const struct particles *p, int64_t ro
     }
 }
 
-/* Adds to f the force that the spring of entry l exerts on the particle of a row, which that of l feels. The forces of
- * an image are those of its particle, mirrored. */
+/* Adds to f the reaction of the spring of row l on the particle of `row`, which l feels. */
 static void reaction_add(const struct contact *c, const struct particles *p, int64_t l, int64_t row, real *f)
 {
-    const int64_t root = c->root[l];
-    const struct contact_spring *s = &c->spring[root];
+    const struct contact_reaction *reaction = &c->reaction[l];
     const struct contact_weight w = contact_weight(c, p, l, row, 0);
-    const real share = w.weight / s->density;
-    real r[DIM_MAX] = {0}, turning[DIM_MAX], side[DIM_MAX];
-    for (int d = 0; d < p->dim; d++) {
-        side[d] = bits_equal(p->X[d][c->particle[l]], p->X[d][c->particle[root]]) ? 1 : -1;
-        r[d] = c->reaction[root].arm[d] - side[d] * w.apart[d];
-    }
-    vector_product(c->reaction[root].turn, r, turning);
-    for (int d = 0; d < p->dim; d++) f[d] -= side[d] * share * (s->drag[d] + turning[d]);
+    const real share = w.weight / c->spring[l].density;
+    real r[DIM_MAX] = {0}, turning[DIM_MAX];
+    for (int d = 0; d < p->dim; d++) r[d] = reaction->arm[d] - w.apart[d];
+    vector_product(reaction->turn, r, turning);
+    for (int d = 0; d < p->dim; d++) f[d] -= share * (c->spring[l].drag[d] + turning[d]);
 }
 
+/* No particle has images: scenes with mirrors have no friction. */
 void contact_face_drag(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
     real f[DIM_MAX];
     for (int d = 0; d < p->dim; d++) f[d] = c->spring[row].drag[d];
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++)
-        if (c->face[c->root[c->other[q]]].push != 0) reaction_add(c, p, c->other[q], row, f);
+        if (c->face[c->other[q]].push != 0) reaction_add(c, p, c->other[q], row, f);
     for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
 }
 

@@ -34,11 +34,9 @@ static void say_spin(struct run *e)
     char text[360];
     if (!e->diagnostics->turns || !(error > SPIN_DOUBTFUL)) return;
     snprintf(text, sizeof text,
-             "%.*f %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error)%s%s",
+             "%.*f %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error)%s",
              error < 0.095, 100 * error,
-             apic ? ": mpm.transfer apic leaves some percent to velocity gradients, flip keeps it to 0.1 to 1 %" : "",
-             e->scene->contact_friction > 0 ? "; friction acts on particles, not at the faces between them, and takes "
-                                              "some percent of what a collision gives" : "");
+             apic ? ": mpm.transfer apic leaves some percent to velocity gradients, flip keeps it to 0.1 to 1 %" : "");
     run_say(e, text);
 }
 
