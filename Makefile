@@ -85,7 +85,7 @@ $(BUILD)/%.o: %.c Makefile
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(rest) $(LIBFLAGS) -MMD -MP -c -o $@ $<
 
 # The cost-accuracy table that `method: auto` chooses from, as strings of C.
-$(BUILD)/cost_accuracy_text.h: src/auto/cost_accuracy.csv Makefile
+$(BUILD)/cost_accuracy_text.h: bench/accuracy/cost_accuracy.csv Makefile
 	@mkdir -p $(@D)
 	@awk '{gsub(/"/, "\\\""); printf "\"%s\\n\"\n", $$0}' $< > $@
 $(BUILD)/src/auto/cost_accuracy.o: $(BUILD)/cost_accuracy_text.h

@@ -149,19 +149,11 @@ status accuracy_store_read(struct accuracy_plan *plan);
 status accuracy_store_append(const struct accuracy_entry *entry);
 status accuracy_store_write(const struct accuracy_plan *plan);
 
-/* bench_accuracy.c: one run on `team` + 1 threads: least time so far; the error where r is not yet known. A run that
- * the program stops as unstable is a result, too. With `choice` it is a scene of method auto. */
-void accuracy_result_clear(struct accuracy_result *r);
-status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene *from, int team,
-                          struct accuracy_result *r, struct scene_choice *choice);
-#define ACCURACY_AUTO BENCH_FOLDER "/accuracy_auto.csv"
-/* accuracy_auto.c: `cleave bench accuracy=auto`: method auto on every case of the table and on other problems. */
-status accuracy_auto(struct accuracy_plan *plan, bool quick);
-/* accuracy_others.c: problems with known solutions that are not in the table. */
-extern const struct accuracy_problem *const accuracy_other[];
-extern const int accuracy_others;
-
-/* accuracy_table.c: results/bench/cost_accuracy.csv, from which `method: auto` chooses. */
+/* Header of cost_accuracy.csv. `keys`: the scene keys that make the method, key=value;key=value, beside spacing,
+ * horizon and step. */
+#define ACCURACY_TABLE_HEADER "problem,case,method,resolution,horizon,step,error,seconds,particles,steps,keys"
+/* Writes results/bench/cost_accuracy.csv: the known points of all lines that reach the front of their family in some
+ * case (accuracy_table.c). bench/accuracy/cost_accuracy.csv is a copy of the last full measurement. */
 status accuracy_table_write(const struct accuracy_plan *plan);
 
 /* ---- accuracy_front.c: what a cloud of points says --------------------------------------------------------------- */

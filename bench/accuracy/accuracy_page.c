@@ -75,33 +75,6 @@ static void put_unstable(FILE *to, const struct accuracy_plan *plan)
     }
 }
 
-/* What `bench accuracy=auto` found, if it ran: a table as it is written, numbers to three digits. */
-static void put_auto(FILE *to)
-{
-    char *text = NULL;
-    size_t length;
-    if (!path_is_file(ACCURACY_AUTO) || file_get(ACCURACY_AUTO, &text, &length) != OK) return;
-    fputs("\n## What `method: auto` makes of it\n\nTimes are of one thread; the ratio is to the best run of the chart "
-          "that is "
-          "as accurate, timed in turn.\n\n",
-          to);
-    int line = 0;
-    for (char *row = strtok(text, "\n"); row; row = strtok(NULL, "\n"), line++) {
-        int columns = 0;
-        for (char *cell = row; cell; columns++) {
-            char *end, *next = strchr(cell, ',');
-            if (next) *next++ = '\0';
-            const double number = strtod(cell, &end);
-            if (*cell && *end == '\0') fprintf(to, "| %.3g ", number);
-            else fprintf(to, "| %s ", cell);
-            cell = next;
-        }
-        fputs("|\n", to);
-        for (int k = 0; line == 0 && k < columns; k++) fputs(k < columns - 1 ? "|---" : "|---|\n", to);
-    }
-    memory_free(text);
-}
-
 static void put_page(FILE *to, const struct accuracy_plan *plan)
 {
     fprintf(to,
@@ -110,7 +83,6 @@ static void put_page(FILE *to, const struct accuracy_plan *plan)
             plan->machine.model, plan->machine.cores, CLEAVE_VERSION);
     accuracy_page_put_table(to, plan);
     put_unstable(to, plan);
-    put_auto(to);
     fputs("\n## The problems\n", to);
     for (int k = 0; k < accuracy_problems; k++) {
         const struct accuracy_problem *q = accuracy_problem[k];

@@ -1,13 +1,12 @@
-/* Results/bench/cost_accuracy.csv: what `method: auto` chooses from (src/auto/cost_accuracy.h), made of what is
- * known of the table. Kept are lines, all resolutions of a method at one horizon and step, of which a point lies on
- * the front of its family in some case: a scene may rule out all families but one. */
+/* Writes results/bench/cost_accuracy.csv from the known points of the table. Kept are lines, all resolutions of a
+ * method at one horizon and step, of which a point is on the front of its family in some case: a scene may rule out
+ * all families but one. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "accuracy.h"
-#include "src/auto/cost_accuracy.h"
 #include "base/memory.h"
 #include "output/output_files.h"
 
@@ -96,7 +95,7 @@ status accuracy_table_write(const struct accuracy_plan *plan)
     FILE *to = fopen(path, "w");
     if (!to) return file_fault(path, errno);
     bool *kept = kept_points(plan);
-    fputs(TABLE_HEADER "\n", to);
+    fputs(ACCURACY_TABLE_HEADER "\n", to);
     for (int k = 0; k < plan->n; k++)
         if (kept[k] && is_usable(&plan->entry[k])) put_entry(to, &plan->entry[k]);
     memory_free(kept);

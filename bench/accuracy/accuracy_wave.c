@@ -8,11 +8,9 @@
 #include "probes/probes.h"
 #include "step/step.h"
 
-/* Those of the table, and after them those of accuracy_others.c. */
-enum { WAVES = ACCURACY_CASES + 4 };
-static const struct { double angle; bool transverse; } wave_of[WAVES] = {       /* [degrees] */
-    {0, false}, {22.5, false}, {45, false}, {0, true}, {22.5, true}, {45, true}, {30, false}, {12, true}, {22.5, false},
-    {0, false}};
+/* Direction of the wave in each case [degrees], and whether it is an S wave. */
+static const struct { double angle; bool transverse; } wave_of[] = {
+    {0, false}, {22.5, false}, {45, false}, {0, true}, {22.5, true}, {45, true}};
 
 static const double longitudinal = 100;                  /* speed of P waves [m/s]                                */
 static const double duration = 2e-3;                     /* P waves go 0.2 m                                [s]   */
@@ -28,9 +26,8 @@ static const char text[] =
 /* The packet passes the middle half-way: S waves go 1/sqrt(3) of the way. */
 static struct wave_pulse pulse_of(const struct accuracy_point *p)
 {
-    const int at = p->at + (p->problem == &accuracy_wave ? 0 : ACCURACY_CASES);
-    const double angle = wave_of[at].angle * M_PI / 180, c = cos(angle), s = sin(angle);
-    const bool transverse = wave_of[at].transverse;
+    const double angle = wave_of[p->at].angle * M_PI / 180, c = cos(angle), s = sin(angle);
+    const bool transverse = wave_of[p->at].transverse;
     const double start = -0.5 * duration * longitudinal * (transverse ? 1 / sqrt(3) : 1);
     struct wave_pulse w = {.at = {start * c, start * s}, .direction = {c, s}, .width = 4 * radius, .velocity = 1e-4,
                            .polarisation = {c, s}, .transverse = transverse};

@@ -31,37 +31,28 @@ static double processor_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-void accuracy_result_clear(struct accuracy_result *r)
-{
-    *r = (struct accuracy_result){.error = NAN, .part = {NAN, NAN, NAN}, .seconds = {INFINITY, INFINITY}};
-}
-
-status accuracy_run_scene(const struct accuracy_point *p, struct accuracy_scene *from, int team,
-                          struct accuracy_result *r, struct scene_choice *choice)
+/* Runs a point on `team` + 1 threads and keeps the least loop time so far; measures the error where the result is not
+ * yet known. A run that the program stops as unstable is a result, too. */
+static status accuracy_run_once(struct accuracy_entry *entry, int team)
 {
     struct run e;
     struct scene s;
-    struct accuracy_point at = *p;
+    struct accuracy_scene from;
+    const struct accuracy_point *p = &entry->point;
+    struct accuracy_result *r = &entry->result;
+    accuracy_scene_make(p, &from);
     team_make(team + 1);
-    TRY(bench_engine_make(&e, &s, from->path[0] ? from->path : p->problem->name, from->path[0] ? NULL : from->text,
-                          bench_overrides_ready(&from->set), from->set.n));
-    if (choice) *choice = s.choice, at.resolution = (int)round(s.choice.resolution);
+    TRY(bench_engine_make(&e, &s, from.path[0] ? from.path : p->problem->name, from.path[0] ? NULL : from.text,
+                          bench_overrides_ready(&from.set), from.set.n));
     const double before = processor_seconds();
-    status ran = p->problem->run ? p->problem->run(&at, &e) : engine_run(&e);
+    status ran = p->problem->run ? p->problem->run(p, &e) : engine_run(&e);
     const double busy = team == 0 ? processor_seconds() - before : INFINITY;
     r->seconds[team] = fmin(r->seconds[team], fmin(e.report->loop_seconds, busy));
     r->particles = (double)e.part.n, r->steps = (double)e.clock.step, r->stable = ran == OK;
-    if (ran == OK && !r->known) ran = p->problem->measure(&at, &e, &r->error, r->part);
+    if (ran == OK && !r->known) ran = p->problem->measure(p, &e, &r->error, r->part);
     bench_engine_free(&e, &s);
     r->known = true;
     return ran == FAILED ? OK : ran;
-}
-
-static status accuracy_run_once(struct accuracy_entry *entry, int team)
-{
-    struct accuracy_scene from;
-    accuracy_scene_make(&entry->point, &from);
-    return accuracy_run_scene(&entry->point, &from, team, &entry->result, NULL);
 }
 
 /* The error hangs on no number of threads, so it is measured once. A bar is too short to be shared. */
@@ -70,7 +61,7 @@ static status run_point(struct accuracy_entry *entry)
     struct accuracy_result *r = &entry->result;
     char settings[sizeof r->settings];
     memcpy(settings, r->settings, sizeof settings);
-    accuracy_result_clear(r);
+    *r = (struct accuracy_result){.error = NAN, .part = {NAN, NAN, NAN}, .seconds = {INFINITY, INFINITY}};
     memcpy(r->settings, settings, sizeof settings);
     double spent = 0;
     for (int run = 0; run < RUNS_MOST && spent < RUNS_SECONDS; run++)
@@ -187,15 +178,13 @@ static bool is_problem(const char *name)
 status bench_accuracy_of(const char *only, bool quick)
 {
     struct accuracy_plan plan = {0};
-    const bool chart = only && strcmp(only, "chart") == 0, automatic = only && strcmp(only, "auto") == 0;
+    const bool chart = only && strcmp(only, "chart") == 0;
     if (only && strcmp(only, "reference") == 0) return accuracy_reference(quick);
-    if (only && !chart && !automatic && !is_problem(only))
+    if (only && !chart && !is_problem(only))
         return status_set(REFUSED, "bench accuracy: there is no problem %s", only);
     printf("accuracy\n");
     bench_print_machine(team_make(0));
-    status s = automatic ? accuracy_auto(&plan, quick)
-               : chart   ? write_known(&plan)
-                         : accuracy_measure_all(&plan, only, quick);
+    const status s = chart ? write_known(&plan) : accuracy_measure_all(&plan, only, quick);
     accuracy_plan_free(&plan);
     return s;
 }

@@ -1,7 +1,7 @@
 /* The measured cost-accuracy table, read by `method: auto`: error and time of runs of problems with known solutions.
- * `cleave bench accuracy` writes it (results/bench/cost_accuracy.csv); its copy src/auto/cost_accuracy.csv is part of
- * the program. One run per line; `keys`: scene keys that make the method, key=value;key=value, beside spacing, horizon
- * and step. */
+ * `cleave bench accuracy` writes it (results/bench/cost_accuracy.csv); its copy bench/accuracy/cost_accuracy.csv is
+ * part of the program. One run per line; `keys`: scene keys that make the method, key=value;key=value, beside spacing,
+ * horizon and step. */
 #ifndef CLEAVE_COST_ACCURACY
 #define CLEAVE_COST_ACCURACY
 

@@ -146,7 +146,7 @@ refused "no figure" "no figure of summary.json" "$work/crack.yaml" -s "accuracy=
 refused "an unknown key" "acuracy\|bydget" "$work/crack.yaml" -s "accuracy={bydget: 3 s}"
 
 # A table of one's own: with peridynamics alone, it is peridynamics.
-{ head -n 1 src/auto/cost_accuracy.csv; grep '^bar,pulse,pd bond,' src/auto/cost_accuracy.csv; } >"$work/own.csv"
+{ head -n 1 bench/accuracy/cost_accuracy.csv; grep '^bar,pulse,pd bond,' src/auto/cost_accuracy.csv; } >"$work/own.csv"
 calm "$work/own" "$work/pulse.yaml" -s "accuracy_table=own.csv" -s accuracy=5%
 is "a table of one's own" "$(figure "$work/own" auto.picked)" "pd bond"
 
@@ -166,9 +166,9 @@ boundary: [{velocity: [2.2 m/s, free], region: {box: {from: [-3 mm, -25 mm], to:
 output: {frames: 0, samples: 4}
 END
 {
-    head -n 1 src/auto/cost_accuracy.csv
-    grep '^fracture,Kalthoff,adaptive reference,' src/auto/cost_accuracy.csv
-    grep '^fracture,Kalthoff,adaptive reference,' src/auto/cost_accuracy.csv | awk -F, -v OFS=, '
+    head -n 1 bench/accuracy/cost_accuracy.csv
+    grep '^fracture,Kalthoff,adaptive reference,' bench/accuracy/cost_accuracy.csv
+    grep '^fracture,Kalthoff,adaptive reference,' bench/accuracy/cost_accuracy.csv | awk -F, -v OFS=, '
         { $3 = "adaptive levels 2"; $8 *= 0.5; sub(/mpm.levels=0/, "mpm.levels=2", $11); print }'
 } >"$work/levels.csv"
 calm "$work/levels" "$work/struck.yaml"
