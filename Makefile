@@ -84,12 +84,6 @@ $(BUILD)/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(rest) $(LIBFLAGS) -MMD -MP -c -o $@ $<
 
-# The cost-accuracy table that `method: auto` chooses from, as strings of C.
-$(BUILD)/cost_accuracy_text.h: bench/accuracy/cost_accuracy.csv Makefile
-	@mkdir -p $(@D)
-	@awk '{gsub(/"/, "\\\""); printf "\"%s\\n\"\n", $$0}' $< > $@
-$(BUILD)/src/auto/cost_accuracy.o: $(BUILD)/cost_accuracy_text.h
-
 # What this build has, for the two files that list it; written anew only where it changes.
 PARTS    := $(SETS:%=KERNELS_%) $(if $(BENCHES),WITH_BENCHES)
 $(BUILD)/parts.h: always
@@ -133,7 +127,6 @@ FUZZED   := -O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fsanitiz
 $(BUILD)/fuzz/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(FUZZED) $(LIBFLAGS) -MMD -MP -c -o $@ $<
-$(BUILD)/fuzz/src/auto/cost_accuracy.o: $(BUILD)/cost_accuracy_text.h
 $(BUILD)/fuzz/fuzz: $(BUILD)/tests/robustness/fuzz.o $(patsubst %.c,$(BUILD)/fuzz/%.o,$(wildcard tests/robustness/fuzz_*.c) \
                     $(filter-out src/app/main.c,$(wildcard src/*/*.c))) $(filter $(BUILD)/kernels/% $(BUILD)/bench/%,$(OBJECTS))
 	$(Q)$(CC) $(CFLAGS) $(FUZZED) -o $@ $^ $(LIBS)

@@ -8,7 +8,7 @@ sources=$(find src include kernels bench tests -name '*.[ch]' | sort)
 program=$(find src include kernels bench -name '*.[ch]' | sort)
 
 # Rooms from the ground up; rooms on one line stand side by side and may use each other in that order.
-rooms="base data bonds kernels simd loads output geometry scene auto run grid mesh rigid contact coupling fracture solver probes step quasistatic engine export plot study bench app"
+rooms="base data bonds kernels simd loads output geometry scene run grid mesh rigid contact coupling fracture solver probes step quasistatic engine export plot study bench app"
 
 # nothing WHAT: the file `found` is empty; else it is the failure.
 found=$work/found

@@ -2,9 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "accuracy.h"
 #include "base/memory.h"
+#include "scene/scene_read.h"
 
 const struct accuracy_problem *const accuracy_problem[] = {
     &accuracy_bar,    &accuracy_wave,   &accuracy_square, &accuracy_cube,    &accuracy_hole,

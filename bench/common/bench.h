@@ -199,7 +199,7 @@ status bench_absorbing(bool quick);
 
 /* bench_uncertainty.c: are the error bars of `cleave converge` true? */
 status bench_uncertainty(bool quick);
-/* bench_pilot.c: does `method: auto` keep its word outside the table? */
+/* bench_pilot.c: does `method: auto` keep its word? */
 status bench_pilot(bool quick);
 
 /* bench_experiments.c: cracks beside laboratories and other codes. */

@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "bench.h"
 #include "step/report.h"
+#include "scene/scene_read.h"
 
 const struct bench_block bench_blocks[BENCH_BLOCKS] = {
     {"pd", 2, "pd", "current"},           {"mpm", 2, "mpm", "current"},

@@ -13,7 +13,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "auto/scene_read.h"
 #include "bench.h"
 #include "base/memory.h"
 #include "output/output_files.h"
@@ -23,6 +22,7 @@
 #include "probes/probes.h"
 #include "probes/probes_part.h"
 #include "step/step.h"
+#include "scene/scene_read.h"
 
 extern char **environ;
 

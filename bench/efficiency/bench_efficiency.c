@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "efficiency.h"
 #include "plot/gnuplot.h"
 #include "base/memory.h"
 #include "step/report.h"
 #include "fracture/tips.h"
+#include "scene/scene_read.h"
 
 enum { BARS = 5 };     /* ways that have a colour */
 enum {

@@ -5,11 +5,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "auto/scene_read.h"
 #include "efficiency.h"
 #include "plot/gnuplot.h"
 #include "base/memory.h"
 #include "fracture/tips.h"
+#include "scene/scene_read.h"
 
 enum { STEPS = 9, STEPS_QUICK = 3, METHODS = 2 };
 #define STEP_RANGE 0.1

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "bench/common/bench.h"
 #include "output/summary_read.h"
+#include "scene/scene_read.h"
 
 struct stepped_case {
     const char *name, *file, *key, *value; /* an override; NULL: none */

@@ -5,11 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "sif_bench.h"
 #include "plot/gnuplot.h"
 #include "base/memory.h"
 #include "fracture/sif_fields.h"
+#include "scene/scene_read.h"
 
 #define SCENE "inputs/semi_infinite_crack.yaml"
 

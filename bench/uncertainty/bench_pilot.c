@@ -1,6 +1,5 @@
-/* `cleave bench pilot`: does `method: auto` keep its word where the cost-accuracy table has no problem like the scene?
- * Scenes with known answers, each asked for one figure within some percent, by pilot runs and the run that they choose.
- */
+/* `cleave bench pilot`: does `method: auto` keep its word? Scenes with known answers, each asked for one figure within
+ * some percent, by pilot runs and the run that they choose. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>

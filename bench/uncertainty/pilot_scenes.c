@@ -1,5 +1,4 @@
-/* Scenes unlike the problems of the cost-accuracy table, each with one figure in closed form. Texts leave out method,
- * accuracy, spacing and output. */
+/* Scenes with one figure in closed form each. Texts leave out method, accuracy, spacing and output. */
 #include "uncertainty.h"
 
 #define STEEL_LINE "material: {young: 200 GPa, density: 8000}\n" /* c = 5000 m/s */
@@ -69,6 +68,28 @@ const struct pilot_scene pilot_scenes[] = {
      "mm]}]\n"
      "boundary: [{mirror: {axis: x, at: 0}}, {traction: [0, 1 MPa], face: y+}, {traction: [0, -1 MPa], face: y-}]\n",
      "probes.sif.K_I", 105127.26},
+
+    /* An edge crack in a square, a/W = 1/2, H = W: K = 3.009 sigma sqrt(pi a) (boundary collocation). */
+    {"edge crack",
+     "space: plane stress\nthickness: 1 mm\nduration: 1 s\nsolver: static\n"
+     "material: {young: 70 GPa, poisson: 0.3, density: 2700}\nbody: {box: {from: [0, 0], to: [16 mm, 16 mm]}}\n"
+     "cracks: [{from: [-1 mm, 8 mm], to: [8 mm, 8 mm]}]\nprobes: [sif: {contours: [3.2 mm]}]\n"
+     "boundary: [{traction: [0, 1 MPa], face: y+}, {traction: [0, -1 MPa], face: y-}]\n",
+     "probes.sif.K_I", 477026.07},
+
+    /* A pulse of 0.1 m in steel, v exp(-(x/r)^2), goes 0.3 m: its crest is at 0.7 m. */
+    {"pulse in a bar",
+     "space: line\nduration: 60 us\nmaterial: {young: 200 GPa, density: 8000, critical_stretch: inf}\n"
+     "body: {box: {from: [0], to: [1.2]}}\nprobes: [point: {name: crest, at: [0.7]}]\n"
+     "initial: [{pulse: {at: [0.4], direction: [1], width: 0.1, velocity: 1 mm/s}}]\n",
+     "probes.crest.velocity_x", 1e-3},
+
+    /* 0.1 m of a bar strike 0.9 m of it: the break is at 0.1 m from the free end when the waves have gone 1 m. */
+    {"bar that spalls",
+     "space: line\nduration: 0.23 ms\nmaterial: {young: 200 GPa, density: 8000, critical_stretch: 1.5515e-3}\n"
+     "body: {box: {from: [0], to: [1]}}\nprobes: [spall]\n"
+     "initial: [{velocity: [-20], region: {box: {from: [0.9], to: [1]}}}]\n",
+     "probes.spall.time", 2e-4},
 
     /* A square of 10 mm turns with 1000/s: rho h a^4/12 omega^2. */
     {"turning square",

@@ -27,8 +27,6 @@ status engine_baseline(struct run *e);
 /* Everything about the scene that is allowed but probably not meant, into e->warnings. Call once, before the first
  * step. */
 void engine_warn(struct run *e);
-/* What `method: auto` has chosen, levels with it; nothing without it. */
-void engine_choice_print(const struct run *e, FILE *out);
 /* Writes summary.json of the run so far; s is its status, `threads` and `wall_seconds` as measured by the caller. */
 status summary_write(const struct run *e, status s, int threads, double wall_seconds);
 

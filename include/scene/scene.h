@@ -17,8 +17,8 @@
 #include "particle_list.h"
 #include "requests.h"
 
-/* METHOD_AUTO and FRAME_AUTO are requests, and SOLVER_STATIC with METHOD_AUTO: reading a scene resolves them. Otherwise
- * SOLVER_STATIC is that of load steps. */
+/* FRAME_AUTO is a request that reading a scene resolves. METHOD_AUTO is a word of scene files alone: pilot runs replace
+ * it (scene_read.h). SOLVER_STATIC is that of load steps. */
 enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE, METHOD_AUTO };
 enum { FILL_AUTO, FILL_ALL, FILL_NEEDED };   /* mpm.fill */
 enum { LEVELS_AUTO = 5 };                /* mpm.levels: auto */
@@ -81,20 +81,6 @@ struct scene_initial {
     struct wave_pulse pulse;
 };
 
-/* What `method: auto` chose, and why: from the table's problem that the scene is like. */
-struct scene_choice {
-    bool made;
-    char like[80], feature[40];          /* that problem; what the spacing resolves */
-    real size, points;                   /* of the feature [m], in spacings */
-    real resolution;                     /* as that problem counts */
-    real accuracy, error;                /* required, expected [1] */
-    real seconds;                        /* of the loop on one thread of the table's machine, about */
-    char picked[80];                     /* the table's method */
-    real horizon, step;                  /* [spacings], 0 without bonds; share of the critical step */
-    char second[80];                     /* the next best method and how much longer it takes; "": none */
-    real second_error, second_share;     /* [1], its time over that of the choice */
-};
-
 /* Frames of a region at a rate of their own. */
 struct scene_series {
     char name[NAME_MAX_LENGTH];
@@ -144,7 +130,6 @@ struct scene {
     int regions;    struct named_region *named;
     struct shape_file *shapes;           /* files that solids are made of (shape_file.h) */
 
-    struct scene_choice choice;
 
     real spacing, horizon, irregularity; /* [m], in spacings, [1] */
     uint64_t seed;
@@ -269,7 +254,7 @@ int scene_material_at(const struct scene *s, const struct scene_body *b, const r
 /* Can a particle of the body be of this material? */
 bool scene_body_has(const struct scene_body *b, int material);
 
-/* Frees what a scene holds; a scene is read by auto/scene_read.h. */
+/* Frees what a scene holds; a scene is read by scene_read.h. */
 void scene_free(struct scene *s);
 
 /* Why a body cannot be in the reference frame whatever it does, and why `mpm.frame: auto` would not put it there of

@@ -1,7 +1,8 @@
-/* Runs of a scene at coarse spacings that choose its method and spacing, where `method: auto` has no answer in the
- * cost-accuracy table. */
+/* Pilot runs: runs of a scene with `method: auto` at coarse spacings, which choose its method and spacing. */
 #ifndef CLEAVE_PILOT
 #define CLEAVE_PILOT
+
+#include <stdio.h>
 
 #include "study/study.h"
 
@@ -14,10 +15,12 @@ struct pilot {
     char key[CHOSEN_MOST][CHOSEN_ROOM], value[CHOSEN_MOST][CHOSEN_ROOM];
 };
 
-/* Spacing for the first runs [m]: lengths that have to be resolved have a few spacings. 0: the scene has none. */
-double pilot_spacing(const struct scene *s);
+/* Prints what the pilot runs of a scene judge, what they vary and what they cost. REFUSED where no pilot runs can be
+ * made. scene: path of its file. */
+struct pilot_wish;
+status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out);
 
-/* Reads a scene, with the overrides. Where it wants pilot runs, they are made in FOLDER_pilot (`folder` NULL:
+/* Reads a scene, with the overrides. Where it has `method: auto`, pilot runs are made in FOLDER_pilot (`folder` NULL:
  * results/NAME) and the choice is kept there: the same scene has it without runs. `way`: quiet, stop. REFUSED where the
  * scene is not sound, or where no method reaches what is asked, with how far each comes; INTERRUPTED. */
 status pilot_scene_read(struct scene *s, struct pilot *p, const char *scene, const struct scene_override *override,

@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "auto/scene_read.h"
 #include "check_parts.h"
 #include "commands.h"
 #include "engine/engine.h"
@@ -11,6 +10,8 @@
 #include "grid/grid_part.h"
 #include "coupling/coupling_part.h"
 #include "run/say.h"
+#include "scene/scene_read.h"
+#include "study/pilot.h"
 
 static void say_particles(const struct run *e)
 {
@@ -186,17 +187,6 @@ static void say_materials(const struct run *e)
     }
 }
 
-/* A scene that runs at coarse spacings are to choose for has nothing more to check before. */
-static void say_pilot(const struct pilot_wish *w, const char *scene)
-{
-    printf("%s can be read\n", shown_name(scene).text);
-    printf("auto           %s\n", w->why);
-    printf("auto           cleave run takes pilot runs of at most %.3g s, for %s within %.3g %%; scene.yaml of the run "
-           "can be checked then\n",
-           w->budget, w->figure[0] ? w->figure : "the first figure of its probes, the start of cracks or an energy",
-           100 * w->within);
-}
-
 /* Estimates run time and memory by trial steps and prints both. start: time on team_clock when the reading of the scene
  * began [s]. The engine cannot be used afterwards. FAILED if one of the first steps fails. */
 static status check_cost(struct run *e, const struct run_arguments *a, int threads, double start)
@@ -221,7 +211,6 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
     status result = engine_make(&e, s, NULL);
     if (result == OK) {
         printf("%s is sound\n", shown_name(a->scene).text);
-        engine_choice_print(&e, stdout);
         say_particles(&e);
         say_filled(&e);
         say_shapes(&e);
@@ -254,8 +243,8 @@ status command_check(int argc, char **argv)
     struct scene s = {0};
     status result = scene_read_or_wish(&s, &pilot, a.scene, a.override, a.overrides);
     if (result == OK && pilot.wanted) {
-        say_pilot(&pilot, a.scene);
-        scene_free(&pilot.first);
+        result = pilot_plan_print(&pilot, a.scene, stdout);
+        scene_free(&pilot.provisional);
     } else if (result == OK) {
         result = check_sound(&s, &a, threads, start, trial);
         scene_free(&s);

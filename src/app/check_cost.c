@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "check_parts.h"
 #include "engine/engine.h"
 #include "base/memory.h"
@@ -15,6 +14,7 @@
 #include "probes/probes.h"
 #include "step/step.h"
 #include "step/stability.h"
+#include "scene/scene_read.h"
 
 enum { PERIODS_MOST = 200 };
 #define SECONDS_ENOUGH 0.15

@@ -12,7 +12,7 @@ void say_levels(const struct run *e)
     char text[1024];
     if (e->frame->mesh.points == 0 || scene_at_rest(e->scene)) return;
     frame_levels_text(e, text, sizeof text);
-    if (!e->scene->choice.made) printf("levels         %s\n", text);       /* else engine_choice_print has said it */
+    printf("levels         %s\n", text);
     for (int level = 0; level <= l->n && l->n > 0; level++)
         printf("%s%lld cells of %d spacings%s", level == 0 ? "levels         " : ", ",
                (long long)levels_cells(l, level), 2 << level, level == l->n ? "\n" : "");

@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "arguments.h"
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "commands.h"
+#include "scene/scene_read.h"
 #include "src/scene/scene_internal.h"
 #include "study/convergence_study.h"
 

@@ -3,10 +3,10 @@
 #include <omp.h>
 #include <stdio.h>
 
-#include "auto/scene_read.h"
 #include "arguments.h"
 #include "commands.h"
 #include "engine/engine.h"
+#include "scene/scene_read.h"
 #include "study/pilot.h"
 #include "study/uncertainty.h"
 #include "fracture/fracture_part.h"
@@ -83,7 +83,6 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
     TRY(engine_make(e, s, out));             /* first: a scene that is refused leaves no folder behind */
     TRY(open_folder(out, s, a));
     e->report->quiet = a->quiet;
-    if (!a->quiet) engine_choice_print(e, stderr);
     engine_warn(e);
     char coarse[1024];
     if (frame_levels_coarse(e, coarse, sizeof coarse)) warnings_add(&e->warnings, "%s", coarse);

@@ -95,27 +95,6 @@ static void put_load_steps(struct json *j, const struct run *e)
     json_close(j, '}');
 }
 
-/* The choice of `method: auto`, and the error and time that it expects. */
-static void put_choice(struct json *j, const struct scene_choice *c)
-{
-    if (!c->made) return;
-    json_open(j, "auto", '{');
-    json_text(j, "like", c->like);
-    json_text(j, "feature", c->feature);
-    json_real(j, "feature_size", c->size);
-    json_real(j, "feature_spacings", c->points);
-    json_real(j, "accuracy", c->accuracy);
-    json_real(j, "expected_error", c->error);
-    json_real(j, "expected_seconds", c->seconds);
-    json_text(j, "picked", c->picked);
-    if (c->second[0]) {
-        json_text(j, "next_best", c->second);
-        json_real(j, "next_best_error", c->second_error);
-        json_real(j, "next_best_time_share", c->second_share);
-    }
-    json_close(j, '}');
-}
-
 static void put_energy_balance(struct json *j, const struct energy_balance *l)
 {
     json_open(j, "energy", '{');
@@ -389,7 +368,6 @@ static void summary_print(FILE *file, const struct run *e, const struct fragment
     put_warnings(&j, &e->warnings);
     put_solver(&j, e);
     put_load_steps(&j, e);
-    put_choice(&j, &e->scene->choice);
     put_energy_balance(&j, &e->diagnostics->now);
     put_contact(&j, e->contact, e->grid);
     put_rigid(&j, e);

@@ -27,9 +27,6 @@ static bool any_yields(const struct scene *s)
 
 static status carries_method(const struct scene *s)
 {
-    if (s->choice.made)
-        return lammps_refuse(s, "method: auto is no scene for LAMMPS, which is given one spacing and one step; export "
-                                "the scene.yaml that a run of it leaves");
     if (s->method == METHOD_MPM)
         return lammps_refuse(s, "method: mpm has no bonds, and LAMMPS no material points of this kind; method: pd or "
                                 "adaptive is expected");

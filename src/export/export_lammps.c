@@ -6,12 +6,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "export_parts.h"
 #include "output/folder_guard.h"
 #include "output/output_files.h"
 #include "output/output_lock.h"
+#include "scene/scene_read.h"
 
 /* ---- the scene --------------------------------------------------------------------------------------------------- */
 

@@ -7,7 +7,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "mesh/mesh_part.h"
 
@@ -201,15 +200,6 @@ void frame_levels_text(const struct run *e, char *text, size_t room)
     if (!c.given) snprintf(text, room, "%s", why);
     else if (c.levels == 0) snprintf(text, room, "none by mpm.levels; auto: %s", why);
     else snprintf(text, room, "cells of up to %d spacings by mpm.levels; auto: %s", 2 << c.levels, why);
-}
-
-void engine_choice_print(const struct run *e, FILE *out)
-{
-    char text[1024];
-    scene_choice_print(e->scene, out);
-    if (!e->scene->choice.made || e->frame->mesh.points == 0 || scene_at_rest(e->scene)) return;
-    frame_levels_text(e, text, sizeof text);
-    fprintf(out, "auto           levels: %s\n", text);
 }
 
 /* Coarse cells that the scene gives, where the body is too thin for them; false: there are none. */

@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "output/output_files.h"
 #include "output/pictures.h"
 #include "plot/plot.h"
+#include "scene/scene_read.h"
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 

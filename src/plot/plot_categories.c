@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "output/output_files.h"
 #include "plot/plot.h"
+#include "scene/scene_read.h"
 
 struct colour category_colour(const struct plot_field *field, float value)
 {

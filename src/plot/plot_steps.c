@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "output/pictures.h"
 #include "plot/plot.h"
+#include "scene/scene_read.h"
 
 /* Least part of the largest force that an axis of displacements shows: a body that is broken is only pulled apart. */
 #define FORCE_LEFT 0.01

@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "base/memory_stream.h"
 #include "maps_parts.h"
 #include "output/output_files.h"
+#include "scene/scene_read.h"
 #include "scene_marks.h"
 #include "step/report.h"
 #include "mesh/mesh_part.h"
@@ -310,14 +310,13 @@ status scene_picture(const char *path, const struct scene_override *override, in
 {
     struct scene s = {0};
     struct run e = {0};
-    struct pilot_wish pilot;
+    struct pilot_wish wish;
     if (picture_moves(r->format)) return status_set(REFUSED, "plot: --scene draws one picture: png, svg or pdf");
-    TRY(scene_read_or_wish(&s, &pilot, path, override, overrides));
-    if (pilot.wanted) {
-        scene_free(&pilot.first);
-        return status_set(REFUSED, "%s: method: auto takes pilot runs first, which choose method and spacing; draw it "
-                          "with -s method=pd -s particles.spacing=..., or draw the scene.yaml that its run leaves",
-                          shown_name(path).text);
+    TRY(scene_read_or_wish(&s, &wish, path, override, overrides));
+    if (wish.wanted) {
+        s = wish.provisional;
+        printf("%s: method: auto: drawn at a spacing of %.4g m; cleave run chooses method and spacing\n",
+               shown_name(path).text, s.spacing);
     }
     const status result = draw_made(&e, &s, r);
     engine_free(&e);

@@ -339,15 +339,11 @@ static status check_times(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for accuracy and accuracy_table: they control method auto, which removes them from the tree. */
+/* REFUSED for accuracy, which is of method auto alone (scene_wish.c). */
 static status check_accuracy(struct reader *r, const struct node *root)
 {
-    const char *const keys_of_auto[] = {"accuracy", "accuracy_table"};
-    for (size_t k = 0; k < COUNT_OF(keys_of_auto); k++) {
-        const struct node *n = node_find(root, keys_of_auto[k]);
-        if (n) return fault(r, n, "has no meaning without method: auto");
-    }
-    return OK;
+    const struct node *n = node_find(root, "accuracy");
+    return n ? fault(r, n, "has no meaning without method: auto") : OK;
 }
 
 /* REFUSED for state-based models in space line, for pd.surface volume beside them, and for weights of bonds near faces

@@ -69,7 +69,7 @@ bool group_is_merged(const char *path);
 /* Lays the overrides over the tree (scene_override.c). */
 status tree_override(struct reader *r, struct node *root);
 /* Gives keys of an earlier version their name of now, in the tree or in the path of an override (scene_renamed.c); the
- * scene keeps a note of them. REFUSED where both names are given. */
+ * scene keeps a note of them. REFUSED where both names are given, and for keys that no longer exist. */
 status tree_rename(struct reader *r, struct node *root);
 const char *path_renamed(struct reader *r, const char *path);
 /* The present name of a key of an earlier version; NULL: it is none. */
@@ -87,6 +87,10 @@ const struct node *tree_at(const struct node *root, const char *path);
 /* scene_tree: the tree of nodes from the text and the overrides. scene_from_tree: r->scene from this tree (scene.c). */
 status scene_tree(struct reader *r, const char *text, size_t length, struct node **root);
 status scene_from_tree(struct reader *r, const struct node *root);
+/* Reads what a scene with `method: auto` requires of pilot runs, its tree and its text given (scene_wish.c). w is
+ * zeroed by the caller. */
+struct pilot_wish;
+status wish_read(struct reader *r, const struct node *root, const char *text, size_t length, struct pilot_wish *w);
 
 /* ---- numbers and units (scene_units.c) --------------------------------------------------------------------------- */
 

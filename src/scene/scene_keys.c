@@ -41,7 +41,7 @@ const struct key keys[] = {
         "c of the force -c m v on every particle (alpha of Rayleigh's damping): vibrations die out as exp(-c t/2)"),
     KEY("method", KEY_CHOICE, UNIT_NONE, AT(scene, method), ANY, "adaptive",
         "peridynamics, material points, or material points that become peridynamic where the material breaks; auto: "
-        "these and spacing, horizon, shape, coupling and step from the cost-accuracy table, by accuracy",
+        "pilot runs choose one of these, the model and the spacing, by accuracy",
         .words = "pd|mpm|adaptive|auto"),
     KEY("model", KEY_CHOICE, UNIT_NONE, AT(scene, model), ANY, "bond",
         "peridynamic law: bond-based; ordinary state-based; state-based with rotations (both: any Poisson's ratio)",
@@ -90,14 +90,12 @@ const struct key keys[] = {
     KEY("steps.within", KEY_REAL, UNIT_NONE, AT(scene, steps.within), BETWEEN(0, 1), "2 %",
         "of these only such as are overloaded like the first, up to this share"),
     KEY("accuracy", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(1 % with method auto)",
-        "method auto: largest error, by the cost-accuracy table, or by pilot runs where it has no such problem",
+        "method auto: largest error of a figure, which pilot runs find out",
         .words = "a share, as 2 %, or {of: figure, within: share, budget: time}"),
     KEY("accuracy.of", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(first probe, start of cracks or an energy)",
         "figure of summary.json, its names joined by points", .words = "name, as crack.start_time"),
     KEY("accuracy.within", KEY_REAL, UNIT_NONE, NOWHERE, INSIDE(0, 0.5), "1 %", "largest error of the figure (95 %)"),
     KEY("accuracy.budget", KEY_REAL, UNIT_TIME, NOWHERE, ABOVE(0), "5 min", "time for pilot runs"),
-    KEY("accuracy_table", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(that of the program)",
-        "a table of `cleave bench accuracy`, in the scene's or the current folder", .words = "file name, .csv"),
 
 #include "scene_keys_materials.h"
 

@@ -1,4 +1,4 @@
-/* Keys of scenes that had another name before: the old one still works, with one line that says so. */
+/* Keys of scenes that had another name before, which still works, with one line that says so; keys that are gone. */
 #include "scene_internal.h"
 
 #include <stdio.h>
@@ -11,7 +11,13 @@ static const struct { const char *old, *now; } renamed[] = {
     {"conversion.dwell", "conversion.hold_time"},
     {"conversion.return_stress", "conversion.low_stress"},
     {"time.rest", "time.active_set"},
-    {"accuracy_chart", "accuracy_table"},
+};
+
+/* Keys of an earlier version that no longer exist, and what replaces them. */
+#define TABLE_REMOVED "is no longer a key, as `method: auto` chooses by pilot runs alone; remove it"
+static const struct { const char *path, *what; } removed[] = {
+    {"accuracy_table", TABLE_REMOVED},
+    {"accuracy_chart", TABLE_REMOVED},
 };
 
 /* Adds a pair of names to the text that engine_warn shows. */
@@ -51,6 +57,10 @@ status tree_rename(struct reader *r, struct node *root)
         const char *dot = strrchr(renamed[k].now, '.'), *leaf = dot ? dot + 1 : renamed[k].now;
         old->key = arena_text(r, leaf, strlen(leaf));
         renamed_note(r->scene, k);
+    }
+    for (int k = 0; k < (int)COUNT_OF(removed); k++) {
+        const struct node *n = tree_at(root, removed[k].path);
+        if (n) return fault(r, n, "%s", removed[k].what);
     }
     return OK;
 }

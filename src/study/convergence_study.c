@@ -5,11 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "base/team.h"
 #include "output/output_files.h"
 #include "output/summary_read.h"
+#include "scene/scene_read.h"
 
 enum { RUNS_LEAST = 3, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
 #define STEP_RANGE 0.1    /* steps from 0.9 to 1.1 of the scene's own */
@@ -139,7 +139,6 @@ static const char *study_refusal(const struct scene *s, const struct convergence
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].file)
             return "a body's particles come from a list, which has one spacing: nothing can be refined";
-    if (s->choice.made) return "method auto chooses the spacing: give the scene as it ran, results/NAME/scene.yaml";
     if (w->fixed_horizon && !has_bonds(s)) return "--horizon: method mpm has no horizon";
     return NULL;
 }

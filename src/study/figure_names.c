@@ -10,7 +10,6 @@
 enum { LEAF_ROOM = 40, NAME_ROOM = 160 };
 
 /* Can a run of the scene have figures of a group? */
-static bool of_rest(const struct scene *s) { return scene_at_rest(s) || s->method == METHOD_AUTO; }
 static bool of_contact(const struct scene *s) { return s->contact_between != CONTACT_NONE || scene_bodies_meet(s); }
 static bool of_fragments(const struct scene *s) { return scene_moves(s) && scene_cracks(s); }
 
@@ -25,7 +24,7 @@ static const struct figure_group {
          "bonds_peak momentum_error angular_momentum_error threads wall_seconds loop_seconds memory_peak_bytes "
          "ns_per_particle_step ns_per_bond_step rest_share", NULL, NULL},
     {"levels", "changes", NULL, NULL},
-    {"solver", "steps residual bonds_past_limit", of_rest, "`solver: relaxation` or `cg`"},
+    {"solver", "steps residual bonds_past_limit", scene_at_rest, "`solver: relaxation` or `cg`"},
     {"load_steps", "steps load_time equilibria directions overload bonds_broken released crack_area release_rate",
      scene_in_steps, "`solver: static`"},
     {"energy", "kinetic strain plastic fracture contact damped absorbed external_work balance_error", NULL, NULL},

@@ -6,55 +6,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "base/team.h"
 #include "output/output_files.h"
 #include "pilot_parts.h"
+#include "scene/spacings.h"
 #include "study/uncertainty.h"
 
-#define FIRST_SHARE 0.6 /* of the budget for the first runs of all methods */
-#define LONGEST 20.0    /* expected time of the run over the budget, beyond which the choice is refused */
 #define FARTHEST 8.0    /* coarsest spacing run over the one chosen: beyond, an order is no forecast */
 #define FINER_LEAST 1.4 /* a study goes on so much finer than the one before ... */
 #define FINER_MOST 2.9  /* ... to so much: three levels beyond it */
-enum { RUNS_FIRST = 3, LEVELS_FIRST = 3, REFUSED_MOST = 4 };
-
-/* ---- methods ----------------------------------------------------------------------------------------------------- */
-
-/* Bonds impose Poisson's ratio; a line has no other law. */
-static bool bonds_fit(const struct scene *s)
-{
-    bool fit = true;
-    for (int m = 0; m < s->materials; m++)
-        fit &= s->dim == 1 || fabs(s->material[m].poisson - material_bond_poisson(s->space)) < 1e-6;
-    return fit;
-}
-
-static bool needs_bonds(const struct scene *s)
-{
-    return scene_cracks(s) || s->has_pd_region || scene_watches_bonds(s);
-}
-
-static void candidate_add(struct pilot_search *p, const char *name, const char *method, const char *model)
-{
-    const bool points = !strcmp(method, "mpm");
-    if (!points && p->wish.model[0] && strcmp(p->wish.model, model) != 0) return;
-    p->at[p->n++] = (struct pilot_candidate){.name = name, .method = method, .model = points ? NULL : model};
-}
-
-static void candidates_find(struct pilot_search *p)
-{
-    const struct scene *s = &p->wish.first;
-    const bool asked_bond = !strcmp(p->wish.model, "bond"), bond = asked_bond || bonds_fit(s);
-    const bool breaks = scene_bonds_break(s) || s->growths > 0, zones = s->has_pd_region;
-    /* at rest, points take their time: bonds have conjugate gradients */
-    if (!needs_bonds(s) && !p->wish.at_rest) candidate_add(p, "points", "mpm", NULL);
-    if (!zones) candidate_add(p, bond ? "bonds" : "states", "pd", bond ? "bond" : "ospd");
-    if (!zones && !strcmp(p->wish.model, "mospd")) candidate_add(p, "rotations", "pd", "mospd");
-    if ((breaks || zones) && !p->wish.at_rest)
-        candidate_add(p, bond ? "adaptive bonds" : "adaptive states", "adaptive", bond ? "bond" : "mospd");
-}
+enum { REFUSED_MOST = 4 };
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 
@@ -73,7 +35,6 @@ static void candidate_write(struct pilot *to, const struct pilot_search *p, cons
     char number[CHOSEN_ROOM];
     int n = 0;
     if (p->wish.has_accuracy) chosen_put(to, &n, "accuracy", "");
-    if (p->wish.has_table) chosen_put(to, &n, "accuracy_table", "");
     chosen_put(to, &n, "method", c->method);
     if (c->model) chosen_put(to, &n, "model", c->model);
     if (p->wish.at_rest) chosen_put(to, &n, "solver", "cg");
@@ -97,8 +58,8 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
                                        .folder = folder.text,
                                        .override = own.override,
                                        .overrides = own.overrides,
-                                       .levels = LEVELS_FIRST,
-                                       .runs = RUNS_FIRST,
+                                       .levels = PILOT_LEVELS_FIRST,
+                                       .runs = PILOT_RUNS_FIRST,
                                        .budget = budget,
                                        .finer = finer,
                                        .way = {.threads = 1, .quiet = true, .overwrite = true, .stop = p->way.stop}};
@@ -129,15 +90,14 @@ static struct pilot_candidate *cheapest(struct pilot_search *p)
 
 static status search_first(struct pilot_search *p)
 {
-    const double fixed = p->wish.spacing, first = fixed > 0 ? fixed : pilot_spacing(&p->wish.first);
-    if (!(first > 0)) return status_set(REFUSED, "%s: no length tells where pilot runs should begin", p->scene);
+    const double fixed = p->wish.spacing, first = p->wish.provisional.spacing;
     for (int k = 0; k < p->n; k++) {
         double spacing = first;
         status done = FAILED;
         /* rings and notches refuse spacings that are too coarse for them */
         for (int finer = 0; finer <= REFUSED_MOST && done == FAILED; finer++) {
-            const double share = FIRST_SHARE * time_left(p) / (p->n - k);
-            if (finer > 0) spacing = auto_spacing_fit(&p->wish.first, spacing / FINER_LEAST, true);
+            const double share = PILOT_FIRST_SHARE * time_left(p) / (p->n - k);
+            if (finer > 0) spacing = spacing_fit(&p->wish.provisional, spacing / FINER_LEAST, true);
             done = candidate_study(p, &p->at[k], spacing, share, !(fixed > 0));
             if (fixed > 0) break;
         }
@@ -151,9 +111,9 @@ static status search_first(struct pilot_search *p)
 static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, status *done)
 {
     const double left = time_left(p), wanted = c->finest / c->spacing;
-    const double bearable = pow(left / (RUNS_FIRST * c->finest_seconds), 1.0 / (p->wish.first.dim + 1));
+    const double bearable = pow(left / (PILOT_RUNS_FIRST * c->finest_seconds), 1.0 / (p->wish.provisional.dim + 1));
     const double finer = fmin(fmax(wanted, FINER_LEAST), fmin(bearable, FINER_MOST));
-    const double next = auto_spacing_fit(&p->wish.first, c->finest / finer, true);
+    const double next = spacing_fit(&p->wish.provisional, c->finest / finer, true);
     struct pilot_candidate again = *c;
     if (finer < FINER_LEAST) return false;
     *done = candidate_study(p, &again, next, left, false);
@@ -206,7 +166,7 @@ static status search_failed(const struct pilot_search *p)
     for (int k = 0; k < p->n; k++) any |= !p->at[k].failed[0];
     if (!any) return status_set(REFUSED, "%s: no method can do the scene (%s)", p->scene, text);
     char limit[64] = "at its spacing";
-    if (!(p->wish.spacing > 0)) snprintf(limit, sizeof limit, "in %g times that time", LONGEST);
+    if (!(p->wish.spacing > 0)) snprintf(limit, sizeof limit, "in %g times that time", PILOT_LONGEST);
     return status_set(REFUSED,
                       "%s: pilot runs of %.3g s found no method that is accurate to %.2g %% %s (%s); "
                       "a larger accuracy.within or accuracy.budget, or method and particles.spacing, would do",
@@ -215,7 +175,7 @@ static status search_failed(const struct pilot_search *p)
 
 static status search_end(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
-    if (!best || best->seconds > LONGEST * p->wish.budget || best->finest > FARTHEST * best->spacing)
+    if (!best || best->seconds > PILOT_LONGEST * p->wish.budget || best->finest > FARTHEST * best->spacing)
         return search_failed(p);
     const struct pilot_candidate *other = contradiction(p, best);
     if (other)
@@ -234,15 +194,14 @@ static status search_end(struct pilot *to, const struct pilot_search *p, const s
 
 static status pilot_search_all(struct pilot *to, struct pilot_search *p)
 {
-    candidates_find(p);
     TRY(folder_make(p->folder));
     TRY(study_folder_claim(p->folder));
     TRY(figures_guard(p->folder));
     if (!p->way.quiet)
-        fprintf(
-            stderr,
-            "pilot          %s: runs at coarse spacings choose, in at most %.3g s (accuracy.budget); they are in %s\n",
-            p->wish.why, p->wish.budget, shown_name(p->folder).text);
+        fprintf(stderr,
+                "pilot          runs at coarse spacings choose method and spacing for %s within %.3g %%, in at most "
+                "%.3g s (accuracy.budget); they are in %s\n",
+                pilot_figure(p), 100 * p->wish.within, p->wish.budget, shown_name(p->folder).text);
     TRY(search_first(p));
     TRY(search_finer(p));
     const struct pilot_candidate *best = cheapest(p);
@@ -250,15 +209,15 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
     return pilot_keep(to, p, best);
 }
 
-/* The overrides of a scene that wants pilot runs. */
+/* Chooses the overrides of a scene with `method: auto`: those kept of an earlier choice, or by pilot runs. */
 static status pilot_choose(struct pilot *to, struct pilot_search *p, const char *folder)
 {
     char run[NAME_MAX_LENGTH + sizeof "results/"];
-    snprintf(run, sizeof run, "results/%s", p->wish.first.name);
+    snprintf(run, sizeof run, "results/%s", p->wish.provisional.name);
     snprintf(p->folder, sizeof p->folder, "%s", pilot_folder(folder ? folder : run).text);
     if (strlen(p->folder) + CASE_NAME_ROOM + 2 * PATH_NAME_ROOM >= PATH_ROOM)
         return status_set(REFUSED, "-o: the folder's name is too long");
-    if (p->wish.figure[0]) TRY(figure_name_check(&p->wish.first, p->wish.figure));
+    TRY(pilot_plan(p));
     return pilot_kept(to, p) ? OK : pilot_search_all(to, p);
 }
 
@@ -271,7 +230,7 @@ status pilot_scene_read(struct scene *s, struct pilot *to, const char *scene, co
     TRY(scene_read_or_wish(s, &p.wish, scene, override, overrides));
     if (!p.wish.wanted) return OK;
     status done = pilot_choose(to, &p, folder);
-    scene_free(&p.wish.first);
+    scene_free(&p.wish.provisional);
     if (done == OK) done = scene_read(s, scene, to->override, to->overrides);
     if (done != OK) pilot_free(to);
     return done;

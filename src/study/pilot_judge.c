@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "pilot_parts.h"
+#include "scene/spacings.h"
 
 /* ---- the figure -------------------------------------------------------------------------------------------------- */
 
@@ -70,7 +71,7 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
     if (!(within > 0)) return;
     const double likely = isfinite(f->c.order_likely) ? f->c.order_likely - f->c.order_error : 0.5;
     const double finer = pow(sqrt(square(c->reached) - square(bias)) / within, 1 / fmax(likely, 0.5));
-    c->spacing = auto_spacing_fit(&p->wish.first, c->finest / finer, false);
+    c->spacing = spacing_fit(&p->wish.provisional, c->finest / finer, false);
     const double loop =
         pilot_run_figure(s, "loop_seconds", level_run(s, 0)); /* the rest is mostly the start of a process */
     const double growth = pow(c->finest / c->spacing, s->scene.dim + 1);

@@ -2,10 +2,14 @@
 #ifndef CLEAVE_PILOT_PARTS
 #define CLEAVE_PILOT_PARTS
 
-#include "auto/scene_read.h"
 #include "output/output_files.h"
+#include "scene/scene_read.h"
 #include "study/convergence_study.h"
 #include "study/pilot.h"
+
+#define PILOT_FIRST_SHARE 0.6 /* of the budget for the first runs of all methods */
+#define PILOT_LONGEST 20.0    /* largest expected time of the chosen run over the budget */
+enum { PILOT_RUNS_FIRST = 3, PILOT_LEVELS_FIRST = 3 }; /* runs at each spacing, spacings of a study */
 
 /* A method that can do the scene, and what its runs say. */
 struct pilot_candidate {
@@ -31,6 +35,12 @@ struct pilot_search {
     struct pilot_candidate at[4];
     int n;
 };
+
+/* Lists the methods that can do the scene in at[n] (pilot_plan.c). REFUSED where there is none, where no spacing can be
+ * varied, and for a figure that no run of the scene has. */
+status pilot_plan(struct pilot_search *p);
+/* Returns the name of the figure that is to be accurate, or a description of the figure that is taken without one. */
+const char *pilot_figure(const struct pilot_search *p);
 
 /* Makes the overrides from the user's and the n that are chosen (pilot_keep.c). */
 void pilot_fill(struct pilot *to, const struct scene_override *override, int overrides, int n);

@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "output/folder_guard.h"
 #include "output/output.h"
 #include "output/output_files.h"
 #include "output/summary_read.h"
+#include "scene/scene_read.h"
 #include "study_internal.h"
 
 /* ---- the study --------------------------------------------------------------------------------------------------- */

@@ -7,11 +7,11 @@
 #include <stddef.h>
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "engine/engine.h"
 #include "fracture/fracture_part.h"
 #include "fracture/tips.h"
 #include "probes/diagnostics.h"
+#include "scene/scene_read.h"
 
 #define SCENE "inputs/plate_crack.yaml"
 

@@ -3,11 +3,11 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "auto/scene_read.h"
 #include "engine/engine.h"
 #include "tests/support/near.h"
 #include "output/output.h"
 #include "step/report.h"
+#include "scene/scene_read.h"
 
 #define FOLDER "run"
 enum { ROW_KEYS = 6 };

@@ -5,13 +5,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "auto/scene_read.h"
 #include "output/checksum.h"
 #include "engine/engine.h"
 #include "fuzz.h"
 #include "base/memory.h"
 #include "output/output_files.h"
 #include "step/report.h"
+#include "scene/scene_read.h"
 
 enum { STEPS = 3 };
 static const char text[] =

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "fuzz.h"
 #include "scene/scene.h"
+#include "scene/scene_read.h"
 
 static const char good[] =
     "name: plate\nspace: plane stress\nthickness: 10 mm\nduration: 1 us\nmethod: adaptive\n"

@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "engine/engine.h"
 #include "fuzz.h"
 #include "probes/diagnostics.h"
 #include "step/report.h"
+#include "scene/scene_read.h"
 
 enum { STEPS = 12, TEXT = 8192 };
 

@@ -11,9 +11,9 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "base/memory_stream.h"
 #include "faults.h"
+#include "scene/scene_read.h"
 
 #ifndef __linux__
 int main(void)

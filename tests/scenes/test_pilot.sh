@@ -1,6 +1,6 @@
 #!/bin/sh
-# `method: auto` outside the cost-accuracy table: pilot runs choose, within their budget, what reaches the accuracy that is asked for; the choice
-# is kept; what cannot be done is said.
+# `method: auto`: pilot runs choose, within their budget, what reaches the accuracy that is asked for; the choice is kept and the scene as run
+# says it without auto; what cannot be done is said.
 test_name=test_pilot
 . tests/support/summary.sh
 case $cleave in /*) ;; *) cleave=$(pwd)/$cleave ;; esac
@@ -27,11 +27,16 @@ begun=$(date +%s)
 is "bars that meet" $? 0
 between "budget" $(($(date +%s) - begun)) 0 60
 near "kinetic energy" "$(figure collide energy.kinetic)" 1000 0.05
-holds "says why: $(cat err)" grep -q "^pilot  .*accuracy names a figure, energy.kinetic" err
+holds "says what they choose: $(cat err)" grep -q "^pilot  .*choose method and spacing for energy.kinetic within 5 %" err
 holds "says what each method needs" grep -q "^pilot  .*bonds: energy.kinetic +-" err
 holds "says what is chosen" grep -q "^pilot .*, spacing .* mm: energy.kinetic within .* %" err
 holds "error bar: $(grep -A2 uncertainty collide/summary.json)" grep -q '"energy.kinetic"' collide/summary.json
 is "no request is left in the scene" "$(grep -c '^accuracy\|^method: auto' collide/scene.yaml)" 0
+
+# the scene as run says the same without auto
+"$cleave" run -q collide/scene.yaml -o whole 2>err >out
+is "the scene as run" $? 0
+holds "the same samples" cmp -s collide/history.csv whole/history.csv
 
 # the same question has the same answer, at once; another one is asked anew
 cp collide/scene.yaml before.yaml
@@ -41,7 +46,10 @@ holds "as chosen before: $(cat err)" grep -q "as chosen before" err
 holds "the same scene" cmp -s before.yaml collide/scene.yaml
 "$cleave" check collide.yaml >out 2>&1
 is "check" $? 0
-holds "check says so: $(cat out)" grep -q "cleave run takes pilot runs of at most 40 s, for energy.kinetic within 5 %" out
+for words in "they judge energy.kinetic, within 5 %$" "they vary the method (points, bonds), the spacing (0.2 mm and coarser at first, then finer) and the time step" \
+    "they cost at most 40 s (accuracy.budget), of which 24 s .*; the run that they choose costs at most 800 s"; do
+    holds "check says $words: $(cat out)" grep -q "^auto  .*$words" out
+done
 
 # A plate of Poisson's ratio 0.2 pulled at both ends: sigma^2 V/(2 E), by state-based peridynamics or points, whichever is cheaper; without a
 # name the larger energy is judged.
@@ -68,6 +76,57 @@ holds "a static solver" grep -q '^solver: \(cg\|relaxation\)' results/plate/scen
 is "own spacing" $? 0
 holds "it stays" grep -q '^  spacing: 0.0002 ' own/scene.yaml
 
+"$cleave" check plate.yaml -s particles.spacing=1mm >out 2>&1
+is "check of an own spacing" $? 0
+holds "it is the finest: $(cat out)" grep -q "the method (states), the spacing (1 mm as given, and coarser)$" out
+holds "an energy is judged: $(cat out)" grep -q "they judge the largest of its energies, within 2 %" out
+
+# An edge crack of 8 mm in 16 mm of aluminium, a/W = 0.5, H = W: K_I = 3.009 sigma sqrt(pi a) by boundary collocation. Without a name the
+# first probe is judged.
+cat >crack.yaml <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 1 s
+method: auto
+solver: static
+accuracy: {within: 3 %, budget: 60 s}
+material: {young: 70 GPa, poisson: 0.3, density: 2700 kg/m^3}
+body: {box: {from: [0, 0], to: [16 mm, 16 mm]}}
+cracks: [{from: [-1 mm, 8 mm], to: [8 mm, 8 mm]}]
+boundary: [{traction: [0, 1 MPa], face: y+}, {traction: [0, -1 MPa], face: y-}]
+output: {frames: 0}
+probes: [sif: {contours: [3.2 mm]}]
+END
+"$cleave" run crack.yaml 2>err >out
+is "edge crack" $? 0
+near "edge crack" "$(figure results/crack probes.sif.K_I)" "$(compute "3.009e6*sqrt(3.14159265*8e-3)")" 0.03
+holds "its first probe is judged: $(cat err)" grep -q "for the first figure of its probes that is not zero within 3 %" err
+
+# A pulse in steel 0.1 m wide, exp(-(x/r)^2), goes 0.3 m: its crest is at 0.7 m.
+cat >pulse.yaml <<'END'
+space: line
+duration: 0.05943 ms
+method: auto
+accuracy: {of: probes.crest.velocity_x, within: 1 %, budget: 40 s}
+material: {young: 200 GPa, density: 7850 kg/m^3, critical_stretch: inf}
+body: {box: {from: [0], to: [1.2]}}
+initial: [{pulse: {at: [0.4], direction: [1], width: 0.1, velocity: 1 mm/s}}]
+output: {frames: 0, samples: 4}
+probes: [point: {name: crest, at: [0.7]}]
+END
+"$cleave" run pulse.yaml 2>err >out
+is "pulse" $? 0
+near "crest of the pulse" "$(figure results/pulse probes.crest.velocity_x)" 1e-3 0.01
+
+# ---- the scene before the choice -------------------------------------------------------------------------------------
+
+if command -v gnuplot >/dev/null; then
+    "$cleave" plot --scene crack.yaml -o crack.png >out 2>&1
+    is "picture" $? 0
+    holds "says at which spacing: $(cat out)" grep -q "crack.yaml: method: auto: drawn at a spacing of 0.0002[0-9]* m" out
+    holds "picture" test -s crack.png
+fi
+
 # ---- what cannot be done ---------------------------------------------------------------------------------------------
 
 # refused WORDS ARGUMENTS: exit status 2, a line with these words, no run.
@@ -85,7 +144,20 @@ refused "summary.json has no such figure" collide.yaml -s accuracy.of=energy.non
 refused "found no method that is accurate to 1e-07 %" collide.yaml -s accuracy.within=1e-9 -s accuracy.budget=3s
 refused "no method that is accurate to 0.1 % at its spacing" plate.yaml -s particles.spacing=1mm -s accuracy.within=0.1%
 refused "no time is left for it" collide.yaml -s accuracy.budget=1ms
-"$cleave" converge collide.yaml -o converge >out 2>err
-is "converge of such a scene" $? 2
-holds "says who chooses: $(cat err)" grep -q "cleave run chooses by pilot runs" err
+refused "accuracy_table: is no longer a key, as .method: auto. chooses by pilot runs alone; remove it" plate.yaml -s accuracy_table=mine.csv
+refused "auto knows no load steps" plate.yaml -s steps.number=3
+refused "accuracy: 0 is out of range" plate.yaml -s accuracy=0
+refused "no figure of summary.json" plate.yaml -s "accuracy={of: [1]}"
+refused "no method for the scene with its model, solver and pd.region" plate.yaml -s "pd.region={box: {from: [0, 0], to: [1mm, 1mm]}}"
+printf 'x, y\n0, 0\n0.001, 0\n0, 0.001\n0.001, 0.001\n' >list.csv
+refused "particles come from a list" plate.yaml -s body= -s "bodies=[{name: a, particles: list.csv}]"
+
+# Other commands take a scene without a method no further than its line.
+for command in "converge" "sweep -s time.safety=0.5,0.8" "export lammps"; do
+    "$cleave" ${command%% -s*} collide.yaml $(echo "$command" | grep -o -- '-s.*') -o none >out 2>err
+    is "$command" $? 2
+    is "$command: lines" "$(wc -l <err)" 1
+    holds "$command: $(cat err)" grep -q "collide.yaml:3:1: method: auto is resolved by the pilot runs of .cleave run.; write a method" err
+    holds "$command: left behind" test ! -e none
+done
 finish

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "scene/scene.h"
+#include "scene/scene_read.h"
 
 static const char plate[] =
     "name: plate-1\n"

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
+#include "scene/scene_read.h"
 
 /* Reads it with the overrides `key=value` of the list, up to NULL. */
 static inline status scene_with(struct scene *s, const char *text, va_list list)

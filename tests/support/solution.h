@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "engine/engine.h"
 #include "step/report.h"
+#include "scene/scene_read.h"
 #include "tests/support/scene_with.h"
 
 struct solution {

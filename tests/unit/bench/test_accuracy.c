@@ -9,10 +9,10 @@
 
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "bench/accuracy/accuracy.h"
 #include "bench/common/manufactured.h"
 #include "scene/fill.h"
+#include "scene/scene_read.h"
 
 /* A staircase with points above it, two alike, one unstable and one that was not timed. */
 static const struct accuracy_dot cloud[] = {{4, 0.001}, {1, 0.1},   {2, 0.02},        {2, 0.03},   {3, 0.02},

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "engine/engine.h"
+#include "scene/scene_read.h"
 #include "src/contact/contact_internal.h"
 #include "tests/support/near.h"
 #include "step/report.h"

@@ -3,7 +3,6 @@
  * bonds. */
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "tests/support/cloud.h"
 #include "engine/engine.h"
 #include "tests/support/near.h"
@@ -14,6 +13,7 @@
 #include "coupling/conversion.h"
 #include "step/step.h"
 #include "run/energies.h"
+#include "scene/scene_read.h"
 
 #define TURN_MOST 0.2                    /* of a particle [rad] */
 #define SHAKE 0.02                       /* of places [spacings]: strains of some percent */

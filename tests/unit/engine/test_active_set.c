@@ -4,7 +4,6 @@
 #include <omp.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "tests/support/cloud.h"
 #include "engine/engine.h"
 #include "tests/support/same.h"
@@ -13,6 +12,7 @@
 #include "mesh/mesh_part.h"
 #include "grid/grid_part.h"
 #include "grid/active_points.h"
+#include "scene/scene_read.h"
 
 /* ---- nothing at rest is 0 ---------------------------------------------------------------------------------------- */
 

@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "engine/engine.h"
 #include "output/output_hdf5.h"
 #include "step/report.h"
+#include "scene/scene_read.h"
 
 /* ---- a run and its frames ---------------------------------------------------------------------------------------- */
 

@@ -8,12 +8,12 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "bench/common/handbook.h"
 #include "engine/engine.h"
 #include "fracture/sif_fields.h"
 #include "step/report.h"
 #include "quasistatic/statics.h"
+#include "scene/scene_read.h"
 
 static const real degree = 3.14159265358979323846 / 180;
 

@@ -8,12 +8,13 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "engine/engine.h"
 #include "fracture/sif_fields.h"
 #include "src/quasistatic/statics_internal.h"
 #include "step/report.h"
+#include "scene/scene_read.h"
+#include "src/engine/engine_statics.h"
 
 struct solution {
     struct scene s;

@@ -7,10 +7,10 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "engine/engine.h"
 #include "base/memory.h"
 #include "step/report.h"
+#include "scene/scene_read.h"
 
 /* Scenes take more and more: the process remembers its largest only. */
 static void takes_what_it_says(const char *space, const char *box, const char *particles, double *taken)

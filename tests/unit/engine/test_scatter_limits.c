@@ -3,8 +3,8 @@
 #include <omp.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "engine/engine.h"
+#include "scene/scene_read.h"
 #include "tests/support/near.h"
 #include "step/report.h"
 #include "coupling/coupling_part.h"

@@ -9,13 +9,13 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "engine/engine.h"
 #include "step/report.h"
 #include "solver/solver.h"
 #include "probes/diagnostics.h"
 #include "probes/probes_part.h"
 #include "probes/probes.h"
+#include "scene/scene_read.h"
 
 /* Strains are 1e-6 and less in all scenes: what is linear in the solution is so to 1e-5. */
 #define BAR \

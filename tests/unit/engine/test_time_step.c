@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "auto/scene_read.h"
 #include "engine/engine.h"
+#include "scene/scene_read.h"
 #include "tests/support/folder.h"
 #include "tests/support/near.h"
 #include "step/report.h"

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
 #include "engine/engine.h"
+#include "scene/scene_read.h"
 #include "tests/support/near.h"
 
 static const char block[] = "name: squeezed\nspace: plane stress\nthickness: 1\nmethod: pd\nduration: 1\n"

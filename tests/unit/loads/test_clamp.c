@@ -9,7 +9,6 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "tests/support/cloud.h"
 #include "tests/support/eigen.h"
 #include "engine/engine.h"
@@ -18,6 +17,7 @@
 #include "base/team.h"
 #include "step/report.h"
 #include "probes/diagnostics.h"
+#include "scene/scene_read.h"
 
 /* Differences of forces: a step of 2e-5 of a spacing has a second-order error below 1e-9 of the largest entry, and
  * the last bits of stretches, 2^-49, are 1e-10 of it. */

@@ -3,11 +3,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "auto/scene_read.h"
 #include "tests/support/cloud.h"
 #include "engine/engine.h"
 #include "scene/fill.h"
 #include "base/memory.h"
+#include "scene/scene_read.h"
 #include "tests/support/near.h"
 #include "step/report.h"
 #include "mesh/mesh_part.h"

@@ -3,8 +3,8 @@
 
 #include <omp.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
+#include "scene/scene_read.h"
 #include "tests/support/setting.h"
 #include "scene/fill.h"
 

@@ -9,8 +9,8 @@
 #include <unistd.h>
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "scene/scene.h"
+#include "scene/scene_read.h"
 
 static void write_file(const char *name, const char *text)
 {

@@ -9,8 +9,8 @@
 #include <unistd.h>
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "scene/scene.h"
+#include "scene/scene_read.h"
 
 static const char good[] =
     "name: plate\n"
@@ -112,7 +112,10 @@ static const struct { const char *piece, *instead, *message;
     {"method: adaptive", "interface_damping: 0.25\nrim_damping: 0.5",
      "6:1: rim_damping: given beside interface_damping; keep one of the two"},
     {"method: adaptive", "accuracy_table: cost_accuracy.csv",
-     "5:1: accuracy_table: has no meaning without method: auto"},
+     "5:1: accuracy_table: is no longer a key, as `method: auto` chooses by pilot runs alone; remove it"},
+    {"method: adaptive", "method: auto",
+     "5:1: method: auto is resolved by the pilot runs of `cleave run`; write a method and particles.spacing, or take "
+     "the scene.yaml that such a run leaves"},
     {"method: adaptive", "steps: {number: 50}",
      "5:1: steps: load steps belong to solver: static, which is expected beside them"},
     {"method: adaptive", "solver: static\nsteps: {control: opening}",

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
+#include "scene/scene_read.h"
 #include "tests/support/scene_texts.h"
 
 /* ---- round trip -------------------------------------------------------------------------------------------------- */

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
 #include "base/memory.h"
+#include "scene/scene_read.h"
 
 static const char scene_text[] = "space: line\nduration: 20 us\nmethod: mpm\n"
                                  "material: {young: 72 GPa, density: 2440}\nbody: {box: {from: [0], to: [5 mm]}}\n"

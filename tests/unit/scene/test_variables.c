@@ -8,8 +8,8 @@
 #include <math.h>
 #include <cmocka.h>
 
-#include "auto/scene_read.h"
 #include "scene/scene.h"
+#include "scene/scene_read.h"
 
 #define SCENE                                                                                                          \
     "space: plane stress\n"                                                                                            \

@@ -7,10 +7,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "auto/scene_read.h"
 #include "output/output_files.h"
+#include "scene/scene_read.h"
 #include "study/convergence_study.h"
-#include "study/pilot.h"
 #include "study/uncertainty.h"
 
 /* ---- convergence ------------------------------------------------------------------------------------------------- */
@@ -299,48 +298,13 @@ static void intervals_at_hand(void **state)
     assert_int_equal(chdir("/") | rmdir(folder), 0);
 }
 
-/* ---- pilot runs ----------------------------------------------------------------------------------------------------
- */
-
-/* Lengths that have to be resolved have a few spacings each, which divide the body; none needs more than 50,000
- * particles. */
-static void pilots_begin_where_lengths_are_seen(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *body, *more;
-        double least, most;
-    } scene[] = {
-        {"{box: {from: [0, 0], to: [40 mm, 20 mm]}}", "", 0.4e-3, 0.52e-3}, /* 3000 particles */
-        {"{box: {from: [0, 0], to: [40 mm, 2 mm]}}", "", 0.1e-3, 0.2e-3},   /* ten across */
-        {"{box: {from: [0, 0], to: [40 mm, 20 mm]}}", "cracks: [{from: [-1 mm, 10 mm], to: [2 mm, 10 mm]}]\n", 0.2e-3,
-         0.26e-3}, /* eight from its end to the face */
-        {"{box: {from: [0, 0], to: [40 mm, 20 mm]}}",
-         "initial: [{pulse: {at: [2 mm, 0], direction: [1, 0], width: 1 mm, velocity: 1}}]\n", 0.11e-3, 0.13e-3},
-    };
-    for (size_t k = 0; k < COUNT_OF(scene); k++) {
-        char text[1024];
-        struct scene s;
-        const int length =
-            snprintf(text, sizeof text,
-                     "space: plane stress\nthickness: 1 mm\nduration: 1 us\nmethod: mpm\nmaterial: {young: 2e11, "
-                     "poisson: 1/3, density: 8000}\nparticles: {spacing: 1 mm}\nbody: %s\n%s",
-                     scene[k].body, scene[k].more);
-        assert_int_equal(scene_read_text(&s, text, (size_t)length, "pilot.yaml", NULL, 0), OK);
-        const double h = pilot_spacing(&s), across = 20e-3 / h;
-        assert_true(h > scene[k].least && h < scene[k].most);
-        if (k != 1) assert_near(across, round(across), 1e-6 * across);
-        scene_free(&s);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(power_laws_are_found),          cmocka_unit_test(bounds_where_no_order_is_seen),
         cmocka_unit_test(scatter_hides_small_trends),    cmocka_unit_test(chance_moves_the_order),
         cmocka_unit_test(intervals_as_defined),          cmocka_unit_test(intervals_hold_what_they_name),
-        cmocka_unit_test(bias_widens_intervals),         cmocka_unit_test(pilots_begin_where_lengths_are_seen),
+        cmocka_unit_test(bias_widens_intervals),
         cmocka_unit_test(levels_are_apart),
         cmocka_unit_test(intervals_at_hand),
         cmocka_unit_test(student_as_published),          cmocka_unit_test(steps_of_a_figure_are_errors),

@@ -1,14 +1,13 @@
-/* Reads a scene: file to nodes, `method: auto` resolved, nodes to struct scene, the scene as run written out. */
-#include "auto/scene_read.h"
+/* Reads a scene: file to nodes, nodes to struct scene, the scene as run written out. */
+#include "scene/scene_read.h"
 
 #include <ctype.h>
 #include <locale.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "auto.h"
 #include "base/memory.h"
-#include "src/scene/scene_internal.h"
+#include "scene_internal.h"
 
 /* Name of a scene from its path: the file name without folder and ending; characters that a name may not have become
  * _. */
@@ -24,20 +23,32 @@ static void name_from_path(char name[NAME_MAX_LENGTH], const char *path)
     if (length == 0) strcpy(name, "scene");
 }
 
-/* Text to tree, choices of method auto, tree to scene, and the echo of the scene. */
-static status scene_read_all(struct reader *r, const char *text, size_t length, struct pilot_wish *pilot)
+/* The node of `method: auto`; NULL: the scene has another method. */
+static const struct node *auto_method(const struct node *root)
+{
+    const struct node *method = root->kind == NODE_MAP ? node_find(root, "method") : NULL;
+    return method && method->kind == NODE_SCALAR && strcmp(method->text, "auto") == 0 ? method : NULL;
+}
+
+/* Makes the tree of nodes, the scene and its echo; of a scene with `method: auto` only the wish. */
+static status scene_read_all(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
 {
     struct scene *s = r->scene;
     struct node *root;
     TRY(scene_tree(r, text, length, &root));
-    TRY(auto_resolve(r, root, text, length, pilot));
+    const struct node *method = auto_method(root);
+    if (method && wish) return wish_read(r, root, text, length, wish);
+    if (method)
+        return fault(r, method, "auto is resolved by the pilot runs of `cleave run`; write a method and "
+                                "particles.spacing, or take the scene.yaml that such a run leaves");
     TRY(scene_from_tree(r, root));
     s->text = scene_echo(s);
     return s->text ? OK : status_set(FAILED, "%s: no memory to write it out", r->name);
 }
 
-/* Reads a scene from text in the C locale. Frees the nodes, and the scene on failure. `pilot` as in auto_resolve. */
-static status read_scene(struct reader *r, const char *text, size_t length, struct pilot_wish *pilot)
+/* Reads a scene from text in the C locale. Frees the nodes, and the scene on failure or if the wish is wanted. wish
+ * NULL: `method: auto` is REFUSED. */
+static status read_scene(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
 {
     struct scene *s = r->scene;
     *s = (struct scene){0};
@@ -47,11 +58,11 @@ static status read_scene(struct reader *r, const char *text, size_t length, stru
     s->path = NEW("scene path", strlen(r->name) + 1, char);
     strcpy(s->path, r->name);
     name_from_path(s->name, r->name);
-    status result = scene_read_all(r, text, length, pilot);
+    status result = scene_read_all(r, text, length, wish);
     uselocale(old);
     freelocale(c);
     arena_free(r);
-    if (result != OK) scene_free(s);
+    if (result != OK || (wish && wish->wanted)) scene_free(s);
     return result;
 }
 
@@ -62,16 +73,16 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
     return read_scene(&r, text, length, NULL);
 }
 
-/* scene_read, and `pilot` as in auto_resolve. */
+/* Reads a scene from a file; wish as in read_scene. */
 static status scene_file_read(struct scene *s, const char *path, const struct scene_override *override, int overrides,
-                        struct pilot_wish *pilot)
+                              struct pilot_wish *wish)
 {
     char *text = NULL;
     size_t length = 0;
     struct reader r = {.name = path, .override = override, .overrides = overrides, .scene = s, .files = true};
     *s = (struct scene){0};
     TRY(file_bytes(path, &text, &length));
-    status result = read_scene(&r, text, length, pilot);
+    status result = read_scene(&r, text, length, wish);
     memory_free(text);
     return result;
 }
@@ -85,6 +96,5 @@ status scene_read_or_wish(struct scene *s, struct pilot_wish *w, const char *pat
                           const struct scene_override *override, int overrides)
 {
     *w = (struct pilot_wish){0};
-    const status read = scene_file_read(s, path, override, overrides, w);
-    return w->wanted ? OK : read;
+    return scene_file_read(s, path, override, overrides, w);
 }

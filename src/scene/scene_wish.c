@@ -1,0 +1,108 @@
+/* Reads what a scene with `method: auto` requires of its pilot runs: the key `accuracy`, the keys that restrict the
+ * choice, and the scene itself with a provisional method and spacing. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scene/scene_read.h"
+#include "scene/spacings.h"
+#include "scene_internal.h"
+
+#define WITHIN_USUAL 0.01
+#define BUDGET_USUAL 300.0 /* [s] */
+
+/* ---- the key accuracy -------------------------------------------------------------------------------------------- */
+
+/* Reads the name of a figure of summary.json: names joined by points. */
+static status figure_read(struct reader *r, const struct node *of, char *figure, size_t room)
+{
+    if (of->kind != NODE_SCALAR || !*of->text || strlen(of->text) >= room || strpbrk(of->text, " ,/"))
+        return fault(r, of, "%s is no figure of summary.json; its names are joined by points, as in crack.start_time",
+                     shown(r, of));
+    snprintf(figure, room, "%s", of->text);
+    return OK;
+}
+
+/* Reads `accuracy`, a share or {of, within, budget}, into figure, within and budget. */
+static status accuracy_read(struct reader *r, const struct node *root, struct pilot_wish *w)
+{
+    const struct node *n = tree_at(root, "accuracy");
+    w->within = WITHIN_USUAL, w->budget = BUDGET_USUAL, w->figure[0] = '\0';
+    if (!n) return OK;
+    if (n->kind != NODE_MAP) return read_number(r, key_find("accuracy", "within"), n, &w->within);
+    TRY(check_keys(r, n, "accuracy"));
+    const struct node *of = node_find(n, "of"), *within = node_find(n, "within"), *budget = node_find(n, "budget");
+    if (of) TRY(figure_read(r, of, w->figure, sizeof w->figure));
+    if (within) TRY(read_number(r, key_find("accuracy", "within"), within, &w->within));
+    return budget ? read_number(r, key_find("accuracy", "budget"), budget, &w->budget) : OK;
+}
+
+/* ---- the scene with a provisional method ------------------------------------------------------------------------- */
+
+/* Reads the scene with stand-ins for what pilot runs choose, which contradict no other key. spacing: [m], where the
+ * scene gives none. */
+static status provisional_read(struct reader *r, const char *text, size_t length, struct scene *s, const char *method,
+                               real spacing)
+{
+    static const char *const dropped[] = {"accuracy", "pd.surface"};
+    struct reader own = *r;
+    struct node *root;
+    char number[32];
+    own.scene = s;
+    status read = scene_tree(&own, text, length, &root);
+    for (size_t k = 0; k < COUNT_OF(dropped) && read == OK; k++)
+        if (tree_at(root, dropped[k])) read = tree_set(&own, root, dropped[k], "");
+    const struct node *space = read == OK ? tree_at(root, "space") : NULL;
+    const bool line = space && strcmp(space->text, "line") == 0,
+               yields = read == OK && tree_at(root, "material.yield_stress");
+    if (read == OK && !tree_at(root, "particles.spacing"))
+        read = tree_set(&own, root, "particles.spacing", number_text(number, spacing));
+    if (read == OK) read = tree_set(&own, root, "method", method);
+    if (read == OK) read = tree_set(&own, root, "solver", "explicit");
+    if (read == OK && !line && !yields) read = tree_set(&own, root, "model", "mospd");
+    if (read == OK) read = scene_from_tree(&own, root);
+    r->arena = own.arena;
+    if (read != OK) scene_free(s);
+    return read;
+}
+
+/* Reads the scene as adaptive, or as pd where adaptive is refused, as it is for bodies that are joined. */
+static status provisional_read_any(struct reader *r, const char *text, size_t length, struct scene *s, real spacing)
+{
+    const status read = provisional_read(r, text, length, s, "adaptive", spacing);
+    return read == REFUSED ? provisional_read(r, text, length, s, "pd", spacing) : read;
+}
+
+/* Reads the scene at its own spacing, or at one that suits its lengths, which are known from a reading at 1 m. */
+static status provisional_scene(struct reader *r, const char *text, size_t length, struct scene *s, bool given)
+{
+    TRY(provisional_read_any(r, text, length, s, 1));
+    const real spacing = given ? 0 : spacing_coarse(s);
+    if (spacing > 0) {
+        scene_free(s);
+        TRY(provisional_read_any(r, text, length, s, spacing));
+    }
+    if (!*s->name) snprintf(s->name, sizeof s->name, "%s", r->scene->name);
+    s->path = NEW("scene path", strlen(r->name) + 1, char);
+    strcpy(s->path, r->name);
+    return OK;
+}
+
+/* ---- all --------------------------------------------------------------------------------------------------------- */
+
+status wish_read(struct reader *r, const struct node *root, const char *text, size_t length, struct pilot_wish *w)
+{
+    const struct node *model = tree_at(root, "model"), *solver = tree_at(root, "solver");
+    const bool given = tree_at(root, "particles.spacing");
+    if (tree_at(root, "steps"))
+        return fault(r, tree_at(root, "method"),
+                     "auto knows no load steps (steps); pd, or adaptive, is expected beside them");
+    TRY(accuracy_read(r, root, w));
+    TRY(provisional_scene(r, text, length, &w->provisional, given));
+    if (given) w->spacing = w->provisional.spacing;
+    if (model) snprintf(w->model, sizeof w->model, "%s", model->text);
+    w->at_rest = solver && strcmp(solver->text, "explicit") != 0;
+    w->has_accuracy = tree_at(root, "accuracy") != NULL;
+    w->wanted = true;
+    return OK;
+}

@@ -1,0 +1,194 @@
+/* Spacings that suit the lengths of a scene. */
+#include "scene/spacings.h"
+
+#include <math.h>
+
+/* ---- a spacing that fits -------------------------------------------------------------------------------------------
+ *
+ * The lattice of a body is placed by its first solid and divides its edges into whole numbers of spacings (fill.c);
+ * gaps and crack tips along the axes keep their positions only if they, too, are between particles. */
+
+enum { LENGTHS_MOST = 64 };
+struct lengths { int n; real of[LENGTHS_MOST]; };
+
+/* Extent along an axis of the box that a body begins with [m]; 0: it begins with another solid. */
+static real box_extent(const struct scene *s, int body, int axis)
+{
+    const struct region *shape = &s->body[body].shape;
+    if (shape->n == 0 || !solid_is(&shape->solid[0], SOLID_BOX)) return 0;
+    return shape->solid[0].to[axis] - shape->solid[0].from[axis];
+}
+
+static void length_add(struct lengths *l, real length)
+{
+    if (fabs(length) > 0 && l->n < LENGTHS_MOST) l->of[l->n++] = fabs(length);
+}
+
+/* Adds the distance of a coordinate X from the lower face of a box, if X is inside the box. */
+static void length_add_inside(struct lengths *l, const struct solid *box, int axis, real X)
+{
+    if (X > box->from[axis] && X < box->to[axis]) length_add(l, X - box->from[axis]);
+}
+
+static void lengths_add_cracks(struct lengths *l, const struct scene *s, const struct solid *box)
+{
+    for (int k = 0; k < s->cracks && s->dim == 2; k++) {
+        const real *a = s->crack[k].corner[0], *b = s->crack[k].corner[1];
+        if (a[0] != b[0] && a[1] != b[1]) continue;      /* oblique: fits no lattice */
+        for (int d = 0; d < 2; d++) length_add_inside(l, box, d, a[d]), length_add_inside(l, box, d, b[d]);
+    }
+}
+
+/* Collects the lengths that the spacing should divide: edges of bodies, and positions of gaps and cracks in them. */
+static void lengths_collect(struct lengths *l, const struct scene *s)
+{
+    l->n = 0;
+    for (int b = 0; b < s->bodies; b++) {
+        if (s->body[b].shape.n == 0) continue;           /* particles from a list */
+        const struct solid *box = &s->body[b].shape.solid[0];
+        for (int d = 0; d < s->dim; d++) length_add(l, box_extent(s, b, d));
+        for (int k = 1; k < s->body[b].shape.n; k++) {
+            const struct solid *gap = &s->body[b].shape.solid[k];
+            for (int d = 0; d < s->dim && gap->subtract && solid_is(gap, SOLID_BOX); d++)
+                length_add_inside(l, box, d, gap->from[d]), length_add_inside(l, box, d, gap->to[d]);
+        }
+        lengths_add_cracks(l, s, box);
+    }
+}
+
+/* Relative tolerance of lengths, which have few digits in scenes. */
+#define DIGITS 1e-6
+
+/* Least whole number of spacings <= h in a length. */
+static real spacings_in(real length, real h) { return real_max(1, ceil(length / h * (1 - DIGITS))); }
+
+static bool length_divides(real unit, real length)
+{
+    const real count = length / unit;
+    return fabs(count - round(count)) < 1e-6 * count;
+}
+
+/* True if h divides all lengths and, with `even`, 2 h the edges of the body: cells of two spacings end with the
+ * body. */
+static bool spacing_fits(const struct lengths *l, const struct scene *s, real h, bool even)
+{
+    for (int k = 0; k < l->n; k++)
+        if (!length_divides(h, l->of[k])) return false;
+    for (int d = 0; d < s->dim && even; d++)
+        if (!length_divides(2 * h, box_extent(s, 0, d))) return false;
+    return true;
+}
+
+real spacing_fit(const struct scene *s, real h, bool even)
+{
+    struct lengths l;
+    real least = INFINITY;
+    lengths_collect(&l, s);
+    for (int k = 0; k < l.n; k++) least = real_min(least, l.of[k]);
+    if (!isfinite(least)) return h;
+    for (int strict = even; strict >= 0; strict--)
+        for (real n = spacings_in(least, h); least / n > 0.75 * h; n++)
+            if (spacing_fits(&l, s, least / n, strict)) return least / n;
+    const real edge = box_extent(s, 0, 0), cells = spacings_in(edge, h);
+    return edge > 0 ? edge / (even ? 2 * ceil(cells / 2) : cells) : h;
+}
+
+/* ---- a coarse spacing ----------------------------------------------------------------------------------------------
+ *
+ * Each length that a solution has to resolve gets as many spacings as show its convergence; two coarser levels still
+ * have half as many. */
+
+#define ACROSS_BODY 10.0 /* spacings across a body ... */
+#define IN_HOLE 4.0      /* ... in the radius of a hole, a cylinder, a ball */
+#define IN_CRACK 8.0     /* ... in a crack, or from its end to a face */
+#define IN_PULSE 10.0    /* ... in a pulse or a wavelength */
+#define IN_RING 12.5     /* ... in the radius of a ring of a sif probe, which wants 6 */
+#define PARTICLES_MOST 5e4
+static const double particles_usual[] = {0, 200, 3000, 8000}; /* in 1, 2, 3 dimensions, or more where lengths ask */
+
+static double body_spacing(const struct scene *s, const struct region *shape)
+{
+    real from[DIM_MAX], to[DIM_MAX];
+    double least = INFINITY;
+    if (!region_bounds(shape, s->dim, from, to)) return least;
+    for (int d = 0; d < s->dim; d++) least = fmin(least, (to[d] - from[d]) / ACROSS_BODY);
+    for (int k = 0; k < shape->n; k++) {
+        const struct solid *a = &shape->solid[k];
+        least = fmin(least, solid_radius(a, s->dim) / IN_HOLE);
+    }
+    return least;
+}
+
+/* Returns the distance [m] of X [dim] from the nearest face of the box round the first body on which X is not. */
+static double distance_to_face(const struct scene *s, const real *X)
+{
+    real from[DIM_MAX], to[DIM_MAX];
+    double least = INFINITY;
+    if (!region_bounds(&s->body[0].shape, s->dim, from, to)) return least;
+    for (int d = 0; d < s->dim; d++) {
+        if (X[d] > from[d]) least = fmin(least, X[d] - from[d]);
+        if (X[d] < to[d]) least = fmin(least, to[d] - X[d]);
+    }
+    return least;
+}
+
+static double crack_spacing(const struct scene *s, const struct crack *c)
+{
+    double squares = 0, least = INFINITY;
+    if (s->dim == 1) return least;
+    for (int d = 0; d < s->dim; d++) squares += square(c->corner[1][d] - c->corner[0][d]);
+    least = sqrt(squares) / IN_CRACK;
+    for (int k = 0; k < c->n; k++) {
+        const double ligament = distance_to_face(s, c->corner[k]);
+        if (ligament > 1e-3 * sqrt(squares)) least = fmin(least, ligament / IN_CRACK);
+    }
+    return least;
+}
+
+static double load_spacing(const struct scene *s)
+{
+    double least = INFINITY;
+    for (int k = 0; k < s->initials; k++)
+        if (s->initial[k].sets_pulse) least = fmin(least, s->initial[k].pulse.width / IN_PULSE);
+    for (int k = 0; k < s->boundaries; k++) {
+        const struct boundary *b = &s->boundary[k];
+        if (b->kind == BOUNDARY_BODY_FORCE && b->profile.kind == PROFILE_SINE)
+            least = fmin(least, b->profile.wavelength / IN_PULSE);
+        if (scene_moves(s) && b->time.kind == TIME_PULSE)
+            least = fmin(least, s->material[0].wave_speed * (b->time.until - b->time.from) / IN_PULSE);
+    }
+    return least;
+}
+
+static double probe_spacing(const struct probe_request *p)
+{
+    double least = INFINITY;
+    if (p->kind != PROBE_SIF) return least;
+    if (p->outer > 0) least = p->outer / IN_RING;
+    for (int k = 0; k < p->contours.n; k++) least = fmin(least, p->contours.value[k] / IN_RING);
+    return least;
+}
+
+/* Returns the spacing at which the boxes round all bodies have so many particles [m]. */
+static double spacing_for(const struct scene *s, double particles)
+{
+    real from[DIM_MAX], to[DIM_MAX];
+    double volume = 0;
+    for (int b = 0; b < s->bodies; b++) {
+        double box = 1;
+        if (!region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
+        for (int d = 0; d < s->dim; d++) box *= to[d] - from[d];
+        volume += box;
+    }
+    return pow(volume / particles, 1.0 / s->dim);
+}
+
+real spacing_coarse(const struct scene *s)
+{
+    double h = load_spacing(s);
+    for (int b = 0; b < s->bodies; b++) h = fmin(h, body_spacing(s, &s->body[b].shape));
+    for (int k = 0; k < s->cracks; k++) h = fmin(h, crack_spacing(s, &s->crack[k]));
+    for (int k = 0; k < s->probes; k++) h = fmin(h, probe_spacing(&s->probe[k]));
+    h = fmin(h, spacing_for(s, particles_usual[s->dim]));
+    return h > 0 && isfinite(h) ? spacing_fit(s, fmax(h, spacing_for(s, PARTICLES_MOST)), true) : 0;
+}

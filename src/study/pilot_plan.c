@@ -1,0 +1,90 @@
+/* The plan of pilot runs: which methods can do the scene, and what `cleave check` says of the runs. */
+#include <math.h>
+#include <string.h>
+
+#include "pilot_parts.h"
+#include "scene/spacings.h"
+
+/* ---- methods ----------------------------------------------------------------------------------------------------- */
+
+/* Bonds impose Poisson's ratio; a line has no other law. */
+static bool bonds_fit(const struct scene *s)
+{
+    bool fit = true;
+    for (int m = 0; m < s->materials; m++)
+        fit &= s->dim == 1 || fabs(s->material[m].poisson - material_bond_poisson(s->space)) < 1e-6;
+    return fit;
+}
+
+static bool needs_bonds(const struct scene *s)
+{
+    return scene_cracks(s) || s->has_pd_region || scene_watches_bonds(s);
+}
+
+static void candidate_add(struct pilot_search *p, const char *name, const char *method, const char *model)
+{
+    const bool points = !strcmp(method, "mpm");
+    if (!points && p->wish.model[0] && strcmp(p->wish.model, model) != 0) return;
+    p->at[p->n++] = (struct pilot_candidate){.name = name, .method = method, .model = points ? NULL : model};
+}
+
+static void candidates_find(struct pilot_search *p)
+{
+    const struct scene *s = &p->wish.provisional;
+    const bool asked_bond = !strcmp(p->wish.model, "bond"), bond = asked_bond || bonds_fit(s);
+    const bool breaks = scene_bonds_break(s) || s->growths > 0, zones = s->has_pd_region;
+    /* at rest, points take their time: bonds have conjugate gradients */
+    if (!needs_bonds(s) && !p->wish.at_rest) candidate_add(p, "points", "mpm", NULL);
+    if (!zones) candidate_add(p, bond ? "bonds" : "states", "pd", bond ? "bond" : "ospd");
+    if (!zones && !strcmp(p->wish.model, "mospd")) candidate_add(p, "rotations", "pd", "mospd");
+    if ((breaks || zones) && !p->wish.at_rest)
+        candidate_add(p, bond ? "adaptive bonds" : "adaptive states", "adaptive", bond ? "bond" : "mospd");
+}
+
+/* ---- the plan ---------------------------------------------------------------------------------------------------- */
+
+status pilot_plan(struct pilot_search *p)
+{
+    const struct scene *s = &p->wish.provisional;
+    for (int b = 0; b < s->bodies; b++)
+        if (s->body[b].file)
+            return status_set(REFUSED,
+                              "%s: method: auto varies the spacing, and a body's particles come from a list, which has "
+                              "one; write a method and particles.spacing",
+                              p->scene);
+    if (!(p->wish.spacing > 0) && !(spacing_coarse(s) > 0))
+        return status_set(REFUSED, "%s: no length tells where pilot runs should begin; write a method and "
+                          "particles.spacing", p->scene);
+    if (p->wish.figure[0]) TRY(figure_name_check(s, p->wish.figure));
+    candidates_find(p);
+    return p->n > 0 ? OK : status_set(REFUSED, "%s: pilot runs have no method for the scene with its model, solver and "
+                                      "pd.region; write a method and particles.spacing", p->scene);
+}
+
+const char *pilot_figure(const struct pilot_search *p)
+{
+    if (p->wish.figure[0]) return p->wish.figure;
+    if (p->wish.provisional.probes > 0) return "the first figure of its probes that is not zero";
+    return scene_cracks(&p->wish.provisional) ? "crack.start_time" : "the largest of its energies";
+}
+
+status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out)
+{
+    struct pilot_search p = {.scene = scene, .wish = *w};
+    TRY(pilot_plan(&p));
+    const double spacing = 1e3 * w->provisional.spacing;
+    fprintf(out, "%s can be read\n", shown_name(scene).text);
+    fprintf(out, "auto           cleave run chooses by pilot runs; the scene.yaml that it leaves can be checked\n");
+    fprintf(out, "auto           they judge %s, within %.3g %%\n", pilot_figure(&p), 100 * w->within);
+    fprintf(out, "auto           they vary the method (");
+    for (int k = 0; k < p.n; k++) fprintf(out, "%s%s", k > 0 ? ", " : "", p.at[k].name);
+    if (w->spacing > 0) fprintf(out, "), the spacing (%.4g mm as given, and coarser)", spacing);
+    else fprintf(out, "), the spacing (%.4g mm and coarser at first, then finer)", spacing);
+    fprintf(out, "%s\n", w->at_rest ? "" : " and the time step (0.9 to 1.1 of its own)");
+    fprintf(out,
+            "auto           they cost at most %.3g s (accuracy.budget), of which %.3g s are for the first %d runs of "
+            "each method; the run that they choose costs at most %.3g s\n",
+            w->budget, PILOT_FIRST_SHARE * w->budget, PILOT_RUNS_FIRST * PILOT_LEVELS_FIRST,
+            PILOT_LONGEST * w->budget);
+    return OK;
+}
