@@ -28,11 +28,14 @@ static void candidate_add(struct pilot_search *p, const char *name, const char *
     p->at[p->n++] = (struct pilot_candidate){.name = name, .method = method, .model = points ? NULL : model};
 }
 
+/* Returns true if bonds of the scene may break or its cracks grow. */
+static bool may_crack(const struct scene *s) { return scene_bonds_break(s) || s->growths > 0; }
+
 static void candidates_find(struct pilot_search *p)
 {
     const struct scene *s = &p->wish.provisional;
     const bool asked_bond = !strcmp(p->wish.model, "bond"), bond = asked_bond || bonds_fit(s);
-    const bool breaks = scene_bonds_break(s) || s->growths > 0, zones = s->has_pd_region;
+    const bool breaks = may_crack(s), zones = s->has_pd_region;
     /* at rest, points take their time: bonds have conjugate gradients */
     if (!needs_bonds(s) && !p->wish.at_rest) candidate_add(p, "points", "mpm", NULL);
     if (!zones) candidate_add(p, bond ? "bonds" : "states", "pd", bond ? "bond" : "ospd");
@@ -65,7 +68,9 @@ const char *pilot_figure(const struct pilot_search *p)
 {
     if (p->wish.figure[0]) return p->wish.figure;
     if (p->wish.provisional.probes > 0) return "the first figure of its probes that is not zero";
-    return scene_cracks(&p->wish.provisional) ? "crack.start_time" : "the largest of its energies";
+    if (may_crack(&p->wish.provisional) && !p->wish.at_rest)
+        return "crack.start_time, or the largest of its energies if nothing breaks";
+    return "the largest of its energies";
 }
 
 status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out)
@@ -82,8 +87,8 @@ status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out
     else fprintf(out, "), the spacing (%.4g mm and coarser at first, then finer)", spacing);
     fprintf(out, "%s\n", w->at_rest ? "" : " and the time step (0.9 to 1.1 of its own)");
     fprintf(out,
-            "auto           they cost at most %.3g s (accuracy.budget), of which %.3g s are for the first %d runs of "
-            "each method; the run that they choose costs at most %.3g s\n",
+            "auto           they cost at most %.4g s (accuracy.budget), of which %.4g s are for the first %d runs of "
+            "each method; the run that they choose costs at most %.4g s\n",
             w->budget, PILOT_FIRST_SHARE * w->budget, PILOT_RUNS_FIRST * PILOT_LEVELS_FIRST,
             PILOT_LONGEST * w->budget);
     return OK;
