@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "auto/scene_read.h"
+#include "scene/scene_read.h"
 #include "base/memory.h"
 #include "engine/engine.h"
 #include "src/contact/contact_internal.h"

@@ -14,7 +14,7 @@
 #include "src/quasistatic/statics_internal.h"
 #include "step/report.h"
 #include "scene/scene_read.h"
-#include "src/engine/engine_statics.h"
+#include "src/quasistatic/statics_internal.h"
 
 struct solution {
     struct scene s;
