@@ -43,6 +43,9 @@ void voids_convert(struct run *e);
 /* Warns of voids that the run closes: narrow ones on the grid of the current frame, and in lists and images. */
 void voids_warn(const struct run *e, struct warnings *to);
 
+/* Warns of bodies that pass through each other or stick together, and of voids that are closed. */
+void warn_of_bodies(const struct run *e, struct warnings *to);
+
 /* Conversion (step 8 of the algorithm). Marks what bodies and faces have come near, and follows waves in the active
  * set; true: points may have been marked at faces of slits. */
 bool conversion_mark(struct run *e);

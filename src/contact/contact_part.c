@@ -1,7 +1,67 @@
 /* Contact of peridynamic particles, as a part of a run. */
 #include "contact/contact.h"
+#include "rigid/rigid_part.h"
 #include "run/part.h"
+#include "grid/grid_part.h"
 
 static void contact_free_all(struct run *e) { contact_free(e->contact); }
 
-const struct part part_contact = {PART(contact, contact), .free = contact_free_all};
+/* Pairs in contact at once and their largest overlap, in a run with contact. */
+static void put_contact(const struct run *e, struct json *j)
+{
+    const struct contact *c = e->contact;
+    const struct grid_method *mpm = e->grid;
+    const struct grid_contact *g = &mpm->contact;
+    if (c->law.between == CONTACT_NONE && mpm->fields < 2) return;
+    json_open(j, "contact", '{');
+    json_real(j, "began", fmin(c->began, g->began));
+    json_real(j, "ended", fmax(c->ended, g->ended));
+    if (mpm->fields > 1) json_count(j, "nodes_max", g->nodes_most);
+    if (c->law.between == CONTACT_NONE) {
+        json_close(j, '}');
+        return;
+    }
+    json_count(j, "pairs_max", c->pairs_most);
+    json_real(j, "friction_work", contact_friction_work(c));
+    json_real(j, "overlap_max", c->overlap_most / c->law.spacing);
+    json_close(j, '}');
+}
+
+static status contact_state(struct run *e, struct archive *a)
+{
+    struct contact *c = e->contact;
+    c->marked = scene_in_steps(e->scene);
+    TRY(contact_archive(c, &e->part, a));
+    if (!a->saving && c->made && !c->touch) contact_follow(c, &e->part, &e->bonds, &e->loads);
+    return OK;
+}
+
+/* Rigid bodies at the end, and the largest force on each. */
+static void put_rigid(const struct run *e, struct json *j)
+{
+    static const char *const velocity[] = {"velocity_x", "velocity_y", "velocity_z"};
+    if (e->scene->rigids == 0) return;
+    json_open(j, "rigid", '[');
+    for (int k = 0; k < e->scene->rigids; k++) {
+        const struct rigid_body *r = &e->rigid->body[k];
+        real v[DIM_MAX];
+        rigids_velocity(e, k, v);
+        json_open(j, NULL, '{');
+        json_text(j, "name", r->name);
+        json_point(j, "", r->x, r->dim);
+        for (int d = 0; d < r->dim; d++) json_real(j, velocity[d], v[d]);
+        json_real(j, "force_max", r->force_most);
+        json_real(j, "patch", contact_patch(e->contact, &e->part, k));
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
+static void put_contact_and_rigid(const struct run *e, struct json *j)
+{
+    put_contact(e, j);
+    put_rigid(e, j);
+}
+
+const struct part part_contact = {PART(contact, contact), .free = contact_free_all, .summary = put_contact_and_rigid,
+                                  .state = contact_state};

@@ -10,4 +10,56 @@ static void coupling_free_all(struct run *e)
     memory_free(c->bonded), memory_free(c->start_region.solid);
 }
 
-const struct part part_coupling = {PART(coupling, coupling_state), .free = coupling_free_all};
+/* Most reversions of one particle. */
+static int reversions_most(const struct particles *p)
+{
+    int most = 0;
+    for (int64_t i = 0; i < p->n; i++) most = p->reversions[i] > most ? p->reversions[i] : most;
+    return most;
+}
+
+/* What stands for each of the first pre-cracks. */
+static void put_notches(struct json *j, const struct run *e)
+{
+    enum { SAID = 16 };
+    char text[256];
+    if (e->coupling->notches.n == 0) return;
+    json_open(j, "notches", '[');
+    for (int k = 0; k < e->coupling->notches.n && k < SAID; k++) {
+        notch_text(e, k, text, sizeof text);
+        json_text(j, NULL, text);
+    }
+    json_close(j, ']');
+}
+
+static void put_conversion(const struct run *e, struct json *j)
+{
+    const struct conversion *c = &e->coupling->conversion;
+    real n = (real)e->part.n_body, start = (real)c->start / n, end = (real)e->part.n_of[KIND_PD] / n;
+    json_open(j, "conversion", '{');
+    if (isfinite(c->first_time) && c->events > 0) {
+        json_real(j, "first_time", c->first_time);
+        json_point(j, "", c->first_place, e->part.dim);
+    }
+    json_real(j, "pd_share_start", start);
+    json_real(j, "pd_share_end", end);
+    json_real(j, "pd_share_max", real_max((real)c->peak / n, real_max(start, end)));
+    put_notches(j, e);
+    if (e->part.low_since) {
+        json_count(j, "converted", c->converted);
+        json_count(j, "returned", c->reverted);
+        json_count(j, "returns_most", reversions_most(&e->part));
+        json_real(j, "return_energy", c->reversion_energy);
+    }
+    json_close(j, '}');
+}
+
+/* Of the mesh points at ends of bonds follow, which is no state. */
+static status coupling_state_of(struct run *e, struct archive *a)
+{
+    if (!a->saving) ends_update(e);
+    return conversion_archive(&e->coupling->conversion, a);
+}
+
+const struct part part_coupling = {PART(coupling, coupling_state), .free = coupling_free_all, .summary = put_conversion,
+                                   .warn = warn_of_bodies, .state = coupling_state_of};

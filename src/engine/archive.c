@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "engine_internal.h"
+#include "run/part.h"
 #include "quasistatic/load_steps.h"
 #include "base/memory.h"
 #include "simd/simd.h"
@@ -106,40 +107,17 @@ status engine_archive(void *engine, struct archive *a)
         e->coupling->partial.touches = 0;
         TRY(frame_levels_make(e, true));
     }
-    TRY(mesh_archive(&e->frame->mesh, a));
-    TRY(levels_archive(&e->frame->levels, &e->part, &e->frame->source, a));
-    if (!a->saving) ends_update(e);
     ARCHIVE_VALUE(a, "engine/t", e->clock.t);
     ARCHIVE_VALUE(a, "engine/step", e->clock.step);
     ARCHIVE_VALUE(a, "engine/steps", e->clock.steps);
     ARCHIVE_VALUE(a, "engine/dt", e->clock.dt);
     ARCHIVE_VALUE(a, "engine/damped", e->damped);
-    ARCHIVE_VALUE(a, "engine/residual_step0", e->probing->residual_step0);
-    ARCHIVE_VALUE(a, "engine/particle_steps", e->report->particle_steps);
-    ARCHIVE_VALUE(a, "engine/bond_visits", e->report->bond_visits);
-    ARCHIVE_VALUE(a, "engine/inactive", e->report->inactive);
-    ARCHIVE_VALUE(a, "engine/sampled", e->report->sampled);
     TRY(active_set_archive(&e->bonds.active, "bonds", a));
-    TRY(active_set_archive(&e->frame->mesh.active, "mesh", a));
-    ARCHIVE_VALUE(a, "engine/loop_seconds", e->report->loop_seconds);
     TRY(loads_archive(&e->loads, a));
-    for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_archive(&e->rigid->body[k], k, a));
-    e->contact->marked = scene_in_steps(e->scene);
-    TRY(contact_archive(e->contact, &e->part, a));
-    if (!a->saving && e->contact->made && !e->contact->touch)
-        contact_follow(e->contact, &e->part, &e->bonds, &e->loads);
-    if (e->grid->fields > 1) TRY(grid_contact_archive(&e->grid->contact, a));
-    TRY(solver_archive(e->solver, a));
-    TRY(statics_archive(e, a));
-    TRY(conversion_archive(&e->coupling->conversion, a));
-    TRY(diagnostics_archive(e->diagnostics, a));
-    ARCHIVE_VALUE(a, "engine/speed_rise", e->stability->speed);
-    ARCHIVE_VALUE(a, "engine/excess_rise", e->stability->excess);
-    TRY(tips_archive(&e->fracture->tips, a));
-    for (int k = 0; k < e->scene->growths; k++) TRY(growth_archive(&e->fracture->growth[k], k, a));
-    TRY(probes_archive(&e->probing->probes, a));
+    for (const struct part *const *p = e->parts; *p; p++)
+        if ((*p)->state) TRY((*p)->state(e, a));
     const int known = e->warnings.n;
     TRY(warnings_archive(&e->warnings, a));
     warnings_print(&e->warnings, known, stderr);
-    return output_archive(e->report->out, a);
+    return OK;
 }

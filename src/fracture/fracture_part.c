@@ -25,4 +25,12 @@ bool cracks_fade(const struct run *e)
     return fades;
 }
 
-const struct part part_fracture = {PART(fracture, fracture_state), .free = fracture_free_all};
+static status fracture_state_of(struct run *e, struct archive *a)
+{
+    TRY(tips_archive(&e->fracture->tips, a));
+    for (int k = 0; k < e->scene->growths; k++) TRY(growth_archive(&e->fracture->growth[k], k, a));
+    return OK;
+}
+
+const struct part part_fracture = {PART(fracture, fracture_state), .free = fracture_free_all,
+                                   .state = fracture_state_of};

@@ -11,4 +11,26 @@ static void frame_free_all(struct run *e)
     frame_hollow_points_free(e);
 }
 
-const struct part part_frame = {PART(frame, reference_frame), .free = frame_free_all};
+/* Coarse cells, by level, and how often they have changed. */
+static void put_levels(const struct run *e, struct json *j)
+{
+    const struct mesh_levels *l = &e->frame->levels;
+    if (l->n == 0) return;
+    json_open(j, "levels", '{');
+    json_open(j, "cells", '[');
+    for (int level = 0; level <= l->n; level++) json_count(j, NULL, levels_cells(l, level));
+    json_close(j, ']');
+    json_count(j, "changes", l->changes);
+    json_close(j, '}');
+}
+
+static status frame_state(struct run *e, struct archive *a)
+{
+    struct reference_frame *f = e->frame;
+    TRY(mesh_archive(&f->mesh, a));
+    TRY(levels_archive(&f->levels, &e->part, &f->source, a));
+    return active_set_archive(&f->mesh.active, "mesh", a);
+}
+
+const struct part part_frame = {PART(frame, reference_frame), .free = frame_free_all, .summary = put_levels,
+                                .state = frame_state};

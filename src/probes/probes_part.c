@@ -40,5 +40,10 @@ void make_pulses(const struct scene *s, struct probing *probing)
         if (s->initial[k].sets_pulse) probing->pulse[probing->pulses++] = s->initial[k].pulse;
 }
 
-const struct part part_probing = {PART(probing, probing), .free = probing_free_all};
-const struct part part_diagnostics = {PART(diagnostics, diagnostics)};
+static status probing_state(struct run *e, struct archive *a)
+{
+    ARCHIVE_VALUE(a, "engine/residual_step0", e->probing->residual_step0);
+    return probes_archive(&e->probing->probes, a);
+}
+
+const struct part part_probing = {PART(probing, probing), .free = probing_free_all, .state = probing_state};

@@ -1,8 +1,57 @@
 /* Load steps, as a part of a run. */
+#include <math.h>
+
 #include "statics_internal.h"
 #include "run/part.h"
+#include "probes/diagnostics.h"
+#include "solver/solver.h"
 
 static void statics_free_all(struct run *e) { statics_free(e), led_free(&e->statics->led); }
 
-const struct part part_statics = {PART(statics, statics), .free = statics_free_all, .columns = statics_columns,
-                                  .record = statics_record};
+static void warn_of_solver(const struct run *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    for (int m = 0; m < s->materials && scene_in_steps(s); m++)
+        if (s->model == MODEL_BOND && material_yields(&s->material[m]) && isfinite(s->material[m].critical_stretch))
+            warnings_add(to, "bonds of %s yield before they break: the work that separates it is %.3g J/m^2; elastic "
+                         "ones would take %.3g", s->material[m].name, toughness_of(e, &s->material[m]),
+                         family_crossing_energy(&e->source.family, &s->material[m]));
+    if (!scene_at_rest(s)) return;
+    for (int k = 0; k < s->initials; k++)
+        if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
+            warnings_add(to, "a static equilibrium has no velocities: those of `initial` are left out");
+    for (int b = 0; b < s->bodies; b++)
+        if (dot(s->body[b].velocity, s->body[b].velocity, s->dim) > 0)
+            warnings_add(to, "a static equilibrium has no velocities: that of body %s is left out", s->body[b].name);
+    if (s->bodies > 1 || s->cracks > 0)
+        warnings_add(to, "bodies and faces of cracks do not meet in a static equilibrium: they pass through each other "
+                     "where they close");
+    if (e->solver->applied == 0 && solver_largest(&e->solver->driven, s->dim, e->part.n) == 0)
+        warnings_add(to, "nothing loads the body at t = %.4g s: forces have their value at the end of the duration "
+                     "there (a step that ends before has none)", s->duration);
+}
+
+/* Load steps, what they took and what they released. */
+static void put_load_steps(const struct run *e, struct json *j)
+{
+    static const char *const control[] = {
+        [CONTROL_LOAD] = "load", [CONTROL_ENERGY] = "energy", [CONTROL_OPENING] = "opening"};
+    const struct statics *s = e->statics;
+    if (!scene_in_steps(e->scene)) return;
+    json_open(j, "load_steps", '{');
+    json_text(j, "control", control[e->scene->steps.control]);
+    json_count(j, "steps", e->clock.step);
+    json_real(j, "load_time", s->t);
+    json_count(j, "equilibria", s->solutions);
+    json_count(j, "directions", s->balance.directions);
+    json_real(j, "overload", s->overload);
+    json_count(j, "bonds_broken", e->diagnostics->bonds_broken / 2);
+    json_real(j, "released", s->record.released);
+    json_real(j, "crack_area", s->record.area);
+    json_real(j, "release_rate", s->record.area > 0 ? s->record.released / s->record.area : NAN);
+    json_close(j, '}');
+}
+
+const struct part part_statics = {PART(statics, statics),   .free = statics_free_all,  .columns = statics_columns,
+                                  .record = statics_record, .summary = put_load_steps, .state = statics_archive,
+                                  .warn = warn_of_solver};

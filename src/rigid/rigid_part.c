@@ -8,5 +8,11 @@ static void rigid_free_all(struct run *e)
     memory_free(e->rigid->body), memory_free(e->rigid->shape), memory_free(e->rigid->motion);
 }
 
+static status rigid_state(struct run *e, struct archive *a)
+{
+    for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_archive(&e->rigid->body[k], k, a));
+    return OK;
+}
+
 const struct part part_rigid = {PART(rigid, rigid_set), .free = rigid_free_all, .columns = rigids_columns,
-                                .record = rigids_record};
+                                .record = rigids_record, .state = rigid_state};

@@ -4,4 +4,19 @@
 
 static void solver_free_all(struct run *e) { solver_free(e->solver); }
 
-const struct part part_solver = {PART(solver, solver), .free = solver_free_all};
+static void put_solver(const struct run *e, struct json *j)
+{
+    static const char *const name[] = {[SOLVER_RELAXATION] = "relaxation", [SOLVER_CG] = "cg"};
+    if (!scene_at_rest(e->scene)) return;
+    json_open(j, "solver", '{');
+    json_text(j, "name", name[e->scene->solver]);
+    json_count(j, "steps", e->clock.step);
+    json_real(j, "residual", e->solver->residual);
+    json_count(j, "bonds_past_limit", e->solver->past_limit);
+    json_close(j, '}');
+}
+
+static status solver_state(struct run *e, struct archive *a) { return solver_archive(e->solver, a); }
+
+const struct part part_solver = {PART(solver, solver), .free = solver_free_all, .summary = put_solver,
+                                 .state = solver_state};

@@ -1,6 +1,13 @@
 /* Samples, frames and checkpoints, bulk damping and stability, as parts of a run. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
 #include "base/memory.h"
+#include "output/output.h"
+#include "probes/probes_part.h"
 #include "run/part.h"
+#include "step/step.h"
 #include "step/damping.h"
 #include "step/report.h"
 #include "step/stability.h"
@@ -19,6 +26,67 @@ static void damping_free_all(struct run *e)
         for (int d = 0; d < DIM_MAX; d++) memory_free(e->damping->before[k][d]);
 }
 
-const struct part part_report = {PART(report, run_report), .free = report_free_all};
+/* Figures of one probe follow each other: a new name closes the object of the probe before. */
+struct probe_sink { struct json *json; char name[NAME_MAX_LENGTH]; bool open; };
+
+/* Sink of the figures of probes; `context`: struct probe_sink. */
+static void put_figure(void *context, const char *probe, const char *quantity, real value)
+{
+    struct probe_sink *sink = context;
+    if (!isfinite(value)) return;
+    if (!sink->open || strcmp(sink->name, probe) != 0) {
+        if (sink->open) json_close(sink->json, '}');
+        json_open(sink->json, probe, '{');
+        snprintf(sink->name, sizeof sink->name, "%s", probe);
+        sink->open = true;
+    }
+    json_real(sink->json, quantity, value);
+}
+
+static void put_probes(struct json *j, const struct run *e)
+{
+    struct observed o = run_observed(e);
+    struct probe_sink sink = {.json = j};
+    json_open(j, "probes", '{');
+    probes_figures(&e->probing->probes, &o, put_figure, &sink);
+    if (sink.open) json_close(j, '}');
+    json_close(j, '}');
+}
+
+/* Half-widths of the figures above, where a study of this scene is at hand. */
+static void put_error_bars(struct json *j, const struct run_report *r)
+{
+    if (r->bars == 0) return;
+    json_open(j, "uncertainty", '{');
+    for (int k = 0; k < r->bars; k++) json_number(j, r->bar[k].figure, r->bar[k].half_width, 3);
+    json_close(j, '}');
+}
+
+static void put_figures(const struct run *e, struct json *j)
+{
+    put_probes(j, e);
+    put_error_bars(j, e->report);
+}
+
+static status report_state(struct run *e, struct archive *a)
+{
+    struct run_report *r = e->report;
+    ARCHIVE_VALUE(a, "engine/particle_steps", r->particle_steps);
+    ARCHIVE_VALUE(a, "engine/bond_visits", r->bond_visits);
+    ARCHIVE_VALUE(a, "engine/inactive", r->inactive);
+    ARCHIVE_VALUE(a, "engine/sampled", r->sampled);
+    ARCHIVE_VALUE(a, "engine/loop_seconds", r->loop_seconds);
+    return output_archive(r->out, a);
+}
+
+static status stability_state(struct run *e, struct archive *a)
+{
+    ARCHIVE_VALUE(a, "engine/speed_rise", e->stability->speed);
+    ARCHIVE_VALUE(a, "engine/excess_rise", e->stability->excess);
+    return OK;
+}
+
+const struct part part_report = {PART(report, run_report), .free = report_free_all, .state = report_state,
+                                 .summary = put_figures};
 const struct part part_damping = {PART(damping, damping_state), .free = damping_free_all};
-const struct part part_stability = {PART(stability, stability)};
+const struct part part_stability = {PART(stability, stability), .state = stability_state};

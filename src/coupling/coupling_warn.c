@@ -1,0 +1,119 @@
+/* Warnings of several bodies: which of them meet, and how. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "coupling/coupling_part.h"
+#include "grid/grid_part.h"
+#include "mesh/mesh_part.h"
+
+/* A list of names in words, `a`, `a and b`, `a, b and c`; names beyond the first few are counted. all: number of names
+ * to come. */
+struct name_list { int n, all; char text[320]; };
+
+static void name_add(struct name_list *l, const char *name)
+{
+    enum { NAMED = 4 };
+    const size_t used = strlen(l->text);
+    const bool last = ++l->n == l->all;
+    if (l->n > NAMED && !last) return;
+    if (l->n > NAMED && l->all > NAMED + 1)
+        snprintf(l->text + used, sizeof l->text - used, " and %d more", l->all - NAMED);
+    else snprintf(l->text + used, sizeof l->text - used, "%s%.64s", l->n == 1 ? "" : last ? " and " : ", ", name);
+}
+
+/* Several bodies of which some are in the reference frame. */
+static void warn_of_reference(const struct scene *s, const struct reference_frame *reference, struct warnings *to)
+{
+    struct name_list names = {0};
+    for (int b = 0; b < s->bodies; b++) names.all += reference->choice[b].reference;
+    if (names.all == 0) return;
+    for (int b = 0; b < s->bodies; b++)
+        if (reference->choice[b].reference) name_add(&names, s->body[b].name);
+    warnings_add(
+        to,
+        "%s %s in the reference frame and meet%s no other body: they pass through each other; in mpm.frame current "
+        "bodies meet",
+        names.text, names.all > 1 ? "are" : "is", names.all > 1 ? "" : "s");
+}
+
+/* Contact between several bodies, by method. */
+static void warn_of_contact(const struct run *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    const struct reference_frame *reference = e->frame;
+    bool current = false;
+    for (int b = 0; b < s->bodies; b++) current |= !reference->choice[b].reference;
+    if (!scene_bodies_meet(s) || e->coupling->approaches) return;
+    if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_at_rest(s))) return;
+    if (s->method == METHOD_PD)
+        warnings_add(to, "peridynamic bodies pass through each other%s without contact.between: bodies or all",
+                     s->rigids > 0 ? " (rigid ones they meet)" : "");
+    else warn_of_reference(s, reference, to);
+    if (s->method == METHOD_ADAPTIVE && current)
+        warnings_add(to, "what becomes peridynamic passes through material points of other bodies: that takes "
+                         "contact.convert and the coupling partial stress or handshake");
+}
+
+/* True if two particles start with one velocity, as parts of joined bodies; bodies about to collide do not. */
+static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
+{
+    real apart2 = 0, most2 = 0;
+    for (int d = 0; d < p->dim; d++) {
+        apart2 += square(p->v[d][i] - p->v[d][j]);
+        most2 += square(p->v[d][i]) + square(p->v[d][j]);
+    }
+    return apart2 <= 1e-6 * most2;
+}
+
+/* Sets touch[a * bodies + b], a < b, if particles of bodies a and b are neighbours at the start and move together.
+ * Returns the number of such pairs of bodies. */
+static int touching(const struct run *e, bool *touch)
+{
+    const struct particles *p = &e->part;
+    const int bodies = e->scene->bodies;
+    const real reach = real_min(1.5 * e->scene->spacing, e->source.family.cutoff);
+    struct near near = {0};
+    int pairs = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        near_find(&near, &e->cells, p, i, reach, false);
+        for (int k = 0; k < near.n; k++) {
+            const int32_t j = near.at[k];
+            if (j >= p->n || p->body[j] <= p->body[i] || !start_as_one(p, i, j)) continue;
+            bool *pair = &touch[p->body[i] * bodies + p->body[j]];
+            pairs += !*pair;
+            *pair = true;
+        }
+    }
+    memory_free(near.at);
+    return pairs;
+}
+
+/* Bodies that touch at the start. */
+static void warn_of_touch(const struct run *e, struct warnings *to)
+{
+    const struct scene *s = e->scene;
+    char name[2 * NAME_MAX_LENGTH + 8];
+    if (s->bodies < 2) return;
+    bool *touch = NEW("warn.touch", s->bodies * s->bodies, bool);
+    struct name_list names = {.all = touching(e, touch)};
+    for (int k = 0; k < s->bodies * s->bodies; k++) {
+        if (!touch[k]) continue;
+        snprintf(name, sizeof name, "%s with %s", s->body[k / s->bodies].name, s->body[k % s->bodies].name);
+        name_add(&names, name);
+    }
+    memory_free(touch);
+    if (names.all > 0)
+        warnings_add(to, "bodies touch at the start (%s) and are not joined: no bond goes from one body to another%s",
+                     names.text,
+                     s->method == METHOD_PD || e->grid->fields > 1
+                         ? ""
+                         : "; on the grid of mpm.frame current they stick until a gap of two cells opens");
+}
+
+void warn_of_bodies(const struct run *e, struct warnings *to)
+{
+    warn_of_contact(e, to);
+    warn_of_touch(e, to);
+    voids_warn(e, to);
+}

@@ -1,0 +1,89 @@
+/* The balance of energy and momentum, and the cracks, in the summary and in checkpoints. */
+#include <math.h>
+#include <stdio.h>
+
+#include "fracture/fracture_part.h"
+#include "probes/diagnostics.h"
+#include "run/part.h"
+
+static void put_energy_balance(struct json *j, const struct energy_balance *l)
+{
+    json_open(j, "energy", '{');
+    for (int k = 0; k < ENERGIES; k++) json_real(j, ledger[k].name, l->energy.of[k]);
+    json_real(j, ledger[LEDGER_WORK].name, l->external_work);
+    json_real(j, "balance_error", l->balance_error);
+    json_close(j, '}');
+    json_real(j, "momentum_error", l->momentum_error);
+    json_real(j, "angular_momentum_error", l->spin_error);
+}
+
+/* When something was: the time, in load steps their number. */
+static void put_when(struct json *j, const struct run *e, const char *what, real t)
+{
+    char key[NAME_MAX_LENGTH];
+    const bool in_steps = scene_in_steps(e->scene);
+    snprintf(key, sizeof key, "%s_%s", what, in_steps ? "step" : "time");
+    if (!in_steps) json_real(j, key, t);
+    else if (!isnan(t)) json_count(j, key, (int64_t)floor(t / e->clock.dt + 0.5));
+}
+
+static void put_tip(struct json *j, const struct run *e, const struct tip *tip)
+{
+    const int dim = e->part.dim;
+    json_open(j, NULL, '{');
+    json_count(j, "body", tip->body);
+    json_point(j, "origin_", tip->origin, dim);
+    json_point(j, "", tip->place, dim);
+    json_real(j, "growth", tip->growth);
+    json_real(j, "angle_deg", tip_angle(tip, dim));
+    put_when(j, e, "start", tip->start_time);
+    put_when(j, e, "arrest", tip->arrest_time);
+    if (!scene_in_steps(e->scene)) json_real(j, "speed_max", tip->speed_max);
+    if (!scene_in_steps(e->scene)) json_real(j, "speed_mean", tip->speed_mean);
+    json_close(j, '}');
+}
+
+/* Bonds of driven particles that loads have broken; of one between two of them both count. */
+static int64_t driven_bonds(const struct run *e)
+{
+    int64_t broken = 0;
+    for (int64_t row = 0; row < e->bonds.rows; row++)
+        if (e->part.flag[e->bonds.particle[row]] & FLAG_DRIVEN) broken += e->bonds.broken[row];
+    return broken;
+}
+
+static void put_crack(struct json *j, const struct run *e)
+{
+    const struct tip *longest = tips_longest(&e->fracture->tips);
+    int dim = e->part.dim;
+    json_open(j, "crack", '{');
+    put_when(j, e, "start", e->diagnostics->break_time);
+    put_when(j, e, "driven_start", e->diagnostics->driven_time);
+    if (!isnan(e->diagnostics->driven_time)) json_count(j, "driven_bonds", driven_bonds(e));
+    if (longest) {
+        put_when(j, e, "tip_start", longest->start_time);
+        put_when(j, e, "arrest", longest->arrest_time);
+        json_real(j, "length_end", longest->growth);
+        json_real(j, "angle_deg", tip_angle(longest, dim));
+        json_count(j, "tied", tips_tied(&e->fracture->tips));
+    }
+    if (longest && !scene_in_steps(e->scene)) {
+        json_real(j, "tip_speed_max", longest->speed_max);
+        json_real(j, "tip_speed_mean", longest->speed_mean);
+    }
+    json_open(j, "tips", '[');
+    for (int k = 0; k < e->fracture->tips.n; k++) put_tip(j, e, &e->fracture->tips.tip[k]);
+    json_close(j, ']');
+    json_close(j, '}');
+}
+
+static void put_balance_and_crack(const struct run *e, struct json *j)
+{
+    put_energy_balance(j, &e->diagnostics->now);
+    put_crack(j, e);
+}
+
+static status diagnostics_state(struct run *e, struct archive *a) { return diagnostics_archive(e->diagnostics, a); }
+
+const struct part part_diagnostics = {PART(diagnostics, diagnostics), .state = diagnostics_state,
+                                      .summary = put_balance_and_crack};
