@@ -132,14 +132,14 @@ static void say_time_step(const struct run *e)
 }
 
 /* Basis of the estimated run time. */
-static void say_basis(const struct run *e, const struct cost *c)
+static void say_basis(const struct scene *scene, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
         printf("; steps take %.2g times the first ones, as where the spacing is %.3g times as large", c->growth,
                c->coarser);
     if (c->basis == COST_FIRST)
         printf("; steps like the first ones%s",
-               e->scene->method == METHOD_ADAPTIVE ? ", more as particles convert" : "");
+               scene->method == METHOD_ADAPTIVE ? ", more as particles convert" : "");
     if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", c->all_peridynamic);
 }
 
@@ -154,7 +154,7 @@ static void say_cost(const struct run *e, const struct cost *c, int threads)
         printf("run time       %s %.2g s on %d thread%s, %.1g s of it to write: %.3g ns a particle and step at first",
                c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about", c->run, threads,
                many, c->output, 1e9 * c->step / (double)e->part.n);
-        say_basis(e, c);
+        say_basis(e->scene, c);
     }
     printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);
 }

@@ -38,14 +38,14 @@ static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; 
 /* ---- parts that are not resolved --------------------------------------------------------------------------------- */
 
 /* Edge of a box along d with its images beyond planes of symmetry [m]; INFINITY: it lies between two of them. */
-static real mirrored_edge(const struct run *e, const struct solid *a, int d)
+static real mirrored_edge(const struct scene *scene, const struct bond_source *source, const struct solid *a, int d)
 {
-    const real near = ON_MIRROR * e->scene->spacing;
+    const real near = ON_MIRROR * scene->spacing;
     bool from = false, to = false;
-    for (int k = 0; k < e->source.mirrors; k++) {
-        if (e->source.mirror[k].axis != d) continue;
-        from |= fabs(e->source.mirror[k].at - a->from[d]) < near;
-        to |= fabs(e->source.mirror[k].at - a->to[d]) < near;
+    for (int k = 0; k < source->mirrors; k++) {
+        if (source->mirror[k].axis != d) continue;
+        from |= fabs(source->mirror[k].at - a->from[d]) < near;
+        to |= fabs(source->mirror[k].at - a->to[d]) < near;
     }
     return from && to ? INFINITY : (from || to ? 2 : 1) * (a->to[d] - a->from[d]);
 }
@@ -53,7 +53,8 @@ static real mirrored_edge(const struct run *e, const struct solid *a, int d)
 real solid_size(const struct run *e, const struct solid *a)
 {
     real least = INFINITY;
-    for (int d = 0; d < e->scene->dim && solid_is(a, SOLID_BOX); d++) least = real_min(least, mirrored_edge(e, a, d));
+    for (int d = 0; d < e->scene->dim && solid_is(a, SOLID_BOX); d++)
+        least = real_min(least, mirrored_edge(e->scene, &e->source, a, d));
     return real_min(least, solid_width(a, e->scene->dim));
 }
 
@@ -109,19 +110,18 @@ static void advise_features(const struct run *e, FILE *out)
 }
 
 /* Is this end of a pre-crack a tip, as the body goes on there? */
-static bool is_tip(const struct run *e, const real *end)
+static bool is_tip(const struct fracture_state *fracture, const real *end)
 {
-    const struct tips *t = &e->fracture->tips;
+    const struct tips *t = &fracture->tips;
     for (int k = 0; k < t->n; k++)
         if (t->tip[k].from_crack && arrays_equal(t->tip[k].origin, end, t->dim, sizeof *end)) return true;
     return false;
 }
 
 /* Share of a crack that lies in bodies. */
-static real share_within(const struct run *e, const real *from, const real *to)
+static real share_within(const struct scene *s, const real *from, const real *to)
 {
     enum { PLACES = 1000 };
-    const struct scene *s = e->scene;
     int within = 0;
     for (int m = 0; m < PLACES; m++) {
         real X[DIM_MAX] = {0};
@@ -135,13 +135,12 @@ static real share_within(const struct run *e, const real *from, const real *to)
 
 /* Cracks whose two tips are not FEATURE horizons apart. What comes from a face or a plane of symmetry is half of a
  * crack of twice the length. */
-static void advise_cracks(const struct run *e, FILE *out)
+static void advise_cracks(const struct scene *s, const struct fracture_state *fracture, FILE *out)
 {
-    const struct scene *s = e->scene;
     for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
         const real *from = s->crack[k].corner[0], *to = s->crack[k].corner[1];
-        const bool tip[2] = {is_tip(e, from), is_tip(e, to)};
-        const real share = tip[0] && tip[1] ? 1 : share_within(e, from, to);
+        const bool tip[2] = {is_tip(fracture, from), is_tip(fracture, to)};
+        const real share = tip[0] && tip[1] ? 1 : share_within(s, from, to);
         const real length = share * hypot(to[0] - from[0], to[1] - from[1]);
         if (tip[0] && tip[1] && length < FEATURE * horizon_of(s))
             fprintf(out, "unresolved: crack %d is %.4g m long, %.2g horizons: its two ends are not apart\n", k + 1,
@@ -171,9 +170,8 @@ static bool at_stepped_face(const struct scene *s, const struct region *shape, c
 
 /* Point probes of stress at curved or slanted faces: measured with the elliptic membrane LE1 of NAFEMS, 20 to 80 points
  * across. */
-static void advise_faces(const struct run *e, FILE *out)
+static void advise_faces(const struct scene *s, FILE *out)
 {
-    const struct scene *s = e->scene;
     for (int k = 0; k < s->probes && s->method != METHOD_PD && s->dim > 1; k++)
         for (int b = 0; b < s->bodies && s->probe[k].kind == PROBE_POINT; b++) {
             const struct region *shape = &s->body[b].shape;
@@ -192,11 +190,10 @@ static real rise_time(const struct time_function *f)
 }
 
 /* Loads and pulses shorter than WAVE spacings. */
-static void advise_waves(const struct run *e, FILE *out)
+static void advise_waves(const struct scene *s, const struct material_tables *tables, FILE *out)
 {
-    const struct scene *s = e->scene;
     for (int b = 0; b < s->boundaries && scene_moves(s); b++) {
-        const real length = e->tables.wave_speed * rise_time(&s->boundary[b].time) / s->spacing;
+        const real length = tables->wave_speed * rise_time(&s->boundary[b].time) / s->spacing;
         if (s->boundary[b].kind != BOUNDARY_MIRROR && length < WAVE)
             fprintf(
                 out,
@@ -220,7 +217,10 @@ static void advise_levels(const struct run *e, FILE *out)
 }
 
 /* Body of a particle; joined ones are one. */
-static int body_of(const struct run *e, int32_t i) { return e->scene->body[e->part.body[i]].joined; }
+static int body_of(const struct scene *scene, const struct particles *part, int32_t i)
+{
+    return scene->body[part->body[i]].joined;
+}
 
 /* Number of pairs of a body's particles near a crack's end, within their horizon, that the crack cuts if longer by 1e-7
  * of its length and does not cut if shorter by as much. */
@@ -241,7 +241,7 @@ static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, i
             particle_place(p, found[k], a);
             particle_place(p, found[m], b);
             for (int d = 0; d < p->dim; d++) r2 += square(a[d] - b[d]);
-            if (body_of(e, found[k]) != body_of(e, found[m])) continue;
+            if (body_of(e->scene, &e->part, found[k]) != body_of(e->scene, &e->part, found[m])) continue;
             if (r2 > square(e->source.family.cutoff)) continue;
             tied += crack_cuts(&longer, a, b, p->dim) != crack_cuts(&shorter, a, b, p->dim);
         }
@@ -418,11 +418,11 @@ void advise(const struct run *e, FILE *out)
     advise_units(e, out);
     advise_features(e, out);
     advise_sections(e, out);
-    advise_cracks(e, out);
+    advise_cracks(e->scene, e->fracture, out);
     advise_incompressible(e, out);
-    advise_faces(e, out);
+    advise_faces(e->scene, out);
     advise_lists(e, out);
-    advise_waves(e, out);
+    advise_waves(e->scene, &e->tables, out);
     advise_load_steps(e, out);
     advise_formulas(e, out);
     advise_levels(e, out);

@@ -138,9 +138,8 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
 
 /* Time of all steps over that expected from the first ones, in the same scene with larger particles; NAN: unknown.
  * first: expected time of this scene [s]. */
-static double growth_of(struct cost *c, const struct run *e, const struct run_arguments *a, double first)
+static double growth_of(struct cost *c, const struct scene *s, const struct run_arguments *a, double first)
 {
-    const struct scene *s = e->scene;
     char value[32];
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].file) return NAN;
@@ -168,9 +167,10 @@ static double output_seconds(const struct run *e)
 }
 
 /* Time and basis of the whole run. */
-static void cost_run(struct cost *c, const struct run *e, const struct run_arguments *a)
+static void cost_run(struct cost *c, const struct run_clock *clock, const struct scene *scene,
+                     const struct run_arguments *a)
 {
-    const double first = c->step * (double)e->clock.steps;
+    const double first = c->step * (double)clock->steps;
     double loop = NAN;
     struct warnings found = {0};
     if (first < PATIENCE * SECONDS_WHOLE) loop = try_other(a, NULL, NULL, true, &found);
@@ -181,7 +181,7 @@ static void cost_run(struct cost *c, const struct run *e, const struct run_argum
     }
     warnings_free(&found);
     if (isnan(loop)) {
-        const double growth = growth_of(c, e, a, first);
+        const double growth = growth_of(c, scene, a, first);
         c->basis = isnan(growth) ? COST_FIRST : COST_SCALED;
         loop = first * (isnan(growth) ? 1 : growth);
     }
@@ -222,9 +222,9 @@ static void cost_peridynamic(struct cost *c, const struct run *e, const struct r
 }
 
 /* What the run has beyond the steps so far [byte]. */
-static double output_bytes(const struct run *e)
+static double output_bytes(const struct particles *part, const struct scene *scene)
 {
-    return OUTPUT_BYTES + (double)e->part.n * (FRAME_BYTES + (e->scene->method == METHOD_MPM ? 0 : PARTS_BYTES));
+    return OUTPUT_BYTES + (double)part->n * (FRAME_BYTES + (scene->method == METHOD_MPM ? 0 : PARTS_BYTES));
 }
 
 status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a)
@@ -237,22 +237,22 @@ status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a
         const status result = cost_load_steps(c, e);
         warnings_join(&c->found, &e->warnings, known);
         TRY(result);
-        c->bytes = (double)memory_peak() + output_bytes(e);
+        c->bytes = (double)memory_peak() + output_bytes(&e->part, e->scene);
         return OK;
     }
     if (scene_at_rest(e->scene)) {
         /* conjugate gradients difference forces centrally: two evaluations per iteration (solver_tangent) */
         c->step = (e->scene->solver == SOLVER_CG ? 2 : 1) * time_force(e);
-        c->bytes = (double)memory_peak() + output_bytes(e);
+        c->bytes = (double)memory_peak() + output_bytes(&e->part, e->scene);
         return OK;
     }
     const status result = time_steps(e, &c->step);
     warnings_join(&c->found, &e->warnings, known);
     TRY(result);
     c->contact = time_contact(e) / c->step;
-    c->bytes = (double)memory_peak() + output_bytes(e);
+    c->bytes = (double)memory_peak() + output_bytes(&e->part, e->scene);
     c->output = output_seconds(e);
-    cost_run(c, e, a);
+    cost_run(c, &e->clock, e->scene, a);
     cost_peridynamic(c, e, a);
     return OK;
 }

@@ -35,10 +35,10 @@ static int64_t place_of(const struct ends *c, const real *X, real spacing)
 }
 
 /* The ends of columns with an area; false where they are too scattered for a table. */
-static bool ends_make(struct ends *c, const struct run *e, const struct boundary *b, const struct face *f)
+static bool ends_make(struct ends *c, const struct particles *p, const struct scene *scene, const struct boundary *b,
+                      const struct face *f)
 {
-    const struct particles *p = &e->part;
-    const real spacing = e->scene->spacing;
+    const real spacing = scene->spacing;
     real all = 1, high[DIM_MAX - 1], faces = 0;
     *c = (struct ends){0};
     for (int d = 0; d < p->dim; d++)
@@ -78,29 +78,30 @@ static real slope_along(const struct ends *c, int64_t place, int k)
 }
 
 /* Cosine of the angle between the axis of a face and the surface at particle i, whose cube shows there. */
-static real cosine_at(const struct run *e, const struct boundary *b, const struct ends *c, int64_t i)
+static real cosine_at(const struct scene *scene, const struct particles *part, const struct boundary *b,
+                      const struct ends *c, int64_t i)
 {
-    const struct region *shape = &e->scene->body[e->part.body[i]].shape;
+    const struct region *shape = &scene->body[part->body[i]].shape;
     real X[DIM_MAX], normal[DIM_MAX] = {0}, slope2 = 0;
-    particle_place(&e->part, i, X);
+    particle_place(part, i, X);
     if (!c->height) {
-        X[b->face] += 0.5 * b->side * e->scene->spacing;
-        region_distance(shape, X, e->part.dim, normal);
+        X[b->face] += 0.5 * b->side * scene->spacing;
+        region_distance(shape, X, part->dim, normal);
         return b->side * normal[b->face];
     }
-    for (int k = 0; k < c->axes; k++) slope2 += square(slope_along(c, place_of(c, X, e->scene->spacing), k));
+    for (int k = 0; k < c->axes; k++) slope2 += square(slope_along(c, place_of(c, X, scene->spacing), k));
     return 1 / sqrt(1 + slope2);
 }
 
 /* Adds up the cubes of a face that show from a place along its axis on (-INFINITY: all). */
-static struct elsewhere elsewhere_from(const struct run *e, const struct boundary *b, const struct face *f,
-                                       const struct ends *c, real from)
+static struct elsewhere elsewhere_from(const struct particles *part, const struct scene *scene,
+                                       const struct boundary *b, const struct face *f, const struct ends *c, real from)
 {
     struct elsewhere w = {.aligned = INFINITY, .last = -INFINITY};
-    for (int64_t i = 0; i < e->part.n; i++) {
-        const real area = f->normal[i], end = b->side * e->part.X[b->face][i] - 0.5 * e->scene->spacing;
-        if (!(area > 0) || end < from - 1e-3 * e->scene->spacing) continue;
-        const real angle = acos(real_max(-1, real_min(1, cosine_at(e, b, c, i)))) * 180 / M_PI;
+    for (int64_t i = 0; i < part->n; i++) {
+        const real area = f->normal[i], end = b->side * part->X[b->face][i] - 0.5 * scene->spacing;
+        if (!(area > 0) || end < from - 1e-3 * scene->spacing) continue;
+        const real angle = acos(real_max(-1, real_min(1, cosine_at(scene, part, b, c, i)))) * 180 / M_PI;
         w.area += area;
         if (angle > ELSEWHERE) w.other += area, w.angle += angle * area;
         else w.aligned = real_min(w.aligned, end), w.last = real_max(w.last, end);
@@ -114,7 +115,7 @@ static real elsewhere_cut(const struct run *e, const struct boundary *b, const s
 {
     for (int k = 0; k < 2 && isfinite(all->aligned); k++) {
         const real from = k == 0 ? all->aligned : all->last;
-        const struct elsewhere w = elsewhere_from(e, b, f, c, from);
+        const struct elsewhere w = elsewhere_from(&e->part, e->scene, b, f, c, from);
         if (!(w.other > SHARE_LEAST * w.area)) return from;
     }
     return INFINITY;
@@ -146,8 +147,8 @@ void say_elsewhere(const struct run *e, const struct boundary *b)
     uint8_t *selected = NEW("check.selected", e->part.n, uint8_t);
     load_region(b, &e->part, s->spacing, selected);
     face_make(&f, b, &e->part, selected, s->spacing, false);
-    if (has_normals(s, b) || ends_make(&c, e, b, &f))
-        w = elsewhere_from(e, b, &f, &c, -INFINITY), cut = elsewhere_cut(e, b, &f, &c, &w);
+    if (has_normals(s, b) || ends_make(&c, &e->part, e->scene, b, &f))
+        w = elsewhere_from(&e->part, e->scene, b, &f, &c, -INFINITY), cut = elsewhere_cut(e, b, &f, &c, &w);
     memory_free(c.height);
     face_free(&f);
     memory_free(selected);

@@ -14,11 +14,11 @@ static bool all_boxes(const struct region *shape)
 }
 
 /* Particles of a body, also those that are not made where it is the only one; joined bodies count as the first. */
-static int64_t particles_of(const struct run *e, int body)
+static int64_t particles_of(const struct scene *scene, const struct particles *part, int body)
 {
     int64_t n = 0;
-    if (e->scene->bodies == 1) return e->part.n_body;
-    for (int64_t i = 0; i < e->part.n; i++) n += e->part.body[i] == body;
+    if (scene->bodies == 1) return part->n_body;
+    for (int64_t i = 0; i < part->n; i++) n += part->body[i] == body;
     return n;
 }
 
@@ -32,7 +32,7 @@ void say_filled(const struct run *e)
         for (int k = b + 1; k < s->bodies; k++) joined |= s->body[k].joined == b;
         if (s->body[b].file || joined || all_boxes(shape) || !region_bounds(shape, s->dim, from, to)) continue;
         const real exact = region_volume(shape, s->dim, from, to), section = scene_section(s);
-        const real filled = (real)particles_of(e, b) * pow(s->spacing, s->dim);
+        const real filled = (real)particles_of(e->scene, &e->part, b) * pow(s->spacing, s->dim);
         printf("filled         body %s: its particles are %.4g m^3, %.2f %% %s than its shape\n", s->body[b].name,
                filled * section, 100 * fabs(filled / exact - 1), filled > exact ? "more" : "less");
     }

@@ -194,23 +194,23 @@ static bool face_exact(const struct scene *s, const struct boundary *b, real *ar
     return *area > 0;
 }
 
-static void say_traction_area(const struct run *e, const struct load *l)
+static void say_traction_area(const struct scene *scene, const struct load *l)
 {
     real area = 0, exact;
     for (int64_t k = 0; k < l->n; k++)
         area += l->boundary->kind == BOUNDARY_ABSORBING ? l->outer[k] : l->share[l->boundary->face][k];
     printf(", %.4g m^2", area);
-    if (face_exact(e->scene, l->boundary, &exact) && fabs(area / exact - 1) > 1e-6)
+    if (face_exact(scene, l->boundary, &exact) && fabs(area / exact - 1) > 1e-6)
         printf(" (%.2f %% %s than the face of its box)", 100 * fabs(area / exact - 1), area > exact ? "more" : "less");
 }
 
 /* ---- lines ------------------------------------------------------------------------------------------------------- */
 
-static void say_force(const struct run *e, const struct load *l)
+static void say_force(const struct particles *part, const struct scene *scene, const struct load *l)
 {
-    const int dim = e->part.dim;
-    const struct instant at = instant_of(l, &e->part, e->scene->duration);
-    const struct resultant r = resultant_at(l, &e->part, at.t);
+    const int dim = part->dim;
+    const struct instant at = instant_of(l, part, scene->duration);
+    const struct resultant r = resultant_at(l, part, at.t);
     if (!isfinite(dot(r.force, r.force, DIM_MAX) + dot(r.moment, r.moment, DIM_MAX))) {
         printf("; its force has no finite value at %.4g s", at.t);
         return;
@@ -224,7 +224,7 @@ static void say_force(const struct run *e, const struct load *l)
     if (at.why[0] == 'w') printf(", at %.4g s", at.t);
 }
 
-static void say_support(const struct run *e, const struct load *l)
+static void say_support(const struct particles *part, const struct load *l)
 {
     const struct boundary *b = l->boundary;
     const char *between = "";
@@ -232,45 +232,45 @@ static void say_support(const struct run *e, const struct load *l)
         printf("plane of %ssymmetry at %c = %.4g m", b->hold_tangential ? "anti" : "", "xyz"[b->axis], b -> at);
         return;
     }
-    for (int d = 0; d < e->part.dim && !b->rotates; d++) {
+    for (int d = 0; d < part->dim && !b->rotates; d++) {
         if (!(b->components >> d & 1)) continue;
         printf("%s%c", between, "xyz"[d]);
         between = ", ";
     }
     bool moves = b->rotates;
-    for (int d = 0; d < e->part.dim; d++) moves |= b->value[d] != 0;
+    for (int d = 0; d < part->dim; d++) moves |= b->value[d] != 0;
     printf(b->rotates ? "on circles" : moves ? " driven" : " held");
 }
 
-static void say_mean_displacement(const struct run *e, const struct load *l, real t)
+static void say_mean_displacement(const struct particles *part, const struct load *l, real t)
 {
     real mean[DIM_MAX] = {0}, u[DIM_MAX];
     for (int64_t k = 0; k < l->n; k++) {
-        load_displacement_at(l, &e->part, k, t, u);
-        for (int d = 0; d < e->part.dim; d++) mean[d] += u[d] / (real)l->n;
+        load_displacement_at(l, part, k, t, u);
+        for (int d = 0; d < part->dim; d++) mean[d] += u[d] / (real)l->n;
     }
     if (!isfinite(mean[0] + mean[1] + mean[2])) {
         printf("no finite value");
         return;
     }
-    say_vector(mean, e->part.dim);
+    say_vector(mean, part->dim);
     printf(" m%s", drives_by_place(l->boundary) ? " in the mean" : "");
 }
 
 /* Mean displacement when it is largest and at the end, and how fast it grows in time. */
-static void say_displacement(const struct run *e, const struct load *l)
+static void say_displacement(const struct scene *scene, const struct particles *part, const struct load *l)
 {
-    const bool explicit = e->scene->solver == SOLVER_EXPLICIT, frozen = l->boundary->frozen;
-    const real end = frozen ? INFINITY : e->scene->duration;
-    const real most = frozen ? end : largest_at(l, &e->part, load_displacement_at, end);
+    const bool explicit = scene->solver == SOLVER_EXPLICIT, frozen = l->boundary->frozen;
+    const real end = frozen ? INFINITY : scene->duration;
+    const real most = frozen ? end : largest_at(l, part, load_displacement_at, end);
     printf("; by ");
     if (most < end) {
-        say_mean_displacement(e, l, most);
+        say_mean_displacement(part, l, most);
         printf(" when it is largest, at %.4g s, by ", most);
     }
-    say_mean_displacement(e, l, end);
+    say_mean_displacement(part, l, end);
     printf(" at the end");
-    const real speed = explicit ? load_displacing_speed(l, &e->part, e->scene->duration) : INFINITY;
+    const real speed = explicit ? load_displacing_speed(l, part, scene->duration) : INFINITY;
     if (isfinite(speed)) printf(", at most %.3g m/s", speed);
 }
 
@@ -285,15 +285,15 @@ static void say_load(const struct run *e, int which)
     const bool force = boundary_is_force(b), faces = b->side != 0;
     printf("%-15s%s: ", force ? "load" : "support", b->name);
     if (b->kind == BOUNDARY_VELOCITY || b->kind == BOUNDARY_MIRROR)
-        say_support(e, l);
+        say_support(&e->part, l);
     else
         printf("%s", b->by_mass ? "weight" : words[b->kind]);
     if (faces) printf(" on %c%c", "xyz"[b->face], b -> side > 0 ? '+' : '-');
     if (b->kind != BOUNDARY_MIRROR) printf(", %lld particle%s", (long long)l->n, l->n == 1 ? "" : "s");
-    if (faces && b->kind != BOUNDARY_VELOCITY) say_traction_area(e, l);
+    if (faces && b->kind != BOUNDARY_VELOCITY) say_traction_area(e->scene, l);
     if (b->kind == BOUNDARY_PRESSURE) say_pressed(e, which);
-    if (force) say_force(e, l);
-    if (b->displaces) say_displacement(e, l);
+    if (force) say_force(&e->part, e->scene, l);
+    if (b->displaces) say_displacement(e->scene, &e->part, l);
     if (faces) say_elsewhere(e, b);
     putchar('\n');
 }

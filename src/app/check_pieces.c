@@ -8,17 +8,17 @@
 
 /* Marks fragments of which a support drives or holds a particle; beside planes of symmetry, which may hold them, all.
  * */
-static void mark_driven(const struct run *e, const struct fragments *f, bool *driven)
+static void mark_driven(const struct bond_source *source, const struct particles *part, const struct fragments *f,
+                        bool *driven)
 {
-    for (int64_t k = 0; k < f->n; k++) driven[k] = e->source.mirrors > 0;
-    for (int64_t i = 0; i < e->part.n; i++)
-        if (f->of[i] >= 0 && e->part.flag[i] & FLAG_DRIVEN) driven[f->of[i]] = true;
+    for (int64_t k = 0; k < f->n; k++) driven[k] = source->mirrors > 0;
+    for (int64_t i = 0; i < part->n; i++)
+        if (f->of[i] >= 0 && part->flag[i] & FLAG_DRIVEN) driven[f->of[i]] = true;
 }
 
 /* The pieces of a body beside its heaviest one; particles without any bond are named by a warning. */
-static void say_body(const struct run *e, const struct fragments *f, const bool *driven, int body)
+static void say_body(const struct scene *s, const struct fragments *f, const bool *driven, int body)
 {
-    const struct scene *s = e->scene;
     int64_t pieces = 0, particles = 0, free_ones = 0, first = -1;
     for (int64_t k = 0; k < f->n; k++) {
         if (f->fragment[k].body != body) continue;
@@ -41,8 +41,8 @@ void say_pieces(const struct run *e)
     if (e->scene->method != METHOD_PD) return;
     fragments_find(&f, &e->bonds, &e->part);
     bool *driven = NEW("check.driven", f.n, bool);
-    mark_driven(e, &f, driven);
-    for (int b = 0; b < e->scene->bodies; b++) say_body(e, &f, driven, b);
+    mark_driven(&e->source, &e->part, &f, driven);
+    for (int b = 0; b < e->scene->bodies; b++) say_body(e->scene, &f, driven, b);
     memory_free(driven);
     fragments_free(&f);
 }

@@ -38,23 +38,23 @@ static void say_hull(const struct shape_file *f)
     printf("%s\n", f->geometry.sets > 12 ? ", .." : "");
 }
 
-static void say_image(const struct run *e, const struct shape_file *f)
+static void say_image(const struct scene *scene, const struct shape_file *f)
 {
     const struct voxels *v = &f->voxels;
     printf("shape          %s%s: %lld x %lld", shown_name(f->path[0]).text, f->files > 1 ? " .." : "",
            (long long)v->n[0], (long long)v->n[1]);
     if (f->dim == 3) printf(" x %lld", (long long)v->n[2]);
     printf(" voxels of %.4g m", v->size[0]);
-    if (e->scene->spacing > 1.001 * v->size[0])
+    if (scene->spacing > 1.001 * v->size[0])
         printf("; a particle stands for %.3g of them and has the grey value at its place",
-               pow(e->scene->spacing / v->size[0], f->dim));
+               pow(scene->spacing / v->size[0], f->dim));
     putchar('\n');
 }
 
 void say_shapes(const struct run *e)
 {
     for (const struct shape_file *f = e->scene->shapes; f; f = f->next) {
-        if (f->kind == SHAPE_IMAGE) say_image(e, f);
+        if (f->kind == SHAPE_IMAGE) say_image(e->scene, f);
         else say_hull(f);
     }
 }

@@ -20,23 +20,22 @@ enum { PIN_MOST = 2, GRIP_LEAST = 12 }; /* widths of supports on which bodies tu
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
 /* Tips of pre-cracks. */
-static int tips_of_cracks(const struct run *e)
+static int tips_of_cracks(const struct fracture_state *fracture)
 {
     int n = 0;
-    for (int k = 0; k < e->fracture->tips.n; k++) n += e->fracture->tips.tip[k].from_crack;
+    for (int k = 0; k < fracture->tips.n; k++) n += fracture->tips.tip[k].from_crack;
     return n;
 }
 
 static bool is_led(const struct run *e)
 {
-    return tips_of_cracks(e) > 0 && engine_led_fault(e) == NULL;
+    return tips_of_cracks(e->fracture) > 0 && engine_led_fault(e) == NULL;
 }
 
 /* How far bodies go on from a tip, straight ahead (side 1) or back (-1) [m]; 0 where they are lists of particles. */
-static real way_within(const struct run *e, const struct tip *tip, int side)
+static real way_within(const struct scene *s, const struct particles *part, const struct tip *tip, int side)
 {
-    const struct scene *s = e->scene;
-    const real most = 2 * (particles_longest(&e->part) + s->spacing), step = 0.5 * s->spacing;
+    const real most = 2 * (particles_longest(part) + s->spacing), step = 0.5 * s->spacing;
     real way = 0;
     for (bool within = true; within && way < most; way += within ? step : 0) {
         real X[DIM_MAX] = {0};
@@ -49,14 +48,13 @@ static real way_within(const struct run *e, const struct tip *tip, int side)
 }
 
 /* Length of the pre-crack that ends at a tip, as far as it lies in bodies; INFINITY: not known [m]. */
-static real crack_behind(const struct run *e, const struct tip *tip)
+static real crack_behind(const struct scene *s, const struct particles *part, const struct tip *tip)
 {
-    const struct scene *s = e->scene;
     for (int k = 0; k < s->cracks && s->dim == 2; k++)
         for (int end = 0; end < 2; end++) {
             const real *here = s->crack[k].corner[end], *there = s->crack[k].corner[1 - end];
             if (hypot(here[0] - tip->origin[0], here[1] - tip->origin[1]) > ON_SURFACE * s->spacing) continue;
-            const real way = way_within(e, tip, -1);
+            const real way = way_within(s, part, tip, -1);
             return s->crack[k].n == 2 && way > 0 ? real_min(way, hypot(here[0] - there[0], here[1] - there[1]))
                                                  : INFINITY;
         }
@@ -68,7 +66,7 @@ void say_load_steps(const struct run *e)
     static const char *const by[] = {[CONTROL_LOAD] = "by load time", [CONTROL_ENERGY] = "at the most, by energy",
                                      [CONTROL_OPENING] = "by an opening"};
     const struct scene *s = e->scene;
-    const int tips = tips_of_cracks(e);
+    const int tips = tips_of_cracks(e->fracture);
     printf("solver         static: %d load steps %s, load time to %.4g s, each in equilibrium to a residual of %.3g of "
            "the load\n",
            s->steps.number, by[s->steps.control], s->duration, s->solver_tolerance);
@@ -113,7 +111,8 @@ static void advise_lengths(const struct run *e, FILE *out)
     const real h = e->scene->spacing;
     for (int k = 0; k < e->fracture->tips.n; k++) {
         const struct tip *tip = &e->fracture->tips.tip[k];
-        const real ahead = way_within(e, tip, 1) / h, behind = crack_behind(e, tip) / h;
+        const real ahead = way_within(e->scene, &e->part, tip, 1) / h,
+                   behind = crack_behind(e->scene, &e->part, tip) / h;
         const bool short_crack = behind < FEW, short_way = ahead > 0 && ahead < FEW;
         if (!tip->from_crack || (!short_crack && !short_way)) continue;
         fprintf(out,
@@ -125,13 +124,13 @@ static void advise_lengths(const struct run *e, FILE *out)
 }
 
 /* Spacings over which particles of a load lie along an axis; 0: over all of the bodies. */
-static int support_width(const struct run *e, const struct load *l, int axis)
+static int support_width(const struct scene *scene, const struct particles *part, const struct load *l, int axis)
 {
-    const real h = e->scene->spacing;
+    const real h = scene->spacing;
     real low = INFINITY, high = -INFINITY, from, to;
-    particles_extent(&e->part, e->part.n, axis, &from, &to);
+    particles_extent(part, part->n, axis, &from, &to);
     for (int64_t k = 0; k < l->n; k++) {
-        const real X = e->part.X[axis][l->particle[k]];
+        const real X = part->X[axis][l->particle[k]];
         low = real_min(low, X), high = real_max(high, X);
     }
     return high - low > to - from - 0.5 * h ? 0 : (int)lround((high - low) / h) + 1;
@@ -145,7 +144,7 @@ static void advise_supports(const struct run *e, FILE *out)
         const struct boundary *by = l->boundary;
         if (by->kind != BOUNDARY_VELOCITY || by->side != 0 || by->rotates || l->n == 0) continue;
         for (int across = 0; across < e->part.dim; across++) {
-            const int columns = support_width(e, l, across);
+            const int columns = support_width(e->scene, &e->part, l, across);
             const bool turns_it = by->components & ~(1 << across); /* held along another axis */
             if (!turns_it || columns <= PIN_MOST || columns > GRIP_LEAST) continue;
             fprintf(out,
@@ -190,7 +189,7 @@ static double advances_of(const struct run *e)
     double way = 0;
     if (!scene_bonds_break(s)) return 0;
     if (s->steps.control == CONTROL_ENERGY) return s->steps.number;
-    for (int k = 0; k < e->fracture->tips.n; k++) way += way_within(e, &e->fracture->tips.tip[k], 1);
+    for (int k = 0; k < e->fracture->tips.n; k++) way += way_within(e->scene, &e->part, &e->fracture->tips.tip[k], 1);
     if (way == 0) way = particles_longest(&e->part);
     return way / (SPACINGS * s->spacing);
 }

@@ -38,9 +38,8 @@ static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
 }
 
 /* True if material, body, kind, volume and damage by cracks are equal at twins. */
-static bool matter_agrees(const struct run *e, const int32_t *twin)
+static bool matter_agrees(const struct particles *p, const int32_t *twin)
 {
-    const struct particles *p = &e->part;
     for (int64_t i = 0; i < p->n; i++)
         if (p->material[i] != p->material[twin[i]] || p->body[i] != p->body[twin[i]] || p->kind[i] != p->kind[twin[i]])
             return false;
@@ -61,12 +60,12 @@ static real load_mark(const struct boundary *b)
 
 /* Sums, per particle, of the marked loads on component d into `ask`, [n], and of the marks of driving loads into
  * `held`, [n]. */
-static void loads_ask(const struct run *e, int d, real *ask, real *held)
+static void loads_ask(const struct particles *part, const struct loads *loads, int d, real *ask, real *held)
 {
-    array_fill_bytes(ask, 0, e->part.n, sizeof *ask);
-    array_fill_bytes(held, 0, e->part.n, sizeof *held);
-    for (int b = 0; b < e->loads.n; b++) {
-        const struct load *l = &e->loads.load[b];
+    array_fill_bytes(ask, 0, part->n, sizeof *ask);
+    array_fill_bytes(held, 0, part->n, sizeof *held);
+    for (int b = 0; b < loads->n; b++) {
+        const struct load *l = &loads->load[b];
         const struct boundary *a = l->boundary;
         const bool drives = a->kind == BOUNDARY_VELOCITY;
         for (int64_t k = 0; k < l->n; k++) {
@@ -82,17 +81,16 @@ static void loads_ask(const struct run *e, int d, real *ask, real *held)
 }
 
 /* True if loads, constraints and initial velocities are mirror images across `axis`. */
-static bool loads_agree(const struct run *e, int axis, const int32_t *twin)
+static bool loads_agree(const struct particles *p, const struct loads *loads, int axis, const int32_t *twin)
 {
-    const struct particles *p = &e->part;
     real *ask = NEW("check.ask", p->n, real), *held = NEW("check.held", p->n, real);
     bool same = true;
-    for (int b = 0; b < e->loads.n; b++) {
-        const struct boundary *l = e->loads.load[b].boundary;    /* a formula's symmetry is unknown */
+    for (int b = 0; b < loads->n; b++) {
+        const struct boundary *l = loads->load[b].boundary;    /* a formula's symmetry is unknown */
         same &= !l->rotates && l->formula[0].n + l->formula[1].n + l->formula[2].n == 0;
     }
     for (int d = 0; d < p->dim && same; d++) {
-        loads_ask(e, d, ask, held);
+        loads_ask(p, loads, d, ask, held);
         same = agree(ask, twin, p->n, d == axis) && agree(held, twin, p->n, false) &&
                agree(p->v[d], twin, p->n, d == axis);
     }
@@ -118,13 +116,12 @@ static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *t
 }
 
 /* Is rigid body b the mirror image of a? By how far both are from some of the particles and their images. */
-static bool rigid_twins(const struct run *e, int axis, real at, const struct scene_body *a,
-                        const struct scene_body *b)
+static bool rigid_twins(const struct particles *p, const struct scene *scene, int axis, real at,
+                        const struct scene_body *a, const struct scene_body *b)
 {
     enum { PLACES = 1000 };
-    const struct particles *p = &e->part;
     const int dim = p->dim;
-    const real near = NEAR_ENOUGH * e->scene->spacing;
+    const real near = NEAR_ENOUGH * scene->spacing;
     bool same = a->ramp == b->ramp;
     for (int d = 0; d < dim; d++)
         same &= fabs(a->velocity[d] - (d == axis ? -1 : 1) * b->velocity[d]) <= NEAR_ENOUGH * fabs(a->velocity[d]);
@@ -139,12 +136,13 @@ static bool rigid_twins(const struct run *e, int axis, real at, const struct sce
     return same;
 }
 
-static bool rigid_bodies_agree(const struct run *e, int axis, real at)
+static bool rigid_bodies_agree(const struct scene *scene, const struct particles *part, int axis, real at)
 {
-    const struct scene_body *rigid = e->scene->body + e->scene->bodies;
-    for (int a = 0; a < e->scene->rigids; a++) {
+    const struct scene_body *rigid = scene->body + scene->bodies;
+    for (int a = 0; a < scene->rigids; a++) {
         bool found = false;
-        for (int b = 0; b < e->scene->rigids && !found; b++) found = rigid_twins(e, axis, at, &rigid[a], &rigid[b]);
+        for (int b = 0; b < scene->rigids && !found; b++)
+            found = rigid_twins(part, scene, axis, at, &rigid[a], &rigid[b]);
         if (!found || rigid[a].mass > 0) return false;
     }
     return true;
@@ -154,9 +152,8 @@ static bool rigid_bodies_agree(const struct run *e, int axis, real at)
 static bool same_number(real a, real b) { return a == b || (isnan(a) && isnan(b)); }
 
 /* Has every crack that grows a mirror image that grows alike? */
-static bool growths_agree(const struct run *e, int axis, real at)
+static bool growths_agree(const struct scene *s, const struct particles *part, int axis, real at)
 {
-    const struct scene *s = e->scene;
     for (int k = 0; k < s->growths; k++) {
         const struct growth_rule *a = &s->growth[k];
         bool found = false;
@@ -164,7 +161,7 @@ static bool growths_agree(const struct run *e, int axis, real at)
             const struct growth_rule *b = &s->growth[m];
             found = same_number(a->speed, b->speed) && same_number(a->toughness, b->toughness);
             found &= a->start == b->start;
-            for (int d = 0; d < e->part.dim; d++) {
+            for (int d = 0; d < part->dim; d++) {
                 const real place = d == axis ? 2 * at - b->at[d] : b->at[d];
                 const real direction = d == axis ? -b->direction[d] : b->direction[d];
                 found &= fabs(a->at[d] - place) <= NEAR_ENOUGH * s->spacing;
@@ -197,9 +194,11 @@ bool scene_is_mirrored(const struct run *e, int axis, real *at)
     particles_extent(p, p->n, axis, &low, &high);
     *at = 0.5 * (low + high);
     if (high - low < e->scene->spacing || !rings_clear(e, axis, *at)) return false;
-    if (!rigid_bodies_agree(e, axis, *at) || !growths_agree(e, axis, *at)) return false;
+    if (!rigid_bodies_agree(e->scene, &e->part, axis, *at) || !growths_agree(e->scene, &e->part, axis, *at))
+        return false;
     int32_t *twin = NEW("check.twin", p->n, int32_t);
-    const bool same = mirror_twins_find(e, axis, *at, twin) && matter_agrees(e, twin) && loads_agree(e, axis, twin);
+    const bool same = mirror_twins_find(e, axis, *at, twin) && matter_agrees(&e->part, twin) &&
+                      loads_agree(&e->part, &e->loads, axis, twin);
     memory_free(twin);
     return same;
 }

@@ -11,15 +11,14 @@
 #define STRAIN_LIKELY 0.2   /* load over modulus */
 
 /* In the time of the run waves do not reach the next particle: lengths, the modulus or the time have another unit. */
-static void unlikely_duration(const struct run *e, FILE *out)
+static void unlikely_duration(const struct scene *s, const struct material_tables *tables, FILE *out)
 {
-    const struct scene *s = e->scene;
-    const real way = e->tables.wave_speed * s->duration;
+    const real way = tables->wave_speed * s->duration;
     if (s->solver != SOLVER_EXPLICIT || !(way < s->spacing)) return;
     fprintf(out,
             "unlikely: in the duration of %.3g s waves of %.4g m/s go %.3g m, %.2g spacings: see whether duration, "
             "lengths (mm?) and young (GPa?) have the units that are meant\n",
-            s->duration, e->tables.wave_speed, way, way / s->spacing);
+            s->duration, tables->wave_speed, way, way / s->spacing);
 }
 
 static void unlikely_materials(const struct scene *s, FILE *out)
@@ -61,7 +60,7 @@ static void unlikely_loads(const struct scene *s, FILE *out)
 
 void advise_units(const struct run *e, FILE *out)
 {
-    unlikely_duration(e, out);
+    unlikely_duration(e->scene, &e->tables, out);
     unlikely_materials(e->scene, out);
     unlikely_loads(e->scene, out);
 }

@@ -7,10 +7,8 @@
 static void contact_free_all(struct run *e) { contact_free(e->contact); }
 
 /* Pairs in contact at once and their largest overlap, in a run with contact. */
-static void put_contact(const struct run *e, struct json *j)
+static void put_contact(const struct contact *c, const struct grid_method *mpm, struct json *j)
 {
-    const struct contact *c = e->contact;
-    const struct grid_method *mpm = e->grid;
     const struct grid_contact *g = &mpm->contact;
     if (c->law.between == CONTACT_NONE && mpm->fields < 2) return;
     json_open(j, "contact", '{');
@@ -59,7 +57,7 @@ static void put_rigid(const struct run *e, struct json *j)
 
 static void put_contact_and_rigid(const struct run *e, struct json *j)
 {
-    put_contact(e, j);
+    put_contact(e->contact, e->grid, j);
     put_rigid(e, j);
 }
 

@@ -18,15 +18,15 @@ static bool wanted(const struct scene *s)
 
 /* Copies velocities and energy change of the finished reference run `twin`. Both runs number their particles alike,
  * since these are made and sorted before any becomes peridynamic. */
-static void baseline_keep(struct run *e, const struct run *twin)
+static void baseline_keep(struct probing *probing, const struct run *twin)
 {
     const struct particles *p = &twin->part;
     for (int d = 0; d < p->dim; d++) {
-        e->probing->baseline.v[d] = NEW("baseline.v", p->n, real);
-        array_copy(e->probing->baseline.v[d], p->v[d], p->n, sizeof *p->v[d]);
+        probing->baseline.v[d] = NEW("baseline.v", p->n, real);
+        array_copy(probing->baseline.v[d], p->v[d], p->n, sizeof *p->v[d]);
     }
-    e->probing->baseline.energy_change = run_observed(twin).energy_change;
-    e->probing->has_baseline = true;
+    probing->baseline.energy_change = run_observed(twin).energy_change;
+    probing->has_baseline = true;
 }
 
 status engine_baseline(struct run *e)
@@ -40,7 +40,7 @@ status engine_baseline(struct run *e)
     status s = engine_make(&twin, &scene, NULL);
     twin.report->quiet = true;
     if (s == OK) s = engine_run(&twin);
-    if (s == OK) baseline_keep(e, &twin);
+    if (s == OK) baseline_keep(e->probing, &twin);
     engine_free(&twin);
     return s;
 }

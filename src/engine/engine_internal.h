@@ -5,6 +5,10 @@
 #include "data/hollow.h"
 #include "engine/engine.h"
 
+/* Makes all parts of a run, empty; frees them and what they own: nothing where they have not been made. */
+void run_parts_make(struct run *e);
+void run_parts_free(struct run *e);
+
 /* A run whose place another takes that has other particles. */
 struct predecessor {
     struct run *run;

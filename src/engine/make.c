@@ -5,7 +5,6 @@
 #include "engine/engine.h"
 #include "engine_internal.h"
 #include "quasistatic/load_steps.h"
-#include "parts.h"
 #include "base/memory.h"
 #include "coupling/coupling_part.h"
 #include "grid/grid_part.h"
@@ -228,11 +227,10 @@ static real particles_now(const struct scene *s, const struct particles *p, real
 }
 
 /* Of n particles with whole families or without; longest: edge of their box [spacings]. */
-static real memory_of(const struct run *e, real n, real longest, bool families)
+static real memory_of(const struct scene *s, const struct bond_source *source, real n, real longest, bool families)
 {
-    const struct scene *s = e->scene;
-    const real bonds = families ? e->source.family.full / e->source.family.cell_volume : 1;
-    bool follow = s->irregularity == 0 && !e->source.yield.stretch && longest < EXACT_MOST;
+    const real bonds = families ? source->family.full / source->family.cell_volume : 1;
+    bool follow = s->irregularity == 0 && !source->yield.stretch && longest < EXACT_MOST;
     for (int b = 0; b < s->bodies; b++) follow = follow && !s->body[b].file;
     return n * (BYTES_PER_PARTICLE + bonds * (follow ? BYTES_PER_BOND_LATTICE : BYTES_PER_BOND));
 }
@@ -241,14 +239,14 @@ real run_memory(const struct run *e)
 {
     real longest;
     const real n = particles_now(e->scene, &e->part, &longest);
-    return memory_of(e, n, longest, e->scene->method == METHOD_PD);
+    return memory_of(e->scene, &e->source, n, longest, e->scene->method == METHOD_PD);
 }
 
 real run_memory_peridynamic(const struct run *e)
 {
     real longest;
     particles_expected(e->scene, &longest);
-    return memory_of(e, (real)e->part.n_body, longest, true);
+    return memory_of(e->scene, &e->source, (real)e->part.n_body, longest, true);
 }
 
 /* REFUSED if a run needs more memory than is available. */

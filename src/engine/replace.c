@@ -14,9 +14,9 @@
 
 /* Numbers of the particles and images of `old` in e, -1: not there. Both are in the order of their ids. The caller
  * frees them. */
-static int32_t *numbers_now(const struct run *e, const struct run *old)
+static int32_t *numbers_now(const struct particles *part, const struct loads *loads, const struct run *old)
 {
-    const struct particles *p = &e->part, *q = &old->part;
+    const struct particles *p = part, *q = &old->part;
     int32_t *now = NEW("replace.now", q->n_all, int32_t);
     int64_t i = 0, k = 0;
     for (int64_t j = 0; j < q->n; j++) {
@@ -27,10 +27,10 @@ static int32_t *numbers_now(const struct run *e, const struct run *old)
         const struct image *was = &old->loads.image[j];
         const int32_t source = now[was->source];
         int64_t next = k;
-        while (source >= 0 && next < e->loads.images &&
-               (e->loads.image[next].source != source || e->loads.image[next].load != was->load))
+        while (source >= 0 && next < loads->images &&
+               (loads->image[next].source != source || loads->image[next].load != was->load))
             next++;
-        const bool found = source >= 0 && next < e->loads.images;
+        const bool found = source >= 0 && next < loads->images;
         now[q->n + j] = found ? (int32_t)(p->n + next) : -1;
         if (found) k = next + 1;
     }
@@ -39,7 +39,7 @@ static int32_t *numbers_now(const struct run *e, const struct run *old)
 
 void engine_take_particles(struct run *e, struct predecessor *before)
 {
-    before->now = numbers_now(e, before->run);
+    before->now = numbers_now(&e->part, &e->loads, before->run);
     particles_take(&e->part, &before->run->part, before->now, e->optional);
     particles_list(&e->part);
     bonds_images_follow(&e->part, &e->source);

@@ -53,10 +53,10 @@ static void put_warnings(struct json *j, const struct warnings *w)
 /* ---- fragments --------------------------------------------------------------------------------------------------- */
 
 /* Bodies of bonds that have lost some. */
-static bool has_fragments(const struct run *e)
+static bool has_fragments(const struct scene *scene, const struct diagnostics *diagnostics)
 {
-    return e->scene->method == METHOD_PD && !scene_at_rest(e->scene) &&
-           (e->diagnostics->bonds_broken > 0 || e->scene->cracks > 0);
+    return scene->method == METHOD_PD && !scene_at_rest(scene) &&
+           (diagnostics->bonds_broken > 0 || scene->cracks > 0);
 }
 
 static void put_fragments(struct json *j, const struct fragments *f)
@@ -70,10 +70,10 @@ static void put_fragments(struct json *j, const struct fragments *f)
 }
 
 /* fragments.csv: a line each, the heaviest first. */
-static void fragments_print(FILE *file, const struct run *e, const struct fragments *f)
+static void fragments_print(FILE *file, const struct particles *part, const struct fragments *f)
 {
     static const char axis[] = "xyz";
-    const int dim = e->part.dim;
+    const int dim = part->dim;
     fputs("body,particles,mass [kg]", file);
     for (int d = 0; d < dim; d++) fprintf(file, ",%c [m]", axis[d]);
     for (int d = 0; d < dim; d++) fprintf(file, ",velocity_%c [m/s]", axis[d]);
@@ -87,15 +87,15 @@ static void fragments_print(FILE *file, const struct run *e, const struct fragme
     }
 }
 
-static status fragments_write(const struct run *e, const struct fragments *f)
+static status fragments_write(const struct particles *part, const struct run_report *report, const struct fragments *f)
 {
     char *text = NULL;
     size_t length = 0;
     FILE *file = memory_stream_open(&text, &length);
     if (!file) return status_set(FAILED, "cannot write fragments.csv: out of memory");
-    fragments_print(file, e, f);
+    fragments_print(file, part, f);
     const bool whole = fclose(file) == 0;
-    const status written = whole ? output_text(e->report->out, "fragments.csv", text, length)
+    const status written = whole ? output_text(report->out, "fragments.csv", text, length)
                                  : status_set(FAILED, "cannot write fragments.csv: out of memory");
     free(text);
     return written;
@@ -130,7 +130,7 @@ static void summary_print(FILE *file, const struct run *e, const struct fragment
     put_warnings(&j, &e->warnings);
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->summary) (*p)->summary(e, &j);
-    if (has_fragments(e)) put_fragments(&j, fragments);
+    if (has_fragments(e->scene, e->diagnostics)) put_fragments(&j, fragments);
     put_machine(&j, e, threads, wall_seconds);
     fputs("\n}\n", file);
 }
@@ -142,9 +142,9 @@ status summary_write(const struct run *e, status s, int threads, double wall_sec
     if (!e->report->out) return OK;
     snprintf(message, sizeof message, "%s", status_message());
     struct fragments fragments = {0};
-    if (has_fragments(e)) {
+    if (has_fragments(e->scene, e->diagnostics)) {
         fragments_find(&fragments, &e->bonds, &e->part);
-        TRY(fragments_write(e, &fragments));
+        TRY(fragments_write(&e->part, e->report, &fragments));
     }
     FILE *file = memory_stream_open(&text, &length);
     if (!file) return status_set(FAILED, "cannot write summary.json: out of memory");

@@ -80,17 +80,16 @@ static void warn_of_method(const struct run *e, struct warnings *to)
 }
 
 /* Keys of coarse cells and slits where there are none. */
-static void warn_of_idle_keys(const struct run *e, struct warnings *to)
+static void warn_of_idle_keys(const struct scene *s, const struct reference_frame *frame, struct warnings *to)
 {
-    const struct scene *s = e->scene;
     const char *why = s->method == METHOD_PD              ? "method pd has no cells"
                       : !scene_moves(s)      ? "a static solver has no use for coarse cells"
-                      : e->frame->mesh.points == 0     ? "no material points are in the reference frame"
+                      : frame->mesh.points == 0     ? "no material points are in the reference frame"
                                                           : NULL;
     const char *all = frame_hollow_obstacle(s);
     if (s->levels != LEVELS_AUTO && s->levels > 0 && why)
         warnings_add(to, "mpm.levels: %d has no effect, as %s; auto or 0 is expected", s->levels, why);
-    if (s->fill == FILL_NEEDED && (why || all || e->frame->levels.n == 0))
+    if (s->fill == FILL_NEEDED && (why || all || frame->levels.n == 0))
         warnings_add(to, "mpm.fill: needed has no effect, all particles are made, as %s; auto or all is expected",
                      why ? why : all ? all : "there are no coarse cells");
     if (s->conversion.notch == NOTCH_SLIT && s->cracks > 0 && s->method != METHOD_ADAPTIVE)
@@ -112,13 +111,14 @@ static void warn_of_materials(const struct scene *s, const struct material_table
 }
 
 /* Does a region hold a particle? Where some are not made it may hold points of coarse cells alone: true. */
-static bool region_is_met(const struct run *e, const struct region *region)
+static bool region_is_met(const struct reference_frame *frame, const struct particles *part,
+                          const struct region *region)
 {
-    bool any = e->frame->hollow.absent != NULL;
-    for (int64_t i = 0; i < e->part.n && !any; i++) {
+    bool any = frame->hollow.absent != NULL;
+    for (int64_t i = 0; i < part->n && !any; i++) {
         real X[DIM_MAX];
-        particle_place(&e->part, i, X);
-        any = region_contains(region, X, e->part.dim, 0);
+        particle_place(part, i, X);
+        any = region_contains(region, X, part->dim, 0);
     }
     return any;
 }
@@ -157,7 +157,7 @@ static void warn_of_empty(const struct run *e, struct warnings *to)
 {
     warn_of_fields(e, to);
     for (int k = 0; k < e->scene->n_series; k++)
-        if (!region_is_met(e, &e->scene->series[k].region))
+        if (!region_is_met(e->frame, &e->part, &e->scene->series[k].region))
             warnings_add(to, "output.regions: %s holds no particle: its frames will be empty",
                          e->scene->series[k].name);
     for (int b = 0; b < e->loads.n; b++)
@@ -175,7 +175,7 @@ void engine_warn(struct run *e)
         warnings_add(to, "%s; earlier names work in this version, with the same meaning", e->scene->renamed);
     warn_of_method(e, to);
     warn_of_spin(e, to);
-    warn_of_idle_keys(e, to);
+    warn_of_idle_keys(e->scene, e->frame, to);
     warn_of_materials(e->scene, &e->tables, to);
     warn_of_lists(e->scene, to);
     warn_of_probes(e->scene, to);

@@ -5,17 +5,17 @@
 #include "engine/engine.h"
 
 /* Marks the bodies, those joined counted as one, of which a load has particles. body: [bodies], by lowest number. */
-static void bodies_mark(const struct run *e, const struct load *l, bool *body)
+static void bodies_mark(const struct scene *scene, const struct particles *part, const struct load *l, bool *body)
 {
-    for (int b = 0; b < e->scene->bodies; b++) body[b] = false;
-    for (int64_t k = 0; k < l->n; k++) body[e->scene->body[e->part.body[l->particle[k]]].joined] = true;
+    for (int b = 0; b < scene->bodies; b++) body[b] = false;
+    for (int64_t k = 0; k < l->n; k++) body[scene->body[part->body[l->particle[k]]].joined] = true;
 }
 
 /* Has a load particles in marked bodies? */
-static bool load_meets(const struct run *e, const struct load *l, const bool *body)
+static bool load_meets(const struct scene *scene, const struct particles *part, const struct load *l, const bool *body)
 {
     bool any = false;
-    for (int64_t k = 0; k < l->n && !any; k++) any = body[e->scene->body[e->part.body[l->particle[k]]].joined];
+    for (int64_t k = 0; k < l->n && !any; k++) any = body[scene->body[part->body[l->particle[k]]].joined];
     return any;
 }
 
@@ -36,7 +36,7 @@ static bool moves_freely(const struct run *e, int which, const bool *body, real 
             freely = !is_clamp(l->boundary, s->dim) && !(own->boundary->components >> l->boundary->axis & 1);
             break;
         case BOUNDARY_VELOCITY:
-            freely = b == which || both == 0 || !load_meets(e, l, body) ||
+            freely = b == which || both == 0 || !load_meets(e->scene, &e->part, l, body) ||
                      loads_velocity_apart(own, l, &e->part, s->duration) <= slow;
             break;
         default: break;
@@ -46,10 +46,8 @@ static bool moves_freely(const struct run *e, int which, const bool *body, real 
 }
 
 /* Time that a wave takes across marked bodies, by the diagonal of the box around each and the slowest material [s]. */
-static real body_crossing_time(const struct run *e, const bool *body)
+static real body_crossing_time(const struct particles *p, const struct scene *s, const bool *body)
 {
-    const struct particles *p = &e->part;
-    const struct scene *s = e->scene;
     real slowest = INFINITY, most = 0;
     for (int m = 0; m < s->materials; m++) slowest = real_min(slowest, s->material[m].wave_speed);
     for (int b = 0; b < s->bodies; b++) {
@@ -72,7 +70,7 @@ static real body_crossing_time(const struct run *e, const bool *body)
 static void warn_of_change(const struct run *e, int which, const bool *body, real bears, struct warnings *to)
 {
     const struct scene *s = e->scene;
-    const real within = body_crossing_time(e, body);
+    const real within = body_crossing_time(&e->part, e->scene, body);
     const real change = load_velocity_change(&e->loads.load[which], &e->part, s->duration, within);
     if (change > bears)
         warnings_add(to,
@@ -95,7 +93,7 @@ void engine_warn_of_speed(const struct run *e, struct warnings *to)
         const real speed = load_displacing_speed(l, &e->part, s->duration);
         const real jump = load_velocity_jump(l, &e->part, s->duration);
         if (!(speed > bears || jump > bears)) continue;
-        bodies_mark(e, l, body);
+        bodies_mark(e->scene, &e->part, l, body);
         if (isfinite(speed) && moves_freely(e, b, body, bears)) warn_of_change(e, b, body, bears, to);
         else if (speed > bears)
             warnings_add(to,

@@ -6,19 +6,18 @@
 #include "step/report.h"
 
 /* Volume of the neighbours that intact bonds of every particle lead to: LAMMPS counts damage by it [m^3]. */
-static void joined_volume(real *volume, const struct run *e)
+static void joined_volume(real *volume, const struct particles *part, const struct bonds *bonds)
 {
-    for (int64_t i = 0; i < e->part.n; i++) {
+    for (int64_t i = 0; i < part->n; i++) {
         volume[i] = 0;
-        for (struct bond_iterator it = bonds_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
-            if (it.bond.w != 0) volume[i] += e->part.volume0[it.bond.nbr];
+        for (struct bond_iterator it = bonds_of_row(bonds, bonds->row_of[i]); bond_next(&it);)
+            if (it.bond.w != 0) volume[i] += part->volume0[it.bond.nbr];
     }
 }
 
-static void check_rows_write(FILE *to, const struct run *e, const real *before, const real *after,
+static void check_rows_write(FILE *to, const struct particles *p, const real *before, const real *after,
                              const real *damage)
 {
-    const struct particles *p = &e->part;
     fputs("id,X [m],Y [m],Z [m],x [m],y [m],z [m],damage,damage_start\n", to);
     for (int64_t i = 0; i < p->n; i++) {
         fprintf(to, "%d", p->id[i] + 1);
@@ -39,7 +38,7 @@ status lammps_check_write(FILE *to, struct exported *x)
     const int64_t n = e->part.n, steps = e->clock.steps;
     real *before = NEW("check.before", n, real), *after = NEW("check.after", n, real),
          *damage = NEW("check.damage", n, real);
-    joined_volume(before, e);
+    joined_volume(before, &e->part, &e->bonds);
     array_copy(damage, e->part.damage, n, sizeof *damage);
     e->report->quiet = e->report->excerpt = true;
     e->clock.steps = lammps_check_steps(x);
@@ -48,8 +47,8 @@ status lammps_check_write(FILE *to, struct exported *x)
     if (ran == OK) {
         /* there the positions just reached have broken bonds already */
         e->kernels.bond_force(&e->bonds, &e->part, &e->source.limit, NULL);
-        joined_volume(after, e);
-        check_rows_write(to, e, before, after, damage);
+        joined_volume(after, &e->part, &e->bonds);
+        check_rows_write(to, &e->part, before, after, damage);
     }
     memory_free(before);
     memory_free(after);

@@ -38,14 +38,13 @@ int body_apart(const struct scene *s, int k)
 }
 
 /* A grid for each body where material points of several meet, else one. */
-static void make_fields(struct run *e)
+static void make_fields(const struct scene *s, struct grid_method *grid)
 {
-    const struct scene *s = e->scene;
     const bool meet = !scene_at_rest(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
                       !coupling_moves_by_grid(s->coupling);
-    e->grid->fields = 1;
-    while (meet && body_apart(s, e->grid->fields) >= 0) e->grid->fields++;
-    e->grid->field = NEW("engine.fields", e->grid->fields, struct grid_field);
+    grid->fields = 1;
+    while (meet && body_apart(s, grid->fields) >= 0) grid->fields++;
+    grid->field = NEW("engine.fields", grid->fields, struct grid_field);
 }
 
 /* How far shapes reach beyond the neighbours of their cell [m]. */
@@ -61,7 +60,7 @@ void grid_part_make(struct run *e, bool meshed)
 {
     const struct scene *s = e->scene;
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
-    if (!e->grid->field) make_fields(e);
+    if (!e->grid->field) make_fields(e->scene, e->grid);
     struct grid *g = &e->grid->field[0].grid;
     g->dim = s->dim;
     g->h = s->cell * s->spacing;

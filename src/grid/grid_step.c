@@ -104,7 +104,7 @@ static struct transfer_data field_data(const struct grid_method *mpm, int k)
 }
 
 /* Does anything move on the grid? */
-static bool grid_holds(const struct run *e) { return e->part.n_free + e->part.n_grid_coupled > 0; }
+static bool grid_holds(const struct particles *part) { return part->n_free + part->n_grid_coupled > 0; }
 
 /* Maps mass, momentum and force of all particles on the grids to their nodes. */
 static void grid_take(struct run *e)
@@ -120,14 +120,13 @@ static void grid_take(struct run *e)
 }
 
 /* Where bodies on grids of their own may meet in this step; [fields] sides, NULL of a single grid. */
-static struct grid_side *meeting_find(struct run *e)
+static struct grid_side *meeting_find(struct grid_method *mpm, struct particles *part)
 {
-    struct grid_method *mpm = e->grid;
     if (mpm->fields < 2) return NULL;
     struct grid_side *side = NEW("engine.sides", mpm->fields, struct grid_side);
     for (int k = 0; k < mpm->fields; k++)
-        grid_side_make(&side[k], &mpm->field[k].grid, &mpm->field[k].order, &e->part);
-    grid_contact_find(&mpm->contact, side, &e->part);
+        grid_side_make(&side[k], &mpm->field[k].grid, &mpm->field[k].order, part);
+    grid_contact_find(&mpm->contact, side, part);
     return side;
 }
 
@@ -170,7 +169,7 @@ static void grids_remap(struct run *e, const struct grid_side *side)
 
 void grid_map(struct run *e)
 {
-    if (!grid_holds(e)) {
+    if (!grid_holds(&e->part)) {
         for (int k = 0; k < e->grid->fields; k++) grid_idle(&e->grid->field[k].grid);
         return;
     }
@@ -183,8 +182,8 @@ void grid_step(struct run *e, real middle)
     struct particles *p = &e->part;
     const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
     int64_t moved = 0;
-    if (!grid_holds(e)) return;
-    struct grid_side *side = meeting_find(e);
+    if (!grid_holds(&e->part)) return;
+    struct grid_side *side = meeting_find(e->grid, &e->part);
     grids_move(e, side, middle, e->grid->transfer.dt_velocity);             /* 3: nodes move */
     lap(&e->laps, LAP_GRID);
     if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side);          /* 4, 6: velocity; momentum back to nodes */
@@ -203,7 +202,7 @@ real grid_power(struct run *e, real middle)
 {
     real power = 0;
     bool lost;
-    if (!grid_holds(e) || grid_sort(e, &lost) != OK || lost) return 0;
+    if (!grid_holds(&e->part) || grid_sort(e, &lost) != OK || lost) return 0;
     grid_take(e);
     real **momentum = NEW("engine.momenta", e->grid->fields, real *);
     for (int k = 0; k < e->grid->fields; k++) {
@@ -211,7 +210,7 @@ real grid_power(struct run *e, real middle)
         momentum[k] = BARE("engine.momentum", g->n * g->dim, real);
         for (int d = 0; d < g->dim; d++) array_copy(momentum[k] + d * g->n, g->momentum[d], g->n, sizeof(real));
     }
-    struct grid_side *side = meeting_find(e);
+    struct grid_side *side = meeting_find(e->grid, &e->part);
     const real damped = e->damped;
     grids_move(e, side, middle, e->clock.dt);
     e->damped = damped;

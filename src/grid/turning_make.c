@@ -4,7 +4,10 @@
 #include "data/turning.h"
 
 /* The first of the bodies that are one with body b on the grid: joined ones, or all of a single grid. */
-static int first_of(const struct run *e, int b) { return e->grid->fields > 1 ? e->scene->body[b].joined : 0; }
+static int first_of(const struct grid_method *grid, const struct scene *scene, int b)
+{
+    return grid->fields > 1 ? scene->body[b].joined : 0;
+}
 
 /* Marks the bodies whose particles a support holds; one that turns them keeps no body from turning. */
 static void mark_held(const struct run *e, bool *held)
@@ -12,22 +15,22 @@ static void mark_held(const struct run *e, bool *held)
     for (int b = 0; b < e->loads.n; b++) {
         const struct load *l = &e->loads.load[b];
         if (l->boundary->kind != BOUNDARY_VELOCITY || l->boundary->rotates) continue;
-        for (int64_t k = 0; k < l->n; k++) held[first_of(e, e->part.body[l->particle[k]])] = true;
+        for (int64_t k = 0; k < l->n; k++) held[first_of(e->grid, e->scene, e->part.body[l->particle[k]])] = true;
     }
 }
 
 /* Where groups are counted from, so that bodies that mirror each other have groups that do: planes of symmetry, else
  * the middle of all bodies. */
-static void turning_middle(const struct run *e, real *middle)
+static void turning_middle(const struct particles *part, const struct scene *scene, real *middle)
 {
-    for (int d = 0; d < e->part.dim; d++) {
+    for (int d = 0; d < part->dim; d++) {
         real low, high;
-        particles_extent(&e->part, e->part.n, d, &low, &high);
+        particles_extent(part, part->n, d, &low, &high);
         middle[d] = 0.5 * (low + high);
     }
-    for (int b = 0; b < e->scene->boundaries; b++)
-        if (e->scene->boundary[b].kind == BOUNDARY_MIRROR)
-            middle[e->scene->boundary[b].axis] = e->scene->boundary[b].at;
+    for (int b = 0; b < scene->boundaries; b++)
+        if (scene->boundary[b].kind == BOUNDARY_MIRROR)
+            middle[scene->boundary[b].axis] = scene->boundary[b].at;
 }
 
 void grid_turning_make(struct run *e)
@@ -40,8 +43,8 @@ void grid_turning_make(struct run *e)
     int *one = NEW("engine.one", s->bodies, int);
     real middle[DIM_MAX];
     mark_held(e, held);
-    turning_middle(e, middle);
-    for (int b = 0; b < s->bodies; b++) one[b] = first_of(e, b), all &= held[one[b]];
+    turning_middle(&e->part, e->scene, middle);
+    for (int b = 0; b < s->bodies; b++) one[b] = first_of(e->grid, e->scene, b), all &= held[one[b]];
     if (!all) turning_make(&e->grid->turning, &e->part, s->spacing, middle, one, held);
     for (int c = 0; c < 3; c++) e->grid->transfer.turn[c] = e->grid->turning.turn[c];
     /* with it hand-shake gains 1e-7 of its energy a step */

@@ -25,10 +25,10 @@ static void take_frame(struct frame_choice *f, bool reference, const char *reaso
     *f = (struct frame_choice){reference, reason};
 }
 
-static void frames_mark(struct run *e)
+static void frames_mark(struct particles *part, struct reference_frame *frame)
 {
-    for (int64_t i = 0; i < e->part.n; i++)
-        if (e->frame->choice[e->part.body[i]].reference) e->part.flag[i] |= FLAG_MESHED;
+    for (int64_t i = 0; i < part->n; i++)
+        if (frame->choice[part->body[i]].reference) part->flag[i] |= FLAG_MESHED;
 }
 
 status frames_choose(struct run *e)
@@ -49,7 +49,7 @@ status frames_choose(struct run *e)
         take_frame(&e->frame->choice[0], !why, why ? why : "it keeps its neighbours and meets no other body");
         if (why) grid_part_make(e, frame_any(e));
     }
-    frames_mark(e);
+    frames_mark(&e->part, e->frame);
     return OK;
 }
 
@@ -158,11 +158,11 @@ static void nodes_walls(struct run *e, real middle, int due)
     }
 }
 
-static void nodes_react(struct run *e, real dt_velocity, int due)
+static void nodes_react(struct loads *loads, struct reference_frame *frame, real dt_velocity, int due)
 {
-    loads_react(&e->loads, &e->frame->mesh.grid, dt_velocity);
+    loads_react(loads, &frame->mesh.grid, dt_velocity);
     for (int level = 1; level <= due; level++)
-        loads_react(&e->loads, &e->frame->levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
+        loads_react(loads, &frame->levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
 }
 
 void frame_move(struct run *e, real middle, real dt_velocity)
@@ -178,7 +178,7 @@ void frame_move(struct run *e, real middle, real dt_velocity)
         levels->n > 0
             ? levels_move(levels, e->clock.dt, dt_velocity, due, e->loads.impulse, &e->loads.constraint_work)
             : mesh_move(mesh, e->clock.dt, dt_velocity, e->loads.impulse, &e->loads.constraint_work);
-    nodes_react(e, dt_velocity, due);
+    nodes_react(&e->loads, e->frame, dt_velocity, due);
     frame_exposed_follow(e);
     if (e->scene->active_set && levels->n == 0) active_nodes_update(mesh, &e->loads);
 }

@@ -125,15 +125,14 @@ static bool probed(const struct scene *s, const real *X, real h)
 }
 
 /* Must any particle of cell I be made? */
-static bool cell_needed(const struct run *e, const struct hollow *h, int64_t I)
+static bool cell_needed(const struct scene *s, const struct bond_source *source, const struct hollow *h, int64_t I)
 {
-    const struct scene *s = e->scene;
     for (int c = 0; c < 1 << s->dim; c++) {
         real X[DIM_MAX] = {0};
         for (int d = 0; d < s->dim; d++) X[d] = grid_quarter(&h->box, I, c, d);
-        if (c == 0 && (near_cracks(s, &e->source, X, h->box.h) || probed(s, X, h->box.h))) return true;
+        if (c == 0 && (near_cracks(s, source, X, h->box.h) || probed(s, X, h->box.h))) return true;
         if (loads_reach(s, X, s->spacing) || face_loaded(s, h, I, X)) return true;
-        if (s->has_pd_region && region_contains(&s->pd_region, X, s->dim, 2 * e->source.family.cutoff)) return true;
+        if (s->has_pd_region && region_contains(&s->pd_region, X, s->dim, 2 * source->family.cutoff)) return true;
     }
     return false;
 }
@@ -150,7 +149,7 @@ status frame_hollow_plan(struct run *e)
     h->absent = NEW("hollow.absent", h->box.n, uint8_t);
 #pragma omp parallel for schedule(dynamic, 4096) reduction(+ : absent)
     for (int64_t I = 0; I < h->box.n; I++) {
-        h->absent[I] = h->whole[I] && !cell_needed(e, h, I);
+        h->absent[I] = h->whole[I] && !cell_needed(e->scene, &e->source, h, I);
         absent += h->absent[I];
     }
     array_copy(h->whole, h->absent, h->box.n, 1);       /* loads, faces of pre-cracks and probes stay where they are */

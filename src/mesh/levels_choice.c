@@ -56,9 +56,8 @@ static real slowest_waves(const struct scene *s)
 }
 
 /* The load that asks for the smallest cells. */
-static struct load_rise sharpest_rise(const struct run *e, real across)
+static struct load_rise sharpest_rise(const struct scene *s, real across)
 {
-    const struct scene *s = e->scene;
     const real c = slowest_waves(s), D = s->spacing;
     struct load_rise least = {.waves = INFINITY, .seconds = INFINITY};
     for (int b = 0; b < s->boundaries; b++) {
@@ -114,7 +113,7 @@ struct levels_choice frame_levels_choice(const struct run *e)
 {
     const struct scene *s = e->scene;
     struct levels_choice c = {.given = s->levels != LEVELS_AUTO, .across = spacings_across(e)};
-    c.rise = sharpest_rise(e, c.across);
+    c.rise = sharpest_rise(e->scene, c.across);
     if (!scene_moves(s)) c.why = LEVELS_AT_REST;
     else if (e->frame->mesh.points == 0) c.why = LEVELS_NO_MESH;
     else if (e->part.n_body < PAYS) c.why = LEVELS_FEW;
@@ -203,9 +202,8 @@ void frame_levels_text(const struct run *e, char *text, size_t room)
 }
 
 /* Coarse cells that the scene gives, where the body is too thin for them; false: there are none. */
-static bool thin_text(const struct run *e, char *text, size_t room)
+static bool thin_text(const struct reference_frame *r, char *text, size_t room)
 {
-    const struct reference_frame *r = e->frame;
     const struct grid *g = &r->mesh.grid;
     int64_t thin = 0, coarse = 0, first = 0;
     int level = 0;
@@ -232,7 +230,7 @@ bool frame_levels_coarse(const struct run *e, char *text, size_t room)
     const real most = edge_for(&c.rise, c.across, ACROSS_LEAST);
     while (levels < LEVELS_MAX && (real)(4 << levels) <= most * (1 + 1e-6)) levels++;
     if (!c.given) return false;
-    if (c.levels <= levels) return thin_text(e, text, room);
+    if (c.levels <= levels) return thin_text(e->frame, text, room);
     rise_text(e->scene, &c.rise, load, sizeof load);
     want_text(&c, 2 << c.levels, ACROSS_LEAST, want, sizeof want);
     snprintf(text, room, "mpm.levels: %d makes cells of %d spacings, and %s: such cells %s; %d or auto would do",

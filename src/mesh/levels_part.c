@@ -47,12 +47,12 @@ static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64
 }
 
 /* Marks the cells beside mirrors that are not on nodes of all levels. */
-static void demand_mirrors(const struct run *e, uint8_t *demand)
+static void demand_mirrors(const struct reference_frame *frame, const struct loads *loads, uint8_t *demand)
 {
-    const struct mesh_levels *l = &e->frame->levels;
+    const struct mesh_levels *l = &frame->levels;
     const struct grid *g = &l->fine->grid;
-    for (int b = 0; b < e->loads.n; b++) {
-        const struct boundary *mirror = e->loads.load[b].boundary;
+    for (int b = 0; b < loads->n; b++) {
+        const struct boundary *mirror = loads->load[b].boundary;
         const int a = mirror->axis;
         if (mirror->kind != BOUNDARY_MIRROR) continue;
         const real at = (mirror->at - grid_position(g, a, l->offset[0][a])) / (g->h * (real)levels_stride(l));
@@ -72,11 +72,12 @@ static void demand_slits(const struct mesh *mesh, uint8_t *demand)
 }
 
 /* Marks the cells of level 0 in a ring and about it (`demand` NULL: none). Is any of them part of a coarser one? */
-static bool ring_cells(const struct run *e, const struct frame_ring *ring, uint8_t *demand)
+static bool ring_cells(const struct reference_frame *frame, const struct scene *scene, const struct frame_ring *ring,
+                       uint8_t *demand)
 {
-    const struct mesh_levels *l = &e->frame->levels;
+    const struct mesh_levels *l = &frame->levels;
     const struct grid *g = &l->fine->grid;
-    const real radius = ring->radius + AROUND_RING * e->scene->spacing;
+    const real radius = ring->radius + AROUND_RING * scene->spacing;
     int64_t from[2], to[2];
     bool coarse = false;
     for (int d = 0; d < 2; d++) {
@@ -96,10 +97,10 @@ static bool ring_cells(const struct run *e, const struct frame_ring *ring, uint8
 }
 
 /* The same of all rings: they want accelerations, which coarse cells have at some steps only. */
-static bool rings_cells(const struct run *e, uint8_t *demand)
+static bool rings_cells(const struct reference_frame *frame, const struct scene *scene, uint8_t *demand)
 {
     bool coarse = false;
-    for (int k = 0; k < e->frame->rings; k++) coarse |= ring_cells(e, &e->frame->ring[k], demand);
+    for (int k = 0; k < frame->rings; k++) coarse |= ring_cells(frame, scene, &frame->ring[k], demand);
     return coarse;
 }
 
@@ -128,8 +129,8 @@ static uint8_t *demand_make(const struct run *e, int more)
     memory_free(flank);
     for (int b = 0; b < e->loads.n; b++)
         for (int64_t k = 0; k < e->loads.load[b].n; k++) fixed[cell_of(l->fine, p, e->loads.load[b].particle[k])] = 1;
-    demand_mirrors(e, fixed);
-    rings_cells(e, fixed);
+    demand_mirrors(e->frame, &e->loads, fixed);
+    rings_cells(e->frame, e->scene, fixed);
     levels_dilate(l, fixed, 1);
     marks_add(l, fixed, demand);
     memory_free(fixed);
@@ -156,14 +157,14 @@ static void demand_add(const struct mesh_levels *l, int level, const uint8_t *ma
 
 /* Marks [fine->grid.n] the cells whose stress exceeds `share` of that at which they convert, with those around them:
  * coarse ones, or all; NULL: there are none. The caller frees them. */
-static uint8_t *stressed_cells(const struct run *e, real share, bool all)
+static uint8_t *stressed_cells(const struct reference_frame *frame, const struct scene *scene, real share, bool all)
 {
-    const struct mesh_levels *l = &e->frame->levels;
+    const struct mesh_levels *l = &frame->levels;
     uint8_t *cells = NULL;
     for (int level = all ? 0 : 1; level <= l->n; level++) {
         const struct mesh *mesh = level_mesh_of(l, level);
         uint8_t *mark = NEW("levels.mark", mesh->grid.n, uint8_t);
-        mesh_cells_mark(mesh, e->frame->elastic, share, all, mark, !e->scene->small_strain);
+        mesh_cells_mark(mesh, frame->elastic, share, all, mark, !scene->small_strain);
         if (memchr(mark, 1, (size_t)mesh->grid.n)) {
             if (!cells) cells = NEW("levels.cells", l->fine->grid.n, uint8_t);
             demand_add(l, level, mark, cells);
@@ -182,10 +183,9 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
 }
 
 /* Lowers bounds of levels to what the thickness of the body allows; levels that the scene gives stay. */
-static void limit_by_room(const struct run *e, uint8_t *limit)
+static void limit_by_room(const struct reference_frame *r, const struct scene *scene, uint8_t *limit)
 {
-    const struct reference_frame *r = e->frame;
-    for (int64_t I = 0; I < r->mesh.grid.n && r->room && e->scene->levels == LEVELS_AUTO; I++)
+    for (int64_t I = 0; I < r->mesh.grid.n && r->room && scene->levels == LEVELS_AUTO; I++)
         if (r->room[I] < limit[I]) limit[I] = r->room[I];
 }
 
@@ -248,11 +248,11 @@ status frame_levels_make(struct run *e, bool restored)
         loads_level_find(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
     if (restored) return OK;
     uint8_t *demand = demand_make(e, ZONE_MORE), *level = NEW("levels.next", r->mesh.grid.n, uint8_t);
-    uint8_t *stressed = stressed_cells(e, SPLITS, true);
+    uint8_t *stressed = stressed_cells(e->frame, e->scene, SPLITS, true);
     marks_add(&r->levels, stressed, demand);
     uint8_t *limit = NEW("levels.limit", r->mesh.grid.n, uint8_t);
     array_fill_bytes(limit, r->levels.n, r->mesh.grid.n, 1);
-    limit_by_room(e, limit);
+    limit_by_room(e->frame, e->scene, limit);
     next_levels(e, demand, limit, level);
     if (frame_hollow_start(e, level)) change(e, level);
     memory_free(limit);
@@ -281,22 +281,21 @@ static void limits_find(struct run *e, bool looks, uint8_t *limit)
     const int64_t n = l->fine->grid.n;
     array_copy(limit, l->level, n, 1);
     if (!looks) return;
-    uint8_t *late = demand_make(e, ZONE_MORE + ZONE_LATE), *stressed = stressed_cells(e, MERGES, true);
+    uint8_t *late = demand_make(e, ZONE_MORE + ZONE_LATE), *stressed = stressed_cells(e->frame, e->scene, MERGES, true);
     marks_add(l, stressed, late);
     for (int64_t I = 0; I < n; I++) {
         l->calm[I] = late[I] ? 0 : l->calm[I] < CALM_LOOKS ? l->calm[I] + 1 : CALM_LOOKS;
         if (l->calm[I] == CALM_LOOKS) limit[I] = (uint8_t)l->n;
     }
-    limit_by_room(e, limit);
+    limit_by_room(e->frame, e->scene, limit);
     memory_free(late);
     memory_free(stressed);
 }
 
 /* Points that lost a bond near coarse cells convert now that these are finer: all material points in their cells. */
-static void lost_bonds_return(struct run *e)
+static void lost_bonds_return(struct reference_frame *frame, struct particles *p)
 {
-    struct mesh_levels *l = &e->frame->levels;
-    struct particles *p = &e->part;
+    struct mesh_levels *l = &frame->levels;
     if (!l->any_wanted) return;
     for (int64_t k = 0; k < p->n_of[KIND_MPM]; k++) {
         const int32_t i = p->list[KIND_MPM][k];
@@ -316,8 +315,8 @@ uint8_t *frame_levels_plan(struct run *e)
     struct mesh_levels *l = &e->frame->levels;
     const bool looks = e->clock.step % LOOK_STEPS == 0;
     levels_sync(l);
-    uint8_t *stressed = any_stressed(l) ? stressed_cells(e, SPLITS, false) : NULL;
-    if (!looks && !stressed && !l->any_wanted && !rings_cells(e, NULL)) return NULL;
+    uint8_t *stressed = any_stressed(l) ? stressed_cells(e->frame, e->scene, SPLITS, false) : NULL;
+    if (!looks && !stressed && !l->any_wanted && !rings_cells(e->frame, e->scene, NULL)) return NULL;
     const int64_t n = l->fine->grid.n;
     uint8_t *demand = demand_make(e, ZONE_MORE), *limit = NEW("levels.limit", n, uint8_t);
     uint8_t *level = NEW("levels.next", n, uint8_t);
@@ -334,7 +333,7 @@ void frame_levels_apply(struct run *e, const uint8_t *level)
 {
     struct mesh_levels *l = &e->frame->levels;
     if (!arrays_equal(level, l->level, l->fine->grid.n, 1)) change(e, level);
-    lost_bonds_return(e);
+    lost_bonds_return(e->frame, &e->part);
     l->any_wanted = false;
 }
 

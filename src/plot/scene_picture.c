@@ -47,10 +47,10 @@ static void cloud_add(struct cloud *c, const real *x, int dim, double size, stru
 }
 
 /* Places of the particles with their colours; `spacing` NULL: all that of the scene. */
-static void cloud_add_particles(struct cloud *c, const struct run *e, const struct particles *p, const real *spacing)
+static void cloud_add_particles(struct cloud *c, const struct scene *s, const struct particles *part,
+                                const struct particles *p, const real *spacing)
 {
-    const struct scene *s = e->scene;
-    const bool both = e->part.n_of[KIND_PD] > 0 && e->part.n_of[KIND_MPM] > 0;
+    const bool both = part->n_of[KIND_PD] > 0 && part->n_of[KIND_MPM] > 0;
     for (int64_t i = 0; i < p->n; i++) {
         struct colour colour = part_colour(part_number(s, p, i));
         real x[DIM_MAX];
@@ -62,15 +62,15 @@ static void cloud_add_particles(struct cloud *c, const struct run *e, const stru
 
 /* The box of a rigid body, of one without bounds the part of it beside the particles; sites along each axis of a
  * lattice that shows it. Returns the number of sites, and through `step` their distance. */
-static int64_t rigid_sites(const struct run *e, const struct region *shape, real *from, int64_t *count, double *step)
+static int64_t rigid_sites(const struct scene *s, const struct particles *part, const struct region *shape, real *from,
+                           int64_t *count, double *step)
 {
-    const struct scene *s = e->scene;
     real to[DIM_MAX];
     double sites = 1, thinnest = INFINITY;
     if (!region_bounds(shape, s->dim, from, to))
         for (int d = 0; d < s->dim; d++) {
-            const real beside = 0.08 * particles_longest(&e->part);
-            particles_extent(&e->part, e->part.n, d, &from[d], &to[d]);
+            const real beside = 0.08 * particles_longest(part);
+            particles_extent(part, part->n, d, &from[d], &to[d]);
             from[d] -= beside, to[d] += beside;
         }
     for (int d = 0; d < s->dim; d++) thinnest = fmin(thinnest, to[d] - from[d]);
@@ -82,13 +82,14 @@ static int64_t rigid_sites(const struct run *e, const struct region *shape, real
     return n;
 }
 
-static void cloud_add_rigid(struct cloud *c, const struct run *e, const struct region *shape)
+static void cloud_add_rigid(struct cloud *c, const struct scene *scene, const struct particles *part,
+                            const struct region *shape)
 {
-    const int dim = e->scene->dim;
+    const int dim = scene->dim;
     real from[DIM_MAX] = {0};
     int64_t count[DIM_MAX];
     double step;
-    const int64_t n = rigid_sites(e, shape, from, count, &step);
+    const int64_t n = rigid_sites(scene, part, shape, from, count, &step);
     for (int64_t k = 0; k < n; k++) {
         real X[DIM_MAX] = {0};
         int64_t rest = k;
@@ -107,7 +108,7 @@ static void scene_cloud(struct cloud *c, struct run *e, const struct camera *cam
     const bool hollow = frame_hollow_points(e, false);
     int64_t room = e->part.n + (hollow ? e->frame->shown.part.n : 0);
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
-        room += rigid_sites(e, &s->body[b].shape, from, count, &step);
+        room += rigid_sites(e->scene, &e->part, &s->body[b].shape, from, count, &step);
     *c = (struct cloud){.axis = {0, 1}, .normal = -1, .spacing = s->spacing, .aligned = true,
                         .camera = s->dim == 3 ? *camera : camera_along(2, 1),
                         .from = {INFINITY, INFINITY}, .to = {-INFINITY, -INFINITY}};
@@ -115,19 +116,19 @@ static void scene_cloud(struct cloud *c, struct run *e, const struct camera *cam
     c->damage = NEW("plot.damage", room, float);
     c->size = NEW("plot.size", room, float);
     c->colour = NEW("plot.colour", room, struct colour);
-    cloud_add_particles(c, e, &e->part, NULL);
-    if (hollow) cloud_add_particles(c, e, &e->frame->shown.part, e->frame->shown.spacing);
-    for (int b = s->bodies; b < s->bodies + s->rigids; b++) cloud_add_rigid(c, e, &s->body[b].shape);
+    cloud_add_particles(c, e->scene, &e->part, &e->part, NULL);
+    if (hollow) cloud_add_particles(c, e->scene, &e->part, &e->frame->shown.part, e->frame->shown.spacing);
+    for (int b = s->bodies; b < s->bodies + s->rigids; b++) cloud_add_rigid(c, e->scene, &e->part, &s->body[b].shape);
     if (s->dim == 1) c->tall = BAR_HALF * (c->to[0] - c->from[0]);
 }
 
 /* ---- key --------------------------------------------------------------------------------------------------------- */
 
 /* Particles of a part, hollow cells left out. */
-static int64_t count_part(const struct run *e, int number)
+static int64_t count_part(const struct particles *part, const struct scene *scene, int number)
 {
     int64_t n = 0;
-    for (int64_t i = 0; i < e->part.n; i++) n += part_number(e->scene, &e->part, i) == number;
+    for (int64_t i = 0; i < part->n; i++) n += part_number(scene, part, i) == number;
     return n;
 }
 
@@ -152,7 +153,7 @@ static void key_of_parts(struct marks *m)
     const int parts = s->materials > 1 ? s->materials : s->bodies;
     char text[TEXT_ROOM];
     for (int k = 0; k < parts; k++) {
-        const int64_t n = count_part(e, k);
+        const int64_t n = count_part(&e->part, e->scene, k);
         const char *name = s->materials > 1 ? s->material[k].name : s->bodies > 1 ? s->body[k].name : s->material->name;
         if (n == 0) continue;
         snprintf(text, sizeof text, "%.48s: %lld particles%s", name, (long long)n,
@@ -204,13 +205,12 @@ static struct layout scene_layout(const struct view *v, int lines)
     return l;
 }
 
-static void draw_scene_title(FILE *to, const struct layout *l, const struct run *e)
+static void draw_scene_title(FILE *to, const struct layout *l, const struct scene *s, const struct particles *part)
 {
-    const struct scene *s = e->scene;
     const struct unit metre = unit_for_length(s->spacing);
     char text[TEXT_ROOM];
     snprintf(text, sizeof text, "%.60s before it runs: %lld particles, spacing %.4g %s", s->name,
-             (long long)e->part.n_body, s->spacing / metre.factor, metre.name);
+             (long long)part->n_body, s->spacing / metre.factor, metre.name);
     fputs("set label 1 ", to);
     gnuplot_quote(to, text);
     fprintf(to, " at screen %.6g,%.6g left font ',15' textcolor rgb '#111111'\n", (double)PICTURE_LEFT / l->width,
@@ -260,7 +260,7 @@ static status draw_scene(struct sheet sheet, struct run *e, struct cloud *c)
     struct marks m = {
         .to = g.to, .plot = plot, .engine = e, .camera = c->camera, .metre = metre.factor, .arrow = arrow};
     fputs("unset grid\n", g.to);
-    draw_scene_title(g.to, &l, e);
+    draw_scene_title(g.to, &l, e->scene, &e->part);
     key_of_parts(&m);
     marks_levels(&m);
     marks_regions(&m);

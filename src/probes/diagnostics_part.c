@@ -18,13 +18,13 @@ static void put_energy_balance(struct json *j, const struct energy_balance *l)
 }
 
 /* When something was: the time, in load steps their number. */
-static void put_when(struct json *j, const struct run *e, const char *what, real t)
+static void put_when(struct json *j, const struct scene *scene, const struct run_clock *clock, const char *what, real t)
 {
     char key[NAME_MAX_LENGTH];
-    const bool in_steps = scene_in_steps(e->scene);
+    const bool in_steps = scene_in_steps(scene);
     snprintf(key, sizeof key, "%s_%s", what, in_steps ? "step" : "time");
     if (!in_steps) json_real(j, key, t);
-    else if (!isnan(t)) json_count(j, key, (int64_t)floor(t / e->clock.dt + 0.5));
+    else if (!isnan(t)) json_count(j, key, (int64_t)floor(t / clock->dt + 0.5));
 }
 
 static void put_tip(struct json *j, const struct run *e, const struct tip *tip)
@@ -36,8 +36,8 @@ static void put_tip(struct json *j, const struct run *e, const struct tip *tip)
     json_point(j, "", tip->place, dim);
     json_real(j, "growth", tip->growth);
     json_real(j, "angle_deg", tip_angle(tip, dim));
-    put_when(j, e, "start", tip->start_time);
-    put_when(j, e, "arrest", tip->arrest_time);
+    put_when(j, e->scene, &e->clock, "start", tip->start_time);
+    put_when(j, e->scene, &e->clock, "arrest", tip->arrest_time);
     if (!scene_in_steps(e->scene)) json_real(j, "speed_max", tip->speed_max);
     if (!scene_in_steps(e->scene)) json_real(j, "speed_mean", tip->speed_mean);
     json_close(j, '}');
@@ -57,12 +57,12 @@ static void put_crack(struct json *j, const struct run *e)
     const struct tip *longest = tips_longest(&e->fracture->tips);
     int dim = e->part.dim;
     json_open(j, "crack", '{');
-    put_when(j, e, "start", e->diagnostics->break_time);
-    put_when(j, e, "driven_start", e->diagnostics->driven_time);
+    put_when(j, e->scene, &e->clock, "start", e->diagnostics->break_time);
+    put_when(j, e->scene, &e->clock, "driven_start", e->diagnostics->driven_time);
     if (!isnan(e->diagnostics->driven_time)) json_count(j, "driven_bonds", driven_bonds(e));
     if (longest) {
-        put_when(j, e, "tip_start", longest->start_time);
-        put_when(j, e, "arrest", longest->arrest_time);
+        put_when(j, e->scene, &e->clock, "tip_start", longest->start_time);
+        put_when(j, e->scene, &e->clock, "arrest", longest->arrest_time);
         json_real(j, "length_end", longest->growth);
         json_real(j, "angle_deg", tip_angle(longest, dim));
         json_count(j, "tied", tips_tied(&e->fracture->tips));

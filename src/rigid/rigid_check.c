@@ -28,10 +28,9 @@ static status check_room(const struct run *e, int k)
 }
 
 /* REFUSED where the image of a body that flies would be another one. */
-static status check_mirrors(const struct run *e, int k)
+static status check_mirrors(const struct rigid_set *rigid, const struct scene *s, int k)
 {
-    const struct rigid_body *r = &e->rigid->body[k];
-    const struct scene *s = e->scene;
+    const struct rigid_body *r = &rigid->body[k];
     real from[DIM_MAX], to[DIM_MAX];
     if (r->motion != RIGID_FREE || !region_bounds(r->shape, s->dim, from, to)) return OK;
     for (int b = 0; b < s->boundaries; b++) {
@@ -51,7 +50,7 @@ status rigids_check(const struct run *e)
     for (int k = 0; k < e->scene->rigids; k++) {
         const char *place = e->scene->body[e->scene->bodies + k].place;
         TRY(status_at(place, check_room(e, k)));
-        TRY(status_at(place, check_mirrors(e, k)));
+        TRY(status_at(place, check_mirrors(e->rigid, e->scene, k)));
     }
     return OK;
 }
@@ -74,11 +73,12 @@ status rigids_speed_check(const struct run *e)
 }
 
 /* Is a point of a lattice in r, a spacing inside it, also inside the other? */
-static bool have_met(const struct run *e, const struct rigid_body *r, const struct rigid_body *other)
+static bool have_met(const struct scene *scene, const struct particles *part, const struct rigid_body *r,
+                     const struct rigid_body *other)
 {
     real from[DIM_MAX], to[DIM_MAX], x[DIM_MAX] = {0}, normal[DIM_MAX];
-    const real spacing = e->scene->spacing;
-    const int dim = e->part.dim;
+    const real spacing = scene->spacing;
+    const int dim = part->dim;
     int64_t n[DIM_MAX] = {1, 1, 1};
     memcpy(x, r->x, sizeof x);
     if (!region_bounds(r->shape, dim, from, to) || rigid_distance(other, x, normal) > r->radius) return false;
@@ -104,7 +104,7 @@ void rigids_meet(struct run *e)
         for (int b = 0; b < e->scene->rigids && !e->rigid->met; b++) {
             char text[320];
             if (a == b || e->rigid->body[a].motion != RIGID_FREE ||
-                !have_met(e, &e->rigid->body[a], &e->rigid->body[b]))
+                !have_met(e->scene, &e->part, &e->rigid->body[a], &e->rigid->body[b]))
                 continue;
             snprintf(text, sizeof text,
                      "rigid bodies %.60s and %.60s are inside each other at t = %.3g s: they meet particles, not each "

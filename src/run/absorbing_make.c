@@ -12,11 +12,12 @@ static struct impedance impedance_of(const struct material *m, real c11, real sh
 }
 
 /* State-based families have the constants of their material, bonds those of the lattice. */
-static struct impedance impedance_lattice(const struct run *e, const struct material *m)
+static struct impedance impedance_lattice(const struct bond_source *source, const struct scene *scene,
+                                          const struct material *m)
 {
     real c11, c12;
-    family_constants(&e->source.family, m, &c11, &c12);
-    return impedance_of(m, c11, e->scene->dim > 1 ? c12 : 0);
+    family_constants(&source->family, m, &c11, &c12);
+    return impedance_of(m, c11, scene->dim > 1 ? c12 : 0);
 }
 
 void absorbing_make_all(struct run *e)
@@ -34,7 +35,7 @@ void absorbing_make_all(struct run *e)
             const struct material *m = &s->material[k];
             const bool lattice =
                 by == MOVED_BY_BONDS ? s->model == MODEL_BOND : by == MOVED_BY_MESH && s->lattice_constants;
-            z[k] = lattice ? impedance_lattice(e, m) : impedance_of(m, m->c11, m->shear);
+            z[k] = lattice ? impedance_lattice(&e->source, e->scene, m) : impedance_of(m, m->c11, m->shear);
         }
     }
     loads_absorbing_make(&e->loads, &e->part, all);

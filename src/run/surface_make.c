@@ -16,10 +16,10 @@ static const char *vector_in_words(char *text, const real *a, int dim)
 }
 
 /* Number of the mirror that lies half-way between two places along an axis; -1: none. */
-static int mirror_between(const struct run *e, const real *X, const real *Y, int axis)
+static int mirror_between(const struct loads *loads, const real *X, const real *Y, int axis)
 {
-    for (int b = 0; b < e->loads.n; b++) {
-        const struct boundary *m = e->loads.load[b].boundary;
+    for (int b = 0; b < loads->n; b++) {
+        const struct boundary *m = loads->load[b].boundary;
         const bool across = (X[axis] - m->at) * (Y[axis] - m->at) <= 0;
         if (m->kind == BOUNDARY_MIRROR && m->axis == axis && across) return b;
     }
@@ -27,9 +27,8 @@ static int mirror_between(const struct run *e, const real *X, const real *Y, int
 }
 
 /* Returns the number of the body that a particle was made for, of those joined to its own, by their shapes. */
-static int body_made_for(const struct run *e, const real *X, int body)
+static int body_made_for(const struct scene *s, const real *X, int body)
 {
-    const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].joined == body && !s->body[b].file &&
             region_contains(&s->body[b].shape, X, s->dim, ON_SURFACE * s->spacing))
@@ -48,7 +47,7 @@ static status refuse_rows(const struct run *e, int64_t i, int mirror)
                       "body %s: its lattice does not go on beyond the mirror of boundary %s at %c = %.6g m: its first "
                       "row is %.3g spacings from it; 0.5 (a size along %c that is a multiple of particles.spacing), or "
                       "pd.surface volume, is expected",
-                      e->scene->body[body_made_for(e, X, e->part.body[i])].name, m->name,
+                      e->scene->body[body_made_for(e->scene, X, e->part.body[i])].name, m->name,
                       "xyz"[m->axis], m->at, beside, "xyz"[m->axis]);
 }
 
@@ -66,10 +65,10 @@ static status refuse_apart(const struct run *e, int64_t i, int64_t j)
         const real off = fabs(steps[d] - nearbyint(steps[d]));
         if (off > worst) worst = off, axis = d;
     }
-    const int mirror = j < p->n ? -1 : mirror_between(e, X, Y, axis);
+    const int mirror = j < p->n ? -1 : mirror_between(&e->loads, X, Y, axis);
     if (mirror >= 0) return refuse_rows(e, i, mirror);
     vector_in_words(here, X, p->dim), vector_in_words(there, Y, p->dim), vector_in_words(apart, steps, p->dim);
-    const int body = body_made_for(e, X, p->body[i]), beside = body_made_for(e, Y, p->body[j]);
+    const int body = body_made_for(e->scene, X, p->body[i]), beside = body_made_for(e->scene, Y, p->body[j]);
     const char *own = s->body[body].name, *other = s->body[beside].name;
     if (body != beside)
         return status_set(REFUSED,

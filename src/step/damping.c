@@ -58,19 +58,19 @@ static void slow_block(const void *context, int64_t first, int64_t end, real *su
         }
 }
 
-static real damping_exponent(const struct run *e)
+static real damping_exponent(const struct scene *scene, const struct run_clock *clock)
 {
-    return real_min(e->scene->damping * e->clock.dt, EXPONENT_MOST);
+    return real_min(scene->damping * clock->dt, EXPONENT_MOST);
 }
 
-real damping_share(const struct run *e) { return exp(-0.5 * damping_exponent(e)); }
+real damping_share(const struct run *e) { return exp(-0.5 * damping_exponent(e->scene, &e->clock)); }
 
 /* Particles and nodes; returns how many of the two there are. */
 static int damped_find(struct run *e, struct damped *all, int64_t *n)
 {
     struct particles *p = &e->part;
     struct grid *nodes = &e->frame->mesh.grid;
-    const real factor = exp(-damping_exponent(e));
+    const real factor = exp(-damping_exponent(e->scene, &e->clock));
     n[0] = p->n, n[1] = nodes->n;
     all[0] = (struct damped){p->dim, factor, p->mass, p->v, e->damping->before[0], p->flag};
     all[1] = (struct damped){p->dim, factor, nodes->mass, nodes->velocity, e->damping->before[1], NULL};
@@ -133,11 +133,11 @@ real damping_loss(struct run *e)
 
 real damping_last(const struct run *e, real kinetic_before, real kinetic)
 {
-    const real grown = exp(damping_exponent(e));
+    const real grown = exp(damping_exponent(e->scene, &e->clock));
     return e->clock.step > 0 ? (grown - 1) * (grown * kinetic_before + kinetic) / damping_share(e) : 0;
 }
 
 void damping_end(struct run *e)
 {
-    if (e->scene->damping > 0) slow_all(e, exp(-damping_exponent(e)));
+    if (e->scene->damping > 0) slow_all(e, exp(-damping_exponent(e->scene, &e->clock)));
 }

@@ -49,12 +49,12 @@ static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const
 }
 
 /* Of a peridynamic particle: over its intact bonds. */
-static void gradient_of_bonds(const struct run *e, int64_t i, real *const *H)
+static void gradient_of_bonds(const struct bonds *bonds, const struct particles *part, int64_t i, real *const *H)
 {
     struct gradient_sum sum = {{{0}}, {{0}}};
-    for (struct bond_iterator it = bonds_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
-        if (it.bond.w != 0) gradient_add(&sum, &e->part, i, it.bond.nbr);
-    gradient_fit(&sum, e->part.dim, i, H);
+    for (struct bond_iterator it = bonds_of_row(bonds, bonds->row_of[i]); bond_next(&it);)
+        if (it.bond.w != 0) gradient_add(&sum, part, i, it.bond.nbr);
+    gradient_fit(&sum, part->dim, i, H);
 }
 
 /* Of a material point on the grid: over the nearest points of its body on its side of pre-cracks, but peridynamic ones
@@ -75,9 +75,9 @@ static void gradient_of_points(const struct run *e, struct near *near, int64_t i
 }
 
 /* Is a particle a point of the mesh of the reference frame? */
-static bool in_mesh(const struct run *e, int64_t i)
+static bool in_mesh(const struct reference_frame *frame, int64_t i)
 {
-    return e->frame->mesh.points > 0 && e->frame->mesh.place[i] >= 0;
+    return frame->mesh.points > 0 && frame->mesh.place[i] >= 0;
 }
 
 static void gradients_make(const struct run *e, real **H)
@@ -90,8 +90,8 @@ static void gradients_make(const struct run *e, real **H)
         struct near near = {0};
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
-            if (p->kind[i] == KIND_PD) gradient_of_bonds(e, i, H);
-            else if (!in_mesh(e, i)) gradient_of_points(e, &near, i, H);
+            if (p->kind[i] == KIND_PD) gradient_of_bonds(&e->bonds, &e->part, i, H);
+            else if (!in_mesh(e->frame, i)) gradient_of_points(e, &near, i, H);
         memory_free(near.at);
     }
 }
@@ -118,34 +118,33 @@ static real *plastic_work_make(const struct run *e)
 
 /* The equivalent plastic strain: of points their own, of peridynamic particles the mean plastic path of their bonds.
  * NULL: no bond yields. */
-static real *plastic_strain_make(const struct run *e)
+static real *plastic_strain_make(const struct particles *p, const struct bonds *bonds)
 {
-    const struct particles *p = &e->part;
-    if (!e->bonds.plastic_path) return NULL;
+    if (!bonds->plastic_path) return NULL;
     real *strain = NEW("report.plastic_strain", p->n, real);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++)
-        if (p->kind[i] == KIND_PD && e->bonds.row_of[i] >= 0)
-            strain[i] = bond_row_plastic_path(&e->bonds, e->bonds.row_of[i]);
+        if (p->kind[i] == KIND_PD && bonds->row_of[i] >= 0)
+            strain[i] = bond_row_plastic_path(bonds, bonds->row_of[i]);
         else if (p->plastic_strain) strain[i] = p->plastic_strain[i];
     return strain;
 }
 
-static uint8_t *cell_levels_make(const struct run *e)
+static uint8_t *cell_levels_make(const struct reference_frame *frame, const struct particles *part)
 {
-    const struct mesh *mesh = &e->frame->mesh;
-    uint8_t *level = NEW("report.level", e->part.n, uint8_t);
-    for (int64_t i = 0; i < e->part.n && mesh->level; i++)
-        if (in_mesh(e, i)) level[i] = mesh->level[mesh->place[i] >> e->part.dim];
+    const struct mesh *mesh = &frame->mesh;
+    uint8_t *level = NEW("report.level", part->n, uint8_t);
+    for (int64_t i = 0; i < part->n && mesh->level; i++)
+        if (in_mesh(frame, i)) level[i] = mesh->level[mesh->place[i] >> part->dim];
     return level;
 }
 
 /* Of points of coarse cells: their spacing doubles from level to level. */
-static uint8_t *point_levels_make(const struct run *e)
+static uint8_t *point_levels_make(const struct reference_frame *frame, const struct scene *scene)
 {
-    uint8_t *level = NEW("report.level", e->frame->shown.part.n, uint8_t);
-    for (int64_t i = 0; i < e->frame->shown.part.n; i++)
-        level[i] = (uint8_t)lround(log2(e->frame->shown.spacing[i] / e->scene->spacing));
+    uint8_t *level = NEW("report.level", frame->shown.part.n, uint8_t);
+    for (int64_t i = 0; i < frame->shown.part.n; i++)
+        level[i] = (uint8_t)lround(log2(frame->shown.spacing[i] / scene->spacing));
     return level;
 }
 
@@ -156,11 +155,11 @@ void fields_make(struct run *e, unsigned asked, struct frame_extra *extra)
     extra->asked = asked, extra->material = e->scene->material, extra->space = e->scene->space;
     if (asked & (ASK_STRAIN | ASK_DENSITY)) gradients_make(e, extra->state.gradient);
     if (asked & ASK_PLASTIC_WORK) extra->state.plastic_work = plastic_work_make(e);
-    extra->state.plastic_strain = plastic_strain_make(e);
-    if (asked & ASK_LEVEL) extra->state.level = cell_levels_make(e);
+    extra->state.plastic_strain = plastic_strain_make(&e->part, &e->bonds);
+    if (asked & ASK_LEVEL) extra->state.level = cell_levels_make(e->frame, &e->part);
     if (!extra->more) return;
     for (int k = 0; k < DIM_MAX * DIM_MAX; k++) extra->more_state.gradient[k] = e->frame->shown.gradient[k];
-    if (asked & ASK_LEVEL) extra->more_state.level = point_levels_make(e);
+    if (asked & ASK_LEVEL) extra->more_state.level = point_levels_make(e->frame, e->scene);
 }
 
 void fields_free(struct frame_extra *extra)

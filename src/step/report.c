@@ -123,9 +123,9 @@ static unsigned frames_due(const struct run *e, int64_t step)
 bool report_frame_follows(const struct run *e) { return frames_due(e, e->clock.step + 1) != 0; }
 
 /* Fields that the frames of series k are asked for. */
-static unsigned asked_of(const struct run *e, int k)
+static unsigned asked_of(const struct scene *scene, int k)
 {
-    return k > 0 && e->scene->series[k - 1].fields ? e->scene->series[k - 1].fields : e->scene->fields;
+    return k > 0 && scene->series[k - 1].fields ? scene->series[k - 1].fields : scene->fields;
 }
 
 /* A frame of each series that is due. Before the first step nothing has been pushed. */
@@ -141,7 +141,7 @@ static status write_frames(struct run *e, unsigned due)
     TRY(frame_sound(&e->clock, &e->part));
     if (parts) fragments_find(&fragments, &e->bonds, &e->part);
     for (int k = 0; k <= out->n_series; k++)
-        if (due >> k & 1) asked |= asked_of(e, k);
+        if (due >> k & 1) asked |= asked_of(e->scene, k);
     struct frame_extra extra = {.push = e->contact->push[0] ? e->contact->push : NULL, .fragment = fragments.of};
     if (frame_hollow_points(e, asked & (ASK_STRAIN | ASK_DENSITY))) {
         extra.more = &e->frame->shown.part, extra.more_spacing = e->frame->shown.spacing;
@@ -150,7 +150,7 @@ static status write_frames(struct run *e, unsigned due)
     fields_make(e, asked, &extra);
     for (int k = 0; k <= out->n_series && s == OK; k++) {
         if (!(due >> k & 1)) continue;
-        extra.asked = asked_of(e, k);
+        extra.asked = asked_of(e->scene, k);
         s = output_frame_begin(out, k, &e->part, &extra, e->clock.t, e->clock.step, e->scene->text);
     }
     fields_free(&extra);

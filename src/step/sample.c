@@ -42,11 +42,10 @@ static real inactive_since_sample(const struct run_clock *clock, struct run_repo
 }
 
 /* Does nothing outside the deforming bodies act on them, and have all of them particles or nodes of one mesh? */
-static bool is_free(const struct run *e)
+static bool is_free(const struct scene *s, const struct reference_frame *frame)
 {
-    const struct scene *s = e->scene;
     return s->dim > 1 && scene_moves(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
-           e->frame->levels.n == 0;
+           frame->levels.n == 0;
 }
 
 /* Columns of the angular momentum of free bodies, NULL: only counted. Returns how many. */
@@ -54,7 +53,7 @@ static int spin_columns(const struct run *e, struct column *column)
 {
     static const char *const name[] = {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};
     int n = 0;
-    for (int d = e->part.dim == 2 ? 2 : 0; d < 3 && is_free(e); d++, n++)
+    for (int d = e->part.dim == 2 ? 2 : 0; d < 3 && is_free(e->scene, e->frame); d++, n++)
         if (column) column[n] = (struct column){.unit = "kg m^2/s"}, strcpy(column[n].name, name[d]);
     return n;
 }
@@ -153,10 +152,10 @@ static real kinetic_now(const struct particles *p, const struct reference_frame 
 }
 
 /* Meshes of the reference frame and of its coarse cells, whose nodes have momentum; returns their number. */
-static int meshes(const struct run *e, const struct grid *nodes[LEVELS_MAX + 1])
+static int meshes(const struct reference_frame *frame, const struct grid *nodes[LEVELS_MAX + 1])
 {
-    const struct mesh_levels *levels = &e->frame->levels;
-    nodes[0] = &e->frame->mesh.grid;
+    const struct mesh_levels *levels = &frame->levels;
+    nodes[0] = &frame->mesh.grid;
     for (int level = 1; level <= levels->n; level++) nodes[level] = &levels->at[level].mesh.grid;
     return 1 + levels->n;
 }
@@ -165,7 +164,7 @@ static int meshes(const struct run *e, const struct grid *nodes[LEVELS_MAX + 1])
 static void keep_momentum(struct run *e)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
-    const int grids = meshes(e, nodes);
+    const int grids = meshes(e->frame, nodes);
     e->report->sampling.t_velocity = run_observed(e).t_velocity;
     diagnostics_momentum_of(&e->part, nodes, grids, e->report->sampling.momentum);
 }
@@ -174,7 +173,7 @@ static void keep_momentum(struct run *e)
 static void time_momentum(struct run *e, const struct velocity_time *now)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
-    const int grids = meshes(e, nodes);
+    const int grids = meshes(e->frame, nodes);
     const struct sampling *s = &e->report->sampling;
     real after[DIM_MAX];
     if (!scene_moves(e->scene)) return;
@@ -188,11 +187,11 @@ static void time_momentum(struct run *e, const struct velocity_time *now)
 static void sample_state(struct run *e)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
-    const int grids = meshes(e, nodes);
+    const int grids = meshes(e->frame, nodes);
     if (wants_stress(e->scene)) run_stress(e);
     rigids_keep(e);
     diagnostics_momentum(e->diagnostics, &e->part, nodes, grids, e->loads.impulse);
-    if (is_free(e))
+    if (is_free(e->scene, e->frame))
         diagnostics_spin(e->diagnostics, &e->part, e->frame->mesh.points > 0 ? &e->frame->mesh : NULL,
                          e->scene->bodies);
     tips_sample(&e->fracture->tips, &e->part, &e->cells, e->clock.t);

@@ -159,10 +159,10 @@ static real contact_safety(const struct scene *s)
 static real damping_step(const struct scene *s) { return s->damping > 0 ? 0.5 / s->damping : INFINITY; }
 
 /* Stiffness of the cores of bonds that the step bears, as kernels/pd/bond_core.h has it; of no step: the most. */
-static real core_stiffness(const struct run *e)
+static real core_stiffness(const struct scene *scene, const struct run_clock *clock)
 {
-    if (!scene_moves(e->scene)) return CORE_STIFFNESS;
-    return real_max(0, real_min(CORE_STIFFNESS, square(e->clock.dt_critical / e->clock.dt) - 1));
+    if (!scene_moves(scene)) return CORE_STIFFNESS;
+    return real_max(0, real_min(CORE_STIFFNESS, square(clock->dt_critical / clock->dt) - 1));
 }
 
 /* Least mass of a particle over that of its material, where lists say it; 1 where none is lighter [1]. */
@@ -199,6 +199,6 @@ status time_step_make(struct run *e)
     else if (scene_moves(s)) TRY(make_steps(e->scene, &e->clock, dt));
     else e->clock.steps = s->solver_steps, e->clock.dt = dt;
     e->source.limit.dt = scene_in_steps(s) ? dt : e->clock.dt;
-    e->source.core = e->bonds.core = core_stiffness(e);
+    e->source.core = e->bonds.core = core_stiffness(e->scene, &e->clock);
     return OK;
 }
