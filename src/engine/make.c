@@ -2,7 +2,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "engine/engine.h"
 #include "engine_internal.h"
 #include "quasistatic/load_steps.h"
 #include "base/memory.h"
@@ -10,20 +9,13 @@
 #include "grid/grid_part.h"
 #include "fracture/fracture_part.h"
 #include "probes/probes_part.h"
-#include "quasistatic/statics.h"
-#include "probes/probes.h"
-#include "coupling/conversion.h"
-#include "probes/diagnostics.h"
 #include "rigid/rigid_part.h"
 #include "mesh/mesh_part.h"
 #include "step/report.h"
 #include "step/stability.h"
-#include "data/hollow.h"
 #include "contact/contact.h"
 #include "scene/fill.h"
 #include "output/output.h"
-#include "mesh/levels.h"
-#include "mesh/mesh_make.h"
 #include "run/make.h"
 #include "step/step.h"
 

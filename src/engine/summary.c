@@ -11,16 +11,9 @@
 #include "run/part.h"
 #include "simd/simd.h"
 #include "coupling/coupling_part.h"
-#include "mesh/mesh_part.h"
-#include "quasistatic/statics.h"
-#include "grid/grid_part.h"
-#include "contact/contact.h"
-#include "rigid/rigid_part.h"
 #include "step/report.h"
-#include "fracture/fracture_part.h"
 #include "output/output.h"
 #include "probes/probes_part.h"
-#include "step/step.h"
 
 /* ---- physical figures -------------------------------------------------------------------------------------------- */
 

@@ -6,11 +6,8 @@
 #include "base/memory.h"
 #include "engine_internal.h"
 #include "run/part.h"
-#include "quasistatic/load_steps.h"
 #include "grid/grid_part.h"
 #include "mesh/mesh_part.h"
-#include "solver/solver.h"
-#include "coupling/coupling_part.h"
 #include "output/output.h"
 
 /* True if pre-cracks have cut a bond. */

@@ -4,16 +4,11 @@
 #include <string.h>
 
 #include "kernels/mpm/stress.h"
-#include "run/run.h"
 #include "mesh/mesh_part.h"
 #include "step/stability.h"
 #include "probes/diagnostics.h"
-#include "coupling/coupling_part.h"
 #include "contact/contact.h"
 #include "step/report.h"
-#include "base/rise.h"
-#include "mesh/mesh_make.h"
-#include "mesh/levels.h"
 #include "run/say.h"
 #include "rigid/rigid_part.h"
 
