@@ -48,6 +48,30 @@ nm -A -P $objects | awk -v rooms="$rooms" -v build="$build/" "$room_of"'
                   print user[k] " calls " name " of " place[name] } }' | sort >"$found"
 nothing "calls that lead up"
 
+# A header in src/ROOM is for the files of that room alone, and one named without a path lies beside the file that names it.
+grep -H '^#include "' $program | awk '
+    { split($0, half, ":#include \""); file = half[1]; path = half[2]; sub(/".*/, "", path)
+      folder = file; sub(/\/[^\/]*$/, "", folder)
+      if (path !~ /\//) { if (folder ~ /^src/ && (getline line < (folder "/" path)) < 0 && path !~ /^(parts|new_scenes|new_part)\.h$/) print file " includes " path ", which is not there"
+                         close(folder "/" path) }
+      else if (path ~ /^src\// && index(path, folder "/") != 1) print file " includes " path }' >"$found"
+nothing "private headers of other rooms"
+
+# What a run is, and the part of a run that a room is, is known where its name says so; kernels and what stands below the scene
+# know no run (struct run of include/run/run.h).
+grep -l '\bstruct run\b' $program | awk "$room_of"'
+    BEGIN { n = split("base data bonds kernels simd loads output geometry scene", low, " "); for (k = 1; k <= n; k++) below[low[k]] = 1
+            n = split("grid mesh rigid contact coupling fracture solver probes", mid, " "); for (k = 1; k <= n; k++) part[mid[k]] = 1 }
+    { room = room_of($1) }
+    room in below { print $1 " knows struct run" }
+    room in part && $1 !~ /_(part|make|step|choice|check|motion|warn|points)\.[ch]$/ { print $1 " knows struct run: a name that ends in _part, _make, _step, _choice, _check, _motion, _warn or _points is expected" }' >"$found"
+nothing "files that know a run and do not say so"
+
+# Rows of the table of parts belong to their rooms, and nobody but the table uses them.
+grep -nE '\bpart_[a-z]+\b' $program | grep -E 'extern|const struct part part_|&part_' | grep -v '^src/engine/parts.c' |
+    grep -vE '^src/[a-z]+/[a-z_]+_part\.c:[0-9]+:const struct part part_' >"$found"
+nothing "rows of the table of parts outside rooms and table"
+
 # Members of stored bonds (include/bonds/bond_storage.h): for src/bonds and kernels/pd alone.
 grep -nE "\\b(b|bonds|old)(->|\.)(nbr|inverse_length|common|stencil|column|column_count|first|implicit|changed|shell_length|made|aligned)\\b" \
     $(find src -name '*.[ch]' ! -path 'src/bonds/*') | grep -E "(b->|bonds(->|\.)|old->)(nbr|inverse_length|common|stencil|column|column_count|first|implicit|changed|shell_length|made|aligned)(\[|\)|;|,| )" >"$found"
@@ -71,6 +95,45 @@ nothing "rooms that do not say what they are for"
 # Counted arrays may have no elements and no storage, which the C library's functions do not allow (include/base/arrays.h).
 grep -nE "\\bqsort\(|\\bmem(cpy|move|set|cmp)\(.*(, |\* )\(size_t\)[^,]*\)" $(echo "$program" | grep -v '/base/') >"$found"
 nothing "arrays that are copied, filled, compared or sorted without array_copy, array_fill_bytes, arrays_equal or array_sort"
+
+# ---- circles, and what is seen ---------------------------------------------------------------------------------------
+
+# Files that call each other in a circle, by the symbols of the objects: these, and no larger ones.
+circles="scene/scene_yaml 11, contact/contact 7, data/solid 4, scene/scene_echo 4, engine/make 4, app/help 4, mesh/mesh 3,
+    geometry/image 3, probes/probes 3, app/check_advice 3, plot/plot_curves 3, quasistatic/unknowns 9"
+nm -A -P $(echo "$objects" | grep -v "/bench/") | awk -v build="$build/" -v known="$circles" '
+    { file = $1; sub(/:$/, "", file); file = substr(file, length(build) + 1); sub(/^src\//, "", file); sub(/\.o$/, "", file)
+      if ($3 ~ /^[TDBRC]$/) place[$2] = file
+      else if ($3 == "U") used[$2] = used[$2] " " file }
+    END { n = split(known, list, /,[ \n]*/)
+          for (k = 1; k <= n; k++) { split(list[k], one, " "); allowed[one[1]] = one[2] }
+          for (name in used) if (name in place) { m = split(used[name], user, " ")
+              for (k = 1; k <= m; k++) if (user[k] != place[name]) { calls[user[k], place[name]] = 1; file_[user[k]] = 1; file_[place[name]] = 1; edge[user[k]] = edge[user[k]] " " place[name] } }
+          for (from in file_) { delete seen; top = 1; stack[1] = from
+              while (top > 0) { f = stack[top--]; m = split(edge[f], next_, " ")
+                  for (k = 1; k <= m; k++) if (!(next_[k] in seen)) { seen[next_[k]] = 1; stack[++top] = next_[k] } }
+              for (to in seen) reach[from, to] = 1 }
+          for (a in file_) if (!(a in done)) { size = 1; members = a; most = 2
+              for (b in file_) if (b != a && ((a, b) in reach) && ((b, a) in reach)) { size++; members = members " " b; done[b] = 1 }
+              m = split(members, member, " ")
+              for (k = 1; k <= m; k++) if (member[k] in allowed && allowed[member[k]] > most) most = allowed[member[k]]
+              if (size > most) print size " files in a circle: " members } }' >"$found"
+nothing "circles of files that are new or have grown"
+
+# Functions that take the whole run, in the rooms from `run` to `engine`, and pairs of a file there and a part whose inside it sees
+# (by the headers that the compiler has read): both may only fall.
+most_whole=503 most_seen=212
+parts="grid/grid_part mesh/mesh_part rigid/rigid_part contact/contact coupling/coupling_part fracture/fracture_part probes/probes_part
+    probes/diagnostics step/report step/stability step/damping quasistatic/statics solver/solver"
+rooms_of_run=$(for room in run grid mesh rigid contact coupling fracture solver probes step quasistatic engine; do ls src/$room/*.c; done)
+whole=$(cat $rooms_of_run | awk '/^[a-z].*\(/ { head = "" } /^[a-z]/, /\{|;/ { head = head " " $0 } /^\{|\) \{/ { if (head ~ /struct run \*/) n++; head = "" } END { print n + 0 }')
+seen=0
+for file in $(grep -l 'struct run' $rooms_of_run); do
+    for part in $parts; do ! grep -q "include/$part\.h" "$build/${file%c}d" || seen=$((seen + 1)); done
+done
+echo "house: $whole functions take the whole run, $seen pairs of file and part"
+holds "functions that take the whole run: $whole, $most_whole at the most" test "$whole" -le $most_whole
+holds "pairs of a file and a part that it sees: $seen, $most_seen at the most" test "$seen" -le $most_seen
 
 # ---- size ------------------------------------------------------------------------------------------------------------
 

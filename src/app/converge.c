@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "commands.h"
 #include "scene/scene_read.h"
-#include "src/scene/scene_internal.h"
 #include "study/convergence_study.h"
+#include "scene/units.h"
 
 static const char usage[] = "converge " CONVERGE_WORDS;
 

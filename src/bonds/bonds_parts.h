@@ -3,6 +3,7 @@
 #define CLEAVE_BONDS_PARTS
 
 #include "bonds/bonds.h"
+#include "bonds/sites.h"
 
 struct row {
     int n;
@@ -63,36 +64,12 @@ void row_block_found_take(const struct row_block_found *found, struct row *row, 
 void columns_place(struct bonds *b, const struct row_maker *m, const int64_t *kept);
 void columns_leave(struct bonds *old, const struct bonds *b);
 
-/* Can a crack cut any bond of particle i? */
-bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i);
-/* The same of a crack or a void. */
+/* Can a crack or a void cut any bond of particle i? */
 bool cuts_near(const struct bond_source *s, const struct particles *p, int64_t i);
 /* No bond of these materials breaks below this stretch. */
 real row_trigger(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j);
 /* Is one index distance to a column (a lattice) worth its padding? Else the rows are simply packed. */
 static inline bool columns_by_offset(int offsets, int longest) { return offsets <= longest + longest / 3; }
-
-/* Sites of a lattice that all particles and images stand on (bonds_site_map.c). */
-struct stencil_row { int64_t site; int half; };  /* its middle from a site; bonds reach that far either side */
-struct site_map {
-    int32_t *at;                         /* [sites] particle + 1, 0 without; NULL: no lattice */
-    real low[DIM_MAX], spacing;
-    int64_t stride[DIM_MAX];
-    struct stencil_row *row;
-    int reach, rows, most;               /* most bonds that eight particles in a row can have columns for */
-    int users;                           /* of one that is kept: rows, and rows made anew from them */
-    bool uniform;                        /* exact places, one volume, mass and material: bonds follow from sites */
-};
-/* Of particle i, -1 where it stands on none. */
-int64_t site_of(const struct site_map *l, const struct particles *p, int64_t i);
-/* False, and nothing to free, where particles do not stand on one. */
-bool site_map_make(struct site_map *l, const struct bond_source *s, const struct particles *p);
-void site_map_free(struct site_map *l);
-/* A map that rows hand on to those made anew from them, the one that there is or a new one; and back. */
-struct site_map *site_map_keep(struct site_map *of, const struct bond_source *s, const struct particles *p);
-void site_map_leave(struct site_map *l);
-/* family_search by the map; -1: an image is among them, which would come out of order. */
-int site_map_family(const struct site_map *l, const struct particles *p, int32_t i, int32_t *found);
 
 /* Families of eight consecutive particles: lanes `from` to `to` have a neighbour at this index distance; distances
  * ascend. `full`: every lane has one at every distance. `bonds`: bit l is set where lane l has a bond to it, one end

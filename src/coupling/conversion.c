@@ -1,5 +1,5 @@
 /* Conversion of material points to peridynamic particles (Zeng et al. 2022, eqs. 28, 31, 32). */
-#include "src/bonds/bonds_parts.h"
+#include "bonds/sites.h"
 #include "coupling/conversion.h"
 
 #include <math.h>

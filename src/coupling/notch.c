@@ -1,5 +1,5 @@
 /* Pre-cracks as slits of the mesh: which can be, what is peridynamic round their ends, and faces that meet. */
-#include "src/bonds/bonds_parts.h"
+#include "bonds/sites.h"
 #include "coupling/notch.h"
 
 #include <math.h>

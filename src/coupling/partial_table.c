@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "src/bonds/bonds_parts.h"
+#include "bonds/sites.h"
 #include "base/memory.h"
 #include "partial_parts.h"
 
