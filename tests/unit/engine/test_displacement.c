@@ -41,7 +41,6 @@ static status run_make(struct scene_run *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
     TRY(scene_with(&a->s, text, list));
-    a->e.report->quiet = true;
     const status s = engine_make(&a->e, &a->s, NULL);
     a->e.report->quiet = true;
     return s;

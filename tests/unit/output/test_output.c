@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "engine/engine.h"
+#include "src/engine/engine_internal.h"
 #include "base/memory.h"
 #include "output/output_files.h"
 #include "output/output_hdf5.h"
@@ -427,6 +428,7 @@ static void summary_has_the_figures(void **state)
     char *text;
     size_t length;
     open_fresh(&o, "summary", false);
+    run_parts_make(e);
     e->scene = &s, e->report->out = &o, e->clock.step = 7, e->clock.t = 0.1, e->report->loop_seconds = 1e-3;
     e->part.n = e->part.n_body = 4, e->part.dim = 2, e->part.n_of[KIND_PD] = 3;
     e->report->particle_steps[KIND_PD] = 1000;
@@ -452,6 +454,7 @@ static void summary_has_the_figures(void **state)
     assert_string_equal(status_message(), "the run's own fault");
     assert_int_equal(summary_write(e, OK, 2, 1.5), FAILED);
     assert_message("summary was moved, removed or exchanged");
+    run_parts_free(e);
     memory_free(e);
     output_close(&o);
 }

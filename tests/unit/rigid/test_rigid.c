@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "engine/engine.h"
+#include "base/memory.h"
 #include "rigid/rigid.h"
 #include "tests/support/near.h"
 #include "rigid/rigid_part.h"
@@ -212,7 +213,8 @@ static void test_record(void **state)
     }
     static struct run e;
     struct scene scene = {.rigids = 2};
-    e.scene = &scene, e.rigid->body = body, e.clock.dt = 0.03;
+    struct rigid_set rigid = {.body = body};
+    e.scene = &scene, e.rigid = &rigid, e.clock.dt = 0.03;
     for (int dim = 1; dim <= 3; dim++) {
         struct column column[24];
         real record[24], kinetic = 0, kick = 0;
@@ -242,6 +244,7 @@ static void test_record(void **state)
         assert_close(sum.step, 0.9 + 2.6, 1e-14);
         assert_close(sum.work, 3.1 + 3.5, 1e-14);
     }
+    memory_free(rigid.motion);
 }
 
 /* The way of a driven body by its speed and ramp is where its steps take it. */
