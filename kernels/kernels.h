@@ -48,9 +48,9 @@ struct partial_stress {
      * without bonds; NULL: bond-based [1] */
     real *local;
     bool gives_all;                      /* hand-shake: M and local are 0 */
-    int64_t entries, room;
+    int64_t entries;
     int32_t *touched;                    /* particles whose entry was made anew; the reader sets touches = 0 */
-    int64_t touches, touched_room;
+    int64_t touches;
     struct partial_table *table;         /* src/coupling/partial_table.c */
 };
 

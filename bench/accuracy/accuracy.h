@@ -138,7 +138,7 @@ struct accuracy_entry {
 };
 
 /* accuracy_plan.c: every point of the whole table, and the scene that it is. */
-struct accuracy_plan { int n, room; struct accuracy_entry *entry; struct machine machine; };
+struct accuracy_plan { int n; struct accuracy_entry *entry; struct machine machine; };
 status accuracy_plan_make(struct accuracy_plan *plan);
 void accuracy_plan_free(struct accuracy_plan *plan);
 void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *s);

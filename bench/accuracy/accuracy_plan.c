@@ -62,11 +62,7 @@ static status read_settings(struct accuracy_entry *entry, const char *machine)
 static status add_point(struct accuracy_plan *plan, struct accuracy_point p, bool quick)
 {
     if (p.problem->applies && !p.problem->applies(&p)) return OK;
-    if (plan->n == plan->room) {
-        const int room = 2 * plan->room + 256;
-        plan->entry = memory_resize("bench.plan", plan->entry, plan->room, room, sizeof *plan->entry);
-        plan->room = room;
-    }
+    GROW("bench.plan", plan->entry, plan->n + 1);
     plan->entry[plan->n] = (struct accuracy_entry){.point = p, .quick = quick};
     return read_settings(&plan->entry[plan->n++], plan->machine.model);
 }

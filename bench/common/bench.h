@@ -23,7 +23,7 @@ struct bench_table {
     const char *name;                    /* "" for the main table of a bench */
     const char *header;                  /* names of the columns, separated by commas */
     int columns;
-    int64_t cells, room;
+    int64_t cells;
     struct bench_cell *cell;             /* row by row */
 };
 

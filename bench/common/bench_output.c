@@ -23,11 +23,7 @@ void bench_table_make(struct bench_table *t, const char *name, const char *heade
 
 static struct bench_cell *add_cell(struct bench_table *t)
 {
-    if (t->cells == t->room) {
-        int64_t room = 2 * t->room + 64;
-        t->cell = memory_resize("bench.cell", t->cell, t->room, room, sizeof *t->cell);
-        t->room = room;
-    }
+    GROW("bench.cell", t->cell, t->cells + 1);
     return &t->cell[t->cells++];
 }
 

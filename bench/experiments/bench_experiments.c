@@ -66,13 +66,9 @@ struct experiment_curve *experiment_curve_begin(struct experiments *x, const cha
 
 void experiment_curve_add(struct experiment_curve *c, double x, double y, double error)
 {
-    if (c->n == c->room) {
-        const int64_t room = 2 * c->room + 64;
-        c->x = memory_resize("bench.curve", c->x, c->room, room, sizeof *c->x);
-        c->y = memory_resize("bench.curve", c->y, c->room, room, sizeof *c->y);
-        c->error = memory_resize("bench.curve", c->error, c->room, room, sizeof *c->error);
-        c->room = room;
-    }
+    GROW("bench.curve", c->x, c->n + 1);
+    GROW("bench.curve", c->y, c->n + 1);
+    GROW("bench.curve", c->error, c->n + 1);
     c->x[c->n] = x, c->y[c->n] = y, c->error[c->n++] = error;
 }
 

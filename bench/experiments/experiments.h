@@ -25,7 +25,7 @@ enum { EXPERIMENT_ROWS_MOST = 160, EXPERIMENT_PATHS_MOST = 8, EXPERIMENT_CURVES_
 /* Damaged particles at the end of all runs of a study. */
 struct experiment_paths {
     char title[96];
-    int64_t n, room;
+    int64_t n;
     int levels;
     double spacing[8]; /* of each level [mm] */
     float *x, *y;      /* [n] [mm] */
@@ -36,7 +36,7 @@ struct experiment_paths {
 struct experiment_curve {
     char name[64];
     const char *picture;
-    int64_t n, room;
+    int64_t n;
     double *x, *y, *error;
 };
 

@@ -91,13 +91,9 @@ static void figure_take(struct experiments *x, const struct experiment_case *c, 
 
 static void path_add(struct experiment_paths *p, double at_x, double at_y, int level)
 {
-    if (p->n == p->room) {
-        const int64_t room = 2 * p->room + 4096;
-        p->x = memory_resize("bench.path", p->x, p->room, room, sizeof *p->x);
-        p->y = memory_resize("bench.path", p->y, p->room, room, sizeof *p->y);
-        p->level = memory_resize("bench.path", p->level, p->room, room, sizeof *p->level);
-        p->room = room;
-    }
+    GROW("bench.path", p->x, p->n + 1);
+    GROW("bench.path", p->y, p->n + 1);
+    GROW("bench.path", p->level, p->n + 1);
     p->x[p->n] = (float)(1e3 * at_x), p->y[p->n] = (float)(1e3 * at_y), p->level[p->n++] = (uint8_t)level;
 }
 

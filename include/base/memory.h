@@ -22,6 +22,11 @@ void *memory_blank(const char *label, int64_t count, size_t size);
  * `pointer` may be NULL. */
 void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
 
+/* Returns an array of at least `count` elements: `pointer` if it has so many, else a copy at least twice as long, whose
+ * further elements are zero; `pointer` is freed. The number of elements that were allocated is stored with the array.
+ * pointer: an array of memory_new, or NULL, which stays NULL for count 0. */
+void *memory_grow(const char *label, void *pointer, int64_t count, size_t size);
+
 /* Grows an array of memory_sparse or memory_bare; new elements are not written. */
 void *memory_extend(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
 
@@ -43,5 +48,7 @@ struct memory_limit memory_limit(void);
 #define NEW(label, count, type) ((type *)memory_new(label, count, sizeof(type)))
 #define BLANK(label, count, type) ((type *)memory_blank(label, count, sizeof(type)))
 #define BARE(label, count, type) ((type *)memory_bare(label, count, sizeof(type)))
+/* Makes array[count - 1] an element that can be written. */
+#define GROW(label, array, count) ((array) = memory_grow(label, array, count, sizeof *(array)))
 
 #endif

@@ -8,7 +8,7 @@ struct memory_entry { void *data; size_t size; };
 
 struct memory_archive {
     struct archive archive;              /* first: `exchange` finds its entries by it */
-    int64_t n, room, next;               /* entries; the next one to be given back */
+    int64_t n, next;                     /* entries; the next one to be given back */
     struct memory_entry *entry;          /* [n] in the order in which they came */
 };
 

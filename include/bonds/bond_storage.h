@@ -127,7 +127,7 @@ struct site_map;                         /* particle at each site of a lattice (
 
 /* Columns of row blocks that are no more: room for others when rows are made anew. */
 struct bond_hole { int64_t column; int32_t columns; };
-struct bond_holes { int64_t n, room; struct bond_hole *hole; };
+struct bond_holes { int64_t n; struct bond_hole *hole; };
 
 struct bonds {
     int64_t rows, row_blocks, columns;

@@ -29,15 +29,15 @@ struct grid {
                                             of the second map                        [kg m/s], [m/s] */
     real *force[DIM_MAX];                /* nodal force; after grid_move the change of velocity [N], [m/s] */
     real *velocity[DIM_MAX];             /* nodal velocity at the end of the step [m/s] */
-    int64_t walls, walls_room;
+    int64_t walls;
     struct wall *wall;                   /* prescribed velocities of this step, in order */
-    int64_t mirror_nodes, mirror_nodes_room;
+    int64_t mirror_nodes;
     struct mirror_node *mirror_node;     /* nodes beyond planes of symmetry, for this box */
     real light_mass;                     /* nodes below this follow a neighbour (grid_move.c); 0: none [kg] */
     int64_t followers;
     struct follower *follower;           /* [n] those of this step, ascending */
     uint8_t *held;                       /* [n] not 0: a wall holds it; only while followers are found or bodies meet */
-    int64_t dashpots, dashpots_room;
+    int64_t dashpots;
     struct dashpot *dashpot;             /* of absorbing faces in this step, ascending by node */
     struct absorbed absorbed;            /* what they took in it */
 };

@@ -83,9 +83,9 @@ struct mesh {
     int64_t rows;                        /* of nodes along x */
     int32_t *span;                       /* [rows][2] first node of a row that has mass, and behind the last */
     int64_t bands, *band; /* layers of cells in bands: runs of band b: run[band[b]] .. run[band[b+1]-1] */
-    int64_t runs, runs_room;
+    int64_t runs;
     struct mesh_run *run;
-    int64_t partial_cells, partial_room;
+    int64_t partial_cells;
     int32_t *partial_cell; /* [partial_cells, filled up to whole groups of LANES] partial cells, ascending */
     uint8_t *partial_material;           /* [as partial_cell] of their points, the one that converts first */
     bool *partial_stressed;              /* [as partial_cell] as of a run */
@@ -98,7 +98,7 @@ struct mesh {
     real *end_share; /* [ends][modes] what a cell's modes add to a point's particles.end_strain [1] */
     int32_t *alike;                      /* [groups] an earlier group with bitwise equal stiffness */
     real *partial_force;                 /* [groups][corners dim][LANES] [N] */
-    int64_t exposed, exposed_room;
+    int64_t exposed;
     struct mesh_exposed *exposed_list;   /* [exposed] by ascending cell */
     struct active_set active;            /* of blocks of nodes */
     int64_t segments;                    /* blocks in a row of nodes */

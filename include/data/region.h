@@ -91,7 +91,7 @@ bool mirrors_continue(const struct mirror_plane *m, int mirrors, const struct cr
 
 /* Cracks and, for each, the number of the crack that it is or is an image of. */
 struct crack_list {
-    int n, room;
+    int n;
     struct crack *crack;
     int *of;
 };

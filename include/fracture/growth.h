@@ -61,7 +61,7 @@ struct growth {
     real intensity;                      /* K_eq of the factors       ; NAN: none known [Pa m^(1/2)] */
     real target_speed, filtered_speed;   /* of a crack that follows: its speed; v_filtered [m/s] */
     real control_time;                   /* time of the factors that controlled last [s] */
-    int64_t n, room;
+    int64_t n;
     struct fading *fading;
 };
 

@@ -44,7 +44,7 @@ struct tips {
     real spacing, window;                /* [m], [s] */
     int64_t count;                       /* particles */
     uint8_t *label;                      /* [particles] tip + 1, 0: none, 255: damaged by a pre-crack */
-    int64_t samples, room;
+    int64_t samples;
     real *time;                          /* [samples] growth of every tip at every sample, for the speeds */
     real *growth;                        /* [samples][TIPS_MAX], without `joined` */
 };

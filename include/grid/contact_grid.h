@@ -27,7 +27,7 @@ struct grid_contact_node {
 struct grid_contact {
     real friction, spacing, half_width;  /* [1]; distance of points in touch [m]; of their shapes beyond a cell [m] */
     real smallest_mass;                  /* of a node that moves [kg] */
-    int64_t nodes, room;
+    int64_t nodes;
     struct grid_contact_node *node;      /* [nodes] of this step */
     real begun;                          /* work over the velocities before the step, half of it [J] */
     int sides;

@@ -11,9 +11,9 @@
 
 struct grid_coupled {
     struct transfer_order order;         /* of the grid-coupled particles */
-    int32_t *list;                       /* [room] their numbers, ascending */
-    uint8_t *occupied;                   /* [cells_room] cells of the grid that hold a material point */
-    int64_t n, room, cells_room;
+    int32_t *list;                       /* [n] their numbers, ascending */
+    uint8_t *occupied;                   /* cells of the grid that hold a material point */
+    int64_t n;
 };
 
 /* Before the forces of a step: lists and flags (FLAG_GRID_COUPLED) the peridynamic particles that the grid moves, and

@@ -23,7 +23,6 @@ struct absorbing {
     real energy;                         /* taken since the start [J] */
     real kick;                           /* a quarter of impulse . change of velocity, in the last step [J] */
     real *field;                         /* scratch: rates of the grid's nodes [kg/s] */
-    int64_t field_room;
 };
 
 #endif

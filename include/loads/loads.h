@@ -119,7 +119,7 @@ static inline bool boundary_is_force(const struct boundary *b)
 struct held { int32_t node; uint8_t component, load; };
 
 struct constrained_set {
-    int64_t n, room, lasting;            /* the first `lasting` do not depend on the masses of nodes */
+    int64_t n, lasting;                  /* the first `lasting` do not depend on the masses of nodes */
     struct held *held;
     int64_t first[DIM_MAX], count[DIM_MAX]; /* of the box of nodes they were found in */
 };
@@ -142,7 +142,6 @@ struct loads {
     struct absorbing absorbing;
     bool ended;                          /* forces are asked for that no step follows */
     real *share;                         /* scratch: driven mass of the grid's nodes [kg] */
-    int64_t share_room;
     struct constrained_set constrained_mesh; /* nodes of the mesh in driven regions, on mirrors, and driven ones */
 };
 

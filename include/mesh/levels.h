@@ -35,9 +35,9 @@ struct mesh_hanging { int32_t node, masters, master[MASTERS_MAX]; };
 struct mesh_level {
     struct mesh mesh;
     struct constrained_set held;         /* its nodes on mirrors and in driven regions */
-    int64_t ghosts, ghosts_room;
+    int64_t ghosts;
     struct mesh_ghost *ghost;
-    int64_t hangings, hangings_room;
+    int64_t hangings;
     struct mesh_hanging *hanging;        /* nodes of level L - 1 */
     int64_t cells;
 };

@@ -24,7 +24,7 @@ enum { SERIES_MOST = 16 };               /* of frames, besides those of the whol
 struct frame_series {
     char name[NAME_MAX_LENGTH];          /* "": of the body */
     const struct region *region;         /* borrowed; NULL: everywhere */
-    int frames, frames_room;             /* frames written */
+    int frames;                          /* frames written */
     real *frame_time;                    /* [s] */
     int64_t *frame_rows;                 /* of each frame: particles, and points of coarse cells */
     unsigned frame_fields;               /* bits of the fields that frames have (output_fields.c) */

@@ -38,7 +38,7 @@ struct study {
     char *text;        /* the scene without what varies, which its folder is kept for; NULL: not known */
     struct folder_lock lock;
     struct study_case *at;
-    int n, room;
+    int n;
     int *place, places; /* the runs by the hashes of their names: number + 1, 0: none */
 };
 
@@ -116,7 +116,7 @@ void study_print_command(const struct study *s, const struct study_case *c, stru
 struct study_table {
     char **figure;
     double **value;
-    int figures, room, cases;
+    int figures, cases;
 };
 
 /* Reads the summaries of all runs that are done. FAILED if one cannot be read. */

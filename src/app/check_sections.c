@@ -30,7 +30,7 @@ struct sections {
     const struct cover *cover;
     int axis, across[2];
     int64_t stride, side[2]; /* from a cell to the next slice; to neighbours in the slice */
-    int32_t n, room;
+    int32_t n;
     struct section *section;
     int32_t *of;    /* [cells] section of a cell, -1: none */
     uint8_t *named; /* [cells] bit d: part of a width along axis d that is too large or too small */
@@ -40,11 +40,7 @@ static bool is_covered(const struct cover *c, int64_t cell) { return c->filled[c
 
 static int32_t section_new(struct sections *s, int64_t slice, int64_t cell)
 {
-    if (s->n == s->room) {
-        const int32_t room = s->room > 0 ? 2 * s->room : 256;
-        s->section = memory_resize("check.sections", s->section, s->room, room, sizeof *s->section);
-        s->room = room;
-    }
+    GROW("check.sections", s->section, s->n + 1);
     s->section[s->n] = (struct section){.slice = slice, .cell = cell, .before = -1, .after = -1};
     return s->n++;
 }

@@ -27,8 +27,15 @@ enum { OWN_PAGES = 1 << 20 };
  * takes longer to give a page than it takes to write one. */
 enum { KEPT = 64, KEPT_LEAST = 1 << 17, KEPT_MOST = 16 << 20, KEPT_ALL = 128 << 20 };
 
+/* Elements that the first growth of an array makes. */
+enum { GROWN_FIRST = 16 };
+
 /* Stands before the array. */
-struct block { void *whole; size_t mapped; };    /* what to free; its bytes if it has its own pages, else 0 */
+struct block {
+    void *whole;                         /* to be freed */
+    size_t mapped;                       /* its bytes if it has its own pages, else 0 */
+    size_t length;                       /* of the array [byte] */
+};
 _Static_assert(sizeof(struct block) <= ALIGNMENT, "there is room for it");
 
 static _Noreturn void out_of_memory(const char *label, int64_t count, size_t size)
@@ -84,7 +91,7 @@ static size_t room_of(size_t length)
 /* The smallest block that waits and holds so many bytes, but not far too many; `whole` NULL: none does. */
 static struct block take_kept(size_t least)
 {
-    struct block block = {NULL, 0};
+    struct block block = {NULL, 0, 0};
 #pragma omp critical(memory_kept)
     {
         int best = -1;
@@ -92,7 +99,7 @@ static struct block take_kept(size_t least)
             if (waiting[k].mapped >= least && waiting[k].mapped / 4 <= least &&
                 (best < 0 || waiting[k].mapped < waiting[best].mapped))
                 best = k;
-        if (best >= 0) block = waiting[best], waiting[best] = (struct block){NULL, 0}, waiting_bytes -= block.mapped;
+        if (best >= 0) block = waiting[best], waiting[best] = (struct block){NULL, 0, 0}, waiting_bytes -= block.mapped;
     }
     return block;
 }
@@ -110,7 +117,7 @@ static void memory_keep(struct block block)
         waiting[waiting_longest] = block;
         waiting_bytes += block.mapped - oldest.mapped;
         if (oldest.whole) munmap(oldest.whole, oldest.mapped);
-        block = (struct block){NULL, 0};
+        block = (struct block){NULL, 0, 0};
         waiting_longest = (waiting_longest + 1) % KEPT;
     } while (waiting_bytes > KEPT_ALL);
 }
@@ -121,7 +128,7 @@ static void keep_none(void)
 #pragma omp critical(memory_kept)
     for (int k = 0; k < KEPT; k++) {
         if (waiting[k].whole) munmap(waiting[k].whole, waiting[k].mapped);
-        waiting[k] = (struct block){NULL, 0};
+        waiting[k] = (struct block){NULL, 0, 0};
     }
     waiting_bytes = 0;
 }
@@ -131,7 +138,7 @@ static void keep_none(void)
  * pages are given. */
 static char *memory_block_make(struct block *block, size_t length, size_t alignment, bool anew, bool *fresh)
 {
-    *block = (struct block){NULL, 0}, *fresh = false;
+    *block = (struct block){NULL, 0, 0}, *fresh = false;
 #ifdef MAP_ANONYMOUS
     if (!HEAP_ALONE && length >= (size_t)(reusing ? KEPT_LEAST : OWN_PAGES)) {
         const size_t beside = alignment > PAGE ? alignment : 0,
@@ -140,7 +147,7 @@ static char *memory_block_make(struct block *block, size_t length, size_t alignm
         if (!block->whole) {
             void *pages = mmap(NULL, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
             if (pages == MAP_FAILED) return NULL;
-            *block = (struct block){pages, room}, *fresh = true;
+            *block = (struct block){pages, room, 0}, *fresh = true;
         }
         return (char *)(((uintptr_t)block->whole + alignment - 1) / alignment * alignment);
     }
@@ -172,6 +179,7 @@ static void *array_make(const char *label, int64_t count, size_t size, enum cont
     char *pointer = from + ahead;
     if (content == ZEROED) zero(pointer, rounded, fresh);
     if (content == MOSTLY_ZERO && !fresh) memset(pointer, 0, rounded);
+    block.length = length;
     memcpy(pointer - sizeof block, &block, sizeof block);
     return pointer;
 }
@@ -201,6 +209,14 @@ void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t
     return grown;
 }
 
+void *memory_grow(const char *label, void *pointer, int64_t count, size_t size)
+{
+    struct block block = {NULL, 0, 0};
+    if (pointer) memcpy(&block, (char *)pointer - sizeof block, sizeof block);
+    const int64_t room = (int64_t)(block.length / size), more = room > 0 ? 2 * room : GROWN_FIRST;
+    return count <= room ? pointer : memory_resize(label, pointer, room, count > more ? count : more, size);
+}
+
 /* The system gives the pages of large arrays another place: nothing is copied, and what was never written stays so. */
 static bool pages_extend(struct block *block, char **pointer, size_t length)
 {
@@ -209,9 +225,8 @@ static bool pages_extend(struct block *block, char **pointer, size_t length)
     if (block->mapped >= ahead + length) return true;
     void *pages = block->mapped > 0 ? mremap(block->whole, block->mapped, room, MREMAP_MAYMOVE) : MAP_FAILED;
     if (pages == MAP_FAILED) return false;
-    *block = (struct block){pages, room};
+    block->whole = pages, block->mapped = room;
     *pointer = (char *)pages + ahead;
-    memcpy(*pointer - sizeof *block, block, sizeof *block);
     return true;
 #else
     (void)block, (void)pointer, (void)length;
@@ -228,7 +243,11 @@ void *memory_extend(const char *label, void *pointer, int64_t old_count, int64_t
     memcpy(&block, array - sizeof block, sizeof block);
     if (__builtin_mul_overflow((size_t)count, size, &length) || length > PTRDIFF_MAX - 2 * LARGE_PAGE)
         out_of_memory(label, count, size);
-    if (pages_extend(&block, &array, (length / ALIGNMENT + 1) * ALIGNMENT)) return array;
+    if (pages_extend(&block, &array, (length / ALIGNMENT + 1) * ALIGNMENT)) {
+        block.length = length;
+        memcpy(array - sizeof block, &block, sizeof block);
+        return array;
+    }
     array = memory_sparse(label, count, size);
     memcpy(array, pointer, (size_t)old_count * size);
     memory_free(pointer);

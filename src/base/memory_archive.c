@@ -9,11 +9,7 @@ static status exchange(struct archive *a, const char *name, void *data, size_t s
 {
     struct memory_archive *m = (struct memory_archive *)a;
     if (a->saving) {
-        if (m->n == m->room) {
-            const int64_t room = 2 * m->room + 64;
-            m->entry = memory_resize("archive.entries", m->entry, m->room, room, sizeof *m->entry);
-            m->room = room;
-        }
+        GROW("archive.entries", m->entry, m->n + 1);
         struct memory_entry *to = &m->entry[m->n++];
         *to = (struct memory_entry){memory_bare("archive.entry", (int64_t)size, 1), size};
         memcpy(to->data, data, size);

@@ -19,7 +19,7 @@ bool warnings_add(struct warnings *w, const char *format, ...)
     text_harmless(text);
     for (int k = 0; k < w->n; k++)
         if (strcmp(w->text[k], text) == 0) return false;
-    w->text = memory_resize("warnings", w->text, w->n, w->n + 1, sizeof *w->text);
+    GROW("warnings", w->text, w->n + 1);
     w->text[w->n] = NEW("warnings.text", strlen(text) + 1, char);
     strcpy(w->text[w->n++], text);
     return true;

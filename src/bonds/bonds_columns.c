@@ -61,11 +61,7 @@ static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *k
     int64_t more = old->row_blocks;
     for (int64_t g = 0; g < b->row_blocks; g++)
         if (kept[g] >= 0) stays[kept[g]] = 1, more--;
-    if (holes->n + more > holes->room) {
-        const int64_t room = 2 * (holes->n + more);
-        holes->hole = memory_resize("bonds.hole", holes->hole, holes->room, room, sizeof *holes->hole);
-        holes->room = room;
-    }
+    GROW("bonds.hole", holes->hole, holes->n + more);
     for (int64_t g = 0; g < old->row_blocks; g++)
         if (!stays[g] && old->column_count[g] > 0)
             holes->hole[holes->n++] = (struct bond_hole){old->column[g], old->column_count[g]};

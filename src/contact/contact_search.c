@@ -132,15 +132,11 @@ struct contact_search {
 };
 
 /* Pairs of consecutive rows, as a thread finds them. */
-struct pair_list { int64_t n, room; int32_t *other; };
+struct pair_list { int64_t n; int32_t *other; };
 
 static void pair_add(struct pair_list *to, int32_t other)
 {
-    if (to->n == to->room) {
-        const int64_t room = 2 * to->room + 1024;
-        to->other = memory_resize("contact.found", to->other, to->room, room, sizeof *to->other);
-        to->room = room;
-    }
+    GROW("contact.found", to->other, to->n + 1);
     to->other[to->n++] = other;
 }
 

@@ -8,15 +8,11 @@
 #include "base/memory.h"
 
 /* A growing list of particle indices. */
-struct index_list { int32_t *at; int64_t n, room; };
+struct index_list { int32_t *at; int64_t n; };
 
 static void list_add(struct index_list *l, int64_t i)
 {
-    if (l->n == l->room) {
-        int64_t room = l->room ? 2 * l->room : 256;
-        l->at = memory_resize("convert.list", l->at, l->room, room, sizeof *l->at);
-        l->room = room;
-    }
+    GROW("convert.list", l->at, l->n + 1);
     l->at[l->n++] = (int32_t)i;
 }
 

@@ -8,7 +8,7 @@
 
 static void region_add(struct region *r, const struct solid *s)
 {
-    r->solid = memory_resize("convert.region", r->solid, r->n, r->n + 1, sizeof *s);
+    GROW("convert.region", r->solid, r->n + 1);
     r->solid[r->n++] = *s;
 }
 

@@ -301,14 +301,8 @@ static void renewal_free(struct renewal *r)
 static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     if (partial->index[i] < 0) {
-        if (partial->entries == partial->room) {
-            const int64_t had = partial->room, room = had ? 2 * had : 256;
-            partial->matrix = memory_resize("partial.matrix", partial->matrix, had * size, room * size, sizeof(real));
-            if (local)
-                partial->local =
-                    memory_resize("partial.local", partial->local, had * local, room * local, sizeof(real));
-            partial->room = room;
-        }
+        GROW("partial.matrix", partial->matrix, (partial->entries + 1) * size);
+        GROW("partial.local", partial->local, (partial->entries + 1) * local);
         partial->index[i] = (int32_t)partial->entries++;
     }
     array_copy(partial->matrix + (int64_t)partial->index[i] * size, M, size, sizeof *M);
@@ -323,7 +317,7 @@ static void entries_squeeze(struct partial_stress *partial, const struct particl
     if (partial->entries <= 2 * live + 256) return;
     struct partial_stress old = *partial;
     partial->matrix = NULL, partial->local = NULL;
-    partial->entries = partial->room = 0;
+    partial->entries = 0;
     for (int64_t i = 0; i < p->n; i++) {
         const int64_t at = partial->index[i];
         real M[ENTRY_MOST];
@@ -348,12 +342,7 @@ static bool entry_is(const struct partial_stress *partial, int64_t i, const real
 /* Adds particle i to partial->touched. */
 static void touch(struct partial_stress *partial, int64_t i)
 {
-    if (partial->touches == partial->touched_room) {
-        const int64_t more = partial->touched_room ? 2 * partial->touched_room : 256;
-        partial->touched =
-            memory_resize("partial.touched", partial->touched, partial->touched_room, more, sizeof *partial->touched);
-        partial->touched_room = more;
-    }
+    GROW("partial.touched", partial->touched, partial->touches + 1);
     partial->touched[partial->touches++] = (int32_t)i;
 }
 

@@ -47,12 +47,8 @@ static void crack_clip(struct crack *c, const struct mirror_plane *m, real toler
 /* Adds a copy with room for corners to come. */
 static struct crack *crack_add(struct crack_list *to, const struct crack *c, int of, int more)
 {
-    if (to->n == to->room) {
-        const int room = to->room ? 2 * to->room : 8;
-        to->crack = memory_resize("crack.images", to->crack, to->room, room, sizeof *to->crack);
-        to->of = memory_resize("crack.images", to->of, to->room, room, sizeof *to->of);
-        to->room = room;
-    }
+    GROW("crack.images", to->crack, to->n + 1);
+    GROW("crack.images", to->of, to->n + 1);
     struct crack *new = &to->crack[to->n];
     *new = *c;
     new->corner = memory_new("crack.corners", c->n + more, sizeof *new->corner);

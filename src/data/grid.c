@@ -96,32 +96,19 @@ bool grid_box(struct grid *g, const real *from, const real *to, int64_t most)
 
 void grid_add_wall(struct grid *g, const struct wall *wall)
 {
-    if (g->walls == g->walls_room) {
-        int64_t room = g->walls_room ? 2 * g->walls_room : 256;
-        g->wall = memory_resize("grid.wall", g->wall, g->walls_room, room, sizeof *g->wall);
-        g->walls_room = room;
-    }
+    GROW("grid.wall", g->wall, g->walls + 1);
     g->wall[g->walls++] = *wall;
 }
 
 void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node)
 {
-    if (g->mirror_nodes == g->mirror_nodes_room) {
-        int64_t room = g->mirror_nodes_room ? 2 * g->mirror_nodes_room : 256;
-        g->mirror_node =
-            memory_resize("grid.mirror_node", g->mirror_node, g->mirror_nodes_room, room, sizeof *g->mirror_node);
-        g->mirror_nodes_room = room;
-    }
+    GROW("grid.mirror_node", g->mirror_node, g->mirror_nodes + 1);
     g->mirror_node[g->mirror_nodes++] = *mirror_node;
 }
 
 void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot)
 {
-    if (g->dashpots == g->dashpots_room) {
-        int64_t room = g->dashpots_room ? 2 * g->dashpots_room : 256;
-        g->dashpot = memory_resize("grid.dashpot", g->dashpot, g->dashpots_room, room, sizeof *g->dashpot);
-        g->dashpots_room = room;
-    }
+    GROW("grid.dashpot", g->dashpot, g->dashpots + 1);
     g->dashpot[g->dashpots++] = *dashpot;
 }
 

@@ -157,7 +157,7 @@ bool solid_move(struct solid *s, const struct solid_motion *m, int dim)
     memory_free(s->image);
     s->image = image, s->images = (int)count;
     images_index(s, dim);
-    s->motion = memory_resize("solids.motion", s->motion, s->motions, s->motions + 1, sizeof *m);
+    GROW("solids.motion", s->motion, s->motions + 1);
     s->motion[s->motions++] = *m;
     return true;
 }

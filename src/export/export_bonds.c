@@ -149,18 +149,13 @@ static void touched_list(struct touched *t, const struct exported *x, struct sea
 /* Neighbours of those that are touched, and their keys. */
 static void touched_near(struct touched *t, const struct exported *x, struct search *a)
 {
-    int64_t room = 0;
     for (int64_t k = 0; k < t->n; k++) {
         const int64_t i = t->particle[k];
         int row;
         row_mark(x, i, a->bonded, &row);
         const int near = lammps_near(x, i, a->found, a->room);
-        if (t->first[k] + near > room) {
-            const int64_t more = 2 * room + near;
-            t->near = memory_resize("touched.near", t->near, room, more, sizeof *t->near);
-            t->cut = memory_resize("touched.cut", t->cut, room, more, sizeof *t->cut);
-            room = more;
-        }
+        GROW("touched.near", t->near, t->first[k] + near);
+        GROW("touched.cut", t->cut, t->first[k] + near);
         t->key[k] = key_of(x, i);
         t->first[k + 1] = t->first[k];
         for (int q = 0; q < near; q++) {

@@ -8,7 +8,7 @@ enum { CLASSES_MOST = 1000 };
 /* Particles of one material and one set of loads are a class (of one mass, too, where types have masses); colours are
  * parts of a class that cut bonds single out. */
 struct classes {
-    int n, room;
+    int n;
     int32_t *any;
 };
 
@@ -25,11 +25,7 @@ static int class_of(struct classes *c, const struct exported *x, int64_t i)
     for (int k = c->n; k-- > 0;)
         if (class_alike(x, c->any[k], i)) return k;
     if (c->n == CLASSES_MOST) return -1;
-    if (c->n == c->room) {
-        const int more = 2 * c->room + 8;
-        c->any = memory_resize("types.classes", c->any, c->room, more, sizeof *c->any);
-        c->room = more;
-    }
+    GROW("types.classes", c->any, c->n + 1);
     c->any[c->n] = (int32_t)i;
     return c->n++;
 }

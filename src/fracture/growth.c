@@ -101,11 +101,7 @@ static bool fades(const struct growth *g, int32_t i, int32_t j)
 
 static void fading_add(struct growth *g, int32_t i, int32_t j, real w, real length)
 {
-    if (g->n == g->room) {
-        int64_t larger = g->room ? 2 * g->room : 256;
-        g->fading = memory_resize("growth.fading", g->fading, g->room, larger, sizeof *g->fading);
-        g->room = larger;
-    }
+    GROW("growth.fading", g->fading, g->n + 1);
     g->fading[g->n++] = (struct fading){i, j, w, w, w, length};
 }
 
@@ -272,8 +268,8 @@ status growth_archive(struct growth *g, int which, struct archive *a)
     g->control_time = s.control_time;
     if (!a->saving) {
         memory_free(g->fading);
-        g->n = g->room = s.n;
-        g->fading = NEW("growth.fading", g->room, struct fading);
+        g->n = s.n;
+        g->fading = NEW("growth.fading", g->n, struct fading);
     }
     snprintf(name, sizeof name, "growth/fading%d", which);
     return a->exchange(a, name, g->fading, (size_t)g->n * sizeof *g->fading);

@@ -306,11 +306,10 @@ static void tip_speeds(struct tips *t, int k)
         tip->speed_mean = regression(t, k, sample_at(t, tip->start_time), last);
 }
 
-static void record_room(struct tips *t, int64_t room)
+static void record_grow(struct tips *t, int64_t samples)
 {
-    t->time = memory_resize("tips.time", t->time, t->samples, room, sizeof *t->time);
-    t->growth = memory_resize("tips.growth", t->growth, t->samples * TIPS_MAX, room * TIPS_MAX, sizeof *t->growth);
-    t->room = room;
+    GROW("tips.time", t->time, samples);
+    GROW("tips.growth", t->growth, samples * TIPS_MAX);
 }
 
 void tips_sample(struct tips *t, const struct particles *p, const struct cells *c, real time)
@@ -324,7 +323,7 @@ void tips_sample(struct tips *t, const struct particles *p, const struct cells *
 
     struct tip_reach reach[TIPS_MAX] = {{0}};
     tip_reaches(t, p, reach);
-    if (t->samples == t->room) record_room(t, t->room > 0 ? 2 * t->room : 256);
+    record_grow(t, t->samples + 1);
     int64_t s = t->samples++;
     t->time[s] = time;
     for (int k = 0; k < t->n; k++) {
@@ -384,8 +383,7 @@ status tips_archive(struct tips *t, struct archive *a)
     ARCHIVE_VALUE(a, "tips/tip", t->tip);
     ARCHIVE_VALUE(a, "tips/samples", samples);
     if (!a->saving) {
-        t->samples = 0;
-        record_room(t, samples + 256);
+        record_grow(t, samples);
         t->samples = samples;
     }
     if (samples > 0) {

@@ -378,7 +378,7 @@ static status scope_end(struct deck *d)
 
 static void scope_begin(struct deck *d, const char *name)
 {
-    d->scope = memory_resize("abaqus.parts", d->scope, d->scopes, d->scopes + 1, sizeof *d->scope);
+    GROW("abaqus.parts", d->scope, d->scopes + 1);
     d->now = d->scopes++;
     struct scope *scope = &d->scope[d->now];
     snprintf(scope->name, sizeof scope->name, "%s", name);

@@ -30,17 +30,10 @@ const struct element_edges element_edges[ELEMENT_KINDS] = {
         {12, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}},
 };
 
-/* Room for one more in an array that doubles; 0 becomes 256. */
-static int64_t room_for(int64_t n, int64_t room) { return n < room ? room : room > 0 ? 2 * room : 256; }
-
 int32_t mesh_node_append(struct element_mesh *m, const real *X, int64_t label)
 {
-    const int64_t room = room_for(m->nodes, m->node_room);
-    if (room > m->node_room) {
-        m->node = memory_resize("mesh.node", m->node, m->node_room, room, sizeof *m->node);
-        m->node_label = memory_resize("mesh.label", m->node_label, m->node_room, room, sizeof *m->node_label);
-        m->node_room = room;
-    }
+    GROW("mesh.node", m->node, m->nodes + 1);
+    GROW("mesh.label", m->node_label, m->nodes + 1);
     memcpy(m->node[m->nodes], X, sizeof *m->node);
     m->node_label[m->nodes] = label;
     return (int32_t)m->nodes++;
@@ -57,13 +50,8 @@ status mesh_element_add(struct element_mesh *m, const struct source *s, enum ele
                         int64_t label)
 {
     if (m->elements >= HULL_CORNERS_MAX) return source_fault(s, "more than %d elements", HULL_CORNERS_MAX);
-    const int64_t room = room_for(m->elements, m->element_room);
-    if (room > m->element_room) {
-        m->element = memory_resize("mesh.element", m->element, m->element_room, room, sizeof *m->element);
-        m->element_label =
-            memory_resize("mesh.label", m->element_label, m->element_room, room, sizeof *m->element_label);
-        m->element_room = room;
-    }
+    GROW("mesh.element", m->element, m->elements + 1);
+    GROW("mesh.label", m->element_label, m->elements + 1);
     struct element *e = &m->element[m->elements];
     e->kind = kind, e->middle = -1;
     for (int k = 0; k < element_corners[kind]; k++) e->node[k] = node[k];
@@ -75,10 +63,7 @@ void mesh_middles_add(struct element_mesh *m, const int32_t *middle)
 {
     struct element *e = &m->element[m->elements - 1];
     const int n = element_middles[e->kind];
-    for (int64_t room = m->middle_room; room < m->middles + n; m->middle_room = room) {
-        room = room > 0 ? 2 * room : 256;
-        m->middle = memory_resize("mesh.middle", m->middle, m->middle_room, room, sizeof *m->middle);
-    }
+    GROW("mesh.middle", m->middle, m->middles + n);
     e->middle = m->middles;
     for (int k = 0; k < n; k++) m->middle[m->middles++] = middle[k];
 }
@@ -88,7 +73,7 @@ int mesh_set(struct element_mesh *m, const char *name, bool of_nodes)
     for (int k = 0; k < m->sets; k++)
         if (strcasecmp(m->set[k].name, name) == 0 && m->set[k].of_nodes == of_nodes) return k;
     if (m->sets >= ELEMENT_SETS_MAX) return -1;
-    m->set = memory_resize("mesh.set", m->set, m->sets, m->sets + 1, sizeof *m->set);
+    GROW("mesh.set", m->set, m->sets + 1);
     struct element_set *set = &m->set[m->sets];
     snprintf(set->name, sizeof set->name, "%s", name);
     text_harmless(set->name);
@@ -99,9 +84,7 @@ int mesh_set(struct element_mesh *m, const char *name, bool of_nodes)
 void mesh_set_add(struct element_mesh *m, int number, int64_t member)
 {
     struct element_set *set = &m->set[number];
-    const int64_t room = room_for(set->n, set->room);
-    if (room > set->room) set->member = memory_resize("mesh.set", set->member, set->room, room, sizeof *set->member);
-    set->room = room;
+    GROW("mesh.set", set->member, set->n + 1);
     set->member[set->n++] = (int32_t)member;
 }
 

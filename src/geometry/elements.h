@@ -45,18 +45,18 @@ extern const struct element_edges element_edges[ELEMENT_KINDS];
 struct element_set {
     char name[NAME_MAX_LENGTH];
     bool of_nodes; /* members are nodes, else elements */
-    int64_t n, room, resolved;
+    int64_t n, resolved;
     int32_t *member; /* indices; from `resolved` on still labels (abaqus.c) */
 };
 
 struct element_mesh {
-    int64_t nodes, node_room;
+    int64_t nodes;
     real (*node)[DIM_MAX]; /* as in the file */
     int64_t *node_label;   /* its number there */
-    int64_t elements, element_room;
+    int64_t elements;
     struct element *element;
     int64_t *element_label;
-    int64_t middles, middle_room;
+    int64_t middles;
     int32_t *middle; /* indices of middle nodes of the elements that have some; -1: that side or edge has none */
     int sets;
     struct element_set *set;
@@ -118,12 +118,11 @@ struct builder {
     real scale;
     real sagitta;    /* an edge is straight whose middle node is nearer to its chord [unit of the file] */
     int pieces;      /* of a curved edge in space */
-    int64_t n, room; /* faces so far, by indices of nodes */
+    int64_t n; /* faces so far, by indices of nodes */
     int32_t (*face)[DIM_MAX];
-    int64_t patches, patch_room; /* of meshes with middle nodes; they become faces by builder_curve */
+    int64_t patches; /* of meshes with middle nodes; they become faces by builder_curve */
     struct patch *patch;
     int64_t file_nodes; /* nodes of the file; later ones lie on curved sides between the corners `parent` */
-    int64_t parent_room;
     int32_t (*parent)[4]; /* [node - file_nodes], -1: fewer */
 };
 

@@ -6,11 +6,7 @@
 
 void builder_add(struct builder *b, int32_t i, int32_t j, int32_t k)
 {
-    if (b->n == b->room) {
-        const int64_t room = b->room > 0 ? 2 * b->room : 1024;
-        b->face = memory_resize("mesh.face", b->face, b->room, room, sizeof *b->face);
-        b->room = room;
-    }
+    GROW("mesh.face", b->face, b->n + 1);
     const int32_t face[DIM_MAX] = {i, j, k};
     memcpy(b->face[b->n++], face, sizeof face);
 }
@@ -159,7 +155,7 @@ static void builder_close(struct builder *b, struct hull *hull, bool closed, int
     for (int64_t k = 0; k < b->n; k++)
         for (int c = 0; c < b->dim; c++) b->face[k][c] = corner_of[b->face[k][c]];
     (closed ? hull_make : hull_make_open)(hull, b->dim, n, corner, b->n, b->face);
-    b->face = NULL, b->n = b->room = 0;
+    b->face = NULL, b->n = 0;
     memory_free(corner_of);
     if (node_of) {
         *node_of = node;

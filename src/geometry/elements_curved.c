@@ -59,11 +59,7 @@ static int32_t node_between(struct builder *b, const real *X, const int32_t *par
 {
     const int32_t node = mesh_node_append(b->m, X, -1);
     const int64_t at = node - b->file_nodes;
-    if (at >= b->parent_room) {
-        const int64_t room = at < 512 ? 1024 : 2 * at;
-        b->parent = memory_resize("mesh.parent", b->parent, b->parent_room, room, sizeof *b->parent);
-        b->parent_room = room;
-    }
+    GROW("mesh.parent", b->parent, at + 1);
     for (int k = 0; k < 4; k++) b->parent[at][k] = k < parents ? parent[k] : -1;
     return node;
 }
@@ -108,11 +104,7 @@ static void line_add(struct builder *b, const struct patch *p)
 
 void builder_add_patch(struct builder *b, const struct patch *p)
 {
-    if (b->patches == b->patch_room) {
-        const int64_t room = b->patch_room > 0 ? 2 * b->patch_room : 1024;
-        b->patch = memory_resize("mesh.patch", b->patch, b->patch_room, room, sizeof *b->patch);
-        b->patch_room = room;
-    }
+    GROW("mesh.patch", b->patch, b->patches + 1);
     b->patch[b->patches++] = *p;
 }
 

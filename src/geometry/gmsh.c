@@ -43,12 +43,12 @@ struct gmsh {
     struct element_mesh *m;
     bool bytes, old;          /* numbers are bytes; format 2.2 */
     struct label_map node;    /* its labels, once the nodes are read */
-    int64_t names, name_room; /* of physical groups */
+    int64_t names; /* of physical groups */
     struct group_name {
         int64_t dim, tag;
         char text[NAME_MAX_LENGTH];
     } * name;
-    int64_t links, link_room; /* entities and the physical groups that they belong to */
+    int64_t links; /* entities and the physical groups that they belong to */
     int64_t *entity, *group;  /* dimension and tag as one number; tag of the group */
     struct label_map of_entity;
     int64_t last_dim, last_tag; /* the group that was met last, and its set */
@@ -159,7 +159,7 @@ static status names_read(struct gmsh *g)
     TRY(source_whole(g->s, "number of names", &n));
     TRY(source_counted(g->s, "names", n, 4));
     if (n > ELEMENT_SETS_MAX) return source_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
-    g->name = memory_resize("gmsh.names", g->name, g->names, n, sizeof *g->name);
+    GROW("gmsh.names", g->name, n);
     for (g->names = 0; g->names < n; g->names++) {
         struct group_name *name = &g->name[g->names];
         TRY(source_whole(g->s, "dimension of a group", &name->dim));
@@ -171,12 +171,8 @@ static status names_read(struct gmsh *g)
 
 static void entity_group_add(struct gmsh *g, int64_t entity, int64_t group)
 {
-    if (g->links == g->link_room) {
-        const int64_t room = g->link_room > 0 ? 2 * g->link_room : 64;
-        g->entity = memory_resize("gmsh.entities", g->entity, g->link_room, room, sizeof *g->entity);
-        g->group = memory_resize("gmsh.entities", g->group, g->link_room, room, sizeof *g->group);
-        g->link_room = room;
-    }
+    GROW("gmsh.entities", g->entity, g->links + 1);
+    GROW("gmsh.entities", g->group, g->links + 1);
     g->entity[g->links] = entity, g->group[g->links++] = group;
 }
 

@@ -187,7 +187,7 @@ static int64_t group_gather(struct sheets *s, int64_t first)
 
 static void slit_add(struct crack **crack, int *n, int corners)
 {
-    *crack = memory_resize("cracks", *crack, *n, *n + 1, sizeof **crack);
+    GROW("cracks", *crack, *n + 1);
     (*crack)[*n] = (struct crack){.n = corners, .corner = memory_new("cracks", corners, sizeof(real[DIM_MAX]))};
     (*n)++;
 }

@@ -60,11 +60,7 @@ static void leaning_find(struct grid_contact_node *node, const struct grid *a, c
 
 static struct grid_contact_node *node_add(struct grid_contact *c)
 {
-    if (c->nodes == c->room) {
-        const int64_t room = 2 * c->room + 64;
-        c->node = memory_resize("contact.nodes", c->node, c->room, room, sizeof *c->node);
-        c->room = room;
-    }
+    GROW("contact.nodes", c->node, c->nodes + 1);
     struct grid_contact_node *node = &c->node[c->nodes++];
     *node = (struct grid_contact_node){.reach = {-INFINITY, INFINITY}};
     return node;

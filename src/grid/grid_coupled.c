@@ -22,10 +22,7 @@ static int64_t grid_coupled_cell_of(const struct particles *p, const struct grid
 static void mark_occupied(struct grid_coupled *c, const struct particles *p, const struct grid *g)
 {
     int64_t k[DIM_MAX];
-    if (c->cells_room < g->n) {
-        c->occupied = memory_resize("grid_coupled.occupied", c->occupied, c->cells_room, g->n, sizeof *c->occupied);
-        c->cells_room = g->n;
-    }
+    GROW("grid_coupled.occupied", c->occupied, g->n);
     array_fill_bytes(c->occupied, 0, g->n, 1);
     for (int64_t m = 0; m < p->n_of[KIND_MPM]; m++) {
         int64_t cell = grid_coupled_cell_of(p, g, p->list[KIND_MPM][m], k);
@@ -59,10 +56,7 @@ void grid_coupled_select(struct grid_coupled *c, enum coupling coupling, struct 
 {
     const bool unified = coupling_unified(coupling);
     int64_t k[DIM_MAX] = {0};
-    if (c->room < p->n) {
-        c->list = memory_resize("grid_coupled.list", c->list, c->room, p->n, sizeof *c->list);
-        c->room = p->n;
-    }
+    GROW("grid_coupled.list", c->list, p->n);
     c->n = 0;
     if (!unified) mark_occupied(c, p, g);
     for (int64_t m = 0; m < p->n_of[KIND_PD]; m++) {

@@ -214,10 +214,7 @@ static void dashpots_hold(struct grid *g, int64_t node, int component)
 /* Zeroed rates for nodes [dim][n], kept for the next call. */
 static real *field_of(struct absorbing *a, int64_t n)
 {
-    if (a->field_room < n) {
-        a->field = memory_resize("loads.field", a->field, a->field_room, n, sizeof *a->field);
-        a->field_room = n;
-    }
+    GROW("loads.field", a->field, n);
     array_fill_bytes(a->field, 0, n, sizeof *a->field);
     return a->field;
 }

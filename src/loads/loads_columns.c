@@ -117,7 +117,7 @@ static void table_grow(struct columns *c)
     c->room = old.room > 0 ? 2 * old.room : TABLE_FIRST;
     c->key = NEW("loads.key", c->room, int64_t);
     c->number = NEW("loads.number", c->room, int32_t);
-    c->count = memory_resize("loads.count", old.count, old.room / 2, c->room / 2, sizeof *c->count);
+    GROW("loads.count", c->count, c->room / 2);
     for (int64_t k = 0; k < c->room; k++) c->key[k] = -1;
     for (int64_t k = 0; k < old.room; k++) {
         if (old.key[k] < 0) continue;

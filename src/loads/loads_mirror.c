@@ -47,7 +47,7 @@ static void mirror_make(struct loads *l, int which, struct particles *p, real re
             }
             images++;
         }
-        if (pass == 0) l->image = memory_resize("loads.image", l->image, have, have + images, sizeof *l->image);
+        if (pass == 0) GROW("loads.image", l->image, have + images);
     }
     particles_add_images(p, images, optional);
     l->images += images;

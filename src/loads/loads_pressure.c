@@ -54,11 +54,7 @@ void pressure_faces(const struct boundary *all, int n, int which, const struct p
 
 static void surface_face_add(struct surface_faces *f, int32_t particle, int axis, int side)
 {
-    if (f->n == f->room) {
-        const int64_t room = f->room ? 2 * f->room : 256;
-        f->face = memory_resize("loads.faces", f->face, f->room, room, sizeof *f->face);
-        f->room = room;
-    }
+    GROW("loads.faces", f->face, f->n + 1);
     f->face[f->n++] = (struct surface_face){particle, (uint8_t)axis, (int8_t)side};
 }
 

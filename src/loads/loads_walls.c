@@ -10,11 +10,7 @@
 
 static void constrained_add(struct constrained_set *s, int64_t node, int component, int load)
 {
-    if (s->n == s->room) {
-        int64_t room = s->room ? 2 * s->room : 256;
-        s->held = memory_resize("loads.held", s->held, s->room, room, sizeof *s->held);
-        s->room = room;
-    }
+    GROW("loads.held", s->held, s->n + 1);
     s->held[s->n++] = (struct held){(int32_t)node, (uint8_t)component, (uint8_t)load};
 }
 
@@ -164,10 +160,7 @@ static int64_t driven_share(struct loads *l, const struct load *load, const stru
             mass[n++] = p->mass[load->particle[q]];
         }
     if (n > 0) {
-        if (l->share_room < g->n) {
-            l->share = memory_resize("loads.share", l->share, l->share_room, g->n, sizeof *l->share);
-            l->share_room = g->n;
-        }
+        GROW("loads.share", l->share, g->n);
         array_fill_bytes(l->share, 0, g->n, sizeof *l->share);
         k->spread(g, p, half_width, list, n, mass, l->share);
     }

@@ -64,11 +64,7 @@ static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t 
 
 static void ghost_add(struct mesh_level *m, int64_t coarse, int64_t fine)
 {
-    if (m->ghosts == m->ghosts_room) {
-        const int64_t room = m->ghosts_room ? 2 * m->ghosts_room : 64;
-        m->ghost = memory_resize("levels.ghost", m->ghost, m->ghosts_room, room, sizeof *m->ghost);
-        m->ghosts_room = room;
-    }
+    GROW("levels.ghost", m->ghost, m->ghosts + 1);
     m->ghost[m->ghosts++] = (struct mesh_ghost){(int32_t)coarse, (int32_t)fine};
 }
 
@@ -76,11 +72,7 @@ static void ghost_add(struct mesh_level *m, int64_t coarse, int64_t fine)
 static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I, unsigned odd)
 {
     struct mesh_hanging h = {.node = (int32_t)I};
-    if (m->hangings == m->hangings_room) {
-        const int64_t room = m->hangings_room ? 2 * m->hangings_room : 64;
-        m->hanging = memory_resize("levels.hanging", m->hanging, m->hangings_room, room, sizeof *m->hanging);
-        m->hangings_room = room;
-    }
+    GROW("levels.hanging", m->hanging, m->hangings + 1);
     for (unsigned c = 0; c < 1u << mesh->grid.dim; c++) {
         int64_t J = I;
         if (c & ~odd) continue;

@@ -126,11 +126,7 @@ static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
         last->cells++;
         return;
     }
-    if (mesh->runs == mesh->runs_room) {
-        const int64_t room = mesh->runs_room ? 2 * mesh->runs_room : 256;
-        mesh->run = memory_resize("mesh.run", mesh->run, mesh->runs_room, room, sizeof *mesh->run);
-        mesh->runs_room = room;
-    }
+    GROW("mesh.run", mesh->run, mesh->runs + 1);
     mesh->run[mesh->runs++] = (struct mesh_run){(int32_t)I, 1, material, false};
 }
 

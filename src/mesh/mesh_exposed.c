@@ -43,12 +43,7 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
         const int32_t i = mesh->point[I * corners + q];
         if (i >= 0 && exposed[i]) places |= 1u << q;
     }
-    if (mesh->exposed == mesh->exposed_room) {
-        const int64_t room = mesh->exposed_room ? 2 * mesh->exposed_room : 256;
-        mesh->exposed_list =
-            memory_resize("mesh.exposed", mesh->exposed_list, mesh->exposed_room, room, sizeof *mesh->exposed_list);
-        mesh->exposed_room = room;
-    }
+    GROW("mesh.exposed", mesh->exposed_list, mesh->exposed + 1);
     mesh->exposed_list[mesh->exposed++] = (struct mesh_exposed){(int32_t)I, (uint8_t)places};
 }
 

@@ -201,12 +201,7 @@ static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c
 
 void mesh_partial_add(struct mesh *mesh, int64_t I)
 {
-    if (mesh->partial_cells == mesh->partial_room) {
-        const int64_t room = mesh->partial_room ? 2 * mesh->partial_room : 256;
-        mesh->partial_cell = memory_resize("mesh.partial_cell", mesh->partial_cell, mesh->partial_room, room,
-                                           sizeof *mesh->partial_cell);
-        mesh->partial_room = room;
-    }
+    GROW("mesh.partial_cell", mesh->partial_cell, mesh->partial_cells + 1);
     mesh->partial_cell[mesh->partial_cells++] = (int32_t)I;
 }
 
@@ -214,7 +209,7 @@ struct mesh_partial mesh_partial_keep(struct mesh *mesh)
 {
     const struct mesh_partial old = {mesh->partial_cells, mesh->partial_cell, mesh->stiffness};
     mesh->partial_cell = NULL, mesh->stiffness = NULL;
-    mesh->partial_cells = mesh->partial_room = 0;
+    mesh->partial_cells = 0;
     mesh_partial_free(mesh);
     return old;
 }

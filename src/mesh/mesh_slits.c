@@ -15,7 +15,7 @@ enum { PIECES_MOST = CORNERS_MAX * CORNERS_MAX };    /* around a node: of 2^dim 
 /* An extra node or cell in the making. Pieces around a node have bits 8 c + g: piece g of the cell of which the node is
  * corner c; an extra cell has piece `piece` of cell `base`. */
 struct extra { int64_t base; uint64_t pieces; int piece; uint8_t open; };
-struct extras { struct extra *at; int64_t n, room; };
+struct extras { struct extra *at; int64_t n; };
 
 struct slit_maker {
     const struct mesh *mesh;
@@ -31,11 +31,7 @@ struct slit_maker {
 
 static void extra_add(struct extras *to, struct extra one)
 {
-    if (to->n == to->room) {
-        const int64_t room = to->room ? 2 * to->room : 64;
-        to->at = memory_resize("slits.extra", to->at, to->room, room, sizeof *to->at);
-        to->room = room;
-    }
+    GROW("slits.extra", to->at, to->n + 1);
     to->at[to->n++] = one;
 }
 

@@ -29,7 +29,7 @@ static void read_header(struct history *h, const char *line)
 {
     for (const char *at = line;; at++) {
         size_t length = entry_length(at);
-        h->name = memory_resize("history.names", h->name, h->columns, h->columns + 1, sizeof *h->name);
+        GROW("history.names", h->name, h->columns + 1);
         h->name[h->columns++] = history_column_name(at, length);
         at += length;
         if (*at != ',') return;
@@ -54,15 +54,9 @@ static bool read_row(const struct history *h, const char *line, double *row)
 /* Reads all lines with an end into h->value, [rows][columns]. FAILED with file and line for a malformed one. */
 static status read_rows(struct history *h, FILE *from, const char *path, char **line, size_t *room)
 {
-    int64_t rows_room = 0;
     ssize_t length;
     while ((length = getline(line, room, from)) > 0 && (*line)[length - 1] == '\n') {
-        if (h->rows == rows_room) {
-            int64_t grown = rows_room > 0 ? 2 * rows_room : 256;
-            h->value = memory_resize("history.value", h->value, rows_room * h->columns, grown * h->columns,
-                                     sizeof *h->value);
-            rows_room = grown;
-        }
+        GROW("history.value", h->value, (h->rows + 1) * h->columns);
         if (!read_row(h, *line, h->value + h->rows * h->columns))
             return status_set(FAILED, "%s:%lld: not %d entries", path, (long long)h->rows + 2, h->columns);
         h->rows++;

@@ -104,15 +104,11 @@ static status steps_read(struct dump *d, int *n, int64_t **step)
 {
     struct dump_head h;
     bool more;
-    int room = 0;
     for (;;) {
         TRY(head_next(d, &h, &more));
         if (!more || !skip_rows(d, h.n)) return OK;
         if (*n > 0 && h.step <= (*step)[*n - 1]) return dump_fault(d, "steps do not ascend");
-        if (*n == room) {
-            *step = memory_resize("dump.steps", *step, room, 2 * room + 16, sizeof **step);
-            room = 2 * room + 16;
-        }
+        GROW("dump.steps", *step, *n + 1);
         (*step)[(*n)++] = h.step;
     }
 }

@@ -395,7 +395,7 @@ static status series_archive(struct frame_series *s, struct archive *a)
         s->frame_time = NEW("output.frame_time", frames, real);
         memory_free(s->frame_rows);
         s->frame_rows = NEW("output.frame_rows", frames, int64_t);
-        s->frames = s->frames_room = frames;
+        s->frames = frames;
     }
     TRY(a->exchange(a, time_name, s->frame_time, (size_t)frames * sizeof(real)));
     return a->exchange(a, rows_name, s->frame_rows, (size_t)frames * sizeof(int64_t));

@@ -383,12 +383,8 @@ status output_wait(struct output *o)
 /* Counts a frame before it is written; output_wait takes the count back on a fault. */
 static void frame_count(struct frame_series *s, const struct frame_job *job)
 {
-    if (s->frames == s->frames_room) {
-        int room = 2 * s->frames_room + 16;
-        s->frame_time = memory_resize("output.frame_time", s->frame_time, s->frames_room, room, sizeof(real));
-        s->frame_rows = memory_resize("output.frame_rows", s->frame_rows, s->frames_room, room, sizeof(int64_t));
-        s->frames_room = room;
-    }
+    GROW("output.frame_time", s->frame_time, s->frames + 1);
+    GROW("output.frame_rows", s->frame_rows, s->frames + 1);
     s->frame_rows[s->frames] = job->n;
     s->frame_time[s->frames++] = job->t;
     s->frame_fields = job->fields;

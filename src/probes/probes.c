@@ -15,7 +15,7 @@ const char *const axis_name[DIM_MAX] = {"x", "y", "z"};
 
 static void column_add(struct probes *s, struct probe *q, const char *quantity, const char *unit)
 {
-    s->column = memory_resize("probes.column", s->column, s->columns, s->columns + 1, sizeof *s->column);
+    GROW("probes.column", s->column, s->columns + 1);
     struct column *c = &s->column[s->columns++];
     snprintf(c->name, sizeof c->name, "%.63s.%.63s", q->request.name, quantity);
     snprintf(c->unit, sizeof c->unit, "%s", unit);

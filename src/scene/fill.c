@@ -41,16 +41,14 @@ status draft_refuse(const struct draft *d, int body, const char *why)
 
 static void draft_grow(struct draft *d)
 {
-    int64_t room = d->room > 0 ? 2 * d->room : 4096;
-    for (int a = 0; a < d->scene->dim; a++)
-        d->X[a] = memory_resize("fill.X", d->X[a], d->room, room, sizeof(real));
-    for (int a = 0; a < d->scene->dim; a++) d->v[a] = memory_resize("fill.v", d->v[a], d->room, room, sizeof(real));
-    d->volume = memory_resize("fill.volume", d->volume, d->room, room, sizeof(real));
-    d->mass = memory_resize("fill.mass", d->mass, d->room, room, sizeof(real));
-    d->material = memory_resize("fill.material", d->material, d->room, room, sizeof(uint8_t));
-    d->body = memory_resize("fill.body", d->body, d->room, room, sizeof(uint8_t));
-    d->id = memory_resize("fill.id", d->id, d->room, room, sizeof(int32_t));
-    d->room = room;
+    d->room = d->room > 0 ? 2 * d->room : 4096;
+    for (int a = 0; a < d->scene->dim; a++) GROW("fill.X", d->X[a], d->room);
+    for (int a = 0; a < d->scene->dim; a++) GROW("fill.v", d->v[a], d->room);
+    GROW("fill.volume", d->volume, d->room);
+    GROW("fill.mass", d->mass, d->room);
+    GROW("fill.material", d->material, d->room);
+    GROW("fill.body", d->body, d->room);
+    GROW("fill.id", d->id, d->room);
 }
 
 status draft_add(struct draft *d, const real *X, real volume, int material, int body)

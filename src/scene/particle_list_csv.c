@@ -257,11 +257,10 @@ static status csv_grow(struct csv *c, struct particle_list *l)
     for (int k = 0; k < c->fields; k++) {
         if (c->column[k] == COLUMN_NONE) continue;
         real **array = column_array(l, c->column[k]);
-        *array = memory_resize("list.column", *array, c->room, room, sizeof(real));
-        if (c->column[k] == COLUMN_MATERIAL)
-            l->material_at = memory_resize("list.at", l->material_at, c->room, room, sizeof *l->material_at);
+        GROW("list.column", *array, room);
+        if (c->column[k] == COLUMN_MATERIAL) GROW("list.at", l->material_at, room);
     }
-    l->line = memory_resize("list.line", l->line, c->room, room, sizeof *l->line);
+    GROW("list.line", l->line, room);
     c->room = room;
     return OK;
 }

@@ -8,7 +8,7 @@ status read_body_parts(struct reader *r, const struct node *list, const struct k
     if (!list) return OK;
     TRY(expect_list(r, k, list));
     int part = b->parts;                 /* behind those of images */
-    b->part = memory_resize("parts", b->part, b->parts, b->parts + list->n, sizeof *b->part);
+    GROW("parts", b->part, b->parts + list->n);
     b->parts += list->n;
     for (const struct node *n = list->first; n; part++, n = n->next)
         TRY(read_group(r, n, n, "bodies.parts", &b->part[part]));

@@ -21,8 +21,8 @@ status file_bytes(const char *path, char **bytes, size_t *length)
     while ((got = fread(text + used, 1, room - used, in)) > 0 && used <= FILE_LONGEST) {
         used += got;
         if (used < room) continue;
-        text = memory_resize("scene file", text, (int64_t)room, (int64_t)(2 * room), 1);
         room *= 2;
+        GROW("scene file", text, (int64_t)room);
     }
     int error = ferror(in) ? errno : 0;
     fclose(in);

@@ -116,7 +116,7 @@ static status read_grey_part(struct reader *r, const struct node *solid, const s
                             .key = arena_text(r, "values", 6),
                             .text = entry->key};
     node_append(image, values);
-    b->part = memory_resize("parts", b->part, b->parts, b->parts + 1, sizeof *b->part);
+    GROW("parts", b->part, b->parts + 1);
     struct scene_part *part = &b->part[b->parts++];
     part->material = material;
     return read_region(r, copy, &part->region);

@@ -37,8 +37,7 @@ static status material_apart(struct reader *r, const struct node *n, struct scen
 {
     struct scene *s = r->scene;
     if (s->materials >= 255) return fault(r, n, "bodies of one material get one each, and 255 are the most");
-    s->material = memory_resize("materials", s->material, (size_t)s->materials, (size_t)s->materials + 1,
-                                sizeof *s->material);
+    GROW("materials", s->material, s->materials + 1);
     struct material *own = &s->material[s->materials];
     *own = s->material[b->material];
     char name[2 * NAME_MAX_LENGTH + 8];

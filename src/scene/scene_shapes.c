@@ -30,7 +30,7 @@ static void contents_add(struct shape_file *f, uint64_t contents)
 static status shape_path_add(struct reader *r, const struct node *n, struct shape_file *f)
 {
     uint64_t contents = 0;
-    f->path = memory_resize("shape files", f->path, f->files, f->files + 1, sizeof *f->path);
+    GROW("shape files", f->path, f->files + 1);
     TRY(read_path(r, n, "a file", &f->path[f->files], &contents));
     contents_add(f, contents);
     f->files++;
@@ -248,7 +248,7 @@ static const struct voxel_part *grey_part_of(struct shape_file *f, const struct 
         if (f->part[k]->ranges == wanted->ranges &&
             arrays_equal(f->part[k]->range, wanted->range, wanted->ranges, sizeof *wanted->range))
             return f->part[k];
-    f->part = memory_resize("shape parts", f->part, f->parts, f->parts + 1, sizeof *f->part);
+    GROW("shape parts", f->part, f->parts + 1);
     struct voxel_part *part = NEW("shape parts", 1, struct voxel_part);
     *part = *wanted;
     part->of = &f->voxels;

@@ -139,18 +139,13 @@ static status time_entry(const struct time_columns *c, char *line, struct time_f
 
 static status time_entries(struct time_columns *c, struct time_function *f, const char *wanted)
 {
-    int64_t room = 0;
     TRY(time_columns_find(c, wanted));
     for (bool more;; f->n++) {
         TRY(csv_line(&c->in, &more));
         if (!more) break;
         if (f->n == TIMES_MAX) return csv_fault(&c->in, c->in.text, "more than %d times", TIMES_MAX);
-        if (f->n == room) {
-            const int64_t grown = room > 0 ? 2 * room : 256;
-            f->t = memory_resize("time table", f->t, room, grown, sizeof *f->t);
-            f->value = memory_resize("time table", f->value, room, grown, sizeof *f->value);
-            room = grown;
-        }
+        GROW("time table", f->t, f->n + 1);
+        GROW("time table", f->value, f->n + 1);
         TRY(time_entry(c, c->in.text, f));
     }
     return f->n > 0 ? OK : status_set(REFUSED, "%s: has no times below its header", c->in.path);

@@ -14,7 +14,7 @@
 /* Distances of faces and cracks from the lower corner of their body, each a multiple of the scene's own spacing, or
  * half-way between two. */
 struct places {
-    int n, room;
+    int n;
     struct {
         double at;
         bool half;
@@ -29,11 +29,7 @@ static void place_add(struct places *p, double distance, double spacing)
     if (!isfinite(at) || at < 1 || (off > MEETS && off < 0.5 - MEETS)) return;
     for (int k = 0; k < p->n; k++)
         if (fabs(p->place[k].at - fabs(distance)) < 1e-9 * spacing) return;
-    if (p->n == p->room) {
-        const int room = p->room > 0 ? 2 * p->room : 32;
-        p->place = memory_resize("study.places", p->place, p->room, room, sizeof *p->place);
-        p->room = room;
-    }
+    GROW("study.places", p->place, p->n + 1);
     p->place[p->n].at = fabs(distance);
     p->place[p->n++].half = off > 0.5 - MEETS;
 }

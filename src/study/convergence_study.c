@@ -71,7 +71,7 @@ static void point_add(struct convergence_study *s, struct study_point p)
     for (int k = 0; k < n; k++) all[s->overrides + k] = own[k];
     snprintf(name, sizeof name, "spacing=%.5gmm,horizon=%.4g,step=%.3f,run=%d", 1e3 * p.spacing, p.horizon, p.step,
              p.run);
-    s->point = memory_resize("study.points", s->point, s->study.n, s->study.n + 1, sizeof *s->point);
+    GROW("study.points", s->point, s->study.n + 1);
     s->point[s->study.n] = p;
     study_add(&s->study, name, all, s->overrides + n);
     memory_free(all);

@@ -220,11 +220,7 @@ static struct scene_override override_copy(struct scene_override o)
 
 struct study_case *study_add(struct study *s, const char *name, const struct scene_override *override, int overrides)
 {
-    if (s->n == s->room) {
-        const int room = s->room > 0 ? 2 * s->room : 16;
-        s->at = memory_resize("study.cases", s->at, s->room, room, sizeof *s->at);
-        s->room = room;
-    }
+    GROW("study.cases", s->at, s->n + 1);
     study_names_grow(s);
     struct study_case *c = &s->at[s->n];
     study_name_settle(s, c->name, name, override, overrides);

@@ -20,12 +20,8 @@ struct filled {
 
 static int figure_add(struct study_table *t, const char *name)
 {
-    if (t->figures == t->room) {
-        const int room = t->room > 0 ? 2 * t->room : 64;
-        t->figure = memory_resize("study.figure", t->figure, t->room, room, sizeof *t->figure);
-        t->value = memory_resize("study.value", t->value, t->room, room, sizeof *t->value);
-        t->room = room;
-    }
+    GROW("study.figure", t->figure, t->figures + 1);
+    GROW("study.value", t->value, t->figures + 1);
     char *copy = NEW("study.name", (int64_t)strlen(name) + 1, char);
     strcpy(copy, name);
     double *value = NEW("study.values", t->cases, double);

@@ -68,7 +68,7 @@ static status value_add(struct varied_key *k, char *value)
         memory_free(value);
         return s;
     }
-    k->value = memory_resize("study.values", k->value, k->values, k->values + 1, sizeof *k->value);
+    GROW("study.values", k->value, k->values + 1);
     k->value[k->values++] = value;
     return OK;
 }

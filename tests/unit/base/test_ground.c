@@ -1,4 +1,4 @@
-/* Tests of the ground: status, memory, team, regions, functions of time, cracks, materials. */
+/* Tests of the ground: status, no memory, team, regions, functions of time, cracks, materials. */
 #include "tests/support/near.h"
 
 #include <omp.h>
@@ -63,43 +63,6 @@ static void refusals_have_one_place(void **state)
     assert_string_equal(status_message(), "no particle");
 }
 
-static void check_zero(void)
-{
-    const int64_t count[] = {0, 1, 63, 8192, 300001, 250000, 100000, 20000};
-    for (size_t c = 0; c < COUNT_OF(count); c++) {
-        real *array = NEW("test", count[c], real);
-        assert_non_null(array);
-        assert_int_equal((uintptr_t)array % 64, 0);
-        for (int64_t i = 0; i < count[c]; i++) assert_exact(array[i], 0);
-        memset(array, 0xff, (size_t)count[c] * sizeof *array);   /* the next array must not see it */
-        memory_free(array);
-    }
-    memory_free(NULL);
-}
-
-/* Also where an array finds a larger one that waits. */
-static void memory_is_aligned_and_zero(void **state)
-{
-    (void)state;
-    check_zero();
-    memory_reuse(true);
-    for (int k = 0; k < 3; k++) check_zero();
-    memory_reuse(false);
-}
-
-static void memory_resize_keeps_what_fits(void **state)
-{
-    (void)state;
-    int *array = memory_resize("test", NULL, 0, 3, sizeof *array);
-    for (int i = 0; i < 3; i++) array[i] = i + 1;
-    array = memory_resize("test", array, 3, 100000, sizeof *array);
-    for (int i = 0; i < 100000; i++) assert_int_equal(array[i], i < 3 ? i + 1 : 0);
-    array = memory_resize("test", array, 100000, 2, sizeof *array);
-    assert_int_equal(array[0], 1);
-    assert_int_equal(array[1], 2);
-    memory_free(array);
-}
-
 /* Exit status of a child that calls `deed`; what it says on standard error goes to `line`, cut to 511 bytes. */
 static int exit_of(void (*deed)(void *), void *context, char line[512])
 {
@@ -122,6 +85,12 @@ static int exit_of(void (*deed)(void *), void *context, char line[512])
 
 static void allocate(void *count) { memory_new("bonds.w", *(int64_t *)count, sizeof(real)); }
 
+static void grow(void *count)
+{
+    real *array = NEW("bonds.w", 3, real);
+    GROW("bonds.w", array, *(int64_t *)count);
+}
+
 static void out_of_memory_says_so(void **state)
 {
     (void)state;
@@ -131,6 +100,11 @@ static void out_of_memory_says_so(void **state)
         assert_int_equal(exit_of(allocate, &count[c], line), FAILED);
         assert_non_null(strstr(line, "out of memory: bonds.w"));
         assert_ptr_equal(strchr(line, '\n'), line + strlen(line) - 1);   /* one line */
+        if (count[c] < 0) continue;
+        char wanted[80];
+        snprintf(wanted, sizeof wanted, "out of memory: bonds.w needs %lld entries of 8 bytes", (long long)count[c]);
+        assert_int_equal(exit_of(grow, &count[c], line), FAILED);
+        assert_non_null(strstr(line, wanted));
     }
     assert_int_equal(exit_of(allocate, &few, line), 0);
     assert_true(memory_peak() > 1000000);        /* a process with its libraries is larger than 1 MB */
@@ -465,8 +439,6 @@ int main(void)
         cmocka_unit_test(arrays_may_be_empty_or_overlap),
         cmocka_unit_test(refusals_have_one_place),
         cmocka_unit_test(out_of_memory_says_so),
-        cmocka_unit_test(memory_is_aligned_and_zero),
-        cmocka_unit_test(memory_resize_keeps_what_fits),
         cmocka_unit_test(sums_do_not_depend_on_threads),
         cmocka_unit_test(team_has_the_threads_asked_for),
         cmocka_unit_test(laps_book_time_where_it_went),

@@ -133,7 +133,7 @@ static void state_comes_back(void **state)
     open_fresh(&o, "state");
     assert_false(checkpoint_exists("state"));
     assert_not_restored(&o);
-    o.series[0].frames = 3, o.series[0].frames_room = 3, o.history_bytes = 1234;
+    o.series[0].frames = 3, o.history_bytes = 1234;
     o.series[0].frame_time = NEW("frame_time", 3, real);
     o.series[0].frame_time[2] = 0.1;
     o.series[0].frame_rows = NEW("frame_rows", 3, int64_t);
