@@ -5,6 +5,7 @@
 #ifndef CLEAVE_STATICS
 #define CLEAVE_STATICS
 
+#include "data/region.h"
 #include "solver/equilibrium.h"
 
 /* A directed bond that was broken on trial, and what its row and its particle had. */

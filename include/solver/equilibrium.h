@@ -6,7 +6,8 @@
 #ifndef CLEAVE_EQUILIBRIUM
 #define CLEAVE_EQUILIBRIUM
 
-#include "solver/solver.h"
+#include "base/base.h"
+#include "solver/field.h"
 
 struct equilibrium {
     int dim;

@@ -10,9 +10,7 @@
 #include "base/archive.h"
 #include "bonds/bonds.h"
 #include "loads/loads.h"
-
-/* A vector of every particle. */
-struct field { real *of[DIM_MAX]; };
+#include "solver/field.h"
 
 struct solver {
     int dim;

@@ -13,14 +13,16 @@
  * that of its own crack to the second order of an advance. The advance itself comes where it pays for itself, so that
  * no energy is left over; where loads only grow, at the larger one of both. */
 #include <math.h>
-#include <string.h>
 
-#include "base/memory.h"
-#include "statics_internal.h"
+#include "advance.h"
+#include "balance.h"
+#include "led.h"
+#include "load_size.h"
+#include "overload.h"
+#include "pieces.h"
+#include "trial.h"
+
 #include "fracture/fracture_part.h"
-#include "step/report.h"
-#include "mesh/mesh_part.h"
-#include "step/step.h"
 
 #define STRESSED 0.85        /* overload below which no first advance is looked for */
 #define STRESSED_FURTHER 0.5 /* nor one after others: between two, a lattice lets bonds off */
@@ -29,21 +31,7 @@
 #define DUE_ERROR 2e-3       /* of loads at which an advance comes */
 enum { ADVANCE_SPACINGS = 2, LOOKS_MOST = 6 };
 
-/* ---- what a body releases ---------------------------------------------------------------------------------------- */
-
-real statics_released(const struct run *e) { return bonds_fracture_energy(&e->bonds) + e->statics->balance.lost; }
-
-/* Energy per area that the bonds across a plane of the lattice take to their limits; of state-based models, whose bonds
- * have no energy of their own, G_c as given [J/m^2]. */
-real toughness_of(const struct run *e, const struct material *m)
-{
-    const bool given = e->scene->model != MODEL_BOND && !isnan(m->energy_release_rate);
-    if (given) return m->energy_release_rate;
-    const real elastic = family_crossing_energy(&e->source.family, m), limit = m->critical_stretch;
-    if (!material_yields(m) || !isfinite(limit)) return elastic;
-    const real taken = stretch_work(limit, m->yield_stress / m->young, m->yield_hardening / m->young);
-    return elastic * taken / (0.5 * square(limit));
-}
+/* ---- area of a crack increment ----------------------------------------------------------------------------------- */
 
 /* Share of the area of cracks that the body has: half where they all run along planes of symmetry, across axis d (-1:
  * any). */
@@ -76,31 +64,6 @@ static real front_length(const struct run *e)
     return edges > 0 ? real_min(length, real_max(edges, e->scene->spacing)) : length;
 }
 
-/* Of bonds between materials a and b: of an interface as given, in state-based models of the weaker material; of bonds
- * with energies of their own, these at their limit. */
-static real toughness_of_pair(const struct run *e, int a, int b)
-{
-    const struct scene *s = e->scene;
-    const struct material *one = &s->material[a], *other = &s->material[b];
-    const real least = real_min(toughness_of(e, one), toughness_of(e, other));
-    for (int k = 0; k < s->interfaces && s->model != MODEL_BOND; k++) {
-        const struct scene_interface *face = &s->interface[k];
-        const int m = s->body[face->body[0]].material, n = s->body[face->body[1]].material;
-        if (face->energy_release_rate > 0 && ((m == a && n == b) || (m == b && n == a)))
-            return face->energy_release_rate;
-    }
-    const real limit = e->tables.pair_stretch[a * s->materials + b];
-    if (a == b || s->model != MODEL_BOND || material_yields(one) || material_yields(other)) return least;
-    const real c = family_micro_modulus(&e->source.family, one), d = family_micro_modulus(&e->source.family, other);
-    return family_crossing_energy(&e->source.family, one) * 2 * d / (c + d) * square(limit / one->critical_stretch);
-}
-
-real toughness_between(const struct run *e, int64_t i, int64_t j)
-{
-    const struct particles *p = &e->part;
-    return toughness_of_pair(e, p->material[i], p->material[j]) * square(bond_strength(p, i, j));
-}
-
 /* Area of an advance [m^2]. */
 static real advance_area(const struct run *e)
 {
@@ -116,56 +79,7 @@ static int64_t breaks_most(const struct run *e)
     return (int64_t)(e->scene->steps.breaks * real_max(1, along));
 }
 
-/* ---- size of loads ----------------------------------------------------------------------------------------------- */
-
-/* Sum of squares of what supports and rigid bodies go up to t; where they do not move, of applied forces. */
-real statics_load_size(const struct run *e, real t)
-{
-    real sum = 0, forces = 0;
-    for (int b = 0; b < e->loads.n; b++) {
-        const struct load *l = &e->loads.load[b];
-        const struct displacing by = displacing_make(l->boundary, e->part.dim, t);
-        for (int64_t k = 0; k < l->n; k++) {
-            real X[DIM_MAX], f[DIM_MAX];
-            particle_place(&e->part, l->particle[k], X);
-            for (int d = 0; d < e->part.dim && l->boundary->kind == BOUNDARY_VELOCITY; d++)
-                if (l->boundary->components >> d & 1) sum += square(displacing_at(&by, X, d));
-            if (!boundary_is_force(l->boundary)) continue;
-            load_force_at(l, &e->part, k, t, f);
-            forces += dot(f, f, e->part.dim);
-        }
-    }
-    sum += statics_rigid_way2(e, t);
-    return sqrt(sum > 0 ? sum : forces);
-}
-
-enum { SECANTS_MOST = 30 };
-
-real statics_time_of_size(const struct run *e, real size)
-{
-    real from = e->statics->t, at_from = statics_load_size(e, from);
-    real t = at_from > 0 ? from * size / at_from : from;
-    for (int k = 0; k < SECANTS_MOST; k++) {
-        const real at = statics_load_size(e, t), slope = (at - at_from) / (t - from);
-        if (fabs(at - size) <= 1e-9 * size || !(slope != 0) || t == from) return t;
-        from = t, at_from = at;
-        t = real_max(0, from + (size - at) / slope);
-    }
-    return t;
-}
-
 /* ---- advances ---------------------------------------------------------------------------------------------------- */
-
-/* A step that is broken off leaves the checkpoint of the one before it. */
-status statics_go(struct run *e, real t)
-{
-    if (e->report->stop && *e->report->stop)
-        return status_set(INTERRUPTED, "interrupted in load step %lld of %lld; go on with --resume",
-                          (long long)e->clock.step + 1, (long long)e->clock.steps);
-    TRY(statics_solve(e, t));
-    e->statics->overload = statics_overload(e);
-    return OK;
-}
 
 /* An advance more: bonds break at this pseudo-time, onto the end of the list. What fronts in space have left of a body
  * as they reached its other side tears in larger pieces: no load hangs on its way. */
@@ -190,69 +104,6 @@ static status advance_try(struct run *e, struct advance *a)
     }
     a->release = (statics_released(e) - before) / square(statics_load_size(e, s->t));
     return OK;
-}
-
-void stand_take(struct stand *k, struct run *e)
-{
-    const struct equilibrium *q = &e->statics->balance;
-    statics_plastic_keep(e);
-    *k = (struct stand){.t = e->statics->t,
-                        .overload = e->statics->overload,
-                        .lost = q->lost,
-                        .damped = e->damped,
-                        .touches = e->statics->touches,
-                        .work = e->loads.work,
-                        .constraint_work = e->loads.constraint_work};
-    statics_touch_take(e, &k->touch);
-    for (int d = 0; d < q->dim; d++) {
-        k->u.of[d] = BARE("advance.stand", q->n, real);
-        k->f.of[d] = BARE("advance.stand", q->n, real);
-        array_copy(k->u.of[d], q->u.of[d], q->n, sizeof(real));
-        array_copy(k->f.of[d], q->f.of[d], q->n, sizeof(real));
-    }
-}
-
-void stand_free(struct stand *k, const struct run *e)
-{
-    memory_archive_free(&k->touch);
-    for (int d = 0; d < e->part.dim; d++) memory_free(k->u.of[d]), memory_free(k->f.of[d]);
-}
-
-void stand_give(struct stand *k, struct run *e, const struct break_list *broken)
-{
-    struct equilibrium *q = &e->statics->balance;
-    if (broken) statics_mend(e, broken);
-    statics_touch_give(e, &k->touch);
-    statics_plastic_restore(e);
-    if (e->statics->t != k->t) statics_applied_make(e, k->t);
-    e->statics->t = k->t;
-    e->statics->overload = k->overload, e->statics->touches = k->touches;
-    q->lost = k->lost, e->damped = k->damped;
-    e->loads.work = k->work, e->loads.constraint_work = k->constraint_work;
-    for (int d = 0; d < q->dim; d++) {
-        array_copy(q->u.of[d], k->u.of[d], q->n, sizeof(real));
-        array_copy(q->f.of[d], k->f.of[d], q->n, sizeof(real));
-    }
-    stand_free(k, e);
-    statics_place(e, &q->u);
-    frame_sync(e);
-    loads_mirror(&e->loads, &e->part);       /* bonds to images break by where these are */
-    statics_react(e);
-}
-
-real size_of_balance(const struct advance *a, const struct advance *b)
-{
-    const real release = a->release + b->release;
-    return a->cost > 0 && release > 0 ? sqrt((a->cost + b->cost) / release) : INFINITY;
-}
-
-real size_of_advance(const struct advance *a) { return size_of_balance(a, &(struct advance){0}); }
-
-struct advance advance_before(const struct advance *first, const struct advance *second)
-{
-    const real rate = first->release / first->cost, growth = second->release / second->cost - rate;
-    const real release = first->release - 2 * growth * square(first->cost) / (first->cost + second->cost);
-    return (struct advance){first->cost, real_max(0, release)};
 }
 
 /* Has nothing advanced yet, and is there a pre-crack? */
@@ -344,16 +195,3 @@ status statics_advance_settle(struct run *e, int64_t broken)
 }
 
 status statics_advance(struct run *e) { return statics_advance_settle(e, statics_advance_break(e)); }
-
-status statics_convert(struct run *e, int64_t broken)
-{
-    while (step_convert(e, broken)) {
-        broken = 0;
-        statics_precondition_free(e);
-        statics_unknowns_free(e);
-        statics_unknowns_make(e);
-        e->statics->next.n = 0;
-        TRY(statics_go(e, e->statics->t));
-    }
-    return OK;
-}

@@ -1,51 +1,25 @@
 /* Load steps: what supports and loads do from one pseudo-time to the next, equilibrium there, and its accounts. */
-#include "statics_internal.h"
-
 #include <float.h>
 #include <math.h>
-#include <string.h>
+
+#include "balance.h"
+#include "overload.h"
+#include "pieces.h"
+#include "springs.h"
+#include "system.h"
+#include "touch.h"
+#include "trial.h"
+#include "unknowns.h"
 
 #include "base/memory.h"
-#include "base/team.h"
 #include "mesh/mesh_part.h"
-#include "contact/contact.h"
+#include "step/report.h"
+#include "step/step.h"
 
 #define GAIN_MOST 0.01       /* share of what loads may have worked beyond the mean that a solution may gain */
 enum { TRIES_MOST = 4, MORE_STRIDES = 4 };
 
-/* ---- loads and supports ------------------------------------------------------------------------------------------ */
-
-/* Applied forces at t, into `applied` [dim][particles of the body]. */
-void statics_applied_make(struct run *e, real t)
-{
-    const struct particles *p = &e->part;
-    for (int d = 0; d < p->dim; d++) {
-        if (!e->statics->applied[d]) e->statics->applied[d] = NEW("statics.applied", p->n, real);
-        array_fill_bytes(e->statics->applied[d], 0, p->n, sizeof(real));
-    }
-    for (int b = 0; b < e->loads.n; b++) {
-        const struct load *l = &e->loads.load[b];
-        for (int64_t k = 0; boundary_is_force(l->boundary) && k < l->n; k++) {
-            real force[DIM_MAX];
-            load_force_at(l, p, k, t, force);
-            for (int d = 0; d < p->dim; d++) e->statics->applied[d][l->particle[k]] += force[d];
-        }
-    }
-}
-
-/* Place of a node of the unknowns [m]. */
-void statics_node_place(const struct run *e, int64_t k, real *X)
-{
-    const struct mesh *mesh = &e->frame->mesh;
-    const int32_t i = e->statics->node[k];
-    if (k < e->statics->particles) {
-        particle_place(&e->part, i, X);
-        return;
-    }
-    const int64_t at = mesh_base(mesh, i);
-    for (int d = 0; d < e->part.dim; d++)
-        X[d] = grid_position(&mesh->grid, d, at / mesh->grid.stride[d] % mesh->grid.count[d]);
-}
+/* ---- the way to a pseudo-time ------------------------------------------------------------------------------------ */
 
 /* How much more of the same t makes of supports and loads, of which `before` were there; 0 where it makes others. */
 static real growth_to(const struct run *e, real t, real *const *before)
@@ -85,22 +59,6 @@ static void way_make(struct run *e, real t, real *const *before)
     statics_pieces_hold(e, &s->way);
 }
 
-/* Norm of applied forces on free components of particles, on points of the mesh that nothing drives, and of what rigid
- * bodies push [N]. */
-real statics_applied_norm(const struct run *e)
-{
-    const struct statics *s = e->statics;
-    const struct particles *p = &e->part;
-    real sum = 0;
-    for (int d = 0; d < p->dim; d++) {
-        for (int64_t k = 0; k < s->particles; k++)
-            if (!(s->balance.held[k] >> d & 1)) sum += square(s->weight[k] * s->applied[d][s->node[k]]);
-        for (int64_t i = 0; i < p->n; i++)
-            if (p->kind[i] != KIND_PD && !(p->flag[i] & FLAG_DRIVEN)) sum += square(s->applied[d][i]);
-    }
-    return hypot(sqrt(sum), contact_rigid_norm(e->contact, p));
-}
-
 /* Norm of the forces that the round-off of positions makes, with a margin of ten [N]. */
 static real round_off_of(const struct run *e)
 {
@@ -113,30 +71,7 @@ static real round_off_of(const struct run *e)
     return 10 * sqrt(sum);
 }
 
-/* Books the forces of supports and loads, and their displacements. */
-void statics_react(struct run *e)
-{
-    const struct statics *s = e->statics;
-    for (int b = 0; b < e->loads.n; b++) {
-        struct load *l = &e->loads.load[b];
-        if (boundary_is_force(l->boundary)) load_applied_sum(l, &e->part, e->statics->t);
-        if (l->boundary->kind != BOUNDARY_VELOCITY) continue;
-        const struct displacing by = displacing_make(l->boundary, e->part.dim, e->statics->t);
-        memset(l->reaction, 0, sizeof l->reaction);
-        for (int d = 0; d < e->part.dim; d++) {
-            real sum = 0, X[DIM_MAX] = {0};
-            if (!(l->boundary->components >> d & 1)) continue;
-            for (int64_t q = 0; q < l->n; q++)
-                particle_place(&e->part, l->particle[q], X), sum += displacing_at(&by, X, d);
-            l->displacement[d] = l->n > 0 ? sum / (real)l->n : 0;
-        }
-    }
-    for (int64_t k = 0; k < s->balance.n; k++)
-        for (int d = 0; d < e->part.dim; d++) {
-            const int load = s->load[k * DIM_MAX + d];
-            if (load >= 0) e->loads.load[load].reaction[d] -= s->balance.f.of[d][k] / s->weight[k];
-        }
-}
+/* ---- accounts ---------------------------------------------------------------------------------------------------- */
 
 /* What the work of a step adds up from: forces before it, and displacements. */
 struct account {
@@ -202,7 +137,22 @@ static bool lost_book(struct run *e, real lost, real range, bool touches)
     return touches && !e->part.relief[0] && lost - *now > GAIN_MOST * range;
 }
 
-static status unbalanced(const struct run *e);
+/* ---- equilibrium ------------------------------------------------------------------------------------------------- */
+
+/* FAILED, with the place of the largest residual and what helps. */
+static status unbalanced(const struct run *e)
+{
+    const struct statics *s = e->statics;
+    real X[DIM_MAX] = {0};
+    if (s->balance.n > 0) statics_node_place(e, s->balance.worst, X);
+    return status_set(FAILED,
+                      "load step %lld, t = %.6g s: no equilibrium, the residual stays at %.3g of the load (%.3g is "
+                      "wanted), most of it near x = %.6g, y = %.6g, z = %.6g m; see whether every part is held and "
+                      "loads are what the body bears, or choose %ssteps.control energy, more steps, or a larger "
+                      "solver_tolerance",
+                      (long long)e->clock.step + 1, e->statics->t, s->balance.residual, e->scene->solver_tolerance,
+                      X[0], X[1], X[2], e->part.relief[0] ? "a yield_tangent of a thousandth of young, " : "");
+}
 
 /* *crossed: faces have gone through each other. */
 static status solve_at(struct run *e, real t, bool *crossed)
@@ -250,8 +200,9 @@ static status solve_in(struct run *e, real t, int strides, bool *crossed)
     return OK;
 }
 
-/* In more strides where faces have gone through each other; what yields has no way back, and makes its way once. */
-status statics_solve(struct run *e, real t)
+/* Divides the increment to t into more solutions if faces have gone through each other; once only where something
+ * yields, as that cannot be undone. */
+static status solve_whole(struct run *e, real t)
 {
     int strides = statics_strides(e, t);
     bool crossed = false;
@@ -270,17 +221,26 @@ status statics_solve(struct run *e, real t)
                       "load steps, or a larger spacing, are expected", (long long)e->clock.step + 1, t);
 }
 
-/* FAILED, with the place of the largest residual and what helps. */
-static status unbalanced(const struct run *e)
+/* A step that is broken off leaves the checkpoint of the one before it. */
+status statics_go(struct run *e, real t)
 {
-    const struct statics *s = e->statics;
-    real X[DIM_MAX] = {0};
-    if (s->balance.n > 0) statics_node_place(e, s->balance.worst, X);
-    return status_set(FAILED,
-                      "load step %lld, t = %.6g s: no equilibrium, the residual stays at %.3g of the load (%.3g is "
-                      "wanted), most of it near x = %.6g, y = %.6g, z = %.6g m; see whether every part is held and "
-                      "loads are what the body bears, or choose %ssteps.control energy, more steps, or a larger "
-                      "solver_tolerance",
-                      (long long)e->clock.step + 1, e->statics->t, s->balance.residual, e->scene->solver_tolerance,
-                      X[0], X[1], X[2], e->part.relief[0] ? "a yield_tangent of a thousandth of young, " : "");
+    if (e->report->stop && *e->report->stop)
+        return status_set(INTERRUPTED, "interrupted in load step %lld of %lld; go on with --resume",
+                          (long long)e->clock.step + 1, (long long)e->clock.steps);
+    TRY(solve_whole(e, t));
+    e->statics->overload = statics_overload(e);
+    return OK;
+}
+
+status statics_convert(struct run *e, int64_t broken)
+{
+    while (step_convert(e, broken)) {
+        broken = 0;
+        statics_precondition_free(e);
+        statics_unknowns_free(e);
+        statics_unknowns_make(e);
+        e->statics->next.n = 0;
+        TRY(statics_go(e, e->statics->t));
+    }
+    return OK;
 }

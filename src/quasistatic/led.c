@@ -5,14 +5,15 @@
  * new frame round a ring that its kink has not crossed, would swing (fracture/growth.h). Where a pre-crack kinks, the
  * crack goes straight on until the ring sees no more than the kink. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
+#include "led.h"
+
 #include "base/memory.h"
-#include "statics_internal.h"
-#include "fracture/tip_fit.h"
-#include "fracture/fracture_part.h"
 #include "contact/contact.h"
+#include "fracture/fracture_part.h"
+#include "fracture/tip_fit.h"
+#include "quasistatic/load_steps.h"
 
 #define INNER 1.0     /* of the ring of the fit [horizons] */
 #define WIDTH 7.0     /* of the ring [spacings] */
@@ -21,121 +22,17 @@
 #define HOLD 8.0      /* straight on after it [spacings] */
 #define LEAST 6.0     /* outer radius [spacings] */
 #define AHEAD 1e-3    /* [spacings] */
-#define HERE 1e-6     /* from the end of a pre-crack to the tip there [spacings] */
 #define PARALLEL 1e-6 /* sine of an angle that is none */
 #define REST 0.1      /* way to another crack that is none [spacings] */
-#define ON_ROW 0.05   /* from a row of the lattice to a crack along it [spacings] */
-#define ROW_SEEN 8.0  /* length of a row that is looked at [spacings] */
-#define ROWS_APART 0.9 /* rows along an axis of the lattice; cracks along its diagonals do as they are [spacings] */
 #define REACH 1.2     /* of the search for a body ahead [spacings] */
 
-enum { ADVANCE_SPACINGS = 2, ROW_LEAST = 4 };
+enum { ADVANCE_SPACINGS = 2 };
 
-/* ---- tips -------------------------------------------------------------------------------------------------------- */
-
-static real led_distance(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
-
-/* Length of the longest pre-crack that ends at the tip, and whether one begins there. */
-static void cracks_behind(const struct run *e, struct led_tip *tip)
-{
-    const struct scene *s = e->scene;
-    for (int k = 0; k < s->cracks; k++) {
-        real at[2][DIM_MAX] = {{0}};
-        led_segment(&e->statics->led.plane, &s->crack[k], s->dim, at);
-        for (int end = 0; end < 2; end++) {
-            if (led_distance(at[end], tip->place) > HERE * s->spacing) continue;
-            tip->sees = real_max(tip->sees, led_distance(at[0], at[1]));
-            tip->reversed |= end == 0;
-        }
-    }
-}
-
-/* Is the tip on a plane of symmetry, and goes along it? */
-static bool on_mirror(const struct run *e, const struct led_tip *tip)
+bool led_along_mirror(const struct run *e, const struct led_tip *tip)
 {
     real ahead[2];
     led_ahead(tip->place, e->scene->spacing, tip->last, ahead);
     return led_on_mirror(e, &e->statics->led.plane, tip->place, ahead);
-}
-
-/* Rows of a lattice lie on one face of a crack that goes along them, as crack_cuts counts them. The tip begins halfway
- * to the next row, where bonds have been cut, and stays clear of what round-off would say of the row. */
-static void leave_row(struct run *e, struct led_tip *tip)
-{
-    const real h = e->scene->spacing, *along = tip->along;
-    real next = h;
-    int64_t on = 0;
-    for (int64_t i = 0; i < e->part.n; i++) {
-        real X[2];
-        led_project_particle(e, i, X);
-        for (int d = 0; d < 2; d++) X[d] -= tip->place[d];
-        const real ahead = dot(along, X, 2), aside = fabs(along[0] * X[1] - along[1] * X[0]);
-        if (e->part.body[i] != tip->body || !(ahead > 0 && ahead < ROW_SEEN * h)) continue;
-        on += aside < ON_ROW * h;
-        next = aside < ON_ROW * h ? next : real_min(next, aside);
-    }
-    const real below = (tip->reversed ? 0.5 : -0.5) * next;
-    if (on < ROW_LEAST || next < ROWS_APART * h || on_mirror(e, tip)) return;
-    tip->place[0] -= below * along[1], tip->place[1] += below * along[0];
-    memcpy(tip->start, tip->place, sizeof tip->start);
-    led_free_behind(e, tip);
-}
-
-static void led_start(struct run *e)
-{
-    struct led *l = &e->statics->led;
-    const struct tips *t = &e->fracture->tips;
-    l->known = true;
-    for (int k = 0; k < t->n; k++) {
-        const struct tip *from = &t->tip[k];
-        real place[2], along[2];
-        if (!from->from_crack) continue;
-        struct led_tip *tip = &l->tip[l->n++];
-        *tip = (struct led_tip){.body = from->body};
-        led_project(&l->plane, from->origin, e->part.dim, place);
-        led_project(&l->plane, from->along, e->part.dim, along);
-        for (int d = 0; d < 2; d++) {
-            tip->start[d] = tip->place[d] = place[d];
-            tip->along[d] = tip->heading[d] = tip->last[d] = along[d];
-        }
-        cracks_behind(e, tip);
-        leave_row(e, tip);
-    }
-}
-
-/* Why no tip is led, else NULL. */
-static const char *led_fault(const struct run *e, struct led_plane *plane)
-{
-    const struct scene *s = e->scene;
-    const bool one = s->bodies == 1 && s->materials == 1;    /* hoop stress knows no toughness */
-    *plane = (struct led_plane){.made = true};
-    if (s->steps.path == PATH_BONDS) return "steps.path is bonds";
-    return s->steps.path == PATH_AUTO && !one ? "there are several bodies or materials" : led_plane_find(e, plane);
-}
-
-const char *engine_led_fault(const struct run *e) { return led_fault(e, &(struct led_plane){0}); }
-
-status led_check(const struct run *e)
-{
-    const char *fault = NULL;
-    if (!scene_in_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
-    fault = engine_led_fault(e);
-    return fault ? status_set(REFUSED,
-                              "steps.path: hoop leads straight fronts that go through the body, and %s; bonds, or "
-                              "auto, is expected",
-                              fault)
-                 : OK;
-}
-
-bool led_leads(struct run *e)
-{
-    struct led *l = &e->statics->led;
-    if (!l->plane.made) l->fault = led_fault(e, &l->plane);
-    if (l->fault) return false;
-    if (!l->known) led_start(e);
-    for (int k = 0; k < l->n; k++)
-        if (!l->tip[k].ended) return true;
-    return false;
 }
 
 /* ---- factors ----------------------------------------------------------------------------------------------------- */
@@ -203,7 +100,7 @@ bool led_measure(const struct run *e, const struct led_tip *tip, real K[MODES])
     view.crack = crack;
     const bool seen = tip_fit(&view, &e->part, K);
     cracks_now_free(crack, view.cracks);
-    if (on_mirror(e, tip)) K[MODE_II] = 0;
+    if (led_along_mirror(e, tip)) K[MODE_II] = 0;
     const bool meets = e->contact->law.between == CONTACT_ALL && e->contact->touching > 0;
     if (meets) K[MODE_I] = real_max(K[MODE_I], 0); /* closed: the forces between its faces show */
     return seen;
@@ -230,9 +127,9 @@ static const struct led_tip *tip_farthest(const struct led *l, bool on)
     return first;
 }
 
-void led_factors(struct run *e, real K[MODES])
+void led_factors(const struct run *e, real K[MODES])
 {
-    const struct led_tip *first = led_leads(e) ? tip_farthest(&e->statics->led, true) : NULL;
+    const struct led_tip *first = tip_farthest(&e->statics->led, true);
     K[MODE_I] = K[MODE_II] = NAN;
     if (first) led_measure(e, first, K);
 }
@@ -351,26 +248,8 @@ void led_lose(struct run *e)
     for (int k = 0; k < e->statics->led.n; k++) e->statics->led.tip[k].ended = true;
 }
 
-/* ---- state ------------------------------------------------------------------------------------------------------- */
-
 void led_free(struct led *l)
 {
     memory_free(l->path);
     memset(l, 0, sizeof *l);
-}
-
-status led_archive(struct run *e, struct archive *a)
-{
-    struct led *l = &e->statics->led;
-    ARCHIVE_VALUE(a, "statics/led", l->known);
-    ARCHIVE_VALUE(a, "statics/led_n", l->n);
-    ARCHIVE_VALUE(a, "statics/led_tips", l->tip);
-    ARCHIVE_VALUE(a, "statics/led_tried", l->tried);
-    ARCHIVE_VALUE(a, "statics/led_stretches", l->stretches);
-    if (!a->saving && l->stretches > 0) {
-        memory_free(l->path);
-        l->room = l->stretches;
-        l->path = NEW("led.path", l->room, struct led_stretch);
-    }
-    return l->stretches > 0 ? a->exchange(a, "statics/led_path", l->path, (size_t)l->stretches * sizeof *l->path) : OK;
 }

@@ -1,9 +1,13 @@
 /* Advances of led cracks: the bonds that the next stretches of their tips cut, and the loads at which they come. */
 #include <math.h>
-#include <string.h>
+
+#include "led.h"
+#include "balance.h"
+#include "load_size.h"
+#include "overload.h"
+#include "trial.h"
 
 #include "base/memory.h"
-#include "statics_internal.h"
 #include "kernels/kernels.h"
 #include "kernels/pd/bond_last.h"
 

@@ -6,8 +6,9 @@
  * space, and lengths become areas by the width of the body along the front. */
 #include <math.h>
 
+#include "led.h"
+
 #include "base/memory.h"
-#include "statics_internal.h"
 #include "fracture/fracture_part.h"
 
 #define STRAIGHT 1e-6  /* sine of an angle that is none */

@@ -2,15 +2,26 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "statics_internal.h"
-#include "probes/diagnostics.h"
-#include "rigid/rigid_part.h"
-#include "mesh/mesh_part.h"
+#include "advance.h"
+#include "balance.h"
+#include "led.h"
+#include "load_size.h"
+#include "pieces.h"
+#include "springs.h"
+#include "steps_record.h"
+#include "system.h"
+#include "touch.h"
+#include "trial.h"
+
 #include "contact/contact.h"
 #include "fracture/sif_fields.h"
-#include "step/sample.h"
+#include "mesh/mesh_part.h"
+#include "probes/diagnostics.h"
+#include "quasistatic/load_steps.h"
+#include "rigid/rigid_part.h"
 #include "run/say.h"
 #include "step/report.h"
+#include "step/sample.h"
 
 #define OPENING_ERROR 1e-4 /* of an opening that is prescribed */
 #define FAR_BEYOND 1.2     /* overload from which on loads are too large to begin with */

@@ -1,9 +1,8 @@
 /* Bonds over their limit in an equilibrium, and those that break: the most overloaded ones first. */
-#include "statics_internal.h"
-
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
+
+#include "overload.h"
+#include "toughness.h"
 
 #include "base/memory.h"
 #include "kernels/kernels.h"
@@ -51,12 +50,6 @@ static int descending(const void *a, const void *b)
 {
     const real x = *(const real *)a, y = *(const real *)b;
     return (x < y) - (x > y);
-}
-
-real stretch_work(real elastic, real yield, real hardening)
-{
-    const real beyond = real_max(0, elastic - yield), slope = hardening / (1 + hardening);
-    return 0.5 * square(elastic - beyond) + (beyond > 0 ? beyond * (yield + 0.5 * slope * beyond) : 0);
 }
 
 /* Half of what a bond of particle i takes to its limit from where it bears nothing: what it holds, and the work that is
@@ -216,28 +209,4 @@ void statics_mend(struct run *e, const struct break_list *l)
         e->part.damage[record->i] = record->damage, e->part.flag[record->i] = record->flag;
     }
     if (l->n > 0) e->statics->stale = e->statics->parted = true;
-}
-
-/* Finds the bonds of a list by their particles: rows have been made anew. */
-static void list_find(const struct run *e, struct break_list *l)
-{
-    for (int64_t k = 0; k < l->n; k++) {
-        struct broken_bond *record = &l->bond[k];
-        record->row = e->bonds.row_of[record->i];
-        for (struct bond_iterator it = bonds_of_row(&e->bonds, record->row); bond_next(&it);)
-            if (it.bond.nbr == record->j && it.bond.w != 0) record->entry = it.bond.entry, record->w = it.bond.w;
-    }
-}
-
-status statics_list_archive(struct run *e, struct archive *a)
-{
-    struct break_list *l = &e->statics->next;
-    ARCHIVE_VALUE(a, "statics/next", l->n);
-    if (!a->saving && l->n > l->room) {
-        l->bond = memory_resize("statics.broken", l->bond, l->room, l->n, sizeof *l->bond);
-        l->room = l->n;
-    }
-    if (l->n > 0) TRY(a->exchange(a, "statics/bonds", l->bond, (size_t)l->n * sizeof *l->bond));
-    if (!a->saving) list_find(e, l);
-    return OK;
 }

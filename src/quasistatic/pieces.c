@@ -6,10 +6,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "pieces.h"
+#include "unknowns.h"
+
 #include "base/memory.h"
-#include "statics_internal.h"
-#include "mesh/mesh_part.h"
 #include "contact/contact.h"
+#include "mesh/mesh_part.h"
 
 enum { MODES_MOST = 6 };  /* rigid motions of a piece in space */
 #define HELD_LEAST 1e-9   /* resistance of a motion, over the largest, from which on it is held */
@@ -144,16 +146,6 @@ static void supports_resist(const struct run *e, struct candidate *of, const int
             for (int a = 0; a < m; a++) along[a] = u[a][d];
             resist(&of[piece[k]], m, along);
         }
-    }
-}
-
-void statics_image_signs(const struct run *e, int64_t i, real sign[DIM_MAX])
-{
-    for (int d = 0; d < DIM_MAX; d++) sign[d] = 1;
-    for (; i >= e->part.n; i = e->loads.image[i - e->part.n].source) {
-        const struct boundary *b = e->loads.load[e->loads.image[i - e->part.n].load].boundary;
-        for (int d = 0; d < e->part.dim; d++)
-            if (d == b->axis || b->hold_tangential) sign[d] = -sign[d];
     }
 }
 

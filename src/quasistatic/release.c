@@ -4,15 +4,19 @@
 #include <math.h>
 #include <string.h>
 
-#include "statics_internal.h"
-#include "rigid/rigid_part.h"
+#include "advance.h"
+#include "led.h"
+#include "springs.h"
+#include "system.h"
+
+#include "contact/contact.h"
+#include "grid/grid_part.h"
 #include "mesh/mesh_part.h"
 #include "probes/diagnostics.h"
-#include "grid/grid_part.h"
-#include "contact/contact.h"
-#include "step/step.h"
-#include "step/stability.h"
+#include "rigid/rigid_part.h"
 #include "step/sample.h"
+#include "step/stability.h"
+#include "step/step.h"
 
 #define CROSSINGS_QUIET 3.0   /* crossings of the body by waves, without a bond that breaks, to be quiet */
 #define CROSSINGS_DAMPED 40.0 /* the same, that damping may take at the most */

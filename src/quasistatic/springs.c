@@ -1,15 +1,17 @@
 /* Springs of bonds and cells as a matrix of blocks, and the preconditioner of load steps that is made of it. Models
  * with states are stiffer than their springs; equilibrium asks for their own forces, and the matrix only for how fast.
  */
-#include "statics_internal.h"
-
 #include <math.h>
 #include <string.h>
 
+#include "springs.h"
+#include "pieces.h"
+#include "unknowns.h"
+
 #include "base/memory.h"
-#include "solver/multigrid.h"
-#include "mesh/mesh_part.h"
 #include "contact/contact.h"
+#include "mesh/mesh_part.h"
+#include "solver/multigrid.h"
 
 /* The matrix while it is made: entries are counted first, then filled in. */
 struct springs {

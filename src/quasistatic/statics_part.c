@@ -1,7 +1,10 @@
 /* Load steps, as a part of a run. */
 #include <math.h>
 
-#include "statics_internal.h"
+#include "led.h"
+#include "steps_record.h"
+
+#include "quasistatic/load_steps.h"
 #include "run/part.h"
 #include "probes/diagnostics.h"
 #include "solver/solver.h"

@@ -2,7 +2,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "statics_internal.h"
+#include "steps_record.h"
+#include "led.h"
+#include "load_size.h"
+
 #include "fracture/fracture_part.h"
 #include "probes/diagnostics.h"
 
@@ -97,15 +100,6 @@ void statics_record(struct run *e, real *record)
     led_factors(e, record + COUNT_OF(own));
     led_place(e, place);
     array_copy(record + COUNT_OF(own) + MODES, place, e->part.dim < 3 ? 2 : 3, sizeof *place);
-}
-
-real engine_load_size(const struct run *e, real t) { return statics_load_size(e, t); }
-
-status engine_equilibrium_try(struct run *e, real t)
-{
-    statics_unknowns_make(e);
-    TRY(statics_go(e, t));
-    return statics_unheld(e);
 }
 
 void statics_record_keep(struct run *e)

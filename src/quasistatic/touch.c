@@ -6,8 +6,11 @@
  * forces on the way. */
 #include <math.h>
 
-#include "base/memory.h"
-#include "statics_internal.h"
+#include "touch.h"
+#include "pieces.h"
+#include "springs.h"
+#include "unknowns.h"
+
 #include "contact/contact.h"
 #include "rigid/rigid_part.h"
 #include "step/sample.h"
@@ -127,31 +130,4 @@ real statics_touch_end(struct run *e, real work, real lost)
     if (statics_touched(e)) q->lost = lost + work - (energy_here(e) - s->energy);
     s->touches = e->contact->touching > 0;
     return range;
-}
-
-real statics_rigid_way2(const struct run *e, real t)
-{
-    real sum = 0, way[DIM_MAX];
-    for (int k = 0; k < e->scene->rigids; k++) sum += square(rigid_shift(&e->rigid->body[k], t, way));
-    return sum;
-}
-
-/* ---- what a trial gives back ------------------------------------------------------------------------------------- */
-
-static status touch_archive(struct run *e, struct archive *a)
-{
-    for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_archive(&e->rigid->body[k], k, a));
-    return contact_archive(e->contact, &e->part, a);
-}
-
-void statics_touch_take(struct run *e, struct memory_archive *m)
-{
-    memory_archive_make(m);
-    if (statics_meets(e)) touch_archive(e, &m->archive);
-}
-
-void statics_touch_give(struct run *e, struct memory_archive *m)
-{
-    memory_archive_rewind(m);
-    if (statics_meets(e)) touch_archive(e, &m->archive);
 }

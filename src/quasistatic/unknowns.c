@@ -1,15 +1,12 @@
-/* Load steps: the unknowns of a body, and the forces on them. */
-#include "statics_internal.h"
-
+/* Load steps: the unknowns of a body, and what loads and supports do to them. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
+#include "unknowns.h"
+
 #include "base/memory.h"
-#include "base/team.h"
-#include "kernels/kernels.h"
-#include "mesh/mesh_part.h"
 #include "contact/contact.h"
+#include "mesh/mesh_part.h"
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
@@ -96,45 +93,19 @@ static void displacements_take(struct run *e)
                                                      : e->frame->mesh.displacement[d][s->node[k]];
 }
 
-/* Stiffness of the body at unit strain: sum E V [J]. */
-static real energy_at_unit_strain(const struct run *e)
-{
-    real sum = 0;
-    for (int64_t i = 0; i < e->part.n; i++) sum += e->scene->material[e->part.material[i]].young * e->part.volume0[i];
-    return sum;
-}
-
-static void statics_forces(void *context, const struct field *u, struct field *f);
-
-void statics_unknowns_make(struct run *e)
+void unknowns_list(struct run *e)
 {
     struct statics *s = e->statics;
     const struct mesh *mesh = &e->frame->mesh;
     const int64_t n = nodes_list(e, NULL, &s->particles), places = mesh->points > 0 ? mesh->grid.n : 0;
     int32_t *particle_at = BARE("statics.particle_at", e->part.n, int32_t);
     int32_t *node_at = BARE("statics.node_at", places, int32_t);
-    struct equilibrium kept = s->balance; /* its accounts go on */
     s->node = NEW("statics.node", n, int32_t);
     s->weight = NEW("statics.weight", n, real);
     s->load = NEW("statics.load", n * DIM_MAX, int16_t);
     nodes_list(e, s->node, &s->particles);
-    s->balance = (struct equilibrium){.force = statics_forces,
-                                      .precondition = statics_precondition,
-                                      .settle = statics_touch_settle,
-                                      .laws = statics_touch_laws,
-                                      .context = e,
-                                      .tolerance = e->scene->solver_tolerance,
-                                      .length = e->scene->spacing,
-                                      .unit_energy = energy_at_unit_strain(e),
-                                      .kinked = e->part.relief[0] != NULL,
-                                      .forces = kept.forces,
-                                      .directions = kept.directions,
-                                      .lost = kept.lost,
-                                      .largest = kept.largest};
     equilibrium_make(&s->balance, e->part.dim, n);
-    for (int d = 0; d < e->part.dim; d++) {
-        s->way.of[d] = NEW("statics.way", n, real);
-    }
+    for (int d = 0; d < e->part.dim; d++) s->way.of[d] = NEW("statics.way", n, real);
     array_fill_bytes(particle_at, -1, e->part.n, sizeof *particle_at);
     array_fill_bytes(node_at, -1, places, sizeof *node_at);
     for (int64_t k = 0; k < n; k++) {
@@ -145,20 +116,14 @@ void statics_unknowns_make(struct run *e)
     particles_on_mirrors(e);
     supports_hold(e, particle_at, node_at);
     displacements_take(e);
-    statics_pieces_make(e);
-    statics_plastic_keep(e);
     memory_free(particle_at);
     memory_free(node_at);
 }
 
-void statics_unknowns_free(struct run *e)
+void unknowns_unlist(struct run *e)
 {
     struct statics *s = e->statics;
-    const struct equilibrium kept = s->balance;
-    statics_pieces_free(e);
     equilibrium_free(&s->balance);
-    s->balance.forces = kept.forces, s->balance.directions = kept.directions, s->balance.lost = kept.lost;
-    s->balance.largest = kept.largest;
     memory_free(s->node);
     memory_free(s->weight);
     memory_free(s->load);
@@ -167,56 +132,20 @@ void statics_unknowns_free(struct run *e)
     s->way = (struct field){{0}};
 }
 
-void statics_free(struct run *e)
-{
-    struct statics *s = e->statics;
-    statics_precondition_free(e);
-    statics_unknowns_free(e);
-    for (int d = 0; d < DIM_MAX; d++) memory_free(s->applied[d]), s->applied[d] = NULL;
-    for (int k = 0; k < PLASTIC_MOST; k++) memory_free(s->plastic[k]), s->plastic[k] = NULL;
-    memory_free(s->next.bond);
-    s->next = (struct break_list){0};
-}
+/* ---- where nodes are --------------------------------------------------------------------------------------------- */
 
-status statics_archive(struct run *e, struct archive *a)
+void statics_node_place(const struct run *e, int64_t k, real *X)
 {
-    struct statics *s = e->statics;
-    struct equilibrium *q = &s->balance;
-    if (!scene_in_steps(e->scene)) return OK;
-    if (!a->saving || !s->node) statics_unknowns_free(e), statics_unknowns_make(e);
-    for (int d = 0; d < e->part.dim; d++) {
-        char name[48];
-        snprintf(name, sizeof name, "statics/u%d", d);
-        TRY(a->exchange(a, name, q->u.of[d], (size_t)q->n * sizeof(real)));
-        snprintf(name, sizeof name, "statics/f%d", d);
-        TRY(a->exchange(a, name, q->f.of[d], (size_t)q->n * sizeof(real)));
+    const struct mesh *mesh = &e->frame->mesh;
+    const int32_t i = e->statics->node[k];
+    if (k < e->statics->particles) {
+        particle_place(&e->part, i, X);
+        return;
     }
-    ARCHIVE_VALUE(a, "statics/t", s->t);
-    ARCHIVE_VALUE(a, "statics/touches", s->touches);
-    ARCHIVE_VALUE(a, "statics/overload", s->overload);
-    ARCHIVE_VALUE(a, "statics/released_time", s->released_time);
-    ARCHIVE_VALUE(a, "statics/due", s->due);
-    ARCHIVE_VALUE(a, "statics/advances", s->advances);
-    ARCHIVE_VALUE(a, "statics/ahead", s->ahead);
-    ARCHIVE_VALUE(a, "statics/behind", s->behind);
-    TRY(statics_list_archive(e, a));
-    TRY(led_archive(e, a));
-    ARCHIVE_VALUE(a, "statics/lost", q->lost);
-    ARCHIVE_VALUE(a, "statics/largest", q->largest);
-    ARCHIVE_VALUE(a, "statics/strain_ratio", q->strain_ratio);
-    ARCHIVE_VALUE(a, "statics/noise", q->noise);
-    s->kept = s->precondition && !s->stale;
-    ARCHIVE_VALUE(a, "statics/kept", s->kept);
-    ARCHIVE_VALUE(a, "statics/forces", q->forces);
-    ARCHIVE_VALUE(a, "statics/directions", q->directions);
-    ARCHIVE_VALUE(a, "statics/solutions", s->solutions);
-    ARCHIVE_VALUE(a, "statics/record", s->record);
-    e->clock.load_step = s->record.step;
-    if (!a->saving) statics_applied_make(e, e->statics->t), statics_plastic_keep(e);
-    return OK;
+    const int64_t at = mesh_base(mesh, i);
+    for (int d = 0; d < e->part.dim; d++)
+        X[d] = grid_position(&mesh->grid, d, at / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
-
-/* ---- forces ------------------------------------------------------------------------------------------------------ */
 
 void statics_place(struct run *e, const struct field *u)
 {
@@ -237,98 +166,74 @@ void statics_place(struct run *e, const struct field *u)
     }
 }
 
-/* Forces of nodes beyond planes of symmetry belong to their images. */
-static void mirror_nodes_give(struct mesh *mesh)
+void statics_image_signs(const struct run *e, int64_t i, real sign[DIM_MAX])
 {
-    for (int64_t k = 0; k < mesh->grid.mirror_nodes; k++) {
-        const struct mirror_node *m = &mesh->grid.mirror_node[k];
-        for (int d = 0; d < mesh->grid.dim && mesh->grid.mass[m->node] > 0; d++)
-            mesh->grid.force[d][m->image] += m->sign[d] * mesh->grid.force[d][m->node];
+    for (int d = 0; d < DIM_MAX; d++) sign[d] = 1;
+    for (; i >= e->part.n; i = e->loads.image[i - e->part.n].source) {
+        const struct boundary *b = e->loads.load[e->loads.image[i - e->part.n].load].boundary;
+        for (int d = 0; d < e->part.dim; d++)
+            if (d == b->axis || b->hold_tangential) sign[d] = -sign[d];
     }
 }
 
-/* The arrays of what yields, and how many bytes they are; returns their number. */
-static int plastic_state(const struct run *e, real *array[PLASTIC_MOST], size_t size[PLASTIC_MOST])
+/* ---- loads and supports ------------------------------------------------------------------------------------------ */
+
+/* Applied forces at t, into `applied` [dim][particles of the body]. */
+void statics_applied_make(struct run *e, real t)
 {
     const struct particles *p = &e->part;
-    real *const of_bonds[] = {e->bonds.plastic_stretch, e->bonds.plastic_path};
-    real *const of_points[] = {p->plastic_strain, p->out_of_plane};
-    int n = 0;
-    for (int k = 0; k < 2; k++)
-        if (of_bonds[k]) size[n] = (size_t)(e->bonds.columns * LANES) * sizeof(real), array[n++] = of_bonds[k];
-    for (int k = 0; k < 2 && p->relief[0]; k++)
-        if (of_points[k]) size[n] = (size_t)p->n * sizeof(real), array[n++] = of_points[k];
-    for (int k = 0; k < symmetric_count(p->dim) && p->relief[0]; k++)
-        size[n] = (size_t)p->n * sizeof(real), array[n++] = p->relief[k];
-    return n;
-}
-
-void statics_plastic_restore(struct run *e)
-{
-    real *array[PLASTIC_MOST];
-    size_t size[PLASTIC_MOST];
-    const int n = plastic_state(e, array, size);
-    for (int k = 0; k < n && e->statics->plastic[k]; k++) array_copy(array[k], e->statics->plastic[k], 1, size[k]);
-}
-
-void statics_plastic_keep(struct run *e)
-{
-    struct statics *s = e->statics;
-    real *array[PLASTIC_MOST];
-    size_t size[PLASTIC_MOST];
-    const int n = plastic_state(e, array, size);
-    for (int k = 0; k < n; k++) {
-        memory_free(s->plastic[k]);
-        s->plastic[k] = BARE("statics.plastic", (int64_t)(size[k] / sizeof(real)), real);
-        array_copy(s->plastic[k], array[k], 1, size[k]);
+    for (int d = 0; d < p->dim; d++) {
+        if (!e->statics->applied[d]) e->statics->applied[d] = NEW("statics.applied", p->n, real);
+        array_fill_bytes(e->statics->applied[d], 0, p->n, sizeof(real));
     }
-}
-
-static void applied_add(struct run *e)
-{
-    struct particles *p = &e->part;
-    for (int b = 0; b < e->loads.n && e->statics->applied[0]; b++) {
+    for (int b = 0; b < e->loads.n; b++) {
         const struct load *l = &e->loads.load[b];
-        if (!boundary_is_force(l->boundary) || l->leader != b) continue;
-        for (int d = 0; d < p->dim; d++)
-            for (int64_t k = 0; k < l->n; k++) p->f[d][l->particle[k]] += e->statics->applied[d][l->particle[k]];
+        for (int64_t k = 0; boundary_is_force(l->boundary) && k < l->n; k++) {
+            real force[DIM_MAX];
+            load_force_at(l, p, k, t, force);
+            for (int d = 0; d < p->dim; d++) e->statics->applied[d][l->particle[k]] += force[d];
+        }
     }
 }
 
-/* The forces of a step (step.c) without motion: of bonds, contact, loads and cells. */
-static void forces_here(struct run *e)
+/* Norm of applied forces on free components of particles, on points of the mesh that nothing drives, and of what rigid
+ * bodies push [N]. */
+real statics_applied_norm(const struct run *e)
 {
-    const bool has_mesh = e->frame->mesh.points > 0;
-    if (has_mesh) {
-        mesh_exposed_move(&e->frame->mesh, &e->part);
-        mesh_ends_update(&e->frame->mesh, &e->part, !e->scene->small_strain);
-    }
-    loads_mirror(&e->loads, &e->part);
-    loads_clear(&e->loads, &e->part);
-    statics_plastic_restore(e); /* whatever has been tried since the last equilibrium */
-    bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
-    contact_force(e->contact, &e->part, 0);
-    applied_add(e);
-    if (has_mesh) frame_force(e), mirror_nodes_give(&e->frame->mesh);
-}
-
-static void statics_forces(void *context, const struct field *u, struct field *f)
-{
-    struct run *e = context;
     const struct statics *s = e->statics;
-    statics_place(e, u);
-    forces_here(e);
-    for (int d = 0; d < e->part.dim; d++) {
-        const real *part = e->part.f[d], *node = e->frame->mesh.grid.force[d];
-#pragma omp parallel for schedule(static)
-        for (int64_t k = 0; k < s->balance.n; k++)
-            f->of[d][k] = k < s->particles ? s->weight[k] * part[s->node[k]] : node[s->node[k]];
+    const struct particles *p = &e->part;
+    real sum = 0;
+    for (int d = 0; d < p->dim; d++) {
+        for (int64_t k = 0; k < s->particles; k++)
+            if (!(s->balance.held[k] >> d & 1)) sum += square(s->weight[k] * s->applied[d][s->node[k]]);
+        for (int64_t i = 0; i < p->n; i++)
+            if (p->kind[i] != KIND_PD && !(p->flag[i] & FLAG_DRIVEN)) sum += square(s->applied[d][i]);
     }
-    statics_pieces_hold(e, f);
+    return hypot(sqrt(sum), contact_rigid_norm(e->contact, p));
 }
 
-void statics_flow(struct run *e)
+/* Books the forces of supports and loads, and their displacements. */
+void statics_react(struct run *e)
 {
-    statics_place(e, &e->statics->balance.u);
-    if (e->statics->plastic[0]) forces_here(e);
+    const struct statics *s = e->statics;
+    for (int b = 0; b < e->loads.n; b++) {
+        struct load *l = &e->loads.load[b];
+        if (boundary_is_force(l->boundary)) load_applied_sum(l, &e->part, e->statics->t);
+        if (l->boundary->kind != BOUNDARY_VELOCITY) continue;
+        const struct displacing by = displacing_make(l->boundary, e->part.dim, e->statics->t);
+        memset(l->reaction, 0, sizeof l->reaction);
+        for (int d = 0; d < e->part.dim; d++) {
+            real sum = 0, X[DIM_MAX] = {0};
+            if (!(l->boundary->components >> d & 1)) continue;
+            for (int64_t q = 0; q < l->n; q++)
+                particle_place(&e->part, l->particle[q], X), sum += displacing_at(&by, X, d);
+            l->displacement[d] = l->n > 0 ? sum / (real)l->n : 0;
+        }
+    }
+    for (int64_t k = 0; k < s->balance.n; k++)
+        for (int d = 0; d < e->part.dim; d++) {
+            const int load = s->load[k * DIM_MAX + d];
+            if (load >= 0) e->loads.load[load].reaction[d] -= s->balance.f.of[d][k] / s->weight[k];
+        }
 }
+

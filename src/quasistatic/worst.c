@@ -1,7 +1,12 @@
 /* Load steps before they are made: the load times at which loads are worst, and how near bonds come to their limits. */
 #include <math.h>
 
-#include "statics_internal.h"
+#include "balance.h"
+#include "pieces.h"
+#include "system.h"
+
+#include "quasistatic/load_steps.h"
+#include "quasistatic/statics.h"
 #include "rigid/rigid_part.h"
 
 #define SIDEWAYS 1e-3 /* share of the largest loads from which others are no round-off */
@@ -79,6 +84,13 @@ static void look_all(const struct run *e, look_fn *look, struct worst *worst, st
         for (int k = 0; k < f->n; k++)
             if (f->t[k] > 0 && f->t[k] < end) look(e, f->t[k], worst, found);
     }
+}
+
+status engine_equilibrium_try(struct run *e, real t)
+{
+    statics_unknowns_make(e);
+    TRY(statics_go(e, t));
+    return statics_unheld(e);
 }
 
 /* The equilibrium at load time t: keeps it if bonds are nearer to their limits than so far. */

@@ -22,7 +22,7 @@
 
 #include "coupling/conversion.h"
 #include "output/output.h"
-#include "src/quasistatic/statics_internal.h"
+#include "src/quasistatic/overload.h"
 
 const char *const fault_name[FAULT_CALLS] = {
     "own malloc", "own open", "own read", "own write", "own fsync",  "own close", "own rename", "own mkdir",

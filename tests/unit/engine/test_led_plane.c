@@ -11,10 +11,10 @@
 #include "base/memory.h"
 #include "engine/engine.h"
 #include "fracture/sif_fields.h"
-#include "src/quasistatic/statics_internal.h"
+#include "src/quasistatic/led.h"
+#include "src/quasistatic/steps_record.h"
 #include "step/report.h"
 #include "scene/scene_read.h"
-#include "src/quasistatic/statics_internal.h"
 
 struct solution {
     struct scene s;

@@ -9,7 +9,12 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "src/quasistatic/statics_internal.h"
+#include "quasistatic/load_steps.h"
+#include "quasistatic/statics.h"
+#include "src/quasistatic/advance.h"
+#include "src/quasistatic/balance.h"
+#include "src/quasistatic/system.h"
+#include "src/quasistatic/toughness.h"
 #include "tests/support/solution.h"
 #include "step/report.h"
 #include "probes/diagnostics.h"

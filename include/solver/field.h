@@ -1,0 +1,10 @@
+/* Vectors of all unknowns of a solver. */
+#ifndef CLEAVE_FIELD
+#define CLEAVE_FIELD
+
+#include "base/base.h"
+
+/* One vector for each particle or node: of[d][k] is component d of number k. */
+struct field { real *of[DIM_MAX]; };
+
+#endif

@@ -1,0 +1,74 @@
+/* Size of the loads, as one number that scales with them, and the size at which crack increments balance. */
+#include <math.h>
+
+#include "load_size.h"
+
+#include "quasistatic/load_steps.h"
+#include "rigid/rigid_part.h"
+
+/* ---- size of loads ----------------------------------------------------------------------------------------------- */
+
+/* Square of the way of rigid bodies up to t [m^2]. */
+static real rigid_way2(const struct rigid_set *r, int n, real t)
+{
+    real sum = 0, way[DIM_MAX];
+    for (int k = 0; k < n; k++) sum += square(rigid_shift(&r->body[k], t, way));
+    return sum;
+}
+
+/* Sum of squares of what supports and rigid bodies go up to t; where they do not move, of applied forces. */
+real statics_load_size(const struct run *e, real t)
+{
+    real sum = 0, forces = 0;
+    for (int b = 0; b < e->loads.n; b++) {
+        const struct load *l = &e->loads.load[b];
+        const struct displacing by = displacing_make(l->boundary, e->part.dim, t);
+        for (int64_t k = 0; k < l->n; k++) {
+            real X[DIM_MAX], f[DIM_MAX];
+            particle_place(&e->part, l->particle[k], X);
+            for (int d = 0; d < e->part.dim && l->boundary->kind == BOUNDARY_VELOCITY; d++)
+                if (l->boundary->components >> d & 1) sum += square(displacing_at(&by, X, d));
+            if (!boundary_is_force(l->boundary)) continue;
+            load_force_at(l, &e->part, k, t, f);
+            forces += dot(f, f, e->part.dim);
+        }
+    }
+    sum += rigid_way2(e->rigid, e->scene->rigids, t);
+    return sqrt(sum > 0 ? sum : forces);
+}
+
+enum { SECANTS_MOST = 30 };
+
+real statics_time_of_size(const struct run *e, real size)
+{
+    real from = e->statics->t, at_from = statics_load_size(e, from);
+    real t = at_from > 0 ? from * size / at_from : from;
+    for (int k = 0; k < SECANTS_MOST; k++) {
+        const real at = statics_load_size(e, t), slope = (at - at_from) / (t - from);
+        if (fabs(at - size) <= 1e-9 * size || !(slope != 0) || t == from) return t;
+        from = t, at_from = at;
+        t = real_max(0, from + (size - at) / slope);
+    }
+    return t;
+}
+
+real engine_load_size(const struct run *e, real t) { return statics_load_size(e, t); }
+
+/* ---- crack increments -------------------------------------------------------------------------------------------- */
+
+real statics_released(const struct run *e) { return bonds_fracture_energy(&e->bonds) + e->statics->balance.lost; }
+
+real size_of_balance(const struct advance *a, const struct advance *b)
+{
+    const real release = a->release + b->release;
+    return a->cost > 0 && release > 0 ? sqrt((a->cost + b->cost) / release) : INFINITY;
+}
+
+real size_of_advance(const struct advance *a) { return size_of_balance(a, &(struct advance){0}); }
+
+struct advance advance_before(const struct advance *first, const struct advance *second)
+{
+    const real rate = first->release / first->cost, growth = second->release / second->cost - rate;
+    const real release = first->release - 2 * growth * square(first->cost) / (first->cost + second->cost);
+    return (struct advance){first->cost, real_max(0, release)};
+}

@@ -1,0 +1,87 @@
+/* Load steps: their state in checkpoints. */
+#include <stdio.h>
+
+#include "system.h"
+#include "trial.h"
+#include "unknowns.h"
+
+#include "base/memory.h"
+#include "quasistatic/load_steps.h"
+
+/* Finds the bonds of a list by their particles: rows have been made anew. */
+static void list_find(const struct run *e, struct break_list *l)
+{
+    for (int64_t k = 0; k < l->n; k++) {
+        struct broken_bond *record = &l->bond[k];
+        record->row = e->bonds.row_of[record->i];
+        for (struct bond_iterator it = bonds_of_row(&e->bonds, record->row); bond_next(&it);)
+            if (it.bond.nbr == record->j && it.bond.w != 0) record->entry = it.bond.entry, record->w = it.bond.w;
+    }
+}
+
+static status statics_list_archive(struct run *e, struct archive *a)
+{
+    struct break_list *l = &e->statics->next;
+    ARCHIVE_VALUE(a, "statics/next", l->n);
+    if (!a->saving && l->n > l->room) {
+        l->bond = memory_resize("statics.broken", l->bond, l->room, l->n, sizeof *l->bond);
+        l->room = l->n;
+    }
+    if (l->n > 0) TRY(a->exchange(a, "statics/bonds", l->bond, (size_t)l->n * sizeof *l->bond));
+    if (!a->saving) list_find(e, l);
+    return OK;
+}
+
+static status led_archive(struct run *e, struct archive *a)
+{
+    struct led *l = &e->statics->led;
+    ARCHIVE_VALUE(a, "statics/led", l->known);
+    ARCHIVE_VALUE(a, "statics/led_n", l->n);
+    ARCHIVE_VALUE(a, "statics/led_tips", l->tip);
+    ARCHIVE_VALUE(a, "statics/led_tried", l->tried);
+    ARCHIVE_VALUE(a, "statics/led_stretches", l->stretches);
+    if (!a->saving && l->stretches > 0) {
+        memory_free(l->path);
+        l->room = l->stretches;
+        l->path = NEW("led.path", l->room, struct led_stretch);
+    }
+    return l->stretches > 0 ? a->exchange(a, "statics/led_path", l->path, (size_t)l->stretches * sizeof *l->path) : OK;
+}
+
+status statics_archive(struct run *e, struct archive *a)
+{
+    struct statics *s = e->statics;
+    struct equilibrium *q = &s->balance;
+    if (!scene_in_steps(e->scene)) return OK;
+    if (!a->saving || !s->node) statics_unknowns_free(e), statics_unknowns_make(e);
+    for (int d = 0; d < e->part.dim; d++) {
+        char name[48];
+        snprintf(name, sizeof name, "statics/u%d", d);
+        TRY(a->exchange(a, name, q->u.of[d], (size_t)q->n * sizeof(real)));
+        snprintf(name, sizeof name, "statics/f%d", d);
+        TRY(a->exchange(a, name, q->f.of[d], (size_t)q->n * sizeof(real)));
+    }
+    ARCHIVE_VALUE(a, "statics/t", s->t);
+    ARCHIVE_VALUE(a, "statics/touches", s->touches);
+    ARCHIVE_VALUE(a, "statics/overload", s->overload);
+    ARCHIVE_VALUE(a, "statics/released_time", s->released_time);
+    ARCHIVE_VALUE(a, "statics/due", s->due);
+    ARCHIVE_VALUE(a, "statics/advances", s->advances);
+    ARCHIVE_VALUE(a, "statics/ahead", s->ahead);
+    ARCHIVE_VALUE(a, "statics/behind", s->behind);
+    TRY(statics_list_archive(e, a));
+    TRY(led_archive(e, a));
+    ARCHIVE_VALUE(a, "statics/lost", q->lost);
+    ARCHIVE_VALUE(a, "statics/largest", q->largest);
+    ARCHIVE_VALUE(a, "statics/strain_ratio", q->strain_ratio);
+    ARCHIVE_VALUE(a, "statics/noise", q->noise);
+    s->kept = s->precondition && !s->stale;
+    ARCHIVE_VALUE(a, "statics/kept", s->kept);
+    ARCHIVE_VALUE(a, "statics/forces", q->forces);
+    ARCHIVE_VALUE(a, "statics/directions", q->directions);
+    ARCHIVE_VALUE(a, "statics/solutions", s->solutions);
+    ARCHIVE_VALUE(a, "statics/record", s->record);
+    e->clock.load_step = s->record.step;
+    if (!a->saving) statics_applied_make(e, e->statics->t), statics_plastic_keep(e);
+    return OK;
+}

@@ -1,0 +1,128 @@
+/* Load steps: the system of equations: unknowns, the forces on them, what contact does between solutions, and the
+ * preconditioner. */
+#include "system.h"
+#include "pieces.h"
+#include "springs.h"
+#include "touch.h"
+#include "trial.h"
+#include "unknowns.h"
+
+#include "base/memory.h"
+#include "contact/contact.h"
+#include "kernels/kernels.h"
+#include "mesh/mesh_part.h"
+#include "quasistatic/load_steps.h"
+
+/* ---- forces ------------------------------------------------------------------------------------------------------ */
+
+/* Forces of nodes beyond planes of symmetry belong to their images. */
+static void mirror_nodes_give(struct mesh *mesh)
+{
+    for (int64_t k = 0; k < mesh->grid.mirror_nodes; k++) {
+        const struct mirror_node *m = &mesh->grid.mirror_node[k];
+        for (int d = 0; d < mesh->grid.dim && mesh->grid.mass[m->node] > 0; d++)
+            mesh->grid.force[d][m->image] += m->sign[d] * mesh->grid.force[d][m->node];
+    }
+}
+
+static void applied_add(struct run *e)
+{
+    struct particles *p = &e->part;
+    for (int b = 0; b < e->loads.n && e->statics->applied[0]; b++) {
+        const struct load *l = &e->loads.load[b];
+        if (!boundary_is_force(l->boundary) || l->leader != b) continue;
+        for (int d = 0; d < p->dim; d++)
+            for (int64_t k = 0; k < l->n; k++) p->f[d][l->particle[k]] += e->statics->applied[d][l->particle[k]];
+    }
+}
+
+/* The forces of a step (step.c) without motion: of bonds, contact, loads and cells. */
+static void forces_here(struct run *e)
+{
+    const bool has_mesh = e->frame->mesh.points > 0;
+    if (has_mesh) {
+        mesh_exposed_move(&e->frame->mesh, &e->part);
+        mesh_ends_update(&e->frame->mesh, &e->part, !e->scene->small_strain);
+    }
+    loads_mirror(&e->loads, &e->part);
+    loads_clear(&e->loads, &e->part);
+    statics_plastic_restore(e); /* whatever has been tried since the last equilibrium */
+    bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
+    contact_force(e->contact, &e->part, 0);
+    applied_add(e);
+    if (has_mesh) frame_force(e), mirror_nodes_give(&e->frame->mesh);
+}
+
+static void statics_forces(void *context, const struct field *u, struct field *f)
+{
+    struct run *e = context;
+    const struct statics *s = e->statics;
+    statics_place(e, u);
+    forces_here(e);
+    for (int d = 0; d < e->part.dim; d++) {
+        const real *part = e->part.f[d], *node = e->frame->mesh.grid.force[d];
+#pragma omp parallel for schedule(static)
+        for (int64_t k = 0; k < s->balance.n; k++)
+            f->of[d][k] = k < s->particles ? s->weight[k] * part[s->node[k]] : node[s->node[k]];
+    }
+    statics_pieces_hold(e, f);
+}
+
+void statics_flow(struct run *e)
+{
+    statics_place(e, &e->statics->balance.u);
+    if (e->statics->plastic[0]) forces_here(e);
+}
+
+/* ---- unknowns ---------------------------------------------------------------------------------------------------- */
+
+/* Stiffness of the body at unit strain: sum E V [J]. */
+static real energy_at_unit_strain(const struct particles *p, const struct material *material)
+{
+    real sum = 0;
+    for (int64_t i = 0; i < p->n; i++) sum += material[p->material[i]].young * p->volume0[i];
+    return sum;
+}
+
+void statics_unknowns_make(struct run *e)
+{
+    struct statics *s = e->statics;
+    const struct equilibrium kept = s->balance; /* its accounts go on */
+    s->balance = (struct equilibrium){.force = statics_forces,
+                                      .precondition = statics_precondition,
+                                      .settle = statics_touch_settle,
+                                      .laws = statics_touch_laws,
+                                      .context = e,
+                                      .tolerance = e->scene->solver_tolerance,
+                                      .length = e->scene->spacing,
+                                      .unit_energy = energy_at_unit_strain(&e->part, e->scene->material),
+                                      .kinked = e->part.relief[0] != NULL,
+                                      .forces = kept.forces,
+                                      .directions = kept.directions,
+                                      .lost = kept.lost,
+                                      .largest = kept.largest};
+    unknowns_list(e);
+    statics_pieces_make(e);
+    statics_plastic_keep(e);
+}
+
+void statics_unknowns_free(struct run *e)
+{
+    struct statics *s = e->statics;
+    const struct equilibrium kept = s->balance;
+    statics_pieces_free(e);
+    unknowns_unlist(e);
+    s->balance.forces = kept.forces, s->balance.directions = kept.directions, s->balance.lost = kept.lost;
+    s->balance.largest = kept.largest;
+}
+
+void statics_free(struct run *e)
+{
+    struct statics *s = e->statics;
+    statics_precondition_free(e);
+    statics_unknowns_free(e);
+    for (int d = 0; d < DIM_MAX; d++) memory_free(s->applied[d]), s->applied[d] = NULL;
+    for (int k = 0; k < PLASTIC_MOST; k++) memory_free(s->plastic[k]), s->plastic[k] = NULL;
+    memory_free(s->next.bond);
+    s->next = (struct break_list){0};
+}

@@ -1,0 +1,17 @@
+/* The system of equations of load steps: the unknowns, and the forces on them. */
+#ifndef CLEAVE_SYSTEM
+#define CLEAVE_SYSTEM
+
+#include "run/run.h"
+
+/* Makes the system of the present particles and nodes at their present displacements. The counters and losses of a
+ * former system are kept. */
+void statics_unknowns_make(struct run *e);
+
+/* Frees the system; its counters and losses stay. To be called before statics_unknowns_make after a conversion. */
+void statics_unknowns_free(struct run *e);
+
+/* Moves particles and nodes to the equilibrium that has been found, and updates their plastic state. */
+void statics_flow(struct run *e);
+
+#endif
