@@ -1,4 +1,4 @@
-/* An archive (base/archive.h) that keeps state in memory: what a trial has to give back. */
+/* An archive (base/archive.h) that keeps state in memory. */
 #ifndef CLEAVE_MEMORY_ARCHIVE
 #define CLEAVE_MEMORY_ARCHIVE
 
@@ -12,10 +12,13 @@ struct memory_archive {
     struct memory_entry *entry;          /* [n] in the order in which they came */
 };
 
-/* An empty archive, to save into. Address: that of `archive` alone. */
-void memory_archive_make(struct memory_archive *m);
-/* From here on it gives back what it has, in the order in which it came. */
+/* Initialises an empty archive to save into. Functions of state receive &m->archive. */
+void memory_archive_make(struct memory_archive *m, enum archive_scope scope);
+
+/* Turns a saved archive to restoring, from its first entry; it can be restored any number of times. */
 void memory_archive_rewind(struct memory_archive *m);
+
+/* Frees the entries. Does nothing if there are none. */
 void memory_archive_free(struct memory_archive *m);
 
 #endif

@@ -63,7 +63,8 @@ real bonds_critical_step_made(const struct bonds *b, const struct particles *p);
  * in this one, -1: not in it. Both sets have all neighbours of peridynamic particles. */
 void bonds_take(struct bonds *b, struct particles *p, const struct bonds *old, const struct particles *was,
                 const int32_t *now);
-/* Archives what load has broken; all else is made anew. */
+/* Saves or restores what load has broken and the plastic state; all else is made anew. In a trial: the plastic state
+ * of the bonds, without the work of those that are broken. */
 status bonds_archive(struct bonds *b, struct particles *p, struct archive *a);
 
 /* Q of what a row has left, bond by bond: a difference would leave round-off for the last of them [m^2]. */

@@ -11,6 +11,7 @@
 
 #include <math.h>
 
+#include "base/archive.h"
 #include "base/base.h"
 #include "material.h"
 
@@ -136,12 +137,16 @@ struct particle_field {
     const char *name, *unit, *meaning;
     size_t offset, size;                 /* of the (first) array pointer in struct particles; entry */
     int (*count)(int dim, int optional);
+    bool in_trials;                      /* part of ARCHIVE_TRIAL: plastic state */
 };
 extern const struct particle_field particle_fields[];
 extern const int particle_fields_count;
 
 /* Component array k of a field. */
 void *particle_array(const struct particles *p, const struct particle_field *f, int k);
+
+/* Saves or restores the fields of all particles, images included; in a trial, their plastic state. */
+status particles_archive(struct particles *p, int optional, struct archive *a);
 
 /* Reference position of particle i [m]. */
 static inline void particle_place(const struct particles *p, int64_t i, real *X)

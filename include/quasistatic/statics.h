@@ -5,6 +5,7 @@
 #ifndef CLEAVE_STATICS
 #define CLEAVE_STATICS
 
+#include "base/memory_archive.h"
 #include "data/region.h"
 #include "solver/equilibrium.h"
 
@@ -87,9 +88,6 @@ struct free_piece {
     real *motion;
 };
 
-/* Arrays of what yields: stretch and path of bonds; strain, stress across and relief of points. */
-enum { PLASTIC_MOST = 4 + SYM_MAX };
-
 /* State of a body between two load steps, and what equilibrium works on. Nodes of the unknowns are the peridynamic
  * particles, then the nodes of the mesh. */
 struct statics {
@@ -105,7 +103,7 @@ struct statics {
     struct block_matrix *matrix;         /* springs of bonds and cells, for the preconditioner */
     struct multigrid *precondition;
     int64_t directions;                  /* that the first solution with it took; 0: none yet */
-    real *plastic[PLASTIC_MOST];         /* what yields, at the last equilibrium (plastic_state); NULL: no more */
+    struct memory_archive plastic;       /* plastic state at the last equilibrium (system.c) */
     real t;                              /* pseudo-time of loads and supports [s] */
     real overload;                       /* largest stretch over its limit of the last equilibrium [1] */
     struct break_list next;              /* bonds of the next advance; none: it has not been looked for */

@@ -1,8 +1,7 @@
 /* State in memory. */
 #include "base/memory_archive.h"
 
-#include <string.h>
-
+#include "base/arrays.h"
 #include "base/memory.h"
 
 static status exchange(struct archive *a, const char *name, void *data, size_t size)
@@ -12,12 +11,12 @@ static status exchange(struct archive *a, const char *name, void *data, size_t s
         GROW("archive.entries", m->entry, m->n + 1);
         struct memory_entry *to = &m->entry[m->n++];
         *to = (struct memory_entry){memory_bare("archive.entry", (int64_t)size, 1), size};
-        memcpy(to->data, data, size);
+        array_copy(to->data, data, (int64_t)size, 1);
         return OK;
     }
     if (m->next >= m->n || m->entry[m->next].size != size)
         return status_set(FAILED, "%s: what was kept of it has another size", name);
-    memcpy(data, m->entry[m->next++].data, size);
+    array_copy(data, m->entry[m->next++].data, (int64_t)size, 1);
     return OK;
 }
 
@@ -28,9 +27,10 @@ static int64_t stored_size(struct archive *a, const char *name)
     return m->next < m->n ? (int64_t)m->entry[m->next].size : -1;
 }
 
-void memory_archive_make(struct memory_archive *m)
+void memory_archive_make(struct memory_archive *m, enum archive_scope scope)
 {
-    *m = (struct memory_archive){.archive = {.saving = true, .exchange = exchange, .stored_size = stored_size}};
+    *m = (struct memory_archive){
+        .archive = {.saving = true, .exchange = exchange, .stored_size = stored_size, .scope = scope}};
 }
 
 void memory_archive_rewind(struct memory_archive *m) { m->archive.saving = false, m->next = 0; }

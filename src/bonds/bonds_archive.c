@@ -39,15 +39,18 @@ static status weights_archive(struct bonds *b, struct archive *a)
 
 status bonds_archive(struct bonds *b, struct particles *p, struct archive *a)
 {
-    size_t padded = (size_t)(b->row_blocks * LANES);
-    TRY(weights_archive(b, a));
-    b->clamped.stale = true;
+    const size_t padded = (size_t)(b->row_blocks * LANES), stored = (size_t)b->columns * LANES * sizeof(real);
+    const bool whole = a->scope == ARCHIVE_ALL;
+    if (whole) {
+        TRY(weights_archive(b, a));
+        b->clamped.stale = true;
+    }
     if (b->plastic_stretch) {
-        size_t stored = (size_t)b->columns * LANES * sizeof(real);
         TRY(a->exchange(a, "bonds/plastic_stretch", b->plastic_stretch, stored));
         TRY(a->exchange(a, "bonds/plastic_path", b->plastic_path, stored));
-        TRY(a->exchange(a, "bonds/plastic_work", b->plastic_work, padded * sizeof *b->plastic_work));
+        if (whole) TRY(a->exchange(a, "bonds/plastic_work", b->plastic_work, padded * sizeof *b->plastic_work));
     }
+    if (!whole) return OK;
     TRY(a->exchange(a, "bonds/broken_volume", b->broken_volume, padded * sizeof *b->broken_volume));
     TRY(a->exchange(a, "bonds/fracture_energy", b->fracture_energy, padded * sizeof *b->fracture_energy));
     TRY(a->exchange(a, "bonds/broken", b->broken, padded * sizeof *b->broken));

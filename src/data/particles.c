@@ -2,6 +2,7 @@
 #include "data/particles.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,8 +23,10 @@ static int if_strength(int dim, int optional) { return (void)dim, optional & WIT
 static int if_relief(int dim, int optional) { return optional & WITH_RELIEF ? symmetric_count(dim) : 0; }
 static int if_return(int dim, int optional) { return (void)dim, optional & WITH_REVERSION ? 1 : 0; }
 
-#define FIELD(member, type, count, unit, meaning) \
-    {#member, unit, meaning, offsetof(struct particles, member), sizeof(type), count}
+#define ROW(member, type, count, unit, meaning, in_trials) \
+    {#member, unit, meaning, offsetof(struct particles, member), sizeof(type), count, in_trials}
+#define FIELD(member, type, count, unit, meaning) ROW(member, type, count, unit, meaning, false)
+#define TRIAL(member, type, count, unit, meaning) ROW(member, type, count, unit, meaning, true)
 
 const struct particle_field particle_fields[] = {
     FIELD(X, real, vector, "m", "reference position"),
@@ -36,9 +39,9 @@ const struct particle_field particle_fields[] = {
     FIELD(stress, real, symmetric, "Pa", "Cauchy stress of material points"),
     FIELD(gradient, real, if_gradient, "1/s", "velocity gradient"),
     FIELD(stretch, real, if_stretch, "1", "axial stretch"),
-    FIELD(plastic_strain, real, if_plastic, "1", "accumulated equivalent plastic strain"),
-    FIELD(out_of_plane, real, if_out_of_plane, "Pa", "sigma_zz - nu (sigma_xx + sigma_yy)"),
-    FIELD(relief, real, if_relief, "Pa", "what flow has taken off the elastic stress of points of a mesh"),
+    TRIAL(plastic_strain, real, if_plastic, "1", "accumulated equivalent plastic strain"),
+    TRIAL(out_of_plane, real, if_out_of_plane, "Pa", "sigma_zz - nu (sigma_xx + sigma_yy)"),
+    TRIAL(relief, real, if_relief, "Pa", "what flow has taken off the elastic stress of points of a mesh"),
     FIELD(end_strain, real, if_ends, "1", "what cells add to the mean strain of a point at the end of bonds"),
     FIELD(end_rotation, real, if_rotates, "1", "rotation of a point at the end of bonds"),
     FIELD(end_pull, real, if_ends, "J", "derivative of its family's energy by that strain"),
@@ -261,4 +264,15 @@ bool convert_due(const struct particles *p)
     for (int64_t i = 0; i < p->n; i += LANES)
         any |= eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_LOST_BOND | FLAG_STRESSED | FLAG_NEAR);
     return any != 0;
+}
+
+status particles_archive(struct particles *p, int optional, struct archive *a)
+{
+    for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
+        for (int k = 0; k < f->count(p->dim, optional) && (f->in_trials || a->scope == ARCHIVE_ALL); k++) {
+            char name[64];
+            snprintf(name, sizeof name, "particles/%s%d", f->name, k);
+            TRY(a->exchange(a, name, particle_array(p, f, k), (size_t)p->n_all * f->size));
+        }
+    return OK;
 }

@@ -13,20 +13,6 @@
 #include "output/output.h"
 #include "run/say.h"
 
-/* Saves or restores all fields of the particles, images included. */
-static status particles_archive(struct particles *p, struct archive *a, int optional)
-{
-    for (int f = 0; f < particle_fields_count; f++) {
-        const struct particle_field *field = &particle_fields[f];
-        for (int k = 0; k < field->count(p->dim, optional); k++) {
-            char name[64];
-            snprintf(name, sizeof name, "particles/%s%d", field->name, k);
-            TRY(a->exchange(a, name, particle_array(p, field, k), (size_t)p->n_all * field->size));
-        }
-    }
-    return OK;
-}
-
 #define FAR_AWAY 1e7                     /* [spacings], as too_far in fill.c */
 
 /* FAILED for a state that no run can have: a checkpoint with intact bytes may still hold one. Indices into arrays and
@@ -84,7 +70,7 @@ status engine_archive(void *engine, struct archive *a)
     struct run *e = engine;
     TRY(kernels_archive(e, a));
     TRY(restore_hollow(e, a));
-    TRY(particles_archive(&e->part, a, e->optional));
+    TRY(particles_archive(&e->part, e->optional, a));
     if (!a->saving) TRY(particles_check(e->scene, &e->part));
     if (!a->saving) engine_archive_rebuild(e);
     TRY(bonds_archive(&e->bonds, &e->part, a));

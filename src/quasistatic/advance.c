@@ -20,6 +20,7 @@
 #include "load_size.h"
 #include "overload.h"
 #include "pieces.h"
+#include "system.h"
 #include "trial.h"
 
 #include "fracture/fracture_part.h"

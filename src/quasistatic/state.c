@@ -2,7 +2,6 @@
 #include <stdio.h>
 
 #include "system.h"
-#include "trial.h"
 #include "unknowns.h"
 
 #include "base/memory.h"

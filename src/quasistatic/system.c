@@ -4,7 +4,6 @@
 #include "pieces.h"
 #include "springs.h"
 #include "touch.h"
-#include "trial.h"
 #include "unknowns.h"
 
 #include "base/memory.h"
@@ -12,6 +11,33 @@
 #include "kernels/kernels.h"
 #include "mesh/mesh_part.h"
 #include "quasistatic/load_steps.h"
+
+/* ---- plastic state ----------------------------------------------------------------------------------------------- */
+
+/* What every evaluation of forces changes. */
+static status plastic_archive(struct run *e, struct archive *a)
+{
+    TRY(bonds_archive(&e->bonds, &e->part, a));
+    return particles_archive(&e->part, e->optional, a);
+}
+
+void statics_plastic_keep(struct run *e)
+{
+    struct memory_archive *m = &e->statics->plastic;
+    memory_archive_free(m);
+    memory_archive_make(m, ARCHIVE_TRIAL);
+    const status kept = plastic_archive(e, &m->archive);
+    INVARIANT(kept == OK);
+}
+
+void statics_plastic_restore(struct run *e)
+{
+    struct memory_archive *m = &e->statics->plastic;
+    if (m->n == 0) return;
+    memory_archive_rewind(m);
+    const status restored = plastic_archive(e, &m->archive);
+    INVARIANT(restored == OK);
+}
 
 /* ---- forces ------------------------------------------------------------------------------------------------------ */
 
@@ -71,7 +97,7 @@ static void statics_forces(void *context, const struct field *u, struct field *f
 void statics_flow(struct run *e)
 {
     statics_place(e, &e->statics->balance.u);
-    if (e->statics->plastic[0]) forces_here(e);
+    if (e->statics->plastic.n > 0) forces_here(e);
 }
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
@@ -122,7 +148,7 @@ void statics_free(struct run *e)
     statics_precondition_free(e);
     statics_unknowns_free(e);
     for (int d = 0; d < DIM_MAX; d++) memory_free(s->applied[d]), s->applied[d] = NULL;
-    for (int k = 0; k < PLASTIC_MOST; k++) memory_free(s->plastic[k]), s->plastic[k] = NULL;
+    memory_archive_free(&s->plastic);
     memory_free(s->next.bond);
     s->next = (struct break_list){0};
 }

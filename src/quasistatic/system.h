@@ -14,4 +14,10 @@ void statics_unknowns_free(struct run *e);
 /* Moves particles and nodes to the equilibrium that has been found, and updates their plastic state. */
 void statics_flow(struct run *e);
 
+/* Saves the plastic state of bonds and points as the start of the next solutions. */
+void statics_plastic_keep(struct run *e);
+
+/* Restores the plastic state saved last, if there is any. */
+void statics_plastic_restore(struct run *e);
+
 #endif

@@ -1,5 +1,6 @@
 /* Load steps: state that a trial equilibrium changes, and how it is restored. */
 #include "trial.h"
+#include "system.h"
 #include "overload.h"
 #include "touch.h"
 #include "unknowns.h"
@@ -9,47 +10,6 @@
 #include "mesh/mesh_part.h"
 #include "rigid/rigid_part.h"
 
-/* ---- what yields ------------------------------------------------------------------------------------------------- */
-
-/* The arrays of what yields, and how many bytes they are; returns their number. */
-static int plastic_state(const struct run *e, real *array[PLASTIC_MOST], size_t size[PLASTIC_MOST])
-{
-    const struct particles *p = &e->part;
-    real *const of_bonds[] = {e->bonds.plastic_stretch, e->bonds.plastic_path};
-    real *const of_points[] = {p->plastic_strain, p->out_of_plane};
-    int n = 0;
-    for (int k = 0; k < 2; k++)
-        if (of_bonds[k]) size[n] = (size_t)(e->bonds.columns * LANES) * sizeof(real), array[n++] = of_bonds[k];
-    for (int k = 0; k < 2 && p->relief[0]; k++)
-        if (of_points[k]) size[n] = (size_t)p->n * sizeof(real), array[n++] = of_points[k];
-    for (int k = 0; k < symmetric_count(p->dim) && p->relief[0]; k++)
-        size[n] = (size_t)p->n * sizeof(real), array[n++] = p->relief[k];
-    return n;
-}
-
-void statics_plastic_restore(struct run *e)
-{
-    real *array[PLASTIC_MOST];
-    size_t size[PLASTIC_MOST];
-    const int n = plastic_state(e, array, size);
-    for (int k = 0; k < n && e->statics->plastic[k]; k++) array_copy(array[k], e->statics->plastic[k], 1, size[k]);
-}
-
-void statics_plastic_keep(struct run *e)
-{
-    struct statics *s = e->statics;
-    real *array[PLASTIC_MOST];
-    size_t size[PLASTIC_MOST];
-    const int n = plastic_state(e, array, size);
-    for (int k = 0; k < n; k++) {
-        memory_free(s->plastic[k]);
-        s->plastic[k] = BARE("statics.plastic", (int64_t)(size[k] / sizeof(real)), real);
-        array_copy(s->plastic[k], array[k], 1, size[k]);
-    }
-}
-
-/* ---- trials ------------------------------------------------------------------------------------------------------ */
-
 static status touch_archive(struct run *e, struct archive *a)
 {
     for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_archive(&e->rigid->body[k], k, a));
@@ -58,7 +18,7 @@ static status touch_archive(struct run *e, struct archive *a)
 
 static void statics_touch_take(struct run *e, struct memory_archive *m)
 {
-    memory_archive_make(m);
+    memory_archive_make(m, ARCHIVE_TRIAL);
     if (statics_meets(e)) touch_archive(e, &m->archive);
 }
 

@@ -6,12 +6,6 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Saves the plastic state of bonds and points as the start of the next solutions. */
-void statics_plastic_keep(struct run *e);
-
-/* Restores the plastic state saved last. */
-void statics_plastic_restore(struct run *e);
-
 /* What a trial has to give back. */
 struct stand {
     real t, overload, lost, damped, work, constraint_work;
