@@ -23,7 +23,7 @@ real engine_load_size(const struct run *e, real t);
 const char *engine_led_fault(const struct run *e);
 /* REFUSED where a scene in space asks for tips to be led that cannot be. */
 status led_check(const struct run *e);
-/* Saves or restores the state between two load steps. */
+/* Saves or restores the state between two load steps; in a trial, the equilibrium alone. */
 status statics_archive(struct run *e, struct archive *a);
 /* Energy per area that a crack takes: of bonds at their limits, or of state-based models G_c as given [J/m^2]. */
 real toughness_of(const struct run *e, const struct material *m);

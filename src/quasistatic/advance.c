@@ -119,14 +119,14 @@ static bool pre_crack_stands(const struct run *e)
 static status look_here(struct run *e)
 {
     struct statics *s = e->statics;
-    struct stand stand;
+    struct memory_archive saved;
     struct advance second;
     if (led_leads(e)) {
         TRY(led_look_ahead(e));
         if (s->next.n > 0 || s->overload <= 1) return OK;        /* else bonds break where no tip leads to */
     }
     if (s->next.n > 0 || s->overload < (s->behind.cost > 0 ? STRESSED_FURTHER : STRESSED)) return OK;
-    stand_take(&stand, e);
+    trial_begin(e, &saved);
     s->next.n = 0;
     status tried = advance_try(e, &s->ahead);
     const int64_t bonds = s->next.n;
@@ -134,7 +134,7 @@ static status look_here(struct run *e)
         tried = advance_try(e, &second);
         if (second.cost > 0) s->behind = advance_before(&s->ahead, &second);
     }
-    stand_give(&stand, e, &s->next);
+    trial_undo(e, &saved, &s->next);
     s->next.n = bonds;
     s->due = size_of_balance(&s->ahead, &s->behind);
     return tried;
@@ -145,8 +145,10 @@ static status look_here(struct run *e)
 static status look_there(struct run *e)
 {
     struct statics *s = e->statics;
-    struct stand stand;
-    stand_take(&stand, e);
+    struct memory_archive saved;
+    const real from = s->t;
+    const int64_t particles = s->particles;
+    trial_begin(e, &saved);
     status looked = OK;
     real was = 0, share_was = NAN;
     for (int k = 0; k < LOOKS_MOST && looked == OK && s->next.n > 0; k++) {
@@ -158,8 +160,12 @@ static status look_there(struct run *e)
         s->next.n = 0;
         if (looked == OK) looked = look_here(e);
     }
-    stand_give(&stand, e, NULL);
-    return looked;
+    if (s->particles == particles) {
+        trial_undo(e, &saved, NULL);
+        return looked;
+    }
+    memory_archive_free(&saved);             /* points have converted, which cannot be undone */
+    return looked == OK ? statics_go(e, from) : looked;
 }
 
 /* What a body releases goes with the square of its loads where their size is that of its strains: not where a way is

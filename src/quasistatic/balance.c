@@ -204,18 +204,19 @@ static status solve_in(struct run *e, real t, int strides, bool *crossed)
  * yields, as that cannot be undone. */
 static status solve_whole(struct run *e, real t)
 {
+    const real from = e->statics->t;
     int strides = statics_strides(e, t);
     bool crossed = false;
     if (!statics_meets(e) || e->part.relief[0] || e->bonds.plastic_stretch) return solve_in(e, t, strides, &crossed);
     for (int k = 0; k < TRIES_MOST; k++, strides *= MORE_STRIDES) {
-        struct stand stand;
-        stand_take(&stand, e);
+        struct memory_archive saved;
+        trial_begin(e, &saved);
         const status solved = solve_in(e, t, strides, &crossed);
-        if (solved != OK || !crossed || t == stand.t) {
-            stand_free(&stand, e);
+        if (solved != OK || !crossed || t == from) {
+            memory_archive_free(&saved);
             return solved;
         }
-        stand_give(&stand, e, NULL);
+        trial_undo(e, &saved, NULL);
     }
     return status_set(FAILED, "load step %lld, t = %.6g s: faces go through each other on the way to equilibrium; more "
                       "load steps, or a larger spacing, are expected", (long long)e->clock.step + 1, t);

@@ -158,11 +158,11 @@ static status behind_first_find(struct run *e, struct led_tip *tip)
 /* Breaks the bonds of a tip's next stretch on trial. */
 static status stretch_try(struct run *e, struct led_tip *tip, const struct break_list *l)
 {
-    struct stand stand;
-    stand_take(&stand, e);
+    struct memory_archive saved;
+    trial_begin(e, &saved);
     status tried = list_try(e, l, &tip->ahead);
     if (tried == OK && tip->grown == 0) tried = behind_first_find(e, tip);
-    stand_give(&stand, e, l);
+    trial_undo(e, &saved, l);
     return tried;
 }
 
@@ -198,16 +198,16 @@ static void advance_choose(struct run *e, struct break_list *list)
 static status together_try(struct run *e)
 {
     struct statics *s = e->statics;
-    struct stand stand;
+    struct memory_archive saved;
     const real apart = s->ahead.release;
     int comes = 0;
     bool grown = true;
     for (int k = 0; k < s->led.n; k++)
         if (s->led.tip[k].comes) comes++, grown = grown && s->led.tip[k].grown > 0;
     if (comes < 2) return OK;
-    stand_take(&stand, e);
+    trial_begin(e, &saved);
     const status tried = list_try(e, &s->next, &s->ahead);
-    stand_give(&stand, e, &s->next);
+    trial_undo(e, &saved, &s->next);
     for (int k = 0; k < s->led.n && apart > 0; k++)
         if (s->led.tip[k].comes) s->led.tip[k].ahead.release *= s->ahead.release / apart;
     if (grown) s->due = size_of_balance(&s->ahead, &s->behind);

@@ -65,16 +65,16 @@ static status approach_loads(struct run *e, real t)
     const real from = s->t, low = statics_load_size(e, from), at_low = s->overload;
     bool far = true;
     for (int k = 0; k < APPROACHES_MOST && far; k++) {
-        struct stand stand;
-        stand_take(&stand, e);
+        struct memory_archive saved;
+        trial_begin(e, &saved);
         const status gone = statics_go(e, t);
         far = gone == OK && s->overload > FAR_BEYOND && at_low < NEAR_LEAST;
         if (far) {
             const real share = (NEAR_LIMIT - at_low) / (s->overload - at_low);
             t = real_max(from, statics_time_of_size(e, low + share * (statics_load_size(e, t) - low)));
-            stand_give(&stand, e, NULL);
+            trial_undo(e, &saved, NULL);
         } else
-            stand_free(&stand, e);
+            memory_archive_free(&saved);
         TRY(gone);
     }
     if (far) TRY(statics_go(e, t));

@@ -47,30 +47,24 @@ static status led_archive(struct run *e, struct archive *a)
     return l->stretches > 0 ? a->exchange(a, "statics/led_path", l->path, (size_t)l->stretches * sizeof *l->path) : OK;
 }
 
-status statics_archive(struct run *e, struct archive *a)
+/* The next crack increment, and the tips. */
+static status increment_archive(struct run *e, struct archive *a)
 {
     struct statics *s = e->statics;
-    struct equilibrium *q = &s->balance;
-    if (!scene_in_steps(e->scene)) return OK;
-    if (!a->saving || !s->node) statics_unknowns_free(e), statics_unknowns_make(e);
-    for (int d = 0; d < e->part.dim; d++) {
-        char name[48];
-        snprintf(name, sizeof name, "statics/u%d", d);
-        TRY(a->exchange(a, name, q->u.of[d], (size_t)q->n * sizeof(real)));
-        snprintf(name, sizeof name, "statics/f%d", d);
-        TRY(a->exchange(a, name, q->f.of[d], (size_t)q->n * sizeof(real)));
-    }
-    ARCHIVE_VALUE(a, "statics/t", s->t);
-    ARCHIVE_VALUE(a, "statics/touches", s->touches);
-    ARCHIVE_VALUE(a, "statics/overload", s->overload);
     ARCHIVE_VALUE(a, "statics/released_time", s->released_time);
     ARCHIVE_VALUE(a, "statics/due", s->due);
     ARCHIVE_VALUE(a, "statics/advances", s->advances);
     ARCHIVE_VALUE(a, "statics/ahead", s->ahead);
     ARCHIVE_VALUE(a, "statics/behind", s->behind);
     TRY(statics_list_archive(e, a));
-    TRY(led_archive(e, a));
-    ARCHIVE_VALUE(a, "statics/lost", q->lost);
+    return led_archive(e, a);
+}
+
+/* What the solver has found out about the body, counters, and what the next record goes on from. */
+static status search_archive(struct run *e, struct archive *a)
+{
+    struct statics *s = e->statics;
+    struct equilibrium *q = &s->balance;
     ARCHIVE_VALUE(a, "statics/largest", q->largest);
     ARCHIVE_VALUE(a, "statics/strain_ratio", q->strain_ratio);
     ARCHIVE_VALUE(a, "statics/noise", q->noise);
@@ -81,6 +75,30 @@ status statics_archive(struct run *e, struct archive *a)
     ARCHIVE_VALUE(a, "statics/solutions", s->solutions);
     ARCHIVE_VALUE(a, "statics/record", s->record);
     e->clock.load_step = s->record.step;
-    if (!a->saving) statics_applied_make(e, e->statics->t), statics_plastic_keep(e);
+    return OK;
+}
+
+status statics_archive(struct run *e, struct archive *a)
+{
+    struct statics *s = e->statics;
+    struct equilibrium *q = &s->balance;
+    const bool whole = a->scope == ARCHIVE_ALL;
+    if (!scene_in_steps(e->scene)) return OK;
+    if (whole && (!a->saving || !s->node)) statics_unknowns_free(e), statics_unknowns_make(e);
+    for (int d = 0; d < e->part.dim; d++) {
+        char name[48];
+        snprintf(name, sizeof name, "statics/u%d", d);
+        TRY(a->exchange(a, name, q->u.of[d], (size_t)q->n * sizeof(real)));
+        snprintf(name, sizeof name, "statics/f%d", d);
+        TRY(a->exchange(a, name, q->f.of[d], (size_t)q->n * sizeof(real)));
+    }
+    ARCHIVE_VALUE(a, "statics/t", s->t);
+    ARCHIVE_VALUE(a, "statics/touches", s->touches);
+    ARCHIVE_VALUE(a, "statics/overload", s->overload);
+    if (whole) TRY(increment_archive(e, a));
+    ARCHIVE_VALUE(a, "statics/lost", q->lost);
+    if (whole) TRY(search_archive(e, a));
+    if (!a->saving) statics_applied_make(e, s->t);
+    if (!a->saving && whole) statics_plastic_keep(e);
     return OK;
 }

@@ -1,4 +1,4 @@
-/* State that trial equilibria change, saved and restored. */
+/* Trial equilibria: bonds break or loads change, and then all is as before. */
 #ifndef CLEAVE_TRIAL
 #define CLEAVE_TRIAL
 
@@ -6,21 +6,12 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* What a trial has to give back. */
-struct stand {
-    real t, overload, lost, damped, work, constraint_work;
-    struct field u, f;
-    bool touches;
-    struct memory_archive touch;
-};
+/* Saves the present equilibrium in m, and the plastic state as the start of solutions. A trial that is kept ends with
+ * memory_archive_free. */
+void trial_begin(struct run *e, struct memory_archive *m);
 
-/* Saves the present equilibrium in k. */
-void stand_take(struct stand *k, struct run *e);
-
-/* Restores the equilibrium saved in k, and the bonds of the list `broken` (NULL: none); frees k. */
-void stand_give(struct stand *k, struct run *e, const struct break_list *broken);
-
-/* Frees k without restoring it. */
-void stand_free(struct stand *k, const struct run *e);
+/* Restores the equilibrium saved in m, the plastic state saved last, and the bonds of the list `broken` (NULL: none);
+ * frees m. The unknowns must be those of trial_begin. */
+void trial_undo(struct run *e, struct memory_archive *m, const struct break_list *broken);
 
 #endif
