@@ -4,30 +4,45 @@
 
 #include "run/run.h"
 
-/* Runs to the end of the scene with a solver of equilibrium, in load steps. INTERRUPTED as engine_run. */
+/* Solves for the equilibrium of bonds or of a grid (`solver: cg, relaxation`) and ends the run. Returns INTERRUPTED as
+ * engine_run does. */
 status engine_solve(struct run *e);
+
+/* Takes load steps to the end of the scene (`solver: static` with `steps`). Returns INTERRUPTED as engine_run does, and
+ * FAILED if there is no equilibrium. */
 status engine_steps(struct run *e);
-/* Makes what a solver of equilibrium needs. */
+
+/* Makes what the solver of engine_solve works on. Returns REFUSED for loads without equilibrium. */
 status engine_solver_make(struct run *e);
-/* REFUSED for bodies that load steps do not know. */
+
+/* Returns REFUSED for scenes whose bodies or loads load steps cannot treat. */
 status statics_check(const struct run *e);
-/* The first equilibrium, for an estimate of cost: the run has then taken no load step, and cannot. */
+
+/* Finds the equilibrium at load time t [s], for an estimate of cost. No load step can follow. */
 status engine_equilibrium_try(struct run *e, real t);
-/* After that equilibrium at load time `first`: how near the most stretched bond comes to its limit if none breaks, its
- * stretch over the limit, *overload, at the load time *at [s] at which loads are worst. Loads in proportion are scaled;
- * where they turn back or others join them, the equilibria are sought: FAILED where there is none. */
+
+/* After engine_equilibrium_try at load time `first` [s]: stores the largest ratio of stretch to critical stretch of the
+ * whole run, if no bond broke, in *overload [1], and its load time in *at [s]. Loads that grow in proportion are
+ * scaled; where loads turn back or others join them, the equilibria are found. Returns FAILED where there is none. */
 status engine_overload_worst(struct run *e, real first, real *at, real *overload);
-/* Size of what loads and supports prescribe at a load time, which scales as they do. */
+
+/* Returns the size of the loads and prescribed displacements at load time t [s], a number that scales with them. */
 real engine_load_size(const struct run *e, real t);
-/* Why the tips of pre-cracks are not led in load steps (steps.path); NULL: they are, if there are any. */
+
+/* Returns why the tips of pre-cracks do not follow their stress-intensity factors (steps.path), or NULL if they do. */
 const char *engine_led_fault(const struct run *e);
-/* REFUSED where a scene in space asks for tips to be led that cannot be. */
+
+/* Returns REFUSED where a scene in space asks for tips that follow their factors, and they cannot. */
 status led_check(const struct run *e);
+
 /* Saves or restores the state between two load steps; in a trial, the equilibrium alone. */
 status statics_archive(struct run *e, struct archive *a);
-/* Energy per area that a crack takes: of bonds at their limits, or of state-based models G_c as given [J/m^2]. */
+
+/* Returns the energy per area that a crack in a material takes [J/m^2]: of bonds at their limits, in state-based models
+ * G_c as given. */
 real toughness_of(const struct run *e, const struct material *m);
-/* Frees what equilibrium works on. */
+
+/* Frees what equilibrium works on; the tips stay (led_free). */
 void statics_free(struct run *e);
 
 #endif
