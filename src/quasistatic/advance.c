@@ -36,14 +36,14 @@ enum { ADVANCE_SPACINGS = 2, LOOKS_MOST = 6 };
 
 /* Share of the area of cracks that the body has: half where they all run along planes of symmetry, across axis d (-1:
  * any). */
-static real advance_share(const struct run *e, int d)
+static real advance_share(const struct fracture_state *fracture, const struct bond_source *source, int d)
 {
-    const struct tips *t = &e->fracture->tips;
+    const struct tips *t = &fracture->tips;
     bool on = t->n > 0;
     for (int k = 0; k < t->n && on; k++) {
         bool any = false;
-        for (int m = 0; m < e->source.mirrors; m++)
-            any |= (d < 0 || e->source.mirror[m].axis == d) && tip_on_mirror(t, &t->tip[k], &e->source.mirror[m], 1);
+        for (int m = 0; m < source->mirrors; m++)
+            any |= (d < 0 || source->mirror[m].axis == d) && tip_on_mirror(t, &t->tip[k], &source->mirror[m], 1);
         on = any;
     }
     return on ? 0.5 : 1;
@@ -58,7 +58,7 @@ static real front_length(const struct run *e)
     if (e->part.dim < 3) return 1;
     for (int d = 0; d < 3; d++) {
         particles_extent(&e->part, e->part.n, d, &low, &high);
-        length = real_min(length, (high - low + e->scene->spacing) / advance_share(e, d));
+        length = real_min(length, (high - low + e->scene->spacing) / advance_share(e->fracture, &e->source, d));
     }
     for (int k = 0; k < t->n; k++)
         if (t->tip[k].from_crack) edges += 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, 3));
@@ -70,7 +70,7 @@ static real advance_area(const struct run *e)
 {
     const struct scene *s = e->scene;
     const real ahead = ADVANCE_SPACINGS * (s->dim > 1 ? s->spacing : 1);
-    return advance_share(e, -1) * ahead * scene_section(s) * front_length(e);
+    return advance_share(e->fracture, &e->source, -1) * ahead * scene_section(s) * front_length(e);
 }
 
 /* Pairs of bonds that may break between two equilibria: along a front, of each spacing of it. */
@@ -108,11 +108,11 @@ static status advance_try(struct run *e, struct advance *a)
 }
 
 /* Has nothing advanced yet, and is there a pre-crack? */
-static bool pre_crack_stands(const struct run *e)
+static bool pre_crack_stands(const struct fracture_state *fracture, const struct statics *statics)
 {
     bool stands = false;
-    for (int k = 0; k < e->fracture->tips.n; k++) stands |= e->fracture->tips.tip[k].from_crack;
-    return stands && e->statics->behind.cost == 0;
+    for (int k = 0; k < fracture->tips.n; k++) stands |= fracture->tips.tip[k].from_crack;
+    return stands && statics->behind.cost == 0;
 }
 
 /* Looks for the next advance under the loads that there are. */
@@ -130,7 +130,7 @@ static status look_here(struct run *e)
     s->next.n = 0;
     status tried = advance_try(e, &s->ahead);
     const int64_t bonds = s->next.n;
-    if (tried == OK && bonds > 0 && pre_crack_stands(e)) {
+    if (tried == OK && bonds > 0 && pre_crack_stands(e->fracture, e->statics)) {
         tried = advance_try(e, &second);
         if (second.cost > 0) s->behind = advance_before(&s->ahead, &second);
     }

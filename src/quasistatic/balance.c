@@ -22,18 +22,17 @@ enum { TRIES_MOST = 4, MORE_STRIDES = 4 };
 /* ---- the way to a pseudo-time ------------------------------------------------------------------------------------ */
 
 /* How much more of the same t makes of supports and loads, of which `before` were there; 0 where it makes others. */
-static real growth_to(const struct run *e, real t, real *const *before)
+static real growth_to(const struct statics *s, const struct particles *part, real t, real *const *before)
 {
-    const struct statics *s = e->statics;
     real now = 0, was = 0;
     for (int64_t k = 0; k < s->balance.n; k++)
-        for (int d = 0; d < e->part.dim; d++) {
+        for (int d = 0; d < part->dim; d++) {
             const real u = s->balance.u.of[d][k];
             if (s->load[k * DIM_MAX + d] >= 0) now += u * (u + s->way.of[d][k]), was += u * u;
         }
-    for (int d = 0; d < e->part.dim && was == 0; d++)
-        for (int64_t i = 0; i < e->part.n; i++) now += s->applied[d][i] * before[d][i], was += square(before[d][i]);
-    return was > 0 && t != e->statics->t ? now / was - 1 : 0;
+    for (int d = 0; d < part->dim && was == 0; d++)
+        for (int64_t i = 0; i < part->n; i++) now += s->applied[d][i] * before[d][i], was += square(before[d][i]);
+    return was > 0 && t != s->t ? now / was - 1 : 0;
 }
 
 /* The way to pseudo-time t: of supports what is prescribed, of the rest what a linear body does under proportional
@@ -52,7 +51,7 @@ static void way_make(struct run *e, real t, real *const *before)
             if (s->balance.held[k] >> d & 1) s->way.of[d][k] = (load < 0 ? 0 : displacing_at(&by[load], X, d)) - u;
         }
     }
-    const real growth = growth_to(e, t, before);
+    const real growth = growth_to(e->statics, &e->part, t, before);
     for (int d = 0; d < e->part.dim; d++)
         for (int64_t k = 0; k < s->balance.n; k++)
             if (!(s->balance.held[k] >> d & 1)) s->way.of[d][k] = growth * s->balance.u.of[d][k];
@@ -60,13 +59,13 @@ static void way_make(struct run *e, real t, real *const *before)
 }
 
 /* Norm of the forces that the round-off of positions makes, with a margin of ten [N]. */
-static real round_off_of(const struct run *e)
+static real round_off_of(const struct bonds *bonds, const struct particles *part)
 {
     real sum = 0;
-    for (int64_t r = 0; r < e->bonds.rows; r++) {
-        const int32_t i = e->bonds.particle[r];
-        const real spring = 0.25 * bonds_row_bound(&e->bonds, &e->part, r);
-        for (int d = 0; d < e->part.dim; d++) sum += square(spring * e->part.X[d][i] * DBL_EPSILON);
+    for (int64_t r = 0; r < bonds->rows; r++) {
+        const int32_t i = bonds->particle[r];
+        const real spring = 0.25 * bonds_row_bound(bonds, part, r);
+        for (int d = 0; d < part->dim; d++) sum += square(spring * part->X[d][i] * DBL_EPSILON);
     }
     return 10 * sqrt(sum);
 }
@@ -79,19 +78,18 @@ struct account {
     real *applied[DIM_MAX];
 };
 
-static void account_begin(struct account *a, const struct run *e)
+static void account_begin(struct account *a, const struct statics *s, const struct particles *part)
 {
-    const struct statics *s = e->statics;
-    for (int d = 0; d < e->part.dim; d++) {
+    for (int d = 0; d < part->dim; d++) {
         a->u.of[d] = BARE("statics.account", s->balance.n, real);
         a->f.of[d] = BARE("statics.account", s->balance.n, real);
-        a->applied[d] = BARE("statics.account", e->part.n, real);
+        a->applied[d] = BARE("statics.account", part->n, real);
         array_copy(a->u.of[d], s->balance.u.of[d], s->balance.n, sizeof(real));
         array_copy(a->f.of[d], s->balance.f.of[d], s->balance.n, sizeof(real));
         if (s->applied[d])
-            array_copy(a->applied[d], s->applied[d], e->part.n, sizeof(real));
+            array_copy(a->applied[d], s->applied[d], part->n, sizeof(real));
         else
-            array_fill_bytes(a->applied[d], 0, e->part.n, sizeof(real));
+            array_fill_bytes(a->applied[d], 0, part->n, sizeof(real));
     }
 }
 
@@ -164,7 +162,7 @@ static status solve_at(struct run *e, real t, bool *crossed)
     const real lost = s->balance.lost;
     TRY(loads_finite(&e->loads, &e->part, t));
     statics_touch_begin(e, t);
-    account_begin(&account, e);
+    account_begin(&account, e->statics, &e->part);
     for (int d = 0; d < e->part.dim; d++) {
         before[d] = BARE("statics.before", e->part.n, real);
         array_copy(before[d], e->part.x[d], e->part.n, sizeof(real));
@@ -173,7 +171,7 @@ static status solve_at(struct run *e, real t, bool *crossed)
     if (s->parted) statics_pieces_make(e);
     way_make(e, t, account.applied);
     s->balance.applied = statics_applied_norm(e);
-    if (!s->precondition) s->balance.noise = round_off_of(e);
+    if (!s->precondition) s->balance.noise = round_off_of(&e->bonds, &e->part);
     const status found = equilibrium_find(&s->balance, &s->way, t != s->t);
     statics_flow(e);
     frame_sync(e);

@@ -11,7 +11,6 @@
 
 #include "base/memory.h"
 #include "contact/contact.h"
-#include "fracture/fracture_part.h"
 #include "fracture/tip_fit.h"
 #include "quasistatic/load_steps.h"
 

@@ -174,9 +174,8 @@ static bool list_has(const struct break_list *l, const struct broken_bond *recor
 }
 
 /* The next advance: the tip whose stretch comes first, and those that come with it. */
-static void advance_choose(struct run *e, struct break_list *list)
+static void advance_choose(struct statics *s, struct break_list *list)
 {
-    struct statics *s = e->statics;
     struct led *l = &s->led;
     real first = INFINITY;
     s->ahead = s->behind = (struct advance){0};
@@ -238,7 +237,7 @@ status led_look_ahead(struct run *e)
     TRY(tips_turn(e));
     for (int k = 0; k < s->led.n && tried == OK; k++) tried = tip_try(e, &s->led.tip[k], &list[k]);
     s->next.n = 0;
-    if (tried == OK) advance_choose(e, list);
+    if (tried == OK) advance_choose(e->statics, list);
     if (tried == OK) tried = together_try(e);
     for (int k = 0; k < s->led.n; k++) memory_free(list[k].bond);
     return tried;

@@ -57,9 +57,9 @@ void led_project_particle(const struct run *e, int64_t i, real to[2])
 
 /* ---- what has to be so in space ---------------------------------------------------------------------------------- */
 
-static const char *front_find(const struct run *e, struct led_plane *plane)
+static const char *front_find(const struct fracture_state *fracture, struct led_plane *plane)
 {
-    const struct tips *t = &e->fracture->tips;
+    const struct tips *t = &fracture->tips;
     bool found = false;
     for (int k = 0; k < t->n; k++) {
         real along[DIM_MAX], turn[DIM_MAX];
@@ -74,20 +74,20 @@ static const char *front_find(const struct run *e, struct led_plane *plane)
     return found ? NULL : "no pre-crack ends in the body";
 }
 
-static void front_middle(const struct run *e, struct led_plane *plane)
+static void front_middle(const struct fracture_state *fracture, struct led_plane *plane)
 {
-    const struct tips *t = &e->fracture->tips;
+    const struct tips *t = &fracture->tips;
     for (int k = t->n - 1; k >= 0; k--)
         if (t->tip[k].from_crack) plane->middle = dot(plane->front, t->tip[k].origin, 3);
 }
 
 /* A plane of symmetry lies along the fronts, or across them. */
-static const char *mirrors_find(const struct run *e, struct led_plane *plane)
+static const char *mirrors_find(const struct bond_source *source, const struct particles *part, struct led_plane *plane)
 {
-    for (int k = 0; k < e->source.mirrors; k++) {
-        struct mirror_plane m = e->source.mirror[k];
+    for (int k = 0; k < source->mirrors; k++) {
+        struct mirror_plane m = source->mirror[k];
         const int axis = m.axis;
-        if (e->part.dim == 3 && fabs(plane->front[axis]) > 1 - STRAIGHT) continue;
+        if (part->dim == 3 && fabs(plane->front[axis]) > 1 - STRAIGHT) continue;
         for (m.axis = 0; m.axis < 2 && fabs(plane->axis[m.axis][axis]) < 1 - STRAIGHT;) m.axis++;
         if (m.axis == 2 || plane->mirrors == 2 * DIM_MAX) return "a plane of symmetry lies askew to them";
         if (plane->axis[m.axis][axis] < 0) m.at = -m.at, m.outside = -m.outside;
@@ -116,9 +116,10 @@ bool led_segment(const struct led_plane *plane, const struct crack *c, int dim, 
     return fabs(dot(area, plane->front, 3)) <= STRAIGHT * size;
 }
 
-static const char *cracks_check(const struct run *e, const struct led_plane *plane)
+static const char *cracks_check(const struct material_tables *tables, const struct scene *scene,
+                                const struct led_plane *plane)
 {
-    const struct crack_list *l = &e->tables.cracks;
+    const struct crack_list *l = &tables->cracks;
     for (int k = 0; k < l->n; k++) {
         real at[2][DIM_MAX] = {{0}};
         if (!led_segment(plane, &l->crack[k], 3, at)) return "a pre-crack does not lie along them";
@@ -126,7 +127,7 @@ static const char *cracks_check(const struct run *e, const struct led_plane *pla
             real P[2];
             led_project(plane, l->crack[k].corner[c], 3, P);
             const real off = real_min(hypot(P[0] - at[0][0], P[1] - at[0][1]), hypot(P[0] - at[1][0], P[1] - at[1][1]));
-            if (off > RAGGED * e->scene->spacing) return "a pre-crack is no rectangle along them";
+            if (off > RAGGED * scene->spacing) return "a pre-crack is no rectangle along them";
         }
     }
     return NULL;
@@ -155,12 +156,12 @@ const char *led_plane_find(const struct run *e, struct led_plane *plane)
     *plane = (struct led_plane){.made = true};
     if (e->part.dim == 2) {
         plane->axis[0][0] = plane->axis[1][1] = 1;
-        return mirrors_find(e, plane);
+        return mirrors_find(&e->source, &e->part, plane);
     }
     if (e->part.dim != 3) return "a line has no crack tips";
-    fault = front_find(e, plane);
-    if (!fault) axes_make(plane), front_middle(e, plane), fault = mirrors_find(e, plane);
-    if (!fault) fault = cracks_check(e, plane);
+    fault = front_find(e->fracture, plane);
+    if (!fault) axes_make(plane), front_middle(e->fracture, plane), fault = mirrors_find(&e->source, &e->part, plane);
+    if (!fault) fault = cracks_check(&e->tables, e->scene, plane);
     return fault ? fault : fronts_check(e, plane);
 }
 
@@ -179,13 +180,14 @@ static real share_beside_mirrors(const struct run *e, const struct led_plane *pl
 }
 
 /* Length within the box of a particle of the line along the front through P [m]. */
-static real chord(const struct run *e, const struct led_plane *plane, const real *P, int64_t i)
+static real chord(const struct particles *part, const struct scene *scene, const struct led_plane *plane, const real *P,
+                  int64_t i)
 {
-    const real half = 0.5 * cbrt(e->part.volume0[i]);
+    const real half = 0.5 * cbrt(part->volume0[i]);
     real low = -INFINITY, high = INFINITY;
     for (int d = 0; d < 3; d++) {
-        const real place = P[0] * plane->axis[0][d] + P[1] * plane->axis[1][d] + NUDGE * e->scene->spacing;
-        const real from = e->part.X[d][i] - half - place, to = e->part.X[d][i] + half - place, f = plane->front[d];
+        const real place = P[0] * plane->axis[0][d] + P[1] * plane->axis[1][d] + NUDGE * scene->spacing;
+        const real from = part->X[d][i] - half - place, to = part->X[d][i] + half - place, f = plane->front[d];
         if (fabs(f) < STRAIGHT) {
             if (from > 0 || to <= 0) return 0;
         } else {
@@ -209,7 +211,7 @@ real led_width(const struct run *e, const struct led_plane *plane, const real *f
         const real share = share_beside_mirrors(e, plane, i);
         for (int k = 0; k < SAMPLES; k++) {
             const real at = (k + 0.5) / SAMPLES, P[2] = {a[0] + at * (b[0] - a[0]), a[1] + at * (b[1] - a[1])};
-            sum += share * chord(e, plane, P, i);
+            sum += share * chord(&e->part, e->scene, plane, P, i);
         }
     }
     return sum / SAMPLES;

@@ -5,7 +5,6 @@
 #include "led.h"
 
 #include "fracture/fracture_part.h"
-#include "quasistatic/load_steps.h"
 
 #define HERE 1e-6      /* from the end of a pre-crack to the tip there [spacings] */
 #define ON_ROW 0.05    /* from a row of the lattice to a crack along it [spacings] */
@@ -14,12 +13,11 @@
 enum { ROW_LEAST = 4 };
 
 /* Length of the longest pre-crack that ends at the tip, and whether one begins there. */
-static void cracks_behind(const struct run *e, struct led_tip *tip)
+static void cracks_behind(const struct scene *s, const struct statics *statics, struct led_tip *tip)
 {
-    const struct scene *s = e->scene;
     for (int k = 0; k < s->cracks; k++) {
         real at[2][DIM_MAX] = {{0}};
-        led_segment(&e->statics->led.plane, &s->crack[k], s->dim, at);
+        led_segment(&statics->led.plane, &s->crack[k], s->dim, at);
         for (int end = 0; end < 2; end++) {
             if (led_distance(at[end], tip->place) > HERE * s->spacing) continue;
             tip->sees = real_max(tip->sees, led_distance(at[0], at[1]));
@@ -68,7 +66,7 @@ static void led_start(struct run *e)
             tip->start[d] = tip->place[d] = place[d];
             tip->along[d] = tip->heading[d] = tip->last[d] = along[d];
         }
-        cracks_behind(e, tip);
+        cracks_behind(e->scene, e->statics, tip);
         leave_row(e, tip);
     }
 }

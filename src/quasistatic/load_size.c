@@ -3,7 +3,6 @@
 
 #include "load_size.h"
 
-#include "quasistatic/load_steps.h"
 #include "rigid/rigid_part.h"
 
 /* ---- size of loads ----------------------------------------------------------------------------------------------- */

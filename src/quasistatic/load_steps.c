@@ -37,10 +37,9 @@ enum { SECANTS_MOST = 12, APPROACHES_MOST = 12 };
 /* Size of the loads at which the advance ahead comes while they grow: of the first one that at which a pre-crack is in
  * balance; of later ones that at which they pay for themselves, so that loads swing about those of a crack that grows
  * evenly. */
-static real size_to_come(const struct run *e)
+static real size_to_come(const struct statics *s, const struct diagnostics *diagnostics)
 {
-    const struct statics *s = e->statics;
-    return e->diagnostics->bonds_broken > 0 ? real_max(s->due, size_of_advance(&s->ahead)) : s->due;
+    return diagnostics->bonds_broken > 0 ? real_max(s->due, size_of_advance(&s->ahead)) : s->due;
 }
 
 /* A state that loads have led to: it counts for the largest forces. */
@@ -88,8 +87,8 @@ static status approach_loads(struct run *e, real t)
 static status advance_under_loads(struct run *e, real *size, real from, real t)
 {
     struct statics *s = e->statics;
-    const bool follows = size_to_come(e) <= *size;
-    *size = real_max(*size, size_to_come(e));
+    const bool follows = size_to_come(e->statics, e->diagnostics) <= *size;
+    *size = real_max(*size, size_to_come(e->statics, e->diagnostics));
     const real loads = statics_load_size(e, t);
     const bool pays = size_of_advance(&s->ahead) <= *size, within = *size < loads;
     if (within) TRY(go_to_size(e, *size, from, t));
@@ -108,7 +107,8 @@ static status step_by_load(struct run *e, real t)
     const real from = s->t, loads = statics_load_size(e, t);
     real size = statics_load_size(e, from);
     for (;;) {
-        const bool due = s->next.n > 0 && size_to_come(e) <= real_max(loads, s->t >= t ? 0 : size) * (1 + 1e-9);
+        const bool due = s->next.n > 0 &&
+                         size_to_come(e->statics, e->diagnostics) <= real_max(loads, s->t >= t ? 0 : size) * (1 + 1e-9);
         if (due) TRY(advance_under_loads(e, &size, from, t));
         else if (s->t < t) TRY(approach_loads(e, t));
         else return OK;
@@ -134,13 +134,13 @@ static status step_by_energy(struct run *e, real most)
 }
 
 /* How far the places of control opening have moved apart [m]. */
-static real opening_now(const struct run *e)
+static real opening_now(const struct particles *part, const struct statics *statics)
 {
     real now = 0, was = 0;
-    for (int d = 0; d < e->part.dim; d++) {
-        const int64_t a = e->statics->opens[0], b = e->statics->opens[1];
-        now += square(e->part.x[d][b] - e->part.x[d][a]);
-        was += square(e->part.X[d][b] - e->part.X[d][a]);
+    for (int d = 0; d < part->dim; d++) {
+        const int64_t a = statics->opens[0], b = statics->opens[1];
+        now += square(part->x[d][b] - part->x[d][a]);
+        was += square(part->X[d][b] - part->X[d][a]);
     }
     return sqrt(now) - sqrt(was);
 }
@@ -148,10 +148,10 @@ static real opening_now(const struct run *e)
 /* Goes to the pseudo-time at which the opening has this width [m], by secants from `t` [s] on. */
 static status open_to(struct run *e, real wanted, real t)
 {
-    real from = e->statics->t, at_from = opening_now(e);
+    real from = e->statics->t, at_from = opening_now(&e->part, e->statics);
     for (int k = 0; k < SECANTS_MOST; k++) {
         TRY(statics_go(e, real_max(t, 0)));
-        const real at = opening_now(e), slope = (at - at_from) / (e->statics->t - from);
+        const real at = opening_now(&e->part, e->statics), slope = (at - at_from) / (e->statics->t - from);
         if (fabs(at - wanted) <= OPENING_ERROR * fabs(wanted) || e->statics->t == from || !(slope != 0)) return OK;
         from = e->statics->t, at_from = at;
         t = from + (wanted - at) / slope;
@@ -163,25 +163,29 @@ static status open_to(struct run *e, real wanted, real t)
 static bool comes_before(const struct run *e, real wanted)
 {
     const struct statics *s = e->statics;
-    const real now = opening_now(e), size = statics_load_size(e, s->t);
-    return s->next.n > 0 && now > 0 && now / size * size_to_come(e) < wanted;
+    const real now = opening_now(&e->part, e->statics), size = statics_load_size(e, s->t);
+    return s->next.n > 0 && now > 0 && now / size * size_to_come(e->statics, e->diagnostics) < wanted;
 }
 
 /* The opening grows by a step; pseudo-time follows, and on the way the crack advances as long as that pays. */
 static status step_by_opening(struct run *e)
 {
     const struct scene_steps *s = &e->scene->steps;
-    const real wanted = s->opening * (real)(e->clock.step + 1) / (real)s->number, now = opening_now(e);
+    const real wanted = s->opening * (real)(e->clock.step + 1) / (real)s->number,
+               now = opening_now(&e->part, e->statics);
     const real first = e->statics->t + e->scene->duration / (real)s->number;
     bool open = false;
     if (e->statics->next.n == 0) TRY(approach_loads(e, now > 0 ? e->statics->t * wanted / now : first));
     while (!open || comes_before(e, wanted)) {
         open = !comes_before(e, wanted);
         if (open) {
-            TRY(open_to(e, wanted, opening_now(e) > 0 ? e->statics->t * wanted / opening_now(e) : first));
+            TRY(open_to(e, wanted,
+                        opening_now(&e->part, e->statics) > 0
+                            ? e->statics->t * wanted / opening_now(&e->part, e->statics)
+                            : first));
             TRY(statics_convert(e, 0));
         } else {
-            TRY(go_to_size(e, size_to_come(e), 0, INFINITY));
+            TRY(go_to_size(e, size_to_come(e->statics, e->diagnostics), 0, INFINITY));
             state_note(e);
             TRY(statics_advance_balanced(e));
         }
@@ -223,16 +227,16 @@ static status load_step(struct run *e)
 }
 
 /* REFUSED where the opening is that of one place, or of none in the body. */
-static status check_opening(const struct run *e)
+static status check_opening(const struct scene *scene, const struct particles *part)
 {
-    const struct scene_steps *s = &e->scene->steps;
+    const struct scene_steps *s = &scene->steps;
     const real *const at[] = {s->from, s->to};
-    const int64_t nearest[] = {particles_nearest(&e->part, s->from), particles_nearest(&e->part, s->to)};
+    const int64_t nearest[] = {particles_nearest(part, s->from), particles_nearest(part, s->to)};
     for (int k = 0; k < 2; k++) {
         real X[DIM_MAX], away = 0;
-        particle_place(&e->part, nearest[k], X);
-        for (int d = 0; d < e->part.dim; d++) away += square(X[d] - at[k][d]);
-        if (sqrt(away) > FAR_OFF * e->scene->spacing)
+        particle_place(part, nearest[k], X);
+        for (int d = 0; d < part->dim; d++) away += square(X[d] - at[k][d]);
+        if (sqrt(away) > FAR_OFF * scene->spacing)
             return status_set(REFUSED,
                               "steps.%s: the body is %.3g m away from there; a place on it, where the gauge is clipped "
                               "on, is expected",
@@ -258,7 +262,7 @@ status statics_check(const struct run *e)
 {
     const struct scene *s = e->scene;
     if (!scene_in_steps(s)) return OK;
-    if (s->steps.control == CONTROL_OPENING) TRY(check_opening(e));
+    if (s->steps.control == CONTROL_OPENING) TRY(check_opening(e->scene, &e->part));
     TRY(check_growth(e));
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++)
         if (!e->frame->choice[b].reference)

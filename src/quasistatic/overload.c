@@ -11,19 +11,20 @@
 #define ALIKE 1e-7 /* bonds whose loads differ by less break together: round-off decides no order */
 
 /* Stretch of a bond over its limit. A limit of 0 or less is passed by any stretch above it. */
-static real overload_of(const struct run *e, const struct bond *bond, int32_t i)
+static real overload_of(const struct particles *part, const struct bond_source *source, const struct bond *bond,
+                        int32_t i)
 {
-    const real stretch = stretch_ago(&e->part, bond->inverse_length, i, bond->nbr, 0);
-    return stretch / stretch_limit(&e->part, &e->source.limit, i, bond->nbr);
+    const real stretch = stretch_ago(part, bond->inverse_length, i, bond->nbr, 0);
+    return stretch / stretch_limit(part, &source->limit, i, bond->nbr);
 }
 
 /* No bond stands below this stretch at its limit. */
-static real limit_least(const struct run *e)
+static real limit_least(const struct bond_source *source, const struct particles *part)
 {
-    const struct bond_limit *limit = &e->source.limit;
+    const struct bond_limit *limit = &source->limit;
     real least = INFINITY, weakest = 1;
     for (int k = 0; k < limit->materials * limit->materials; k++) least = real_min(least, limit->critical_stretch[k]);
-    for (int64_t i = 0; e->part.strength && i < e->part.n; i++) weakest = real_min(weakest, e->part.strength[i]);
+    for (int64_t i = 0; part->strength && i < part->n; i++) weakest = real_min(weakest, part->strength[i]);
     return least * weakest;
 }
 
@@ -33,13 +34,14 @@ static real row_block_overload(const struct run *e, int64_t g, real weakest, rea
     if (bond_row_block_stretch(&e->bonds, &e->part, g) <= most * weakest) return most;
     for (int64_t r = g * LANES; r < (g + 1) * LANES && r < e->bonds.rows; r++)
         for (struct bond_iterator it = bonds_of_row(&e->bonds, r); bond_next(&it);)
-            if (it.bond.w != 0) most = real_max(most, overload_of(e, &it.bond, e->bonds.particle[r]));
+            if (it.bond.w != 0)
+                most = real_max(most, overload_of(&e->part, &e->source, &it.bond, e->bonds.particle[r]));
     return most;
 }
 
 real statics_overload(const struct run *e)
 {
-    const real weakest = limit_least(e);
+    const real weakest = limit_least(&e->source, &e->part);
     real most = 0;
 #pragma omp parallel for schedule(static) reduction(max : most)
     for (int64_t g = 0; g < e->bonds.row_blocks; g++) most = row_block_overload(e, g, weakest, most);
@@ -109,7 +111,7 @@ static void row_block_overloads(struct overloads *o, const struct run *e, int64_
 {
     for (int64_t r = g * LANES; r < (g + 1) * LANES && r < e->bonds.rows; r++)
         for (struct bond_iterator it = bonds_of_row(&e->bonds, r); bond_next(&it);) {
-            const real over = it.bond.w == 0 ? 0 : overload_of(e, &it.bond, e->bonds.particle[r]);
+            const real over = it.bond.w == 0 ? 0 : overload_of(&e->part, &e->source, &it.bond, e->bonds.particle[r]);
             if (over > least) overloads_add(o, e, &it.bond, r, over);
         }
 }
@@ -161,7 +163,7 @@ int64_t statics_break(struct run *e, real share, int64_t most, real *cost, real 
 {
     struct break_list *l = &e->statics->next;
     const real least = e->statics->overload * (1 - real_max(share, ALIKE)), before = bonds_fracture_energy(&e->bonds);
-    const real weakest = limit_least(e);
+    const real weakest = limit_least(&e->source, &e->part);
     struct overloads o = {0};
     for (int64_t g = 0; g < e->bonds.row_blocks; g++)
         if (bond_row_block_stretch(&e->bonds, &e->part, g) > least * weakest) row_block_overloads(&o, e, g, least);

@@ -41,13 +41,14 @@ struct numbers {
     int32_t *particle, *node;
 };
 
-static void cells_join(const struct run *e, int32_t *parent, const struct numbers *number)
+static void cells_join(const struct reference_frame *frame, const struct particles *part, int32_t *parent,
+                       const struct numbers *number)
 {
-    const struct mesh *mesh = &e->frame->mesh;
+    const struct mesh *mesh = &frame->mesh;
     for (int64_t I = 0; I < mesh->grid.n && mesh->points > 0; I++) {
         int32_t first = -1;
         if (!mesh_cell_holds(mesh, I)) continue;
-        for (int c = 0; c < 1 << e->part.dim; c++) {
+        for (int c = 0; c < 1 << part->dim; c++) {
             const int32_t k = number->node[mesh_node(mesh, I, c)];
             if (k < 0) continue;
             if (first < 0) first = k;
@@ -178,11 +179,11 @@ static void images_resist(const struct run *e, struct candidate *of, const int32
 }
 
 /* A node beyond a plane of symmetry moves as its image does, and with the cells that it is a corner of. */
-static void mirror_nodes_resist(const struct run *e, struct candidate *of, const int32_t *piece,
-                                const struct numbers *number)
+static void mirror_nodes_resist(const struct reference_frame *frame, const struct particles *part, struct candidate *of,
+                                const int32_t *piece, const struct numbers *number)
 {
-    const struct mesh *mesh = &e->frame->mesh;
-    const int dim = e->part.dim, m = motions(dim);
+    const struct mesh *mesh = &frame->mesh;
+    const int dim = part->dim, m = motions(dim);
     for (int64_t q = 0; mesh->points > 0 && q < mesh->grid.mirror_nodes; q++) {
         const struct mirror_node *node = &mesh->grid.mirror_node[q];
         const int32_t k = number->node[node->image];
@@ -372,12 +373,12 @@ void statics_pieces_make(struct run *e)
     statics_pieces_free(e);
     s->parted = false;
     for (int64_t k = 0; k < s->balance.n; k++) parent[k] = (int32_t)k;
-    cells_join(e, parent, &number);
+    cells_join(e->frame, &e->part, parent, &number);
     bonded_join(e, parent, &number);
     struct candidate *c = candidates_make(e, parent, piece, &n);
     supports_resist(e, c, piece);
     images_resist(e, c, piece, &number);
-    mirror_nodes_resist(e, c, piece, &number);
+    mirror_nodes_resist(e->frame, &e->part, c, piece, &number);
     contact_terms(e->contact, &e->part, contact_resists, &(struct touched){e, c, piece, &number});
     for (int64_t q = 0; q < n; q++) s->pieces += motions_free(&c[q], m, free) > 0;
     s->piece = NEW("pieces.free", s->pieces, struct free_piece);
@@ -421,16 +422,15 @@ void statics_pieces_hold(const struct run *e, struct field *v)
 
 /* Of the loads on a piece along its free motions: the largest share that does not cancel [1], that motion, and the sum
  * of their sizes there. */
-static real unheld_share(const struct run *e, const struct free_piece *f, real *size)
+static real unheld_share(const struct statics *s, const struct particles *part, const struct free_piece *f, real *size)
 {
-    const struct statics *s = e->statics;
     real most = 0;
     *size = 0;
     for (int a = 0; a < f->motions; a++) {
         real sum = 0, all = 0;
         for (int64_t k = 0; k < f->n && f->node[k] < s->particles; k++)
-            for (int d = 0; d < e->part.dim; d++) {
-                const real along = f->motion[(k * e->part.dim + d) * MODES_MOST + a] *
+            for (int d = 0; d < part->dim; d++) {
+                const real along = f->motion[(k * part->dim + d) * MODES_MOST + a] *
                                    s->applied[d][s->node[f->node[k]]] * s->weight[f->node[k]];
                 sum += along, all += fabs(along);
             }
@@ -441,11 +441,11 @@ static real unheld_share(const struct run *e, const struct free_piece *f, real *
 
 /* Sum of all applied forces, each by its size, over the root of the number of nodes of a piece: as unheld_share adds.
  */
-static real applied_sum(const struct run *e, int64_t nodes)
+static real applied_sum(const struct particles *part, const struct statics *statics, int64_t nodes)
 {
     real sum = 0;
-    for (int d = 0; d < e->part.dim; d++)
-        for (int64_t i = 0; i < e->part.n; i++) sum += fabs(e->statics->applied[d][i]);
+    for (int d = 0; d < part->dim; d++)
+        for (int64_t i = 0; i < part->n; i++) sum += fabs(statics->applied[d][i]);
     return sum / sqrt((real)nodes);
 }
 
@@ -455,8 +455,8 @@ status statics_unheld(const struct run *e)
     for (int64_t q = 0; q < s->pieces && s->applied[0]; q++) {
         const struct free_piece *f = &s->piece[q];
         real size, X[DIM_MAX] = {0};
-        const real share = unheld_share(e, f, &size);
-        if (share <= UNHELD_MOST || size <= UNHELD_SMALL * applied_sum(e, f->n)) continue;
+        const real share = unheld_share(e->statics, &e->part, f, &size);
+        if (share <= UNHELD_MOST || size <= UNHELD_SMALL * applied_sum(&e->part, e->statics, f->n)) continue;
         statics_node_place(e, f->node[f->n / 2], X);
         return status_set(FAILED,
                           "load step %lld, t = %.6g s: nothing holds %s (%.3g %% of it, round x = %.6g, y = %.6g, "

@@ -27,11 +27,11 @@ enum { LOOK_STEPS = 20 };     /* steps between looks at its energies */
 #define RELEASE_STEPS_MOST (INT64_MAX / 4)
 
 /* Loads and supports stay as they are at pseudo-time t. */
-static void boundaries_hold(struct run *e, real t)
+static void boundaries_hold(const struct scene *scene, struct boundary *boundary, real t)
 {
-    for (int b = 0; b < e->scene->boundaries; b++) {
-        const struct boundary *from = &e->scene->boundary[b];
-        struct boundary *to = &e->boundary[b];
+    for (int b = 0; b < scene->boundaries; b++) {
+        const struct boundary *from = &scene->boundary[b];
+        struct boundary *to = &boundary[b];
         real factor = 1;
         *to = *from;
         if (boundary_is_force(from)) factor = time_function_at(&from->time, t), to->frozen = true, to->frozen_at = t;
@@ -46,16 +46,16 @@ static void boundaries_hold(struct run *e, real t)
     }
 }
 
-static void boundaries_follow(struct run *e)
+static void boundaries_follow(struct boundary *boundary, const struct scene *scene)
 {
-    array_copy(e->boundary, e->scene->boundary, e->scene->boundaries, sizeof *e->boundary);
+    array_copy(boundary, scene->boundary, scene->boundaries, sizeof *boundary);
 }
 
 /* Rigid bodies stay where they are; those that are driven go on. */
-static void rigids_hold(struct run *e, bool hold)
+static void rigids_hold(const struct scene *scene, struct rigid_set *rigid, bool hold)
 {
-    for (int k = 0; k < e->scene->rigids; k++) {
-        struct rigid_body *r = &e->rigid->body[k];
+    for (int k = 0; k < scene->rigids; k++) {
+        struct rigid_body *r = &rigid->body[k];
         const bool driven = dot(r->speed, r->speed, r->dim) > 0;
         r->motion = driven && !hold ? RIGID_DRIVEN : RIGID_FIXED;
     }
@@ -73,9 +73,9 @@ static void velocities_scale(struct run *e, real share)
     loads_mirror(&e->loads, p);
 }
 
-static real motion_now(const struct run *e)
+static real motion_now(const struct particles *part, const struct reference_frame *frame)
 {
-    return diagnostics_kinetic(&e->part) + frame_kinetic(e->frame);
+    return diagnostics_kinetic(part) + frame_kinetic(frame);
 }
 
 /* Time that waves need across the body [s]. */
@@ -100,7 +100,7 @@ static status steps_in_time(struct run *e, int64_t *broken)
         if ((real)(k - last) * e->clock.dt < quiet) continue;
         velocities_scale(e, 1 - damping * e->clock.dt);
         damped++;
-        if (k % LOOK_STEPS == 0 && motion_now(e) <= MOTION_SMALL * sample_strain(e)) break;
+        if (k % LOOK_STEPS == 0 && motion_now(&e->part, e->frame) <= MOTION_SMALL * sample_strain(e)) break;
     }
     return OK;
 }
@@ -120,8 +120,8 @@ status statics_release(struct run *e)
     const int64_t broken = statics_advance_break(e);
     int64_t more;
     velocities_scale(e, 0);
-    boundaries_hold(e, s->t);
-    rigids_hold(e, true);
+    boundaries_hold(e->scene, e->boundary, s->t);
+    rigids_hold(e->scene, e->rigid, true);
     contact_unmark(e->contact);
     const real dt = clock.dt_bears;
     e->clock.dt = e->grid->transfer.dt = dt;
@@ -129,8 +129,8 @@ status statics_release(struct run *e)
     const status moved = steps_in_time(e, &more);
     s->released_time += (real)(e->clock.step - 1) * dt;
     e->clock = clock;
-    boundaries_follow(e);
-    rigids_hold(e, false);
+    boundaries_follow(e->boundary, e->scene);
+    rigids_hold(e->scene, e->rigid, false);
     velocities_scale(e, 0);
     TRY(moved);
     if (more > 0) led_lose(e);

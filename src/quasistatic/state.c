@@ -5,35 +5,34 @@
 #include "unknowns.h"
 
 #include "base/memory.h"
-#include "quasistatic/load_steps.h"
 
 /* Finds the bonds of a list by their particles: rows have been made anew. */
-static void list_find(const struct run *e, struct break_list *l)
+static void list_find(const struct bonds *bonds, struct break_list *l)
 {
     for (int64_t k = 0; k < l->n; k++) {
         struct broken_bond *record = &l->bond[k];
-        record->row = e->bonds.row_of[record->i];
-        for (struct bond_iterator it = bonds_of_row(&e->bonds, record->row); bond_next(&it);)
+        record->row = bonds->row_of[record->i];
+        for (struct bond_iterator it = bonds_of_row(bonds, record->row); bond_next(&it);)
             if (it.bond.nbr == record->j && it.bond.w != 0) record->entry = it.bond.entry, record->w = it.bond.w;
     }
 }
 
-static status statics_list_archive(struct run *e, struct archive *a)
+static status statics_list_archive(struct statics *statics, struct bonds *bonds, struct archive *a)
 {
-    struct break_list *l = &e->statics->next;
+    struct break_list *l = &statics->next;
     ARCHIVE_VALUE(a, "statics/next", l->n);
     if (!a->saving && l->n > l->room) {
         l->bond = memory_resize("statics.broken", l->bond, l->room, l->n, sizeof *l->bond);
         l->room = l->n;
     }
     if (l->n > 0) TRY(a->exchange(a, "statics/bonds", l->bond, (size_t)l->n * sizeof *l->bond));
-    if (!a->saving) list_find(e, l);
+    if (!a->saving) list_find(bonds, l);
     return OK;
 }
 
-static status led_archive(struct run *e, struct archive *a)
+static status led_archive(struct statics *statics, struct archive *a)
 {
-    struct led *l = &e->statics->led;
+    struct led *l = &statics->led;
     ARCHIVE_VALUE(a, "statics/led", l->known);
     ARCHIVE_VALUE(a, "statics/led_n", l->n);
     ARCHIVE_VALUE(a, "statics/led_tips", l->tip);
@@ -56,14 +55,13 @@ static status increment_archive(struct run *e, struct archive *a)
     ARCHIVE_VALUE(a, "statics/advances", s->advances);
     ARCHIVE_VALUE(a, "statics/ahead", s->ahead);
     ARCHIVE_VALUE(a, "statics/behind", s->behind);
-    TRY(statics_list_archive(e, a));
-    return led_archive(e, a);
+    TRY(statics_list_archive(e->statics, &e->bonds, a));
+    return led_archive(e->statics, a);
 }
 
 /* What the solver has found out about the body, counters, and what the next record goes on from. */
-static status search_archive(struct run *e, struct archive *a)
+static status search_archive(struct statics *s, struct run_clock *clock, struct archive *a)
 {
-    struct statics *s = e->statics;
     struct equilibrium *q = &s->balance;
     ARCHIVE_VALUE(a, "statics/largest", q->largest);
     ARCHIVE_VALUE(a, "statics/strain_ratio", q->strain_ratio);
@@ -74,7 +72,7 @@ static status search_archive(struct run *e, struct archive *a)
     ARCHIVE_VALUE(a, "statics/directions", q->directions);
     ARCHIVE_VALUE(a, "statics/solutions", s->solutions);
     ARCHIVE_VALUE(a, "statics/record", s->record);
-    e->clock.load_step = s->record.step;
+    clock->load_step = s->record.step;
     return OK;
 }
 
@@ -97,7 +95,7 @@ status statics_archive(struct run *e, struct archive *a)
     ARCHIVE_VALUE(a, "statics/overload", s->overload);
     if (whole) TRY(increment_archive(e, a));
     ARCHIVE_VALUE(a, "statics/lost", q->lost);
-    if (whole) TRY(search_archive(e, a));
+    if (whole) TRY(search_archive(e->statics, &e->clock, a));
     if (!a->saving) statics_applied_make(e, s->t);
     if (!a->saving && whole) statics_plastic_keep(e);
     return OK;

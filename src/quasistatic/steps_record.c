@@ -28,10 +28,10 @@ int statics_columns(const struct run *e, struct column *column)
 
 /* Area by which the cracks grow over a spacing: as wide as all fronts of pre-cracks, else as one spacing [m^2]; in line
  * the section. */
-static real growth_by_spacing(const struct run *e)
+static real growth_by_spacing(const struct fracture_state *fracture, const struct scene *scene)
 {
-    const struct tips *t = &e->fracture->tips;
-    const real section = scene_section(e->scene);
+    const struct tips *t = &fracture->tips;
+    const real section = scene_section(scene);
     real wide = 0;
     if (t->dim == 1) return section;
     for (int k = 0; k < t->n; k++)
@@ -72,7 +72,7 @@ static void measure(struct run *e)
     struct steps_record *r = &e->statics->record;
     const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, scene_section(e->scene),
                                             0.5 * damage_beside_cut(e->scene)};
-    const real led = led_paths_area(e), spacing = growth_by_spacing(e);
+    const real led = led_paths_area(e), spacing = growth_by_spacing(e->fracture, e->scene);
     const bool solid = e->part.dim == 3 && led == 0;
     const real damaged = solid ? r->broken : tips_area(&e->fracture->tips, &e->part, &around);
     const bool by_paths = led > 0 && damaged <= led + 1.5 * spacing;

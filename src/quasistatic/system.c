@@ -10,7 +10,6 @@
 #include "contact/contact.h"
 #include "kernels/kernels.h"
 #include "mesh/mesh_part.h"
-#include "quasistatic/load_steps.h"
 
 /* ---- plastic state ----------------------------------------------------------------------------------------------- */
 

@@ -22,19 +22,19 @@ enum { STRIDES_MOST = 10000 };
 bool statics_meets(const struct run *e) { return e->contact->law.between != CONTACT_NONE || e->scene->rigids > 0; }
 
 /* Free motions of all pieces. */
-static int free_motions(const struct run *e)
+static int free_motions(const struct statics *statics)
 {
     int n = 0;
-    for (int64_t q = 0; q < e->statics->pieces; q++) n += e->statics->piece[q].motions;
+    for (int64_t q = 0; q < statics->pieces; q++) n += statics->piece[q].motions;
     return n;
 }
 
 /* Pieces as contact holds them now, and springs anew where it holds others. */
 static void pieces_follow(struct run *e)
 {
-    const int before = free_motions(e);
+    const int before = free_motions(e->statics);
     statics_pieces_make(e);
-    if (free_motions(e) != before) statics_precondition_free(e);
+    if (free_motions(e->statics) != before) statics_precondition_free(e);
 }
 
 static int64_t touch_search(struct run *e, real close)

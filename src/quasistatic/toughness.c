@@ -3,7 +3,6 @@
 
 #include "toughness.h"
 
-#include "quasistatic/load_steps.h"
 
 real stretch_work(real elastic, real yield, real hardening)
 {

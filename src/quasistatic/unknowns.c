@@ -21,10 +21,10 @@ static uint8_t *nodes_that_follow(const struct mesh *mesh)
 }
 
 /* Counts the unknowns, or lists them where there is room. */
-static int64_t nodes_list(const struct run *e, int32_t *node, int64_t *particles)
+static int64_t nodes_list(const struct particles *p, const struct reference_frame *frame, int32_t *node,
+                          int64_t *particles)
 {
-    const struct particles *p = &e->part;
-    const struct mesh *mesh = &e->frame->mesh;
+    const struct mesh *mesh = &frame->mesh;
     int64_t n = 0;
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++, n++)
         if (node) node[n] = p->list[KIND_PD][k];
@@ -97,13 +97,13 @@ void unknowns_list(struct run *e)
 {
     struct statics *s = e->statics;
     const struct mesh *mesh = &e->frame->mesh;
-    const int64_t n = nodes_list(e, NULL, &s->particles), places = mesh->points > 0 ? mesh->grid.n : 0;
+    const int64_t n = nodes_list(&e->part, e->frame, NULL, &s->particles), places = mesh->points > 0 ? mesh->grid.n : 0;
     int32_t *particle_at = BARE("statics.particle_at", e->part.n, int32_t);
     int32_t *node_at = BARE("statics.node_at", places, int32_t);
     s->node = NEW("statics.node", n, int32_t);
     s->weight = NEW("statics.weight", n, real);
     s->load = NEW("statics.load", n * DIM_MAX, int16_t);
-    nodes_list(e, s->node, &s->particles);
+    nodes_list(&e->part, e->frame, s->node, &s->particles);
     equilibrium_make(&s->balance, e->part.dim, n);
     for (int d = 0; d < e->part.dim; d++) s->way.of[d] = NEW("statics.way", n, real);
     array_fill_bytes(particle_at, -1, e->part.n, sizeof *particle_at);

@@ -5,7 +5,6 @@
 #include "pieces.h"
 #include "system.h"
 
-#include "quasistatic/load_steps.h"
 #include "quasistatic/statics.h"
 #include "rigid/rigid_part.h"
 
