@@ -6,6 +6,7 @@
 #include "probes/diagnostics.h"
 #include "step/report.h"
 #include "step/stability.h"
+#include "step/checks.h"
 
 #define YOUNG 200e9
 #define DENSITY (YOUNG / (CONTACT_WAVE * CONTACT_WAVE))

@@ -5,6 +5,7 @@
 #include "probes/diagnostics.h"
 #include "step/report.h"
 #include "step/stability.h"
+#include "step/checks.h"
 
 /* Runs to the end; the line of centres when they are closest, which turns while they touch. */
 static status discs_run(struct run *e, double *normal)

@@ -13,6 +13,7 @@
 #include "step/step.h"
 #include "step/report.h"
 #include "step/stability.h"
+#include "step/checks.h"
 
 #define VORTEX_PERIOD 0.06 /* two transits of the radius by waves [s] */
 #define VORTEX_HALF 1.2    /* edge of the body: beyond R = 1 nothing moves [m] */

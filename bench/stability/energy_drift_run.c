@@ -11,6 +11,7 @@
 #include "step/report.h"
 #include "coupling/coupling_part.h"
 #include "step/stability.h"
+#include "step/checks.h"
 
 #define LOUD 1e-4                        /* velocities over that of waves: strains of 1e-4, nothing breaks */
 enum { SAMPLES = 400 };

@@ -2,7 +2,6 @@
 #ifndef CLEAVE_PROBES_PART
 #define CLEAVE_PROBES_PART
 
-#include "probes/diagnostics.h"
 #include "output/output.h"
 #include "probes/probes.h"
 #include "run/run.h"

@@ -15,6 +15,7 @@
 #include "step/step.h"
 #include "step/stability.h"
 #include "scene/scene_read.h"
+#include "step/checks.h"
 
 enum { PERIODS_MOST = 200 };
 #define SECONDS_ENOUGH 0.15

@@ -1,8 +1,14 @@
 /* Contact of peridynamic particles, as a part of a run. */
+#include "contact/contact_part.h"
+
+#include <math.h>
+#include <stdio.h>
+
 #include "contact/contact.h"
 #include "rigid/rigid_part.h"
 #include "run/part.h"
 #include "grid/grid_part.h"
+#include "run/say.h"
 
 static void contact_free_all(struct run *e) { contact_free(e->contact); }
 
@@ -59,6 +65,36 @@ static void put_contact_and_rigid(const struct run *e, struct json *j)
 {
     put_contact(e->contact, e->grid, j);
     put_rigid(e, j);
+}
+
+#define OVERLAP_DOUBTFUL 0.3             /* [spacings] */
+#define OVERLAP_MOST 0.9                 /* beyond, particles pass each other */
+
+status contact_overlap_check(struct run *e)
+{
+    const struct contact *c = e->contact;
+    const real overlap = c->overlap / e->scene->spacing;
+    char text[320];
+    if (!(overlap > OVERLAP_DOUBTFUL)) return OK;
+    if (overlap > OVERLAP_MOST) {
+        const struct particles *p = &e->part;
+        const int32_t i = c->deepest;
+        return status_set(FAILED,
+                          "contact at step %lld, t = %.3g s: particle %d, now at (%.6g, %.6g, %.6g) m, is %.2f "
+                          "spacings inside another, which it is about to pass; see whether the speeds (wave speed "
+                          "%.4g m/s) are meant, or choose a larger contact.stiffness (now %.3g) with a smaller "
+                          "time.safety",
+                          (long long)e->clock.step, e->clock.t, (int)p->id[i], p->x[0][i], p->dim > 1 ? p->x[1][i] : 0,
+                          p->dim > 2 ? p->x[2][i] : 0, overlap, e->tables.wave_speed, e->scene->contact_stiffness);
+    }
+    if (e->contact->overlap_said) return OK;
+    e->contact->overlap_said = true;
+    snprintf(text, sizeof text,
+             "particles in contact overlap by more than %.1f spacings (contact.overlap_max in the summary): pressures "
+             "there are no longer those of the material; a larger contact.stiffness overlaps less",
+             OVERLAP_DOUBTFUL);
+    run_say(e, text);
+    return OK;
 }
 
 const struct part part_contact = {PART(contact, contact), .free = contact_free_all, .summary = put_contact_and_rigid,

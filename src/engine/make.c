@@ -12,12 +12,13 @@
 #include "rigid/rigid_part.h"
 #include "mesh/mesh_part.h"
 #include "step/report.h"
-#include "step/stability.h"
 #include "contact/contact.h"
 #include "scene/fill.h"
 #include "output/output.h"
 #include "run/make.h"
 #include "step/step.h"
+#include "probes/diagnostics.h"
+#include "step/checks.h"
 
 static bool has_peridynamics(const struct scene *s) { return s->method != METHOD_MPM; }
 

@@ -11,6 +11,7 @@
 #include "contact/contact.h"
 #include "fracture/fracture_part.h"
 #include "engine_internal.h"
+#include "probes/diagnostics.h"
 
 /* Numbers of the particles and images of `old` in e, -1: not there. Both are in the order of their ids. The caller
  * frees them. */

@@ -6,8 +6,8 @@
 #include "probes/probes_part.h"
 #include "quasistatic/load_steps.h"
 #include "step/report.h"
-#include "step/stability.h"
 #include "step/step.h"
+#include "step/checks.h"
 
 /* The rings of sif probes, where coarse cells have to stay away from. */
 static void rings_find(struct run *e)

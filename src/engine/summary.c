@@ -13,7 +13,7 @@
 #include "coupling/coupling_part.h"
 #include "step/report.h"
 #include "output/output.h"
-#include "probes/probes_part.h"
+#include "probes/diagnostics.h"
 
 /* ---- physical figures -------------------------------------------------------------------------------------------- */
 

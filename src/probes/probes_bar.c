@@ -9,7 +9,6 @@
 
 #include "kernels/pd/bond_laws.h"
 #include "base/memory.h"
-#include "probes/probes.h"
 #include "probes_parts.h"
 
 /* ---- stress and strain ------------------------------------------------------------------------------------------- */

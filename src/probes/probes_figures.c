@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "kernels/pd/bond_laws.h"
-#include "probes/probes.h"
 #include "probes_parts.h"
 #include "base/team.h"
 #include "probes/diagnostics.h"

@@ -8,7 +8,7 @@
 #include "solver/solver.h"
 #include "probes/diagnostics.h"
 #include "step/step.h"
-#include "step/stability.h"
+#include "step/checks.h"
 
 #define ESTIMATE_STEPS 10                    /* steps between estimates of damping and residual */
 #define MOTION_SMALL 1e-6                        /* kinetic over strain energy of a body at rest */

@@ -15,8 +15,8 @@
 #include "probes/diagnostics.h"
 #include "rigid/rigid_part.h"
 #include "step/sample.h"
-#include "step/stability.h"
 #include "step/step.h"
+#include "step/checks.h"
 
 #define CROSSINGS_QUIET 3.0   /* crossings of the body by waves, without a bond that breaks, to be quiet */
 #define CROSSINGS_DAMPED 40.0 /* the same, that damping may take at the most */

@@ -3,6 +3,7 @@
 #include "grid/grid_part.h"
 #include "coupling/coupling_part.h"
 #include "probes/probes_part.h"
+#include "probes/diagnostics.h"
 
 struct observed run_observed(const struct run *e)
 {

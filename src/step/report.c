@@ -17,7 +17,7 @@
 #include "probes/probes_part.h"
 #include "run/say.h"
 #include "step/sample.h"
-#include "step/stability.h"
+#include "step/checks.h"
 
 #define PROGRESS_SECONDS 0.5             /* between progress lines on a terminal */
 #define PROGRESS_SECONDS_FILE 60.0       /* and in files                         */

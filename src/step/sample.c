@@ -19,6 +19,7 @@
 #include "rigid/rigid_part.h"
 #include "step/damping.h"
 #include "run/say.h"
+#include "probes/diagnostics.h"
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 

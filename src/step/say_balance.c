@@ -5,8 +5,8 @@
 #include "probes/diagnostics.h"
 #include "coupling/coupling_part.h"
 #include "step/report.h"
-#include "step/stability.h"
 #include "run/say.h"
+#include "step/checks.h"
 
 #define ENERGY_DOUBTFUL 0.05 /* share lost or gained that is warned of: ten times that of scenes in inputs/ */
 #define DAMPED_DOUBTFUL 0.1  /* share damped beside bonds: three times the most of scenes in inputs/ */

@@ -7,10 +7,11 @@
 #include "mesh/mesh_part.h"
 #include "step/stability.h"
 #include "probes/diagnostics.h"
-#include "contact/contact.h"
+#include "contact/contact_part.h"
 #include "step/report.h"
 #include "run/say.h"
 #include "rigid/rigid_part.h"
+#include "step/checks.h"
 
 #define LOAD_SHARE_LEAST 0.5 /* least share of a motion by loads that explain it: speeds double at free faces */
 #define LARGE_STRAIN 0.1                 /* initial strain; its stresses are a tenth of the modulus */
@@ -286,37 +287,6 @@ static status inversion_check(const struct run_clock *clock, const struct partic
                       (long long)clock->step, clock->t, what, X[0], X[1], X[2]);
 }
 
-#define OVERLAP_DOUBTFUL 0.3             /* [spacings] */
-#define OVERLAP_MOST 0.9                 /* beyond, particles pass each other */
-
-/* Says once that particles in contact overlap much; FAILED where they are about to pass each other. */
-static status overlap_check(struct run *e)
-{
-    const struct contact *c = e->contact;
-    const real overlap = c->overlap / e->scene->spacing;
-    char text[320];
-    if (!(overlap > OVERLAP_DOUBTFUL)) return OK;
-    if (overlap > OVERLAP_MOST) {
-        const struct particles *p = &e->part;
-        const int32_t i = c->deepest;
-        return status_set(FAILED,
-                          "contact at step %lld, t = %.3g s: particle %d, now at (%.6g, %.6g, %.6g) m, is %.2f "
-                          "spacings inside another, which it is about to pass; see whether the speeds (wave speed "
-                          "%.4g m/s) are meant, or choose a larger contact.stiffness (now %.3g) with a smaller "
-                          "time.safety",
-                          (long long)e->clock.step, e->clock.t, (int)p->id[i], p->x[0][i], p->dim > 1 ? p->x[1][i] : 0,
-                          p->dim > 2 ? p->x[2][i] : 0, overlap, e->tables.wave_speed, e->scene->contact_stiffness);
-    }
-    if (e->contact->overlap_said) return OK;
-    e->contact->overlap_said = true;
-    snprintf(text, sizeof text,
-             "particles in contact overlap by more than %.1f spacings (contact.overlap_max in the summary): pressures "
-             "there are no longer those of the material; a larger contact.stiffness overlaps less",
-             OVERLAP_DOUBTFUL);
-    run_say(e, text);
-    return OK;
-}
-
 /* FAILED where a formula had no finite value in the step that has been made, which asks for values at its ends and
  * middle, of the step before and of the next: then the impulse is no number. At the end of the run all formulas are
  * asked once. */
@@ -338,7 +308,7 @@ status stability_check(struct run *e)
     if (diverged) frame_sync_points(e, NULL, 0);
     TRY(divergence_check(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, e->frame));
-    TRY(overlap_check(e));
+    TRY(contact_overlap_check(e));
     TRY(rigids_speed_check(e));
     if (e->clock.step % RISE_STRIDE == 0)
         rise_note(&e->stability->speed, e->clock.step, square(fastest_now(&e->part, e->frame)));

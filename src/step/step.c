@@ -12,6 +12,8 @@
 #include "step/report.h"
 #include "step/sample.h"
 #include "step/stability.h"
+#include "probes/diagnostics.h"
+#include "step/checks.h"
 
 /* What the phases of one step share. */
 struct step {
@@ -65,9 +67,9 @@ static void zone_damp(struct run *e, struct step *now)
     loads_mirror(&e->loads, &e->part);           /* bonds that break ask images for their velocity */
 }
 
-/* True if nothing reads positions between forces and motion, as samples and growing cracks do: then one sweep computes
- * the forces of particles and moves those whose rows it has left behind (kernels/pd/sweep.h), with the bits of forces
- * first, then motion. With 1.7 million particles, which no cache holds, that saves 38 % of a step. */
+/* True if nothing reads positions between forces and motion, as samples and growing cracks do: then one
+ * sweep computes the forces of particles and moves those whose rows it has left behind (kernels/pd/sweep.h), with the
+ * bits of forces first, then motion. With 1.7 million particles, which no cache holds, that saves 38 % of a step. */
 static bool sweep_moves(const struct scene *s, const struct run_report *report)
 {
     return !report->sampling.due && s->growths == 0;

@@ -11,6 +11,7 @@
 #include "step/report.h"
 #include "probes/diagnostics.h"
 #include "step/stability.h"
+#include "step/checks.h"
 
 /* A body that flies at a cracked one, whose crack closes. */
 static const char plane[] =

@@ -11,6 +11,7 @@
 #include "tests/support/near.h"
 #include "base/rise.h"
 #include "step/stability.h"
+#include "step/checks.h"
 
 /* ---- how long a rise took ---------------------------------------------------------------------------------------- */
 
