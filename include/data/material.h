@@ -19,6 +19,7 @@ struct material {
     real critical_stretch;               /* s_c [1]; from G_c if not given; INFINITY: never breaks */
     real yield_stress;                   /* sigma_y [Pa]; INFINITY or 0: elastic */
     real yield_tangent;                  /* E_t: slope of the uniaxial curve behind sigma_y, below E [Pa] */
+    struct { real linear, quadratic; } viscosity; /* of rapid compression (step/viscosity.h) [1] */
     struct strength_scatter scatter;              /* of its critical stretch, by place */
     /* derived by material_derive */
     real yield_hardening;                /* H = E E_t/(E - E_t): yield stress over plastic strain [Pa] */
@@ -31,6 +32,11 @@ struct material {
 static inline bool material_yields(const struct material *m)
 {
     return m->yield_stress > 0 && isfinite(m->yield_stress);
+}
+
+static inline bool material_viscous(const struct material *m)
+{
+    return m->viscosity.linear > 0 || m->viscosity.quadratic > 0;
 }
 
 /* Poisson's ratio that bond-based peridynamics imposes: 1/3, 1/4, 1/4; NAN in 1D. */

@@ -4,6 +4,10 @@
 
 #include "run/run.h"
 
+/* Share of its energies that point i keeps where it leaves part of its stress to bonds, 1 - tr M/n [1]: exact where
+ * that part is equal for all stresses, as in one dimension. */
+real point_own_share(const struct partial_stress *partial, int dim, int64_t i);
+
 /* Kinetic energy 1/2 sum m v^2 of the body, without points of a mesh, which has its own [J]. */
 real diagnostics_kinetic(const struct particles *p);
 /* Strain energy of the material points on the grid: 1/2 sum sigma_given : C^-1 sigma V, and in plane strain what

@@ -17,7 +17,8 @@
  *     fracture   of bonds broken
  *     contact    of pairs in contact (contact.h)
  *     damped     taken by damping, friction and conversion
- *     absorbed   left through absorbing faces (loads/absorbing.h) */
+ *     absorbed   left through absorbing faces (loads/absorbing.h)
+ *     viscous    taken by bulk viscosity (step/viscosity.h) */
 #define ENERGY_ROWS(X)                                                                                                 \
     X(kinetic, "#0072b2", 2)                                                                                           \
     X(strain, "#009e73", 3)                                                                                            \
@@ -25,7 +26,8 @@
     X(fracture, "#d55e00", 5)                                                                                          \
     X(contact, "#cc79a7", 22)                                                                                          \
     X(damped, "#56b4e9", 19)                                                                                           \
-    X(absorbed, "#999999", 23)
+    X(absorbed, "#999999", 23)                                                                                \
+    X(viscous, "#f0e442", 24)
 
 #define ENERGY_COUNT(name, colour, column) +1
 #define ENERGY_MEMBER(name, colour, column) real name;

@@ -211,6 +211,14 @@ static inline bool scene_bonds_break(const struct scene *s)
     return breaks;
 }
 
+/* Has a material bulk viscosity? */
+static inline bool scene_viscous(const struct scene *s)
+{
+    bool viscous = false;
+    for (int m = 0; m < s->materials; m++) viscous |= material_viscous(&s->material[m]);
+    return viscous;
+}
+
 /* Does the strength of a material scatter from place to place? */
 static inline bool scene_scatters(const struct scene *s)
 {

@@ -24,6 +24,7 @@
 #define REACHED 4                        /* rho c v  */
 #define PASSAGES 4
 #define LITTLE 0.1
+#define SHOCK 0.1                        /* of the speed that breaks or yields a body in a collision */
 #define BESIDE_FACE 1.5                  /* distance at which a probe is at a face [spacings] */
 #define AROUND 3                         /* spacings about a probe in which its face is looked at */
 #define ALONG_AXIS 0.999                 /* component of a normal from which on a face is along the axes */
@@ -207,6 +208,37 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
             fprintf(out, "unresolved: an initial pulse is %.3g spacings wide: below %d it disperses; spacing %s\n",
                     s->initial[k].pulse.width / s->spacing, WAVE,
                     length_in_words(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
+}
+
+/* Smallest strain at which a material breaks or yields, times its wave speed [m/s]; INFINITY: it does neither. */
+static real speed_borne(const struct scene *s)
+{
+    real least = INFINITY;
+    for (int m = 0; m < s->materials; m++) {
+        const struct material *own = &s->material[m];
+        real strain = s->method == METHOD_MPM ? INFINITY : own->critical_stretch;
+        if (material_yields(own)) strain = real_min(strain, own->yield_stress / own->young);
+        least = real_min(least, strain * own->wave_speed);
+    }
+    return least;
+}
+
+/* Bodies that collide so fast that the ringing of the front may break or yield them, without viscosity. */
+static void advise_shocks(const struct scene *s, FILE *out)
+{
+    real most = 0;
+    for (int a = 0; a < s->bodies; a++)
+        for (int b = a + 1; b < s->bodies + s->rigids; b++) {
+            real apart2 = 0;
+            for (int d = 0; d < s->dim; d++) apart2 += square(s->body[a].velocity[d] - s->body[b].velocity[d]);
+            most = real_max(most, sqrt(apart2));
+        }
+    if (scene_viscous(s) || !scene_moves(s) || !scene_bodies_meet(s) || s->space == SPACE_PLANE_STRESS ||
+        s->model != MODEL_BOND || !(most > SHOCK * speed_borne(s)))
+        return;
+    fprintf(out, "shock: bodies collide at %.3g m/s, %.2g of the strain that breaks or yields them times the wave "
+            "speed; fronts ring by 10 to 30 %% of that, and brittle bodies break too early: material.viscosity: {}\n",
+            most, most / speed_borne(s));
 }
 
 /* Coarse cells that the scene gives and that do not carry its loads. */
@@ -423,6 +455,7 @@ void advise(const struct run *e, FILE *out)
     advise_faces(e->scene, out);
     advise_lists(e, out);
     advise_waves(e->scene, &e->tables, out);
+    advise_shocks(e->scene, out);
     advise_load_steps(e, out);
     advise_formulas(e, out);
     advise_levels(e, out);

@@ -6,11 +6,12 @@
 #include "run/part.h"
 
 extern const struct part part_grid, part_frame, part_rigid, part_contact, part_coupling, part_fracture, part_solver,
-    part_diagnostics, part_probing, part_damping, part_stability, part_report, part_statics;
+    part_diagnostics, part_probing, part_damping, part_viscosity, part_stability, part_report, part_statics;
 
-static const struct part *const parts[] = {
-    &part_grid,     &part_frame,       &part_rigid,   &part_contact, &part_coupling,  &part_fracture, &part_solver,
-    &part_statics,  &part_diagnostics, &part_probing, &part_damping, &part_stability, &part_report, NULL};
+static const struct part *const parts[] = {&part_grid,        &part_frame,    &part_rigid,   &part_contact,
+                                           &part_coupling,    &part_fracture, &part_solver,  &part_statics,
+                                           &part_diagnostics, &part_probing,  &part_damping, &part_viscosity,
+                                           &part_stability,   &part_report,   NULL};
 
 /* The pointer of a part in a run. */
 static void **part_place(struct run *e, const struct part *p) { return (void **)((char *)e + p->at); }

@@ -155,13 +155,10 @@ struct strain_sum {
     real (*compliance)[SYM_MAX * SYM_MAX];   /* by material */
 };
 
-/* Share of its energies that point i keeps where it leaves part of its stress to bonds, 1 - tr M/n [1]: exact where
- * that part is equal for all stresses, as in one dimension. */
-static real own_share(const struct strain_sum *s, int64_t i)
+real point_own_share(const struct partial_stress *partial, int dim, int64_t i)
 {
-    const struct partial_stress *partial = s->partial;
     if (!partial || !partial->index || partial->index[i] < 0) return 1;
-    const int n = symmetric_count(s->p->dim);
+    const int n = symmetric_count(dim);
     const real *M = partial->matrix + (int64_t)partial->index[i] * n * n;
     real trace = 0;
     for (int a = 0; a < n; a++) trace += M[a * n + a];
@@ -173,7 +170,8 @@ static real own_share(const struct strain_sum *s, int64_t i)
 static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
 {
     if (!s->p->out_of_plane) return 0;
-    return own_share(s, i) * square(s->p->out_of_plane[i]) / (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
+    return point_own_share(s->partial, s->p->dim, i) * square(s->p->out_of_plane[i]) /
+           (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
 }
 
 /* Strain energy of the k-th listed particle on the grid [J]; 0 of peridynamic particles. */
@@ -224,7 +222,7 @@ static real plastic_term(const void *context, int64_t k)
     const real a = p->plastic_strain[i];
     if (a == 0) return 0;
     const real volume = p->flag[i] & FLAG_MESHED ? p->volume0[i] : p->volume[i];
-    return own_share(s, i) * volume * (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
+    return point_own_share(s->partial, s->p->dim, i) * volume * (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
 }
 
 real diagnostics_plastic(const struct particles *p, const struct material *m, const struct partial_stress *partial)

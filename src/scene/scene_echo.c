@@ -226,6 +226,7 @@ static void write_materials(struct writer *w)
         begin_item(w);
         if (one) w->indent = 2, w->dash = false;
         write_group(w, "material", &m);
+        if (material_viscous(&m)) write_part(w, "viscosity", "material.viscosity", &m);
         if (m.scatter.given) write_part(w, "scatter", "material.scatter", &m.scatter);
     }
 }

@@ -23,6 +23,13 @@
         "E_t, slope of the uniaxial stress-strain curve once it yields; below young"),
     KEY("material.yield_hardening", KEY_HAND, UNIT_PRESSURE, NOWHERE, FROM(0), NONE,
         "H, yield stress over plastic strain; says the same as yield_tangent = E H/(E + H)", .words = "number"),
+    KEY("material.viscosity", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
+        "bulk viscosity: a pressure against rapid compression, so that shocks do not ring; model bond, explicit steps, "
+        "not in plane stress"),
+    KEY("material.viscosity.linear", KEY_REAL, UNIT_NONE, AT(material, viscosity.linear), BETWEEN(0, 2), "0.2",
+        "q = rho h (quadratic h D^2 - linear c D) at the rate D < 0 of volume; h: spacing, c: wave speed"),
+    KEY("material.viscosity.quadratic", KEY_REAL, UNIT_NONE, AT(material, viscosity.quadratic), BETWEEN(0, 10), "1.5",
+        "the same"),
     KEY("material.scatter", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
         "its strength scatters from place to place, about what is given above as the mean"),
     KEY("material.scatter.of", KEY_CHOICE, UNIT_NONE, AT(strength_scatter, of), ANY, "strength",

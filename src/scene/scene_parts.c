@@ -89,6 +89,22 @@ static status read_scatter(struct reader *r, const struct node *n, struct materi
     return OK;
 }
 
+/* REFUSED where viscosity cannot act. Cells have one time step with it: levels that are left to choose are 0. */
+static status read_viscosity(struct reader *r, const struct node *n, struct material *m)
+{
+    struct scene *s = r->scene;
+    if (!n) return OK;
+    TRY(read_group(r, n, n, "material.viscosity", m));
+    if (s->levels == LEVELS_AUTO) s->levels = 0;
+    const char *why = s->space == SPACE_PLANE_STRESS ? "goes with space plane strain, solid or line, where the rate of "
+                                                       "volume is known"
+                      : s->model != MODEL_BOND && s->method != METHOD_MPM ? "goes with model bond"
+                      : !scene_moves(s)                                   ? "goes with solver explicit"
+                      : s->levels > 0 ? "goes with mpm.levels: 0, as it knows one time step"
+                                      : NULL;
+    return why ? fault(r, n, "%s", why) : OK;
+}
+
 /* Reads one material with defaults by space, and derives its wave speeds and critical stretch. */
 static status scene_parts_read_material(struct reader *r, const struct node *n, struct material *m)
 {
@@ -102,6 +118,7 @@ static status scene_parts_read_material(struct reader *r, const struct node *n, 
     TRY(read_strength(r, n, m));
     TRY(read_hardening(r, n, m));
     TRY(read_scatter(r, node_find(n, "scatter"), m));
+    TRY(read_viscosity(r, node_find(n, "viscosity"), m));
     if (s->model != MODEL_BOND && material_yields(m))
         return fault(r, node_find(n, "yield_stress"),
                      "state-based models do not yield in this version; model bond, or no "

@@ -19,11 +19,12 @@
 #include "rigid/rigid_part.h"
 #include "step/damping.h"
 #include "run/say.h"
+#include "step/viscosity.h"
 #include "probes/diagnostics.h"
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
-enum { RECORD_FIXED = 24 };
+enum { RECORD_FIXED = 25 };
 
 /* Columns that every run has; those between are rows of the ledger. */
 static const struct column fixed_columns[RECORD_FIXED] = {
@@ -218,6 +219,7 @@ static void sample_energies(struct run *e)
         .contact = contact_energy(e->contact, &e->part),
         .damped = e->damped + contact_friction_work(e->contact),
         .absorbed = e->loads.absorbing.energy,
+        .viscous = e->viscosity->taken,
     };
 }
 

@@ -8,6 +8,7 @@
 #include "contact/contact.h"
 #include "run/critical_step.h"
 #include "mesh/mesh_part.h"
+#include "step/viscosity.h"
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
@@ -183,7 +184,7 @@ status time_step_make(struct run *e)
     const struct scene *s = e->scene;
     e->clock.dt_critical =
         real_min(real_min(critical_of_bonds(e), critical_of_points(e)), frame_critical_step(e)) *
-        sqrt(lightest_share(s, &e->part));
+        sqrt(lightest_share(s, &e->part)) * viscosity_step_share(e);
     const real contact = contact_critical_step(e->contact, &e->part, s->material, e->clock.dt_critical);
     const real safety = frame_levels_number(e) > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;
     const real automatic =

@@ -1,0 +1,298 @@
+/* Bulk viscosity of bonds, points and cells. */
+#include "step/viscosity.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "base/team.h"
+#include "coupling/coupling_part.h"
+#include "mesh/mesh_part.h"
+#include "probes/diagnostics.h"
+#include "run/part.h"
+
+/* Makes the arrays, once. Returns false where no material is viscous. */
+static bool viscosity_made(struct run *e)
+{
+    struct viscosity *v = e->viscosity;
+    const int64_t n = e->part.n, nodes = e->frame->mesh.grid.n;
+    if (v->work || !scene_viscous(e->scene)) return v->work != NULL;
+    for (int d = 0; d < e->part.dim; d++) {
+        v->bonds[d] = NEW("viscosity.bonds", n, real), v->stress[d] = NEW("viscosity.stress", n, real);
+        v->nodes[d] = NEW("viscosity.nodes", nodes, real);
+    }
+    v->pressure = NEW("viscosity.pressure", n, real), v->volume = NEW("viscosity.volume", n, real);
+    v->work = NEW("viscosity.work", n, real);
+    return true;
+}
+
+/* q over rho c^2 at a rate of compression [1/s], by the wave crossing time h/c of a spacing [s] [1]. */
+static real viscous_strain(real linear, real quadratic, real crossing, real rate)
+{
+    const real x = crossing * rate;
+    return (linear + quadratic * x) * x;
+}
+
+/* The same of a material as a pressure [Pa]; rate: of volume, 0 or more where it grows [1/s]. */
+static real viscous_pressure(const struct material *m, real h, real rate)
+{
+    if (!(rate < 0)) return 0;
+    return m->density * square(m->wave_speed) *
+           viscous_strain(m->viscosity.linear, m->viscosity.quadratic, h / m->wave_speed, -rate);
+}
+
+/* Edge of a cell of the grid and of the reference frame [m]. */
+static real cell_edge(const struct scene *s) { return s->cell * s->spacing; }
+
+static real taken_by(const void *work, int64_t i) { return ((const real *)work)[i]; }
+
+/* ---- bonds ------------------------------------------------------------------------------------------------------- */
+
+/* Adds the force of a bond of particle i to f [N]. Of a bond between two materials coefficients are means. */
+static void bond_push(const struct run *e, int32_t i, const struct bond *bond, real *f)
+{
+    const struct particles *p = &e->part;
+    const struct material *a = &e->scene->material[p->material[i]], *b = &e->scene->material[p->material[bond->nbr]];
+    real way[DIM_MAX], length2 = 0, rate = 0;
+    for (int d = 0; d < p->dim; d++) {
+        way[d] = p->x[d][bond->nbr] - p->x[d][i];
+        length2 += square(way[d]);
+        rate += way[d] * (p->v[d][bond->nbr] - p->v[d][i]);
+    }
+    if (!(rate < 0)) return;
+    const real length = sqrt(length2), crossing = 2 / bond->inverse_length / (a->wave_speed + b->wave_speed);
+    const real strain = viscous_strain(0.5 * (a->viscosity.linear + b->viscosity.linear),
+                                       0.5 * (a->viscosity.quadratic + b->viscosity.quadratic), crossing,
+                                       -rate / length * bond->inverse_length);
+    for (int d = 0; d < p->dim; d++) f[d] -= e->bonds.stiffness * bond->w * strain * way[d] / length;
+}
+
+static void bonds_push(struct run *e)
+{
+    struct viscosity *v = e->viscosity;
+    struct particles *p = &e->part;
+    const real half = e->clock.step > 0 ? 0.5 * e->clock.dt : 0;
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++) {
+        real f[DIM_MAX] = {0};
+        for (struct bond_iterator it = bonds_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
+            if (it.bond.w != 0) bond_push(e, (int32_t)i, &it.bond, f);
+        v->work[i] = 0;
+        for (int d = 0; d < p->dim; d++) {
+            v->work[i] -= half * p->v[d][i] * (v->bonds[d][i] + f[d]);
+            v->bonds[d][i] = f[d];
+            p->f[d][i] += f[d];
+        }
+    }
+    v->taken += team_sum(p->n, taken_by, v->work);
+}
+
+/* ---- points on the grid ------------------------------------------------------------------------------------------ */
+
+static void points_pressure(struct run *e)
+{
+    struct viscosity *v = e->viscosity;
+    const struct particles *p = &e->part;
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < p->n; i++) {
+        const real before = v->pressure[i], volume = v->volume[i];
+        const bool on_grid = p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED);
+        v->pressure[i] = v->work[i] = 0, v->volume[i] = on_grid ? p->volume[i] : 0;
+        if (!on_grid || volume == 0) continue;
+        const real growth = p->volume[i] - volume, rate = growth / (0.5 * (p->volume[i] + volume) * e->clock.dt);
+        v->pressure[i] = viscous_pressure(&e->scene->material[p->material[i]], cell_edge(e->scene), rate);
+        v->work[i] = -0.5 * point_own_share(&e->coupling->partial, p->dim, i) * (before + v->pressure[i]) * growth;
+    }
+    v->taken += team_sum(p->n, taken_by, v->work);
+}
+
+void viscosity_push(struct run *e)
+{
+    if (!viscosity_made(e)) return;
+    bonds_push(e);
+    points_pressure(e);
+}
+
+void viscosity_lend(struct run *e, bool on)
+{
+    struct viscosity *v = e->viscosity;
+    const struct particles *p = &e->part;
+    for (int d = 0; d < p->dim && v->work; d++) {
+#pragma omp parallel for schedule(static)
+        for (int64_t k = 0; k < p->n_free; k++) {
+            const int32_t i = p->list_free[k];
+            if (on) v->stress[d][i] = p->stress[d][i], p->stress[d][i] -= v->pressure[i];
+            else p->stress[d][i] = v->stress[d][i];
+        }
+    }
+}
+
+/* ---- cells of the reference frame -------------------------------------------------------------------------------- */
+
+/* Determinant of F, and its inverse [dim dim]. */
+static real invert_gradient(const real *F, int dim, real *inverse)
+{
+    if (dim == 1) {
+        inverse[0] = 1 / F[0];
+        return F[0];
+    }
+    if (dim == 2) {
+        const real J = F[0] * F[3] - F[1] * F[2];
+        inverse[0] = F[3] / J, inverse[1] = -F[1] / J, inverse[2] = -F[2] / J, inverse[3] = F[0] / J;
+        return J;
+    }
+    real J = 0;
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) {
+            const int c = (a + 1) % 3, d = (a + 2) % 3, k = (b + 1) % 3, l = (b + 2) % 3;
+            inverse[b * 3 + a] = F[c * 3 + k] * F[d * 3 + l] - F[c * 3 + l] * F[d * 3 + k];
+            if (a == 0) J += F[b] * inverse[b * 3];
+        }
+    for (int k = 0; k < 9; k++) inverse[k] /= J;
+    return J;
+}
+
+/* Turns the displacement gradient H of point i, and that of its velocity G, into what its volume and q give to the
+ * slopes of shares: volume0 J q F^-T, in H [dim dim, N m]. */
+static void viscous_stress(const struct run *e, int64_t i, real *const *H, real *const *G)
+{
+    const struct particles *p = &e->part;
+    const int dim = p->dim;
+    real F[DIM_MAX * DIM_MAX], inverse[DIM_MAX * DIM_MAX], rate = 0;
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b < dim; b++) F[a * dim + b] = (a == b) + (e->scene->small_strain ? 0 : H[a * dim + b][i]);
+    const real J = invert_gradient(F, dim, inverse);
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b < dim; b++) rate += G[a * dim + b][i] * inverse[b * dim + a];
+    const real q = viscous_pressure(&e->scene->material[p->material[i]], cell_edge(e->scene), rate) *
+                   point_own_share(&e->coupling->partial, dim, i);
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b < dim; b++) H[a * dim + b][i] = p->volume0[i] * J * q * inverse[b * dim + a];
+}
+
+/* Adds what the points of a cell push its nodes with. */
+static void cell_push(const struct mesh *mesh, int64_t I, real *const *P, real *const *f)
+{
+    const int dim = mesh->grid.dim;
+    for (int place = 0; place < 1 << dim; place++) {
+        const int32_t i = mesh->point[(I << dim) + place];
+        for (int c = 0; c < 1 << dim && i >= 0; c++) {
+            const int64_t node = mesh_node(mesh, I, c);
+            for (int a = 0; a < dim; a++)
+                for (int b = 0; b < dim; b++)
+                    f[a][node] += P[a * dim + b][i] * mesh_slope(dim, c, place, b) / mesh->grid.h;
+        }
+    }
+}
+
+/* Colour of a cell of the grid: cells of one colour share no node. Extra cells of slits have a colour of their own. */
+static int cell_colour(const struct mesh *mesh, int64_t I)
+{
+    const struct grid *g = &mesh->grid;
+    int colour = 0;
+    if (mesh->slits.cell && (I >= mesh->slits.first || mesh->slits.cell[I] >= 0)) return 1 << g->dim;
+    for (int d = 0; d < g->dim; d++) colour |= (int)(I / g->stride[d] % g->count[d] & 1) << d;
+    return colour;
+}
+
+/* Forces of all cells on nodes, f [grid.n]: colour by colour, those beside slits one by one. */
+static void cells_push(const struct mesh *mesh, real *const *P, real *const *f)
+{
+    const int colours = 1 << mesh->grid.dim;
+    for (int colour = 0; colour < colours; colour++) {
+#pragma omp parallel for schedule(static)
+        for (int64_t I = 0; I < mesh->grid.n; I++)
+            if (mesh->kind[I] && cell_colour(mesh, I) == colour) cell_push(mesh, I, P, f);
+    }
+    for (int64_t I = 0; I < mesh->grid.n && mesh->slits.cell; I++)
+        if (mesh->kind[I] && cell_colour(mesh, I) == colours) cell_push(mesh, I, P, f);
+}
+
+/* Books the work of the nodes' forces of the step before and of now, f [grid.n]; these become the former. */
+static void nodes_book(struct run *e, real *const *f)
+{
+    struct viscosity *v = e->viscosity;
+    const struct grid *g = &e->frame->mesh.grid;
+    const real half = e->clock.step > 0 ? 0.5 * e->clock.dt : 0;
+    real *work = NEW("viscosity.node_work", g->n, real);
+#pragma omp parallel for schedule(static)
+    for (int64_t I = 0; I < g->n; I++)
+        for (int d = 0; d < g->dim; d++) {
+            work[I] -= half * g->velocity[d][I] * (v->nodes[d][I] + f[d][I]);
+            v->nodes[d][I] = f[d][I];
+            g->force[d][I] += f[d][I];
+        }
+    v->taken += team_sum(g->n, taken_by, work);
+    memory_free(work);
+}
+
+void viscosity_push_nodes(struct run *e)
+{
+    const struct mesh *mesh = &e->frame->mesh;
+    const int dim = e->part.dim;
+    real *H[DIM_MAX * DIM_MAX] = {NULL}, *G[DIM_MAX * DIM_MAX] = {NULL}, *f[DIM_MAX] = {NULL};
+    struct mesh moving = *mesh;
+    if (!e->viscosity->work || mesh->points == 0) return;
+    for (int k = 0; k < dim * dim; k++)
+        H[k] = NEW("viscosity.H", e->part.n, real), G[k] = NEW("viscosity.G", e->part.n, real);
+    for (int d = 0; d < dim; d++) f[d] = NEW("viscosity.f", mesh->grid.n, real);
+    for (int d = 0; d < dim; d++) moving.displacement[d] = mesh->grid.velocity[d];
+    mesh_points_gradient(mesh, H);
+    mesh_points_gradient(&moving, G);
+#pragma omp parallel for schedule(static)
+    for (int64_t i = 0; i < e->part.n; i++)
+        if (mesh->place[i] >= 0) viscous_stress(e, i, H, G);
+    cells_push(mesh, H, f);
+    nodes_book(e, f);
+    for (int k = 0; k < dim * dim; k++) memory_free(H[k]), memory_free(G[k]);
+    for (int d = 0; d < dim; d++) memory_free(f[d]);
+}
+
+/* ---- in a run ---------------------------------------------------------------------------------------------------- */
+
+/* Largest speed of the start and of what supports drive [m/s]. */
+static real speed_expected(const struct scene *s, const struct particles *part)
+{
+    real most = real_max(diagnostics_fastest(part, part->list[KIND_PD], part->n_of[KIND_PD]),
+                         diagnostics_fastest(part, part->list[KIND_MPM], part->n_of[KIND_MPM]));
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_VELOCITY)
+            most = real_max(most, sqrt(dot(s->boundary[b].value, s->boundary[b].value, s->dim)));
+    for (int b = s->bodies; b < s->bodies + s->rigids; b++)
+        most = real_max(most, sqrt(dot(s->body[b].velocity, s->body[b].velocity, s->dim)));
+    return most;
+}
+
+real viscosity_step_share(const struct run *e)
+{
+    const real speed = scene_viscous(e->scene) ? speed_expected(e->scene, &e->part) : 0;
+    real q = 0;
+    for (int m = 0; m < e->scene->materials; m++) {
+        const struct material *own = &e->scene->material[m];
+        q = real_max(q, own->viscosity.linear + own->viscosity.quadratic * speed / own->wave_speed);
+    }
+    return sqrt(1 + q * q) - q;
+}
+
+static void viscosity_free_all(struct run *e)
+{
+    struct viscosity *v = e->viscosity;
+    for (int d = 0; d < DIM_MAX; d++) memory_free(v->bonds[d]), memory_free(v->nodes[d]), memory_free(v->stress[d]);
+    memory_free(v->pressure), memory_free(v->volume), memory_free(v->work);
+}
+
+static status viscosity_state(struct run *e, struct archive *a)
+{
+    struct viscosity *v = e->viscosity;
+    const size_t n = (size_t)e->part.n * sizeof(real), nodes = (size_t)e->frame->mesh.grid.n * sizeof(real);
+    static const char *const name[] = {"viscosity/bonds_x", "viscosity/bonds_y", "viscosity/bonds_z"};
+    static const char *const node[] = {"viscosity/nodes_x", "viscosity/nodes_y", "viscosity/nodes_z"};
+    if (!viscosity_made(e)) return OK;
+    for (int d = 0; d < e->part.dim; d++) TRY(a->exchange(a, name[d], v->bonds[d], n));
+    for (int d = 0; d < e->part.dim && nodes > 0; d++) TRY(a->exchange(a, node[d], v->nodes[d], nodes));
+    TRY(a->exchange(a, "viscosity/pressure", v->pressure, n));
+    TRY(a->exchange(a, "viscosity/volume", v->volume, n));
+    ARCHIVE_VALUE(a, "viscosity/taken", v->taken);
+    return OK;
+}
+
+const struct part part_viscosity = {PART(viscosity, viscosity), .free = viscosity_free_all, .state = viscosity_state};

@@ -1,0 +1,157 @@
+/* Bulk viscosity against a front behind a piston, whose closed form is a jump from rest to the piston's speed v: behind
+ * it the velocity is v, the stress rho c v. Then what it must keep: momentum, angular momentum, energy but for what it
+ * books. */
+#include "tests/support/near.h"
+
+#include "base/memory.h"
+#include "probes/diagnostics.h"
+#include "mesh/mesh_part.h"
+#include "run/energies.h"
+#include "step/sample.h"
+#include "step/step.h"
+#include "step/viscosity.h"
+#include "tests/support/solution.h"
+
+#define PISTON                                                                                                         \
+    "material: {young: 70 GPa, density: 2700}\nparticles: {spacing: 1 mm}\noutput: {samples: 20, frames: 1}\n"        \
+    "mpm: {frame: reference, levels: 0}\n"
+
+static const char *const line =
+    "space: line\nsection: 3 cm^2\nduration: 11 us\n" PISTON
+    "body: {box: {from: [0], to: [90 mm]}}\n"
+    "boundary:\n  - {velocity: [5 m/s], region: {box: {from: [-1 mm], to: [2 mm]}}}\n";
+static const char *const flat =
+    "space: plane strain\nthickness: 7 mm\nduration: 10 us\n" PISTON
+    "body: {box: {from: [0, 0], to: [90 mm, 6 mm]}}\n"
+    "boundary:\n  - {velocity: [5 m/s, free], region: {box: {from: [-1 mm, -1 mm], to: [2 mm, 7 mm]}}}\n"
+    "  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 6 mm}}\n";
+static const char *const solid =
+    "space: solid\nduration: 8 us\n" PISTON "body: {box: {from: [0, 0, 0], to: [70 mm, 4 mm, 4 mm]}}\n"
+    "boundary:\n  - {velocity: [5 m/s, free, free], region: {box: {from: [-1 mm, -1 mm, -1 mm], to: [2 mm, 5 mm, 5 "
+    "mm]}}}\n"
+    "  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 4 mm}}\n"
+    "  - {mirror: {axis: z, at: 0}}\n  - {mirror: {axis: z, at: 4 mm}}\n";
+
+struct front { const char *name, *scene, *method; };
+
+/* The largest velocity, and the largest difference from v behind the front, but for a tenth of the way at the piston
+ * and the last spacings before the front, over v. */
+static void behind(const struct run *e, real *most, real *off)
+{
+    const struct material *m = &e->scene->material[0];
+    const real way = m->wave_speed * e->clock.t, v = 5;
+    *most = *off = 0;
+    for (int64_t i = 0; i < e->part.n; i++) {
+        const real X = e->part.X[0][i], x = e->part.v[0][i] / v;
+        *most = real_max(*most, x - 1);
+        if (X > 0.1 * way && X < way - 22e-3) *off = real_max(*off, fabs(x - 1));
+    }
+}
+
+/* Without it a front rings by a fifth and more; with it (the defaults) it passes v by less than 2e-3, and what it
+ * leaves behind is v to 3e-3. The balance is off by what the first half step, in which the piston jumps, does not see.
+ */
+static void front_does_not_ring(void **state)
+{
+    const struct front *f = *state;
+    char method[40];
+    struct solution a;
+    real most, off;
+    snprintf(method, sizeof method, "method=%s", f->method);
+    solution_run(&a, f->scene, method, NULL), solution_done(&a);
+    run_sync(&a.e);
+    behind(&a.e, &most, &off);
+    if (!(most > 0.15)) fail_msg("%s: rings by %g only, so that nothing is tested", f->name, most);
+    assert_true(a.e.diagnostics->now.energy.viscous == 0);
+    solution_free(&a);
+    solution_run(&a, f->scene, method, "material.viscosity={}", NULL), solution_done(&a);
+    run_sync(&a.e);
+    behind(&a.e, &most, &off);
+    const struct energy_balance *now = &a.e.diagnostics->now;
+    if (!(most < 2e-3 && off < 3e-3)) fail_msg("%s: %g above v, %g off behind the front", f->name, most, off);
+    assert_true(now->energy.viscous > 1e-3 * now->external_work && now->energy.viscous < 0.2 * now->external_work);
+    if (!(fabs(now->balance_error) < 5e-4)) fail_msg("%s: balance %g", f->name, now->balance_error);
+    solution_free(&a);
+}
+
+/* Two blocks that hit each other off centre, all peridynamic: forces of bonds are pairs along the bonds. */
+static void momenta_are_kept(void **state)
+{
+    (void)state;
+    static const char *const blocks =
+        "space: plane strain\nthickness: 7 mm\nduration: 60 us\nmethod: pd\ncontact: {between: bodies}\n"
+        "materials:\n  - {name: a, young: 70 GPa, density: 2700, viscosity: {linear: 0.3, quadratic: 2}}\n"
+        "  - {name: b, young: 200 GPa, density: 7800, viscosity: {linear: 0.1}}\n"
+        "bodies:\n  - {name: one, material: a, velocity: [40 m/s, 3 m/s], shape: {box: {from: [0, 0], to: [12 mm, 9 "
+        "mm]}}}\n"
+        "  - {name: other, material: b, shape: {box: {from: [13 mm, 5 mm], to: [25 mm, 14 mm]}}}\n"
+        "particles: {spacing: 1 mm}\noutput: {samples: 30, frames: 1}\n";
+    struct solution a;
+    solution_run(&a, blocks, NULL), solution_done(&a);
+    const struct energy_balance *now = &a.e.diagnostics->now;
+    assert_true(now->energy.viscous > 0.02 * a.e.diagnostics->energy_scale);
+    assert_near(now->momentum_error, 0, 1e-12);
+    assert_near(now->spin_error, 0, 1e-12);
+    assert_near(now->balance_error, 0, 2e-3);                    /* of the contact, without viscosity as with it */
+    solution_free(&a);
+}
+
+/* Bodies that swarm: whatever the motion, it takes energy and gives none, at 0.95 of its critical step. */
+static void only_takes(void **state)
+{
+    static const char *const block =
+        "space: solid\nduration: 60 us\ntime: {safety: 0.95}\n"
+        "material: {young: 70 GPa, density: 2700, viscosity: {linear: 0.4, quadratic: 2}}\n"
+        "body: {box: {from: [0, 0, 0], to: [6 mm, 6 mm, 6 mm]}}\nparticles: {spacing: 1 mm}\n"
+        "output: {samples: 40, frames: 1}\n"
+        "initial: [{velocity: [20 m/s * sin(2100 / m * x + 900 / m * y), 15 m/s * cos(1900 / m * z), 9 m/s * sin(2500 "
+        "/ m * x)]}]\n";
+    struct solution a;
+    solution_make(&a, block, *state, "mpm.levels=0", NULL), solution_done(&a);
+    assert_ok(sample_start(&a.e, false));
+    real before = INFINITY, taken = 0;
+    const real start = diagnostics_kinetic(&a.e.part) + frame_kinetic(a.e.frame);
+    for (int k = 0; k < 240; k++) {
+        assert_ok(engine_step(&a.e));
+        if (k % 60 != 59) continue;
+        assert_true(a.e.viscosity->taken > taken);
+        taken = a.e.viscosity->taken;
+        const real all = diagnostics_kinetic(&a.e.part) + frame_kinetic(a.e.frame) + sample_strain(&a.e);
+        assert_true(all < before);
+        before = all;
+    }
+    assert_true(taken > 0.2 * start);
+    solution_free(&a);
+}
+
+static void refused(void **state)
+{
+    (void)state;
+    static const char *const key[][2] = {
+        {"solver=static", "explicit"}, {"mpm.levels=2", "levels: 0"}, {"model=ospd", "model bond"}};
+    struct solution a;
+    for (size_t k = 0; k < COUNT_OF(key); k++) {
+        solution_make(&a, flat, "method=adaptive", "material.viscosity={}", key[k][0], NULL);
+        assert_int_equal(a.made, REFUSED);
+        assert_non_null(strstr(status_message(), key[k][1]));
+        solution_free(&a);
+    }
+}
+
+int main(void)
+{
+    static const struct front front[] = {{"line, bonds", line, "pd"},      {"line, cells", line, "mpm"},
+                                         {"plane, bonds", flat, "pd"},     {"plane, cells", flat, "mpm"},
+                                         {"solid, bonds", solid, "pd"},    {"solid, cells", solid, "mpm"}};
+    static char *const method[] = {"method=pd", "method=mpm"};
+    struct CMUnitTest tests[COUNT_OF(front) + 4];
+    int n = 0;
+    for (size_t k = 0; k < COUNT_OF(front); k++)
+        tests[n++] = (struct CMUnitTest){
+            .name = front[k].name, .test_func = front_does_not_ring, .initial_state = (void *)&front[k]};
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(momenta_are_kept);
+    for (int k = 0; k < 2; k++)
+        tests[n++] = (struct CMUnitTest){.name = method[k], .test_func = only_takes, .initial_state = method[k]};
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(refused);
+    return _cmocka_run_group_tests("viscosity", tests, (size_t)n, NULL, NULL);
+}
