@@ -13,8 +13,7 @@
 
 /* ---- plastic state ----------------------------------------------------------------------------------------------- */
 
-/* What every evaluation of forces changes. */
-static status plastic_archive(struct run *e, struct archive *a)
+status plastic_archive(struct run *e, struct archive *a)
 {
     TRY(bonds_archive(&e->bonds, &e->part, a));
     return particles_archive(&e->part, e->optional, a);

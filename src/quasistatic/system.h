@@ -14,6 +14,8 @@ void statics_unknowns_free(struct run *e);
 /* Moves particles and nodes to the equilibrium that has been found, and updates their plastic state. */
 void statics_flow(struct run *e);
 
+/* Saves or restores the plastic state of bonds and points, as far as a trial changes it. */
+status plastic_archive(struct run *e, struct archive *a);
 /* Saves the plastic state of bonds and points as the start of the next solutions. */
 void statics_plastic_keep(struct run *e);
 

@@ -9,13 +9,15 @@
 #include "quasistatic/load_steps.h"
 #include "rigid/rigid_part.h"
 
-/* What a trial changes, but plastic state, which every evaluation of forces starts from anew (system.c). */
+/* What a trial changes. */
 static status trial_archive(struct run *e, struct archive *a)
 {
     for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_archive(&e->rigid->body[k], k, a));
     TRY(contact_archive(e->contact, &e->part, a));
     TRY(loads_archive(&e->loads, a));
     ARCHIVE_VALUE(a, "engine/damped", e->damped);
+    ARCHIVE_VALUE(a, "statics/broken", e->statics->record.broken);
+    TRY(plastic_archive(e, a));
     return statics_archive(e, a);
 }
 
@@ -34,7 +36,7 @@ void trial_undo(struct run *e, struct memory_archive *m, const struct break_list
     const status restored = trial_archive(e, &m->archive);
     INVARIANT(restored == OK);
     memory_archive_free(m);
-    statics_plastic_restore(e);
+    statics_plastic_keep(e);                 /* as the start of the next solutions: a trial within may have kept its own */
     statics_place(e, &e->statics->balance.u);
     frame_sync(e);
     loads_mirror(&e->loads, &e->part);       /* bonds to images break by where these are */

@@ -36,6 +36,11 @@ sed -e 's/^space: .*/space: solid/; /^thickness/d; s/\(\[[^],]*, [^],]*\)\], to:
 grips='boundary=[{name: top, traction: [0, 100 MPa], face: y+, time: {ramp: {until: 1 s}}},'
 last() { column "$1" "$2" 9; }
 
+# Area of a crack in space: bonds that break on trial, to see what an advance costs, count nothing.
+calm "$work/area" tests/robustness/scenes/steps_solid.yaml
+is "records of an area before a bond has broken" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { if ($k ~ /^crack_area/) a = k
+    if ($k ~ /^bonds_broken/) b = k }; next } { broken += $b > 0 } $b == 0 && $a != 0 { n++ } END { print n + 0, (broken > 0) }' "$work/area/history.csv")" "0 1"
+
 # ---- what a run leaves ---------------------------------------------------------------------------------------------
 
 calm "$work/led" $pulled -t 1
