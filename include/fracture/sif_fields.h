@@ -40,9 +40,6 @@ void crack_field_moving(const struct crack_medium *m, enum crack_mode mode, real
                         struct crack_field *f);
 void crack_field(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2], struct crack_field *f);
 
-/* D(v) = 4 a_d a_s - (1 + a_s^2)^2; c_R is its root. */
-real crack_rayleigh_function(const struct crack_medium *m, real v);
-
 /* A_I, A_II: energy release rate = (A_I K_I^2 + A_II K_II^2)/E*; 1 at rest. A_II holds 1 - a_s^2 as A_I does; with
  * 1 - a_d^2, as sometimes printed, it would not tend to 1. */
 real crack_universal(const struct crack_medium *m, enum crack_mode mode, real v);

@@ -105,8 +105,6 @@ struct levels_choice {
 
 /* Finds which levels of coarse cells the thickness of the body allows, where the scene may have any. */
 void frame_levels_room(struct run *e);
-/* The choice, once the critical step is known. */
-struct levels_choice frame_levels_choice(const struct run *e);
 /* The same in words. */
 void frame_levels_text(const struct run *e, char *text, size_t room);
 /* Are the levels that the scene gives too coarse for its loads? Then says so in words. */

@@ -44,10 +44,6 @@ void diagnostics_make(struct diagnostics *w);
 void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
                           const real *impulse);
 
-/* Angular momentum of all bodies, [DIM_MAX], about their centre of mass: of particles and of the nodes of a mesh for
- * its points (NULL: none); returns the sum of the sizes of that of each, no less than 1 % of what their motion has if
- * all of it turns them [kg m^2/s]. With APIC what gradients of points hold is left out. */
-real diagnostics_spin_of(const struct particles *p, const struct mesh *mesh, int bodies, real *spin);
 /* Compares that with the start; only where nothing outside the bodies acts on them. */
 void diagnostics_spin(struct diagnostics *w, const struct particles *p, const struct mesh *mesh, int bodies);
 

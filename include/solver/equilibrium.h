@@ -54,9 +54,6 @@ struct equilibrium {
 void equilibrium_make(struct equilibrium *q, int dim, int64_t n);
 void equilibrium_free(struct equilibrium *q);
 
-/* Norm of the residual on free components, and of the forces on held ones [N]; sets residual, scale and worst. */
-void equilibrium_measure(struct equilibrium *q);
-
 /* From u with the forces f that act there, to equilibrium under the forces that now act: `way` [n] is added to u first.
  * Its held components are where supports go; the others are a guess. `moved`: loads or supports have; f are the forces
  * of the old ones, else something has given way since. FAILED where no equilibrium is in reach; u is then the nearest

@@ -21,10 +21,6 @@ struct pair_table { real *ratio; int materials; };
 void row_room_make(struct row *row, int room);
 void row_room_free(struct row *row);
 
-/* Particles and images of the body of particle i within the cutoff, ascending. Returns how many there are; more than
- * `room` are not written. */
-int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room);
-
 /* The same, by the map of sites (NULL: none) where it can tell. */
 int family_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
               int32_t *found, int room);

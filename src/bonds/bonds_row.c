@@ -27,7 +27,9 @@ void row_room_free(struct row *row)
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
+/* Particles and images of the body of particle i within the cutoff, ascending. Returns how many there are; more than
+ * `room` are not written. */
+static int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
 {
     real X[DIM_MAX];
     particle_place(p, i, X);

@@ -7,7 +7,8 @@
 
 /* ---- boxes, balls, half-spaces ----------------------------------------------------------------------------------- */
 
-real box_surface(const real *at, const real *half, int dim, real *normal)
+/* Of a point `at` from a box about the origin, `half` its half edges. */
+static real box_surface(const real *at, const real *half, int dim, real *normal)
 {
     real out2 = 0, nearest = -INFINITY, beyond[DIM_MAX];
     int face = 0;
@@ -103,7 +104,7 @@ static real half_space_support(const struct solid *s, const real *along, int dim
 
 /* ---- round an axis ----------------------------------------------------------------------------------------------- */
 
-struct axis_place axis_place_of(const struct solid *s, const real *X)
+static struct axis_place axis_place_of(const struct solid *s, const real *X)
 {
     struct axis_place p = {0};
     real r2 = 0;
@@ -129,7 +130,8 @@ struct axis_place axis_place_of(const struct solid *s, const real *X)
     return p;
 }
 
-void axis_normal(const struct axis_place *p, const real in_plane[2], real *normal)
+/* Takes a normal in that half plane to space. */
+static void axis_normal(const struct axis_place *p, const real in_plane[2], real *normal)
 {
     for (int d = 0; d < DIM_MAX; d++) normal[d] = in_plane[0] * p->axis[d] + in_plane[1] * p->out[d];
 }

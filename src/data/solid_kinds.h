@@ -12,13 +12,8 @@ struct solid_type {
 };
 extern const struct solid_type solid_types[SOLID_KINDS];
 
-/* Of a point `at` from a box about the origin, `half` its half edges. */
-real box_surface(const real *at, const real *half, int dim, real *normal);
 /* A point in the half plane of an axis from..to: coordinates along it from its middle and across it; directions. */
 struct axis_place { real length, along, across, axis[DIM_MAX], out[DIM_MAX]; };
-struct axis_place axis_place_of(const struct solid *s, const real *X);
-/* Takes a normal in that half plane to space. */
-void axis_normal(const struct axis_place *p, const real in_plane[2], real *normal);
 
 real polygon_distance(const struct polygon *p, const real *X, real *normal);
 real polygon_support(const struct polygon *p, const real *along);

@@ -8,7 +8,7 @@
 static const real WEIGHT_NEAR = 1e-6;
 
 /* peri/pmb, peri/lps: 1, within half a lattice constant of the horizon a ramp that is 1/2 there. */
-real lammps_share(const struct exported *x, real r)
+static real lammps_share(const struct exported *x, real r)
 {
     return fabs(r - x->cutoff) <= 0.5 * x->lattice ? 0.5 + (x->cutoff - r) / x->lattice : 1;
 }

@@ -72,8 +72,6 @@ struct exported {
     int64_t bonds, cut; /* pairs that are bonded, that LAMMPS would bond and the scene does not */
 };
 
-/* Volume share of a neighbour at a distance r in LAMMPS [1]. */
-real lammps_share(const struct exported *x, real r);
 /* Compares the bonds that LAMMPS would make with those that there are, and lists the particles of those to be cut.
  * REFUSED where it would lack one, or weigh one otherwise. */
 status lammps_touched(struct touched *t, struct exported *x);

@@ -68,7 +68,8 @@ static void slownesses(const struct crack_medium *m, real v, real a[2])
     a[1] = sqrt(1 - square(v / m->shear_speed));
 }
 
-real crack_rayleigh_function(const struct crack_medium *m, real v)
+/* D(v) = 4 a_d a_s - (1 + a_s^2)^2; c_R is its root. */
+static real crack_rayleigh_function(const struct crack_medium *m, real v)
 {
     real a[2];
     slownesses(m, v, a);

@@ -109,7 +109,8 @@ void frame_levels_room(struct run *e)
     r->room_most = mesh_room(&r->mesh, e->source.mirror, e->source.mirrors, r->room);
 }
 
-struct levels_choice frame_levels_choice(const struct run *e)
+/* The choice, once the critical step is known. */
+static struct levels_choice frame_levels_choice(const struct run *e)
 {
     const struct scene *s = e->scene;
     struct levels_choice c = {.given = s->levels != LEVELS_AUTO, .across = spacings_across(e)};

@@ -33,7 +33,8 @@ void mark_place(struct marks *m, const real *X, const double *vector)
     putc('\n', m->to);
 }
 
-void mark_break(struct marks *m) { putc('\n', m->to); }
+/* Ends a line: the next place begins another one. */
+static void mark_break(struct marks *m) { putc('\n', m->to); }
 
 void mark_end(struct marks *m, const char *how, const char *text)
 {

@@ -20,8 +20,6 @@ struct marks {
 void mark_begin(struct marks *m);
 /* A place X [m], and a second number pair: a vector in space [m], or NULL. */
 void mark_place(struct marks *m, const real *X, const double *vector);
-/* Ends a line: the next place begins another one. */
-void mark_break(struct marks *m);
 /* Ends the block; `how` is the rest of gnuplot's plot element, `text` its line of the key ("": none). */
 void mark_end(struct marks *m, const char *how, const char *text);
 

@@ -32,7 +32,10 @@ static void turning_about(const struct turning *t, const real *place, const real
     }
 }
 
-real diagnostics_spin_of(const struct particles *p, const struct mesh *mesh, int bodies, real *spin)
+/* Angular momentum of all bodies, [DIM_MAX], about their centre of mass: of particles and of the nodes of a mesh for
+ * its points (NULL: none); returns the sum of the sizes of that of each, no less than 1 % of what their motion has if
+ * all of it turns them [kg m^2/s]. With APIC what gradients of points hold is left out. */
+static real diagnostics_spin_of(const struct particles *p, const struct mesh *mesh, int bodies, real *spin)
 {
     struct turning *body = NEW("probes.spin", bodies + 1, struct turning), all = {0};
     for (int64_t i = 0; i < p->n; i++) {

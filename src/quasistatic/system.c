@@ -28,7 +28,8 @@ void statics_plastic_keep(struct run *e)
     INVARIANT(kept == OK);
 }
 
-void statics_plastic_restore(struct run *e)
+/* Restores the plastic state saved last, if there is any. */
+static void statics_plastic_restore(struct run *e)
 {
     struct memory_archive *m = &e->statics->plastic;
     if (m->n == 0) return;

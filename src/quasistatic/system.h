@@ -19,7 +19,4 @@ status plastic_archive(struct run *e, struct archive *a);
 /* Saves the plastic state of bonds and points as the start of the next solutions. */
 void statics_plastic_keep(struct run *e);
 
-/* Restores the plastic state saved last, if there is any. */
-void statics_plastic_restore(struct run *e);
-
 #endif

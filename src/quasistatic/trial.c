@@ -36,7 +36,7 @@ void trial_undo(struct run *e, struct memory_archive *m, const struct break_list
     const status restored = trial_archive(e, &m->archive);
     INVARIANT(restored == OK);
     memory_archive_free(m);
-    statics_plastic_keep(e);                 /* as the start of the next solutions: a trial within may have kept its own */
+    statics_plastic_keep(e); /* as the start of the next solutions: a trial within may have kept its own */
     statics_place(e, &e->statics->balance.u);
     frame_sync(e);
     loads_mirror(&e->loads, &e->part);       /* bonds to images break by where these are */

@@ -113,7 +113,6 @@ bool quantity_bounded(real value, enum unit unit, char *what, size_t room);
 /* `a length`, or `in m^2 s^-1` where that has no name; and as a unit that reads back. */
 void quantity_name(const int twice[3], char *text, size_t room);
 void unit_text(const int twice[3], char *text, size_t room);
-const struct unit_row *unit_of(const int twice[3]);
 
 /* ---- expressions (scene_expression.c) ---------------------------------------------------------------------------- */
 

@@ -136,7 +136,7 @@ static bool unit_read(struct measure *sum, const char *text)
     return sum->ten % 2 == 0;
 }
 
-const struct unit_row *unit_of(const int twice[3])
+static const struct unit_row *unit_of(const int twice[3])
 {
     for (int u = 0; u < UNITS; u++) {
         const signed char *t = unit_rows[u].twice;

@@ -166,7 +166,8 @@ static void strain_note(struct equilibrium *q, const struct field *d, real curva
     if (curvature > 0 && most > 0) q->strain_ratio = sqrt(curvature / q->unit_energy) / most;
 }
 
-void equilibrium_measure(struct equilibrium *q)
+/* Norm of the residual on free components, and of the forces on held ones [N]; sets residual, scale and worst. */
+static void equilibrium_measure(struct equilibrium *q)
 {
     real sum[2], most = -1;
     dots(q, &q->f, &q->f, sum);
