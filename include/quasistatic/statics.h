@@ -22,7 +22,7 @@ struct broken_bond {
 };
 _Static_assert(sizeof(struct broken_bond) == 80, "a record without bytes that no member sets");
 struct break_list {
-    int64_t n, room;
+    int64_t n;
     struct broken_bond *bond;            /* in the order in which they broke */
 };
 
@@ -64,7 +64,7 @@ struct led {
     int n;
     struct led_tip tip[LED_MAX];
     real tried;                          /* size of the loads at which the next advance was tried */
-    int64_t stretches, room;
+    int64_t stretches;
     struct led_stretch *path;            /* [stretches] what they have cut, in its order */
 };
 

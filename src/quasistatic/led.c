@@ -203,11 +203,7 @@ static bool body_is_ahead(const struct run *e, const struct led_tip *tip)
 
 static void led_path_add(struct led *l, int k, const real *to)
 {
-    if (l->stretches == l->room) {
-        const int64_t larger = l->room ? 2 * l->room : 64;
-        l->path = memory_resize("led.path", l->path, l->room, larger, sizeof *l->path);
-        l->room = larger;
-    }
+    GROW("led.path", l->path, l->stretches + 1);
     struct led_stretch *s = &l->path[l->stretches++];
     const struct led_tip *tip = &l->tip[k];
     *s = (struct led_stretch){.tip = k};

@@ -89,19 +89,15 @@ struct broken_bond statics_bond_record(const struct run *e, const struct bond *b
 
 /* Overloaded directed bonds: their overloads, and records of them. */
 struct overloads {
-    int64_t n, room;
+    int64_t n;
     real *load;
     struct broken_bond *record;
 };
 
 static void overloads_add(struct overloads *o, const struct run *e, const struct bond *bond, int64_t r, real over)
 {
-    if (o->n == o->room) {
-        const int64_t room = o->room ? 2 * o->room : 64;
-        o->load = memory_resize("statics.overloads", o->load, o->room, room, sizeof *o->load);
-        o->record = memory_resize("statics.records", o->record, o->room, room, sizeof *o->record);
-        o->room = room;
-    }
+    GROW("statics.overloads", o->load, o->n + 1);
+    GROW("statics.records", o->record, o->n + 1);
     o->load[o->n] = over;
     o->record[o->n++] = statics_bond_record(e, bond, r);
 }
@@ -130,11 +126,7 @@ static real least_to_break(const real *load, int64_t n, real least, int64_t most
 
 void break_list_add(struct break_list *l, const struct broken_bond *record)
 {
-    if (l->n == l->room) {
-        const int64_t larger = l->room ? 2 * l->room : 64;
-        l->bond = memory_resize("statics.broken", l->bond, l->room, larger, sizeof *l->bond);
-        l->room = larger;
-    }
+    GROW("statics.broken", l->bond, l->n + 1);
     l->bond[l->n++] = *record;
 }
 

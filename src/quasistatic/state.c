@@ -21,10 +21,7 @@ static status statics_list_archive(struct statics *statics, struct bonds *bonds,
 {
     struct break_list *l = &statics->next;
     ARCHIVE_VALUE(a, "statics/next", l->n);
-    if (!a->saving && l->n > l->room) {
-        l->bond = memory_resize("statics.broken", l->bond, l->room, l->n, sizeof *l->bond);
-        l->room = l->n;
-    }
+    if (!a->saving) memory_free(l->bond), l->bond = BARE("statics.broken", l->n, struct broken_bond);
     if (l->n > 0) TRY(a->exchange(a, "statics/bonds", l->bond, (size_t)l->n * sizeof *l->bond));
     if (!a->saving) list_find(bonds, l);
     return OK;
@@ -40,8 +37,7 @@ static status led_archive(struct statics *statics, struct archive *a)
     ARCHIVE_VALUE(a, "statics/led_stretches", l->stretches);
     if (!a->saving && l->stretches > 0) {
         memory_free(l->path);
-        l->room = l->stretches;
-        l->path = NEW("led.path", l->room, struct led_stretch);
+        l->path = NEW("led.path", l->stretches, struct led_stretch);
     }
     return l->stretches > 0 ? a->exchange(a, "statics/led_path", l->path, (size_t)l->stretches * sizeof *l->path) : OK;
 }

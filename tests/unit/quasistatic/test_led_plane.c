@@ -160,7 +160,7 @@ static void test_release_rate(void **state)
     struct solution a;
     solution_begin(&a, plate);
     struct led *led = &a.e.statics->led;
-    led->path = NEW("test.path", 3, struct led_stretch), led->room = 3;
+    led->path = NEW("test.path", 3, struct led_stretch);
     for (int k = 0; k < 4; k++) {
         real record[20];
         if (k > 0) led->path[led->stretches++] = (struct led_stretch){{{grown[k - 1]}, {grown[k]}}, 0};
