@@ -236,8 +236,8 @@ static void advise_shocks(const struct scene *s, FILE *out)
     if (scene_viscous(s) || !scene_moves(s) || !scene_bodies_meet(s) || s->space == SPACE_PLANE_STRESS ||
         s->model != MODEL_BOND || !(most > SHOCK * speed_borne(s)))
         return;
-    fprintf(out, "shock: bodies collide at %.3g m/s, %.2g of the strain that breaks or yields them times the wave "
-            "speed; fronts ring by 10 to 30 %% of that, and brittle bodies break too early: material.viscosity: {}\n",
+    fprintf(out, "shock: bodies collide at %.3g m/s, %.2g times the speed of a front that breaks or yields them; fronts "
+            "ring by 10 to 30 %%, and bonds break too early for it: material.viscosity: {}\n",
             most, most / speed_borne(s));
 }
 

@@ -398,4 +398,26 @@ END
 costs "a grip tears off on trial" '^warning: boundary foot: bonds of the particles that it drives break' "$work/grip.yaml"
 is "a grip tears off on trial: said once" "$(cat "$work/said" "$work/err" | grep -c 'bonds of the particles that it drives')" 1
 
+# ---- shocks ----------------------------------------------------------------------------------------------------------
+
+# steel on alumina, whose bonds break at a stretch of 4.8e-4: fronts of 5 m/s
+cat >"$work/strike.yaml" <<'END'
+space: plane strain
+thickness: 3 mm
+duration: 1 us
+method: pd
+contact: {between: bodies}
+materials:
+  - {name: steel, young: 200 GPa, density: 7850, energy_release_rate: 20 kJ/m^2}
+  - {name: alumina, young: 370 GPa, density: 3900, critical_stretch: 4.8e-4}
+bodies:
+  - {name: flyer, material: steel, velocity: [10 m/s, 0], shape: {box: {from: [-3 mm, 0], to: [0, 4 mm]}}}
+  - {name: target, material: alumina, shape: {box: {from: [0, 0], to: [8 mm, 4 mm]}}}
+particles: {spacing: 0.4 mm}
+END
+says "bodies that collide faster than their bonds bear" '^shock: bodies collide at 10 m/s, 2 times the speed of a front that' "$work/strike.yaml"
+silent "slowly" '^shock:' "$work/strike.yaml" -s "bodies.flyer.velocity=[0.4 m/s, 0]"
+silent "with viscosity" '^shock:' "$work/strike.yaml" -s "materials.alumina.viscosity={}"
+silent "where there is none" '^shock:' "$work/strike.yaml" -s "space=plane stress"
+
 finish
