@@ -52,6 +52,7 @@ static status carries_materials(const struct scene *s, bool bond_style)
     if (scene_scatters(s))
         return lammps_refuse(s, "strength that scatters from place to place is not in LAMMPS' types; none is expected");
     if (s->damping > 0) return lammps_refuse(s, "damping is not exported; 0 is expected");
+    if (scene_viscous(s)) return lammps_refuse(s, "viscosity: bulk viscosity is not exported; none is expected");
     if (s->growths > 0) return lammps_refuse(s, "growth: LAMMPS has no cracks that grow by prescription");
     return OK;
 }

@@ -288,6 +288,7 @@ class Frame:
         """Places at rest [m], n x 3 in double precision; z = 0 in the plane."""
         with self._file() as file:
             stored = file["Cleave/reference"][()]
+        stored = stored.reshape(len(stored), -1)         # of a line: one number each
         return np.pad(stored, ((0, 0), (0, 3 - stored.shape[1])))
 
     def __getitem__(self, name):

@@ -39,6 +39,15 @@ static status accuracy_read(struct reader *r, const struct node *root, struct pi
 
 /* ---- the scene with a provisional method ------------------------------------------------------------------------- */
 
+/* Has a material of the scene this key? */
+static bool material_key(const struct node *root, const char *key)
+{
+    const struct node *one = node_find(root, "material"), *many = node_find(root, "materials");
+    bool has = one && node_find(one, key);
+    for (const struct node *n = many ? many->first : NULL; n; n = n->next) has = has || node_find(n, key);
+    return has;
+}
+
 /* Reads the scene with stand-ins for what pilot runs choose, which contradict no other key. spacing: [m], where the
  * scene gives none. */
 static status provisional_read(struct reader *r, const char *text, size_t length, struct scene *s, const char *method,
@@ -54,12 +63,12 @@ static status provisional_read(struct reader *r, const char *text, size_t length
         if (tree_at(root, dropped[k])) read = tree_set(&own, root, dropped[k], "");
     const struct node *space = read == OK ? tree_at(root, "space") : NULL;
     const bool line = space && strcmp(space->text, "line") == 0,
-               yields = read == OK && tree_at(root, "material.yield_stress");
+               bonds = read == OK && (material_key(root, "yield_stress") || material_key(root, "viscosity"));
     if (read == OK && !tree_at(root, "particles.spacing"))
         read = tree_set(&own, root, "particles.spacing", number_text(number, spacing));
     if (read == OK) read = tree_set(&own, root, "method", method);
     if (read == OK) read = tree_set(&own, root, "solver", "explicit");
-    if (read == OK && !line && !yields) read = tree_set(&own, root, "model", "mospd");
+    if (read == OK && !line && !bonds) read = tree_set(&own, root, "model", "mospd");
     if (read == OK) read = scene_from_tree(&own, root);
     r->arena = own.arena;
     if (read != OK) scene_free(s);

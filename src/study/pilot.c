@@ -202,6 +202,10 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
                 "pilot          runs at coarse spacings choose method and spacing for %s within %.3g %%, in at most "
                 "%.3g s (accuracy.budget); they are in %s\n",
                 pilot_figure(p), 100 * p->wish.within, p->wish.budget, shown_name(p->folder).text);
+    if (!p->way.quiet && p->wish.at_rest)
+        fprintf(stderr,
+                "pilot          a body at rest is one equilibrium, in which no bond breaks; load steps want method "
+                "pd or adaptive\n");
     TRY(search_first(p));
     TRY(search_finer(p));
     const struct pilot_candidate *best = cheapest(p);

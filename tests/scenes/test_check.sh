@@ -417,7 +417,10 @@ particles: {spacing: 0.4 mm}
 END
 says "bodies that collide faster than their bonds bear" '^shock: bodies collide at 10 m/s, 2 times the speed of a front that' "$work/strike.yaml"
 silent "slowly" '^shock:' "$work/strike.yaml" -s "bodies.flyer.velocity=[0.4 m/s, 0]"
-silent "with viscosity" '^shock:' "$work/strike.yaml" -s "materials.alumina.viscosity={}"
+silent "with viscosity" "^shock:" "$work/strike.yaml" -s "materials.alumina.viscosity={}" -s "materials.steel.viscosity={}"
+says "with viscosity of one of them" "^shock:" "$work/strike.yaml" -s "materials.alumina.viscosity={}"
+silent "apart" "^shock:" "$work/strike.yaml" -s "bodies.flyer.velocity=[-10 m/s, 0]"
+silent "along each other" "^shock:" "$work/strike.yaml" -s "bodies.flyer.velocity=[0, 10 m/s]"
 silent "where there is none" '^shock:' "$work/strike.yaml" -s "space=plane stress"
 
 finish

@@ -140,6 +140,12 @@ with open(work + "/study/sweep.csv", "w") as file:
 sweep = cleave.open(work + "/study").sweep
 holds("words", list(sweep["method"]) == ["pd", "mpm"] and sweep["boundary.0.velocity"][1] == "[2, 0]")
 holds("numbers", sweep["steps"][0] == 3 and np.isnan(sweep["steps"][1]))
+with open(work + "/line.yaml", "w") as file:
+    file.write("space: line\nsection: 2 mm^2\nduration: 2 us\nmethod: pd\nmaterial: {young: 70 GPa, density: 2700}\n"
+               "body: {box: {from: [0], to: [20 mm]}}\nparticles: {spacing: 1 mm}\noutput: {frames: 1, samples: 4}\n")
+line = cleave.run(work + "/line.yaml", output=work + "/line")
+holds("places at rest of a line", line.frames[-1].reference.shape == (20, 3) and (line.frames[-1].reference[:, 1:] == 0).all())
+
 print(checks)
 END
 
