@@ -49,7 +49,7 @@ void contact_slide(struct contact_spring *s, int dim, const real *normal, const 
  * and so is the sum of their moments. Rotation about an axis is left out where the particles stand along it (a single
  * one, and in space a row of them): the moment of the drag about this axis then remains. */
 #define COUPLE_MOST 10                   /* squares of the forces that balance the moment, over that of the drag */
-#define INERTIA_LEAST 1e-9               /* of the largest principal value of I: smaller ones are round-off */
+#define INERTIA_LEAST 1e-6 /* of the largest principal value of I and of a^2: round-off beyond takes no momentum */
 
 /* The particles that the particle of a row feels, as a rigid body. */
 struct contact_partner {
@@ -102,9 +102,10 @@ static void partner_invert(struct contact_partner *to, const real *inertia, cons
 {
     real value[3], axis[9];
     tensor_principal(inertia, value, axis);
+    const real widest = real_max(value[0], dot(to->arm, to->arm, DIM_MAX));
     for (int k = 0; k < 3; k++) {
         const real *e = axis + 3 * k, forces = dot(to->arm, to->arm, 3) * quadratic_form(squares, e);
-        if (!(value[k] > INERTIA_LEAST * value[0] && COUPLE_MOST * square(value[k]) > forces)) continue;
+        if (!(value[k] > INERTIA_LEAST * widest && COUPLE_MOST * square(value[k]) > forces)) continue;
         for (int a = 0; a < DIM_MAX; a++)
             for (int b = 0; b < DIM_MAX; b++) to->inverse[a][b] += e[a] * e[b] / value[k];
     }
