@@ -34,4 +34,11 @@ void viscosity_push_nodes(struct run *e);
  * speeds of the start and of supports [1]. */
 real viscosity_step_share(const struct run *e);
 
+/* The fastest collision of the bodies of a scene in its duration, by their velocities at the start [m/s]; share: over
+ * the speed of a front that breaks or yields them, 0 where viscosity would not help or the collision is slow [1]. */
+struct shock {
+    real speed, share;
+};
+struct shock shock_expected(const struct scene *s);
+
 #endif

@@ -18,13 +18,13 @@
 #include "fracture/tips.h"
 #include "probes/probes_part.h"
 #include "mesh/mesh_part.h"
+#include "step/viscosity.h"
 
 #define FEATURE 4                        /* horizons */
 #define WAVE 16                          /* spacings */
 #define REACHED 4                        /* rho c v  */
 #define PASSAGES 4
 #define LITTLE 0.1
-#define SHOCK 0.1                        /* of the speed that breaks or yields a body in a collision */
 #define BESIDE_FACE 1.5                  /* distance at which a probe is at a face [spacings] */
 #define AROUND 3                         /* spacings about a probe in which its face is looked at */
 #define ALONG_AXIS 0.999                 /* component of a normal from which on a face is along the axes */
@@ -210,53 +210,14 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
                     length_in_words(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
 }
 
-/* Smallest strain at which a material breaks or yields, times its wave speed [m/s]; INFINITY: it does neither. */
-static real speed_borne(const struct scene *s)
-{
-    real least = INFINITY;
-    for (int m = 0; m < s->materials; m++) {
-        const struct material *own = &s->material[m];
-        real strain = s->method == METHOD_MPM ? INFINITY : own->critical_stretch;
-        if (material_yields(own)) strain = real_min(strain, own->yield_stress / own->young);
-        least = real_min(least, strain * own->wave_speed);
-    }
-    return least;
-}
-
-/* Speed at which bodies a and b come together, by the boxes round them, along the axis on which these are apart [m/s];
- * 0: they do not meet in the duration. */
-static real closing_speed(const struct scene *s, const struct scene_body *a, const struct scene_body *b)
-{
-    real from[2][DIM_MAX], to[2][DIM_MAX], gap = -INFINITY, speed = 0;
-    if (a->file || b->file || !region_bounds(&a->shape, s->dim, from[0], to[0]) ||
-        !region_bounds(&b->shape, s->dim, from[1], to[1]))
-        return 0;
-    for (int d = 0; d < s->dim; d++) {
-        const real above = from[1][d] - to[0][d], below = from[0][d] - to[1][d];
-        if (real_max(above, below) <= gap) continue;
-        gap = real_max(above, below);
-        speed = (above > below ? 1 : -1) * (a->velocity[d] - b->velocity[d]);
-    }
-    return speed > 0 && gap <= speed * s->duration ? speed : 0;
-}
-
-/* Bodies that collide so fast that the ringing of the front may break or yield them, without viscosity. */
+/* Bodies that collide so fast that the ringing of the front may break or yield them. */
 static void advise_shocks(const struct scene *s, FILE *out)
 {
-    real most = 0;
-    bool viscous = true;
-    for (int m = 0; m < s->materials; m++) viscous = viscous && material_viscous(&s->material[m]);
-    for (int a = 0; a < s->bodies; a++)
-        for (int b = a + 1; b < s->bodies + s->rigids; b++)
-            if (b >= s->bodies || s->contact_between != CONTACT_NONE)
-                most = real_max(most, closing_speed(s, &s->body[a], &s->body[b]));
-    if (viscous || !scene_moves(s) || s->space == SPACE_PLANE_STRESS || s->model != MODEL_BOND ||
-        !(most > SHOCK * speed_borne(s)))
-        return;
-    fprintf(out,
-            "shock: bodies collide at %.3g m/s, %.2g times the speed of a front that breaks or yields them; fronts "
-            "ring by 10 to 30 %%, and bonds break too early for it: material.viscosity: {}\n",
-            most, most / speed_borne(s));
+    const struct shock shock = shock_expected(s);
+    if (shock.share > 0)
+        fprintf(out, "shock: bodies collide at %.3g m/s, %.2g times the speed of a front that breaks or yields them; "
+                "fronts ring by 10 to 30 %%, and bonds break too early for it: material.viscosity: {}\n",
+                shock.speed, shock.share);
 }
 
 /* Coarse cells that the scene gives and that do not carry its loads. */

@@ -418,6 +418,11 @@ END
 says "bodies that collide faster than their bonds bear" '^shock: bodies collide at 10 m/s, 2 times the speed of a front that' "$work/strike.yaml"
 silent "slowly" '^shock:' "$work/strike.yaml" -s "bodies.flyer.velocity=[0.4 m/s, 0]"
 silent "with viscosity" "^shock:" "$work/strike.yaml" -s "materials.alumina.viscosity={}" -s "materials.steel.viscosity={}"
+"$cleave" run -q -o "$work/struck" "$work/strike.yaml" -s "bodies.flyer.velocity=[100 m/s, 0]" 2>"$work/err"
+holds "bonds that break in it: the run says so" grep -q '^warning: bonds broke, the first at .* in a collision at 100 m/s, 20 times' "$work/err"
+"$cleave" run -q -o "$work/spread" "$work/strike.yaml" -s "bodies.flyer.velocity=[100 m/s, 0]" -s "materials.alumina.viscosity={}" \
+    -s "materials.steel.viscosity={}" 2>"$work/err"
+is "with viscosity: bonds that break" "$(cat "$work/err")" ""
 says "with viscosity of one of them" "^shock:" "$work/strike.yaml" -s "materials.alumina.viscosity={}"
 silent "apart" "^shock:" "$work/strike.yaml" -s "bodies.flyer.velocity=[-10 m/s, 0]"
 silent "along each other" "^shock:" "$work/strike.yaml" -s "bodies.flyer.velocity=[0, 10 m/s]"
