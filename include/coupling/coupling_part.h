@@ -6,7 +6,6 @@
 #include "coupling/conversion.h"
 #include "coupling/interface_zone.h"
 #include "coupling/notch.h"
-#include "mesh/mesh_make.h"
 #include "run/run.h"
 
 /* Where peridynamic particles and material points meet, and how one becomes the other. */
@@ -24,8 +23,9 @@ struct coupling_state {
 
 /* Which coupling there is; partial stresses and the interface zone for the bonds of now. */
 void coupling_partial_make(struct run *e);
-/* What the mesh of the reference frame needs to know of: partial stresses, slits. */
-struct mesh_source coupling_cuts(const struct run *e);
+/* Makes the mesh of the reference frame (frame_make) with the partial stresses and slits of now; still: the caller sets
+ * the motion of its nodes. */
+status coupling_frame_make(struct run *e, bool still);
 /* Makes the interface zone and the list of material points that have bonds anew. */
 void interface_make(struct run *e);
 /* Updates material points at the end of state-based bonds from their cells, or from their stress. */

@@ -67,7 +67,7 @@ struct run {
     struct solver *solver;           /* solver/solver.h */
     struct diagnostics *diagnostics; /* balance of energy and momentum: probes/diagnostics.h */
     struct probing *probing;         /* probes/probes_part.h */
-    struct viscosity *viscosity;         /* of shocks: step/viscosity.h */
+    struct viscosity *viscosity;     /* of shocks: step/viscosity.h */
     struct damping_state *damping;   /* of the bulk: step/damping.h */
     struct stability *stability;     /* step/stability.h */
     struct run_report *report;       /* step/report.h */

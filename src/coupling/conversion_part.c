@@ -17,8 +17,8 @@ void ends_update(struct run *e)
 /* Updates the stress share of material points where bonds fade; convert() has updated it for broken bonds. */
 static void renew_partial(struct run *e, bool changed)
 {
-    if (!e->coupling->uses_partial || e->scene->growths == 0) return;
-    if (changed) partial_stress_make(&e->coupling->partial, &e->part, &e->bonds, &e->source, NULL, 0);
+    if (changed && e->coupling->uses_partial && e->scene->growths > 0)
+        partial_stress_make(&e->coupling->partial, &e->part, &e->bonds, &e->source, NULL, 0);
 }
 
 /* Marks material points that other bodies have come near. */
@@ -105,9 +105,12 @@ void coupling_partial_make(struct run *e)
     interface_make(e);
 }
 
-struct mesh_source coupling_cuts(const struct run *e)
+status coupling_frame_make(struct run *e, bool still)
 {
-    const struct coupling_state *c = e->coupling;
-    return (struct mesh_source){.partial = c->uses_partial ? &c->partial : NULL, .slit = c->notches.slit,
-                                .slits = c->notches.slits};
+    struct coupling_state *c = e->coupling;
+    const struct mesh_source cuts = {.partial = c->uses_partial ? &c->partial : NULL, .slit = c->notches.slit,
+                                     .slits = c->notches.slits};
+    TRY(frame_make(e, &cuts, still));
+    c->partial.touches = 0;                      /* the mesh is of the partial stresses of now */
+    return OK;
 }

@@ -80,9 +80,7 @@ status engine_archive(void *engine, struct archive *a)
         levels_free(&e->frame->levels);
         mesh_free(&e->frame->mesh);
         memory_free(e->frame->elastic);
-        const struct mesh_source cuts = coupling_cuts(e);
-        TRY(frame_make(e, &cuts, true));
-        e->coupling->partial.touches = 0;
+        TRY(coupling_frame_make(e, true));
         TRY(frame_levels_make(e, true));
     }
     ARCHIVE_VALUE(a, "engine/t", e->clock.t);

@@ -366,9 +366,7 @@ static status make_forces(struct run *e, struct predecessor *before)
     TRY(named(s, statics_check(e)));
     make_contact(e);
     coupling_partial_make(e);
-    const struct mesh_source cuts = coupling_cuts(e);
-    TRY(named(s, frame_make(e, &cuts, before != NULL)));
-    e->coupling->partial.touches = 0;
+    TRY(named(s, coupling_frame_make(e, before != NULL)));
     TRY(driving_check(e, before == NULL));
     ends_update(e);
     stability_make(e);

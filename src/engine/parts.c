@@ -1,5 +1,4 @@
 /* The parts of a run. The order of the rows is that of columns in history.csv and of the state in checkpoints. */
-
 #include <string.h>
 
 #include "base/memory.h"

@@ -15,9 +15,9 @@
 
 /* Numbers of the particles and images of `old` in e, -1: not there. Both are in the order of their ids. The caller
  * frees them. */
-static int32_t *numbers_now(const struct particles *part, const struct loads *loads, const struct run *old)
+static int32_t *numbers_now(const struct particles *p, const struct loads *loads, const struct run *old)
 {
-    const struct particles *p = part, *q = &old->part;
+    const struct particles *q = &old->part;
     int32_t *now = NEW("replace.now", q->n_all, int32_t);
     int64_t i = 0, k = 0;
     for (int64_t j = 0; j < q->n; j++) {

@@ -1,5 +1,4 @@
 /* A run: coarse cells follow cracks before a step, then the step, its checks, its reports. */
-
 #include "base/memory.h"
 #include "engine_internal.h"
 #include "mesh/mesh_part.h"
