@@ -7,6 +7,8 @@ have() { command -v "$1" >/dev/null 2>&1; }
 library() { have pkg-config && pkg-config --exists "$1"; }
 reads_frames() { python3 -c "import h5py" 2>/dev/null || /usr/bin/python3 -c "import h5py" 2>/dev/null; }
 reads_schemas() { python3 -c "import jsonschema, yaml" 2>/dev/null || /usr/bin/python3 -c "import jsonschema, yaml" 2>/dev/null; }
+lays_out() { have clang-format-14 || ! is_bookworm; }
+is_bookworm() { grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; }
 
 # What is missing, by the names a person knows it by.
 missing()
@@ -21,6 +23,7 @@ missing()
     library libtiff-4 || echo "libtiff"
     [ "${1:-}" != tests ] || library cmocka || echo "cmocka (for the tests)"
     [ "${1:-}" != tests ] || ! have apt-get || reads_frames || echo "h5py of Python (for a test)"
+    [ "${1:-}" != tests ] || lays_out || echo "clang-format 14 (for a test)"
     [ "${1:-}" != tests ] || ! have apt-get || reads_schemas || echo "jsonschema and yaml of Python (for a test)"
 }
 lacking=$(missing "$@" | paste -s -d, - | sed 's/,/, /g')
@@ -36,6 +39,7 @@ as_root() {
 if have apt-get; then
     packages="gcc libc6-dev pkg-config libhdf5-dev libhwloc-dev libyaml-dev libpng-dev libtiff-dev gnuplot-nox"
     tests="libcmocka-dev python3-h5py python3-jsonschema python3-yaml"
+    ! is_bookworm || tests="$tests clang-format-14"
     install() { as_root apt-get update -q && as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends $packages; }
 elif have dnf; then
     packages="gcc pkgconf-pkg-config hdf5-devel hwloc-devel libyaml-devel libpng-devel libtiff-devel gnuplot"
