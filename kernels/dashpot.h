@@ -11,7 +11,7 @@ static inline real dashpot_kick(struct absorbed *a, int d, real rate_dt, real ma
 {
     const real mean = (before + 0.5 * change) / (1 + 0.5 * rate_dt / mass), impulse = -rate_dt * mean;
     a->energy += rate_dt * mean * mean;
-    a->kick += 0.5 * impulse * (mean - before);      /* after - before = 2 (mean - before) */
+    a->kick += 0.5 * impulse * (mean - before); /* after - before = 2 (mean - before) */
     a->impulse[d] += impulse;
     return impulse;
 }

@@ -5,7 +5,7 @@
 #include "kernels/simd/variants.h"
 
 static ALWAYS_INLINE lanes_mask eight_diverged(const struct particles *p, const int32_t *list, real limit2,
-                                                  const int dim)
+                                               const int dim)
 {
     const int32_t first = list_together(list) ? list[0] : -1;
     lanes speed2 = lanes_of(0), place = lanes_of(0);
@@ -18,7 +18,7 @@ static ALWAYS_INLINE lanes_mask eight_diverged(const struct particles *p, const 
 }
 
 static ALWAYS_INLINE bool any_diverged(const struct particles *p, const int32_t *list, int64_t n, real limit2,
-                                          const int dim)
+                                       const int dim)
 {
     int64_t found = 0;
 #pragma omp parallel for schedule(static) reduction(+ : found)
@@ -31,7 +31,11 @@ static ALWAYS_INLINE bool any_diverged(const struct particles *p, const int32_t 
 
 bool particles_diverged(const struct particles *p, const int32_t *list, int64_t n, real limit)
 {
-#define CASE(D) case D: return any_diverged(p, list, n, limit * limit, D);
-    switch (p->dim) { DIM_VARIANTS(CASE) }
+#define CASE(D)                                                                                                        \
+    case D:                                                                                                            \
+        return any_diverged(p, list, n, limit * limit, D);
+    switch (p->dim) {
+        DIM_VARIANTS(CASE)
+    }
     return false;
 }

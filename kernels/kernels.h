@@ -14,21 +14,21 @@
 enum shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_CPGIMP, SHAPE_QUADRATIC, SHAPE_CUBIC, SHAPES };
 enum transfer { TRANSFER_FLIP, TRANSFER_APIC, TRANSFERS };
 enum pd_model {
-    PD_BOND,                             /* elastic, brittle                                         */
-    PD_BOND_PLASTIC,                     /* the same with yielding: needs the plastic arrays of bonds */
-    PD_OSPD,                             /* ordinary state-based: needs the state arrays of bonds    */
-    PD_MOSPD,                            /* with effective displacements, free of rotation           */
+    PD_BOND,         /* elastic, brittle                                         */
+    PD_BOND_PLASTIC, /* the same with yielding: needs the plastic arrays of bonds */
+    PD_OSPD,         /* ordinary state-based: needs the state arrays of bonds    */
+    PD_MOSPD,        /* with effective displacements, free of rotation           */
     PD_MODELS
 };
 
 /* Constants of a material for the stress update, and its conversion trigger. */
 struct elastic {
-    real c11, c12, shear;                /* [Pa] */
-    real trigger;                        /* sigma_1 that marks a point for conversion; INFINITY; where strength
-                                          * scatters that of the weakest point [Pa] */
-    real trigger_mean;                   /* that of a point of strength 1; the same where nothing scatters [Pa] */
-    real yield, hardening;               /* sigma_y, 0: never yields; H (plastic.h) [Pa] */
-    real poisson;                        /* of plane strain, where the material yields [1] */
+    real c11, c12, shear;  /* [Pa] */
+    real trigger;          /* sigma_1 that marks a point for conversion; INFINITY; where strength
+                            * scatters that of the weakest point [Pa] */
+    real trigger_mean;     /* that of a point of strength 1; the same where nothing scatters [Pa] */
+    real yield, hardening; /* sigma_y, 0: never yields; H (plastic.h) [Pa] */
+    real poisson;          /* of plane strain, where the material yields [1] */
     enum space space;
 };
 
@@ -42,16 +42,16 @@ static inline real point_trigger(const struct elastic *m, const struct particles
  * crossing bonds: sigma_given = sigma - M sigma, M = T C^-1 over symmetric components. A point at the end of
  * state-based bonds gives P Q local besides, where P Q is particles.end_pull over its volume. */
 struct partial_stress {
-    int32_t *index;                      /* [n] entry of a particle, -1: gives all; NULL: none does */
-    real *matrix;                        /* [entries][symmetric^2], row major */
+    int32_t *index; /* [n] entry of a particle, -1: gives all; NULL: none does */
+    real *matrix;   /* [entries][symmetric^2], row major */
     /* [entries][symmetric] mean strain, by strain, of the part of the family without own bonds, 0 of points
      * without bonds; NULL: bond-based [1] */
     real *local;
-    bool gives_all;                      /* hand-shake: M and local are 0 */
+    bool gives_all; /* hand-shake: M and local are 0 */
     int64_t entries;
-    int32_t *touched;                    /* particles whose entry was made anew; the reader sets touches = 0 */
+    int32_t *touched; /* particles whose entry was made anew; the reader sets touches = 0 */
     int64_t touches;
-    struct partial_table *table;         /* src/coupling/partial_table.c */
+    struct partial_table *table; /* src/coupling/partial_table.c */
 };
 
 /* Is point i an end of state-based bonds? Others leave stress to bonds that only cross their cell. */
@@ -68,23 +68,23 @@ static inline bool partial_end(const struct partial_stress *partial, int64_t i, 
 struct transfer_data {
     const struct transfer_order *order;
     const struct partial_stress *partial;
-    const struct elastic *elastic;       /* by material */
-    real half_width;                     /* l_p of uGIMP: half the particle's reference edge [m] */
-    real dt;                             /* [s] */
-    real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start) [s] */
-    bool momentum_only;                  /* grid-coupled peridynamic particles: no stress to give or update */
-    const uint8_t *bonded;               /* [n] not 0: bonds meet this material point; NULL: they meet none */
-    bool second_map;                     /* FLIP: all points move with the velocities of the second map */
-    real *turn[3];                       /* [n] of points that turn (data/turning.h); in the plane the last alone */
+    const struct elastic *elastic; /* by material */
+    real half_width;               /* l_p of uGIMP: half the particle's reference edge [m] */
+    real dt;                       /* [s] */
+    real dt_velocity;              /* dt, but dt/2 in the first step (leap-frog start) [s] */
+    bool momentum_only;            /* grid-coupled peridynamic particles: no stress to give or update */
+    const uint8_t *bonded;         /* [n] not 0: bonds meet this material point; NULL: they meet none */
+    bool second_map;               /* FLIP: all points move with the velocities of the second map */
+    real *turn[3];                 /* [n] of points that turn (data/turning.h); in the plane the last alone */
 };
 
 /* How peridynamic particles move in a step. */
 struct pd_motion {
-    real dt;                             /* [s] */
-    real dt_velocity;                    /* dt, but dt/2 in the first step (leap-frog start) [s] */
-    real fastest;                        /* a faster particle, or one without finite speed, has diverged [m/s] */
-    const uint8_t *loaded;               /* [n] not 0: is moved after the loads; NULL: none */
-    bool diverged;                       /* a particle has diverged */
+    real dt;               /* [s] */
+    real dt_velocity;      /* dt, but dt/2 in the first step (leap-frog start) [s] */
+    real fastest;          /* a faster particle, or one without finite speed, has diverged [m/s] */
+    const uint8_t *loaded; /* [n] not 0: is moved after the loads; NULL: none */
+    bool diverged;         /* a particle has diverged */
 };
 
 /* Force of all intact bonds on the particle of every active row (active_set.h; overwrites f there), then breaks
@@ -113,7 +113,7 @@ typedef void state_precompute_fn(struct bonds *b, struct particles *p);
 /* The rule of breaking, applied to one row block that has its forces. Exact and slow: called where a bond may break.
  * Returns directed bonds broken. */
 KERNEL(int64_t, bond_break_row_block,
-       (struct bonds * b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
+       (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
 
 /* Gives entry q of a row the weight w; 0 breaks it. Half of what the row loses of its energy by that is booked as
  * fracture: a leap-frog kick stands half before and half after a change of weights, so the other half is lost to the
@@ -126,11 +126,11 @@ KERNEL(real, bond_row_block_stretch, (const struct bonds *b, const struct partic
 /* Ends entry q of a row at the present places, whatever its stretch, and books its energy. The other entry of the bond
  * has to end alike. */
 KERNEL(void, bond_part,
-       (struct bonds * b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q));
+       (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q));
 
 /* Makes entry q of a row, which a trial has broken, whole again, with the weight that it had. What the row has booked
  * as fracture, and damage and flags of its particle, are the caller's to restore. */
-KERNEL(void, bond_mend, (struct bonds * b, struct particles *p, int64_t row, int64_t q, real w));
+KERNEL(void, bond_mend, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
 /* Elastic energy of a row of a state-based model by its present weights and places, `ago` before the present [s],
  * whatever the last sweep left [J]. */
@@ -176,17 +176,17 @@ typedef void turn_scatter_fn(struct grid *g, const struct particles *p, const st
 typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct transfer_data *t);
 
 /* Adds value[k] sum N of the listed points to `field`; serial. */
-typedef void spread_fn(const struct grid *g, const struct particles *p, real half_width, const int32_t *list,
-                       int64_t n, const real *value, real *field);
+typedef void spread_fn(const struct grid *g, const struct particles *p, real half_width, const int32_t *list, int64_t n,
+                       const real *value, real *field);
 
-struct kernels {                         /* chosen once, before the loop                              */
+struct kernels { /* chosen once, before the loop                              */
     bond_force_fn *bond_force;
     bond_energy_fn *bond_energy;
     bond_stress_fn *bond_stress;
     pd_move_fn *pd_move;
     p2g_fn *p2g;
     remap_fn *remap;
-    turn_gather_fn *turn_gather;         /* NULL on a line */
+    turn_gather_fn *turn_gather; /* NULL on a line */
     turn_scatter_fn *turn_scatter;
     g2p_fn *g2p;
     spread_fn *spread;
@@ -208,11 +208,11 @@ KERNEL_TABLE(g2p_fn, g2p_table, [SHAPES][TRANSFERS]);
 KERNEL_TABLE(spread_fn, spread_table, [SHAPES]);
 
 KERNEL(void, kernels_choose,
-       (struct kernels * k, int dim, enum pd_model model, enum shape shape, enum transfer transfer));
+       (struct kernels *k, int dim, enum pd_model model, enum shape shape, enum transfer transfer));
 
 /* ---- nodal updates between the maps, any dimension --------------------------------------------------------------- */
 
-KERNEL(void, grid_clear, (struct grid *g));      /* mass, momentum, force = 0 */
+KERNEL(void, grid_clear, (struct grid *g)); /* mass, momentum, force = 0 */
 
 /* Step 3, in two parts, between which bodies on grids of their own meet: nodes move, walls and mirrors hold. velocity =
  * (momentum + dt_velocity force)/mass; force becomes the change of velocity; momentum = 0, ready for the second map. At

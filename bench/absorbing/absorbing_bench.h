@@ -18,13 +18,17 @@ extern const struct absorbing_method absorbing_methods[ABSORBING_METHODS];
 /* A plane longitudinal pulse `width` spacings wide meets an absorbing face at right angles; dim 1 .. 3. reflected:
  * largest velocity that comes back, over that of the pulse; balance: largest error of the energy balance; back: the
  * largest energy that the face gave in a step, over that of the pulse [1]. */
-struct absorbing_pulse { double reflected, balance, back; };
+struct absorbing_pulse {
+    double reflected, balance, back;
+};
 status absorbing_pulse(const struct absorbing_method *m, int dim, int width, struct absorbing_pulse *figure);
 
 /* ---- oblique waves ----------------------------------------------------------------------------------------------- */
 
 /* Amplitudes of displacement that come back from a wave of amplitude 1, as P and as S wave [1]. */
-struct absorbing_reflection { double as_p, as_s; };
+struct absorbing_reflection {
+    double as_p, as_s;
+};
 /* Closed form for a half space of wave speeds 1 and `ratio` (P over S), both dashpots, by the slowness along the face:
  * normal and tangential traction vanish together with those of the dashpots (Lysmer & Kuhlemeyer 1969). `angle`
  * between the incoming wave's direction and the normal [rad]. */

@@ -16,8 +16,7 @@ enum { NORMAL_LENGTH = 384 };
 
 /* Space, material and strip by the number of dimensions. In plane strain and in space C11 = 6/5 E at Poisson's ratio
  * 1/4, G = C11/3. */
-static int normal_scene(char *text, size_t room, const struct absorbing_method *m, int dim, int width,
-                        int length)
+static int normal_scene(char *text, size_t room, const struct absorbing_method *m, int dim, int width, int length)
 {
     static const char *const spaces[DIM_MAX + 1] = {"", "line\nsection: 1 m^2", "plane strain\nthickness: 1 m",
                                                     "solid"};
@@ -35,9 +34,8 @@ static int normal_scene(char *text, size_t room, const struct absorbing_method *
                     "boundary:\n  - {absorbing: true, face: x+}\n%soutput: {frames: 0, samples: 200}\n",
                     spaces[dim], NORMAL_LENGTH * ABSORBING_SPACING / ABSORBING_SPEED, m->keys,
                     ABSORBING_SPEED * ABSORBING_SPEED / (dim > 1 ? 1.2 : 1), dim > 1 ? "1/4" : "0", zeros[dim],
-                    length * ABSORBING_SPACING, sides[dim], ABSORBING_SPACING,
-                    0.5 * NORMAL_LENGTH * ABSORBING_SPACING, zeros[dim], zeros[dim], width * ABSORBING_SPACING,
-                    NORMAL_VELOCITY, mirrors[dim]);
+                    length * ABSORBING_SPACING, sides[dim], ABSORBING_SPACING, 0.5 * NORMAL_LENGTH * ABSORBING_SPACING,
+                    zeros[dim], zeros[dim], width * ABSORBING_SPACING, NORMAL_VELOCITY, mirrors[dim]);
 }
 
 /* Runs the strip, or one twice as long; *v: the velocities along x at the end, [particles]. */
@@ -73,7 +71,7 @@ status absorbing_pulse(const struct absorbing_method *m, int dim, int width, str
     *figure = twin;
     status ran = normal_run(m, dim, width, 2 * NORMAL_LENGTH, &without, &twin);
     if (ran == OK) ran = normal_run(m, dim, width, NORMAL_LENGTH, &with, figure);
-    for (int64_t i = 0; i < L * rows && ran == OK; i++)     /* row by row, x first */
+    for (int64_t i = 0; i < L * rows && ran == OK; i++) /* row by row, x first */
         figure->reflected = fmax(figure->reflected, fabs(with[i] - without[i / L * 2 * L + i % L]) / NORMAL_VELOCITY);
     memory_free(with), memory_free(without);
     return ran;

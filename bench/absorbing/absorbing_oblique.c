@@ -3,7 +3,7 @@
  * comes back is the difference to a body that goes on where the face is; at one frequency it consists of a P and an S
  * wave, whose polarisations are known. */
 #include <complex.h>
-#undef I                                 /* a name of nodes in headers */
+#undef I /* a name of nodes in headers */
 #include <math.h>
 #include <stdio.h>
 
@@ -47,7 +47,7 @@ static struct oblique oblique_of(bool shear, double angle, double wavelength)
     o.along = (int)ceil(12 * o.radius / h / 2) * 2;
     o.from = o.along * h - 4 * o.radius;
     o.station = (o.along - nearbyint(0.5 * length / h) - 0.5) * h;
-    o.until = 10 * o.radius / (speed * cos(angle));      /* what the other ends send back comes later */
+    o.until = 10 * o.radius / (speed * cos(angle)); /* what the other ends send back comes later */
     return o;
 }
 

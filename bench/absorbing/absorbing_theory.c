@@ -1,12 +1,14 @@
 /* Reflection from dashpots in closed form. */
 #include <complex.h>
-#undef I                                 /* a name of nodes in headers */
+#undef I /* a name of nodes in headers */
 #include <math.h>
 
 #include "absorbing_bench.h"
 
 /* A plane wave exp(i w (s x + p y - t)) with displacement a. */
-struct plane_wave { double complex s, a[2]; };
+struct plane_wave {
+    double complex s, a[2];
+};
 
 /* What it makes of both boundary conditions at x = 0, over i w: stress_xx + rho c_p v_x and stress_xy + rho c_s v_y; of
  * density and c_p 1, and of mu = c_s^2. */

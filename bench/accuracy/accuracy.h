@@ -18,12 +18,12 @@
 
 /* Kinds of methods; a problem says which apply (bits). */
 enum accuracy_family {
-    ACCURACY_BONDS = 1,          /* bond-based peridynamics                                  */
-    ACCURACY_STATES = 2,         /* state-based: plane and solid                             */
-    ACCURACY_POINTS = 4,         /* material points in the current frame                     */
-    ACCURACY_REFERENCE = 8,      /* material points in the reference frame                   */
-    ACCURACY_COUPLED = 16,       /* a fixed region is peridynamic: the scene gives pd.region */
-    ACCURACY_ADAPTIVE = 32       /* the scene converts                                       */
+    ACCURACY_BONDS = 1,     /* bond-based peridynamics                                  */
+    ACCURACY_STATES = 2,    /* state-based: plane and solid                             */
+    ACCURACY_POINTS = 4,    /* material points in the current frame                     */
+    ACCURACY_REFERENCE = 8, /* material points in the reference frame                   */
+    ACCURACY_COUPLED = 16,  /* a fixed region is peridynamic: the scene gives pd.region */
+    ACCURACY_ADAPTIVE = 32  /* the scene converts                                       */
 };
 enum {
     ACCURACY_PD = ACCURACY_BONDS | ACCURACY_STATES,
@@ -32,9 +32,9 @@ enum {
 };
 
 struct accuracy_method {
-    const char *name;                    /* as printed */
+    const char *name; /* as printed */
     enum accuracy_family family;
-    bool quick;                          /* also with --quick */
+    bool quick;                                   /* also with --quick */
     struct scene_override set[ACCURACY_SETTINGS]; /* key NULL: no more */
 };
 extern const struct accuracy_method accuracy_method[];
@@ -55,39 +55,39 @@ struct accuracy_problem;
 struct accuracy_point {
     const struct accuracy_problem *problem;
     const struct accuracy_method *method;
-    int at;                              /* its case */
-    int resolution;                      /* as the problem counts */
-    double horizon;                      /* [spacings]; 0: it has no bonds */
-    double step;                         /* time.safety: share of the critical step */
+    int at;         /* its case */
+    int resolution; /* as the problem counts */
+    double horizon; /* [spacings]; 0: it has no bonds */
+    double step;    /* time.safety: share of the critical step */
 };
 
 /* The scene of a point: a file or a text, and overrides. Those of the method, the horizon and the step are added. */
 struct accuracy_scene {
-    char path[64];                       /* "": the text */
+    char path[64]; /* "": the text */
     char text[4096];
     struct bench_overrides set;
 };
 
 struct accuracy_problem {
     const char *name, *title;
-    const char *error;                   /* what the error is, in words */
-    const char *part[ACCURACY_PARTS];    /* what it is split into; NULL: nothing */
-    bool levels;                         /* methods with coarse cells apply, too */
-    bool draws_parts;                    /* they have panels, of the worst of all cases */
-    const char *cases[ACCURACY_CASES];   /* a table has a panel for each; NULL ends */
-    const char *counts;                  /* what its resolutions count */
-    int families;                        /* that apply */
-    int dim;                             /* of its space: how work grows with resolution */
+    const char *error;                    /* what the error is, in words */
+    const char *part[ACCURACY_PARTS];     /* what it is split into; NULL: nothing */
+    bool levels;                          /* methods with coarse cells apply, too */
+    bool draws_parts;                     /* they have panels, of the worst of all cases */
+    const char *cases[ACCURACY_CASES];    /* a table has a panel for each; NULL ends */
+    const char *counts;                   /* what its resolutions count */
+    int families;                         /* that apply */
+    int dim;                              /* of its space: how work grows with resolution */
     int resolution[ACCURACY_RESOLUTIONS]; /* ascending; 0 ends */
-    int quick_resolutions;               /* the first few */
+    int quick_resolutions;                /* the first few */
     /* of pure peridynamics beside 3.015: the first at every resolution, others at one; 0 ends */
     double horizon[ACCURACY_VARIATIONS];
-    double step[ACCURACY_VARIATIONS];    /* beside 0.8, at that one; 0 ends */
-    bool steps;                          /* the first of them at every resolution, and with --quick */
-    int varied;                          /* 1 + its place; 0: the second */
+    double step[ACCURACY_VARIATIONS];     /* beside 0.8, at that one; 0 ends */
+    bool steps;                           /* the first of them at every resolution, and with --quick */
+    int varied;                           /* 1 + its place; 0: the second */
     const char *remark[ACCURACY_REMARKS]; /* for the page: what stands out and why */
-    int samples;                         /* its tips are looked at so often; 0: once */
-    double seconds, quick_seconds;       /* it takes about, until measured */
+    int samples;                          /* its tips are looked at so often; 0: once */
+    double seconds, quick_seconds;        /* it takes about, until measured */
     void (*scene)(const struct accuracy_point *p, struct accuracy_scene *s);
     status (*run)(const struct accuracy_point *p, struct run *e); /* NULL: engine_run */
     /* Relative error and its parts, of a run that reached its end. */
@@ -122,23 +122,27 @@ double accuracy_figure(const struct run *e, const char *probe, const char *quant
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
 struct accuracy_result {
-    bool known;                          /* measured, now or before */
+    bool known; /* measured, now or before */
     bool stable;
-    double error, part[ACCURACY_PARTS];  /* [1]; NAN: none */
-    double seconds[2];                   /* in the loop on one thread and on two, least of some runs */
+    double error, part[ACCURACY_PARTS]; /* [1]; NAN: none */
+    double seconds[2];                  /* in the loop on one thread and on two, least of some runs */
     double particles, steps;
-    char settings[20];                   /* of scene and machine, as a number */
+    char settings[20]; /* of scene and machine, as a number */
 };
 
 /* A point of the whole table and what is known of it. */
 struct accuracy_entry {
     struct accuracy_point point;
     struct accuracy_result result;
-    bool quick;                          /* belongs to the short table, too */
+    bool quick; /* belongs to the short table, too */
 };
 
 /* accuracy_plan.c: every point of the whole table, and the scene that it is. */
-struct accuracy_plan { int n; struct accuracy_entry *entry; struct machine machine; };
+struct accuracy_plan {
+    int n;
+    struct accuracy_entry *entry;
+    struct machine machine;
+};
 status accuracy_plan_make(struct accuracy_plan *plan);
 void accuracy_plan_free(struct accuracy_plan *plan);
 void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *s);
@@ -159,7 +163,9 @@ status accuracy_table_write(const struct accuracy_plan *plan);
 /* ---- accuracy_front.c: what a cloud of points says --------------------------------------------------------------- */
 
 /* Time [s] and error [1] of a point; either not finite: it does not count. */
-struct accuracy_dot { double time, error; };
+struct accuracy_dot {
+    double time, error;
+};
 
 /* Points that no other beats in both, by ascending time (and so descending error), into `front`; returns how many. Of
  * equal points the first. */

@@ -39,7 +39,7 @@ static double pulse_rms(double amplitude) { return amplitude * sqrt(0.1 * sqrt(0
 /* Stress and velocity carry the same energy. A front is of no order in the mean square: there the mean counts. */
 static status accuracy_bar_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
-    const double impedance = 100;                /* rho c [Pa s/m] */
+    const double impedance = 100; /* rho c [Pa s/m] */
     if (p->at == STEP) {
         part[0] = accuracy_figure(e, "exact", "L1") / 1;
         part[1] = accuracy_figure(e, "exact", "L1_velocity") * impedance;

@@ -10,7 +10,10 @@
 #include "step/step.h"
 
 /* Component `axis` of a mode: coefficients of products of Legendre polynomials over the body, from -1 to 1. */
-struct term { int axis, degree[DIM_MAX]; double of; };
+struct term {
+    int axis, degree[DIM_MAX];
+    double of;
+};
 
 static const struct term plate[] = {{0, {1, 1, 0}, 0.261615},  {0, {1, 3, 0}, 0.000908},  {0, {3, 1, 0}, -0.068864},
                                     {0, {3, 3, 0}, -0.000940}, {0, {5, 1, 0}, 0.010693},  {0, {7, 1, 0}, -0.000296},
@@ -24,19 +27,19 @@ static const struct term bent[] = {
     {1, {2, 0, 2}, 0.0121},  {1, {2, 2, 0}, -0.0105}, {1, {2, 4, 0}, -0.0011}, {1, {4, 0, 0}, -0.1357},
     {1, {4, 0, 2}, -0.0041}, {1, {4, 2, 0}, 0.0038},  {1, {6, 0, 0}, 0.0103},  {2, {0, 1, 1}, 0.0292},
     {2, {2, 1, 1}, -0.0398}, {2, {4, 1, 1}, 0.0117},  {2, {6, 1, 1}, -0.0011}};
-static const struct term twisted[] = {
-    {0, {0, 1, 3}, 0.0325}, {0, {0, 3, 1}, -0.0314}, {0, {2, 1, 3}, -0.0327}, {0, {2, 3, 1}, 0.0308},
-    {0, {4, 1, 3}, 0.0049}, {0, {4, 3, 1}, -0.0051}, {1, {1, 0, 1}, 1.0000},  {1, {1, 2, 1}, 0.0055},
-    {1, {3, 0, 1}, -0.1843}, {1, {5, 0, 1}, 0.0081}, {2, {1, 1, 0}, -1.0000}, {2, {1, 1, 2}, -0.0056},
-    {2, {3, 1, 0}, 0.1843}, {2, {5, 1, 0}, -0.0081}};
+static const struct term twisted[] = {{0, {0, 1, 3}, 0.0325}, {0, {0, 3, 1}, -0.0314}, {0, {2, 1, 3}, -0.0327},
+                                      {0, {2, 3, 1}, 0.0308}, {0, {4, 1, 3}, 0.0049},  {0, {4, 3, 1}, -0.0051},
+                                      {1, {1, 0, 1}, 1.0000}, {1, {1, 2, 1}, 0.0055},  {1, {3, 0, 1}, -0.1843},
+                                      {1, {5, 0, 1}, 0.0081}, {2, {1, 1, 0}, -1.0000}, {2, {1, 1, 2}, -0.0056},
+                                      {2, {3, 1, 0}, 0.1843}, {2, {5, 1, 0}, -0.0081}};
 
 /* Thickness, Young's modulus and density are 1. */
 static const struct mode {
     const struct term *term;
     int terms;
     double size[DIM_MAX], frequency;
-} mode[] = {{plate, COUNT_OF(plate), {10, 1, 1}, 0.0623947},       /* nu = 1/3 */
-            {bent, COUNT_OF(bent), {4, 1, 1}, 0.3399424},          /* nu = 1/4 */
+} mode[] = {{plate, COUNT_OF(plate), {10, 1, 1}, 0.0623947}, /* nu = 1/3 */
+            {bent, COUNT_OF(bent), {4, 1, 1}, 0.3399424},    /* nu = 1/4 */
             {twisted, COUNT_OF(twisted), {4, 1, 1}, 0.4561018}};
 
 static const struct mode *mode_of(const struct accuracy_point *p)
@@ -46,7 +49,7 @@ static const struct mode *mode_of(const struct accuracy_point *p)
 
 static const double speed = 1e-7;
 
-static double measured;                      /* frequency of the run that was last [1/s] */
+static double measured; /* frequency of the run that was last [1/s] */
 
 static void accuracy_beam_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {

@@ -27,12 +27,15 @@ static const char text[] =
 static void put_edge(FILE *to, const struct accuracy_point *p, double h, const char *time)
 {
     if (p->method->family & ACCURACY_MPM) {
-        fprintf(to, "body: [{box: {from: [0, 0], to: [10 mm, 10 mm]}}, {subtract: {box: {from: [-1 mm, %.9g mm], to: "
-                "[5 mm, %.9g mm]}}}]\nmpm: {origin: [0, %.9g mm]}\n", 5 - h, 5 + h, 5 - h);
+        fprintf(to,
+                "body: [{box: {from: [0, 0], to: [10 mm, 10 mm]}}, {subtract: {box: {from: [-1 mm, %.9g mm], to: "
+                "[5 mm, %.9g mm]}}}]\nmpm: {origin: [0, %.9g mm]}\n",
+                5 - h, 5 + h, 5 - h);
         fputs("probes: [sif: {at: [5 mm, 5 mm], direction: [1, 0], contours: [2 mm]}]\n", to);
     } else
         fputs("body: {box: {from: [0, 0], to: [10 mm, 10 mm]}}\ncracks: [{from: [-1 mm, 5 mm], to: [5 mm, 5 mm]}]\n"
-              "pd: {region: {box: {from: [0, 4 mm], to: [6 mm, 6 mm]}}}\nprobes: [sif: {contours: [2 mm]}]\n", to);
+              "pd: {region: {box: {from: [0, 4 mm], to: [6 mm, 6 mm]}}}\nprobes: [sif: {contours: [2 mm]}]\n",
+              to);
     fprintf(to, "boundary: [{traction: [0, 1 MPa], face: y+%s}, {traction: [0, -1 MPa], face: y-%s}]\n", time, time);
 }
 
@@ -43,7 +46,8 @@ static void put_inclined(FILE *to, const char *time)
             "cracks: [{from: [7.878680 mm, 2.878680 mm], to: [12.121320 mm, 7.121320 mm]}]\n"
             "pd: {region: {box: {from: [6.8 mm, 1.8 mm], to: [13.2 mm, 8.2 mm]}}}\n"
             "probes: [sif: {at: [12.121320 mm, 7.121320 mm], contours: [2 mm]}]\n"
-            "boundary: [{traction: [1 MPa, 0], face: x+%s}, {traction: [-1 MPa, 0], face: x-%s}]\n", time, time);
+            "boundary: [{traction: [1 MPa, 0], face: x+%s}, {traction: [-1 MPa, 0], face: x-%s}]\n",
+            time, time);
 }
 
 static void accuracy_cracks_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
@@ -55,8 +59,10 @@ static void accuracy_cracks_make_scene(const struct accuracy_point *p, struct ac
     FILE *to = fmemopen(s->text, sizeof s->text, "w");
     fprintf(to, "%sduration: %.9g\nsolver_steps: 8000\n", text, waits ? duration : 1);
     bench_override(&s->set, "solver", "%s", accuracy_solver(p));
-    if (p->at == EDGE) put_edge(to, p, 10.0 / p->resolution, time);
-    else put_inclined(to, time);
+    if (p->at == EDGE)
+        put_edge(to, p, 10.0 / p->resolution, time);
+    else
+        put_inclined(to, time);
     fclose(to);
     bench_override(&s->set, "particles.spacing", "10/%d mm", p->resolution);
     /* what suits each: as inputs/edge_crack_k1.yaml and inclined_crack.yaml found */

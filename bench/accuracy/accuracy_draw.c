@@ -71,8 +71,8 @@ struct panel {
     int n, front_n, *front, number;
     struct accuracy_dot *dot;
     const struct accuracy_entry **of;
-    double least, most;          /* error: ends of the axis */
-    double soonest, latest;      /* the same of time; on the left there is room for labels */
+    double least, most;     /* error: ends of the axis */
+    double soonest, latest; /* the same of time; on the left there is room for labels */
 };
 
 static void panel_range(struct panel *q)
@@ -99,17 +99,16 @@ static void panel_make(struct panel *q, const struct accuracy_plan *plan, const 
     panel_range(q);
 }
 
-static void panel_free(struct panel *q)
-{
-    memory_free(q->dot), memory_free(q->front), memory_free(q->of);
-}
+static void panel_free(struct panel *q) { memory_free(q->dot), memory_free(q->front), memory_free(q->of); }
 
 /* ---- families ---------------------------------------------------------------------------------------------------- */
 
 /* Families of methods, each with a colour: dark enough for letters, apart for any colour vision (Okabe & Ito 2008; Tol
  * 2021). */
 enum { BOND, STATE, CURRENT_FRAME, REFERENCE_FRAME, COARSE, COUPLED_HERE, ADAPTIVE_MESH, ADAPTIVE_GRID, GROUPS };
-static const struct { const char *name, *colour; } group[GROUPS] = {
+static const struct {
+    const char *name, *colour;
+} group[GROUPS] = {
     [BOND] = {"bonds", "#0072b2"},
     [STATE] = {"state-based bonds", "#009e73"},
     [CURRENT_FRAME] = {"material points, current frame", "#d55e00"},
@@ -160,7 +159,9 @@ static void put_front(FILE *to, const struct panel *q)
 {
     const double line = 0.052 * log(q->most / q->least);
     double below = -INFINITY;
-    struct label { char text[96]; } *label = NEW("bench.label", q->front_n, struct label);
+    struct label {
+        char text[96];
+    } *label = NEW("bench.label", q->front_n, struct label);
     fprintf(to, "$p%d_front << EOD\n", q->number);
     for (int k = q->front_n - 1; k >= 0; k--) {
         const struct accuracy_dot *d = &q->dot[q->front[k]];
@@ -184,11 +185,12 @@ static void put_front(FILE *to, const struct panel *q)
 
 static void accuracy_draw_panel(FILE *to, const struct panel *q)
 {
-    fprintf(to, "set xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n"
+    fprintf(to,
+            "set xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n"
             "plot $p%d_others using 1:2 with points pt 7 ps 0.32 lc rgb '#c4c4c4' notitle"
             ", $p%d_unstable using 1:2 with points pt 2 ps 0.8 lw 1.2 lc rgb '#a0a0a0' notitle"
-            ", $p%d_front using 1:2 with lines lw 1.4 lc rgb '#777777' notitle", q->soonest, q->latest, 100 * q->least,
-            100 * q->most, q->number, q->number, q->number);
+            ", $p%d_front using 1:2 with lines lw 1.4 lc rgb '#777777' notitle",
+            q->soonest, q->latest, 100 * q->least, 100 * q->most, q->number, q->number, q->number);
     for (int g = 0; g < GROUPS; g++) {
         if (!has_group(q, g)) continue;
         fprintf(to,
@@ -226,7 +228,7 @@ static void plot_key(FILE *to, const struct panel *panel, int panels, double lef
 /* ---- a page of panels -------------------------------------------------------------------------------------------- */
 
 enum { COLUMNS = 2, PANELS_MAX = 16, KEY_PIXELS = 330, PANEL_WIDTH = 570, PANEL_HEIGHT = 380 };
-enum { PANEL_LEFT = 108, PANEL_RIGHT = 14, PANEL_ABOVE = 40, PANEL_BELOW = 56 };   /* room in a panel [pixel] */
+enum { PANEL_LEFT = 108, PANEL_RIGHT = 14, PANEL_ABOVE = 40, PANEL_BELOW = 56 }; /* room in a panel [pixel] */
 
 struct page {
     int panels, columns, rows;
@@ -287,8 +289,10 @@ static void draw_page(FILE *to, const void *context)
                 k + p->columns < p->panels ? "" : "loop time on one thread");
         accuracy_draw_panel(to, &p->panel[k]);
     }
-    if (key_inside(p)) plot_key(to, p->panel, p->panels, (p->columns - 1) * width + 0.08, height - 0.02);
-    else plot_key(to, p->panel, p->panels, p->columns * width + 0.01, 0.96);
+    if (key_inside(p))
+        plot_key(to, p->panel, p->panels, (p->columns - 1) * width + 0.08, height - 0.02);
+    else
+        plot_key(to, p->panel, p->panels, p->columns * width + 0.01, 0.96);
     fputs("unset multiplot\n", to);
 }
 

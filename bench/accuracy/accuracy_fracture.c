@@ -14,9 +14,10 @@ enum { KALTHOFF, PULLED };
 
 /* Growth at which a crack has started, and to which its speed counts at the most; of its path, rings round the end
  * of the pre-crack. */
-static const struct { double start, until, ring[FRACTURE_RINGS], width; } watched[2] = {
-    [KALTHOFF] = {5e-3, 20e-3, {7.5e-3, 12.5e-3, 17.5e-3, 22.5e-3}, 2.5e-3},
-    [PULLED] = {1e-3, 3e-3, {1.5e-3, 2e-3, 2.5e-3, 3e-3}, 0.5e-3}};
+static const struct {
+    double start, until, ring[FRACTURE_RINGS], width;
+} watched[2] = {[KALTHOFF] = {5e-3, 20e-3, {7.5e-3, 12.5e-3, 17.5e-3, 22.5e-3}, 2.5e-3},
+                [PULLED] = {1e-3, 3e-3, {1.5e-3, 2e-3, 2.5e-3, 3e-3}, 0.5e-3}};
 enum { SAMPLES = 200 };
 
 /* ---- scenes ------------------------------------------------------------------------------------------------------ */
@@ -73,7 +74,7 @@ static double time_of(const struct tips *t, double length)
         if (mean <= growth[1] + 1e-9) continue;
         time[0] = time[1], growth[0] = growth[1], time[1] = t->time[s], growth[1] = mean;
         if (mean < length || s == 0) continue;
-        if (isnan(time[0])) return time[1];      /* came there in one step */
+        if (isnan(time[0])) return time[1]; /* came there in one step */
         return time[0] + (time[1] - time[0]) * (length - growth[0]) / (growth[1] - growth[0]);
     }
     return NAN;

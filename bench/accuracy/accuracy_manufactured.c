@@ -53,8 +53,7 @@ static void add_stress(const struct particles *p, int64_t i, const real *stiffne
     }
 }
 
-static status accuracy_manufactured_measure(const struct accuracy_point *q, struct run *e, double *error,
-                                            double *part)
+static status accuracy_manufactured_measure(const struct accuracy_point *q, struct run *e, double *error, double *part)
 {
     const struct manufactured *m = accuracy_manufactured_motion_of(q);
     const struct particles *p = &e->part;
@@ -80,8 +79,7 @@ static status accuracy_manufactured_measure(const struct accuracy_point *q, stru
 #define COMMON                                                                                                         \
     .error = "stress and velocity over those of the motion, root mean square over all particles",                      \
     .part = {"stress", "velocity"}, .families = ACCURACY_PD | ACCURACY_MPM | ACCURACY_COUPLED,                         \
-    .scene = accuracy_manufactured_make_scene,                                                                         \
-    .measure = accuracy_manufactured_measure
+    .scene = accuracy_manufactured_make_scene, .measure = accuracy_manufactured_measure
 
 const struct accuracy_problem accuracy_square = {
     .name = "square",
@@ -94,11 +92,10 @@ const struct accuracy_problem accuracy_square = {
     .horizon = {2.015, 4.015},
     .step = {0.4},
     .varied = 3,
-    .remark =
-        {"Bonds of uniform weights stop at 2.7 %, the lattice's anisotropy, and at 27 % with a horizon of "
-         "2.015; with isotropic weights, and mospd, they are of second order and best at the short horizon.",
-         "Stress of linear shapes, GIMP and the reference frame is of first order (1.2 % of 192 particles), "
-         "velocities are of second (0.02 to 0.03 %)."},
+    .remark = {"Bonds of uniform weights stop at 2.7 %, the lattice's anisotropy, and at 27 % with a horizon of "
+               "2.015; with isotropic weights, and mospd, they are of second order and best at the short horizon.",
+               "Stress of linear shapes, GIMP and the reference frame is of first order (1.2 % of 192 particles), "
+               "velocities are of second (0.02 to 0.03 %)."},
     .seconds = 60,
     .quick_seconds = 6,
     COMMON,
@@ -115,10 +112,9 @@ const struct accuracy_problem accuracy_cube = {
     .horizon = {2.015, 4.015},
     .step = {0.4},
     .varied = 3,
-    .remark =
-        {"Bonds of uniform weights stop at 7 to 8 %, the lattice's anisotropy (C11 - 5.7 %); with isotropic "
-         "weights, and mospd, they are of second order and best at the short horizon.",
-         "vmpd with a horizon of 2.015 is 33 % off: its calibration is that of a continuum."},
+    .remark = {"Bonds of uniform weights stop at 7 to 8 %, the lattice's anisotropy (C11 - 5.7 %); with isotropic "
+               "weights, and mospd, they are of second order and best at the short horizon.",
+               "vmpd with a horizon of 2.015 is 33 % off: its calibration is that of a continuum."},
     .seconds = 150,
     .quick_seconds = 15,
     COMMON,

@@ -3,14 +3,33 @@
 
 #include "accuracy.h"
 
-#define PD(...) {{"method", "pd"}, __VA_ARGS__}
-#define MPM(...) {{"method", "mpm"}, __VA_ARGS__}
-#define CURRENT {"mpm.frame", "current"}
-#define POINTS(shape, transfer) {{"method", "mpm"}, CURRENT, {"mpm.shape", shape}, {"mpm.transfer", transfer}}
-#define COUPLED(coupling) {{"method", "adaptive"}, CURRENT, {"coupling", coupling}}
-#define LEVELS(n) {"mpm.frame", "reference"}, {"mpm.levels", n}
+#define PD(...)                                                                                                        \
+    {                                                                                                                  \
+        {"method", "pd"}, __VA_ARGS__                                                                                  \
+    }
+#define MPM(...)                                                                                                       \
+    {                                                                                                                  \
+        {"method", "mpm"}, __VA_ARGS__                                                                                 \
+    }
+#define CURRENT                                                                                                        \
+    {                                                                                                                  \
+        "mpm.frame", "current"                                                                                         \
+    }
+#define POINTS(shape, transfer)                                                                                        \
+    {                                                                                                                  \
+        {"method", "mpm"}, CURRENT, {"mpm.shape", shape}, { "mpm.transfer", transfer }                                 \
+    }
+#define COUPLED(coupling)                                                                                              \
+    {                                                                                                                  \
+        {"method", "adaptive"}, CURRENT, { "coupling", coupling }                                                      \
+    }
+#define LEVELS(n)                                                                                                      \
+    {"mpm.frame", "reference"}, { "mpm.levels", n }
 #define REFERENCE LEVELS("0")
-#define UNIFORM {"pd.weights", "uniform"}
+#define UNIFORM                                                                                                        \
+    {                                                                                                                  \
+        "pd.weights", "uniform"                                                                                        \
+    }
 
 const struct accuracy_method accuracy_method[] = {
     {"pd bond", ACCURACY_BONDS, true, {{"method", "pd"}}},
@@ -31,10 +50,7 @@ const struct accuracy_method accuracy_method[] = {
     {"mpm levels 2", ACCURACY_REFERENCE, true, MPM(LEVELS("2"))},
     {"coupled partial stress", ACCURACY_COUPLED, true, COUPLED("partial stress")},
     {"coupled reference", ACCURACY_COUPLED, true, {{"method", "adaptive"}, REFERENCE}},
-    {"coupled reference uniform",
-     ACCURACY_COUPLED,
-     true,
-     {{"method", "adaptive"}, REFERENCE, UNIFORM}},
+    {"coupled reference uniform", ACCURACY_COUPLED, true, {{"method", "adaptive"}, REFERENCE, UNIFORM}},
     {"coupled handshake", ACCURACY_COUPLED, false, COUPLED("handshake")},
     {"coupled pm", ACCURACY_COUPLED, false, COUPLED("pm")},
     {"coupled pg", ACCURACY_COUPLED, false, COUPLED("pg")},
@@ -42,16 +58,10 @@ const struct accuracy_method accuracy_method[] = {
     {"coupled pgg", ACCURACY_COUPLED, false, COUPLED("pgg")},
     {"adaptive partial stress", ACCURACY_ADAPTIVE, true, COUPLED("partial stress")},
     {"adaptive reference", ACCURACY_ADAPTIVE, true, {{"method", "adaptive"}, REFERENCE}},
-    {"adaptive reference uniform",
-     ACCURACY_ADAPTIVE,
-     true,
-     {{"method", "adaptive"}, REFERENCE, UNIFORM}},
+    {"adaptive reference uniform", ACCURACY_ADAPTIVE, true, {{"method", "adaptive"}, REFERENCE, UNIFORM}},
     {"adaptive levels 1", ACCURACY_ADAPTIVE, true, {{"method", "adaptive"}, LEVELS("1")}},
     {"adaptive levels 2", ACCURACY_ADAPTIVE, true, {{"method", "adaptive"}, LEVELS("2")}},
-    {"adaptive levels 2 uniform",
-     ACCURACY_ADAPTIVE,
-     true,
-     {{"method", "adaptive"}, LEVELS("2"), UNIFORM}},
+    {"adaptive levels 2 uniform", ACCURACY_ADAPTIVE, true, {{"method", "adaptive"}, LEVELS("2"), UNIFORM}},
     {"adaptive handshake", ACCURACY_ADAPTIVE, false, COUPLED("handshake")},
     {"adaptive pm", ACCURACY_ADAPTIVE, false, COUPLED("pm")},
     {"adaptive pg", ACCURACY_ADAPTIVE, false, COUPLED("pg")},

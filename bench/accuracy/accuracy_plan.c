@@ -7,9 +7,8 @@
 #include "scene/scene_read.h"
 
 const struct accuracy_problem *const accuracy_problem[] = {
-    &accuracy_bar,    &accuracy_wave,   &accuracy_square, &accuracy_cube,    &accuracy_hole,
-    &accuracy_cracks, &accuracy_sudden, &accuracy_spall,  &accuracy_fracture, &accuracy_beam,
-    &accuracy_rod};
+    &accuracy_bar,    &accuracy_wave,  &accuracy_square,   &accuracy_cube, &accuracy_hole, &accuracy_cracks,
+    &accuracy_sudden, &accuracy_spall, &accuracy_fracture, &accuracy_beam, &accuracy_rod};
 const int accuracy_problems = COUNT_OF(accuracy_problem);
 
 int accuracy_cases(const struct accuracy_problem *problem)
@@ -30,7 +29,7 @@ void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *
     if (p->horizon > 0) bench_override(&s->set, "particles.horizon", "%.9g", p->horizon);
     bench_override(&s->set, "time.step", "auto");
     bench_override(&s->set, "time.safety", "%.9g", p->step);
-    bench_override(&s->set, "contact.between", "none");      /* nothing meets in these problems */
+    bench_override(&s->set, "contact.between", "none"); /* nothing meets in these problems */
     bench_override(&s->set, "output.frames", "0");
     bench_override(&s->set, "output.samples", "%d", p->problem->samples ? p->problem->samples : 1);
 }
@@ -90,7 +89,10 @@ static status add_case(struct accuracy_plan *plan, const struct accuracy_problem
     for (int m = 0; m < accuracy_methods; m++) {
         const struct accuracy_method *method = &accuracy_method[m];
         if (!(method->family & q->families) || (accuracy_is_coarse(method) && !q->levels)) continue;
-        struct accuracy_point p = {.problem = q, .method = method, .at = at, .resolution = q->resolution[r],
+        struct accuracy_point p = {.problem = q,
+                                   .method = method,
+                                   .at = at,
+                                   .resolution = q->resolution[r],
                                    .step = ACCURACY_STEP,
                                    .horizon = method->family & ACCURACY_MPM ? 0 : ACCURACY_HORIZON};
         const bool quick = method->quick && r < q->quick_resolutions;
@@ -103,8 +105,8 @@ static status add_case(struct accuracy_plan *plan, const struct accuracy_problem
 /* Scenes that are files may be elsewhere: then their problem is left out. */
 static bool is_here(const struct accuracy_problem *q)
 {
-    const struct accuracy_point any = {.problem = q, .method = accuracy_method, .resolution = q->resolution[0],
-                                       .step = ACCURACY_STEP};
+    const struct accuracy_point any = {
+        .problem = q, .method = accuracy_method, .resolution = q->resolution[0], .step = ACCURACY_STEP};
     struct accuracy_scene s;
     accuracy_scene_make(&any, &s);
     return !s.path[0] || bench_scene_exists(s.path);

@@ -108,8 +108,13 @@ static void fill_problems(struct bench_table *t)
     bench_table_make(t, "problems", "problem,title,error,part_1,part_2,part_3,resolution");
     for (int k = 0; k < accuracy_problems; k++) {
         const struct accuracy_problem *q = accuracy_problem[k];
-        const char *const words[] = {q->name, q->title, q->error, q->part[0] ? q->part[0] : "-",
-                                     q->part[1] ? q->part[1] : "-", q->part[2] ? q->part[2] : "-", q->counts};
+        const char *const words[] = {q->name,
+                                     q->title,
+                                     q->error,
+                                     q->part[0] ? q->part[0] : "-",
+                                     q->part[1] ? q->part[1] : "-",
+                                     q->part[2] ? q->part[2] : "-",
+                                     q->counts};
         for (size_t c = 0; c < COUNT_OF(words); c++) bench_text(t, words[c]);
     }
 }

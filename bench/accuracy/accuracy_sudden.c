@@ -15,9 +15,9 @@ enum { REST, MOVING };
 /* [m/s]; on the crack's plane [Pa]; of the waves to it [m] */
 static const double speed = 1000, stress = 2e6, way = 20e-3;
 enum { INSTANTS = 6 };
-static const double instant[INSTANTS] = {5.5e-6, 6.2e-6, 6.9e-6, 7.6e-6, 8.3e-6, 9e-6};      /* [s] */
+static const double instant[INSTANTS] = {5.5e-6, 6.2e-6, 6.9e-6, 7.6e-6, 8.3e-6, 9e-6}; /* [s] */
 
-static double factor[INSTANTS];              /* K_I over the exact one, of the run that was last */
+static double factor[INSTANTS]; /* K_I over the exact one, of the run that was last */
 
 static const char text[] =
     "space: plane strain\nthickness: 1 mm\nduration: 9 us\n"
@@ -78,7 +78,7 @@ static status accuracy_sudden_measure(const struct accuracy_point *p, struct run
 static bool accuracy_sudden_applies(const struct accuracy_point *p)
 {
     if (p->at == MOVING && p->method->family & ACCURACY_MPM) return false;
-    if (p->method->family & ACCURACY_POINTS && p->resolution < 40) return false;     /* the ring would meet the gap */
+    if (p->method->family & ACCURACY_POINTS && p->resolution < 40) return false; /* the ring would meet the gap */
     return p->resolution <= 80 || p->method->quick;
 }
 

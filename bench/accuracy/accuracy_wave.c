@@ -9,17 +9,19 @@
 #include "step/step.h"
 
 /* Direction of the wave in each case [degrees], and whether it is an S wave. */
-static const struct { double angle; bool transverse; } wave_of[] = {
-    {0, false}, {22.5, false}, {45, false}, {0, true}, {22.5, true}, {45, true}};
+static const struct {
+    double angle;
+    bool transverse;
+} wave_of[] = {{0, false}, {22.5, false}, {45, false}, {0, true}, {22.5, true}, {45, true}};
 
-static const double longitudinal = 100;                  /* speed of P waves [m/s]                                */
-static const double duration = 2e-3;                     /* P waves go 0.2 m                                [s]   */
-static const double radius = 0.05;                       /* of the packet: a quarter of its width           [m]   */
-static const double window = 0.22;                       /* radius of the disc                              [m]   */
+static const double longitudinal = 100; /* speed of P waves [m/s]                                */
+static const double duration = 2e-3;    /* P waves go 0.2 m                                [s]   */
+static const double radius = 0.05;      /* of the packet: a quarter of its width           [m]   */
+static const double window = 0.22;      /* radius of the disc                              [m]   */
 
 static const char text[] =
     "space: plane stress\nthickness: 1\nduration: 2 ms\n"
-    "material: {young: 80000/9, density: 1, critical_stretch: inf}\n"            /* C11 = 1e4 Pa, nu = 1/3 */
+    "material: {young: 80000/9, density: 1, critical_stretch: inf}\n" /* C11 = 1e4 Pa, nu = 1/3 */
     "body: {box: {from: [-0.5, -0.5], to: [0.5, 0.5]}}\nparticles: {spacing: 0.01}\n"
     "pd: {region: {half-space: {point: [0, 0], normal: [-1, 0]}}}\nconversion: {criteria: none}\n";
 
@@ -29,8 +31,12 @@ static struct wave_pulse pulse_of(const struct accuracy_point *p)
     const double angle = wave_of[p->at].angle * M_PI / 180, c = cos(angle), s = sin(angle);
     const bool transverse = wave_of[p->at].transverse;
     const double start = -0.5 * duration * longitudinal * (transverse ? 1 / sqrt(3) : 1);
-    struct wave_pulse w = {.at = {start * c, start * s}, .direction = {c, s}, .width = 4 * radius, .velocity = 1e-4,
-                           .polarisation = {c, s}, .transverse = transverse};
+    struct wave_pulse w = {.at = {start * c, start * s},
+                           .direction = {c, s},
+                           .width = 4 * radius,
+                           .velocity = 1e-4,
+                           .polarisation = {c, s},
+                           .transverse = transverse};
     if (transverse) w.polarisation[0] = -s, w.polarisation[1] = c;
     return w;
 }
@@ -50,7 +56,9 @@ static void accuracy_wave_make_scene(const struct accuracy_point *p, struct accu
 /* ---- errors ------------------------------------------------------------------------------------------------------ */
 
 /* The exact wave beside that of the particles in the window: sums for a wave that has come `ahead` farther. */
-struct match { double exact2, product, off2; };
+struct match {
+    double exact2, product, off2;
+};
 
 static bool is_in_window(const struct particles *p, int64_t i)
 {

@@ -21,7 +21,7 @@ double accuracy_figure(const struct run *e, const char *probe, const char *quant
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
 enum { RUNS_MOST = 3 };
-#define RUNS_SECONDS 0.3                 /* short runs are repeated for their time: at most this long */
+#define RUNS_SECONDS 0.3 /* short runs are repeated for their time: at most this long */
 
 /* Of this thread: what other programs take from its processor does not count. */
 static double processor_seconds(void)
@@ -86,7 +86,9 @@ static double work_of(const struct accuracy_point *p)
 }
 
 enum { PROBLEMS_MAX = 16 };
-struct progress { double spent[PROBLEMS_MAX], done[PROBLEMS_MAX], asked[PROBLEMS_MAX]; };
+struct progress {
+    double spent[PROBLEMS_MAX], done[PROBLEMS_MAX], asked[PROBLEMS_MAX];
+};
 
 static int accuracy_number_of(const struct accuracy_problem *q)
 {
@@ -123,8 +125,7 @@ static void print_point(const struct accuracy_entry *entry, const struct progres
 
 static bool is_asked(const struct accuracy_entry *entry, const char *only, bool quick)
 {
-    return !entry->result.known && (!quick || entry->quick) &&
-           (!only || strcmp(only, entry->point.problem->name) == 0);
+    return !entry->result.known && (!quick || entry->quick) && (!only || strcmp(only, entry->point.problem->name) == 0);
 }
 
 static status accuracy_run_all(struct accuracy_plan *plan, const char *only, bool quick)
@@ -180,8 +181,7 @@ status bench_accuracy_of(const char *only, bool quick)
     struct accuracy_plan plan = {0};
     const bool chart = only && strcmp(only, "chart") == 0;
     if (only && strcmp(only, "reference") == 0) return accuracy_reference(quick);
-    if (only && !chart && !is_problem(only))
-        return status_set(REFUSED, "bench accuracy: there is no problem %s", only);
+    if (only && !chart && !is_problem(only)) return status_set(REFUSED, "bench accuracy: there is no problem %s", only);
     printf("accuracy\n");
     bench_print_machine(team_make(0));
     const status s = chart ? write_known(&plan) : accuracy_measure_all(&plan, only, quick);

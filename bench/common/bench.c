@@ -7,10 +7,11 @@
 struct bench {
     const char *name;
     status (*call)(bool quick);
-    bool apart;                          /* runs when its whole name is asked for, and not otherwise */
+    bool apart; /* runs when its whole name is asked for, and not otherwise */
 };
 
 /* In the order in which they run: kernels first, while the process is still small. NAME=PART: also with NAME. */
+/* clang-format off */
 static const struct bench benches[] = {
     {"kernels", bench_kernels, false},         {"efficiency", bench_efficiency, false},
     {"coupling", bench_coupling, false},       {"sif", bench_sif, false},
@@ -23,10 +24,13 @@ static const struct bench benches[] = {
     {"uncertainty", bench_uncertainty, false}, {"pilot", bench_pilot, false},
     {"slow", bench_slow, false},
     {"experiments", bench_experiments, true}};
+/* clang-format on */
 enum { BENCHES = COUNT_OF(benches) };
 
 /* Names of earlier versions. */
-static const struct { const char *old, *name; } renamed[] = {{"factors", "sif"}, {"scatter", "sensitivity"}};
+static const struct {
+    const char *old, *name;
+} renamed[] = {{"factors", "sif"}, {"scatter", "sensitivity"}};
 
 /* `accuracy=NAME`: that problem alone, or another thing that bench_accuracy_of knows; `stability=lasting`, or a part
  * of a case's name: its long map alone. */
@@ -76,9 +80,12 @@ status command_bench(int argc, char **argv)
         const bool faster = !strcmp(argv[k], "--quick"), written = !strcmp(argv[k], "--readme");
         quick |= faster, readme |= written;
         if (faster || written) continue;
-        if (!strncmp(argv[k], accuracy_of, strlen(accuracy_of))) only = argv[k] + strlen(accuracy_of);
-        else if (!strncmp(argv[k], stability_of, strlen(stability_of))) lasting = argv[k] + strlen(stability_of);
-        else TRY(bench_mark(argv[k], asked));
+        if (!strncmp(argv[k], accuracy_of, strlen(accuracy_of)))
+            only = argv[k] + strlen(accuracy_of);
+        else if (!strncmp(argv[k], stability_of, strlen(stability_of)))
+            lasting = argv[k] + strlen(stability_of);
+        else
+            TRY(bench_mark(argv[k], asked));
         any = true;
     }
     for (int k = 0; k < BENCHES; k++)

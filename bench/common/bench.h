@@ -20,11 +20,11 @@ struct bench_cell {
 };
 
 struct bench_table {
-    const char *name;                    /* "" for the main table of a bench */
-    const char *header;                  /* names of the columns, separated by commas */
+    const char *name;   /* "" for the main table of a bench */
+    const char *header; /* names of the columns, separated by commas */
     int columns;
     int64_t cells;
-    struct bench_cell *cell;             /* row by row */
+    struct bench_cell *cell; /* row by row */
 };
 
 void bench_table_make(struct bench_table *t, const char *name, const char *header);
@@ -51,7 +51,10 @@ void bench_print_machine(int threads);
 /* ---- bench_readme.c: figures in bench/README.md ------------------------------------------------------------------ */
 
 /* Standard output while it is kept. */
-struct bench_readme { FILE *printed; int output; };
+struct bench_readme {
+    FILE *printed;
+    int output;
+};
 /* From `begin` to `end` what is printed is kept; `end` prints it and, if the bench (`measured`) is OK, puts it between
  * the marks of its name. REFUSED before anything is measured if the file or the marks are missing. */
 status bench_readme_begin(struct bench_readme *r, const char *name);
@@ -81,7 +84,10 @@ void bench_override(struct bench_overrides *o, const char *key, const char *valu
     __attribute__((format(printf, 3, 4)));
 /* The entries as readers of scenes take them. */
 const struct scene_override *bench_overrides_ready(struct bench_overrides *o);
-struct bench_figure { const char *probe, *quantity; double value; };
+struct bench_figure {
+    const char *probe, *quantity;
+    double value;
+};
 /* Those that probes of a run have; the others keep their value. */
 void bench_figures_take(const struct run *e, struct bench_figure *figure, int n);
 /* Runs a scene to its end, and its twin on material points if a pulse probe compares with it, and reads figures of
@@ -95,9 +101,9 @@ status bench_scenes_needed(const char *bench, const char *const *path, size_t n)
 void bench_folder_remove(const char *folder);
 /* A scene run as a process of its own (`cleave run`); what it leaves lies in `folder` until bench_child_free. */
 struct bench_child {
-    int process;                         /* 0: none that runs */
-    char folder[64];                     /* "": none */
-    double processor;                    /* of all its threads, once it has ended [s] */
+    int process;      /* 0: none that runs */
+    char folder[64];  /* "": none */
+    double processor; /* of all its threads, once it has ended [s] */
 };
 status bench_child_start(struct bench_child *c, const char *path, const struct scene_override *override, int overrides,
                          int threads);
@@ -120,7 +126,7 @@ static inline double bench_random(uint64_t *seed)
 struct bench_block {
     const char *name;
     int dim;
-    const char *method, *frame;          /* of the scene */
+    const char *method, *frame; /* of the scene */
 };
 enum { BENCH_BLOCKS = 10 };
 extern const struct bench_block bench_blocks[BENCH_BLOCKS];
@@ -144,7 +150,7 @@ enum { SPEED_TARGETS_MAX = 8 };
 struct targets {
     int figures;
     struct target_figure
-        figure[SPEED_TARGETS_MAX];       /* ratio = measured / limit <= target, or >= target; SI x factor: as printed */
+        figure[SPEED_TARGETS_MAX]; /* ratio = measured / limit <= target, or >= target; SI x factor: as printed */
     struct bench_table laps;
 };
 /* Peak memory: before anything large is allocated, since a child process inherits its parent's high-water mark. */

@@ -8,11 +8,15 @@
 #include "scene/scene_read.h"
 
 const struct bench_block bench_blocks[BENCH_BLOCKS] = {
-    {"pd", 2, "pd", "current"},           {"mpm", 2, "mpm", "current"},
-    {"mpm reference", 2, "mpm", "reference"}, {"adaptive", 2, "adaptive", "current"},
+    {"pd", 2, "pd", "current"},
+    {"mpm", 2, "mpm", "current"},
+    {"mpm reference", 2, "mpm", "reference"},
+    {"adaptive", 2, "adaptive", "current"},
     {"adaptive reference", 2, "adaptive", "reference"},
-    {"pd", 3, "pd", "current"},           {"mpm", 3, "mpm", "current"},
-    {"mpm reference", 3, "mpm", "reference"}, {"adaptive", 3, "adaptive", "current"},
+    {"pd", 3, "pd", "current"},
+    {"mpm", 3, "mpm", "current"},
+    {"mpm reference", 3, "mpm", "reference"},
+    {"adaptive", 3, "adaptive", "current"},
     {"adaptive reference", 3, "adaptive", "reference"},
 };
 

@@ -110,7 +110,10 @@ const struct scene_override *bench_overrides_ready(struct bench_overrides *o)
     return o->at;
 }
 
-struct wanted_figures { struct bench_figure *figure; int n; };
+struct wanted_figures {
+    struct bench_figure *figure;
+    int n;
+};
 
 static void take_figure(void *context, const char *probe, const char *quantity, real value)
 {

@@ -10,8 +10,10 @@ static real mode(const struct manufactured *m, const real *X, int a, int slope)
     real product = 1;
     for (int b = 0; b < m->dim; b++) {
         const real phase = k * X[b];
-        if (b == a) product *= b == slope ? cos(phase) : sin(phase);
-        else product *= b == slope ? -sin(phase) : cos(phase);
+        if (b == a)
+            product *= b == slope ? cos(phase) : sin(phase);
+        else
+            product *= b == slope ? -sin(phase) : cos(phase);
     }
     return product;
 }
@@ -41,8 +43,8 @@ struct manufactured_values manufactured_at(const struct manufactured *m, const r
     for (int s = 0; s < symmetric_count(m->dim); s++) {
         int a, b;
         symmetric_axes(m->dim, s, &a, &b);
-        v.strain[s] = 0.5 * m->amplitude * grown * k *
-                      (m->share[a] * mode(m, X, a, b) + m->share[b] * mode(m, X, b, a));
+        v.strain[s] =
+            0.5 * m->amplitude * grown * k * (m->share[a] * mode(m, X, a, b) + m->share[b] * mode(m, X, b, a));
     }
     return v;
 }

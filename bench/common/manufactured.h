@@ -15,14 +15,14 @@
 
 struct manufactured {
     int dim;
-    real amplitude, period, length;      /* U [m], T [s], L [m] */
-    real share[DIM_MAX];                 /* p [1] */
-    real c12, shear, density;            /* elastic constants of the space [Pa], rho [kg/m^3] */
+    real amplitude, period, length; /* U [m], T [s], L [m] */
+    real share[DIM_MAX];            /* p [1] */
+    real c12, shear, density;       /* elastic constants of the space [Pa], rho [kg/m^3] */
 };
 
 struct manufactured_values {
     real displacement[DIM_MAX], velocity[DIM_MAX], strain[SYM_MAX]; /* [m] [m/s] [1] */
-    real force[DIM_MAX];                 /* [N/m^3] */
+    real force[DIM_MAX];                                            /* [N/m^3] */
 };
 struct manufactured_values manufactured_at(const struct manufactured *m, const real *X, real t);
 

@@ -26,7 +26,9 @@ static status bars_make(struct run *e, struct scene *s, const struct contact_cas
 
 /* Steps to the end: first and last time at which the first body is pushed [s], the largest force [N], the largest
  * energy error. */
-struct contact_course { double from, until, force, error; };
+struct contact_course {
+    double from, until, force, error;
+};
 
 static status bars_run(struct run *e, struct contact_course *seen)
 {

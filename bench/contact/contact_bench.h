@@ -18,7 +18,10 @@ struct contact_case {
     status (*measure)(const struct contact_case *c, double *figure);
     double given[4];
     bool falls_short, long_run;
-    struct { const char *what; double low, high; } asked[CONTACT_FIGURES];
+    struct {
+        const char *what;
+        double low, high;
+    } asked[CONTACT_FIGURES];
 };
 /* Rows of a table; `figure` [CONTACT_FIGURES]. */
 extern const struct contact_case contact_cases[];
@@ -29,7 +32,9 @@ bool contact_case_holds(const struct contact_case *c, const double *figure);
 status contact_engine(struct run *e, struct scene *s, const char *text, ...) __attribute__((format(printf, 3, 4)));
 
 /* Motion of a body, by its particles: mean velocity [m/s], spin in the plane [1/s]. */
-struct contact_motion { double mass, x[DIM_MAX], v[DIM_MAX], spin; };
+struct contact_motion {
+    double mass, x[DIM_MAX], v[DIM_MAX], spin;
+};
 struct contact_motion contact_motion_of(const struct run *e, int body);
 
 /* contact_bars.c: two bars of `given[0]` and `given[1]` particles, speeds given[2] and given[3] wave speeds: relative

@@ -3,79 +3,113 @@
 
 #include "contact_bench.h"
 
-#define BOTH(...) {.law = "surface", __VA_ARGS__}, {.law = "pair", __VA_ARGS__}
+#define BOTH(...)                                                                                                      \
+    {.law = "surface", __VA_ARGS__}, { .law = "pair", __VA_ARGS__ }
 /* Restitution grows with the number of particles; 0.99 is not reached with 200 of them but with softer contact. */
-#define BARS(n, v, least, longest, short_) \
-    BOTH(.name = "equal bars, " #n " particles, " #v " c", .measure = contact_bars, .given = {n, n, v, -v}, \
-         .falls_short = short_, \
+#define BARS(n, v, least, longest, short_)                                                                             \
+    BOTH(.name = "equal bars, " #n " particles, " #v " c", .measure = contact_bars, .given = {n, n, v, -v},            \
+         .falls_short = short_,                                                                                        \
          .asked = {{"restitution", least, 1.001}, {"duration", 1, longest}, {"force", 0, 2.1}, {"energy", 0, 1e-3}})
-#define STRIKER(n, off) \
-    BOTH(.name = "striker on twice its length, " #n " particles", .measure = contact_striker, \
-         .given = {n, 2 * n, 1e-3, 0}, \
+#define STRIKER(n, off)                                                                                                \
+    BOTH(.name = "striker on twice its length, " #n " particles", .measure = contact_striker,                          \
+         .given = {n, 2 * n, 1e-3, 0},                                                                                 \
          .asked = {{"striker", -off, off}, {"struck", 0.5 - off, 0.5 + off}, {"energy", 0, 1e-3}})
 /* Cut through and sheared: 0.7 % of the pressure resists, seven times the shear of the whole block. Opened: what is
  * left of vibrations in the mean over time. */
-#define BLOCK(what, n, strain, shear, least, most, along) \
-    {.name = "cut block, " #n " rows, " what, .measure = contact_block, .given = {n, strain, shear}, .law = "surface", \
-     .asked = {{"force over whole", least, most}, {"along", 0, along}}}
-#define PAIR_BLOCK(what, n, strain, shear, least, most, along, short_) \
-    {.name = "cut block, " #n " rows, " what, .measure = contact_block, .given = {n, strain, shear}, .law = "pair", \
-     .falls_short = short_, .asked = {{"force over whole", least, most}, {"along", 0, along}}}
-#define BALL(R, v) \
-    {.name = "ball on a plane, R " #R ", " #v " c", .law = "surface", .measure = contact_hertz_space, .given = {R, v}, \
-     .long_run = true, \
-     .asked = {{"exponent", 1.45, 1.55}, {"duration", 0.9, 1.1}, {"restitution", 0.9, 1}, {"energy", 0, 1e-3}}}
+#define BLOCK(what, n, strain, shear, least, most, along)                                                              \
+    {                                                                                                                  \
+        .name = "cut block, " #n " rows, " what, .measure = contact_block, .given = {n, strain, shear},                \
+        .law = "surface", .asked = {                                                                                   \
+            {"force over whole", least, most},                                                                         \
+            {"along", 0, along}                                                                                        \
+        }                                                                                                              \
+    }
+#define PAIR_BLOCK(what, n, strain, shear, least, most, along, short_)                                                 \
+    {                                                                                                                  \
+        .name = "cut block, " #n " rows, " what, .measure = contact_block, .given = {n, strain, shear}, .law = "pair", \
+        .falls_short = short_, .asked = {                                                                              \
+            {"force over whole", least, most},                                                                         \
+            {"along", 0, along}                                                                                        \
+        }                                                                                                              \
+    }
+#define BALL(R, v)                                                                                                     \
+    {                                                                                                                  \
+        .name = "ball on a plane, R " #R ", " #v " c", .law = "surface", .measure = contact_hertz_space,               \
+        .given = {R, v}, .long_run = true, .asked = {                                                                  \
+            {"exponent", 1.45, 1.55},                                                                                  \
+            {"duration", 0.9, 1.1},                                                                                    \
+            {"restitution", 0.9, 1},                                                                                   \
+            {"energy", 0, 1e-3}                                                                                        \
+        }                                                                                                              \
+    }
 /* Discs that stick roll like gear wheels: 2/3 of the tangential velocity stay, and a spin of as much. Elastic ones part
  * while the spring along their faces swings, and are up to 0.08 off. */
-#define STICKING(b, sine, turn) \
-    {.name = "discs, R 20, 0.01 c, b " #b " R, turn " #turn ", friction 10", .law = "surface, friction: 10", \
-     .measure = contact_discs, .given = {20, 1e-2, b, turn}, .falls_short = true, \
-     .asked = {{"normal", 0.85, 1.03}, {"tangential", 2 / 3. - 0.05, 2 / 3. + 0.05}, \
-               {"spin", sine * 2 / 3 - 0.05, sine * 2 / 3 + 0.05}, {"energy", 0, 5e-3}}}
+#define STICKING(b, sine, turn)                                                                                        \
+    {                                                                                                                  \
+        .name = "discs, R 20, 0.01 c, b " #b " R, turn " #turn ", friction 10", .law = "surface, friction: 10",        \
+        .measure = contact_discs, .given = {20, 1e-2, b, turn}, .falls_short = true, .asked = {                        \
+            {"normal", 0.85, 1.03},                                                                                    \
+            {"tangential", 2 / 3. - 0.05, 2 / 3. + 0.05},                                                              \
+            {"spin", sine * 2 / 3 - 0.05, sine * 2 / 3 + 0.05},                                                        \
+            {"energy", 0, 5e-3}                                                                                        \
+        }                                                                                                              \
+    }
 /* Within 10 % of g sin; what stays moves by less than 0.2 spacings. The balance of a block that sticks to a rigid floor
  * scatters with slope and kernels: 0.0067 +- 0.0021 and 0.0103 at most on slopes of 0.6 to 0.8 with two sets; four
  * deviations are allowed. */
-#define SLOPE(tan, mu, rigid, on) \
-    {.name = "block on a " on ", tan " #tan ", friction " #mu, .law = "surface", .measure = contact_slope, \
-     .given = {tan, mu, rigid}, \
-     .asked = {{"g sin", (tan > mu ? 1 - mu / (tan) : 0) - 0.1, (tan > mu ? 1 - mu / (tan) : 0) + 0.1}, \
-               {"way", tan > mu ? 5 : -0.2, tan > mu ? 50 : 0.2}, {"energy", 0, rigid && mu > 1 ? 1.5e-2 : 1e-2}}}
-#define SLOPES(rigid, on) \
-    SLOPE(0.2, 0, rigid, on), SLOPE(0.4, 0, rigid, on), SLOPE(0.7, 0, rigid, on), SLOPE(0.2, 0.3, rigid, on), \
-    SLOPE(0.4, 0.3, rigid, on), SLOPE(0.7, 0.3, rigid, on), SLOPE(0.7, 10, rigid, on)
+#define SLOPE(tan, mu, rigid, on)                                                                                      \
+    {                                                                                                                  \
+        .name = "block on a " on ", tan " #tan ", friction " #mu, .law = "surface", .measure = contact_slope,          \
+        .given = {tan, mu, rigid}, .asked = {                                                                          \
+            {"g sin", (tan > mu ? 1 - mu / (tan) : 0) - 0.1, (tan > mu ? 1 - mu / (tan) : 0) + 0.1},                   \
+            {"way", tan > mu ? 5 : -0.2, tan > mu ? 50 : 0.2},                                                         \
+            {"energy", 0, rigid && mu > 1 ? 1.5e-2 : 1e-2}                                                             \
+        }                                                                                                              \
+    }
+#define SLOPES(rigid, on)                                                                                              \
+    SLOPE(0.2, 0, rigid, on), SLOPE(0.4, 0, rigid, on), SLOPE(0.7, 0, rigid, on), SLOPE(0.2, 0.3, rigid, on),          \
+        SLOPE(0.4, 0.3, rigid, on), SLOPE(0.7, 0.3, rigid, on), SLOPE(0.7, 10, rigid, on)
 /* Along the lattice (turn 0), and turned so that velocities are along it. */
-#define DISCS(law_, R, v, b, turn, short_) \
-    {.name = "discs, R " #R ", " #v " c, b " #b " R, turn " #turn, .law = law_, .measure = contact_discs, \
-     .given = {R, v, b, turn}, .falls_short = short_, .long_run = R > 20, \
-     .asked = {{"normal", b > 0 ? 0.85 : 0.97, 1.03}, {"tangential", 0.95, 1.05}, \
-               {"spin", b > 0 ? -0.1 : -1e-6, b > 0 ? 0.1 : 1e-6}, {"energy", 0, 5e-3}}}
-#define ALL_DISCS(law_, short_) \
-    DISCS(law_, 20, 1e-3, 0, 0, short_), DISCS(law_, 20, 1e-2, 0, 0, short_), DISCS(law_, 20, 5e-2, 0, 0, short_), \
-    DISCS(law_, 20, 1e-2, 1, 0, short_), DISCS(law_, 20, 1e-2, 1.5, 0, short_), \
-    DISCS(law_, 20, 1e-2, 1, 0.5236, short_), DISCS(law_, 20, 1e-2, 1.5, 0.8481, short_), \
-    DISCS(law_, 40, 1e-2, 1, 0.5236, short_), DISCS(law_, 40, 1e-2, 1.5, 0.8481, short_)
+#define DISCS(law_, R, v, b, turn, short_)                                                                             \
+    {                                                                                                                  \
+        .name = "discs, R " #R ", " #v " c, b " #b " R, turn " #turn, .law = law_, .measure = contact_discs,           \
+        .given = {R, v, b, turn}, .falls_short = short_, .long_run = R > 20, .asked = {                                \
+            {"normal", b > 0 ? 0.85 : 0.97, 1.03},                                                                     \
+            {"tangential", 0.95, 1.05},                                                                                \
+            {"spin", b > 0 ? -0.1 : -1e-6, b > 0 ? 0.1 : 1e-6},                                                        \
+            {"energy", 0, 5e-3}                                                                                        \
+        }                                                                                                              \
+    }
+#define ALL_DISCS(law_, short_)                                                                                        \
+    DISCS(law_, 20, 1e-3, 0, 0, short_), DISCS(law_, 20, 1e-2, 0, 0, short_), DISCS(law_, 20, 5e-2, 0, 0, short_),     \
+        DISCS(law_, 20, 1e-2, 1, 0, short_), DISCS(law_, 20, 1e-2, 1.5, 0, short_),                                    \
+        DISCS(law_, 20, 1e-2, 1, 0.5236, short_), DISCS(law_, 20, 1e-2, 1.5, 0.8481, short_),                          \
+        DISCS(law_, 40, 1e-2, 1, 0.5236, short_), DISCS(law_, 40, 1e-2, 1.5, 0.8481, short_)
 
-const struct contact_case contact_cases[] = {
-    BARS(100, 1e-3, 0.98, 1.05, false),
-    BARS(200, 1e-3, 0.99, 1.03, true),
-    BARS(100, 2e-2, 0.98, 1.05, false),
-    STRIKER(100, 0.02),
-    STRIKER(200, 0.01),
-    {.name = "ten bounces between walls, 50 x 10", .law = "surface", .measure = contact_bounces,
-     .given = {50, 10, 2e-3}, .falls_short = true, .asked = {{"energy", 0, 1e-3}, {"momentum", 0, 1e-12}}},
-    BLOCK("strain -1e-3", 24, 1e-3, 1e-6, 0.84, 1, INFINITY),
-    BLOCK("strain -1e-3", 48, 1e-3, 1e-6, 0.92, 1, INFINITY),
-    BLOCK("opened", 24, -1e-3, 1e-6, -2e-3, 2e-3, INFINITY),
-    BLOCK("strain -5e-3, sheared", 24, 5e-3, 0.05, 0.84, 1, 0.05),
-    PAIR_BLOCK("strain -1e-3", 24, 1e-3, 1e-6, 0.84, 1, INFINITY, false),
-    PAIR_BLOCK("strain -5e-3, sheared", 24, 5e-3, 0.05, 0.84, 1, 0.05, true),
-    SLOPES(1, "rigid floor"),
-    SLOPES(0, "floor of its own"),
-    BALL(20, 5e-2),
-    BALL(24, 3e-2),
-    ALL_DISCS("surface", false),
-    STICKING(1, 0.5, 0),
-    STICKING(1.5, 0.75, 0),
-    STICKING(1, 0.5, 0.5236),
-    ALL_DISCS("pair", true)};
+const struct contact_case contact_cases[] = {BARS(100, 1e-3, 0.98, 1.05, false),
+                                             BARS(200, 1e-3, 0.99, 1.03, true),
+                                             BARS(100, 2e-2, 0.98, 1.05, false),
+                                             STRIKER(100, 0.02),
+                                             STRIKER(200, 0.01),
+                                             {.name = "ten bounces between walls, 50 x 10",
+                                              .law = "surface",
+                                              .measure = contact_bounces,
+                                              .given = {50, 10, 2e-3},
+                                              .falls_short = true,
+                                              .asked = {{"energy", 0, 1e-3}, {"momentum", 0, 1e-12}}},
+                                             BLOCK("strain -1e-3", 24, 1e-3, 1e-6, 0.84, 1, INFINITY),
+                                             BLOCK("strain -1e-3", 48, 1e-3, 1e-6, 0.92, 1, INFINITY),
+                                             BLOCK("opened", 24, -1e-3, 1e-6, -2e-3, 2e-3, INFINITY),
+                                             BLOCK("strain -5e-3, sheared", 24, 5e-3, 0.05, 0.84, 1, 0.05),
+                                             PAIR_BLOCK("strain -1e-3", 24, 1e-3, 1e-6, 0.84, 1, INFINITY, false),
+                                             PAIR_BLOCK("strain -5e-3, sheared", 24, 5e-3, 0.05, 0.84, 1, 0.05, true),
+                                             SLOPES(1, "rigid floor"),
+                                             SLOPES(0, "floor of its own"),
+                                             BALL(20, 5e-2),
+                                             BALL(24, 3e-2),
+                                             ALL_DISCS("surface", false),
+                                             STICKING(1, 0.5, 0),
+                                             STICKING(1.5, 0.75, 0),
+                                             STICKING(1, 0.5, 0.5236),
+                                             ALL_DISCS("pair", true)};
 const int contact_cases_count = COUNT_OF(contact_cases);

@@ -10,7 +10,9 @@
 #include "step/report.h"
 
 /* Mean force of the upper end over the second half of the run, while the ends rest [N]. */
-struct block_force { double normal, along, overlap; };
+struct block_force {
+    double normal, along, overlap;
+};
 
 static status block_run(const struct contact_case *c, bool cut, struct block_force *f)
 {

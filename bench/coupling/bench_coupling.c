@@ -24,7 +24,7 @@ void coupling_way_override(struct bench_overrides *o, int way)
 
 /* ---- runs of the bar --------------------------------------------------------------------------------------------- */
 
-static const double spacing = 1; /* of the bar's particles, as its file has it [mm] */
+static const double spacing = 1;     /* of the bar's particles, as its file has it [mm] */
 static const double interface = 512; /* [mm] */
 
 static status coupling_bar_measure(struct bar_run *r)
@@ -69,26 +69,27 @@ static status measure_places(struct bar_table *t, bool quick)
     for (int way = 0; way <= WAY_HANDSHAKE; way++)
         for (int width = quick ? 32 : 16; width <= (quick ? 32 : 64); width *= 2)
             for (int place = 0; place < PLACES; place++)
-                TRY(bar_add(t, (struct bar_run){.way = way,
-                                                .width = width,
-                                                .cell = 2,
-                                                .place = (double)place / PLACES,
-                                                .transfer = "flip"}));
+                TRY(bar_add(
+                    t,
+                    (struct bar_run){
+                        .way = way, .width = width, .cell = 2, .place = (double)place / PLACES, .transfer = "flip"}));
     return OK;
 }
 
 /* One point in a cell, and APIC; the interface is damped with FLIP only. */
 static status measure_variants(struct bar_table *t, bool quick)
 {
-    static const struct { int cell; const char *transfer; } variant[] = {{1, "flip"}, {2, "apic"}, {1, "apic"}};
+    static const struct {
+        int cell;
+        const char *transfer;
+    } variant[] = {{1, "flip"}, {2, "apic"}, {1, "apic"}};
     for (size_t v = 0; v < (quick ? 2 : COUNT_OF(variant)); v++)
         for (int way = 0; way <= WAY_HANDSHAKE; way++)
             for (int width = 32; width <= (quick ? 32 : 64); width *= 2) {
                 if (way == WAY_UNDAMPED && v > 0) continue;
-                TRY(bar_add(t, (struct bar_run){.way = way,
-                                                .width = width,
-                                                .cell = variant[v].cell,
-                                                .transfer = variant[v].transfer}));
+                TRY(bar_add(t,
+                            (struct bar_run){
+                                .way = way, .width = width, .cell = variant[v].cell, .transfer = variant[v].transfer}));
             }
     return OK;
 }

@@ -11,7 +11,7 @@
 enum { WAY_DAMPED, WAY_UNDAMPED, WAY_HANDSHAKE, WAY_PM, WAY_PG, WAY_PMG, WAY_PGG, WAYS };
 struct coupling_way {
     const char *name, *coupling;
-    const char *damping;                 /* value of interface_damping; NULL: the default */
+    const char *damping; /* value of interface_damping; NULL: the default */
 };
 extern const struct coupling_way coupling_way[WAYS];
 void coupling_way_override(struct bench_overrides *o, int way);
@@ -26,9 +26,9 @@ struct pulse_result {
 /* One run of the bar. */
 struct bar_run {
     int way;
-    double width;                        /* [spacings] */
-    int cell;                            /* [spacings] */
-    double place;                        /* of a node of the grid from the interface, in cells */
+    double width; /* [spacings] */
+    int cell;     /* [spacings] */
+    double place; /* of a node of the grid from the interface, in cells */
     const char *transfer;
     struct pulse_result result;
 };
@@ -45,7 +45,7 @@ struct bar_table {
  * positions of the grid. */
 struct patch_row {
     const char *shape, *load, *coupling, *weights;
-    int cell;                            /* [spacings] */
+    int cell; /* [spacings] */
     double on_node, largest;
 };
 
@@ -63,9 +63,9 @@ void patch_fill(const struct patch_table *t, struct bench_table *rows);
 struct plane_row {
     const char *interface, *weights, *transfer;
     int way;
-    double width;                        /* [spacings] */
+    double width; /* [spacings] */
     struct pulse_result result;
-    double wave;                         /* reflected share of what the grid can see: of means over 4 x 4 spacings */
+    double wave; /* reflected share of what the grid can see: of means over 4 x 4 spacings */
 };
 
 enum { PLANE_ROWS_MAX = 64 };

@@ -9,17 +9,19 @@
 /* ---- house-keeping ----------------------------------------------------------------------------------------------- */
 
 static const char *const way_style[WAYS] = {
-    [WAY_DAMPED] = "lw 4.5 pt 7 ps 1.1 lc rgb '#0072b2'",
-    [WAY_UNDAMPED] = "lw 2 pt 7 ps 0.8 lc rgb '#56b4e9'",
-    [WAY_HANDSHAKE] = "lw 2 pt 5 ps 0.8 lc rgb '#d55e00'",
-    [WAY_PM] = "lw 2.4 pt 9 ps 1 lc rgb '#009e73'",
-    [WAY_PG] = "lw 2.4 pt 9 ps 1 dt (3,4) lc rgb '#e69f00'",
-    [WAY_PMG] = "lw 2.4 pt 11 ps 1 lc rgb '#cc79a7'",
+    [WAY_DAMPED] = "lw 4.5 pt 7 ps 1.1 lc rgb '#0072b2'",      [WAY_UNDAMPED] = "lw 2 pt 7 ps 0.8 lc rgb '#56b4e9'",
+    [WAY_HANDSHAKE] = "lw 2 pt 5 ps 0.8 lc rgb '#d55e00'",     [WAY_PM] = "lw 2.4 pt 9 ps 1 lc rgb '#009e73'",
+    [WAY_PG] = "lw 2.4 pt 9 ps 1 dt (3,4) lc rgb '#e69f00'",   [WAY_PMG] = "lw 2.4 pt 11 ps 1 lc rgb '#cc79a7'",
     [WAY_PGG] = "lw 2.4 pt 11 ps 1 dt (3,4) lc rgb '#3d3d3d'",
 };
 static const char *const way_title[WAYS] = {
-    [WAY_DAMPED] = "partial stress (default)", [WAY_UNDAMPED] = "  undamped", [WAY_HANDSHAKE] = "handshake",
-    [WAY_PM] = "pm", [WAY_PG] = "pg", [WAY_PMG] = "pmg", [WAY_PGG] = "pgg",
+    [WAY_DAMPED] = "partial stress (default)",
+    [WAY_UNDAMPED] = "  undamped",
+    [WAY_HANDSHAKE] = "handshake",
+    [WAY_PM] = "pm",
+    [WAY_PG] = "pg",
+    [WAY_PMG] = "pmg",
+    [WAY_PGG] = "pgg",
 };
 
 /* One of four panels, its key on the right. */
@@ -116,12 +118,11 @@ static void plot_bars(FILE *to, const char *block, int members, const char *cons
     const double half = 0.4 / members * 0.92;
     fputs("plot ", to);
     for (int k = 0; k < members; k++)
-        fprintf(to,
-                "$%s%d using 1:(0.5*$2):(%g):(0.5*$2) with boxxy fs solid 0.85 noborder lc rgb '%s' title '%s', ",
+        fprintf(to, "$%s%d using 1:(0.5*$2):(%g):(0.5*$2) with boxxy fs solid 0.85 noborder lc rgb '%s' title '%s', ",
                 block, k, half, colour[k], title[k]);
     for (int k = 0; k < members; k++)
-        fprintf(to, "$%s%d using ($1-%g):3:(%g):(0) with vectors nohead lw 3 lc rgb '#111111' title '%s', ", block,
-                k, half, 2 * half, k ? "" : "on a node");
+        fprintf(to, "$%s%d using ($1-%g):3:(%g):(0) with vectors nohead lw 3 lc rgb '#111111' title '%s', ", block, k,
+                half, 2 * half, k ? "" : "on a node");
     fputs("NaN notitle\n", to);
 }
 
@@ -134,8 +135,7 @@ static void draw_places(FILE *to, const struct bar_table *t)
     int groups = 0;
     fputs("set xtics (", to);
     for (int k = 0; k < t->n && t->run[k].way == t->run[0].way; k++)
-        if (t->run[k].place == 0)
-            fprintf(to, "%s'%g' %d", groups ? ", " : "", t->run[k].width, groups), groups++;
+        if (t->run[k].place == 0) fprintf(to, "%s'%g' %d", groups ? ", " : "", t->run[k].width, groups), groups++;
     fputs(")\n", to);
     for (int m = 0; m < 3; m++) {
         double largest = 0, on_node = 0;

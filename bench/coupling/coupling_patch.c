@@ -20,18 +20,17 @@ static const char line_text[] = "space: line\n"
                                 "output: {frames: 0, samples: 1}\n"
                                 "probes: [{patch: {region: {box: {from: [-20 mm], to: [20 mm]}}}}]\n";
 
-static const char plane_text[] =
-    "space: plane stress\n"
-    "thickness: 1 mm\n"
-    "duration: 1 ns\n"
-    "material: {young: 190 GPa, density: 7800}\n"
-    "body: {box: {from: [-20 mm, -20 mm], to: [20 mm, 20 mm]}}\n"
-    "particles: {spacing: 1 mm}\n"
-    "conversion: {criteria: none}\n"
-    "mpm: {frame: current}\n"
-    "time: {step: 1 ns}\n"
-    "output: {frames: 0, samples: 1}\n"
-    "probes: [{patch: {region: {box: {from: [-13 mm, -13 mm], to: [13 mm, 13 mm]}}}}]\n";
+static const char plane_text[] = "space: plane stress\n"
+                                 "thickness: 1 mm\n"
+                                 "duration: 1 ns\n"
+                                 "material: {young: 190 GPa, density: 7800}\n"
+                                 "body: {box: {from: [-20 mm, -20 mm], to: [20 mm, 20 mm]}}\n"
+                                 "particles: {spacing: 1 mm}\n"
+                                 "conversion: {criteria: none}\n"
+                                 "mpm: {frame: current}\n"
+                                 "time: {step: 1 ns}\n"
+                                 "output: {frames: 0, samples: 1}\n"
+                                 "probes: [{patch: {region: {box: {from: [-13 mm, -13 mm], to: [13 mm, 13 mm]}}}}]\n";
 
 struct words {
     const char *name, *value;

@@ -125,8 +125,7 @@ static void coupling_plane_compare(struct plane_row *r, const struct strip *s, c
         else if (far < -AWAY || 1e3 * p->X[0][i] < passed)
             back = fmax(back, hypot(p->v[0][i] - b->v[0][i], p->v[1][i] - b->v[1][i]));
     }
-    r->result = (struct pulse_result){back / incident, on / incident,
-                                      run_observed(e).energy_change - b->energy_change};
+    r->result = (struct pulse_result){back / incident, on / incident, run_observed(e).energy_change - b->energy_change};
     r->wave = largest_block(s, p, b) / incident;
 }
 

@@ -12,7 +12,7 @@
 #include "fracture/tips.h"
 #include "scene/scene_read.h"
 
-enum { BARS = 5 };     /* ways that have a colour */
+enum { BARS = 5 }; /* ways that have a colour */
 enum {
     CASES = EFFICIENCY_CASES,
     REPETITIONS = 3,
@@ -37,13 +37,13 @@ struct result {
     int64_t particles, steps;
     double dt;
     struct run_times run[WAYS];
-    double t[WAYS], t_r[WAYS];                                                    /* [s] [1] */
-    double t_r_stepping[WAYS];                                                    /* the same of the steps alone [1] */
-    double t_r_bound[WAYS];                                                   /* the same if conversion were free [1] */
-    double rest_share[WAYS];                                                  /* neither bonds nor points [1] */
-    double part[WAYS][PARTS];                                                 /* time of a part over t_PD [1] */
-    double tip_distance[WAYS], angle_difference[WAYS], start_difference[WAYS];    /* [m] [degree] [s] */
-    double angle[WAYS];                                                           /* of the longest crack [degree] */
+    double t[WAYS], t_r[WAYS]; /* [s] [1] */
+    double t_r_stepping[WAYS]; /* the same of the steps alone [1] */
+    double t_r_bound[WAYS];    /* the same if conversion were free [1] */
+    double rest_share[WAYS];   /* neither bonds nor points [1] */
+    double part[WAYS][PARTS];  /* time of a part over t_PD [1] */
+    double tip_distance[WAYS], angle_difference[WAYS], start_difference[WAYS]; /* [m] [degree] [s] */
+    double angle[WAYS];                                                        /* of the longest crack [degree] */
 };
 
 struct efficiency {
@@ -149,7 +149,7 @@ static status scene_measure(struct result *x, int repetitions)
     scene_free(&s);
     TRY(efficiency_step(x->scene, &x->dt));
     for (int r = 0; r < repetitions; r++)
-        for (int k = 0; k < WAYS; k++)          /* none is always first */
+        for (int k = 0; k < WAYS; k++) /* none is always first */
             if (efficiency_is_run(x->scene, (r + k) % WAYS)) TRY(efficiency_run_once(x, (r + k) % WAYS, r));
     x->t[0] = median_of(x->run[0].seconds, repetitions);
     for (int way = 1; way < WAYS; way++) {
@@ -200,8 +200,8 @@ static void print_way(const struct result *x, int way)
            x->t_r_bound[way], paper, 1e3 * x->tip_distance[way]);
     printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %% %8.1f %% %6s  %s\n", x->angle[0], x->angle[way],
            1e6 * x->run[0].ends.start, 1e6 * x->run[way].ends.start, 100 * x->run[way].share[0],
-           100 * x->run[way].share[SAMPLES],
-           100 * x->rest_share[way], aim, way_obstacle(x, way, obstacle, sizeof obstacle));
+           100 * x->run[way].share[SAMPLES], 100 * x->rest_share[way], aim,
+           way_obstacle(x, way, obstacle, sizeof obstacle));
     fflush(stdout);
 }
 
@@ -233,13 +233,24 @@ static void print_marks(const struct efficiency *all)
 /* Rows of one adaptive run in the tables of figures, shares and runs. */
 static void add_way(struct bench_table *table, const struct result *x, int way)
 {
-    const double main[] = {x->t[way],           x->t[0], x->t_r[way], x->tip_distance[way], x->angle_difference[way],
-                           x->start_difference[way]};
-    const double run[] = {(double)x->particles, (double)x->steps,       x->dt,       x->scene->paper_t_r,
-                          x->run[0].ends.start, x->run[way].ends.start, x->angle[0], x->angle[way],
-                          x->t_r_stepping[way], x->t_r_bound[way],    x->rest_share[way],
-                          x->scene->aim,        x->part[way][PART_BONDS],   x->part[way][PART_POINTS],
-                          x->part[way][PART_CONVERSION], x->part[way][PART_SAMPLES]};
+    const double main[] = {
+        x->t[way], x->t[0], x->t_r[way], x->tip_distance[way], x->angle_difference[way], x->start_difference[way]};
+    const double run[] = {(double)x->particles,
+                          (double)x->steps,
+                          x->dt,
+                          x->scene->paper_t_r,
+                          x->run[0].ends.start,
+                          x->run[way].ends.start,
+                          x->angle[0],
+                          x->angle[way],
+                          x->t_r_stepping[way],
+                          x->t_r_bound[way],
+                          x->rest_share[way],
+                          x->scene->aim,
+                          x->part[way][PART_BONDS],
+                          x->part[way][PART_POINTS],
+                          x->part[way][PART_CONVERSION],
+                          x->part[way][PART_SAMPLES]};
     char title[48];
     efficiency_title(x->scene, title, sizeof title);
     bench_text(&table[0], title), bench_text(&table[0], x->scene->model);
@@ -284,11 +295,16 @@ static void draw_bars(FILE *to, const struct efficiency *all)
         const struct result *x = &all->result[k];
         efficiency_tic(to, x->scene);
         for (int way = 1; way < WAYS; way++)
-            if (!efficiency_way[way].colour) continue;
-            else if (!efficiency_is_run(x->scene, way)) fputs(" NaN NaN", to);
-            else fprintf(to, " %.6g %.6g", fmax(x->t_r[way], T_R_LEAST), x->t_r[way]);
-        if (isfinite(x->scene->paper_t_r)) fprintf(to, " %.6g\n", x->scene->paper_t_r);
-        else fputs(" NaN\n", to);
+            if (!efficiency_way[way].colour)
+                continue;
+            else if (!efficiency_is_run(x->scene, way))
+                fputs(" NaN NaN", to);
+            else
+                fprintf(to, " %.6g %.6g", fmax(x->t_r[way], T_R_LEAST), x->t_r[way]);
+        if (isfinite(x->scene->paper_t_r))
+            fprintf(to, " %.6g\n", x->scene->paper_t_r);
+        else
+            fputs(" NaN\n", to);
     }
     fprintf(
         to,

@@ -16,10 +16,16 @@ enum { STEPS = 9, STEPS_QUICK = 3, METHODS = 2 };
 static const int way_of[METHODS] = {WAY_PD, WAY_FRAME};
 
 /* The crack that is followed at the end of a run. */
-struct end { double dt, start, angle; real place[DIM_MAX]; };
+struct end {
+    double dt, start, angle;
+    real place[DIM_MAX];
+};
 
 /* Means, and root mean squares of what runs differ from them. */
-struct spread { double start, start_scatter, angle, angle_scatter, place_scatter; real place[DIM_MAX]; };
+struct spread {
+    double start, start_scatter, angle, angle_scatter, place_scatter;
+    real place[DIM_MAX];
+};
 
 struct scatter {
     const struct scene_case *scene;
@@ -29,7 +35,10 @@ struct scatter {
     struct spread spread[METHODS];
 };
 
-struct all_scatters { int n; struct scatter *at; };
+struct all_scatters {
+    int n;
+    struct scatter *at;
+};
 
 /* Finer scenes in space take minutes a run. */
 static bool is_short(const struct scene_case *c, int dim) { return !(c->spacing && dim == 3); }

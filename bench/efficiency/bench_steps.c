@@ -27,20 +27,26 @@ static const struct stepped_case cases[] = {
 };
 static const char *const models[] = {"bond", "ospd", "mospd"}, *const methods[] = {"pd", "adaptive"};
 static const char *const rules[] = {"moment", "half"};
-static const double shares[] = {0.05, 0.1, 0.2, 0.4, 0.5, 0.8};  /* of the critical step */
+static const double shares[] = {0.05, 0.1, 0.2, 0.4, 0.5, 0.8}; /* of the critical step */
 enum { RUNS_MOST = 9, RUNS_QUICK = 3, SHARES = COUNT_OF(shares), SMALLEST = 0, DEFAULT = 4, LARGEST = 5 };
-#define AROUND 0.1                       /* of a step, to either side */
+#define AROUND 0.1 /* of a step, to either side */
 
 enum figure { START, LENGTH, ANGLE, FRACTURE, BALANCE, FIGURES };
 static const char *const key_of[FIGURES] = {"crack.start_time", "crack.length_end", "crack.angle_deg",
                                             "energy.fracture", "energy.balance_error"};
 
 /* Means over the runs of one step, and root mean squares of what they differ by. */
-struct stepped { double mean[FIGURES], scatter[FIGURES]; int runs; };
+struct stepped {
+    double mean[FIGURES], scatter[FIGURES];
+    int runs;
+};
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-struct way_of_breaking { const struct stepped_case *scene; const char *model, *method, *rule; };
+struct way_of_breaking {
+    const struct stepped_case *scene;
+    const char *model, *method, *rule;
+};
 
 static status stepped_start(struct bench_child *child, const struct way_of_breaking *w, double share)
 {
@@ -49,7 +55,7 @@ static status stepped_start(struct bench_child *child, const struct way_of_break
     bench_override(&o, "model", "%s", w->model);
     bench_override(&o, "method", "%s", w->method);
     bench_override(&o, "pd.last_force", "%s", w->rule);
-    if (strcmp(w->method, "adaptive") == 0) bench_override(&o, "pd.surface", "none");  /* the default there */
+    if (strcmp(w->method, "adaptive") == 0) bench_override(&o, "pd.surface", "none"); /* the default there */
     bench_override(&o, "time.step", "auto");
     bench_override(&o, "time.safety", "%.6g", share);
     bench_override(&o, "output.frames", "0");

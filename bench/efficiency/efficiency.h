@@ -12,11 +12,11 @@ struct mark {
 
 struct scene_case {
     const char *name, *path, *model;
-    const char *tips;                    /* conversion.tips of adaptive runs: horizons */
-    const char *spacing;                 /* finer than the scene's own; NULL: that */
-    double aim;                          /* t_r with all levers; NAN: none */
-    bool quick;                          /* short enough for --quick, and the paper's model */
-    double paper_t_r;                    /* NAN: none */
+    const char *tips;    /* conversion.tips of adaptive runs: horizons */
+    const char *spacing; /* finer than the scene's own; NULL: that */
+    double aim;          /* t_r with all levers; NAN: none */
+    bool quick;          /* short enough for --quick, and the paper's model */
+    double paper_t_r;    /* NAN: none */
     int marks;
     struct mark mark[2];
 };
@@ -27,8 +27,8 @@ extern const struct scene_case efficiency_case[EFFICIENCY_CASES];
 /* Full peridynamics first, then adaptive runs by what they may save with. */
 struct way {
     const char *method, *levers, *frame, *rest, *back, *notch;
-    bool coarse;                         /* levels of coarse cells: one, two in finer scenes */
-    const char *colour;                  /* of its bars; NULL: it has none */
+    bool coarse;        /* levels of coarse cells: one, two in finer scenes */
+    const char *colour; /* of its bars; NULL: it has none */
 };
 enum { WAY_PD = 0, WAY_FRAME = 2, WAY_SLITS = 3, WAY_LEVELS = 4, WAYS = 8, EFFICIENCY_SAMPLES = 100 };
 extern const struct way efficiency_way[WAYS];
@@ -50,8 +50,8 @@ void efficiency_tic(FILE *to, const struct scene_case *scene);
 /* Where cracks are at the end of a run. */
 struct crack_ends {
     struct tip tip[TIPS_MAX];
-    int tips, longest;                   /* longest -1: none grew */
-    double start;                        /* first cut bond [s] */
+    int tips, longest; /* longest -1: none grew */
+    double start;      /* first cut bond [s] */
 };
 void crack_ends_keep(struct crack_ends *c, const struct run *e);
 /* The tip of the other method that started nearest to where this one did; NULL without. */

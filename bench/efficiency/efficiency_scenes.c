@@ -15,6 +15,7 @@
 #define PLATE_HOLE "plate_hole", "inputs/plate_hole.yaml"
 #define KALTHOFF "kalthoff_winkler", "inputs/kalthoff_winkler.yaml"
 #define KALTHOFF_3D "kalthoff_winkler_3d", "inputs/kalthoff_winkler_3d.yaml"
+/* clang-format off */
 #define NO_PAPER NULL, NAN, false, NAN, 0, {{0, 0}}
 #define FINER(spacing, aim) spacing, aim, false, NAN, 0, {{0, 0}}
 
@@ -33,6 +34,7 @@ const struct scene_case efficiency_case[EFFICIENCY_CASES] = {
     {KALTHOFF, "bond", "3", FINER("0.25 mm", 0.95)},     {KALTHOFF_3D, "bond", "1", FINER("0.5 mm", 0.93)},
     {KALTHOFF_3D, "ospd", "1", FINER("1 mm", 0.85)},     {KALTHOFF_3D, "mospd", "1", FINER("1 mm", 0.85)},
 };
+/* clang-format on */
 
 const struct way efficiency_way[WAYS] = {
     {"pd", "-", "current", "true", "false", "bonds", false, NULL},
@@ -51,12 +53,10 @@ status efficiency_make(struct run *e, struct scene *s, const struct scene_case *
 {
     char step[32], samples[16];
     const struct way *w = &efficiency_way[way];
-    struct scene_override override[13] = {{"method", w->method},
-                                          {"output.samples", samples},
-                                          {"model", c->model},
-                                          {"mpm.frame", w->frame},
-                                          {"time.active_set", w->rest},
-                                          {"pd.surface", efficiency_of_bonds(c) ? "volume" : "none"}};
+    struct scene_override override[13] = {
+        {"method", w->method},        {"output.samples", samples},
+        {"model", c->model},          {"mpm.frame", w->frame},
+        {"time.active_set", w->rest}, {"pd.surface", efficiency_of_bonds(c) ? "volume" : "none"}};
     int n = 6;
     snprintf(step, sizeof step, "%.17g", dt);
     snprintf(samples, sizeof samples, "%d", EFFICIENCY_SAMPLES);

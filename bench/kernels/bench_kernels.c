@@ -234,7 +234,7 @@ static double job_bytes(const struct job *j, struct ground *g)
     /* state-based: two sweeps; yielding: two numbers read and written, and the pair of materials */
     const double columns = (double)pd->bonds.columns / (double)pd->part.n;
     const double bond = columns * (column_bytes(&pd->bonds) * (j->model >= PD_OSPD && j->kind == BOND_FORCE ? 2 : 1) +
-                                 (j->model == PD_BOND_PLASTIC ? 36 * LANES : 0)),
+                                   (j->model == PD_BOND_PLASTIC ? 36 * LANES : 0)),
                  apic = j->transfer == TRANSFER_APIC;
     switch (j->kind) {
     case BOND_FORCE:

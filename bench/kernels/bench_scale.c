@@ -23,11 +23,13 @@ static const double size_of[SIZES] = {1e4, 1e5, 1e6, 1e7};
 
 struct size_result {
     bool known;
-    double particles, bonds, setup, step, bytes;   /* [1] [1] [s] [s] [byte] */
-    double frame, frame_bytes;                     /* a frame holds the loop [s]; its size [byte per particle] */
+    double particles, bonds, setup, step, bytes; /* [1] [1] [s] [s] [byte] */
+    double frame, frame_bytes;                   /* a frame holds the loop [s]; its size [byte per particle] */
 };
 
-struct scale_bench { struct size_result at[BENCH_BLOCKS][SIZES]; };
+struct scale_bench {
+    struct size_result at[BENCH_BLOCKS][SIZES];
+};
 
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
 
@@ -36,7 +38,7 @@ struct scale_bench { struct size_result at[BENCH_BLOCKS][SIZES]; };
 static double memory_from_here(void)
 {
 #ifdef __GLIBC__
-    malloc_trim(0);                      /* what was freed before must not look like memory that is in use */
+    malloc_trim(0); /* what was freed before must not look like memory that is in use */
 #endif
     FILE *f = fopen("/proc/self/clear_refs", "w");
     if (!f) return NAN;
@@ -151,8 +153,9 @@ static void print_spread(const struct scale_bench *b)
 static status scale_write_table(const struct scale_bench *b)
 {
     struct bench_table t;
-    bench_table_make(&t, "", "method,dim,particles,directed_bonds,step_seconds,ns_per_particle_step,bytes_per_particle,"
-                             "setup_seconds,setup_pd_steps,frame_seconds,frame_bytes_per_particle,output_share");
+    bench_table_make(&t, "",
+                     "method,dim,particles,directed_bonds,step_seconds,ns_per_particle_step,bytes_per_particle,"
+                     "setup_seconds,setup_pd_steps,frame_seconds,frame_bytes_per_particle,output_share");
     for (int way = 0; way < BENCH_BLOCKS; way++)
         for (int k = 0; k < SIZES; k++) {
             const struct size_result *r = &b->at[way][k];
@@ -184,7 +187,8 @@ static void scale_draw_panel(FILE *to, int dim, bool memory)
     for (int way = 0; way < BENCH_BLOCKS; way++)
         if (bench_blocks[way].dim == dim)
             fprintf(to, "%s$w%d using 1:%d with linespoints pt 7 lw 2 lc rgb '%s' title '%s'", colour ? ", " : "", way,
-                    memory ? 3 : 2, curve_colour[colour], bench_blocks[way].name), colour++;
+                    memory ? 3 : 2, curve_colour[colour], bench_blocks[way].name),
+                colour++;
     fputc('\n', to);
 }
 

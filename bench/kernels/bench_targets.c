@@ -20,8 +20,10 @@ struct way {
     struct scene_override override[5];
 };
 
-#define COMMON {"particles.spacing", "0.5mm"}, {"time.active_set", "false"}
-#define POINTS(SHAPE) COMMON, {"method", "mpm"}, {"mpm.shape", SHAPE}, {"mpm.transfer", "flip"}
+#define COMMON                                                                                                         \
+    {"particles.spacing", "0.5mm"}, { "time.active_set", "false" }
+#define POINTS(SHAPE)                                                                                                  \
+    COMMON, {"method", "mpm"}, {"mpm.shape", SHAPE}, { "mpm.transfer", "flip" }
 
 enum { WAY_PD, WAY_POINTS, WAY_GIMP, WAY_ADAPTIVE, WAY_PD_SAMPLED, WAY_ADAPTIVE_SAMPLED, WAYS };
 static const struct way ways[WAYS] = {
@@ -128,14 +130,14 @@ static void add_speed(struct targets *f, const struct targets_bench *b)
     add_figure(f, (struct target_figure){"full PD, whole step, per directed bond", "ns", 1e9,
                                          pd->seconds[0] / pd->bonds, b->cell_stencil[0], 2.5, false});
     add_figure(f, (struct target_figure){"the same with all samples of the scene", "ns", 1e9,
-                                        sampled->seconds[0] / sampled->bonds, b->cell_stencil[0], 2.5, false});
+                                         sampled->seconds[0] / sampled->bonds, b->cell_stencil[0], 2.5, false});
     add_figure(f, (struct target_figure){"all MPM (linear, FLIP), per particle", "ns", 1e9,
-                                        points->seconds[0] / points->particles, b->points[0], 3, false});
+                                         points->seconds[0] / points->particles, b->points[0], 3, false});
     if (b->threads < 2) return;
     add_figure(f, (struct target_figure){"gain of two threads, full PD", "", 1, pd->seconds[0] / pd->seconds[1],
-                                        b->cell_stencil[0] / b->cell_stencil[1], 0.9, true});
+                                         b->cell_stencil[0] / b->cell_stencil[1], 0.9, true});
     add_figure(f, (struct target_figure){"gain of two threads, all MPM", "", 1, points->seconds[0] / points->seconds[1],
-                                        b->points[0] / b->points[1], 0.9, true});
+                                         b->points[0] / b->points[1], 0.9, true});
 }
 
 static void add_laps(struct targets *f, const struct targets_bench *b)

@@ -14,8 +14,8 @@ static const char *const scaling_name[SCALINGS] = {"strong", "weak"};
 
 struct threads_bench {
     int teams, team[TEAMS_MAX];
-    double triad[TEAMS_MAX];                                     /* [byte/s] */
-    double step[BENCH_BLOCKS][SCALINGS][TEAMS_MAX];              /* [s]; fastest */
+    double triad[TEAMS_MAX];                        /* [byte/s] */
+    double step[BENCH_BLOCKS][SCALINGS][TEAMS_MAX]; /* [s]; fastest */
     double particles[BENCH_BLOCKS][SCALINGS][TEAMS_MAX];
 };
 
@@ -127,13 +127,16 @@ static void threads_draw(FILE *to, const void *context)
         }
         fputs("EOD\n", to);
     }
-    fprintf(to, "set multiplot layout 1,2\nset xlabel 'threads'\nset yrange [0:1.2]\nset xrange [0.5:%g]\n"
+    fprintf(to,
+            "set multiplot layout 1,2\nset xlabel 'threads'\nset yrange [0:1.2]\nset xrange [0.5:%g]\n"
             "set key bottom left\nset xtics 1, %d\nset ylabel 'time on one / (threads x time)'\n",
             b->team[b->teams - 1] + 0.5, b->team[b->teams - 1] > 12 ? 3 : 1);
     for (int c = 0; c < SCALINGS; c++) {
         int column = 3;
-        fprintf(to, "set title '%s scaling'\nplot 0.8 with lines dt (6,4) lw 1 lc rgb '#888888' notitle, "
-                "$d%d using 1:2 with lines dt (2,3) lw 2 lc rgb '#555555' title 'memory (triad)'", scaling_name[c], c);
+        fprintf(to,
+                "set title '%s scaling'\nplot 0.8 with lines dt (6,4) lw 1 lc rgb '#888888' notitle, "
+                "$d%d using 1:2 with lines dt (2,3) lw 2 lc rgb '#555555' title 'memory (triad)'",
+                scaling_name[c], c);
         for (int way = 0, colour = 0; way < BENCH_BLOCKS; way++)
             if (is_way(way))
                 fprintf(to, ", $d%d using 1:%d with linespoints pt 7 lw 2 lc rgb '%s' title '%s'", c, column++,

@@ -34,10 +34,10 @@ struct job {
     enum pd_model model;
     enum shape shape;
     enum transfer transfer;
-    bool finite;                         /* strain of a mesh */
+    bool finite; /* strain of a mesh */
     const char *variant;
-    double seconds;                      /* of the fastest call */
-    double bytes, limit;                 /* moved a particle; least time it would take a particle [s] */
+    double seconds;      /* of the fastest call */
+    double bytes, limit; /* moved a particle; least time it would take a particle [s] */
 };
 
 /* What is timed on, for each dimension; state-based particles not in 1D. */
@@ -46,7 +46,7 @@ struct ground {
     struct scene scene[GROUNDS];
     struct run engine[GROUNDS];
     int32_t *list;
-    real *value, *field;                 /* of spread */
+    real *value, *field; /* of spread */
 };
 
 struct limits {

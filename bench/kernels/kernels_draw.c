@@ -6,11 +6,10 @@
 #include "kernel_bench.h"
 #include "contact/contact.h"
 
-static const char *const job_name[JOB_KINDS] = {"bond_force", "bond_energy", "bond_stress",  "pd_move",
-                                                "p2g",        "remap",       "g2p",          "spread",
-                                                "grid_clear", "grid_move",   "grid_remapped",
-                                                "mesh_clear", "mesh_force",  "mesh_move",
-                                                "contact_search", "contact_force"};
+static const char *const job_name[JOB_KINDS] = {
+    "bond_force", "bond_energy", "bond_stress",    "pd_move",      "p2g",           "remap",
+    "g2p",        "spread",      "grid_clear",     "grid_move",    "grid_remapped", "mesh_clear",
+    "mesh_force", "mesh_move",   "contact_search", "contact_force"};
 
 /* ---- what is said ------------------------------------------------------------------------------------------------ */
 

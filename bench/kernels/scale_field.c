@@ -19,36 +19,36 @@
 #include "plot/gnuplot.h"
 
 #define SCENE BENCH_FOLDER "/run-field.yaml"
-#define K_AIM 0.02                       /* largest difference over the largest K of the direct run */
-#define TIME_AIM 20.0                    /* time of the direct run over that of a run */
-#define HALF 200.0                       /* of the plate [mm] */
-#define NEAR 40.0                        /* from the crack to the faces of the part that absorb [mm] */
-#define WIDE 70.0                        /* half width of the part [mm]: what comes back from there is late */
-#define PULSE_SPACINGS 32.0              /* duration of the pulse [us] over the spacing [mm]: 190 spacings long */
-#define STEP_SPACINGS 0.16               /* time step [us] over the spacing [mm] */
-#define SEEN 0.9                         /* of the pulse that a run sees at the crack: before the faces close */
+#define K_AIM 0.02          /* largest difference over the largest K of the direct run */
+#define TIME_AIM 20.0       /* time of the direct run over that of a run */
+#define HALF 200.0          /* of the plate [mm] */
+#define NEAR 40.0           /* from the crack to the faces of the part that absorb [mm] */
+#define WIDE 70.0           /* half width of the part [mm]: what comes back from there is late */
+#define PULSE_SPACINGS 32.0 /* duration of the pulse [us] over the spacing [mm]: 190 spacings long */
+#define STEP_SPACINGS 0.16  /* time step [us] over the spacing [mm] */
+#define SEEN 0.9            /* of the pulse that a run sees at the crack: before the faces close */
 
 static const double young = 72e9, poisson = 0.25, density = 2440;
 
 static const struct field_way {
     const char *name, *method;
-    int levels;                          /* of coarse cells; -1: no cells */
+    int levels; /* of coarse cells; -1: no cells */
     bool part;
-} way[] = {{"bonds everywhere", "pd", -1, false},  {"cells of 2 spacings", "adaptive", 0, false},
-           {"cells up to 4", "adaptive", 1, false}, {"cells up to 8", "adaptive", 2, false},
-           {"cells up to 16", "adaptive", 3, false}, {"cells up to 32", "adaptive", 4, false},
+} way[] = {{"bonds everywhere", "pd", -1, false},     {"cells of 2 spacings", "adaptive", 0, false},
+           {"cells up to 4", "adaptive", 1, false},   {"cells up to 8", "adaptive", 2, false},
+           {"cells up to 16", "adaptive", 3, false},  {"cells up to 32", "adaptive", 4, false},
            {"part, cells of 2", "adaptive", 0, true}, {"part, cells up to 8", "adaptive", 2, true}};
 enum { FIELD_WAYS = COUNT_OF(way), DIRECT = 2, FIELD_SAMPLES = 100 };
 
 struct field_row {
     double made, body, bytes, seconds, sampling, lap[LAPS];
     int64_t n;
-    double t[FIELD_SAMPLES + 2], K[FIELD_SAMPLES + 2], peak;     /* [s] [Pa m^0.5] */
-    double off[DIRECT];                  /* from each direct run [1] */
+    double t[FIELD_SAMPLES + 2], K[FIELD_SAMPLES + 2], peak; /* [s] [Pa m^0.5] */
+    double off[DIRECT];                                      /* from each direct run [1] */
 };
 
 struct field_bench {
-    double spacing, speed, pulse;        /* [mm] [m/s] [s] */
+    double spacing, speed, pulse; /* [mm] [m/s] [s] */
     struct field_row at[FIELD_WAYS];
 };
 
@@ -80,10 +80,14 @@ static status field_read(struct field_row *r, const char *folder, double later, 
 {
     struct history h = {0};
     double wall;
-    const struct { const char *key; double *value; } figure[] = {{"particles_made", &r->made}, {"particles", &r->body},
-                                                                  {"memory_peak_bytes", &r->bytes},
-                                                                  {"loop_seconds", &r->seconds},
-                                                                  {"wall_seconds", &wall}};
+    const struct {
+        const char *key;
+        double *value;
+    } figure[] = {{"particles_made", &r->made},
+                  {"particles", &r->body},
+                  {"memory_peak_bytes", &r->bytes},
+                  {"loop_seconds", &r->seconds},
+                  {"wall_seconds", &wall}};
     for (size_t k = 0; k < COUNT_OF(figure); k++) TRY(summary_number(folder, figure[k].key, figure[k].value));
     for (int k = 0; k < LAPS; k++) {
         char key[64];
@@ -96,7 +100,7 @@ static status field_read(struct field_row *r, const char *folder, double later, 
     const int time = history_column(&h, "time"), K = history_column(&h, "sif.K_I");
     for (int64_t k = 0; k < h.rows && r->n < FIELD_SAMPLES + 2; k++, r->n++) {
         r->t[r->n] = history_at(&h, k, time) + later, r->K[r->n] = history_at(&h, k, K);
-        if (isnan(r->K[r->n])) r->K[r->n] = 0;   /* before anything has moved */
+        if (isnan(r->K[r->n])) r->K[r->n] = 0; /* before anything has moved */
         r->peak = fmax(r->peak, fabs(r->K[r->n]));
     }
     history_free(&h);
@@ -188,7 +192,8 @@ static void field_print_aim(const struct field_bench *b, int direct, bool part)
     const struct field_row *r = &b->at[best];
     const double ratio = b->at[direct].seconds / r->seconds;
     printf("%s, %.2f %% of K in 1/%.1f of the time: ", way[best].name, 100 * r->off[direct], ratio);
-    if (ratio >= TIME_AIM) printf("met\n");
+    if (ratio >= TIME_AIM)
+        printf("met\n");
     else
         printf("MISSED, the lap `%s` stands in the way with %.0f %% of the loop; of the steps without samples 1/%.1f\n",
                lap_name[largest_lap(r)], 100 * r->lap[largest_lap(r)] / r->seconds,
@@ -237,8 +242,9 @@ static void field_draw(FILE *to, const void *context)
         for (int64_t j = 0; j < b->at[k].n; j++) fprintf(to, "%.6g %.6g\n", 1e6 * b->at[k].t[j], 1e-3 * b->at[k].K[j]);
         fputs("EOD\n", to);
     }
-    fprintf(to, "set xlabel 'time [us]'\nset ylabel 'K_I [kPa √m]'\nset xrange [%g:*]\nset key inside top left\n"
-                "plot ",
+    fprintf(to,
+            "set xlabel 'time [us]'\nset ylabel 'K_I [kPa √m]'\nset xrange [%g:*]\nset key inside top left\n"
+            "plot ",
             0.98 * 1e3 * HALF / b->speed);
     for (int k = 0; k < FIELD_WAYS; k++)
         fprintf(to, "%s$w%d using 1:2 with lines lw 2 dt %d lc rgb '%s' title '%s'", k ? ", " : "", k,

@@ -19,17 +19,17 @@
 #include "plot/gnuplot.h"
 
 enum { SPACINGS = 5, LAPS_SHOWN = LAP_OUTPUT, SERIES = 4, AIMS = 3, REPEATED = 3 };
-#define SHORT 3.0       /* [s] */
+#define SHORT 3.0          /* [s] */
 #define QUICK_DURATION 6.0 /* [us] */
-#define STEP_PER_MM 0.05 /* [us] at a spacing of 1 mm */
+#define STEP_PER_MM 0.05   /* [us] at a spacing of 1 mm */
 
 /* A method on a plate, from coarse to fine. */
 struct growth_series {
     const char *name, *path, *method;
     int dim;
-    double spacing[SPACINGS];            /* [mm]; 0 ends */
-    int quick, usual;                    /* so many of them with --quick, and without the finest */
-    double aim[AIMS];                    /* exponents of particles, bytes, time; NAN: none */
+    double spacing[SPACINGS]; /* [mm]; 0 ends */
+    int quick, usual;         /* so many of them with --quick, and without the finest */
+    double aim[AIMS];         /* exponents of particles, bytes, time; NAN: none */
 };
 #define PLATE "inputs/kalthoff_winkler.yaml"
 #define HALF_PLATE "inputs/kalthoff_3d_fine.yaml"
@@ -42,16 +42,16 @@ static const struct growth_series series[SERIES] = {
 
 struct growth_row {
     bool known;
-    double spacing;                      /* [mm] */
-    double made, body, bonded, bytes, seconds, share;       /* share: of the critical step */
-    double lap[LAPS_SHOWN];              /* [s] */
-    double start, angle;                 /* of the crack [s] [degree] */
+    double spacing;                                   /* [mm] */
+    double made, body, bonded, bytes, seconds, share; /* share: of the critical step */
+    double lap[LAPS_SHOWN];                           /* [s] */
+    double start, angle;                              /* of the crack [s] [degree] */
 };
 
 struct growth_fit {
-    double of[AIMS], last[AIMS];         /* exponents: of all rows, of the last two */
-    enum lap binds;                      /* part of the step that is most beyond the aim for time */
-    double binds_exponent, binds_share;  /* its own exponent; its share of the loop of the finest */
+    double of[AIMS], last[AIMS];        /* exponents: of all rows, of the last two */
+    enum lap binds;                     /* part of the step that is most beyond the aim for time */
+    double binds_exponent, binds_share; /* its own exponent; its share of the loop of the finest */
 };
 
 struct growth_bench {
@@ -98,14 +98,16 @@ static status growth_read(struct growth_row *r, const char *folder, double proce
 {
     double step, critical, wall, share;
     char key[64];
-    const struct { const char *key; double *value; } figure[] = {
-        {"particles_made", &r->made}, {"particles", &r->body}, {"particles_pd_end", &r->bonded},
-        {"memory_peak_bytes", &r->bytes}, {"loop_seconds", &r->seconds}, {"time_step", &step},
-        {"time_step_critical", &critical}, {"wall_seconds", &wall}};
+    const struct {
+        const char *key;
+        double *value;
+    } figure[] = {{"particles_made", &r->made},      {"particles", &r->body},       {"particles_pd_end", &r->bonded},
+                  {"memory_peak_bytes", &r->bytes},  {"loop_seconds", &r->seconds}, {"time_step", &step},
+                  {"time_step_critical", &critical}, {"wall_seconds", &wall}};
     for (size_t k = 0; k < COUNT_OF(figure); k++) TRY(summary_number(folder, figure[k].key, figure[k].value));
     r->start = bench_summary_figure(folder, "crack.start_time");
     r->angle = bench_summary_figure(folder, "crack.angle_deg");
-    share = r->seconds < SHORT ? 1 : fmin(1, processor / wall);      /* short ones are repeated instead */
+    share = r->seconds < SHORT ? 1 : fmin(1, processor / wall); /* short ones are repeated instead */
     for (int k = 0; k < LAPS_SHOWN; k++) {
         snprintf(key, sizeof key, "laps.%s", lap_name[k]);
         TRY(summary_number(folder, key, &r->lap[k]));

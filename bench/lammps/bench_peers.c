@@ -36,9 +36,9 @@ enum { STEPS = 200, ROUNDS = 3 };
 #define REACH_NEAREST 1.375
 
 struct peer_case {
-    const char *name, *law;   /* "pmb" or "lps" */
+    const char *name, *law;    /* "pmb" or "lps" */
     int dim, edge, edge_quick; /* particles along an edge */
-    double reach;             /* [spacings] */
+    double reach;              /* [spacings] */
     bool cracked, breaking, timed;
 };
 static const struct peer_case cases[] = {
@@ -59,13 +59,15 @@ enum { CASES = COUNT_OF(cases) };
 
 struct peer_result {
     bool known;
-    double particles, bonds, cut;                /* directed bonds; bonds cut beforehand */
-    double own, peer;                            /* [s] of a step */
+    double particles, bonds, cut; /* directed bonds; bonds cut beforehand */
+    double own, peer;             /* [s] of a step */
     /* largest |u - u_LAMMPS| over largest |u|; sums of the share of broken bonds */
     double difference, damage, damage_peer;
 };
 
-struct solution { double *place[DIM_MAX], *damage; };   /* by id */
+struct solution {
+    double *place[DIM_MAX], *damage;
+}; /* by id */
 
 static bool is_lps(const struct peer_case *c) { return c->law[0] == 'l'; }
 
@@ -98,15 +100,16 @@ static void scene_text(FILE *to, const struct peer_case *c, int edge)
           "samples: 1}\n",
           to);
     if (c->dim == 2)
-        fprintf(to, "body: {box: {from: [%.17g, %.17g], to: [%.17g, %.17g]}}\n"
-                "initial: [{velocity_gradient: [[%g, %g], [%g, %g]]}]\n", -half, -half, half, half, rate, 0.3 * rate,
-                0.1 * rate, 0.8 * rate);
+        fprintf(to,
+                "body: {box: {from: [%.17g, %.17g], to: [%.17g, %.17g]}}\n"
+                "initial: [{velocity_gradient: [[%g, %g], [%g, %g]]}]\n",
+                -half, -half, half, half, rate, 0.3 * rate, 0.1 * rate, 0.8 * rate);
     else
         fprintf(to,
                 "body: {box: {from: [%.17g, %.17g, %.17g], to: [%.17g, %.17g, %.17g]}}\n"
                 "initial: [{velocity_gradient: [[%g, %g, 0], [0, %g, %g], [%g, 0, %g]]}]\n",
                 -half, -half, -half, half, half, half, rate, 0.3 * rate, 0.8 * rate, 0.2 * rate, 0.1 * rate, rate);
-    if (c->cracked)     /* ends chosen so that no bond passes through them */
+    if (c->cracked) /* ends chosen so that no bond passes through them */
         fprintf(to, "cracks: [{from: [%.17g, %.17g], to: [%.17g, %.17g]}]\n", -0.1123 * edge * SPACING,
                 -0.0312 * edge * SPACING, 0.1123 * edge * SPACING, 0.0357 * edge * SPACING);
 }
@@ -184,9 +187,11 @@ static void write_script(FILE *to, const struct run *e, const struct peer_case *
     write_law(to, e, c);
     fprintf(to, "%stimestep %.17g\nrun 0 post no\nrun 0 post no\n", exclude, e->clock.dt);
     if (exclude[0]) fputs("neigh_modify exclude none\n", to);
-    fprintf(to, "fix 1 all nve\ncompute d all damage/atom\nthermo 1000000\nrun %d\n"
+    fprintf(to,
+            "fix 1 all nve\ncompute d all damage/atom\nthermo 1000000\nrun %d\n"
             "dump 1 all custom 1 " FOLDER "/particles.dump id x y z c_d\n"
-            "dump_modify 1 sort id format float %%.17g\nrun 0 post no\n", STEPS);
+            "dump_modify 1 sort id format float %%.17g\nrun 0 post no\n",
+            STEPS);
 }
 
 static FILE *create(const char *name, status *s)
@@ -331,8 +336,10 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
 static void print_result(const struct peer_case *c, const struct peer_result *r)
 {
     printf("  %-15s %s %8.5f %9.0f %10.0f %6.0f", c->name, c->law, c->reach, r->particles, r->bonds, r->cut);
-    if (c->timed) printf(" %8.2f %8.2f %7.1f", 1e9 * r->own / r->bonds, 1e9 * r->peer / r->bonds, r->peer / r->own);
-    else printf(" %8s %8s %7s", "", "", "");
+    if (c->timed)
+        printf(" %8.2f %8.2f %7.1f", 1e9 * r->own / r->bonds, 1e9 * r->peer / r->bonds, r->peer / r->own);
+    else
+        printf(" %8s %8s %7s", "", "", "");
     printf("   %8.1e", r->difference);
     if (c->breaking) printf("   damage %.6g, %.6g", r->damage, r->damage_peer);
     putchar('\n');

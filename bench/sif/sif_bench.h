@@ -9,11 +9,11 @@
 
 enum { EDGE_RINGS = 3 };
 struct edge_row {
-    int model;                           /* edge_model */
-    int side;                            /* particles */
+    int model; /* edge_model */
+    int side;  /* particles */
     bool relaxed;
     double K, spread, steps, seconds, peak; /* [Pa m^0.5] [1] [1] [s] [bytes] */
-    double ring[EDGE_RINGS];             /* K_I on 30, 50, 70 spacings */
+    double ring[EDGE_RINGS];                /* K_I on 30, 50, 70 spacings */
 };
 enum { EDGE_ROWS_MAX = 32 };
 struct edge_table {

@@ -250,10 +250,10 @@ static void sif_edge_ask(struct bench_goals *asked, const struct edge_table *t)
             bench_ask(asked, "%", fabs(error_of(r->K)), 0.003, "edge crack, mospd bulk, %d a side", r->side);
         if (r->model == OSPD)
             bench_ask(asked, "%", fabs(error_of(r->K)), r->side == 100 ? 0.01 : 0.005,
-                          "edge crack, ospd local, %d a side", r->side);
+                      "edge crack, ospd local, %d a side", r->side);
         if (r->side == 200 && (r->model == MOSPD || r->model == OSPD))
             bench_ask(asked, "%", r->spread, 0.003, "edge crack, %s, 200 a side: between contours",
-                        edge_model[r->model].name);
+                      edge_model[r->model].name);
     }
 }
 

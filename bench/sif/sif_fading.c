@@ -105,8 +105,7 @@ static status sif_fading_reactions(struct bench_goals *asked)
     struct bench_job job[RELEASES];
     printf("\n  reaction of a plate whose crack runs slowly, about a parabola that moves along\n");
     for (int k = 0; k < RELEASES; k++) {
-        job[k] =
-            (struct bench_job){.path = "inputs/load_displacement.yaml", .row = &t.row[k], .take = take_reaction};
+        job[k] = (struct bench_job){.path = "inputs/load_displacement.yaml", .row = &t.row[k], .take = take_reaction};
         bench_override(&job[k].overrides, "growth[0].damping", "%s", t.row[k].damping);
     }
     status s = bench_jobs_run(job, RELEASES, team_make(0));

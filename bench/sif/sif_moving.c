@@ -13,10 +13,10 @@
 
 #define SCENE "inputs/semi_infinite_crack.yaml"
 
-static const double speed = 1000;             /* of the crack [m/s]                       */
+static const double speed = 1000;              /* of the crack [m/s]                       */
 static const double stress = 2e6, way = 20e-3; /* on its plane [Pa]; of the waves to it [m] */
 static const double window[2] = {5e-6, 9e-6};  /* of ripple [s]                            */
-static const double is_current = 5.5e-6;          /* a moving crack is judged from then on [s] */
+static const double is_current = 5.5e-6;       /* a moving crack is judged from then on [s] */
 
 /* Figures of the paper. */
 enum { LENGTH = 1, EXPONENT = 2, STEP = 4, HORIZON = 8, SPACING = 16, IRREGULAR = 32, OTHER = 64, EACH = 63 };

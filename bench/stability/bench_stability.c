@@ -9,9 +9,12 @@
 
 /* ---- measuring --------------------------------------------------------------------------------------------------- */
 
-enum { STEPS_OF_LINEAR = 1500 };         /* points on nodes grow slowly, by round-off */
+enum { STEPS_OF_LINEAR = 1500 }; /* points on nodes grow slowly, by round-off */
 
-struct measuring { struct stability_map *map; int steps, long_steps; };
+struct measuring {
+    struct stability_map *map;
+    int steps, long_steps;
+};
 
 static bool outside(const struct stability_row *r)
 {
@@ -110,7 +113,10 @@ static void print_verdict(const struct stability_map *map)
     double least = INFINITY, most = 0;
     for (int k = 0; k < map->n; k++) {
         const struct stability_row *r = &map->row[k];
-        if (r->refusal[0]) { refused++; continue; }
+        if (r->refusal[0]) {
+            refused++;
+            continue;
+        }
         out += outside(r);
         least = fmin(least, r->l.automatic / r->l.observed), most = fmax(most, r->l.automatic / r->l.observed);
     }

@@ -9,7 +9,12 @@ static const char header[] =
     "group,case,promise,particles,steps,stopped_at,energy_end,energy_largest,energy_least,energy_loudest,rate_per_step,"
     "angular_momentum_change,converted,verdict,why";
 
-struct mapping_of { struct bench_table *t; const char *only; int64_t steps; int group, cases, held, refused; };
+struct mapping_of {
+    struct bench_table *t;
+    const char *only;
+    int64_t steps;
+    int group, cases, held, refused;
+};
 
 static const char *promise_of(const struct lasting *r) { return r->keeps ? "kept" : "not exceeded"; }
 

@@ -11,7 +11,12 @@ const char *const drift_group_name[LASTING_GROUP] = {
     [LASTING_PUBLISHED] = "couplings by others"};
 
 /* With `quick` every few cases of a group alone. */
-struct taker { bool quick; int given; drift_take *take; void *context; };
+struct taker {
+    bool quick;
+    int given;
+    drift_take *take;
+    void *context;
+};
 enum { QUICK_EACH = 4 };
 
 static status energy_drift_cases_give(struct taker *t, enum drift_group group, struct stability_case c)
@@ -22,7 +27,8 @@ static status energy_drift_cases_give(struct taker *t, enum drift_group group, s
 
 /* ---- laws -------------------------------------------------------------------------------------------------------- */
 
-#define NONE 1e-9                        /* 0 would leave it to the scene */
+#define NONE 1e-9 /* 0 would leave it to the scene */
+/* clang-format off */
 static const struct { const char *model, *space; double poisson; } laws[] = {
     {"bond", NULL, 0},         {"bond", "plane strain", 0}, {"ospd", NULL, NONE},
     {"ospd", NULL, 0.2},       {"ospd", NULL, 0.25},        {"ospd", NULL, 1.0 / 3},
@@ -30,6 +36,7 @@ static const struct { const char *model, *space; double poisson; } laws[] = {
     {"mospd", NULL, NONE},     {"mospd", NULL, 0.2},        {"mospd", NULL, 0.25},
     {"mospd", NULL, 1.0 / 3},  {"mospd", NULL, 0.45},       {"mospd", "plane strain", 0.35},
     {"mospd", "plane strain", 0.49}};
+/* clang-format on */
 enum { LAWS = COUNT_OF(laws) };
 
 static struct stability_case with_law(struct stability_case c, int l)
@@ -64,7 +71,7 @@ static status bodies(struct taker *t)
         TRY(energy_drift_cases_give(t, LASTING_BODIES, c));
     }
     TRY(energy_drift_cases_give(t, LASTING_BODIES, (struct stability_case){.dim = 1, .edge = 64, .method = "pd"}));
-    for (int l = 2; l < 9; l++) {        /* the ratios of ospd */
+    for (int l = 2; l < 9; l++) { /* the ratios of ospd */
         struct stability_case c = with_law(cells, l);
         c.model = NULL;
         TRY(energy_drift_cases_give(t, LASTING_BODIES, c));
@@ -166,7 +173,7 @@ static status current(struct taker *t)
                                              .coupling = coupling[0],
                                              .region = SQUARE,
                                              .model = "bond"};
-            if (!strcmp(shape[k], "linear") && q == 1) continue;         /* refused */
+            if (!strcmp(shape[k], "linear") && q == 1) continue; /* refused */
             TRY(energy_drift_cases_give(t, LASTING_CURRENT, c));
         }
     for (int q = 0; q < 2; q++)
@@ -188,7 +195,10 @@ static status current(struct taker *t)
 
 static status energy_drift_cases_points(struct taker *t)
 {
-    static const struct { int dim; const char *space; double poisson;
+    static const struct {
+        int dim;
+        const char *space;
+        double poisson;
     } body[] = {{1, NULL, 0},    {2, NULL, NONE}, {2, NULL, 0.3}, {2, "plane strain", 0.45}, {2, "plane strain", 0.49},
                 {3, NULL, 0.25}, {3, NULL, 0.45}, {3, NULL, 0.49}};
     for (int q = 0; q < 2; q++)
@@ -286,7 +296,9 @@ void drift_label(const struct drift_case *l, char *text, size_t size)
     FILE *to = fmemopen(text, size, "w");
     const bool coupled = !strcmp(c->method, "adaptive");
     fprintf(to, "%s, %s", c->space ? c->space : space[c->dim],
-            !coupled ? c->method : strcmp(c->coupling, "partial stress") ? c->coupling : "partial");
+            !coupled                                ? c->method
+            : strcmp(c->coupling, "partial stress") ? c->coupling
+                                                    : "partial");
     if (c->model) fprintf(to, ", %s", c->model);
     if (c->poisson != 0) fprintf(to, " nu %.2g", c->poisson < 1e-6 ? 0 : c->poisson);
     if (c->frame && !strcmp(c->frame, "reference")) fputs(", reference", to);

@@ -8,7 +8,7 @@
 
 /* Columns of the table that are drawn. */
 enum { GROUP = 0, LABEL = 1, STOPPED = 5, END = 6, LARGEST = 7, RATE = 10, VERDICT = 13, COLUMNS = 15 };
-#define LEAST_RATE 1e-12                 /* drawn as nothing: what round-off and the fit leave */
+#define LEAST_RATE 1e-12 /* drawn as nothing: what round-off and the fit leave */
 #define MOST_RATE 10.0
 enum { WIDTH = 1900, LINE_HEIGHT = 22 };
 
@@ -121,7 +121,8 @@ static void put_named(FILE *to, const struct bench_table *t)
         energy_drift_draw_put_label(to, text, 0.92, y, "right textcolor rgb '#333333'");
         if (energy_drift_draw_is(t, r, "stopped"))
             snprintf(text, sizeof text, "stopped at step %.0f", energy_drift_draw_number_of(t, r, STOPPED));
-        else snprintf(text, sizeof text, "%s", energy_drift_draw_text_of(t, r, VERDICT));
+        else
+            snprintf(text, sizeof text, "%s", energy_drift_draw_text_of(t, r, VERDICT));
         energy_drift_draw_put_label(to, text, 0.93, y, style);
         y -= 0.95 / (drift_named_count + 1);
     }
@@ -138,6 +139,5 @@ static void energy_drift_draw_picture(FILE *to, const void *table)
 
 status drift_draw(const struct bench_table *t)
 {
-    return bench_draw("stability_lasting", WIDTH, (drift_named_count + 2) * LINE_HEIGHT, energy_drift_draw_picture,
-                      t);
+    return bench_draw("stability_lasting", WIDTH, (drift_named_count + 2) * LINE_HEIGHT, energy_drift_draw_picture, t);
 }

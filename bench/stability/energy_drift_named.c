@@ -43,7 +43,8 @@
 /* A slot from the rim of a disc with a bore, once round. */
 #define DISC_TURNED(frame, model)                                                                                      \
     "space: plane stress\nthickness: 1 mm\nduration: 2.5133 ms\nmethod: adaptive\nmodel: " model "\n"                  \
-    "mpm: {frame: " frame "}\nmaterial: {young: 70 GPa, poisson: 1/3, density: 2700, energy_release_rate: 10 kJ/m^2}\n"\
+    "mpm: {frame: " frame                                                                                              \
+    "}\nmaterial: {young: 70 GPa, poisson: 1/3, density: 2700, energy_release_rate: 10 kJ/m^2}\n"                      \
     "body:\n  - disc: {centre: [0, 0], radius: 20 mm}\n  - subtract: {disc: {centre: [0, 0], radius: 4 mm}}\n"         \
     "particles: {spacing: 0.5 mm}\ncracks:\n  - {from: [20.5 mm, 0], to: [12 mm, 0]}\n"                                \
     "initial: [{velocity_gradient: [[0, -2500], [2500, 0]]}]\noutput: {frames: 0, samples: 1}\n"
@@ -72,7 +73,10 @@
     {                                                                                                                  \
         .group = LASTING_NAMED, .name = label, .c = {.text = scene}, .moves = true, __VA_ARGS__                        \
     }
-#define SHAKEN(label, ...) {.group = LASTING_NAMED, .name = label, .c = {__VA_ARGS__}}
+#define SHAKEN(label, ...)                                                                                             \
+    {                                                                                                                  \
+        .group = LASTING_NAMED, .name = label, .c = { __VA_ARGS__ }                                                    \
+    }
 const struct drift_case drift_named[] = {
     NAMED("strip, mospd nu 1/4, reference", PLATE("mospd", "reference", "partial stress", "1/4")),
     NAMED("strip, mospd nu 0.45, reference", PLATE("mospd", "reference", "partial stress", "0.45")),

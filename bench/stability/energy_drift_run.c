@@ -13,13 +13,15 @@
 #include "step/stability.h"
 #include "step/checks.h"
 
-#define LOUD 1e-4                        /* velocities over that of waves: strains of 1e-4, nothing breaks */
+#define LOUD 1e-4 /* velocities over that of waves: strains of 1e-4, nothing breaks */
 enum { SAMPLES = 400 };
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
 /* What has mass and moves by itself: particles, but those of a mesh, then nodes. */
-struct mover { real m, x[DIM_MAX], *v[DIM_MAX]; };
+struct mover {
+    real m, x[DIM_MAX], *v[DIM_MAX];
+};
 
 static int64_t energy_drift_run_movers_of(const struct run *e)
 {
@@ -32,8 +34,10 @@ static struct mover mover_at(const struct run *e, int64_t k)
     const struct grid *g = &e->frame->mesh.grid;
     struct mover a = {0};
     const int64_t I = k - p->n, at = I < 0 ? I : mesh_base(&e->frame->mesh, I);
-    if (I < 0) a.m = p->flag[k] & FLAG_MESHED ? 0 : p->mass[k];
-    else a.m = g->mass[I];
+    if (I < 0)
+        a.m = p->flag[k] & FLAG_MESHED ? 0 : p->mass[k];
+    else
+        a.m = g->mass[I];
     for (int d = 0; d < p->dim; d++) {
         a.v[d] = I < 0 ? &p->v[d][k] : &g->velocity[d][I];
         a.x[d] = I < 0 ? p->x[d][k]
@@ -91,8 +95,10 @@ static void stop_turning(struct run *e, const real *centre)
                 int a, b;
                 turn_axes(t, &a, &b);
                 const real ra = m.x[a] - centre[a], rb = m.x[b] - centre[b];
-                if (pass == 0) inertia[t] += m.m * (ra * ra + rb * rb);
-                else *m.v[b] -= L[t] / inertia[t] * ra, *m.v[a] += L[t] / inertia[t] * rb;
+                if (pass == 0)
+                    inertia[t] += m.m * (ra * ra + rb * rb);
+                else
+                    *m.v[b] -= L[t] / inertia[t] * ra, *m.v[a] += L[t] / inertia[t] * rb;
             }
         }
 }
@@ -118,7 +124,9 @@ static void energy_drift_run_shake(struct run *e, const real *centre)
 }
 
 /* Velocities of particles and nodes before a step. */
-struct earlier { real *v[2][DIM_MAX]; };
+struct earlier {
+    real *v[2][DIM_MAX];
+};
 
 static void earlier_make(struct earlier *b, const struct run *e)
 {
@@ -180,7 +188,10 @@ static status energy_drift_body_make(struct run *e, struct scene *s, const struc
 }
 
 /* `energy` is what stable steps keep, `plain` has the squares of velocities after the step in it. */
-struct course { int n; double step[SAMPLES + 8], energy[SAMPLES + 8], plain[SAMPLES + 8], work[SAMPLES + 8]; };
+struct course {
+    int n;
+    double step[SAMPLES + 8], energy[SAMPLES + 8], plain[SAMPLES + 8], work[SAMPLES + 8];
+};
 
 static void course_add(struct course *c, const struct run *e, const struct earlier *before)
 {
@@ -245,7 +256,7 @@ static status energy_drift_run_body(struct run *e, const struct drift_case *l, s
     earlier_make(&before, e);
     centre_of(e, centre);
     if (!l->moves) energy_drift_run_shake(e, centre);
-    status s = bench_engine_run(e, 1, NULL);             /* makes the record of the first sample, of step 0 */
+    status s = bench_engine_run(e, 1, NULL); /* makes the record of the first sample, of step 0 */
     c->energy[c->n] = c->plain[c->n] = e->diagnostics->energy_start, c->n++;
     angular_momentum(e, centre, L, &size);
     to->free = energy_drift_run_is_free(e), to->turn = to->free ? 0 : NAN;

@@ -7,10 +7,10 @@
 #include <stdio.h>
 
 const struct limits_scene *const limits_scene[FAILING_SCENES] = {
-    &limits_crossing,    &limits_homologous,   &limits_null_mode,  &limits_faces,     &limits_spin,
-    &limits_disc,        &limits_corner_figure, &limits_shear,      &limits_vibration, &limits_million,
-    &limits_modes_figure, &limits_softest,      &limits_single,     &limits_inversion, &limits_closing,
-    &limits_beyond,      &limits_twins,        &limits_renumbered,
+    &limits_crossing,     &limits_homologous,    &limits_null_mode,  &limits_faces,     &limits_spin,
+    &limits_disc,         &limits_corner_figure, &limits_shear,      &limits_vibration, &limits_million,
+    &limits_modes_figure, &limits_softest,       &limits_single,     &limits_inversion, &limits_closing,
+    &limits_beyond,       &limits_twins,         &limits_renumbered,
 };
 
 status limits_measure(const struct limits_scene *s, const struct limits_row *r, double figure[FAILING_FIGURES])
@@ -52,7 +52,7 @@ status limits_make(struct run *e, struct scene *s, const struct limits_row *r, c
     va_start(more, text);
     vsnprintf(whole, sizeof whole, text, more);
     va_end(more);
-    if (!strstr(whole, "frame:")) bench_override(&o, "mpm.frame", "current");     /* rows of the other say so */
+    if (!strstr(whole, "frame:")) bench_override(&o, "mpm.frame", "current"); /* rows of the other say so */
     for (const char *const *k = r->set; *k; k += 2) bench_override(&o, k[0], "%s", k[1]);
     return bench_engine_make(e, s, "failing", whole, bench_overrides_ready(&o), o.n);
 }

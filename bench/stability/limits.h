@@ -8,19 +8,24 @@
 enum { FAILING_FIGURES = 3, FAILING_SET = 11 };
 
 /* What is measured in a scene: a sound method stays at or below the threshold. */
-struct limits_figure { const char *quantity; double threshold; };
+struct limits_figure {
+    const char *quantity;
+    double threshold;
+};
 
 /* A method in a scene. `known`: where its figures lie, from the sheet, a closed form or as measured. It fails where
  * one is above its threshold: then `remedy` says what to do, and is NULL otherwise. */
 struct limits_row {
     const char *method, *remedy;
-    const char *set[FAILING_SET];        /* keys of the scene and their values, NULL at the end */
-    double given;                        /* what else the scene hangs on */
-    struct { double low, high; } known[FAILING_FIGURES];
+    const char *set[FAILING_SET]; /* keys of the scene and their values, NULL at the end */
+    double given;                 /* what else the scene hangs on */
+    struct {
+        double low, high;
+    } known[FAILING_FIGURES];
 };
 
 struct limits_scene {
-    const char *name, *given;            /* how to print what a row gives; NULL: the method says it */
+    const char *name, *given;                     /* how to print what a row gives; NULL: the method says it */
     struct limits_figure figure[FAILING_FIGURES]; /* quantity NULL: no more */
     const struct limits_row *row;
     int rows;

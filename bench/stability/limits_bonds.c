@@ -13,12 +13,13 @@ static status single(const struct limits_row *r, double *to)
 {
     struct run e;
     struct scene s;
-    TRY(limits_make(&e, &s, r, "space: plane stress\nthickness: 1e-3\nduration: 2e-5\ntime: {safety: 0.2}\n"
-                     "material: {young: 72e9, density: 2440, critical_stretch: 0.01, poisson: 1/3}\n"
-                     "body: {box: {from: [0, 0], to: [12e-3, 12e-3]}}\n"
-                     "particles: {spacing: 1e-3}\n"
-                     "initial:\n  - {velocity: [400, 300], region: {box: {from: [11e-3, 11e-3], to: [inf, inf]}}}\n"
-                     "output: {frames: 0, samples: 20}\n"));
+    TRY(limits_make(&e, &s, r,
+                    "space: plane stress\nthickness: 1e-3\nduration: 2e-5\ntime: {safety: 0.2}\n"
+                    "material: {young: 72e9, density: 2440, critical_stretch: 0.01, poisson: 1/3}\n"
+                    "body: {box: {from: [0, 0], to: [12e-3, 12e-3]}}\n"
+                    "particles: {spacing: 1e-3}\n"
+                    "initial:\n  - {velocity: [400, 300], region: {box: {from: [11e-3, 11e-3], to: [inf, inf]}}}\n"
+                    "output: {frames: 0, samples: 20}\n"));
     const status ran = engine_run(&e);
     const int64_t i = e.part.n - 1;
     to[0] = isfinite(e.part.x[0][i]) && e.part.v[0][i] > 100 ? 0 : 1;
@@ -32,10 +33,16 @@ static status single(const struct limits_row *r, double *to)
 #define NAMED_LAW(name_, law, kind, ...) .method = name_, .set = {"model", law, "method", kind, __VA_ARGS__}
 /* At this speed a bond gains 1.7 times its critical stretch in a step. Energies of whole families that lose most of
  * their bonds in one step are then first order at best: 0.066 at a safety of 0.2, 0.031 at 0.1, 0.014 at 0.025. */
-#define SINGLE(law, kind) {LAW(law, kind, NULL), .known = {{0, 0}, {0, 1e-13}, {0, 0.05}}}
+#define SINGLE(law, kind)                                                                                              \
+    {                                                                                                                  \
+        LAW(law, kind, NULL), .known = { {0, 0}, {0, 1e-13}, {0, 0.05} }                                               \
+    }
 static const struct limits_row singles[] = {
-    SINGLE("bond", "pd"), SINGLE("ospd", "pd"), SINGLE("mospd", "pd"),
-    SINGLE("bond", "adaptive"), SINGLE("mospd", "adaptive"),
+    SINGLE("bond", "pd"),
+    SINGLE("ospd", "pd"),
+    SINGLE("mospd", "pd"),
+    SINGLE("bond", "adaptive"),
+    SINGLE("mospd", "adaptive"),
     {LAW("ospd", "adaptive", NULL), .known = {{0, 0}, {0, 1e-13}, {0.05, 0.08}}, .remedy = "time.safety: 0.1"},
 };
 const struct limits_scene limits_single = {
@@ -79,9 +86,11 @@ static status inversion(const struct limits_row *r, double *to)
 /* A linear bond of no length has a finite force. Below 0.7 of their length bonds have a repulsion of their own
  * (kernels/pd/bond_core.h): at 0.5 c neighbours stay in their order, which they did not without. Faster bodies throw
  * particles off their free ends faster than waves, and stop. */
-#define INVERSION(law) \
-    {LAW(law, "pd", NULL), .given = 0.2, .known = {{0, 0}, {0, 0.05}}}, \
-    {LAW(law, "pd", NULL), .given = 0.5, .known = {{0, 0}, {0, 0.05}}}
+#define INVERSION(law)                                                                                                 \
+    {LAW(law, "pd", NULL), .given = 0.2, .known = {{0, 0}, {0, 0.05}}},                                                \
+    {                                                                                                                  \
+        LAW(law, "pd", NULL), .given = 0.5, .known = { {0, 0}, {0, 0.05} }                                             \
+    }
 static const struct limits_row inversions[] = {
     INVERSION("bond"),
     INVERSION("ospd"),
@@ -97,10 +106,10 @@ static const struct limits_row inversions[] = {
      .known = {{0, 0}, {0, 0.01}}},
 };
 const struct limits_scene limits_inversion = {"compression past inversion",
-                                                "at %g of the wave speed",
-                                                {{"pairs that changed sides", 0}, {"error of energy", 0.05}},
-                                                ROWS(inversions),
-                                                inversion};
+                                              "at %g of the wave speed",
+                                              {{"pairs that changed sides", 0}, {"error of energy", 0.05}},
+                                              ROWS(inversions),
+                                              inversion};
 
 /* ---- faces of a crack that close --------------------------------------------------------------------------------- */
 
@@ -111,8 +120,10 @@ static double overlap(const struct run *e)
     double left = -INFINITY, right = INFINITY;
     for (int64_t i = 0; i < p->n; i++)
         if (fabs(p->X[0][i] - 12) < 1) {
-            if (p->X[0][i] < 12) left = fmax(left, p->x[0][i]);
-            else right = fmin(right, p->x[0][i]);
+            if (p->X[0][i] < 12)
+                left = fmax(left, p->x[0][i]);
+            else
+                right = fmin(right, p->x[0][i]);
         }
     return left - right + 1;
 }
@@ -125,10 +136,10 @@ static status closing(const struct limits_row *r, double *to)
     struct run e;
     struct scene s;
     TRY(limits_make(&e, &s, r,
-                     "space: plane stress\nthickness: 1\nduration: 0.25\nmaterial: {young: 1e4, density: 1}\n"
-                     "bodies:\n  - {name: left, shape: {box: {from: [0, 0], to: [12, 6]}}, velocity: [4, 0]}\n"
-                     "  - {name: right, shape: {box: {from: [12, 0], to: [24, 6]}}, velocity: [-4, 0]}\n"
-                     "particles: {spacing: 1}\noutput: {frames: 0, samples: 1}\n"));
+                    "space: plane stress\nthickness: 1\nduration: 0.25\nmaterial: {young: 1e4, density: 1}\n"
+                    "bodies:\n  - {name: left, shape: {box: {from: [0, 0], to: [12, 6]}}, velocity: [4, 0]}\n"
+                    "  - {name: right, shape: {box: {from: [12, 0], to: [24, 6]}}, velocity: [-4, 0]}\n"
+                    "particles: {spacing: 1}\noutput: {frames: 0, samples: 1}\n"));
     status ran = bench_engine_run(&e, 1, NULL);
     to[0] = 0, to[1] = 0;
     while (ran == OK && e.clock.step < e.clock.steps - 1) {
@@ -145,9 +156,14 @@ static status closing(const struct limits_row *r, double *to)
  * 5 bonds, 0.15 spacings here. Material points meet on the grids of their bodies. */
 #define CRACK "cracks", "[{from: [12, -1], to: [12, 7]}]"
 #define BONDS_BESIDE "pd.region", "[{box: {from: [6, 0], to: [18, 6]}}]"
-#define CLOSING(law) \
-    {LAW(law, "pd", CRACK), .known = {{0.1, 0.2}, {0, 0.1}}, .remedy = "contact.stiffness: 4"}, \
-    {NAMED_LAW(law " pd, stiffer contact", law, "pd", CRACK, "contact.stiffness", "4"), .known = {{0, 0.1}, {0, 0.1}}}
+#define CLOSING(law)                                                                                                   \
+    {LAW(law, "pd", CRACK), .known = {{0.1, 0.2}, {0, 0.1}}, .remedy = "contact.stiffness: 4"},                        \
+    {                                                                                                                  \
+        NAMED_LAW(law " pd, stiffer contact", law, "pd", CRACK, "contact.stiffness", "4"), .known = {                  \
+            {0, 0.1},                                                                                                  \
+            {0, 0.1}                                                                                                   \
+        }                                                                                                              \
+    }
 static const struct limits_row closings[] = {
     CLOSING("bond"),
     CLOSING("ospd"),
@@ -164,7 +180,7 @@ static const struct limits_row closings[] = {
     {.method = "gimp apic", .set = {"method", "mpm", "mpm.transfer", "apic"}, .known = {{0, 0.1}, {0, 0.1}}},
 };
 const struct limits_scene limits_closing = {"faces of a crack close",
-                                              NULL,
-                                              {{"overlap [spacings]", 0.1}, {"momentum not handed over", 0.1}},
-                                              ROWS(closings),
-                                              closing};
+                                            NULL,
+                                            {{"overlap [spacings]", 0.1}, {"momentum not handed over", 0.1}},
+                                            ROWS(closings),
+                                            closing};

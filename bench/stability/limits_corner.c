@@ -21,14 +21,14 @@ static status corner(const struct limits_row *r, double *to)
     struct scene s;
     const double c = sqrt(72e9 * 9 / 8 / 2440), peak = 2440 * c * SPEED;
     TRY(limits_make(&e, &s, r,
-                     "space: plane stress\nthickness: 1e-3\nduration: %.9g\nmaterial: {young: 72e9, density: 2440}\n"
-                     "body: {box: {from: [0, 0], to: [100e-3, 40e-3]}}\nparticles: {spacing: 1e-3}\n"
-                     "pd: {weights: isotropic, surface: none, region: {box: {from: [0, 0], to: [50e-3, %ge-3]}}}\n"
-                     "conversion: {stress: %.9g, alpha: 0.5}\n"
-                     "boundary:\n  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 40e-3}}\n"
-                     "initial: [{pulse: {at: [%g, 0], direction: [1, 0], width: %g, velocity: %g}}]\n"
-                     "output: {frames: 0, samples: 1}\n",
-                     35e-3 / c, r->given, peak, START, WIDTH, -SPEED));
+                    "space: plane stress\nthickness: 1e-3\nduration: %.9g\nmaterial: {young: 72e9, density: 2440}\n"
+                    "body: {box: {from: [0, 0], to: [100e-3, 40e-3]}}\nparticles: {spacing: 1e-3}\n"
+                    "pd: {weights: isotropic, surface: none, region: {box: {from: [0, 0], to: [50e-3, %ge-3]}}}\n"
+                    "conversion: {stress: %.9g, alpha: 0.5}\n"
+                    "boundary:\n  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 40e-3}}\n"
+                    "initial: [{pulse: {at: [%g, 0], direction: [1, 0], width: %g, velocity: %g}}]\n"
+                    "output: {frames: 0, samples: 1}\n",
+                    35e-3 / c, r->given, peak, START, WIDTH, -SPEED));
     const status ran = engine_run(&e);
     const struct particles *p = &e.part;
     const bool converts = e.coupling->conversion.converted > 0 || e.scene->method != METHOD_ADAPTIVE;
@@ -79,6 +79,8 @@ static const struct limits_row corners[] = {
      .remedy = CALM},
 };
 const struct limits_scene limits_corner_figure = {
-    "a conversion front passes a corner of the interface", NULL,
+    "a conversion front passes a corner of the interface",
+    NULL,
     {{"motion across the wave [of its peak]", 0.05}, {"error of energy", 0.02}, {"error of momentum", 1e-12}},
-    ROWS(corners), corner};
+    ROWS(corners),
+    corner};

@@ -9,7 +9,11 @@
 
 /* x' = scale (x, y), in the other order if `turned`, x against its axis if `mirrored`; particles from a list in the
  * order of the lattice (1) or shuffled (2). */
-struct twin { double scale; bool mirrored, turned; int listed; };
+struct twin {
+    double scale;
+    bool mirrored, turned;
+    int listed;
+};
 
 static void put_vector(FILE *to, const struct twin *t, double scale, double x, double y)
 {
@@ -101,7 +105,7 @@ static void put_plate(FILE *to, const struct twin *t, const struct limits_row *r
     put_vector(to, t, mm, 0, 0);
     fputs("}\npd: {region: ", to);
     limits_invariance_put_box(to, t, -10, -5, 4, 7);
-    if (strcmp(r->set[1], "pd") == 0) fputs(", surface: moments", to);   /* no default of bodies from lists */
+    if (strcmp(r->set[1], "pd") == 0) fputs(", surface: moments", to); /* no default of bodies from lists */
     fputs("}\nconversion: {criteria: none}\n", to);
 }
 
@@ -180,16 +184,18 @@ static status twins(const struct limits_row *r, double *to)
 
 /* Sums in another order and lengths that are no binary fractions, over 200 steps; stretches of bonds are multiples
  * of 2^-49, 1e-11 of those here. */
-#define TWIN(kind, law, name, which) \
-    {.method = kind ", " name, .set = {"method", kind, "model", law}, .given = which, .known = {{0, 1e-10}}}
-#define TWINS(kind) \
-    TWIN(kind, "bond", "a thousand times larger", LARGER), TWIN(kind, "bond", "mirrored", MIRRORED), \
-    TWIN(kind, "bond", "turned", TURNED), TWIN(kind, "bond", "1e-6, mirrored, turned", ALL_OF_IT), \
-    TWIN(kind, "bond", "from a list", LISTED), TWIN(kind, "bond", "renumbered", SHUFFLED)
-#define LAW_TWINS(law) \
+#define TWIN(kind, law, name, which)                                                                                   \
+    {                                                                                                                  \
+        .method = kind ", " name, .set = {"method", kind, "model", law}, .given = which, .known = { {0, 1e-10} }       \
+    }
+#define TWINS(kind)                                                                                                    \
+    TWIN(kind, "bond", "a thousand times larger", LARGER), TWIN(kind, "bond", "mirrored", MIRRORED),                   \
+        TWIN(kind, "bond", "turned", TURNED), TWIN(kind, "bond", "1e-6, mirrored, turned", ALL_OF_IT),                 \
+        TWIN(kind, "bond", "from a list", LISTED), TWIN(kind, "bond", "renumbered", SHUFFLED)
+#define LAW_TWINS(law)                                                                                                 \
     TWIN("pd", law, law ", 1e-6, mirrored, turned", ALL_OF_IT), TWIN("pd", law, law ", renumbered", SHUFFLED)
 static const struct limits_row twin[] = {TWINS("pd"), TWINS("mpm"), TWINS("adaptive"), LAW_TWINS("ospd"),
-                                          LAW_TWINS("mospd")};
+                                         LAW_TWINS("mospd")};
 const struct limits_scene limits_twins = {
     "twins of a plate", NULL, {{"difference before bonds break", 1e-10}}, ROWS(twin), twins};
 
@@ -199,7 +205,10 @@ static status renumbered(const struct limits_row *r, double *to)
     return limits_invariance_compare(&plate[LISTED], &plate[SHUFFLED], r, to);
 }
 
-#define SHUFFLE(kind) {.method = kind, .set = {"method", kind}, .known = {{0, 0}}}
+#define SHUFFLE(kind)                                                                                                  \
+    {                                                                                                                  \
+        .method = kind, .set = {"method", kind}, .known = { {0, 0} }                                                   \
+    }
 static const struct limits_row shuffled[] = {SHUFFLE("pd"), SHUFFLE("mpm"), SHUFFLE("adaptive")};
 const struct limits_scene limits_renumbered = {
     "a list of particles in another order", NULL, {{"difference", 0}}, ROWS(shuffled), renumbered};

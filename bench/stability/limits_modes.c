@@ -6,7 +6,10 @@
 #include "base/memory.h"
 
 /* M^-1/2 K M^-1/2 of a free body, n by n. */
-struct matrix { int64_t n; real *at; };
+struct matrix {
+    int64_t n;
+    real *at;
+};
 
 /* Column by column; what differs between both halves is the error of differences, 1e-7. */
 static struct matrix matrix_of(struct run *e)
@@ -52,8 +55,10 @@ static real eigenvalue(const struct matrix *m, int64_t lower, real high)
     real low = 0;
     while (high - low > 1e-4 * high) {
         const real middle = 0.5 * (low + high);
-        if (limits_modes_below(m, middle) > lower) high = middle;
-        else low = middle;
+        if (limits_modes_below(m, middle) > lower)
+            high = middle;
+        else
+            low = middle;
     }
     return high;
 }
@@ -71,15 +76,17 @@ static real bound(const struct matrix *m)
 }
 
 #define SIDE 12
-#define NOTHING 1e-6                /* of the stiffest mode: differences leave 1e-7, the softest elastic one has 1e-2 */
+#define NOTHING 1e-6 /* of the stiffest mode: differences leave 1e-7, the softest elastic one has 1e-2 */
 enum { RIGID = 3 };
 
 static status square_make(struct run *e, struct scene *s, const struct limits_row *r, double poisson)
 {
-    return limits_make(e, s, r, "space: plane stress\nthickness: 1e-3\nduration: 1e-6\nmethod: pd\n"
-                        "material: {young: 72e9, density: 2440, poisson: %.17g}\n"
-                        "body: {box: {from: [0, 0], to: [%de-3, %de-3]}}\nparticles: {spacing: 1e-3}\n"
-                        "output: {frames: 0, samples: 1}\n", poisson, SIDE, SIDE);
+    return limits_make(e, s, r,
+                       "space: plane stress\nthickness: 1e-3\nduration: 1e-6\nmethod: pd\n"
+                       "material: {young: 72e9, density: 2440, poisson: %.17g}\n"
+                       "body: {box: {from: [0, 0], to: [%de-3, %de-3]}}\nparticles: {spacing: 1e-3}\n"
+                       "output: {frames: 0, samples: 1}\n",
+                       poisson, SIDE, SIDE);
 }
 
 /* ---- motions that cost nothing ----------------------------------------------------------------------------------- */
@@ -99,20 +106,24 @@ static status modes(const struct limits_row *r, double *to)
 /* Springs between nearest neighbours of a square lattice hold no angle: 2 n^2 coordinates, 2 n (n - 1) springs in
  * straight rows that depend on nothing else leave 2 n motions, three of them rigid. */
 #define LATTICE(law, reach) .method = law ", horizon " reach, .set = {"model", law, "particles.horizon", reach}
-#define CLOUD(law, reach) .method = law ", horizon " reach ", irregular 0.5", \
-                          .set = {"model", law, "particles.horizon", reach, "particles.irregularity", "0.5"}
+#define CLOUD(law, reach)                                                                                              \
+    .method = law ", horizon " reach ", irregular 0.5",                                                                \
+    .set = {"model", law, "particles.horizon", reach, "particles.irregularity", "0.5"}
 #define LOOSE 2 * SIDE - RIGID
 #define LONGER "a horizon of 1.5 or more, or mospd"
 static const struct limits_row costless[] = {
     {LATTICE("bond", "1"), .known = {{LOOSE, LOOSE}}, .remedy = LONGER},
     {LATTICE("ospd", "1"), .known = {{LOOSE, LOOSE}}, .remedy = LONGER},
     {LATTICE("mospd", "1"), .known = {{0, 0}}},
-    {LATTICE("bond", "1.5"), .known = {{0, 0}}}, {LATTICE("ospd", "1.5"), .known = {{0, 0}}}, {LATTICE("mospd", "1.5"),
-     .known = {{0, 0}}},
-    {CLOUD("bond", "1.5"), .known = {{0, 0}}}, {CLOUD("ospd", "1.5"), .known = {{0, 0}}}, {CLOUD("mospd", "1.5"),
-     .known = {{0, 0}}},
-    {CLOUD("bond", "3.015"), .known = {{0, 0}}}, {CLOUD("ospd", "3.015"), .known = {{0, 0}}}, {CLOUD("mospd", "3.015"),
-     .known = {{0, 0}}},
+    {LATTICE("bond", "1.5"), .known = {{0, 0}}},
+    {LATTICE("ospd", "1.5"), .known = {{0, 0}}},
+    {LATTICE("mospd", "1.5"), .known = {{0, 0}}},
+    {CLOUD("bond", "1.5"), .known = {{0, 0}}},
+    {CLOUD("ospd", "1.5"), .known = {{0, 0}}},
+    {CLOUD("mospd", "1.5"), .known = {{0, 0}}},
+    {CLOUD("bond", "3.015"), .known = {{0, 0}}},
+    {CLOUD("ospd", "3.015"), .known = {{0, 0}}},
+    {CLOUD("mospd", "3.015"), .known = {{0, 0}}},
 };
 const struct limits_scene limits_modes_figure = {
     "motions that cost nothing", NULL, {{"zero-energy modes that are not rigid", 0}}, ROWS(costless), modes};

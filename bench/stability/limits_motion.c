@@ -9,7 +9,9 @@
 
 /* ---- rigid rotation ---------------------------------------------------------------------------------------------- */
 
-struct turning { double momentum, kinetic; };
+struct turning {
+    double momentum, kinetic;
+};
 
 static struct turning turning_of(const struct particles *p)
 {
@@ -37,8 +39,10 @@ static status limits_motion_turn(struct run *e, double *to)
     return OK;
 }
 
-#define TURNING(threshold) \
-    {{"shear stress [MPa]", 15}, {"change of angular momentum", 1e-4}, {"change of kinetic energy", threshold}}
+#define TURNING(threshold)                                                                                             \
+    {                                                                                                                  \
+        {"shear stress [MPa]", 15}, {"change of angular momentum", 1e-4}, { "change of kinetic energy", threshold }    \
+    }
 
 /* Corners at `given` m/s, a tenth of a turn at 10 m/s, a whole one at 100 m/s. */
 static status spin(const struct limits_row *r, double *to)
@@ -46,11 +50,13 @@ static status spin(const struct limits_row *r, double *to)
     struct run e;
     struct scene s;
     const double rate = r->given / 14.1421356237e-3;
-    TRY(limits_make(&e, &s, r, "space: plane stress\nthickness: 1 mm\nduration: 888.5766 us\n"
-                     "material: {young: 192 GPa, density: 8000}\n"
-                     "body: {box: {from: [-10 mm, -10 mm], to: [10 mm, 10 mm]}}\nparticles: {spacing: 0.5 mm}\n"
-                     "initial: [{velocity_gradient: [[0, %.12g], [%.12g, 0]]}]\n"
-                     "output: {frames: 0, samples: 2}\n", -rate, rate));
+    TRY(limits_make(&e, &s, r,
+                    "space: plane stress\nthickness: 1 mm\nduration: 888.5766 us\n"
+                    "material: {young: 192 GPa, density: 8000}\n"
+                    "body: {box: {from: [-10 mm, -10 mm], to: [10 mm, 10 mm]}}\nparticles: {spacing: 0.5 mm}\n"
+                    "initial: [{velocity_gradient: [[0, %.12g], [%.12g, 0]]}]\n"
+                    "output: {frames: 0, samples: 2}\n",
+                    -rate, rate));
     const status ran = limits_motion_turn(&e, to);
     bench_engine_free(&e, &s);
     return ran;
@@ -83,11 +89,12 @@ static status disc(const struct limits_row *r, double *to)
 {
     struct run e;
     struct scene s;
-    TRY(limits_make(&e, &s, r, "space: plane stress\nthickness: 1e-3\nduration: 6.2831853e-4\nmethod: adaptive\n"
-                     "material: {young: 192e9, density: 8000}\nbody: {disc: {centre: [0, 0], radius: 10e-3}}\n"
-                     "particles: {spacing: 0.5e-3}\npd: {region: {disc: {centre: [0, 0], radius: 4e-3}}}\n"
-                     "conversion: {criteria: none}\ninitial: [{velocity_gradient: [[0, -1e4], [1e4, 0]]}]\n"
-                     "output: {frames: 0, samples: 2}\n"));
+    TRY(limits_make(&e, &s, r,
+                    "space: plane stress\nthickness: 1e-3\nduration: 6.2831853e-4\nmethod: adaptive\n"
+                    "material: {young: 192e9, density: 8000}\nbody: {disc: {centre: [0, 0], radius: 10e-3}}\n"
+                    "particles: {spacing: 0.5e-3}\npd: {region: {disc: {centre: [0, 0], radius: 4e-3}}}\n"
+                    "conversion: {criteria: none}\ninitial: [{velocity_gradient: [[0, -1e4], [1e4, 0]]}]\n"
+                    "output: {frames: 0, samples: 2}\n"));
     const status ran = limits_motion_turn(&e, to);
     bench_engine_free(&e, &s);
     return ran;
@@ -96,9 +103,11 @@ static status disc(const struct limits_row *r, double *to)
 /* The sheet: 110 MPa, 7e-6, 0.23 %, of points that grow by the square of a step's angle while bonds do not
  * (kernels/mpm/stress.h). */
 static const struct limits_row discs[] = {
-    {.method = "partial stress, flip", .set = {"mpm.frame", "current", "mpm.transfer", "flip"},
+    {.method = "partial stress, flip",
+     .set = {"mpm.frame", "current", "mpm.transfer", "flip"},
      .known = {{0, 15}, {0, 1e-2}, {0, 6e-3}}},
-    {.method = "partial stress, apic", .set = {"mpm.frame", "current", "mpm.transfer", "apic"},
+    {.method = "partial stress, apic",
+     .set = {"mpm.frame", "current", "mpm.transfer", "apic"},
      .known = {{0, 15}, {0, 1e-4}, {0, 6e-3}}},
     {.method = "reference frame", .set = {"mpm.frame", "reference"}, .known = {{0, 15}, {0, 1e-5}, {0, 1e-5}}},
 };
@@ -141,7 +150,7 @@ static status periods(struct run *e, double *steps)
     double before = projection(e);
     int times = 0;
     *steps = NAN;
-    TRY(bench_engine_run(e, 1, NULL));           /* makes the record of the first sample */
+    TRY(bench_engine_run(e, 1, NULL)); /* makes the record of the first sample */
     for (double now; times < STANDS && e->clock.step < e->clock.steps - 1; before = now) {
         TRY(engine_step(e));
         now = projection(e);
@@ -159,10 +168,10 @@ static status shear(const struct limits_row *r, double *to)
     struct scene s;
     double steps = 0;
     TRY(limits_make(&e, &s, r,
-                     "space: plane strain\nthickness: 1 mm\nduration: 1 ms\nmaterial: {young: 72e9, density: 2440, "
-                     "poisson: %.17g}\nbody: {box: {from: [0, 0], to: [32e-3, 32e-3]}}\nparticles: {spacing: 1e-3}\n"
-                     "output: {frames: 0, samples: 1}\n",
-                     r->given));
+                    "space: plane strain\nthickness: 1 mm\nduration: 1 ms\nmaterial: {young: 72e9, density: 2440, "
+                    "poisson: %.17g}\nbody: {box: {from: [0, 0], to: [32e-3, 32e-3]}}\nparticles: {spacing: 1e-3}\n"
+                    "output: {frames: 0, samples: 1}\n",
+                    r->given));
     bench_engine_start(&e, lame, NULL);
     const status ran = periods(&e, &steps);
     const double omega = M_PI / EDGE * sqrt(72e9 / (1 + r->given) / 2440);
@@ -175,8 +184,9 @@ static status shear(const struct limits_row *r, double *to)
  * not. On its lattice a horizon of 1 has C12 = 0 and C11 = E/(1 - nu): sqrt(2) too fast; of 1.5 and 2.015 it is as
  * anisotropic as its few bonds. */
 #define STATE(model) .method = model, .set = {"method", "pd", "model", model}
-#define BOND(horizon, more, ...) .method = "bonds, horizon " horizon more, .given = 1.0 / 3, \
-                           .set = {"method", "pd", "space", "plane stress", "particles.horizon", horizon, __VA_ARGS__}
+#define BOND(horizon, more, ...)                                                                                       \
+    .method = "bonds, horizon " horizon more, .given = 1.0 / 3,                                                        \
+    .set = {"method", "pd", "space", "plane stress", "particles.horizon", horizon, __VA_ARGS__}
 #define UNIFORM "pd.weights", "uniform"
 #define UNLOCKED "ospd, mospd, or quadratic or cubic shapes"
 static const struct limits_row shears[] = {
@@ -209,15 +219,14 @@ static const struct limits_row shears[] = {
     {BOND("5.015", "", NULL), .known = {{0, 0.045}}},
     {BOND("6.015", "", NULL), .known = {{0, 0.03}}},
 };
-const struct limits_scene limits_shear = {"shear at constant volume", "nu %.4g",
-                                            {{"error of the frequency", 0.05}}, ROWS(shears), shear};
+const struct limits_scene limits_shear = {
+    "shear at constant volume", "nu %.4g", {{"error of the frequency", 0.05}}, ROWS(shears), shear};
 
 /* ---- long runs --------------------------------------------------------------------------------------------------- */
 
 static double energy_of(struct run *e)
 {
-    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh) +
-           e->kernels.bond_energy(&e->bonds, &e->part) +
+    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh) + e->kernels.bond_energy(&e->bonds, &e->part) +
            mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain) +
            diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial);
 }
@@ -242,10 +251,10 @@ static status million(const struct limits_row *r, double *to)
     struct run e;
     struct scene s;
     TRY(limits_make(&e, &s, r,
-                     "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: pd\nmaterial: {young: 72e9, "
-                     "density: 2440}\nbody: {box: {from: [0, 0], to: [5e-3, 4e-3]}}\nparticles: {spacing: 1e-3}\n"
-                     "initial: [{velocity_gradient: [[300, 100], [0, -200]], centre: [2.5e-3, 2e-3]}]\n"
-                     "output: {frames: 0, samples: 1}\n"));
+                    "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: pd\nmaterial: {young: 72e9, "
+                    "density: 2440}\nbody: {box: {from: [0, 0], to: [5e-3, 4e-3]}}\nparticles: {spacing: 1e-3}\n"
+                    "initial: [{velocity_gradient: [[300, 100], [0, -200]], centre: [2.5e-3, 2e-3]}]\n"
+                    "output: {frames: 0, samples: 1}\n"));
     const status ran = million_steps(&e, to);
     bench_engine_free(&e, &s);
     return ran;
@@ -275,8 +284,8 @@ static status vibration(const struct limits_row *r, double *to)
     struct scene s;
     double first = 0, last = 0;
     TRY(limits_make(&e, &s, r,
-                     "space: line\nmaterial: {young: 1e4, density: 1}\nparticles: {spacing: 0.01}\nduration: 0.128\n"
-                     "body: {box: {from: [0], to: [0.64]}}\noutput: {frames: 0, samples: 1}\n"));
+                    "space: line\nmaterial: {young: 1e4, density: 1}\nparticles: {spacing: 0.01}\nduration: 0.128\n"
+                    "body: {box: {from: [0], to: [0.64]}}\noutput: {frames: 0, samples: 1}\n"));
     bench_engine_start(&e, first_mode, NULL);
     status ran = bench_engine_run(&e, 1, NULL);
     const int64_t period = e.clock.steps / 10;

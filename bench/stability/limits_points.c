@@ -77,10 +77,10 @@ static const struct limits_row crossings[] = {
     {SHAPE("cpgimp"), .given = 6, .known = {{0.1, 3.1}}, .remedy = "frame: reference, or bonds"},
 };
 const struct limits_scene limits_crossing = {"uniform stress, stretched",
-                                               "stretch %g",
-                                               {{"force on an inner node [stress x section]", 0.1}},
-                                               ROWS(crossings),
-                                               crossing};
+                                             "stretch %g",
+                                             {{"force on an inner node [stress x section]", 0.1}},
+                                             ROWS(crossings),
+                                             crossing};
 
 /* ---- homologous stretch ------------------------------------------------------------------------------------------ */
 
@@ -91,9 +91,9 @@ static status homologous(const struct limits_row *r, double *to)
     struct run e;
     struct scene s;
     TRY(limits_make(&e, &s, r,
-                     BAR "duration: 0.01\ntime: {step: 1e-5}\nmethod: mpm\nbody: {box: {from: [-2.5], to: [2.5]}}\n"
-                         "initial: [{velocity_gradient: [[%.9g]]}]\n",
-                     r->given / 0.01));
+                    BAR "duration: 0.01\ntime: {step: 1e-5}\nmethod: mpm\nbody: {box: {from: [-2.5], to: [2.5]}}\n"
+                        "initial: [{velocity_gradient: [[%.9g]]}]\n",
+                    r->given / 0.01));
     const status ran = engine_run(&e);
     *to = 0;
     const bool meshed = e.frame->mesh.points > 0;
@@ -141,15 +141,18 @@ static status null_mode(const struct limits_row *r, double *to)
 
 /* After `given` steps; what APIC leaves is at the ends. */
 static const struct limits_row null_modes[] = {
-    {.method = "flip", .set = {"mpm.transfer", "flip"}, .given = 1000, .known = {{0.99, 1.0001}},
+    {.method = "flip",
+     .set = {"mpm.transfer", "flip"},
+     .given = 1000,
+     .known = {{0.99, 1.0001}},
      .remedy = "apic; interface damping at bonds"},
     {.method = "apic", .set = {"mpm.transfer", "apic"}, .given = 1, .known = {{0, 0.01}}},
 };
 const struct limits_scene limits_null_mode = {"null mode +-v",
-                                                "after %g steps",
-                                                {{"energy left of what the grid cannot see", 0.01}},
-                                                ROWS(null_modes),
-                                                null_mode};
+                                              "after %g steps",
+                                              {{"energy left of what the grid cannot see", 0.01}},
+                                              ROWS(null_modes),
+                                              null_mode};
 
 /* ---- places in the cells ----------------------------------------------------------------------------------------- */
 
@@ -160,11 +163,13 @@ static status on_faces(const struct limits_row *r, double *to)
     struct run e;
     struct scene s;
     *to = 0;
-    TRY(limits_make(&e, &s, r, "space: plane stress\nthickness: 1\nduration: 300\nmethod: mpm\n"
-                     "material: {young: 1, density: 1}\n"
-                     "body: {box: {from: [0, 0], to: [12, 8]}}\nparticles: {spacing: 1}\n"
-                     "initial: [{velocity: [0.03125, -0.0625]}]\n"
-                     "mpm: {origin: [%.17g, %.17g]}\noutput: {frames: 0, samples: 1}\n", r->given, r->given));
+    TRY(limits_make(&e, &s, r,
+                    "space: plane stress\nthickness: 1\nduration: 300\nmethod: mpm\n"
+                    "material: {young: 1, density: 1}\n"
+                    "body: {box: {from: [0, 0], to: [12, 8]}}\nparticles: {spacing: 1}\n"
+                    "initial: [{velocity: [0.03125, -0.0625]}]\n"
+                    "mpm: {origin: [%.17g, %.17g]}\noutput: {frames: 0, samples: 1}\n",
+                    r->given, r->given));
     const status ran = engine_run(&e);
     for (int c = 0; c < 3; c++)
         for (int64_t i = 0; i < e.part.n; i++) *to = fmax(*to, fabs(e.part.stress[c][i]) / 0.07);
@@ -181,10 +186,12 @@ static status on_faces(const struct limits_row *r, double *to)
     }
 #define ON_AND_BESIDE(shape, transfer) FACES(shape, transfer, 0.5), FACES(shape, transfer, 0.5 - 1e-9)
 static const struct limits_row faces[] = {
-    ON_AND_BESIDE("linear", "flip"), ON_AND_BESIDE("gimp", "flip"), ON_AND_BESIDE("gimp", "apic"),
-    ON_AND_BESIDE("cpgimp", "flip"), ON_AND_BESIDE("cpgimp", "apic"), ON_AND_BESIDE("quadratic", "flip"),
-    ON_AND_BESIDE("quadratic", "apic"), ON_AND_BESIDE("cubic", "flip"), ON_AND_BESIDE("cubic", "apic"),
+    ON_AND_BESIDE("linear", "flip"),    ON_AND_BESIDE("gimp", "flip"),   ON_AND_BESIDE("gimp", "apic"),
+    ON_AND_BESIDE("cpgimp", "flip"),    ON_AND_BESIDE("cpgimp", "apic"), ON_AND_BESIDE("quadratic", "flip"),
+    ON_AND_BESIDE("quadratic", "apic"), ON_AND_BESIDE("cubic", "flip"),  ON_AND_BESIDE("cubic", "apic"),
 };
-const struct limits_scene limits_faces = {
-    "points on faces of cells, tiny nodal masses", "nodes at %.10g", {{"stress of rigid motion [rho c v]", 1e-12}},
-    ROWS(faces), on_faces};
+const struct limits_scene limits_faces = {"points on faces of cells, tiny nodal masses",
+                                          "nodes at %.10g",
+                                          {{"stress of rigid motion [rho c v]", 1e-12}},
+                                          ROWS(faces),
+                                          on_faces};

@@ -52,9 +52,15 @@ static status caught(const struct limits_row *r, double *to)
     return stability_caught(&beyond[(int)r->given], 1.2, to);
 }
 
-#define BEYOND(name, k) {.method = name, .given = k, .known = {{1, 1000}}}
+#define BEYOND(name, k)                                                                                                \
+    {                                                                                                                  \
+        .method = name, .given = k, .known = { {1, 1000} }                                                             \
+    }
 static const struct limits_row steps[] = {
-    BEYOND("bonds", 0), BEYOND("mospd", 1), BEYOND("gimp flip", 2), BEYOND("gimp apic", 3),
+    BEYOND("bonds", 0),
+    BEYOND("mospd", 1),
+    BEYOND("gimp flip", 2),
+    BEYOND("gimp apic", 3),
     BEYOND("partial stress, gimp flip", 4),
     BEYOND("reference frame", 5),
 };

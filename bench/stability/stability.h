@@ -10,20 +10,20 @@ extern const char *const stability_group_name[STABILITY_GROUP];
 /* A free block of one method: what its scene says; NULL or 0: the scene's default. */
 struct stability_case {
     enum stability_group group;
-    const char *note;                    /* what is particular about it */
+    const char *note; /* what is particular about it */
     int dim;
-    const char *space;                   /* NULL: line, plane stress, solid by dim */
+    const char *space; /* NULL: line, plane stress, solid by dim */
     const char *method, *model, *coupling, *shape, *transfer, *frame, *surface, *weights, *normalisation, *calibration;
-    double cell;                         /* points per cell and direction */
-    double offset;                       /* of the nodes against the lattice's lower border [cells] */
-    int offsets;                         /* how many are tried between 0 and 1, 0: `offset` alone */
+    double cell;   /* points per cell and direction */
+    double offset; /* of the nodes against the lattice's lower border [cells] */
+    int offsets;   /* how many are tried between 0 and 1, 0: `offset` alone */
     double horizon, poisson, irregularity;
-    bool contact;                        /* faces of cracks meet */
-    double heavier;                      /* density of the other half over that of the first; 0: one material */
+    bool contact;   /* faces of cracks meet */
+    double heavier; /* density of the other half over that of the first; 0: one material */
     enum stability_region { HALF, ISLANDS, SPOTS, STRIP, SQUARE, DISC, CORNER, NOTCH } region;
-                             /* peridynamic (adaptive): one half; all but scattered balls; these balls; the middle
-                              * half; of each axis the middle half; a ball; the lower half of each axis; three
-                              * quarters of the middle half, with a crack up to the middle */
+    /* peridynamic (adaptive): one half; all but scattered balls; these balls; the middle
+     * half; of each axis the middle half; a ball; the lower half of each axis; three
+     * quarters of the middle half, with a crack up to the middle */
     enum stability_support {
         FREE,
         MIRROR,
@@ -38,19 +38,19 @@ struct stability_case {
     /* nothing; a plane of symmetry at x = 0, at y = 0, both; the same clamped; a clamp at x
      * = 0 and a symmetry at y = 0; two rows of the far end in x held; moved along x for a
      * while, then held */
-    const char *strain, *constants;      /* of the reference frame */
-    int edge;                            /* particles along it; 0: few */
-    const char *text; /* another scene than this block, at rest: the rest is not looked at; NULL: none */
-    double quoted_low, quoted_high;      /* limit of the design sheets in the case's unit, 0: none */
+    const char *strain, *constants; /* of the reference frame */
+    int edge;                       /* particles along it; 0: few */
+    const char *text;               /* another scene than this block, at rest: the rest is not looked at; NULL: none */
+    double quoted_low, quoted_high; /* limit of the design sheets in the case's unit, 0: none */
 };
 
 /* What came of it; steps in seconds. */
 struct stability_limits {
-    double automatic, critical;          /* step that Cleave takes, and the one it calls critical */
-    double observed, offset;             /* limit of growth, the least over the offsets, and where */
-    double largest;                      /* over the offsets */
-    double gershgorin, silling;          /* bounds of bonds: block-Gershgorin; Silling & Askari 2005 */
-    double unit;                         /* D/c of peridynamics and coupled bodies, h/c of points */
+    double automatic, critical; /* step that Cleave takes, and the one it calls critical */
+    double observed, offset;    /* limit of growth, the least over the offsets, and where */
+    double largest;             /* over the offsets */
+    double gershgorin, silling; /* bounds of bonds: block-Gershgorin; Silling & Askari 2005 */
+    double unit;                /* D/c of peridynamics and coupled bodies, h/c of points */
     enum { RUN_NONE, RUN_STAYS, RUN_GROWS } automatic_run, below, above; /* real runs at these steps */
 };
 
@@ -59,7 +59,10 @@ struct stability_limits {
 status stability_observe(const struct stability_case *c, int steps, int long_steps, struct stability_limits *to);
 /* Does a body at rest, shaken at random and carried along at shares of the wave speed, stay bounded for so many
  * steps of dt [s]? 0: the automatic step. */
-struct stability_shake { double speed, drift; int steps; };
+struct stability_shake {
+    double speed, drift;
+    int steps;
+};
 status stability_stays(const struct stability_case *c, double dt, struct stability_shake how, bool *stays);
 /* Steps until a run at so many times the observed limit was stopped with place, step and remedy; infinite if it went
  * on for 1000 or said less (limits_time_step.c). */
@@ -80,9 +83,12 @@ struct stability_row {
     char label[128], refusal[NAME_MAX_LENGTH]; /* "": not refused */
 };
 enum { STABILITY_ROWS_MAX = 400 };
-struct stability_map { int n; struct stability_row row[STABILITY_ROWS_MAX]; };
+struct stability_map {
+    int n;
+    struct stability_row row[STABILITY_ROWS_MAX];
+};
 
-#define STABILITY_LEAST 0.6              /* what the automatic step may be of the observed limit */
+#define STABILITY_LEAST 0.6 /* what the automatic step may be of the observed limit */
 #define STABILITY_MOST 0.95
 
 /* Its picture (stability_draw.c). */

@@ -3,11 +3,17 @@
 
 #include "stability.h"
 
-const char *const stability_group_name[STABILITY_GROUP] = {
-    [GROUP_PD] = "peridynamics", [GROUP_SHEET] = "as published", [GROUP_POINTS] = "material points",
-    [GROUP_COUPLED] = "coupled", [GROUP_REFERENCE] = "reference frame"};
+const char *const stability_group_name[STABILITY_GROUP] = {[GROUP_PD] = "peridynamics",
+                                                           [GROUP_SHEET] = "as published",
+                                                           [GROUP_POINTS] = "material points",
+                                                           [GROUP_COUPLED] = "coupled",
+                                                           [GROUP_REFERENCE] = "reference frame"};
 
-struct taker { bool quick; stability_take *take; void *context; };
+struct taker {
+    bool quick;
+    stability_take *take;
+    void *context;
+};
 
 static status stability_cases_give(const struct taker *t, struct stability_case c) { return t->take(t->context, &c); }
 
@@ -77,7 +83,10 @@ static status stability_cases_published(const struct taker *t)
 /* The sheet's table of the linearised step in one dimension. */
 static void quote(struct stability_case *c)
 {
-    static const struct { const char *shape, *transfer; double low[3], high[3]; } sheet[] = {
+    static const struct {
+        const char *shape, *transfer;
+        double low[3], high[3];
+    } sheet[] = {
         {"linear", "flip", {1.03, 1.43, 1.54}, {2.0, 1.73, 1.68}},
         {"gimp", "flip", {2.0, 1.73, 1.68}, {2.5, 1.97, 1.85}},
         {"gimp", "apic", {0.87, 0.80, 0.73}, {0}},
@@ -106,8 +115,12 @@ static status stability_cases_points(const struct taker *t)
             for (int k = 0; k < 5; k++) {
                 if (dim == 3 && t->quick && (k == 2 || k == 3)) continue;
                 for (int n = 0; n < (dim == 3 ? t->quick ? 1 : 3 : t->quick ? (dim == 1 ? 4 : 3) : 6); n++) {
-                    struct stability_case c = {.group = GROUP_POINTS, .dim = dim, .method = "mpm", .shape = shape[k],
-                                               .transfer = transfer[a], .cell = cell[n]};
+                    struct stability_case c = {.group = GROUP_POINTS,
+                                               .dim = dim,
+                                               .method = "mpm",
+                                               .shape = shape[k],
+                                               .transfer = transfer[a],
+                                               .cell = cell[n]};
                     c.offsets = dim == 3 && cell[n] < 3 ? 4 : offsets_of(t, cell[n], dim);
                     quote(&c);
                     TRY(stability_cases_give(t, c));
@@ -195,7 +208,7 @@ static status stability_cases_reference(const struct taker *t)
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (size_t k = 0; k < COUNT_OF(row); k++) {
             struct stability_case c = row[k];
-            
+
             c.group = GROUP_REFERENCE, c.dim = dim, c.frame = "reference";
             if (dim == 3 && k > 3) c.edge = 10;
             TRY(stability_cases_give(t, c));

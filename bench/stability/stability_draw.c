@@ -18,9 +18,12 @@ static void stability_draw_set_panel(FILE *to, int column, int row, const char *
 
 /* ---- over the horizon -------------------------------------------------------------------------------------------- */
 
-static const struct { const char *model; int dim; const char *title; } law[] = {
-    {"bond", 1, "bonds, bar"}, {"bond", 2, "bonds, plate"}, {"bond", 3, "bonds, solid"},
-    {"ospd", 2, "ospd, plate"}, {"mospd", 2, "mospd, plate"}, {"mospd", 3, "mospd, solid"}};
+static const struct {
+    const char *model;
+    int dim;
+    const char *title;
+} law[] = {{"bond", 1, "bonds, bar"},  {"bond", 2, "bonds, plate"},  {"bond", 3, "bonds, solid"},
+           {"ospd", 2, "ospd, plate"}, {"mospd", 2, "mospd, plate"}, {"mospd", 3, "mospd, solid"}};
 enum { LAWS = COUNT_OF(law) };
 
 static bool of_law(const struct stability_row *r, int k)
@@ -40,13 +43,16 @@ static void draw_horizons(FILE *to, const struct stability_map *map)
     }
     stability_draw_set_panel(to, 0, 0, "peridynamics: where runs begin to grow, and the automatic step");
     fputs("set xrange [0.8:6.3]\nset yrange [0:*]\nset xlabel 'horizon [spacings]'\n"
-          "set ylabel 'time step [spacing/wave speed]'\nplot ", to);
+          "set ylabel 'time step [spacing/wave speed]'\nplot ",
+          to);
     for (int k = 0; k < LAWS; k++)
-        fprintf(to, "$law%d using 1:2 smooth unique with linespoints pt 7 ps 0.9 lw 2.4 lc rgb '%s' title '%s', "
-                    "$law%d using 1:4 with points pt 2 ps 0.9 lw 1.6 lc rgb '%s' notitle, ",
+        fprintf(to,
+                "$law%d using 1:2 smooth unique with linespoints pt 7 ps 0.9 lw 2.4 lc rgb '%s' title '%s', "
+                "$law%d using 1:4 with points pt 2 ps 0.9 lw 1.6 lc rgb '%s' notitle, ",
                 k, curve_colour[k], law[k].title, k, curve_colour[k]);
     fputs("NaN with points pt 7 ps 0.9 lc rgb '#333333' title 'observed limit', "
-          "NaN with points pt 2 ps 0.9 lc rgb '#333333' title 'automatic step'\n", to);
+          "NaN with points pt 2 ps 0.9 lc rgb '#333333' title 'automatic step'\n",
+          to);
 }
 
 /* ---- over points a cell ------------------------------------------------------------------------------------------ */
@@ -70,11 +76,13 @@ static void draw_points(FILE *to, const struct stability_map *map, const char *t
     }
     stability_draw_set_panel(to, column, row, title);
     fputs("set xrange [0.5:6.5]\nset yrange [0:*]\nset xtics 1\nset xlabel 'points a cell and direction'\n"
-          "set ylabel 'time step [cell/wave speed]'\nplot ", to);
+          "set ylabel 'time step [cell/wave speed]'\nplot ",
+          to);
     for (int k = 0; k < SHAPES_DRAWN; k++)
-        fprintf(to, "$%s%d using 1:2:(0):($3-$2) with vectors nohead lw 6 lc rgb '%s' title '%s', "
-                    "$%s%d using 1:2 with points pt 7 ps 0.9 lc rgb '%s' notitle, "
-                    "$%s%d using 1:5 with points pt 2 ps 0.9 lw 1.8 lc rgb '%s' notitle, ",
+        fprintf(to,
+                "$%s%d using 1:2:(0):($3-$2) with vectors nohead lw 6 lc rgb '%s' title '%s', "
+                "$%s%d using 1:2 with points pt 7 ps 0.9 lc rgb '%s' notitle, "
+                "$%s%d using 1:5 with points pt 2 ps 0.9 lw 1.8 lc rgb '%s' notitle, ",
                 transfer, k, curve_colour[k], shape[k], transfer, k, curve_colour[k], transfer, k, curve_colour[k]);
     fputs("NaN with lines lw 6 lc rgb '#333333' title 'limit by place', NaN with points pt 7 ps 0.9 lc rgb '#333333' "
           "title "
@@ -105,8 +113,9 @@ static void draw_shares(FILE *to, const struct stability_map *map)
             "set object 2 rectangle from 0,1 to %d,1.2 fc rgb '#f9e4dc' fs solid noborder behind\nplot ",
             at, STABILITY_LEAST, at, STABILITY_MOST, at);
     for (int g = 0; g < STABILITY_GROUP; g++)
-        fprintf(to, "$group%d using 1:3 with points pt 6 ps 0.6 lc rgb '%s' notitle, "
-                    "$group%d using 1:2 with points pt 7 ps 0.8 lc rgb '%s' title '%s', ",
+        fprintf(to,
+                "$group%d using 1:3 with points pt 6 ps 0.6 lc rgb '%s' notitle, "
+                "$group%d using 1:2 with points pt 7 ps 0.8 lc rgb '%s' title '%s', ",
                 g, curve_colour[g], g, curve_colour[g], stability_group_name[g]);
     fputs("NaN with points pt 7 ps 0.8 lc rgb '#333333' title 'automatic step', NaN with points pt 6 ps 0.6 lc rgb "
           "'#333333' title "

@@ -14,11 +14,11 @@
 #include "grid/grid_part.h"
 #include "probes/diagnostics.h"
 
-#define QUIET 1e-8                       /* over c: linear, and round-off is 1e-8 of it                */
-#define LOUD 1e-4                        /* over c, of a real run that nothing breaks or converts      */
-#define DRIFT 3e-4                       /* over c: carries points through cells in a real run         */
-#define GROWN 1e3                        /* of velocities: more than modes that grow with the number of steps reach */
-#define WITHIN 0.004                     /* of the limit                                               */
+#define QUIET 1e-8   /* over c: linear, and round-off is 1e-8 of it                */
+#define LOUD 1e-4    /* over c, of a real run that nothing breaks or converts      */
+#define DRIFT 3e-4   /* over c: carries points through cells in a real run         */
+#define GROWN 1e3    /* of velocities: more than modes that grow with the number of steps reach */
+#define WITHIN 0.004 /* of the limit                                               */
 
 /* ---- a shaken body ----------------------------------------------------------------------------------------------- */
 
@@ -41,8 +41,7 @@ static void stability_limit_shake(struct run *e, double speed, double drift)
 /* Kinetic energy in motion against the drift. */
 static double motion(const struct run *e, double drift)
 {
-    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh) -
-           0.5 * e->mass * e->part.dim * drift * drift;
+    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh) - 0.5 * e->mass * e->part.dim * drift * drift;
 }
 
 /* Long enough that its only sample is the first step. */
@@ -66,10 +65,12 @@ status stability_stays(const struct stability_case *c, double dt, struct stabili
     const double drift = how.drift * e.tables.wave_speed;
     stability_limit_shake(&e, how.speed * e.tables.wave_speed, drift);
     const double first = motion(&e, drift);
-    *stays = bench_engine_run(&e, 1, NULL) == OK;    /* makes the record of the first sample */
+    *stays = bench_engine_run(&e, 1, NULL) == OK; /* makes the record of the first sample */
     while (*stays && e.clock.step < how.steps) {
-        if (engine_step(&e) != OK) *stays = false;
-        else if (e.clock.step % 8 == 0 && !(motion(&e, drift) < GROWN * GROWN * first)) *stays = false;
+        if (engine_step(&e) != OK)
+            *stays = false;
+        else if (e.clock.step % 8 == 0 && !(motion(&e, drift) < GROWN * GROWN * first))
+            *stays = false;
     }
     bench_engine_free(&e, &s);
     return OK;
@@ -135,7 +136,7 @@ static status real_run(const struct stability_case *c, double dt, double drift, 
 
 /* With APIC limits are least where the body ends a little beyond a node, on this or that side: nearer still the node
  * beyond it follows others (grid_move.c). */
-#define BEYOND 0.01                      /* cells */
+#define BEYOND 0.01 /* cells */
 
 status stability_observe(const struct stability_case *given, int steps, int long_steps, struct stability_limits *to)
 {

@@ -15,12 +15,18 @@ static bool stability_scene_is(const char *word, const char *other) { return wor
 /* ---- pieces of text ---------------------------------------------------------------------------------------------- */
 
 /* A mapping in one line: entries as they come, none without any. */
-struct mapping { FILE *to; const char *name; int entries; };
+struct mapping {
+    FILE *to;
+    const char *name;
+    int entries;
+};
 
 static void entry(struct mapping *m)
 {
-    if (m->entries++ == 0) fprintf(m->to, "%s: {", m->name);
-    else fputs(", ", m->to);
+    if (m->entries++ == 0)
+        fprintf(m->to, "%s: {", m->name);
+    else
+        fputs(", ", m->to);
 }
 
 static void stability_scene_put_text(struct mapping *m, const char *key, const char *value)
@@ -120,8 +126,10 @@ static void put_shares(FILE *to, const struct stability_case *c, double edge, co
 
 static void put_region(FILE *to, const struct stability_case *c, double edge)
 {
-    static const double share[][2][2] = {[HALF] = {{0, 0.5}, {0, 1}}, [STRIP] = {{0.25, 0.75}, {0, 1}},
-                                         [SQUARE] = {{0.25, 0.75}, {0.25, 0.75}}, [CORNER] = {{0, 0.5}, {0, 0.5}},
+    static const double share[][2][2] = {[HALF] = {{0, 0.5}, {0, 1}},
+                                         [STRIP] = {{0.25, 0.75}, {0, 1}},
+                                         [SQUARE] = {{0.25, 0.75}, {0.25, 0.75}},
+                                         [CORNER] = {{0, 0.5}, {0, 0.5}},
                                          [NOTCH] = {{0.25, 0.75}, {0, 0.75}}};
     if (c->region == DISC) {
         fputs("{ball: {centre: ", to);
@@ -147,7 +155,8 @@ static void put_region(FILE *to, const struct stability_case *c, double edge)
 static void put_support(FILE *to, const struct stability_case *c, double edge)
 {
     static const char *const text[] = {
-        [MIRROR] = "  - {mirror: {axis: x, at: 0}}\n", [MIRROR_ACROSS] = "  - {mirror: {axis: y, at: 0}}\n",
+        [MIRROR] = "  - {mirror: {axis: x, at: 0}}\n",
+        [MIRROR_ACROSS] = "  - {mirror: {axis: y, at: 0}}\n",
         [MIRRORS] = "  - {mirror: {axis: x, at: 0}}\n  - {mirror: {axis: y, at: 0}}\n",
         [CLAMP] = "  - {mirror: {axis: x, at: 0, tangential: held}}\n",
         [CLAMP_ACROSS] = "  - {mirror: {axis: y, at: 0, tangential: held}}\n",
@@ -158,7 +167,8 @@ static void put_support(FILE *to, const struct stability_case *c, double edge)
         fputs(text[c->support], to);
         return;
     }
-    if (c->support == FIXED) fputs("  - {fixed: all, region: ", to);
+    if (c->support == FIXED)
+        fputs("  - {fixed: all, region: ", to);
     else
         fprintf(to, "  - {velocity: [0.2%s], time: {pulse: {from: 0, until: 50 us}}, region: ",
                 &", free, free"[6 * (DIM_MAX - c->dim)]);
@@ -223,11 +233,13 @@ void stability_label(const struct stability_case *c, char *text, size_t size)
     fputs(space_of(c), to);
     if (stability_scene_is(c->method, "pd"))
         fprintf(to, " %s, horizon %g", c->model ? c->model : "bond", c->horizon > 0 ? c->horizon : 3.015);
-    else if (stability_scene_is(c->frame, "reference")) fprintf(to, " %s", c->method);
+    else if (stability_scene_is(c->frame, "reference"))
+        fprintf(to, " %s", c->method);
     else if (stability_scene_is(c->method, "adaptive"))
         fprintf(to, " %s%s%s, %s %s", c->coupling, c->model ? ", " : "", c->model ? c->model : "",
                 c->shape ? c->shape : "gimp", c->transfer);
-    else fprintf(to, " %s %s", c->shape, c->transfer);
+    else
+        fprintf(to, " %s %s", c->shape, c->transfer);
     if (c->group == GROUP_POINTS || c->group == GROUP_COUPLED) fprintf(to, ", %g a cell", c->cell > 0 ? c->cell : 2);
     if (c->poisson != 0) fprintf(to, ", nu %g", c->poisson);
     if (c->note) fprintf(to, ", %s", c->note);

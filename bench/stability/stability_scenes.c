@@ -54,7 +54,7 @@ status stability_scenes(struct bench_table *t)
 
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
-#define LEAST 1e-4                       /* of the threshold; what is less is drawn there */
+#define LEAST 1e-4 /* of the threshold; what is less is drawn there */
 #define MOST 1e4
 enum { LINE_HEIGHT = 19, WIDTH = 1900 };
 

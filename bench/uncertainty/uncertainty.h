@@ -7,14 +7,17 @@
 enum { KNOWN_FIGURES_MOST = 3, KNOWN_VARIANTS_MOST = 6, KNOWN_SPACINGS_MOST = 3 };
 
 /* A figure of summary.json and its true value, from the closed form that the scene's comment names. */
-struct known_figure { const char *name; double exact; };
+struct known_figure {
+    const char *name;
+    double exact;
+};
 
 /* A scene of known answers: its text, the ways in which it is computed (lines of keys), spacings as numbers with
  * units. */
 struct known_scene {
     const char *name, *text;
     struct known_figure figure[KNOWN_FIGURES_MOST];
-    const char *variant[KNOWN_VARIANTS_MOST][2];     /* name, lines */
+    const char *variant[KNOWN_VARIANTS_MOST][2]; /* name, lines */
     const char *spacing[KNOWN_SPACINGS_MOST];
     bool quick;
 };

@@ -16,7 +16,7 @@ struct archive {
     status (*exchange)(struct archive *a, const char *name, void *data, size_t size);
     /* Size of a stored entry [byte], -1 if there is none; for arrays that must be allocated before. */
     int64_t (*stored_size)(struct archive *a, const char *name);
-    void *file;                          /* belongs to checkpoint.c */
+    void *file; /* belongs to checkpoint.c */
     enum archive_scope scope;
 };
 

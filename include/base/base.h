@@ -23,7 +23,7 @@ typedef double real;
 enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 
 #define ALWAYS_INLINE inline __attribute__((always_inline))
-#define NEVER_INLINE __attribute__((noinline))   /* large and called from several places: compiled once */
+#define NEVER_INLINE __attribute__((noinline)) /* large and called from several places: compiled once */
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
 
 /* Shuffle of the entries of vectors a and b of n entries; indices from n on refer to b. MASK: the integer vector type
@@ -76,27 +76,29 @@ void text_harmless(char *text);
 void bytes_harmless(char *text, size_t length);
 /* A name to print, harmless, and cut if it is very long: `shown_name(folder).text`, good until the end of the
  * statement. */
-struct shown_name { char text[512]; };
+struct shown_name {
+    char text[512];
+};
 struct shown_name shown_name(const char *name);
 
 /* Sorts n > 0 numbers; the middle one, of an even number the upper. */
 double median_of(double *value, int64_t n);
 
 /* Hands a fault to the caller as it came. */
-#define TRY(call)                              \
-    do {                                       \
-        status try_status_ = (call);           \
-        if (try_status_ != OK) return try_status_; \
+#define TRY(call)                                                                                                      \
+    do {                                                                                                               \
+        status try_status_ = (call);                                                                                   \
+        if (try_status_ != OK) return try_status_;                                                                     \
     } while (0)
 
 /* A loop of independent rounds by the team, or by the calling thread alone where they are so few that calling a
  * team, even of one, takes longer (0.3 to 0.5 us). */
-#define TEAM_LOOP(MANY, LOOP)                           \
-    do {                                                \
-        if (MANY) {                                     \
-            _Pragma("omp parallel for schedule(static)") \
-            LOOP                                        \
-        } else LOOP                                     \
+#define TEAM_LOOP(MANY, LOOP)                                                                                          \
+    do {                                                                                                               \
+        if (MANY) {                                                                                                    \
+            _Pragma("omp parallel for schedule(static)") LOOP                                                          \
+        } else                                                                                                         \
+            LOOP                                                                                                       \
     } while (0)
 
 static inline real real_min(real a, real b) { return a < b ? a : b; }

@@ -42,7 +42,10 @@ int64_t memory_peak(void);
 
 /* What limits of the process (ulimit) and of its control groups leave it [byte], and the tightest of them; INT64_MAX:
  * there is none. */
-struct memory_limit { int64_t bytes; const char *name; };
+struct memory_limit {
+    int64_t bytes;
+    const char *name;
+};
 struct memory_limit memory_limit(void);
 
 #define NEW(label, count, type) ((type *)memory_new(label, count, sizeof(type)))

@@ -4,12 +4,15 @@
 
 #include "base/archive.h"
 
-struct memory_entry { void *data; size_t size; };
+struct memory_entry {
+    void *data;
+    size_t size;
+};
 
 struct memory_archive {
-    struct archive archive;              /* first: `exchange` finds its entries by it */
-    int64_t n, next;                     /* entries; the next one to be given back */
-    struct memory_entry *entry;          /* [n] in the order in which they came */
+    struct archive archive;     /* first: `exchange` finds its entries by it */
+    int64_t n, next;            /* entries; the next one to be given back */
+    struct memory_entry *entry; /* [n] in the order in which they came */
 };
 
 /* Initialises an empty archive to save into. Functions of state receive &m->archive. */

@@ -6,11 +6,11 @@
 
 /* x H x/2 - goal x, H symmetric and positive definite, low <= x <= high. */
 struct quadratic {
-    operator_fn *product;                /* y = H x */
+    operator_fn *product; /* y = H x */
     void *context;
     int64_t n;
-    const real *goal, *diagonal;         /* of H, all > 0: unknowns are scaled by its roots */
-    const real *low, *high;              /* equal: the unknown is fixed */
+    const real *goal, *diagonal; /* of H, all > 0: unknowns are scaled by its roots */
+    const real *low, *high;      /* equal: the unknown is fixed */
 };
 
 /* Descends from x, within bounds, until the part of the gradient that bounds do not hold is `close` times its first

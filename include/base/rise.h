@@ -11,12 +11,18 @@
 
 enum {
     RISE_STEPS = 100,
-    RISE_STRIDE = 64,                    /* steps between two records of values that no sample has      */
-    RISE_CLOSEST = 16,                   /* steps between two values: what comes sooner is left out     */
+    RISE_STRIDE = 64,  /* steps between two records of values that no sample has      */
+    RISE_CLOSEST = 16, /* steps between two values: what comes sooner is left out     */
     RISE_VALUES = 64
 };
 
-struct rise { int64_t n; struct { int64_t step; real value; } at[RISE_VALUES]; };   /* value n is at[n % RISE_VALUES] */
+struct rise {
+    int64_t n;
+    struct {
+        int64_t step;
+        real value;
+    } at[RISE_VALUES];
+}; /* value n is at[n % RISE_VALUES] */
 
 enum rise_rate { RISE_FAST, RISE_SLOW, RISE_UNSURE };
 

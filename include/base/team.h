@@ -5,10 +5,10 @@
 #include "base.h"
 
 struct machine {
-    int cores, threads_allowed;          /* physical cores; hardware threads in the process's mask */
-    int64_t cache[4];                    /* bytes of one L1d, L2, L3 cache (1..3), 0 if unknown */
-    int64_t memory;                      /* bytes that the process may use, 0 if unknown */
-    char model[128];                     /* the processor's name */
+    int cores, threads_allowed; /* physical cores; hardware threads in the process's mask */
+    int64_t cache[4];           /* bytes of one L1d, L2, L3 cache (1..3), 0 if unknown */
+    int64_t memory;             /* bytes that the process may use, 0 if unknown */
+    char model[128];            /* the processor's name */
 };
 
 /* Sets the number of threads: `threads` if > 0, else OMP_NUM_THREADS, else the physical cores in the mask. Binds
@@ -16,8 +16,8 @@ struct machine {
  * OMP_PLACES; the calling thread goes to the first core and keeps the mask. Returns the number in use. */
 int team_make(int threads);
 struct machine team_machine(void);
-int64_t team_memory(void);             /* of the machine, or what limits leave of it [byte]; read by team_make */
-const char *team_memory_limit(void);   /* what sets it: "memory of the machine", "ulimit -v", ... */
+int64_t team_memory(void);           /* of the machine, or what limits leave of it [byte]; read by team_make */
+const char *team_memory_limit(void); /* what sets it: "memory of the machine", "ulimit -v", ... */
 
 /* Physical cores that the process may use. */
 int team_cores(void);
@@ -42,8 +42,10 @@ void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t 
 /* Where the time of a step goes. */
 enum lap { LAP_BONDS, LAP_SCATTER, LAP_GRID, LAP_GATHER, LAP_CONVERT, LAP_SAMPLE, LAP_OUTPUT, LAPS };
 extern const char *const lap_name[LAPS];
-struct laps { double last, spent[LAPS]; };                        /* [s] */
+struct laps {
+    double last, spent[LAPS];
+}; /* [s] */
 void laps_start(struct laps *l);
-void lap(struct laps *l, enum lap which);   /* books the time since the last lap (or start) on `which` */
+void lap(struct laps *l, enum lap which); /* books the time since the last lap (or start) on `which` */
 
 #endif

@@ -7,7 +7,10 @@
 #include "archive.h"
 #include "base.h"
 
-struct warnings { int n; char **text; };
+struct warnings {
+    int n;
+    char **text;
+};
 
 /* One more, unless it is there. True: it is new. */
 bool warnings_add(struct warnings *w, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -38,35 +38,42 @@
 #include "bonds/family.h"
 #include "data/active_set.h"
 
-#define CORE_STIFFNESS 3.0               /* largest of cores (kernels/pd/bond_core.h), in those of bonds */
+#define CORE_STIFFNESS 3.0 /* largest of cores (kernels/pd/bond_core.h), in those of bonds */
 
 /* What yielding has done to a bond: stretch without force, and the way it was yielded back and forth. */
-struct bond_plasticity { real stretch, path; };
+struct bond_plasticity {
+    real stretch, path;
+};
 
 /* Where a mirror image comes from, and the axis that its mirror turns round (-1: none, a clamped plane). */
-struct state_image { int32_t source; int axis; };
+struct state_image {
+    int32_t source;
+    int axis;
+};
 
 /* Bonds from rows to images in clamped planes (of an image, too). The displacement of such an image is that of its
  * source turned round, P u, while its place is reflected: no symmetry gives the force on the image, so it is brought
  * back to the source (kernels/pd/clamp_force.c). */
-struct clamp_end { int32_t bond; int8_t sign[DIM_MAX]; }; /* what a bond's reaction gives to a particle, by component */
+struct clamp_end {
+    int32_t bond;
+    int8_t sign[DIM_MAX];
+}; /* what a bond's reaction gives to a particle, by component */
 struct clamped {
-    int64_t n;                           /* arrays have room for LANES more, which weigh nothing */
-    int64_t *entry;                      /* [n] of what bonds store */
-    int32_t *from, *to;                  /* [n] particle of the row, image */
-    real *inverse_length, *w;            /* [n] as stored; before the last sweep [1/m], [1] */
-    bool stale;                          /* weights have changed since then */
-    real *reaction[DIM_MAX];             /* [n] on the image, of the energy that the row counts [N] */
-    int64_t held; /* particles at the ends of such bonds, and for each the ends that pull at it: */
-    int32_t *particle;                   /* [held] ascending */
-    int64_t *first;                      /* [held + 1] */
+    int64_t n;                /* arrays have room for LANES more, which weigh nothing */
+    int64_t *entry;           /* [n] of what bonds store */
+    int32_t *from, *to;       /* [n] particle of the row, image */
+    real *inverse_length, *w; /* [n] as stored; before the last sweep [1/m], [1] */
+    bool stale;               /* weights have changed since then */
+    real *reaction[DIM_MAX];  /* [n] on the image, of the energy that the row counts [N] */
+    int64_t held;             /* particles at the ends of such bonds, and for each the ends that pull at it: */
+    int32_t *particle;        /* [held] ascending */
+    int64_t *first;           /* [held + 1] */
     struct clamp_end *end;
 };
 
-
 /* State of families; only state-based models have it. Material points with rows then have
  * particles.end_*. */
-enum { STATE_NUMBERS = 2 + ROTATION };   /* P, g, R */
+enum { STATE_NUMBERS = 2 + ROTATION }; /* P, g, R */
 struct state {
     const struct state_modulus *modulus; /* [materials]; NULL: bond-based */
     bool local;                          /* Q of what a family still has, not of a full one */
@@ -78,37 +85,39 @@ struct state {
     /* [n_all] rotation R and g (kernels/pd/rotation.h); only models with rotations: g (R - 1), row major, in the
      * plane [N/m]; sqrt(2 g) times the quaternion of R, its scalar last, in space [(N/m)^1/2] */
     real *rotation[ROTATION];
-    real *before[STATE_NUMBERS];         /* [n_all] the same three in row blocks that are past: before bonds end */
-    struct state_image *image;           /* [n_all - n] */
+    real *before[STATE_NUMBERS]; /* [n_all] the same three in row blocks that are past: before bonds end */
+    struct state_image *image;   /* [n_all - n] */
 };
 
 /* Lengths of a lattice: those of shell k are spacing sqrt(k). */
 enum { BOND_SHELLS = 256 };
-struct bond_length { real inverse, length, square; };  /* [1/m], [m], [m^2] */
+struct bond_length {
+    real inverse, length, square;
+}; /* [1/m], [m], [m^2] */
 
 /* What the eight bonds of a column have in common; a copy of what first, w and inverse_length say, made by
  * bonds_share: all that the hot loops read of a column on a lattice, four bytes a bond. */
 struct bond_column {
-    int16_t excess[LANES];               /* |inverse_length| over the shell's, in units of the last place: positions
-                                            are rounded; the sum is exact */
-    real w;                              /* of its intact bonds if alike [1] */
-    int32_t first;                       /* as below */
-    uint8_t intact;                      /* bit l: the bond of lane l is intact */
-    uint8_t shell;                       /* k: consecutive neighbours, lengths those of shell_length[k] up to the
-                                            round-off of positions; 0: other lengths, or not consecutive */
-    uint8_t alike;                       /* 1: shell > 0, and intact bonds have one weight */
-    uint8_t unused;                      /* two of them in a cache line */
+    int16_t excess[LANES]; /* |inverse_length| over the shell's, in units of the last place: positions
+                              are rounded; the sum is exact */
+    real w;                /* of its intact bonds if alike [1] */
+    int32_t first;         /* as below */
+    uint8_t intact;        /* bit l: the bond of lane l is intact */
+    uint8_t shell;         /* k: consecutive neighbours, lengths those of shell_length[k] up to the
+                              round-off of positions; 0: other lengths, or not consecutive */
+    uint8_t alike;         /* 1: shell > 0, and intact bonds have one weight */
+    uint8_t unused;        /* two of them in a cache line */
 };
 
 /* A column in every row block of a stencil. */
 struct stencil_column {
-    int32_t offset;                      /* from the particles of the rows to their neighbours, by number */
-    uint8_t intact, shell;               /* as above */
-    uint16_t unused;                     /* stencils are compared byte by byte */
-    real inverse_length, w;              /* [1/m]; of a bond [1] */
-    real length;                         /* 1/inverse_length [m] */
-    real weighted, squared;              /* w |xi| and w |xi|^2 of the lattice's |xi| [m], [m^2] */
-    real xi[DIM_MAX], w_xi[DIM_MAX];     /* X_j - X_i, and w times that [m] */
+    int32_t offset;                  /* from the particles of the rows to their neighbours, by number */
+    uint8_t intact, shell;           /* as above */
+    uint16_t unused;                 /* stencils are compared byte by byte */
+    real inverse_length, w;          /* [1/m]; of a bond [1] */
+    real length;                     /* 1/inverse_length [m] */
+    real weighted, squared;          /* w |xi| and w |xi|^2 of the lattice's |xi| [m], [m^2] */
+    real xi[DIM_MAX], w_xi[DIM_MAX]; /* X_j - X_i, and w times that [m] */
 };
 
 /* Row blocks of eight particles in a row that have the same neighbours at the same distances with the same weights,
@@ -116,60 +125,66 @@ struct stencil_column {
  * their arithmetic. Their own columns are written only when a bond is read by index (row_block_expand). */
 struct stencil {
     int columns;
-    bool whole;                          /* all lanes have all bonds, of one weight */
-    bool unit;                           /* which is 1 */
-    int32_t next;                        /* with the same hash, -1: none */
-    struct stencil_column *column;       /* [columns] */
-    real (*w)[LANES];                    /* [columns] of the lanes, 0: no bond [1] */
+    bool whole;                    /* all lanes have all bonds, of one weight */
+    bool unit;                     /* which is 1 */
+    int32_t next;                  /* with the same hash, -1: none */
+    struct stencil_column *column; /* [columns] */
+    real (*w)[LANES];              /* [columns] of the lanes, 0: no bond [1] */
 };
-struct stencils;                         /* all of them (bonds_stencils.c) */
-struct site_map;                         /* particle at each site of a lattice (bonds_site_map.c) */
+struct stencils; /* all of them (bonds_stencils.c) */
+struct site_map; /* particle at each site of a lattice (bonds_site_map.c) */
 
 /* Columns of row blocks that are no more: room for others when rows are made anew. */
-struct bond_hole { int64_t column; int32_t columns; };
-struct bond_holes { int64_t n; struct bond_hole *hole; };
+struct bond_hole {
+    int64_t column;
+    int32_t columns;
+};
+struct bond_holes {
+    int64_t n;
+    struct bond_hole *hole;
+};
 
 struct bonds {
     int64_t rows, row_blocks, columns;
-    int64_t used, room;                  /* columns of which something is or was stored; that there is room for */
-    int64_t n;                           /* directed bonds in the rows, broken ones included */
-    int32_t reach;                       /* row blocks: no bond leads to a row farther on */
-    int32_t *particle;                   /* [row blocks 8] particle of a row; padding rows repeat the last */
-    int32_t *row_of;                     /* [n_all] row of a particle, -1 without */
-    int32_t *no_rows;                    /* [n_all] -1: what row_of begins as when rows are made anew; or NULL */
-    int64_t *column;                     /* [row blocks] first column of a row block */
-    int32_t *column_count;               /* [row blocks] its columns */
-    uint8_t *whole;                      /* [row blocks 8] the row of a peridynamic particle: the whole family */
-    int32_t *made;                       /* [row blocks] directed bonds of the row block, broken ones included */
-    uint8_t *aligned;                    /* [row blocks] the eight particles are consecutive */
-    int32_t *first;                      /* [columns] neighbour of lane 0 where the eight are consecutive, else -1 */
-    int32_t *nbr;                        /* [columns 8] neighbour */
-    real *inverse_length;                /* [columns 8] 1/|X_j - X_i|; negative: broken, so that its stretch is below
-                                            -1 and never exceeds a limit; 0: padding [1/m] */
-    real *w;                             /* [columns 8] symmetric weight: beta x surface x V_i V_j c_ij over
-                                            stiffness; 0: broken, cut or padding [1] */
-    struct bond_column *common;          /* [columns] */
-    struct bond_length *shell_length;    /* [BOND_SHELLS] */
-    const struct stencil **stencil;      /* [row blocks] what a row block follows, NULL: nothing */
-    uint8_t *implicit;                   /* [row blocks] its columns are not written */
-    uint8_t *changed;                    /* [row blocks] weights are not those it was made with: no stencil */
+    int64_t used, room;               /* columns of which something is or was stored; that there is room for */
+    int64_t n;                        /* directed bonds in the rows, broken ones included */
+    int32_t reach;                    /* row blocks: no bond leads to a row farther on */
+    int32_t *particle;                /* [row blocks 8] particle of a row; padding rows repeat the last */
+    int32_t *row_of;                  /* [n_all] row of a particle, -1 without */
+    int32_t *no_rows;                 /* [n_all] -1: what row_of begins as when rows are made anew; or NULL */
+    int64_t *column;                  /* [row blocks] first column of a row block */
+    int32_t *column_count;            /* [row blocks] its columns */
+    uint8_t *whole;                   /* [row blocks 8] the row of a peridynamic particle: the whole family */
+    int32_t *made;                    /* [row blocks] directed bonds of the row block, broken ones included */
+    uint8_t *aligned;                 /* [row blocks] the eight particles are consecutive */
+    int32_t *first;                   /* [columns] neighbour of lane 0 where the eight are consecutive, else -1 */
+    int32_t *nbr;                     /* [columns 8] neighbour */
+    real *inverse_length;             /* [columns 8] 1/|X_j - X_i|; negative: broken, so that its stretch is below
+                                         -1 and never exceeds a limit; 0: padding [1/m] */
+    real *w;                          /* [columns 8] symmetric weight: beta x surface x V_i V_j c_ij over
+                                         stiffness; 0: broken, cut or padding [1] */
+    struct bond_column *common;       /* [columns] */
+    struct bond_length *shell_length; /* [BOND_SHELLS] */
+    const struct stencil **stencil;   /* [row blocks] what a row block follows, NULL: nothing */
+    uint8_t *implicit;                /* [row blocks] its columns are not written */
+    uint8_t *changed;                 /* [row blocks] weights are not those it was made with: no stencil */
     struct bond_holes holes;
     struct stencils *stencils;
-    struct site_map *site_map;           /* kept where there are material points; else NULL */
+    struct site_map *site_map;            /* kept where there are material points; else NULL */
     real *plastic_stretch, *plastic_path; /* [columns 8] s_p and alpha of a bond; NULL where none yields [1] */
-    int32_t *pair;                       /* [columns 8] entry of `yield`; NULL where none yields */
+    int32_t *pair;                        /* [columns 8] entry of `yield`; NULL where none yields */
     struct bond_yield yield;
-    real *trigger;                       /* [row blocks 8] no bond of the row breaks below this stretch */
-    float *family_volume;                /* [row blocks 8] sum V_j of the whole initial family [m^3] */
-    float *broken_volume;                /* [row blocks 8] of its broken bonds [m^3] */
-    real *fracture_energy;               /* [row blocks 8] half of each broken bond's energy [J] */
-    real *plastic_work;                  /* [row blocks 8] half of what its broken bonds had dissipated [J] */
-    int32_t *broken;                     /* [row blocks 8] bonds broken by load since the start */
+    real *trigger;         /* [row blocks 8] no bond of the row breaks below this stretch */
+    float *family_volume;  /* [row blocks 8] sum V_j of the whole initial family [m^3] */
+    float *broken_volume;  /* [row blocks 8] of its broken bonds [m^3] */
+    real *fracture_energy; /* [row blocks 8] half of each broken bond's energy [J] */
+    real *plastic_work;    /* [row blocks 8] half of what its broken bonds had dissipated [J] */
+    int32_t *broken;       /* [row blocks 8] bonds broken by load since the start */
     struct state state;
     struct clamped clamped;
-    struct active_set active;            /* of blocks of rows */
-    real core;                           /* stiffness of cores (kernels/pd/bond_core.h), in those of bonds */
-    real stiffness;                      /* c V V of a bond between reference particles: force = stiffness w s [N] */
+    struct active_set active; /* of blocks of rows */
+    real core;                /* stiffness of cores (kernels/pd/bond_core.h), in those of bonds */
+    real stiffness;           /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };
 
 /* Are all eight rows of a row block there and peridynamic? */

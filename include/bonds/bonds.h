@@ -7,11 +7,13 @@
 #include "base/archive.h"
 #include "bonds/bond_storage.h"
 
-#define BYTES_PER_BOND 24.0              /* stored, with padding; measured on blocks of 10^6 particles */
+#define BYTES_PER_BOND 24.0 /* stored, with padding; measured on blocks of 10^6 particles */
 
 /* Block-Gershgorin bound of the eigenvalues of springs round one particle: the largest row sum of sum K n n plus sum
  * K. */
-struct spring_bound { real block[DIM_MAX][DIM_MAX], total; };     /* [N/m] */
+struct spring_bound {
+    real block[DIM_MAX][DIM_MAX], total;
+}; /* [N/m] */
 
 static inline void spring_bound_add(struct spring_bound *s, real K, const real *n, int dim)
 {
@@ -114,12 +116,19 @@ static inline int64_t column_first(const struct bonds *b, int64_t row_block, int
 }
 
 /* A column as it is stored, or would be: for readers of whole columns. Nothing is written. */
-struct column_copy { int32_t first, nbr[LANES]; real inverse_length[LANES], w[LANES]; };
+struct column_copy {
+    int32_t first, nbr[LANES];
+    real inverse_length[LANES], w[LANES];
+};
 void column_read(struct column_copy *to, const struct bonds *b, int64_t row_block, int64_t k);
 
 /* A bond of a row as stored: 1/r negative where load has broken it [1/m], w = 0 where it is broken or cut [1]; `entry`
  * is its place in plastic_stretch, plastic_path and pair. */
-struct bond { int64_t entry; int32_t nbr; real inverse_length, w; };
+struct bond {
+    int64_t entry;
+    int32_t nbr;
+    real inverse_length, w;
+};
 
 /* Bond k of a row block, lane l, padding included (inverse_length 0). Nothing is written. */
 static inline struct bond bond_read(const struct bonds *b, int64_t row_block, int64_t k, int lane)
@@ -135,7 +144,12 @@ static inline struct bond bond_read(const struct bonds *b, int64_t row_block, in
 /* The bonds of a row in order of their columns, broken ones and those cut by pre-cracks included. Nothing is written:
  *
  *     for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) ... it.bond ... */
-struct bond_iterator { struct bond bond; const struct bonds *b; int64_t row_block, k, columns; int lane; };
+struct bond_iterator {
+    struct bond bond;
+    const struct bonds *b;
+    int64_t row_block, k, columns;
+    int lane;
+};
 
 /* `row` < 0: no bonds. */
 static inline struct bond_iterator bonds_of_row(const struct bonds *b, int64_t row)

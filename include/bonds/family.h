@@ -22,14 +22,14 @@ struct family {
     enum surface_rule surface;
     enum shell_rule shells;
     enum influence influence;
-    real spacing;                        /* [m] */
-    real horizon;                        /* delta [m] */
-    real cutoff;                         /* farthest neighbour, with its relative tolerance [m] */
-    real section;                        /* A (1D) [m^2], thickness (2D) [m], 1 (3D) */
-    real cell_volume;                    /* of a lattice particle: spacing^dim section [m^3] */
-    real full;                           /* sum V_j beta of a full family [m^3] */
-    real weighted;                       /* sum omega beta r^2 of a full family, weights as stored [m^2] */
-    real shell_weight[2];                /* along the axes; along the diagonals (shells: isotropic) */
+    real spacing;         /* [m] */
+    real horizon;         /* delta [m] */
+    real cutoff;          /* farthest neighbour, with its relative tolerance [m] */
+    real section;         /* A (1D) [m^2], thickness (2D) [m], 1 (3D) */
+    real cell_volume;     /* of a lattice particle: spacing^dim section [m^3] */
+    real full;            /* sum V_j beta of a full family [m^3] */
+    real weighted;        /* sum omega beta r^2 of a full family, weights as stored [m^2] */
+    real shell_weight[2]; /* along the axes; along the diagonals (shells: isotropic) */
 };
 
 /* How long the force of a breaking bond acts: until the moment at which the bond passes its limit, found within the
@@ -41,7 +41,7 @@ struct bond_limit {
     const real *critical_stretch;
     int materials;
     enum last_force last_force;
-    real dt;                             /* between the positions of two steps [s] */
+    real dt; /* between the positions of two steps [s] */
 };
 
 /* No bond breaks: one row of stretches for all pairs of materials. */
@@ -55,7 +55,9 @@ struct bond_yield {
 };
 
 /* State-based materials: A and B of kernels/pd/state_laws.h [Pa]. */
-struct state_modulus { real A, B; };
+struct state_modulus {
+    real A, B;
+};
 static inline struct state_modulus state_modulus_of(const struct material *m, enum space space, bool rotates)
 {
     const real D = space_dim(space);
@@ -65,7 +67,7 @@ static inline struct state_modulus state_modulus_of(const struct material *m, en
 /* Everything that bonds_make needs besides particles. */
 struct bond_source {
     struct family family;
-    const struct cells *cells;           /* reference search, edge >= cutoff */
+    const struct cells *cells; /* reference search, edge >= cutoff */
     const struct material *material;
     int materials;
     struct bond_limit limit;
@@ -76,16 +78,16 @@ struct bond_source {
     const int *mirror_axis;              /* [loads] axis of a plane of symmetry, -1: clamped */
     const struct crack *given;           /* pre-cracks of the scene ... */
     int givens;
-    const struct crack *crack;           /* ... and what of them lies in the body, with its images beyond mirrors */
+    const struct crack *crack; /* ... and what of them lies in the body, with its images beyond mirrors */
     int cracks;
-    const int *crack_of;                 /* [cracks] number of the given one */
-    const struct voids *voids;           /* of bodies, which part bonds as pre-cracks do; NULL: there are none */
-    const struct mirror_plane *mirror;   /* planes of symmetry, clamped ones left out */
+    const int *crack_of;               /* [cracks] number of the given one */
+    const struct voids *voids;         /* of bodies, which part bonds as pre-cracks do; NULL: there are none */
+    const struct mirror_plane *mirror; /* planes of symmetry, clamped ones left out */
     int mirrors;
-    const struct image *image;           /* of loads */
-    int room;                            /* most neighbours of a particle (bonds_room); 0: counted when needed */
-    const real *neighbour_volume;        /* [n_all] V_i^H = sum V_j beta, for the volume method; NULL without */
-    const struct surface_weights *surface;   /* of bonds near faces (bonds/surface.h); NULL without */
+    const struct image *image;             /* of loads */
+    int room;                              /* most neighbours of a particle (bonds_room); 0: counted when needed */
+    const real *neighbour_volume;          /* [n_all] V_i^H = sum V_j beta, for the volume method; NULL without */
+    const struct surface_weights *surface; /* of bonds near faces (bonds/surface.h); NULL without */
 };
 
 /* Horizon and cutoff, shell weights, and the sum over a full family on the lattice. The rules (volume, calibration,

@@ -4,15 +4,18 @@
 #include "bonds/bonds.h"
 
 /* Sites of a lattice that all particles and images stand on (bonds_site_map.c). */
-struct stencil_row { int64_t site; int half; };  /* its middle from a site; bonds reach that far either side */
+struct stencil_row {
+    int64_t site;
+    int half;
+}; /* its middle from a site; bonds reach that far either side */
 struct site_map {
-    int32_t *at;                         /* [sites] particle + 1, 0 without; NULL: no lattice */
+    int32_t *at; /* [sites] particle + 1, 0 without; NULL: no lattice */
     real low[DIM_MAX], spacing;
     int64_t stride[DIM_MAX];
     struct stencil_row *row;
-    int reach, rows, most;               /* most bonds that eight particles in a row can have columns for */
-    int users;                           /* of one that is kept: rows, and rows made anew from them */
-    bool uniform;                        /* exact places, one volume, mass and material: bonds follow from sites */
+    int reach, rows, most; /* most bonds that eight particles in a row can have columns for */
+    int users;             /* of one that is kept: rows, and rows made anew from them */
+    bool uniform;          /* exact places, one volume, mass and material: bonds follow from sites */
 };
 /* Of particle i, -1 where it stands on none. */
 int64_t site_of(const struct site_map *l, const struct particles *p, int64_t i);

@@ -19,15 +19,15 @@
 #include "bonds/family.h"
 
 struct surface_weights {
-    real spacing;                        /* of the lattice [m] */
-    int reach, dim;                      /* of bonds, in spacings; axes */
-    int offsets, *offset_at;             /* neighbours of a full family; number of one, by its place in a box of them */
-    int32_t classes, *class_of;          /* [n] of a particle: alike surroundings; 0: no face nearby */
-    uint8_t *mirrors;                    /* [n] in which it looks like its class: a bit for each axis */
-    real *factor;                        /* [classes offsets] on the weight of a bond [1] */
-    real *weighted;                      /* [classes] sum w r^2 of the family, of reference particles [m^2] */
-    int64_t apart[2];                    /* where REFUSED: a particle, and the first neighbour or image of one that is
-                                            not whole spacings away */
+    real spacing;               /* of the lattice [m] */
+    int reach, dim;             /* of bonds, in spacings; axes */
+    int offsets, *offset_at;    /* neighbours of a full family; number of one, by its place in a box of them */
+    int32_t classes, *class_of; /* [n] of a particle: alike surroundings; 0: no face nearby */
+    uint8_t *mirrors;           /* [n] in which it looks like its class: a bit for each axis */
+    real *factor;               /* [classes offsets] on the weight of a bond [1] */
+    real *weighted;             /* [classes] sum w r^2 of the family, of reference particles [m^2] */
+    int64_t apart[2];           /* where REFUSED: a particle, and the first neighbour or image of one that is
+                                   not whole spacings away */
 };
 
 /* Finds them for particles of a lattice (REFUSED: they are on none, as to->apart shows). Models with rotations

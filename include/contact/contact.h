@@ -25,111 +25,118 @@
 #include "rigid/rigid.h"
 #include "scene/requests.h"
 
-
 /* Depth of a face below a particle, in spacings, by the density that it feels there (contact_face.c). */
 enum { PROFILE_NODES = 86 };
-struct contact_profile { real density[PROFILE_NODES], depth[PROFILE_NODES], slope[PROFILE_NODES]; };
+struct contact_profile {
+    real density[PROFILE_NODES], depth[PROFILE_NODES], slope[PROFILE_NODES];
+};
 
 struct contact_law {
-    enum contact_between between;        /* which particles may meet: none, those of two bodies, all */
-    enum contact_form form;              /* faces, or pairs of particles */
-    enum contact_distance distance;      /* of pairs */
-    struct contact_profile profile;      /* of faces */
-    real friction;                       /* coefficient [1] */
+    enum contact_between between;   /* which particles may meet: none, those of two bodies, all */
+    enum contact_form form;         /* faces, or pairs of particles */
+    enum contact_distance distance; /* of pairs */
+    struct contact_profile profile; /* of faces */
+    real friction;                  /* coefficient [1] */
     int materials;
-    real *stiffness;                     /* [materials^2] k/(V_i V_j) [N/m^7] */
-    real spacing, section;               /* of the lattice [m]; as in lattice_volume */
-    const struct image *image;           /* of loads */
-    const struct crack *crack;           /* borrowed; those with a width are notches */
+    real *stiffness;           /* [materials^2] k/(V_i V_j) [N/m^7] */
+    real spacing, section;     /* of the lattice [m]; as in lattice_volume */
+    const struct image *image; /* of loads */
+    const struct crack *crack; /* borrowed; those with a width are notches */
     int cracks;
-    const struct region *const *shape;   /* [bodies] borrowed, NULL: a list of particles */
+    const struct region *const *shape; /* [bodies] borrowed, NULL: a list of particles */
 };
 
 /* Friction of a particle that touches something: a spring along the face, laid down by its motion there. */
 struct contact_spring {
-    real length[DIM_MAX];                /* [m] */
-    real drag[DIM_MAX];                  /* its force on the particle [N] */
-    real density;                        /* of the face it feels, over which the reaction is spread */
-    real stored, lost;                   /* energy it holds; friction's work since the last search [J] */
+    real length[DIM_MAX]; /* [m] */
+    real drag[DIM_MAX];   /* its force on the particle [N] */
+    real density;         /* of the face it feels, over which the reaction is spread */
+    real stored, lost;    /* energy it holds; friction's work since the last search [J] */
 };
 
 /* How the particles that one feels carry the drag of its spring (contact_friction.c): by their weights, with a couple
  * that balances its moment. Computed anew from the spring in every step. */
 struct contact_reaction {
-    real arm[DIM_MAX];                   /* from their weighted mean position to the particle [m] */
-    real turn[DIM_MAX];                  /* moment of the drag about it over their moment of inertia [N/m] */
+    real arm[DIM_MAX];  /* from their weighted mean position to the particle [m] */
+    real turn[DIM_MAX]; /* moment of the drag about it over their moment of inertia [N/m] */
 };
 
 /* What a particle feels of faces beside it: energy 1/4 k g^2 where the gap g < 0 (contact_face.c). */
 struct contact_face {
-    real zero;                           /* height of its own surface, where contact begins [spacings] */
-    real stiffness;                      /* k [J] */
-    real far;                            /* least gap at the search, 0 or more [spacings] */
-    real push, lift, mean;               /* derivative of its energy by the density; by the mean rise, over the density
-                                            [J]; mean rise [spacings] */
+    real zero;             /* height of its own surface, where contact begins [spacings] */
+    real stiffness;        /* k [J] */
+    real far;              /* least gap at the search, 0 or more [spacings] */
+    real push, lift, mean; /* derivative of its energy by the density; by the mean rise, over the density
+                              [J]; mean rise [spacings] */
 };
 
 /* Account of what the time step gives and takes at the ends of contact (contact_balance.c). */
 struct contact_balance {
-    real gap, older;                     /* of the last two steps [spacings] */
-    real drag;                           /* force against the rate of the gap [J] */
-    real account;                        /* energy given less taken [J] */
+    real gap, older; /* of the last two steps [spacings] */
+    real drag;       /* force against the rate of the gap [J] */
+    real account;    /* energy given less taken [J] */
 };
 
 /* Particles near a rigid body: rows, ascending, and the gap at which contact begins, 0 or less [m]; where the body was
  * at the search. */
-struct contact_near { int64_t n; int32_t *row; real *zero, x[DIM_MAX], turn[DIM_MAX * DIM_MAX];
-                      struct contact_spring *spring; struct contact_balance *balance; uint8_t *touch; };
+struct contact_near {
+    int64_t n;
+    int32_t *row;
+    real *zero, x[DIM_MAX], turn[DIM_MAX * DIM_MAX];
+    struct contact_spring *spring;
+    struct contact_balance *balance;
+    uint8_t *touch;
+};
 
 /* A contact that pushes: the rate of its gap is the sum of along . v of its particles; energy 1/2 stiffness gap^2. */
 struct contact_term {
     int n;
-    int32_t *particle;                   /* [n] images included */
-    real (*along)[DIM_MAX];              /* [n] derivative of the gap [1], of faces [1/m] */
-    real stiffness;                      /* [N/m], of faces [J] */
+    int32_t *particle;      /* [n] images included */
+    real (*along)[DIM_MAX]; /* [n] derivative of the gap [1], of faces [1/m] */
+    real stiffness;         /* [N/m], of faces [J] */
 };
 
 /* Pairs near enough to meet before the next search, row by row: each pair stands in the rows of both its particles, so
  * that each row has one owner. */
 struct contact {
     struct contact_law law;
-    bool made;                           /* a search has been made */
-    int64_t n, rows;                     /* particles that may meet, images included; of the body, which come first */
-    int32_t *particle;                   /* [n] ascending */
-    int32_t *root;                       /* [n] row of the particle of which it is an image, its own if of none */
-    real *size;                          /* [n] spacing of the particle [m] */
-    real *rise;                          /* [n] of the surface of its body above it, beyond 1/2 [spacings] */
-    real *at[DIM_MAX];                   /* [n] where they were at the last search [m] */
-    int64_t *first;                      /* [rows + 1] */
+    bool made;         /* a search has been made */
+    int64_t n, rows;   /* particles that may meet, images included; of the body, which come first */
+    int32_t *particle; /* [n] ascending */
+    int32_t *root;     /* [n] row of the particle of which it is an image, its own if of none */
+    real *size;        /* [n] spacing of the particle [m] */
+    real *rise;        /* [n] of the surface of its body above it, beyond 1/2 [spacings] */
+    real *at[DIM_MAX]; /* [n] where they were at the last search [m] */
+    int64_t *first;    /* [rows + 1] */
     int64_t pairs;
-    int32_t *other;                      /* [pairs] places in `particle`, ascending within a row */
-    real *distance;                      /* pairs: [pairs] d [m] */
-    struct contact_face *face;           /* faces: [rows] */
-    struct contact_balance *balance;     /* faces: [rows] */
-    struct contact_spring *spring;       /* [rows], with friction */
-    struct contact_reaction *reaction;   /* [rows], with friction */
-    uint8_t *followed;                   /* [rows] what may push it: a row_state of contact_internal.h */
-    bool marked;                         /* in equilibria: what is marked pushes, or pulls, and nothing else does */
-    uint8_t *touch;                      /* marks, of faces [rows], of pairs [pairs]; NULL: none yet */
-    bool by_overlap;                     /* marks are there, and do not count for now */
-    int64_t waiting;                     /* rows that may feel something once it has moved */
-    real friction_work;                  /* up to the last search [J] */
+    int32_t *other;                    /* [pairs] places in `particle`, ascending within a row */
+    real *distance;                    /* pairs: [pairs] d [m] */
+    struct contact_face *face;         /* faces: [rows] */
+    struct contact_balance *balance;   /* faces: [rows] */
+    struct contact_spring *spring;     /* [rows], with friction */
+    struct contact_reaction *reaction; /* [rows], with friction */
+    uint8_t *followed;                 /* [rows] what may push it: a row_state of contact_internal.h */
+    bool marked;                       /* in equilibria: what is marked pushes, or pulls, and nothing else does */
+    uint8_t *touch;                    /* marks, of faces [rows], of pairs [pairs]; NULL: none yet */
+    bool by_overlap;                   /* marks are there, and do not count for now */
+    int64_t waiting;                   /* rows that may feel something once it has moved */
+    real friction_work;                /* up to the last search [J] */
     int rigids;
-    struct rigid_body *rigid;            /* borrowed */
-    struct contact_near *near;           /* [rigids]; NULL before the first search */
-    real way;                            /* the farthest that a particle has come since the search [m] */
-    int64_t searched, broken;            /* at the last search: step; directed bonds broken */
-    int64_t changed;                     /* changes of kind that the marks of rows know */
-    bool due;                            /* a search is due, whatever has moved */
-    int64_t pairs_most;                  /* pairs in contact at once, most so far */
-    real overlap;                        /* largest (d - r) of the last step that looked [m] */
-    real overlap_most;                   /* of all [m] */
-    int32_t deepest;                     /* a particle of the pair with the largest overlap, -1: none */
-    bool overlap_said;                   /* a warning of large overlaps has been given */
-    real began, ended;                   /* of all contact so far, NAN: none yet [s] */
-    int64_t touching;                    /* directed pairs in contact in the last step */
-    bool recorded;                       /* the next step's forces are recorded in ... */
-    real *push[DIM_MAX];                 /* ... [particles of the body] NULL until then [N] */
+    struct rigid_body *rigid;  /* borrowed */
+    struct contact_near *near; /* [rigids]; NULL before the first search */
+    real way;                  /* the farthest that a particle has come since the search [m] */
+    int64_t searched, broken;  /* at the last search: step; directed bonds broken */
+    int64_t changed;           /* changes of kind that the marks of rows know */
+    bool due;                  /* a search is due, whatever has moved */
+    int64_t pairs_most;        /* pairs in contact at once, most so far */
+    real overlap;              /* largest (d - r) of the last step that looked [m] */
+    real overlap_most;         /* of all [m] */
+    int32_t deepest;           /* a particle of the pair with the largest overlap, -1: none */
+    bool overlap_said;         /* a warning of large overlaps has been given */
+    real began, ended;         /* of all contact so far, NAN: none yet [s] */
+    int64_t touching;          /* directed pairs in contact in the last step */
+    bool recorded;             /* the next step's forces are recorded in ... */
+    real *push[DIM_MAX];       /* ... [particles of the body] NULL until then [N] */
 };
 
 /* Law for the materials of the bonds, of which form, distance and friction are given; stiffness: factor on k [1].

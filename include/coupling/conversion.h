@@ -14,13 +14,13 @@
 
 /* What conversion has done so far. */
 struct conversion {
-    real first_time;                     /* [s], NAN before */
-    real first_place[DIM_MAX];           /* reference position of the first triggered particle [m] */
-    int64_t start, converted, events;    /* peridynamic particles at t = 0; converted since; passes */
-    int64_t peak_bonds;                  /* directed bonds stored, most at any time */
-    int64_t peak;                        /* peridynamic particles, most at any time */
-    int64_t reverted, reversions;        /* particles that became material points again; passes */
-    real reversion_energy;               /* all energy less that before, of these passes [J] */
+    real first_time;                  /* [s], NAN before */
+    real first_place[DIM_MAX];        /* reference position of the first triggered particle [m] */
+    int64_t start, converted, events; /* peridynamic particles at t = 0; converted since; passes */
+    int64_t peak_bonds;               /* directed bonds stored, most at any time */
+    int64_t peak;                     /* peridynamic particles, most at any time */
+    int64_t reverted, reversions;     /* particles that became material points again; passes */
+    real reversion_energy;            /* all energy less that before, of these passes [J] */
 };
 
 /* What a pass asks of others. sync: updates particles whose motion is stored on the nodes of a mesh (mesh.h), before
@@ -38,8 +38,8 @@ struct conversion_sync {
  * past their limit when made are cut at once and their energy is booked as fracture. `sync` may be NULL. Returns the
  * number of particles converted. */
 int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
-                const struct bond_source *source, struct partial_stress *partial,
-                const struct conversion_sync *sync, real t);
+                const struct bond_source *source, struct partial_stress *partial, const struct conversion_sync *sync,
+                real t);
 
 /* Marks as peridynamic, before step 0, every particle one of whose bonds a pre-crack cuts (Zeng et al. 2022,
  * eq. 28), and those in `region` (NULL: none). */

@@ -19,13 +19,13 @@
 #include "data/particles.h"
 
 struct interface_zone {
-    int64_t n, points; /* particles in it or next to it; the points of the interface zone stand first */
-    int32_t *particle;                   /* [n] */
-    int64_t *start;                      /* [n + 1] neighbours of member k: neighbour[start[k] .. start[k+1]-1] */
-    int32_t *neighbour;                  /* members, as places in `particle` */
-    real *difference;                    /* [points dim] d [m/s] */
-    real *change;                        /* [n dim] of momentum [kg m/s] */
-    real scale;                          /* s: the largest eigenvalue of B is 4 or less [1] */
+    int64_t n, points;  /* particles in it or next to it; the points of the interface zone stand first */
+    int32_t *particle;  /* [n] */
+    int64_t *start;     /* [n + 1] neighbours of member k: neighbour[start[k] .. start[k+1]-1] */
+    int32_t *neighbour; /* members, as places in `particle` */
+    real *difference;   /* [points dim] d [m/s] */
+    real *change;       /* [n dim] of momentum [kg m/s] */
+    real scale;         /* s: the largest eigenvalue of B is 4 or less [1] */
 };
 
 /* The points within the cutoff and one spacing of a peridynamic particle of their body, and their neighbours within one

@@ -8,21 +8,24 @@
 /* Faces of a slit become peridynamic before they are so much nearer than at the start [spacings]. */
 #define NOTCH_GAP 1e-4
 
-struct notch { bool slit; const char *reason; };      /* reason: why it is none; NULL of slits */
+struct notch {
+    bool slit;
+    const char *reason;
+}; /* reason: why it is none; NULL of slits */
 
 struct notches {
     int n;
-    struct notch *notch;                 /* [n] of each pre-crack */
+    struct notch *notch; /* [n] of each pre-crack */
     int slits, images, cuts;
-    struct crack *slit, *cut;            /* borrowed: [slits] of the scene, [images] behind them these in the body with
-                                          * their mirror images; [cuts] those that cut bonds all along, likewise */
-    real radius;                         /* of the zones round the ends of slits [m] */
-    real *lost;                          /* [particles] share of its family from which slits part a particle; NULL: no
-                                          * slits */
+    struct crack *slit, *cut; /* borrowed: [slits] of the scene, [images] behind them these in the body with
+                               * their mirror images; [cuts] those that cut bonds all along, likewise */
+    real radius;              /* of the zones round the ends of slits [m] */
+    real *lost;               /* [particles] share of its family from which slits part a particle; NULL: no
+                               * slits */
     int64_t faces;
-    int32_t *face;                       /* [faces] particles beside a slit or a narrow void, ascending */
-    real *depth;                         /* [faces] of those beside a void, how deep they are in the body [m] */
-    const struct voids *voids;           /* borrowed; NULL: there are none */
+    int32_t *face;             /* [faces] particles beside a slit or a narrow void, ascending */
+    real *depth;               /* [faces] of those beside a void, how deep they are in the body [m] */
+    const struct voids *voids; /* borrowed; NULL: there are none */
 };
 
 /* Decides for each pre-crack of the source: slits where it runs through material points of the mesh and ends in the

@@ -7,10 +7,10 @@
 /* The rule of reversion. */
 struct reversion_rule {
     const struct bond_source *source;
-    const struct elastic *elastic;       /* [materials] with the stress that converts */
-    const struct region *kept;           /* stays peridynamic; NULL: nothing */
-    real low_stress;                     /* share of that stress below which its stress is low */
-    real hold_time;                      /* how long it must have been [s] */
+    const struct elastic *elastic; /* [materials] with the stress that converts */
+    const struct region *kept;     /* stays peridynamic; NULL: nothing */
+    real low_stress;               /* share of that stress below which its stress is low */
+    real hold_time;                /* how long it must have been [s] */
 };
 
 /* Checks every peridynamic particle, by its present stress (run_stress before), at intervals of the caller. Returns
@@ -28,6 +28,6 @@ int64_t reversion_choose(const struct reversion_rule *rule, struct particles *p,
  * surface leaves bonds out, stress is that of full families under the same strain. Rows of bonds are made anew, and
  * partial stresses (NULL: none) round them. */
 void reversion_apply(struct conversion *c, struct particles *p, struct bonds *b, const struct bond_source *source,
-                   struct partial_stress *partial, const int32_t *list, int64_t n);
+                     struct partial_stress *partial, const int32_t *list, int64_t n);
 
 #endif

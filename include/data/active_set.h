@@ -15,12 +15,12 @@
 #include "base/archive.h"
 
 struct active_set {
-    bool is_current;                     /* levels have been found; before, all blocks are active */
-    int64_t blocks, active, empty;       /* in all; active; without particles */
-    uint8_t *level, *moved;              /* [blocks]; scratch */
-    int32_t *list;                       /* [active] ascending: the blocks that the hot loops visit */
-    bool resumed;                        /* all blocks are visited, in the first step after a restart */
-    bool over;                           /* of rows: all active blocks have moved, so no other will become active */
+    bool is_current;               /* levels have been found; before, all blocks are active */
+    int64_t blocks, active, empty; /* in all; active; without particles */
+    uint8_t *level, *moved;        /* [blocks]; scratch */
+    int32_t *list;                 /* [active] ascending: the blocks that the hot loops visit */
+    bool resumed;                  /* all blocks are visited, in the first step after a restart */
+    bool over;                     /* of rows: all active blocks have moved, so no other will become active */
 };
 
 /* All blocks active. */

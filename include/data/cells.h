@@ -6,11 +6,11 @@
 
 struct cells {
     int dim;
-    int64_t count[DIM_MAX], n;           /* cells per direction, in all */
-    real origin[DIM_MAX];                /* lower corner [m] */
-    real edge, width;                    /* largest radius that is meant; of a cell [m] */
-    int32_t *start;                      /* particles of cell c: order[start[c] .. start[c+1]-1] */
-    int32_t *order;                      /* ascending inside a cell */
+    int64_t count[DIM_MAX], n; /* cells per direction, in all */
+    real origin[DIM_MAX];      /* lower corner [m] */
+    real edge, width;          /* largest radius that is meant; of a cell [m] */
+    int32_t *start;            /* particles of cell c: order[start[c] .. start[c+1]-1] */
+    int32_t *order;            /* ascending inside a cell */
 };
 
 void cells_make(struct cells *c, const struct particles *p, real edge);
@@ -27,7 +27,10 @@ int cells_most(const struct cells *c, real radius);
 
 /* Particles near particle i, itself included if wanted, in a list that grows as needed; NULL to begin with, freed by
  * the caller. */
-struct near { int32_t *at; int n, room; };
+struct near {
+    int32_t *at;
+    int n, room;
+};
 void near_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
                bool itself);
 /* The same in the order of cells: a little faster where there are images, and as good where order does not matter. */

@@ -5,14 +5,14 @@
 
 #include "base/base.h"
 
-enum derived_from { FROM_STRESS, FROM_VELOCITY, DERIVED_SOURCES };  /* symmetric tensor [6], vector [3] */
-enum { DERIVED_MOST = 9 };               /* numbers of a field at a particle */
+enum derived_from { FROM_STRESS, FROM_VELOCITY, DERIVED_SOURCES }; /* symmetric tensor [6], vector [3] */
+enum { DERIVED_MOST = 9 };                                         /* numbers of a field at a particle */
 
 struct derived_field {
     const char *name, *unit, *meaning;
     enum derived_from from;
     int columns;
-    void (*compute)(const real *from, real *to);   /* to [columns] */
+    void (*compute)(const real *from, real *to); /* to [columns] */
 };
 enum { DERIVED_FIELDS = 5 };
 extern const struct derived_field derived_fields[DERIVED_FIELDS];

@@ -6,19 +6,47 @@
 #include "base/base.h"
 
 enum expression_op {
-    EXPRESSION_NUMBER,                                                   /* puts its value on the stack       */
-    EXPRESSION_X, EXPRESSION_Y, EXPRESSION_Z, EXPRESSION_T,              /* puts a component of X, or t there */
-    EXPRESSION_MINUS, EXPRESSION_SQUARE, EXPRESSION_SIN, EXPRESSION_COS, EXPRESSION_TAN, EXPRESSION_ASIN,
-    EXPRESSION_ACOS, EXPRESSION_ATAN, EXPRESSION_SINH, EXPRESSION_COSH, EXPRESSION_TANH, EXPRESSION_EXP,
-    EXPRESSION_LOG, EXPRESSION_SQRT, EXPRESSION_ABS, EXPRESSION_FLOOR, EXPRESSION_SIGN, EXPRESSION_STEP,
-    EXPRESSION_RAMP, EXPRESSION_PULSE,                                   /* replaces the topmost              */
-    EXPRESSION_ADD, EXPRESSION_SUBTRACT, EXPRESSION_TIMES, EXPRESSION_OVER, EXPRESSION_POWER, EXPRESSION_ATAN2,
-    EXPRESSION_MIN, EXPRESSION_MAX                                       /* replaces the two topmost          */
+    EXPRESSION_NUMBER, /* puts its value on the stack       */
+    EXPRESSION_X,
+    EXPRESSION_Y,
+    EXPRESSION_Z,
+    EXPRESSION_T, /* puts a component of X, or t there */
+    EXPRESSION_MINUS,
+    EXPRESSION_SQUARE,
+    EXPRESSION_SIN,
+    EXPRESSION_COS,
+    EXPRESSION_TAN,
+    EXPRESSION_ASIN,
+    EXPRESSION_ACOS,
+    EXPRESSION_ATAN,
+    EXPRESSION_SINH,
+    EXPRESSION_COSH,
+    EXPRESSION_TANH,
+    EXPRESSION_EXP,
+    EXPRESSION_LOG,
+    EXPRESSION_SQRT,
+    EXPRESSION_ABS,
+    EXPRESSION_FLOOR,
+    EXPRESSION_SIGN,
+    EXPRESSION_STEP,
+    EXPRESSION_RAMP,
+    EXPRESSION_PULSE, /* replaces the topmost              */
+    EXPRESSION_ADD,
+    EXPRESSION_SUBTRACT,
+    EXPRESSION_TIMES,
+    EXPRESSION_OVER,
+    EXPRESSION_POWER,
+    EXPRESSION_ATAN2,
+    EXPRESSION_MIN,
+    EXPRESSION_MAX /* replaces the two topmost          */
 };
 
-enum { EXPRESSION_STACK = 32, EXPRESSION_STEPS = 400 };                  /* the most of both */
+enum { EXPRESSION_STACK = 32, EXPRESSION_STEPS = 400 }; /* the most of both */
 
-struct expression_step { enum expression_op op; real value; };           /* value [SI] of a NUMBER */
+struct expression_step {
+    enum expression_op op;
+    real value;
+}; /* value [SI] of a NUMBER */
 
 /* No step: no expression. Its text is in SI units and units of the scene, without variables of the scene: what it
  * reads back from is what it was. */
@@ -26,7 +54,7 @@ struct expression {
     int n;
     struct expression_step *step;
     char *text;
-    bool in_space, in_time;              /* it contains x, y or z; it contains t */
+    bool in_space, in_time; /* it contains x, y or z; it contains t */
 };
 
 /* Takes over a copy of the steps and the text. */

@@ -9,61 +9,65 @@
 struct dashpot {
     int32_t node;
     real rate[DIM_MAX];
-    real impulse[DIM_MAX];               /* of this step, on the body [N s] */
+    real impulse[DIM_MAX]; /* of this step, on the body [N s] */
 };
 
 /* What dashpots did in a step: energy that they took, a quarter of their impulse times the change of velocity [J];
  * their impulse on the body [N s]. */
-struct absorbed { real energy, kick, impulse[DIM_MAX]; };
+struct absorbed {
+    real energy, kick, impulse[DIM_MAX];
+};
 
 struct grid {
     int dim;
-    int body;                            /* 1 + the only body whose points are on it; 0: any */
-    real h;                              /* node distance [m] */
-    real anchor[DIM_MAX];                /* position of node 0 [m] */
-    int64_t first[DIM_MAX];              /* lowest node of the box, counted from the anchor */
-    int64_t count[DIM_MAX], n;           /* nodes per direction, in all */
-    int64_t stride[DIM_MAX];             /* of the node index; stride[0] = 1 */
-    real *mass;                          /* nodal mass [kg] */
-    real *momentum[DIM_MAX];             /* nodal momentum; after grid_remapped the velocity
-                                            of the second map                        [kg m/s], [m/s] */
-    real *force[DIM_MAX];                /* nodal force; after grid_move the change of velocity [N], [m/s] */
-    real *velocity[DIM_MAX];             /* nodal velocity at the end of the step [m/s] */
+    int body;                  /* 1 + the only body whose points are on it; 0: any */
+    real h;                    /* node distance [m] */
+    real anchor[DIM_MAX];      /* position of node 0 [m] */
+    int64_t first[DIM_MAX];    /* lowest node of the box, counted from the anchor */
+    int64_t count[DIM_MAX], n; /* nodes per direction, in all */
+    int64_t stride[DIM_MAX];   /* of the node index; stride[0] = 1 */
+    real *mass;                /* nodal mass [kg] */
+    real *momentum[DIM_MAX];   /* nodal momentum; after grid_remapped the velocity
+                                  of the second map                        [kg m/s], [m/s] */
+    real *force[DIM_MAX];      /* nodal force; after grid_move the change of velocity [N], [m/s] */
+    real *velocity[DIM_MAX];   /* nodal velocity at the end of the step [m/s] */
     int64_t walls;
-    struct wall *wall;                   /* prescribed velocities of this step, in order */
+    struct wall *wall; /* prescribed velocities of this step, in order */
     int64_t mirror_nodes;
-    struct mirror_node *mirror_node;     /* nodes beyond planes of symmetry, for this box */
-    real light_mass;                     /* nodes below this follow a neighbour (grid_move.c); 0: none [kg] */
+    struct mirror_node *mirror_node; /* nodes beyond planes of symmetry, for this box */
+    real light_mass;                 /* nodes below this follow a neighbour (grid_move.c); 0: none [kg] */
     int64_t followers;
-    struct follower *follower;           /* [n] those of this step, ascending */
-    uint8_t *held;                       /* [n] not 0: a wall holds it; only while followers are found or bodies meet */
+    struct follower *follower; /* [n] those of this step, ascending */
+    uint8_t *held;             /* [n] not 0: a wall holds it; only while followers are found or bodies meet */
     int64_t dashpots;
-    struct dashpot *dashpot;             /* of absorbing faces in this step, ascending by node */
-    struct absorbed absorbed;            /* what they took in it */
+    struct dashpot *dashpot;  /* of absorbing faces in this step, ascending by node */
+    struct absorbed absorbed; /* what they took in it */
 };
 
 /* A node that points have hardly reached, its neighbour and the one behind that, from which its acceleration is
  * extrapolated; where none is behind, the neighbour itself. */
-struct follower { int32_t node, leader, behind; };
+struct follower {
+    int32_t node, leader, behind;
+};
 
 /* A node beyond a plane of symmetry: it moves as the mirror image of a node on the body's side, which takes what points
  * give to either. */
 struct mirror_node {
-    int32_t node, image;                 /* beyond the plane; on the body's side */
-    int8_t sign[DIM_MAX];                /* -1: this component turns round */
-    uint8_t load;                        /* whose plane it is */
-    real mass, taken[DIM_MAX];           /* of the node itself in this step [kg], [N s] */
-    real image_mass, image_inverse;      /* of the image alone (frame reference) [kg], [1/kg] */
-    real reaction[DIM_MAX];              /* impulse of the plane on the body in this step [N s] */
+    int32_t node, image;            /* beyond the plane; on the body's side */
+    int8_t sign[DIM_MAX];           /* -1: this component turns round */
+    uint8_t load;                   /* whose plane it is */
+    real mass, taken[DIM_MAX];      /* of the node itself in this step [kg], [N s] */
+    real image_mass, image_inverse; /* of the image alone (frame reference) [kg], [1/kg] */
+    real reaction[DIM_MAX];         /* impulse of the plane on the body in this step [N s] */
 };
 
 /* One held component of one node; its force is replaced by what the prescribed motion needs. */
 struct wall {
     int32_t node;
-    int16_t component, load;             /* load: the boundary condition that constrains it */
-    real velocity, change;               /* in this step; since the step before [m/s] */
-    real place;                          /* displacement at the end of the step, NAN: what the velocity makes [m] */
-    real reaction;                       /* impulse of this step, without that of the prescribed change [N s] */
+    int16_t component, load; /* load: the boundary condition that constrains it */
+    real velocity, change;   /* in this step; since the step before [m/s] */
+    real place;              /* displacement at the end of the step, NAN: what the velocity makes [m] */
+    real reaction;           /* impulse of this step, without that of the prescribed change [N s] */
 };
 
 /* Sets the box to cover positions from..to with a margin of three cells, rounded outwards to whole steps;

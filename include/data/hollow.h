@@ -6,11 +6,11 @@
 #include "data/grid.h"
 
 struct hollow {
-    struct grid box;                     /* its cells, those of the mesh; it has no nodal arrays */
-    uint8_t *whole;                      /* [box.n] 1: it may lack its particles: all would be in the body, and no load,
-                                          * probe or pre-crack needs them; NULL: nothing is known */
-    uint8_t *absent;                     /* [box.n] 1: its particles are not made; NULL: all are */
-    bool restored;                       /* as a checkpoint has it, whatever the start wants */
+    struct grid box; /* its cells, those of the mesh; it has no nodal arrays */
+    uint8_t *whole;  /* [box.n] 1: it may lack its particles: all would be in the body, and no load,
+                      * probe or pre-crack needs them; NULL: nothing is known */
+    uint8_t *absent; /* [box.n] 1: its particles are not made; NULL: all are */
+    bool restored;   /* as a checkpoint has it, whatever the start wants */
 };
 
 void hollow_free(struct hollow *h);

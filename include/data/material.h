@@ -14,19 +14,21 @@ static inline int space_dim(enum space s) { return s == SPACE_LINE ? 1 : s == SP
 struct material {
     char name[NAME_MAX_LENGTH];
     /* given */
-    real young, poisson, density;        /* [Pa] [1] [kg/m^3] */
-    real energy_release_rate;            /* G_c [J/m^2], NAN if not given */
-    real critical_stretch;               /* s_c [1]; from G_c if not given; INFINITY: never breaks */
-    real yield_stress;                   /* sigma_y [Pa]; INFINITY or 0: elastic */
-    real yield_tangent;                  /* E_t: slope of the uniaxial curve behind sigma_y, below E [Pa] */
-    struct { real linear, quadratic; } viscosity; /* of rapid compression (step/viscosity.h) [1] */
-    struct strength_scatter scatter;              /* of its critical stretch, by place */
+    real young, poisson, density; /* [Pa] [1] [kg/m^3] */
+    real energy_release_rate;     /* G_c [J/m^2], NAN if not given */
+    real critical_stretch;        /* s_c [1]; from G_c if not given; INFINITY: never breaks */
+    real yield_stress;            /* sigma_y [Pa]; INFINITY or 0: elastic */
+    real yield_tangent;           /* E_t: slope of the uniaxial curve behind sigma_y, below E [Pa] */
+    struct {
+        real linear, quadratic;
+    } viscosity;                     /* of rapid compression (step/viscosity.h) [1] */
+    struct strength_scatter scatter; /* of its critical stretch, by place */
     /* derived by material_derive */
-    real yield_hardening;                /* H = E E_t/(E - E_t): yield stress over plastic strain [Pa] */
-    real c11, c12, shear;                /* elastic constants of the space [Pa]; c12 = 0 in 1D */
-    real wave_speed;                     /* longitudinal, of the space: sqrt(c11 / rho) [m/s] */
-    real shear_speed, rayleigh_speed;    /* [m/s]; 0 in 1D */
-    real bulk;                           /* E in 1D, k2 = (c11 + c12)/2 in 2D, K in 3D [Pa] */
+    real yield_hardening;             /* H = E E_t/(E - E_t): yield stress over plastic strain [Pa] */
+    real c11, c12, shear;             /* elastic constants of the space [Pa]; c12 = 0 in 1D */
+    real wave_speed;                  /* longitudinal, of the space: sqrt(c11 / rho) [m/s] */
+    real shear_speed, rayleigh_speed; /* [m/s]; 0 in 1D */
+    real bulk;                        /* E in 1D, k2 = (c11 + c12)/2 in 2D, K in 3D [Pa] */
 };
 
 static inline bool material_yields(const struct material *m)

@@ -15,27 +15,27 @@
 #include "base/base.h"
 #include "material.h"
 
-#define LATTICE_NEAR 1e-8                /* a particle of a lattice may be that far from its site [spacings] */
-enum { LANES = 8 };                      /* particles per vector: 8 doubles                      */
-enum { ROTATION = 4 };                   /* numbers that hold a rotation in space                */
+#define LATTICE_NEAR 1e-8 /* a particle of a lattice may be that far from its site [spacings] */
+enum { LANES = 8 };       /* particles per vector: 8 doubles                      */
+enum { ROTATION = 4 };    /* numbers that hold a rotation in space                */
 
 enum kind { KIND_MPM, KIND_PD, KINDS };
 
 enum particle_flag {
-    FLAG_LOST_BOND = 1,                        /* lost a bond in this step                             */
-    FLAG_STRESSED = 2,                   /* largest principal stress passed the trigger          */
-    FLAG_DRIVEN = 4,                     /* a velocity or fixed condition holds a component      */
-    FLAG_CRACKED = 8,                    /* lost a bond to a particle, neither of them driven    */
-    FLAG_GRID_COUPLED = 16,                   /* peridynamic, but moved by the grid (grid_coupled.h)         */
-    FLAG_MESHED = 32,                    /* material point of the mesh (mesh.h)                  */
-    FLAG_LISTED = 64,                    /* stands on the list that conversion.c is making          */
-    FLAG_NEAR = 128                      /* material point near another body (approach.h)           */
+    FLAG_LOST_BOND = 1,     /* lost a bond in this step                             */
+    FLAG_STRESSED = 2,      /* largest principal stress passed the trigger          */
+    FLAG_DRIVEN = 4,        /* a velocity or fixed condition holds a component      */
+    FLAG_CRACKED = 8,       /* lost a bond to a particle, neither of them driven    */
+    FLAG_GRID_COUPLED = 16, /* peridynamic, but moved by the grid (grid_coupled.h)         */
+    FLAG_MESHED = 32,       /* material point of the mesh (mesh.h)                  */
+    FLAG_LISTED = 64,       /* stands on the list that conversion.c is making          */
+    FLAG_NEAR = 128         /* material point near another body (approach.h)           */
 };
 
 struct particles {
-    int64_t n, n_all;                    /* body; body and images */
-    int64_t n_body;                      /* of the body with those that are not made (hollow.h) */
-    real low[DIM_MAX], high[DIM_MAX];    /* of their reference positions, where some are not made [m] */
+    int64_t n, n_all;                 /* body; body and images */
+    int64_t n_body;                   /* of the body with those that are not made (hollow.h) */
+    real low[DIM_MAX], high[DIM_MAX]; /* of their reference positions, where some are not made [m] */
     int dim;
     const struct material *plane_strain; /* the materials of a body in plane strain, borrowed; in other spaces NULL */
     int64_t n_of[KINDS];                 /* of the body */
@@ -44,20 +44,20 @@ struct particles {
     int64_t n_free;                      /* material points on the grid, not of the mesh */
     int32_t *list_free;                  /* theirs */
     /* every array below has n_all (+ LANES) entries */
-    real *X[DIM_MAX];                    /* reference position [m] */
-    real *x[DIM_MAX];                    /* position [m] */
-    real *v[DIM_MAX];                    /* velocity, half a step behind x [m/s] */
-    real *f[DIM_MAX];                    /* bond and applied force [N] */
-    real *mass;                          /* [kg] */
-    real *volume0, *volume;              /* reference and current volume [m^3] */
+    real *X[DIM_MAX];       /* reference position [m] */
+    real *x[DIM_MAX];       /* position [m] */
+    real *v[DIM_MAX];       /* velocity, half a step behind x [m/s] */
+    real *f[DIM_MAX];       /* bond and applied force [N] */
+    real *mass;             /* [kg] */
+    real *volume0, *volume; /* reference and current volume [m^3] */
     /* Cauchy stress [Pa]. Of points on the grid: written by g2p in every step. Of points of a mesh: by
      * frame_sync, of peridynamic particles: by run_stress, both for frames (run_sync) and for samples
      * and reversion that read it, and stale in between. */
     real *stress[SYM_MAX];
-    real *gradient[DIM_MAX * DIM_MAX];   /* velocity gradient dv_a/dx_b at [a dim + b], only APIC [1/s] */
-    real *stretch[DIM_MAX];              /* axial stretch, only cpGIMP [1] */
-    real *plastic_strain;                /* accumulated, equivalent; only where a material yields [1] */
-    real *out_of_plane;                  /* sigma_zz - nu (sigma_xx + sigma_yy), only with WITH_OUT_OF_PLANE [Pa] */
+    real *gradient[DIM_MAX * DIM_MAX]; /* velocity gradient dv_a/dx_b at [a dim + b], only APIC [1/s] */
+    real *stretch[DIM_MAX];            /* axial stretch, only cpGIMP [1] */
+    real *plastic_strain;              /* accumulated, equivalent; only where a material yields [1] */
+    real *out_of_plane;                /* sigma_zz - nu (sigma_xx + sigma_yy), only with WITH_OUT_OF_PLANE [Pa] */
     /* of points of a mesh: what flow has taken off the stress C : strain, in the axes of their cell; only with
      * WITH_RELIEF [Pa] */
     real *relief[SYM_MAX];
@@ -69,18 +69,21 @@ struct particles {
     real *end_rotation[ROTATION];
     /* the reaction of bonds on them: derivative of their family's energy by end_strain, and ... [J] */
     real *end_pull;
-    real *end_moment[DIM_MAX];           /* ... moment of their bonds about them, in axes that turn with them [N m] */
+    real *end_moment[DIM_MAX]; /* ... moment of their bonds about them, in axes that turn with them [N m] */
     real *low_since; /* peridynamic: since when its stress is low, infinite: it is not; only with WITH_REVERSION [s] */
-    real *strength;                      /* factor on the critical stretch; only with WITH_STRENGTH [1] */
-    real *damage;                        /* share of broken bonds, 0..1 [1] */
+    real *strength;  /* factor on the critical stretch; only with WITH_STRENGTH [1] */
+    real *damage;    /* share of broken bonds, 0..1 [1] */
     uint8_t *kind, *material, *body, *flag; /* enum kind; indices; enum particle_flag */
-    uint8_t *reversions;                 /* times it became a material point again; only with WITH_REVERSION [1] */
-    int32_t *id;                         /* order in which the scene made them */
+    uint8_t *reversions;                    /* times it became a material point again; only with WITH_REVERSION [1] */
+    int32_t *id;                            /* order in which the scene made them */
 };
 
 /* Mirror images: entry n + k of the particles is the image of `source` (which may itself be an image) in the
  * mirror of load `load`. */
-struct image { int32_t source; uint8_t load; };
+struct image {
+    int32_t source;
+    uint8_t load;
+};
 
 /* Eight consecutive bytes as one number; eight equal ones. */
 static inline uint64_t eight_bytes(const uint8_t *from)
@@ -89,7 +92,7 @@ static inline uint64_t eight_bytes(const uint8_t *from)
     memcpy(&eight, from, sizeof eight);
     return eight;
 }
-#define EIGHT_TIMES(byte) ((uint64_t)(byte) * 0x0101010101010101)
+#define EIGHT_TIMES(byte) ((uint64_t)(byte)*0x0101010101010101)
 static inline bool eight_same(const uint8_t *from) { return eight_bytes(from) == EIGHT_TIMES(from[0]); }
 
 /* The next of n marks that is set, from `first` on; n: there is none. Most are not, and eight are skipped at a time:
@@ -97,8 +100,10 @@ static inline bool eight_same(const uint8_t *from) { return eight_bytes(from) ==
 static inline int64_t next_marked(const uint8_t *mark, int64_t first, int64_t n)
 {
     while (first < n && !mark[first])
-        if (eight_bytes(mark + first)) first++;
-        else first += LANES;
+        if (eight_bytes(mark + first))
+            first++;
+        else
+            first += LANES;
     return first < n ? first : n;
 }
 
@@ -135,9 +140,9 @@ enum {
  * number of component arrays for a dimension. The table makes, frees, sorts, checkpoints and restores. */
 struct particle_field {
     const char *name, *unit, *meaning;
-    size_t offset, size;                 /* of the (first) array pointer in struct particles; entry */
+    size_t offset, size; /* of the (first) array pointer in struct particles; entry */
     int (*count)(int dim, int optional);
-    bool in_trials;                      /* part of ARCHIVE_TRIAL: plastic state */
+    bool in_trials; /* part of ARCHIVE_TRIAL: plastic state */
 };
 extern const struct particle_field particle_fields[];
 extern const int particle_fields_count;

@@ -33,7 +33,10 @@ void region_index(struct region *r, int dim);
 void region_free(struct region *r);
 
 /* Ascending numbers. */
-struct number_list { int n; real *value; };
+struct number_list {
+    int n;
+    real *value;
+};
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
@@ -47,9 +50,9 @@ enum time_kind { TIME_CONSTANT, TIME_STEP, TIME_PULSE, TIME_RAMP, TIME_TABLE };
  *   TABLE     piecewise linear through (t[k], value[k]); the end values are held */
 struct time_function {
     enum time_kind kind;
-    real from, until;                    /* [s] */
+    real from, until; /* [s] */
     int n;
-    real *t, *value;                     /* [s], [1] */
+    real *t, *value; /* [s], [1] */
 };
 
 real time_function_at(const struct time_function *f, real t);
@@ -62,9 +65,9 @@ real time_function_steepest(const struct time_function *f, real t);
 
 /* A pre-crack: a point in 1D (corner[0]), a segment in 2D (corner[0..1]), a plane convex polygon in 3D. */
 struct crack {
-    int n;                               /* corners */
-    real (*corner)[DIM_MAX];             /* [m] */
-    real width;                          /* of a notch: its faces meet once they are so much nearer [m] */
+    int n;                   /* corners */
+    real (*corner)[DIM_MAX]; /* [m] */
+    real width;              /* of a notch: its faces meet once they are so much nearer [m] */
 };
 
 /* Does the crack cut the bond between two reference positions? Symmetric in a and b to the last bit. A
@@ -81,8 +84,8 @@ void crack_area_vector(const struct crack *c, real area[DIM_MAX]);
 
 /* A plane of symmetry; the body is on one side of it. */
 struct mirror_plane {
-    int axis, outside;                   /* of its normal; side without body, -1 or +1 */
-    real at;                             /* [m] */
+    int axis, outside; /* of its normal; side without body, -1 or +1 */
+    real at;           /* [m] */
 };
 
 /* Does the crack come from inside to X on a plane of symmetry, to the tolerance [m], or beyond it? There it goes on as
@@ -111,17 +114,19 @@ real segment_distance(const real *from, const real *to, const real *X, int dim);
  * the width. It moves along `direction` into material at rest and leaves displaced material behind. Its particles
  * move along or across its direction: a longitudinal or a transverse wave. */
 struct wave_pulse {
-    real at[DIM_MAX];                    /* centre [m] */
-    real direction[DIM_MAX];             /* unit vector */
-    real width;                          /* four radii r [m] */
-    real velocity;                       /* of particles, largest [m/s] */
-    real polarisation[DIM_MAX];          /* unit vector */
+    real at[DIM_MAX];           /* centre [m] */
+    real direction[DIM_MAX];    /* unit vector */
+    real width;                 /* four radii r [m] */
+    real velocity;              /* of particles, largest [m/s] */
+    real polarisation[DIM_MAX]; /* unit vector */
     bool transverse;
 };
 
 /* Velocity along the polarisation [m/s], displacement along it [m] and its slope du/dxi [1] at X, in material of
  * wave speed c [m/s]: v = -c du/dxi. */
-struct wave_state { real velocity, displacement, strain; };
+struct wave_state {
+    real velocity, displacement, strain;
+};
 struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim);
 
 #endif

@@ -18,11 +18,11 @@ enum scatter_form { SCATTER_WEIBULL, SCATTER_LOGNORMAL };
 
 struct strength_scatter {
     bool given;
-    enum scatter_of of;                  /* what has the distribution: G_c goes with the square of the others */
+    enum scatter_of of; /* what has the distribution: G_c goes with the square of the others */
     enum scatter_form form;
-    real modulus;                        /* m of Weibull's distribution [1] */
-    real variation;                      /* of the lognormal one: standard deviation over mean [1] */
-    real length;                         /* 0: each particle by itself [m] */
+    real modulus;   /* m of Weibull's distribution [1] */
+    real variation; /* of the lognormal one: standard deviation over mean [1] */
+    real length;    /* 0: each particle by itself [m] */
     uint64_t seed;
 };
 

@@ -9,12 +9,21 @@
 #include "data/voxels.h"
 
 enum solid_kind {
-    SOLID_ALL, SOLID_BOX, SOLID_BALL, SOLID_CYLINDER, SOLID_HALF_SPACE, SOLID_ELLIPSOID, SOLID_RING, SOLID_POLYGON,
-    SOLID_TUBE, SOLID_CONE, SOLID_TORUS,
-    SOLID_HULL,                          /* a surface from a file: what it encloses, or what is near it */
-    SOLID_VOXELS,                        /* an image: where it has certain grey values */
-    SOLID_EXTRUSION,                     /* a region of the plane, drawn out */
-    SOLID_GROUP,                         /* a region */
+    SOLID_ALL,
+    SOLID_BOX,
+    SOLID_BALL,
+    SOLID_CYLINDER,
+    SOLID_HALF_SPACE,
+    SOLID_ELLIPSOID,
+    SOLID_RING,
+    SOLID_POLYGON,
+    SOLID_TUBE,
+    SOLID_CONE,
+    SOLID_TORUS,
+    SOLID_HULL,      /* a surface from a file: what it encloses, or what is near it */
+    SOLID_VOXELS,    /* an image: where it has certain grey values */
+    SOLID_EXTRUSION, /* a region of the plane, drawn out */
+    SOLID_GROUP,     /* a region */
     SOLID_KINDS
 };
 
@@ -33,7 +42,7 @@ struct solid_motion {
 
 /* Where a copy of a solid is: X = turn X' + shift of the X' of the solid as described. */
 struct placement {
-    real turn[DIM_MAX][DIM_MAX], shift[DIM_MAX];         /* [1], [m]; det turn = -1 of a mirror image */
+    real turn[DIM_MAX][DIM_MAX], shift[DIM_MAX]; /* [1], [m]; det turn = -1 of a mirror image */
 };
 #define IMAGES_MOST 4096
 
@@ -42,46 +51,51 @@ struct placement {
 struct region {
     int n;
     struct solid *solid;
-    int runs;                            /* 0: without an index (region_index) */
-    struct region_run *run;              /* [runs] */
+    int runs;               /* 0: without an index (region_index) */
+    struct region_run *run; /* [runs] */
 };
 
 /* Solids of a list one after another that are all added or all taken away, and a tree over their boxes; or a single
  * solid, without a tree. */
-struct region_run { int first, count; struct box_tree tree; };
+struct region_run {
+    int first, count;
+    struct box_tree tree;
+};
 
 /* A round corner of a polygon: from the end of one edge to the beginning of the next about a centre. */
-struct bend { real centre[2], from[2], to[2]; };
+struct bend {
+    real centre[2], from[2], to[2];
+};
 
 /* A polygon whose edges do not cross. */
 struct polygon {
     int n;
-    real (*corner)[2];                   /* as the scene gives them [m] */
-    real round;                          /* radius of its corners [m] */
-    struct bend *bend;                   /* [n]; NULL: corners are sharp */
-    real sense;                          /* 1: corners go round from x to y; -1 */
+    real (*corner)[2]; /* as the scene gives them [m] */
+    real round;        /* radius of its corners [m] */
+    struct bend *bend; /* [n]; NULL: corners are sharp */
+    real sense;        /* 1: corners go round from x to y; -1 */
 };
 
 /* A disc of the plane is a BALL. Bounds of a box may be infinite. */
 struct solid {
     enum solid_kind kind;
-    bool subtract;                       /* taken away from what the list has built so far */
-    bool intersect;                      /* only what lies in it stays of that */
-    real from[DIM_MAX], to[DIM_MAX];     /* box corners; ends of the axis of a cylinder, tube, cone [m] */
-    real centre[DIM_MAX], radius;        /* ball, ring, torus; radius also of cylinder, tube and cone (at `from`) [m] */
+    bool subtract;                   /* taken away from what the list has built so far */
+    bool intersect;                  /* only what lies in it stays of that */
+    real from[DIM_MAX], to[DIM_MAX]; /* box corners; ends of the axis of a cylinder, tube, cone [m] */
+    real centre[DIM_MAX], radius;    /* ball, ring, torus; radius also of cylinder, tube and cone (at `from`) [m] */
     real point[DIM_MAX], normal[DIM_MAX]; /* half-space: (X - point) . normal <= 0; normal: also axis of a torus */
-    real radii[DIM_MAX];                 /* ellipsoid: half axes along x, y, z [m] */
-    real inner;                          /* of the hole of a tube, ring; of a cone at `to`; of a torus' section [m] */
-    int axis;                            /* extrusion: along it, */
-    real begin, end;                     /* ... from, to [m] */
-    struct region region;                /* of an extrusion (its plane has the other two axes in order) or a group */
-    struct polygon *polygon;             /* owned */
-    const struct hull *hull;             /* of the scene; an open one as far as `radius` from it */
-    const struct voxel_part *voxels;     /* of the scene */
-    int motions, images;                 /* images 0: the solid is where it is described */
-    struct solid_motion *motion;               /* [motions] */
-    struct placement *image;                 /* [images] */
-    struct box_tree tree;                    /* over the boxes round images */
+    real radii[DIM_MAX];                  /* ellipsoid: half axes along x, y, z [m] */
+    real inner;                           /* of the hole of a tube, ring; of a cone at `to`; of a torus' section [m] */
+    int axis;                             /* extrusion: along it, */
+    real begin, end;                      /* ... from, to [m] */
+    struct region region;                 /* of an extrusion (its plane has the other two axes in order) or a group */
+    struct polygon *polygon;              /* owned */
+    const struct hull *hull;              /* of the scene; an open one as far as `radius` from it */
+    const struct voxel_part *voxels;      /* of the scene */
+    int motions, images;                  /* images 0: the solid is where it is described */
+    struct solid_motion *motion;          /* [motions] */
+    struct placement *image;              /* [images] */
+    struct box_tree tree;                 /* over the boxes round images */
 };
 
 /* Is it a box, ball, .. of this kind as described, without copies? Only then from, to, radius .. say where it is. */

@@ -17,14 +17,14 @@ enum { ORDER_AHEAD = 64 };
 static ALWAYS_INLINE int64_t block_edge(int d) { return d == 0 ? BLOCK_LENGTH : BLOCK_EDGE; }
 
 struct transfer_order {
-    int64_t n, room;                     /* particles on the grid; at most without new arrays */
-    int32_t *particle;                   /* by colour, then block, then cell, then index */
-    int blocks_of[COLOURS_MAX + 1];      /* blocks of colour c: blocks_of[c] .. blocks_of[c+1]-1 */
+    int64_t n, room;                /* particles on the grid; at most without new arrays */
+    int32_t *particle;              /* by colour, then block, then cell, then index */
+    int blocks_of[COLOURS_MAX + 1]; /* blocks of colour c: blocks_of[c] .. blocks_of[c+1]-1 */
     int blocks, blocks_room;
-    int32_t *block_start;                /* particles of block b: block_start[b] .. block_start[b+1]-1 */
-    int32_t cells, cells_room;           /* that hold particles */
-    int32_t *cell_start;                 /* particles of cell c: cell_start[c] .. cell_start[c+1]-1 */
-    int32_t *block_cell;                 /* cells of block b: block_cell[b] .. block_cell[b+1]-1 */
+    int32_t *block_start;      /* particles of block b: block_start[b] .. block_start[b+1]-1 */
+    int32_t cells, cells_room; /* that hold particles */
+    int32_t *cell_start;       /* particles of cell c: cell_start[c] .. cell_start[c+1]-1 */
+    int32_t *block_cell;       /* cells of block b: block_cell[b] .. block_cell[b+1]-1 */
 };
 
 /* Sorts the `n` listed particles by the grid cell they are in; a function of positions alone. */

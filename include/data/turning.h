@@ -20,30 +20,30 @@
 enum { TURNING_EDGE = 6, TURNING_FEW = 12, TURNING_NEAR = 26 };
 
 struct turning_group {
-    int64_t place[DIM_MAX];              /* in group edges */
-    int32_t body, points;                /* points: on the grid now */
-    int32_t off;                         /* how far it is from the middle, along all axes [half edges] */
-    int64_t first, end;                  /* its particles: member[first] .. member[end - 1] */
-    int32_t near[TURNING_NEAR];          /* neighbours of its body, along axes first; -1: none */
-    int32_t root;                        /* the group that it is part of now */
-    bool held;                           /* a support holds points of its body, which is left as FLIP has it */
-    real mass, moment[DIM_MAX];          /* [kg], [kg m]; of a root of all its groups, moment then the centre [m] */
-    real inertia[3][3];                  /* about the centre [kg m^2] */
-    real sum[3];                         /* what it lacks, then its angular momentum [kg m^2/s] */
-    real spin[3];                        /* what it gains, then has [1/s] */
+    int64_t place[DIM_MAX];     /* in group edges */
+    int32_t body, points;       /* points: on the grid now */
+    int32_t off;                /* how far it is from the middle, along all axes [half edges] */
+    int64_t first, end;         /* its particles: member[first] .. member[end - 1] */
+    int32_t near[TURNING_NEAR]; /* neighbours of its body, along axes first; -1: none */
+    int32_t root;               /* the group that it is part of now */
+    bool held;                  /* a support holds points of its body, which is left as FLIP has it */
+    real mass, moment[DIM_MAX]; /* [kg], [kg m]; of a root of all its groups, moment then the centre [m] */
+    real inertia[3][3];         /* about the centre [kg m^2] */
+    real sum[3];                /* what it lacks, then its angular momentum [kg m^2/s] */
+    real spin[3];               /* what it gains, then has [1/s] */
 };
 
 struct turning_groups {
-    int32_t groups;                      /* number of them; 0: points do not turn in groups */
-    struct turning_group *group;         /* ascending by body and place */
-    int32_t *member;                     /* [n] particles, in a group by their places */
-    real *turn[3];                       /* [n] what a point lacks [kg m^2/s], then its group's spin [1/s]; 2D: last */
+    int32_t groups;              /* number of them; 0: points do not turn in groups */
+    struct turning_group *group; /* ascending by body and place */
+    int32_t *member;             /* [n] particles, in a group by their places */
+    real *turn[3];               /* [n] what a point lacks [kg m^2/s], then its group's spin [1/s]; 2D: last */
 };
 
 /* Groups of all particles, whether they are on the grid now or not. middle: where groups are counted from [m]; one:
  * [bodies] the first body that is one with this one; held: [bodies] supports hold it. */
-void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const real *middle,
-                  const int *one, const bool *held);
+void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const real *middle, const int *one,
+                  const bool *held);
 void turning_free(struct turning_groups *t);
 
 /* Before a step on the grid: finds centres and inertias, and sets turn to the spin of each point's group. */

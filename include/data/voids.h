@@ -9,18 +9,18 @@
 
 /* Particles of a body, as bits of voids.near. */
 enum {
-    VOID_NEAR = 1,                       /* a void hides a particle within reach */
-    VOID_ACROSS = 2                      /* ... and the faces on both sides of the void look at each other */
+    VOID_NEAR = 1,  /* a void hides a particle within reach */
+    VOID_ACROSS = 2 /* ... and the faces on both sides of the void look at each other */
 };
 
 struct voids {
     int dim, shapes;
-    const struct region **shape;         /* [shapes] solids of which bodies with voids consist, borrowed */
-    int *body;                           /* [shapes] number that particles of the solid have in particles.body */
-    const struct mirror_plane *mirror;   /* [mirrors] planes beyond which bodies go on as images, borrowed */
+    const struct region **shape;       /* [shapes] solids of which bodies with voids consist, borrowed */
+    int *body;                         /* [shapes] number that particles of the solid have in particles.body */
+    const struct mirror_plane *mirror; /* [mirrors] planes beyond which bodies go on as images, borrowed */
     int mirrors;
-    real spacing;                        /* [m] */
-    uint8_t *near;                       /* [particles and images] VOID_NEAR, VOID_ACROSS */
+    real spacing;  /* [m] */
+    uint8_t *near; /* [particles and images] VOID_NEAR, VOID_ACROSS */
 };
 
 /* Has a region an image among its solids, or among those of its groups? The surface of images is not known exactly. */

@@ -44,23 +44,27 @@
 struct control {
     struct sif factors;
     real along[2];
-    real time;                           /* [s] */
-    struct crack_medium medium;          /* the body round the tip */
+    real time;                  /* [s] */
+    struct crack_medium medium; /* the body round the tip */
 };
 
 /* One fading entry of the rows: bond i-j, its weight when whole, one step ago and now, and the crack's length when
  * it was crossed. */
-struct fading { int32_t i, j; real whole, before, now; real length; };
+struct fading {
+    int32_t i, j;
+    real whole, before, now;
+    real length;
+};
 
 struct growth {
-    const struct growth_rule *rule;      /* borrowed */
-    real place[2], along[2], speed;      /* now; speed 0 while it rests [m] [m/s] */
-    real heading[2];                     /* unit vector: where it goes; `along` is the mean of where it came from */
-    real grown;                          /* length so far [m] */
-    real start_time;                     /* of the first growth; NAN before [s] */
-    real intensity;                      /* K_eq of the factors       ; NAN: none known [Pa m^(1/2)] */
-    real target_speed, filtered_speed;   /* of a crack that follows: its speed; v_filtered [m/s] */
-    real control_time;                   /* time of the factors that controlled last [s] */
+    const struct growth_rule *rule;    /* borrowed */
+    real place[2], along[2], speed;    /* now; speed 0 while it rests [m] [m/s] */
+    real heading[2];                   /* unit vector: where it goes; `along` is the mean of where it came from */
+    real grown;                        /* length so far [m] */
+    real start_time;                   /* of the first growth; NAN before [s] */
+    real intensity;                    /* K_eq of the factors       ; NAN: none known [Pa m^(1/2)] */
+    real target_speed, filtered_speed; /* of a crack that follows: its speed; v_filtered [m/s] */
+    real control_time;                 /* time of the factors that controlled last [s] */
     int64_t n;
     struct fading *fading;
 };

@@ -5,7 +5,10 @@
 #include "base/base.h"
 
 /* A particle whose place counts; `beside`: it only joins others into a group. */
-struct place { real X[DIM_MAX]; bool beside; };
+struct place {
+    real X[DIM_MAX];
+    bool beside;
+};
 
 /* Parts n places into groups: two are of one group if a chain of places leads from one to the other, each within
  * `reach` [m] of the next, measured across the direction `along` [dim] (0: in all directions). Sets *middle to the mean

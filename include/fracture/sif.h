@@ -26,24 +26,24 @@
 struct sight {
     const struct crack *crack;
     int cracks;
-    const struct bonds *bonds;           /* NULL: without */
+    const struct bonds *bonds; /* NULL: without */
 };
 
 struct gradient_rule {
     enum gradient_method method;
-    real reach;                          /* rho_m; neighbours within twice as much [m] */
+    real reach; /* rho_m; neighbours within twice as much [m] */
     struct sight sight;
-    int diffraction;                     /* l of Organ et al. 1996, 1 or 2: hidden neighbours count as farther,
-                                            round the tip; 0: not at all (visibility) */
-    real tip[DIM_MAX];                   /*                                                     [m] */
+    int diffraction;   /* l of Organ et al. 1996, 1 or 2: hidden neighbours count as farther,
+                          round the tip; 0: not at all (visibility) */
+    real tip[DIM_MAX]; /*                                                     [m] */
 };
 
 /* df/dX_d at a particle: sum of weight[k][d] (f(particle[k]) - f at the particle itself). */
 struct gradient_stencil {
     int n, room;
     int32_t *particle;
-    real (*weight)[2];                   /* [1/m] */
-    int order;                           /* of the polynomials it is exact for; 0: too few neighbours, no weights */
+    real (*weight)[2]; /* [1/m] */
+    int order;         /* of the polynomials it is exact for; 0: too few neighbours, no weights */
 };
 
 void gradient_stencil_at(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
@@ -54,18 +54,20 @@ void gradient_of(const struct gradient_stencil *s, int64_t i, const real *const 
 
 /* ---- the integral (sif.c) ---------------------------------------------------------------------------------------- */
 
-struct contour { real inner, outer; };   /* where q leaves 1 and reaches 0 [m] */
+struct contour {
+    real inner, outer;
+}; /* where q leaves 1 and reaches 0 [m] */
 
 /* A tip and how to integrate round it. */
 struct sif_tip {
     struct crack_medium medium;
-    real place[2], along[2];             /* reference position [m]; unit vector ahead */
-    int face;                            /* +-1: side of x_2 to which particles on the crack belong */
-    int body;                            /* whose particles count; -1: all */
-    real speed;                          /* v; 0: at rest [m/s] */
-    real core;                           /* where the second sum counts by half while the tip moves: not at all within a
-                                            third of it, whole from five thirds on [m] */
-    real thickness;                      /*                                                       [m] */
+    real place[2], along[2]; /* reference position [m]; unit vector ahead */
+    int face;                /* +-1: side of x_2 to which particles on the crack belong */
+    int body;                /* whose particles count; -1: all */
+    real speed;              /* v; 0: at rest [m/s] */
+    real core;               /* where the second sum counts by half while the tip moves: not at all within a
+                                third of it, whole from five thirds on [m] */
+    real thickness;          /*                                                       [m] */
     enum sif_weight weight;
     enum sif_stress stress;
 };
@@ -73,11 +75,13 @@ struct sif_tip {
 /* The motion at one time, by particle (images included); velocity and acceleration NULL: in equilibrium. */
 struct sif_motion {
     const real *displacement[2], *velocity[2], *acceleration[2]; /* [m] [m/s] [m/s^2] */
-    const real *body[2];                 /* forces of loads over masses; NULL: there are none within contours [m/s^2] */
-    const real *stress[3];               /* xx yy xy, only SIF_PARTICLE [Pa] */
+    const real *body[2];   /* forces of loads over masses; NULL: there are none within contours [m/s^2] */
+    const real *stress[3]; /* xx yy xy, only SIF_PARTICLE [Pa] */
 };
 
-struct sif { real K[MODES], J; };        /* [Pa m^(1/2)], [J/m^2] */
+struct sif {
+    real K[MODES], J;
+}; /* [Pa m^(1/2)], [J/m^2] */
 
 /* Weight and its slope at distance r. */
 void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, real *slope);

@@ -9,10 +9,10 @@ enum crack_mode { MODE_I, MODE_II, MODES };
 
 /* The body round a crack, by its space. */
 struct crack_medium {
-    real shear, lambda;                  /* G; lambda' of the space: plane stress 2 G nu/(1 - nu) [Pa] */
-    real poisson, kappa;                 /* nu; Kolosov's constant [1] */
-    real modulus;                        /* E*: E, or E/(1 - nu^2) in plane strain [Pa] */
-    real density;                        /*                                                          [kg/m^3] */
+    real shear, lambda;                       /* G; lambda' of the space: plane stress 2 G nu/(1 - nu) [Pa] */
+    real poisson, kappa;                      /* nu; Kolosov's constant [1] */
+    real modulus;                             /* E*: E, or E/(1 - nu^2) in plane strain [Pa] */
+    real density;                             /*                                                          [kg/m^3] */
     real longitudinal, shear_speed, rayleigh; /* c_d, c_s, c_R [m/s] */
 };
 
@@ -20,14 +20,17 @@ struct crack_medium crack_medium_of(const struct material *m, enum space space);
 
 /* What the integral needs to know of a motion at a point, in the local frame. */
 struct crack_state {
-    real gradient[2][2];                 /* du_i/dx_j [1] */
-    real stress[2][2];                   /*                                                          [Pa] */
-    real velocity[2];                    /*                                                          [m/s] */
-    real velocity_along[2];              /* d velocity_i/dx_1 [1/s] */
-    real acceleration[2];                /*                                                          [m/s^2] */
+    real gradient[2][2];    /* du_i/dx_j [1] */
+    real stress[2][2];      /*                                                          [Pa] */
+    real velocity[2];       /*                                                          [m/s] */
+    real velocity_along[2]; /* d velocity_i/dx_1 [1/s] */
+    real acceleration[2];   /*                                                          [m/s^2] */
 };
 
-struct crack_field { real displacement[2]; struct crack_state state; };      /* [m] */
+struct crack_field {
+    real displacement[2];
+    struct crack_state state;
+}; /* [m] */
 
 /* Hooke's law in the plane. */
 void crack_hooke(const struct crack_medium *m, real gradient[2][2], real stress[2][2]);

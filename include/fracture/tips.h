@@ -23,30 +23,30 @@
 enum { TIPS_MAX = 64 };
 
 struct tip {
-    bool from_crack;                     /* starts at the end of a pre-crack */
+    bool from_crack; /* starts at the end of a pre-crack */
     int body;
-    real origin[DIM_MAX];                /* where it started [m] */
-    real along[DIM_MAX];                 /* unit direction of the pre-crack there; the x axis without */
-    real edge[DIM_MAX];                  /* 3D: half the front's edge, origin -+ edge are its ends; else 0 [m] */
-    real place[DIM_MAX];                 /* where it is now (reference position) [m] */
-    real growth;                         /* |place - origin|, 3D: from the front's edge [m] */
-    real joined;                         /* part of it that came at once, by reaching another crack: no speed [m] */
-    real first_time;                     /* first particle past 0.35; NAN before [s] */
-    real start_time, arrest_time;        /* growth passed one spacing; last growth; NAN before [s] */
-    real speed_max, speed_mean;          /* steepest regression over the window; growth over (arrest - start) [m/s] */
-    int64_t particles;                   /* that belong to it */
-    int64_t ends;                        /* groups of particles, apart from each other, as far within a spacing */
+    real origin[DIM_MAX];         /* where it started [m] */
+    real along[DIM_MAX];          /* unit direction of the pre-crack there; the x axis without */
+    real edge[DIM_MAX];           /* 3D: half the front's edge, origin -+ edge are its ends; else 0 [m] */
+    real place[DIM_MAX];          /* where it is now (reference position) [m] */
+    real growth;                  /* |place - origin|, 3D: from the front's edge [m] */
+    real joined;                  /* part of it that came at once, by reaching another crack: no speed [m] */
+    real first_time;              /* first particle past 0.35; NAN before [s] */
+    real start_time, arrest_time; /* growth passed one spacing; last growth; NAN before [s] */
+    real speed_max, speed_mean;   /* steepest regression over the window; growth over (arrest - start) [m/s] */
+    int64_t particles;            /* that belong to it */
+    int64_t ends;                 /* groups of particles, apart from each other, as far within a spacing */
 };
 
 struct tips {
     int dim, n;
     struct tip tip[TIPS_MAX];
-    real spacing, window;                /* [m], [s] */
-    int64_t count;                       /* particles */
-    uint8_t *label;                      /* [particles] tip + 1, 0: none, 255: damaged by a pre-crack */
+    real spacing, window; /* [m], [s] */
+    int64_t count;        /* particles */
+    uint8_t *label;       /* [particles] tip + 1, 0: none, 255: damaged by a pre-crack */
     int64_t samples;
-    real *time;                          /* [samples] growth of every tip at every sample, for the speeds */
-    real *growth;                        /* [samples][TIPS_MAX], without `joined` */
+    real *time;   /* [samples] growth of every tip at every sample, for the speeds */
+    real *growth; /* [samples][TIPS_MAX], without `joined` */
 };
 
 /* Particles whose share `lost` [particles] of damage pre-cracks alone would make, once they have bonds, belong to no
@@ -68,10 +68,10 @@ int64_t tips_tied(const struct tips *t);
 bool tip_on_mirror(const struct tips *t, const struct tip *tip, const struct mirror_plane *mirror, int mirrors);
 /* What areas depend on beside tips. */
 struct tip_surroundings {
-    const struct mirror_plane *mirror;   /* planes of symmetry */
+    const struct mirror_plane *mirror; /* planes of symmetry */
     int mirrors;
-    real section;                        /* what a length in the plane, a place in line is multiplied with [m], [m^2] */
-    real half;                           /* half of the damage of particles beside a plane cut [1] */
+    real section; /* what a length in the plane, a place in line is multiplied with [m], [m^2] */
+    real half;    /* half of the damage of particles beside a plane cut [1] */
 };
 /* Area of the faces that cracks have made, as measured at the last sample [m^2]: along the front of a pre-crack, in
  * strips a spacing wide, how far it has come from there, a spacing being the least, branches left out; of other cracks

@@ -14,20 +14,20 @@
 #include "data/transfer_order.h"
 
 struct active_points {
-    bool over;                           /* all cells are active, for the rest of the run */
+    bool over; /* all cells are active, for the rest of the run */
     int64_t nodes;
-    uint8_t *active_cell, *near;         /* [nodes] by the lowest node of the cell; near: reached next */
+    uint8_t *active_cell, *near; /* [nodes] by the lowest node of the cell; near: reached next */
     struct transfer_order active;
 };
 
-enum { ACTIVE_POINTS_STEPS = 4 };                 /* steps between searches */
+enum { ACTIVE_POINTS_STEPS = 4 }; /* steps between searches */
 
 /* The order of the active points, a part of `all`; `all` itself where all are active. `now`: the order used until
  * now. Walls of `grid` are those of the previous step. */
 const struct transfer_order *active_points_update(struct active_points *r, const struct transfer_order *all,
-                                              const struct transfer_order *now, const struct particles *p,
-                                              const struct grid *grid, const struct bonds *b, const struct loads *l,
-                                              enum shape shape, enum transfer transfer);
+                                                  const struct transfer_order *now, const struct particles *p,
+                                                  const struct grid *grid, const struct bonds *b, const struct loads *l,
+                                                  enum shape shape, enum transfer transfer);
 void active_points_free(struct active_points *r);
 
 #endif

@@ -17,23 +17,23 @@ struct grid_side {
 /* A node that two of them reach. */
 struct grid_contact_node {
     int side[2];
-    int64_t at[2];                       /* in their grids */
-    real leaning[DIM_MAX];               /* difference of the gradients of both masses [kg] */
-    real normal[DIM_MAX];                /* from the first to the second */
+    int64_t at[2];                         /* in their grids */
+    real leaning[DIM_MAX];                 /* difference of the gradients of both masses [kg] */
+    real normal[DIM_MAX];                  /* from the first to the second */
     real impulse[DIM_MAX], after[DIM_MAX]; /* given to the second in this step [N s]; relative velocity then [m/s] */
-    real reach[2];                       /* along it: largest of the first's points, least of the second's [m] */
+    real reach[2];                         /* along it: largest of the first's points, least of the second's [m] */
 };
 
 struct grid_contact {
-    real friction, spacing, half_width;  /* [1]; distance of points in touch [m]; of their shapes beyond a cell [m] */
-    real smallest_mass;                  /* of a node that moves [kg] */
+    real friction, spacing, half_width; /* [1]; distance of points in touch [m]; of their shapes beyond a cell [m] */
+    real smallest_mass;                 /* of a node that moves [kg] */
     int64_t nodes;
-    struct grid_contact_node *node;      /* [nodes] of this step */
-    real begun;                          /* work over the velocities before the step, half of it [J] */
+    struct grid_contact_node *node; /* [nodes] of this step */
+    real begun;                     /* work over the velocities before the step, half of it [J] */
     int sides;
-    real *taken;                         /* [sides^2] energy that contact of two bodies has taken so far [J] */
-    int64_t touching, nodes_most;        /* in touch: in the last step, most so far */
-    real began, ended;                   /* of all contact so far, NAN: none yet [s] */
+    real *taken;                  /* [sides^2] energy that contact of two bodies has taken so far [J] */
+    int64_t touching, nodes_most; /* in touch: in the last step, most so far */
+    real began, ended;            /* of all contact so far, NAN: none yet [s] */
 };
 
 /* An account for each two of so many sides. */

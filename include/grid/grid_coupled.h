@@ -10,9 +10,9 @@
 #include "scene/requests.h"
 
 struct grid_coupled {
-    struct transfer_order order;         /* of the grid-coupled particles */
-    int32_t *list;                       /* [n] their numbers, ascending */
-    uint8_t *occupied;                   /* cells of the grid that hold a material point */
+    struct transfer_order order; /* of the grid-coupled particles */
+    int32_t *list;               /* [n] their numbers, ascending */
+    uint8_t *occupied;           /* cells of the grid that hold a material point */
     int64_t n;
 };
 

@@ -16,83 +16,83 @@
 #include "absorbing.h"
 
 enum boundary_kind {
-    BOUNDARY_VELOCITY,       /* drives components: velocity, displacement, rotation (`fixed` is a velocity of 0) */
-    BOUNDARY_TRACTION,       /* surface force on the face that a body shows along an axis [Pa] */
-    BOUNDARY_BODY_FORCE,     /* [N/m^3] */
-    BOUNDARY_MIRROR,         /* plane of symmetry (roller) or of antisymmetry (fixed end) */
-    BOUNDARY_ABSORBING,      /* dashpots on the face that a body shows along an axis (absorbing.h) */
-    BOUNDARY_PRESSURE        /* on every free face, against its outward normal (loads_pressure.c) [Pa] */
+    BOUNDARY_VELOCITY,   /* drives components: velocity, displacement, rotation (`fixed` is a velocity of 0) */
+    BOUNDARY_TRACTION,   /* surface force on the face that a body shows along an axis [Pa] */
+    BOUNDARY_BODY_FORCE, /* [N/m^3] */
+    BOUNDARY_MIRROR,     /* plane of symmetry (roller) or of antisymmetry (fixed end) */
+    BOUNDARY_ABSORBING,  /* dashpots on the face that a body shows along an axis (absorbing.h) */
+    BOUNDARY_PRESSURE    /* on every free face, against its outward normal (loads_pressure.c) [Pa] */
 };
 
 /* Factor on a body force over the reference position: sin(2 pi (X - origin) . direction/wavelength). */
 enum profile_kind { PROFILE_UNIFORM, PROFILE_SINE };
 struct profile {
     enum profile_kind kind;
-    real wavelength;                     /* [m] */
-    real origin[DIM_MAX];                /* where it is 0 and rises along `direction` [m] */
-    real direction[DIM_MAX];             /* of any length [1] */
+    real wavelength;         /* [m] */
+    real origin[DIM_MAX];    /* where it is 0 and rises along `direction` [m] */
+    real direction[DIM_MAX]; /* of any length [1] */
 };
 
 /* One boundary condition, as the scene says it. */
 struct boundary {
     char name[NAME_MAX_LENGTH];
-    char place[PLACE_LENGTH];            /* in the scene */
+    char place[PLACE_LENGTH]; /* in the scene */
     enum boundary_kind kind;
-    struct region region;                /* of reference positions; empty: everywhere */
-    int body;                            /* -1: any */
-    uint8_t components;                  /* bit d: component d is held (VELOCITY) */
-    real value[DIM_MAX];                 /* [m/s], [m], [Pa] or [N/m^3]; PRESSURE: the same in all; 1 beside a
-                                            formula */
-    struct expression formula[DIM_MAX];  /* of a component in X and t, PRESSURE: the first for all; none: value */
-    real end;                            /* formulas have their values then at later times; 0: no end is known [s] */
-    bool frozen;                         /* static: formulas have their value at `frozen_at` [s] */
+    struct region region;               /* of reference positions; empty: everywhere */
+    int body;                           /* -1: any */
+    uint8_t components;                 /* bit d: component d is held (VELOCITY) */
+    real value[DIM_MAX];                /* [m/s], [m], [Pa] or [N/m^3]; PRESSURE: the same in all; 1 beside a
+                                           formula */
+    struct expression formula[DIM_MAX]; /* of a component in X and t, PRESSURE: the first for all; none: value */
+    real end;                           /* formulas have their values then at later times; 0: no end is known [s] */
+    bool frozen;                        /* static: formulas have their value at `frozen_at` [s] */
     real frozen_at;
-    bool displaces;                      /* VELOCITY: value, factor and formula are displacements; the value in [m] */
-    bool rotates;                        /* VELOCITY: all components, on circles about an axis through `centre` */
+    bool displaces; /* VELOCITY: value, factor and formula are displacements; the value in [m] */
+    bool rotates;   /* VELOCITY: all components, on circles about an axis through `centre` */
     real centre[DIM_MAX], axis_of[DIM_MAX], rate; /* [m], of any length, z in the plane; times the factor [1/s] */
-    bool follow;                         /* PRESSURE: normals and areas are those of the deformed body */
-    struct time_function time;           /* factor on value */
-    char *time_file;                     /* it came from this CSV file; NULL: it stands in the scene */
-    char time_column[NAME_MAX_LENGTH];   /* of it; "": the only one beside the time */
-    uint64_t time_contents;              /* hash of that file; 0: not read */
-    bool time_unit;                      /* the column has the unit of the value, which then says the direction alone */
-    struct profile profile;              /* BODY_FORCE: factor on value */
-    bool by_mass;                        /* BODY_FORCE: gravity; value is an acceleration [m/s^2] */
-    int face;                            /* TRACTION, ABSORBING, VELOCITY: axis of the face's normal */
-    int side;                            /* +1 upper face, -1 lower face; VELOCITY: 0, no face */
-    real depth;                          /* VELOCITY: of the layer behind its face [m] */
-    real section;                        /* beside a face: of all bodies, in line [m^2], in the plane [m], 1 in
-                                            space; 0: a particle's area is its volume over the spacing */
-    int axis;                            /* MIRROR: normal of the plane ... */
-    real at;                             /*         ... and where it is [m] */
-    bool hold_tangential;                /* MIRROR: displacement odd in all components, not only normal */
+    bool follow;                                  /* PRESSURE: normals and areas are those of the deformed body */
+    struct time_function time;                    /* factor on value */
+    char *time_file;                              /* it came from this CSV file; NULL: it stands in the scene */
+    char time_column[NAME_MAX_LENGTH];            /* of it; "": the only one beside the time */
+    uint64_t time_contents;                       /* hash of that file; 0: not read */
+    bool time_unit;         /* the column has the unit of the value, which then says the direction alone */
+    struct profile profile; /* BODY_FORCE: factor on value */
+    bool by_mass;           /* BODY_FORCE: gravity; value is an acceleration [m/s^2] */
+    int face;               /* TRACTION, ABSORBING, VELOCITY: axis of the face's normal */
+    int side;               /* +1 upper face, -1 lower face; VELOCITY: 0, no face */
+    real depth;             /* VELOCITY: of the layer behind its face [m] */
+    real section;           /* beside a face: of all bodies, in line [m^2], in the plane [m], 1 in
+                               space; 0: a particle's area is its volume over the spacing */
+    int axis;               /* MIRROR: normal of the plane ... */
+    real at;                /*         ... and where it is [m] */
+    bool hold_tangential;   /* MIRROR: displacement odd in all components, not only normal */
 };
 
 /* A boundary condition at work on particles. */
 struct load {
-    const struct boundary *boundary;     /* borrowed from the scene */
+    const struct boundary *boundary; /* borrowed from the scene */
     int64_t n;
-    int32_t *particle;                   /* ascending */
-    real *share[DIM_MAX];                /* [n] by component, TRACTION: area [m^2], in the face's plane 3/2 of it on a
-                                            column's first particle, -1/2 on the next; BODY_FORCE: volume times
-                                            profile [m^3], or mass [kg]. Equal ones are one array, of several components
-                                            or loads */
+    int32_t *particle;    /* ascending */
+    real *share[DIM_MAX]; /* [n] by component, TRACTION: area [m^2], in the face's plane 3/2 of it on a
+                             column's first particle, -1/2 on the next; BODY_FORCE: volume times
+                             profile [m^3], or mass [kg]. Equal ones are one array, of several components
+                             or loads */
     /* [n] ABSORBING: area on first particles alone; 3/2 of it on these and -1/2 on the next, for nodes of a grid, to
      * which first particles give some of it behind the face [m^2] */
     real *outer, *edge;
     /* of a load whose shares change, which has them for itself: shares without function of time and formula */
     bool moving;
     real *base[DIM_MAX];
-    struct surface *surface;             /* of pressure that follows; NULL: none */
+    struct surface *surface; /* of pressure that follows; NULL: none */
     /* TRACTION, BODY_FORCE: first load on the same particles, which keeps the arrays of both; -1: itself */
     int leader;
     /* [n] of a load without leader, components with a value: positions before this step [m] */
     real *before[DIM_MAX];
-    real reaction[DIM_MAX];              /* VELOCITY: force of the support on the body in the last step, without what
-                                            moves the driven particles themselves; load steps: forces, too [N] */
-    real displacement[DIM_MAX];          /* of the driven particles, their mean; of velocities accumulated [m] */
-    real held_work;                      /* static, drives by place: forces of the support times displacements [J] */
-    int outside;                         /* MIRROR: side of the plane without body, -1 or +1 */
+    real reaction[DIM_MAX];     /* VELOCITY: force of the support on the body in the last step, without what
+                                   moves the driven particles themselves; load steps: forces, too [N] */
+    real displacement[DIM_MAX]; /* of the driven particles, their mean; of velocities accumulated [m] */
+    real held_work;             /* static, drives by place: forces of the support times displacements [J] */
+    int outside;                /* MIRROR: side of the plane without body, -1 or +1 */
 };
 
 /* Does a formula of a boundary depend on time? */
@@ -116,10 +116,13 @@ static inline bool boundary_is_force(const struct boundary *b)
 }
 
 /* A component of a node that is held as long as the grid keeps its box. */
-struct held { int32_t node; uint8_t component, load; };
+struct held {
+    int32_t node;
+    uint8_t component, load;
+};
 
 struct constrained_set {
-    int64_t n, lasting;                  /* the first `lasting` do not depend on the masses of nodes */
+    int64_t n, lasting; /* the first `lasting` do not depend on the masses of nodes */
     struct held *held;
     int64_t first[DIM_MAX], count[DIM_MAX]; /* of the box of nodes they were found in */
 };
@@ -127,21 +130,21 @@ struct constrained_set {
 struct loads {
     int n;
     struct load *load;
-    uint8_t *loaded;                     /* [n] LOADED, MOVES_LATER, TOUCHES; NULL: no particle is */
+    uint8_t *loaded; /* [n] LOADED, MOVES_LATER, TOUCHES; NULL: no particle is */
     int64_t listed;
-    int32_t *list;                       /* [listed] those that are not 0, ascending */
+    int32_t *list; /* [listed] those that are not 0, ascending */
     int64_t images;
     struct image *image;
-    real impulse[DIM_MAX];               /* given by loads and supports since the start [N s] */
-    real work;                           /* done by applied forces, up to where particles are [J] */
-    real constraint_work;                /* done by supports, up to the velocities, half a step behind [J] */
-    real spacing, reach;                 /* [m]; of bonds */
-    real centre[2], turn;                /* static, free in the plane: centre of mass [m], angular acceleration by the
-                                            loads' moment [1/s^2], 0: none */
-    real place_step[DIM_MAX];            /* positions across mirrors are rounded to multiples of it; 0: not [m] */
+    real impulse[DIM_MAX];    /* given by loads and supports since the start [N s] */
+    real work;                /* done by applied forces, up to where particles are [J] */
+    real constraint_work;     /* done by supports, up to the velocities, half a step behind [J] */
+    real spacing, reach;      /* [m]; of bonds */
+    real centre[2], turn;     /* static, free in the plane: centre of mass [m], angular acceleration by the
+                                 loads' moment [1/s^2], 0: none */
+    real place_step[DIM_MAX]; /* positions across mirrors are rounded to multiples of it; 0: not [m] */
     struct absorbing absorbing;
-    bool ended;                          /* forces are asked for that no step follows */
-    real *share;                         /* scratch: driven mass of the grid's nodes [kg] */
+    bool ended;                              /* forces are asked for that no step follows */
+    real *share;                             /* scratch: driven mass of the grid's nodes [kg] */
     struct constrained_set constrained_mesh; /* nodes of the mesh in driven regions, on mirrors, and driven ones */
 };
 
@@ -253,8 +256,8 @@ void loads_absorbed(struct loads *l, const struct absorbed *by);
 struct displacing {
     const struct boundary *boundary;
     int dim;
-    real t, factor;                      /* of value and formula at t: [1], of a velocity [s] */
-    real turned[DIM_MAX * DIM_MAX];      /* rotates: the rotation at t, row major */
+    real t, factor;                 /* of value and formula at t: [1], of a velocity [s] */
+    real turned[DIM_MAX * DIM_MAX]; /* rotates: the rotation at t, row major */
 };
 struct displacing displacing_make(const struct boundary *b, int dim, real t);
 /* Component d of the displacement at the reference place X [dim, m]; d is one of boundary->components [m]. */
@@ -268,8 +271,8 @@ status load_displacement_known(const struct boundary *b);
 struct driving {
     const struct boundary *boundary;
     int dim;
-    real t, dt, factor;                  /* of its function of time, at t */
-    struct displacing from, to;          /* displaces, rotates: at the step's ends */
+    real t, dt, factor;         /* of its function of time, at t */
+    struct displacing from, to; /* displaces, rotates: at the step's ends */
 };
 struct driving driving_make(const struct boundary *b, int dim, real t, real dt);
 /* That of boundary `which` in a step; where none follows, what is displaced goes on as in the step before: how its
@@ -300,7 +303,7 @@ real load_velocity_change(const struct load *l, const struct particles *p, real 
  * rotates or depends on the place [m/s]. */
 real loads_velocity_apart(const struct load *a, const struct load *b, const struct particles *p, real t);
 
-#define LOADS_TOLERANCE ON_SURFACE       /* of a spacing: points on a region's border belong to it    */
+#define LOADS_TOLERANCE ON_SURFACE /* of a spacing: points on a region's border belong to it    */
 
 /* ---- mirrors (loads_mirror.c) ------------------------------------------------------------------------------------ */
 
@@ -371,6 +374,6 @@ void loads_static_work(struct loads *l, const struct particles *p);
 void loads_take(struct loads *l, const struct loads *old);
 status loads_archive(struct loads *l, struct archive *a);
 
-enum { BOUNDARIES_MAX = 255 };           /* their number fits the byte of struct held and struct image; scene_keys.c */
+enum { BOUNDARIES_MAX = 255 }; /* their number fits the byte of struct held and struct image; scene_keys.c */
 
 #endif

@@ -28,33 +28,37 @@ enum { LEVELS_MAX = 4, MASTERS_MAX = 4 };
  * speed with three levels (eigenvalues): impulses then come once in half a period of the finest cells. */
 #define LEVELS_STEP_MOST 0.7
 
-struct mesh_ghost { int32_t coarse, fine; };
-struct mesh_hanging { int32_t node, masters, master[MASTERS_MAX]; };
+struct mesh_ghost {
+    int32_t coarse, fine;
+};
+struct mesh_hanging {
+    int32_t node, masters, master[MASTERS_MAX];
+};
 
 /* Level L > 0, and where it meets level L - 1. */
 struct mesh_level {
     struct mesh mesh;
-    struct constrained_set held;         /* its nodes on mirrors and in driven regions */
+    struct constrained_set held; /* its nodes on mirrors and in driven regions */
     int64_t ghosts;
     struct mesh_ghost *ghost;
     int64_t hangings;
-    struct mesh_hanging *hanging;        /* nodes of level L - 1 */
+    struct mesh_hanging *hanging; /* nodes of level L - 1 */
     int64_t cells;
 };
 
 struct mesh_levels {
-    int n;                               /* coarse levels: at[1] .. at[n]; 0: none */
-    struct mesh *fine;                   /* level 0; borrowed */
-    int64_t offset[LEVELS_MAX + 1][DIM_MAX];     /* of a level: index of the node at the lower corner of the body */
-    uint8_t *level;                      /* [fine->grid.n] of the cells of level 0: that of the cell they are part of */
-    uint8_t *calm;                       /* [fine->grid.n] looks in a row in which a cell could have been coarser */
-    uint8_t *wanted;                     /* [fine->grid.n] enum levels_wanted: cells around must be of level 0 next */
-    uint8_t *safe;                       /* [fine->grid.n] enum levels_distance of cells of level 0 */
+    int n;                                   /* coarse levels: at[1] .. at[n]; 0: none */
+    struct mesh *fine;                       /* level 0; borrowed */
+    int64_t offset[LEVELS_MAX + 1][DIM_MAX]; /* of a level: index of the node at the lower corner of the body */
+    uint8_t *level;  /* [fine->grid.n] of the cells of level 0: that of the cell they are part of */
+    uint8_t *calm;   /* [fine->grid.n] looks in a row in which a cell could have been coarser */
+    uint8_t *wanted; /* [fine->grid.n] enum levels_wanted: cells around must be of level 0 next */
+    uint8_t *safe;   /* [fine->grid.n] enum levels_distance of cells of level 0 */
     bool any_wanted;
-    bool returned;                       /* points that waited are marked again in this step */
-    real wave_speed;                     /* [m/s] */
-    int safe_cells, roomy_cells;         /* of level 0 between a point that converts and a coarse cell */
-    int64_t changes;                     /* of levels, since the start */
+    bool returned;               /* points that waited are marked again in this step */
+    real wave_speed;             /* [m/s] */
+    int safe_cells, roomy_cells; /* of level 0 between a point that converts and a coarse cell */
+    int64_t changes;             /* of levels, since the start */
     struct mesh_level at[LEVELS_MAX + 1];
 };
 

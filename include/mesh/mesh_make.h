@@ -15,16 +15,16 @@
 
 /* What partial cells depend on. */
 struct mesh_source {
-    const struct elastic *elastic;       /* [materials] of the cells */
-    const struct elastic *isotropic;     /* [materials] those that partial stress rests on */
+    const struct elastic *elastic;   /* [materials] of the cells */
+    const struct elastic *isotropic; /* [materials] those that partial stress rests on */
     int materials;
     const struct partial_stress *partial; /* NULL, or what points leave to bonds */
-    bool still;                          /* the caller sets the motion of the nodes */
-    const struct hollow *hollow;         /* cells whose particles are not made, borrowed; NULL: none */
-    const struct crack *slit;            /* [slits] free surfaces between cells, borrowed */
+    bool still;                           /* the caller sets the motion of the nodes */
+    const struct hollow *hollow;          /* cells whose particles are not made, borrowed; NULL: none */
+    const struct crack *slit;             /* [slits] free surfaces between cells, borrowed */
     int slits;
-    const struct voids *voids;           /* of the bodies, likewise free surfaces, borrowed; NULL: there are none */
-    const struct mirror_plane *mirror;   /* [mirrors] borrowed */
+    const struct voids *voids;         /* of the bodies, likewise free surfaces, borrowed; NULL: there are none */
+    const struct mirror_plane *mirror; /* [mirrors] borrowed */
     int mirrors;
 };
 

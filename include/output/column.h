@@ -4,6 +4,9 @@
 #include "base/base.h"
 
 /* A column of history.csv or a figure of summary.json. */
-struct column { char name[2 * NAME_MAX_LENGTH]; char unit[16]; };
+struct column {
+    char name[2 * NAME_MAX_LENGTH];
+    char unit[16];
+};
 
 #endif

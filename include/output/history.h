@@ -6,9 +6,9 @@
 
 struct history {
     int columns;
-    char **name;                         /* [columns] without the unit */
+    char **name; /* [columns] without the unit */
     int64_t rows;
-    double *value;                       /* [rows][columns] SI; NAN where the file has none */
+    double *value; /* [rows][columns] SI; NAN where the file has none */
 };
 
 /* Reads folder/history.csv; a last line that is still being written is left out. FAILED: no file, no header, or a

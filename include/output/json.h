@@ -6,10 +6,14 @@
 
 #include "base/base.h"
 
-enum { JSON_EXACT = 17, JSON_TIMING = 9 };       /* digits; 17 give back the same double */
+enum { JSON_EXACT = 17, JSON_TIMING = 9 }; /* digits; 17 give back the same double */
 
 /* A text under construction. `filled`: the innermost object has an entry. */
-struct json { FILE *file; int depth; bool filled; };
+struct json {
+    FILE *file;
+    int depth;
+    bool filled;
+};
 
 /* An object or a list begins, with its bracket `{` or `[`, and ends with the other one. */
 void json_open(struct json *j, const char *key, char bracket);

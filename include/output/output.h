@@ -16,38 +16,38 @@
 #include "data/region.h"
 #include "column.h"
 
-enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE };    /* what to do with an older run */
+enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE }; /* what to do with an older run */
 
-enum { SERIES_MOST = 16 };               /* of frames, besides those of the whole body */
+enum { SERIES_MOST = 16 }; /* of frames, besides those of the whole body */
 
 /* Frames of the whole body, or of a region: in folders and with indices of their own. */
 struct frame_series {
-    char name[NAME_MAX_LENGTH];          /* "": of the body */
-    const struct region *region;         /* borrowed; NULL: everywhere */
-    int frames;                          /* frames written */
-    real *frame_time;                    /* [s] */
-    int64_t *frame_rows;                 /* of each frame: particles, and points of coarse cells */
-    unsigned frame_fields;               /* bits of the fields that frames have (output_fields.c) */
-    struct {                             /* while the particles are the same */
-        int32_t *order;                  /* [n] those shown, by id, then points of coarse cells, numbered behind them */
-        char *room;                      /* of a field: the writer's */
-        int64_t n, of;                   /* rows; of so many particles and points */
+    char name[NAME_MAX_LENGTH];  /* "": of the body */
+    const struct region *region; /* borrowed; NULL: everywhere */
+    int frames;                  /* frames written */
+    real *frame_time;            /* [s] */
+    int64_t *frame_rows;         /* of each frame: particles, and points of coarse cells */
+    unsigned frame_fields;       /* bits of the fields that frames have (output_fields.c) */
+    struct {                     /* while the particles are the same */
+        int32_t *order;          /* [n] those shown, by id, then points of coarse cells, numbered behind them */
+        char *room;              /* of a field: the writer's */
+        int64_t n, of;           /* rows; of so many particles and points */
     } kept;
 };
 
 struct output {
-    struct folder_lock lock;             /* against a second run in the folder; held while `folder` is set */
-    char *folder;                        /* DIR */
-    int n_series;                        /* behind that of the body */
+    struct folder_lock lock; /* against a second run in the folder; held while `folder` is set */
+    char *folder;            /* DIR */
+    int n_series;            /* behind that of the body */
     struct frame_series series[1 + SERIES_MOST];
     bool compress;
     FILE *history;
-    int64_t history_bytes;               /* length at the last sample */
-    uint64_t history_hash;               /* of those bytes, one by one */
+    int64_t history_bytes; /* length at the last sample */
+    uint64_t history_hash; /* of those bytes, one by one */
     int columns;
-    bool broken;                         /* HDF5 failed to write: it must not be called again */
-    struct frame_job *writing;           /* a frame on its way to the disk; NULL: none */
-    char *frame_copy;                    /* what it copies; kept for the next one, whose pages are then there */
+    bool broken;               /* HDF5 failed to write: it must not be called again */
+    struct frame_job *writing; /* a frame on its way to the disk; NULL: none */
+    char *frame_copy;          /* what it copies; kept for the next one, whose pages are then there */
     int64_t frame_copy_bytes;
 };
 
@@ -91,21 +91,21 @@ enum { ASK_STRAIN = 1 << 17, ASK_DENSITY = 1 << 18, ASK_PLASTIC_WORK = 1 << 19, 
 
 /* What particles do not keep and the caller works out for fields that a run asks for, [n] each. */
 struct frame_state {
-    real *gradient[DIM_MAX * DIM_MAX];   /* du_a/dX_b at [a dim + b]; for strain and density [1] */
-    real *plastic_work;                  /* per volume [J/m^3] */
-    real *plastic_strain;                /* of points, and of bonds in the mean; NULL: that of the particles [1] */
-    uint8_t *level;                      /* of the coarse cell that a material point is part of; 0: none */
+    real *gradient[DIM_MAX * DIM_MAX]; /* du_a/dX_b at [a dim + b]; for strain and density [1] */
+    real *plastic_work;                /* per volume [J/m^3] */
+    real *plastic_strain;              /* of points, and of bonds in the mean; NULL: that of the particles [1] */
+    uint8_t *level;                    /* of the coarse cell that a material point is part of; 0: none */
 };
 
 /* What frames show besides the particles' own arrays, [n] each; NULL: frames of this run do not have it. */
 struct frame_extra {
-    real *const *push;                   /* [dim] force of contact [N] */
-    const int32_t *fragment;             /* number of the fragment, 0: the heaviest; -1: none */
-    const struct particles *more;        /* points of coarse cells, shown behind the particles; until output_wait */
-    real spacing;                        /* of the particles; [more->n] of those points [m] */
+    real *const *push;            /* [dim] force of contact [N] */
+    const int32_t *fragment;      /* number of the fragment, 0: the heaviest; -1: none */
+    const struct particles *more; /* points of coarse cells, shown behind the particles; until output_wait */
+    real spacing;                 /* of the particles; [more->n] of those points [m] */
     const real *more_spacing;
-    unsigned asked;                      /* bits of FRAME_FIELD_WORDS */
-    const struct material *material;     /* of the particles, borrowed; with strain and density */
+    unsigned asked;                  /* bits of FRAME_FIELD_WORDS */
+    const struct material *material; /* of the particles, borrowed; with strain and density */
     enum space space;
     struct frame_state state, more_state;
 };
@@ -142,11 +142,11 @@ struct frame {
     real t;
     int64_t step;
     float *X[DIM_MAX], *u[DIM_MAX], *v[DIM_MAX], *damage;
-    float *stress[SYM_MAX];              /* as in struct particles; in the plane zz comes last */
+    float *stress[SYM_MAX]; /* as in struct particles; in the plane zz comes last */
     uint8_t *kind, *material, *body;
     int32_t *id;
-    int32_t *fragment;                   /* NULL: frames of this run do not have it */
-    float *spacing;                      /* [m] likewise: all have the same */
+    int32_t *fragment; /* NULL: frames of this run do not have it */
+    float *spacing;    /* [m] likewise: all have the same */
 };
 static inline int frame_stresses(int dim) { return symmetric_count(dim) + (dim == 2); }
 status frame_read(struct frame *f, const char *path);
@@ -156,7 +156,10 @@ void frame_free(struct frame *f);
  * row, freed with memory_free. FAILED where the frame has no such field. */
 status frame_field_read(const struct frame *f, const char *path, const char *name, int *columns, float **value);
 /* The frames that frames.hdf.series lists, ascending; how many through `n`. Numbers have gaps where files were lost. */
-struct listed_frame { int number; real time; };
+struct listed_frame {
+    int number;
+    real time;
+};
 status frames_list(const char *folder, int *n, struct listed_frame **list);
 
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */

@@ -7,7 +7,9 @@
 /* Room of a path, and of the longest name that is put behind a folder; output_open refuses longer folders. */
 enum { PATH_ROOM = 4096, PATH_NAME_ROOM = 300 };
 
-struct path { char text[PATH_ROOM]; };
+struct path {
+    char text[PATH_ROOM];
+};
 
 struct path path_join(const char *folder, const char *name);
 /* Makes a folder and those above it, unless they exist. REFUSED where a file has such a name; FAILED if it cannot be

@@ -9,13 +9,13 @@
 #include "base/base.h"
 
 enum hdf_type { HDF_F32, HDF_F64, HDF_U8, HDF_I32, HDF_I64 };
-size_t hdf_size(enum hdf_type type);     /* bytes of one number */
+size_t hdf_size(enum hdf_type type); /* bytes of one number */
 
 struct hdf {
     hid_t file;
-    bool compress;                       /* gzip for rows */
-    bool failed;                         /* a call failed: make no further one */
-    int cause;                           /* errno of that call, 0 if not known */
+    bool compress; /* gzip for rows */
+    bool failed;   /* a call failed: make no further one */
+    int cause;     /* errno of that call, 0 if not known */
 };
 
 /* Makes PATH anew. No times are stored: the same content gives the same bytes. */
@@ -29,7 +29,10 @@ void hdf_group(struct hdf *f, const char *name);
 void hdf_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, const void *data);
 /* A dataset with the rows of datasets of one name in other files, one after the other; their names are relative to the
  * folder of this one. Each has `rows` + `more` rows. Nothing is copied. */
-struct hdf_source { const char *file; int64_t rows; };
+struct hdf_source {
+    const char *file;
+    int64_t rows;
+};
 void hdf_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns, const struct hdf_source *source,
                  int sources, int more);
 /* A dataset with one string. */

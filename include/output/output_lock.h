@@ -4,7 +4,9 @@
 
 #include "base/base.h"
 
-struct folder_lock { int fd; };          /* -1: none */
+struct folder_lock {
+    int fd;
+}; /* -1: none */
 
 /* Takes the folder for this process, until folder_unlock or its end. REFUSED, with the process that has it, while
  * another one lives; OK with a warning on standard error where the file system knows no locks. */

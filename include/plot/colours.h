@@ -5,14 +5,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct colour { uint8_t red, green, blue, alpha; };
+struct colour {
+    uint8_t red, green, blue, alpha;
+};
 
 /* `at` from 0 to 1, else the nearer end; not finite: 1. */
-struct colour colour_sequential(double at);  /* dark to light, evenly in lightness */
-struct colour colour_diverging(double at);   /* blue, grey in the middle, red: of signed quantities */
+struct colour colour_sequential(double at); /* dark to light, evenly in lightness */
+struct colour colour_diverging(double at);  /* blue, grey in the middle, red: of signed quantities */
 struct colour colour_damage(double at);
-struct colour colour_bonds(double at);       /* damage of peridynamic particles beside material points */
-struct colour colour_points(void);           /* material points */
+struct colour colour_bonds(double at); /* damage of peridynamic particles beside material points */
+struct colour colour_points(void);     /* material points */
 
 /* Of a fragment by its number; -1: single particles. */
 struct colour fragment_colour(int32_t fragment);

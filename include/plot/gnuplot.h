@@ -12,11 +12,11 @@ extern const char *const picture_ending[PICTURE_FORMATS];
 static inline bool picture_moves(enum picture_format format) { return format >= PICTURE_MP4; }
 
 struct gnuplot {
-    FILE *to;                            /* its standard input */
-    FILE *complaints;                    /* its standard error */
+    FILE *to;         /* its standard input */
+    FILE *complaints; /* its standard error */
     int process;
     enum picture_format format;
-    char *aside, *path;                  /* name while it is drawn, name when it is whole */
+    char *aside, *path; /* name while it is drawn, name when it is whole */
 };
 
 /* Colours that people with any colour vision tell apart (Okabe & Ito 2008), as gnuplot writes them. */

@@ -17,7 +17,9 @@
 enum { PANELS = 6, PANELS_MAX = 24 };
 
 /* Directions of a view in space: unit vectors to the right, upwards and to the viewer. */
-struct camera { double right[3], up[3], towards[3]; };
+struct camera {
+    double right[3], up[3], towards[3];
+};
 extern const struct camera camera_isometric;
 /* Along an axis; side: +1, the viewer is on its upper side. */
 struct camera camera_along(int axis, int side);
@@ -25,25 +27,27 @@ struct camera camera_along(int axis, int side);
 struct plot_field;
 /* What of a frame is drawn: in space a slice or what is seen from outside, in the plane everything. */
 struct look {
-    bool outside;                        /* else a slice */
-    struct camera camera;                /* of `outside` */
-    int normal;                          /* of the slice; -1: the thinnest direction */
-    bool placed; double layer;           /* where it is [m]; else where most damage is */
-    const struct plot_field *field;      /* NULL: none but damage, kind and fragment */
-    const float *value;                  /* its values in the frame at hand */
-    bool in_steps;                       /* frames are those of load steps */
+    bool outside;         /* else a slice */
+    struct camera camera; /* of `outside` */
+    int normal;           /* of the slice; -1: the thinnest direction */
+    bool placed;
+    double layer;                   /* where it is [m]; else where most damage is */
+    const struct plot_field *field; /* NULL: none but damage, kind and fragment */
+    const float *value;             /* its values in the frame at hand */
+    bool in_steps;                  /* frames are those of load steps */
 };
 
 struct plot_request {
     const char *folder;
-    int panels;                          /* frames evenly spread; 0: as many as suit, all of a film */
-    bool every;                          /* all frames; of standard pictures one picture each */
-    int times; double time[PANELS_MAX];  /* the nearest frames instead [s] */
-    const char *field;                   /* NULL: the standard pictures */
+    int panels; /* frames evenly spread; 0: as many as suit, all of a film */
+    bool every; /* all frames; of standard pictures one picture each */
+    int times;
+    double time[PANELS_MAX]; /* the nearest frames instead [s] */
+    const char *field;       /* NULL: the standard pictures */
     struct look look;
     enum picture_format format;
-    const char *out;                     /* file or folder; NULL: DIR/pictures */
-    bool overwrite;                      /* `out` may be a file that Cleave has not drawn */
+    const char *out; /* file or folder; NULL: DIR/pictures */
+    bool overwrite;  /* `out` may be a file that Cleave has not drawn */
 };
 
 /* All pictures of a run, or one of a field; what was made is printed. */
@@ -60,9 +64,9 @@ status run_frame(struct frame *f, const char *folder, int number);
 
 struct run_frames {
     int listed;
-    struct listed_frame *list;           /* [listed] */
+    struct listed_frame *list; /* [listed] */
     int shown;
-    struct listed_frame *show;           /* [shown] frames of the panels */
+    struct listed_frame *show; /* [shown] frames of the panels */
 };
 /* The frames of a run, and those that the request shows. */
 status run_frames_choose(struct run_frames *f, const struct plot_request *r);
@@ -85,7 +89,10 @@ struct cloud;
 void compose_title(char *title, const char *folder, const char *what, const struct cloud *c);
 
 /* A unit for display: shown = SI / factor. */
-struct unit { double factor; char name[8]; };
+struct unit {
+    double factor;
+    char name[8];
+};
 
 /* The SI prefix under which `largest` has one to three digits: unit_for(2e-5, "s") is microseconds. */
 struct unit unit_for(double largest, const char *name);
@@ -100,8 +107,8 @@ enum field_scale { FROM_ZERO, BOTH_SIGNS, FROM_LEAST, CATEGORY };
 
 /* One number a particle: a component of what a frame holds or what follows from it, or the length of a vector. */
 struct plot_field {
-    const char *name, *stored;           /* of the field, of that in frames */
-    int component;                       /* -1: the length */
+    const char *name, *stored; /* of the field, of that in frames */
+    int component;             /* -1: the length */
     const char *unit;
     enum field_scale scale;
 };
@@ -115,24 +122,25 @@ status plot_field_read(float **value, const struct plot_field *field, const stru
 /* One frame as a map: all particles in 2D; in 3D a slice, or all of them as seen from outside. */
 struct cloud {
     int64_t n;
-    float *place[DIM_MAX];               /* current positions along the axes of the map [m]; [2] NULL: it is flat, else
-                                          * towards the viewer */
-    float *damage;                       /* [1] */
+    float *place[DIM_MAX]; /* current positions along the axes of the map [m]; [2] NULL: it is flat, else
+                            * towards the viewer */
+    float *damage;         /* [1] */
     uint8_t *kind;
-    int32_t *fragment;                   /* NULL: not known */
-    int32_t fragments;                   /* numbers of fragments are below */
-    float *value;                        /* of the field [SI]; NULL: none */
-    struct colour *colour;               /* of each particle, whatever the map; NULL: by the map */
-    int axis[2], normal;                 /* 0..2: x y z; normal -1: no slice */
-    struct camera camera;                /* of a map that is not flat */
-    double layer;                        /* where the layer is along the normal [m] */
-    double t;                            /* [s] */
-    bool in_steps; int64_t step;         /* is it that of a load step, and of which? */
-    double spacing;                      /* of the particles [m] */
-    double tall;                         /* half height of a particle of a bar [m]; 0: as wide as high */
-    float *size;                         /* [n] of particles and points of coarse cells; NULL: all that spacing [m] */
-    bool aligned;                        /* neighbours still lie along the axes */
-    double from[2], to[2];               /* box round reference positions [m] */
+    int32_t *fragment;     /* NULL: not known */
+    int32_t fragments;     /* numbers of fragments are below */
+    float *value;          /* of the field [SI]; NULL: none */
+    struct colour *colour; /* of each particle, whatever the map; NULL: by the map */
+    int axis[2], normal;   /* 0..2: x y z; normal -1: no slice */
+    struct camera camera;  /* of a map that is not flat */
+    double layer;          /* where the layer is along the normal [m] */
+    double t;              /* [s] */
+    bool in_steps;
+    int64_t step;          /* is it that of a load step, and of which? */
+    double spacing;        /* of the particles [m] */
+    double tall;           /* half height of a particle of a bar [m]; 0: as wide as high */
+    float *size;           /* [n] of particles and points of coarse cells; NULL: all that spacing [m] */
+    bool aligned;          /* neighbours still lie along the axes */
+    double from[2], to[2]; /* box round reference positions [m] */
 };
 /* `look` NULL: the slice with most damage. */
 void cloud_make(struct cloud *c, const struct frame *f, const struct look *look);
@@ -148,8 +156,14 @@ enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRAC
 
 /* Values of a field of names that are seen: no more than part_colour can tell apart. */
 enum { CATEGORIES_MOST = 9 };
-struct category { struct colour colour; char name[NAME_MAX_LENGTH]; };
-struct categories { int n, more; struct category of[CATEGORIES_MOST]; };   /* more: not listed */
+struct category {
+    struct colour colour;
+    char name[NAME_MAX_LENGTH];
+};
+struct categories {
+    int n, more;
+    struct category of[CATEGORIES_MOST];
+}; /* more: not listed */
 /* Those of the clouds, with the names of the scene in the run's folder. */
 void categories_find(struct categories *k, const struct plot_field *field, const char *folder,
                      const struct cloud *cloud, int clouds);
@@ -158,13 +172,13 @@ struct colour category_colour(const struct plot_field *field, float value);
 /* Rectangle of the map [m], and how its frames are shown. */
 struct view {
     double from[2], to[2];
-    double top;                          /* damage at the upper end of the colours */
-    const struct plot_field *field;      /* of MAP_FIELD, and the values at the ends of its colours */
+    double top;                     /* damage at the upper end of the colours */
+    const struct plot_field *field; /* of MAP_FIELD, and the values at the ends of its colours */
     double low, high;
     const struct categories *categories; /* of MAP_CATEGORY; borrowed */
     int64_t outside;                     /* particles that are not in the rectangle, in the frame that has most */
     int notches;
-    const struct crack *notch;           /* pre-cracks of a plane scene, lines where damage is shown; borrowed */
+    const struct crack *notch; /* pre-cracks of a plane scene, lines where damage is shown; borrowed */
 };
 /* Particles of the cracks of MAP_CRACKS: damage that a plane through a whole family of bonds makes is a half. */
 #define CRACK_DAMAGE 0.35
@@ -189,7 +203,10 @@ void boxes_paint(struct colour *pixel, int width, int height, const struct view 
                  enum map map);
 
 /* A format and the pixels of a panel that is to be so wide; 0: as suits. */
-struct sheet { const char *path; enum picture_format format; };
+struct sheet {
+    const char *path;
+    enum picture_format format;
+};
 /* One picture with a panel for each cloud, a common colour bar, and `title` above. */
 status maps_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
                  const struct cloud *cloud, int clouds);
@@ -199,8 +216,8 @@ status maps_draw(struct sheet sheet, const char *title, enum map map, const stru
 /* What is drawn over time: one row a sample, sent as the gnuplot data block $data. */
 struct series {
     const struct history *h;
-    int time;                            /* column; of a run in load steps that of their numbers */
-    struct unit second;                  /* factor 1, no name, of load steps */
+    int time;           /* column; of a run in load steps that of their numbers */
+    struct unit second; /* factor 1, no name, of load steps */
     enum picture_format format;
 };
 /* Largest |value| of a column; 0 where there is none. */

@@ -12,28 +12,28 @@
 #include "run/ledger.h"
 
 struct energy_balance {
-    real time;                           /* [s] */
+    real time; /* [s] */
     struct energy energy;
-    real external_work;                  /* of loads and supports since the start [J] */
-    real balance_error;                  /* (E - E_0 - work) / largest of |E|, |work| so far [1] */
-    real momentum[DIM_MAX];              /* [kg m/s] */
-    real momentum_error;                 /* |p - p_0 - impulse| / largest sum |m v|, most so far [1] */
-    real spin[DIM_MAX];                  /* L: angular momentum of free bodies about their centre [kg m^2/s] */
-    real spin_error;                     /* |L - L_0| / largest sum |L| of free bodies, most so far; NAN: unknown [1] */
+    real external_work;     /* of loads and supports since the start [J] */
+    real balance_error;     /* (E - E_0 - work) / largest of |E|, |work| so far [1] */
+    real momentum[DIM_MAX]; /* [kg m/s] */
+    real momentum_error;    /* |p - p_0 - impulse| / largest sum |m v|, most so far [1] */
+    real spin[DIM_MAX];     /* L: angular momentum of free bodies about their centre [kg m^2/s] */
+    real spin_error;        /* |L - L_0| / largest sum |L| of free bodies, most so far; NAN: unknown [1] */
 };
 
 struct diagnostics {
     struct energy_balance now;
-    real energy_start, energy_scale;     /* [J] */
+    real energy_start, energy_scale;              /* [J] */
     real momentum_start[DIM_MAX], momentum_scale; /* [kg m/s] */
-    real spin_start[DIM_MAX], spin_scale; /* about the centre of mass [kg m^2/s] */
-    bool turns;                          /* spin_start is known: nothing outside acts on the bodies */
+    real spin_start[DIM_MAX], spin_scale;         /* about the centre of mass [kg m^2/s] */
+    bool turns;                                   /* spin_start is known: nothing outside acts on the bodies */
     bool started;
-    real break_time;                     /* first bond broken by load, driven particles' aside; NAN before [s] */
-    real break_place[DIM_MAX];           /* reference place of a cut of that step (fracture/places.h) [m] */
-    int64_t break_ends;                  /* places of that step that lie apart */
-    real driven_time;                    /* first bond of a driven particle broken by load; NAN before [s] */
-    int64_t bonds_broken;                /* directed, by load */
+    real break_time;           /* first bond broken by load, driven particles' aside; NAN before [s] */
+    real break_place[DIM_MAX]; /* reference place of a cut of that step (fracture/places.h) [m] */
+    int64_t break_ends;        /* places of that step that lie apart */
+    real driven_time;          /* first bond of a driven particle broken by load; NAN before [s] */
+    int64_t bonds_broken;      /* directed, by load */
 };
 
 /* Nothing seen yet. Call once, before step 0. */

@@ -29,16 +29,18 @@ struct exact {
     real amplitude, period, wavelength, origin; /* MANUFACTURED: U [m], T [s], lambda [m], [m] */
 };
 
-struct exact_values { real displacement, velocity, stress, strain; };    /* [m] [m/s] [Pa] [1] */
+struct exact_values {
+    real displacement, velocity, stress, strain;
+}; /* [m] [m/s] [Pa] [1] */
 
 /* At reference position X and time t >= 0; all NAN where the form does not hold. On a front: its value behind. */
 struct exact_values exact_at(const struct exact *e, real X, real t);
 
 /* A jump of the stress that moves along the bar. */
 struct exact_front {
-    real place;                          /* [m] */
-    int ahead;                           /* side that it has not reached: -1 smaller x, +1 greater x */
-    real before, behind;                 /* stress on its two sides [Pa] */
+    real place;          /* [m] */
+    int ahead;           /* side that it has not reached: -1 smaller x, +1 greater x */
+    real before, behind; /* stress on its two sides [Pa] */
 };
 enum { EXACT_FRONTS = 2 };
 

@@ -29,54 +29,54 @@
 
 /* The same run on material points alone (engine_baseline), at its end. */
 struct baseline {
-    real *v[DIM_MAX];                    /* [n] velocities [m/s] */
-    real energy_change;                  /* of all energy since the start [1] */
+    real *v[DIM_MAX];   /* [n] velocities [m/s] */
+    real energy_change; /* of all energy since the start [1] */
 };
 
 /* What probes may look at; borrowed, read only. */
 struct observed {
     const struct particles *part;
-    const struct cells *cells;           /* reference search */
+    const struct cells *cells; /* reference search */
     const struct bonds *bonds;
     const struct loads *loads;
     const struct grid *grid;
     const struct tips *tips;
     const struct material *material;
     const struct partial_stress *partial;
-    real spacing;                        /* [m] */
-    real thickness;                      /* section, thickness or 1 */
-    real strain_stress;                  /* largest |component| of the initial stress [Pa], for PATCH */
-    real residual_step0;                 /* largest nodal |force| of the first step (grid and PD), for PATCH [N] */
-    real t;                              /* [s] */
-    bool in_steps;                       /* load steps, in which applied forces are known as reactions are */
-    int64_t load_step;                   /* so many done, that at hand included; 0: the run has none */
-    real energy_change;                  /* (E - E_0 - work)/E_0 at the last sample; NAN without E_0 [1] */
-    const struct growth *growth;         /* cracks with prescribed or SIF-controlled growth */
+    real spacing;                /* [m] */
+    real thickness;              /* section, thickness or 1 */
+    real strain_stress;          /* largest |component| of the initial stress [Pa], for PATCH */
+    real residual_step0;         /* largest nodal |force| of the first step (grid and PD), for PATCH [N] */
+    real t;                      /* [s] */
+    bool in_steps;               /* load steps, in which applied forces are known as reactions are */
+    int64_t load_step;           /* so many done, that at hand included; 0: the run has none */
+    real energy_change;          /* (E - E_0 - work)/E_0 at the last sample; NAN without E_0 [1] */
+    const struct growth *growth; /* cracks with prescribed or SIF-controlled growth */
     int growths;
-    const struct baseline *baseline;     /* NULL: none */
-    real t_velocity;                     /* when velocities are known, half a step before t [s] */
-    const struct wave_pulse *pulse;      /* initial pulses, for EXACT */
+    const struct baseline *baseline; /* NULL: none */
+    real t_velocity;                 /* when velocities are known, half a step before t [s] */
+    const struct wave_pulse *pulse;  /* initial pulses, for EXACT */
     int pulses;
-    enum space space;                    /* ... and what SIF needs: horizon [m], pre-cracks */
+    enum space space; /* ... and what SIF needs: horizon [m], pre-cracks */
     real horizon;
     const struct crack *crack;
     int cracks;
 };
 
-struct probe;                            /* probes.c */
+struct probe; /* probes.c */
 struct probes {
     int n;
     struct probe *probe;
-    int columns;                         /* of all probes together */
+    int columns; /* of all probes together */
     struct column *column;
-    real *value;                         /* at the last sample, by column */
-    real sampled;                        /* time of the last sample; NAN: none [s] */
+    real *value;  /* at the last sample, by column */
+    real sampled; /* time of the last sample; NAN: none [s] */
 };
 
 /* Velocities at the end of a sample. */
 struct velocity_time {
-    real t;                              /* that they are of [s] */
-    real scale;                          /* of velocities of the sample over what lies between: bulk damping [1] */
+    real t;     /* that they are of [s] */
+    real scale; /* of velocities of the sample over what lies between: bulk damping [1] */
 };
 
 /* Binds requests to particles. Refuses a point outside the body, an unknown boundary name, or a bar that is not that of

@@ -13,27 +13,27 @@ enum rigid_motion { RIGID_FIXED, RIGID_DRIVEN, RIGID_FREE };
 
 struct rigid_body {
     char name[NAME_MAX_LENGTH];
-    const struct region *shape;          /* borrowed; at t = 0 */
+    const struct region *shape; /* borrowed; at t = 0 */
     int dim;
     enum rigid_motion motion;
-    bool turns;                          /* FREE: may rotate */
-    real speed[DIM_MAX], ramp;           /* DRIVEN: velocity [m/s] from t = ramp on, less in proportion before [s] */
-    real mass;                           /* FREE [kg] */
-    real inertia[DIM_MAX][DIM_MAX];      /* about the centre, at t = 0; along z in the plane [kg m^2] */
-    real weight[DIM_MAX];                /* FREE: constant force at its centre [N] */
-    real face;                           /* largest side of the box round it: 1, a length [m] or an area [m^2] */
-    real centre[DIM_MAX], radius;        /* of mass (else of the box round it) and farthest point, at t = 0 [m] */
+    bool turns;                     /* FREE: may rotate */
+    real speed[DIM_MAX], ramp;      /* DRIVEN: velocity [m/s] from t = ramp on, less in proportion before [s] */
+    real mass;                      /* FREE [kg] */
+    real inertia[DIM_MAX][DIM_MAX]; /* about the centre, at t = 0; along z in the plane [kg m^2] */
+    real weight[DIM_MAX];           /* FREE: constant force at its centre [N] */
+    real face;                      /* largest side of the box round it: 1, a length [m] or an area [m^2] */
+    real centre[DIM_MAX], radius;   /* of mass (else of the box round it) and farthest point, at t = 0 [m] */
 
-    real x[DIM_MAX];                     /* centre now [m] */
-    real v[DIM_MAX], spin[DIM_MAX];      /* half a step behind [m/s], [1/s] */
-    real angular[DIM_MAX];               /* angular momentum about the centre [kg m^2/s] */
-    real turn[DIM_MAX][DIM_MAX];         /* rotation since t = 0 */
+    real x[DIM_MAX];                      /* centre now [m] */
+    real v[DIM_MAX], spin[DIM_MAX];       /* half a step behind [m/s], [1/s] */
+    real angular[DIM_MAX];                /* angular momentum about the centre [kg m^2/s] */
+    real turn[DIM_MAX][DIM_MAX];          /* rotation since t = 0 */
     real force[DIM_MAX], moment[DIM_MAX]; /* on it, about its centre, in the last step [N], [N m] */
-    real force_most;                     /* largest so far [N] */
-    real way[DIM_MAX];                   /* of the last step [m] */
-    real force_before[DIM_MAX];          /* as the last step of `work` had it [N] */
-    real work;                           /* done by what drives it, up to `force_before` [J] */
-    real kinetic;                        /* 1/2 m v- . v+ of the last step [J] */
+    real force_most;                      /* largest so far [N] */
+    real way[DIM_MAX];                    /* of the last step [m] */
+    real force_before[DIM_MAX];           /* as the last step of `work` had it [N] */
+    real work;                            /* done by what drives it, up to `force_before` [J] */
+    real kinetic;                         /* 1/2 m v- . v+ of the last step [J] */
 };
 
 /* mass: FREE [kg], 0: none. REFUSED where a free body has no volume or no bounds. */
@@ -70,8 +70,8 @@ void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity);
 
 /* Books the work of what drives it since the last call, up to the force of now. */
 void rigid_book(struct rigid_body *r);
-void rigid_note(struct rigid_body *r);          /* this force counts for the largest so far */
-real rigid_work(const struct rigid_body *r);    /* the same without booking it [J] */
+void rigid_note(struct rigid_body *r);       /* this force counts for the largest so far */
+real rigid_work(const struct rigid_body *r); /* the same without booking it [J] */
 
 /* Kinetic energy by the velocities of now [J], and what half a step under the force adds to it. */
 real rigid_kinetic(const struct rigid_body *r);

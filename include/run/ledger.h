@@ -26,7 +26,7 @@
     X(fracture, "#d55e00", 5)                                                                                          \
     X(contact, "#cc79a7", 22)                                                                                          \
     X(damped, "#56b4e9", 19)                                                                                           \
-    X(absorbed, "#999999", 23)                                                                                \
+    X(absorbed, "#999999", 23)                                                                                         \
     X(viscous, "#f0e442", 24)
 
 #define ENERGY_COUNT(name, colour, column) +1

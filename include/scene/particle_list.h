@@ -24,25 +24,25 @@
 
 /* What is known of a list from its columns. */
 struct particle_list_head {
-    bool material, mass, volumes;        /* it says the material, the mass or density, the volume of particles */
-    bool lattice;                        /* its places and volumes are those of a lattice (list_lattice.h) */
-    bool block;                          /* its material is the block of Peridigm, counted from 1 */
-    bool unnamed;                        /* its columns have no names: they are those of Peridigm's text mesh */
-    char note[256];                      /* what is not read, or missing and has a default; "": nothing */
+    bool material, mass, volumes; /* it says the material, the mass or density, the volume of particles */
+    bool lattice;                 /* its places and volumes are those of a lattice (list_lattice.h) */
+    bool block;                   /* its material is the block of Peridigm, counted from 1 */
+    bool unnamed;                 /* its columns have no names: they are those of Peridigm's text mesh */
+    char note[256];               /* what is not read, or missing and has a default; "": nothing */
 };
 
 struct particle_list {
     struct particle_list_head head;
     int64_t n;
     int dim;
-    real *X[DIM_MAX];                    /* [m] */
-    real *v[DIM_MAX];                    /* [m/s]; NULL where the file has none, as what follows */
-    real *volume, *mass, *density;       /* > 0 [m^3], [kg], [kg/m^3] */
-    real *material, *body;               /* whole numbers 0..255; of a material by name -1 - its number in `name` */
+    real *X[DIM_MAX];              /* [m] */
+    real *v[DIM_MAX];              /* [m/s]; NULL where the file has none, as what follows */
+    real *volume, *mass, *density; /* > 0 [m^3], [kg], [kg/m^3] */
+    real *material, *body;         /* whole numbers 0..255; of a material by name -1 - its number in `name` */
     int names;
     char (*name)[NAME_MAX_LENGTH];
-    int64_t *line;                       /* where an entry stands in a CSV; NULL for HDF5 */
-    int16_t *material_at;                /* where its material stands in the line; NULL as before */
+    int64_t *line;        /* where an entry stands in a CSV; NULL for HDF5 */
+    int16_t *material_at; /* where its material stands in the line; NULL as before */
 };
 
 /* Reads a file by its ending: .csv, .tsv, .txt, .dat, or .h5, .hdf5, .hdf. REFUSED names file and line, or file and

@@ -21,10 +21,12 @@ enum contact_distance { DISTANCE_SPACING, DISTANCE_LAMMPS };
 
 enum coupling {
     COUPLING_PARTIAL_STRESS,
-    COUPLING_HANDSHAKE,                  /* Zeng et al. 2022                                                     */
-    COUPLING_PM, COUPLING_PG,            /* Zeng et al. 2021: hand-shake, and the grid moves what lies in the cells at
-                                            the interface; with linear and with GIMP shapes                     */
-    COUPLING_PMG, COUPLING_PGG           /* the same on one unified grid, which moves everything                 */
+    COUPLING_HANDSHAKE, /* Zeng et al. 2022                                                     */
+    COUPLING_PM,
+    COUPLING_PG, /* Zeng et al. 2021: hand-shake, and the grid moves what lies in the cells at
+                    the interface; with linear and with GIMP shapes                     */
+    COUPLING_PMG,
+    COUPLING_PGG /* the same on one unified grid, which moves everything                 */
 };
 /* Does the grid move peridynamic particles with this coupling, and all of them? */
 static inline bool coupling_moves_by_grid(enum coupling c) { return c >= COUPLING_PM; }
@@ -39,31 +41,31 @@ enum notch_rule { NOTCH_AUTO, NOTCH_SLIT, NOTCH_BONDS };
 enum { CONVERT_ON_BREAK = 1, CONVERT_ON_STRESS = 2 };
 
 struct conversion_rule {
-    unsigned criteria;                   /* sum of CONVERT_ON_* */
-    real stress;                         /* sigma_max [Pa]; NAN: E s_c */
-    real alpha;                          /* share of it that triggers */
-    bool block;                          /* the triggered particle takes its horizon neighbours along */
-    real tips;                           /* peridynamic from the start round ends of pre-cracks [horizons] */
+    unsigned criteria; /* sum of CONVERT_ON_* */
+    real stress;       /* sigma_max [Pa]; NAN: E s_c */
+    real alpha;        /* share of it that triggers */
+    bool block;        /* the triggered particle takes its horizon neighbours along */
+    real tips;         /* peridynamic from the start round ends of pre-cracks [horizons] */
     enum notch_rule notch;
-    bool reverts;                        /* particles revert to material points (reversion.h) */
-    real hold_time;                      /* after a stress that was low for so long [horizon/c] */
-    real low_stress;                     /* low: share of the stress that converts */
+    bool reverts;    /* particles revert to material points (reversion.h) */
+    real hold_time;  /* after a stress that was low for so long [horizon/c] */
+    real low_stress; /* low: share of the stress that converts */
 };
 
 /* ---- cracks that grow -------------------------------------------------------------------------------------------- */
 
 struct growth_rule {
     char name[NAME_MAX_LENGTH];
-    real at[DIM_MAX];                    /* where the tip starts [m] */
-    real direction[DIM_MAX];             /* unit vector */
-    real speed;                          /* of the tip; NAN: such that K_eq stays at the toughness [m/s] */
-    real fastest;                        /* bound of that; NAN: 0.9 of the Rayleigh speed [m/s] */
-    real start;                          /* it does not move before [s] */
-    real length;                         /* it stops there; INFINITY: never [m] */
-    real damping, exponent;              /* damping NAN: half a horizon [m] [1] */
-    real smoothing;                      /* with a probe, NAN: a quarter of a horizon [m] */
-    char probe[NAME_MAX_LENGTH];         /* sif probe that controls it; "": none */
-    real toughness;                      /* K_Ic: it grows while K_eq is at least this [Pa m^(1/2)] */
+    real at[DIM_MAX];            /* where the tip starts [m] */
+    real direction[DIM_MAX];     /* unit vector */
+    real speed;                  /* of the tip; NAN: such that K_eq stays at the toughness [m/s] */
+    real fastest;                /* bound of that; NAN: 0.9 of the Rayleigh speed [m/s] */
+    real start;                  /* it does not move before [s] */
+    real length;                 /* it stops there; INFINITY: never [m] */
+    real damping, exponent;      /* damping NAN: half a horizon [m] [1] */
+    real smoothing;              /* with a probe, NAN: a quarter of a horizon [m] */
+    char probe[NAME_MAX_LENGTH]; /* sif probe that controls it; "": none */
+    real toughness;              /* K_Ic: it grows while K_eq is at least this [Pa m^(1/2)] */
 };
 
 /* Does the speed of this crack follow the toughness? */
@@ -72,20 +74,20 @@ static inline bool growth_follows(const struct growth_rule *rule) { return isnan
 /* ---- probes ------------------------------------------------------------------------------------------------------ */
 
 enum probe_kind {
-    PROBE_TIP,               /* one crack tip (the longest, or the one nearest to `at`)                    */
-    PROBE_BREAK,             /* first cut bond in a region                                                 */
-    PROBE_REACTION,          /* force of the support at a named boundary                                   */
-    PROBE_PATCH,             /* largest nodal force residual over stress x h under uniform strain          */
-    PROBE_SPALL,             /* separated end of a bar                                                     */
-    PROBE_POINT,             /* displacement, velocity, stress, damage of the particle nearest to `at`     */
-    PROBE_LINE,              /* profile from `from` to `to` in `points` stations, at the end and per frame */
-    PROBE_ENERGY,            /* energies of the particles of a region                                      */
-    PROBE_MOMENTUM,          /* momentum of the particles of a region                                      */
-    PROBE_PULSE,             /* wave packet at an interface: what came back, what went on                  */
-    PROBE_EXACT,             /* a bar against a closed form                                                */
-    PROBE_SIF,               /* stress-intensity factors of a crack tip                                    */
-    PROBE_GROWTH,            /* a crack with prescribed or SIF-controlled growth: its tip, its path        */
-    PROBE_RIGID,             /* a body that turns as a whole (plane)                                       */
+    PROBE_TIP,      /* one crack tip (the longest, or the one nearest to `at`)                    */
+    PROBE_BREAK,    /* first cut bond in a region                                                 */
+    PROBE_REACTION, /* force of the support at a named boundary                                   */
+    PROBE_PATCH,    /* largest nodal force residual over stress x h under uniform strain          */
+    PROBE_SPALL,    /* separated end of a bar                                                     */
+    PROBE_POINT,    /* displacement, velocity, stress, damage of the particle nearest to `at`     */
+    PROBE_LINE,     /* profile from `from` to `to` in `points` stations, at the end and per frame */
+    PROBE_ENERGY,   /* energies of the particles of a region                                      */
+    PROBE_MOMENTUM, /* momentum of the particles of a region                                      */
+    PROBE_PULSE,    /* wave packet at an interface: what came back, what went on                  */
+    PROBE_EXACT,    /* a bar against a closed form                                                */
+    PROBE_SIF,      /* stress-intensity factors of a crack tip                                    */
+    PROBE_GROWTH,   /* a crack with prescribed or SIF-controlled growth: its tip, its path        */
+    PROBE_RIGID,    /* a body that turns as a whole (plane)                                       */
     PROBES
 };
 
@@ -102,25 +104,26 @@ enum sif_weight { SIF_QUINTIC, SIF_CUBIC, SIF_LINEAR };
 enum sif_stress { SIF_HOOKE, SIF_PARTICLE };
 
 struct probe_request {
-    char name[NAME_MAX_LENGTH];          /* default: its kind */
-    char place[PLACE_LENGTH];            /* in the scene */
+    char name[NAME_MAX_LENGTH]; /* default: its kind */
+    char place[PLACE_LENGTH];   /* in the scene */
     enum probe_kind kind;
-    struct region region;                /* BREAK, PATCH, ENERGY, MOMENTUM, RIGID; empty: everywhere */
-    bool has_at; real at[DIM_MAX];       /* TIP, POINT, SIF; PULSE: a point of the interface [m] */
-    bool has_direction;                  /* SIF */
-    real direction[DIM_MAX];             /* PULSE: its normal, along which the packet comes; SIF: ahead of the tip */
-    real from[DIM_MAX], to[DIM_MAX];     /* LINE [m] */
-    int points;                          /* LINE */
-    char boundary[NAME_MAX_LENGTH];      /* REACTION: name of the boundary condition */
-    char of[NAME_MAX_LENGTH];            /* GROWTH: name of the crack; "": the first */
-    real experiment;                     /* GROWTH: angle in an experiment, for pictures; NAN: none [degree] */
-    enum exact_form form;                /* EXACT; and for a manufactured solution [m] [s] [m] [m]: */
+    struct region region; /* BREAK, PATCH, ENERGY, MOMENTUM, RIGID; empty: everywhere */
+    bool has_at;
+    real at[DIM_MAX];                /* TIP, POINT, SIF; PULSE: a point of the interface [m] */
+    bool has_direction;              /* SIF */
+    real direction[DIM_MAX];         /* PULSE: its normal, along which the packet comes; SIF: ahead of the tip */
+    real from[DIM_MAX], to[DIM_MAX]; /* LINE [m] */
+    int points;                      /* LINE */
+    char boundary[NAME_MAX_LENGTH];  /* REACTION: name of the boundary condition */
+    char of[NAME_MAX_LENGTH];        /* GROWTH: name of the crack; "": the first */
+    real experiment;                 /* GROWTH: angle in an experiment, for pictures; NAN: none [degree] */
+    enum exact_form form;            /* EXACT; and for a manufactured solution [m] [s] [m] [m]: */
     real amplitude, period, wavelength, origin;
-    struct number_list contours;         /* SIF: outer radii to compare; none: 0.6, 0.8 and 1 times `outer` [m] */
-    real inner, outer, core;             /* SIF; NAN or 0: half of outer; 20 spacings; 1.5 horizons [m] */
-    real reach;                          /* SIF: rho_m in spacings; 0: 1.5 [1] */
-    real speed;                          /* SIF: of a moving tip; NAN: measured [m/s] */
-    int diffraction;                     /* SIF */
+    struct number_list contours; /* SIF: outer radii to compare; none: 0.6, 0.8 and 1 times `outer` [m] */
+    real inner, outer, core;     /* SIF; NAN or 0: half of outer; 20 spacings; 1.5 horizons [m] */
+    real reach;                  /* SIF: rho_m in spacings; 0: 1.5 [1] */
+    real speed;                  /* SIF: of a moving tip; NAN: measured [m/s] */
+    int diffraction;             /* SIF */
     enum sif_weight weight;
     enum gradient_method gradient;
     enum sif_stress stress;

@@ -14,13 +14,13 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
 
 /* What a scene with `method: auto` requires of the pilot runs that choose its method and spacing (study/pilot.h). */
 struct pilot_wish {
-    bool wanted;                         /* the scene has `method: auto` */
-    char figure[128];                    /* figure of summary.json to be accurate; "": not given */
-    double within, budget;               /* its largest error [1]; time for the runs [s] */
-    double spacing;                      /* given by the scene [m]; 0: not given */
-    char model[16];                      /* given by the scene; "": not given */
-    bool at_rest;                        /* its solver is not explicit */
-    bool has_accuracy;                   /* it has the key `accuracy` */
+    bool wanted;           /* the scene has `method: auto` */
+    char figure[128];      /* figure of summary.json to be accurate; "": not given */
+    double within, budget; /* its largest error [1]; time for the runs [s] */
+    double spacing;        /* given by the scene [m]; 0: not given */
+    char model[16];        /* given by the scene; "": not given */
+    bool at_rest;          /* its solver is not explicit */
+    bool has_accuracy;     /* it has the key `accuracy` */
     /* The scene with a provisional method (adaptive or pd) and, where none is given, the spacing of spacing_coarse
      * (1 m if there is none); release it with scene_free. */
     struct scene provisional;

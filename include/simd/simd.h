@@ -10,9 +10,9 @@
 #include "base/base.h"
 
 struct simd_set {
-    const char *name;                    /* as CLEAVE_SIMD says it */
+    const char *name; /* as CLEAVE_SIMD says it */
     const char *meaning;
-    bool (*runs)(void);                  /* does the processor have them? */
+    bool (*runs)(void); /* does the processor have them? */
     const struct kernel_set *kernels;
 };
 

@@ -5,6 +5,8 @@
 #include "base/base.h"
 
 /* One vector for each particle or node: of[d][k] is component d of number k. */
-struct field { real *of[DIM_MAX]; };
+struct field {
+    real *of[DIM_MAX];
+};
 
 #endif

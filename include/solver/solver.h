@@ -14,27 +14,27 @@
 
 struct solver {
     int dim;
-    int64_t n;                           /* particles */
-    real residual;                       /* force left over, over `scale` [1] */
-    real scale;                          /* larger one of the norms of applied forces and reactions [N] */
-    real noise;                          /* of forces, from the round-off of positions [N] */
-    real first;                          /* largest force left over, of a body without loads [N] */
-    real applied;                        /* norm of the applied forces on free components [N] */
-    int64_t past_limit;                  /* bonds beyond their critical stretch at the end */
-    int64_t ramp;                        /* steps in which supports move (relaxation) */
-    real ramp_time;                      /* the same on the grid [s] */
-    real farthest;                       /* relaxation: largest norm of the displacements so far [m] */
-    real damping;                        /* c dt of a step on the grid [1] */
-    uint8_t *held;                       /* [n] bit d: component d is driven */
-    real *weight;                        /* [n] 1/2 for every plane of symmetry that a particle lies on */
-    real *diagonal;                      /* [n] Lambda: fictitious mass, preconditioner [N/m] */
-    struct field driven;                 /* [n] displacement of driven components [m] */
-    struct field before;                 /* relaxation: forces of the step before [N] */
-    struct field u, r, d, q;             /* cg: displacement, residual, direction, K d */
-    real rz;                             /* r . r/Lambda */
-    real strain_ratio, u_ratio;          /* strain of the last direction, and of u, over the largest entry [1/m] */
-    real best;                           /* smallest residual of all restarts */
-    int stalls;                          /* restarts without gain */
+    int64_t n;                  /* particles */
+    real residual;              /* force left over, over `scale` [1] */
+    real scale;                 /* larger one of the norms of applied forces and reactions [N] */
+    real noise;                 /* of forces, from the round-off of positions [N] */
+    real first;                 /* largest force left over, of a body without loads [N] */
+    real applied;               /* norm of the applied forces on free components [N] */
+    int64_t past_limit;         /* bonds beyond their critical stretch at the end */
+    int64_t ramp;               /* steps in which supports move (relaxation) */
+    real ramp_time;             /* the same on the grid [s] */
+    real farthest;              /* relaxation: largest norm of the displacements so far [m] */
+    real damping;               /* c dt of a step on the grid [1] */
+    uint8_t *held;              /* [n] bit d: component d is driven */
+    real *weight;               /* [n] 1/2 for every plane of symmetry that a particle lies on */
+    real *diagonal;             /* [n] Lambda: fictitious mass, preconditioner [N/m] */
+    struct field driven;        /* [n] displacement of driven components [m] */
+    struct field before;        /* relaxation: forces of the step before [N] */
+    struct field u, r, d, q;    /* cg: displacement, residual, direction, K d */
+    real rz;                    /* r . r/Lambda */
+    real strain_ratio, u_ratio; /* strain of the last direction, and of u, over the largest entry [1/m] */
+    real best;                  /* smallest residual of all restarts */
+    int stalls;                 /* restarts without gain */
 };
 
 /* The body to solve for; all of it borrowed. */
@@ -44,8 +44,8 @@ struct static_body {
     struct loads *loads;
     bond_force_fn *force;
     const struct material *material;
-    real spacing;                        /* [m] */
-    real tolerance;                      /* of the residual, over the loads [1] */
+    real spacing;   /* [m] */
+    real tolerance; /* of the residual, over the loads [1] */
     int bodies;
 };
 

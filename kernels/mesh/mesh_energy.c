@@ -70,7 +70,12 @@ real mesh_kick(const struct mesh *mesh, real dt)
     return dt * dt * sum;
 }
 
-struct strain_sum { const struct mesh *mesh; const struct particles *p; const struct elastic *elastic; bool finite; };
+struct strain_sum {
+    const struct mesh *mesh;
+    const struct particles *p;
+    const struct elastic *elastic;
+    bool finite;
+};
 
 static ALWAYS_INLINE real lanes_sum(lanes a)
 {

@@ -111,9 +111,8 @@ static ALWAYS_INLINE void cells_flow(const struct mesh *mesh, const struct parti
 }
 
 /* Elastic energy of eight cells at the state that their points have [J]. */
-static ALWAYS_INLINE real cells_flow_energy(const struct mesh *mesh, const struct particles *p,
-                                            const struct elastic *m, const int32_t *cell, const struct mesh_cell *s,
-                                            const int dim)
+static ALWAYS_INLINE real cells_flow_energy(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
+                                            const int32_t *cell, const struct mesh_cell *s, const int dim)
 {
     lanes stress[SYM_MAX];
     real sum = 0;

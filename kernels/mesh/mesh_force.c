@@ -65,10 +65,12 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
     for (int64_t k = 0; k < run->cells; k += LANES) {
         const int64_t I = run->cell + k;
         lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3];
-        if (mesh_inactive(levels, start + k)) continue;      /* forces carried from the cells before are 0 */
+        if (mesh_inactive(levels, start + k)) continue; /* forces carried from the cells before are 0 */
         mesh_run_load(mesh, run, k, u, dim);
-        if (flows) run_flow(mesh, p, all, run, k, u, f, dim, finite);
-        else mesh_run_force(m, g->h, volume, u, f, &tension, dim, finite, balanced);
+        if (flows)
+            run_flow(mesh, p, all, run, k, u, f, dim, finite);
+        else
+            mesh_run_force(m, g->h, volume, u, f, &tension, dim, finite, balanced);
         for (int c = 0; c < 1 << dim; c += 2)
             for (int i = 0; i < dim; i++) {
                 real *to = g->force[i] + I + mesh->corner[c];
@@ -76,7 +78,7 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
                 carried[c][i] = f[c + 1][i];
             }
     }
-    if (run->cells % LANES == 0)                 /* else the upper corners of the last cell are in the last vector */
+    if (run->cells % LANES == 0) /* else the upper corners of the last cell are in the last vector */
         for (int c = 0; c < 1 << dim; c += 2)
             for (int i = 0; i < dim; i++)
                 g->force[i][run->cell + run->cells + mesh->corner[c]] += carried[c][i][LANES - 1];
@@ -141,7 +143,7 @@ static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *
 
 /* Forces of a group of partial cells on their corners, into mesh->partial_force [N]. */
 static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particles *p, const struct elastic *m,
-                                    int64_t group, const int dim, const bool finite)
+                                        int64_t group, const int dim, const bool finite)
 {
     const bool rotates = finite && dim > 1;
     struct mesh_cell s;
@@ -156,8 +158,10 @@ static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particle
     } else
         partial_law(mesh, p, group, &s, dim);
     if (mesh->ends && p->end_rotation[0]) partial_add_moments(mesh, p, group, moment, dim);
-    if (rotates) cell_balance(&s, moment, dim);
-    else if (dim > 1 && mesh->ends && p->end_rotation[0]) cell_skew(&s, moment, dim);
+    if (rotates)
+        cell_balance(&s, moment, dim);
+    else if (dim > 1 && mesh->ends && p->end_rotation[0])
+        cell_skew(&s, moment, dim);
     cell_corners(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
     lanes *out = (lanes *)mesh->partial_force + group * (1 << dim) * dim;
     for (int c = 0; c < 1 << dim; c++)
@@ -179,14 +183,15 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
             for (int i = 0; i < dim; i++) {
                 real *to = mesh->grid.force[i] + (own ? 0 : mesh->corner[c]);
                 const int32_t *at = own ? own + c * LANES : cell;
-                if (in_line) lanes_store(to + cell[0], lanes_load(to + cell[0]) + f[c * dim + i]);
+                if (in_line)
+                    lanes_store(to + cell[0], lanes_load(to + cell[0]) + f[c * dim + i]);
                 else
                     for (int l = 0; l < LANES && l < left; l++) to[at[l]] += f[c * dim + i][l];
             }
     }
 }
 
-enum { FEW = 16 };                       /* groups that one thread computes in less time than a team */
+enum { FEW = 16 }; /* groups that one thread computes in less time than a team */
 
 #define CUTS(D, FINITE)                                                                                                \
     static NEVER_INLINE void cut_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p,                    \

@@ -44,7 +44,8 @@ static ALWAYS_INLINE void row_velocity(const struct mesh *mesh, int64_t r, const
     const uint64_t all = EIGHT_TIMES((1 << (1 << dim)) - 1);
     for (int64_t I = mesh->span[2 * r]; I < end; I += LANES) {
         const uint64_t cells = eight_bytes(mesh->matched + I);
-        if (cells == 0) lanes_store(v + I, lanes_load(w + I));
+        if (cells == 0)
+            lanes_store(v + I, lanes_load(w + I));
         else if (cells == all) {
             const lanes now = lanes_load(w + I);
             lanes_store(v + I, now + mesh->match * (now - smooth(w + I, row, layer, dim)));
@@ -56,8 +57,9 @@ static ALWAYS_INLINE void row_velocity(const struct mesh *mesh, int64_t r, const
 #define VELOCITY(D)                                                                                                    \
     static void velocity_##D(const struct mesh *mesh, real *const *from, real *const *to)                              \
     {                                                                                                                  \
-        _Pragma("omp parallel for schedule(static)") for (int64_t r = 0; r < mesh->rows; r++)                          \
-            for (int d = 0; d < D; d++) row_velocity(mesh, r, from[d], to[d], D);                                      \
+        _Pragma("omp parallel for schedule(static)") for (int64_t r = 0; r < mesh->rows; r++) for (int d = 0; d < D;   \
+                                                                                                   d++)                \
+            row_velocity(mesh, r, from[d], to[d], D);                                                                  \
     }
 VELOCITY(1)
 VELOCITY(2)
@@ -65,7 +67,10 @@ VELOCITY(3)
 
 void mesh_velocity(const struct mesh *mesh, real *const *from, real *const *to)
 {
-    if (mesh->grid.dim == 1) velocity_1(mesh, from, to);
-    else if (mesh->grid.dim == 2) velocity_2(mesh, from, to);
-    else velocity_3(mesh, from, to);
+    if (mesh->grid.dim == 1)
+        velocity_1(mesh, from, to);
+    else if (mesh->grid.dim == 2)
+        velocity_2(mesh, from, to);
+    else
+        velocity_3(mesh, from, to);
 }

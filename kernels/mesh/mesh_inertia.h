@@ -25,7 +25,7 @@ static ALWAYS_INLINE real mesh_consistent(int dim, int c, int k)
  * along the axes diagonalise both: along one, a . L a = (s^2 + d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
 static inline real mesh_matched_form(const struct mesh *mesh, int64_t I)
 {
-    static const real less[DIM_MAX + 1] = {0, 2.0 / 3, 8.0 / 9, 26.0 / 27};     /* 1 - 3^-n, n differences */
+    static const real less[DIM_MAX + 1] = {0, 2.0 / 3, 8.0 / 9, 26.0 / 27}; /* 1 - 3^-n, n differences */
     const int dim = mesh->grid.dim, corners = 1 << dim;
     real sum = 0;
     for (int d = 0; d < dim; d++) {

@@ -23,7 +23,7 @@
 struct mesh_cell {
     /* mode: by set of axes and component [1]; force: derivative of the energy per volume by a bending mode [Pa] */
     lanes mode[CORNERS_MAX][3], force[CORNERS_MAX][3];
-    lanes R[3][3], e[3][3], P[3][3];     /* rotation; strain and stress of the mean gradient */
+    lanes R[3][3], e[3][3], P[3][3]; /* rotation; strain and stress of the mean gradient */
 };
 
 /* Loops over sets of axes are unrolled, so that their values stay in registers. */
@@ -94,7 +94,7 @@ static ALWAYS_INLINE void cell_rotation_3d(const lanes g[3][3], lanes R[3][3], l
                 change = lanes_max(change, by * by);
                 R[a][b] = next;
             }
-        if (!lanes_any(change > 1e-17)) break;   /* the next step changes R by (3e-9)^2/2: below round-off */
+        if (!lanes_any(change > 1e-17)) break; /* the next step changes R by (3e-9)^2/2: below round-off */
     }
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) {
@@ -132,7 +132,7 @@ static ALWAYS_INLINE void add_skew(lanes P[3][3], const lanes e[3][3], const lan
     const lanes inverse = 1.0 / (A[0][0] * C[0][0] + A[0][1] * C[0][1] + A[0][2] * C[0][2]);
     for (int a = 0; a < 3; a++) w[a] = inverse * (C[a][0] * m[0] + C[a][1] * m[1] + C[a][2] * m[2]);
     for (int k = 0; k < 3; k++) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;      /* axial k: component ji - ij */
+        const int i = (k + 1) % 3, j = (k + 2) % 3; /* axial k: component ji - ij */
         P[j][i] -= w[k], P[i][j] += w[k];
     }
 }
@@ -157,8 +157,8 @@ static ALWAYS_INLINE lanes bend(const struct elastic *m, lanes mode[CORNERS_MAX]
 {
     if (dim == 3 && M == 7) return mode[M][i] * ((m->c11 + 2 * m->shear) / 256);
     if (dim == 2) return mode[M][i] * ((m->c11 + m->shear) / 16);
-    const int k = M == 6 ? 0 : M == 5 ? 1 : 2;   /* the axis that is not in M */
-    if (k == i) {                                /* shears only, coupled to two modes of other components */
+    const int k = M == 6 ? 0 : M == 5 ? 1 : 2; /* the axis that is not in M */
+    if (k == i) {                              /* shears only, coupled to two modes of other components */
         const lanes trace = mode[6][0] + mode[5][1] + mode[3][2];
         return (mode[M][i] + trace) * (m->shear / 16);
     }
@@ -179,7 +179,7 @@ static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNE
             v[M] * (1.0 / (h * (1 << (dim - __builtin_popcount(M)))));
         for (int b = 0; b < dim; b++) g[i][b] = s->mode[1 << b][i];
     }
-    lanes R[3][3], e[3][3];                      /* local, so that Newton's loop keeps them in registers */
+    lanes R[3][3], e[3][3]; /* local, so that Newton's loop keeps them in registers */
     if (rotates && dim == 2) cell_rotation_2d(g, R, e);
     if (rotates && dim == 3) cell_rotation_3d(g, R, e);
     for (int a = 0; a < dim; a++)
@@ -187,8 +187,7 @@ static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNE
             s->e[a][b] = rotates ? e[a][b] : 0.5 * (g[a][b] + g[b][a]);
             if (rotates) s->R[a][b] = R[a][b];
         }
-    SETS for (int M = 1; M < corners && rotates; M++)
-        if (M & (M - 1)) rotate_vector(s->R, s->mode[M], false, dim);
+    SETS for (int M = 1; M < corners && rotates; M++) if (M & (M - 1)) rotate_vector(s->R, s->mode[M], false, dim);
 }
 
 /* Product of the coordinates of place q along the axes of a set, +-1/4 each [1]. */
@@ -205,10 +204,10 @@ static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q
     for (int i = 0; i < dim; i++)
         for (int j = 0; j < dim; j++) {
             e[i][j] = s->e[i][j];
-            SETS for (int M = 3; M < 1 << dim; M++)
-                if (M & (M - 1) && M >> j & 1) {
-                    e[i][j] += place_along(M & ~(1 << j), q) * s->mode[M][i];
-                }
+            SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1) && M >> j & 1)
+            {
+                e[i][j] += place_along(M & ~(1 << j), q) * s->mode[M][i];
+            }
         }
 }
 
@@ -216,8 +215,8 @@ static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q
 static ALWAYS_INLINE void cell_law(const struct elastic *m, struct mesh_cell *s, const int dim)
 {
     stress_of(m, s->e, s->P, dim);
-    SETS for (int M = 1; M < 1 << dim; M++)
-        if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] = bend(m, s->mode, M, i, dim);
+    SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] =
+        bend(m, s->mode, M, i, dim);
 }
 
 /* Bound of the largest principal stress at the points of cells [Pa]: of the mean stress P the largest normal stress and
@@ -226,8 +225,8 @@ static ALWAYS_INLINE lanes cell_tension(const struct elastic *m, const struct me
                                         const int dim)
 {
     lanes largest = lanes_of(0), bound = P[0][0];
-    SETS for (int M = 1; M < 1 << dim; M++)
-        if (M & (M - 1)) for (int i = 0; i < dim; i++) largest += lanes_max(s->mode[M][i], -s->mode[M][i]);
+    SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) largest +=
+        lanes_max(s->mode[M][i], -s->mode[M][i]);
     for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
@@ -240,8 +239,7 @@ static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, c
     lanes energy = lanes_of(0);
     for (int i = 0; i < dim; i++) {
         for (int b = 0; b < dim; b++) energy += s->P[i][b] * s->e[i][b];
-        SETS for (int M = 1; M < 1 << dim; M++)
-            if (M & (M - 1)) energy += s->force[M][i] * s->mode[M][i];
+        SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) energy += s->force[M][i] * s->mode[M][i];
     }
     return energy * (0.5 * volume);
 }
@@ -254,8 +252,8 @@ static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, lanes *moment, const
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         for (int b = 0; b < dim; b++) moment[k] += s->P[j][b] * s->e[i][b] - s->P[i][b] * s->e[j][b];
-        SETS for (int M = 1; M < 1 << dim; M++)
-            if (M & (M - 1)) moment[k] += s->force[M][j] * s->mode[M][i] - s->force[M][i] * s->mode[M][j];
+        SETS for (int M = 1; M < 1 << dim; M++) if (M & (M - 1)) moment[k] +=
+            s->force[M][j] * s->mode[M][i] - s->force[M][i] * s->mode[M][j];
     }
     add_skew(s->P, s->e, moment, dim);
 }
@@ -280,12 +278,12 @@ static ALWAYS_INLINE void cell_corners(struct mesh_cell *s, real h, real volume,
         rotate_vector(s->R, column, true, dim);
         for (int a = 0; a < dim; a++) s->P[a][b] = column[a];
     }
-    SETS for (int M = 1; M < corners && rotates; M++)
-        if (M & (M - 1)) rotate_vector(s->R, s->force[M], true, dim);
+    SETS for (int M = 1; M < corners && rotates; M++) if (M & (M - 1)) rotate_vector(s->R, s->force[M], true, dim);
     for (int i = 0; i < dim; i++) {
         lanes v[CORNERS_MAX];
         v[0] = lanes_of(0);
-        SETS for (int M = 1; M < corners; M++) {
+        SETS for (int M = 1; M < corners; M++)
+        {
             const lanes by = M & (M - 1) ? s->force[M][i] : s->P[i][M == 1 ? 0 : M == 2 ? 1 : 2];
             v[M] = by * (-volume / (h * (1 << (dim - __builtin_popcount(M)))));
         }

@@ -40,12 +40,13 @@ static void dashpots_force(struct mesh *mesh, real dt_velocity)
         for (int d = 0; d < g->dim && g->mass[I] > 0; d++) {
             const real change = dt_velocity * g->force[d][I] / g->mass[I];
             g->force[d][I] += dashpot_kick(&g->absorbed, d, dt_velocity * g->dashpot[k].rate[d], g->mass[I],
-                                           g->velocity[d][I], change) / dt_velocity;
+                                           g->velocity[d][I], change) /
+                              dt_velocity;
         }
     }
 }
 
-#define OFF_PLACE 1e-6                   /* a node so much beside its place is not there by round-off [cells] */
+#define OFF_PLACE 1e-6 /* a node so much beside its place is not there by round-off [cells] */
 
 /* Sets constrained components to the prescribed velocity exactly: removes what round-off left in velocity and
  * displacement. What is displaced takes its place, unless it has begun elsewhere. */
@@ -56,9 +57,9 @@ static void walls_move(struct mesh *mesh, real dt)
         const struct wall *w = &g->wall[k];
         real *velocity = &g->velocity[w->component][w->node], *u = &mesh->displacement[w->component][w->node];
         *u += dt * (w->velocity - *velocity);
-        if (fabs(*u - w->place) <= OFF_PLACE * g->h) *u = w->place;      /* never where it is none */
+        if (fabs(*u - w->place) <= OFF_PLACE * g->h) *u = w->place; /* never where it is none */
         *velocity = w->velocity;
-        if (mesh->matched) g->momentum[w->component][w->node] = w->velocity;     /* no matched cell has held nodes */
+        if (mesh->matched) g->momentum[w->component][w->node] = w->velocity; /* no matched cell has held nodes */
     }
 }
 
@@ -124,7 +125,7 @@ static void mesh_mirror_nodes_gather(struct mesh *mesh, real dt_velocity)
 static void mesh_mirror_nodes_spread(struct mesh *mesh, real impulse[DIM_MAX])
 {
     struct grid *g = &mesh->grid;
-    for (int64_t k = g->mirror_nodes - 1; k >= 0; k--) {        /* reverse order restores masses to the bit */
+    for (int64_t k = g->mirror_nodes - 1; k >= 0; k--) { /* reverse order restores masses to the bit */
         struct mirror_node *f = &g->mirror_node[k];
         const real both = g->mass[f->image];
         if (f->mass > 0) g->mass[f->image] = f->image_mass, mesh->inverse_mass[f->image] = f->image_inverse;
@@ -151,8 +152,8 @@ static void momentum_move(struct mesh *mesh, real dt_velocity)
             real *momentum = mesh->grid.momentum[d];
             const real *force = mesh->grid.force[d], *inverse = mesh->inverse_mass;
             for (int64_t I = mesh->span[2 * r]; I < mesh->span[2 * r + 1]; I += LANES)
-                lanes_store(momentum + I, lanes_load(momentum + I) +
-                                              dt_velocity * lanes_load(inverse + I) * lanes_load(force + I));
+                lanes_store(momentum + I,
+                            lanes_load(momentum + I) + dt_velocity * lanes_load(inverse + I) * lanes_load(force + I));
         }
     mesh_velocity(mesh, mesh->grid.momentum, mesh->grid.velocity);
 }
@@ -163,10 +164,9 @@ real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MA
     mesh_mirror_nodes_gather(mesh, dt_velocity);
     dashpots_force(mesh, dt_velocity);
     walls_force(mesh, dt_velocity, impulse, work);
-    if (mesh->matched) momentum_move(mesh, dt_velocity), dt_velocity = 0;    /* velocities are those of the momentum */
+    if (mesh->matched) momentum_move(mesh, dt_velocity), dt_velocity = 0; /* velocities are those of the momentum */
 #pragma omp parallel for schedule(static) reduction(max : most)
-    for (int64_t r = 0; r < mesh->rows; r++)
-        most = real_max(most, row_move(mesh, r, dt, dt_velocity));
+    for (int64_t r = 0; r < mesh->rows; r++) most = real_max(most, row_move(mesh, r, dt, dt_velocity));
     walls_move(mesh, dt);
     mesh_mirror_nodes_spread(mesh, impulse);
     return sqrt(most);

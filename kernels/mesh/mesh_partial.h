@@ -31,8 +31,7 @@ static ALWAYS_INLINE void partial_modes(const struct mesh_cell *s, lanes *v, con
         symmetric_axes(dim, k, &a, &b);
         v[k] = a == b ? s->e[a][a] : s->e[a][b] + s->e[b][a];
     }
-    SETS for (int M = 3; M < 1 << dim; M++)
-        if (M & (M - 1)) for (int i = 0; i < dim; i++) v[n++] = s->mode[M][i];
+    SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) v[n++] = s->mode[M][i];
 }
 
 /* f = K v with a symmetric K, half of which is stored, row by row from the diagonal on. */
@@ -51,7 +50,7 @@ static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, co
 /* Adds the forces on the modes of the cells of a group by points that are ends of bonds (struct mesh_end): f += share^T
  * pull [Pa]. */
 static ALWAYS_INLINE void partial_add_ends(const struct mesh *mesh, const struct particles *p, int64_t group, lanes *f,
-                                       const int dim)
+                                           const int dim)
 {
     const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
     const int n = mesh_modes(dim);
@@ -65,7 +64,7 @@ static ALWAYS_INLINE void partial_add_ends(const struct mesh *mesh, const struct
 
 /* Adds the moments of bonds about the points at their ends, per volume of the cell [Pa]. */
 static ALWAYS_INLINE void partial_add_moments(const struct mesh *mesh, const struct particles *p, int64_t group,
-                                          lanes *moment, const int dim)
+                                              lanes *moment, const int dim)
 {
     const struct mesh_end *end = mesh->end + mesh->ends[group], *last = mesh->end + mesh->ends[group + 1];
     const real inverse = 1 / (mesh->volume * (1 << dim));
@@ -76,7 +75,7 @@ static ALWAYS_INLINE void partial_add_moments(const struct mesh *mesh, const str
 
 /* Stress of the mean strain and forces on the bending modes of a group of partial cells [Pa]. */
 static ALWAYS_INLINE void partial_law(const struct mesh *mesh, const struct particles *p, int64_t group,
-                                  struct mesh_cell *s, const int dim)
+                                      struct mesh_cell *s, const int dim)
 {
     const int n = mesh_modes(dim), half = n * (n + 1) / 2;
     lanes v[MODES_MAX], f[MODES_MAX];
@@ -89,8 +88,7 @@ static ALWAYS_INLINE void partial_law(const struct mesh *mesh, const struct part
         symmetric_axes(dim, t, &a, &b);
         s->P[a][b] = s->P[b][a] = f[t];
     }
-    SETS for (int M = 3; M < 1 << dim; M++)
-        if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] = f[k++];
+    SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) s->force[M][i] = f[k++];
 }
 
 #endif

@@ -56,45 +56,55 @@ static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *
     }
 }
 
-enum { FEW = 128 };                      /* cells whose points one thread moves in less time than a team */
+enum { FEW = 128 }; /* cells whose points one thread moves in less time than a team */
 
 #define MOVE(D)                                                                                                        \
     static void all_move_##D(const struct mesh *mesh, struct particles *p)                                             \
     {                                                                                                                  \
-        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < cells_of_points(mesh); k++)               \
-            if (mesh->kind[cell_of_points(mesh, k)]) cell_move(mesh, p, cell_of_points(mesh, k), ~0u, D);              \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < cells_of_points(mesh);                    \
+                                                          k++) if (mesh->kind[cell_of_points(mesh, k)])                \
+            cell_move(mesh, p, cell_of_points(mesh, k), ~0u, D);                                                       \
     }                                                                                                                  \
     static void exposed_move_##D(const struct mesh *mesh, struct particles *p)                                         \
     {                                                                                                                  \
-        TEAM_LOOP(mesh->exposed > FEW, for (int64_t k = 0; k < mesh->exposed; k++)                                     \
-            cell_move(mesh, p, mesh->exposed_list[k].cell, mesh->exposed_list[k].places, D););                         \
+        TEAM_LOOP(mesh->exposed > FEW, for (int64_t k = 0; k < mesh->exposed; k++) cell_move(                          \
+                                           mesh, p, mesh->exposed_list[k].cell, mesh->exposed_list[k].places, D););    \
     }                                                                                                                  \
     static void points_move_##D(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)          \
     {                                                                                                                  \
-        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < n; k++)                                   \
-            if (mesh->place[list[k]] >= 0) point_move(mesh, p, list[k], D);                                            \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < n; k++) if (mesh->place[list[k]] >= 0)    \
+            point_move(mesh, p, list[k], D);                                                                           \
     }
 DIMENSIONS(MOVE)
 
 void mesh_points_move(const struct mesh *mesh, struct particles *p)
 {
-    if (p->dim == 1) all_move_1(mesh, p);
-    else if (p->dim == 2) all_move_2(mesh, p);
-    else all_move_3(mesh, p);
+    if (p->dim == 1)
+        all_move_1(mesh, p);
+    else if (p->dim == 2)
+        all_move_2(mesh, p);
+    else
+        all_move_3(mesh, p);
 }
 
 void mesh_exposed_move(const struct mesh *mesh, struct particles *p)
 {
-    if (p->dim == 1) exposed_move_1(mesh, p);
-    else if (p->dim == 2) exposed_move_2(mesh, p);
-    else exposed_move_3(mesh, p);
+    if (p->dim == 1)
+        exposed_move_1(mesh, p);
+    else if (p->dim == 2)
+        exposed_move_2(mesh, p);
+    else
+        exposed_move_3(mesh, p);
 }
 
 void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)
 {
-    if (p->dim == 1) points_move_1(mesh, p, list, n);
-    else if (p->dim == 2) points_move_2(mesh, p, list, n);
-    else points_move_3(mesh, p, list, n);
+    if (p->dim == 1)
+        points_move_1(mesh, p, list, n);
+    else if (p->dim == 2)
+        points_move_2(mesh, p, list, n);
+    else
+        points_move_3(mesh, p, list, n);
 }
 
 /* ---- points at the ends of bonds --------------------------------------------------------------------------------- */
@@ -108,7 +118,7 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
         for (int b = 0; b < dim; b++) R[a * dim + b] = s->R[a][b];
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        w[k] = 0.25 * (s->mode[1 << i][j] - s->mode[1 << j][i]);     /* half the angle */
+        w[k] = 0.25 * (s->mode[1 << i][j] - s->mode[1 << j][i]); /* half the angle */
         square += w[k] * w[k];
     }
     if (dim == 2) {
@@ -125,8 +135,8 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
 }
 
 /* Sets end_strain and end_rotation of the points at the ends of bonds in a group of partial cells. */
-static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct particles *p, int64_t group,
-                                                const int dim, const bool finite)
+static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct particles *p, int64_t group, const int dim,
+                                            const bool finite)
 {
     struct mesh_cell s;
     lanes u[CORNERS_MAX][3], v[MODES_MAX], rotation[ROTATION];
@@ -154,8 +164,8 @@ static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct part
     }                                                                                                                  \
     static void ends_update_##D##_##FINITE(const struct mesh *mesh, struct particles *p)                               \
     {                                                                                                                  \
-        TEAM_LOOP(mesh_groups(mesh) > FEW / LANES, for (int64_t k = 0; k < mesh_groups(mesh); k++)                     \
-            group_ends_##D##_##FINITE(mesh, p, k););                                                                   \
+        TEAM_LOOP(mesh_groups(mesh) > FEW / LANES,                                                                     \
+                  for (int64_t k = 0; k < mesh_groups(mesh); k++) group_ends_##D##_##FINITE(mesh, p, k););             \
     }
 ENDS(2, false)
 ENDS(2, true)
@@ -186,11 +196,14 @@ static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p
 
 void mesh_exposed_force(struct mesh *mesh, const struct particles *p)
 {
-    for (int64_t k = 0; k < mesh->exposed; k++) {   /* few, and cells share nodes: in order */
+    for (int64_t k = 0; k < mesh->exposed; k++) { /* few, and cells share nodes: in order */
         const struct mesh_exposed s = mesh->exposed_list[k];
-        if (p->dim == 1) cell_pull(mesh, p, s.cell, s.places, 1);
-        else if (p->dim == 2) cell_pull(mesh, p, s.cell, s.places, 2);
-        else cell_pull(mesh, p, s.cell, s.places, 3);
+        if (p->dim == 1)
+            cell_pull(mesh, p, s.cell, s.places, 1);
+        else if (p->dim == 2)
+            cell_pull(mesh, p, s.cell, s.places, 2);
+        else
+            cell_pull(mesh, p, s.cell, s.places, 3);
     }
 }
 
@@ -198,12 +211,14 @@ void mesh_exposed_force(struct mesh *mesh, const struct particles *p)
 
 /* Stores the Cauchy stress R sym(s U) R^T/det U of point i with the strain e, and at finite strain its volume. */
 static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct elastic *m, int64_t i, const real *R,
-                                            const real *e, const int dim, bool finite)
+                                             const real *e, const int dim, bool finite)
 {
     const int n = symmetric_count(dim);
     real s[SYM_MAX], S[9], T[9], det = 1;
-    if (mesh_flows(p)) point_stress(p, m, i, e, s, dim, false);
-    else mesh_point_stress(m, e, s, dim);
+    if (mesh_flows(p))
+        point_stress(p, m, i, e, s, dim, false);
+    else
+        mesh_point_stress(m, e, s, dim);
     if (!finite) {
         for (int k = 0; k < n; k++) p->stress[k][i] = s[k];
         return;
@@ -249,16 +264,20 @@ static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles 
 #define STRESS(D)                                                                                                      \
     static void stress_##D(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)         \
     {                                                                                                                  \
-        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < cells_of_points(mesh); k++)               \
-            if (mesh->kind[cell_of_points(mesh, k)]) cell_stress(mesh, p, m, cell_of_points(mesh, k), D, finite);      \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < cells_of_points(mesh);                    \
+                                                          k++) if (mesh->kind[cell_of_points(mesh, k)])                \
+            cell_stress(mesh, p, m, cell_of_points(mesh, k), D, finite);                                               \
     }
 DIMENSIONS(STRESS)
 
 void mesh_points_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)
 {
-    if (p->dim == 1) stress_1(mesh, p, m, finite);
-    else if (p->dim == 2) stress_2(mesh, p, m, finite);
-    else stress_3(mesh, p, m, finite);
+    if (p->dim == 1)
+        stress_1(mesh, p, m, finite);
+    else if (p->dim == 2)
+        stress_2(mesh, p, m, finite);
+    else
+        stress_3(mesh, p, m, finite);
 }
 
 static ALWAYS_INLINE void cell_gradient(const struct mesh *mesh, int64_t I, real *const *to, const int dim)
@@ -274,16 +293,20 @@ static ALWAYS_INLINE void cell_gradient(const struct mesh *mesh, int64_t I, real
 #define GRADIENT(D)                                                                                                    \
     static void gradient_##D(const struct mesh *mesh, real *const *to)                                                 \
     {                                                                                                                  \
-        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < cells_of_points(mesh); k++)               \
-            if (mesh->kind[cell_of_points(mesh, k)]) cell_gradient(mesh, cell_of_points(mesh, k), to, D);              \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < cells_of_points(mesh);                    \
+                                                          k++) if (mesh->kind[cell_of_points(mesh, k)])                \
+            cell_gradient(mesh, cell_of_points(mesh, k), to, D);                                                       \
     }
 DIMENSIONS(GRADIENT)
 
 void mesh_points_gradient(const struct mesh *mesh, real *const *to)
 {
-    if (mesh->grid.dim == 1) gradient_1(mesh, to);
-    else if (mesh->grid.dim == 2) gradient_2(mesh, to);
-    else gradient_3(mesh, to);
+    if (mesh->grid.dim == 1)
+        gradient_1(mesh, to);
+    else if (mesh->grid.dim == 2)
+        gradient_2(mesh, to);
+    else
+        gradient_3(mesh, to);
 }
 
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
@@ -315,9 +338,12 @@ DIMENSIONS(CELL_MARK)
 static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                     const int dim, bool finite)
 {
-    if (dim == 1) cell_mark_1(mesh, p, m, I, finite);
-    else if (dim == 2) cell_mark_2(mesh, p, m, I, finite);
-    else cell_mark_3(mesh, p, m, I, finite);
+    if (dim == 1)
+        cell_mark_1(mesh, p, m, I, finite);
+    else if (dim == 2)
+        cell_mark_2(mesh, p, m, I, finite);
+    else
+        cell_mark_3(mesh, p, m, I, finite);
 }
 
 /* Bound of the largest principal stress [Pa], closer than that of mesh_force: place by place, where `there` is set
@@ -326,7 +352,8 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
                                           const int dim)
 {
     lanes most = lanes_of(-INFINITY), e[3][3], P[3][3];
-    SETS for (int q = 0; q < 1 << dim; q++) {
+    SETS for (int q = 0; q < 1 << dim; q++)
+    {
         cells_strain_at(s, q, e, dim);
         stress_of(m, e, P, dim);
         lanes bound = P[0][0];
@@ -453,15 +480,20 @@ MARK(3, true)
 
 void mesh_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite)
 {
-    if (p->dim == 1) cells_mark_1_false(mesh, p, m);
-    else if (p->dim == 2) (finite ? cells_mark_2_true : cells_mark_2_false)(mesh, p, m);
-    else (finite ? cells_mark_3_true : cells_mark_3_false)(mesh, p, m);
+    if (p->dim == 1)
+        cells_mark_1_false(mesh, p, m);
+    else if (p->dim == 2)
+        (finite ? cells_mark_2_true : cells_mark_2_false)(mesh, p, m);
+    else
+        (finite ? cells_mark_3_true : cells_mark_3_false)(mesh, p, m);
 }
 
 void mesh_cells_mark(const struct mesh *mesh, const struct elastic *m, real share, bool all, uint8_t *mark, bool finite)
 {
-    if (mesh->grid.dim == 1) cells_mark_only_1_false(mesh, m, share, all, mark);
+    if (mesh->grid.dim == 1)
+        cells_mark_only_1_false(mesh, m, share, all, mark);
     else if (mesh->grid.dim == 2)
         (finite ? cells_mark_only_2_true : cells_mark_only_2_false)(mesh, m, share, all, mark);
-    else (finite ? cells_mark_only_3_true : cells_mark_only_3_false)(mesh, m, share, all, mark);
+    else
+        (finite ? cells_mark_only_3_true : cells_mark_only_3_false)(mesh, m, share, all, mark);
 }

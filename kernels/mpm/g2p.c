@@ -68,7 +68,7 @@ static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *poin
 {
     if (dim == 2) {
         const row_of_points half = 0.25 * dt * (L[2] - L[1]), scale = 2.0 / (1.0 + half * half);
-        const row_of_points less = -half * half * scale, sine = half * scale;          /* cos - 1, sin */
+        const row_of_points less = -half * half * scale, sine = half * scale; /* cos - 1, sin */
         const row_of_points a = points_load(p->end_rotation[0], point, dim),
                             b = points_load(p->end_rotation[1], point, dim);
         points_store(p->end_rotation[0], point, a + less + a * less - b * sine, dim);
@@ -114,7 +114,7 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     points_mask inside = (points_mask){0} - 1;
     for (int d = 0; d < dim; d++) {
         const row_of_points x = s->x[d] + step[d];
-        const row_of_points place = (x - g->anchor[d]) * (1 / g->h);       /* grid_place */
+        const row_of_points place = (x - g->anchor[d]) * (1 / g->h); /* grid_place */
         points_store(p->x[d], s->point, x, dim);
         inside &= (place >= c->place[d]) & (place < c->place[d] + 1);
     }
@@ -140,14 +140,16 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
     const bool any = transfer == TRANSFER_FLIP && points_signs(bonded) != 0;
     for (int d = 0; d < dim; d++) velocity[d] = points_of(0);
     for (int k = 0; k < dim * dim; k++) L[k] = points_of(0);
-    FOR_ANY_TOUCHED(s, dim, shape) {
+    FOR_ANY_TOUCHED(s, dim, shape)
+    {
         const row_of_points weight = stencil_rows(s, k1, k2, dim, shape);
         const int64_t I = cell_row(c, g, k1, k2, dim);
         for (int d = 0; d < dim; d++) {
             const real *moving = g->velocity[d] + I,
                        *straining = transfer == TRANSFER_APIC ? moving : g->momentum[d] + I;
             row_of_points moved = points_of(0), strained = points_of(0), slope[2] = {points_of(0), points_of(0)};
-            FOR_NODES(dim, shape) {
+            FOR_NODES(dim, shape)
+            {
                 const int64_t node = row_node(g, k, dim, shape);
                 moved += s->N[k] * moving[node];
                 strained += s->N[k] * straining[node];
@@ -216,13 +218,12 @@ static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p,
         int64_t moved = 0;                                                                                             \
         _Pragma("omp parallel reduction(+ : moved)")                                                                   \
         {                                                                                                              \
-            struct grid nodes = *g;            /* as in scatter.h */                                                   \
+            struct grid nodes = *g; /* as in scatter.h */                                                              \
             struct particles points = *p;                                                                              \
             struct transfer_data data = *t;                                                                            \
-            _Pragma("omp for schedule(static)")                                                                        \
-            for (int32_t k = 0; k < o->cells; k++)                                                                     \
-                moved += g2p_cell(&nodes, &points, &data, o->particle + o->cell_start[k],                              \
-                                  o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T);                \
+            _Pragma("omp for schedule(static)") for (int32_t k = 0; k < o->cells; k++) moved +=                        \
+                g2p_cell(&nodes, &points, &data, o->particle + o->cell_start[k],                                       \
+                         o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T);                         \
         }                                                                                                              \
         return moved;                                                                                                  \
     }

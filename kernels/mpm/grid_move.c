@@ -16,8 +16,8 @@ void grid_clear(struct grid *g)
 
 /* Constrains one velocity component of a wall node: the reaction replaces the force, and with APIC also the momentum.
  * Adds the impulse [N s] and the work [J] of the wall. */
-static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, real smallest_mass,
-                      real impulse[DIM_MAX], real *work)
+static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX],
+                      real *work)
 {
     const int d = w->component;
     const int64_t I = w->node;
@@ -106,8 +106,10 @@ static int64_t leader_of(const struct grid *g, int64_t I)
             int axes = 0;
             for (int d = 0; d < DIM_MAX; d++) {
                 axes += step[d] != 0;
-                if (d < g->dim) J += step[d] * g->stride[d];
-                else if (step[d] != 0) axes = DIM_MAX + 1;
+                if (d < g->dim)
+                    J += step[d] * g->stride[d];
+                else if (step[d] != 0)
+                    axes = DIM_MAX + 1;
             }
             if (axes == apart && J >= 0 && J < g->n && g->mass[J] > most) most = g->mass[J], leader = J;
         }
@@ -189,8 +191,8 @@ static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
         const int64_t I = g->dashpot[k].node;
         for (int d = 0; d < g->dim && g->mass[I] >= least; d++) {
             const real change = g->force[d][I], before = g->velocity[d][I] - change;
-            const real given = dashpot_kick(&g->absorbed, d, dt_velocity * g->dashpot[k].rate[d], g->mass[I], before,
-                                            change);
+            const real given =
+                dashpot_kick(&g->absorbed, d, dt_velocity * g->dashpot[k].rate[d], g->mass[I], before, change);
             g->dashpot[k].impulse[d] = given;
             g->force[d][I] += given / g->mass[I];
             g->velocity[d][I] += given / g->mass[I];
@@ -228,7 +230,7 @@ void grid_advance(struct grid *g, enum transfer transfer, real dt_velocity, real
 
 void grid_constrain(struct grid *g, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX], real *work)
 {
-    for (int64_t k = 0; k < g->walls; k++)     /* few; a serial loop keeps sums independent of the threads */
+    for (int64_t k = 0; k < g->walls; k++) /* few; a serial loop keeps sums independent of the threads */
         wall_move(g, &g->wall[k], transfer, smallest_mass, impulse, work);
     followers_out(g);
     grid_mirror_nodes_spread(g, transfer, impulse);

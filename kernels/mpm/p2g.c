@@ -36,7 +36,8 @@ static ALWAYS_INLINE void p2g_skew(cell_sums sum, const struct particles *p, con
     const int64_t i = s->point[at];
     real skew[DIM_MAX];
     if (dim == 1 || t->momentum_only || !stress_given_skew(p, t->partial, i, skew, dim)) return;
-    FOR_TOUCHED(s, at, dim, shape) {
+    FOR_TOUCHED(s, at, dim, shape)
+    {
         row_of_nodes grad[DIM_MAX];
         for (int e = 0; e < dim; e++)
             grad[e] = e < ROW_DIMS(dim, shape) ? row->D[e] * stencil_row(s, at, k1, k2, dim, shape)
@@ -73,8 +74,10 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
     const int64_t i = s->point[at];
     const struct touch row = stencil_touch(s, at, g->h, dim, shape);
     real stress[SYM_MAX];
-    if (t->momentum_only) memset(stress, 0, sizeof stress);
-    else stress_given(p, t->partial, i, stress, dim);
+    if (t->momentum_only)
+        memset(stress, 0, sizeof stress);
+    else
+        stress_given(p, t->partial, i, stress, dim);
     const real m = p->mass[i], volume = p->volume[i];
     for (int k = 0; k < dim * (dim + 1) / 2; k++) stress[k] *= volume;
     const row_of_nodes mass = m * row.N;
@@ -92,7 +95,8 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
         force[d] = p->f[d][i] * row.N;
         for (int e = 0; e < along; e++) force[d] -= stress[symmetric_place(d, e, dim)] * row.D[e];
     }
-    FOR_TOUCHED(s, at, dim, shape) {
+    FOR_TOUCHED(s, at, dim, shape)
+    {
         const real weight = stencil_row(s, at, k1, k2, dim, shape);
         const int k = PATCH(dim, shape);
         sum[0][k] += mass * weight;
@@ -130,7 +134,7 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
     const struct cell c = cell_make(g, p, list[0], dim, shape);
     cell_sums sum;
     FOR_ROWS(dim, shape)
-        for (int f = 0; f < 1 + 2 * dim; f++) sum[f][PATCH(dim, shape)] = row_of(0);
+    for (int f = 0; f < 1 + 2 * dim; f++) sum[f][PATCH(dim, shape)] = row_of(0);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         struct cell_stencil s;
         const int points = at_once(n - k, dim);
@@ -141,7 +145,8 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
             p2g_particle(sum, g, p, t, &s, at, dim, shape, transfer);
         }
     }
-    FOR_ROWS(dim, shape) {
+    FOR_ROWS(dim, shape)
+    {
         const int64_t I = cell_row(&c, g, k1, k2, dim);
         const int k = PATCH(dim, shape);
         nodes_add(g, g->mass + I, sum[0][k], dim, shape);
@@ -176,15 +181,14 @@ static ALWAYS_INLINE void spread_particle(const struct grid *g, const struct par
     stencil_transpose(&s, dim, shape);
     const row_of_nodes spread = value * stencil_touch(&s, 0, g->h, dim, shape).N;
     FOR_TOUCHED(&s, 0, dim, shape)
-        nodes_add(g, field + cell_row(&c, g, k1, k2, dim), spread * stencil_row(&s, 0, k1, k2, dim, shape), dim, shape);
+    nodes_add(g, field + cell_row(&c, g, k1, k2, dim), spread * stencil_row(&s, 0, k1, k2, dim, shape), dim, shape);
 }
 
 #define SPREAD(D, S)                                                                                                   \
     static void spread_##D##d_##S(const struct grid *g, const struct particles *p, real half_width,                    \
                                   const int32_t *list, int64_t n, const real *value, real *field)                      \
     {                                                                                                                  \
-        for (int64_t k = 0; k < n; k++)                                                                                \
-            spread_particle(g, p, half_width, list[k], value[k], field, D, SHAPE_##S);                                 \
+        for (int64_t k = 0; k < n; k++) spread_particle(g, p, half_width, list[k], value[k], field, D, SHAPE_##S);     \
     }
 SHAPE_VARIANTS(SPREAD)
 

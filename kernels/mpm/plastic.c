@@ -83,9 +83,13 @@ real plastic_return(const struct elastic *m, real *stress, real strain, real *ou
 {
     const real bound = m->yield + m->hardening * strain;
     switch (m->space) {
-    case SPACE_LINE: return return_line(m, stress, bound);
-    case SPACE_PLANE_STRESS: return return_plane_stress(m, stress, bound);
-    case SPACE_PLANE_STRAIN: return return_plane_strain(m, stress, bound, out_of_plane);
-    default: return return_solid(m, stress, bound);
+    case SPACE_LINE:
+        return return_line(m, stress, bound);
+    case SPACE_PLANE_STRESS:
+        return return_plane_stress(m, stress, bound);
+    case SPACE_PLANE_STRAIN:
+        return return_plane_strain(m, stress, bound, out_of_plane);
+    default:
+        return return_solid(m, stress, bound);
     }
 }

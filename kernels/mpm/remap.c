@@ -14,7 +14,8 @@ static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct cel
 {
     row_of_points gain[DIM_MAX];
     for (int d = 0; d < dim; d++) gain[d] = points_of(0);
-    FOR_ANY_TOUCHED(s, dim, shape) {
+    FOR_ANY_TOUCHED(s, dim, shape)
+    {
         const row_of_points weight = stencil_rows(s, k1, k2, dim, shape);
         for (int d = 0; d < dim; d++) {
             const real *change = g->force[d] + cell_row(c, g, k1, k2, dim);
@@ -55,7 +56,8 @@ static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, cons
         row_of_nodes given[DIM_MAX];
         remap_fetch(p, list, at, dim);
         for (int d = 0; d < dim; d++) given[d] = momentum[d][at] * N;
-        FOR_TOUCHED(&s, at, dim, shape) {
+        FOR_TOUCHED(&s, at, dim, shape)
+        {
             const real weight = stencil_row(&s, at, k1, k2, dim, shape);
             for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] += weight * given[d];
         }
@@ -69,12 +71,11 @@ static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, 
     const struct cell c = cell_make(g, p, list[0], dim, shape);
     cell_rows sum;
     FOR_ROWS(dim, shape)
-        for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_of(0);
-    for (int k = 0; k < n; k += AT_ONCE(dim))
-        remap_points(sum, g, &c, p, t, list + k, at_once(n - k, dim), dim, shape);
+    for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_of(0);
+    for (int k = 0; k < n; k += AT_ONCE(dim)) remap_points(sum, g, &c, p, t, list + k, at_once(n - k, dim), dim, shape);
     FOR_ROWS(dim, shape)
-        for (int d = 0; d < dim; d++)
-            nodes_add(g, g->momentum[d] + cell_row(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim, shape);
+    for (int d = 0; d < dim; d++)
+        nodes_add(g, g->momentum[d] + cell_row(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim, shape);
 }
 
 #define INSTANCE(D, S)                                                                                                 \

@@ -23,18 +23,20 @@ static ALWAYS_INLINE void turn_gather_points(const struct grid *g, const struct 
 {
     const int along = ROW_DIMS(dim, shape);
     struct cell_stencil s;
-    row_of_points gain[DIM_MAX], arm[DIM_MAX][DIM_MAX];          /* arm[e][d]: sum N (x_I - x_p)_e dv_d */
+    row_of_points gain[DIM_MAX], arm[DIM_MAX][DIM_MAX]; /* arm[e][d]: sum N (x_I - x_p)_e dv_d */
     cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
     for (int d = 0; d < dim; d++) {
         gain[d] = points_of(0);
         for (int e = 0; e < dim; e++) arm[e][d] = points_of(0);
     }
-    FOR_ANY_TOUCHED(&s, dim, shape) {
+    FOR_ANY_TOUCHED(&s, dim, shape)
+    {
         const row_of_points weight = stencil_rows(&s, k1, k2, dim, shape);
         for (int d = 0; d < dim; d++) {
             const real *change = g->force[d] + cell_row(c, g, k1, k2, dim);
             row_of_points sum = points_of(0), far[2] = {points_of(0), points_of(0)};
-            FOR_NODES(dim, shape) {
+            FOR_NODES(dim, shape)
+            {
                 const row_of_points part = s.N[k] * change[row_node(g, k, dim, shape)];
                 sum += part;
                 for (int e = 0; e < along; e++) far[e] += part * stencil_lanes(&s, k, g->h, e, dim, shape);
@@ -55,8 +57,8 @@ static ALWAYS_INLINE void turn_gather_points(const struct grid *g, const struct 
     static void turn_gather_##D##d_##S(const struct grid *g, struct particles *p, const struct transfer_data *t)       \
     {                                                                                                                  \
         const struct transfer_order *o = t->order;                                                                     \
-        _Pragma("omp parallel for schedule(static)")                                                                   \
-        for (int32_t k = 0; k < o->cells; k++) {                                                                       \
+        _Pragma("omp parallel for schedule(static)") for (int32_t k = 0; k < o->cells; k++)                            \
+        {                                                                                                              \
             const int32_t *list = o->particle + o->cell_start[k], n = o->cell_start[k + 1] - o->cell_start[k];         \
             const struct cell c = cell_make(g, p, list[0], D, SHAPE_##S);                                              \
             for (int m = 0; m < n; m += AT_ONCE(D))                                                                    \
@@ -87,7 +89,8 @@ static ALWAYS_INLINE void turn_scatter_point(cell_rows sum, const struct grid *g
         for (int e = 0; e < along; e++) speed += slope[d][e] * stencil_along(s, at, g->h, e, dim, shape);
         momentum[d] = mass * speed;
     }
-    FOR_TOUCHED(s, at, dim, shape) {
+    FOR_TOUCHED(s, at, dim, shape)
+    {
         const real weight = stencil_row(s, at, k1, k2, dim, shape);
         for (int d = 0; d < dim; d++) {
             row_of_nodes given = momentum[d];
@@ -105,7 +108,7 @@ static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct p
     const struct cell c = cell_make(g, p, list[0], dim, shape);
     cell_rows sum;
     FOR_ROWS(dim, shape)
-        for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_of(0);
+    for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_of(0);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         struct cell_stencil s;
         const int points = at_once(n - k, dim);
@@ -114,8 +117,8 @@ static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct p
         for (int at = 0; at < points; at++) turn_scatter_point(sum, g, p, t, &s, at, dim, shape);
     }
     FOR_ROWS(dim, shape)
-        for (int d = 0; d < dim; d++)
-            nodes_add(g, g->momentum[d] + cell_row(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim, shape);
+    for (int d = 0; d < dim; d++)
+        nodes_add(g, g->momentum[d] + cell_row(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim, shape);
 }
 
 #define TURN_SCATTER(D, S)                                                                                             \

@@ -28,13 +28,15 @@ static ALWAYS_INLINE void fetch(const real *at) { __builtin_prefetch(at, 0, 3); 
         const struct transfer_data data = *(TRANSFER);                                                                 \
         const struct transfer_order *order = data.order;                                                               \
         for (int colour = 0; colour < 1 << (D); colour++) {                                                            \
-            _Pragma("omp for schedule(static)")                                                                        \
-            for (int block = order->blocks_of[colour]; block < order->blocks_of[colour + 1]; block++)                  \
-                for (int32_t c = order->block_cell[block]; c < order->block_cell[block + 1]; c++) {                    \
-                    const int32_t *list = order->particle + order->cell_start[c];                                      \
-                    const int n = order->cell_start[c + 1] - order->cell_start[c];                                     \
-                    CALL;                                                                                              \
-                }                                                                                                      \
+            _Pragma("omp for schedule(static)") for (int block = order->blocks_of[colour];                             \
+                                                     block < order->blocks_of[colour + 1];                             \
+                                                     block++) for (int32_t c = order->block_cell[block];               \
+                                                                   c < order->block_cell[block + 1]; c++)              \
+            {                                                                                                          \
+                const int32_t *list = order->particle + order->cell_start[c];                                          \
+                const int n = order->cell_start[c + 1] - order->cell_start[c];                                         \
+                CALL;                                                                                                  \
+            }                                                                                                          \
         }                                                                                                              \
     }
 

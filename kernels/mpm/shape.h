@@ -67,10 +67,17 @@ static ALWAYS_INLINE void shape_row(const enum shape shape, row_of_points t, row
                                     row_of_points inverse_width, row_of_points N[ROW], row_of_points dN[ROW])
 {
     switch (shape) {
-    case SHAPE_LINEAR: shape_linear(t, N, dN); return;
-    case SHAPE_QUADRATIC: shape_gimp(t, points_of(0.5), points_of(1), N, dN); break;
-    case SHAPE_CUBIC: shape_cubic(t, N, dN); break;
-    default: shape_gimp(t, l, inverse_width, N, dN);
+    case SHAPE_LINEAR:
+        shape_linear(t, N, dN);
+        return;
+    case SHAPE_QUADRATIC:
+        shape_gimp(t, points_of(0.5), points_of(1), N, dN);
+        break;
+    case SHAPE_CUBIC:
+        shape_cubic(t, N, dN);
+        break;
+    default:
+        shape_gimp(t, l, inverse_width, N, dN);
     }
     whole(t, N);
 }
@@ -115,8 +122,8 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 #define PATCH(dim, shape) (k2 * ROWS_Y(dim, shape) + k1)
 
 struct cell {
-    int64_t node;                        /* index of the patch's lowest node */
-    real place[DIM_MAX];                 /* lower corner of the cell, in node distances from the anchor */
+    int64_t node;        /* index of the patch's lowest node */
+    real place[DIM_MAX]; /* lower corner of the cell, in node distances from the anchor */
 };
 
 /* The cell of point i. */
@@ -159,19 +166,21 @@ static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes
 /* ---- weights of a few points of a cell --------------------------------------------------------------------------- */
 
 struct cell_stencil {
-    int32_t point[POINTS];               /* padded with the last point */
-    row_of_points x[DIM_MAX];            /* position [m] */
-    row_of_points t[DIM_MAX];            /* place in the cell [1] */
+    int32_t point[POINTS];           /* padded with the last point */
+    row_of_points x[DIM_MAX];        /* position [m] */
+    row_of_points t[DIM_MAX];        /* place in the cell [1] */
     row_of_points N[ROW], D[2][ROW]; /* of the nodes of a row: weights [1], slopes in the directions along it [1/m] */
     row_of_nodes from_N[POINTS], from_D[POINTS]; /* N and D by point, of maps to nodes */
     /* factors of the rows by direction across: weights [1], slopes [1/m] */
     row_of_points A[DIM_MAX][ACROSS], B[DIM_MAX][ACROSS];
-    int low[DIM_MAX][POINTS];            /* first row that each point touches (three nodes) */
-    int lowest[DIM_MAX], end[DIM_MAX];   /* first row that any point touches; one past the last */
+    int low[DIM_MAX][POINTS];          /* first row that each point touches (three nodes) */
+    int lowest[DIM_MAX], end[DIM_MAX]; /* first row that any point touches; one past the last */
 };
 
 /* Weights [1] of the nodes of a row at one point, and slopes in the directions along the row [1/m]. */
-struct touch { row_of_nodes N, D[2]; };
+struct touch {
+    row_of_nodes N, D[2];
+};
 
 /* Largest half width over h of cpGIMP: the four nodes of a row allow no more. A particle that is stretched further
  * keeps this width, and numerical fracture starts: at a stretch of 4 with two particles per cell. */
@@ -213,8 +222,10 @@ static ALWAYS_INLINE void stencil_direction(struct cell_stencil *s, const struct
     }
     shape_row(shape, s->t[d], l, inverse_width, N, dN);
     for (int k = 0; k < ROW; k++) {
-        if (d == 0) s->N[k] = N[k], s->D[0][k] = dN[k] * inverse;
-        else s->A[d][k] = N[k], s->B[d][k] = dN[k] * inverse;
+        if (d == 0)
+            s->N[k] = N[k], s->D[0][k] = dN[k] * inverse;
+        else
+            s->A[d][k] = N[k], s->B[d][k] = dN[k] * inverse;
     }
     if (SKIPS(dim, shape) && d > 0) stencil_touched(s, shape == SHAPE_GIMP ? l : points_of(0.5), d);
 }
@@ -228,9 +239,10 @@ static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct
     for (int k = 0; k < POINTS; k++) s->point[k] = list[smaller(k % AT_ONCE(dim), n - 1)];
     for (int d = 0; d < dim; d++) {
         s->x[d] = points_load(p->x[d], s->point, dim);
-        s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d];           /* grid_place */
+        s->t[d] = (s->x[d] - g->anchor[d]) * inverse - c->place[d]; /* grid_place */
     }
-    if (IS_FACE(dim, shape)) stencil_face(s, inverse, dim);
+    if (IS_FACE(dim, shape))
+        stencil_face(s, inverse, dim);
     else
         for (int d = 0; d < dim; d++) stencil_direction(s, p, inverse, half_width, d, dim, shape);
 }

@@ -87,15 +87,19 @@ static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w
         real turned[SYM_MAX];
         if (!(large >> k & 1)) continue;
         for (int c = 0; c < n; c++) turned[c] = s[c][k];
-        if (dim == 2) stress_rotate_2d(turned, w[0][k]);
-        else stress_rotate_3d(turned, w[0][k], w[1][k], w[2][k]);
+        if (dim == 2)
+            stress_rotate_2d(turned, w[0][k]);
+        else
+            stress_rotate_3d(turned, w[0][k], w[1][k], w[2][k]);
         for (int c = 0; c < n; c++) more[c][k] = turned[c] - s[c][k];
     }
     for (int c = 0; c < n; c++) s[c] += more[c];
 }
 
 /* struct elastic of a few points. */
-struct elastic_points { row_of_points c11, c12, shear, trigger, yield; };   /* [Pa] */
+struct elastic_points {
+    row_of_points c11, c12, shear, trigger, yield;
+}; /* [Pa] */
 
 /* Updates s by the velocity gradient L[a dim + b] = dv_a/dx_b; returns the trace of the strain increment. */
 static ALWAYS_INLINE row_of_points stress_update(row_of_points *s, const row_of_points *L,

@@ -10,7 +10,7 @@
 #include "state_laws.h"
 
 #define LIMIT_MARGIN 1e-9 /* the vector test is this much below a limit, for round-off; the scalar rule decides */
-#define ROUND_OFF 1e-14                  /* of a squared elongation: the margin where limits are close to 0 */
+#define ROUND_OFF 1e-14   /* of a squared elongation: the margin where limits are close to 0 */
 
 /* Flags are set by the owner of a row and read by its neighbours' owners at the same time; the bit they read does not
  * change, the atomics only say so. */
@@ -83,9 +83,12 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
     const bool state = b->state.modulus != NULL;
     const real stretch = stretch_ago(p, b->inverse_length[q], i, j, 0);
     const real before = state ? state_row_energy(b, p, row, 0) : half_energy(b, q, stretch);
-    if (w > 0) b->w[q] = w;
-    else if (b->inverse_length[q] > 0) bond_end(b, p, row, q, i, j);
-    else b->w[q] = 0;
+    if (w > 0)
+        b->w[q] = w;
+    else if (b->inverse_length[q] > 0)
+        bond_end(b, p, row, q, i, j);
+    else
+        b->w[q] = 0;
     bonds_changed(b, row, q);
     row_changed(b, row);
     b->fracture_energy[row] += 0.5 * (before - (state ? state_row_energy(b, p, row, 0) : half_energy(b, q, stretch)));

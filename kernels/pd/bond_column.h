@@ -5,7 +5,7 @@
 #include "bonds/bonds.h"
 #include "kernels/simd/lanes.h"
 
-enum { COLUMNS_AHEAD = 40 };               /* prefetched this far ahead: about 200 ns                */
+enum { COLUMNS_AHEAD = 40 }; /* prefetched this far ahead: about 200 ns                */
 
 /* What a column's bonds share: nothing; neighbours in a row, with lengths of the lattice; their weight too; all but
  * the weight with other row blocks; all with other row blocks; and that weight is one, as it is inside a body: 5 to 7 %
@@ -16,9 +16,9 @@ enum column_kind { COLUMN_FREE, COLUMN_SHELL, COLUMN_ALIKE, COLUMN_STENCIL, COLU
 struct column {
     const struct bonds *b;
     int64_t number;
-    int64_t first;                       /* neighbour of lane 0; COLUMN_FREE: maybe < 0 */
+    int64_t first;                        /* neighbour of lane 0; COLUMN_FREE: maybe < 0 */
     const struct stencil_column *stencil; /* of COLUMN_STENCIL and on */
-    const real *w;                       /* of COLUMN_STENCIL: of the lanes */
+    const real *w;                        /* of COLUMN_STENCIL: of the lanes */
     enum column_kind kind;
 };
 
@@ -45,13 +45,17 @@ static ALWAYS_INLINE struct column column_of(const struct bonds *b, int64_t numb
     do {                                                                                                               \
         const struct stencil *stencil_ = (B)->stencil[ROW_BLOCK];                                                      \
         const int64_t from_ = (B)->column[ROW_BLOCK], columns_ = (B)->column_count[ROW_BLOCK];                         \
-        const int64_t own_ = (B)->particle[(ROW_BLOCK) * LANES];                                                       \
+        const int64_t own_ = (B)->particle[(ROW_BLOCK)*LANES];                                                         \
         if (!stencil_)                                                                                                 \
             for (int64_t k_ = from_; k_ < from_ + columns_; k_++)                                                      \
-                if ((B)->common[k_].intact == 0) continue;                                                             \
-                else if ((B)->common[k_].alike) VISIT(column_stored(B, k_, COLUMN_ALIKE));                             \
-                else if ((B)->common[k_].shell) VISIT(column_stored(B, k_, COLUMN_SHELL));                         \
-                else VISIT(column_stored(B, k_, COLUMN_FREE));                                                         \
+                if ((B)->common[k_].intact == 0)                                                                       \
+                    continue;                                                                                          \
+                else if ((B)->common[k_].alike)                                                                        \
+                    VISIT(column_stored(B, k_, COLUMN_ALIKE));                                                         \
+                else if ((B)->common[k_].shell)                                                                        \
+                    VISIT(column_stored(B, k_, COLUMN_SHELL));                                                         \
+                else                                                                                                   \
+                    VISIT(column_stored(B, k_, COLUMN_FREE));                                                          \
         else if (stencil_->unit)                                                                                       \
             for (int64_t k_ = 0; k_ < columns_; k_++)                                                                  \
                 VISIT(column_of(B, from_ + k_, stencil_, k_, own_, COLUMN_UNIT));                                      \
@@ -130,8 +134,10 @@ static ALWAYS_INLINE lanes column_smallest(const struct column s, lanes a, lanes
 /* Values of a row block's particles. */
 static ALWAYS_INLINE void rows_store(real *to, const int32_t *row, int rows, bool aligned, lanes value)
 {
-    if (aligned) lanes_store(to + row[0], value);
-    else for (int l = 0; l < rows; l++) to[row[l]] = value[l];
+    if (aligned)
+        lanes_store(to + row[0], value);
+    else
+        for (int l = 0; l < rows; l++) to[row[l]] = value[l];
 }
 
 #endif

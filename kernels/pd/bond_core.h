@@ -22,7 +22,9 @@
 #define CORE_FROM 0.7
 
 /* A bond within its core: |y|/|xi|, 1 where it is not; K [N]; from i to j [m]. */
-struct core { real ratio, K, y[DIM_MAX], distance; };
+struct core {
+    real ratio, K, y[DIM_MAX], distance;
+};
 
 static inline struct core core_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {

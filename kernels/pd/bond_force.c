@@ -15,10 +15,12 @@
 #include "sweep.h"
 #include "kernels/simd/variants.h"
 
-#define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
+#define TINY 1e-300 /* keeps the root of a padding lane's zero distance finite */
 
 /* A row block while its columns are visited; `stretch` is the largest, `press` the smallest. */
-struct bond_sums { lanes x0, x1, x2, f0, f1, f2, stretch, press; };
+struct bond_sums {
+    lanes x0, x1, x2, f0, f1, f2, stretch, press;
+};
 
 /* Adds the forces of a column. The difference of the inverse lengths would be the stretch over the length, and
  * cheaper; a body in free fall then gathers three times the round-off. */
@@ -52,8 +54,14 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     const int rows = eight_at(g * LANES, b->rows);
     const int32_t own = aligned ? row[0] : -1;
     const lanes zero = lanes_of(0), x0 = lanes_at(p->x[0], own, row);
-    struct bond_sums sum = {x0, dim > 1 ? lanes_at(p->x[1], own, row) : x0, dim > 2 ? lanes_at(p->x[2], own, row) : x0,
-                            zero, zero, zero, lanes_of(-1), zero};
+    struct bond_sums sum = {x0,
+                            dim > 1 ? lanes_at(p->x[1], own, row) : x0,
+                            dim > 2 ? lanes_at(p->x[2], own, row) : x0,
+                            zero,
+                            zero,
+                            zero,
+                            lanes_of(-1),
+                            zero};
 #define VISIT(COLUMN) sum = bond_force_column(sum, p, COLUMN, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT

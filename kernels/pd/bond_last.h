@@ -28,7 +28,9 @@ static inline real stretch_limit(const struct particles *p, const struct bond_li
 }
 
 /* When a bond ends: so long before the present places [s], and the share of its force in this step's kick [1]. */
-struct bond_last { real ago, share; };
+struct bond_last {
+    real ago, share;
+};
 
 /* The end of a bond beyond its limit, of which `plastic` stretch has no force. Both rows find the same from the same
  * numbers.
@@ -53,12 +55,16 @@ static inline struct bond_last bond_last_of(const struct particles *p, const str
     const real now = stretch_ago(p, inverse_length, i, j, 0);
     const real before = stretch_ago(p, inverse_length, i, j, limit->dt);
     switch (limit->last_force) {
-    case LAST_FORCE_HALF: return (struct bond_last){0, 0.5};
-    case LAST_FORCE_WHOLE: return (struct bond_last){0, 1};
-    case LAST_FORCE_NONE: return (struct bond_last){0, 0};
-    case LAST_FORCE_MOMENT: break;
+    case LAST_FORCE_HALF:
+        return (struct bond_last){0, 0.5};
+    case LAST_FORCE_WHOLE:
+        return (struct bond_last){0, 1};
+    case LAST_FORCE_NONE:
+        return (struct bond_last){0, 0};
+    case LAST_FORCE_MOMENT:
+        break;
     }
-    if (!(before <= most && most < now)) return (struct bond_last){0, 0};      /* beyond before it was watched */
+    if (!(before <= most && most < now)) return (struct bond_last){0, 0}; /* beyond before it was watched */
     const real ago = (now - most) / (now - before), part = most > plastic ? (most - plastic) / (now - plastic) : 0;
     return (struct bond_last){ago * limit->dt, 0.5 - 0.5 * ago * (1 + part)};
 }

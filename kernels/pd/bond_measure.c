@@ -8,7 +8,7 @@
 #include "base/team.h"
 #include "kernels/simd/variants.h"
 
-#define TINY 1e-300                      /* keeps the root of a padding lane's zero distance finite */
+#define TINY 1e-300 /* keeps the root of a padding lane's zero distance finite */
 
 /* 1/|y|, and the stretch of the bonds of a column from rows at x to neighbours at x + y. */
 static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struct particles *p, const lanes *x,
@@ -32,7 +32,7 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struc
     bond_measure_store(s, p, x, y, &stretch, dim);
     *press = column_smallest(s, *press, stretch);
     const lanes w = column_weight(s), inverse = column_inverse_length(s);
-    const lanes length = lanes_inverse_root(inverse * inverse);            /* cheaper than a division */
+    const lanes length = lanes_inverse_root(inverse * inverse); /* cheaper than a division */
     const lanes elastic = bond_elastic(model, s.b, s.number * LANES, stretch);
     return lanes_choose(w > 0.0, w * bond_law_energy(elastic) * length, lanes_of(0));
 }
@@ -67,7 +67,7 @@ static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, 
 /* sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i), F the force on i, of the peridynamic particles among the eight rows of a
  * row block. */
 static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
-                                            const enum pd_model model)
+                                                const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
     lanes sum[SYM_MAX], x[DIM_MAX];
@@ -115,21 +115,21 @@ enum { ROW_BLOCK_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
         real total = 0;                                                                                                \
         for (int64_t first = 0; first < b->row_blocks; first += (int64_t)ROW_BLOCK_PER_BLOCK * BLOCKS_AT_ONCE) {       \
             real part[BLOCKS_AT_ONCE] = {0};                                                                           \
-            _Pragma("omp parallel for schedule(static)")                                                               \
-            for (int block = 0; block < BLOCKS_AT_ONCE; block++)                                                       \
-                for (int k = 0; k < ROW_BLOCK_PER_BLOCK; k++) {                                                        \
-                    int64_t g = first + (int64_t)block * ROW_BLOCK_PER_BLOCK + k;                                      \
-                    if (g < b->row_blocks && (PD_##M == PD_BOND_PLASTIC || b->active.level[g] > 0))                    \
-                        part[block] += bond_energy_row_block(b, p, g, D, PD_##M);                                      \
-                }                                                                                                      \
+            _Pragma("omp parallel for schedule(static)") for (int block = 0; block < BLOCKS_AT_ONCE;                   \
+                                                              block++) for (int k = 0; k < ROW_BLOCK_PER_BLOCK; k++)   \
+            {                                                                                                          \
+                int64_t g = first + (int64_t)block * ROW_BLOCK_PER_BLOCK + k;                                          \
+                if (g < b->row_blocks && (PD_##M == PD_BOND_PLASTIC || b->active.level[g] > 0))                        \
+                    part[block] += bond_energy_row_block(b, p, g, D, PD_##M);                                          \
+            }                                                                                                          \
             for (int block = 0; block < BLOCKS_AT_ONCE; block++) total += part[block];                                 \
         }                                                                                                              \
         return 0.5 * b->stiffness * total;                                                                             \
     }                                                                                                                  \
     static void bond_stress_##D##d_##M(const struct bonds *b, struct particles *p)                                     \
     {                                                                                                                  \
-        _Pragma("omp parallel for schedule(static)")                                                                   \
-        for (int64_t g = 0; g < b->row_blocks; g++) bond_stress_row_block(b, p, g, D, PD_##M);                         \
+        _Pragma("omp parallel for schedule(static)") for (int64_t g = 0; g < b->row_blocks; g++)                       \
+            bond_stress_row_block(b, p, g, D, PD_##M);                                                                 \
     }
 PD_VARIANTS(INSTANCE)
 

@@ -18,10 +18,12 @@
 #include "state_last.h"
 #include "state_laws.h"
 
-enum { MANY = 4096 };                    /* bonds from which on a team pays */
+enum { MANY = 4096 }; /* bonds from which on a team pays */
 
 /* Eight bonds: where they lead, and 1/|Y| and the stretch. */
-struct across { lanes y[DIM_MAX], w, inverse_length, inverse, stretch; };
+struct across {
+    lanes y[DIM_MAX], w, inverse_length, inverse, stretch;
+};
 
 static ALWAYS_INLINE struct across across_of(const struct clamped *c, const struct particles *p, int64_t k,
                                              const int dim)
@@ -58,8 +60,7 @@ static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct pa
     const struct across a = across_of(c, p, k, dim);
     const lanes r = lanes_inverse_root(lanes_choose(a.w > 0.0, a.inverse_length * a.inverse_length, lanes_of(1)));
     const lanes spring = lanes_gather(t->spring, c->from + k);
-    lanes along = r * lanes_gather(t->pressure, c->from + k), rotation[ROTATION], xi[DIM_MAX],
-          effective[DIM_MAX];
+    lanes along = r * lanes_gather(t->pressure, c->from + k), rotation[ROTATION], xi[DIM_MAX], effective[DIM_MAX];
     if (!rotates) along += r * a.stretch * spring;
     for (int d = 0; d < dim; d++) {
         xi[d] = lanes_gather(p->X[d], c->to + k) - lanes_gather(p->X[d], c->from + k);
@@ -73,9 +74,12 @@ static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct pa
 static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const struct particles *p, int64_t k,
                                                 const int dim)
 {
-    if (!b->state.modulus) bond_reactions(b, p, k, dim);
-    else if (b->state.rotation[0]) state_reactions(b, p, k, dim, true);
-    else state_reactions(b, p, k, dim, false);
+    if (!b->state.modulus)
+        bond_reactions(b, p, k, dim);
+    else if (b->state.rotation[0])
+        state_reactions(b, p, k, dim, true);
+    else
+        state_reactions(b, p, k, dim, false);
 }
 
 static void clamp_force_give(const struct clamped *c, struct particles *p, int64_t h)
@@ -117,10 +121,9 @@ int64_t bond_forces(bond_force_fn *sweep, struct bonds *b, struct particles *p, 
     INVARIANT(p->dim > 1 && (!motion || motion->loaded));
     if (c->stale) weights_follow(b);
     c->stale = false;
-    const int64_t broken = sweep(b, p, limit, motion);       /* stale, if one of these bonds is among them */
-    TEAM_LOOP(c->n > MANY, for (int64_t k = 0; k < c->n; k += LANES)
-        if (p->dim == 2) clamp_force_reactions(b, p, k, 2);
-        else clamp_force_reactions(b, p, k, 3););
+    const int64_t broken = sweep(b, p, limit, motion); /* stale, if one of these bonds is among them */
+    TEAM_LOOP(c->n > MANY, for (int64_t k = 0; k < c->n; k += LANES) if (p->dim == 2) clamp_force_reactions(b, p, k, 2);
+              else clamp_force_reactions(b, p, k, 3););
     if (c->stale) reactions_last(b, p, limit);
     TEAM_LOOP(c->n > MANY, for (int64_t h = 0; h < c->held; h++) clamp_force_give(c, p, h););
     return broken;

@@ -8,8 +8,8 @@
     {                                                                                                                  \
         int64_t diverged = 0;                                                                                          \
         if (n == 0) return false;                                                                                      \
-        _Pragma("omp parallel for schedule(static) reduction(+ : diverged)")                                           \
-        for (int64_t k = 0; k < n; k += LANES) {                                                                       \
+        _Pragma("omp parallel for schedule(static) reduction(+ : diverged)") for (int64_t k = 0; k < n; k += LANES)    \
+        {                                                                                                              \
             _Alignas(sizeof(lanes)) int32_t room[LANES];                                                               \
             diverged += pd_move_eight(p, list_eight(list, k, n, room), eight_at(k, n), NULL, m, D);                    \
         }                                                                                                              \

@@ -19,7 +19,8 @@ static ALWAYS_INLINE unsigned pd_movers(const struct particles *p, const int32_t
 
 static ALWAYS_INLINE void pd_store(real *to, const int32_t *list, bool together, unsigned movers, lanes a)
 {
-    if (together) lanes_store(to + list[0], a);
+    if (together)
+        lanes_store(to + list[0], a);
     else
         for (int l = 0; l < LANES; l++)
             if (movers >> l & 1) to[list[l]] = a[l];

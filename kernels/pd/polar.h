@@ -24,10 +24,9 @@ static inline void polar_rotation_3d(const real *M, real *R)
     size = sqrt(size / 3);
     for (int c = 0; c < 9; c++) R[c] = size > 0 ? M[c] / size : c % 4 == 0;
     for (int step = 0; step < 30; step++) {
-        const real cofactor[9] = {
-            R[4] * R[8] - R[5] * R[7], R[5] * R[6] - R[3] * R[8], R[3] * R[7] - R[4] * R[6],
-            R[2] * R[7] - R[1] * R[8], R[0] * R[8] - R[2] * R[6], R[1] * R[6] - R[0] * R[7],
-            R[1] * R[5] - R[2] * R[4], R[2] * R[3] - R[0] * R[5], R[0] * R[4] - R[1] * R[3]};
+        const real cofactor[9] = {R[4] * R[8] - R[5] * R[7], R[5] * R[6] - R[3] * R[8], R[3] * R[7] - R[4] * R[6],
+                                  R[2] * R[7] - R[1] * R[8], R[0] * R[8] - R[2] * R[6], R[1] * R[6] - R[0] * R[7],
+                                  R[1] * R[5] - R[2] * R[4], R[2] * R[3] - R[0] * R[5], R[0] * R[4] - R[1] * R[3]};
         const real determinant = R[0] * cofactor[0] + R[1] * cofactor[1] + R[2] * cofactor[2];
         real change = 0;
         if (!(determinant > 1e-12)) {
@@ -45,8 +44,10 @@ static inline void polar_rotation_3d(const real *M, real *R)
 
 static inline void polar_rotation(const real *M, real *R, const int dim)
 {
-    if (dim == 2) polar_rotation_2d(M, R);
-    else polar_rotation_3d(M, R);
+    if (dim == 2)
+        polar_rotation_2d(M, R);
+    else
+        polar_rotation_3d(M, R);
 }
 
 #endif

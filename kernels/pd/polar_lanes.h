@@ -5,7 +5,7 @@
 #include "kernels/simd/lanes.h"
 #include "polar.h"
 
-#define POLAR_TINY 1e-300                /* keeps the root of nothing finite */
+#define POLAR_TINY 1e-300 /* keeps the root of nothing finite */
 
 static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
 {
@@ -20,10 +20,9 @@ static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
  * determinant that R had. */
 static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *sound)
 {
-    const lanes cofactor[9] = {
-        R[4] * R[8] - R[5] * R[7], R[5] * R[6] - R[3] * R[8], R[3] * R[7] - R[4] * R[6],
-        R[2] * R[7] - R[1] * R[8], R[0] * R[8] - R[2] * R[6], R[1] * R[6] - R[0] * R[7],
-        R[1] * R[5] - R[2] * R[4], R[2] * R[3] - R[0] * R[5], R[0] * R[4] - R[1] * R[3]};
+    const lanes cofactor[9] = {R[4] * R[8] - R[5] * R[7], R[5] * R[6] - R[3] * R[8], R[3] * R[7] - R[4] * R[6],
+                               R[2] * R[7] - R[1] * R[8], R[0] * R[8] - R[2] * R[6], R[1] * R[6] - R[0] * R[7],
+                               R[1] * R[5] - R[2] * R[4], R[2] * R[3] - R[0] * R[5], R[0] * R[4] - R[1] * R[3]};
     const lanes determinant = R[0] * cofactor[0] + R[1] * cofactor[1] + R[2] * cofactor[2];
     *sound &= determinant > 1e-12;
     const lanes half = lanes_choose(*sound, 0.5 / determinant, lanes_of(0));
@@ -47,8 +46,10 @@ static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
 
 static ALWAYS_INLINE void polar_rotation_lanes(const lanes *M, lanes *R, const int dim)
 {
-    if (dim == 2) polar_rotation_lanes_2d(M, R);
-    else polar_rotation_lanes_3d(M, R);
+    if (dim == 2)
+        polar_rotation_lanes_2d(M, R);
+    else
+        polar_rotation_lanes_3d(M, R);
 }
 
 #endif

@@ -13,7 +13,7 @@
 #include "bonds/bonds.h"
 #include "kernels/simd/lanes.h"
 
-#define TURN_TINY 1e-300                 /* keeps the root of nothing finite */
+#define TURN_TINY 1e-300 /* keeps the root of nothing finite */
 
 /* A row of the matrix 4 (q, q0) (q, q0)^T, that with the largest diagonal: never by a small component (Shepperd
  * 1978). */
@@ -21,10 +21,9 @@ static ALWAYS_INLINE lanes quaternion_row(const lanes *R, lanes *row)
 {
     const lanes odd[3] = {R[7] - R[5], R[2] - R[6], R[3] - R[1]}, even[3] = {R[1] + R[3], R[5] + R[7], R[6] + R[2]};
     const lanes size[ROTATION] = {1.0 + R[0] - R[4] - R[8], 1.0 - R[0] + R[4] - R[8], 1.0 - R[0] - R[4] + R[8],
-                              1.0 + R[0] + R[4] + R[8]};
-    const lanes rows[3][ROTATION] = {{size[0], even[0], even[2], odd[0]},
-                                 {even[0], size[1], even[1], odd[1]},
-                                 {even[2], even[1], size[2], odd[2]}};
+                                  1.0 + R[0] + R[4] + R[8]};
+    const lanes rows[3][ROTATION] = {
+        {size[0], even[0], even[2], odd[0]}, {even[0], size[1], even[1], odd[1]}, {even[2], even[1], size[2], odd[2]}};
     lanes largest = size[3];
     for (int c = 0; c < ROTATION; c++) row[c] = c < 3 ? odd[c] : size[3];
     for (int k = 0; k < 3; k++) {

@@ -18,7 +18,10 @@
 
 /* Sums over the families of a row block; `stretch` is the largest, `press` the smallest [1], `moved` has bits where a
  * particle has left its reference place: an undeformed family has no rotation, to the last bit. */
-struct family_sums { lanes extension, stretch, press, moment[DIM_MAX * DIM_MAX]; lanes_mask moved; };
+struct family_sums {
+    lanes extension, stretch, press, moment[DIM_MAX * DIM_MAX];
+    lanes_mask moved;
+};
 
 /* Adds a column: sum w r e, with e = r (|Y|/r - 1), and sum w Y (x) xi. */
 static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struct particles *p,
@@ -51,7 +54,9 @@ static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, 
 }
 
 /* Moduli of eight rows, 1/Q and V/Q (of a full family, if moduli are); nothing where a family has nothing left. */
-struct own_family { lanes A, B, inverse, share; };     /* [Pa], [Pa], [1/m^2], [m] */
+struct own_family {
+    lanes A, B, inverse, share;
+}; /* [Pa], [Pa], [1/m^2], [m] */
 
 static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
@@ -67,7 +72,9 @@ static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, cons
     return f;
 }
 
-struct family_state { lanes pressure, spring, rotation[ROTATION]; };
+struct family_state {
+    lanes pressure, spring, rotation[ROTATION];
+};
 
 /* Stores the states of a row block. */
 static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const struct family_state *k,
@@ -103,8 +110,7 @@ static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *
         rotation[1] = -rotation[2];
         return;
     }
-    for (int c = 0; c < ROTATION; c++)
-        rotation[c] = (c < 3 ? axis : scale) * lanes_at(p->end_rotation[c], own, row);
+    for (int c = 0; c < ROTATION; c++) rotation[c] = (c < 3 ? axis : scale) * lanes_at(p->end_rotation[c], own, row);
 }
 
 /* Moment about them, axial: of component ji less ij of g R^T M, M = sum w Y (x) xi. */
@@ -114,13 +120,13 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
     lanes N[DIM_MAX][DIM_MAX], rotation[ROTATION], turned = lanes_of(0);
     ends_rotate(p, row, own, spring, true, rotation, dim);
     for (int c = 0; c < ROTATION; c++) turned += dim == 2 || c < 3 ? rotation[c] * rotation[c] : lanes_of(0);
-    for (int c = 0; c < dim; c++) {              /* less g (R^T - 1) of a column of M, and g times that column */
+    for (int c = 0; c < dim; c++) { /* less g (R^T - 1) of a column of M, and g times that column */
         lanes less[DIM_MAX], column[DIM_MAX];
         for (int d = 0; d < dim; d++) column[d] = sum->moment[d * dim + c], less[d] = lanes_of(0);
         rotate_back(less, rotation, column, dim);
         for (int d = 0; d < dim; d++) N[d][c] = spring * column[d] - less[d];
     }
-    const lanes_mask any = end & ((sum->moved != 0) | (turned != 0.0));  /* of nothing there is none, to the last bit */
+    const lanes_mask any = end & ((sum->moved != 0) | (turned != 0.0)); /* of nothing there is none, to the last bit */
     for (int k = dim == 2 ? 2 : 0, c = 0; k < 3; k++, c++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         rows_store(p->end_moment[c], row, rows, own >= 0, lanes_choose(any, N[j][i] - N[i][j], lanes_of(0)));
@@ -157,7 +163,7 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
     k.pressure = f.A * sum->extension * f.inverse * f.share, k.spring = f.B * f.share;
     if (state_rotates(model)) family_rotation(k.rotation, sum->moment, sum->moved, k.spring, dim);
     if (__builtin_expect(p->end_strain && !row_block_whole(b, g), 0)) {
-        const struct family_sums seen = *sum;  /* what is called elsewhere takes copies: all others stay in registers */
+        const struct family_sums seen = *sum; /* what is called elsewhere takes copies: all others stay in registers */
         const struct own_family own = f;
         struct family_state both = k;
         ends_update(b, p, g, &own, &seen, &both, dim, model);
@@ -211,7 +217,9 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
 
 /* A row block while its columns are visited; `arm` is sum w xi, which turns with the rotation of the row's own
  * particle. */
-struct state_sums { lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], arm[DIM_MAX], pressure, spring; };
+struct state_sums {
+    lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], arm[DIM_MAX], pressure, spring;
+};
 
 /* Adds the forces of a column. With the share q = e/|Y| that e has in |Y|, r/|Y| is 1 - q, and w (r P + e g)/|Y| is
  * w [P + (g - P) q]: two products less than with the stretch. The effective displacement Y - R xi is (Y - xi) - (R -
@@ -243,7 +251,7 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
         f[d] = along * s.y[d] + weighted * (s.y[d] - s.xi[d]);
     }
     rotate_back(f, rotation, arm, dim);
-    for (int d = 0; d < dim; d++) sum->f[d] += f[d];     /* one addition a column: the chain is as short as can be */
+    for (int d = 0; d < dim; d++) sum->f[d] += f[d]; /* one addition a column: the chain is as short as can be */
 }
 
 /* Force of one row block. */

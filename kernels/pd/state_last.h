@@ -11,7 +11,10 @@
 #include "rotation.h"
 
 /* What a row keeps: sum w r e, sum w r^2, sum w Y (x) xi; and the mean share of those that end. */
-struct family_left { real extension, weighted, moment[DIM_MAX * DIM_MAX], share; int64_t ended; };
+struct family_left {
+    real extension, weighted, moment[DIM_MAX * DIM_MAX], share;
+    int64_t ended;
+};
 
 static inline struct family_left family_left_of(const struct bonds *b, const struct particles *p,
                                                 const struct bond_limit *limit, int64_t row)
@@ -43,12 +46,12 @@ static inline void state_mix(real *value, real left, real share) { *value = shar
 static inline void rotation_mix(struct state *t, int32_t i, const struct family_left *left, real spring, int dim)
 {
     real R[DIM_MAX * DIM_MAX], along = 0;
-    lanes eight[DIM_MAX * DIM_MAX] = {{0}}, kept[ROTATION];             /* eight times the same */
+    lanes eight[DIM_MAX * DIM_MAX] = {{0}}, kept[ROTATION]; /* eight times the same */
     polar_rotation(left->moment, R, dim);
     for (int c = 0; c < dim * dim; c++) eight[c] = lanes_of(R[c]);
     rotation_make(kept, eight, lanes_of(spring), dim);
     for (int c = 0; c < ROTATION; c++) along += t->rotation[c][i] * kept[c][0];
-    const real sign = dim == 3 && along < 0 ? -1 : 1;                   /* a quaternion and its negative are one */
+    const real sign = dim == 3 && along < 0 ? -1 : 1; /* a quaternion and its negative are one */
     for (int c = 0; c < ROTATION; c++) state_mix(&t->rotation[c][i], sign * kept[c][0], left->share);
 }
 
@@ -111,7 +114,7 @@ static inline void state_pair_force(const struct bonds *b, const struct particle
     const bool rotates = t->rotation[0];
     const real r = fabs(1 / bond->inverse_length);
     real y[DIM_MAX], xi[DIM_MAX], y2 = 0, pressure = 0, spring = 0;
-    lanes turned[DIM_MAX], arm[DIM_MAX];                                 /* eight times the same */
+    lanes turned[DIM_MAX], arm[DIM_MAX]; /* eight times the same */
     for (int d = 0; d < dim; d++) {
         y[d] = p->x[d][j] - p->x[d][i], xi[d] = p->X[d][j] - p->X[d][i];
         y2 += square(y[d]);
@@ -134,9 +137,12 @@ static inline void state_pair_force(const struct bonds *b, const struct particle
 static inline void pair_force(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i,
                               bool now, real *f)
 {
-    if (!b->state.modulus) bond_pair_force(b, p, bond, i, f);
-    else if (p->dim == 2) state_pair_force(b, p, bond, i, now, f, 2);
-    else state_pair_force(b, p, bond, i, now, f, 3);
+    if (!b->state.modulus)
+        bond_pair_force(b, p, bond, i, f);
+    else if (p->dim == 2)
+        state_pair_force(b, p, bond, i, now, f, 2);
+    else
+        state_pair_force(b, p, bond, i, now, f, 3);
 }
 
 #endif

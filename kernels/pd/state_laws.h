@@ -26,13 +26,13 @@
 #include "kernels/simd/lanes.h"
 #include "rotation.h"
 
-#define STATE_TINY 1e-300                /* keeps roots of a padding lane finite */
+#define STATE_TINY 1e-300 /* keeps roots of a padding lane finite */
 
 /* The bonds of a column, as both sweeps see them. */
 struct state_bond {
-    lanes y[DIM_MAX], xi[DIM_MAX];       /* now and before [m]; xi only where rotations matter */
-    lanes distance2;                     /* |Y|^2 [m^2] */
-    lanes inverse_length;                /* 1/|xi|; of broken bonds maybe the negative [1/m] */
+    lanes y[DIM_MAX], xi[DIM_MAX]; /* now and before [m]; xi only where rotations matter */
+    lanes distance2;               /* |Y|^2 [m^2] */
+    lanes inverse_length;          /* 1/|xi|; of broken bonds maybe the negative [1/m] */
 };
 
 static ALWAYS_INLINE bool state_rotates(const enum pd_model model) { return model == PD_MOSPD; }

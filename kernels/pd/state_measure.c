@@ -15,7 +15,9 @@
 #include "kernels/simd/variants.h"
 
 /* What a row block's own force states rest on. */
-struct own_state { lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, rotation[ROTATION]; };
+struct own_state {
+    lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, rotation[ROTATION];
+};
 
 static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t g,
                                                    const int dim, const bool rotates)
@@ -57,7 +59,7 @@ static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const str
 }
 
 static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
-                                       const enum pd_model model)
+                                           const enum pd_model model)
 {
     if (b->active.level[g] == 0) return 0;
     const struct own_state s = own_state_of(b, p, g, dim, state_rotates(model));
@@ -81,7 +83,7 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
 }
 
 static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
-                                       const enum pd_model model)
+                                           const enum pd_model model)
 {
     const struct own_state s = own_state_of(b, p, g, dim, state_rotates(model));
     const int32_t *row = b->particle + g * LANES;
@@ -95,7 +97,10 @@ static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particl
             p->stress[c][row[l]] = sum[c][l] / p->volume0[row[l]];
 }
 
-struct row_block_sum { const struct bonds *b; const struct particles *p; };
+struct row_block_sum {
+    const struct bonds *b;
+    const struct particles *p;
+};
 
 #define INSTANCE(D, M)                                                                                                 \
     static real energy_term_##D##d_##M(const void *context, int64_t g)                                                 \
@@ -109,8 +114,8 @@ struct row_block_sum { const struct bonds *b; const struct particles *p; };
     }                                                                                                                  \
     static void state_stress_##D##d_##M(const struct bonds *b, struct particles *p)                                    \
     {                                                                                                                  \
-        _Pragma("omp parallel for schedule(static)")                                                                   \
-        for (int64_t g = 0; g < b->row_blocks; g++) stress_row_block(b, p, g, D, PD_##M);                              \
+        _Pragma("omp parallel for schedule(static)") for (int64_t g = 0; g < b->row_blocks; g++)                       \
+            stress_row_block(b, p, g, D, PD_##M);                                                                      \
     }
 STATE_VARIANTS(INSTANCE)
 
@@ -150,8 +155,7 @@ static real row_effective(const struct bonds *b, const struct particles *p, int6
             if (w == 0) continue;
             for (int d = 0; d < dim; d++) {
                 real effective = apart_ago(p, i, j, d, ago);
-                for (int c = 0; c < dim && pass == 0; c++)
-                    M[d * dim + c] += w * effective * (p->X[c][j] - p->X[c][i]);
+                for (int c = 0; c < dim && pass == 0; c++) M[d * dim + c] += w * effective * (p->X[c][j] - p->X[c][i]);
                 for (int c = 0; c < dim && pass == 1; c++) effective -= R[d * dim + c] * (p->X[c][j] - p->X[c][i]);
                 if (pass == 1) sum += w * square(effective);
             }

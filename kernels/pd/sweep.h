@@ -11,16 +11,16 @@
 #include "pd_move.h"
 
 enum {
-    PIECE = 64,                          /* row blocks whose forces are computed in a row, and that move in a row */
-    AHEAD = 16,                          /* row blocks of prefetch distance: about a microsecond                      */
-    FETCHED = 1 << 15         /* row blocks from which on that pays: caches hold less. Then 15 % of a step, else -2 % */
+    PIECE = 64,       /* row blocks whose forces are computed in a row, and that move in a row */
+    AHEAD = 16,       /* row blocks of prefetch distance: about a microsecond                      */
+    FETCHED = 1 << 15 /* row blocks from which on that pays: caches hold less. Then 15 % of a step, else -2 % */
 };
 
 /* A thread's part of the list of row blocks. */
 struct sweep {
-    const int32_t *row_block;            /* active row blocks, ascending */
-    int64_t first, end, all;             /* its part; of all */
-    int64_t early, next;                 /* the first that may move before the others are done; that moves next */
+    const int32_t *row_block; /* active row blocks, ascending */
+    int64_t first, end, all;  /* its part; of all */
+    int64_t early, next;      /* the first that may move before the others are done; that moves next */
     bool diverged;
 };
 
@@ -81,24 +81,26 @@ static ALWAYS_INLINE void sweep_finish(struct sweep *s, const struct bonds *b, s
 
 /* The body of a kernel: FORCE computes the forces of `row block` and returns how many bonds broke; M NULL: nothing
  * moves. */
-#define SWEEP(B, P, M, D, FORCE)                                                        \
-    int64_t broken = 0, diverged = 0;                                                       \
-    _Pragma("omp parallel reduction(+ : broken, diverged)")                                 \
-    {                                                                                   \
-        struct sweep s = sweep_make(B);                                                 \
-        for (int64_t k = s.first; k < s.end; k++) {                                     \
-            const int64_t row_block = s.row_block[k];                                           \
-            if (M) sweep_fetch(&s, B, P, k, D);                                         \
-            broken += FORCE;                                                            \
-            if (M && k % PIECE == 0) sweep_follow(&s, B, P, k, M, D);                   \
-        }                                                                               \
-        if (M) {                                                                        \
-            if (omp_get_num_threads() > 1) { _Pragma("omp barrier") }                   \
-            sweep_finish(&s, B, P, M, D);                                               \
-            diverged += s.diverged;                                                             \
-        }                                                                               \
-    }                                                                                   \
-    if (M) (M)->diverged |= diverged > 0;                                                       \
+#define SWEEP(B, P, M, D, FORCE)                                                                                       \
+    int64_t broken = 0, diverged = 0;                                                                                  \
+    _Pragma("omp parallel reduction(+ : broken, diverged)")                                                            \
+    {                                                                                                                  \
+        struct sweep s = sweep_make(B);                                                                                \
+        for (int64_t k = s.first; k < s.end; k++) {                                                                    \
+            const int64_t row_block = s.row_block[k];                                                                  \
+            if (M) sweep_fetch(&s, B, P, k, D);                                                                        \
+            broken += FORCE;                                                                                           \
+            if (M && k % PIECE == 0) sweep_follow(&s, B, P, k, M, D);                                                  \
+        }                                                                                                              \
+        if (M) {                                                                                                       \
+            if (omp_get_num_threads() > 1) {                                                                           \
+                _Pragma("omp barrier")                                                                                 \
+            }                                                                                                          \
+            sweep_finish(&s, B, P, M, D);                                                                              \
+            diverged += s.diverged;                                                                                    \
+        }                                                                                                              \
+    }                                                                                                                  \
+    if (M) (M)->diverged |= diverged > 0;                                                                              \
     return broken
 
 #endif

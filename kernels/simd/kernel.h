@@ -12,8 +12,8 @@
 #define KERNEL(type, name, parameters) type name parameters __asm__(#name "_" SIMD_SET)
 #define KERNEL_TABLE(type, name, further) extern type *const name[DIM_MAX + 1] further __asm__(#name "_" SIMD_SET)
 #else
-#define KERNEL(type, name, parameters) extern type (*name) parameters
-#define KERNEL_TABLE(type, name, further) extern type *const (*name) further
+#define KERNEL(type, name, parameters) extern type(*name) parameters
+#define KERNEL_TABLE(type, name, further) extern type *const(*name) further
 #endif
 
 #endif

@@ -58,7 +58,7 @@ static ALWAYS_INLINE lanes lanes_choose(lanes_mask mask, lanes a, lanes b)
 }
 
 /* Lanes with a sign. */
-static ALWAYS_INLINE lanes_mask lanes_negative(lanes a) { return (lanes_mask)-((lanes_bits)a >> 63); }
+static ALWAYS_INLINE lanes_mask lanes_negative(lanes a) { return (lanes_mask) - ((lanes_bits)a >> 63); }
 
 static ALWAYS_INLINE lanes_mask lanes_less(lanes a, lanes b)
 {
@@ -97,7 +97,7 @@ static ALWAYS_INLINE lanes lanes_size(lanes a)
 static ALWAYS_INLINE lanes_mask lanes_of_bits(uint8_t bits)
 {
     const uint64_t a = bits;
-    return (lanes_mask)-(-((lanes_bits){a, a, a, a, a, a, a, a} & (lanes_bits){1, 2, 4, 8, 16, 32, 64, 128}) >> 63);
+    return (lanes_mask) - (-((lanes_bits){a, a, a, a, a, a, a, a} & (lanes_bits){1, 2, 4, 8, 16, 32, 64, 128}) >> 63);
 }
 
 /* a where the lane has a bit, else 0. */

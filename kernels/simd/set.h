@@ -6,6 +6,7 @@
 #include "kernels/mpm/plastic.h"
 #include "kernels/microbench/microbench.h"
 
+/* clang-format off */
 #define KERNELS(X)                                                                                                     \
     X(bond_force_table) X(bond_energy_table) X(bond_stress_table) X(state_force_table) X(state_energy_table)           \
     X(state_stress_table) X(state_precompute_table) X(bond_forces) X(bond_break_row_block) X(bond_fade) X(bond_mend)   \
@@ -21,9 +22,12 @@
     X(microbench_lattice_make) X(microbench_lattice_run) X(microbench_lattice_free) X(microbench_triad_make)           \
     X(microbench_triad_run) X(microbench_triad_free) X(microbench_points_make) X(microbench_points_run)                \
     X(microbench_points_free)
+/* clang-format on */
 
 /* A pointer to each, tables to their first row. */
 #define KERNEL_POINTER(name) __typeof__(&*name) name;
-struct kernel_set { KERNELS(KERNEL_POINTER) };
+struct kernel_set {
+    KERNELS(KERNEL_POINTER)
+};
 
 #endif

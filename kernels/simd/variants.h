@@ -3,6 +3,7 @@
 #ifndef CLEAVE_KERNELS_VARIANTS
 #define CLEAVE_KERNELS_VARIANTS
 
+/* clang-format off */
 #define DIM_VARIANTS(X) X(1) X(2) X(3)
 
 #define PD_VARIANTS(X)                                                          \
@@ -22,5 +23,6 @@
     X(3, LINEAR) X(3, GIMP) X(3, CPGIMP) X(3, QUADRATIC) X(3, CUBIC)
 
 #define TRANSFER_VARIANTS(X, D, S) X(D, S, FLIP) X(D, S, APIC)
+/* clang-format on */
 
 #endif

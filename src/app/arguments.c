@@ -58,16 +58,24 @@ static status arguments_read_all(struct run_arguments *a, int argc, char **argv,
         const char *word = argv[k];
         bool takes = !strcmp(word, "-o") || !strcmp(word, "-s") || !strcmp(word, "-t");
         if (takes && k + 1 >= argc) return status_set(REFUSED, "%s wants a value; usage: cleave %s", word, usage);
-        if (!strcmp(word, "-o")) a->folder = argv[++k];
-        else if (!strcmp(word, "-s")) TRY(arguments_override(a, argv[++k]));
-        else if (!strcmp(word, "-t")) TRY(read_threads(a, argv[++k]));
-        else if (!strcmp(word, "--resume")) a->resume = true;
-        else if (!strcmp(word, "--overwrite")) a->overwrite = true;
-        else if (!strcmp(word, "-q")) a->quiet = true;
+        if (!strcmp(word, "-o"))
+            a->folder = argv[++k];
+        else if (!strcmp(word, "-s"))
+            TRY(arguments_override(a, argv[++k]));
+        else if (!strcmp(word, "-t"))
+            TRY(read_threads(a, argv[++k]));
+        else if (!strcmp(word, "--resume"))
+            a->resume = true;
+        else if (!strcmp(word, "--overwrite"))
+            a->overwrite = true;
+        else if (!strcmp(word, "-q"))
+            a->quiet = true;
         else if (word[0] == '-' && word[1])
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
-        else if (a->scene) return status_set(REFUSED, "one scene at a time: %s and %s", a->scene, word);
-        else a->scene = word;
+        else if (a->scene)
+            return status_set(REFUSED, "one scene at a time: %s and %s", a->scene, word);
+        else
+            a->scene = word;
     }
     if (a->resume && a->overwrite)
         return status_set(REFUSED, "--resume goes on with a run and --overwrite replaces it: one of them");

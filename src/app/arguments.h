@@ -4,13 +4,13 @@
 
 #include "scene/scene.h"
 
-enum { THREADS_MOST = 4096 };            /* of a run; and runs at once */
+enum { THREADS_MOST = 4096 }; /* of a run; and runs at once */
 
 struct run_arguments {
-    const char *scene, *folder;          /* borrowed from argv; folder NULL: default */
-    struct scene_override *override;     /* owned; strings point into copies of argv */
+    const char *scene, *folder;      /* borrowed from argv; folder NULL: default */
+    struct scene_override *override; /* owned; strings point into copies of argv */
     int overrides;
-    int threads;                         /* 0: automatic */
+    int threads; /* 0: automatic */
     bool resume, overwrite, quiet;
 };
 

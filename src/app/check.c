@@ -19,8 +19,8 @@ static void say_particles(const struct run *e)
     for (int64_t i = 0; i < e->part.n; i++) driven += (e->part.flag[i] & FLAG_DRIVEN) != 0;
     printf("particles      %lld", (long long)e->part.n_body);
     if (e->part.n < e->part.n_body) printf(", of which %lld are made", (long long)e->part.n);
-    printf(": %lld peridynamic, %lld material points",
-           (long long)e->part.n_of[KIND_PD], (long long)e->part.n_of[KIND_MPM]);
+    printf(": %lld peridynamic, %lld material points", (long long)e->part.n_of[KIND_PD],
+           (long long)e->part.n_of[KIND_MPM]);
     if (driven) printf("; %lld driven", (long long)driven);
     if (e->loads.images) printf("; %lld mirror images", (long long)e->loads.images);
     printf("\nbonds          %lld directed in %lld rows\n", (long long)e->bonds.n, (long long)e->bonds.rows);
@@ -67,8 +67,8 @@ static void say_contact_of_bonds(const struct scene *s)
         say_names(s, s->bodies, s->bodies + s->rigids);
         if (s->rigids > 1) printf(" (rigid bodies do not meet each other)");
     }
-    printf("; %s", s->contact_form == CONTACT_PAIR ? "pairs of particles: faces that slide mesh like gears"
-                                                   : "smooth faces");
+    printf("; %s",
+           s->contact_form == CONTACT_PAIR ? "pairs of particles: faces that slide mesh like gears" : "smooth faces");
     if (s->contact_friction > 0)
         printf(", friction %.3g (a flat face along the lattice has 0.007 of its own)", s->contact_friction);
     putchar('\n');
@@ -138,8 +138,7 @@ static void say_basis(const struct scene *scene, const struct cost *c)
         printf("; steps take %.2g times the first ones, as where the spacing is %.3g times as large", c->growth,
                c->coarser);
     if (c->basis == COST_FIRST)
-        printf("; steps like the first ones%s",
-               scene->method == METHOD_ADAPTIVE ? ", more as particles convert" : "");
+        printf("; steps like the first ones%s", scene->method == METHOD_ADAPTIVE ? ", more as particles convert" : "");
     if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", c->all_peridynamic);
 }
 
@@ -175,11 +174,15 @@ static void say_materials(const struct run *e)
     for (int m = 0; m < e->scene->materials; m++) {
         const struct material *a = &e->scene->material[m];
         const bool in_steps = scene_in_steps(e->scene);
-        if (in_steps) printf("material       %s: Young's modulus %.4g Pa", a->name, a->young);
-        else printf("material       %s: waves at %.4g m/s", a->name, a->wave_speed);
+        if (in_steps)
+            printf("material       %s: Young's modulus %.4g Pa", a->name, a->young);
+        else
+            printf("material       %s: waves at %.4g m/s", a->name, a->wave_speed);
         if (!in_steps && a->rayleigh_speed > 0) printf(", Rayleigh %.4g m/s", a->rayleigh_speed);
-        if (isfinite(a->critical_stretch)) printf(", bonds break at a stretch of %.4g", a->critical_stretch);
-        else printf("; its bonds never break: neither energy_release_rate nor critical_stretch is given");
+        if (isfinite(a->critical_stretch))
+            printf(", bonds break at a stretch of %.4g", a->critical_stretch);
+        else
+            printf("; its bonds never break: neither energy_release_rate nor critical_stretch is given");
         const real most = e->tables.elastic[m].trigger_mean;
         if (isfinite(most)) printf(", conversion above %.4g Pa", most);
         if (e->part.strength && a->scatter.given) say_scatter(&e->part, m);
@@ -207,7 +210,7 @@ static status check_cost(struct run *e, const struct run_arguments *a, int threa
 static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
     struct run e = {0};
-    s->active_set = false;                             /* cost with the whole body active */
+    s->active_set = false; /* cost with the whole body active */
     status result = engine_make(&e, s, NULL);
     if (result == OK) {
         printf("%s is sound\n", shown_name(a->scene).text);

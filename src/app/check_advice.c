@@ -20,16 +20,16 @@
 #include "mesh/mesh_part.h"
 #include "step/viscosity.h"
 
-#define FEATURE 4                        /* horizons */
-#define WAVE 16                          /* spacings */
-#define REACHED 4                        /* rho c v  */
+#define FEATURE 4 /* horizons */
+#define WAVE 16   /* spacings */
+#define REACHED 4 /* rho c v  */
 #define PASSAGES 4
 #define LITTLE 0.1
-#define BESIDE_FACE 1.5                  /* distance at which a probe is at a face [spacings] */
-#define AROUND 3                         /* spacings about a probe in which its face is looked at */
-#define ALONG_AXIS 0.999                 /* component of a normal from which on a face is along the axes */
+#define BESIDE_FACE 1.5                        /* distance at which a probe is at a face [spacings] */
+#define AROUND 3                               /* spacings about a probe in which its face is looked at */
+#define ALONG_AXIS 0.999                       /* component of a normal from which on a face is along the axes */
 enum { PULL_MOMENTS = 100, PULL_PLACES = 64 }; /* times, and particles of a support, that are looked at */
-#define ON_MIRROR 1e-6                   /* distance of a face that lies on a plane of symmetry [spacings] */
+#define ON_MIRROR 1e-6                         /* distance of a face that lies on a plane of symmetry [spacings] */
 /* time per bond and step [ns]: 2D, 3D */
 static const real bond_ns[][3] = {
     [MODEL_BOND] = {0.44, 0.55}, [MODEL_OSPD] = {0.75, 0.86}, [MODEL_MOSPD] = {1.05, 2.2}};
@@ -62,17 +62,22 @@ real solid_size(const struct run *e, const struct solid *a)
 /* How far the stiffness of a part made of bonds and families is off in bending, twisting and stretching, by its layers,
  * the worst of the three [%]: in the plane, in space, at horizons of 3.015 spacings and Poisson's ratios up to 1/3.
  * The first row is of all thinner ones, the last of all thicker ones. */
-static const struct { double layers; int bonds[2], rotating[2], uncorrected[2]; } bending_off[] = {
-    {3, {80, 80}, {64, 67}, {80, 80}}, {4, {4, 21}, {18, 34}, {36, 51}}, {5, {2, 12}, {10, 30}, {28, 48}},
-    {7, {2, 8}, {3, 12}, {23, 39}},    {10, {2, 6}, {2, 4}, {17, 31}}};
-#define USUAL_HORIZON 0.5                /* spacings from 3.015 within which these hold */
+static const struct {
+    double layers;
+    int bonds[2], rotating[2], uncorrected[2];
+} bending_off[] = {{3, {80, 80}, {64, 67}, {80, 80}},
+                   {4, {4, 21}, {18, 34}, {36, 51}},
+                   {5, {2, 12}, {10, 30}, {28, 48}},
+                   {7, {2, 8}, {3, 12}, {23, 39}},
+                   {10, {2, 6}, {2, 4}, {17, 31}}};
+#define USUAL_HORIZON 0.5 /* spacings from 3.015 within which these hold */
 int stiffness_error(const struct scene *s, enum surface_rule surface, double layers)
 {
     size_t row = 0;
     while (row + 1 < COUNT_OF(bending_off) && layers > bending_off[row + 1].layers - 0.5) row++;
     const int *off = surface != SURFACE_MOMENTS ? bending_off[row].uncorrected
-                     : s->model == MODEL_MOSPD     ? bending_off[row].rotating
-                                                   : bending_off[row].bonds;
+                     : s->model == MODEL_MOSPD  ? bending_off[row].rotating
+                                                : bending_off[row].bonds;
     return off[s->dim > 2];
 }
 
@@ -80,17 +85,19 @@ int stiffness_error(const struct scene *s, enum surface_rule surface, double lay
 static void advise_thin(const struct scene *s, double layers, FILE *out)
 {
     if (layers < 1.5) {
-        fprintf(out, "; a single layer has no stiffness against bending, and is up to %d %% too stiff or too soft "
-                "in tension", stiffness_error(s, s->surface, layers));
+        fprintf(out,
+                "; a single layer has no stiffness against bending, and is up to %d %% too stiff or too soft "
+                "in tension",
+                stiffness_error(s, s->surface, layers));
         return;
     }
     fprintf(out, "; as it is, its stiffness in bending, twisting and tension is off by up to about %d %%%s",
             stiffness_error(s, s->surface, layers),
             fabs(s->horizon - 3.015) <= USUAL_HORIZON ? ""
-            : s->model == MODEL_MOSPD ? " at a horizon of 3.015, and several times that at others"
-                                      : " at a horizon of 3.015, and more at longer ones");
+            : s->model == MODEL_MOSPD                 ? " at a horizon of 3.015, and several times that at others"
+                                                      : " at a horizon of 3.015, and more at longer ones");
     fprintf(out, " (method adaptive, whose cells bend within 1 %% from 10 layers on, needs no bonds until something "
-            "breaks)");
+                 "breaks)");
 }
 
 /* Parts of bodies thinner than FEATURE horizons. What a shape subtracts cuts bonds and cells, however thin it is. */
@@ -178,9 +185,10 @@ static void advise_faces(const struct scene *s, FILE *out)
             const struct region *shape = &s->body[b].shape;
             if (s->body[b].file || shape->n == 0 || region_has_endless_box(shape, s->dim)) continue;
             if (at_stepped_face(s, shape, s->probe[k].at))
-                fprintf(out, "unresolved: probe %s: it is at a face of body %s that the lattice fills in steps; stress "
-                        "along such a face is some 10 %% low there, displacements are right\n", s->probe[k].name,
-                        s->body[b].name);
+                fprintf(out,
+                        "unresolved: probe %s: it is at a face of body %s that the lattice fills in steps; stress "
+                        "along such a face is some 10 %% low there, displacements are right\n",
+                        s->probe[k].name, s->body[b].name);
         }
 }
 
@@ -196,12 +204,10 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
     for (int b = 0; b < s->boundaries && scene_moves(s); b++) {
         const real length = tables->wave_speed * rise_time(&s->boundary[b].time) / s->spacing;
         if (s->boundary[b].kind != BOUNDARY_MIRROR && length < WAVE)
-            fprintf(
-                out,
-                "unresolved: boundary %s changes within %.3g spacings of wave: below %d waves disperse; spacing %s "
-                "or a slower load\n",
-                s->boundary[b].name, length, WAVE,
-                length_in_words(s->spacing * length / WAVE, 2, s->spacing).text);
+            fprintf(out,
+                    "unresolved: boundary %s changes within %.3g spacings of wave: below %d waves disperse; spacing %s "
+                    "or a slower load\n",
+                    s->boundary[b].name, length, WAVE, length_in_words(s->spacing * length / WAVE, 2, s->spacing).text);
     }
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_pulse && s->initial[k].pulse.width < WAVE * s->spacing)
@@ -215,7 +221,8 @@ static void advise_shocks(const struct scene *s, FILE *out)
 {
     const struct shock shock = shock_expected(s);
     if (shock.share > 0)
-        fprintf(out, "shock: bodies collide at %.3g m/s, %.2g times the speed of a front that breaks or yields them; "
+        fprintf(out,
+                "shock: bodies collide at %.3g m/s, %.2g times the speed of a front that breaks or yields them; "
                 "fronts ring by 10 to 30 %%, and bonds break too early for it: material.viscosity: {}\n",
                 shock.speed, shock.share);
 }

@@ -20,17 +20,17 @@
 enum { PERIODS_MOST = 200 };
 #define SECONDS_ENOUGH 0.15
 #define SECONDS_MOST 1.0
-#define SECONDS_WHOLE 1.5                /* of a trial of a whole run [s]                                     */
-#define PATIENCE 3.0                     /* factor on it, for conversion or a busy machine                    */
-#define COARSER_MOST 4.0                 /* factor on the spacing: a body still breaks in about the same places */
-#define FRAME_BYTES 72                   /* per particle: copy for the writer, its room, order                */
-#define PARTS_BYTES 56                   /* ... more where there are bonds: parts of a broken body, damage    */
-#define OUTPUT_BYTES 5.2e6               /* of the HDF5 library: itself 2.1 MB, its room for conversions 2 MB, */
-                                         /* the file of all frames 1.1 MB                                     */
-#define FILE_SECONDS 2.5e-3              /* per frame, checkpoint or profile, of any size; measured, as the next: */
-#define FILE_SECONDS_PARTICLE 8e-8       /* 0.25 ms to 26 ms a frame for 160 to 320,000 particles             */
-#define BONDS_MOST 2e8                   /* of a body tried with all particles peridynamic                    */
-#define BONDS_TRIED 2e7                  /* of one with larger particles that stands for it                    */
+#define SECONDS_WHOLE 1.5          /* of a trial of a whole run [s]                                     */
+#define PATIENCE 3.0               /* factor on it, for conversion or a busy machine                    */
+#define COARSER_MOST 4.0           /* factor on the spacing: a body still breaks in about the same places */
+#define FRAME_BYTES 72             /* per particle: copy for the writer, its room, order                */
+#define PARTS_BYTES 56             /* ... more where there are bonds: parts of a broken body, damage    */
+#define OUTPUT_BYTES 5.2e6         /* of the HDF5 library: itself 2.1 MB, its room for conversions 2 MB, */
+                                   /* the file of all frames 1.1 MB                                     */
+#define FILE_SECONDS 2.5e-3        /* per frame, checkpoint or profile, of any size; measured, as the next: */
+#define FILE_SECONDS_PARTICLE 8e-8 /* 0.25 ms to 26 ms a frame for 160 to 320,000 particles             */
+#define BONDS_MOST 2e8             /* of a body tried with all particles peridynamic                    */
+#define BONDS_TRIED 2e7            /* of one with larger particles that stands for it                    */
 
 /* Median time of a step [s] after the first one, which has cold caches; measured from sample to sample, so that samples
  * are included. */
@@ -78,8 +78,8 @@ static double time_contact(struct run *e)
     int n = 0;
     while (n < PERIODS_MOST && (all < 0.1 * SECONDS_ENOUGH || n < 3)) {
         const double start = team_clock();
-        contact_update(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
-                       e->contact->broken, e->contact->changed);
+        contact_update(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step, e->contact->broken,
+                       e->contact->changed);
         contact_force(e->contact, &e->part, 0);
         all += spent[n++] = team_clock() - start;
     }
@@ -127,9 +127,12 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
     struct run e = {0};
     double seconds = NAN;
     if (make_other(&s, &e, a, key, value, whole) == OK) {
-        if (whole) seconds = all_steps(&e);
-        else if (time_steps(&e, &seconds) == OK) seconds *= (double)e.clock.steps;
-        else seconds = NAN;
+        if (whole)
+            seconds = all_steps(&e);
+        else if (time_steps(&e, &seconds) == OK)
+            seconds *= (double)e.clock.steps;
+        else
+            seconds = NAN;
     }
     if (found) warnings_join(found, &e.warnings, 0);
     engine_free(&e);
@@ -147,8 +150,8 @@ static double growth_of(struct cost *c, const struct scene *s, const struct run_
     c->coarser = ceil(pow(first / SECONDS_WHOLE, 1.0 / s->dim) * 4) / 4;
     if (c->coarser <= 1 || c->coarser > COARSER_MOST) return NAN;
     snprintf(value, sizeof value, "%.17g", c->coarser * s->spacing);
-    c->growth = try_other(a, "particles.spacing", value, true, NULL) /
-                try_other(a, "particles.spacing", value, false, NULL);
+    c->growth =
+        try_other(a, "particles.spacing", value, true, NULL) / try_other(a, "particles.spacing", value, false, NULL);
     return c->growth;
 }
 
@@ -161,7 +164,7 @@ static double family_size(const struct family *f) { return f->full / f->cell_vol
 static double output_seconds(const struct run *e)
 {
     double files = (double)(e->scene->frames < e->clock.steps ? e->scene->frames : e->clock.steps) + 3;
-    for (int k = 0; k < e->scene->n_series; k++)         /* of regions: of each, all particles are brought up to date */
+    for (int k = 0; k < e->scene->n_series; k++) /* of regions: of each, all particles are brought up to date */
         files += fmin(e->scene->duration / e->scene->series[k].every, (double)e->clock.steps) + 1;
     return files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n +
                     FILE_SECONDS * (double)probes_profiled(&e->probing->probes));
@@ -201,8 +204,10 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     coarse.override = NEW("check.coarse", a->overrides + 1, struct scene_override);
     array_copy(coarse.override, a->override, a->overrides, sizeof *a->override);
     coarse.override[coarse.overrides++] = (struct scene_override){"particles.spacing", value};
-    if (make_other(&s, &e, &coarse, "method", "pd", false) != OK || time_steps(&e, &seconds) != OK) seconds = NAN;
-    else seconds /= (double)e.part.n;
+    if (make_other(&s, &e, &coarse, "method", "pd", false) != OK || time_steps(&e, &seconds) != OK)
+        seconds = NAN;
+    else
+        seconds /= (double)e.part.n;
     memory_free(coarse.override);
     engine_free(&e);
     scene_free(&s);
@@ -216,7 +221,8 @@ static void cost_peridynamic(struct cost *c, const struct run *e, const struct r
     const double n = (double)e->part.n_body, bonds = n * family_size(&e->source.family);
     double loop = NAN;
     if (s->method != METHOD_ADAPTIVE) return;
-    if (bonds < BONDS_MOST) loop = try_other(a, "method", "pd", false, NULL);
+    if (bonds < BONDS_MOST)
+        loop = try_other(a, "method", "pd", false, NULL);
     else if (e->part.n < e->part.n_body)
         loop = n * (double)e->clock.steps * step_peridynamic(a, s->spacing * pow(bonds / BONDS_TRIED, 1.0 / s->dim));
     c->all_peridynamic = c->make + loop + c->output;

@@ -170,8 +170,7 @@ bool cover_make(struct cover *c, const struct piece *p)
     }
 #pragma omp parallel for schedule(dynamic, 1024)
     for (int64_t k = 0; k < c->cells; k++)
-        c->share[k] =
-            is_crossed(c, p, k) ? (float)share_within_cell(c, p, k, dear && !is_thin(c, k)) : c->filled[k];
+        c->share[k] = is_crossed(c, p, k) ? (float)share_within_cell(c, p, k, dear && !is_thin(c, k)) : c->filled[k];
     return true;
 }
 

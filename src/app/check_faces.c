@@ -103,8 +103,10 @@ static struct elsewhere elsewhere_from(const struct particles *part, const struc
         if (!(area > 0) || end < from - 1e-3 * scene->spacing) continue;
         const real angle = acos(real_max(-1, real_min(1, cosine_at(scene, part, b, c, i)))) * 180 / M_PI;
         w.area += area;
-        if (angle > ELSEWHERE) w.other += area, w.angle += angle * area;
-        else w.aligned = real_min(w.aligned, end), w.last = real_max(w.last, end);
+        if (angle > ELSEWHERE)
+            w.other += area, w.angle += angle * area;
+        else
+            w.aligned = real_min(w.aligned, end), w.last = real_max(w.last, end);
     }
     return w;
 }

@@ -4,18 +4,18 @@
 #include "base/memory.h"
 #include "check_parts.h"
 
-#define CELLS_MOST 2e7                   /* of the box round a body: larger ones take too long */
+#define CELLS_MOST 2e7 /* of the box round a body: larger ones take too long */
 /* Parts that are measured are called thin from half as many layers on: steps of curved faces take some. */
-#define SHARE_LEAST 0.5                  /* of its particles; a smaller share are edges and steps of faces */
-enum { RUNS_MOST = 64 };                 /* layers that are counted */
+#define SHARE_LEAST 0.5  /* of its particles; a smaller share are edges and steps of faces */
+enum { RUNS_MOST = 64 }; /* layers that are counted */
 
 /* Sites of a body's particles in the box round them. */
 struct layer_map {
     int dim;
     int64_t n[DIM_MAX], stride[DIM_MAX];
-    real low[DIM_MAX], spacing;          /* [m] */
-    uint8_t *filled;                     /* [sites] */
-    bool mirror[DIM_MAX][2];             /* a plane of symmetry behind the lowest, the highest site of an axis */
+    real low[DIM_MAX], spacing; /* [m] */
+    uint8_t *filled;            /* [sites] */
+    bool mirror[DIM_MAX][2];    /* a plane of symmetry behind the lowest, the highest site of an axis */
 };
 
 static int64_t layer_site(const struct layer_map *m, const struct particles *p, int64_t i)
@@ -133,9 +133,9 @@ static double soft_cells(double poisson, double layers)
     const double more = 0.65 / (1 - 2 * poisson) / (layers * layers);
     return 100 * more / (1 + more);
 }
-#define SOFT_FAMILIES 0.4                /* ratios below which nothing is said */
+#define SOFT_FAMILIES 0.4 /* ratios below which nothing is said */
 #define SOFT_CELLS 0.45
-#define SOFT_MOST 2.0                    /* less is not worth a line [%] */
+#define SOFT_MOST 2.0 /* less is not worth a line [%] */
 
 void advise_incompressible(const struct run *e, FILE *out)
 {
@@ -150,9 +150,10 @@ void advise_incompressible(const struct run *e, FILE *out)
         const double layers = fmin(check_layers(e, b, 2 * RUNS_MOST), RUNS_MOST);
         const double off = families ? soft_families(poisson, layers) : soft_cells(poisson, layers);
         if (!(off >= SOFT_MOST)) continue;
-        fprintf(out, "unresolved: body %s: at a Poisson's ratio of %.4g %s: %s%.0f layers bend by up to %.0f %% too "
-                "little, less with more layers%s\n", s->body[b].name, poisson,
-                families ? "families near faces are too stiff" : "cells of two spacings lock",
+        fprintf(out,
+                "unresolved: body %s: at a Poisson's ratio of %.4g %s: %s%.0f layers bend by up to %.0f %% too "
+                "little, less with more layers%s\n",
+                s->body[b].name, poisson, families ? "families near faces are too stiff" : "cells of two spacings lock",
                 layers < RUNS_MOST - 1 ? "" : "more than ", layers, off, families ? "" : " and a smaller ratio");
     }
 }

@@ -21,23 +21,30 @@ void say_levels(const struct run *e)
 /* A number, as 52 million. */
 static const char *many(double n, bool millions, char text[static 32])
 {
-    if (millions) snprintf(text, 32, "%.*f million", n < 1e6 ? 2 : n < 1e7 ? 1 : 0, 1e-6 * n);
-    else snprintf(text, 32, "%.0f", n);
+    if (millions)
+        snprintf(text, 32, "%.*f million", n < 1e6 ? 2 : n < 1e7 ? 1 : 0, 1e-6 * n);
+    else
+        snprintf(text, 32, "%.0f", n);
     return text;
 }
 
 static const char *long_time(double seconds, char text[static 32])
 {
-    if (seconds < 100) snprintf(text, 32, "%.2g s", seconds);
-    else if (seconds < 100 * 60) snprintf(text, 32, "%.2g minutes", seconds / 60);
-    else snprintf(text, 32, "%.3g hours", seconds / 3600);
+    if (seconds < 100)
+        snprintf(text, 32, "%.2g s", seconds);
+    else if (seconds < 100 * 60)
+        snprintf(text, 32, "%.2g minutes", seconds / 60);
+    else
+        snprintf(text, 32, "%.3g hours", seconds / 3600);
     return text;
 }
 
 static const char *much_memory(double bytes, char text[static 32])
 {
-    if (bytes < 1e9) snprintf(text, 32, "%.0f MB", 1e-6 * bytes);
-    else snprintf(text, 32, "%.2g GB", 1e-9 * bytes);
+    if (bytes < 1e9)
+        snprintf(text, 32, "%.0f MB", 1e-6 * bytes);
+    else
+        snprintf(text, 32, "%.2g GB", 1e-9 * bytes);
     return text;
 }
 
@@ -62,8 +69,8 @@ void say_levels_saving(const struct run *e, const struct cost *c)
                many((double)e->part.n, millions, made));
     else
         printf("levels         %s of %s particles move as %s coarse cells",
-               many(points_in_coarse_cells(l, e->part.dim), millions, few),
-               many((double)e->part.n_body, millions, all), many(cells, false, made));
+               many(points_in_coarse_cells(l, e->part.dim), millions, few), many((double)e->part.n_body, millions, all),
+               many(cells, false, made));
     printf("; memory %s", much_memory(c->bytes, memory));
     const double peridynamic = run_memory_peridynamic(e);
     if (e->scene->method == METHOD_ADAPTIVE && peridynamic > c->bytes)

@@ -15,19 +15,19 @@
 enum cost_basis { COST_TRIED, COST_SCALED, COST_FIRST };
 
 struct cost {
-    double make;                         /* from the scene to step 0; by the caller [s] */
-    double step;                         /* a first step, samples included, whole body active; static: an iteration;
-                                            load steps: an equilibrium [s] */
-    double contact;                      /* share of contact in such a step, whatever touches then */
-    double output;                       /* frames and checkpoints, on an idle disk [s] */
-    double run;                          /* whole run [s] */
-    double equilibria;                   /* load steps: how many at the most */
-    real overload, overload_at;          /* ... of bonds at the worst load time, were none broken; that time [s] */
+    double make;                /* from the scene to step 0; by the caller [s] */
+    double step;                /* a first step, samples included, whole body active; static: an iteration;
+                                   load steps: an equilibrium [s] */
+    double contact;             /* share of contact in such a step, whatever touches then */
+    double output;              /* frames and checkpoints, on an idle disk [s] */
+    double run;                 /* whole run [s] */
+    double equilibria;          /* load steps: how many at the most */
+    real overload, overload_at; /* ... of bonds at the worst load time, were none broken; that time [s] */
     enum cost_basis basis;
-    double coarser, growth;              /* SCALED: factor on the spacing; all steps over first ones [1] */
-    double all_peridynamic;              /* a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
-    double bytes;                        /* peak memory of a run without conversion [byte] */
-    struct warnings found;               /* by the trial steps of this scene, of all of them if they were taken */
+    double coarser, growth; /* SCALED: factor on the spacing; all steps over first ones [1] */
+    double all_peridynamic; /* a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
+    double bytes;           /* peak memory of a run without conversion [byte] */
+    struct warnings found;  /* by the trial steps of this scene, of all of them if they were taken */
 };
 
 /* Takes steps and times them, with the current team; the engine cannot be used afterwards. `a`: the arguments of its
@@ -77,7 +77,9 @@ void advise_units(const struct run *e, FILE *out);
 /* Writes a line for each narrow part whose sections hold too many or too few particles, and spacings that divide it. */
 void advise_sections(const struct run *e, FILE *out);
 /* Writes a length to `digits` digits, in the largest unit in which the present spacing is not below 0.1. */
-struct length_text { char text[32]; };
+struct length_text {
+    char text[32];
+};
 struct length_text length_in_words(real length, int digits, real spacing);
 
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */

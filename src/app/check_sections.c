@@ -13,11 +13,7 @@
 #define ALIKE 0.2         /* sections of a part differ by less in area, */
 #define EVEN 0.04         /* and by less than this where faces lie along the axis */
 #define COVERED 0.02      /* share of a cell that counts */
-enum {
-    SLICES = 8,
-    SLICES_LEAST = 3,
-    SLICES_SLANTING = 32
-}; /* of a part that are taken together */
+enum { SLICES = 8, SLICES_LEAST = 3, SLICES_SLANTING = 32 }; /* of a part that are taken together */
 
 /* What hangs together in a slice of cells across an axis. */
 struct section {

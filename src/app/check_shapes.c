@@ -25,7 +25,8 @@ static void say_hull(const struct shape_file *f)
     if (h->open_edges > 0)
         printf(", open at %lld edges, one at (%.4g, %.4g, %.4g) m, which leave no doubt what is inside",
                (long long)h->open_edges, h->open_at[0], h->open_at[1], h->open_at[2]);
-    else printf(", closed");
+    else
+        printf(", closed");
     if (h->reversed) printf(", turned inside out and taken the other way round");
     if (h->dropped > 0 && f->kind == SHAPE_STL) printf(", %lld without area or given twice", (long long)h->dropped);
     const int slits = hull_slits(h);
@@ -54,7 +55,9 @@ static void say_image(const struct scene *scene, const struct shape_file *f)
 void say_shapes(const struct run *e)
 {
     for (const struct shape_file *f = e->scene->shapes; f; f = f->next) {
-        if (f->kind == SHAPE_IMAGE) say_image(e->scene, f);
-        else say_hull(f);
+        if (f->kind == SHAPE_IMAGE)
+            say_image(e->scene, f);
+        else
+            say_hull(f);
     }
 }

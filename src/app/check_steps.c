@@ -8,12 +8,12 @@
 #include "fracture/tips.h"
 #include "quasistatic/load_steps.h"
 
-#define AT_ONCE 1e-3   /* share of the largest loads that is there before the first load step */
-#define FALLS 1e-6     /* share by which loads fall that is no round-off */
-#define LOADS_LOOKS 64 /* moments at which loads are looked at */
-#define FEW 20.0       /* spacings of crack, or ahead of it: errors of loads, measured beside handbooks */
+#define AT_ONCE 1e-3       /* share of the largest loads that is there before the first load step */
+#define FALLS 1e-6         /* share by which loads fall that is no round-off */
+#define LOADS_LOOKS 64     /* moments at which loads are looked at */
+#define FEW 20.0           /* spacings of crack, or ahead of it: errors of loads, measured beside handbooks */
 #define NOTHING_BREAKS 0.8 /* overload at a crack tip below which no advance comes: Griffith's load is at 0.9 */
-#define SPACINGS 2.0   /* of an advance */
+#define SPACINGS 2.0       /* of an advance */
 enum { LED_EQUILIBRIA = 3, PAIRS_AT_ONCE = 2 };
 enum { PIN_MOST = 2, GRIP_LEAST = 12 }; /* widths of supports on which bodies turn, of grips [spacings] */
 
@@ -27,10 +27,7 @@ static int tips_of_cracks(const struct fracture_state *fracture)
     return n;
 }
 
-static bool is_led(const struct run *e)
-{
-    return tips_of_cracks(e->fracture) > 0 && engine_led_fault(e) == NULL;
-}
+static bool is_led(const struct run *e) { return tips_of_cracks(e->fracture) > 0 && engine_led_fault(e) == NULL; }
 
 /* How far bodies go on from a tip, straight ahead (side 1) or back (-1) [m]; 0 where they are lists of particles. */
 static real way_within(const struct scene *s, const struct particles *part, const struct tip *tip, int side)
@@ -63,7 +60,8 @@ static real crack_behind(const struct scene *s, const struct particles *part, co
 
 void say_load_steps(const struct run *e)
 {
-    static const char *const by[] = {[CONTROL_LOAD] = "by load time", [CONTROL_ENERGY] = "at the most, by energy",
+    static const char *const by[] = {[CONTROL_LOAD] = "by load time",
+                                     [CONTROL_ENERGY] = "at the most, by energy",
                                      [CONTROL_OPENING] = "by an opening"};
     const struct scene *s = e->scene;
     const int tips = tips_of_cracks(e->fracture);
@@ -100,9 +98,10 @@ static void advise_growth(const struct run *e, FILE *out)
                 "grow from nothing, by time: {ramp: {until: %.4g s}} or a formula with t\n",
                 100 * first / most, s->duration);
     if (!isnan(falls) && s->steps.control != CONTROL_LOAD)
-        fprintf(out, "unresolved: loads fall before t = %.4g s: control %s looks for the load time at which the crack "
-                "advances, and wants loads that grow all the time\n", falls,
-                s->steps.control == CONTROL_ENERGY ? "energy" : "opening");
+        fprintf(out,
+                "unresolved: loads fall before t = %.4g s: control %s looks for the load time at which the crack "
+                "advances, and wants loads that grow all the time\n",
+                falls, s->steps.control == CONTROL_ENERGY ? "energy" : "opening");
 }
 
 /* Tips with little crack behind them or little body ahead. */
@@ -113,7 +112,7 @@ static void advise_lengths(const struct run *e, FILE *out)
         const struct tip *tip = &e->fracture->tips.tip[k];
         const real ahead = way_within(e->scene, &e->part, tip, 1) / h,
                    behind = crack_behind(e->scene, &e->part, tip) / h;
-        const bool short_crack = behind < FEW, short_way = ahead > 0 && ahead < FEW;
+        const bool short_crack = behind<FEW, short_way = ahead> 0 && ahead < FEW;
         if (!tip->from_crack || (!short_crack && !short_way)) continue;
         fprintf(out,
                 "unresolved: tip at (%.4g, %.4g) m: %.0f spacings of %s: loads at which a crack grows are some 2 %% "
@@ -212,5 +211,6 @@ void say_load_steps_cost(const struct run *e, const struct cost *c, int threads)
            threads > 1 ? "s" : "", c->equilibria, c->step);
     if (c->overload > 0 && c->overload < NOTHING_BREAKS && e->scene->steps.control == CONTROL_LOAD)
         printf("\nunresolved: the most stretched bond reaches %.2g of its limit, at a load time of %.4g s: nothing "
-               "breaks below %.1f; larger loads are expected", c->overload, c->overload_at, NOTHING_BREAKS);
+               "breaks below %.1f; larger loads are expected",
+               c->overload, c->overload_at, NOTHING_BREAKS);
 }

@@ -11,7 +11,7 @@
 #include "probes/probes_part.h"
 #include "step/step.h"
 
-#define NEAR_ENOUGH 1e-6                 /* [spacings], and share of a largest component */
+#define NEAR_ENOUGH 1e-6 /* [spacings], and share of a largest component */
 
 /* Index of the particle of the body at X [m], [dim]; -1: none. */
 static int64_t particle_at(const struct run *e, const real *X)
@@ -86,7 +86,7 @@ static bool loads_agree(const struct particles *p, const struct loads *loads, in
     real *ask = NEW("check.ask", p->n, real), *held = NEW("check.held", p->n, real);
     bool same = true;
     for (int b = 0; b < loads->n; b++) {
-        const struct boundary *l = loads->load[b].boundary;    /* a formula's symmetry is unknown */
+        const struct boundary *l = loads->load[b].boundary; /* a formula's symmetry is unknown */
         same &= !l->rotates && l->formula[0].n + l->formula[1].n + l->formula[2].n == 0;
     }
     for (int d = 0; d < p->dim && same; d++) {

@@ -110,7 +110,10 @@ static int64_t rows_at(const struct piece *p, int axis, real low, real high, rea
 }
 
 /* A unit of length. */
-struct length_unit { real size; const char *name; };
+struct length_unit {
+    real size;
+    const char *name;
+};
 
 /* The largest unit in which a spacing is not below 0.1. */
 static struct length_unit unit_of_spacing(real spacing)

@@ -4,11 +4,12 @@
 
 #include "check_parts.h"
 
-#define STIFF 1e9           /* [Pa] from this modulus on, what is said here of solids holds; scaled models lie below */
-#define STRETCH_LIKELY 0.05 /* E s_c beyond a twentieth of E comes near the strength of a crystal without flaws, E/10  \
-                             */
-#define FASTEST 25e3        /* [m/s] in diamond waves go at 18 km/s */
-#define STRAIN_LIKELY 0.2   /* load over modulus */
+#define STIFF 1e9 /* [Pa] from this modulus on, what is said here of solids holds; scaled models lie below */
+#define STRETCH_LIKELY                                                                                                 \
+    0.05                  /* E s_c beyond a twentieth of E comes near the strength of a crystal without flaws, E/10    \
+                           */
+#define FASTEST 25e3      /* [m/s] in diamond waves go at 18 km/s */
+#define STRAIN_LIKELY 0.2 /* load over modulus */
 
 /* In the time of the run waves do not reach the next particle: lengths, the modulus or the time have another unit. */
 static void unlikely_duration(const struct scene *s, const struct material_tables *tables, FILE *out)

@@ -10,7 +10,10 @@
 
 /* `words`: the form of the arguments, from which usage, manual and completion are made: names in capitals stand for
  * values, an option is followed by the one that it takes. */
-struct command { const char *name, *words, *meaning; status (*call)(int argc, char **argv); };
+struct command {
+    const char *name, *words, *meaning;
+    status (*call)(int argc, char **argv);
+};
 extern const struct command commands[];
 extern const int commands_count;
 
@@ -25,7 +28,8 @@ extern const int commands_count;
     "DIR [--field NAME] [--times T,...|all|last] [--frames all|last|N] [--slice z=4mm] [--view iso|x+|x-|...|z-] "     \
     "[--format png|svg|pdf|mp4|gif] [-o FILE] [--overwrite], or --scene SCENE [-s KEY=VALUE]... [--view V] "           \
     "[-o FILE] [--overwrite]"
-#define EXPORT_WORDS "lammps SCENE -o DIR [-s KEY=VALUE]... [-t THREADS] [--style peri|bpm] [--allow-different] " \
+#define EXPORT_WORDS                                                                                                   \
+    "lammps SCENE -o DIR [-s KEY=VALUE]... [-t THREADS] [--style peri|bpm] [--allow-different] "                       \
     "[--overwrite]"
 
 status command_run(int argc, char **argv);

@@ -22,8 +22,8 @@ static const double SAME_TIME = 0.05;
 
 struct pair {
     const char *folder[2];
-    bool frames_differ;                  /* no fields were compared                    */
-    double spacing;                      /* of the first run; 0 if there are no frames [m] */
+    bool frames_differ; /* no fields were compared                    */
+    double spacing;     /* of the first run; 0 if there are no frames [m] */
     int dim;
 };
 
@@ -38,8 +38,10 @@ static bool holds_run(const char *folder)
 
 static void print_number(double a)
 {
-    if (isnan(a)) printf(" %14s", "-");
-    else printf(" %14.7g", a);
+    if (isnan(a))
+        printf(" %14s", "-");
+    else
+        printf(" %14.7g", a);
 }
 
 /* One figure of both runs and their difference B - A; left out where neither has it. */
@@ -59,7 +61,10 @@ static void print_head(const char *what) { printf("\n%-30s %14s %14s %14s\n", wh
 
 /* ---- choice of frames -------------------------------------------------------------------------------------------- */
 
-struct times { int n; struct listed_frame *list; };
+struct times {
+    int n;
+    struct listed_frame *list;
+};
 
 static double interval(const struct times *t)
 {
@@ -75,8 +80,10 @@ static bool last_common(const struct times *a, const struct times *b, int *i, in
     while (*i >= 0 && *j >= 0) {
         double late = a->list[*i].time - b->list[*j].time;
         if (late == 0 || fabs(late) <= near) return true;
-        if (late > 0) (*i)--;
-        else (*j)--;
+        if (late > 0)
+            (*i)--;
+        else
+            (*j)--;
     }
     return false;
 }
@@ -84,8 +91,8 @@ static bool last_common(const struct times *a, const struct times *b, int *i, in
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
 
 struct difference {
-    double largest, rms, scale;          /* of |a - b|; scale: largest |a| */
-    int64_t where;                       /* particle of the largest        */
+    double largest, rms, scale; /* of |a - b|; scale: largest |a| */
+    int64_t where;              /* particle of the largest        */
 };
 
 /* Distance of two vector (or tensor component) fields over n particles. */
@@ -189,8 +196,10 @@ static status compare_frames(struct pair *p)
     status s = OK;
     p->frames_differ = true;
     for (int k = 0; k < 2 && s == OK; k++)
-        if (lammps_run_holds(p->folder[k])) s = lammps_frames_list(p->folder[k], &t[k].n, &t[k].list);
-        else if (run_holds(p->folder[k], "frames.hdf.series")) s = frames_list(p->folder[k], &t[k].n, &t[k].list);
+        if (lammps_run_holds(p->folder[k]))
+            s = lammps_frames_list(p->folder[k], &t[k].n, &t[k].list);
+        else if (run_holds(p->folder[k], "frames.hdf.series"))
+            s = frames_list(p->folder[k], &t[k].n, &t[k].list);
     if (s == OK && (t[0].n == 0 || t[1].n == 0)) {
         printf("\nfields are not compared: %s has no frames\n", shown_name(p->folder[t[0].n == 0 ? 0 : 1]).text);
     } else if (s == OK && !last_common(&t[0], &t[1], &at[0], &at[1])) {
@@ -198,7 +207,7 @@ static status compare_frames(struct pair *p)
     } else if (s == OK) {
         for (int k = 0; k < 2 && s == OK; k++)
             s = (lammps_run_holds(p->folder[k]) ? lammps_run_frame : run_frame)(&f[k], p->folder[k],
-                                                                                 t[k].list[at[k]].number);
+                                                                                t[k].list[at[k]].number);
         if (s == OK) compare_particles(p, &f[0], &f[1]);
         for (int k = 0; k < 2; k++) frame_free(&f[k]);
     }
@@ -216,7 +225,9 @@ static double last_of(const struct history *h, const char *name)
 /* Compares the last lines of both history.csv. */
 static status compare_energies(const struct pair *p)
 {
-    static const struct { const char *name, *label; } figure[] = {
+    static const struct {
+        const char *name, *label;
+    } figure[] = {
         {"balance_error", "balance error"},
         {"momentum_error", "momentum error"},
         {"pd_share", "peridynamic share"},
@@ -261,7 +272,7 @@ static bool tip_place(const char *folder, int k, double place[DIM_MAX])
         snprintf(key, sizeof key, "crack.tips.%d.%c", k, 'x' + d);
         place[d] = compare_figure_of(folder, key);
         found = found || isfinite(place[d]);
-        if (!isfinite(place[d])) place[d] = 0;       /* a component the space does not have */
+        if (!isfinite(place[d])) place[d] = 0; /* a component the space does not have */
     }
     return found;
 }
@@ -275,35 +286,46 @@ static void print_tips(const struct pair *p)
         for (int j = 0; tip_place(p->folder[1], j, b); j++)
             least = fmin(least, sqrt(square(a[0] - b[0]) + square(a[1] - b[1]) + square(a[2] - b[2])));
         printf("  tip %d at (%.5g, %.5g, %.5g) m: ", i, a[0], a[1], a[2]);
-        if (!isfinite(least)) printf("B has no tip\n");
-        else if (p->spacing > 0) printf("nearest of B %.4g m away, %.3g spacings\n", least, least / p->spacing);
-        else printf("nearest of B %.4g m away\n", least);
+        if (!isfinite(least))
+            printf("B has no tip\n");
+        else if (p->spacing > 0)
+            printf("nearest of B %.4g m away, %.3g spacings\n", least, least / p->spacing);
+        else
+            printf("nearest of B %.4g m away\n", least);
     }
 }
 
 static void compare_cracks(const struct pair *p)
 {
-    static const struct { const char *key, *label, *unit; } figure[] = {
-        {"crack.start_time", "first break", "s"}, {"crack.tip_start_time", "tip starts", "s"},
-        {"crack.arrest_time", "tip arrests", "s"}, {"crack.angle_deg", "angle", "degree"},
-        {"crack.length_end", "length", "m"},       {"crack.tip_speed_mean", "mean speed", "m/s"},
-        {"crack.tip_speed_max", "largest speed", "m/s"}};
+    static const struct {
+        const char *key, *label, *unit;
+    } figure[] = {{"crack.start_time", "first break", "s"},
+                  {"crack.tip_start_time", "tip starts", "s"},
+                  {"crack.arrest_time", "tip arrests", "s"},
+                  {"crack.angle_deg", "angle", "degree"},
+                  {"crack.length_end", "length", "m"},
+                  {"crack.tip_speed_mean", "mean speed", "m/s"},
+                  {"crack.tip_speed_max", "largest speed", "m/s"}};
     print_head("crack");
     for (int k = 0; k < (int)COUNT_OF(figure); k++)
         compare_print_row(figure[k].label, figure[k].unit, compare_figure_of(p->folder[0], figure[k].key),
-                  compare_figure_of(p->folder[1], figure[k].key));
+                          compare_figure_of(p->folder[1], figure[k].key));
     print_tips(p);
 }
 
 static void compare_time(const struct pair *p)
 {
-    static const struct { const char *key, *label, *unit; } figure[] = {
-        {"steps", "steps", ""}, {"time_step", "time step", "s"}, {"threads", "threads", ""},
-        {"memory_peak_bytes", "peak memory", "byte"}, {"loop_seconds", "loop", "s"}};
+    static const struct {
+        const char *key, *label, *unit;
+    } figure[] = {{"steps", "steps", ""},
+                  {"time_step", "time step", "s"},
+                  {"threads", "threads", ""},
+                  {"memory_peak_bytes", "peak memory", "byte"},
+                  {"loop_seconds", "loop", "s"}};
     print_head("time taken");
     for (int k = 0; k < (int)COUNT_OF(figure); k++)
         compare_print_row(figure[k].label, figure[k].unit, compare_figure_of(p->folder[0], figure[k].key),
-                  compare_figure_of(p->folder[1], figure[k].key));
+                          compare_figure_of(p->folder[1], figure[k].key));
     double a = compare_figure_of(p->folder[0], "loop_seconds"), b = compare_figure_of(p->folder[1], "loop_seconds");
     if (a > 0 && b > 0) printf("  A/B = %.4g, t_r = 1 - A/B = %.4g\n", a / b, 1 - a / b);
 }

@@ -59,8 +59,7 @@ static status check_sort(struct check *c, int64_t n, const char *path)
     for (int64_t k = 0; k < n && whole; k++) {
         const double of = c->h.value[k * columns + id];
         whole = of >= 1 && of <= (double)n;
-        if (whole)
-            array_copy(sorted + ((int64_t)of - 1) * columns, c->h.value + k * columns, columns, sizeof(double));
+        if (whole) array_copy(sorted + ((int64_t)of - 1) * columns, c->h.value + k * columns, columns, sizeof(double));
     }
     for (int64_t k = 0; k < n && whole; k++) whole = (int64_t)sorted[k * columns + id] == k + 1;
     memory_free(whole ? c->h.value : sorted);

@@ -12,7 +12,8 @@ static status help_scene(void)
     char schema[4096];
     if (schema_path(schema, sizeof schema))
         printf("# yaml-language-server: $schema=%s\n"
-               "As the first line of a scene, this lets editors complete keys and underline mistakes.\n\n", schema);
+               "As the first line of a scene, this lets editors complete keys and underline mistakes.\n\n",
+               schema);
     return scene_help(stdout, NULL);
 }
 

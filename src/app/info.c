@@ -13,7 +13,7 @@
 static const char *compiler(void)
 {
 #if defined __clang__
-    return __VERSION__;                  /* includes the name */
+    return __VERSION__; /* includes the name */
 #else
     return "gcc " __VERSION__;
 #endif

@@ -45,7 +45,7 @@ static status call(int argc, char **argv)
 static void limit_spin(char **argv)
 {
     if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return;
-    if (setenv("GOMP_SPINCOUNT", "2000", 0) == 0) execv("/proc/self/exe", argv);   /* without /proc the default stays */
+    if (setenv("GOMP_SPINCOUNT", "2000", 0) == 0) execv("/proc/self/exe", argv); /* without /proc the default stays */
 }
 
 /* Opens standard descriptors that are closed, as daemons leave them; the next file opened would receive one of them,
@@ -73,9 +73,9 @@ int main(int argc, char **argv)
     harmless_output_start();
     status result = call(argc, argv);
     const bool lost = fflush(stdout) != 0 || ferror(stdout);
-    if (lost && reader_gone()) LEAVE(FAILED);        /* `cleave help | head` */
+    if (lost && reader_gone()) LEAVE(FAILED); /* `cleave help | head` */
     if (lost && result == OK) result = status_set(FAILED, "cannot write to standard output");
     if (result != OK && status_message()[0]) fprintf(stderr, "%s\n", status_message());
     fflush(stderr);
-    LEAVE(result);                           /* after failed writes the exit handlers of libraries may crash */
+    LEAVE(result); /* after failed writes the exit handlers of libraries may crash */
 }

@@ -8,7 +8,9 @@
 #include "commands.h"
 
 /* Kind, what it is, and the scene behind these two lines. */
-static const struct kind { const char *name, *meaning, *text; } kinds[] = {
+static const struct kind {
+    const char *name, *meaning, *text;
+} kinds[] = {
 #include "new_scenes.h"
 };
 
@@ -57,16 +59,19 @@ static void scene_write(FILE *out, const struct kind *k, const char *path, const
 {
     char schema[4096];
     if (schema_path(schema, sizeof schema)) fprintf(out, "# yaml-language-server: $schema=%s\n", schema);
-    fprintf(out, "# %s\n#\n"
-                 "# cleave check %s    says what it costs, and whether it is sound\n"
-                 "# cleave run %s      runs it\n"
-                 "# cleave plot results/%.*s    draws it\n"
-                 "# cleave help KEY    says what a key is for; cleave help lists all\n",
+    fprintf(out,
+            "# %s\n#\n"
+            "# cleave check %s    says what it costs, and whether it is sound\n"
+            "# cleave run %s      runs it\n"
+            "# cleave plot results/%.*s    draws it\n"
+            "# cleave help KEY    says what a key is for; cleave help lists all\n",
             k->meaning, path, path, (int)strcspn(name, "."), name);
     const char *file = strstr(k->text, part_file);
     const int before = file ? (int)(file - k->text) : 0;
-    if (file) fprintf(out, "%.*s%.*s.stl%s", before, k->text, (int)strcspn(name, "."), name, file + strlen(part_file));
-    else fputs(k->text, out);
+    if (file)
+        fprintf(out, "%.*s%.*s.stl%s", before, k->text, (int)strcspn(name, "."), name, file + strlen(part_file));
+    else
+        fputs(k->text, out);
 }
 
 /* Opens a file that is not there yet. REFUSED if it is. */
@@ -88,7 +93,9 @@ static status file_close(FILE *out, const char *path)
 }
 
 /* The file of the surface beside a scene: NAME.stl for NAME.yaml. */
-struct part_name { char text[PATH_LONGEST + 8]; };
+struct part_name {
+    char text[PATH_LONGEST + 8];
+};
 static struct part_name part_path(const char *path)
 {
     struct part_name file;
@@ -123,14 +130,16 @@ status command_new(int argc, char **argv)
     TRY(check_path(argv[1], &length, &name));
     snprintf(path, sizeof path, "%.*s", length, argv[1]);
     name = path + (name - argv[1]);
-    const bool named = argc == 2 && kind_find(name, &kind) == OK;        /* cleave new bar */
+    const bool named = argc == 2 && kind_find(name, &kind) == OK; /* cleave new bar */
     if (!named) TRY(kind_find(argc == 3 ? argv[2] : "crack", &kind));
     strcat(path, ".yaml");
     TRY(file_open(&out, path));
     status written = part_write(kind, path);
     const bool parted = written == OK && strstr(kind->text, part_file);
-    if (written == OK) scene_write(out, kind, path, name), written = file_close(out, path);
-    else fclose(out), remove(path);
+    if (written == OK)
+        scene_write(out, kind, path, name), written = file_close(out, path);
+    else
+        fclose(out), remove(path);
     if (written != OK && parted) remove(part_path(path).text);
     TRY(written);
     printf("%s: %s\ncleave run %s runs it\n", path, kind->meaning, path);

@@ -49,7 +49,8 @@ static status read_times(struct plot_words *w, const char *text)
             s = status_set(REFUSED, "plot: --times: %d times are the most; a film shows all frames", PANELS_MAX);
         else if (!word_time(&time, word, what, sizeof what))
             s = status_set(REFUSED, "plot: --times %s: %s; or all, or last", shown_name(word).text, what);
-        else r->time[r->times++] = time;
+        else
+            r->time[r->times++] = time;
     }
     memory_free(copy);
     return s;
@@ -102,10 +103,13 @@ static status read_override(struct plot_words *w, const char *text) { return arg
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
-static const struct { const char *name; status (*read)(struct plot_words *w, const char *text); } options[] = {
-    {"--field", read_field},   {"--times", read_times}, {"--frames", read_frames_option}, {"--slice", read_slice},
-    {"--view", read_view},     {"--format", read_format}, {"--scene", read_scene_option}, {"-s", read_override},
-    {"-o", read_out},
+static const struct {
+    const char *name;
+    status (*read)(struct plot_words *w, const char *text);
+} options[] = {
+    {"--field", read_field},        {"--times", read_times}, {"--frames", read_frames_option},
+    {"--slice", read_slice},        {"--view", read_view},   {"--format", read_format},
+    {"--scene", read_scene_option}, {"-s", read_override},   {"-o", read_out},
 };
 
 static status read_option(struct plot_words *w, const char *word, const char *value)
@@ -128,8 +132,9 @@ static status settle_format(struct plot_words *w)
     if (!dot || strchr(dot, '/') || path_is_folder(out)) return OK;
     if (!w->format && picture_format_named(&w->request.format, dot + 1)) return OK;
     if (w->format && strcmp(w->format, dot + 1) == 0) return OK;
-    return status_set(REFUSED, w->format ? "plot: -o %s: the ending is not that of --format %s"
-                                         : "plot: -o %s: an ending .png, .svg, .pdf, .mp4 or .gif is expected",
+    return status_set(REFUSED,
+                      w->format ? "plot: -o %s: the ending is not that of --format %s"
+                                : "plot: -o %s: an ending .png, .svg, .pdf, .mp4 or .gif is expected",
                       shown_name(out).text, w->format);
 }
 
@@ -142,8 +147,10 @@ static status words_together(const struct plot_words *w)
         return status_set(REFUSED, "plot: --times %s and --frames (or --times) %s: one of them",
                           shown_name(w->times).text, shown_name(w->frames).text);
     if (r->panels > PANELS_MAX && !picture_moves(r->format))
-        return status_set(REFUSED, "plot: --frames %d: a picture has %d panels at the most; a film (mp4, gif) has any "
-                          "number", r->panels, PANELS_MAX);
+        return status_set(REFUSED,
+                          "plot: --frames %d: a picture has %d panels at the most; a film (mp4, gif) has any "
+                          "number",
+                          r->panels, PANELS_MAX);
     if (!w->scene.scene && w->scene.overrides)
         return status_set(REFUSED, "plot: -s changes a scene; it goes with --scene");
     if (r->look.outside && r->look.normal >= 0)
@@ -163,7 +170,8 @@ static status plot_words_read(struct plot_words *w, int argc, char **argv)
             k++;
         } else if (w->request.folder) {
             return status_set(REFUSED, "plot: one folder at a time; %s is one too many", argv[k]);
-        } else w->request.folder = argv[k];
+        } else
+            w->request.folder = argv[k];
     }
     TRY(settle_format(w));
     return words_together(w);
@@ -172,11 +180,15 @@ static status plot_words_read(struct plot_words *w, int argc, char **argv)
 static status check_folder(const char *folder)
 {
     if (path_exists(folder) && !path_is_folder(folder))
-        return status_set(REFUSED, "%s is a file: the folder of a run is expected; a scene is drawn by `cleave plot "
-                          "--scene %s`", shown_name(folder).text, shown_name(folder).text);
+        return status_set(REFUSED,
+                          "%s is a file: the folder of a run is expected; a scene is drawn by `cleave plot "
+                          "--scene %s`",
+                          shown_name(folder).text, shown_name(folder).text);
     if (run_holds(folder, "sweep.csv") || run_holds(folder, "converge.csv"))
-        return status_set(REFUSED, "%s holds a study: its pictures are in %s/pictures; `cleave plot` draws one of its "
-                          "runs", shown_name(folder).text, shown_name(folder).text);
+        return status_set(REFUSED,
+                          "%s holds a study: its pictures are in %s/pictures; `cleave plot` draws one of its "
+                          "runs",
+                          shown_name(folder).text, shown_name(folder).text);
     if (!run_holds(folder, "frames.hdf.series") && !run_holds(folder, "history.csv"))
         return status_set(REFUSED, "%s: no run there: neither frames nor history.csv", folder);
     return strlen(folder) + PATH_NAME_ROOM < PATH_ROOM ? OK : status_set(FAILED, "%s: the name is too long", folder);
@@ -185,8 +197,7 @@ static status check_folder(const char *folder)
 static status draw_words(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;
-    if (w->scene.scene)
-        return scene_picture(w->scene.scene, w->scene.override, w->scene.overrides, r);
+    if (w->scene.scene) return scene_picture(w->scene.scene, w->scene.override, w->scene.overrides, r);
     TRY(check_folder(r->folder));
     const bool one = r->field || r->look.outside || r->look.normal >= 0 || r->out || picture_moves(r->format);
     return one ? field_picture(r) : run_pictures(r);

@@ -27,8 +27,10 @@ static void print_breaks(const struct run *e)
     const struct tip *tip = tips_longest(&e->fracture->tips);
     const bool in_steps = scene_in_steps(e->scene), broke = !isnan(w->break_time);
     const int64_t tied = tips_tied(&e->fracture->tips);
-    if (broke && in_steps) printf("  first bond broken in load step %.0f", w->break_time / e->clock.dt);
-    else if (broke) printf("  first bond broken at %.4g s", w->break_time);
+    if (broke && in_steps)
+        printf("  first bond broken in load step %.0f", w->break_time / e->clock.dt);
+    else if (broke)
+        printf("  first bond broken at %.4g s", w->break_time);
     if (broke && w->break_ends > 1) printf(" at %lld places", (long long)w->break_ends);
     if (tip)
         printf("%slongest crack grew %.4g mm at %.3g degrees", broke ? ", " : "  ", 1e3 * tip->growth,
@@ -36,8 +38,10 @@ static void print_breaks(const struct run *e)
     if (tied > 1) printf(", one of %lld tips as far within a spacing", (long long)tied);
     if (broke || tip) printf("\n");
     if (isnan(w->driven_time)) return;
-    if (in_steps) printf("  first bond of driven particles broken in load step %.0f\n", w->driven_time / e->clock.dt);
-    else printf("  first bond of driven particles broken at %.4g s\n", w->driven_time);
+    if (in_steps)
+        printf("  first bond of driven particles broken in load step %.0f\n", w->driven_time / e->clock.dt);
+    else
+        printf("  first bond of driven particles broken at %.4g s\n", w->driven_time);
 }
 
 static void print_summary(const struct run *e, const char *folder, double wall)
@@ -80,7 +84,7 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
                          int threads)
 {
     double start = team_clock();
-    TRY(engine_make(e, s, out));             /* first: a scene that is refused leaves no folder behind */
+    TRY(engine_make(e, s, out)); /* first: a scene that is refused leaves no folder behind */
     TRY(open_folder(out, s, a));
     e->report->quiet = a->quiet;
     engine_warn(e);

@@ -3,7 +3,9 @@
 
 #include "commands.h"
 
-struct promise { const char *what, *tests; };
+struct promise {
+    const char *what, *tests;
+};
 
 static const struct promise promises[] = {
     {"The same scene gives the same frames and history to the last bit on any number of threads, of one build and one "
@@ -64,8 +66,10 @@ static void paragraph(FILE *out, const char *text, int indent)
     for (const char *word = text; *word;) {
         const int length = (int)strcspn(word, " ");
         if (column > 0 && column + 1 + length > 100) fputc('\n', out), column = 0;
-        if (column == 0) fprintf(out, "%*s", indent, ""), column = indent;
-        else fputc(' ', out), column++;
+        if (column == 0)
+            fprintf(out, "%*s", indent, ""), column = indent;
+        else
+            fputc(' ', out), column++;
         fprintf(out, "%.*s", length, word);
         column += length;
         word += length + strspn(word + length, " ");

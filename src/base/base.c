@@ -9,11 +9,11 @@ enum { MESSAGE_LENGTH = 1024 };
 
 /* As errno: each thread has its own, so that a worker's fault never mixes with another's. */
 static _Thread_local char message[MESSAGE_LENGTH];
-static _Thread_local bool placed;        /* by status_at */
+static _Thread_local bool placed; /* by status_at */
 
 status status_set(status s, const char *format, ...)
 {
-    char text[MESSAGE_LENGTH];           /* the old message may be among the arguments */
+    char text[MESSAGE_LENGTH]; /* the old message may be among the arguments */
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);

@@ -7,12 +7,15 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-#define STATIONARY 1e-3                  /* what the last iterations may add                          */
-#define EXHAUSTED 1e-12                  /* of the eigenvalue: the vectors found span all there is    */
+#define STATIONARY 1e-3 /* what the last iterations may add                          */
+#define EXHAUSTED 1e-12 /* of the eigenvalue: the vectors found span all there is    */
 enum { ITERATIONS_LEAST = 16, ITERATIONS_MOST = 200, ITERATIONS_SEEN = 8 };
 
 /* The next vector w, the newest v and the one before it. */
-struct lanczos { int64_t n; real *v, *before, *w; };
+struct lanczos {
+    int64_t n;
+    real *v, *before, *w;
+};
 
 static void overlap_block(const void *context, int64_t first, int64_t end, real *sum)
 {
@@ -75,8 +78,10 @@ real largest_of_tridiagonal(const real *a, const real *b, int n)
     }
     for (int k = 0; k < 50; k++) {
         const real middle = 0.5 * (low + high);
-        if (above_all(a, b, n, middle)) high = middle;
-        else low = middle;
+        if (above_all(a, b, n, middle))
+            high = middle;
+        else
+            low = middle;
     }
     return high;
 }

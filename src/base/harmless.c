@@ -19,7 +19,8 @@ static void chunk_harmless(char *to, const char *from, size_t length, bool first
     memcpy(to, from, length);
     bytes_harmless(to, length);
     for (size_t k = 0; k < length; k++)
-        if (from[k] == '\n' || from[k] == '\t' || (from[k] == '\r' && first && k == 0)) to[k] = from[k];
+        if (from[k] == '\n' || from[k] == '\t' || (from[k] == '\r' && first && k == 0))
+            to[k] = from[k];
         else if (length - k >= sizeof erase_line - 1 && !memcmp(from + k, erase_line, sizeof erase_line - 1))
             memcpy(to + k, erase_line, sizeof erase_line - 1);
 }

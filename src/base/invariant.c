@@ -24,7 +24,7 @@ _Noreturn void invariant_broken(const char *condition, const char *file, int lin
 {
     static bool reported;
     if (__atomic_exchange_n(&reported, true, __ATOMIC_ACQ_REL))
-        for (;;) pause();                /* another thread has reported, and ends the program */
+        for (;;) pause(); /* another thread has reported, and ends the program */
     fprintf(stderr,
             "cleave " CLEAVE_VERSION ": broken invariant at %s:%d, %s: %s; this is a fault of the program: please "
             "report this line, with scene.yaml of the results folder; results up to the last checkpoint are whole\n",

@@ -72,7 +72,7 @@ static void on_crash(int number)
     if (stack_is_tight()) say_and_leave(out_of_stack);
     if (memory_is_tight()) say_and_leave(out_of_memory);
     if (reading[0]) say_damaged_and_leave();
-    signal(number, SIG_DFL);                 /* the fault comes again, and ends the process as it should */
+    signal(number, SIG_DFL); /* the fault comes again, and ends the process as it should */
 }
 
 /* This program leaves by _exit: only a library calls exit, and -1 is HDF5 without memory. */
@@ -86,7 +86,7 @@ static void on_library_exit(int result, void *unused)
 
 void last_words_start(void)
 {
-    static char room[1 << 16];               /* a stack that finds no memory to grow cannot hold the handler */
+    static char room[1 << 16]; /* a stack that finds no memory to grow cannot hold the handler */
     const stack_t apart = {.ss_sp = room, .ss_size = sizeof room};
     const struct sigaction action = {.sa_handler = on_crash, .sa_flags = SA_ONSTACK};
     sigaltstack(&apart, NULL);

@@ -56,7 +56,7 @@ void leaving_set(enum leaving which, const char *path, int process)
     leavings[which].process = 0;
     leavings[which].path[0] = '\0';
     if (path && strlen(path) < PATH_LONGEST) strcpy(leavings[which].path, path);
-    if (process > 0) setpgid(process, process);      /* as leavings_child, whichever comes first */
+    if (process > 0) setpgid(process, process); /* as leavings_child, whichever comes first */
     leavings[which].process = process;
 }
 

@@ -32,9 +32,9 @@ enum { GROWN_FIRST = 16 };
 
 /* Stands before the array. */
 struct block {
-    void *whole;                         /* to be freed */
-    size_t mapped;                       /* its bytes if it has its own pages, else 0 */
-    size_t length;                       /* of the array [byte] */
+    void *whole;   /* to be freed */
+    size_t mapped; /* its bytes if it has its own pages, else 0 */
+    size_t length; /* of the array [byte] */
 };
 _Static_assert(sizeof(struct block) <= ALIGNMENT, "there is room for it");
 
@@ -169,11 +169,11 @@ static void *array_make(const char *label, int64_t count, size_t size, enum cont
     const bool sparse = content == MOSTLY_UNWRITTEN || content == MOSTLY_ZERO;
     const bool large = rounded >= LARGE_ARRAY && !sparse;
     bool fresh;
-    char *from = memory_block_make(&block, ahead + rounded, large ? LARGE_PAGE : ALIGNMENT, content == MOSTLY_ZERO,
-                                   &fresh);
+    char *from =
+        memory_block_make(&block, ahead + rounded, large ? LARGE_PAGE : ALIGNMENT, content == MOSTLY_ZERO, &fresh);
     if (!block.whole) out_of_memory(label, count, size);
 #ifdef MADV_HUGEPAGE
-    if (large) madvise(from, ahead + rounded, MADV_HUGEPAGE);   /* a wish: fewer faults and misses of the page table */
+    if (large) madvise(from, ahead + rounded, MADV_HUGEPAGE); /* a wish: fewer faults and misses of the page table */
     if (sparse && block.mapped > 0) madvise(block.whole, block.mapped, MADV_NOHUGEPAGE);
 #endif
     char *pointer = from + ahead;
@@ -270,7 +270,7 @@ void memory_free(void *pointer)
 
 void memory_reuse(bool reuse)
 {
-#ifdef __GLIBC__            /* nor does the heap give back pages, or merge small pieces whenever a large one is freed */
+#ifdef __GLIBC__ /* nor does the heap give back pages, or merge small pieces whenever a large one is freed */
     if (reuse) mallopt(M_TRIM_THRESHOLD, KEPT_ALL), mallopt(M_MXFAST, 0);
 #endif
 #ifdef MAP_ANONYMOUS
@@ -300,7 +300,7 @@ int64_t memory_peak(void)
     struct rusage usage;
     if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
 #ifdef __APPLE__
-    return usage.ru_maxrss;              /* bytes there, kilobytes elsewhere */
+    return usage.ru_maxrss; /* bytes there, kilobytes elsewhere */
 #else
     return (int64_t)usage.ru_maxrss * 1024;
 #endif

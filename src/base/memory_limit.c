@@ -47,7 +47,8 @@ static int64_t groups_limit(void)
         char *controllers = strchr(line, ':'), *group = controllers ? strchr(controllers + 1, ':') : NULL;
         if (!group) continue;
         *group++ = '\0';
-        if (strcmp(controllers, ":") == 0) limit = least(limit, group_and_above("/sys/fs/cgroup", group, "memory.max"));
+        if (strcmp(controllers, ":") == 0)
+            limit = least(limit, group_and_above("/sys/fs/cgroup", group, "memory.max"));
         else if (strstr(controllers, "memory"))
             limit = least(limit, group_and_above("/sys/fs/cgroup/memory", group, "memory.limit_in_bytes"));
     }

@@ -10,7 +10,11 @@
 #ifdef __linux__
 
 /* What a stream has collected; lost: a part of it found no memory. */
-struct collected { char **text; size_t *length, room; bool lost; };
+struct collected {
+    char **text;
+    size_t *length, room;
+    bool lost;
+};
 
 /* Makes room for `more` bytes and a NUL. Returns false if there is no memory. */
 static bool collected_room(struct collected *c, size_t more)

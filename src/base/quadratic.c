@@ -9,7 +9,9 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-struct pair { const real *a, *b; };
+struct pair {
+    const real *a, *b;
+};
 static real pair_term(const void *context, int64_t k)
 {
     const struct pair *p = context;
@@ -22,8 +24,8 @@ struct descent {
     const struct quadratic *of;
     int64_t n;
     real *x, *low, *high, *scale;
-    real *gradient, *free, *chopped, *direction, *image, *room;  /* chopped: of bounds that an unknown would leave */
-    real reach;                          /* a step along the gradient that is safe: 1 over the largest eigenvalue */
+    real *gradient, *free, *chopped, *direction, *image, *room; /* chopped: of bounds that an unknown would leave */
+    real reach; /* a step along the gradient that is safe: 1 over the largest eigenvalue */
 };
 
 static void scaled_product(void *context, const real *x, real *y)
@@ -111,8 +113,9 @@ int quadratic_descend(const struct quadratic *q, real *x, real close, int produc
     const int64_t n = q->n;
     if (n == 0) return 0;
     real *all = NEW("quadratic.descent", 10 * n, real);
-    struct descent d = {q,           n,           all,         all + n,     all + 2 * n, all + 3 * n, all + 4 * n,
-                        all + 5 * n, all + 6 * n, all + 7 * n, all + 8 * n, all + 9 * n, 0};
+    struct descent d = {
+        q,           n,           all,         all + n, all + 2 * n, all + 3 * n, all + 4 * n, all + 5 * n, all + 6 * n,
+        all + 7 * n, all + 8 * n, all + 9 * n, 0};
     for (int64_t k = 0; k < n; k++) {
         d.scale[k] = sqrt(q->diagonal[k]), d.x[k] = x[k] * d.scale[k];
         d.low[k] = q->low[k] * d.scale[k], d.high[k] = q->high[k] * d.scale[k];

@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-#define NOTHING 1e-30                    /* of a value: what was zero or less counts as that                   */
-#define SOMETHING 0.03                   /* of a value: no mere background on which something faster has grown */
+#define NOTHING 1e-30  /* of a value: what was zero or less counts as that                   */
+#define SOMETHING 0.03 /* of a value: no mere background on which something faster has grown */
 
 void rise_note(struct rise *r, int64_t step, real value)
 {

@@ -21,7 +21,7 @@
 /* What hwloc says of the machine and what this process may use of it. */
 struct place {
     hwloc_topology_t topology;
-    hwloc_bitmap_t mask;                 /* hardware threads the process may run on */
+    hwloc_bitmap_t mask; /* hardware threads the process may run on */
 };
 
 /* The machine's memory, or what this process may take of it, found once: the search takes some 6 ms, a
@@ -62,7 +62,7 @@ static void rebind_main(const struct place *place)
 
 static bool place_make(struct place *place)
 {
-    setenv("HWLOC_HIDE_ERRORS", "2", 0);     /* a machine that hides its topology is no fault of the run */
+    setenv("HWLOC_HIDE_ERRORS", "2", 0); /* a machine that hides its topology is no fault of the run */
     /* plugins search for graphics and the like: 3 MB and up to 60 ms for nothing needed here */
     setenv("HWLOC_PLUGINS_PATH", "", 0);
     note_memory(NULL);
@@ -149,7 +149,7 @@ static void bind_helpers(const struct place *place, int threads)
         int k = omp_get_thread_num();
         hwloc_bitmap_t mine = hwloc_bitmap_dup(place->mask);
         if (apart) hwloc_bitmap_and(mine, mine, core_at(place, k)->cpuset);
-        if (k > 0) hwloc_set_cpubind(place->topology, mine, HWLOC_CPUBIND_THREAD);   /* a wish: refusal does no harm */
+        if (k > 0) hwloc_set_cpubind(place->topology, mine, HWLOC_CPUBIND_THREAD); /* a wish: refusal does no harm */
         hwloc_bitmap_free(mine);
     }
 }
@@ -170,7 +170,7 @@ static void flush_tiny_numbers(int threads)
 {
 #ifdef __SSE__
 #pragma omp parallel num_threads(threads)
-    _mm_setcsr(_mm_getcsr() | 0x8040);   /* results, and operands */
+    _mm_setcsr(_mm_getcsr() | 0x8040); /* results, and operands */
 #else
     (void)threads;
 #endif
@@ -183,7 +183,7 @@ static void *wait_for(void *mutex)
     return NULL;
 }
 
-enum { LIBRARY_ROOM = 16 << 20 };        /* what OpenMP's library may take besides stacks [byte] */
+enum { LIBRARY_ROOM = 16 << 20 }; /* what OpenMP's library may take besides stacks [byte] */
 
 /* Can so many be had at once? OpenMP's library ends the process where they cannot, and not in one line. */
 static bool threads_start(int threads)
@@ -209,9 +209,12 @@ int team_make(int threads)
     bool known = place_make(&place);
     if (threads <= 0) {
         /* a bound process has left this thread one place of many: the mask does not say how many threads are meant */
-        if (getenv("OMP_NUM_THREADS") != NULL) threads = omp_get_max_threads();
-        else if (user_binds()) threads = bound_threads();
-        else threads = known ? core_count(&place) : omp_get_num_procs();
+        if (getenv("OMP_NUM_THREADS") != NULL)
+            threads = omp_get_max_threads();
+        else if (user_binds())
+            threads = bound_threads();
+        else
+            threads = known ? core_count(&place) : omp_get_num_procs();
     }
     if (!threads_start(threads)) {
         fprintf(
@@ -220,7 +223,7 @@ int team_make(int threads)
             threads);
         _exit(FAILED);
     }
-    omp_set_dynamic(0);                  /* always this many: partitions must not change between loops */
+    omp_set_dynamic(0); /* always this many: partitions must not change between loops */
     omp_set_num_threads(threads);
     flush_tiny_numbers(threads);
     if (known) {
@@ -232,7 +235,10 @@ int team_make(int threads)
 
 /* ---- shares of the cores ----------------------------------------------------------------------------------------- */
 
-struct core_shares { struct place place; int n, cores; };
+struct core_shares {
+    struct place place;
+    int n, cores;
+};
 
 int team_cores(void)
 {
@@ -277,7 +283,7 @@ void core_shares_free(struct core_shares *s)
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
-enum { FEW_BLOCKS = 16 };            /* sums without memory of their own: steps need short ones several times         */
+enum { FEW_BLOCKS = 16 }; /* sums without memory of their own: steps need short ones several times         */
 
 static void sum_block(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                       const void *context, int64_t b, real *part)
@@ -302,7 +308,10 @@ void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t 
     if (part != few) memory_free(part);
 }
 
-struct single { real (*term)(const void *context, int64_t i); const void *context; };
+struct single {
+    real (*term)(const void *context, int64_t i);
+    const void *context;
+};
 
 static void single_block(const void *context, int64_t first, int64_t end, real *sum)
 {
@@ -328,13 +337,10 @@ double team_clock(void)
 
 const char *const lap_name[LAPS] = {
     [LAP_BONDS] = "bonds",     [LAP_SCATTER] = "scatter", [LAP_GRID] = "grid",     [LAP_GATHER] = "gather",
-    [LAP_CONVERT] = "convert", [LAP_SAMPLE] = "sample",    [LAP_OUTPUT] = "output",
+    [LAP_CONVERT] = "convert", [LAP_SAMPLE] = "sample",   [LAP_OUTPUT] = "output",
 };
 
-void laps_start(struct laps *l)
-{
-    *l = (struct laps){.last = team_clock()};
-}
+void laps_start(struct laps *l) { *l = (struct laps){.last = team_clock()}; }
 
 void lap(struct laps *l, enum lap which)
 {

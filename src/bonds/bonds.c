@@ -131,9 +131,9 @@ static void rows_arrays(struct bonds *b)
 struct rows_pass {
     struct bonds *b;
     struct row_maker maker;
-    struct row_block_found **found;          /* [row blocks] of those that are searched, NULL: not kept   */
-    int64_t *kept;                 /* [row blocks] of old rows whose row block is taken over, -1: made; NULL: all are */
-    bool count;                          /* the first pass: columns are counted                     */
+    struct row_block_found **found; /* [row blocks] of those that are searched, NULL: not kept   */
+    int64_t *kept; /* [row blocks] of old rows whose row block is taken over, -1: made; NULL: all are */
+    bool count;    /* the first pass: columns are counted                     */
 };
 
 /* True if one of the rows was in a row block that had changed. */
@@ -186,7 +186,8 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_roo
     if (is_regular(pass, room, g)) {
         if (pass->count)
             b->column_count[g] = row_block_regular_columns(&room->regular), note_reach(pass, room, g, true);
-        else row_block_fill_regular(b, room, g, m);
+        else
+            row_block_fill_regular(b, room, g, m);
         return row_block_regular_bonds(&room->regular);
     }
     if (pass->found && pass->found[g]) row_block_found_take(pass->found[g], room->row, rows);
@@ -196,8 +197,10 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_roo
         made += room->row[l].n;
     }
     const int columns = row_block_columns(room, particle, rows, &by_offset);
-    if (pass->count) b->column_count[g] = columns, note_reach(pass, room, g, false);
-    else row_block_fill(b, room, g, rows, by_offset, m->p);
+    if (pass->count)
+        b->column_count[g] = columns, note_reach(pass, room, g, false);
+    else
+        row_block_fill(b, room, g, rows, by_offset, m->p);
     if (pass->count && pass->found) pass->found[g] = row_block_found_make(room->row, rows);
     return made;
 }
@@ -217,9 +220,12 @@ static int64_t rows_pass(const struct rows_pass *pass)
         for (int64_t g = 0; g < pass->b->row_blocks; g++) {
             if (pass->kept && pass->count) pass->kept[g] = row_block_kept(pass->b, m, g);
             const int64_t from = pass->kept ? pass->kept[g] : -1;
-            if (from < 0) pass->b->made[g] = (int32_t)row_block_pass(pass, &room, g);
-            else if (pass->count) pass->b->column_count[g] = m->old->column_count[from];
-            else row_block_keep(pass->b, m->old, g, from);
+            if (from < 0)
+                pass->b->made[g] = (int32_t)row_block_pass(pass, &room, g);
+            else if (pass->count)
+                pass->b->column_count[g] = m->old->column_count[from];
+            else
+                row_block_keep(pass->b, m->old, g, from);
             made += pass->b->made[g];
         }
         reach = room.reach;
@@ -264,7 +270,7 @@ static void rows_inherit(struct bonds *b, const struct bonds *old)
 void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const struct bond_source *s)
 {
     memset(b, 0, sizeof *b);
-    if (old) b->reach = old->reach;              /* rows that are kept were looked at then */
+    if (old) b->reach = old->reach; /* rows that are kept were looked at then */
     b->stencils = stencils_make(old ? old->stencils : NULL);
     struct site_map *map = site_map_keep(old ? old->site_map : NULL, s, p);
     int most = bonds_room(s);
@@ -276,12 +282,13 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
     rows_arrays(b);
     state_start(b, s);
 
-    bonds_rows_make(
-        b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .map = map, .room = most});
+    bonds_rows_make(b, (struct row_maker){.old = old, .source = s, .p = p, .fresh = fresh, .map = map, .room = most});
     memory_free(fresh);
     if (old) rows_inherit(b, old);
-    if (p->n_of[KIND_PD] < p->n) b->site_map = map;
-    else site_map_leave(map);
+    if (p->n_of[KIND_PD] < p->n)
+        b->site_map = map;
+    else
+        site_map_leave(map);
     columns_leave(old, b);
 
     b->core = s->core;
@@ -316,7 +323,7 @@ void bonds_renew(struct bonds *b, struct particles *p, const struct bond_source 
         for (int d = 0; d < p->dim && b->row_of[i] < 0; d++) p->f[d][i] = 0;
         old.row_of[i] = -1;
     }
-    b->no_rows = old.row_of, old.row_of = NULL;      /* the next rows need no other */
+    b->no_rows = old.row_of, old.row_of = NULL; /* the next rows need no other */
     bonds_free(&old);
 }
 

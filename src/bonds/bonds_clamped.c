@@ -33,8 +33,8 @@ static uint8_t *clamped_images(const struct bond_source *s, const struct particl
 }
 
 /* Counts the intact bonds of column k of a row block to such images, or notes them. */
-static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is,
-                        int64_t g, int64_t k)
+static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g,
+                        int64_t k)
 {
     for (int l = 0; l < row_block_rows(b, g); l++) {
         const struct bond bond = bond_read(b, g, k, l);

@@ -7,7 +7,11 @@
 /* ---- holes ------------------------------------------------------------------------------------------------------- */
 
 /* Lists of the holes by their size. */
-struct holes_by_size { struct bond_holes *all; int32_t *first, *next; int32_t most; };
+struct holes_by_size {
+    struct bond_holes *all;
+    int32_t *first, *next;
+    int32_t most;
+};
 
 static void hole_list(struct holes_by_size *s, int64_t k)
 {

@@ -15,7 +15,10 @@ struct row {
 };
 
 /* Micro-moduli of all pairs of materials over that of material 0. */
-struct pair_table { real *ratio; int materials; };
+struct pair_table {
+    real *ratio;
+    int materials;
+};
 
 /* Room for a row of `room` bonds. */
 void row_room_make(struct row *row, int room);
@@ -27,13 +30,13 @@ int family_of(const struct site_map *l, const struct bond_source *s, const struc
 
 /* What rows are made of. `fresh`: particles whose neighbours may differ from those in `old`. */
 struct row_maker {
-    struct bonds *old;                   /* NULL: none before */
+    struct bonds *old; /* NULL: none before */
     const struct bond_source *source;
     const struct particles *p;
     const struct pair_table *pairs;
-    const uint8_t *fresh;                /* [n] */
-    const struct site_map *map;          /* `at` NULL: particles do not stand on one */
-    int room;                            /* bonds a row may have */
+    const uint8_t *fresh;       /* [n] */
+    const struct site_map *map; /* `at` NULL: particles do not stand on one */
+    int room;                   /* bonds a row may have */
 };
 
 /* True if the row of a particle is unchanged: it held its whole family before, or its neighbours are the same. */
@@ -51,7 +54,10 @@ void row_finish(struct row *row, const struct row_maker *m, int32_t i);
 int64_t row_block_kept(const struct bonds *b, const struct row_maker *m, int64_t g);
 void row_block_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from);
 /* Neighbours found for the rows of a row block, kept from one pass to the next. */
-struct row_block_found { real family_volume[LANES]; int32_t n[LANES], nbr[]; };
+struct row_block_found {
+    real family_volume[LANES];
+    int32_t n[LANES], nbr[];
+};
 struct row_block_found *row_block_found_make(const struct row *row, int rows);
 void row_block_found_take(const struct row_block_found *found, struct row *row, int rows);
 
@@ -94,25 +100,22 @@ void regular_weigh(const struct bond_source *s, const struct particles *p, const
 
 /* Can the map of sites tell the bonds of particles i .. i + 7, none of them cut? Then `to` has them. */
 bool row_block_regular(const struct site_map *map, const struct bond_source *s, const struct particles *p, int64_t i,
-                   struct regular_bonds *to);
+                       struct regular_bonds *to);
 int row_block_regular_columns(const struct regular_bonds *bonds);
 int row_block_regular_bonds(const struct regular_bonds *bonds);
 struct pair_table pairs_make(const struct bond_source *s);
-static inline int row_block_rows(const struct bonds *b, int64_t g)
-{
-    return eight_at(g * LANES, b->rows);
-}
+static inline int row_block_rows(const struct bonds *b, int64_t g) { return eight_at(g * LANES, b->rows); }
 
 /* A thread's room for the eight rows of a row block. */
 struct row_block_room {
-    struct regular_bonds regular;        /* without a search */
-    int room;                            /* bonds a row may have */
+    struct regular_bonds regular; /* without a search */
+    int room;                     /* bonds a row may have */
     struct row row[LANES];
-    int32_t *offset;                     /* [LANES room] distinct index distances */
-    struct column_copy *column;          /* [LANES room] of a row block */
-    struct stencil stencil;              /* what they make */
-    const struct stencil *likely;        /* that of the row block before */
-    int32_t reach;                       /* farthest index distance so far */
+    int32_t *offset;              /* [LANES room] distinct index distances */
+    struct column_copy *column;   /* [LANES room] of a row block */
+    struct stencil stencil;       /* what they make */
+    const struct stencil *likely; /* that of the row block before */
+    int32_t reach;                /* farthest index distance so far */
 };
 void row_block_room_make(struct row_block_room *g, int room, const struct site_map *map);
 void row_block_room_free(struct row_block_room *g);

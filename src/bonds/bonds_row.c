@@ -11,7 +11,7 @@
 
 void row_room_make(struct row *row, int room)
 {
-    row->nbr = BARE("bonds.row", room + 1, int32_t);       /* row_copy writes one too many */
+    row->nbr = BARE("bonds.row", room + 1, int32_t); /* row_copy writes one too many */
     row->inverse_length = BARE("bonds.row", room + 1, real);
     row->w = BARE("bonds.row", room + 1, real);
     row->plastic = BARE("bonds.row", room + 1, struct bond_plasticity);
@@ -91,12 +91,12 @@ bool cuts_near(const struct bond_source *s, const struct particles *p, int64_t i
 /* ---- one row ----------------------------------------------------------------------------------------------------- */
 
 static real bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
-                         int32_t i, int32_t j, const real *xi, real r)
+                        int32_t i, int32_t j, const real *xi, real r)
 {
     /* Written so that i and j may be exchanged without changing a bit. */
     real weight = family_weight(&s->family, xi, r) * ((p->volume0[i] * p->volume0[j]) / square(s->family.cell_volume));
     weight *= pairs->ratio[p->material[i] * pairs->materials + p->material[j]];
-    if (s->neighbour_volume)             /* volume method, Le & Bobaru 2018 */
+    if (s->neighbour_volume) /* volume method, Le & Bobaru 2018 */
         weight *= 2 * s->family.full / (s->neighbour_volume[i] + s->neighbour_volume[j]);
     if (s->surface) weight *= surface_factor(s->surface, i, xi);
     return weight;
@@ -136,7 +136,7 @@ static real elastic_strain_along(const struct particles *p, const struct materia
 static struct bond_plasticity plasticity_of_points(const struct bond_source *s, const struct particles *p, int32_t i,
                                                    int32_t j, real r)
 {
-    const int32_t other = j < p->n ? j : i;      /* an image holds no stress of its own */
+    const int32_t other = j < p->n ? j : i; /* an image holds no stress of its own */
     real e[DIM_MAX], length2 = 0;
     if (!p->plastic_strain || p->plastic_strain[i] + p->plastic_strain[other] <= 0)
         return (struct bond_plasticity){0, 0};
@@ -186,7 +186,7 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
 {
     int64_t row_block = old_row / LANES;
     int lane = (int)(old_row % LANES);
-    int m = 0;                           /* neighbours ascend in both */
+    int m = 0; /* neighbours ascend in both */
     for (int64_t k = 0; k < old->column_count[row_block]; k++) {
         const struct bond bond = bond_read(old, row_block, k, lane);
         if (bond.inverse_length == 0) continue;
@@ -203,7 +203,7 @@ static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_
 {
     const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];
     row->n = 0;
-    for (int64_t k = 0; k < columns; k++) {        /* padding is written over */
+    for (int64_t k = 0; k < columns; k++) { /* padding is written over */
         const struct bond bond = bond_read(old, row_block, k, (int)(old_row % LANES));
         row->nbr[row->n] = bond.nbr;
         row->n += bond.inverse_length != 0;
@@ -228,8 +228,10 @@ static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 
 void row_find(struct row *row, const struct row_maker *m, int32_t i)
 {
-    if (row_lasts(m, i)) row_copy_neighbours(row, m->old, m->old->row_of[i]);
-    else row_search(row, m->map, m->source, m->p, i, m->room);
+    if (row_lasts(m, i))
+        row_copy_neighbours(row, m->old, m->old->row_of[i]);
+    else
+        row_search(row, m->map, m->source, m->p, i, m->room);
 }
 
 void row_finish(struct row *row, const struct row_maker *m, int32_t i)

@@ -132,7 +132,7 @@ static uint8_t peridynamic(const struct particles *p, int64_t i)
 }
 
 bool row_block_regular(const struct site_map *map, const struct bond_source *s, const struct particles *p, int64_t i,
-                   struct regular_bonds *to)
+                       struct regular_bonds *to)
 {
     int bonds[LANES] = {0}, columns = 0, longest = 0;
     if (!regular_bonds(map, p, i, to)) return false;

@@ -46,7 +46,7 @@ void bonds_share(const struct bonds *b, int64_t column)
     c->alike = c->shell != 0;
     bool same = w[0] != 0;
     for (int l = 1; l < LANES; l++) same &= w[l] == w[0];
-    if (same) {                          /* most columns */
+    if (same) { /* most columns */
         c->w = w[0], c->intact = UINT8_MAX;
         return;
     }

@@ -90,7 +90,7 @@ static bool axis_exact(const struct site_map *l, const struct particles *p, int 
     const real power = exp2(ceil(log2(real_max(fabs(low), fabs(high))))), unit = power * 0x1p-53,
                site_map = nearbyint((high - low) / l->spacing);
     if (site_map == 0) return low == high;
-    if (real_min(high - low, l->reach * l->spacing) > power) return false;   /* a difference would be rounded */
+    if (real_min(high - low, l->reach * l->spacing) > power) return false; /* a difference would be rounded */
     const int64_t from = (int64_t)(low / unit), step = ((int64_t)(high / unit) - from) / (int64_t)site_map;
     bool exact = true;
 #pragma omp parallel for schedule(static) reduction(&& : exact)
@@ -241,7 +241,7 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
         w[l] = f->shell_weight[0];
         for (int d = 0; d < dim; d++) xi[d][l] = p->X[d][j + l] - p->X[d][i + l], same &= xi[d][l] == xi[d][0];
     }
-    for (int l = 0; l < LANES; l++) {    /* on a lattice of exact places one root will do, and one weight */
+    for (int l = 0; l < LANES; l++) { /* on a lattice of exact places one root will do, and one weight */
         real r2 = 0;
         for (int d = 0; d < dim; d++) r2 += square(xi[d][l]);
         r[l] = same && l > 0 ? r[0] : sqrt(r2);
@@ -271,8 +271,14 @@ void regular_weigh(const struct bond_source *s, const struct particles *p, const
                    int64_t j, real *inverse, real *w)
 {
     switch (p->dim) {
-    case 1: weigh(s, p, pairs, i, j, inverse, w, 1); break;
-    case 2: weigh(s, p, pairs, i, j, inverse, w, 2); break;
-    default: weigh(s, p, pairs, i, j, inverse, w, 3); break;
+    case 1:
+        weigh(s, p, pairs, i, j, inverse, w, 1);
+        break;
+    case 2:
+        weigh(s, p, pairs, i, j, inverse, w, 2);
+        break;
+    default:
+        weigh(s, p, pairs, i, j, inverse, w, 3);
+        break;
     }
 }

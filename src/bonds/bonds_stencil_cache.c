@@ -6,12 +6,15 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-enum { REMEMBERED = 32 };                /* kinds of row blocks in some rows of a block: inside, and at its ends */
+enum { REMEMBERED = 32 }; /* kinds of row blocks in some rows of a block: inside, and at its ends */
 
 struct stencil_cache {
     const struct site_map *map;
-    int n, next, last;                   /* remembered; the oldest; the one found last */
-    struct cached { int64_t i; struct regular_bonds bonds; } cached[REMEMBERED];
+    int n, next, last; /* remembered; the oldest; the one found last */
+    struct cached {
+        int64_t i;
+        struct regular_bonds bonds;
+    } cached[REMEMBERED];
 };
 
 struct stencil_cache *stencil_cache_make(const struct site_map *l)
@@ -45,8 +48,7 @@ static bool same_around(const real *around, const struct regular_bonds *b, int64
     for (int k = 0, run; k < b->n; k += run) {
         const int64_t offset = b->offset[k];
         for (run = 1; k + run < b->n && b->offset[k + run] == offset + run;) run++;
-        if (!arrays_equal(around + i + offset, around + j + offset, run + LANES - 1, sizeof *around))
-            return false;
+        if (!arrays_equal(around + i + offset, around + j + offset, run + LANES - 1, sizeof *around)) return false;
     }
     return true;
 }

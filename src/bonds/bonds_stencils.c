@@ -7,9 +7,9 @@
 enum { STENCILS_MOST = 2048, HASHES = 4096 };
 
 struct stencils {
-    int n, users;                        /* users: rows and rows made anew from them */
+    int n, users; /* users: rows and rows made anew from them */
     struct stencil stencil[STENCILS_MOST];
-    int32_t first[HASHES];               /* of a hash, + 1; 0: none */
+    int32_t first[HASHES]; /* of a hash, + 1; 0: none */
 };
 
 struct stencils *stencils_make(struct stencils *of)
@@ -30,7 +30,7 @@ void stencil_make(struct stencil *p, int columns)
 {
     *p = (struct stencil){0};
     p->column = BARE("bonds.stencil_column", columns, struct stencil_column);
-    p->w = (real (*)[LANES])BARE("bonds.stencil_w", (int64_t)columns * LANES, real);
+    p->w = (real(*)[LANES])BARE("bonds.stencil_w", (int64_t)columns * LANES, real);
 }
 
 void stencil_free(struct stencil *p)
@@ -61,11 +61,11 @@ bool stencil_add(struct stencil *to, const struct bonds *b, const struct particl
     const real *inverse = from->inverse_length, *w = from->w;
     int16_t excess[LANES];
     int alone = from->first < 0, alike = 1, bonds = 0;
-    *column = (struct stencil_column){.offset = (int32_t)(from->first - i),
-                                      .shell = (uint8_t)shell_of(b, inverse, excess)};
+    *column =
+        (struct stencil_column){.offset = (int32_t)(from->first - i), .shell = (uint8_t)shell_of(b, inverse, excess)};
     for (int l = 0; l < LANES; l++) {
         to->w[to->columns][l] = w[l];
-        alone |= (w[l] == 0) != (inverse[l] == 0);       /* cut or broken */
+        alone |= (w[l] == 0) != (inverse[l] == 0); /* cut or broken */
         if (w[l] == 0) continue;
         alone |= bonds > 0 && inverse[l] != column->inverse_length;
         alike &= bonds == 0 || w[l] == column->w;
@@ -207,5 +207,5 @@ void bonds_changed(struct bonds *b, int64_t row, int64_t q)
     b->stencil[row / LANES] = NULL;
     b->changed[row / LANES] = 1;
     bonds_share(b, q / LANES);
-    __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED);     /* rows break their bonds side by side */
+    __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED); /* rows break their bonds side by side */
 }

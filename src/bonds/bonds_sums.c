@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 
-#define WHOLE 1e-12                      /* of a volume: sums of up to some hundred terms in other orders      */
+#define WHOLE 1e-12 /* of a volume: sums of up to some hundred terms in other orders      */
 
 /* Volume of the neighbours of particle i. */
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
@@ -46,7 +46,7 @@ static void whole_volumes(real *volume, int64_t n, real full)
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s)
 {
     const int most = bonds_room(s);
-    struct family plain = s->family;     /* shells are normalised as a whole; the surface correction counts volumes */
+    struct family plain = s->family; /* shells are normalised as a whole; the surface correction counts volumes */
     struct site_map map = {0};
     plain.shell_weight[0] = plain.shell_weight[1] = 1;
     plain.influence = INFLUENCE_ONE;
@@ -62,8 +62,10 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
             for (int l = 0; l < LANES && regular; l++) regular = !voids_near(s->voids, first + l);
             if (regular) {
                 const int64_t cached = stencil_cache_find_row(&bonds, NULL, first);
-                if (cached >= 0) memcpy(volume + first, volume + cached, LANES * sizeof *volume);
-                else volumes_near(volume, p, &bonds, plain.shell_weight[0], first);
+                if (cached >= 0)
+                    memcpy(volume + first, volume + cached, LANES * sizeof *volume);
+                else
+                    volumes_near(volume, p, &bonds, plain.shell_weight[0], first);
                 continue;
             }
             for (int64_t i = first; i < first + LANES && i < p->n_all; i++)
@@ -105,7 +107,9 @@ real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t r
 
 /* The same of eight consecutive particles side by side: springs to eight consecutive others, of those there are none
  * where w = 0. Zeros added leave the bits alone. */
-struct eight_bounds { real block[DIM_MAX][DIM_MAX][LANES], total[LANES]; };
+struct eight_bounds {
+    real block[DIM_MAX][DIM_MAX][LANES], total[LANES];
+};
 
 static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                                      const real *inverse, const real *w, real stiffness, const int dim)
@@ -124,9 +128,15 @@ static void bounds_add_any(struct eight_bounds *bound, const struct particles *p
                            const real *inverse, const real *w, real stiffness)
 {
     switch (p->dim) {
-    case 1: bounds_add(bound, p, i, j, inverse, w, stiffness, 1); break;
-    case 2: bounds_add(bound, p, i, j, inverse, w, stiffness, 2); break;
-    default: bounds_add(bound, p, i, j, inverse, w, stiffness, 3); break;
+    case 1:
+        bounds_add(bound, p, i, j, inverse, w, stiffness, 1);
+        break;
+    case 2:
+        bounds_add(bound, p, i, j, inverse, w, stiffness, 2);
+        break;
+    default:
+        bounds_add(bound, p, i, j, inverse, w, stiffness, 3);
+        break;
     }
 }
 
@@ -195,9 +205,9 @@ static struct pair_table pairs_of_bound(const struct bond_source *s)
     const real first = family_micro_modulus(&s->family, &s->material[0]);
     for (int a = 0; a < s->materials && s->modulus; a++)
         for (int b = 0; b < s->materials; b++)
-            pairs.ratio[a * s->materials + b] = 0.5 / first *
-                                                (family_micro_modulus(&s->family, &s->material[a]) +
-                                                 family_micro_modulus(&s->family, &s->material[b]));
+            pairs.ratio[a * s->materials + b] =
+                0.5 / first *
+                (family_micro_modulus(&s->family, &s->material[a]) + family_micro_modulus(&s->family, &s->material[b]));
     return pairs;
 }
 
@@ -210,8 +220,7 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
     array_fill_bytes(kind, KIND_PD, p->n_all, 1);
     all.kind = kind;
     struct site_map map;
-    const struct row_maker maker = {
-        .source = s, .p = &all, .pairs = &pairs, .map = &map, .room = bonds_room(s)};
+    const struct row_maker maker = {.source = s, .p = &all, .pairs = &pairs, .map = &map, .room = bonds_room(s)};
     site_map_make(&map, s, p);
 #pragma omp parallel reduction(max : largest)
     {
@@ -244,7 +253,7 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 
 real bonds_fracture_energy(const struct bonds *b)
 {
-    real sum = 0;                        /* few rows have any; a serial sum is the same on any number of threads */
+    real sum = 0; /* few rows have any; a serial sum is the same on any number of threads */
     for (int64_t r = 0; r < b->rows; r++) sum += b->fracture_energy[r];
     return sum;
 }

@@ -6,7 +6,7 @@
 #include "bonds/bonds.h"
 #include "base/memory.h"
 
-#define DISTANCE_TOLERANCE 1e-7          /* relative: lattice points at exactly the horizon belong to the family */
+#define DISTANCE_TOLERANCE 1e-7 /* relative: lattice points at exactly the horizon belong to the family */
 
 static real ramp(const struct family *f, real r)
 {
@@ -22,11 +22,16 @@ static real family_beta(const struct family *f, real r) { return f->volume == VO
 static real influence(const struct family *f, real r)
 {
     switch (f->influence) {
-    case INFLUENCE_GAUSSIAN: return exp(-square(r / f->horizon));
-    case INFLUENCE_INVERSE: return f->horizon / r;
-    case INFLUENCE_INVERSE_SQUARE: return square(f->horizon / r);
-    case INFLUENCE_LINEAR: return 1 - r / (f->horizon + f->spacing);
-    default: return 1;
+    case INFLUENCE_GAUSSIAN:
+        return exp(-square(r / f->horizon));
+    case INFLUENCE_INVERSE:
+        return f->horizon / r;
+    case INFLUENCE_INVERSE_SQUARE:
+        return square(f->horizon / r);
+    case INFLUENCE_LINEAR:
+        return 1 - r / (f->horizon + f->spacing);
+    default:
+        return 1;
     }
 }
 
@@ -52,10 +57,10 @@ real family_weight(const struct family *f, const real *xi, real r)
 
 /* Sums over the lattice points of a full family. */
 struct lattice_sums {
-    real volume;                         /* sum V beta                    */
-    real sigma;                          /* sum r V beta shell            */
-    real weighted;                       /* sum r^2 of the weights as bonds store them */
-    real axial[2], mixed[2];             /* sum r V beta n1^4, n1^2 n2^2, by class of direction */
+    real volume;             /* sum V beta                    */
+    real sigma;              /* sum r V beta shell            */
+    real weighted;           /* sum r^2 of the weights as bonds store them */
+    real axial[2], mixed[2]; /* sum r V beta n1^4, n1^2 n2^2, by class of direction */
 };
 
 static void sum_point(const struct family *f, const real *xi, int dim, struct lattice_sums *s)
@@ -93,8 +98,8 @@ static void shells_isotropic(struct family *f)
 {
     if (space_dim(f->space) == 1) return;
     struct lattice_sums s = lattice_sums(f);
-    real ratio = -(s.axial[1] - 3 * s.mixed[1]) / (s.axial[0] - 3 * s.mixed[0]);   /* axial over diagonal */
-    if (!(ratio > 0 && isfinite(ratio))) return;   /* horizon of one spacing: no diagonal bonds to weigh */
+    real ratio = -(s.axial[1] - 3 * s.mixed[1]) / (s.axial[0] - 3 * s.mixed[0]); /* axial over diagonal */
+    if (!(ratio > 0 && isfinite(ratio))) return; /* horizon of one spacing: no diagonal bonds to weigh */
     f->shell_weight[0] = ratio, f->shell_weight[1] = 1;
     real scale = s.sigma / lattice_sums(f).sigma;
     f->shell_weight[0] *= scale, f->shell_weight[1] *= scale;
@@ -108,7 +113,7 @@ void family_make(struct family *f, enum space space, real spacing, real horizon_
     f->cell_volume = lattice_volume(section, spacing, space_dim(space));
     f->horizon = horizon_in_spacings * spacing;
     f->shell_weight[0] = f->shell_weight[1] = 1;
-    if (f->calibration == CALIBRATION_VMPD)   /* whole neighbours cover (m + 1/2) spacings exactly (Zeng et al. 2021) */
+    if (f->calibration == CALIBRATION_VMPD) /* whole neighbours cover (m + 1/2) spacings exactly (Zeng et al. 2021) */
         f->horizon = (floor(horizon_in_spacings * (1 + DISTANCE_TOLERANCE)) + 0.5) * spacing;
     f->cutoff = f->volume == VOLUME_RAMP ? f->horizon + 0.5 * spacing : f->horizon;
     f->cutoff *= 1 + DISTANCE_TOLERANCE;

@@ -16,7 +16,9 @@
 #include "base/memory.h"
 
 /* A bond that crosses: opening at which it breaks over s_c [m], and what it adds at unit opening. */
-struct crossing { real breaks, weighted, sum, energy; };
+struct crossing {
+    real breaks, weighted, sum, energy;
+};
 
 static int later(const void *a, const void *b)
 {

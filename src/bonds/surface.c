@@ -14,9 +14,9 @@ static void tables_make(struct surface_weights *to, const struct near_faces *b, 
     to->factor = NEW("surface.factor", (int64_t)a->classes * n, real);
     to->weighted = NEW("surface.weighted", a->classes, real);
     to->weighted[0] = f->weighted;
-    for (int32_t class = 1; class < a->classes; class++)
+    for (int32_t class = 1; class < a->classes; class ++)
         for (int k = 0; k < n; k++) {
-            const int64_t entry = (int64_t)class * n + k, group = a->group_of[entry];
+            const int64_t entry = (int64_t) class * n + k, group = a->group_of[entry];
             const real r = b->offset.length[k] * f->spacing;
             to->factor[entry] = group >= 0 ? factor[group] : 1;
             if (alike_neighbour(a, b, class, k) >= 0)
@@ -34,8 +34,11 @@ status surface_make(struct surface_weights *to, const struct particles *p, const
     alike_make(&a, &b);
     real *factor = NEW("surface.factors", a.groups, real);
     surface_fit(factor, &b, &f, &a, rotates);
-    *to = (struct surface_weights){.spacing = s->family.spacing, .reach = b.offset.reach, .dim = p->dim,
-                                   .offsets = b.offset.n, .classes = a.classes};
+    *to = (struct surface_weights){.spacing = s->family.spacing,
+                                   .reach = b.offset.reach,
+                                   .dim = p->dim,
+                                   .offsets = b.offset.n,
+                                   .classes = a.classes};
     to->offset_at = b.offset.number, b.offset.number = NULL;
     to->class_of = NEW("surface.class_of", p->n, int32_t);
     to->mirrors = NEW("surface.mirrors", p->n, uint8_t);

@@ -100,8 +100,10 @@ static void groups_join(int64_t *parent, int64_t one, int64_t other)
     if (parent[one] < 0) parent[one] = one;
     if (parent[other] < 0) parent[other] = other;
     const int64_t x = root_of(parent, one), y = root_of(parent, other);
-    if (x < y) parent[y] = x;
-    else parent[x] = y;
+    if (x < y)
+        parent[y] = x;
+    else
+        parent[x] = y;
 }
 
 static int64_t entry_of(const struct alike *a, const struct near_faces *b, int64_t t, int k)
@@ -126,10 +128,10 @@ static void bonds_join(const struct alike *a, const struct near_faces *b, int64_
 static void twins_join(const struct alike *a, const struct near_faces *b, int64_t *parent)
 {
     const struct offsets *o = &b->offset;
-    for (int32_t class = 1; class < a->classes; class++)
+    for (int32_t class = 1; class < a->classes; class ++)
         for (int m = 1; m < 1 << o->dim; m++)
             for (int k = 0; k < o->n && a->symmetry[class] >> m & 1; k++) {
-                const int64_t first = (int64_t)class * o->n, other = first + o->mirrored[m * o->n + k];
+                const int64_t first = (int64_t) class * o->n, other = first + o->mirrored[m * o->n + k];
                 if (parent[first + k] >= 0) groups_join(parent, first + k, other);
             }
 }
@@ -137,7 +139,7 @@ static void twins_join(const struct alike *a, const struct near_faces *b, int64_
 static void symmetries_find(struct alike *a, const struct near_faces *b, const uint64_t *colour)
 {
     a->symmetry = NEW("surface.symmetry", a->classes, uint8_t);
-    for (int32_t class = 1; class < a->classes; class++) {
+    for (int32_t class = 1; class < a->classes; class ++) {
         const int64_t t = a->member[class];
         for (int m = a->mirrors[t]; m >= 0; m = mirrors_of(b, colour, t, m + 1))
             a->symmetry[class] |= (uint8_t)(1 << (m ^ a->mirrors[t]));
@@ -157,7 +159,7 @@ void alike_make(struct alike *a, const struct near_faces *b)
     bonds_join(a, b, a->group_of);
     twins_join(a, b, a->group_of);
     memory_free(colour);
-    for (int64_t k = 0; k < entries; k++) {              /* a root comes before all that it is the root of */
+    for (int64_t k = 0; k < entries; k++) { /* a root comes before all that it is the root of */
         if (a->group_of[k] < 0) continue;
         a->group_of[k] = a->group_of[k] == k ? a->groups++ : a->group_of[a->group_of[k]];
     }

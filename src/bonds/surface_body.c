@@ -32,8 +32,8 @@ static void offsets_make(struct offsets *o, const struct family *f, bool states)
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing), side = 2 * reach + 1;
     const int64_t room = (int64_t)side * (dim > 1 ? side : 1) * (dim > 2 ? side : 1);
     *o = (struct offsets){.dim = dim, .reach = reach};
-    o->at = (int (*)[DIM_MAX])memory_new("surface.offset", room, sizeof *o->at);
-    o->direction = (real (*)[DIM_MAX])memory_new("surface.offset", room, sizeof *o->direction);
+    o->at = (int(*)[DIM_MAX])memory_new("surface.offset", room, sizeof *o->at);
+    o->direction = (real(*)[DIM_MAX])memory_new("surface.offset", room, sizeof *o->direction);
     o->length = NEW("surface.offset", room, real), o->weight = NEW("surface.offset", room, real);
     o->share = NEW("surface.offset", room, real);
     o->number = NEW("surface.offset", room, int32_t);
@@ -101,7 +101,11 @@ int twin_offset(const struct near_faces *b, const struct seen *to, int k)
 }
 
 /* A thread's room for a search. */
-struct search { const struct site_map *map; int32_t *found; int room; };
+struct search {
+    const struct site_map *map;
+    int32_t *found;
+    int room;
+};
 
 /* Neighbours of a particle by offset (NULL: none are kept); how many there are, -1: they are on no lattice. */
 static int neighbours_find(const struct near_faces *b, const struct search *search, int64_t i, int32_t *to)
@@ -163,7 +167,7 @@ static bool near_list(struct near_faces *b, const struct site_map *map)
     const int room = bonds_room(b->source);
     uint8_t *near = NEW("surface.near", p->n, uint8_t);
     struct search search = {map, NEW("surface.found", room, int32_t), room};
-    for (int64_t i = 0; i < p->n_all; i++) {             /* images, too: their families reach into the body */
+    for (int64_t i = 0; i < p->n_all; i++) { /* images, too: their families reach into the body */
         if (is_whole(b, i)) continue;
         if (i < p->n) near[i] = 1;
         const int n = family_of(map, b->source, p, (int32_t)i, search.found, room);

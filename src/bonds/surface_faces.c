@@ -9,20 +9,25 @@
 #include "base/memory.h"
 #include "surface_parts.h"
 
-#define FLAT 0.2                         /* a staircase of any slope has at most 1/12 + 1/12 */
+#define FLAT 0.2 /* a staircase of any slope has at most 1/12 + 1/12 */
 #define ROUGH 0.4
 /* Strains that load a face count little at it (surface_fit.c), and more with this power of what faces are nearby over a
  * plane of them: with 0 particles ahead of a crack are soft as well, and K is 1 % larger at 100 particles. With
  * rotations K hardly changes, and frequencies of beams of 20 layers are 1 % lower: there it is 0. */
 #define NEAR 3
 
-enum { CHAIN = 3 };                      /* layers over which a face's area and dipole are spread */
+enum { CHAIN = 3 }; /* layers over which a face's area and dipole are spread */
 
 /* A face's own area and place, as another particle sees them through mirrors. */
-struct face { real area[DIM_MAX], centre[DIM_MAX], size; };
+struct face {
+    real area[DIM_MAX], centre[DIM_MAX], size;
+};
 
 /* Faces of single particles: sum of unit areas. */
-struct raw_faces { const struct near_faces *body; real (*area)[DIM_MAX]; };
+struct raw_faces {
+    const struct near_faces *body;
+    real (*area)[DIM_MAX];
+};
 
 static bool lacks(const struct near_faces *b, int64_t t, int axis, int up)
 {
@@ -49,7 +54,9 @@ static struct face face_seen(const struct raw_faces *raw, int64_t j)
 static real nearness(const struct offsets *o, int k) { return fmax(1 - o->length[k] / (o->reach + 1), 0); }
 
 /* Means over the faces that look the same way as that of a particle: normal, and variance of places along it. */
-struct mean_face { real normal[DIM_MAX], variance; };
+struct mean_face {
+    real normal[DIM_MAX], variance;
+};
 
 static void mean_add(const struct face *f, const real *from, real weight, int dim, real *area, real *sums)
 {
@@ -86,7 +93,9 @@ static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
 }
 
 /* Of each particle with a face: what areas are projected by, and its part in N (x) N. */
-struct smooth { real project[DIM_MAX][DIM_MAX], square[DIM_MAX][DIM_MAX]; };
+struct smooth {
+    real project[DIM_MAX][DIM_MAX], square[DIM_MAX][DIM_MAX];
+};
 
 static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t t)
 {
@@ -147,7 +156,7 @@ static void face_spread(struct faces *f, const struct near_faces *b, const struc
     static const real area[2][2] = {{1}, {1.5, -0.5}}, first[2] = {1, -1}, second[CHAIN] = {2, -3, 1};
     struct seen chain[CHAIN] = {{b->particle[t], 0}};
     int length = 1;
-    while (length < CHAIN) {                             /* through mirrors, too */
+    while (length < CHAIN) { /* through mirrors, too */
         const struct seen next = seen_beyond(b, &chain[length - 1], b->offset.axis[axis][!up]);
         if (next.particle < 0 || b->place[next.particle] < 0) break;
         chain[length++] = next;
@@ -155,8 +164,8 @@ static void face_spread(struct faces *f, const struct near_faces *b, const struc
     const int two = length > 1;
     for (int k = 0; k <= two; k++)
         for (int d = 0; d < b->p->dim; d++)
-            f->area[b->place[chain[k].particle]][d] += mirror_sign(chain[k].mirrors, d) * area[two][k] *
-                                                       (up ? 1 : -1) * smooth[t].project[d][axis];
+            f->area[b->place[chain[k].particle]][d] +=
+                mirror_sign(chain[k].mirrors, d) * area[two][k] * (up ? 1 : -1) * smooth[t].project[d][axis];
     if (rotates && length == CHAIN)
         for (int k = 0; k < CHAIN; k++) f->dipole[b->place[chain[k].particle]] += second[k];
     else if (two)
@@ -173,7 +182,7 @@ static int layers(const struct near_faces *b, int64_t t, int axis, int most)
             at = seen_beyond(b, &at, b->offset.axis[axis][up]);
             if (at.particle < 0) break;
             n++;
-            if (b->place[at.particle] < 0) return most;            /* away from all faces */
+            if (b->place[at.particle] < 0) return most; /* away from all faces */
         }
     }
     return n;
@@ -182,11 +191,11 @@ static int layers(const struct near_faces *b, int64_t t, int axis, int most)
 void faces_make(struct faces *f, const struct near_faces *b, bool rotates)
 {
     const int dim = b->p->dim, most = rotates ? THIN_ROTATING : THIN;
-    struct raw_faces raw = {b, (real (*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *raw.area)};
+    struct raw_faces raw = {b, (real(*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *raw.area)};
     struct smooth *smooth = NEW("surface.smooth", b->n, struct smooth);
-    f->area = (real (*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *f->area);
+    f->area = (real(*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *f->area);
     f->dipole = NEW("surface.dipole", b->n, real);
-    f->normal2 = (real (*)[DIM_MAX][DIM_MAX])memory_new("surface.normal", b->n, sizeof *f->normal2);
+    f->normal2 = (real(*)[DIM_MAX][DIM_MAX])memory_new("surface.normal", b->n, sizeof *f->normal2);
     f->thin = NEW("surface.thin", b->n, uint8_t);
     for (int64_t t = 0; t < b->n; t++)
         for (int d = 0; d < dim; d++) raw.area[t][d] = (real)lacks(b, t, d, 1) - (real)lacks(b, t, d, 0);

@@ -15,21 +15,23 @@
 #include "bonds_parts.h"
 #include "surface_parts.h"
 
-#define STIFF 1000.0                     /* strains that load a face count 1/STIFF */
-#define ROTATIONS -0.2                   /* alpha of models with rotations: fitted to bending */
+#define STIFF 1000.0   /* strains that load a face count 1/STIFF */
+#define ROTATIONS -0.2 /* alpha of models with rotations: fitted to bending */
 /* Over the mean square of a bond in its moments: with a twentieth of it frequencies of beams of 10 layers are nearer by
  * 0.1 %, and steps shorter by a fifth. So with wider bounds. */
 #define PRIOR 2e-2
 #define LEAST 0.2
 #define MOST 3.0
-#define CLOSE 1e-12                      /* share of the gradient that is left */
-#define PRODUCTS 1000                    /* at most; in space 800 are enough, in the plane 250 */
-#define WORK 5e10                        /* multiplications at most: 10 s of two cores */
+#define CLOSE 1e-12   /* share of the gradient that is left */
+#define PRODUCTS 1000 /* at most; in space 800 are enough, in the plane 250 */
+#define WORK 5e10     /* multiplications at most: 10 s of two cores */
 /* Moments of a bond side by side: third, then fourth, then nothing. */
 enum { STRAINS = 6, THIRDS = 10, FOURTHS = 15, MOMENTS_2D = 16, MOMENTS = 32 };
 
 /* Components of symmetric tensors of rank `rank`: axes in ascending order. */
-struct components { int n, rank, axis[FOURTHS][4]; };
+struct components {
+    int n, rank, axis[FOURTHS][4];
+};
 
 static void components_make(struct components *c, int rank, int dim)
 {
@@ -70,12 +72,12 @@ static real component_value(const struct components *c, int k, const real *n)
 struct moments {
     int dim, strains;
     struct components third, fourth;
-    int width;                                                   /* of what a bond adds: MOMENTS_2D or MOMENTS */
-    real *of;                                                    /* [offsets width] that, over M_1111 */
-    real full[FOURTHS];                                          /* M over M_1111 */
-    real strain[STRAINS][DIM_MAX][DIM_MAX], stress[STRAINS][DIM_MAX][DIM_MAX];   /* B_k, M:B_k */
-    real fourth_by[STRAINS][STRAINS][FOURTHS];                   /* B_k:T:B_l of T by component */
-    real third_by[DIM_MAX][STRAINS][THIRDS];                     /* n_p.T:B_l */
+    int width;          /* of what a bond adds: MOMENTS_2D or MOMENTS */
+    real *of;           /* [offsets width] that, over M_1111 */
+    real full[FOURTHS]; /* M over M_1111 */
+    real strain[STRAINS][DIM_MAX][DIM_MAX], stress[STRAINS][DIM_MAX][DIM_MAX]; /* B_k, M:B_k */
+    real fourth_by[STRAINS][STRAINS][FOURTHS];                                 /* B_k:T:B_l of T by component */
+    real third_by[DIM_MAX][STRAINS][THIRDS];                                   /* n_p.T:B_l */
 };
 
 static real full_of(const struct moments *m, int a, int b, int c, int d)
@@ -144,7 +146,9 @@ static real face_moment(const struct moments *m, const struct offsets *o)
 /* ---- a class ----------------------------------------------------------------------------------------------------- */
 
 /* Weights of the squares of its moments, times its members, and what the bonds that may change ought to add to them. */
-struct class_fit { real third[THIRDS][THIRDS], fourth[FOURTHS][FOURTHS], goal[MOMENTS]; };
+struct class_fit {
+    real third[THIRDS][THIRDS], fourth[FOURTHS][FOURTHS], goal[MOMENTS];
+};
 
 /* Inverse of a symmetric positive matrix, in place, by Gauss and Jordan. */
 static void invert(real (*a)[STRAINS], int n)
@@ -192,7 +196,9 @@ static void quadratic(const real *by, int rows, int strains, int n, int room, re
 
 /* Means over the members of a class of what faces ask for, in all mirrors in which it looks alike: beyond the
  * surroundings that make a class, members may differ, and sides of a member. */
-struct class_goal { real area[DIM_MAX], dipole, normal2[DIM_MAX][DIM_MAX]; };
+struct class_goal {
+    real area[DIM_MAX], dipole, normal2[DIM_MAX][DIM_MAX];
+};
 
 static void class_goal_add(struct class_goal *to, int dim, const struct faces *f, int64_t t, int mirrors, real share)
 {
@@ -234,8 +240,8 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
             c->goal[x] -= 0.5 * full_of(m, axis[0], axis[1], axis[2], d) * goal->area[d];
         }
     for (int x = 0; x < m->fourth.n; x++) c->goal[m->third.n + x] = (1 + alpha * goal->dipole) * m->full[x];
-    for (int k = 0; k < b->offset.n; k++) {              /* less those that stay */
-        if (alike_neighbour(a, b, class, k) < 0 || a->group_of[(int64_t)class * b->offset.n + k] >= 0) continue;
+    for (int k = 0; k < b->offset.n; k++) { /* less those that stay */
+        if (alike_neighbour(a, b, class, k) < 0 || a->group_of[(int64_t) class * b->offset.n + k] >= 0) continue;
         for (int x = 0; x < m->width; x++) c->goal[x] -= m->of[(int64_t)k * m->width + x];
     }
 }
@@ -258,10 +264,10 @@ struct problem {
     int offsets;
     struct moments moments;
     struct class_fit *class;
-    int64_t *first, *entry;              /* [groups + 1], entries of a group */
-    real *bonds;                         /* [groups] its bonds: half of what its entries count */
-    real *diagonal, *goal, prior;        /* [groups] of the matrix; the right side; times bonds */
-    real *value;                         /* [entries] room */
+    int64_t *first, *entry;       /* [groups + 1], entries of a group */
+    real *bonds;                  /* [groups] its bonds: half of what its entries count */
+    real *diagonal, *goal, prior; /* [groups] of the matrix; the right side; times bonds */
+    real *value;                  /* [entries] room */
 };
 
 static void group_entries(struct problem *q)
@@ -299,7 +305,7 @@ static void group_sums(const struct problem *q, real *to)
 static ALWAYS_INLINE void class_back(const struct problem *q, int32_t class, const real *moment, const int width)
 {
     real by[MOMENTS];
-    real *value = q->value + (int64_t)class * q->offsets;
+    real *value = q->value + (int64_t) class * q->offsets;
     class_weigh(&q->moments, &q->class[class], moment, by);
     for (int k = 0; k < q->offsets; k++) {
         const real *of = q->moments.of + (int64_t)k * width;
@@ -312,7 +318,7 @@ static ALWAYS_INLINE void class_back(const struct problem *q, int32_t class, con
 
 static ALWAYS_INLINE void class_product(const struct problem *q, int32_t class, const real *x, const int width)
 {
-    const int64_t *group = q->alike->group_of + (int64_t)class * q->offsets;
+    const int64_t *group = q->alike->group_of + (int64_t) class * q->offsets;
     real moment[MOMENTS] = {0};
     for (int k = 0; k < q->offsets; k++) {
         if (group[k] < 0) continue;
@@ -328,9 +334,11 @@ static void fit_product(void *context, const real *x, real *y)
     const struct problem *q = context;
     const bool plane = q->moments.width == MOMENTS_2D;
 #pragma omp parallel for schedule(static)
-    for (int32_t class = 1; class < q->alike->classes; class++) {
-        if (plane) class_product(q, class, x, MOMENTS_2D);
-        else class_product(q, class, x, MOMENTS);
+    for (int32_t class = 1; class < q->alike->classes; class ++) {
+        if (plane)
+            class_product(q, class, x, MOMENTS_2D);
+        else
+            class_product(q, class, x, MOMENTS);
     }
     group_sums(q, y);
     for (int64_t g = 0; g < q->alike->groups; g++) y[g] += q->prior * q->bonds[g] * x[g];
@@ -343,13 +351,13 @@ static void diagonal_make(struct problem *q)
     const int64_t groups = q->alike->groups;
     real sum = 0, bonds = 0;
 #pragma omp parallel for schedule(static)
-    for (int32_t class = 1; class < q->alike->classes; class++)
+    for (int32_t class = 1; class < q->alike->classes; class ++)
         for (int k = 0; k < q->offsets; k++) {
             const real *of = m->of + (int64_t)k * m->width;
             real by[MOMENTS], value = 0;
             class_weigh(m, &q->class[class], of, by);
             for (int x = 0; x < m->width; x++) value += of[x] * by[x];
-            q->value[(int64_t)class * q->offsets + k] = value;
+            q->value[(int64_t) class * q->offsets + k] = value;
         }
     q->diagonal = NEW("surface.diagonal", groups, real);
     group_sums(q, q->diagonal);
@@ -358,8 +366,7 @@ static void diagonal_make(struct problem *q)
     for (int64_t g = 0; g < groups; g++) q->diagonal[g] += q->prior * q->bonds[g];
     q->goal = NEW("surface.goal", groups, real);
 #pragma omp parallel for schedule(static)
-    for (int32_t class = 1; class < q->alike->classes; class++)
-        class_back(q, class, q->class[class].goal, m->width);
+    for (int32_t class = 1; class < q->alike->classes; class ++) class_back(q, class, q->class[class].goal, m->width);
     group_sums(q, q->goal);
     for (int64_t g = 0; g < groups; g++) q->goal[g] += q->prior * q->bonds[g];
 }
@@ -425,11 +432,11 @@ static void plain_parts(real *x, uint8_t *fixed, const struct near_faces *b, con
 {
     const int n = b->offset.n;
     const bool breaks = may_break(&b->source->limit);
-    for (int32_t class = 1; class < a->classes; class++) {
+    for (int32_t class = 1; class < a->classes; class ++) {
         const int64_t t = a->member[class];
         const bool end = at_crack_end(b, t), plain = f->thin[t] || end;
         for (int k = 0; k < n && plain; k++) {
-            const int64_t g = a->group_of[(int64_t)class * n + k];
+            const int64_t g = a->group_of[(int64_t) class * n + k];
             if (g < 0) continue;
             const int64_t other = b->place[seen_of(b, alike_neighbour(a, b, class, k)).particle];
             const real both = neighbours(b, t) + neighbours(b, other);
@@ -438,8 +445,7 @@ static void plain_parts(real *x, uint8_t *fixed, const struct near_faces *b, con
     }
 }
 
-void surface_fit(real *factor, const struct near_faces *b, const struct faces *f, const struct alike *a,
-                 bool rotates)
+void surface_fit(real *factor, const struct near_faces *b, const struct faces *f, const struct alike *a, bool rotates)
 {
     struct problem q = {.alike = a, .offsets = b->offset.n};
     moments_make(&q.moments, &b->offset);
@@ -448,7 +454,7 @@ void surface_fit(real *factor, const struct near_faces *b, const struct faces *f
     struct class_goal *goal = NEW("surface.goal", a->classes, struct class_goal);
     class_goals(goal, b->offset.dim, b, f, a);
 #pragma omp parallel for schedule(static)
-    for (int32_t class = 1; class < a->classes; class++)
+    for (int32_t class = 1; class < a->classes; class ++)
         class_make(&q.class[class], &q.moments, b, &goal[class], a, class, alpha);
     memory_free(goal);
     group_entries(&q);

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-#define REFERENCE_HORIZON 3.015          /* of the stiffness [spacings] */
+#define REFERENCE_HORIZON 3.015 /* of the stiffness [spacings] */
 
 /* ---- the law ----------------------------------------------------------------------------------------------------- */
 
@@ -76,8 +76,7 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
     for (int k = 0; k < c->rigids; k++) {
         const struct rigid_body *r = &c->rigid[k];
         const real touching = 2 * real_max(1, r->face / pow(c->law.spacing, p->dim - 1));
-        if (r->motion == RIGID_FREE)
-            most = real_max(most, spring * (1 / (m->density * volume) + touching / r->mass));
+        if (r->motion == RIGID_FREE) most = real_max(most, spring * (1 / (m->density * volume) + touching / r->mass));
     }
     return most;
 }
@@ -124,8 +123,10 @@ static void rows_sweep(struct contact *c, struct particles *p, real dt, struct c
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < c->rows; row++) {
             if (!contact_follows(c, row) || (faces && !c->touch && c->face[row].far > reach)) continue;
-            if (faces) contact_face_feel(c, p, row, dt, &own);
-            else contact_pair_row(c, p, row, &own);
+            if (faces)
+                contact_face_feel(c, p, row, dt, &own);
+            else
+                contact_pair_row(c, p, row, &own);
         }
 #pragma omp critical
         found_join(all, &own);
@@ -182,7 +183,10 @@ void contact_clock(struct contact *c, real t)
     if (isnan(c->began)) c->began = t;
 }
 
-struct contact_sum { const struct contact *c; const struct particles *p; };
+struct contact_sum {
+    const struct contact *c;
+    const struct particles *p;
+};
 
 static real contact_energy_term(const void *context, int64_t row)
 {
@@ -208,7 +212,7 @@ void contact_take(struct contact *c, struct contact *old, const int32_t *now, in
     for (int64_t k = 0; k < c->n && c->made; k++) c->particle[k] = now[c->particle[k]];
     for (int d = 0; d < DIM_MAX && c->push[d]; d++) {
         memory_free(c->push[d]);
-        c->push[d] = NEW("contact.push", n, real);       /* the step of a frame records it anew */
+        c->push[d] = NEW("contact.push", n, real); /* the step of a frame records it anew */
     }
 }
 
@@ -236,8 +240,8 @@ static status contact_check(const struct contact *c, const struct particles *p)
 /* The list decides which pairs push, and their distances; it is restored as it was. */
 status contact_archive(struct contact *c, const struct particles *p, struct archive *a)
 {
-    int64_t numbers[] = {c->made, c->n, c->rows, c->pairs, c->searched, c->broken, c->changed, c->pairs_most,
-                         c->overlap_said, c->due};
+    int64_t numbers[] = {c->made,   c->n,       c->rows,       c->pairs,        c->searched,
+                         c->broken, c->changed, c->pairs_most, c->overlap_said, c->due};
     if (!contact_works(c)) return OK;
     ARCHIVE_VALUE(a, "contact/numbers", numbers);
     ARCHIVE_VALUE(a, "contact/overlap_most", c->overlap_most);

@@ -11,7 +11,7 @@
  * was taken, by a force along the rate, makes bodies that ring unstable. */
 #include "contact_internal.h"
 
-#define BALANCE_DRAG 0.1                 /* of the force per overlap that comes within a step */
+#define BALANCE_DRAG 0.1 /* of the force per overlap that comes within a step */
 
 real contact_balance(struct contact_balance *b, real stiffness, real gap, bool advance)
 {

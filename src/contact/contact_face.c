@@ -36,7 +36,7 @@ static void layer_density(int dim, real s, real *density, real *slope)
         }
 }
 
-#define DEPTH_LEAST 0.2                  /* where the table begins and ends [spacings] */
+#define DEPTH_LEAST 0.2 /* where the table begins and ends [spacings] */
 #define DEPTH_MOST 1.9
 
 void contact_profile_make(struct contact_profile *profile, int dim)
@@ -59,8 +59,10 @@ static real table_depth(const struct contact_profile *profile, real density, rea
     if (density >= profile->density[0]) return profile->depth[0] + *slope * (density - profile->density[0]);
     while (high - low > 1) {
         const int middle = (low + high) / 2;
-        if (profile->density[middle] > density) low = middle;
-        else high = middle;
+        if (profile->density[middle] > density)
+            low = middle;
+        else
+            high = middle;
     }
     const real width = profile->density[high] - profile->density[low], t = (density - profile->density[low]) / width;
     const real from = profile->depth[low], to = profile->depth[high];
@@ -80,7 +82,9 @@ static real field_share(const struct contact *c, int dim, int64_t k, int64_t l, 
 }
 
 /* Density and mean rise. */
-struct felt { real density, mean; };
+struct felt {
+    real density, mean;
+};
 
 static struct felt felt_by(const struct contact *c, const struct particles *p, real *const *place, int64_t row)
 {
@@ -101,7 +105,10 @@ static struct felt felt_by(const struct contact *c, const struct particles *p, r
 
 /* Height of a particle above the surface that it feels, and the gap to its own [spacings]; derivative of both by the
  * density. leans: the gap falls by as much as the mean rise grows, else not at all. */
-struct face_gap { real height, gap, slope; bool leans; };
+struct face_gap {
+    real height, gap, slope;
+    bool leans;
+};
 
 static struct face_gap face_gap(const struct contact *c, const struct felt *felt, real zero)
 {
@@ -113,8 +120,7 @@ static struct face_gap face_gap(const struct contact *c, const struct felt *felt
     return at;
 }
 
-void contact_face_feel(struct contact *c, const struct particles *p, int64_t row, real dt,
-                       struct contact_found *found)
+void contact_face_feel(struct contact *c, const struct particles *p, int64_t row, real dt, struct contact_found *found)
 {
     struct contact_face *face = &c->face[row];
     face->push = face->lift = 0;
@@ -122,8 +128,8 @@ void contact_face_feel(struct contact *c, const struct particles *p, int64_t row
     const struct felt felt = felt_by(c, p, p->x, row);
     const struct face_gap at = face_gap(c, &felt, face->zero);
     const bool touches = contact_touches(contact_marks(c), row, at.gap < 0);
-    const real force = 0.5 * face->stiffness * (touches ? at.gap : 0)
-                     + contact_balance(&c->balance[row], face->stiffness, at.gap, dt > 0);
+    const real force = 0.5 * face->stiffness * (touches ? at.gap : 0) +
+                       contact_balance(&c->balance[row], face->stiffness, at.gap, dt > 0);
     face->mean = felt.mean;
     if (!touches) return;
     face->push = force * at.slope;
@@ -275,6 +281,5 @@ void contact_face_begin(struct contact *c, const struct contact *before, int64_t
     const real zero = real_min(1 + c->rise[row], least) - face_notch(c, p, row);
     face->zero = overlap > 0 ? height + overlap : real_min(zero, height);
     face->far = real_max(0, least_gap(c, &now, row));
-    c->balance[row] = contact_balance_begin(was < 0 ? NULL : &before->balance[was],
-                                            face_gap(c, &now, face->zero).gap);
+    c->balance[row] = contact_balance_begin(was < 0 ? NULL : &before->balance[was], face_gap(c, &now, face->zero).gap);
 }

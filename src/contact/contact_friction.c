@@ -30,7 +30,7 @@ void contact_slide(struct contact_spring *s, int dim, const real *normal, const 
     for (int d = 0; d < dim; d++) {
         s->length[d] *= share;
         s->drag[d] = -k * s->length[d];
-        work += 0.5 * k * (before[d] + s->length[d]) * along[d];     /* as leap-frog takes it from the motion */
+        work += 0.5 * k * (before[d] + s->length[d]) * along[d]; /* as leap-frog takes it from the motion */
         stored += 0.5 * k * square(s->length[d]);
     }
     s->lost += work + s->stored - stored;
@@ -48,16 +48,16 @@ void contact_slide(struct contact_spring *s, int dim, const real *normal, const 
  * and the forces that do work on this slip are the drag f on i and -w_j (f + (I^-1 (a x f)) x r_j) on j: their sum is 0
  * and so is the sum of their moments. Rotation about an axis is left out where the particles stand along it (a single
  * one, and in space a row of them): the moment of the drag about this axis then remains. */
-#define COUPLE_MOST 10                   /* squares of the forces that balance the moment, over that of the drag */
+#define COUPLE_MOST 10     /* squares of the forces that balance the moment, over that of the drag */
 #define INERTIA_LEAST 1e-6 /* of the largest principal value of I and of a^2: round-off beyond takes no momentum */
 
 /* The particles that the particle of a row feels, as a rigid body. */
 struct contact_partner {
-    real force[DIM_MAX];                 /* normal force on the particle of the row [N] */
-    real density;                        /* sum of the weights before they are normalised */
+    real force[DIM_MAX];                  /* normal force on the particle of the row [N] */
+    real density;                         /* sum of the weights before they are normalised */
     real arm[DIM_MAX], velocity[DIM_MAX]; /* a [m]; v [m/s] */
-    real inverse[DIM_MAX][DIM_MAX];      /* pseudo-inverse of I [1/m^2] */
-    real slip[DIM_MAX];                  /* [m/s] */
+    real inverse[DIM_MAX][DIM_MAX];       /* pseudo-inverse of I [1/m^2] */
+    real slip[DIM_MAX];                   /* [m/s] */
 };
 
 /* Computes the normal force, density, mean position and mean velocity at the positions x - ago v. */
@@ -139,8 +139,7 @@ static struct contact_partner partner_at(const struct contact *c, const struct p
     real omega[DIM_MAX] = {0}, turning[DIM_MAX];
     if (p->dim > 1 && partner.density > 0) partner_turn(&partner, c, p, row, ago, omega);
     vector_product(omega, partner.arm, turning);
-    for (int d = 0; d < p->dim; d++)
-        partner.slip[d] = p->v[d][c->particle[row]] - partner.velocity[d] - turning[d];
+    for (int d = 0; d < p->dim; d++) partner.slip[d] = p->v[d][c->particle[row]] - partner.velocity[d] - turning[d];
     return partner;
 }
 

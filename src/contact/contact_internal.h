@@ -4,19 +4,24 @@
 
 #include "contact/contact.h"
 
-#define CONTACT_REACH 2.0                /* of the field of a face [mean spacings] */
-#define CONTACT_SKIN 0.3                 /* beyond the contact distance [spacings]: pairs that may come to it soon */
-#define STATIC_SKIN 1.5                  /* the same for the corrections of an equilibrium [spacings] */
-#define FAR_LAMMPS 1.35                  /* distance of pairs in LAMMPS' rule at the most [mean spacings] and ... */
-#define NEAR_LAMMPS 0.9                  /* ... [their distance in the reference state] */
-#define CONTACT_FLATNESS 3               /* a gap shrinks by this times the way of a particle: of both sides, and more
-                                            where fields are not flat */
+#define CONTACT_REACH 2.0 /* of the field of a face [mean spacings] */
+#define CONTACT_SKIN 0.3  /* beyond the contact distance [spacings]: pairs that may come to it soon */
+#define STATIC_SKIN 1.5   /* the same for the corrections of an equilibrium [spacings] */
+#define FAR_LAMMPS 1.35   /* distance of pairs in LAMMPS' rule at the most [mean spacings] and ... */
+#define NEAR_LAMMPS 0.9   /* ... [their distance in the reference state] */
+#define CONTACT_FLATNESS                                                                                               \
+    3 /* a gap shrinks by this times the way of a particle: of both sides, and more                                    \
+         where fields are not flat */
 
 /* What may push a row before the next search: nothing; something once it has moved; what feels it; what it feels. */
 enum row_state { ROW_FAR, ROW_NEAR, ROW_FELT, ROW_FEELS };
 
 /* What the rows of a step have found. */
-struct contact_found { real overlap; int64_t touching; int32_t deepest; };
+struct contact_found {
+    real overlap;
+    int64_t touching;
+    int32_t deepest;
+};
 
 static inline void contact_found_add(struct contact_found *to, real overlap, int32_t i)
 {
@@ -94,8 +99,7 @@ real contact_pair_distance(const struct contact *c, const struct particles *p, i
 
 void contact_profile_make(struct contact_profile *profile, int dim);
 /* In two passes: what each particle feels, then the forces of all that feel something. */
-void contact_face_feel(struct contact *c, const struct particles *p, int64_t row, real dt,
-                       struct contact_found *found);
+void contact_face_feel(struct contact *c, const struct particles *p, int64_t row, real dt, struct contact_found *found);
 void contact_face_row(const struct contact *c, struct particles *p, int64_t row);
 real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row);
 /* Where contact begins for the particle of a row that is new on the list, or was row `was` of the list `before` (-1:
@@ -110,7 +114,9 @@ real contact_balance(struct contact_balance *b, real stiffness, real gap, bool a
 struct contact_balance contact_balance_begin(const struct contact_balance *before, real gap);
 
 /* What entry l adds to what entry k feels: its weight; derivative of the energy of k over r [N/m]; from l to k [m]. */
-struct contact_weight { real weight, pull, apart[DIM_MAX]; };
+struct contact_weight {
+    real weight, pull, apart[DIM_MAX];
+};
 /* Computes these for the positions x - ago v [s]; the energy is the present one. */
 struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
                                      real ago);

@@ -4,7 +4,9 @@
 #include "contact_internal.h"
 
 /* A pair: overlap d - r [m], negative: none; distance r [m]; k [N/m]. The same bits from both its ends. */
-struct contact_pair { real overlap, r, k, apart[DIM_MAX]; };
+struct contact_pair {
+    real overlap, r, k, apart[DIM_MAX];
+};
 
 static struct contact_pair contact_pair(const struct contact *c, const struct particles *p, int64_t row, int64_t q)
 {

@@ -67,8 +67,8 @@ static void put_contact_and_rigid(const struct run *e, struct json *j)
     put_rigid(e, j);
 }
 
-#define OVERLAP_DOUBTFUL 0.3             /* [spacings] */
-#define OVERLAP_MOST 0.9                 /* beyond, particles pass each other */
+#define OVERLAP_DOUBTFUL 0.3 /* [spacings] */
+#define OVERLAP_MOST 0.9     /* beyond, particles pass each other */
 
 status contact_overlap_check(struct run *e)
 {

@@ -49,8 +49,10 @@ static int64_t near_before(const struct contact *before, int body, int32_t parti
     int64_t low = 0, high = row >= 0 ? before->near[body].n : 0;
     while (low < high) {
         const int64_t middle = (low + high) / 2;
-        if (before->near[body].row[middle] < row) low = middle + 1;
-        else high = middle;
+        if (before->near[body].row[middle] < row)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return row >= 0 && low < before->near[body].n && before->near[body].row[low] == row ? low : -1;
 }
@@ -78,10 +80,10 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
         const real gap = gap_of(c, p, r, row, normal), zero = was >= 0 ? before->near[body].zero[was] : -INFINITY;
         if (near->spring) contact_spring_take(&near->spring[near->n], was >= 0 ? before->near[body].spring : NULL, was);
         near->row[near->n] = (int32_t)row;
-        const bool deep = c->marked && before->made && was < 0;  /* a correction has gone so far: it is pushed back */
+        const bool deep = c->marked && before->made && was < 0; /* a correction has gone so far: it is pushed back */
         near->zero[near->n] = deep ? 0 : real_min(0, real_max(zero, gap));
-        near->balance[near->n] = contact_balance_begin(was >= 0 ? &before->near[body].balance[was] : NULL,
-                                                       gap - near->zero[near->n]);
+        near->balance[near->n] =
+            contact_balance_begin(was >= 0 ? &before->near[body].balance[was] : NULL, gap - near->zero[near->n]);
         near->n++;
     }
     memory_free(found);
@@ -177,7 +179,11 @@ static void spring_step(struct contact *c, const struct particles *p, int body, 
     contact_slide(&near->spring[q], p->dim, normal, way, k, c->law.friction * k * overlap);
 }
 
-struct rigid_sum { const struct contact *c; const struct particles *p; int body; };
+struct rigid_sum {
+    const struct contact *c;
+    const struct particles *p;
+    int body;
+};
 
 /* Force and moment on the body: six sums. */
 static void rigid_block(const void *context, int64_t first, int64_t end, real *sum)
@@ -212,7 +218,7 @@ static void body_force(struct contact *c, struct particles *p, int body, real dt
         if (overlap == 0) continue;
         for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
         contact_found_add(all, overlap, i);
-        all->touching++;                     /* a pair of which only one row is here */
+        all->touching++; /* a pair of which only one row is here */
     }
     team_sums(near->n, RIGID_TERMS, rigid_block, &s, sum);
     for (int d = 0; d < DIM_MAX; d++) c->rigid[body].force[d] = sum[d], c->rigid[body].moment[d] = sum[DIM_MAX + d];

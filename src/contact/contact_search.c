@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "contact_internal.h"
 
-#define RISE_MOST 0.6                    /* surfaces are not looked for farther away [spacings] */
+#define RISE_MOST 0.6 /* surfaces are not looked for farther away [spacings] */
 #define ROUND_OFF 1e-6
 enum { BREAKS_WAIT = 32 }; /* steps between searches for broken bonds: they open before they can close */
 
@@ -38,8 +38,10 @@ int64_t contact_row_of(const struct contact *c, int64_t i)
     int64_t low = 0, high = c->rows;
     while (low < high) {
         const int64_t middle = (low + high) / 2;
-        if (c->particle[middle] < i) low = middle + 1;
-        else high = middle;
+        if (c->particle[middle] < i)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return low < c->rows && c->particle[low] == i ? low : -1;
 }
@@ -104,8 +106,7 @@ static void list_exposed(struct contact *c, const struct particles *p, const str
     c->particle = BARE("contact.particle", most, int32_t);
     c->n = 0;
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++)
-        if (is_exposed(p, b, least_volume, everywhere, p->list[KIND_PD][k]))
-            c->particle[c->n++] = p->list[KIND_PD][k];
+        if (is_exposed(p, b, least_volume, everywhere, p->list[KIND_PD][k])) c->particle[c->n++] = p->list[KIND_PD][k];
     c->rows = c->n;
     for (int64_t i = p->n; i < p->n_all; i++)
         if (p->kind[i] == KIND_PD && is_exposed(p, b, least_volume, everywhere, image_root(p, c->law.image, i)))
@@ -125,14 +126,17 @@ struct contact_search {
     const struct contact_law *law;
     const struct particles *p;
     const struct bonds *b;
-    struct particles places;             /* X: where those who may meet are now */
+    struct particles places; /* X: where those who may meet are now */
     struct cells cells;
     const int32_t *particle;
-    real reach;                          /* [m] */
+    real reach; /* [m] */
 };
 
 /* Pairs of consecutive rows, as a thread finds them. */
-struct pair_list { int64_t n; int32_t *other; };
+struct pair_list {
+    int64_t n;
+    int32_t *other;
+};
 
 static void pair_add(struct pair_list *to, int32_t other)
 {
@@ -212,12 +216,13 @@ static void pairs_begin(struct contact *c, const struct contact *before, const s
     if (c->law.form == CONTACT_SURFACE) {
         c->face = BARE("contact.face", c->rows, struct contact_face);
         c->balance = BARE("contact.balance", c->rows, struct contact_balance);
-    }
-    else c->distance = BARE("contact.distance", c->pairs, real);
+    } else
+        c->distance = BARE("contact.distance", c->pairs, real);
 #pragma omp parallel for schedule(static)
     for (int64_t row = 0; row < c->rows; row++) {
         const int64_t was = before->made ? contact_row_of(before, c->particle[row]) : -1;
-        if (c->law.form == CONTACT_SURFACE) contact_face_begin(c, before, was, p, row);
+        if (c->law.form == CONTACT_SURFACE)
+            contact_face_begin(c, before, was, p, row);
         else
             for (int64_t q = c->first[row]; q < c->first[row + 1]; q++)
                 c->distance[q] = contact_pair_distance(c, p, row, c->other[q],
@@ -253,7 +258,7 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     contact_springs_begin(c, &before);
     contact_rigid_find(c, &before, p, contact_skin(c));
     contact_friction_settle(c, &before);
-    before.law.stiffness = NULL;             /* the new list keeps the law and the record of forces */
+    before.law.stiffness = NULL; /* the new list keeps the law and the record of forces */
     memset(before.push, 0, sizeof before.push);
     contact_free(&before);
 }
@@ -308,11 +313,10 @@ void contact_update(struct contact *c, const struct particles *p, struct bonds *
         search_pairs(c, p, b, family);
         c->made = true, c->due = false, c->way = 0;
         c->searched = step, c->broken = broken;
-    }
-    else if (changed == c->changed) {
+    } else if (changed == c->changed) {
         contact_follow_more(c, p, b, l);
         return;
     }
     c->changed = changed;
-    contact_follow(c, p, b, l);              /* also after changes of kind, which make row blocks anew */
+    contact_follow(c, p, b, l); /* also after changes of kind, which make row blocks anew */
 }

@@ -7,7 +7,9 @@
 #include "base/memory.h"
 #include "data/cells.h"
 
-struct body_box { real from[DIM_MAX], to[DIM_MAX]; };
+struct body_box {
+    real from[DIM_MAX], to[DIM_MAX];
+};
 
 /* Boxes of the particles of each body, [bodies]. */
 static struct body_box *body_boxes(const struct particles *p, int bodies)
@@ -60,8 +62,10 @@ static bool near_rigid(const struct particles *p, const struct rigid_body *rigid
 
 static void mark(struct particles *p, int64_t i)
 {
-    if (p->kind[i] == KIND_MPM) p->flag[i] |= FLAG_NEAR;
-    else if (p->low_since) p->low_since[i] = INFINITY;
+    if (p->kind[i] == KIND_MPM)
+        p->flag[i] |= FLAG_NEAR;
+    else if (p->low_since)
+        p->low_since[i] = INFINITY;
 }
 
 /* Marks those of the n listed that are near one of another body. */

@@ -8,7 +8,10 @@
 #include "base/memory.h"
 
 /* A growing list of particle indices. */
-struct index_list { int32_t *at; int64_t n; };
+struct index_list {
+    int32_t *at;
+    int64_t n;
+};
 
 static void list_add(struct index_list *l, int64_t i)
 {
@@ -163,8 +166,8 @@ static void sync_near(const struct conversion_sync *sync, struct particles *p, c
 }
 
 int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
-                const struct bond_source *source, struct partial_stress *partial,
-                const struct conversion_sync *sync, real t)
+                const struct bond_source *source, struct partial_stress *partial, const struct conversion_sync *sync,
+                real t)
 {
     if (!convert_due(p)) return 0;
     struct index_list changed = {0}, touched = {0};

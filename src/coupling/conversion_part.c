@@ -76,7 +76,7 @@ int64_t conversion_pass(struct run *e, int64_t broken, bool marked, bool fades)
 static void bonded_make(struct run *e)
 {
     const struct bonds *b = &e->bonds;
-    if (b->rows == 0) {                  /* all have reverted: no point is beside bonds */
+    if (b->rows == 0) { /* all have reverted: no point is beside bonds */
         memory_free(e->coupling->bonded);
         e->coupling->bonded = NULL;
         return;
@@ -84,8 +84,7 @@ static void bonded_make(struct run *e)
     if (e->scene->transfer != TRANSFER_FLIP || e->part.n_free == 0) return;
     if (!e->coupling->bonded) e->coupling->bonded = NEW("engine.bonded", e->part.n, uint8_t);
 #pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < e->part.n; i++)
-        e->coupling->bonded[i] = e->part.kind[i] == KIND_MPM && bonds_has(b, i);
+    for (int64_t i = 0; i < e->part.n; i++) e->coupling->bonded[i] = e->part.kind[i] == KIND_MPM && bonds_has(b, i);
 }
 
 void interface_make(struct run *e)
@@ -108,9 +107,9 @@ void coupling_partial_make(struct run *e)
 status coupling_frame_make(struct run *e, bool still)
 {
     struct coupling_state *c = e->coupling;
-    const struct mesh_source cuts = {.partial = c->uses_partial ? &c->partial : NULL, .slit = c->notches.slit,
-                                     .slits = c->notches.slits};
+    const struct mesh_source cuts = {
+        .partial = c->uses_partial ? &c->partial : NULL, .slit = c->notches.slit, .slits = c->notches.slits};
     TRY(frame_make(e, &cuts, still));
-    c->partial.touches = 0;                      /* the mesh is of the partial stresses of now */
+    c->partial.touches = 0; /* the mesh is of the partial stresses of now */
     return OK;
 }

@@ -9,7 +9,10 @@
 
 /* A list of names in words, `a`, `a and b`, `a, b and c`; names beyond the first few are counted. all: number of names
  * to come. */
-struct name_list { int n, all; char text[320]; };
+struct name_list {
+    int n, all;
+    char text[320];
+};
 
 static void name_add(struct name_list *l, const char *name)
 {
@@ -19,7 +22,8 @@ static void name_add(struct name_list *l, const char *name)
     if (l->n > NAMED && !last) return;
     if (l->n > NAMED && l->all > NAMED + 1)
         snprintf(l->text + used, sizeof l->text - used, " and %d more", l->all - NAMED);
-    else snprintf(l->text + used, sizeof l->text - used, "%s%.64s", l->n == 1 ? "" : last ? " and " : ", ", name);
+    else
+        snprintf(l->text + used, sizeof l->text - used, "%s%.64s", l->n == 1 ? "" : last ? " and " : ", ", name);
 }
 
 /* Several bodies of which some are in the reference frame. */
@@ -49,7 +53,8 @@ static void warn_of_contact(const struct run *e, struct warnings *to)
     if (s->method == METHOD_PD)
         warnings_add(to, "peridynamic bodies pass through each other%s without contact.between: bodies or all",
                      s->rigids > 0 ? " (rigid ones they meet)" : "");
-    else warn_of_reference(s, reference, to);
+    else
+        warn_of_reference(s, reference, to);
     if (s->method == METHOD_ADAPTIVE && current)
         warnings_add(to, "what becomes peridynamic passes through material points of other bodies: that takes "
                          "contact.convert and the coupling partial stress or handshake");

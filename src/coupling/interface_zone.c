@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-#define NEIGHBOUR_SPACINGS 1.5           /* nearest along axes and face diagonals */
+#define NEIGHBOUR_SPACINGS 1.5 /* nearest along axes and face diagonals */
 
 enum mark { OUTSIDE, BESIDE, POINT }; /* outside the interface zone; neighbour of one of its points; point of it */
 
@@ -109,14 +109,14 @@ static void interface_zone_pairs_make(struct interface_zone *r, const struct par
     for (int64_t k = 0; k < r->n; k++) r->start[k + 1] += r->start[k];
     r->neighbour = NEW("interface_zone.neighbour", r->start[r->n], int32_t);
     pairs_pass(r, p, s, mark, place, false);
-    r->scale = 4 / ((real)most * (1 + 1.0 / p->dim));    /* the sum of e e of n neighbours has a norm of about n/dim */
+    r->scale = 4 / ((real)most * (1 + 1.0 / p->dim)); /* the sum of e e of n neighbours has a norm of about n/dim */
 }
 
 void interface_zone_make(struct interface_zone *r, const struct particles *p, const struct bond_source *source)
 {
     interface_zone_free(r);
     uint8_t *mark = NEW("interface_zone.mark", p->n, uint8_t);
-    int32_t *place = BARE("interface_zone.place", p->n, int32_t);   /* [n] index of members */
+    int32_t *place = BARE("interface_zone.place", p->n, int32_t); /* [n] index of members */
     r->particle = NEW("interface_zone.particle", p->n, int32_t);
     members_make(r, p, source, mark, place);
     r->particle = memory_resize("interface_zone.particle", r->particle, p->n, r->n, sizeof *r->particle);
@@ -188,7 +188,7 @@ static void change_make(struct interface_zone *r, const struct particles *p, int
 /* -1/2 of the changes times the present velocities of the members [J]. */
 real interface_damp_end(const struct interface_zone *r, const struct particles *p)
 {
-    real lost = 0;                       /* few; the sum must not depend on threads */
+    real lost = 0; /* few; the sum must not depend on threads */
     for (int64_t k = 0; k < r->n; k++)
         for (int d = 0; d < p->dim; d++) lost -= 0.5 * r->change[k * p->dim + d] * p->v[d][r->particle[k]];
     return lost;

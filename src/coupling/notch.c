@@ -7,11 +7,11 @@
 
 #include "base/memory.h"
 
-#define AHEAD_REACH 1.2                  /* radius of the search for particles ahead of an end [spacings] */
-#define FACE_REACH 1.01                  /* particles that face each other across a slit [spacings] */
-#define MEET_REACH 1.5                   /* of the search for faces that meet [spacings] */
-#define VOID_AHEAD 0.1                   /* faces of voids are peridynamic before they meet [spacings] */
-enum { EDGE_PARTS = 16 };                /* places of an edge at which the body is looked for */
+#define AHEAD_REACH 1.2   /* radius of the search for particles ahead of an end [spacings] */
+#define FACE_REACH 1.01   /* particles that face each other across a slit [spacings] */
+#define MEET_REACH 1.5    /* of the search for faces that meet [spacings] */
+#define VOID_AHEAD 0.1    /* faces of voids are peridynamic before they meet [spacings] */
+enum { EDGE_PARTS = 16 }; /* places of an edge at which the body is looked for */
 
 /* ---- ends -------------------------------------------------------------------------------------------------------- */
 
@@ -45,7 +45,11 @@ static bool edge_inside(const struct crack *c, int e, const struct particles *p,
 }
 
 /* A crack, and which of its edges lie in the body, one bit each. */
-struct look { const struct crack *crack; uint64_t edges; real radius; };
+struct look {
+    const struct crack *crack;
+    uint64_t edges;
+    real radius;
+};
 
 enum { EDGES_MAX = 64 };
 
@@ -94,7 +98,9 @@ static real apart(const struct particles *p, int64_t i, int64_t j)
 }
 
 /* What a crack does outside the zones round its ends: particles that lose bonds there; of these those in no mesh. */
-struct flanks { int64_t particles, elsewhere; };
+struct flanks {
+    int64_t particles, elsewhere;
+};
 
 static bool loses_by(const struct crack *c, const struct particles *p, int64_t i, const struct near *near)
 {
@@ -206,8 +212,10 @@ void notches_make(struct notches *n, const struct particles *p, const struct bon
         if (!why) n->slit[n->slits++] = *c;
     }
     for (int k = 0; k < source->cracks; k++)
-        if (!n->notch[source->crack_of[k]].slit) n->cut[n->cuts++] = source->crack[k];
-        else n->slit[n->slits + n->images++] = source->crack[k];
+        if (!n->notch[source->crack_of[k]].slit)
+            n->cut[n->cuts++] = source->crack[k];
+        else
+            n->slit[n->slits + n->images++] = source->crack[k];
     if (n->slits > 0 || n->voids) faces_find(n, p, source);
 }
 

@@ -59,7 +59,8 @@ void notch_text(const struct run *e, int crack, char *text, size_t room)
     const struct notches *n = &e->coupling->notches;
     if (n->notch[crack].slit)
         snprintf(text, room, "slit of the mesh, bonds within %.3g spacings of its ends", n->radius / e->scene->spacing);
-    else snprintf(text, room, "cut bonds: %s", n->notch[crack].reason);
+    else
+        snprintf(text, room, "cut bonds: %s", n->notch[crack].reason);
 }
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */

@@ -9,12 +9,17 @@ real segment_share(const real *a, const real *b, const real *X, real half, int d
 
 /* Reflection by a chain of mirrors: the image of a point X of the body has X'_d = sign_d X_d + offset_d; `root` is the
  * source of image i, or i itself. */
-struct reflection { real sign[DIM_MAX], offset[DIM_MAX]; int64_t root; };
+struct reflection {
+    real sign[DIM_MAX], offset[DIM_MAX];
+    int64_t root;
+};
 struct reflection reflection_of(const struct bond_source *s, const struct particles *p, int64_t i);
 
 /* Response of the force F of a bond of direction e to a uniform strain eps, times the bond's length [N m]:
  *     F = central (e . eps e) e + pressure (tr eps) e + vector (eps e). */
-struct response { real central, pressure, vector; };
+struct response {
+    real central, pressure, vector;
+};
 struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int32_t i,
                             const struct bond *bond);
 /* Adds to T [J] the part of one bond, from xp (a material point) to xm, inside the cell around X: T_abcd = l e_b
@@ -48,7 +53,7 @@ bool partial_table_has(const struct particles *p, const struct bond_source *s, i
 /* Computes the bond responses of the rows of the listed particles anew (NULL: of all material points); other
  * particles keep theirs. */
 void partial_table_update(struct partial_table *t, const struct particles *p, const struct bonds *b,
-                       const struct bond_source *s, const int32_t *list, int64_t n);
+                          const struct bond_source *s, const int32_t *list, int64_t n);
 /* T of point i [J] from the bond responses of the rows around it. */
 void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                        const struct bond_source *s, int64_t i, struct near *near, real *T);

@@ -69,7 +69,7 @@ static bool is_positive(const real *M, int n)
 static void make_positive(real *M, int n)
 {
     if (is_positive(M, n)) return;
-    enum { SWEEPS = 12 };                /* six unknowns: quadratic convergence ends far earlier */
+    enum { SWEEPS = 12 }; /* six unknowns: quadratic convergence ends far earlier */
     real D[SYM_MAX * SYM_MAX], Z[SYM_MAX * SYM_MAX] = {0};
     array_copy(D, M, n * n, sizeof *M);
     for (int a = 0; a < n; a++) Z[a * n + a] = 1;

@@ -45,7 +45,7 @@ real segment_share(const real *a, const real *b, const real *X, real half, int d
 struct reflection reflection_of(const struct bond_source *s, const struct particles *p, int64_t i)
 {
     struct reflection r = {.sign = {1, 1, 1}, .root = i};
-    while (r.root >= p->n) {                     /* X of this image = reflection of X of its source along one axis */
+    while (r.root >= p->n) { /* X of this image = reflection of X of its source along one axis */
         int64_t source = s->image[r.root - p->n].source;
         for (int d = 0; d < p->dim; d++) {
             if (p->X[d][source] == p->X[d][r.root]) continue;
@@ -98,11 +98,14 @@ struct response response_of(const struct particles *p, const struct bonds *b, co
     const real first = family_share(p, b, s, i), second = family_share(p, b, s, j), scale = bond->w * r * r;
     const real spring = scale * (m->B * first + n->B * second);
     return (struct response){.pressure = scale * (m->A * first + n->A * second) / D,
-                             .central = s->rotates ? 0 : spring, .vector = s->rotates ? spring : 0};
+                             .central = s->rotates ? 0 : spring,
+                             .vector = s->rotates ? spring : 0};
 }
 
 /* Box around all bonds of a row; most rows lie too far from a cell for any of their bonds to cross it. */
-struct box { real low[DIM_MAX], high[DIM_MAX]; };
+struct box {
+    real low[DIM_MAX], high[DIM_MAX];
+};
 
 static struct box box_of(const struct particles *p, const struct bonds *b, int64_t row)
 {
@@ -140,7 +143,7 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
         const struct bond bond = it.bond;
         if (bond.w == 0) continue;
-        bool apart = false;                      /* most bonds miss the cell: found without a division */
+        bool apart = false; /* most bonds miss the cell: found without a division */
         for (int d = 0; d < p->dim; d++) {
             xm[d] = r.sign[d] * p->X[d][bond.nbr] + r.offset[d];
             apart |= (xm[d] < xp[d] ? xp[d] : xm[d]) <= X[d] - half || (xm[d] < xp[d] ? xm[d] : xp[d]) >= X[d] + half;
@@ -216,11 +219,11 @@ static bool bond_entry(real *entry, real *T, const struct particles *p, const st
 /* Entries to be made anew: those of points around the particles that have changed, and the rows whose bonds may cross
  * the cells of these points. */
 struct renewal {
-    int32_t *list;                       /* particles there, material points or not, ascending              */
+    int32_t *list; /* particles there, material points or not, ascending              */
     int64_t n;
-    int32_t *row;                      /* rows of material points; none if the table serves all cells */
+    int32_t *row; /* rows of material points; none if the table serves all cells */
     int64_t rows;
-    bool *own;                           /* [n] this particle is one of the changed                         */
+    bool *own; /* [n] this particle is one of the changed                         */
 };
 
 enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
@@ -363,8 +366,10 @@ static void entries_make(real *entry, bool *crossed, const struct partial_stress
             const int64_t i = r->list[k];
             real T[SYM_MAX * SYM_MAX] = {0};
             if (p->kind[i] != KIND_MPM) continue;
-            if (served && partial_table_has(p, s, i)) partial_table_sum(partial->table, p, b, s, i, &near, T);
-            else tensor_sum(T, p, b, s, box, i, &near);
+            if (served && partial_table_has(p, s, i))
+                partial_table_sum(partial->table, p, b, s, i, &near, T);
+            else
+                tensor_sum(T, p, b, s, box, i, &near);
             crossed[k] = s->modulus ? state_entry(entry + k * each, T, partial, p, b, s, i)
                                     : bond_entry(entry + k * each, T, p, s, i);
         }
@@ -396,8 +401,10 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         const bool same = crossed[k] ? entry_is(partial, i, M + k * whole, size, local) : partial->index[i] < 0;
         if (!same || r.own[k]) touch(partial, i);
         if (same) continue;
-        if (crossed[k]) entry_put(partial, i, M + k * whole, size, local);
-        else partial->index[i] = -1;
+        if (crossed[k])
+            entry_put(partial, i, M + k * whole, size, local);
+        else
+            partial->index[i] = -1;
     }
     entries_squeeze(partial, p, size, local);
     memory_free(crossed);

@@ -8,36 +8,41 @@
 #include "base/memory.h"
 #include "partial_parts.h"
 
-#define WHOLE 1e-12                      /* of a cell: deviation of a particle's volume by round-off */
+#define WHOLE 1e-12 /* of a cell: deviation of a particle's volume by round-off */
 enum { VECTORS_MOST = 2048, BODIES_MOST = UINT8_MAX + 1 };
-enum { ROWS_AHEAD = 6 };                 /* distance of prefetching: bond responses lie in farther caches */
+enum { ROWS_AHEAD = 6 }; /* distance of prefetching: bond responses lie in farther caches */
 
 /* A bond of this vector that starts at a given place has this share of its length inside the cell of the point. */
-struct crossing { int16_t vector, direction; real share; };
+struct crossing {
+    int16_t vector, direction;
+    real share;
+};
 
 /* A place within the length of a bond from the point, or the point itself: offsets in spacings. */
-struct near_place { int16_t place, at[DIM_MAX]; };
+struct near_place {
+    int16_t place, at[DIM_MAX];
+};
 
 /* Bond responses of the rows of material points; they stay valid until a bond of the row changes. */
 struct responses {
-    int32_t *of;                         /* [n] entry of a particle, -1: it has no row with an intact bond     */
-    real *response;                        /* [room][vectors][parts]                                             */
+    int32_t *of;    /* [n] entry of a particle, -1: it has no row with an intact bond     */
+    real *response; /* [room][vectors][parts]                                             */
     int64_t n, room, frees;
-    int32_t *free;                       /* [room] unused entries, `frees` of them                             */
+    int32_t *free; /* [room] unused entries, `frees` of them                             */
 };
 
 /* Places are numbered like the cells of a cube; `reach` cells to either side of the middle. */
 struct partial_table {
-    int dim, reach, parts, size;         /* parts of a response; numbers of a tensor                           */
-    real spacing, per_spacing;           /* [m] [1/m]                                                          */
-    int vectors, directions;             /* directions: a vector and its opposite                              */
-    struct near_place *near;             /* [vectors + 1] ascending                                            */
-    int16_t *vector;                     /* [places] number of the vector to a place, -1: no bond              */
-    int16_t *mirror;                     /* [2^dim][vectors] vector with signs changed                         */
-    int32_t *start;                      /* [places + 1] crossings of bonds from a place: start .. next start  */
+    int dim, reach, parts, size; /* parts of a response; numbers of a tensor                           */
+    real spacing, per_spacing;   /* [m] [1/m]                                                          */
+    int vectors, directions;     /* directions: a vector and its opposite                              */
+    struct near_place *near;     /* [vectors + 1] ascending                                            */
+    int16_t *vector;             /* [places] number of the vector to a place, -1: no bond              */
+    int16_t *mirror;             /* [2^dim][vectors] vector with signs changed                         */
+    int32_t *start;              /* [places + 1] crossings of bonds from a place: start .. next start  */
     struct crossing *crossing;
-    real *tensor;                        /* [directions][parts][size]                                          */
-    bool uniform;                        /* all particles have the volume of a lattice cell                    */
+    real *tensor; /* [directions][parts][size]                                          */
+    bool uniform; /* all particles have the volume of a lattice cell                    */
     struct responses responses;
 };
 
@@ -95,7 +100,7 @@ static void vectors_make(struct partial_table *t, real cutoff)
         /* numbering stops one beyond VECTORS_MOST, which marks an overflow */
         t->vector[k] = bond && t->vectors <= VECTORS_MOST ? (int16_t)t->vectors++ : -1;
     }
-    t->directions = t->vectors / 2;      /* places k and places - 1 - k are opposite */
+    t->directions = t->vectors / 2; /* places k and places - 1 - k are opposite */
     t->near = NEW("partial.near", t->vectors + 1, struct near_place);
     for (int64_t k = 0, n = 0; k < places && n <= t->vectors; k++) {
         int at[DIM_MAX] = {0};
@@ -140,7 +145,8 @@ static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool
                 const real share = segment_share(from, end, X, 0.5, t->dim);
                 const int64_t place = place_from(t, start);
                 if (share <= 0) continue;
-                if (count) next[place + 1]++;
+                if (count)
+                    next[place + 1]++;
                 else
                     t->crossing[next[place]++] =
                         (struct crossing){t->vector[k], (int16_t)direction_of(t, t->vector[k]), share};
@@ -307,7 +313,10 @@ static void response_make(const struct partial_table *t, const struct particles 
 }
 
 /* Rows of a row block with an intact bond: consecutive queries mostly concern the same row block. */
-struct row_block_intact { int64_t row_block; unsigned rows; };
+struct row_block_intact {
+    int64_t row_block;
+    unsigned rows;
+};
 
 static bool partial_table_has_bonds(struct row_block_intact *last, const struct particles *p, const struct bonds *b,
                                     int64_t i)
@@ -319,7 +328,7 @@ static bool partial_table_has_bonds(struct row_block_intact *last, const struct 
 }
 
 void partial_table_update(struct partial_table *t, const struct particles *p, const struct bonds *b,
-                       const struct bond_source *s, const int32_t *list, int64_t n)
+                          const struct bond_source *s, const int32_t *list, int64_t n)
 {
     struct responses *a = &t->responses;
     struct row_block_intact last = {.row_block = -1};
@@ -332,8 +341,10 @@ void partial_table_update(struct partial_table *t, const struct particles *p, co
     bool *has = NEW("partial.has", n, bool);
     for (int64_t k = 0; k < n; k++) {
         has[k] = partial_table_has_bonds(&last, p, b, list[k]);
-        if (!has[k]) response_close(t, list[k]);
-        else more += a->of[list[k]] < 0;
+        if (!has[k])
+            response_close(t, list[k]);
+        else
+            more += a->of[list[k]] < 0;
     }
     responses_room(t, a->n - a->frees + more);
     for (int64_t k = 0; k < n; k++)
@@ -348,7 +359,9 @@ void partial_table_update(struct partial_table *t, const struct particles *p, co
 
 /* A row whose bonds may cross the cell of a point: particle or image j of the row, its place relative to the point, and
  * the entry of its bond responses. A bond starts within its length of any cell that it crosses. */
-struct crossing_row { int32_t j, place, response; };
+struct crossing_row {
+    int32_t j, place, response;
+};
 
 /* Adds the bond responses of a row at `place`, times the shares of the bonds inside the cell, to the sums by direction;
  * `signs`: axes that the reflections of an image reverse, one bit each. */
@@ -402,7 +415,7 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
 /* Lists the rows near point i by the map of sites. Particles come in their order; images, whose indices are the
  * highest, in any order. */
 static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
-                            const struct bond_source *s, int64_t i, struct crossing_row *to)
+                                 const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
     const int32_t *own = l->at + site_of(l, p, i);
     int n = 0;
@@ -448,8 +461,10 @@ void partial_table_sum(const struct partial_table *t, const struct particles *p,
             const struct reflection r = reflection_of(s, p, row[k].j);
             for (int d = 0; d < t->dim; d++) signs |= (r.sign[d] < 0) << d;
         }
-        if (t->parts == 1) sum_row(t, sum, row[k].place, response, signs, 1);
-        else sum_row(t, sum, row[k].place, response, signs, 2);
+        if (t->parts == 1)
+            sum_row(t, sum, row[k].place, response, signs, 1);
+        else
+            sum_row(t, sum, row[k].place, response, signs, 2);
     }
     sum_tensors(t, sum, T);
 }

@@ -9,7 +9,7 @@
 #include "partial_parts.h"
 #include "kernels/mpm/stress.h"
 
-#define BROKEN_HORIZONS 2                   /* distance from broken bonds within which particles stay peridynamic */
+#define BROKEN_HORIZONS 2 /* distance from broken bonds within which particles stay peridynamic */
 
 /* ---- selection --------------------------------------------------------------------------------------------------- */
 
@@ -67,8 +67,10 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
         const int32_t i = p->list[KIND_PD][k];
         real X[DIM_MAX];
         particle_place(p, i, X);
-        if (!low_stress(rule, p, b, i)) p->low_since[i] = INFINITY;
-        else if (!(p->low_since[i] < INFINITY)) p->low_since[i] = t;
+        if (!low_stress(rule, p, b, i))
+            p->low_since[i] = INFINITY;
+        else if (!(p->low_since[i] < INFINITY))
+            p->low_since[i] = t;
         cut[i] = p->damage[i] > 0;
         held[i] = cut[i] || !(t - p->low_since[i] >= rule->hold_time) ||
                   (rule->kept && region_contains(rule->kept, X, p->dim, ON_SURFACE * rule->source->family.spacing));
@@ -194,7 +196,9 @@ static void family_moments(const struct bonds *b, const struct particles *p, int
 
 /* Stress that the bonds crossing the cell of a particle carry there, and its derivative T by a uniform strain, both
  * [Pa] times the volume while they are summed; centre [m] and half the edge [m] of the cell. */
-struct crossing { real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half; };
+struct crossing {
+    real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half;
+};
 
 /* Adds half of the bond that starts at particle or image j; the entry at its other end adds the other half. */
 static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
@@ -299,7 +303,7 @@ static void point_from_family(struct particles *p, const struct bonds *b, const 
 }
 
 void reversion_apply(struct conversion *c, struct particles *p, struct bonds *b, const struct bond_source *source,
-                   struct partial_stress *partial, const int32_t *list, int64_t n)
+                     struct partial_stress *partial, const int32_t *list, int64_t n)
 {
 #pragma omp parallel
     {

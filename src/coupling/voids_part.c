@@ -6,7 +6,7 @@
 #include "grid/grid_part.h"
 #include "run/make.h"
 
-#define ALONG 0.999                      /* least cosine between an axis and a way along it */
+#define ALONG 0.999 /* least cosine between an axis and a way along it */
 
 /* Can voids not cut the mesh? A cut parts a line; where a mirror lies between nodes there are no extra ones. */
 static bool mesh_uncut(const struct run *e) { return e->part.dim == 1 || grid_mirror_between(e); }
@@ -30,7 +30,9 @@ static const char *void_place_text(const struct particles *p, int64_t i, char te
 }
 
 /* Particles at voids that the run closes: their number, and the first. */
-struct closed { int64_t n, first; };
+struct closed {
+    int64_t n, first;
+};
 
 static void closed_add(struct closed *to, int64_t i)
 {
@@ -93,7 +95,8 @@ void voids_warn(const struct run *e, struct warnings *to)
     const struct closed grid = closed_on_grid(e);
     char place[96];
     if (grid.n > 0)
-        warnings_add(to, "body %s has a void too narrow for its grid, at %s m: %lld points share "
+        warnings_add(to,
+                     "body %s has a void too narrow for its grid, at %s m: %lld points share "
                      "nodes with points on the other side; %smethod pd and method adaptive keep it open, a smaller "
                      "particles.spacing does, too",
                      s->body[e->part.body[grid.first]].name, void_place_text(&e->part, grid.first, place),
@@ -102,10 +105,13 @@ void voids_warn(const struct run *e, struct warnings *to)
         if (s->body[b].joined != b || surface_known(s, b)) continue;
         const struct closed gap = closed_in_lattice(e, b, voids_reach(e));
         if (gap.n == 0) continue;
-        warnings_add(to, "body %s has a void of one or two particles' width at %s m, at %lld particles in all: of "
+        warnings_add(to,
+                     "body %s has a void of one or two particles' width at %s m, at %lld particles in all: of "
                      "lists and images only particles are known, and %s join what is on both sides; cracks say where "
                      "there are free faces, a smaller particles.spacing widens the void",
                      s->body[b].name, void_place_text(&e->part, gap.first, place), (long long)gap.n,
-                     s->method == METHOD_MPM ? "cells" : s->method == METHOD_PD ? "bonds" : "bonds and cells");
+                     s->method == METHOD_MPM  ? "cells"
+                     : s->method == METHOD_PD ? "bonds"
+                                              : "bonds and cells");
     }
 }

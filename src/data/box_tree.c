@@ -7,7 +7,10 @@
 #include "base/memory.h"
 
 /* A box while the tree is made, and the middle by which its node is halved now; 0 of one without end. */
-struct boxed { real middle; int32_t item; };
+struct boxed {
+    real middle;
+    int32_t item;
+};
 
 static int boxed_order(const void *a, const void *b)
 {

@@ -116,7 +116,7 @@ static inline real gap(const struct cells *c, const real *X, int d, int64_t k)
 /* Cells of direction d within `reach` of X: none if low > high. */
 static inline void cells_within(const struct cells *c, const real *X, int d, real reach, int64_t *low, int64_t *high)
 {
-    reach = reach * (1 + 1e-12) + 1e-15 * fabs(X[d]);          /* round-off of the distance */
+    reach = reach * (1 + 1e-12) + 1e-15 * fabs(X[d]); /* round-off of the distance */
     *low = (int64_t)floor((X[d] - reach - c->origin[d]) / c->width);
     *high = (int64_t)floor((X[d] + reach - c->origin[d]) / c->width);
     if (*low < 0) *low = 0;
@@ -149,9 +149,12 @@ static inline int near(struct search *s, const struct particles *p, const int di
 static int search(struct search *s, const struct particles *p)
 {
     switch (s->c->dim) {
-    case 1: return near(s, p, 1);
-    case 2: return near(s, p, 2);
-    default: return near(s, p, 3);
+    case 1:
+        return near(s, p, 1);
+    case 2:
+        return near(s, p, 2);
+    default:
+        return near(s, p, 3);
     }
 }
 

@@ -31,7 +31,7 @@ static void meeting_place(const struct mirror_plane *m, const real *a, const rea
  * there is room. */
 static void crack_clip(struct crack *c, const struct mirror_plane *m, real tolerance)
 {
-    real (*corner)[DIM_MAX] = memory_new("crack.clip", c->n + 1, sizeof *corner);
+    real(*corner)[DIM_MAX] = memory_new("crack.clip", c->n + 1, sizeof *corner);
     int n = 0;
     for (int k = 0; k < c->n; k++) {
         const real *a = c->corner[k], *b = c->corner[(k + 1) % c->n];
@@ -84,7 +84,7 @@ void cracks_mirrored(struct crack_list *to, const struct crack *crack, int crack
         for (int b = 0; b < mirrors && c->n > 0; b++) crack_clip(c, &m[b], tolerance);
         if (c->n == 0) memory_free(to->crack[--to->n].corner);
     }
-    for (int b = 0; b < mirrors; b++)            /* images of images, too: for corners */
+    for (int b = 0; b < mirrors; b++) /* images of images, too: for corners */
         for (int k = 0, n = to->n; k < n; k++) image_add(to, k, &m[b], reach, tolerance);
 }
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 enum { XX, YY, ZZ, XY, YZ, XZ };
-enum { SWEEPS = 12 };                    /* Jacobi's sweeps at the most; they converge quadratically, five do */
+enum { SWEEPS = 12 }; /* Jacobi's sweeps at the most; they converge quadratically, five do */
 
 real tensor_mises(const real s[6])
 {
@@ -53,7 +53,7 @@ void tensor_principal(const real s[6], real value[3], real direction[9])
     int order[3] = {0, 1, 2};
     for (int sweep = 0; sweep < SWEEPS; sweep++)
         for (int k = 0; k < 3; k++) axes_turn(a, v, k == 2, k == 0 ? 1 : 2);
-    for (int k = 1; k < 3; k++)          /* equal values keep the order of their axes */
+    for (int k = 1; k < 3; k++) /* equal values keep the order of their axes */
         for (int l = k; l > 0 && a[order[l]][order[l]] > a[order[l - 1]][order[l - 1]]; l--) {
             const int held = order[l];
             order[l] = order[l - 1], order[l - 1] = held;

@@ -15,41 +15,70 @@ static real pulse_at(real a) { return a > 0 && a < 1 ? square(sin(pi * a)) : 0; 
 static real one_operand(enum expression_op op, real a)
 {
     switch (op) {
-    case EXPRESSION_MINUS: return -a;
-    case EXPRESSION_SQUARE: return a * a;
-    case EXPRESSION_SIN: return sin(a);
-    case EXPRESSION_COS: return cos(a);
-    case EXPRESSION_TAN: return tan(a);
-    case EXPRESSION_ASIN: return asin(a);
-    case EXPRESSION_ACOS: return acos(a);
-    case EXPRESSION_ATAN: return atan(a);
-    case EXPRESSION_SINH: return sinh(a);
-    case EXPRESSION_COSH: return cosh(a);
-    case EXPRESSION_TANH: return tanh(a);
-    case EXPRESSION_EXP: return exp(a);
-    case EXPRESSION_LOG: return log(a);
-    case EXPRESSION_SQRT: return sqrt(a);
-    case EXPRESSION_ABS: return fabs(a);
-    case EXPRESSION_FLOOR: return floor(a);
-    case EXPRESSION_SIGN: return a > 0 ? 1 : a < 0 ? -1 : 0;
-    case EXPRESSION_STEP: return a >= 0 ? 1 : 0;
-    case EXPRESSION_RAMP: return ramp_of(a);
-    default: return pulse_at(a);
+    case EXPRESSION_MINUS:
+        return -a;
+    case EXPRESSION_SQUARE:
+        return a * a;
+    case EXPRESSION_SIN:
+        return sin(a);
+    case EXPRESSION_COS:
+        return cos(a);
+    case EXPRESSION_TAN:
+        return tan(a);
+    case EXPRESSION_ASIN:
+        return asin(a);
+    case EXPRESSION_ACOS:
+        return acos(a);
+    case EXPRESSION_ATAN:
+        return atan(a);
+    case EXPRESSION_SINH:
+        return sinh(a);
+    case EXPRESSION_COSH:
+        return cosh(a);
+    case EXPRESSION_TANH:
+        return tanh(a);
+    case EXPRESSION_EXP:
+        return exp(a);
+    case EXPRESSION_LOG:
+        return log(a);
+    case EXPRESSION_SQRT:
+        return sqrt(a);
+    case EXPRESSION_ABS:
+        return fabs(a);
+    case EXPRESSION_FLOOR:
+        return floor(a);
+    case EXPRESSION_SIGN:
+        return a > 0 ? 1 : a < 0 ? -1 : 0;
+    case EXPRESSION_STEP:
+        return a >= 0 ? 1 : 0;
+    case EXPRESSION_RAMP:
+        return ramp_of(a);
+    default:
+        return pulse_at(a);
     }
 }
 
 real expression_operate(enum expression_op op, real a, real b)
 {
     switch (op) {
-    case EXPRESSION_ADD: return a + b;
-    case EXPRESSION_SUBTRACT: return a - b;
-    case EXPRESSION_TIMES: return a * b;
-    case EXPRESSION_OVER: return a / b;
-    case EXPRESSION_POWER: return pow(a, b);
-    case EXPRESSION_ATAN2: return atan2(a, b);
-    case EXPRESSION_MIN: return real_min(a, b);
-    case EXPRESSION_MAX: return real_max(a, b);
-    default: return one_operand(op, a);
+    case EXPRESSION_ADD:
+        return a + b;
+    case EXPRESSION_SUBTRACT:
+        return a - b;
+    case EXPRESSION_TIMES:
+        return a * b;
+    case EXPRESSION_OVER:
+        return a / b;
+    case EXPRESSION_POWER:
+        return pow(a, b);
+    case EXPRESSION_ATAN2:
+        return atan2(a, b);
+    case EXPRESSION_MIN:
+        return real_min(a, b);
+    case EXPRESSION_MAX:
+        return real_max(a, b);
+    default:
+        return one_operand(op, a);
     }
 }
 
@@ -81,8 +110,8 @@ real expression_at(const struct expression *e, const real *X, int dim, real t)
 void expression_make(struct expression *e, const struct expression_step *step, int n, const char *text)
 {
     const size_t length = strlen(text) + 1;
-    *e = (struct expression){.n = n, .step = NEW("expression", n, struct expression_step),
-                             .text = NEW("expression", length, char)};
+    *e = (struct expression){
+        .n = n, .step = NEW("expression", n, struct expression_step), .text = NEW("expression", length, char)};
     array_copy(e->step, step, n, sizeof *step);
     memcpy(e->text, text, length);
     for (int k = 0; k < n; k++) {

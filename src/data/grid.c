@@ -8,7 +8,7 @@
 
 /* Nodes beyond the outermost point: reach of the widest shape and one cell of motion. */
 enum { MARGIN = 3 };
-#define NODE_FARTHEST 1e15               /* cells: farther, an index is no whole number of a double any more */
+#define NODE_FARTHEST 1e15 /* cells: farther, an index is no whole number of a double any more */
 
 static void grid_arrays_free(struct grid *g)
 {
@@ -62,13 +62,21 @@ status grid_cover(struct grid *g, const real *from, const real *to, int64_t most
     for (int d = 0; d < g->dim; d++) {
         first[d] = box_floor((int64_t)low[d] - MARGIN);
         end[d] = box_floor((int64_t)high[d] + MARGIN + BOX_STEP);
-        if (g->n > 0 && first[d] >= g->first[d]) first[d] = g->first[d]; else *changed = true;
-        if (g->n > 0 && end[d] <= g->first[d] + g->count[d]) end[d] = g->first[d] + g->count[d]; else *changed = true;
+        if (g->n > 0 && first[d] >= g->first[d])
+            first[d] = g->first[d];
+        else
+            *changed = true;
+        if (g->n > 0 && end[d] <= g->first[d] + g->count[d])
+            end[d] = g->first[d] + g->count[d];
+        else
+            *changed = true;
         nodes *= (real)(end[d] - first[d]);
     }
     if (!(nodes <= (real)most))
-        return status_set(FAILED, "the material points have spread so far that their grid would need %.3g nodes; "
-                                  "is the run unstable, or does a fragment fly away?", nodes);
+        return status_set(FAILED,
+                          "the material points have spread so far that their grid would need %.3g nodes; "
+                          "is the run unstable, or does a fragment fly away?",
+                          nodes);
     if (!*changed) return OK;
     if (g->n > 0) grid_arrays_free(g);
     for (int d = 0; d < g->dim; d++) {

@@ -252,7 +252,7 @@ bool hull_within(const struct hull *s, const real *X, real most)
     real size = 0, point[DIM_MAX];
     if (s->faces == 0) return most == INFINITY;
     for (int d = 0; d < s->dim; d++) size += s->node[0].high[d] - s->node[0].low[d] + fabs(X[d]);
-    const real limit2 = square(fabs(most) + 1e-9 * (fabs(most) + size));     /* by far more than round-off */
+    const real limit2 = square(fabs(most) + 1e-9 * (fabs(most) + size)); /* by far more than round-off */
     real r2 = limit2;
     nearest_face(s, X, point, &r2);
     const real distance = r2 < limit2 ? sqrt(r2) : INFINITY;

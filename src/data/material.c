@@ -24,9 +24,12 @@ real material_micro_modulus(const struct material *m, enum space space, real sig
 real material_micro_modulus_continuum(const struct material *m, enum space space, real horizon, real section)
 {
     switch (space_dim(space)) {
-    case 1: return 2 * m->bulk / (section * square(horizon));
-    case 2: return 12 * m->bulk / (pi * section * horizon * square(horizon));
-    default: return 18 * m->bulk / (pi * square(square(horizon)));
+    case 1:
+        return 2 * m->bulk / (section * square(horizon));
+    case 2:
+        return 12 * m->bulk / (pi * section * horizon * square(horizon));
+    default:
+        return 18 * m->bulk / (pi * square(square(horizon)));
     }
 }
 
@@ -35,17 +38,20 @@ static real critical_bond(const struct material *m, enum space space, real horiz
 {
     real ratio = m->energy_release_rate / (m->bulk * horizon);
     switch (space_dim(space)) {
-    case 1: return sqrt(3 * ratio);
-    case 2: return sqrt(pi / 3 * ratio);
-    default: return sqrt(5.0 / 9 * ratio);
+    case 1:
+        return sqrt(3 * ratio);
+    case 2:
+        return sqrt(pi / 3 * ratio);
+    default:
+        return sqrt(5.0 / 9 * ratio);
     }
 }
 
 real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model)
 {
     const real G = m->shear, dim = space_dim(space);
-    real stiffness = dim == 2 ? 6 * G / pi + 16 * (m->bulk - 2 * G) / (9 * pi * pi)
-                              : 3 * G + 81.0 / 256 * (m->bulk - 5 * G / 3);
+    real stiffness =
+        dim == 2 ? 6 * G / pi + 16 * (m->bulk - 2 * G) / (9 * pi * pi) : 3 * G + 81.0 / 256 * (m->bulk - 5 * G / 3);
     if (model == STRETCH_BOND) return critical_bond(m, space, horizon);
     return sqrt(m->energy_release_rate / (horizon * stiffness));
 }
@@ -63,8 +69,10 @@ static real rayleigh_speed(real longitudinal, real shear)
     real low = 0.5 * shear, high = shear;
     for (int k = 0; k < 60; k++) {
         real middle = 0.5 * (low + high);
-        if (rayleigh_function(middle, longitudinal, shear) > 0) low = middle;
-        else high = middle;
+        if (rayleigh_function(middle, longitudinal, shear) > 0)
+            low = middle;
+        else
+            high = middle;
     }
     return 0.5 * (low + high);
 }

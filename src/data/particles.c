@@ -23,8 +23,10 @@ static int if_strength(int dim, int optional) { return (void)dim, optional & WIT
 static int if_relief(int dim, int optional) { return optional & WITH_RELIEF ? symmetric_count(dim) : 0; }
 static int if_return(int dim, int optional) { return (void)dim, optional & WITH_REVERSION ? 1 : 0; }
 
-#define ROW(member, type, count, unit, meaning, in_trials) \
-    {#member, unit, meaning, offsetof(struct particles, member), sizeof(type), count, in_trials}
+#define ROW(member, type, count, unit, meaning, in_trials)                                                             \
+    {                                                                                                                  \
+#member, unit, meaning, offsetof(struct particles, member), sizeof(type), count, in_trials                     \
+    }
 #define FIELD(member, type, count, unit, meaning) ROW(member, type, count, unit, meaning, false)
 #define TRIAL(member, type, count, unit, meaning) ROW(member, type, count, unit, meaning, true)
 
@@ -215,7 +217,7 @@ void particles_sort(struct particles *p, real spacing, int optional)
     INVARIANT(p->n_all == p->n && spacing > 0);
     struct place *place = NEW("particles.place", p->n, struct place);
     find_places(p, spacing, place);
-    if (in_order(place, p->n)) {         /* one lattice is made in this order */
+    if (in_order(place, p->n)) { /* one lattice is made in this order */
         memory_free(place);
         particles_list(p);
         return;

@@ -87,8 +87,10 @@ static real table_at(const struct time_function *f, real t)
     if (!(t < f->t[k])) return f->value[k];
     while (k - low > 1) {
         const int middle = low + (k - low) / 2;
-        if (t < f->t[middle]) k = middle;
-        else low = middle;
+        if (t < f->t[middle])
+            k = middle;
+        else
+            low = middle;
     }
     const real share = (t - f->t[k - 1]) / (f->t[k] - f->t[k - 1]);
     return f->value[k - 1] + share * (f->value[k] - f->value[k - 1]);
@@ -100,11 +102,16 @@ real time_function_at(const struct time_function *f, real t)
     bool inside = f->from <= t && t < f->until;
     real share = inside ? (t - f->from) / (f->until - f->from) : 0;
     switch (f->kind) {
-    case TIME_STEP: return inside ? 1 : 0;
-    case TIME_PULSE: return inside ? square(sin(pi * share)) : 0;
-    case TIME_RAMP: return inside ? share : (t < f->from ? 0 : 1);
-    case TIME_TABLE: return table_at(f, t);
-    default: return 1;
+    case TIME_STEP:
+        return inside ? 1 : 0;
+    case TIME_PULSE:
+        return inside ? square(sin(pi * share)) : 0;
+    case TIME_RAMP:
+        return inside ? share : (t < f->from ? 0 : 1);
+    case TIME_TABLE:
+        return table_at(f, t);
+    default:
+        return 1;
     }
 }
 
@@ -128,14 +135,17 @@ real time_function_integral(const struct time_function *f, real t)
     const real length = f->until - f->from;
     const real past = real_min(real_max(t - f->from, 0), length), before = real_min(real_max(-f->from, 0), length);
     switch (f->kind) {
-    case TIME_STEP: return past - before;
+    case TIME_STEP:
+        return past - before;
     case TIME_PULSE:
         return 0.5 * (past - before) -
                length / (4 * pi) * (sin(2 * pi * past / length) - sin(2 * pi * before / length));
     case TIME_RAMP:
         return (square(past) - square(before)) / (2 * length) + real_max(t - real_max(f->until, 0), 0);
-    case TIME_TABLE: return table_integral(f, t);
-    default: return t;
+    case TIME_TABLE:
+        return table_integral(f, t);
+    default:
+        return t;
     }
 }
 
@@ -154,11 +164,16 @@ real time_function_steepest(const struct time_function *f, real t)
     static const real pi = 3.14159265358979323846;
     const bool meets = f->from < t && f->until > 0;
     switch (f->kind) {
-    case TIME_STEP: return (f->from > 0 && f->from <= t) || (f->until > 0 && f->until <= t) ? INFINITY : 0;
-    case TIME_PULSE: return meets ? pi / (f->until - f->from) : 0;
-    case TIME_RAMP: return meets ? 1 / (f->until - f->from) : 0;
-    case TIME_TABLE: return table_steepest(f, t);
-    default: return 0;
+    case TIME_STEP:
+        return (f->from > 0 && f->from <= t) || (f->until > 0 && f->until <= t) ? INFINITY : 0;
+    case TIME_PULSE:
+        return meets ? pi / (f->until - f->from) : 0;
+    case TIME_RAMP:
+        return meets ? 1 / (f->until - f->from) : 0;
+    case TIME_TABLE:
+        return table_steepest(f, t);
+    default:
+        return 0;
     }
 }
 
@@ -191,8 +206,7 @@ static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
     real area[DIM_MAX], zero[DIM_MAX] = {0};
     crack_area_vector(c, area);
     plane->length = 0;
-    for (int k = 1; k < c->n; k++)
-        plane->length = real_max(plane->length, distance_to(c->corner[0], c->corner[k], 3));
+    for (int k = 1; k < c->n; k++) plane->length = real_max(plane->length, distance_to(c->corner[0], c->corner[k], 3));
     return direction(zero, area, 3, plane->normal) > 0;
 }
 
@@ -204,13 +218,14 @@ static bool crack_plane(const struct crack *c, const real *a, const real *b, int
     switch (dim) {
     case 1:
         plane->normal[0] = 1;
-        plane->length = fabs(b[0] - a[0]);   /* a point has no length of its own */
+        plane->length = fabs(b[0] - a[0]); /* a point has no length of its own */
         return true;
     case 2:
         plane->length = direction(c->corner[0], c->corner[1], 2, along);
         plane->normal[0] = -along[1], plane->normal[1] = along[0];
         return plane->length > 0;
-    default: return polygon_plane(c, plane);
+    default:
+        return polygon_plane(c, plane);
     }
 }
 
@@ -266,7 +281,7 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
     if (far_apart(c, a, b, dim)) return false;
     while (d < dim && a[d] == b[d]) d++;
     if (d == dim) return false;
-    if (a[d] > b[d]) {                   /* one order of the ends, so both directions give the same bits */
+    if (a[d] > b[d]) { /* one order of the ends, so both directions give the same bits */
         const real *other = a;
         a = b, b = other;
     }
@@ -275,14 +290,14 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
          snap = touch * plane.length;
     if ((above_a >= -snap) == (above_b >= -snap)) return false;
     if (dim == 1) return true;
-    real share = real_min(1, real_max(0, above_a / (above_a - above_b))), P[DIM_MAX];   /* snapped ends: stay between */
+    real share = real_min(1, real_max(0, above_a / (above_a - above_b))), P[DIM_MAX]; /* snapped ends: stay between */
     for (d = 0; d < dim; d++) P[d] = a[d] + share * (b[d] - a[d]);
     return dim == 2 ? segment_holds(c, &plane, P) : polygon_holds(c, &plane, P);
 }
 
 bool crack_near(const struct crack *c, const real *X, real reach, int dim)
 {
-    real far = -INFINITY, size = 0;     /* from the box round its corners; no tolerance above is larger than size/1e9 */
+    real far = -INFINITY, size = 0; /* from the box round its corners; no tolerance above is larger than size/1e9 */
     for (int d = 0; d < dim; d++) {
         real low = INFINITY, high = -INFINITY;
         for (int k = 0; k < c->n; k++) low = real_min(low, c->corner[k][d]), high = real_max(high, c->corner[k][d]);

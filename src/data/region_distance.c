@@ -8,7 +8,7 @@
 
 /* ---- index ------------------------------------------------------------------------------------------------------- */
 
-enum { RUN_LEAST = 8 };                  /* solids with which a tree is quicker */
+enum { RUN_LEAST = 8 }; /* solids with which a tree is quicker */
 
 /* Solids from `first` on that do the same as that. */
 static int run_length(const struct region *r, int first)

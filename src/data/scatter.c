@@ -37,8 +37,10 @@ static uint64_t hashed(uint64_t z, uint64_t with)
 /* A standard normal number of a hash. */
 static real noise_of(uint64_t hash) { return normal_quantile(((real)(hash >> 11) + 0.5) * 0x1p-53); }
 
-enum { NODES = 8 };                      /* along each direction, of a lattice of length/2: what is left out weighs
-                                          * exp(-8) of the largest */
+enum {
+    NODES = 8
+}; /* along each direction, of a lattice of length/2: what is left out weighs
+    * exp(-8) of the largest */
 
 /* Nodes around a coordinate [lengths/2]: the first one, and their weights. */
 static int64_t weights_along(real place, real weight[NODES])

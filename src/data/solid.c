@@ -44,7 +44,7 @@ static real box_support(const struct solid *s, const real *along, int dim)
 {
     real sum = 0;
     for (int d = 0; d < dim; d++)
-        if (along[d] != 0) sum += along[d] * (along[d] > 0 ? s->to[d] : s->from[d]);     /* 0 times inf is none */
+        if (along[d] != 0) sum += along[d] * (along[d] > 0 ? s->to[d] : s->from[d]); /* 0 times inf is none */
     return sum;
 }
 
@@ -121,7 +121,7 @@ static struct axis_place axis_place_of(const struct solid *s, const real *X)
     p.across = sqrt(r2);
     for (int d = 0; d < DIM_MAX && p.across > 0; d++) p.out[d] /= p.across;
     if (p.across > 0) return p;
-    int least = 0;                       /* on the axis: any direction across it */
+    int least = 0; /* on the axis: any direction across it */
     for (int d = 1; d < DIM_MAX; d++)
         if (fabs(p.axis[d]) < fabs(p.axis[least])) least = d;
     for (int d = 0; d < DIM_MAX; d++) p.out[d] = (d == least) - p.axis[least] * p.axis[d];
@@ -237,8 +237,8 @@ static real torus_from(const struct solid *s, const real *X, int dim, real *norm
 
 static real torus_support(const struct solid *s, const real *along, int dim)
 {
-    const real size2 = dot(along, along, dim), lengthwise2 = square(dot(along, s->normal, dim)) /
-                                                              dot(s->normal, s->normal, dim);
+    const real size2 = dot(along, along, dim),
+               lengthwise2 = square(dot(along, s->normal, dim)) / dot(s->normal, s->normal, dim);
     return dot(s->centre, along, dim) + s->radius * sqrt(real_max(0, size2 - lengthwise2)) + s->inner * sqrt(size2);
 }
 
@@ -366,8 +366,7 @@ static real voxels_reach(const struct solid *s, const real *along, int dim)
 {
     const struct voxels *v = s->voxels->of;
     real sum = 0;
-    for (int d = 0; d < dim; d++)
-        sum += along[d] * (v->from[d] + (along[d] > 0 ? (real)v->n[d] * v->size[d] : 0));
+    for (int d = 0; d < dim; d++) sum += along[d] * (v->from[d] + (along[d] > 0 ? (real)v->n[d] * v->size[d] : 0));
     return sum;
 }
 
@@ -407,8 +406,8 @@ real solid_radius(const struct solid *s, int dim)
 {
     real least = INFINITY;
     for (int d = 0; d < dim && s->kind == SOLID_ELLIPSOID; d++) least = real_min(least, s->radii[d]);
-    const bool is_round = s->kind == SOLID_BALL || s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE ||
-                          s->kind == SOLID_RING;
+    const bool is_round =
+        s->kind == SOLID_BALL || s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE || s->kind == SOLID_RING;
     return is_round ? s->radius : least;
 }
 
@@ -416,9 +415,12 @@ real solid_width(const struct solid *s, int dim)
 {
     switch (s->kind) {
     case SOLID_TUBE:
-    case SOLID_RING: return s->radius - s->inner;
-    case SOLID_TORUS: return 2 * s->inner;
-    default: return 2 * solid_radius(s, dim);
+    case SOLID_RING:
+        return s->radius - s->inner;
+    case SOLID_TORUS:
+        return 2 * s->inner;
+    default:
+        return 2 * solid_radius(s, dim);
     }
 }
 

@@ -66,8 +66,10 @@ static struct placement image_made(const struct placement *from, const struct so
         }
         return to;
     }
-    if (m->kind == MOTION_MIRROR) solid_reflection(m, dim, R);
-    else solid_rotation(m, m->kind == MOTION_RING ? k * m->angle : m->angle, dim, R);
+    if (m->kind == MOTION_MIRROR)
+        solid_reflection(m, dim, R);
+    else
+        solid_rotation(m, m->kind == MOTION_RING ? k * m->angle : m->angle, dim, R);
     const bool stays = (m->kind == MOTION_MIRROR && m->keep && k == 0) || (m->kind == MOTION_RING && k == 0);
     return stays ? to : image_turned(from, R, m->about, dim);
 }

@@ -17,7 +17,10 @@ static void minus2(const real *a, const real *b, real to[2])
 
 /* The nearest piece of the outline found so far: how far, and the normal that leads out of the polygon there, but at a
  * corner. */
-struct nearest { real r2, foot[2], normal[2]; bool at_corner; };
+struct nearest {
+    real r2, foot[2], normal[2];
+    bool at_corner;
+};
 
 /* Edge from a to b; corners go round in this sense. */
 static void edge_look(struct nearest *n, const real *a, const real *b, real sense, const real *X)
@@ -32,8 +35,8 @@ static void edge_look(struct nearest *n, const real *a, const real *b, real sens
     const real r2 = within == share && length2 > 0 ? square(across) : square(X[0] - foot[0]) + square(X[1] - foot[1]);
     if (!(r2 < n->r2)) return;
     const real length = length2 > 0 ? sqrt(length2) : 1;
-    *n = (struct nearest){r2, {foot[0], foot[1]}, {sense * along[1] / length, -sense * along[0] / length},
-                          within != share};
+    *n = (struct nearest){
+        r2, {foot[0], foot[1]}, {sense * along[1] / length, -sense * along[0] / length}, within != share};
 }
 
 /* Is a round corner one where the polygon is convex? */
@@ -64,8 +67,10 @@ static void bend_look(struct nearest *n, const struct polygon *p, int k, const r
     const real r = sqrt(dot(arm, arm, 2)), off = r - p->round;
     if (!(r > 0) || !(square(off) < n->r2) || !bend_faces(b, arm)) return;
     const real out = bend_convex(b, p->corner[k], p->sense) ? 1 : -1;
-    *n = (struct nearest){square(off), {b->centre[0] + arm[0] / r * p->round, b->centre[1] + arm[1] / r * p->round},
-                          {out * arm[0] / r, out * arm[1] / r}, false};
+    *n = (struct nearest){square(off),
+                          {b->centre[0] + arm[0] / r * p->round, b->centre[1] + arm[1] / r * p->round},
+                          {out * arm[0] / r, out * arm[1] / r},
+                          false};
 }
 
 /* Between a corner and its bend, where the polygons with sharp and with round corners differ? */
@@ -77,7 +82,7 @@ static bool bend_cuts(const struct polygon *p, int k, const real *X)
     if (dot(arm, arm, 2) <= square(p->round) || !bend_faces(b, arm)) return false;
     const real *corner[] = {b->from, p->corner[k], b->to};
     real first = 0;
-    for (int j = 0; j < 2; j++) {        /* inside both edges: towards the centre of them */
+    for (int j = 0; j < 2; j++) { /* inside both edges: towards the centre of them */
         real edge[2], off[2], to_centre[2];
         minus2(corner[j + 1], corner[j], edge);
         minus2(X, corner[j], off);
@@ -151,7 +156,7 @@ static bool edges_meet(const real *a, const real *b, const real *c, const real *
 /* Edges that do not follow one another must not meet; those that do must not fold back. */
 static enum polygon_fault polygon_check(const struct polygon *p, int *corner)
 {
-    real (*c)[2] = p->corner, one[2], two[2];
+    real(*c)[2] = p->corner, one[2], two[2];
     const int n = p->n;
     for (int k = 0; k < n; k++) {
         *corner = k;
@@ -205,8 +210,10 @@ static enum polygon_fault bends_make(struct polygon *p, int *corner)
     real *take = NEW("solids.bend", p->n, real);
     enum polygon_fault fault = POLYGON_FINE;
     for (int k = 0; k < p->n; k++) {
-        if (!is_straight(p, k)) take[k] = bend_make(p, k);
-        else for (int d = 0; d < 2; d++) p->bend[k].from[d] = p->bend[k].to[d] = p->bend[k].centre[d] = p->corner[k][d];
+        if (!is_straight(p, k))
+            take[k] = bend_make(p, k);
+        else
+            for (int d = 0; d < 2; d++) p->bend[k].from[d] = p->bend[k].to[d] = p->bend[k].centre[d] = p->corner[k][d];
     }
     for (int k = 0; k < p->n && fault == POLYGON_FINE; k++) {
         real edge[2];

@@ -13,7 +13,7 @@ static ALWAYS_INLINE int64_t block_of(int64_t k, const int64_t edge) { return (k
 
 /* The blocks that a grid's box touches. */
 struct block_shape {
-    int64_t first[DIM_MAX], blocks[DIM_MAX];   /* in blocks, counted from node 0 */
+    int64_t first[DIM_MAX], blocks[DIM_MAX]; /* in blocks, counted from node 0 */
     int dim;
     int64_t cells_in_block, n;
 };
@@ -88,10 +88,10 @@ struct sorting {
     const int32_t *list;
     int64_t n;
     int chunks;
-    int32_t *rank;                       /* [blocks]                                                 */
-    int32_t *fill;                       /* [chunks][blocks] how many; then where the next one goes  */
-    int32_t *key, *bucket;               /* [n] rank of a point's block; points by that              */
-    uint16_t *inside, *sorted;           /* [n] cell in the block; the same by rank                  */
+    int32_t *rank;             /* [blocks]                                                 */
+    int32_t *fill;             /* [chunks][blocks] how many; then where the next one goes  */
+    int32_t *key, *bucket;     /* [n] rank of a point's block; points by that              */
+    uint16_t *inside, *sorted; /* [n] cell in the block; the same by rank                  */
 };
 
 static int64_t chunk_start(const struct sorting *s, int chunk) { return s->n * chunk / s->chunks; }
@@ -129,9 +129,14 @@ static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const 
 static void find_blocks_of(const struct sorting *s, int chunk)
 {
     switch (s->shape.dim) {
-    case 1: find_blocks(s, chunk, 1); break;
-    case 2: find_blocks(s, chunk, 2); break;
-    default: find_blocks(s, chunk, 3);
+    case 1:
+        find_blocks(s, chunk, 1);
+        break;
+    case 2:
+        find_blocks(s, chunk, 2);
+        break;
+    default:
+        find_blocks(s, chunk, 3);
     }
 }
 

@@ -12,7 +12,11 @@
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
 /* A particle and its group. */
-struct member { real X[DIM_MAX]; int64_t place[DIM_MAX]; int32_t body, particle, off; };
+struct member {
+    real X[DIM_MAX];
+    int64_t place[DIM_MAX];
+    int32_t body, particle, off;
+};
 
 static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int body_b)
 {
@@ -48,7 +52,7 @@ static int64_t group_place(real u, bool odd)
 static struct member *members_sorted(const struct particles *p, real spacing, const real *middle, const int *one)
 {
     struct member *all = NEW("turning.sorted", p->n, struct member);
-    bool odd[DIM_MAX] = {false};                     /* a row of particles lies on the middle */
+    bool odd[DIM_MAX] = {false}; /* a row of particles lies on the middle */
     for (int d = 0; d < p->dim; d++) {
         real low, high;
         particles_extent(p, p->n, d, &low, &high);
@@ -81,8 +85,8 @@ static void groups_near(struct turning_groups *t, int32_t g)
     }
 }
 
-void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const real *middle,
-                  const int *one, const bool *held)
+void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const real *middle, const int *one,
+                  const bool *held)
 {
     struct member *all = members_sorted(p, spacing, middle, one);
     turning_free(t);
@@ -129,7 +133,8 @@ static void sum_mass(const struct turning_groups *t, struct turning_group *g, co
 {
     g->points = 0, g->mass = 0;
     memset(g->moment, 0, sizeof g->moment);
-    FOR_POINTS(t, g, p, i) {
+    FOR_POINTS(t, g, p, i)
+    {
         g->points++, g->mass += p->mass[i];
         for (int d = 0; d < p->dim; d++) g->moment[d] += p->mass[i] * p->x[d][i];
     }
@@ -139,7 +144,7 @@ static void sum_lack(const struct turning_groups *t, struct turning_group *g, co
 {
     memset(g->sum, 0, sizeof g->sum);
     FOR_POINTS(t, g, p, i)
-        for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) g->sum[c] += t->turn[c][i];
+    for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) g->sum[c] += t->turn[c][i];
 }
 
 static void arm_of(const struct particles *p, int32_t i, const struct turning_group *root, real *r)
@@ -162,7 +167,8 @@ static void sum_inertia(const struct turning_groups *t, struct turning_group *g,
     const struct turning_group *root = &t->group[g->root];
     real sum[3][3] = {{0}}, r[DIM_MAX];
     memset(g->sum, 0, sizeof g->sum);
-    FOR_POINTS(t, g, p, i) {
+    FOR_POINTS(t, g, p, i)
+    {
         arm_of(p, i, root, r);
         spin_add(p, i, r, g->sum);
         for (int a = 0; a < 3; a++)
@@ -177,7 +183,8 @@ static void gain(const struct turning_groups *t, struct turning_group *g, struct
     const struct turning_group *root = &t->group[g->root];
     real r[DIM_MAX];
     memset(g->sum, 0, sizeof g->sum);
-    FOR_POINTS(t, g, p, i) {
+    FOR_POINTS(t, g, p, i)
+    {
         arm_of(p, i, root, r);
         for (int d = 0; d < p->dim; d++)
             p->v[d][i] += root->spin[(d + 1) % 3] * r[(d + 2) % 3] - root->spin[(d + 2) % 3] * r[(d + 1) % 3];
@@ -189,7 +196,7 @@ static void tell(struct turning_groups *t, const struct turning_group *g, const 
 {
     const struct turning_group *root = &t->group[g->root];
     FOR_POINTS(t, g, p, i)
-        for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) t->turn[c][i] = root->spin[c];
+    for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) t->turn[c][i] = root->spin[c];
 }
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
@@ -305,8 +312,8 @@ void turning_begin(struct turning_groups *t, struct particles *p, real spacing)
 void turning_share(struct turning_groups *t, struct particles *p)
 {
     EACH_GROUP(sum_lack(t, &t->group[g], p));
-    spins_find(t, p->dim);                           /* what they gain */
+    spins_find(t, p->dim); /* what they gain */
     EACH_GROUP(gain(t, &t->group[g], p));
-    spins_find(t, p->dim);                           /* what they have */
+    spins_find(t, p->dim); /* what they have */
     EACH_GROUP(tell(t, &t->group[g], p));
 }

@@ -5,9 +5,9 @@
 
 #include "base/memory.h"
 
-#define SEAM 1e-5                        /* half the width of the widest gap that counts as closed [spacings] */
-#define STEP_FINE 1e-6                   /* least step along a line, as a share of its length, of the first steps ... */
-#define STEP_COARSE 1e-3                 /* ... and of later ones: lines along faces inside the shape */
+#define SEAM 1e-5        /* half the width of the widest gap that counts as closed [spacings] */
+#define STEP_FINE 1e-6   /* least step along a line, as a share of its length, of the first steps ... */
+#define STEP_COARSE 1e-3 /* ... and of later ones: lines along faces inside the shape */
 enum { FINE_STEPS = 400 };
 
 bool region_has_image(const struct region *r)
@@ -26,8 +26,10 @@ static bool solid_convex(const struct solid *s)
     case SOLID_CYLINDER:
     case SOLID_HALF_SPACE:
     case SOLID_ELLIPSOID:
-    case SOLID_CONE: return s->images <= 1;
-    default: return false;
+    case SOLID_CONE:
+        return s->images <= 1;
+    default:
+        return false;
     }
 }
 
@@ -55,7 +57,10 @@ static real void_level(const struct voids *v, int body, const real *X)
 }
 
 /* A line from a place of a body on: `way` [m] along unit vector `along`. */
-struct void_line { const real *from; real along[DIM_MAX], way; };
+struct void_line {
+    const real *from;
+    real along[DIM_MAX], way;
+};
 
 static void line_place(const struct voids *v, const struct void_line *l, real at, real *X)
 {
@@ -98,7 +103,7 @@ bool voids_between(const struct voids *v, int body, const real *a, const real *b
     int first = 0;
     while (first < dim && a[first] == b[first]) first++;
     if (first == dim) return false;
-    if (a[first] > b[first]) return voids_between(v, body, b, a, across);        /* the same bits both ways */
+    if (a[first] > b[first]) return voids_between(v, body, b, a, across); /* the same bits both ways */
     for (int d = 0; d < dim; d++) there.way += square(b[d] - a[d]);
     there.way = back.way = sqrt(there.way);
     for (int d = 0; d < dim; d++) there.along[d] = (b[d] - a[d]) / there.way, back.along[d] = -there.along[d];

@@ -13,7 +13,7 @@
 #include "output/output.h"
 #include "run/say.h"
 
-#define FAR_AWAY 1e7                     /* [spacings], as too_far in fill.c */
+#define FAR_AWAY 1e7 /* [spacings], as too_far in fill.c */
 
 /* FAILED for a state that no run can have: a checkpoint with intact bytes may still hold one. Indices into arrays and
  * positions are checked before use. */

@@ -27,7 +27,7 @@ static bool has_peridynamics(const struct scene *s) { return s->method != METHOD
 static void make_limits(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
-    for (int a = 0; a < s->materials; a++)       /* a bond between two materials has the strength of the weaker one */
+    for (int a = 0; a < s->materials; a++) /* a bond between two materials has the strength of the weaker one */
         for (int b = 0; b < s->materials; b++)
             tables->pair_stretch[a * s->materials + b] =
                 real_min(s->material[a].critical_stretch, s->material[b].critical_stretch);
@@ -39,7 +39,7 @@ static void make_limits(const struct scene *s, struct material_tables *tables, s
         tables->pair_stretch[b * s->materials + a] = face->critical_stretch;
     }
     source->limit = (struct bond_limit){tables->pair_stretch, s->materials, s->last_force, 0};
-    if (scene_at_rest(s)) source->limit = bond_limit_never;    /* no bond breaks in a static solution */
+    if (scene_at_rest(s)) source->limit = bond_limit_never; /* no bond breaks in a static solution */
 }
 
 /* Yield of bonds by the material that yields first: s_y = sigma_y/E and H_b/k_e = H/E, its own curve in a bar. */
@@ -92,12 +92,12 @@ static void make_materials(const struct scene *s, struct material_tables *tables
         const struct material *given = &s->material[m];
         tables->wave_speed = real_max(tables->wave_speed, given->wave_speed);
         tables->elastic[m] = (struct elastic){.c11 = given->c11,
-                                                .c12 = given->c12,
-                                                .shear = given->shear,
-                                                .space = s->space,
-                                                .poisson = given->poisson,
-                                                .trigger = conversion_trigger(s, given),
-                                                .trigger_mean = conversion_trigger(s, given)};
+                                              .c12 = given->c12,
+                                              .shear = given->shear,
+                                              .space = s->space,
+                                              .poisson = given->poisson,
+                                              .trigger = conversion_trigger(s, given),
+                                              .trigger_mean = conversion_trigger(s, given)};
         if (!material_yields(given)) continue;
         tables->elastic[m].yield = given->yield_stress;
         tables->elastic[m].hardening = given->yield_hardening;
@@ -155,7 +155,7 @@ static status make_bonds(struct run *e, struct predecessor *before)
     }
     if (s->surface == SURFACE_MOMENTS && has_peridynamics(s)) TRY(run_surface_make(e));
     if (s->method == METHOD_ADAPTIVE) TRY(notch_convert(e));
-    if (before) engine_take_particles(e, before);    /* slits are those of the start, whatever has converted since */
+    if (before) engine_take_particles(e, before); /* slits are those of the start, whatever has converted since */
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
     if (before) engine_take_bonds(e, before);
     e->coupling->conversion.first_time = NAN;
@@ -164,7 +164,7 @@ static status make_bonds(struct run *e, struct predecessor *before)
     return OK;
 }
 
-#define DAMPING_SHARE_MOST (1.0 / 16)        /* interface_zone.h */
+#define DAMPING_SHARE_MOST (1.0 / 16) /* interface_zone.h */
 
 static void make_interface_damping_share(struct run *e)
 {
@@ -176,10 +176,10 @@ static void make_interface_damping_share(struct run *e)
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
 
 /* As measured on blocks of 10^6 particles: */
-#define BYTES_PER_PARTICLE 320.0         /* fields, cells, lists, its part of the grid, a frame being written */
+#define BYTES_PER_PARTICLE 320.0 /* fields, cells, lists, its part of the grid, a frame being written */
 /* implicit bonds: stencils at surfaces; bonds at cracks and at ends of lines are stored */
 #define BYTES_PER_BOND_LATTICE 3.0
-#define EXACT_MOST 6000.0             /* [spacings] places of longer bodies may be rounded (fill.c): bonds are stored */
+#define EXACT_MOST 6000.0 /* [spacings] places of longer bodies may be rounded (fill.c): bonds are stored */
 
 /* Share of its box from..to [m] that a shape fills, by evenly spaced places. */
 static real share_filled(const struct region *shape, const real *from, const real *to, int dim)
@@ -251,8 +251,7 @@ static status make_affordable(const struct run *e)
     return status_set(
         REFUSED,
         "about %.2g particles would need some %.2g GB, and %.2g can be had (%s); choose a larger particles.spacing",
-        particles_now(e->scene, &e->part, &longest), bytes * 1e-9, memory * 1e-9,
-        team_memory_limit());
+        particles_now(e->scene, &e->part, &longest), bytes * 1e-9, memory * 1e-9, team_memory_limit());
 }
 
 static void tables_free(struct material_tables *t)
@@ -310,8 +309,8 @@ static void make_contact(struct run *e)
     const struct scene *s = e->scene;
     const struct contact_law law = {
         .form = s->contact_form, .distance = s->contact_distance, .friction = s->contact_friction};
-    contact_make(e->contact, !scene_at_rest(s) && has_peridynamics(s) ? s->contact_between : CONTACT_NONE,
-                 law, s->contact_stiffness, &e->source, e->rigid->shape, e->rigid->body, s->rigids);
+    contact_make(e->contact, !scene_at_rest(s) && has_peridynamics(s) ? s->contact_between : CONTACT_NONE, law,
+                 s->contact_stiffness, &e->source, e->rigid->shape, e->rigid->body, s->rigids);
 }
 
 /* Materials, kernels, and the particles that are made. */
@@ -326,7 +325,7 @@ static status make_particles(struct run *e)
     if (!e->frame->hollow.absent) TRY(named(s, make_affordable(e)));
     TRY(fill_particles(&e->part, s, &e->frame->hollow, e->optional));
     strength_found(e);
-    return named(s, make_affordable(e));     /* with the actual number of particles */
+    return named(s, make_affordable(e)); /* with the actual number of particles */
 }
 
 /* What looks at the run: tips, growing cracks, probes. */
@@ -352,8 +351,10 @@ static status make_forces(struct run *e, struct predecessor *before)
     const struct scene *s = e->scene;
     TRY(named(s, frames_choose(e)));
     if (!scene_moves(s)) e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
-    if (scene_at_rest(s)) loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
-    else if (e->boundary) array_copy(e->boundary, s->boundary, s->boundaries, sizeof *e->boundary);
+    if (scene_at_rest(s))
+        loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
+    else if (e->boundary)
+        array_copy(e->boundary, s->boundary, s->boundaries, sizeof *e->boundary);
     TRY(named(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part, s->spacing,
                             e->source.family.cutoff, e->optional)));
     absorbing_make_all(e);
@@ -391,11 +392,17 @@ status engine_make_again(struct run *e, const struct scene *s, struct output *ou
     if (!before) TRY(named(s, frame_levels_make(e, false)));
     make_interface_damping_share(e);
     e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&
-                              s->contact_convert && body_apart(s, 1) + s->rigids >= 0 &&
-                              !coupling_unified(s->coupling);
-    e->grid->transfer = (struct transfer_data){
-        &e->grid->field[0].order, &e->coupling->partial, e->tables.elastic, 0.5 * s->spacing, e->clock.dt, e->clock.dt,
-        false, NULL, false, {NULL}};
+                              s->contact_convert && body_apart(s, 1) + s->rigids >= 0 && !coupling_unified(s->coupling);
+    e->grid->transfer = (struct transfer_data){&e->grid->field[0].order,
+                                               &e->coupling->partial,
+                                               e->tables.elastic,
+                                               0.5 * s->spacing,
+                                               e->clock.dt,
+                                               e->clock.dt,
+                                               false,
+                                               NULL,
+                                               false,
+                                               {NULL}};
     grid_turning_make(e);
     return make_probes(e);
 }

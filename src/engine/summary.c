@@ -48,8 +48,7 @@ static void put_warnings(struct json *j, const struct warnings *w)
 /* Bodies of bonds that have lost some. */
 static bool has_fragments(const struct scene *scene, const struct diagnostics *diagnostics)
 {
-    return scene->method == METHOD_PD && !scene_at_rest(scene) &&
-           (diagnostics->bonds_broken > 0 || scene->cracks > 0);
+    return scene->method == METHOD_PD && !scene_at_rest(scene) && (diagnostics->bonds_broken > 0 || scene->cracks > 0);
 }
 
 static void put_fragments(struct json *j, const struct fragments *f)

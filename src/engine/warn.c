@@ -42,7 +42,8 @@ static void warn_of_spin(const struct run *e, struct warnings *to)
     const struct scene *s = e->scene;
     if (scene_moves(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 && spins(s) &&
         e->grid->turning.groups == 0)
-        warnings_add(to, "mpm.transfer flip does not keep the spin of bodies in mpm.frame current: a plate of 20 x 10 "
+        warnings_add(to,
+                     "mpm.transfer flip does not keep the spin of bodies in mpm.frame current: a plate of 20 x 10 "
                      "points loses 7 %% of its angular momentum in 0.3 rad, 28 %% in half a turn, under stresses 100 "
                      "times too large; apic loses 2e-5");
 }
@@ -67,9 +68,11 @@ static void warn_of_method(const struct run *e, struct warnings *to)
     bool driven = false;
     for (int b = 0; b < s->boundaries; b++) driven |= s->boundary[b].kind == BOUNDARY_VELOCITY;
     if (driven && e->part.n_free > 0 && (s->shape == SHAPE_QUADRATIC || s->shape == SHAPE_CUBIC))
-        warnings_add(to, "mpm.shape %s beside fixed and driven particles: stress there comes out up to a third too "
+        warnings_add(to,
+                     "mpm.shape %s beside fixed and driven particles: stress there comes out up to a third too "
                      "large, displacements 2 to 3 %%; with a mirror in place of what holds the face, or shapes linear "
-                     "and gimp, they do not", s->shape == SHAPE_CUBIC ? "cubic" : "quadratic");
+                     "and gimp, they do not",
+                     s->shape == SHAPE_CUBIC ? "cubic" : "quadratic");
     if (s->method != METHOD_PD && s->cell < 1.5)
         warnings_add(
             to, "one point a cell (mpm.cell %.3g) leaves a zig-zag of 0.8 %% behind coupling interfaces; 2 is usual",
@@ -79,16 +82,18 @@ static void warn_of_method(const struct run *e, struct warnings *to)
 /* Keys of coarse cells and slits where there are none. */
 static void warn_of_idle_keys(const struct scene *s, const struct reference_frame *frame, struct warnings *to)
 {
-    const char *why = s->method == METHOD_PD              ? "method pd has no cells"
-                      : !scene_moves(s)      ? "a static solver has no use for coarse cells"
-                      : frame->mesh.points == 0     ? "no material points are in the reference frame"
-                                                          : NULL;
+    const char *why = s->method == METHOD_PD    ? "method pd has no cells"
+                      : !scene_moves(s)         ? "a static solver has no use for coarse cells"
+                      : frame->mesh.points == 0 ? "no material points are in the reference frame"
+                                                : NULL;
     const char *all = frame_hollow_obstacle(s);
     if (s->levels != LEVELS_AUTO && s->levels > 0 && why)
         warnings_add(to, "mpm.levels: %d has no effect, as %s; auto or 0 is expected", s->levels, why);
     if (s->fill == FILL_NEEDED && (why || all || frame->levels.n == 0))
         warnings_add(to, "mpm.fill: needed has no effect, all particles are made, as %s; auto or all is expected",
-                     why ? why : all ? all : "there are no coarse cells");
+                     why   ? why
+                     : all ? all
+                           : "there are no coarse cells");
     if (s->conversion.notch == NOTCH_SLIT && s->cracks > 0 && s->method != METHOD_ADAPTIVE)
         warnings_add(to, "conversion.notch: slit has no effect with method %s%s; auto is expected",
                      s->method == METHOD_PD ? "pd" : "mpm",
@@ -127,7 +132,8 @@ static void warn_of_probes(const struct scene *s, struct warnings *to)
     for (int m = 0; m < s->materials; m++) yields |= material_yields(&s->material[m]);
     for (int k = 0; k < s->probes && yields; k++)
         if (s->probe[k].kind == PROBE_SIF)
-            warnings_add(to, "probe %s: K_I, K_II and J are those of an elastic body; where a material yields within "
+            warnings_add(to,
+                         "probe %s: K_I, K_II and J are those of an elastic body; where a material yields within "
                          "its ring they mean nothing, and rings of other radii differ: contour_spread",
                          s->probe[k].name);
 }
@@ -136,8 +142,7 @@ static void warn_of_probes(const struct scene *s, struct warnings *to)
 static void warn_of_lists(const struct scene *s, struct warnings *to)
 {
     for (int b = 0; b < s->bodies; b++)
-        if (s->body[b].list.note[0])
-            warnings_add(to, "%.200s: %s", s->body[b].file, s->body[b].list.note);
+        if (s->body[b].list.note[0]) warnings_add(to, "%.200s: %s", s->body[b].file, s->body[b].list.note);
 }
 
 /* A field that is asked for by name, and that no frame will have. */

@@ -58,12 +58,12 @@ static void lone_count(const struct run *e, struct lone *lone)
 
 /* ---- lists without volumes --------------------------------------------------------------------------------------- */
 
-enum { SAMPLED = 128 };      /* particles of a list that are looked at */
-#define APART_MOST 1.25      /* [spacings] median distance of nearest neighbours; close packings have 1.12 */
-#define CROWDED_MOST 1.6     /* times the particles that a lattice has within NEAR */
-#define NEAR 2.5             /* [spacings] */
-#define ALIKE 0.01           /* share by which distances of nearest neighbours of a lattice differ: digits of lists */
-#define LATTICE_OFF 0.02     /* share by which the distance of a lattice may be off the spacing */
+enum { SAMPLED = 128 };  /* particles of a list that are looked at */
+#define APART_MOST 1.25  /* [spacings] median distance of nearest neighbours; close packings have 1.12 */
+#define CROWDED_MOST 1.6 /* times the particles that a lattice has within NEAR */
+#define NEAR 2.5         /* [spacings] */
+#define ALIKE 0.01       /* share by which distances of nearest neighbours of a lattice differ: digits of lists */
+#define LATTICE_OFF 0.02 /* share by which the distance of a lattice may be off the spacing */
 
 static int apart_order(const void *a, const void *b)
 {

@@ -31,7 +31,9 @@ static bool moves_freely(const struct run *e, int which, const bool *body, real 
         const struct load *l = &e->loads.load[b];
         const unsigned both = l->boundary->components & own->boundary->components;
         switch (l->boundary->kind) {
-        case BOUNDARY_ABSORBING: freely = false; break;
+        case BOUNDARY_ABSORBING:
+            freely = false;
+            break;
         case BOUNDARY_MIRROR:
             freely = !is_clamp(l->boundary, s->dim) && !(own->boundary->components >> l->boundary->axis & 1);
             break;
@@ -39,7 +41,8 @@ static bool moves_freely(const struct run *e, int which, const bool *body, real 
             freely = b == which || both == 0 || !load_meets(e->scene, &e->part, l, body) ||
                      loads_velocity_apart(own, l, &e->part, s->duration) <= slow;
             break;
-        default: break;
+        default:
+            break;
         }
     }
     return freely;
@@ -94,7 +97,8 @@ void engine_warn_of_speed(const struct run *e, struct warnings *to)
         const real jump = load_velocity_jump(l, &e->part, s->duration);
         if (!(speed > bears || jump > bears)) continue;
         bodies_mark(e->scene, &e->part, l, body);
-        if (isfinite(speed) && moves_freely(e, b, body, bears)) warn_of_change(e, b, body, bears, to);
+        if (isfinite(speed) && moves_freely(e, b, body, bears))
+            warn_of_change(e, b, body, bears, to);
         else if (speed > bears)
             warnings_add(to,
                          "boundary %s: its displacement grows by up to %.3g m/s; bonds beside it break at %.3g m/s, "

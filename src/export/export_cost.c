@@ -35,8 +35,7 @@ static struct duration duration_of(real seconds)
 void lammps_cost_write(FILE *to, const struct exported *x)
 {
     const struct bond_time t = bond_time_of(x->s);
-    const real there = x->bond_style ? t.there_bonds : t.there,
-               work = 2e-9 * (real)x->bonds * (real)x->e->clock.steps;
+    const real there = x->bond_style ? t.there_bonds : t.there, work = 2e-9 * (real)x->bonds * (real)x->e->clock.steps;
     const int cores = team_cores();
     fprintf(to, "%lld particles, %lld bonds, %lld steps of %.4g s: about %s on a core there, %s here\n",
             (long long)x->e->part.n, (long long)x->bonds, (long long)x->e->clock.steps, x->e->clock.dt,
@@ -48,5 +47,6 @@ void lammps_cost_write(FILE *to, const struct exported *x)
             ceil(cores * there / t.here), cores, cores == 1 ? "" : "s");
     fputs("Lost there: material points and conversion (all particles have bonds from start to end), the balance of\n"
           "energy, stress, crack tips and their speed, stress-intensity factors, probes, fragments, the same bits on\n"
-          "any number of ranks.\n", to);
+          "any number of ranks.\n",
+          to);
 }

@@ -40,12 +40,16 @@ static status load_carries(const struct load *load)
 {
     const struct boundary *b = load->boundary;
     const char *why = NULL;
-    if (b->kind == BOUNDARY_MIRROR) why = "LAMMPS has no planes of symmetry; the whole body is expected";
-    else if (b->kind == BOUNDARY_ABSORBING) why = "absorbing faces are not exported; a larger body is expected";
-    else if (!is_force(load) && b->kind != BOUNDARY_VELOCITY) why = "this kind of load is not exported to LAMMPS";
+    if (b->kind == BOUNDARY_MIRROR)
+        why = "LAMMPS has no planes of symmetry; the whole body is expected";
+    else if (b->kind == BOUNDARY_ABSORBING)
+        why = "absorbing faces are not exported; a larger body is expected";
+    else if (!is_force(load) && b->kind != BOUNDARY_VELOCITY)
+        why = "this kind of load is not exported to LAMMPS";
     else if (has_formula(b) || b->rotates)
         why = "formulas and rotation are not exported to LAMMPS; numbers and a function of time are expected";
-    else if (!function_carries(&b->time)) why = "this function of time is not exported to LAMMPS; a table is expected";
+    else if (!function_carries(&b->time))
+        why = "this function of time is not exported to LAMMPS; a table is expected";
     else if (b->time.kind == TIME_TABLE && b->time.n > TABLE_MOST)
         why = "LAMMPS would work out all of a table's values in every step; 500 are the most";
     return why ? status_set(REFUSED, "%s%s", b->place, why) : OK;

@@ -5,9 +5,9 @@
 #include "export_parts.h"
 #include "step/report.h"
 
-#define SKIN 0.3 /* of the neighbour list [spacings] */
+#define SKIN 0.3         /* of the neighbour list [spacings] */
 #define FRAMES_MOST 1000 /* at uneven steps: as terms of a variable */
-#define FAR 0.5  /* stretch at which ghosts of bonds that never break may be lost */
+#define FAR 0.5          /* stretch at which ghosts of bonds that never break may be lost */
 
 static real stretch_of(const struct exported *x, int a, int b)
 {

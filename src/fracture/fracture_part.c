@@ -12,7 +12,6 @@ static void fracture_free_all(struct run *e)
     memory_free(f->growth);
 }
 
-
 void cracks_notches(struct run *e)
 {
     if (e->coupling->notches.lost) tips_before(&e->fracture->tips, e->coupling->notches.lost);

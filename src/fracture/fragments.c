@@ -17,10 +17,12 @@ static void join_ends(int32_t *leader, const struct bonds *b, const struct parti
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         const int32_t i = p->list[KIND_PD][k];
         for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);) {
-            if (it.bond.w == 0 || it.bond.nbr >= p->n) continue;     /* images belong to other particles */
+            if (it.bond.w == 0 || it.bond.nbr >= p->n) continue; /* images belong to other particles */
             const int32_t one = stands_for(leader, i), other = stands_for(leader, it.bond.nbr);
-            if (one < other) leader[other] = one;
-            else leader[one] = other;
+            if (one < other)
+                leader[other] = one;
+            else
+                leader[one] = other;
         }
     }
 }

@@ -8,9 +8,9 @@
 #include "kernels/kernels.h"
 #include "base/memory.h"
 
-#define FASTEST 0.9                      /* of the Rayleigh speed: bound of the tip speed                     */
-#define SLOWEST 0.01                    /* of the Rayleigh speed: factors at rest and at this speed are equal to 1e-4 */
-#define SMOOTHING 0.3                    /* of the settling time                                              */
+#define FASTEST 0.9   /* of the Rayleigh speed: bound of the tip speed                     */
+#define SLOWEST 0.01  /* of the Rayleigh speed: factors at rest and at this speed are equal to 1e-4 */
+#define SMOOTHING 0.3 /* of the settling time                                              */
 
 void growth_make(struct growth *g, const struct growth_rule *rule)
 {
@@ -153,7 +153,7 @@ static void cross(struct growth *g, const struct bonds *b, struct particles *p, 
     const struct crack path = {.n = 2, .corner = corner};
     struct crack_list ways;
     cracks_mirrored(&ways, &path, 1, s->mirror, s->mirrors, s->family.cutoff, ON_SURFACE * s->family.spacing);
-    for (int w = 0; w < ways.n; w++) {           /* the path, and its images in mirrors nearby */
+    for (int w = 0; w < ways.n; w++) { /* the path, and its images in mirrors nearby */
         const struct crack *way = &ways.crack[w];
         int32_t *found;
         const int n = near_way(way->corner[0], way->corner[1], p, s, &found);

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-#define EQUAL_PLACE 1e-6 /* coordinates that differ by less are equal [reach] */
+#define EQUAL_PLACE 1e-6    /* coordinates that differ by less are equal [reach] */
 enum { LOOKED_AT = 16384 }; /* places beyond these are left out: pairs of them are compared */
 
 /* Places within reach of each other, across a direction. */

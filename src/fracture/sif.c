@@ -7,16 +7,22 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-#define AT_THE_TIP 1e-9                  /* of the contour: particles nearer to the tip or the crack count as on it */
+#define AT_THE_TIP 1e-9 /* of the contour: particles nearer to the tip or the crack count as on it */
 
 void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, real *slope)
 {
     const real width = c->outer - c->inner, z = real_max(0, real_min(1, (r - c->inner) / width));
     const bool ramp = r > c->inner && r < c->outer;
     switch (form) {
-    case SIF_LINEAR: *q = 1 - z, *slope = -1; break;
-    case SIF_CUBIC: *q = 1 - z * z * (3 - 2 * z), *slope = -6 * z * (1 - z); break;
-    default: *q = 1 - z * z * z * (10 - 15 * z + 6 * z * z), *slope = -30 * square(z * (1 - z)); break;
+    case SIF_LINEAR:
+        *q = 1 - z, *slope = -1;
+        break;
+    case SIF_CUBIC:
+        *q = 1 - z * z * (3 - 2 * z), *slope = -6 * z * (1 - z);
+        break;
+    default:
+        *q = 1 - z * z * z * (10 - 15 * z + 6 * z * z), *slope = -30 * square(z * (1 - z));
+        break;
     }
     *slope = ramp ? *slope / width : 0;
 }
@@ -62,12 +68,15 @@ real sif_density(const struct sif_tip *tip, const struct contour *c, const real 
 /* ---- particles round the tip ------------------------------------------------------------------------------------- */
 
 /* A particle in the local frame. */
-struct sif_point { real x[2], area; struct crack_state state; };
+struct sif_point {
+    real x[2], area;
+    struct crack_state state;
+};
 
 struct sif_points {
     const struct sif_tip *tip;
-    const struct contour *contour;       /* of the sum being made                                     */
-    bool inner;                          /* the second sum counts: of inertia, and of loads */
+    const struct contour *contour; /* of the sum being made                                     */
+    bool inner;                    /* the second sum counts: of inertia, and of loads */
     int64_t n;
     int32_t *particle;
     struct sif_point *point;

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#define HALVINGS 45                      /* bisections of a speed interval, to round-off of k */
-#define REST 0.01                        /* of c_s: below this speed the field is that of a crack at rest */
+#define HALVINGS 45 /* bisections of a speed interval, to round-off of k */
+#define REST 0.01   /* of c_s: below this speed the field is that of a crack at rest */
 
 static const real pi = 3.14159265358979323846;
 
@@ -15,10 +15,15 @@ struct crack_medium crack_medium_of(const struct material *m, enum space space)
     const real nu = m->poisson;
     const bool thin = space == SPACE_PLANE_STRESS;
     INVARIANT(space_dim(space) == 2);
-    return (struct crack_medium){
-        .shear = m->shear, .lambda = m->c12, .poisson = nu, .density = m->density,
-        .kappa = thin ? (3 - nu) / (1 + nu) : 3 - 4 * nu, .modulus = thin ? m->young : m->young / (1 - nu * nu),
-        .longitudinal = m->wave_speed, .shear_speed = m->shear_speed, .rayleigh = m->rayleigh_speed};
+    return (struct crack_medium){.shear = m->shear,
+                                 .lambda = m->c12,
+                                 .poisson = nu,
+                                 .density = m->density,
+                                 .kappa = thin ? (3 - nu) / (1 + nu) : 3 - 4 * nu,
+                                 .modulus = thin ? m->young : m->young / (1 - nu * nu),
+                                 .longitudinal = m->wave_speed,
+                                 .shear_speed = m->shear_speed,
+                                 .rayleigh = m->rayleigh_speed};
 }
 
 void crack_hooke(const struct crack_medium *m, real gradient[2][2], real stress[2][2])
@@ -98,7 +103,7 @@ void crack_field_moving(const struct crack_medium *m, enum crack_mode mode, real
                              bend = -0.25 / (root * z);
         for (int i = 0; i < 2; i++) {
             const bool real_part = (mode == MODE_I) == (i == 0);
-            const double complex unit = weight[i][w] * (real_part ? 1 : -I);     /* Im z = Re(-i z) */
+            const double complex unit = weight[i][w] * (real_part ? 1 : -I); /* Im z = Re(-i z) */
             f->displacement[i] += creal(unit * root);
             f->state.gradient[i][0] += creal(unit * slope);
             f->state.gradient[i][1] += creal(unit * I * a[w] * slope);
@@ -106,7 +111,7 @@ void crack_field_moving(const struct crack_medium *m, enum crack_mode mode, real
         }
     }
     crack_hooke(m, f->state.gradient, f->state.stress);
-    for (int i = 0; i < 2; i++) {        /* steady in the moving frame: d/dt = -v d/dx1 */
+    for (int i = 0; i < 2; i++) { /* steady in the moving frame: d/dt = -v d/dx1 */
         f->state.velocity[i] = -v * f->state.gradient[i][0];
         f->state.velocity_along[i] = -v * twice_along[i];
         f->state.acceleration[i] = v * v * twice_along[i];
@@ -115,8 +120,10 @@ void crack_field_moving(const struct crack_medium *m, enum crack_mode mode, real
 
 void crack_field(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2], struct crack_field *f)
 {
-    if (v < REST * m->shear_speed) crack_field_at_rest(m, mode, x, f);
-    else crack_field_moving(m, mode, v, x, f);
+    if (v < REST * m->shear_speed)
+        crack_field_at_rest(m, mode, x, f);
+    else
+        crack_field_moving(m, mode, v, x, f);
 }
 
 real crack_universal(const struct crack_medium *m, enum crack_mode mode, real v)
@@ -164,7 +171,7 @@ real crack_speed_of_factor(const struct crack_medium *m, real factor, real most)
     real low = 0, high = most;
     if (factor >= 1) return 0;
     if (factor_exact(m, most) >= factor) return most;
-    for (int k = 0; k < HALVINGS; k++) {             /* falls from 1 at rest to 0 at c_R */
+    for (int k = 0; k < HALVINGS; k++) { /* falls from 1 at rest to 0 at c_R */
         const real v = 0.5 * (low + high);
         *(factor_exact(m, v) > factor ? &low : &high) = v;
     }

@@ -4,9 +4,9 @@
 #include "base/memory.h"
 #include "fracture/sif.h"
 
-enum { QUADRATIC = 6, LINEAR = 3 };      /* terms of the complete polynomials in the plane */
+enum { QUADRATIC = 6, LINEAR = 3 }; /* terms of the complete polynomials in the plane */
 
-#define SINGULAR 1e-10                   /* pivot over the diagonal's entry: neighbours on a line, or on a conic */
+#define SINGULAR 1e-10 /* pivot over the diagonal's entry: neighbours on a line, or on a conic */
 
 /* ---- visibility across cracks ------------------------------------------------------------------------------------ */
 
@@ -173,8 +173,10 @@ void gradient_stencil_at(struct gradient_stencil *s, const struct gradient_rule 
         stencil_room(s, s->n);
         s->n = cells_near(c, p, X, support, -1, s->particle, s->room);
     }
-    if (rule->method == GRADIENT_MLS) stencil_mls(s, rule, p, i);
-    else stencil_pddo(s, rule, p, i);
+    if (rule->method == GRADIENT_MLS)
+        stencil_mls(s, rule, p, i);
+    else
+        stencil_pddo(s, rule, p, i);
     if (s->order == 0) s->n = 0;
 }
 

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "tips_parts.h"
 
-#define JOIN_JUMP 3.0                    /* growth at once by reaching another crack          [spacings] */
+#define JOIN_JUMP 3.0 /* growth at once by reaching another crack          [spacings] */
 
 void tips_free(struct tips *t)
 {
@@ -23,10 +23,10 @@ void tips_free(struct tips *t)
 struct flood {
     struct tips *t;
     struct tip_search search;
-    int32_t *fresh, *queue;              /* newly damaged, ascending; labelled, neighbours not yet visited */
+    int32_t *fresh, *queue; /* newly damaged, ascending; labelled, neighbours not yet visited */
     int64_t n_fresh, queued;
-    int into[TIPS_MAX];                  /* crack that each crack has become a part of, itself if none */
-    bool grown_by[TIPS_MAX];             /* another crack has become a part of it in this sample      */
+    int into[TIPS_MAX];      /* crack that each crack has become a part of, itself if none */
+    bool grown_by[TIPS_MAX]; /* another crack has become a part of it in this sample      */
 };
 
 static bool can_belong(const struct tips *t, const struct particles *p, int64_t i)
@@ -102,8 +102,10 @@ static void flood_run(struct flood *f)
         for (int k = 0; k < n; k++) {
             int32_t j = f->search.found[k];
             if (j >= p->n || p->body[j] != p->body[i]) continue;
-            if (can_belong(f->t, p, j)) flood_label(f, j, tip);
-            else if (f->t->label[j] != 0 && f->t->label[j] != TIP_BEFORE) flood_join(f, tip, f->t->label[j] - 1);
+            if (can_belong(f->t, p, j))
+                flood_label(f, j, tip);
+            else if (f->t->label[j] != 0 && f->t->label[j] != TIP_BEFORE)
+                flood_join(f, tip, f->t->label[j] - 1);
         }
     }
     f->queued = 0;
@@ -340,7 +342,7 @@ real tip_angle(const struct tip *tip, int dim)
     if (!(tip->growth > 0)) return NAN;
     real chord[DIM_MAX], edge2 = dot(tip->edge, tip->edge, dim), share = 0;
     for (int d = 0; d < dim; d++) chord[d] = tip->place[d] - tip->origin[d];
-    if (edge2 > 0) share = dot(chord, tip->edge, dim) / edge2;   /* chord of a front: its part across the front */
+    if (edge2 > 0) share = dot(chord, tip->edge, dim) / edge2; /* chord of a front: its part across the front */
     for (int d = 0; d < dim; d++) chord[d] -= share * tip->edge[d];
     real length = sqrt(dot(chord, chord, dim));
     if (!(length > 0)) return NAN;

@@ -29,7 +29,10 @@ static int64_t strip_at(const struct tips *t, const struct tip *tip, const real 
 }
 
 /* A damaged particle: the front of a pre-crack that is nearest to it, and how many spacings it is ahead; -1: none. */
-struct ahead { int tip; int64_t cell; };
+struct ahead {
+    int tip;
+    int64_t cell;
+};
 
 static struct ahead ahead_of(const struct tips *t, int body, const real *X)
 {

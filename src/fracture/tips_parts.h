@@ -4,11 +4,11 @@
 
 #include "fracture/tips.h"
 
-enum { TIP_BEFORE = 255 };               /* label of particles damaged by a pre-crack                 */
+enum { TIP_BEFORE = 255 }; /* label of particles damaged by a pre-crack                 */
 
-#define TIP_TOUCH 1.5                    /* particles of one crack touch within this      [spacings]  */
-#define TIP_START_REACH 2.5              /* first damaged particles from the crack's end  [spacings]  */
-#define TIP_EQUAL 1e-6                   /* lengths that differ by less are equal         [spacings]  */
+#define TIP_TOUCH 1.5       /* particles of one crack touch within this      [spacings]  */
+#define TIP_START_REACH 2.5 /* first damaged particles from the crack's end  [spacings]  */
+#define TIP_EQUAL 1e-6      /* lengths that differ by less are equal         [spacings]  */
 
 /* Peridynamic particles alone lose bonds, and stay peridynamic once they have: only their list is looked at. Most of
  * them are neither damaged nor part of a crack, and are skipped a piece of the list at a time. */
@@ -23,7 +23,10 @@ static inline int64_t tip_piece_end(const struct particles *p, int64_t first)
 static inline bool tip_piece_consecutive(const int32_t *at, int64_t n) { return at[n - 1] - at[0] == n - 1; }
 
 /* How far a crack reaches from its start [m], the place, its particles, ends that are as far within a spacing. */
-struct tip_reach { real farthest, place[DIM_MAX]; int64_t ends, particles; };
+struct tip_reach {
+    real farthest, place[DIM_MAX];
+    int64_t ends, particles;
+};
 
 /* Measures all cracks, into reach [TIPS_MAX], which is 0 before. */
 void tip_reaches(const struct tips *t, const struct particles *p, struct tip_reach *reach);
@@ -31,7 +34,7 @@ void tip_reaches(const struct tips *t, const struct particles *p, struct tip_rea
 struct tip_search {
     const struct particles *p;
     const struct cells *c;
-    int32_t *found;                      /* indices of the last search, body and images */
+    int32_t *found; /* indices of the last search, body and images */
     int room;
 };
 

@@ -40,7 +40,7 @@ struct ahead {
     const struct particles *p;
     struct tip_reach *reach;
     int64_t n[TIPS_MAX];
-    struct place *place[TIPS_MAX];       /* NULL: they are counted alone */
+    struct place *place[TIPS_MAX]; /* NULL: they are counted alone */
 };
 
 typedef void of_crack_fn(struct ahead *a, int32_t i, int tip);

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "tips_parts.h"
 
-#define AHEAD_REACH 1.2                  /* radius of the search for particles ahead of an end [spacings] */
+#define AHEAD_REACH 1.2 /* radius of the search for particles ahead of an end [spacings] */
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
@@ -66,12 +66,14 @@ struct tip *tip_add(struct tips *t, int body, const real *origin, const real *al
 {
     INVARIANT(t->n < TIPS_MAX);
     struct tip *tip = &t->tip[t->n++];
-    *tip = (struct tip){.body = body, .first_time = NAN, .start_time = NAN, .arrest_time = NAN,
-                        .speed_max = NAN, .speed_mean = NAN};
+    *tip = (struct tip){
+        .body = body, .first_time = NAN, .start_time = NAN, .arrest_time = NAN, .speed_max = NAN, .speed_mean = NAN};
     array_copy(tip->origin, origin, t->dim, sizeof *origin);
     array_copy(tip->place, origin, t->dim, sizeof *origin);
-    if (along) array_copy(tip->along, along, t->dim, sizeof *along);
-    else tip->along[0] = 1;
+    if (along)
+        array_copy(tip->along, along, t->dim, sizeof *along);
+    else
+        tip->along[0] = 1;
     return tip;
 }
 

@@ -116,13 +116,13 @@ struct builder {
     struct element_mesh *m;
     int dim, body_dim; /* of the space; of the elements that make the body */
     real scale;
-    real sagitta;    /* an edge is straight whose middle node is nearer to its chord [unit of the file] */
-    int pieces;      /* of a curved edge in space */
-    int64_t n; /* faces so far, by indices of nodes */
+    real sagitta; /* an edge is straight whose middle node is nearer to its chord [unit of the file] */
+    int pieces;   /* of a curved edge in space */
+    int64_t n;    /* faces so far, by indices of nodes */
     int32_t (*face)[DIM_MAX];
     int64_t patches; /* of meshes with middle nodes; they become faces by builder_curve */
     struct patch *patch;
-    int64_t file_nodes; /* nodes of the file; later ones lie on curved sides between the corners `parent` */
+    int64_t file_nodes;   /* nodes of the file; later ones lie on curved sides between the corners `parent` */
     int32_t (*parent)[4]; /* [node - file_nodes], -1: fewer */
 };
 

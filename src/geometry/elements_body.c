@@ -91,8 +91,8 @@ static struct patch patch_of(const struct builder *b, const struct element *e, c
     struct patch p = {.n = n, .corner = {-1, -1, -1, -1}, .middle = {-1, -1, -1, -1}, .centre = -1};
     const int32_t *middle = e->middle < 0 ? NULL : b->m->middle + e->middle;
     for (int c = 0; c < n; c++) {
-        const int from = turned ? corner[n - 1 - c] : corner[c], to = turned ? corner[(2 * n - 2 - c) % n]
-                                                                            : corner[(c + 1) % n];
+        const int from = turned ? corner[n - 1 - c] : corner[c],
+                  to = turned ? corner[(2 * n - 2 - c) % n] : corner[(c + 1) % n];
         const int edge = n > 1 ? edge_between(e->kind, from, to) : -1;
         p.corner[c] = e->node[from];
         if (middle && edge >= 0) p.middle[c] = middle[edge];

@@ -12,17 +12,17 @@ static const struct gmsh_type {
     int type;
     enum element_kind kind;
     int nodes, order;
-} types[] = {{15, ELEMENT_POINT, 1, 1},        {1, ELEMENT_LINE, 2, 1},         {8, ELEMENT_LINE, 3, 2},
-             {26, ELEMENT_LINE, 4, 3},         {27, ELEMENT_LINE, 5, 4},        {28, ELEMENT_LINE, 6, 5},
-             {2, ELEMENT_TRIANGLE, 3, 1},      {9, ELEMENT_TRIANGLE, 6, 2},     {20, ELEMENT_TRIANGLE, 9, 3},
-             {21, ELEMENT_TRIANGLE, 10, 3},    {22, ELEMENT_TRIANGLE, 12, 4},   {23, ELEMENT_TRIANGLE, 15, 4},
-             {24, ELEMENT_TRIANGLE, 15, 5},    {25, ELEMENT_TRIANGLE, 21, 5},   {3, ELEMENT_QUAD, 4, 1},
-             {10, ELEMENT_QUAD, 9, 2},         {16, ELEMENT_QUAD, 8, 2},        {4, ELEMENT_TETRAHEDRON, 4, 1},
+} types[] = {{15, ELEMENT_POINT, 1, 1},        {1, ELEMENT_LINE, 2, 1},          {8, ELEMENT_LINE, 3, 2},
+             {26, ELEMENT_LINE, 4, 3},         {27, ELEMENT_LINE, 5, 4},         {28, ELEMENT_LINE, 6, 5},
+             {2, ELEMENT_TRIANGLE, 3, 1},      {9, ELEMENT_TRIANGLE, 6, 2},      {20, ELEMENT_TRIANGLE, 9, 3},
+             {21, ELEMENT_TRIANGLE, 10, 3},    {22, ELEMENT_TRIANGLE, 12, 4},    {23, ELEMENT_TRIANGLE, 15, 4},
+             {24, ELEMENT_TRIANGLE, 15, 5},    {25, ELEMENT_TRIANGLE, 21, 5},    {3, ELEMENT_QUAD, 4, 1},
+             {10, ELEMENT_QUAD, 9, 2},         {16, ELEMENT_QUAD, 8, 2},         {4, ELEMENT_TETRAHEDRON, 4, 1},
              {11, ELEMENT_TETRAHEDRON, 10, 2}, {29, ELEMENT_TETRAHEDRON, 20, 3}, {30, ELEMENT_TETRAHEDRON, 35, 4},
-             {31, ELEMENT_TETRAHEDRON, 56, 5}, {5, ELEMENT_HEXAHEDRON, 8, 1},   {12, ELEMENT_HEXAHEDRON, 27, 2},
-             {17, ELEMENT_HEXAHEDRON, 20, 2},  {92, ELEMENT_HEXAHEDRON, 64, 3}, {93, ELEMENT_HEXAHEDRON, 125, 4},
-             {6, ELEMENT_PRISM, 6, 1},         {13, ELEMENT_PRISM, 18, 2},      {18, ELEMENT_PRISM, 15, 2},
-             {7, ELEMENT_PYRAMID, 5, 1},       {14, ELEMENT_PYRAMID, 14, 2},    {19, ELEMENT_PYRAMID, 13, 2}};
+             {31, ELEMENT_TETRAHEDRON, 56, 5}, {5, ELEMENT_HEXAHEDRON, 8, 1},    {12, ELEMENT_HEXAHEDRON, 27, 2},
+             {17, ELEMENT_HEXAHEDRON, 20, 2},  {92, ELEMENT_HEXAHEDRON, 64, 3},  {93, ELEMENT_HEXAHEDRON, 125, 4},
+             {6, ELEMENT_PRISM, 6, 1},         {13, ELEMENT_PRISM, 18, 2},       {18, ELEMENT_PRISM, 15, 2},
+             {7, ELEMENT_PYRAMID, 5, 1},       {14, ELEMENT_PYRAMID, 14, 2},     {19, ELEMENT_PYRAMID, 13, 2}};
 
 /* Places of Gmsh's nodes behind the corners among the middle nodes of an element (elements.h); the first lie on edges.
  * Also edges of higher order come in this order. -1: inside. */
@@ -41,15 +41,15 @@ enum { GROUPS_MAX = 16 }; /* that an entity may belong to */
 struct gmsh {
     struct source *s;
     struct element_mesh *m;
-    bool bytes, old;          /* numbers are bytes; format 2.2 */
-    struct label_map node;    /* its labels, once the nodes are read */
-    int64_t names; /* of physical groups */
+    bool bytes, old;       /* numbers are bytes; format 2.2 */
+    struct label_map node; /* its labels, once the nodes are read */
+    int64_t names;         /* of physical groups */
     struct group_name {
         int64_t dim, tag;
         char text[NAME_MAX_LENGTH];
     } * name;
-    int64_t links; /* entities and the physical groups that they belong to */
-    int64_t *entity, *group;  /* dimension and tag as one number; tag of the group */
+    int64_t links;           /* entities and the physical groups that they belong to */
+    int64_t *entity, *group; /* dimension and tag as one number; tag of the group */
     struct label_map of_entity;
     int64_t last_dim, last_tag; /* the group that was met last, and its set */
     int last_set;
@@ -107,8 +107,10 @@ static status check_straight(const struct gmsh *g, const struct gmsh_type *type,
     for (int d = 0; d < DIM_MAX; d++)
         along2 += square(b[d] - a[d]), arm2 += square(c[d] - a[d]), both += (b[d] - a[d]) * (c[d] - a[d]);
     if (arm2 * along2 - square(both) <= square(STRAIGHT * along2)) return OK;
-    return source_fault(g->s, "curved elements of order %d; the second order is read with its curves (gmsh -order 2 "
-                        "saves it)", type->order);
+    return source_fault(g->s,
+                        "curved elements of order %d; the second order is read with its curves (gmsh -order 2 "
+                        "saves it)",
+                        type->order);
 }
 
 /* Nodes of an element: corners, and of second-order elements those between them; edges of higher ones are straight. */

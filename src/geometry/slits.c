@@ -6,11 +6,17 @@
 #include "base/memory.h"
 #include "geometry/geometry.h"
 
-#define SAME 1e-6                        /* [length of a face] corners so near are in one place */
+#define SAME 1e-6 /* [length of a face] corners so near are in one place */
 
 /* A face of a mesh: its corners, centre and size. */
-struct sheet { real corner[DIM_MAX][DIM_MAX], centre[DIM_MAX], size; };
-struct sheets { int dim; int64_t n; struct sheet *at; };
+struct sheet {
+    real corner[DIM_MAX][DIM_MAX], centre[DIM_MAX], size;
+};
+struct sheets {
+    int dim;
+    int64_t n;
+    struct sheet *at;
+};
 
 static real corners_apart(const real *a, const real *b, int dim)
 {
@@ -95,7 +101,11 @@ static void segments_merge(struct sheets *s)
 /* ---- in space ---------------------------------------------------------------------------------------------------- */
 
 /* Faces of one plane: two directions in the plane, and the corners of the faces there. */
-struct flat { real from[3], u[3], v[3]; int n; real (*at)[2]; };
+struct flat {
+    real from[3], u[3], v[3];
+    int n;
+    real (*at)[2];
+};
 
 static void flat_axes(struct flat *f, const struct sheet *s)
 {
@@ -138,7 +148,7 @@ static int flat_round(struct flat *f, real (*corner)[2], real size, real *area)
             while (n >= first + 2 && flat_turn(corner[n - 2], corner[n - 1], next) <= SAME * square(size)) n--;
             corner[n][0] = next[0], corner[n++][1] = next[1];
         }
-        n--;                                             /* where the other side begins */
+        n--; /* where the other side begins */
     }
     *area = 0;
     for (int k = 1; k + 1 < n; k++) *area += 0.5 * flat_turn(corner[0], corner[k], corner[k + 1]);

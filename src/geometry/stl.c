@@ -97,8 +97,7 @@ static real extent_of(const struct element_mesh *m)
     real extent = 0;
     for (int d = 0; d < DIM_MAX; d++) {
         real low = m->node[0][d], high = low;
-        for (int64_t k = 1; k < m->nodes; k++)
-            low = real_min(low, m->node[k][d]), high = real_max(high, m->node[k][d]);
+        for (int64_t k = 1; k < m->nodes; k++) low = real_min(low, m->node[k][d]), high = real_max(high, m->node[k][d]);
         extent = real_max(extent, high - low);
     }
     return extent;

@@ -22,8 +22,7 @@ static bool active_points_is_inactive(const struct loads *l, const struct partic
 static int64_t active_points_cell_of(const struct grid *g, const struct particles *p, int32_t i)
 {
     int64_t I = 0;
-    for (int d = 0; d < g->dim; d++)
-        I += (grid_cell(g, d, p->x[d][i]) - g->first[d]) * g->stride[d];
+    for (int d = 0; d < g->dim; d++) I += (grid_cell(g, d, p->x[d][i]) - g->first[d]) * g->stride[d];
     return I;
 }
 
@@ -34,7 +33,7 @@ static void widen(const struct grid *g, const uint8_t *from, uint8_t *to, int ax
 #pragma omp parallel for schedule(static)
     for (int64_t line = 0; line < lines; line++) {
         const int64_t start = line / stride * stride * count + line % stride;
-        int64_t last = -reach - 1;                       /* marked so far */
+        int64_t last = -reach - 1; /* marked so far */
         for (int64_t k = 0; k < count; k++) {
             if (from[start + k * stride]) last = k;
             to[start + k * stride] = k - last <= reach;
@@ -102,9 +101,9 @@ static void active_points_take(struct active_points *r, const struct transfer_or
 }
 
 const struct transfer_order *active_points_update(struct active_points *r, const struct transfer_order *all,
-                                              const struct transfer_order *now, const struct particles *p,
-                                              const struct grid *grid, const struct bonds *b, const struct loads *l,
-                                              enum shape shape, enum transfer transfer)
+                                                  const struct transfer_order *now, const struct particles *p,
+                                                  const struct grid *grid, const struct bonds *b, const struct loads *l,
+                                                  enum shape shape, enum transfer transfer)
 {
     const int64_t reach = active_points_reach_of(grid, shape, transfer);
     make_room(r, grid);

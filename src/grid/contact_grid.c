@@ -13,12 +13,14 @@
 #include "base/memory.h"
 #include "grid/contact_grid.h"
 
-#define AROUND 2                         /* cells, over which normals are smoothed */
+#define AROUND 2 /* cells, over which normals are smoothed */
 
 /* ---- where two bodies meet --------------------------------------------------------------------------------------- */
 
 /* Nodes that two grids share, counted from the anchor. */
-struct shared { int64_t first[DIM_MAX], count[DIM_MAX], n; };
+struct shared {
+    int64_t first[DIM_MAX], count[DIM_MAX], n;
+};
 
 /* Nodes that points of both may have reached; none: false. */
 static bool shared_find(struct shared *s, const struct grid_side *a, const struct grid_side *b)
@@ -54,8 +56,7 @@ static real slope_of(const struct grid *g, int64_t I, int d)
 /* Difference of the gradients of both masses, from a to b [kg]. */
 static void leaning_find(struct grid_contact_node *node, const struct grid *a, const struct grid *b)
 {
-    for (int d = 0; d < a->dim; d++)
-        node->leaning[d] = slope_of(b, node->at[1], d) - slope_of(a, node->at[0], d);
+    for (int d = 0; d < a->dim; d++) node->leaning[d] = slope_of(b, node->at[1], d) - slope_of(a, node->at[0], d);
 }
 
 static struct grid_contact_node *node_add(struct grid_contact *c)
@@ -157,7 +158,7 @@ void grid_contact_make(struct grid_contact *c, int sides)
 void grid_side_make(struct grid_side *a, struct grid *g, const struct transfer_order *order, const struct particles *p)
 {
     *a = (struct grid_side){.grid = g, .order = order};
-    for (int d = 0; d < DIM_MAX; d++) a->from[d] = INT32_MAX, a->to[d] = INT32_MIN;    /* nothing yet */
+    for (int d = 0; d < DIM_MAX; d++) a->from[d] = INT32_MAX, a->to[d] = INT32_MIN; /* nothing yet */
     for (int32_t cell = 0; cell < order->cells; cell++)
         for (int d = 0; d < g->dim; d++) {
             const int64_t k = grid_cell(g, d, p->x[d][order->particle[order->cell_start[cell]]]);

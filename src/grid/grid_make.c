@@ -51,8 +51,10 @@ static void make_fields(const struct scene *s, struct grid_method *grid)
 static real shape_reach(const struct scene *s)
 {
     const real cell = s->cell * s->spacing;
-    return s->shape == SHAPE_LINEAR ? 0 : s->shape == SHAPE_CUBIC ? cell : s->shape == SHAPE_QUADRATIC ? 0.5 * cell
-                                                                                                : 0.5 * s->spacing;
+    return s->shape == SHAPE_LINEAR      ? 0
+           : s->shape == SHAPE_CUBIC     ? cell
+           : s->shape == SHAPE_QUADRATIC ? 0.5 * cell
+                                         : 0.5 * s->spacing;
 }
 
 /* The lower corner of the body is that of the first shape, or of the particles of a list. */
@@ -85,11 +87,11 @@ void grid_part_make(struct run *e, bool meshed)
     }
     grid_contact_free(&e->grid->contact);
     e->grid->contact = (struct grid_contact){.friction = s->contact_friction,
-                                           .spacing = s->spacing,
-                                           .half_width = shape_reach(s),
-                                           .smallest_mass = e->grid->smallest_mass,
-                                           .began = NAN,
-                                           .ended = NAN};
+                                             .spacing = s->spacing,
+                                             .half_width = shape_reach(s),
+                                             .smallest_mass = e->grid->smallest_mass,
+                                             .began = NAN,
+                                             .ended = NAN};
     grid_contact_make(&e->grid->contact, e->grid->fields);
     e->grid->sort_needed = true;
 }

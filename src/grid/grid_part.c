@@ -23,7 +23,8 @@ static void warn_of_mirrors(const struct run *e, struct warnings *to)
     for (int b = 0; b < s->boundaries; b++)
         if (s->method != METHOD_PD && s->boundary[b].kind == BOUNDARY_MIRROR &&
             !mirror_on_nodes(&s->boundary[b], &e->grid->field[0].grid, s->spacing))
-            warnings_add(to, "the mirror of boundary %s stands neither on a node of the grid nor half-way between "
+            warnings_add(to,
+                         "the mirror of boundary %s stands neither on a node of the grid nor half-way between "
                          "two: errors of 15 to 20 %%, and refinement helps little; mpm.origin or mpm.cell can move the "
                          "nodes",
                          s->boundary[b].name);

@@ -38,14 +38,16 @@ static status field_sort(struct run *e, struct grid_field *f, bool *lost)
     const int32_t *list = f->list ? f->list : p->list_free;
     const int64_t n = f->list ? f->n : p->n_free;
     for (int k = 0; k < KINDS; k++)
-        if (k == KIND_MPM) bounds_widen(p, list, n, from, to);
-        else if (coupling_unified(e->coupling_kind)) bounds_widen(p, p->list[k], p->n_of[k], from, to);
+        if (k == KIND_MPM)
+            bounds_widen(p, list, n, from, to);
+        else if (coupling_unified(e->coupling_kind))
+            bounds_widen(p, p->list[k], p->n_of[k], from, to);
     for (int d = 0; d < p->dim && (n > 0 || !f->list); d++)
         if (!isfinite(to[d] - from[d])) {
             *lost = true;
             return OK;
         }
-    int64_t most = 64 * p->n + 1000000;          /* far more than any sound run needs; an index is 32 bits */
+    int64_t most = 64 * p->n + 1000000; /* far more than any sound run needs; an index is 32 bits */
     if (n > 0 || !f->list) TRY(grid_cover(&f->grid, from, to, most < INT32_MAX ? most : INT32_MAX, &changed));
     transfer_order_sort(&f->order, p, list, n, &f->grid);
     return OK;
@@ -124,8 +126,7 @@ static struct grid_side *meeting_find(struct grid_method *mpm, struct particles 
 {
     if (mpm->fields < 2) return NULL;
     struct grid_side *side = NEW("engine.sides", mpm->fields, struct grid_side);
-    for (int k = 0; k < mpm->fields; k++)
-        grid_side_make(&side[k], &mpm->field[k].grid, &mpm->field[k].order, part);
+    for (int k = 0; k < mpm->fields; k++) grid_side_make(&side[k], &mpm->field[k].grid, &mpm->field[k].order, part);
     grid_contact_find(&mpm->contact, side, part);
     return side;
 }
@@ -152,8 +153,10 @@ static void grids_remap(struct run *e, const struct grid_side *side)
     const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
     for (int k = 0; k < e->grid->fields; k++) {
         const struct transfer_data own = field_data(e->grid, k);
-        if (e->grid->turning.groups == 0) e->kernels.remap(&e->grid->field[k].grid, &e->part, &own);
-        else e->kernels.turn_gather(&e->grid->field[k].grid, &e->part, &own);
+        if (e->grid->turning.groups == 0)
+            e->kernels.remap(&e->grid->field[k].grid, &e->part, &own);
+        else
+            e->kernels.turn_gather(&e->grid->field[k].grid, &e->part, &own);
     }
     if (e->grid->turning.groups > 0) turning_share(&e->grid->turning, &e->part);
     for (int k = 0; k < e->grid->fields && e->grid->turning.groups > 0; k++) {
@@ -184,11 +187,11 @@ void grid_step(struct run *e, real middle)
     int64_t moved = 0;
     if (!grid_holds(&e->part)) return;
     struct grid_side *side = meeting_find(e->grid, &e->part);
-    grids_move(e, side, middle, e->grid->transfer.dt_velocity);             /* 3: nodes move */
+    grids_move(e, side, middle, e->grid->transfer.dt_velocity); /* 3: nodes move */
     lap(&e->laps, LAP_GRID);
-    if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side);          /* 4, 6: velocity; momentum back to nodes */
+    if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side); /* 4, 6: velocity; momentum back to nodes */
     if (side) grid_contact_clock(&e->grid->contact, e->clock.t);
-    for (int k = 0; k < e->grid->fields; k++) {                             /* 4, 7: position, strain, stress */
+    for (int k = 0; k < e->grid->fields; k++) { /* 4, 7: position, strain, stress */
         const struct transfer_data own = field_data(e->grid, k);
         moved += e->kernels.g2p(&e->grid->field[k].grid, p, &own);
     }

@@ -29,8 +29,7 @@ static void turning_middle(const struct particles *part, const struct scene *sce
         middle[d] = 0.5 * (low + high);
     }
     for (int b = 0; b < scene->boundaries; b++)
-        if (scene->boundary[b].kind == BOUNDARY_MIRROR)
-            middle[scene->boundary[b].axis] = scene->boundary[b].at;
+        if (scene->boundary[b].kind == BOUNDARY_MIRROR) middle[scene->boundary[b].axis] = scene->boundary[b].at;
 }
 
 void grid_turning_make(struct run *e)

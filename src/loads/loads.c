@@ -34,8 +34,7 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     l->n = n;
     l->spacing = spacing;
     l->load = NEW("loads.load", n, struct load);
-    for (int b = 0; b < n; b++)
-        TRY(status_at(boundary[b].place, load_select(&l->load[b], &boundary[b], p, spacing)));
+    for (int b = 0; b < n; b++) TRY(status_at(boundary[b].place, load_select(&l->load[b], &boundary[b], p, spacing)));
     for (int b = 0; b < n; b++)
         TRY(status_at(boundary[b].place, load_select_pressure(&l->load[b], boundary, n, b, p, spacing)));
     for (int b = 0; b < n; b++) TRY(status_at(boundary[b].place, load_formula_make(&l->load[b], p)));
@@ -98,7 +97,7 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
             if (!(components >> d & 1)) continue;
             const real target = driving_at(by, X, d, false), before = p->v[d][i];
             real needed = p->mass[i] * (target - before) / dt_velocity, reaction = needed - p->f[d][i];
-            load->reaction[d] -= p->f[d][i];     /* without the driven particles' own inertia: what a load cell reads */
+            load->reaction[d] -= p->f[d][i]; /* without the driven particles' own inertia: what a load cell reads */
             if (b->frozen && drives_by_place(b)) load->held_work -= p->f[d][i] * (p->x[d][i] - p->X[d][i]);
             p->f[d][i] = needed;
             given[d] += reaction * dt_velocity;
@@ -109,7 +108,10 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
     l->constraint_work += work;
 }
 
-struct force_sum { const struct particles *p; int component; };
+struct force_sum {
+    const struct particles *p;
+    int component;
+};
 
 /* Sum of a force component over a block, in eight partial sums: additions to a single sum would wait for each other. */
 static void loads_force_block(const void *context, int64_t first, int64_t end, real *sum)
@@ -170,7 +172,7 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
     }
     loads_push(l, p, t, dt_velocity);
     loads_absorb(l, p, dt_velocity);
-    for (int c = 0; c < l->n; c++) {         /* after all forces, which reactions contain */
+    for (int c = 0; c < l->n; c++) { /* after all forces, which reactions contain */
         struct load *load = &l->load[c];
         if (load->boundary->kind != BOUNDARY_VELOCITY && load->boundary->kind != BOUNDARY_MIRROR) continue;
         const struct driving by = loads_driving(l, c, p->dim, t, dt);
@@ -188,7 +190,7 @@ static void hold(struct loads *l, const struct load *load, struct particles *p, 
     for (int64_t k = 0; k < load->n; k++) {
         int32_t i = load->particle[k];
         real X[DIM_MAX];
-        if (!particle_on_grid(p, i) || p->flag[i] & FLAG_MESHED) continue;      /* the mesh constrains nodes */
+        if (!particle_on_grid(p, i) || p->flag[i] & FLAG_MESHED) continue; /* the mesh constrains nodes */
         particle_place(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(b->components >> d & 1)) continue;
@@ -230,7 +232,7 @@ void loads_react(struct loads *l, const struct grid *g, real dt_velocity)
 {
     const real inverse = 1 / dt_velocity;
     loads_absorbed(l, &g->absorbed);
-    for (int64_t q = 0; q < g->walls;) {         /* walls of one load and component are consecutive */
+    for (int64_t q = 0; q < g->walls;) { /* walls of one load and component are consecutive */
         const struct wall first = g->wall[q];
         real sum = 0;
         for (; q < g->walls && g->wall[q].load == first.load && g->wall[q].component == first.component; q++)
@@ -278,7 +280,7 @@ status loads_archive(struct loads *l, struct archive *a)
         snprintf(name, sizeof name, "loads/displacement%d", b);
         ARCHIVE_VALUE(a, name, l->load[b].displacement);
         snprintf(name, sizeof name, "loads/reaction%d", b);
-        ARCHIVE_VALUE(a, name, l->load[b].reaction);   /* reaction of the last step, for samples before the next step */
+        ARCHIVE_VALUE(a, name, l->load[b].reaction); /* reaction of the last step, for samples before the next step */
     }
     return OK;
 }

@@ -15,10 +15,12 @@ static bool is_absorbing(const struct load *l) { return l->boundary->kind == BOU
 static bool absorb_same(const struct load *a, const struct load *b)
 {
     if (a->boundary->face != b->boundary->face || a->boundary->side != b->boundary->side) return false;
-    for (int64_t k = 0, m = 0; k < a->n && m < b->n;) {          /* both ascend */
+    for (int64_t k = 0, m = 0; k < a->n && m < b->n;) { /* both ascend */
         if (a->particle[k] == b->particle[m] && a->outer[k] > 0 && b->outer[m] > 0) return true;
-        if (a->particle[k] < b->particle[m]) k++;
-        else m++;
+        if (a->particle[k] < b->particle[m])
+            k++;
+        else
+            m++;
     }
     return false;
 }
@@ -39,9 +41,10 @@ static status absorbing_mirrors_check(const struct loads *l, const struct partic
         for (int m = 0; m < l->n; m++) {
             const struct boundary *one = l->load[b].boundary, *mirror = l->load[m].boundary;
             if (!is_absorbing(&l->load[b]) || !absorbs_in_mirror(&l->load[b], &l->load[m], p, l->spacing)) continue;
-            return status_at(one->place, status_set(REFUSED, "boundary %s: the body goes on behind mirror %s at this "
-                                                    "face; a face of the whole body is expected to absorb", one->name,
-                                                    mirror->name));
+            return status_at(one->place, status_set(REFUSED,
+                                                    "boundary %s: the body goes on behind mirror %s at this "
+                                                    "face; a face of the whole body is expected to absorb",
+                                                    one->name, mirror->name));
         }
     return OK;
 }
@@ -54,8 +57,10 @@ status loads_absorbing_check(const struct loads *l, const struct particles *p)
             const struct boundary *one = l->load[a].boundary, *other = l->load[b].boundary;
             const bool both = is_absorbing(&l->load[a]) && is_absorbing(&l->load[b]);
             if (!both || !absorb_same(&l->load[a], &l->load[b])) continue;
-            return status_at(other->place, status_set(REFUSED, "boundary %s: boundary %s absorbs at this face already; "
-                                                      "each part of a face is expected once", other->name, one->name));
+            return status_at(other->place, status_set(REFUSED,
+                                                      "boundary %s: boundary %s absorbs at this face already; "
+                                                      "each part of a face is expected once",
+                                                      other->name, one->name));
         }
     return OK;
 }
@@ -76,7 +81,7 @@ static void particles_join(struct loads *l, const struct particles *p)
 
 /* Force over velocity of the q-th particle of a load along d [kg/s]. */
 static real dashpot_rate(const struct absorbing *a, const struct load *load, const struct particles *p, int64_t q,
-                    enum moved_by by, int d)
+                         enum moved_by by, int d)
 {
     const struct impedance *z = &a->impedance[by][p->material[load->particle[q]]];
     const real area = (by == MOVED_BY_GRID ? load->edge : load->outer)[q];
@@ -206,8 +211,7 @@ static void dashpots_list(struct grid *g, real *rate)
 static void dashpots_hold(struct grid *g, int64_t node, int component)
 {
     const struct dashpot one = {.node = (int32_t)node};
-    struct dashpot *held =
-        g->dashpots ? bsearch(&one, g->dashpot, (size_t)g->dashpots, sizeof one, by_dashpot) : NULL;
+    struct dashpot *held = g->dashpots ? bsearch(&one, g->dashpot, (size_t)g->dashpots, sizeof one, by_dashpot) : NULL;
     if (held) held->rate[component] = 0;
 }
 
@@ -263,8 +267,7 @@ static void mesh_face(const struct absorbing *a, const struct load *load, const 
     for (int64_t q = 0; q < load->n; q++) {
         const int32_t at = mesh->place[load->particle[q]];
         for (int c = 0; c < places && at >= 0; c++) {
-            const real weight =
-                face_weight(dim, c, at & (places - 1), load->boundary->face, load->boundary->side);
+            const real weight = face_weight(dim, c, at & (places - 1), load->boundary->face, load->boundary->side);
             const int64_t I = (at >> dim) + mesh->corner[c];
             for (int d = 0; d < dim; d++)
                 rate[I + d * mesh->grid.n] += weight * dashpot_rate(a, load, p, q, MOVED_BY_MESH, d);

@@ -42,8 +42,10 @@ static void load_join(struct loads *l, int b, int dim)
         if (l->load[c].leader == c && same_particles(&l->load[c], load)) load->leader = c;
     share_join(l, b, 0, dim);
     for (int d = 1; d < dim; d++)
-        if (alike) load->share[d] = load->share[0];
-        else share_join(l, b, d, dim);
+        if (alike)
+            load->share[d] = load->share[0];
+        else
+            share_join(l, b, d, dim);
     for (int d = 0; d < dim; d++)
         if (load->boundary->value[d] != 0 && !l->load[load->leader].before[d])
             l->load[load->leader].before[d] = NEW("loads.before", load->n, real);
@@ -225,7 +227,8 @@ static void clear_run(const struct load *load, struct particles *p, int64_t firs
 {
     const bool dense = follow_each_other(load->particle, first, end);
     for (int d = 0; d < p->dim; d++)
-        if (dense) array_fill_bytes(p->f[d] + load->particle[first], 0, end - first, sizeof(real));
+        if (dense)
+            array_fill_bytes(p->f[d] + load->particle[first], 0, end - first, sizeof(real));
         else
             for (int64_t k = first; k < end; k++) p->f[d][load->particle[k]] = 0;
 }
@@ -237,6 +240,6 @@ void loads_clear(struct loads *l, struct particles *p)
         const int64_t n = load->n;
         if (boundary_is_force(load->boundary) && load->leader != b) continue;
         TEAM_LOOP(n > SUM_BLOCK, for (int64_t first = 0; first < n; first += SUM_BLOCK)
-            clear_run(load, p, first, first + SUM_BLOCK < n ? first + SUM_BLOCK : n););
+                                     clear_run(load, p, first, first + SUM_BLOCK < n ? first + SUM_BLOCK : n););
     }
 }

@@ -16,26 +16,26 @@
 /* A particle farther in front lies beyond a hole: lattice neighbours are at 1, particles across a missing site at 2
  * [widths]. */
 #define GAP 1.75
-#define BENEATH 0.25                     /* least distance from the first to the next particle [widths] */
-#define EVEN 1e-4                        /* relative difference of equal volumes: lattices may be written in decimals */
-#define TO_ONE_SIDE 1e-6           /* shift of cubes that end at column middles: each counts at one end only [widths] */
+#define BENEATH 0.25     /* least distance from the first to the next particle [widths] */
+#define EVEN 1e-4        /* relative difference of equal volumes: lattices may be written in decimals */
+#define TO_ONE_SIDE 1e-6 /* shift of cubes that end at column middles: each counts at one end only [widths] */
 /* least order of sites: 0 without order, 1 on a lattice, sin(2 pi s)/(2 pi s) on one shaken by s spacings */
 #define ORDER_LEAST 0.05
-#define ORDER_CHANCE 3.0       /* times sqrt(n): sum that n disordered particles may reach by chance */
+#define ORDER_CHANCE 3.0 /* times sqrt(n): sum that n disordered particles may reach by chance */
 enum { FINE = 4, SITES_SAMPLED = 1 << 16, TABLE_FIRST = 1 << 10 };
 
 struct columns {
-    int body, axes, axis[DIM_MAX - 1];   /* the body, and the axes across its columns                  */
-    real middle[DIM_MAX - 1];            /* of column 0                            [m]                 */
-    real spacing;                        /* of the scene                           [m]                 */
-    real width, step;                    /* of the body's mean particle; from column to column [m]     */
-    bool even;                           /* all particles of the body have one volume                  */
-    int64_t n, room;                     /* columns; places in the table, a power of two               */
-    int64_t *key;                        /* [room] -1: free                                            */
-    int32_t *number;                     /* [room] 0 .. n-1                                            */
-    int64_t *count;                      /* [room/2] particles in column c                             */
-    int64_t *start;                      /* particles of column c, ascending along the normal:         */
-    int32_t *order;                      /*    order[start[c] .. start[c+1]-1]                         */
+    int body, axes, axis[DIM_MAX - 1]; /* the body, and the axes across its columns                  */
+    real middle[DIM_MAX - 1];          /* of column 0                            [m]                 */
+    real spacing;                      /* of the scene                           [m]                 */
+    real width, step;                  /* of the body's mean particle; from column to column [m]     */
+    bool even;                         /* all particles of the body have one volume                  */
+    int64_t n, room;                   /* columns; places in the table, a power of two               */
+    int64_t *key;                      /* [room] -1: free                                            */
+    int32_t *number;                   /* [room] 0 .. n-1                                            */
+    int64_t *count;                    /* [room/2] particles in column c                             */
+    int64_t *start;                    /* particles of column c, ascending along the normal:         */
+    int32_t *order;                    /*    order[start[c] .. start[c+1]-1]                         */
 };
 
 /* ---- positions of columns ---------------------------------------------------------------------------------------- */
@@ -139,7 +139,9 @@ static int32_t column_number(struct columns *c, int64_t key, bool make)
 }
 
 /* The columns whose middles pass through a particle's cube: from .. to - 1 along each axis across. */
-struct span { int64_t from[DIM_MAX - 1], to[DIM_MAX - 1]; };
+struct span {
+    int64_t from[DIM_MAX - 1], to[DIM_MAX - 1];
+};
 
 static struct span span_of(const struct columns *c, const struct particles *p, int64_t i, real width)
 {
@@ -162,8 +164,10 @@ static void particle_enter(struct columns *c, const struct boundary *b, const st
             const uint64_t key = ((uint64_t)u << 32 ^ ((uint64_t)w & UINT32_MAX)) & INT64_MAX;
             const int32_t column = column_number(c, (int64_t)key, make);
             if (column < 0) continue;
-            if (put) c->order[c->start[column + 1]++] = (int32_t)i;
-            else c->count[column]++;
+            if (put)
+                c->order[c->start[column + 1]++] = (int32_t)i;
+            else
+                c->count[column]++;
         }
 }
 
@@ -205,7 +209,7 @@ static void columns_fill(struct columns *c, const struct boundary *b, const stru
     for (int64_t k = 0; k < c->n; k++) c->start[k + 2] = c->start[k + 1] + c->count[k];
     c->order = NEW("loads.order", c->start[c->n + 1], int32_t);
     for (int64_t k = 0; k < p->n; k++) {
-        const int64_t i = b->side > 0 ? k : p->n - 1 - k;        /* upwards */
+        const int64_t i = b->side > 0 ? k : p->n - 1 - k; /* upwards */
         if (p->body[i] == c->body || b->body < 0) particle_enter(c, b, p, i, true);
     }
     for (int64_t k = 0; k < c->n; k++) sort_column(b, p, c->order + c->start[k], c->start[k + 1] - c->start[k]);
@@ -304,7 +308,7 @@ static real column_area(const struct columns *c, const struct boundary *b, int d
  *     for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) ... f.columns ... */
 struct faced {
     bool known, has[UINT8_MAX + 1];
-    int next, body;                      /* the next body to look at, and the one at hand */
+    int next, body; /* the next body to look at, and the one at hand */
     struct columns columns;
 };
 

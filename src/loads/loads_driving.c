@@ -34,8 +34,7 @@ real displacing_at(const struct displacing *s, const real *X, int d)
 {
     const struct boundary *b = s->boundary;
     const struct expression *formula = &b->formula[d];
-    if (!b->rotates)
-        return s->factor * b->value[d] * (formula->n > 0 ? expression_at(formula, X, s->dim, s->t) : 1);
+    if (!b->rotates) return s->factor * b->value[d] * (formula->n > 0 ? expression_at(formula, X, s->dim, s->t) : 1);
     real sum = b->centre[d] - X[d];
     for (int k = 0; k < s->dim; k++) sum += s->turned[d * s->dim + k] * (X[k] - b->centre[k]);
     return sum;
@@ -79,7 +78,7 @@ struct driving loads_driving(const struct loads *l, int which, int dim, real t, 
 static real turned_further(const struct driving *s, const real *arm, int d)
 {
     real own[DIM_MAX] = {0}, sum = -arm[d];
-    for (int k = 0; k < s->dim; k++)                     /* back to the reference, then on */
+    for (int k = 0; k < s->dim; k++) /* back to the reference, then on */
         for (int m = 0; m < s->dim; m++) own[k] += s->from.turned[m * s->dim + k] * arm[m];
     for (int k = 0; k < s->dim; k++) sum += s->to.turned[d * s->dim + k] * own[k];
     return sum;

@@ -62,7 +62,7 @@ static void mirror_make(struct loads *l, int which, struct particles *p, real re
 
 void loads_mirror(const struct loads *l, struct particles *p)
 {
-    for (int64_t k = 0; k < l->images; k++) {                /* all sources first: corners have images of images */
+    for (int64_t k = 0; k < l->images; k++) { /* all sources first: corners have images of images */
         const int axis = l->load[l->image[k].load].boundary->axis;
         const int64_t i = l->image[k].source;
         if (i < p->n) p->x[axis][i] = stepped(l, axis, p->x[axis][i]);
@@ -91,7 +91,7 @@ static status mirror_checked(const struct boundary *b, const struct particles *p
     }
     if (!(below && above)) return OK;
     return status_set(REFUSED, "boundary %s: the mirror at %c = %.6g m cuts the body; a mirror stands at its border",
-                      b->name, "xyz"[b->axis], b->at);
+                      b->name, "xyz"[b->axis], b -> at);
 }
 
 /* The side of a mirror that holds no body: -1 below, +1 above. */

@@ -90,11 +90,12 @@ static void moving_shares(struct load *l, const struct particles *p, int d, real
 {
     const struct boundary *b = l->boundary;
     const real from = time_function_at(&b->time, t - dt), to = time_function_at(&b->time, t);
-    TEAM_LOOP(l->n > SUM_BLOCK, for (int64_t k = 0; k < l->n; k++) {
-        const int32_t i = l->particle[k];
-        const real kick = 0.5 * (from * formula_at(b, d, p, i, t - dt) + to * formula_at(b, d, p, i, t));
-        l->share[d][k] = (1 - half) * l->share[d][k] + half * (l->base[d][k] * kick);
-    });
+    TEAM_LOOP(
+        l->n > SUM_BLOCK, for (int64_t k = 0; k < l->n; k++) {
+            const int32_t i = l->particle[k];
+            const real kick = 0.5 * (from * formula_at(b, d, p, i, t - dt) + to * formula_at(b, d, p, i, t));
+            l->share[d][k] = (1 - half) * l->share[d][k] + half * (l->base[d][k] * kick);
+        });
 }
 
 static void moving_update(struct loads *l, const struct particles *p, real t, real dt, real half)
@@ -153,6 +154,5 @@ void load_value_at(const struct load *l, const struct particles *p, int64_t k, r
 {
     const struct boundary *b = l->boundary;
     const real factor = b->frozen ? 1 : time_function_at(&b->time, t);
-    for (int d = 0; d < p->dim; d++)
-        value[d] = factor * b->value[d] * formula_at(b, d, p, l->particle[k], t);
+    for (int d = 0; d < p->dim; d++) value[d] = factor * b->value[d] * formula_at(b, d, p, l->particle[k], t);
 }

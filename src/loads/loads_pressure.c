@@ -66,8 +66,8 @@ static void surface_faces_free(struct surface_faces *f)
 
 /* Areas of free faces along their outward normals. */
 struct pressed {
-    real *const *area;                   /* by component [particles] [m^2] */
-    struct surface_faces *faces;         /* of pressure that follows; NULL: none */
+    real *const *area;           /* by component [particles] [m^2] */
+    struct surface_faces *faces; /* of pressure that follows; NULL: none */
 };
 
 static void face_pressed(void *context, int32_t i, int axis, int side, real area)
@@ -94,7 +94,7 @@ status load_select_pressure(struct load *l, const struct boundary *boundary, int
                             real spacing)
 {
     const struct boundary *b = &boundary[which];
-    const bool follows = b->follow && p->dim > 1;         /* in a line there is nothing to follow */
+    const bool follows = b->follow && p->dim > 1; /* in a line there is nothing to follow */
     real *area[DIM_MAX] = {NULL};
     struct surface_faces faces = {0};
     status s = OK;
@@ -104,11 +104,15 @@ status load_select_pressure(struct load *l, const struct boundary *boundary, int
     for (int d = 0; d < p->dim; d++) area[d] = NEW("loads.area", p->n, real);
     struct pressed pressed = {area, follows ? &faces : NULL};
     if (any) pressure_faces(boundary, n, which, p, spacing, selected, face_pressed, &pressed);
-    if (!any) s = status_set(REFUSED, "boundary %s: no particle lies in its region", b->name);
-    else if (follows) s = load_surface_make(l, &faces, boundary, n, p, spacing);
+    if (!any)
+        s = status_set(REFUSED, "boundary %s: no particle lies in its region", b->name);
+    else if (follows)
+        s = load_surface_make(l, &faces, boundary, n, p, spacing);
     else if (!pressure_shares(l, p, area))
-        s = status_set(REFUSED, "boundary %s: no particle in its region has a free face; let the region hold some of "
-                       "the body's surface", b->name);
+        s = status_set(REFUSED,
+                       "boundary %s: no particle in its region has a free face; let the region hold some of "
+                       "the body's surface",
+                       b->name);
     for (int d = 0; d < p->dim; d++) memory_free(area[d]);
     surface_faces_free(&faces);
     memory_free(selected);

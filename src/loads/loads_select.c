@@ -129,10 +129,14 @@ status load_select(struct load *l, const struct boundary *b, struct particles *p
         selected[i] = clamp ? is_in_plane(b, p, i, spacing) : selects(b, p, i, spacing);
         any = any || selected[i];
     }
-    if (b->kind == BOUNDARY_TRACTION) select_face(l, selected, p, spacing);
-    else if (b->kind == BOUNDARY_ABSORBING) select_absorbing(l, selected, p, spacing);
-    else if (wants_face(b)) select_layer(l, selected, p, spacing);
-    else load_take(l, selected, p);
+    if (b->kind == BOUNDARY_TRACTION)
+        select_face(l, selected, p, spacing);
+    else if (b->kind == BOUNDARY_ABSORBING)
+        select_absorbing(l, selected, p, spacing);
+    else if (wants_face(b))
+        select_layer(l, selected, p, spacing);
+    else
+        load_take(l, selected, p);
     if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
     memory_free(selected);
     if (!any && (boundary_is_force(b) || wants_face(b)))

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#define ROUND_OFF 1e-12                  /* share of the largest possible moment; smaller moments count as 0 */
+#define ROUND_OFF 1e-12 /* share of the largest possible moment; smaller moments count as 0 */
 
 void loads_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp)
 {
@@ -51,8 +51,8 @@ void loads_static_driven(struct loads *l, const struct particles *p, real ramp, 
                 sum += displacement[d][i] = static_displacement(&by, load, p, k, d);
                 held[i] |= (uint8_t)(1 << d);
             }
-            load->displacement[d] = drives_by_place(b) && load->n > 0 ? sum / (real)load->n
-                                                                      : static_displacement(&by, load, p, -1, d);
+            load->displacement[d] =
+                drives_by_place(b) && load->n > 0 ? sum / (real)load->n : static_displacement(&by, load, p, -1, d);
         }
     }
 }
@@ -101,8 +101,7 @@ void loads_static_force(const struct loads *l, struct particles *p)
         const struct load *load = &l->load[c];
         if (!boundary_is_force(load->boundary)) continue;
         for (int64_t k = 0; k < load->n; k++)
-            for (int d = 0; d < p->dim; d++)
-                p->f[d][load->particle[k]] += load->boundary->value[d] * load->share[d][k];
+            for (int d = 0; d < p->dim; d++) p->f[d][load->particle[k]] += load->boundary->value[d] * load->share[d][k];
     }
 }
 

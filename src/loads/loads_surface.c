@@ -18,44 +18,47 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-#define OFF_LATTICE 1e-4                 /* of particles that count as on it [spacings] */
-#define SECOND_LAYER 0.25                /* weight of particles behind those at a corner */
-#define SINGULAR 1e-10                   /* least variance that counts as extent [spacings^2] */
-#define BESIDE 3.0                       /* corners farther away from mirrors know nothing of them [spacings] */
-#define TORN 3.0                         /* edge of a face that no longer is one [spacings] */
+#define OFF_LATTICE 1e-4  /* of particles that count as on it [spacings] */
+#define SECOND_LAYER 0.25 /* weight of particles behind those at a corner */
+#define SINGULAR 1e-10    /* least variance that counts as extent [spacings^2] */
+#define BESIDE 3.0        /* corners farther away from mirrors know nothing of them [spacings] */
+#define TORN 3.0          /* edge of a face that no longer is one [spacings] */
 enum { FACE_CORNERS = 4, STENCIL_MOST = 32, SITE_BITS = 18 };
 
 struct surface {
     int dim;
-    real section, longest;               /* [m] in the plane, 1 in space; of an edge [m] */
+    real section, longest; /* [m] in the plane, 1 in space; of an edge [m] */
     int64_t faces, corners, particles;
-    int32_t *corner;                     /* [faces][4] in order round the outward normal of an upper face */
-    int8_t *sign;                        /* [faces] of their area in this order */
-    uint8_t *turned;                     /* [first[corners]] bit d: component d is that of an image */
+    int32_t *corner;                           /* [faces][4] in order round the outward normal of an upper face */
+    int8_t *sign;                              /* [faces] of their area in this order */
+    uint8_t *turned;                           /* [first[corners]] bit d: component d is that of an image */
     int64_t *first, *face_first, *share_first; /* [corners + 1] stencil, faces; [particles + 1] corners */
-    int32_t *particle;                   /* [first[corners]] of a corner's stencil ... */
-    real *weight;                        /* ... and its weight [1] */
-    int32_t *part;                       /* [4 faces] 4 face + place of those that meet in a corner */
-    int32_t *share_corner;               /* [first[corners]] corners that go with a particle of the load ... */
+    int32_t *particle;                         /* [first[corners]] of a corner's stencil ... */
+    real *weight;                              /* ... and its weight [1] */
+    int32_t *part;                             /* [4 faces] 4 face + place of those that meet in a corner */
+    int32_t *share_corner;                     /* [first[corners]] corners that go with a particle of the load ... */
     real *share_weight;
     uint8_t *share_turned;
-    real *place;                         /* [corners][dim] of the reference state [m] */
-    real *x, *face_area, *area;          /* scratch: [corners][dim], [faces][4][dim], [corners][dim] */
+    real *place;                /* [corners][dim] of the reference state [m] */
+    real *x, *face_area, *area; /* scratch: [corners][dim], [faces][4][dim], [corners][dim] */
 };
 
 /* ---- sites ------------------------------------------------------------------------------------------------------- */
 
 /* A lattice site, or the corner below it, of a body as one number. */
-struct site { int64_t key; int32_t value; };
+struct site {
+    int64_t key;
+    int32_t value;
+};
 
 struct sites {
     const struct particles *p;
-    const struct boundary *all;          /* [boundaries] of the scene, with the mirrors */
+    const struct boundary *all; /* [boundaries] of the scene, with the mirrors */
     int boundaries;
     real spacing;
-    int32_t first[UINT8_MAX + 1];        /* a particle of each body, -1: none */
+    int32_t first[UINT8_MAX + 1]; /* a particle of each body, -1: none */
     int64_t n;
-    struct site *site;                   /* by ascending key */
+    struct site *site; /* by ascending key */
 };
 
 static int by_key(const void *a, const void *b)
@@ -94,8 +97,10 @@ static int32_t site_find(const struct sites *s, int64_t key)
     int64_t low = 0, high = s->n;
     while (low < high) {
         const int64_t middle = low + (high - low) / 2;
-        if (by_key(&s->site[middle], &wanted) < 0) low = middle + 1;
-        else high = middle;
+        if (by_key(&s->site[middle], &wanted) < 0)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return low < s->n && s->site[low].key == key ? s->site[low].value : -1;
 }
@@ -114,7 +119,7 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
         s->site[s->n] = (struct site){site_key(s->p->body[i], k, s->p->dim), (int32_t)i};
         if (!on || s->site[s->n++].key < 0)
             return status_set(REFUSED, "pressure that follows wants particles on a regular lattice of the spacing; "
-                              "follow: false, or particles.irregularity 0 and no list, is expected");
+                                       "follow: false, or particles.irregularity 0 and no list, is expected");
     }
     array_sort(s->site, s->n, sizeof *s->site, by_key);
     return OK;
@@ -135,9 +140,13 @@ static status mirrors_between(const struct sites *s, const struct surface_faces 
             const real twice = mirror_steps(s, &s->all[m], s->p->body[i]);
             if (fabs(s->p->X[s->all[m].axis][i] - s->all[m].at) > BESIDE * s->spacing) continue;
             if (fabs(remainder(twice - 1, 2)) < 2 * OFF_LATTICE) continue;
-            return status_at(s->all[m].place, status_set(REFUSED, "boundary %s: pressure that follows wants mirrors "
-                             "half-way between particles; half a spacing from the first ones is expected, or follow: "
-                             "false", s->all[m].name));
+            return status_at(
+                s->all[m].place,
+                status_set(REFUSED,
+                           "boundary %s: pressure that follows wants mirrors "
+                           "half-way between particles; half a spacing from the first ones is expected, or follow: "
+                           "false",
+                           s->all[m].name));
         }
     return OK;
 }
@@ -152,7 +161,7 @@ static int32_t site_or_image_find(const struct sites *s, int body, const int64_t
         const struct boundary *m = &s->all[b];
         if (m->kind != BOUNDARY_MIRROR) continue;
         const int64_t twice = llround(mirror_steps(s, m, body));
-        if ((2 * k[m->axis] - twice) * (twice > 0 ? 1 : -1) < 0) continue;      /* the first particle is inside, at 0 */
+        if ((2 * k[m->axis] - twice) * (twice > 0 ? 1 : -1) < 0) continue; /* the first particle is inside, at 0 */
         k[m->axis] = twice - k[m->axis];
         *turned ^= (uint8_t)(m->hold_tangential ? (1 << s->p->dim) - 1 : 1 << m->axis);
     }
@@ -180,8 +189,8 @@ static struct site *corners_number(struct surface *a, const struct sites *s, con
         for (int c = 0; c < each; c++) {
             int64_t k[DIM_MAX];
             corner_site(s, &f->face[q], c, k);
-            all[q * each + c] = (struct site){site_key(s->p->body[f->face[q].particle], k, a->dim),
-                                              (int32_t)(q * FACE_CORNERS + c)};
+            all[q * each + c] =
+                (struct site){site_key(s->p->body[f->face[q].particle], k, a->dim), (int32_t)(q * FACE_CORNERS + c)};
         }
     array_sort(all, f->n * each, sizeof *all, by_key);
     a->corner = NEW("loads.corner", f->n * FACE_CORNERS, int32_t);
@@ -294,14 +303,15 @@ static void corner_place_make(struct surface *a, int64_t c, const struct sites *
     for (int d = 0; d < a->dim; d++) {
         const real corner = s->p->X[d][first] + ((real)site[d] - 0.5) * s->spacing;
         for (int q = 0; q < t->n; q++)
-            a->place[c * a->dim + d] += a->weight[a->first[c] + q] * (t->turned[q] >> d & 1
-                                            ? corner + t->r[q][d] * s->spacing : s->p->X[d][t->particle[q]]);
+            a->place[c * a->dim + d] +=
+                a->weight[a->first[c] + q] *
+                (t->turned[q] >> d & 1 ? corner + t->r[q][d] * s->spacing : s->p->X[d][t->particle[q]]);
     }
 }
 
 /* Particles and weights of all corners, by the sorted corners of faces. */
 static void corners_make(struct surface *a, const struct sites *s, const struct site *all,
-                          const struct surface_faces *f)
+                         const struct surface_faces *f)
 {
     const int64_t most = a->corners * STENCIL_MOST;
     a->first = NEW("loads.first", a->corners + 1, int64_t);
@@ -371,14 +381,18 @@ status load_surface_make(struct load *l, const struct surface_faces *faces, cons
 {
     struct sites s = {.p = p, .all = all, .boundaries = n, .spacing = spacing};
     if (faces->n == 0)
-        return status_set(REFUSED, "boundary %s: no particle in its region has a free face; let the region hold some "
-                          "of the body's surface", l->boundary->name);
+        return status_set(REFUSED,
+                          "boundary %s: no particle in its region has a free face; let the region hold some "
+                          "of the body's surface",
+                          l->boundary->name);
     status made = sites_make(&s, faces);
     if (made == OK) made = mirrors_between(&s, faces);
     if (made == OK) {
         l->surface = NEW("loads.surface", 1, struct surface);
-        *l->surface = (struct surface){.dim = p->dim, .section = l->boundary->section > 0 ? l->boundary->section : 1,
-                                       .longest = TORN * spacing, .faces = faces->n};
+        *l->surface = (struct surface){.dim = p->dim,
+                                       .section = l->boundary->section > 0 ? l->boundary->section : 1,
+                                       .longest = TORN * spacing,
+                                       .faces = faces->n};
         surface_fill(l->surface, l, &s, faces, p);
     }
     memory_free(s.site);
@@ -447,8 +461,10 @@ static void surface_face_area(struct surface *s, int64_t q)
     for (int c = 0; c < corners; c++) x[c] = s->x + (int64_t)s->corner[q * FACE_CORNERS + c] * s->dim;
     array_fill_bytes(to, 0, FACE_CORNERS * s->dim, sizeof *to);
     if (is_torn(s, x, corners)) return;
-    if (s->dim == 2) segment_area(s, x, s->sign[q], to);
-    else quadrilateral_area(x, s->sign[q], to);
+    if (s->dim == 2)
+        segment_area(s, x, s->sign[q], to);
+    else
+        quadrilateral_area(x, s->sign[q], to);
 }
 
 static void surface_corner_place(struct surface *s, const struct particles *p, int64_t c)
@@ -489,6 +505,6 @@ void surface_areas(struct surface *s, const struct particles *p, real *const *ar
     TEAM_LOOP(many, for (int64_t c = 0; c < s->corners; c++) surface_corner_place(s, p, c););
     TEAM_LOOP(many, for (int64_t q = 0; q < s->faces; q++) surface_face_area(s, q););
     TEAM_LOOP(many, for (int64_t c = 0; c < s->corners; c++) surface_corner_area(s, c););
-    TEAM_LOOP(many, for (int64_t k = 0; k < s->particles; k++)
-        for (int d = 0; d < s->dim; d++) area[d][k] = surface_share(s, k, d););
+    TEAM_LOOP(many, for (int64_t k = 0; k < s->particles; k++) for (int d = 0; d < s->dim; d++) area[d][k] =
+                        surface_share(s, k, d););
 }

@@ -5,7 +5,11 @@
 #include "loads/loads.h"
 
 /* Free faces of particles, each by its axis and side. */
-struct surface_face { int32_t particle; uint8_t axis; int8_t side; };
+struct surface_face {
+    int32_t particle;
+    uint8_t axis;
+    int8_t side;
+};
 struct surface_faces {
     int64_t n;
     struct surface_face *face;

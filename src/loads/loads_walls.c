@@ -61,7 +61,7 @@ static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I
         if (!node_reflect(&l->load[b], g, l->spacing, k, f)) return false;
         if (k[l->load[b].boundary->axis] != before) f->load = (uint8_t)b;
     }
-    for (int b = 0; b < l->n; b++) {             /* between two mirrors an image may lie beyond one of them */
+    for (int b = 0; b < l->n; b++) { /* between two mirrors an image may lie beyond one of them */
         struct mirror_node none = *f;
         int64_t again[DIM_MAX];
         memcpy(again, k, sizeof k);
@@ -108,7 +108,7 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
     for (int64_t I = 0; I < g->n; I++) {
         real x[DIM_MAX];
         const bool behind = mesh && I >= mesh->slits.first;
-        if (behind && mesh_base(mesh, I) == I) continue;             /* no node */
+        if (behind && mesh_base(mesh, I) == I) continue; /* no node */
         if (!behind && node_mirrored(l, g, I, &mirror_node)) {
             grid_add_mirror_node(g, &mirror_node);
             continue;
@@ -118,7 +118,7 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
             for (int d = 0; d < g->dim; d++)
                 if (load_holds(&l->load[b], g, p) && !place_misleads(mesh, &l->load[b], I) &&
                     node_constrained(&l->load[b], g, x, LOADS_TOLERANCE * l->spacing, d) &&
-                    (reference || !l->load[b].boundary->rotates))       /* the region turns, nodes stay */
+                    (reference || !l->load[b].boundary->rotates)) /* the region turns, nodes stay */
                     constrained_add(s, I, d, b);
     }
 }
@@ -170,7 +170,9 @@ static int64_t driven_share(struct loads *l, const struct load *load, const stru
 }
 
 /* What a load prescribes in this step and did in the step before. */
-struct driven_by { struct driving now, before; };
+struct driven_by {
+    struct driving now, before;
+};
 
 /* A wall of component d of node I, at x. The change is that of what is at the node: a rotation carries it away. A
  * displacement says where nodes of a mesh are at the end of the step. */
@@ -184,7 +186,8 @@ static void wall_add(struct grid *g, const struct driven_by *by, int64_t I, cons
     real change = 0;
     if (drives && !first && (b->rotates || b->displaces || b->formula[d].n > 0))
         change = velocity - driving_at(&by->before, x, d, !reference);
-    else if (drives && !first) change = (by->now.factor - by->before.factor) * b->value[d];
+    else if (drives && !first)
+        change = (by->now.factor - by->before.factor) * b->value[d];
     grid_add_wall(g, &(struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity, change, place, 0});
 }
 

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { MOVED = 2 };             /* forces on a node come from the cells around it: at most one block on every side */
+enum { MOVED = 2 }; /* forces on a node come from the cells around it: at most one block on every side */
 
 /* First node of a block, and one past its last. */
 static int64_t nodes_first(const struct mesh *mesh, int64_t block)
@@ -19,7 +19,7 @@ static int64_t nodes_end(const struct mesh *mesh, int64_t block)
 
 static bool nodes_empty(const struct mesh *mesh, int64_t block)
 {
-    if (mesh->slits.linked && mesh->slits.linked[block]) return false;      /* cells there may have extra nodes */
+    if (mesh->slits.linked && mesh->slits.linked[block]) return false; /* cells there may have extra nodes */
     for (int64_t I = nodes_first(mesh, block); I < nodes_end(mesh, block); I++)
         if (mesh->inverse_mass[I] != 0) return false;
     return true;
@@ -109,7 +109,7 @@ static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
         if (r->moved[k]) mesh_activate(mesh, k);
     for (int64_t k = 0; k < mesh->grid.walls; k++)
         if (!wall_is_fixed(l, &mesh->grid.wall[k])) mesh_activate(mesh, mesh_block(mesh, mesh->grid.wall[k].node));
-    active_nodes_add_exposed(mesh);                         /* makes the list */
+    active_nodes_add_exposed(mesh); /* makes the list */
 }
 
 void active_nodes_update(struct mesh *mesh, const struct loads *l)

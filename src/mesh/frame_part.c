@@ -86,15 +86,15 @@ static void make_constants(struct run *e, const struct mesh_source *cuts)
         if (s->lattice_constants) lattice_constants(&e->part, &e->source, &s->material[m], &e->frame->elastic[m]);
     }
     e->frame->source = (struct mesh_source){.elastic = e->frame->elastic,
-                                          .isotropic = e->tables.elastic,
-                                          .materials = s->materials,
-                                          .partial = cuts->partial,
-                                          .hollow = &e->frame->hollow,
-                                          .slit = cuts->slit,
-                                          .slits = cuts->slits,
-                                          .voids = grid_mirror_between(e) ? NULL : e->source.voids,
-                                          .mirror = e->source.mirror,
-                                          .mirrors = e->source.mirrors};
+                                            .isotropic = e->tables.elastic,
+                                            .materials = s->materials,
+                                            .partial = cuts->partial,
+                                            .hollow = &e->frame->hollow,
+                                            .slit = cuts->slit,
+                                            .slits = cuts->slits,
+                                            .voids = grid_mirror_between(e) ? NULL : e->source.voids,
+                                            .mirror = e->source.mirror,
+                                            .mirrors = e->source.mirrors};
 }
 
 void frame_follow_points(struct run *e)
@@ -175,9 +175,8 @@ void frame_move(struct run *e, real middle, real dt_velocity)
     if (e->scene->method == METHOD_ADAPTIVE) mesh_points_mark(mesh, &e->part, e->frame->elastic, finite);
     nodes_walls(e, middle, due);
     e->frame->speed =
-        levels->n > 0
-            ? levels_move(levels, e->clock.dt, dt_velocity, due, e->loads.impulse, &e->loads.constraint_work)
-            : mesh_move(mesh, e->clock.dt, dt_velocity, e->loads.impulse, &e->loads.constraint_work);
+        levels->n > 0 ? levels_move(levels, e->clock.dt, dt_velocity, due, e->loads.impulse, &e->loads.constraint_work)
+                      : mesh_move(mesh, e->clock.dt, dt_velocity, e->loads.impulse, &e->loads.constraint_work);
     nodes_react(&e->loads, e->frame, dt_velocity, due);
     frame_exposed_follow(e);
     if (e->scene->active_set && levels->n == 0) active_nodes_update(mesh, &e->loads);
@@ -196,8 +195,10 @@ void frame_sync_points(void *engine, const int32_t *list, int64_t n)
 {
     struct run *e = engine;
     if (e->frame->mesh.points == 0) return;
-    if (list) mesh_listed_move(&e->frame->mesh, &e->part, list, n);
-    else levels_prolong_points(&e->frame->levels), mesh_points_move(&e->frame->mesh, &e->part);
+    if (list)
+        mesh_listed_move(&e->frame->mesh, &e->part, list, n);
+    else
+        levels_prolong_points(&e->frame->levels), mesh_points_move(&e->frame->mesh, &e->part);
     loads_mirror(&e->loads, &e->part);
 }
 

@@ -10,8 +10,8 @@
 #include "output/output.h"
 #include "grid/grid_part.h"
 
-enum { PAYS = 400000 };                  /* particles that need not be made, from which on that saves time */
-enum { AHEAD = 4 };                      /* cells beyond those of level 0 that have particles: cracks run on */
+enum { PAYS = 400000 }; /* particles that need not be made, from which on that saves time */
+enum { AHEAD = 4 };     /* cells beyond those of level 0 that have particles: cracks run on */
 
 /* ---- the start --------------------------------------------------------------------------------------------------- */
 
@@ -57,8 +57,8 @@ static status box_find(struct grid *box, const struct scene *s)
 static bool near_cracks(const struct scene *s, const struct bond_source *source, const real *X, real h)
 {
     const real flank = source->family.cutoff + 2 * h;
-    const real end = flank + source->family.cutoff +
-                     real_max(s->conversion.tips * source->family.horizon, NOTCH_ZONE * s->spacing);
+    const real end =
+        flank + source->family.cutoff + real_max(s->conversion.tips * source->family.horizon, NOTCH_ZONE * s->spacing);
     for (int k = 0; k < s->cracks; k++) {
         const struct crack *c = &s->crack[k];
         if (crack_near(c, X, flank, s->dim)) return true;
@@ -75,8 +75,7 @@ static bool loads_reach(const struct scene *s, const real *X, real tolerance)
 {
     for (int b = 0; b < s->boundaries; b++) {
         const struct boundary *load = &s->boundary[b];
-        if (load->kind != BOUNDARY_MIRROR && load->side == 0 &&
-            region_contains(&load->region, X, s->dim, tolerance))
+        if (load->kind != BOUNDARY_MIRROR && load->side == 0 && region_contains(&load->region, X, s->dim, tolerance))
             return true;
     }
     return false;
@@ -152,7 +151,7 @@ status frame_hollow_plan(struct run *e)
         h->absent[I] = h->whole[I] && !cell_needed(e->scene, &e->source, h, I);
         absent += h->absent[I];
     }
-    array_copy(h->whole, h->absent, h->box.n, 1);       /* loads, faces of pre-cracks and probes stay where they are */
+    array_copy(h->whole, h->absent, h->box.n, 1); /* loads, faces of pre-cracks and probes stay where they are */
     if (absent > least) return OK;
     memory_free(h->absent);
     h->absent = NULL;
@@ -176,7 +175,7 @@ static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *leve
     const struct hollow *h = &r->hollow;
     const struct grid *g = &r->mesh.grid;
     uint8_t *absent = NEW("hollow.absent", h->box.n, uint8_t), *keep = NEW("hollow.keep", g->n, uint8_t);
-    for (int64_t I = 0; I < g->n; I++) {         /* also where bonds have taken all points of a cell */
+    for (int64_t I = 0; I < g->n; I++) { /* also where bonds have taken all points of a cell */
         const int64_t J = grid_same_cell(g, I, &h->box);
         keep[I] = level[I] == 0 && (mesh_cell_holds(&r->mesh, I) || (J >= 0 && h->whole[J]));
     }
@@ -196,8 +195,8 @@ bool frame_hollow_start(struct run *e, const uint8_t *level)
 {
     struct reference_frame *r = e->frame;
     if (!r->hollow.absent) return true;
-    if (r->hollow.restored) return false;        /* the checkpoint has the levels, too */
-    if (!level) {                                /* no coarse cells */
+    if (r->hollow.restored) return false; /* the checkpoint has the levels, too */
+    if (!level) {                         /* no coarse cells */
         memory_free(r->hollow.absent);
         r->hollow.absent = NULL, r->lacks = true;
         return false;

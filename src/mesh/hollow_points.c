@@ -12,8 +12,7 @@ static void cell_points(struct particles *p, const struct mesh *mesh, const stru
     for (int c = 0; c < 1 << g->dim; c++) {
         const int64_t i = first + c;
         point[c] = (int32_t)i;
-        for (int d = 0; d < g->dim; d++)
-            p->X[d][i] = grid_quarter(g, cell, c, d);
+        for (int d = 0; d < g->dim; d++) p->X[d][i] = grid_quarter(g, cell, c, d);
         p->volume0[i] = p->volume[i] = mesh->volume;
         p->material[i] = mesh->material[cell];
         p->mass[i] = s->material[p->material[i]].density * mesh->volume;

@@ -36,8 +36,7 @@ static status level_make(struct mesh_levels *l, int level, const struct mesh_sou
     mesh->material = NEW("levels.material", mesh->grid.n, uint8_t);
     mesh->matched = NEW("levels.matched", mesh->grid.n + LANES, uint8_t);
     mesh->cell_mass = NEW("levels.cell_mass", source->materials, real);
-    for (int m = 0; m < source->materials; m++)
-        mesh->cell_mass[m] = density[m] * mesh->volume * (real)(1 << fine->dim);
+    for (int m = 0; m < source->materials; m++) mesh->cell_mass[m] = density[m] * mesh->volume * (real)(1 << fine->dim);
     return OK;
 }
 
@@ -48,7 +47,7 @@ status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct
     if (n == 0 || fine->points == 0) return OK;
     l->n = n, l->fine = fine;
     corner_find(l, p);
-    l->level = NEW("levels.level", fine->grid.n + LANES, uint8_t);     /* also marks: mesh_cells_again */
+    l->level = NEW("levels.level", fine->grid.n + LANES, uint8_t); /* also marks: mesh_cells_again */
     l->calm = NEW("levels.calm", fine->grid.n, uint8_t);
     l->wanted = NEW("levels.wanted", fine->grid.n, uint8_t);
     l->safe = NEW("levels.safe", fine->grid.n, uint8_t);

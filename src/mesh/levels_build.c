@@ -51,7 +51,7 @@ static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t 
     const int dim = mesh->grid.dim;
     for (int c = 0; c < 1 << dim; c++) {
         int64_t J = 0;
-        bool twice = false;                      /* the cells below and above an odd place are the same */
+        bool twice = false; /* the cells below and above an odd place are the same */
         for (int d = 0; d < dim; d++) {
             const bool below = c >> d & 1, odd = at[d] & 1;
             twice = twice || (below && odd);
@@ -100,8 +100,10 @@ static void interface_find(struct mesh_levels *l, int level)
             J += ((at[d] >> 1) + l->offset[level][d]) * m->mesh.grid.stride[d];
         }
         if (!coarse_beside(l, level, at)) continue;
-        if (odd) hanging_add(m, below, I, odd);
-        else ghost_add(m, J, I);
+        if (odd)
+            hanging_add(m, below, I, odd);
+        else
+            ghost_add(m, J, I);
     }
 }
 
@@ -161,8 +163,7 @@ void levels_fold(struct mesh_levels *l, bool momenta)
         for (int64_t k = 0; k < m->hangings; k++) {
             const struct mesh_hanging *h = &m->hanging[k];
             for (int d = 0; d < fine->dim && momenta; d++) hanging_give(fine, h, d);
-            for (int q = 0; q < h->masters; q++)
-                give(fine->mass, h->node, fine->mass, h->master[q], 1.0 / h->masters);
+            for (int q = 0; q < h->masters; q++) give(fine->mass, h->node, fine->mass, h->master[q], 1.0 / h->masters);
             fine->mass[h->node] = 0;
         }
     }
@@ -186,8 +187,8 @@ void levels_match(struct mesh_levels *l, real edge, real wave_speed, real dt)
     for (int level = 1; level <= l->n; level++) {
         struct mesh *mesh = &l->at[level].mesh;
         const real longer = (real)(1 << level);
-        const real share = 0.5 * (1 - (square(edge) + (square(longer) - 1) * square(wave_speed * dt)) /
-                                          square(mesh->grid.h));
+        const real share =
+            0.5 * (1 - (square(edge) + (square(longer) - 1) * square(wave_speed * dt)) / square(mesh->grid.h));
         mesh->match = real_max(0, share);
     }
 }

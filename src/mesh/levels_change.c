@@ -12,7 +12,11 @@
 
 /* A coarse cell round a node I of level 0, with indices k, that no cell of level 0 has, and the place in it: level 0 if
  * there is none. */
-struct cell_around { int level; int64_t cell; real t[DIM_MAX]; };
+struct cell_around {
+    int level;
+    int64_t cell;
+    real t[DIM_MAX];
+};
 
 static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, const int64_t *k)
 {
@@ -21,7 +25,7 @@ static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, 
     struct cell_around a = {0};
     int64_t own[DIM_MAX], q[DIM_MAX];
     int corner = -1;
-    for (int c = (1 << dim) - 1; c >= 0; c--) {              /* at last the cell that the node is the lowest of */
+    for (int c = (1 << dim) - 1; c >= 0; c--) { /* at last the cell that the node is the lowest of */
         const int64_t J = I - fine->corner[c];
         if (J < 0 || fine->kind[J] == CELL_EMPTY) continue;
         if (fine->kind[J] != CELL_COARSE) return (struct cell_around){0};
@@ -171,13 +175,13 @@ static void velocities_make(struct mesh_levels *l)
  * match is at most 1/2 and those of consistent mass over lumped mass are at least 1/27; for long waves they are much
  * smaller. */
 enum { MOMENTA_ROUNDS = 52 };
-#define MOMENTA_TOLERANCE 3e-16          /* of the largest velocity */
+#define MOMENTA_TOLERANCE 3e-16 /* of the largest velocity */
 
 void levels_momenta_find(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) {
         struct grid *g = &l->at[level].mesh.grid;
-        real *now[DIM_MAX];                      /* B w; nothing else uses momenta of level 0 or forces now */
+        real *now[DIM_MAX]; /* B w; nothing else uses momenta of level 0 or forces now */
         for (int d = 0; d < g->dim; d++) {
             array_copy(g->momentum[d], g->velocity[d], g->n, sizeof(real));
             now[d] = g->force[d];

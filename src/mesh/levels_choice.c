@@ -10,11 +10,11 @@
 #include "base/memory.h"
 #include "mesh/mesh_part.h"
 
-enum { PAYS = 100000 };                  /* particles of a body from which on coarse cells save time */
-#define RISES 2.5                        /* edges of a cell in the rise of a front or pulse, at least */
-#define ACROSS 50                        /* edges in a body that is loaded suddenly; less makes */
-#define ACROSS_LEAST 25                  /* a warning */
-enum { CARRIED_BY_ANY = 1 };             /* levels that carry all but pulses */
+enum { PAYS = 100000 };      /* particles of a body from which on coarse cells save time */
+#define RISES 2.5            /* edges of a cell in the rise of a front or pulse, at least */
+#define ACROSS 50            /* edges in a body that is loaded suddenly; less makes */
+#define ACROSS_LEAST 25      /* a warning */
+enum { CARRIED_BY_ANY = 1 }; /* levels that carry all but pulses */
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
@@ -92,8 +92,8 @@ static real spacings_across(const struct run *e)
         extent[d] = (high[d] - low[d]) / s->spacing;
     }
     const real longest = real_max(extent[0], real_max(extent[1], extent[2]));
-    const real middle = extent[0] + extent[1] + extent[2] - longest -
-                        real_min(extent[0], real_min(extent[1], extent[2]));
+    const real middle =
+        extent[0] + extent[1] + extent[2] - longest - real_min(extent[0], real_min(extent[1], extent[2]));
     return s->dim == 1 ? extent[0] : s->dim == 2 ? real_min(extent[0], extent[1]) : middle;
 }
 
@@ -115,17 +115,21 @@ static struct levels_choice frame_levels_choice(const struct run *e)
     const struct scene *s = e->scene;
     struct levels_choice c = {.given = s->levels != LEVELS_AUTO, .across = spacings_across(e)};
     c.rise = sharpest_rise(e->scene, c.across);
-    if (!scene_moves(s)) c.why = LEVELS_AT_REST;
-    else if (e->frame->mesh.points == 0) c.why = LEVELS_NO_MESH;
-    else if (e->part.n_body < PAYS) c.why = LEVELS_FEW;
-    else if (s->damping > 0) c.why = LEVELS_DAMPED;
-    else if (s->time_step > LEVELS_STEP_MOST * e->clock.dt_critical) c.why = LEVELS_LONG_STEP;
+    if (!scene_moves(s))
+        c.why = LEVELS_AT_REST;
+    else if (e->frame->mesh.points == 0)
+        c.why = LEVELS_NO_MESH;
+    else if (e->part.n_body < PAYS)
+        c.why = LEVELS_FEW;
+    else if (s->damping > 0)
+        c.why = LEVELS_DAMPED;
+    else if (s->time_step > LEVELS_STEP_MOST * e->clock.dt_critical)
+        c.why = LEVELS_LONG_STEP;
     else {
         const real most = edge_for(&c.rise, c.across, ACROSS);
         while (c.automatic < LEVELS_MAX && (real)(4 << c.automatic) <= most * (1 + 1e-6)) c.automatic++;
         c.why = LEVELS_BY_LOADS;
-        if (e->frame->room && e->frame->room_most < c.automatic)
-            c.automatic = e->frame->room_most, c.why = LEVELS_THIN;
+        if (e->frame->room && e->frame->room_most < c.automatic) c.automatic = e->frame->room_most, c.why = LEVELS_THIN;
     }
     c.levels = c.why == LEVELS_AT_REST || c.why == LEVELS_NO_MESH ? 0 : c.given ? s->levels : c.automatic;
     return c;
@@ -139,23 +143,30 @@ int frame_levels_number(const struct run *e) { return frame_levels_choice(e).lev
 static void rise_text(const struct scene *s, const struct load_rise *r, char *text, size_t room)
 {
     char name[NAME_MAX_LENGTH + 32];
-    if (r->kind == RISE_BOUNDARY) snprintf(name, sizeof name, "boundary %s", s->boundary[r->number].name);
+    if (r->kind == RISE_BOUNDARY)
+        snprintf(name, sizeof name, "boundary %s", s->boundary[r->number].name);
     else if (r->kind == RISE_BODY)
         snprintf(name, sizeof name, "%s %s", r->number < s->bodies ? "the motion of body" : "the blow of",
                  s->body[r->number].name);
-    else snprintf(name, sizeof name, "initial %s %d", r->pulse ? "pulse" : "state", r->number + 1);
-    if (r->kind == RISE_NONE) snprintf(text, room, "nothing loads it");
-    else if (r->waves == 0) snprintf(text, room, "%s is sudden", name);
+    else
+        snprintf(name, sizeof name, "initial %s %d", r->pulse ? "pulse" : "state", r->number + 1);
+    if (r->kind == RISE_NONE)
+        snprintf(text, room, "nothing loads it");
+    else if (r->waves == 0)
+        snprintf(text, room, "%s is sudden", name);
     else if (r->pulse)
         snprintf(text, room, "%s is %.3g spacings of wave long", name, 4 * r->waves);
-    else if (isinf(r->waves)) snprintf(text, room, "%s does not change", name);
-    else snprintf(text, room, "%s rises within %.3g s = %.3g spacings of wave", name, r->seconds, r->waves);
+    else if (isinf(r->waves))
+        snprintf(text, room, "%s does not change", name);
+    else
+        snprintf(text, room, "%s rises within %.3g s = %.3g spacings of wave", name, r->seconds, r->waves);
 }
 
 /* What cells of an edge [spacings] want of such a load. */
 static void want_text(const struct levels_choice *c, int edge, int edges, char *text, size_t room)
 {
-    if (c->rise.pulse) snprintf(text, room, "want pulses of %g", 4 * RISES * edge);
+    if (c->rise.pulse)
+        snprintf(text, room, "want pulses of %g", 4 * RISES * edge);
     else
         snprintf(text, room, "want a rise over %g, or a body %d spacings across, which this is %.3g", RISES * edge,
                  edges * edge, c->across);
@@ -168,12 +179,15 @@ static void automatic_text(const struct run *e, const struct levels_choice *c, c
     const int edge = 2 << c->automatic;
     rise_text(e->scene, &c->rise, load, sizeof load);
     want_text(c, 4, ACROSS, want, sizeof want);
-    if (c->why == LEVELS_AT_REST) snprintf(text, room, "none, as a static solver has no use for them");
-    else if (c->why == LEVELS_NO_MESH) snprintf(text, room, "none without material points in the reference frame");
+    if (c->why == LEVELS_AT_REST)
+        snprintf(text, room, "none, as a static solver has no use for them");
+    else if (c->why == LEVELS_NO_MESH)
+        snprintf(text, room, "none without material points in the reference frame");
     else if (c->why == LEVELS_FEW)
         snprintf(text, room, "none, as the body has %lld particles: from %d on they save time",
                  (long long)e->part.n_body, PAYS);
-    else if (c->why == LEVELS_DAMPED) snprintf(text, room, "none with damping, which knows one time step");
+    else if (c->why == LEVELS_DAMPED)
+        snprintf(text, room, "none with damping, which knows one time step");
     else if (c->why == LEVELS_LONG_STEP)
         snprintf(text, room, "none, as time.step is %.2f of the critical one, and they bear %.2f",
                  e->scene->time_step / e->clock.dt_critical, LEVELS_STEP_MOST);
@@ -188,8 +202,10 @@ static void automatic_text(const struct run *e, const struct levels_choice *c, c
     else if (c->rise.pulse || !(c->across / ACROSS > c->rise.waves / RISES))
         snprintf(text, room, "this far field needs cells of %d spacings at most (%s)", edge, load);
     else
-        snprintf(text, room, "this far field needs cells of %d spacings at most (%s; the body is %.3g spacings across, "
-                 "%d or more of such cells)", edge, load, c->across, ACROSS);
+        snprintf(text, room,
+                 "this far field needs cells of %d spacings at most (%s; the body is %.3g spacings across, "
+                 "%d or more of such cells)",
+                 edge, load, c->across, ACROSS);
 }
 
 void frame_levels_text(const struct run *e, char *text, size_t room)
@@ -197,9 +213,12 @@ void frame_levels_text(const struct run *e, char *text, size_t room)
     const struct levels_choice c = frame_levels_choice(e);
     char why[600];
     automatic_text(e, &c, why, sizeof why);
-    if (!c.given) snprintf(text, room, "%s", why);
-    else if (c.levels == 0) snprintf(text, room, "none by mpm.levels; auto: %s", why);
-    else snprintf(text, room, "cells of up to %d spacings by mpm.levels; auto: %s", 2 << c.levels, why);
+    if (!c.given)
+        snprintf(text, room, "%s", why);
+    else if (c.levels == 0)
+        snprintf(text, room, "none by mpm.levels; auto: %s", why);
+    else
+        snprintf(text, room, "cells of up to %d spacings by mpm.levels; auto: %s", 2 << c.levels, why);
 }
 
 /* Coarse cells that the scene gives, where the body is too thin for them; false: there are none. */
@@ -216,10 +235,11 @@ static bool thin_text(const struct reference_frame *r, char *text, size_t room)
     if (thin == 0) return false;
     real at[DIM_MAX] = {0};
     for (int d = 0; d < g->dim; d++) at[d] = grid_position(g, d, first / g->stride[d] % g->count[d]) + 0.5 * g->h;
-    snprintf(text, room, "mpm.levels: %d makes cells of %d spacings at (%.4g, %.4g, %.4g) m, where fewer than %d of "
+    snprintf(text, room,
+             "mpm.levels: %d makes cells of %d spacings at (%.4g, %.4g, %.4g) m, where fewer than %d of "
              "them lie across the body, in %.0f %% of all coarse cells: thin parts bend too stiffly in them, natural "
-             "frequencies come out some 5 %% too high; auto leaves them out", r->levels.n, 2 << level, at[0], at[1],
-             at[2], CELLS_ACROSS, 100.0 * (double)thin / (double)coarse);
+             "frequencies come out some 5 %% too high; auto leaves them out",
+             r->levels.n, 2 << level, at[0], at[1], at[2], CELLS_ACROSS, 100.0 * (double)thin / (double)coarse);
     return true;
 }
 

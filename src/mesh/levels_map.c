@@ -6,9 +6,9 @@
 
 /* What is known of the cells of a level, [nodes of its grid] each. */
 struct level_map {
-    uint8_t *ok;                         /* a cell of this level, or a part of a coarser one, may be here */
-    uint8_t *some;                       /* a cell of level 0 with points is here */
-    uint8_t *limit, *material;           /* of them: the smallest limit; the material */
+    uint8_t *ok;               /* a cell of this level, or a part of a coarser one, may be here */
+    uint8_t *some;             /* a cell of level 0 with points is here */
+    uint8_t *limit, *material; /* of them: the smallest limit; the material */
 };
 
 static struct level_map level_map_make(int64_t n)
@@ -156,7 +156,7 @@ bool levels_sound(const struct mesh_levels *l)
 static void line_dilate(uint8_t *mark, int64_t n, int64_t stride, int reach)
 {
     int64_t last = -reach - 1;
-    for (int64_t k = 0; k < n; k++) {                         /* bit 1: marked from below */
+    for (int64_t k = 0; k < n; k++) { /* bit 1: marked from below */
         if (mark[k * stride] & 1) last = k;
         if (k - last <= reach) mark[k * stride] |= 2;
     }
@@ -169,7 +169,7 @@ static void line_dilate(uint8_t *mark, int64_t n, int64_t stride, int reach)
 
 void cells_dilate(const struct grid *g, uint8_t *mark, int reach)
 {
-    for (int d = 0; d < g->dim; d++) {           /* lines begin in blocks of one stride, a line's length apart */
+    for (int d = 0; d < g->dim; d++) { /* lines begin in blocks of one stride, a line's length apart */
         const int64_t stride = g->stride[d], lines = g->n / g->count[d];
 #pragma omp parallel for schedule(static)
         for (int64_t k = 0; k < lines; k++)

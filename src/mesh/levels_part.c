@@ -11,10 +11,10 @@ enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 /* spa
 /* Cells between slits and coarse cells beyond those of peridynamic particles: with coarse cells nearer, two slits 5 to
  * 18 spacings apart whose faces meet gained energy without bounds, one did not; why is not known. */
 enum { FLANK_MORE = 2 };
-#define SPLITS 0.5                       /* of the stress at which points convert */
+#define SPLITS 0.5 /* of the stress at which points convert */
 #define MERGES 0.25
-#define ROUGH 0.01                       /* of the mean energy per mass: motion that a coarser cell would lose */
-enum { LOOK_STEPS = 256, CALM_LOOKS = 2 };       /* steps between looks for cells to merge; looks that a cell is calm */
+#define ROUGH 0.01                         /* of the mean energy per mass: motion that a coarser cell would lose */
+enum { LOOK_STEPS = 256, CALM_LOOKS = 2 }; /* steps between looks for cells to merge; looks that a cell is calm */
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
@@ -212,7 +212,7 @@ static void change(struct run *e, const uint8_t *level)
 {
     struct reference_frame *r = e->frame;
     const bool finite = !e->scene->small_strain;
-    const real dt = e->clock.step > 0 ? e->clock.dt : 0;     /* at first velocities are those of the same time */
+    const real dt = e->clock.step > 0 ? e->clock.dt : 0; /* at first velocities are those of the same time */
     levels_half_kick(&r->levels, &e->part, r->elastic, finite, dt);
     const real before = frame_kinetic(r) + frame_strain(e);
     levels_change(&r->levels, &e->part, &r->source, level);
@@ -256,7 +256,7 @@ status frame_levels_make(struct run *e, bool restored)
     next_levels(e, demand, limit, level);
     if (frame_hollow_start(e, level)) change(e, level);
     memory_free(limit);
-    e->damped = 0;                      /* the run begins with what the coarse cells have */
+    e->damped = 0; /* the run begins with what the coarse cells have */
     memory_free(demand);
     memory_free(stressed);
     memory_free(level);

@@ -34,8 +34,7 @@ static inline int64_t fine_node(const struct mesh_levels *l, int level, const in
 {
     const struct grid *g = &l->fine->grid;
     int64_t I = 0;
-    for (int d = 0; d < g->dim; d++)
-        I += (((q[d] - l->offset[level][d]) << level) + l->offset[0][d]) * g->stride[d];
+    for (int d = 0; d < g->dim; d++) I += (((q[d] - l->offset[level][d]) << level) + l->offset[0][d]) * g->stride[d];
     return I;
 }
 

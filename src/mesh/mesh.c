@@ -8,7 +8,7 @@
 #include "mesh_parts.h"
 #include "base/team.h"
 
-#define PLACE_TOLERANCE 1e-6             /* of a cell */
+#define PLACE_TOLERANCE 1e-6 /* of a cell */
 #define VOLUME_TOLERANCE 1e-9
 /* displacements are multiples of 2^-60 cells: far below the last bit of a position, and tiny precursors of a wave are
  * rounded to 0 */
@@ -49,8 +49,10 @@ static status points_place(struct mesh *mesh, const struct particles *p)
         mesh->place[i] = -1;
         if (!(p->flag[i] & FLAG_MESHED)) continue;
         const int64_t place = mesh_place_of(mesh, p, i);
-        if (place < 0) return meshed_body(p, i, "is not one of two a cell and direction (a lattice, mpm.cell 2, "
-                                                "mpm.origin between particles)");
+        if (place < 0)
+            return meshed_body(p, i,
+                               "is not one of two a cell and direction (a lattice, mpm.cell 2, "
+                               "mpm.origin between particles)");
         if (mesh->point[place] >= 0) return meshed_body(p, i, "shares its place with another");
         if (mesh->points == 0) mesh->volume = p->volume0[i];
         if (fabs(p->volume0[i] - mesh->volume) > VOLUME_TOLERANCE * mesh->volume)
@@ -85,7 +87,7 @@ void mesh_node_weigh(struct mesh *mesh, const struct particles *p, int64_t I)
 /* REFUSED where two bodies share a node: they would move as one. */
 static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 {
-    uint8_t *body = NEW("mesh.body", mesh->grid.n, uint8_t);      /* 1 + body of the node's points */
+    uint8_t *body = NEW("mesh.body", mesh->grid.n, uint8_t); /* 1 + body of the node's points */
     status s = OK;
     for (int64_t i = 0; i < p->n && s == OK; i++)
         for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++) {
@@ -225,7 +227,7 @@ status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *fro
     bool changed;
     g->dim = dim, g->h = like->h;
     for (int d = 0; d < dim; d++) g->anchor[d] = like->anchor[d], high[d] = to[d];
-    high[0] += LANES * g->h;                  /* whole vectors are read and added to beyond the last cell of a row */
+    high[0] += LANES * g->h; /* whole vectors are read and added to beyond the last cell of a row */
     TRY(grid_cover(g, from, high, INT32_MAX >> dim, &changed));
     for (int c = 0; c < 1 << dim; c++)
         for (int d = 0; d < dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);

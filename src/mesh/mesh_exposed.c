@@ -4,7 +4,9 @@
 #include "mesh_parts.h"
 
 /* Points that bonds or loads reach, and the cells that hold such. */
-struct exposure { uint8_t *point, *cell; };
+struct exposure {
+    uint8_t *point, *cell;
+};
 
 /* Threads may mark the same one. */
 static void point_expose(struct exposure *e, const struct mesh *mesh, int64_t i)
@@ -68,7 +70,7 @@ void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struc
     struct exposure e = {NEW("mesh.exposed_points", p->n, uint8_t), cells_mark("mesh.exposed_cells", mesh)};
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < b->row_blocks; g++) row_block_expose(&e, mesh, p, b, l, g);
-    for (int k = 0; k < l->n; k++) {             /* driven points and absorbing faces act on nodes */
+    for (int k = 0; k < l->n; k++) { /* driven points and absorbing faces act on nodes */
         const enum boundary_kind kind = l->load[k].boundary->kind;
         for (int64_t q = 0; q < l->load[k].n && kind != BOUNDARY_VELOCITY && kind != BOUNDARY_ABSORBING; q++)
             point_expose(&e, mesh, l->load[k].particle[q]);

@@ -7,7 +7,10 @@
 #include "mesh_parts.h"
 
 /* The nodes around the inserted points, ascending. */
-struct nodes { int64_t n; int32_t *at; };
+struct nodes {
+    int64_t n;
+    int32_t *at;
+};
 
 /* Finds the nodes around the n listed points. */
 static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct particles *p, const int32_t *list,
@@ -85,7 +88,7 @@ real mesh_insert(struct mesh *mesh, struct particles *p, const int32_t *list, in
     struct nodes t = {0};
     real *u[DIM_MAX], energy = 0;
     nodes_find(&t, mesh, p, list, n);
-    mesh_points_move(mesh, p);               /* displacements are fitted to these points, too */
+    mesh_points_move(mesh, p); /* displacements are fitted to these points, too */
     for (int64_t k = 0; k < n; k++)
         for (int d = 0; d < p->dim; d++) energy += 0.5 * p->mass[list[k]] * square(p->v[d][list[k]]);
     energy += kinetic_of(mesh, &t);

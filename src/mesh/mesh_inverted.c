@@ -58,7 +58,7 @@ int64_t mesh_inverted(const struct mesh *mesh, const struct particles *p)
 #pragma omp parallel for schedule(static) reduction(min : first)
     for (int64_t row = 0; row < mesh->rows; row++) {
         const int64_t start = row * mesh->grid.count[0];
-        const bool box = start < mesh->slits.first;      /* behind it cells are not beside the nodes of their index */
+        const bool box = start < mesh->slits.first; /* behind it cells are not beside the nodes of their index */
         const int64_t from = box ? mesh->span[2 * row] : start,
                       end = box ? mesh->span[2 * row + 1] : start + mesh->grid.count[0];
         for (int64_t cell = from; cell < end; cell++)

@@ -14,8 +14,14 @@ enum { TERMS_MAX = 3 };
 
 /* A term of a mode in the strain: it adds the mode, times `factor`, times the signs of the coordinates along the axes
  * in `set`, to symmetric component `row`. */
-struct mode_term { uint8_t row, set; real factor; };
-struct mode_terms { int n; struct mode_term at[TERMS_MAX]; };
+struct mode_term {
+    uint8_t row, set;
+    real factor;
+};
+struct mode_terms {
+    int n;
+    struct mode_term at[TERMS_MAX];
+};
 
 /* ---- modes ------------------------------------------------------------------------------------------------------- */
 
@@ -60,8 +66,8 @@ struct cell_maker {
     const struct mesh *mesh;
     const struct particles *p;
     const struct mesh_source *source;
-    int dim, modes, columns;             /* columns of D: symmetric components                        */
-    real (*whole)[SYM_MAX * SYM_MAX], (*isotropic)[SYM_MAX * SYM_MAX];   /* [materials] stress by strain     */
+    int dim, modes, columns; /* columns of D: symmetric components                        */
+    real (*whole)[SYM_MAX * SYM_MAX], (*isotropic)[SYM_MAX * SYM_MAX]; /* [materials] stress by strain     */
     struct mode_terms in[MODES_MAX];
 };
 
@@ -102,8 +108,10 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
     const int corners = 1 << c->dim, size = c->columns * c->columns;
     for (int q = 0; q < corners; q++) {
         const int32_t i = c->mesh->point[(I << c->dim) + q];
-        if (i >= 0) point_constants(c, i, sum[q]);
-        else array_fill_bytes(sum[q], 0, size, sizeof(real));
+        if (i >= 0)
+            point_constants(c, i, sum[q]);
+        else
+            array_fill_bytes(sum[q], 0, size, sizeof(real));
     }
     for (int d = 0; d < c->dim; d++)
         for (int q = 0; q < corners; q++)
@@ -115,7 +123,7 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
 
 /* Entry of the stiffness: force on mode `to` by mode `by` [Pa]. */
 static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX],
-                              const struct mode_terms *to, const struct mode_terms *by)
+                                  const struct mode_terms *to, const struct mode_terms *by)
 {
     real value = 0;
     for (int s = 0; s < to->n; s++)
@@ -153,7 +161,7 @@ static void end_share(const struct cell_maker *c, const real *local, int place, 
         share[k] = 0;
         for (int t = 0; t < c->in[k].n; t++) {
             const struct mode_term *term = &c->in[k].at[t];
-            const int below = __builtin_popcount((unsigned)(term->set & ~place));        /* coordinates -1/4 */
+            const int below = __builtin_popcount((unsigned)(term->set & ~place)); /* coordinates -1/4 */
             share[k] += (below % 2 ? -1 : 1) * term->factor * local[term->row];
         }
     }
@@ -317,7 +325,7 @@ static void alike_find(struct mesh *mesh, int modes)
 }
 
 void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
-                    struct mesh_partial *old)
+                       struct mesh_partial *old)
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2, unknowns = (1 << c.dim) * c.dim;
@@ -333,8 +341,10 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
 #pragma omp parallel for schedule(dynamic, 16)
     for (int64_t k = 0; k < mesh->partial_cells; k++) {
         real *K = lane_of(mesh->stiffness, k, half);
-        if (from[k] < 0) mesh_partial_cell_make(&c, mesh->partial_cell[k], K);
-        else lane_copy(K, lane_of(old->stiffness, from[k], half), half);
+        if (from[k] < 0)
+            mesh_partial_cell_make(&c, mesh->partial_cell[k], K);
+        else
+            lane_copy(K, lane_of(old->stiffness, from[k], half), half);
     }
     alike_find(mesh, c.modes);
     mesh_slits_groups(mesh);

@@ -10,11 +10,15 @@ enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL, CELL_COARSE };
 /* Partial cells with their stiffness (mesh_partial.c). mesh_partial_keep takes them off the mesh before cells are
  * sorted out anew; mesh_partial_make puts the stiffness of unchanged cells back and makes that of all others (`dirty`
  * by cell; NULL: all are made), and frees `old`. */
-struct mesh_partial { int64_t partial_cells; int32_t *partial_cell; real *stiffness; };
+struct mesh_partial {
+    int64_t partial_cells;
+    int32_t *partial_cell;
+    real *stiffness;
+};
 struct mesh_partial mesh_partial_keep(struct mesh *mesh);
 void mesh_partial_add(struct mesh *mesh, int64_t I);
 void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
-                    struct mesh_partial *old);
+                       struct mesh_partial *old);
 /* Makes the stiffness of the cells marked in `dirty` anew; the set of partial cells stays. */
 void mesh_partial_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                         const uint8_t *dirty);

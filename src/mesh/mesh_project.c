@@ -8,17 +8,17 @@
 
 enum { ITERATIONS_MOST = 500 };
 enum { ROW_NONE = -1, ROW_BESIDE = -2 };
-#define TOLERANCE 1e-15                  /* of the largest nodal momentum */
+#define TOLERANCE 1e-15 /* of the largest nodal momentum */
 
 /* Data of a projection. `node`: marks the nodes that are unknown, all others stay; NULL: all nodes are unknown. */
 struct projection {
     const struct mesh *mesh;
     const struct particles *p;
     const uint8_t *node;
-    real *mass;        /* [nodes] of one point, where a node has all its points and they are of one mass; else 0 [kg] */
-    int32_t *row_of;                     /* [nodes] row of all other unknown nodes; ROW_NONE; ROW_BESIDE: beside a slit,
-                                          * where nodes around are not in line */
-    real *row;                           /* [rows][3^dim] of the mass matrix, by the nodes around [kg] */
+    real *mass;      /* [nodes] of one point, where a node has all its points and they are of one mass; else 0 [kg] */
+    int32_t *row_of; /* [nodes] row of all other unknown nodes; ROW_NONE; ROW_BESIDE: beside a slit,
+                      * where nodes around are not in line */
+    real *row;       /* [rows][3^dim] of the mass matrix, by the nodes around [kg] */
 };
 
 /* sum m_p N_I value_p over the points of a cell of which I is corner c. */
@@ -132,9 +132,12 @@ static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *v
     const real *mass = m->mass;
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < n; I++) {
-        if (value) to[I] = outer_sum(m, I, value, dim);
-        else if (mass[I] > 0) to[I] = mass[I] * inner_product(from + I, across, layer, dim);
-        else if (m->row_of[I] == ROW_BESIDE) to[I] = slit_product(m, I, from, dim);
+        if (value)
+            to[I] = outer_sum(m, I, value, dim);
+        else if (mass[I] > 0)
+            to[I] = mass[I] * inner_product(from + I, across, layer, dim);
+        else if (m->row_of[I] == ROW_BESIDE)
+            to[I] = slit_product(m, I, from, dim);
         else
             to[I] = m->row_of[I] < 0
                         ? 0
@@ -144,8 +147,13 @@ static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *v
 
 static void gather(const struct projection *m, const real *value, const real *from, real *to)
 {
-#define CASE(D) case D: nodes_gather(m, value, from, to, D); break;
-    switch (m->p->dim) { DIM_VARIANTS(CASE) }
+#define CASE(D)                                                                                                        \
+    case D:                                                                                                            \
+        nodes_gather(m, value, from, to, D);                                                                           \
+        break;
+    switch (m->p->dim) {
+        DIM_VARIANTS(CASE)
+    }
 }
 
 /* Mass of a single point around node I if all its points exist and have one mass, else 0 [kg]. */
@@ -185,12 +193,14 @@ static void mesh_project_rows_make(struct projection *m)
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < n; I++)
         if (m->row_of[I] >= 0) {
-            INVARIANT(I >= far && I + far < n);               /* a grid has a margin (grid.h) */
+            INVARIANT(I >= far && I + far < n); /* a grid has a margin (grid.h) */
             row_make(m, I, m->row + (int64_t)m->row_of[I] * each);
         }
 }
 
-struct pair { const real *a, *b, *weight; };      /* weight NULL: 1 */
+struct pair {
+    const real *a, *b, *weight;
+}; /* weight NULL: 1 */
 
 static void product_block(const void *context, int64_t first, int64_t end, real *sum)
 {

@@ -10,22 +10,30 @@
 #include "base/memory.h"
 #include "mesh_parts.h"
 
-enum { PIECES_MOST = CORNERS_MAX * CORNERS_MAX };    /* around a node: of 2^dim cells as many each */
+enum { PIECES_MOST = CORNERS_MAX * CORNERS_MAX }; /* around a node: of 2^dim cells as many each */
 
 /* An extra node or cell in the making. Pieces around a node have bits 8 c + g: piece g of the cell of which the node is
  * corner c; an extra cell has piece `piece` of cell `base`. */
-struct extra { int64_t base; uint64_t pieces; int piece; uint8_t open; };
-struct extras { struct extra *at; int64_t n; };
+struct extra {
+    int64_t base;
+    uint64_t pieces;
+    int piece;
+    uint8_t open;
+};
+struct extras {
+    struct extra *at;
+    int64_t n;
+};
 
 struct slit_maker {
     const struct mesh *mesh;
     const struct particles *p;
     const struct mesh_source *source;
-    int32_t *point;                      /* [nodes << dim] particle at a place of a cell, -1: none */
-    uint8_t *piece;                      /* [nodes << dim] of its cell that it is in */
-    uint8_t *pieces;                     /* [nodes] of a cell with points near a slit, else 0 */
-    uint8_t *split, *open;               /* [nodes] as in struct mesh_slits */
-    uint8_t *voids;                      /* [nodes] 1 within two cells of a particle with a void near */
+    int32_t *point;        /* [nodes << dim] particle at a place of a cell, -1: none */
+    uint8_t *piece;        /* [nodes << dim] of its cell that it is in */
+    uint8_t *pieces;       /* [nodes] of a cell with points near a slit, else 0 */
+    uint8_t *split, *open; /* [nodes] as in struct mesh_slits */
+    uint8_t *voids;        /* [nodes] 1 within two cells of a particle with a void near */
     struct extras node, cell;
 };
 
@@ -112,7 +120,7 @@ static int64_t cell_of_bit(const struct slit_maker *m, int64_t I, int bit)
  * is a lower corner of the cell above it. */
 static bool places_face(int q, int r, int c, int k)
 {
-    const int apart = c ^ k;                             /* directions in which the cells follow each other */
+    const int apart = c ^ k; /* directions in which the cells follow each other */
     return ((q ^ r) & ~apart) == 0 && (q & apart) == (c & apart) && (r & apart) == (k & apart);
 }
 
@@ -208,8 +216,10 @@ static void node_divide(struct slit_maker *m, int64_t I)
     const int64_t before = m->node.n;
     for (bool first = true; open; first = false) {
         const uint64_t group = group_grow(m, I, open);
-        if (first) m->open[I] = group_open(m, I, group);
-        else extra_add(&m->node, (struct extra){I, group, 0, group_open(m, I, group)});
+        if (first)
+            m->open[I] = group_open(m, I, group);
+        else
+            extra_add(&m->node, (struct extra){I, group, 0, group_open(m, I, group)});
         open &= ~group;
     }
     m->split[I] = m->node.n > before;
@@ -339,7 +349,7 @@ static status box_extend(struct grid *g, const real *from, const real *to, int64
     real far[DIM_MAX];
     bool changed;
     for (int d = 0; d < g->dim; d++) far[d] = to[d];
-    far[last] += g->h * (real)(layers + 4);              /* a box grows by steps of four nodes (grid_cover) */
+    far[last] += g->h * (real)(layers + 4); /* a box grows by steps of four nodes (grid_cover) */
     return grid_cover(g, from, far, INT32_MAX >> g->dim, &changed);
 }
 
@@ -359,7 +369,7 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
     m.voids = NEW("slits.voids", n, uint8_t);
     slits_divide(&m);
     const bool any = m.node.n > 0 || memchr(m.open, 1 << 0, (size_t)n) || memchr(m.open, 1 << 1, (size_t)n) ||
-                     memchr(m.open, 1 << 2, (size_t)n);          /* of several mirrors: some node is on one alone */
+                     memchr(m.open, 1 << 2, (size_t)n); /* of several mirrors: some node is on one alone */
     if (any) result = box_extend(&mesh->grid, from, to, m.node.n > m.cell.n ? m.node.n : m.cell.n);
     if (any && result == OK) slits_tables_make(mesh, &m);
     memory_free(m.point);

@@ -44,7 +44,10 @@ bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic,
 
 /* ---- time step --------------------------------------------------------------------------------------------------- */
 
-struct scaled_cell { const real *K; int n; };
+struct scaled_cell {
+    const real *K;
+    int n;
+};
 
 /* y = K x with K scaled by the masses, column by column: whole vectors. */
 static void mesh_scaled_stiffness(void *context, const real *x, real *y)
@@ -102,8 +105,8 @@ real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *sourc
     for (int set = 1; set < sets; set++) {
         if (!any && !there[set] && set != sets - 1) continue;
         for (int m = 0; m < source->materials; m++)
-            most = real_max(most, cell_eigenvalue(&source->elastic[m], dim, mesh->grid.h, mesh->volume, density[m],
-                                                  (unsigned)set));
+            most = real_max(
+                most, cell_eigenvalue(&source->elastic[m], dim, mesh->grid.h, mesh->volume, density[m], (unsigned)set));
     }
     memory_free(there);
     return 2 / sqrt(most);

@@ -15,7 +15,7 @@
 #include "output/checksum.h"
 #include "output/output_hdf5.h"
 
-enum { SCENE_LONGEST = 256 << 20 };      /* [byte] far more than the echo of any scene */
+enum { SCENE_LONGEST = 256 << 20 }; /* [byte] far more than the echo of any scene */
 enum { CHECKPOINT_VERSION = 17 };
 static const char newest_name[] = "checkpoint.h5", previous_name[] = "checkpoint.previous.h5",
                   damaged_name[] = "checkpoint.damaged.h5";
@@ -102,7 +102,7 @@ static status history_sync(const struct output *o)
 status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context)
 {
     struct path newest = path_join(o->folder, newest_name), previous = path_join(o->folder, previous_name);
-    TRY(output_wait(o));                 /* frames before a checkpoint must be on the disk; HDF5 serves one thread */
+    TRY(output_wait(o)); /* frames before a checkpoint must be on the disk; HDF5 serves one thread */
     if (o->broken) return FAILED;
     TRY(folder_held(&o->lock, o->folder));
     TRY(history_sync(o));
@@ -142,13 +142,15 @@ static status state_read(const char *path, const char *scene_text, archive_all_f
     if (!f.failed) hdf_read_mark(&f, "/Cleave", "version", HDF_I32, &version);
     struct archive a = archive_of(&f, false);
     status s;
-    if (f.failed) s = status_set(FAILED, "cannot resume: %s is no checkpoint of this program", path);
+    if (f.failed)
+        s = status_set(FAILED, "cannot resume: %s is no checkpoint of this program", path);
     else if (version != CHECKPOINT_VERSION)
         s = status_set(FAILED, "cannot resume: %s has format %d, this program reads format %d", path, (int)version,
                        CHECKPOINT_VERSION);
     else if (!same_scene(&f, scene_text))
         s = status_set(FAILED, "cannot resume: %s belongs to another scene; choose another -o", path);
-    else s = archive_all(context, &a);
+    else
+        s = archive_all(context, &a);
     hdf_close(&f);
     last_words_reading(NULL);
     if (f.failed && f.cause) return status_set(FAILED, "cannot resume: cannot read %s: %s", path, strerror(f.cause));

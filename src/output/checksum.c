@@ -9,13 +9,15 @@
 
 #include "output/output_files.h"
 
-enum { BLOCK = 1 << 14 };               /* [byte] fits the stack of any thread; a multiple of STRIDE */
+enum { BLOCK = 1 << 14 }; /* [byte] fits the stack of any thread; a multiple of STRIDE */
 
 /* ---- the hash ---------------------------------------------------------------------------------------------------- */
 
 /* Four independent lanes, because each step of a lane waits for its multiplication. */
 enum { LANES_OF_HASH = 4, STRIDE = LANES_OF_HASH * 8 };
-struct hash { uint64_t lane[LANES_OF_HASH], length; };
+struct hash {
+    uint64_t lane[LANES_OF_HASH], length;
+};
 
 /* One step: after Fowler, Noll and Vo, on words instead of bytes, with a shift because a product carries only upwards.
  * Invertible in `lane` and in `word`: a change of one word changes the lane in all later steps. */
@@ -75,9 +77,12 @@ static int hash_file(int fd, uint64_t length, uint64_t *value)
         size_t want = length - at < BLOCK ? (size_t)(length - at) : BLOCK, have = 0;
         while (have < want && !fault) {
             ssize_t done = pread(fd, block + have, want - have, (off_t)(at + have));
-            if (done > 0) have += (size_t)done;
-            else if (done == 0) fault = EIO;
-            else if (errno != EINTR) fault = errno;
+            if (done > 0)
+                have += (size_t)done;
+            else if (done == 0)
+                fault = EIO;
+            else if (errno != EINTR)
+                fault = errno;
         }
         hash_add(&h, block, have);
         at += have;
@@ -88,7 +93,10 @@ static int hash_file(int fd, uint64_t length, uint64_t *value)
 
 /* ---- the footer -------------------------------------------------------------------------------------------------- */
 
-struct footer { char magic[8]; uint64_t length, hash; };
+struct footer {
+    char magic[8];
+    uint64_t length, hash;
+};
 _Static_assert(sizeof(struct footer) == FOOTER_BYTES, "the footer has no gaps");
 static const char footer_magic[8] = {'C', 'L', 'E', 'A', 'V', 'E', 'O', 'K'};
 

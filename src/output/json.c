@@ -7,9 +7,12 @@ static void json_string(struct json *j, const char *text)
 {
     fputc('"', j->file);
     for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
-        if (*c == '"' || *c == '\\') fprintf(j->file, "\\%c", *c);
-        else if (*c < 0x20) fprintf(j->file, "\\u%04x", *c);
-        else fputc(*c, j->file);
+        if (*c == '"' || *c == '\\')
+            fprintf(j->file, "\\%c", *c);
+        else if (*c < 0x20)
+            fprintf(j->file, "\\u%04x", *c);
+        else
+            fputc(*c, j->file);
     }
     fputc('"', j->file);
 }

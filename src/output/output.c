@@ -29,15 +29,13 @@ void output_start(void)
 
 /* Files of a run, in the order of their removal: checkpoints first, since none may outlive the frames before it. begin:
  * what a table begins with. */
-static const struct { const char *name, *begin; } made[] = {
-    {"checkpoint.h5", NULL},
-    {"checkpoint.previous.h5", NULL},
-    {"checkpoint.damaged.h5", NULL},
-    {"summary.json", NULL},
-    {"history.csv", "time [s],"},
-    {"fragments.csv", "body,particles,"},
-    {"frames.hdf.series", NULL},
-    {"frames.xdmf", NULL},
+static const struct {
+    const char *name, *begin;
+} made[] = {
+    {"checkpoint.h5", NULL},         {"checkpoint.previous.h5", NULL},
+    {"checkpoint.damaged.h5", NULL}, {"summary.json", NULL},
+    {"history.csv", "time [s],"},    {"fragments.csv", "body,particles,"},
+    {"frames.hdf.series", NULL},     {"frames.xdmf", NULL},
     {"frames.vtkhdf", NULL},
 };
 
@@ -199,8 +197,8 @@ static status mode_check(const char *folder, enum output_mode mode)
     if (path_is_file(path_join(folder, "summary.json").text))
         (void)summary_string(folder, "status", ended, sizeof ended);
     if (mode == OUTPUT_FIRST && there)
-        return status_set(REFUSED,
-                          "%s holds %s run of this scene; %sreplace it with --overwrite, or choose another -o", folder,
+        return status_set(REFUSED, "%s holds %s run of this scene; %sreplace it with --overwrite, or choose another -o",
+                          folder,
                           !strcmp(ended, "done")     ? "a finished"
                           : !strcmp(ended, "failed") ? "a failed"
                                                      : "an interrupted",
@@ -358,7 +356,7 @@ status output_add_series(struct output *o, const char *name, const struct region
 
 void output_close(struct output *o)
 {
-    (void)output_wait(o);                /* the result was returned by output_wait before   */
+    (void)output_wait(o); /* the result was returned by output_wait before   */
     if (o->history) fclose(o->history);
     if (o->folder) folder_unlock(&o->lock, o->folder);
     memory_free(o->folder);

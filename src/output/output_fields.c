@@ -240,16 +240,20 @@ size_t frame_field_row(const struct frame_field *field, int dim)
 void frame_field_copy(const struct frame_field *field, const struct frame_source *source, int64_t first, int64_t end,
                       void *rows)
 {
-    if (field->copy) field->copy(source, first, end, rows);
-    else copy_derived(derived_field_find(strrchr(field->path, '/') + 1), source, first, end, rows);
+    if (field->copy)
+        field->copy(source, first, end, rows);
+    else
+        copy_derived(derived_field_find(strrchr(field->path, '/') + 1), source, first, end, rows);
 }
 
 void frame_field_copy_more(const struct frame_field *field, const struct frame_source *source, void *rows)
 {
     struct frame_source more = {source->extra.more, source->extra};
     more.extra.push = NULL, more.extra.fragment = NULL, more.extra.state = source->extra.more_state;
-    if (field_exists(field, &more)) frame_field_copy(field, &more, 0, more.p->n, rows);
-    else array_fill_bytes(rows, 0, more.p->n, frame_field_row(field, more.p->dim));
+    if (field_exists(field, &more))
+        frame_field_copy(field, &more, 0, more.p->n, rows);
+    else
+        array_fill_bytes(rows, 0, more.p->n, frame_field_row(field, more.p->dim));
 }
 
 void frame_units_text(unsigned fields, char *text, size_t room)

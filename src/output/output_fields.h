@@ -6,7 +6,10 @@
 #include "output/output_hdf5.h"
 
 /* What a frame shows. */
-struct frame_source { const struct particles *p; struct frame_extra extra; };
+struct frame_source {
+    const struct particles *p;
+    struct frame_extra extra;
+};
 
 /* One dataset with a row per particle; `columns` 0 stands for dim; `unit` as people write it, "" for a pure number.
  * `fill`, for fields that are constant during a run, writes the row of particle i; the writing thread calls it. `copy`,
@@ -20,7 +23,7 @@ struct frame_field {
     void (*copy)(const struct frame_source *s, int64_t first, int64_t end, void *rows);
 };
 
-enum { FIELD_POINTS, FRAME_FIELDS = 24 };    /* place of the positions in the table; its length */
+enum { FIELD_POINTS, FRAME_FIELDS = 24 }; /* place of the positions in the table; its length */
 extern const struct frame_field frame_fields[FRAME_FIELDS];
 
 /* Bits of the fields that there are: plastic strain where a material yields, the force of contact where there is

@@ -98,14 +98,17 @@ static const char *file_remedy(int cause)
     switch (cause) {
     case ENOSPC:
     case EDQUOT:
-    case EFBIG: return "; free space or choose another -o";
+    case EFBIG:
+        return "; free space or choose another -o";
     case EACCES:
     case EPERM:
     case EROFS:
     case ENAMETOOLONG:
     case ENOENT:
-    case ENOTDIR: return "; choose another -o";
-    default: return "";
+    case ENOTDIR:
+        return "; choose another -o";
+    default:
+        return "";
     }
 }
 
@@ -181,7 +184,7 @@ static int write_all(int fd, const char *bytes, size_t length)
 /* Opens, writes at the end, syncs and closes; returns 0 or an errno. */
 static int write_synced(const char *path, int flags, const void *bytes, size_t length)
 {
-    if (flags & O_EXCL) unlink(path);         /* left by a kill; links of this name are not followed */
+    if (flags & O_EXCL) unlink(path); /* left by a kill; links of this name are not followed */
     int fd = open(path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW | flags, 0666);
     if (fd < 0) return errno;
     int fault = write_all(fd, bytes, length);
@@ -231,7 +234,7 @@ static status file_rename(const char *path)
 status file_settle(const char *path)
 {
     const int fault = sync_folder_of(path);
-    return fault && fault != EACCES ? file_fault(path, fault) : OK;      /* a folder that may be written but not read */
+    return fault && fault != EACCES ? file_fault(path, fault) : OK; /* a folder that may be written but not read */
 }
 
 status file_publish(const char *path)

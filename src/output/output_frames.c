@@ -4,7 +4,6 @@
  * that VTK does not define are in /Cleave. What they hold: output_fields.c. */
 #include "output_fields.h"
 
-
 #include <errno.h>
 #include <math.h>
 #include <pthread.h>
@@ -18,7 +17,7 @@
 #include "output/output_files.h"
 
 enum { FRAME_VERSION = 1, VTK_VERTEX = 1 };
-enum { COPIED = 4096 };                  /* particles whose rows a thread copies at once */
+enum { COPIED = 4096 }; /* particles whose rows a thread copies at once */
 
 /* ---- one frame --------------------------------------------------------------------------------------------------- */
 
@@ -26,22 +25,22 @@ enum { COPIED = 4096 };                  /* particles whose rows a thread copies
  * particles while the run continues. */
 struct frame_job {
     struct path path;
-    const struct particles *p;           /* borrowed; constant fields only */
-    const struct particles *more;        /* points of coarse cells, as well; NULL: none */
-    struct output *o;                    /* borrowed; holds the room kept for the writer */
-    struct frame_series *series;         /* borrowed: what it shows, and in which order */
-    int64_t n, step;                     /* rows that are written */
+    const struct particles *p;    /* borrowed; constant fields only */
+    const struct particles *more; /* points of coarse cells, as well; NULL: none */
+    struct output *o;             /* borrowed; holds the room kept for the writer */
+    struct frame_series *series;  /* borrowed: what it shows, and in which order */
+    int64_t n, step;              /* rows that are written */
     int dim;
     real t;
     bool compress, broken;
-    unsigned fields;                     /* bits of those that there are */
-    const char *scene_text;              /* borrowed */
+    unsigned fields;        /* bits of those that there are */
+    const char *scene_text; /* borrowed */
     /* in frame_copy, in the order of the particles; NULL: constant, or not in this frame */
     char *field[FRAME_FIELDS];
-    char *index[2];                      /* texts of the two indices, including this frame */
+    char *index[2]; /* texts of the two indices, including this frame */
     size_t index_length[2];
     pthread_t thread;
-    bool apart;                          /* the thread runs      */
+    bool apart; /* the thread runs      */
     status ended;
     char message[512];
 };
@@ -115,7 +114,7 @@ static int32_t *order_by_id(const struct particles *p)
     return order;
 }
 
-enum { ROW_MOST = 36 };                  /* bytes of a field's row: nine singles */
+enum { ROW_MOST = 36 }; /* bytes of a field's row: nine singles */
 
 static void write_field(struct hdf *f, const struct frame_job *job, int k, const int32_t *order, char *room)
 {
@@ -126,9 +125,12 @@ static void write_field(struct hdf *f, const struct frame_job *job, int k, const
     for (int64_t r = 0; r < job->n; r++) {
         const int64_t i = order[r];
         char *to = room + (size_t)r * row;
-        if (!field->fill) memcpy(to, job->field[k] + (size_t)i * row, row);
-        else if (i < own) field->fill(job->p, i, to);
-        else field->fill(job->more, i - own, to);
+        if (!field->fill)
+            memcpy(to, job->field[k] + (size_t)i * row, row);
+        else if (i < own)
+            field->fill(job->p, i, to);
+        else
+            field->fill(job->more, i - own, to);
     }
     hdf_rows(f, field->path, field->type, job->n, field->columns ? field->columns : job->dim, room);
     hdf_mark_text(f, field->path, "unit", field->unit[0] ? field->unit : "1");
@@ -259,7 +261,7 @@ static void series_print(FILE *out, const struct frame_series *s)
     fprintf(out, "{\"file-series-version\":\"1.0\",\"files\":[");
     for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM];
-        if (isnan(s->frame_time[k])) continue;       /* lost (output_frames_check) */
+        if (isnan(s->frame_time[k])) continue; /* lost (output_frames_check) */
         frame_name(s, name, sizeof name, k);
         fprintf(out, "%s\n{\"name\":\"%s\",\"time\":%.17g}", between, name, s->frame_time[k]);
         between = ",";
@@ -270,8 +272,8 @@ static void series_print(FILE *out, const struct frame_series *s)
 /* A reference to a whole dataset of a frame. */
 static void xdmf_item(FILE *out, const char *frame, const struct frame_field *field, int64_t n)
 {
-    static const char *const number[] = {[HDF_F32] = "Float", [HDF_F64] = "Float", [HDF_U8] = "UChar",
-                                         [HDF_I32] = "Int", [HDF_I64] = "Int"};
+    static const char *const number[] = {
+        [HDF_F32] = "Float", [HDF_F64] = "Float", [HDF_U8] = "UChar", [HDF_I32] = "Int", [HDF_I64] = "Int"};
     fprintf(out, "<DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%zu\" Dimensions=\"%lld", number[field->type],
             hdf_size(field->type), (long long)n);
     if (field->columns > 1) fprintf(out, " %d", field->columns);
@@ -301,8 +303,7 @@ static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n, unsigned 
     xdmf_item(out, frame, &frame_fields[FIELD_POINTS], n);
     fprintf(out, "</Geometry>\n");
     for (int k = FIELD_POINTS + 1; k < FRAME_FIELDS; k++)
-        if (frame_fields[k].columns > 0 && fields >> k & 1)
-            xdmf_attribute(out, frame, &frame_fields[k], n);
+        if (frame_fields[k].columns > 0 && fields >> k & 1) xdmf_attribute(out, frame, &frame_fields[k], n);
     fprintf(out, "</Grid>\n");
 }
 
@@ -361,7 +362,7 @@ static status job_write(struct frame_job *job)
 static void *job_run(void *context)
 {
     struct frame_job *job = context;
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);   /* thread-safe builds of HDF5 keep this setting per thread */
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* thread-safe builds of HDF5 keep this setting per thread */
     job->ended = job_write(job);
     if (job->ended != OK) snprintf(job->message, sizeof job->message, "%s", status_message());
     return NULL;
@@ -399,7 +400,7 @@ static void output_frames_job_start(struct frame_job *job)
     pthread_sigmask(SIG_SETMASK, &all, &before);
     job->apart = pthread_create(&job->thread, NULL, job_run, job) == 0;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
-    if (!job->apart) job_run(job);           /* no thread available: write at once */
+    if (!job->apart) job_run(job); /* no thread available: write at once */
 }
 
 status output_frame_begin(struct output *o, int k, const struct particles *p, const struct frame_extra *extra, real t,
@@ -417,8 +418,10 @@ status output_frame_begin(struct output *o, int k, const struct particles *p, co
     job->path = path_join(o->folder, name);
     frame_count(series, job);
     for (int which = 0; which < 2 && job->ended == OK; which++) job->ended = index_make(o, job, which);
-    if (job->ended != OK) snprintf(job->message, sizeof job->message, "%s", status_message());
-    else output_frames_job_start(job);
+    if (job->ended != OK)
+        snprintf(job->message, sizeof job->message, "%s", status_message());
+    else
+        output_frames_job_start(job);
     return OK;
 }
 

@@ -18,11 +18,16 @@ size_t hdf_size(enum hdf_type type)
 static hid_t hdf_native(enum hdf_type type)
 {
     switch (type) {
-    case HDF_F32: return H5T_NATIVE_FLOAT;
-    case HDF_F64: return H5T_NATIVE_DOUBLE;
-    case HDF_U8: return H5T_NATIVE_UINT8;
-    case HDF_I32: return H5T_NATIVE_INT32;
-    default: return H5T_NATIVE_INT64;
+    case HDF_F32:
+        return H5T_NATIVE_FLOAT;
+    case HDF_F64:
+        return H5T_NATIVE_DOUBLE;
+    case HDF_U8:
+        return H5T_NATIVE_UINT8;
+    case HDF_I32:
+        return H5T_NATIVE_INT32;
+    default:
+        return H5T_NATIVE_INT64;
     }
 }
 
@@ -59,7 +64,7 @@ void hdf_create(struct hdf *f, const char *path, bool compress)
     errno = 0;
     hid_t access = access_list(f);
     if (f->failed) return;
-    unlink(path);                        /* left by a kill; links of this name are not followed */
+    unlink(path); /* left by a kill; links of this name are not followed */
     (void)(good(f, create = H5Pcreate(H5P_FILE_CREATE)) && good(f, H5Pset_obj_track_times(create, false)) &&
            good(f, f->file = H5Fcreate(path, H5F_ACC_EXCL, create, access)) && good(f, H5Pclose(create)) &&
            good(f, H5Pclose(access)));

@@ -21,7 +21,11 @@ static uint64_t hash_bytes(uint64_t hash, const char *bytes, size_t n)
 }
 
 /* A line under construction. */
-struct line { char *text; size_t length; FILE *to; };
+struct line {
+    char *text;
+    size_t length;
+    FILE *to;
+};
 
 static bool line_begin(struct line *l)
 {
@@ -54,8 +58,10 @@ static status history_header(struct output *o, const struct column *column)
         snprintf(name, sizeof name, "%s", column[k].name);
         /* Characters that end a field become _. */
         for (char *c = name; *c; c++) *c = *c == ',' || *c == '"' || *c == '\n' || *c == '\r' ? '_' : *c;
-        if (column[k].unit[0]) fprintf(l.to, "%s [%s]%s", name, column[k].unit, end);
-        else fprintf(l.to, "%s%s", name, end);
+        if (column[k].unit[0])
+            fprintf(l.to, "%s [%s]%s", name, column[k].unit, end);
+        else
+            fprintf(l.to, "%s%s", name, end);
     }
     return line_end(o, &l);
 }

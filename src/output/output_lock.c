@@ -13,7 +13,7 @@
 
 static const char lock_name[] = ".running", lock_begin[] = "process ";
 
-enum { TRIES = 100 };                    /* a lock file may be removed between open and lock */
+enum { TRIES = 100 }; /* a lock file may be removed between open and lock */
 
 /* True if the open file still has this path. */
 static bool is_still_there(int fd, const char *path)
@@ -91,8 +91,10 @@ status folder_lock(struct folder_lock *l, const char *folder)
         }
         const bool shared = has_other_names(fd);
         const status own = shared ? OK : lock_file_check(fd, path.text);
-        if (!shared && own == OK && is_still_there(fd, path.text)) l->fd = fd;
-        else close(fd);
+        if (!shared && own == OK && is_still_there(fd, path.text))
+            l->fd = fd;
+        else
+            close(fd);
         TRY(own);
         if (shared)
             return status_set(REFUSED,
@@ -115,8 +117,7 @@ void folder_unlock(struct folder_lock *l, const char *folder)
 {
     if (l->fd < 0) return;
     /* before the lock is released: the next process that locks this file finds it removed */
-    if (folder_held(l, folder) == OK)
-        unlink(path_join(folder, lock_name).text);
+    if (folder_held(l, folder) == OK) unlink(path_join(folder, lock_name).text);
     close(l->fd);
     l->fd = -1;
 }

@@ -115,7 +115,7 @@ void frame_free(struct frame *f)
 /* Row i of the field from which another follows, components that the space does not have 0. */
 static void source_row(const struct frame *f, enum derived_from from, int64_t i, real *row)
 {
-    static const int plane[] = {0, 1, 3, 2}, plain[] = {0, 1, 2, 3, 4, 5};   /* read_fields */
+    static const int plane[] = {0, 1, 3, 2}, plain[] = {0, 1, 2, 3, 4, 5}; /* read_fields */
     memset(row, 0, SYM_MAX * sizeof *row);
     if (from == FROM_VELOCITY)
         for (int d = 0; d < f->dim; d++) row[d] = f->v[d][i];

@@ -18,13 +18,13 @@
 enum { TEMPORAL_MOST = 2000 };
 
 struct temporal {
-    const char *folder;                  /* of the run */
-    int n;                               /* times */
-    real *time;                          /* [n] [s] */
-    struct hdf_source *source;           /* [n] */
-    char (*name)[PATH_NAME_ROOM];        /* [n] of the frames, relative to the run's folder */
-    int64_t *start;                      /* [n] points of the frames before */
-    unsigned fields;                     /* that all frames have */
+    const char *folder;           /* of the run */
+    int n;                        /* times */
+    real *time;                   /* [n] [s] */
+    struct hdf_source *source;    /* [n] */
+    char (*name)[PATH_NAME_ROOM]; /* [n] of the frames, relative to the run's folder */
+    int64_t *start;               /* [n] points of the frames before */
+    unsigned fields;              /* that all frames have */
 };
 
 /* Size and fields of frame k; false: it cannot be read. */

@@ -25,8 +25,14 @@ static const struct picture_end {
                      true},
     [PICTURE_SVG] = {BYTES("</svg>"), BYTES("<!-- drawn by cleave -->\n"), false},
     [PICTURE_PDF] = {BYTES("%%EOF"), BYTES("% drawn by cleave\n"), false},
-    [PICTURE_MP4] = {BYTES(""), BYTES("\0\0\0\x17" "freedrawn by cleave"), false},
-    [PICTURE_GIF] = {BYTES(";"), BYTES("!\xFE\x0F" "drawn by cleave\0"), true},
+    [PICTURE_MP4] = {BYTES(""),
+                     BYTES("\0\0\0\x17"
+                           "freedrawn by cleave"),
+                     false},
+    [PICTURE_GIF] = {BYTES(";"),
+                     BYTES("!\xFE\x0F"
+                           "drawn by cleave\0"),
+                     true},
 };
 
 /* Reads the last bytes of an open file; returns their number. */
@@ -90,8 +96,10 @@ status picture_publish(const char *path, enum picture_format format)
     if (!fault) return file_publish(path);
     file_discard(path);
     if (fault > 0) return file_fault(path, fault);
-    return status_set(FAILED, "cannot write %s: the picture is cut short, as on a full disk; free space or choose "
-                      "another -o", path);
+    return status_set(FAILED,
+                      "cannot write %s: the picture is cut short, as on a full disk; free space or choose "
+                      "another -o",
+                      path);
 }
 
 bool picture_is_ours(const char *path)
@@ -101,8 +109,7 @@ bool picture_is_ours(const char *path)
     bool ours = false;
     const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (fd < 0) return false;
-    const size_t have =
-        fstat(fd, &s) == 0 && S_ISREG(s.st_mode) ? read_end(fd, s.st_size, last, sizeof last) : 0;
+    const size_t have = fstat(fd, &s) == 0 && S_ISREG(s.st_mode) ? read_end(fd, s.st_size, last, sizeof last) : 0;
     close(fd);
     for (int k = 0; k < PICTURE_FORMATS; k++) ours |= memmem(last, have, ends[k].mark, ends[k].mark_length) != NULL;
     return ours;

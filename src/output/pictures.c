@@ -5,10 +5,11 @@
 #include <string.h>
 
 static const char *const picture_name[DRAWN_KINDS] = {
-    [DRAWN_DAMAGE] = "damage", [DRAWN_KIND] = "kind",     [DRAWN_LAST] = "last", [DRAWN_PROFILES] = "profiles",
-    [DRAWN_CRACK] = "crack",   [DRAWN_ENERGY] = "energy", [DRAWN_SIF] = "sif",   [DRAWN_PATH] = "path",
-    [DRAWN_FRAGMENTS] = "fragments", [DRAWN_SURFACE] = "surface", [DRAWN_CRACKS] = "cracks",
-    [DRAWN_LOAD] = "load_displacement", [DRAWN_R_CURVE] = "r_curve",
+    [DRAWN_DAMAGE] = "damage",     [DRAWN_KIND] = "kind",     [DRAWN_LAST] = "last",
+    [DRAWN_PROFILES] = "profiles", [DRAWN_CRACK] = "crack",   [DRAWN_ENERGY] = "energy",
+    [DRAWN_SIF] = "sif",           [DRAWN_PATH] = "path",     [DRAWN_FRAGMENTS] = "fragments",
+    [DRAWN_SURFACE] = "surface",   [DRAWN_CRACKS] = "cracks", [DRAWN_LOAD] = "load_displacement",
+    [DRAWN_R_CURVE] = "r_curve",
 };
 static const char field_prefix[] = "field_";
 

@@ -16,11 +16,11 @@
 enum { DEPTH_MAX = 64, SIZE_MAX_BYTES = 64 << 20, KEY_ROOM = 512 };
 
 struct reader {
-    const char *at;                      /* next byte; the text ends with a 0 byte   */
-    const char *found;                   /* first byte of the wanted value, or NULL  */
-    summary_visit *visit;                /* is handed every number; NULL: nobody     */
+    const char *at;       /* next byte; the text ends with a 0 byte   */
+    const char *found;    /* first byte of the wanted value, or NULL  */
+    summary_visit *visit; /* is handed every number; NULL: nobody     */
     void *context;
-    char key[KEY_ROOM];                  /* dotted key of the value that is read     */
+    char key[KEY_ROOM]; /* dotted key of the value that is read     */
     size_t length;
 };
 
@@ -54,7 +54,7 @@ static bool string(struct reader *r, const char **from, const char **to)
     if (!summary_read_take(r, '"')) return false;
     *from = r->at;
     while (*r->at != '"') {
-        if ((unsigned char)*r->at < 0x20) return false;          /* also the end of the text */
+        if ((unsigned char)*r->at < 0x20) return false; /* also the end of the text */
         if (*r->at++ == '\\' && !escape(r)) return false;
     }
     *to = r->at++;
@@ -148,13 +148,22 @@ static bool value(struct reader *r, const char *rest, int depth)
         rest = NULL;
     }
     switch (*r->at) {
-    case '{': r->at++; return object(r, rest, depth + 1);
-    case '[': r->at++; return list(r, rest, depth + 1);
-    case '"': return string(r, &from, &to);
-    case 't': return word(r, "true");
-    case 'f': return word(r, "false");
-    case 'n': return word(r, "null");
-    default: break;
+    case '{':
+        r->at++;
+        return object(r, rest, depth + 1);
+    case '[':
+        r->at++;
+        return list(r, rest, depth + 1);
+    case '"':
+        return string(r, &from, &to);
+    case 't':
+        return word(r, "true");
+    case 'f':
+        return word(r, "false");
+    case 'n':
+        return word(r, "null");
+    default:
+        break;
     }
     from = r->at;
     if (!number(r)) return false;

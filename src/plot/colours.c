@@ -7,25 +7,30 @@
 
 #include "base/base.h"
 
-struct stop { double at, red, green, blue; };
+struct stop {
+    double at, red, green, blue;
+};
 
 /* viridis (Smith & van der Walt 2015), every eighth of it. */
 static const struct stop sequential[] = {
-    {0.000, 68, 1, 84},    {0.125, 71, 45, 123},  {0.250, 59, 82, 139},  {0.375, 44, 114, 142}, {0.500, 33, 145, 140},
-    {0.625, 40, 174, 128}, {0.750, 94, 201, 98},  {0.875, 173, 220, 48}, {1.000, 253, 231, 37},
+    {0.000, 68, 1, 84},    {0.125, 71, 45, 123}, {0.250, 59, 82, 139},  {0.375, 44, 114, 142}, {0.500, 33, 145, 140},
+    {0.625, 40, 174, 128}, {0.750, 94, 201, 98}, {0.875, 173, 220, 48}, {1.000, 253, 231, 37},
 };
 /* RdBu of ColorBrewer (Harrower & Brewer 2003), blue first; grey in the middle, to be told from paper. */
 static const struct stop diverging[] = {
-    {0.0, 5, 48, 97},      {0.1, 33, 102, 172},   {0.2, 67, 147, 195}, {0.3, 146, 197, 222},
-    {0.4, 200, 217, 228},  {0.5, 226, 226, 226},  {0.6, 240, 209, 192}, {0.7, 244, 165, 130},
-    {0.8, 214, 96, 77},    {0.9, 178, 24, 43},    {1.0, 103, 0, 31},
+    {0.0, 5, 48, 97},     {0.1, 33, 102, 172},  {0.2, 67, 147, 195},  {0.3, 146, 197, 222},
+    {0.4, 200, 217, 228}, {0.5, 226, 226, 226}, {0.6, 240, 209, 192}, {0.7, 244, 165, 130},
+    {0.8, 214, 96, 77},   {0.9, 178, 24, 43},   {1.0, 103, 0, 31},
 };
 static const struct stop damage_stops[] = {
     {0.00, 226, 228, 231}, {0.12, 246, 220, 190}, {0.35, 240, 160, 110},
     {0.60, 214, 80, 62},   {0.80, 158, 24, 42},   {1.00, 84, 2, 24},
 };
 static const struct stop bond_stops[] = {
-    {0.00, 158, 202, 233}, {0.40, 74, 144, 204}, {0.75, 22, 84, 158}, {1.00, 6, 34, 86},
+    {0.00, 158, 202, 233},
+    {0.40, 74, 144, 204},
+    {0.75, 22, 84, 158},
+    {1.00, 6, 34, 86},
 };
 
 static struct colour along_stops(const struct stop *stop, int stops, double at)
@@ -50,9 +55,9 @@ struct colour colour_points(void) { return (struct colour){236, 233, 226, 255}; 
  * bond is nearly black. */
 struct colour fragment_colour(int32_t fragment)
 {
-    static const struct colour turn[] = {{68, 119, 170, 255},  {238, 153, 51, 255},  {34, 136, 51, 255},
-                                         {170, 51, 119, 255},  {102, 204, 238, 255}, {204, 68, 51, 255},
-                                         {187, 187, 68, 255},  {119, 85, 170, 255},  {17, 119, 119, 255}};
+    static const struct colour turn[] = {{68, 119, 170, 255}, {238, 153, 51, 255},  {34, 136, 51, 255},
+                                         {170, 51, 119, 255}, {102, 204, 238, 255}, {204, 68, 51, 255},
+                                         {187, 187, 68, 255}, {119, 85, 170, 255},  {17, 119, 119, 255}};
     if (fragment < 0) return (struct colour){40, 40, 44, 255};
     if (fragment == 0) return (struct colour){212, 214, 217, 255};
     return turn[(size_t)(fragment - 1) % COUNT_OF(turn)];
@@ -78,4 +83,3 @@ struct colour colour_shaded(struct colour c, double share)
     return (struct colour){(uint8_t)lround(share * c.red), (uint8_t)lround(share * c.green),
                            (uint8_t)lround(share * c.blue), c.alpha};
 }
-

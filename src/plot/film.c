@@ -68,9 +68,13 @@ static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet)
     int ends[2];
     snprintf(to.text, sizeof to.text, "file:%.*s", (int)sizeof to.text - 6, aside.text);
     char *filter = gif ? "split[a][b];[a]palettegen[p];[b][p]paletteuse" : "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
-    char *word[FILM_WORDS] = {"ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-f", "image2pipe", "-framerate",
-                              (char *)FRAMES_PER_SECOND, "-c:v", "png", "-i", "pipe:0", "-vf", filter, "-bitexact",
-                              "-f", gif ? "gif" : "mp4", to.text, NULL};
+    char *word[FILM_WORDS] = {"ffmpeg",     "-y",         "-nostdin",
+                              "-loglevel",  "error",      "-f",
+                              "image2pipe", "-framerate", (char *)FRAMES_PER_SECOND,
+                              "-c:v",       "png",        "-i",
+                              "pipe:0",     "-vf",        filter,
+                              "-bitexact",  "-f",         gif ? "gif" : "mp4",
+                              to.text,      NULL};
     char *h264[] = {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-f", "mp4", to.text, NULL};
     if (!gif) memcpy(word + 16, h264, sizeof h264);
     *f = (struct ffmpeg){.to = -1, .complaints = tmpfile()};
@@ -111,7 +115,8 @@ static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
     if (f->to >= 0) close(f->to);
     if (f->process > 0) waitpid((pid_t)f->process, &ended, 0);
     const bool made = f->process > 0 && WIFEXITED(ended) && WEXITSTATUS(ended) == 0;
-    if (fed == OK && made) fed = picture_publish(sheet.path, sheet.format);
+    if (fed == OK && made)
+        fed = picture_publish(sheet.path, sheet.format);
     else if (f->process > 0 && f->complaints && (fed == OK || !status_message()[0])) {
         complaint_read(f->complaints, reason, sizeof reason);
         fed = status_set(FAILED, "%s: ffmpeg made no film: %s", sheet.path, reason);

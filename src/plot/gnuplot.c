@@ -27,7 +27,7 @@ void gnuplot_quote(FILE *to, const char *text)
 {
     putc('\'', to);
     for (; *text != '\0'; text++) {
-        if (*text == '\'') putc('\'', to);           /* doubled: a quote itself */
+        if (*text == '\'') putc('\'', to); /* doubled: a quote itself */
         putc(iscntrl((unsigned char)*text) ? ' ' : *text, to);
     }
     putc('\'', to);
@@ -43,7 +43,7 @@ static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
     dup2(complaints, STDERR_FILENO);
     close(pipe_ends[0]);
     close(pipe_ends[1]);
-    setenv("GNUTERM", "unknown", 1);                 /* no window */
+    setenv("GNUTERM", "unknown", 1);                  /* no window */
     execlp("gnuplot", "gnuplot", "-d", (char *)NULL); /* -d: without settings of the user */
     _exit(NOT_FOUND);
 }
@@ -52,14 +52,13 @@ static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
 static status gnuplot_start(struct gnuplot *g)
 {
     int ends[2];
-    remove(g->aside);                                /* links of this name are not followed */
+    remove(g->aside); /* links of this name are not followed */
     const int own = open(g->aside, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    g->complaints = own < 0 ? NULL : fdopen(own, "w+");          /* an unlinked file, beside the picture */
+    g->complaints = own < 0 ? NULL : fdopen(own, "w+"); /* an unlinked file, beside the picture */
     if (g->complaints == NULL) return status_set(FAILED, "cannot write %s: %s", g->path, strerror(errno));
     remove(g->aside);
-    if (pipe(ends) != 0)
-        return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(errno));
-    signal(SIGPIPE, SIG_IGN);                        /* a gnuplot that ends early is an error, not a signal */
+    if (pipe(ends) != 0) return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(errno));
+    signal(SIGPIPE, SIG_IGN); /* a gnuplot that ends early is an error, not a signal */
     g->process = (int)fork();
     if (g->process == 0) become_gnuplot(ends, fileno(g->complaints));
     close(ends[0]);
@@ -70,7 +69,7 @@ static status gnuplot_start(struct gnuplot *g)
     g->to = fdopen(ends[1], "w");
     if (g->to != NULL) return OK;
     int cause = errno;
-    close(ends[1]);                                  /* or child and parent would wait for each other */
+    close(ends[1]); /* or child and parent would wait for each other */
     return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(cause));
 }
 
@@ -79,7 +78,7 @@ static void set_style(FILE *to)
     fputs("set encoding utf8\n"
           "set border 3 lw 0.8 lc rgb '#555555'\n"
           "set tics nomirror out scale 0.5 textcolor rgb '#333333'\n"
-          "set format '%g'\n"                        /* its own begins with a blank: numbers beside their tics */
+          "set format '%g'\n" /* its own begins with a blank: numbers beside their tics */
           "set xlabel textcolor rgb '#333333'\nset ylabel textcolor rgb '#333333'\n"
           "set y2label textcolor rgb '#333333'\n"
           "set title textcolor rgb '#222222'\n"
@@ -98,15 +97,21 @@ static void set_style(FILE *to)
 static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height)
 {
     if (format == PICTURE_SVG)
-        fprintf(g->to, "set terminal svg size %d,%d font 'Liberation Sans,Helvetica,Arial,sans-serif,14' "
-                       "background rgb 'white' noenhanced\n", width, height);
+        fprintf(g->to,
+                "set terminal svg size %d,%d font 'Liberation Sans,Helvetica,Arial,sans-serif,14' "
+                "background rgb 'white' noenhanced\n",
+                width, height);
     else if (format == PICTURE_PDF)
-        fprintf(g->to, "set terminal pdfcairo size %.6gin,%.6gin font 'Liberation Sans,13' fontscale 0.5 linewidth "
-                       "0.9 background rgb 'white' noenhanced\n", width / PIXELS_PER_INCH, height / PIXELS_PER_INCH);
+        fprintf(g->to,
+                "set terminal pdfcairo size %.6gin,%.6gin font 'Liberation Sans,13' fontscale 0.5 linewidth "
+                "0.9 background rgb 'white' noenhanced\n",
+                width / PIXELS_PER_INCH, height / PIXELS_PER_INCH);
     else
-        fprintf(g->to, "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) { set terminal pngcairo size %d,%d "
-                       "font 'Liberation Sans,13' background rgb 'white' noenhanced } else { set terminal png "
-                       "size %d,%d noenhanced truecolor }\n", width, height, width, height);
+        fprintf(g->to,
+                "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) { set terminal pngcairo size %d,%d "
+                "font 'Liberation Sans,13' background rgb 'white' noenhanced } else { set terminal png "
+                "size %d,%d noenhanced truecolor }\n",
+                width, height, width, height);
     fputs("set output ", g->to);
     gnuplot_quote(g->to, g->aside);
     putc('\n', g->to);

@@ -6,9 +6,9 @@
 
 struct layout {
     int columns, rows;
-    int panel_width, panel_height;       /* [pixel] */
+    int panel_width, panel_height; /* [pixel] */
     int width, height;
-    int right;                           /* room for the colour bar or the key [pixel] */
+    int right; /* room for the colour bar or the key [pixel] */
 };
 
 /* Margins of a panel whose upper left corner is there [pixel]. */

@@ -30,7 +30,10 @@ static status draw_map(const struct plot_request *r, const char *path, enum map 
 }
 
 /* What the frames have that a map would show. */
-struct contents { bool damage, cracks, kinds; double cracked; };   /* cracked: share of particles in the last frame */
+struct contents {
+    bool damage, cracks, kinds;
+    double cracked;
+}; /* cracked: share of particles in the last frame */
 
 static struct contents contents_of(const struct cloud *cloud, int clouds)
 {

@@ -10,10 +10,12 @@
 
 enum { PATH_LENGTH = 4096, QUANTITIES = 4, DIGITS = 6 };
 
-#define TINT "#e8f1f9"                   /* background of peridynamic parts, where the bar has both kinds */
+#define TINT "#e8f1f9" /* background of peridynamic parts, where the bar has both kinds */
 
 /* Panels from top to bottom, by columns of the files of the probe. */
-static const struct { const char *computed, *exact, *label, *unit; } quantity[QUANTITIES] = {
+static const struct {
+    const char *computed, *exact, *label, *unit;
+} quantity[QUANTITIES] = {
     {"stress", "exact_stress", "stress", "Pa"},
     {"strain", "exact_strain", "strain", ""},
     {"velocity", "exact_velocity", "velocity", "m/s"},
@@ -63,7 +65,11 @@ bool bar_probe(const char *folder, char name[NAME_MAX_LENGTH])
 
 /* ---- scales ------------------------------------------------------------------------------------------------------ */
 
-struct scale { double factor, low, high; bool zero; char label[64]; };
+struct scale {
+    double factor, low, high;
+    bool zero;
+    char label[64];
+};
 
 static void extend(struct scale *s, const struct history *h, const char *column)
 {
@@ -113,8 +119,10 @@ static struct scale scale_of(const struct history *h, int frames, int q)
 
 static void send_number(FILE *to, double a)
 {
-    if (isfinite(a)) fprintf(to, " %.7g", a);
-    else fputs(" NaN", to);
+    if (isfinite(a))
+        fprintf(to, " %.7g", a);
+    else
+        fputs(" NaN", to);
 }
 
 /* The data block $fK: x, then computed and exact of every panel. */
@@ -145,9 +153,10 @@ static bool tint_kinds(FILE *to, const struct history *h, double metre, double h
         bool here = history_at(h, i, kind) == KIND_PD;
         if (!here || i == 0 || history_at(h, i - 1, kind) != KIND_PD) from = i;
         if (here && (i + 1 == h->rows || history_at(h, i + 1, kind) != KIND_PD))
-            fprintf(to, "set object %d rectangle from %.9g,graph 0 to %.9g,graph 1 behind fs solid noborder "
-                        "fc rgb '" TINT "'\n", ++parts, (history_at(h, from, x) - half) / metre,
-                    (history_at(h, i, x) + half) / metre);
+            fprintf(to,
+                    "set object %d rectangle from %.9g,graph 0 to %.9g,graph 1 behind fs solid noborder "
+                    "fc rgb '" TINT "'\n",
+                    ++parts, (history_at(h, from, x) - half) / metre, (history_at(h, i, x) + half) / metre);
     }
     return true;
 }
@@ -173,7 +182,7 @@ static status plot_bar_draw(struct sheet sheet, const char *title, const struct 
     struct gnuplot g;
     struct scale scale[QUANTITIES], x = {.low = INFINITY, .high = -INFINITY};
     for (int q = 0; q < QUANTITIES; q++) scale[q] = scale_of(h, frames, q);
-    int panels = QUANTITIES - scale[QUANTITIES - 1].zero;        /* damage, the last, where there is any */
+    int panels = QUANTITIES - scale[QUANTITIES - 1].zero; /* damage, the last, where there is any */
     for (int k = 0; k < frames; k++) extend(&x, &h[k], "x");
     int at = history_column(&h[0], "x");
     double half = h[0].rows > 1 ? 0.5 * fabs(history_at(&h[0], 1, at) - history_at(&h[0], 0, at)) : 0;
@@ -183,16 +192,18 @@ static status plot_bar_draw(struct sheet sheet, const char *title, const struct 
     for (int k = 0; k < frames; k++) send_frame(g.to, &h[k], k, metre.factor, scale);
     fputs("set label 1 ", g.to);
     gnuplot_quote(g.to, title);
-    fprintf(g.to, " at screen 0.1,%.4f left font ',16' textcolor rgb '#111111'\n"
-                  "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.845\nset format x ''\n"
-                  "set key at screen 0.855,%.4f left top\nset xrange [%.9g:%.9g]\n",
+    fprintf(g.to,
+            " at screen 0.1,%.4f left font ',16' textcolor rgb '#111111'\n"
+            "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.845\nset format x ''\n"
+            "set key at screen 0.855,%.4f left top\nset xrange [%.9g:%.9g]\n",
             1 - 30.0 / height, 1 - 60.0 / height, (x.low - half) / metre.factor, (x.high + half) / metre.factor);
     bool tinted = tint_kinds(g.to, &h[frames - 1], metre.factor, half);
     for (int q = 0; q < panels; q++) {
         double above = 1 - (60.0 + 250 * q) / height;
-        fprintf(g.to, "set tmargin at screen %.4f\nset bmargin at screen %.4f\nset ylabel '%s'\n"
-                      "set yrange [%.9g:%.9g]\n", above, above - 225.0 / height, scale[q].label, scale[q].low,
-                scale[q].high);
+        fprintf(g.to,
+                "set tmargin at screen %.4f\nset bmargin at screen %.4f\nset ylabel '%s'\n"
+                "set yrange [%.9g:%.9g]\n",
+                above, above - 225.0 / height, scale[q].label, scale[q].low, scale[q].high);
         if (q == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", metre.name);
         plot_bar_panel(g.to, q, show, frames, tinted);
         fputs("unset label\nunset key\n", g.to);

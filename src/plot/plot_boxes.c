@@ -10,15 +10,15 @@
 static const double HALF = 0.52;
 /* Brightness of faces whose normal is x, y, z. Along an axis one face alone is seen: it has the colours of the bar. */
 static const double SHADE[3] = {0.74, 0.87, 1};
-static const double STRAIGHT = 0.999;                /* cosine */
+static const double STRAIGHT = 0.999; /* cosine */
 /* How much of its colour the body keeps behind its cracks. */
 static const double GHOST = 0.45;
 
 struct scene_canvas {
     struct colour *pixel;
-    float *depth;                        /* of what is painted there, towards the viewer [m] */
+    float *depth; /* of what is painted there, towards the viewer [m] */
     int size[2];
-    double per_metre[2];                 /* pixels */
+    double per_metre[2]; /* pixels */
     const struct view *view;
 };
 
@@ -60,7 +60,7 @@ static void paint_cube(struct scene_canvas *v, const struct cloud *c, int64_t i,
     for (int a = 0; a < 2; a++) {
         at[a] = c->place[a][i] - v->view->from[a];
         const double low = (at[a] - reach[a]) * v->per_metre[a], high = (at[a] + reach[a]) * v->per_metre[a];
-        if (!(high > 0 && low < v->size[a])) return;             /* outside, or not a number */
+        if (!(high > 0 && low < v->size[a])) return; /* outside, or not a number */
         from[a] = (int)fmax(ceil(low - 0.5), 0);
         to[a] = (int)fmin(floor(high - 0.5), v->size[a] - 1);
     }
@@ -73,8 +73,8 @@ static void paint_cube(struct scene_canvas *v, const struct cloud *c, int64_t i,
             if (c->place[2]) depth += c->place[2][i];
             if (face < 0 || depth <= v->depth[q]) continue;
             v->depth[q] = (float)depth;
-            v->pixel[q] = c->place[2] && fabs(c->camera.towards[face]) < STRAIGHT ? colour_shaded(colour, SHADE[face])
-                                                                                 : colour;
+            v->pixel[q] =
+                c->place[2] && fabs(c->camera.towards[face]) < STRAIGHT ? colour_shaded(colour, SHADE[face]) : colour;
         }
 }
 
@@ -87,8 +87,8 @@ void boxes_paint(struct colour *pixel, int width, int height, const struct view 
                  enum map map)
 {
     const int64_t pixels = (int64_t)width * height;
-    struct scene_canvas v = {.pixel = pixel, .depth = NEW("plot.depth", pixels, float), .size = {width, height},
-                             .view = view};
+    struct scene_canvas v = {
+        .pixel = pixel, .depth = NEW("plot.depth", pixels, float), .size = {width, height}, .view = view};
     for (int a = 0; a < 2; a++) v.per_metre[a] = v.size[a] / (view->to[a] - view->from[a]);
     for (int64_t q = 0; q < pixels; q++) pixel[q] = (struct colour){255, 255, 255, 0};
     canvas_clear_depth(&v);

@@ -23,8 +23,10 @@ static void category_name(char *name, size_t room, const char *field, int value,
     if (strcmp(field, "level") == 0 && value == 0) known = "none";
     if (strcmp(field, "body") == 0 && s && value < s->bodies) known = s->body[value].name;
     if (strcmp(field, "material") == 0 && s && value < s->materials) known = s->material[value].name;
-    if (known && *known) snprintf(name, room, "%s", known);
-    else snprintf(name, room, "%s %d", field, value);
+    if (known && *known)
+        snprintf(name, room, "%s", known);
+    else
+        snprintf(name, room, "%s %d", field, value);
 }
 
 /* From -1 on, also of files that hold other numbers. */

@@ -27,7 +27,7 @@ static double near_distance(const struct frame *f, int64_t i)
     for (int64_t j = 0; j < f->n; j++) {
         double r2 = j == i ? INFINITY : 0;
         for (int d = 0; d < f->dim; d++) r2 += square((double)f->X[d][j] - f->X[d][i]);
-        for (int k = 0; k < f->dim; k++) {           /* insert, keeping ascending order */
+        for (int k = 0; k < f->dim; k++) { /* insert, keeping ascending order */
             if (r2 >= nearest[k]) continue;
             double passed = nearest[k];
             nearest[k] = r2;
@@ -70,7 +70,7 @@ static bool lies_along(const struct cloud *c, int64_t i)
         along = fmax(a, b);
         across = fmin(a, b);
     }
-    return across < 0.14 * along;                    /* tan 8 degrees */
+    return across < 0.14 * along; /* tan 8 degrees */
 }
 
 static bool is_aligned(const struct cloud *c)
@@ -99,7 +99,7 @@ static int thinnest_direction(const struct frame *f)
     for (int d = 0; d < 3; d++) {
         double from, to;
         frame_extent(f, d, &from, &to);
-        if (to - from > thinnest * (1 + 1e-5)) continue;         /* single precision: equal is not exact */
+        if (to - from > thinnest * (1 + 1e-5)) continue; /* single precision: equal is not exact */
         thinnest = to - from;
         normal = d;
     }
@@ -168,8 +168,8 @@ status look_settle(struct look *look, const struct frame *f)
 
 /* ---- clouds ------------------------------------------------------------------------------------------------------ */
 
-const struct camera camera_isometric = {{0.86602540378, 0.5, 0}, {-0.25, 0.43301270189, 0.86602540378},
-                                        {0.43301270189, -0.75, 0.5}};
+const struct camera camera_isometric = {
+    {0.86602540378, 0.5, 0}, {-0.25, 0.43301270189, 0.86602540378}, {0.43301270189, -0.75, 0.5}};
 
 struct camera camera_along(int axis, int side)
 {
@@ -177,7 +177,7 @@ struct camera camera_along(int axis, int side)
     const int right = axis == 0 ? 1 : 0, up = axis == 2 ? 1 : 2;
     c.towards[axis] = side;
     c.up[up] = 1;
-    c.right[right] = (axis == 1 ? -1 : 1) * side;    /* right, up and towards are right-handed */
+    c.right[right] = (axis == 1 ? -1 : 1) * side; /* right, up and towards are right-handed */
     return c;
 }
 
@@ -233,9 +233,14 @@ void cloud_make(struct cloud *c, const struct frame *f, const struct look *look)
 {
     struct look open = {.normal = -1};
     if (!look) (void)look_settle(&open, f), look = &open;
-    *c = (struct cloud){.axis = {0, 1}, .normal = -1, .t = f->t, .spacing = frame_spacing(f),
-                        .in_steps = look->in_steps, .step = f->step,
-                        .from = {INFINITY, INFINITY}, .to = {-INFINITY, -INFINITY}};
+    *c = (struct cloud){.axis = {0, 1},
+                        .normal = -1,
+                        .t = f->t,
+                        .spacing = frame_spacing(f),
+                        .in_steps = look->in_steps,
+                        .step = f->step,
+                        .from = {INFINITY, INFINITY},
+                        .to = {-INFINITY, -INFINITY}};
     cloud_axes(c, f, look);
     cloud_allocate(c, f, look);
     for (int64_t i = 0; i < f->n; i++) {

@@ -30,8 +30,10 @@ void curves_send(FILE *to, const struct series *s, const int *column, const doub
         fprintf(to, "%.9g", history_at(s->h, i, s->time) / s->second.factor);
         for (int k = 0; k < columns; k++) {
             double a = history_at(s->h, i, column[k]) / factor[k];
-            if (isfinite(a)) fprintf(to, " %.9g", a);
-            else fputs(" NaN", to);
+            if (isfinite(a))
+                fprintf(to, " %.9g", a);
+            else
+                fputs(" NaN", to);
         }
         putc('\n', to);
     }
@@ -60,8 +62,9 @@ void curves_time_axis(FILE *to, const struct series *s)
 /* An axis from zero to `top`, in the colour of its curve. */
 static void set_axis(FILE *to, const char *axis, const char *label, int colour, double top)
 {
-    fprintf(to, "set %slabel '%s' textcolor rgb '%s'\nset %stics nomirror textcolor rgb '%s'\n"
-                "set %srange [0:%.9g]\n",
+    fprintf(to,
+            "set %slabel '%s' textcolor rgb '%s'\nset %stics nomirror textcolor rgb '%s'\n"
+            "set %srange [0:%.9g]\n",
             axis, label, curve_colour[colour], axis, curve_colour[colour], axis, top > 0 ? top : 1);
 }
 
@@ -71,7 +74,7 @@ static status draw_crack(struct sheet sheet, const char *title, const struct ser
     int column[2] = {history_column(s->h, "crack_length"), history_column(s->h, "pd_share")};
     double largest[2] = {curves_largest(s->h, column[0]), curves_largest(s->h, column[1])};
     struct unit metre = unit_for_length(largest[0]);
-    double factor[2] = {metre.factor, 0.01};         /* the share in percent */
+    double factor[2] = {metre.factor, 0.01}; /* the share in percent */
     char label[64];
     struct gnuplot g;
     if (largest[0] == 0 && largest[1] == 0) return nothing_to_draw(sheet.path, "no crack, no peridynamic particle");
@@ -109,8 +112,7 @@ static void choose_energies(struct energies *e, const struct history *h)
 {
     double largest = 0;
     *e = (struct energies){0};
-    for (int k = 0; k < LEDGER_ROWS; k++)
-        largest = fmax(largest, curves_largest(h, history_column(h, ledger[k].name)));
+    for (int k = 0; k < LEDGER_ROWS; k++) largest = fmax(largest, curves_largest(h, history_column(h, ledger[k].name)));
     for (int k = 0; k < LEDGER_ROWS; k++) {
         const int column = history_column(h, ledger[k].name);
         if (column < 0 || !(curves_largest(h, column) > ENERGY_SHOWN * largest)) continue;
@@ -126,8 +128,8 @@ static void plot_energies(FILE *to, const struct energies *e)
 {
     fputs("plot ", to);
     for (int k = 0; k < e->n; k++)
-        fprintf(to, "$data using 1:%d with lines lw 2.2 lc rgb '%s' title '%s', ", k + 2,
-                e->row[k]->colour, e->row[k]->label);
+        fprintf(to, "$data using 1:%d with lines lw 2.2 lc rgb '%s' title '%s', ", k + 2, e->row[k]->colour,
+                e->row[k]->label);
     fputs("$data using 1:(0", to);
     for (int k = 0; k < e->n; k++)
         if (e->row[k] != &ledger[LEDGER_WORK]) fprintf(to, "+$%d", k + 2);
@@ -143,11 +145,12 @@ static double plot_curves_tic_distance(double top)
 
 static void plot_balance(FILE *to, const struct series *s, double largest)
 {
-    double top = largest > 0 ? 120 * largest : 1;    /* percent, a fifth above the largest */
+    double top = largest > 0 ? 120 * largest : 1; /* percent, a fifth above the largest */
     curves_time_axis(to, s);
-    fprintf(to, "unset label\nunset key\nset format x '%%g'\nset tmargin at screen 0.255\nset bmargin at screen 0.105\n"
-                "set yrange [%.9g:%.9g]\nset ytics %.9g\nset format y '%%.2g'\nset ylabel 'balance error [%%]'\n"
-                "plot $data using 1:2 with lines lw 1.8 lc rgb '%s'\n",
+    fprintf(to,
+            "unset label\nunset key\nset format x '%%g'\nset tmargin at screen 0.255\nset bmargin at screen 0.105\n"
+            "set yrange [%.9g:%.9g]\nset ytics %.9g\nset format y '%%.2g'\nset ylabel 'balance error [%%]'\n"
+            "plot $data using 1:2 with lines lw 1.8 lc rgb '%s'\n",
             -top, top, plot_curves_tic_distance(top), curve_colour[6]);
 }
 
@@ -213,11 +216,15 @@ status curves_draw(const char *folder, const char *title, enum picture_format fo
 static void frame_colour(char *text, size_t room, int k, int frames)
 {
     const struct colour c = colour_sequential(0.88 * k / fmax(frames - 1, 1));
-    if (frames <= CURVE_COLOURS) snprintf(text, room, "%s", curve_colour[k]);
-    else snprintf(text, room, "#%02x%02x%02x", c.red, c.green, c.blue);
+    if (frames <= CURVE_COLOURS)
+        snprintf(text, room, "%s", curve_colour[k]);
+    else
+        snprintf(text, room, "#%02x%02x%02x", c.red, c.green, c.blue);
 }
 
-struct station { float x, velocity, stress, damage; };
+struct station {
+    float x, velocity, stress, damage;
+};
 
 static int plot_curves_by_place(const void *a, const void *b)
 {
@@ -236,7 +243,7 @@ static void profile_range(FILE *to, const struct frame *frame, int frames, doubl
             const double x = (double)frame[k].X[0][i] + frame[k].u[0][i];
             from = fmin(from, x - half), end = fmax(end, x + half);
         }
-    const double beside = 1e-3 * (end - from);       /* or rounding takes the tics at the ends */
+    const double beside = 1e-3 * (end - from); /* or rounding takes the tics at the ends */
     if (end > from) fprintf(to, "set xrange [%.9g:%.9g]\n", (from - beside) / metre, (end + beside) / metre);
 }
 
@@ -312,8 +319,9 @@ status profiles_draw(struct sheet sheet, const char *title, const struct frame *
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, height));
     for (int k = 0; k < frames; k++) send_profile(g.to, &frame[k], k, frame_spacing(&frame[0]), unit);
     curves_title(g.to, title, "");
-    fprintf(g.to, "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.86\nset format x ''\n"
-                  "set offsets graph 0, graph 0, graph 0.06, graph 0.06\nset key at screen 0.875,%.4f left top\n",
+    fprintf(g.to,
+            "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.86\nset format x ''\n"
+            "set offsets graph 0, graph 0, graph 0.06, graph 0.06\nset key at screen 0.875,%.4f left top\n",
             1 - 73.0 / height);
     profile_range(g.to, frame, frames, unit[0].factor);
     for (int k = 0; k < panels; k++) {
@@ -334,8 +342,7 @@ static void send_field(FILE *to, const struct frame *f, int k, const float *valu
                        const double factor[2])
 {
     struct station *s = NEW("plot.profile", f->n, struct station);
-    for (int64_t i = 0; i < f->n; i++)
-        s[i] = (struct station){.x = f->X[0][i] + f->u[0][i], .velocity = value[i]};
+    for (int64_t i = 0; i < f->n; i++) s[i] = (struct station){.x = f->X[0][i] + f->u[0][i], .velocity = value[i]};
     array_sort(s, f->n, sizeof *s, plot_curves_by_place);
     fprintf(to, "$f%d << EOD\n", k);
     for (int64_t i = 0; i < f->n; i++) {
@@ -363,10 +370,11 @@ status field_profiles_draw(struct sheet sheet, const char *title, const struct p
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 560));
     for (int k = 0; k < frames; k++) send_field(g.to, &frame[k], k, value[k], frame_spacing(&frame[0]), factor);
     curves_title(g.to, title, "");
-    fprintf(g.to, "set lmargin at screen 0.1\nset rmargin at screen 0.84\nset tmargin at screen 0.9\n"
-                  "set bmargin at screen 0.13\n"
-                  "set offsets graph 0, graph 0, graph 0.06, graph 0.06\nset key at screen 0.855,0.91 left top\n"
-                  "set xlabel 'x [%s]'\nset ylabel '%s'\n",
+    fprintf(g.to,
+            "set lmargin at screen 0.1\nset rmargin at screen 0.84\nset tmargin at screen 0.9\n"
+            "set bmargin at screen 0.13\n"
+            "set offsets graph 0, graph 0, graph 0.06, graph 0.06\nset key at screen 0.855,0.91 left top\n"
+            "set xlabel 'x [%s]'\nset ylabel '%s'\n",
             unit[0].name, label);
     profile_range(g.to, frame, frames, unit[0].factor);
     if (field->scale == CATEGORY && largest < 12) fputs("set ytics 1\n", g.to);

@@ -80,7 +80,8 @@ status plot_field_find(const struct plot_field **field, const char *name, int di
         return status_set(REFUSED, "plot: --field %s: a run in %d dimension%s has no such component", name, dim,
                           dim > 1 ? "s" : "");
     }
-    return status_set(REFUSED, "plot: --field %s: there is no such field; do you mean %s? Others are damage, speed, "
+    return status_set(REFUSED,
+                      "plot: --field %s: there is no such field; do you mean %s? Others are damage, speed, "
                       "velocity_x, displacement, stress_xx, von_mises, pressure, principal_stress",
                       shown_name(name).text, word_nearest(name, names, COUNT_OF(names)));
 }
@@ -94,8 +95,10 @@ status plot_field_read(float **value, const struct plot_field *field, const stru
     for (int64_t i = 0; i < f->n; i++) {
         double sum = 0;
         for (int c = 0; c < columns; c++) sum += square((double)row[i * columns + c]);
-        if (field->component == MAGNITUDE) (*value)[i] = (float)sqrt(sum);
-        else (*value)[i] = field->component < columns ? row[i * columns + field->component] : 0;
+        if (field->component == MAGNITUDE)
+            (*value)[i] = (float)sqrt(sum);
+        else
+            (*value)[i] = field->component < columns ? row[i * columns + field->component] : 0;
     }
     memory_free(row);
     return OK;

@@ -61,9 +61,11 @@ static status say_field(const char *path, const struct view *view, const struct 
     const bool damage = map_of_field(r->look.field) == MAP_DAMAGE;
     printf("%s: %s of %d frame%s, %lld particles", shown_name(path).text, r->look.field->name, frames,
            frames > 1 ? "s" : "", (long long)particles);
-    if (view->categories) say_categories(view->categories);
-    else printf(", colours from %.4g to %.4g%s%s\n", damage ? 0 : view->low, damage ? view->top : view->high,
-                *r->look.field->unit ? " " : "", r->look.field->unit);
+    if (view->categories)
+        say_categories(view->categories);
+    else
+        printf(", colours from %.4g to %.4g%s%s\n", damage ? 0 : view->low, damage ? view->top : view->high,
+               *r->look.field->unit ? " " : "", r->look.field->unit);
     return ferror(stdout) || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
 }
 

@@ -19,12 +19,14 @@ enum { PATH_LENGTH = 4096 };
 
 struct unit unit_for(double largest, const char *name)
 {
-    static const struct { double factor; const char *prefix; } si[] = {
-        {1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}, {1e-12, "p"}};
+    static const struct {
+        double factor;
+        const char *prefix;
+    } si[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}, {1e-12, "p"}};
     struct unit u = {1, ""};
     int k = 0;
     while (k + 1 < (int)COUNT_OF(si) && fabs(largest) < si[k].factor * 0.9995) k++;
-    if (!(fabs(largest) > 1e-15)) k = 3;             /* zero or not finite: no prefix */
+    if (!(fabs(largest) > 1e-15)) k = 3; /* zero or not finite: no prefix */
     u.factor = si[k].factor;
     snprintf(u.name, sizeof u.name, "%s%s", si[k].prefix, name);
     return u;
@@ -100,8 +102,10 @@ status run_frames_choose(struct run_frames *f, const struct plot_request *r)
     const status within = times_within(f, r->time, r->times);
     if (within != OK) run_frames_free(f);
     TRY(within);
-    if (r->times > 0) nearest_frames(f, r->time, r->times);
-    else spread_frames(f, r->panels);
+    if (r->times > 0)
+        nearest_frames(f, r->time, r->times);
+    else
+        spread_frames(f, r->panels);
     return OK;
 }
 
@@ -146,9 +150,12 @@ status picture_destination(struct path *path, const char *out, const char *name,
         return status_set(REFUSED, "plot: -o '%s': the name of a file or folder is expected", shown_name(out).text);
     snprintf(above.text, sizeof above.text, "%.*s", end > out ? (int)(end - out) : 0, out);
     if (above.text[0]) TRY(folder_make(above.text));
-    if (end > out && !end[1]) *path = path_join(above.text, name);
-    else if (path_is_folder(out)) *path = path_join(out, name);
-    else snprintf(path->text, sizeof path->text, "%s", out);
+    if (end > out && !end[1])
+        *path = path_join(above.text, name);
+    else if (path_is_folder(out))
+        *path = path_join(out, name);
+    else
+        snprintf(path->text, sizeof path->text, "%s", out);
     if (!path->text[0]) return status_set(REFUSED, "%s: the name is too long", shown_name(out).text);
     TRY(file_guard(path->text));
     if (overwrite || !path_exists(path->text) || picture_is_ours(path->text)) return OK;

@@ -16,7 +16,7 @@ enum { BAR_FROM = 26, BAR_WIDTH = 16, BAR_STEPS = 256, BAR_COLUMNS = 2 };
 enum { WIDTH = 1280, WIDTH_SINGLE = 1000, HEIGHT_MAX = 1180, PANEL_MIN = 24 };
 enum { KEY_LINE = 22 };                  /* from one name to the next [pixel] */
 enum { KEY_BELOW = 760 };                /* pictures that narrow have the key below the title [pixel] */
-static const double SHAPE_WANTED = 0.72;             /* height over width of the picture */
+static const double SHAPE_WANTED = 0.72; /* height over width of the picture */
 
 /* Layout with this number of columns; aspect: height over width of a panel. */
 static struct layout layout_of(int columns, int panels, double aspect, int right)
@@ -43,7 +43,7 @@ static struct layout layout_choose(int panels, double aspect, int right)
         struct layout l = layout_of(columns, panels, aspect, right);
         double area = (double)l.panel_width * l.panel_height;
         double cost = fabs(log((double)l.height / l.width / SHAPE_WANTED)) - 0.5 * log(area);
-        cost += 0.2 * (l.rows * l.columns - panels);             /* empty places */
+        cost += 0.2 * (l.rows * l.columns - panels); /* empty places */
         if (cost >= best_cost) continue;
         best_cost = cost;
         best = l;
@@ -75,8 +75,9 @@ static double plot_maps_tic_distance(double range, int pixels, int apart)
 void panel_image(FILE *to, const struct colour *pixel, int width, int height, const double *from, const double *step,
                  const char *more)
 {
-    fprintf(to, "plot '-' binary array=(%d,%d) dx=%.12g dy=%.12g origin=(%.12g,%.12g) format='%%uchar' "
-                "with rgbalpha notitle%s\n",
+    fprintf(to,
+            "plot '-' binary array=(%d,%d) dx=%.12g dy=%.12g origin=(%.12g,%.12g) format='%%uchar' "
+            "with rgbalpha notitle%s\n",
             width, height, step[0], step[1], from[0] + 0.5 * step[0], from[1] + 0.5 * step[1], more);
     fwrite(pixel, sizeof *pixel, (size_t)width * (size_t)height, to);
 }
@@ -94,7 +95,7 @@ static void draw_notches(FILE *to, const struct view *view, double metre)
 }
 
 void panel_axes(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
-                     const struct unit *metre, int column, bool lowest)
+                const struct unit *metre, int column, bool lowest)
 {
     const int size[2] = {l->panel_width, l->panel_height};
     for (int k = 0; k < 2; k++) {
@@ -108,7 +109,7 @@ void panel_axes(FILE *to, const struct layout *l, const struct view *view, const
 }
 
 void panel_directions(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
-                           const struct unit *metre)
+                      const struct unit *metre)
 {
     const double pixel = (view->to[0] - view->from[0]) / metre->factor / l->panel_width;
     const double corner[2] = {view->from[0] / metre->factor + 34 * pixel, view->from[1] / metre->factor + 20 * pixel};
@@ -117,14 +118,16 @@ void panel_directions(FILE *to, const struct layout *l, const struct view *view,
     for (int d = 0; d < 3; d++) {
         const double way[2] = {26 * pixel * c->camera.right[d], 26 * pixel * c->camera.up[d]};
         if (hypot(way[0], way[1]) < 2 * pixel) continue;
-        fprintf(to, "set arrow from %.9g,%.9g rto %.9g,%.9g size screen 0.006,20 front lw 1.3 lc rgb '#333333'\n"
-                    "set label %d '%c' at %.9g,%.9g center front font ',11' textcolor rgb '#333333'\n",
+        fprintf(to,
+                "set arrow from %.9g,%.9g rto %.9g,%.9g size screen 0.006,20 front lw 1.3 lc rgb '#333333'\n"
+                "set label %d '%c' at %.9g,%.9g center front font ',11' textcolor rgb '#333333'\n",
                 corner[0], corner[1], way[0], way[1], 40 + d, 'x' + d, corner[0] + 1.45 * way[0],
                 corner[1] + 1.45 * way[1]);
     }
     const double end = view->to[0] / metre->factor - 8 * pixel, at = corner[1] - 10 * pixel;
-    fprintf(to, "set arrow from %.9g,%.9g to %.9g,%.9g heads size screen 0.004,90 front lw 1.3 lc rgb '#333333'\n"
-                "set label 43 '%.4g %s' at %.9g,%.9g center front font ',11' textcolor rgb '#333333'\n",
+    fprintf(to,
+            "set arrow from %.9g,%.9g to %.9g,%.9g heads size screen 0.004,90 front lw 1.3 lc rgb '#333333'\n"
+            "set label 43 '%.4g %s' at %.9g,%.9g center front font ',11' textcolor rgb '#333333'\n",
             end - length, at, end, at, length, metre->name, end - 0.5 * length, at + 10 * pixel);
 }
 
@@ -144,12 +147,16 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + k, from[k], view->to[k] / metre.factor);
     }
     fputs("set title '", to);
-    if (c->in_steps) fprintf(to, "load step %lld", (long long)c->step);
-    else fprintf(to, "t = %.3g %s", c->t / second->factor, second->name);
+    if (c->in_steps)
+        fprintf(to, "load step %lld", (long long)c->step);
+    else
+        fprintf(to, "t = %.3g %s", c->t / second->factor, second->name);
     fputs("' font ',13' offset 0,-0.5\n", to);
     if (map == MAP_DAMAGE) draw_notches(to, view, metre.factor);
-    if (c->place[2]) panel_directions(to, l, view, c, &metre);
-    else panel_axes(to, l, view, c, &metre, column, lowest);
+    if (c->place[2])
+        panel_directions(to, l, view, c, &metre);
+    else
+        panel_axes(to, l, view, c, &metre, column, lowest);
     struct colour *pixel = NEW("plot.pixel", (int64_t)size[0] * size[1], struct colour);
     raster_paint(pixel, size[0], size[1], view, c, map);
     panel_image(to, pixel, size[0], size[1], from, step, "");
@@ -157,7 +164,10 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
 }
 
 /* What the colour bar means: text, ends and distance of tics in the unit of the text. */
-struct bar_scale { char label[64]; double low, high, tics; };
+struct bar_scale {
+    char label[64];
+    double low, high, tics;
+};
 
 static struct bar_scale bar_scale_of(const struct view *view, enum map map)
 {
@@ -200,10 +210,11 @@ static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct vi
     const char *format = map == MAP_FIELD ? "%g" : "%.1f";
     const double beside = l->width - l->right + BAR_FROM + BAR_WIDTH + 30;
     set_box(to, l, l->width - l->right + BAR_FROM, ABOVE, BAR_WIDTH, shown);
-    fprintf(to, "unset arrow\nunset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\nset border 15\n"
-                "unset grid\nunset label\n"
-                "set xrange [0:1]\nset yrange [%.9g:%.9g]\nset y2range [%.9g:%.9g]\nset y2tics out %.9g format '%s'\n"
-                "set label '%s' at screen %.6g,%.6g center rotate by 90 textcolor rgb '#333333'\n",
+    fprintf(to,
+            "unset arrow\nunset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\nset border 15\n"
+            "unset grid\nunset label\n"
+            "set xrange [0:1]\nset yrange [%.9g:%.9g]\nset y2range [%.9g:%.9g]\nset y2tics out %.9g format '%s'\n"
+            "set label '%s' at screen %.6g,%.6g center rotate by 90 textcolor rgb '#333333'\n",
             scale.low, scale.high, scale.low, scale.high, scale.tics, format, scale.label,
             (beside + bar_numbers_width(&scale, format)) / l->width, 1 - (ABOVE + 0.5 * shown) / l->height);
     panel_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step, "");
@@ -213,9 +224,11 @@ static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct vi
 static void key_entry(FILE *to, const struct layout *l, double x, double y, struct colour c, const char *text)
 {
     if (c.alpha > 0)
-        fprintf(to, "set object rectangle from screen %.6g,%.6g to screen %.6g,%.6g fs solid border rgb '#888888' "
-                    "fc rgb '#%02x%02x%02x'\n", x / l->width, 1 - (y + 6) / l->height, (x + 14) / l->width,
-                1 - (y - 8) / l->height, c.red, c.green, c.blue);
+        fprintf(to,
+                "set object rectangle from screen %.6g,%.6g to screen %.6g,%.6g fs solid border rgb '#888888' "
+                "fc rgb '#%02x%02x%02x'\n",
+                x / l->width, 1 - (y + 6) / l->height, (x + 14) / l->width, 1 - (y - 8) / l->height, c.red, c.green,
+                c.blue);
     fputs("set label ", to);
     gnuplot_quote(to, text);
     fprintf(to, " at screen %.6g,%.6g left font ',12' textcolor rgb '#333333'\n", (x + 21) / l->width,
@@ -246,7 +259,7 @@ static void draw_categories(FILE *to, const struct layout *l, const struct categ
 /* Room on the right for the longest name of a category. */
 static int right_room(const struct view *view, enum map map)
 {
-    size_t longest = 12;                             /* `and 120 more` */
+    size_t longest = 12; /* `and 120 more` */
     for (int k = 0; map == MAP_CATEGORY && k < view->categories->n; k++) {
         const size_t length = strlen(view->categories->of[k].name);
         if (length > longest) longest = length;
@@ -283,7 +296,7 @@ status maps_draw(struct sheet sheet, const char *title, enum map map, const stru
     struct unit second = unit_for(cloud[clouds - 1].t, "s");
     for (int k = 0; k < clouds; k++) {
         plot_maps_draw_panel(g.to, &l, view, &cloud[k], map, &second, k, k + l.columns >= clouds);
-        fputs("unset label\nunset object\n", g.to);  /* drawn once for all panels */
+        fputs("unset label\nunset object\n", g.to); /* drawn once for all panels */
     }
     if (map != MAP_FRAGMENT && map != MAP_CATEGORY) plot_maps_draw_bar(g.to, &l, view, map);
     fputs("unset multiplot\n", g.to);

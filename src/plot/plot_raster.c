@@ -11,13 +11,13 @@
 
 /* A square a little larger than the spacing closes the seams of a strained lattice; a disc that reaches the
  * diagonal and more closes those of a turned or irregular one. */
-static const double SQUARE = 0.55, DISC = 0.9;       /* half width, radius over spacing */
+static const double SQUARE = 0.55, DISC = 0.9; /* half width, radius over spacing */
 
 struct canvas {
     struct colour *pixel;
-    float *rank;                         /* of the particle painted there; the smaller rank wins */
+    float *rank; /* of the particle painted there; the smaller rank wins */
     int width, height;
-    double per_metre[2];                 /* pixels */
+    double per_metre[2]; /* pixels */
 };
 
 /* Paints particle i on the pixels that it covers and where its rank is the smallest. */
@@ -25,13 +25,13 @@ static void paint_particle(struct canvas *v, const struct view *view, const stru
 {
     double at[2], reach[2];
     int from[2], to[2], size[2] = {v->width, v->height};
-    const double wide = c->size ? c->size[i] - c->spacing : 0;       /* of a coarse cell's point beyond a particle */
+    const double wide = c->size ? c->size[i] - c->spacing : 0; /* of a coarse cell's point beyond a particle */
     const double half = c->aligned ? SQUARE * c->spacing + 0.5 * wide : DISC * (c->spacing + wide);
-    bool fine = c->spacing * v->per_metre[0] < 1.5;  /* several particles a pixel: show the most damaged */
+    bool fine = c->spacing * v->per_metre[0] < 1.5; /* several particles a pixel: show the most damaged */
     for (int k = 0; k < 2; k++) {
         at[k] = (c->place[k][i] - view->from[k]) * v->per_metre[k];
         reach[k] = fmax(half * v->per_metre[k], 0.5);
-        if (!(at[k] > -reach[k] && at[k] < size[k] + reach[k])) return;      /* outside, or not a number */
+        if (!(at[k] > -reach[k] && at[k] < size[k] + reach[k])) return; /* outside, or not a number */
         from[k] = (int)fmax(ceil(at[k] - reach[k] - 0.5), 0);
         to[k] = (int)fmin(floor(at[k] + reach[k] - 0.5), size[k] - 1);
     }

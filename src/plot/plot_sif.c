@@ -35,7 +35,7 @@ static int plot_sif_column_of(const struct history *h, const char *probe, const 
 struct factors {
     int n;
     char name[PROBES_SHOWN][NAME_MAX_LENGTH];
-    int column[2 * PROBES_SHOWN], spread[PROBES_SHOWN];          /* K_I and K_II of each */
+    int column[2 * PROBES_SHOWN], spread[PROBES_SHOWN]; /* K_I and K_II of each */
     double factor[2 * PROBES_SHOWN], percent[PROBES_SHOWN];
     struct unit unit;
 };
@@ -75,7 +75,8 @@ static void plot_spread(FILE *to, const struct series *s, const struct factors *
     curves_time_axis(to, s);
     fputs("unset label\nunset key\nset format x '%g'\nset tmargin at screen 0.29\nset bmargin at screen 0.105\n"
           "set logscale y\nset yrange [0.1:100]\nset ytics ('0.1' 0.1, '1' 1, '10' 10, '100' 100)\nset format y '%g'\n"
-          "set ylabel 'contours differ by [%]'\nplot ", to);
+          "set ylabel 'contours differ by [%]'\nplot ",
+          to);
     for (int k = 0; k < f->n; k++)
         fprintf(to, "%s$data using 1:%d with lines lw 1.6 lc rgb '%s'", k > 0 ? ", " : "", k + 2,
                 curve_colour[f->n > 1 ? k : CURVE_COLOURS - 1]);
@@ -92,10 +93,12 @@ status sif_bench_draw(const char *folder, const char *title, const struct series
     curves_send(g.to, s, f.column, f.factor, 2 * f.n);
     curves_title(g.to, title, "stress-intensity factors");
     curves_time_axis(g.to, s);
-    fprintf(g.to, "set lmargin at screen 0.1\nset rmargin at screen 0.86\nset key at screen 0.875,0.9 left top\n"
-                  "set ylabel 'K [%s]'\nset offsets graph 0, graph 0, graph 0.04, graph 0.04\n"
-                  "set multiplot\nset tmargin at screen 0.905\nset bmargin at screen 0.35\nset format x ''\n"
-                  "unset xlabel\n", f.unit.name);
+    fprintf(g.to,
+            "set lmargin at screen 0.1\nset rmargin at screen 0.86\nset key at screen 0.875,0.9 left top\n"
+            "set ylabel 'K [%s]'\nset offsets graph 0, graph 0, graph 0.04, graph 0.04\n"
+            "set multiplot\nset tmargin at screen 0.905\nset bmargin at screen 0.35\nset format x ''\n"
+            "unset xlabel\n",
+            f.unit.name);
     plot_factors(g.to, &f);
     fputs("set offsets\nundefine $data\n", g.to);
     curves_send(g.to, s, f.spread, f.percent, f.n);
@@ -129,7 +132,8 @@ static int find_ways(struct way *w, const char *folder, const struct history *h)
     int n = 0;
     for (int k = 0; k < found; k++) {
         struct way *a = &w[n];
-        *a = (struct way){.x = plot_sif_column_of(h, name[k], "x"), .y = plot_sif_column_of(h, name[k], "y"),
+        *a = (struct way){.x = plot_sif_column_of(h, name[k], "x"),
+                          .y = plot_sif_column_of(h, name[k], "y"),
                           .length = plot_sif_column_of(h, name[k], "length")};
         strcpy(a->name, name[k]);
         a->grown = history_at(h, h->rows - 1, a->length);
@@ -195,7 +199,7 @@ static void plot_ways(FILE *to, const struct way *w, int n, const struct unit *m
     fputs("plot ", to);
     for (int k = 0; k < n; k++) {
         const double m = metre->factor, direction = w[k].direction * 3.14159265358979323846 / 180;
-        if (isfinite(direction))         /* the initial crack, up to the edge of the picture */
+        if (isfinite(direction)) /* the initial crack, up to the edge of the picture */
             fprintf(to, "'+' using (%.9g-%.9g*$0):(%.9g-%.9g*$0) every 1 with lines lw 5 lc rgb '#bbbbbb' title '%s', ",
                     w[k].from[0] / m, w[k].grown / m * cos(direction), w[k].from[1] / m,
                     w[k].grown / m * sin(direction), k == 0 ? "crack at the start" : "");
@@ -227,7 +231,8 @@ status paths_draw(const char *folder, const char *title, const struct series *s)
     for (int k = 0; k < n; k++) send_way(g.to, h, &way[k], k, metre.factor);
     set_square(g.to, way, n, &metre);
     fputs("set lmargin at screen 0.1\nset rmargin at screen 0.74\nset tmargin at screen 0.9\n"
-          "set bmargin at screen 0.105\nset key at screen 0.755,0.89 left top\nset samples 2\n", g.to);
+          "set bmargin at screen 0.105\nset key at screen 0.755,0.89 left top\nset samples 2\n",
+          g.to);
     plot_ways(g.to, way, n, &metre);
     return gnuplot_close(&g);
 }

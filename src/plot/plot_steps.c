@@ -24,7 +24,9 @@ bool run_in_steps(const char *folder)
 /* ---- load over displacement -------------------------------------------------------------------------------------- */
 
 /* Columns of the components of a vector, as NAME.force_x; none: of a name that has no such columns. */
-struct components { int n, column[3]; };
+struct components {
+    int n, column[3];
+};
 
 static struct components components_of(const struct history *h, const char *probe, const char *quantity)
 {
@@ -56,13 +58,13 @@ static double longest_of(const struct history *h, const struct components *c)
 struct reaction {
     char name[NAME_MAX_LENGTH];
     struct components force, way;
-    int64_t peak;                        /* row of the largest force */
+    int64_t peak; /* row of the largest force */
 };
 struct reactions {
     int n;
     struct reaction of[REACTIONS_SHOWN];
-    char over[NAME_MAX_LENGTH];          /* probe whose displacement all are drawn over; "": each over its own */
-    double force, way;                   /* largest [N]; largest while there is a force [m] */
+    char over[NAME_MAX_LENGTH]; /* probe whose displacement all are drawn over; "": each over its own */
+    double force, way;          /* largest [N]; largest while there is a force [m] */
 };
 
 static int64_t peak_of(const struct history *h, const struct components *force)
@@ -141,8 +143,8 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
         fprintf(to, "%s$f%d with linespoints lw 2 pt 7 ps 0.5 lc rgb '%s' title ", m == 0 ? "plot " : ", ", m,
                 curve_colour[m]);
         gnuplot_quote(to, a->name);
-        snprintf(text, sizeof text, "%.4g %s at %.4g %s", length_at(h, a->peak, &a->force) / newton.factor,
-                 newton.name, length_at(h, a->peak, &a->way) / metre.factor, metre.name);
+        snprintf(text, sizeof text, "%.4g %s at %.4g %s", length_at(h, a->peak, &a->force) / newton.factor, newton.name,
+                 length_at(h, a->peak, &a->way) / metre.factor, metre.name);
         fprintf(to, ", $f%d every ::%lld::%lld with points pt 6 ps 2 lw 2 lc rgb '%s' title ", m, (long long)a->peak,
                 (long long)a->peak, curve_colour[CURVE_COLOURS - 1]);
         gnuplot_quote(to, text);
@@ -161,9 +163,10 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     reactions_send(g.to, h, &r, newton, metre);
     curves_title(g.to, title, "load and displacement");
-    fprintf(g.to, "set lmargin at screen 0.1\nset rmargin at screen 0.72\nset tmargin at screen 0.9\n"
-                  "set bmargin at screen 0.13\nset key at screen 0.735,0.895 left top\nset xrange [0:%.9g]\n"
-                  "set yrange [0:%.9g]\nset ylabel 'force [%s]'\nset xlabel ",
+    fprintf(g.to,
+            "set lmargin at screen 0.1\nset rmargin at screen 0.72\nset tmargin at screen 0.9\n"
+            "set bmargin at screen 0.13\nset key at screen 0.735,0.895 left top\nset xrange [0:%.9g]\n"
+            "set yrange [0:%.9g]\nset ylabel 'force [%s]'\nset xlabel ",
             1.15 * r.way / metre.factor, r.force > 0 ? 1.08 * r.force / newton.factor : 1, newton.name);
     char label[3 * NAME_MAX_LENGTH];
     snprintf(label, sizeof label, "displacement%s%.63s [%s]", r.over[0] ? " of " : "", r.over, metre.name);
@@ -213,8 +216,9 @@ static void release_send(FILE *to, const struct history *h, int area, int rate, 
 
 static void release_plot(FILE *to, const double *toughness, int n, double mean, struct unit rate)
 {
-    fprintf(to, "plot $data with linespoints lw 2 pt 7 ps 0.7 lc rgb '%s' title 'release rate', %.9g with lines lw 1.6 "
-                "dt (3,4) lc rgb '%s' title 'mean %.4g %s'",
+    fprintf(to,
+            "plot $data with linespoints lw 2 pt 7 ps 0.7 lc rgb '%s' title 'release rate', %.9g with lines lw 1.6 "
+            "dt (3,4) lc rgb '%s' title 'mean %.4g %s'",
             curve_colour[0], mean / rate.factor, curve_colour[0], mean / rate.factor, rate.name);
     for (int k = 0; k < n; k++)
         fprintf(to, ", %.9g with lines lw 1.8 dt (10,6) lc rgb '%s' title 'G_c = %.4g %s'", toughness[k] / rate.factor,
@@ -237,9 +241,10 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     release_send(g.to, h, area, rate, square, joule.factor);
     curves_title(g.to, title, "energy released by the growing crack");
-    fprintf(g.to, "set lmargin at screen 0.1\nset rmargin at screen 0.76\nset tmargin at screen 0.9\n"
-                  "set bmargin at screen 0.13\nset key at screen 0.775,0.895 left top\nset xrange [0:%.9g]\n"
-                  "set yrange [0:%.9g]\nset ylabel 'released over new area [%s]'\nset xlabel 'new crack area [%s]'\n",
+    fprintf(g.to,
+            "set lmargin at screen 0.1\nset rmargin at screen 0.76\nset tmargin at screen 0.9\n"
+            "set bmargin at screen 0.13\nset key at screen 0.775,0.895 left top\nset xrange [0:%.9g]\n"
+            "set yrange [0:%.9g]\nset ylabel 'released over new area [%s]'\nset xlabel 'new crack area [%s]'\n",
             1.03 * grown / square.factor, 1.15 * top / joule.factor, joule.name, square.name);
     release_plot(g.to, toughness, n, mean, joule);
     return gnuplot_close(&g);

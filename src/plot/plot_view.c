@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "plot/plot.h"
 
-enum { SAMPLE_MOST = 100000 };           /* values that quantiles are taken of */
+enum { SAMPLE_MOST = 100000 }; /* values that quantiles are taken of */
 
 static int plot_view_ascending(const void *a, const void *b)
 {
@@ -24,7 +24,9 @@ static int64_t sample_sorted(float *sample, const float *value, int64_t n)
     return kept;
 }
 
-struct span { double from, to; };
+struct span {
+    double from, to;
+};
 
 /* The value below which a share of them lies, and that above which it does; but `few` of them at least, where that is
  * not more than a twentieth. */
@@ -86,9 +88,9 @@ struct view view_of(const struct cloud *cloud, int clouds)
             v.top = fmax(v.top, fmin(cloud[c].damage[i], 1));
             if (cloud[c].size) reach = fmax(reach, 0.5 * cloud[c].size[i]);
         }
-    v.top = ceil(10 * v.top - 1e-3) / 10;            /* the colour bar ends on a tenth, 0.5 at least */
+    v.top = ceil(10 * v.top - 1e-3) / 10; /* the colour bar ends on a tenth, 0.5 at least */
     double margin = fmax(fmax(cloud[0].spacing, reach), 0.02 * longest);
-    if (!(margin > 0)) margin = 1e-3;                /* a single particle: a millimetre round it [m] */
+    if (!(margin > 0)) margin = 1e-3; /* a single particle: a millimetre round it [m] */
     for (int k = 0; k < 2; k++) {
         const double beside = k == 1 && cloud[0].tall > 0 ? 1.5 * cloud[0].tall : margin;
         v.from[k] -= beside, v.to[k] += beside;
@@ -113,11 +115,11 @@ static struct span values_bulk(const struct cloud *cloud, int clouds, double sha
 void view_set_field(struct view *v, const struct plot_field *field, const struct cloud *cloud, int clouds)
 {
     struct span s = values_bulk(cloud, clouds, 0.002, 3);
-    if (!(s.to > s.from)) s = values_bulk(cloud, clouds, 0, 0);  /* what few particles alone have */
+    if (!(s.to > s.from)) s = values_bulk(cloud, clouds, 0, 0); /* what few particles alone have */
     if (field->scale != FROM_LEAST) s.from = fmin(s.from, 0), s.to = fmax(s.to, 0);
     if (field->scale == BOTH_SIGNS) s.to = fmax(-s.from, s.to), s.from = -s.to;
     v->field = field, v->low = s.from, v->high = s.to;
-    if (!(v->high > v->low)) v->high = v->low + 1;   /* nothing but zero, or one value */
+    if (!(v->high > v->low)) v->high = v->low + 1; /* nothing but zero, or one value */
 }
 
 struct colour map_colour(const struct view *v, enum map map, double a)

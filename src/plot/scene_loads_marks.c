@@ -49,7 +49,11 @@ static const char *unit_of_value(const struct boundary *b)
 
 /* A load at the moment at which it is largest: its largest value [unit_of_value], on how many particles; whether other
  * particles or moments have another one. */
-struct acting { double t, most; int64_t particles; bool varies; };
+struct acting {
+    double t, most;
+    int64_t particles;
+    bool varies;
+};
 
 /* Static solvers have boundaries of their own, whose velocities are those of their ramp. */
 static const struct boundary *boundary_of(const struct run *e, const struct load *l)
@@ -79,7 +83,7 @@ static double vector_at(const struct run *e, const struct load *l, int64_t k, do
     }
     if (b->kind != BOUNDARY_PRESSURE) return value_size(vector, p->dim);
     const double pressure = fabs(vector[0]);
-    load_force_at(l, p, k, t, vector);                   /* the normal, from corners between two of them */
+    load_force_at(l, p, k, t, vector); /* the normal, from corners between two of them */
     const double force = value_size(vector, p->dim);
     for (int d = 0; d < p->dim && force > 0; d++) vector[d] *= pressure / force;
     return force > 0 ? pressure : 0;
@@ -181,7 +185,10 @@ static void describe_boundary(char *text, const struct boundary *b, int dim, con
 static int64_t stride_for(int64_t n, int64_t most) { return n > most ? (n + most - 1) / most : 1; }
 
 /* Of a load: those on every m-th line of the lattice in each direction, so that they cover the whole of it. */
-struct chosen { double from[DIM_MAX], spacing; int64_t layers[DIM_MAX], every; };
+struct chosen {
+    double from[DIM_MAX], spacing;
+    int64_t layers[DIM_MAX], every;
+};
 
 static bool chosen_has(const struct chosen *c, const struct particles *p, int32_t i)
 {
@@ -190,7 +197,7 @@ static bool chosen_has(const struct chosen *c, const struct particles *p, int32_
     particle_place(p, i, X);
     for (int d = 0; d < p->dim; d++) {
         const int64_t layer = (int64_t)floor((X[d] - c->from[d]) / c->spacing + 0.5);
-        const int64_t first = ((c->layers[d] - 1) % c->every) / 2;   /* as far from both ends */
+        const int64_t first = ((c->layers[d] - 1) % c->every) / 2; /* as far from both ends */
         on = on && layer % c->every == first;
     }
     return on;

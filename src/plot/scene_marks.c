@@ -38,7 +38,7 @@ static void mark_break(struct marks *m) { putc('\n', m->to); }
 
 void mark_end(struct marks *m, const char *how, const char *text)
 {
-    fputs("NaN NaN NaN NaN\nEOD\n", m->to);          /* a block must hold something */
+    fputs("NaN NaN NaN NaN\nEOD\n", m->to); /* a block must hold something */
     fprintf(m->plot, ", $m%d %s ", m->blocks++, how);
     if (!*text) {
         fputs("notitle", m->plot);
@@ -147,8 +147,10 @@ static void probe_mark(struct marks *m, int k, const char *text)
         mark_end(m, line, text);
     } else {
         char words[256] = "";
-        if (*text && p->kind == PROBE_REACTION) snprintf(words, sizeof words, "%.80s: at %.60s", text, p->boundary);
-        else if (*text) snprintf(words, sizeof words, "%.80s: everywhere", text);
+        if (*text && p->kind == PROBE_REACTION)
+            snprintf(words, sizeof words, "%.80s: at %.60s", text, p->boundary);
+        else if (*text)
+            snprintf(words, sizeof words, "%.80s: everywhere", text);
         mark_end(m, "with points pt -1", words);
     }
 }

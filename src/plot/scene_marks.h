@@ -10,10 +10,10 @@ struct marks {
     FILE *to, *plot;
     const struct run *engine;
     struct camera camera;
-    double metre;                        /* [m] of a unit of the axes */
-    double from[2], to_corner[2];        /* the rectangle that is shown [m] */
-    double arrow;                        /* length of the longest arrow [m] */
-    int blocks;                          /* data blocks so far */
+    double metre;                 /* [m] of a unit of the axes */
+    double from[2], to_corner[2]; /* the rectangle that is shown [m] */
+    double arrow;                 /* length of the longest arrow [m] */
+    int blocks;                   /* data blocks so far */
 };
 
 /* Begins the data block of a mark. */

@@ -109,9 +109,13 @@ static void scene_cloud(struct cloud *c, struct run *e, const struct camera *cam
     int64_t room = e->part.n + (hollow ? e->frame->shown.part.n : 0);
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
         room += rigid_sites(e->scene, &e->part, &s->body[b].shape, from, count, &step);
-    *c = (struct cloud){.axis = {0, 1}, .normal = -1, .spacing = s->spacing, .aligned = true,
+    *c = (struct cloud){.axis = {0, 1},
+                        .normal = -1,
+                        .spacing = s->spacing,
+                        .aligned = true,
                         .camera = s->dim == 3 ? *camera : camera_along(2, 1),
-                        .from = {INFINITY, INFINITY}, .to = {-INFINITY, -INFINITY}};
+                        .from = {INFINITY, INFINITY},
+                        .to = {-INFINITY, -INFINITY}};
     for (int a = 0; a < (s->dim == 3 ? 3 : 2); a++) c->place[a] = NEW("plot.place", room, float);
     c->damage = NEW("plot.damage", room, float);
     c->size = NEW("plot.size", room, float);
@@ -140,8 +144,8 @@ static void rigid_words(char *text, const struct scene_body *b, int dim)
     for (int d = 0; d < dim; d++) speed += square(b->velocity[d]);
     const struct unit mass = unit_for(1e3 * b->mass, "g"), fast = unit_for(sqrt(speed), "m/s");
     if (b->mass > 0)
-        length += snprintf(text + length, (size_t)(TEXT_ROOM - length), ", %.3g %s", 1e3 * b->mass / mass.factor,
-                           mass.name);
+        length +=
+            snprintf(text + length, (size_t)(TEXT_ROOM - length), ", %.3g %s", 1e3 * b->mass / mass.factor, mass.name);
     if (speed > 0)
         snprintf(text + length, (size_t)(TEXT_ROOM - length), ", %.3g %s", sqrt(speed) / fast.factor, fast.name);
 }
@@ -187,10 +191,7 @@ static struct view scene_view(const struct cloud *c, double arrow)
     return v;
 }
 
-static double arrow_length(const struct cloud *c)
-{
-    return 0.07 * fmax(c->to[0] - c->from[0], c->to[1] - c->from[1]);
-}
+static double arrow_length(const struct cloud *c) { return 0.07 * fmax(c->to[0] - c->from[0], c->to[1] - c->from[1]); }
 
 static struct layout scene_layout(const struct view *v, int lines)
 {
@@ -223,11 +224,14 @@ static void set_panel(FILE *to, const struct layout *l, const struct view *v, co
     panel_place(to, l, PICTURE_LEFT, PICTURE_ABOVE);
     for (int a = 0; a < 2; a++)
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + a, v->from[a] / metre->factor, v->to[a] / metre->factor);
-    if (c->place[2]) panel_directions(to, l, v, c, metre);
-    else panel_axes(to, l, v, c, metre, 0, true);
+    if (c->place[2])
+        panel_directions(to, l, v, c, metre);
+    else
+        panel_axes(to, l, v, c, metre, 0, true);
     if (c->tall > 0) fputs("unset ytics\nset ylabel ''\nset border 1\n", to);
-    fprintf(to, "set key at screen %.6g,%.6g left top Left reverse horizontal maxcols 1 samplen 2 spacing 1.15 "
-                "font ',12'\n",
+    fprintf(to,
+            "set key at screen %.6g,%.6g left top Left reverse horizontal maxcols 1 samplen 2 spacing 1.15 "
+            "font ',12'\n",
             (PICTURE_LEFT + l->panel_width + 14.0) / l->width, 1 - 58.0 / l->height);
 }
 

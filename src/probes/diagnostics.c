@@ -12,8 +12,8 @@
 
 void diagnostics_make(struct diagnostics *w)
 {
-    *w = (struct diagnostics){.break_time = NAN, .break_place = {NAN, NAN, NAN}, .driven_time = NAN,
-                               .now.spin_error = NAN};
+    *w = (struct diagnostics){
+        .break_time = NAN, .break_place = {NAN, NAN, NAN}, .driven_time = NAN, .now.spin_error = NAN};
 }
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
@@ -121,7 +121,8 @@ static status divergence_report(const struct particles *p, int64_t i, real limit
     char what[128];
     if (isfinite(speed2) && speed2 > limit * limit)
         snprintf(what, sizeof what, "moves at %.3g m/s, faster than the wave speed %.4g m/s", sqrt(speed2), limit);
-    else snprintf(what, sizeof what, "has a position or velocity that is no finite number");
+    else
+        snprintf(what, sizeof what, "has a position or velocity that is no finite number");
     return status_set(FAILED, "unstable at step %lld, t = %.3g s: particle %d at (%s) m %s", (long long)step, t,
                       (int)p->id[i], place, what);
 }
@@ -153,7 +154,7 @@ status diagnostics_divergence(const struct particles *p, bool peridynamic, bool 
     INVARIANT(limit > 0);
     int64_t first = peridynamic ? first_diverged(p, p->list[KIND_PD], p->n_of[KIND_PD], limit) : p->n_all;
     const int64_t free = meshed ? first_diverged(p, p->list[KIND_MPM], p->n_of[KIND_MPM], limit)
-                                    : first_diverged(p, p->list_free, p->n_free, limit);
+                                : first_diverged(p, p->list_free, p->n_free, limit);
     if (free < first) first = free;
     return first < p->n ? divergence_report(p, first, limit, step, t) : OK;
 }

@@ -23,8 +23,10 @@ static void put_when(struct json *j, const struct scene *scene, const struct run
     char key[NAME_MAX_LENGTH];
     const bool in_steps = scene_in_steps(scene);
     snprintf(key, sizeof key, "%s_%s", what, in_steps ? "step" : "time");
-    if (!in_steps) json_real(j, key, t);
-    else if (!isnan(t)) json_count(j, key, (int64_t)floor(t / clock->dt + 0.5));
+    if (!in_steps)
+        json_real(j, key, t);
+    else if (!isnan(t))
+        json_count(j, key, (int64_t)floor(t / clock->dt + 0.5));
 }
 
 static void put_tip(struct json *j, const struct run *e, const struct tip *tip)

@@ -77,9 +77,9 @@ static void one_pulse(struct exact_values *v, const struct exact *e, const struc
 {
     real L = length(e), gone = wave_speed(e) * t;
     int way = p->direction[0] < 0 ? -1 : 1;
-    real factor = way, start = way > 0 ? p->at[0] - e->left : e->right - p->at[0];       /* from the end behind it */
+    real factor = way, start = way > 0 ? p->at[0] - e->left : e->right - p->at[0]; /* from the end behind it */
     for (int n = 0; n * L <= start + gone + 2 * p->width; n++) {
-        real here = way > 0 ? X - e->left : e->right - X;                        /* from the end behind this image */
+        real here = way > 0 ? X - e->left : e->right - X; /* from the end behind this image */
         add_pulse(v, e, p, here + n * L - start - gone, way, factor);
         factor *= -e->reflection[way > 0 ? 1 : 0];
         way = -way;
@@ -98,20 +98,25 @@ static struct exact_values manufactured(const struct exact *e, real X, real t)
 {
     real k = 2 * pi / e->wavelength, phase = k * (X - e->origin), grown = square(sin(pi * t / e->period));
     real strain = e->amplitude * grown * k * cos(phase);
-    return (struct exact_values){
-        .displacement = e->amplitude * grown * sin(phase),
-        .velocity = e->amplitude * pi / e->period * sin(2 * pi * t / e->period) * sin(phase),
-        .stress = e->young * strain, .strain = strain};
+    return (struct exact_values){.displacement = e->amplitude * grown * sin(phase),
+                                 .velocity = e->amplitude * pi / e->period * sin(2 * pi * t / e->period) * sin(phase),
+                                 .stress = e->young * strain,
+                                 .strain = strain};
 }
 
 struct exact_values exact_at(const struct exact *e, real X, real t)
 {
     switch (e->form) {
-    case EXACT_STEP_BAR: return step_bar(e, depth(e, X), t);
-    case EXACT_PLASTIC_BAR: return plastic_bar(e, depth(e, X), t);
-    case EXACT_PULSE: return pulses(e, X, t);
-    case EXACT_MANUFACTURED: return manufactured(e, X, t);
-    default: return nothing;
+    case EXACT_STEP_BAR:
+        return step_bar(e, depth(e, X), t);
+    case EXACT_PLASTIC_BAR:
+        return plastic_bar(e, depth(e, X), t);
+    case EXACT_PULSE:
+        return pulses(e, X, t);
+    case EXACT_MANUFACTURED:
+        return manufactured(e, X, t);
+    default:
+        return nothing;
     }
 }
 
@@ -125,7 +130,9 @@ static struct exact_front step_front(const struct exact *e, real t)
     real r = far_reflection(e), before = 0, jump = e->load;
     for (int k = 0; k < (int)m; k++) before += jump, jump *= k % 2 == 0 ? r : -1;
     return (struct exact_front){.place = exact_place(e, outward ? gone - m * L : (m + 1) * L - gone),
-                                .ahead = outward ? -e->loaded : e->loaded, .before = before, .behind = before + jump};
+                                .ahead = outward ? -e->loaded : e->loaded,
+                                .before = before,
+                                .behind = before + jump};
 }
 
 int exact_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS])
@@ -146,14 +153,17 @@ bool exact_plateau(const struct exact *e, real t, enum exact_window which, real 
 {
     struct exact_front front[EXACT_FRONTS];
     int fronts = exact_fronts(e, t, front);
-    real L = length(e), near, far;               /* distances from the loaded end */
+    real L = length(e), near, far; /* distances from the loaded end */
     if (fronts == 0 || (which == EXACT_PRECURSOR && fronts < 2)) return false;
     bool outward = front[0].ahead == -e->loaded;
     if (which == EXACT_PRECURSOR)
         near = depth(e, front[1].place) + 0.05 * L, far = depth(e, front[0].place) - 0.07 * L;
-    else if (fronts == 2) near = 0.1 * L, far = depth(e, front[1].place) - 0.08 * L;
-    else if (outward) near = 0.1 * L, far = depth(e, front[0].place) - 0.1 * L;
-    else near = depth(e, front[0].place) + 0.1 * L, far = 0.9 * L;
+    else if (fronts == 2)
+        near = 0.1 * L, far = depth(e, front[1].place) - 0.08 * L;
+    else if (outward)
+        near = 0.1 * L, far = depth(e, front[0].place) - 0.1 * L;
+    else
+        near = depth(e, front[0].place) + 0.1 * L, far = 0.9 * L;
     *from = real_min(exact_place(e, near), exact_place(e, far));
     *to = real_max(exact_place(e, near), exact_place(e, far));
     return near < far;

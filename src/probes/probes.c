@@ -55,7 +55,9 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
         column_add(s, q, "strain", "J");
         column_add(s, q, "fracture", "J");
         break;
-    case PROBE_MOMENTUM: columns_by_axis(s, q, "", dim, "kg m/s"); break;
+    case PROBE_MOMENTUM:
+        columns_by_axis(s, q, "", dim, "kg m/s");
+        break;
     case PROBE_EXACT:
         for (int k = 0; k < bar_figures_count(q->request.form); k++) {
             struct column c = bar_figure(q->request.form, k);
@@ -71,7 +73,8 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
     case PROBE_RIGID:
         for (int k = 0; k < RIGID_FIGURES; k++) column_add(s, q, rigid_figure[k].name, rigid_figure[k].unit);
         break;
-    default: break;                      /* all other kinds have figures only */
+    default:
+        break; /* all other kinds have figures only */
     }
 }
 
@@ -179,24 +182,35 @@ static status bind_growth(struct probe *q, const struct observed *o)
 {
     for (int k = o->growths - 1; k >= 0; k--)
         if (!q->request.of[0] || strcmp(o->growth[k].rule->name, q->request.of) == 0) q->growth = k;
-    return OK;                           /* the scene reader has checked that it exists */
+    return OK; /* the scene reader has checked that it exists */
 }
 
 static status probe_bind(struct probe *q, const struct observed *o)
 {
     switch (q->request.kind) {
-    case PROBE_POINT: return bind_point(q, o);
-    case PROBE_LINE: return bind_line(q, o);
-    case PROBE_REACTION: return bind_support(q, o);
-    case PROBE_PULSE: return pulse_bind(q, o);
+    case PROBE_POINT:
+        return bind_point(q, o);
+    case PROBE_LINE:
+        return bind_line(q, o);
+    case PROBE_REACTION:
+        return bind_support(q, o);
+    case PROBE_PULSE:
+        return pulse_bind(q, o);
     case PROBE_BREAK:
     case PROBE_ENERGY:
-    case PROBE_MOMENTUM: return bind_region(q, o);
-    case PROBE_EXACT: return bar_make(q, o);
-    case PROBE_SIF: return sif_bind(q, o);
-    case PROBE_GROWTH: return bind_growth(q, o);
-    case PROBE_RIGID: TRY(bind_region(q, o)); return rigid_bind(q, o);
-    default: return OK;
+    case PROBE_MOMENTUM:
+        return bind_region(q, o);
+    case PROBE_EXACT:
+        return bar_make(q, o);
+    case PROBE_SIF:
+        return sif_bind(q, o);
+    case PROBE_GROWTH:
+        return bind_growth(q, o);
+    case PROBE_RIGID:
+        TRY(bind_region(q, o));
+        return rigid_bind(q, o);
+    default:
+        return OK;
     }
 }
 
@@ -207,8 +221,8 @@ status probes_make(struct probes *s, const struct probe_request *request, int n,
     for (int k = 0; k < n; k++) {
         struct probe *q = &s->probe[k];
         q->request = request[k];
-        q->memory = (struct probe_memory){.first_time = NAN, .place = {NAN, NAN, NAN}, .body = -1,
-                                          .factors = {NAN, NAN, NAN, NAN}};
+        q->memory = (struct probe_memory){
+            .first_time = NAN, .place = {NAN, NAN, NAN}, .body = -1, .factors = {NAN, NAN, NAN, NAN}};
         status fault = status_at(q->request.place, probe_bind(q, o));
         if (fault != OK) {
             probes_free(s);
@@ -240,7 +254,7 @@ void probes_free(struct probes *s)
 static void step_break(struct probe *q, const struct observed *o)
 {
     q->memory.ends = diagnostics_break_place(o->part, q->list, q->n, o->horizon, q->memory.place);
-    if (q->memory.ends == 0) return;     /* bonds of driven particles do not count */
+    if (q->memory.ends == 0) return; /* bonds of driven particles do not count */
     q->memory.first_time = o->t;
     q->memory.first_step = o->load_step;
 }
@@ -313,15 +327,32 @@ void probes_sample(struct probes *s, const struct observed *o)
         struct probe *q = &s->probe[k];
         real *value = s->value + q->first;
         switch (q->request.kind) {
-        case PROBE_TIP: sample_tip(q, o, value); break;
-        case PROBE_REACTION: probe_reaction(q, o->loads, dim, value, value + dim); break;
-        case PROBE_POINT: readings_of(o->part, q->list[0], value); break;
-        case PROBE_ENERGY: probes_sample_energy(q, o, value); break;
-        case PROBE_MOMENTUM: probe_momentum(q, o->part, value); break;
-        case PROBE_EXACT: bar_figures(q->bar, o, value); break;
-        case PROBE_GROWTH: growth_readings(&o->growth[q->growth], value); break;
-        case PROBE_RIGID: rigid_sample(q, o, value); break;
-        default: break;
+        case PROBE_TIP:
+            sample_tip(q, o, value);
+            break;
+        case PROBE_REACTION:
+            probe_reaction(q, o->loads, dim, value, value + dim);
+            break;
+        case PROBE_POINT:
+            readings_of(o->part, q->list[0], value);
+            break;
+        case PROBE_ENERGY:
+            probes_sample_energy(q, o, value);
+            break;
+        case PROBE_MOMENTUM:
+            probe_momentum(q, o->part, value);
+            break;
+        case PROBE_EXACT:
+            bar_figures(q->bar, o, value);
+            break;
+        case PROBE_GROWTH:
+            growth_readings(&o->growth[q->growth], value);
+            break;
+        case PROBE_RIGID:
+            rigid_sample(q, o, value);
+            break;
+        default:
+            break;
         }
     }
 }
@@ -365,13 +396,26 @@ void probes_sample_end(struct probes *s, const struct observed *o, const struct 
         real *value = s->value + q->first;
         if (has_motion(q)) motion_complete(q, o, now);
         switch (q->request.kind) {
-        case PROBE_SIF: sample_sif(q, o, now->t, value); break;
-        case PROBE_REACTION: sample_force(q, o, value); break;
-        case PROBE_POINT: sample_velocity(q, o->part, value); break;
-        case PROBE_ENERGY: value[0] = probe_kinetic(q, o->part); break;
-        case PROBE_MOMENTUM: probe_momentum(q, o->part, value); break;
-        case PROBE_RIGID: rigid_sample_motion(q, o->part, value); break;
-        default: break;
+        case PROBE_SIF:
+            sample_sif(q, o, now->t, value);
+            break;
+        case PROBE_REACTION:
+            sample_force(q, o, value);
+            break;
+        case PROBE_POINT:
+            sample_velocity(q, o->part, value);
+            break;
+        case PROBE_ENERGY:
+            value[0] = probe_kinetic(q, o->part);
+            break;
+        case PROBE_MOMENTUM:
+            probe_momentum(q, o->part, value);
+            break;
+        case PROBE_RIGID:
+            rigid_sample_motion(q, o->part, value);
+            break;
+        default:
+            break;
         }
         motion_end(q);
     }

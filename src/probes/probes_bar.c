@@ -60,8 +60,8 @@ static void measure_strain(struct bar *b, const struct particles *p)
 {
     for (int64_t k = 0; k < b->n; k++) {
         int64_t left = k > 0 ? k - 1 : 0, right = k + 1 < b->n ? k + 1 : k;
-        b->strain[k] = (b->displacement[right] - b->displacement[left]) /
-                       (p->X[0][b->order[right]] - p->X[0][b->order[left]]);
+        b->strain[k] =
+            (b->displacement[right] - b->displacement[left]) / (p->X[0][b->order[right]] - p->X[0][b->order[left]]);
     }
 }
 
@@ -78,27 +78,58 @@ void bar_measure(struct bar *b, const struct observed *o)
 
 /* ---- profile ----------------------------------------------------------------------------------------------------- */
 
-const struct column bar_reading[BAR_READINGS] = {
-    {"x", "m"}, {"displacement", "m"}, {"velocity", "m/s"}, {"stress", "Pa"}, {"stress_strain", "Pa"}, {"strain", "1"},
-    {"damage", "1"}, {"kind", "1"}, {"exact_displacement", "m"}, {"exact_velocity", "m/s"}, {"exact_stress", "Pa"},
-    {"exact_strain", "1"}};
+const struct column bar_reading[BAR_READINGS] = {{"x", "m"},
+                                                 {"displacement", "m"},
+                                                 {"velocity", "m/s"},
+                                                 {"stress", "Pa"},
+                                                 {"stress_strain", "Pa"},
+                                                 {"strain", "1"},
+                                                 {"damage", "1"},
+                                                 {"kind", "1"},
+                                                 {"exact_displacement", "m"},
+                                                 {"exact_velocity", "m/s"},
+                                                 {"exact_stress", "Pa"},
+                                                 {"exact_strain", "1"}};
 
 void bar_readings(const struct bar *b, const struct observed *o, int64_t rank, real *value)
 {
     int32_t i = b->order[rank];
     struct exact_values e = exact_at(&b->exact, o->part->X[0][i], o->t);
     real velocity = exact_at(&b->exact, o->part->X[0][i], o->t_velocity).velocity;
-    const real all[BAR_READINGS] = {
-        o->part->X[0][i], b->displacement[rank], b->velocity[rank], b->flux[rank], b->exact.young * b->strain[rank],
-        b->strain[rank], o->part->damage[i], o->part->kind[i], e.displacement, velocity, e.stress, e.strain};
+    const real all[BAR_READINGS] = {o->part->X[0][i],
+                                    b->displacement[rank],
+                                    b->velocity[rank],
+                                    b->flux[rank],
+                                    b->exact.young * b->strain[rank],
+                                    b->strain[rank],
+                                    o->part->damage[i],
+                                    o->part->kind[i],
+                                    e.displacement,
+                                    velocity,
+                                    e.stress,
+                                    e.strain};
     memcpy(value, all, sizeof all);
 }
 
 /* ---- figures ----------------------------------------------------------------------------------------------------- */
 
 enum figure {
-    L1, L2, FRONT, PLATEAU, END_DISPLACEMENT, FRONT_PLASTIC, STRAIN_ELASTIC, STRAIN_PLASTIC, L1_STRAIN, L2_STRAIN,
-    FRONT_STRAIN, PLATEAU_STRAIN, L1_VELOCITY, L2_VELOCITY, L2_DISPLACEMENT, FIGURES
+    L1,
+    L2,
+    FRONT,
+    PLATEAU,
+    END_DISPLACEMENT,
+    FRONT_PLASTIC,
+    STRAIN_ELASTIC,
+    STRAIN_PLASTIC,
+    L1_STRAIN,
+    L2_STRAIN,
+    FRONT_STRAIN,
+    PLATEAU_STRAIN,
+    L1_VELOCITY,
+    L2_VELOCITY,
+    L2_DISPLACEMENT,
+    FIGURES
 };
 
 #define STEP (1 << EXACT_STEP_BAR)
@@ -106,15 +137,18 @@ enum figure {
 #define EVERY ((1 << EXACT_FORMS) - 1)
 
 /* Name, unit, and the forms that have it. */
-static const struct { const char *name, *unit; int forms; } figures[FIGURES] = {
-    [L1] = {"L1", "Pa", EVERY},                  /* mean |sigma - exact| over the particles                        */
-    [L2] = {"L2", "Pa", EVERY},                  /* root of the mean square                                        */
-    [FRONT] = {"front", "m", STEP | PLASTIC},    /* where sigma passes the middle of the (first) front's jump */
-    [PLATEAU] = {"plateau", "Pa", STEP | PLASTIC},               /* mean sigma behind the (last) front             */
-    [END_DISPLACEMENT] = {"end_displacement", "m", STEP | PLASTIC},    /* of the outermost particle at the loaded end */
+static const struct {
+    const char *name, *unit;
+    int forms;
+} figures[FIGURES] = {
+    [L1] = {"L1", "Pa", EVERY},                    /* mean |sigma - exact| over the particles                        */
+    [L2] = {"L2", "Pa", EVERY},                    /* root of the mean square                                        */
+    [FRONT] = {"front", "m", STEP | PLASTIC},      /* where sigma passes the middle of the (first) front's jump */
+    [PLATEAU] = {"plateau", "Pa", STEP | PLASTIC}, /* mean sigma behind the (last) front             */
+    [END_DISPLACEMENT] = {"end_displacement", "m", STEP | PLASTIC}, /* of the outermost particle at the loaded end */
     [FRONT_PLASTIC] = {"front_plastic", "m", PLASTIC},
-    [STRAIN_ELASTIC] = {"strain_elastic", "1", PLASTIC},         /* mean strain between precursor and plastic front */
-    [STRAIN_PLASTIC] = {"strain_plastic", "1", PLASTIC},         /* mean strain behind the plastic front           */
+    [STRAIN_ELASTIC] = {"strain_elastic", "1", PLASTIC}, /* mean strain between precursor and plastic front */
+    [STRAIN_PLASTIC] = {"strain_plastic", "1", PLASTIC}, /* mean strain behind the plastic front           */
     [L1_STRAIN] = {"L1_strain", "Pa", EVERY},
     [L2_STRAIN] = {"L2_strain", "Pa", EVERY},
     [FRONT_STRAIN] = {"front_strain", "m", STEP | PLASTIC},

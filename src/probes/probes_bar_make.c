@@ -16,7 +16,10 @@ static status refuse(const struct probe *q, const char *what)
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
 
-struct place { real X; int32_t i; };
+struct place {
+    real X;
+    int32_t i;
+};
 
 static int probes_bar_make_by_place(const void *a, const void *b)
 {
@@ -157,7 +160,8 @@ static status find_load(struct probe *q, const struct observed *o)
             return refuse(q, "a traction acts on the bar; leave it out");
         q->bar->exact.pulse = o->pulse, q->bar->exact.pulses = o->pulses;
         return starts_with_pulses(&q->bar->exact, o->part)
-                   ? OK : refuse(q, "the start is not that of its pulses alone, clear of the ends");
+                   ? OK
+                   : refuse(q, "the start is not that of its pulses alone, clear of the ends");
     }
     if (!probes_bar_make_at_rest(o->part))
         return refuse(q, "the bar moves or is strained at the start; it begins at rest");

@@ -91,7 +91,11 @@ void probe_reaction(const struct probe *q, const struct loads *l, int dim, real 
 
 /* ---- sums over a region ------------------------------------------------------------------------------------------ */
 
-struct region_sum { const struct probe *q; const struct observed *o; int component; };
+struct region_sum {
+    const struct probe *q;
+    const struct observed *o;
+    int component;
+};
 
 static real momentum_term(const void *context, int64_t k)
 {
@@ -175,7 +179,7 @@ struct emitter {
     void *context;
     const struct probe *q;
     const struct observed *o;
-    const real *sampled;                 /* its columns of a sample of this time; NULL: there is none */
+    const real *sampled; /* its columns of a sample of this time; NULL: there is none */
 };
 
 static void probes_figures_put(const struct emitter *e, const char *quantity, real value)
@@ -207,8 +211,10 @@ static void figures_tip(const struct emitter *e)
 static void figures_break(const struct emitter *e)
 {
     if (isnan(e->q->memory.first_time)) return;
-    if (e->o->load_step > 0) probes_figures_put(e, "first_step", (real)e->q->memory.first_step);
-    else probes_figures_put(e, "first_time", e->q->memory.first_time);
+    if (e->o->load_step > 0)
+        probes_figures_put(e, "first_step", (real)e->q->memory.first_step);
+    else
+        probes_figures_put(e, "first_time", e->q->memory.first_time);
     put_place(e, e->q->memory.place);
     probes_figures_put(e, "tied", (real)e->q->memory.ends);
     probes_figures_put(e, "bonds", 0.5 * team_sum(e->q->n, broken_term, &(struct region_sum){.q = e->q, .o = e->o}));
@@ -337,10 +343,10 @@ void probes_figures(const struct probes *s, const struct observed *o,
                     void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context)
 {
     static void (*const figures[PROBES])(const struct emitter *) = {
-        [PROBE_TIP] = figures_tip,       [PROBE_BREAK] = figures_break,       [PROBE_REACTION] = figures_reaction,
-        [PROBE_PATCH] = figures_patch,   [PROBE_SPALL] = figures_spall,       [PROBE_POINT] = figures_point,
-        [PROBE_LINE] = figures_line,     [PROBE_ENERGY] = figures_energy,     [PROBE_MOMENTUM] = figures_momentum,
-        [PROBE_PULSE] = figures_pulse,   [PROBE_EXACT] = figures_exact,       [PROBE_SIF] = figures_sif,
+        [PROBE_TIP] = figures_tip,       [PROBE_BREAK] = figures_break,   [PROBE_REACTION] = figures_reaction,
+        [PROBE_PATCH] = figures_patch,   [PROBE_SPALL] = figures_spall,   [PROBE_POINT] = figures_point,
+        [PROBE_LINE] = figures_line,     [PROBE_ENERGY] = figures_energy, [PROBE_MOMENTUM] = figures_momentum,
+        [PROBE_PULSE] = figures_pulse,   [PROBE_EXACT] = figures_exact,   [PROBE_SIF] = figures_sif,
         [PROBE_GROWTH] = figures_growth, [PROBE_RIGID] = figures_rigid,
     };
     for (int k = 0; k < s->n; k++) {

@@ -28,7 +28,7 @@ void motion_complete(struct probe *q, const struct observed *o, const struct vel
     for (int d = 0; d < p->dim; d++)
         for (int64_t k = 0; k < q->n; k++)
             m->v[d][k] = now->scale * ((1 - share) * m->v[d][k] + share * p->v[d][q->list[k]]);
-    m->t_velocity = o->t;        /* no step follows the last sample: its motion goes on from that of the one before */
+    m->t_velocity = o->t; /* no step follows the last sample: its motion goes on from that of the one before */
     m->complete = true;
 }
 

@@ -12,7 +12,6 @@ static void probing_free_all(struct run *e)
     memory_free(q->pulse);
 }
 
-
 int64_t cracks_grow(struct run *e)
 {
     int64_t released = 0;

@@ -7,48 +7,48 @@
 enum { RIGID_FIGURES = 5 };
 /* RIGID: values at the start, and the figures: the angle accumulated so far, the largest |.| of all other figures. */
 struct rigid_memory {
-    real spin, spin_scale, kinetic;      /* angular momentum, sum of |m r x v| [kg m^2/s]; [J] */
-    real angle;                          /* [rad] */
+    real spin, spin_scale, kinetic; /* angular momentum, sum of |m r x v| [kg m^2/s]; [J] */
+    real angle;                     /* [rad] */
     real most[RIGID_FIGURES];
 };
 
 /* State of a probe that does not follow from the state of the run. It has no padding: it goes to checkpoints byte by
  * byte. */
 struct probe_memory {
-    real first_time;                     /* BREAK: first cut; SPALL: separation; NAN before [s] */
-    real place[DIM_MAX];                 /* BREAK: of the cut (fracture/places.h); SPALL: [0] the plane [m] */
-    int64_t ends;                        /* BREAK: places of that first cut that lie apart */
-    real incident;                       /* PULSE: largest speed at the start [m/s] */
-    real force_max, force_square;        /* REACTION: largest |F|; sum of F^2 [N], [N^2] */
-    int64_t steps;                       /* REACTION: in that sum */
-    real force_max_displacement;         /* REACTION: then [m] */
-    int64_t force_max_step, first_step;  /* load steps of these: REACTION, BREAK */
-    int64_t body;                        /* SPALL: the bar that broke */
-    real trail[2][2];                    /* SIF: earlier places of the tip, for its direction [m] */
-    real factors[4];                     /* SIF: K_I, K_II, J, contour_spread at the last sample */
-    real along[2];                       /* SIF: direction of the tip at the last sample */
-    real time;                           /* SIF: of the factors [s] */
-    struct rigid_memory rigid;           /* RIGID */
+    real first_time;                    /* BREAK: first cut; SPALL: separation; NAN before [s] */
+    real place[DIM_MAX];                /* BREAK: of the cut (fracture/places.h); SPALL: [0] the plane [m] */
+    int64_t ends;                       /* BREAK: places of that first cut that lie apart */
+    real incident;                      /* PULSE: largest speed at the start [m/s] */
+    real force_max, force_square;       /* REACTION: largest |F|; sum of F^2 [N], [N^2] */
+    int64_t steps;                      /* REACTION: in that sum */
+    real force_max_displacement;        /* REACTION: then [m] */
+    int64_t force_max_step, first_step; /* load steps of these: REACTION, BREAK */
+    int64_t body;                       /* SPALL: the bar that broke */
+    real trail[2][2];                   /* SIF: earlier places of the tip, for its direction [m] */
+    real factors[4];                    /* SIF: K_I, K_II, J, contour_spread at the last sample */
+    real along[2];                      /* SIF: direction of the tip at the last sample */
+    real time;                          /* SIF: of the factors [s] */
+    struct rigid_memory rigid;          /* RIGID */
 };
 
 /* Motion of a probe's particles at the time of a sample (probes_motion.c): kept before the step, completed after it. */
 struct sampled_motion {
-    bool kept;                           /* x and v are those of t and t_velocity */
-    bool complete;                       /* v is that of t, too */
-    real t, t_velocity;                  /* [s] */
-    real *x[DIM_MAX], *v[DIM_MAX];       /* [probe.n] by number in probe.list [m], [m/s] */
+    bool kept;                     /* x and v are those of t and t_velocity */
+    bool complete;                 /* v is that of t, too */
+    real t, t_velocity;            /* [s] */
+    real *x[DIM_MAX], *v[DIM_MAX]; /* [probe.n] by number in probe.list [m], [m/s] */
 };
 
 struct probe {
-    struct probe_request request;        /* its region is borrowed from the scene */
-    int first, columns;                  /* index of its first column in the history; their number */
+    struct probe_request request; /* its region is borrowed from the scene */
+    int first, columns;           /* index of its first column in the history; their number */
     int64_t n;
-    int32_t *list;                       /* particles of the region; the point; stations, -1: outside */
+    int32_t *list; /* particles of the region; the point; stations, -1: outside */
     struct probe_memory memory;
-    struct sampled_motion motion;        /* POINT, ENERGY, MOMENTUM, RIGID */
-    struct bar *bar;                     /* EXACT: probes_bar.c */
-    struct sif_tracked *sif;             /* SIF: probes_sif.c */
-    int growth;                          /* GROWTH: which of the run */
+    struct sampled_motion motion; /* POINT, ENERGY, MOMENTUM, RIGID */
+    struct bar *bar;              /* EXACT: probes_bar.c */
+    struct sif_tracked *sif;      /* SIF: probes_sif.c */
+    int growth;                   /* GROWTH: which of the run */
 };
 
 /* ---- readings of a single particle: POINT and LINE --------------------------------------------------------------- */
@@ -98,13 +98,17 @@ const struct tip *probe_tip(const struct probe *q, const struct tips *t);
 /* Sum of the reactions of all supports of the probe's boundary, and mean displacement of their particles. */
 void probe_reaction(const struct probe *q, const struct loads *l, int dim, real *force, real *displacement);
 
-struct energies { real kinetic, strain, fracture; };       /* [J] */
+struct energies {
+    real kinetic, strain, fracture;
+}; /* [J] */
 struct energies probe_energies(const struct probe *q, const struct observed *o);
-real probe_kinetic(const struct probe *q, const struct particles *p);       /* [J] */
+real probe_kinetic(const struct probe *q, const struct particles *p); /* [J] */
 void probe_momentum(const struct probe *q, const struct particles *p, real *momentum);
 
 /* PULSE: shares of the incident amplitude, reflected as the difference from the run without interface. */
-struct pulse_shares { real reflected, transmitted, energy_change; };
+struct pulse_shares {
+    real reflected, transmitted, energy_change;
+};
 status pulse_bind(struct probe *q, const struct observed *o);
 struct pulse_shares pulse_shares(const struct probe *q, const struct observed *o);
 
@@ -144,9 +148,9 @@ void rigid_sample_motion(struct probe *q, const struct particles *p, real *value
 struct bar {
     struct exact exact;
     int64_t n;
-    int32_t *order, *rank;               /* particles from left to right; place of a particle among them */
-    real *displacement, *velocity;       /* [n] by rank, from bar_measure [m], [m/s] */
-    real *flux, *strain;                 /* [n] the stress by bond flux [Pa]; du/dx [1] */
+    int32_t *order, *rank;         /* particles from left to right; place of a particle among them */
+    real *displacement, *velocity; /* [n] by rank, from bar_measure [m], [m/s] */
+    real *flux, *strain;           /* [n] the stress by bond flux [Pa]; du/dx [1] */
 };
 
 /* Finds the bar, its ends and its load; refuses what the closed form does not describe. */

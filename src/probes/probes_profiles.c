@@ -106,7 +106,6 @@ int64_t probes_profiled(const struct probes *s)
 status probes_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context, int frame)
 {
     for (int k = 0; k < s->n; k++)
-        if (has_profile(&s->probe[k]))
-            TRY(profile_put(&s->probe[k], o, put, context, frame));
+        if (has_profile(&s->probe[k])) TRY(profile_put(&s->probe[k], o, put, context, frame));
     return OK;
 }

@@ -7,10 +7,17 @@
 
 static const real pi = 3.14159265358979323846;
 
-const struct column rigid_figure[RIGID_FIGURES] = {{"angle", "rad"}, {"stress_max", "Pa"}, {"shear_max", "Pa"},
-                                                   {"angular_momentum_error", ""}, {"kinetic_energy_error", ""}};
+const struct column rigid_figure[RIGID_FIGURES] = {{"angle", "rad"},
+                                                   {"stress_max", "Pa"},
+                                                   {"shear_max", "Pa"},
+                                                   {"angular_momentum_error", ""},
+                                                   {"kinetic_energy_error", ""}};
 
-struct rigid_sum { const struct probe *q; const struct particles *p; real centre[2], centre_reference[2]; };
+struct rigid_sum {
+    const struct probe *q;
+    const struct particles *p;
+    real centre[2], centre_reference[2];
+};
 
 /* Sums of mass, and of mass times current and reference position. */
 static void centre_block(const void *context, int64_t first, int64_t end, real *sum)
@@ -82,7 +89,7 @@ static void stresses(const struct probe *q, const struct particles *p, real *str
     }
 }
 
-enum { RIGID_PLACES = 3 };                   /* figures that positions tell */
+enum { RIGID_PLACES = 3 }; /* figures that positions tell */
 
 /* Keeps the largest of figures first .. end - 1. */
 static void rigid_most(struct rigid_memory *m, const real *value, int first, int end)

@@ -5,13 +5,13 @@
 #include "base/memory.h"
 #include "probes_parts.h"
 
-#define OUTER 20.0                       /* default radius                                         [spacings] */
-#define CORE 1.5                         /* default, left out of the inertial sum (sif.h)         [horizons] */
-#define NARROWEST 3.0                    /* ring                                                   [spacings] */
-#define STEP_BACK 8.0                    /* a moving tip has the direction of its last 8 to 16 [spacings] */
-#define SAME_PLACE 1.0                   /* distance within which two tips are one             [spacings] */
-#define FASTEST 0.95                     /* of the Rayleigh speed                                             */
-#define OPEN_ANGLE (170.0 / 180)         /* share of the ring that is tested: the faces of a crack may be open */
+#define OUTER 20.0               /* default radius                                         [spacings] */
+#define CORE 1.5                 /* default, left out of the inertial sum (sif.h)         [horizons] */
+#define NARROWEST 3.0            /* ring                                                   [spacings] */
+#define STEP_BACK 8.0            /* a moving tip has the direction of its last 8 to 16 [spacings] */
+#define SAME_PLACE 1.0           /* distance within which two tips are one             [spacings] */
+#define FASTEST 0.95             /* of the Rayleigh speed                                             */
+#define OPEN_ANGLE (170.0 / 180) /* share of the ring that is tested: the faces of a crack may be open */
 
 static const real pi = 3.14159265358979323846;
 
@@ -21,21 +21,21 @@ const struct column sif_figure[SIF_FIGURES] = {
 struct sif_tracked {
     struct sif_tip tip;
     struct gradient_rule rule;
-    int follows;                         /* tip of the run, -1: none                                  */
-    int growth;                          /* crack with prescribed or SIF-controlled growth, -1: none  */
-    real reach;                          /* of the largest contour                              [m]   */
+    int follows; /* tip of the run, -1: none                                  */
+    int growth;  /* crack with prescribed or SIF-controlled growth, -1: none  */
+    real reach;  /* of the largest contour                              [m]   */
     int contours;
-    struct contour contour[SIF_CONTOURS_MAX + 1];    /* [0]: the contour of the figures               */
-    struct crack *crack;                 /* pre-cracks of the scene, and one behind a tip without crack */
+    struct contour contour[SIF_CONTOURS_MAX + 1]; /* [0]: the contour of the figures               */
+    struct crack *crack;                          /* pre-cracks of the scene, and one behind a tip without crack */
     real behind[2][DIM_MAX];
-    bool kept;                           /* displacement and velocity are those of t and t_velocity   */
-    real t, t_velocity;                  /* [s]                                                       */
-    real *u[2], *v[2], *stress[3];       /* [n_all]                                                   */
-    real *mean[2], *acceleration[2];     /* [n_all] velocity at a sample's time [m/s], [m/s^2]        */
-    real *body[2];                       /* [n_all] forces of loads over masses                 [m/s^2] */
+    bool kept;                       /* displacement and velocity are those of t and t_velocity   */
+    real t, t_velocity;              /* [s]                                                       */
+    real *u[2], *v[2], *stress[3];   /* [n_all]                                                   */
+    real *mean[2], *acceleration[2]; /* [n_all] velocity at a sample's time [m/s], [m/s^2]        */
+    real *body[2];                   /* [n_all] forces of loads over masses                 [m/s^2] */
 };
 
-static bool given(real value) { return value > 0; }      /* neither NAN nor 0 */
+static bool given(real value) { return value > 0; } /* neither NAN nor 0 */
 
 /* ---- binding ----------------------------------------------------------------------------------------------------- */
 
@@ -157,8 +157,10 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
     for (int k = 0; k < w->contours; k++) {
         const struct contour *c = &w->contour[k];
         if (c->outer - c->inner < NARROWEST * o->spacing * (1 - 1e-9))
-            return status_set(REFUSED, "probe \"%s\": the ring from %.6g to %.6g m is narrower than %.0f spacings; "
-                              "choose a larger outer radius", r->name, c->inner, c->outer, NARROWEST);
+            return status_set(REFUSED,
+                              "probe \"%s\": the ring from %.6g to %.6g m is narrower than %.0f spacings; "
+                              "choose a larger outer radius",
+                              r->name, c->inner, c->outer, NARROWEST);
     }
     if (ring_leaves(&w->tip, w->reach, o, place))
         return status_set(REFUSED,
@@ -238,9 +240,9 @@ static bool probes_sif_follow(struct probe *q, const struct observed *o)
 {
     struct sif_tracked *w = q->sif;
     const struct tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
-    real (*trail)[2] = q->memory.trail;
+    real(*trail)[2] = q->memory.trail;
     w->tip.speed = 0;
-    if (w->growth >= 0) {                /* the tip is known exactly */
+    if (w->growth >= 0) { /* the tip is known exactly */
         const struct growth *g = &o->growth[w->growth];
         for (int d = 0; d < 2; d++) w->tip.place[d] = g->place[d], w->tip.along[d] = g->along[d];
         w->tip.speed = real_min(g->speed, FASTEST * w->tip.medium.rayleigh);
@@ -312,7 +314,7 @@ static bool find_body_force(struct sif_tracked *w, const struct observed *o)
     if (!l) return false;
     for (int d = 0; d < 2; d++) {
         room(&w->body[d], p->n_all);
-        for (int64_t i = 0; i < p->n; i++)       /* inertia relief of a static body */
+        for (int64_t i = 0; i < p->n; i++) /* inertia relief of a static body */
             w->body[d][i] = l->turn * (d == 0 ? p->X[1][i] - l->centre[1] : l->centre[0] - p->X[0][i]);
     }
     for (int b = 0; b < l->n; b++)
@@ -372,8 +374,9 @@ bool probes_sif_control(const struct probes *s, const char *name, struct control
         const struct probe *q = &s->probe[k];
         if (q->request.kind != PROBE_SIF || strcmp(q->request.name, name) != 0 || isnan(q->memory.factors[0])) continue;
         *found = (struct control){.factors = {{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
-                                 .along = {q->memory.along[0], q->memory.along[1]}, .time = q->memory.time,
-                                 .medium = q->sif->tip.medium};
+                                  .along = {q->memory.along[0], q->memory.along[1]},
+                                  .time = q->memory.time,
+                                  .medium = q->sif->tip.medium};
         return true;
     }
     return false;

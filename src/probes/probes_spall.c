@@ -7,10 +7,10 @@
 /* A body cut into columns, one spacing wide along x; plane k lies between columns k and k + 1. */
 struct columns {
     int64_t n;
-    real low, spacing;                   /* centre of column 0 [m]; [m]                               */
-    int32_t *intact, *cut;               /* [n] bonds across plane k                                  */
-    real *last, *next;                   /* [n] farthest x of material points left, nearest right of plane k [m] */
-    real longest;                        /* longest bond [m]                                          */
+    real low, spacing;     /* centre of column 0 [m]; [m]                               */
+    int32_t *intact, *cut; /* [n] bonds across plane k                                  */
+    real *last, *next;     /* [n] farthest x of material points left, nearest right of plane k [m] */
+    real longest;          /* longest bond [m]                                          */
 };
 
 static int64_t probes_spall_column_of(const struct columns *c, real X)
@@ -65,8 +65,10 @@ static void columns_bonds(struct columns *c, const struct observed *o, int body)
         for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
             const int64_t to = probes_spall_column_of(c, p->X[0][it.bond.nbr]);
             c->longest = real_max(c->longest, fabs(1 / it.bond.inverse_length));
-            if (it.bond.w != 0) count_across(c->intact, from, to);
-            else if (b->broken[row] > 0) count_across(c->cut, from, to);
+            if (it.bond.w != 0)
+                count_across(c->intact, from, to);
+            else if (b->broken[row] > 0)
+                count_across(c->cut, from, to);
         }
     }
     for (int64_t k = 1; k < c->n; k++) c->intact[k] += c->intact[k - 1], c->cut[k] += c->cut[k - 1];

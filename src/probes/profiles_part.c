@@ -19,8 +19,7 @@ static status profiles_put(void *folder, const char *name, const char *text, siz
 status profiles_write(struct run *e, struct output *out, const struct observed *o)
 {
     if (probes_profiled(&e->probing->probes) == 0) return OK;
-    TRY(probes_profiles(&e->probing->probes, o, profiles_put, out->folder,
-                       out->series[0].frames - 1));
+    TRY(probes_profiles(&e->probing->probes, o, profiles_put, out->folder, out->series[0].frames - 1));
     return file_settle(path_join(out->folder, "history.csv").text);
 }
 

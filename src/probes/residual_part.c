@@ -8,8 +8,7 @@
 static bool in_patch(const struct scene *s, const real *x)
 {
     for (int k = 0; k < s->probes; k++)
-        if (s->probe[k].kind == PROBE_PATCH && region_contains(&s->probe[k].region, x, s->dim, 0))
-            return true;
+        if (s->probe[k].kind == PROBE_PATCH && region_contains(&s->probe[k].region, x, s->dim, 0)) return true;
     return false;
 }
 

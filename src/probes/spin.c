@@ -7,7 +7,9 @@
 
 /* Mass [kg], first moments of mass [kg m], momentum [kg m/s], angular momentum about the origin [kg m^2/s], sums of
  * m x^2 [kg m^2] and m v^2 [J]. */
-struct turning { real mass, place[DIM_MAX], momentum[DIM_MAX], spin[DIM_MAX], inertia, twice_kinetic; };
+struct turning {
+    real mass, place[DIM_MAX], momentum[DIM_MAX], spin[DIM_MAX], inertia, twice_kinetic;
+};
 
 #define LEAST_TURN 0.01 /* least size of angular momentum: as a share of the most that motion of this energy has */
 
@@ -26,9 +28,9 @@ static void turning_about(const struct turning *t, const real *place, const real
 {
     for (int d = 0; d < DIM_MAX; d++) {
         const int a = (d + 1) % 3, b = (d + 2) % 3;
-        spin[d] = t->spin[d] - (place[a] * t->momentum[b] - place[b] * t->momentum[a])
-                - (t->place[a] * velocity[b] - t->place[b] * velocity[a])
-                + t->mass * (place[a] * velocity[b] - place[b] * velocity[a]);
+        spin[d] = t->spin[d] - (place[a] * t->momentum[b] - place[b] * t->momentum[a]) -
+                  (t->place[a] * velocity[b] - t->place[b] * velocity[a]) +
+                  t->mass * (place[a] * velocity[b] - place[b] * velocity[a]);
     }
 }
 

@@ -123,7 +123,7 @@ static status look_here(struct run *e)
     struct advance second;
     if (led_leads(e)) {
         TRY(led_look_ahead(e));
-        if (s->next.n > 0 || s->overload <= 1) return OK;        /* else bonds break where no tip leads to */
+        if (s->next.n > 0 || s->overload <= 1) return OK; /* else bonds break where no tip leads to */
     }
     if (s->next.n > 0 || s->overload < (s->behind.cost > 0 ? STRESSED_FURTHER : STRESSED)) return OK;
     trial_begin(e, &saved);
@@ -164,7 +164,7 @@ static status look_there(struct run *e)
         trial_undo(e, &saved, NULL);
         return looked;
     }
-    memory_archive_free(&saved);             /* points have converted, which cannot be undone */
+    memory_archive_free(&saved); /* points have converted, which cannot be undone */
     return looked == OK ? statics_go(e, from) : looked;
 }
 

@@ -16,7 +16,7 @@
 #include "step/report.h"
 #include "step/step.h"
 
-#define GAIN_MOST 0.01       /* share of what loads may have worked beyond the mean that a solution may gain */
+#define GAIN_MOST 0.01 /* share of what loads may have worked beyond the mean that a solution may gain */
 enum { TRIES_MOST = 4, MORE_STRIDES = 4 };
 
 /* ---- the way to a pseudo-time ------------------------------------------------------------------------------------ */
@@ -100,7 +100,7 @@ static real account_end(struct account *a, struct run *e, real *const *before)
 {
     struct statics *s = e->statics;
     real range[2] = {0};
-    if (!statics_touched(e)) e->loads.work += s->balance.bent;      /* else forces change on the way by what touches */
+    if (!statics_touched(e)) e->loads.work += s->balance.bent; /* else forces change on the way by what touches */
     for (int d = 0; d < e->part.dim; d++) {
         for (int64_t k = 0; k < s->balance.n; k++) {
             const real way = s->balance.u.of[d][k] - a->u.of[d][k], now = s->balance.f.of[d][k], was = a->f.of[d][k];
@@ -216,8 +216,10 @@ static status solve_whole(struct run *e, real t)
         }
         trial_undo(e, &saved, NULL);
     }
-    return status_set(FAILED, "load step %lld, t = %.6g s: faces go through each other on the way to equilibrium; more "
-                      "load steps, or a larger spacing, are expected", (long long)e->clock.step + 1, t);
+    return status_set(FAILED,
+                      "load step %lld, t = %.6g s: faces go through each other on the way to equilibrium; more "
+                      "load steps, or a larger spacing, are expected",
+                      (long long)e->clock.step + 1, t);
 }
 
 /* A step that is broken off leaves the checkpoint of the one before it. */

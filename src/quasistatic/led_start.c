@@ -75,7 +75,7 @@ static void led_start(struct run *e)
 static const char *led_fault(const struct run *e, struct led_plane *plane)
 {
     const struct scene *s = e->scene;
-    const bool one = s->bodies == 1 && s->materials == 1;    /* hoop stress knows no toughness */
+    const bool one = s->bodies == 1 && s->materials == 1; /* hoop stress knows no toughness */
     *plane = (struct led_plane){.made = true};
     if (s->steps.path == PATH_BONDS) return "steps.path is bonds";
     return s->steps.path == PATH_AUTO && !one ? "there are several bodies or materials" : led_plane_find(e, plane);

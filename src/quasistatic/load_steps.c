@@ -91,11 +91,15 @@ static status advance_under_loads(struct run *e, real *size, real from, real t)
     *size = real_max(*size, size_to_come(e->statics, e->diagnostics));
     const real loads = statics_load_size(e, t);
     const bool pays = size_of_advance(&s->ahead) <= *size, within = *size < loads;
-    if (within) TRY(go_to_size(e, *size, from, t));
-    else if (s->t < t && loads >= *size * (1 - ROUND_OFF)) TRY(statics_go(e, t));
+    if (within)
+        TRY(go_to_size(e, *size, from, t));
+    else if (s->t < t && loads >= *size * (1 - ROUND_OFF))
+        TRY(statics_go(e, t));
     state_note(e);
-    if (follows && e->scene->steps.then == THEN_EXPLICIT) TRY(statics_release(e));
-    else TRY(pays ? statics_advance(e) : statics_advance_balanced(e));
+    if (follows && e->scene->steps.then == THEN_EXPLICIT)
+        TRY(statics_release(e));
+    else
+        TRY(pays ? statics_advance(e) : statics_advance_balanced(e));
     if (!pays) TRY(within ? go_to_size(e, *size, from, t) : statics_go(e, t));
     return statics_look_ahead(e);
 }
@@ -109,9 +113,12 @@ static status step_by_load(struct run *e, real t)
     for (;;) {
         const bool due = s->next.n > 0 &&
                          size_to_come(e->statics, e->diagnostics) <= real_max(loads, s->t >= t ? 0 : size) * (1 + 1e-9);
-        if (due) TRY(advance_under_loads(e, &size, from, t));
-        else if (s->t < t) TRY(approach_loads(e, t));
-        else return OK;
+        if (due)
+            TRY(advance_under_loads(e, &size, from, t));
+        else if (s->t < t)
+            TRY(approach_loads(e, t));
+        else
+            return OK;
     }
 }
 
@@ -204,8 +211,10 @@ static void load_step_begin(struct run *e)
 {
     struct statics *s = e->statics;
     statics_pieces_make(e);
-    if (s->stale || statics_meets(e)) statics_precondition_free(e);
-    else if (s->kept && !s->precondition) statics_precondition_make(e);
+    if (s->stale || statics_meets(e))
+        statics_precondition_free(e);
+    else if (s->kept && !s->precondition)
+        statics_precondition_make(e);
     s->kept = false;
     s->directions = 0;
 }
@@ -253,8 +262,9 @@ static status check_growth(const struct run *e)
     const real whole = e->scene->duration, size = statics_load_size(e, whole);
     const real half = statics_load_size(e, 0.5 * whole), quarter = statics_load_size(e, 0.25 * whole);
     if (e->scene->steps.control == CONTROL_LOAD || half != size || quarter != size) return OK;
-    return status_set(REFUSED, "steps.control: loads and supports are the same at all times, and the crack decides how "
-                               "large they are; time: {ramp: {until: %.3g s}} of what loads the body is expected",
+    return status_set(REFUSED,
+                      "steps.control: loads and supports are the same at all times, and the crack decides how "
+                      "large they are; time: {ramp: {until: %.3g s}} of what loads the body is expected",
                       whole);
 }
 
@@ -281,7 +291,7 @@ static void say_closed(struct run *e)
     led_factors(e, K);
     if (K[MODE_I] < 0 && e->contact->law.between == CONTACT_NONE)
         run_say(e, "K_I of a crack is negative: its faces are pressed together, and pass through each other without "
-                      "contact.between: all");
+                   "contact.between: all");
 }
 
 #define FLOW_LARGE 0.1 /* plastic strain beyond which strains are no small ones */
@@ -328,7 +338,7 @@ static status check_held(struct run *e, bool *apart)
     *apart = parts && (held != OK || e->statics->severs);
     if (*apart)
         run_say(e, "the crack goes through: after its next advance next to nothing holds a piece of the body under "
-                      "its loads, and the run ends before it");
+                   "its loads, and the run ends before it");
     return parts ? OK : held;
 }
 
@@ -340,7 +350,7 @@ status engine_steps(struct run *e)
     statics_touch_start(e);
     e->statics->opens[0] = particles_nearest(&e->part, e->scene->steps.from);
     e->statics->opens[1] = particles_nearest(&e->part, e->scene->steps.to);
-    led_leads(e);                                   /* of a run that goes on, too: finds the plane of its tips */
+    led_leads(e); /* of a run that goes on, too: finds the plane of its tips */
     if (e->clock.step == 0) sample_rest(e);
     while (e->clock.step < e->clock.steps) {
         e->clock.load_step = e->statics->record.step = e->clock.step + 1;

@@ -13,12 +13,12 @@
 #include "contact/contact.h"
 #include "mesh/mesh_part.h"
 
-enum { MODES_MOST = 6 };  /* rigid motions of a piece in space */
-#define HELD_LEAST 1e-9   /* resistance of a motion, over the largest, from which on it is held */
+enum { MODES_MOST = 6 };   /* rigid motions of a piece in space */
+#define HELD_LEAST 1e-9    /* resistance of a motion, over the largest, from which on it is held */
 #define RESISTS_LEAST 1e-8 /* rate of a gap under a motion of about 1, below which it is round-off [1] */
-#define UNHELD_MOST 0.05  /* share of loads on a free piece that need not cancel: faces of lattices are not even */
-#define UNHELD_SMALL 0.01 /* share of all loads that is too small to end a run */
-#define DROPPED 1e-6      /* what is left of a motion beside those before it, below which it is none of its own */
+#define UNHELD_MOST 0.05   /* share of loads on a free piece that need not cancel: faces of lattices are not even */
+#define UNHELD_SMALL 0.01  /* share of all loads that is too small to end a run */
+#define DROPPED 1e-6       /* what is left of a motion beside those before it, below which it is none of its own */
 
 /* ---- which nodes hang together ----------------------------------------------------------------------------------- */
 
@@ -168,8 +168,7 @@ static void image_resists(const struct run *e, struct candidate *c, int64_t i, i
     resist(c, m, along);
 }
 
-static void images_resist(const struct run *e, struct candidate *of, const int32_t *piece,
-                          const struct numbers *number)
+static void images_resist(const struct run *e, struct candidate *of, const int32_t *piece, const struct numbers *number)
 {
     for (int64_t r = 0; r < e->bonds.rows && e->loads.images > 0; r++) {
         const int32_t i = e->bonds.particle[r], k = number_of(e, number, i);
@@ -248,7 +247,7 @@ static void contact_resists(void *context, const struct contact_term *t)
         if (seen) continue;
         for (int a = 0; a < m; a++) {
             along[a] = gap_rate(s, t, which, a) / sqrt(length2);
-            if (fabs(along[a]) < RESISTS_LEAST) along[a] = 0;   /* both faces are of the same piece */
+            if (fabs(along[a]) < RESISTS_LEAST) along[a] = 0; /* both faces are of the same piece */
         }
         resist(&s->of[which], m, along);
     }
@@ -462,8 +461,7 @@ status statics_unheld(const struct run *e)
                           "load step %lld, t = %.6g s: nothing holds %s (%.3g %% of it, round x = %.6g, y = %.6g, "
                           "z = %.6g m): %.0f %% of the loads on it are not balanced; hold it there, balance its "
                           "loads, or choose steps.control energy, which goes back with the loads while a crack runs",
-                          (long long)e->clock.step + 1, s->t,
-                          f->n == s->balance.n ? "the body" : "a piece of the body",
+                          (long long)e->clock.step + 1, s->t, f->n == s->balance.n ? "the body" : "a piece of the body",
                           100 * (real)f->n / (real)s->balance.n, X[0], X[1], X[2], 100 * share);
     }
     return OK;

@@ -10,8 +10,8 @@
 #include "step/step.h"
 #include "step/checks.h"
 
-#define ESTIMATE_STEPS 10                    /* steps between estimates of damping and residual */
-#define MOTION_SMALL 1e-6                        /* kinetic over strain energy of a body at rest */
+#define ESTIMATE_STEPS 10 /* steps between estimates of damping and residual */
+#define MOTION_SMALL 1e-6 /* kinetic over strain energy of a body at rest */
 
 real grid_relaxation_ramp(const struct run *e)
 {
@@ -36,8 +36,7 @@ static void node_block(const void *context, int64_t first, int64_t end, real *su
     const struct grid_method *mpm = context;
     const struct grid *g = &mpm->field[0].grid;
     for (int d = 0; d < g->dim; d++)
-        for (int64_t I = first; I < end; I++)
-            sum[0] += square(g->mass[I] * g->force[d][I] / mpm->transfer.dt_velocity);
+        for (int64_t I = first; I < end; I++) sum[0] += square(g->mass[I] * g->force[d][I] / mpm->transfer.dt_velocity);
 }
 
 static void particle_block(const void *context, int64_t first, int64_t end, real *sum)

@@ -108,8 +108,8 @@ static status steps_in_time(struct run *e, int64_t *broken)
 /* Energy that the body has and that bonds have taken, less the work of loads [J]. */
 static real energy_held(struct run *e)
 {
-    return sample_strain(e) + contact_energy(e->contact, &e->part) + bonds_fracture_energy(&e->bonds) -
-           e->loads.work - e->loads.constraint_work;
+    return sample_strain(e) + contact_energy(e->contact, &e->part) + bonds_fracture_energy(&e->bonds) - e->loads.work -
+           e->loads.constraint_work;
 }
 
 status statics_release(struct run *e)

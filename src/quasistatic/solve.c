@@ -14,8 +14,14 @@
 
 static struct static_body static_body_of(struct run *e)
 {
-    return (struct static_body){&e->part, &e->bonds, &e->loads, e->kernels.bond_force, e->scene->material,
-                                e->scene->spacing, e->scene->solver_tolerance, e->scene->bodies};
+    return (struct static_body){&e->part,
+                                &e->bonds,
+                                &e->loads,
+                                e->kernels.bond_force,
+                                e->scene->material,
+                                e->scene->spacing,
+                                e->scene->solver_tolerance,
+                                e->scene->bodies};
 }
 
 status engine_solver_make(struct run *e)
@@ -25,9 +31,10 @@ status engine_solver_make(struct run *e)
     const real ramp_time = s->method == METHOD_PD ? 1 : grid_relaxation_ramp(e);
     loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
     TRY(solver_make(e->solver, &body, ramp_time));
-    if (s->method == METHOD_PD) solver_iteration_make(e->solver, &body, s->solver == SOLVER_CG);
+    if (s->method == METHOD_PD)
+        solver_iteration_make(e->solver, &body, s->solver == SOLVER_CG);
     else
-        for (int b = 0; b < e->loads.n; b++)     /* the steps on the grid add it up */
+        for (int b = 0; b < e->loads.n; b++) /* the steps on the grid add it up */
             memset(e->loads.load[b].displacement, 0, sizeof e->loads.load[b].displacement);
     return OK;
 }
@@ -41,8 +48,8 @@ static int64_t bonds_past_limit(const struct run *e)
     for (int64_t r = 0; r < b->rows; r++)
         for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);) {
             const int32_t i = b->particle[r], j = it.bond.nbr;
-            const real limit = e->tables.pair_stretch[p->material[i] * e->scene->materials + p->material[j]] *
-                               bond_strength(p, i, j);
+            const real limit =
+                e->tables.pair_stretch[p->material[i] * e->scene->materials + p->material[j]] * bond_strength(p, i, j);
             past += it.bond.w != 0 && j > i && bond_elastic_of(b, p, &it.bond, i) > limit;
         }
     return past;
@@ -58,7 +65,7 @@ static void say_past_limit(struct run *e)
     if (e->solver->past_limit > 0) run_say(e, text);
 }
 
-#define STRAIN_LARGE 0.1                 /* beyond it neither straight bonds nor Hooke's law describe a solid */
+#define STRAIN_LARGE 0.1 /* beyond it neither straight bonds nor Hooke's law describe a solid */
 
 /* Warns of stresses that no solid bears: Hooke's law has an equilibrium under any load. */
 static void say_large_strain(struct run *e)
@@ -133,8 +140,7 @@ static void solve_start(struct run *e)
 {
     if (e->scene->method != METHOD_PD) return;
     if (e->clock.step == 0) sample_rest(e);
-    for (int d = 0; d < e->part.dim; d++)
-        array_copy(e->solver->before.of[d], e->part.f[d], e->part.n, sizeof(real));
+    for (int d = 0; d < e->part.dim; d++) array_copy(e->solver->before.of[d], e->part.f[d], e->part.n, sizeof(real));
 }
 
 status engine_solve(struct run *e)
@@ -145,8 +151,10 @@ status engine_solve(struct run *e)
     while (e->clock.step < e->clock.steps) {
         bool done = false;
         TRY(solve_step(e, &done));
-        if (done) solver_finish(e);
-        else if (e->clock.step >= e->clock.steps || isnan(e->solver->residual)) return not_converged(e);
+        if (done)
+            solver_finish(e);
+        else if (e->clock.step >= e->clock.steps || isnan(e->solver->residual))
+            return not_converged(e);
         TRY(report_step(e));
     }
     return report_end(e);

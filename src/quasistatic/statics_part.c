@@ -16,8 +16,10 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
     const struct scene *s = e->scene;
     for (int m = 0; m < s->materials && scene_in_steps(s); m++)
         if (s->model == MODEL_BOND && material_yields(&s->material[m]) && isfinite(s->material[m].critical_stretch))
-            warnings_add(to, "bonds of %s yield before they break: the work that separates it is %.3g J/m^2; elastic "
-                         "ones would take %.3g", s->material[m].name, toughness_of(e, &s->material[m]),
+            warnings_add(to,
+                         "bonds of %s yield before they break: the work that separates it is %.3g J/m^2; elastic "
+                         "ones would take %.3g",
+                         s->material[m].name, toughness_of(e, &s->material[m]),
                          family_crossing_energy(&e->source.family, &s->material[m]));
     if (!scene_at_rest(s)) return;
     for (int k = 0; k < s->initials; k++)
@@ -28,10 +30,12 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
             warnings_add(to, "a static equilibrium has no velocities: that of body %s is left out", s->body[b].name);
     if (s->bodies > 1 || s->cracks > 0)
         warnings_add(to, "bodies and faces of cracks do not meet in a static equilibrium: they pass through each other "
-                     "where they close");
+                         "where they close");
     if (e->solver->applied == 0 && solver_largest(&e->solver->driven, s->dim, e->part.n) == 0)
-        warnings_add(to, "nothing loads the body at t = %.4g s: forces have their value at the end of the duration "
-                     "there (a step that ends before has none)", s->duration);
+        warnings_add(to,
+                     "nothing loads the body at t = %.4g s: forces have their value at the end of the duration "
+                     "there (a step that ends before has none)",
+                     s->duration);
 }
 
 /* Load steps, what they took and what they released. */

@@ -11,15 +11,14 @@
 
 #define GROWTH 4 /* spacings of growth over which a release rate is taken: a length comes in steps of one */
 
-enum { STATICS_COLUMNS = 13 };                    /* in the plane one less */
+enum { STATICS_COLUMNS = 13 }; /* in the plane one less */
 
 int statics_columns(const struct run *e, struct column *column)
 {
     static const struct column own[STATICS_COLUMNS] = {
-        {"load_time", "s"},        {"overload", ""},       {"released", "J"},  {"crack_area", "m^2"},
-        {"release_rate", "J/m^2"}, {"bonds_broken", ""},   {"directions", ""}, {"equilibria", ""},
-        {"K_I", "Pa m^(1/2)"},     {"K_II", "Pa m^(1/2)"}, {"path_x", "m"},    {"path_y", "m"},
-        {"path_z", "m"}};
+        {"load_time", "s"},   {"overload", ""},   {"released", "J"},  {"crack_area", "m^2"}, {"release_rate", "J/m^2"},
+        {"bonds_broken", ""}, {"directions", ""}, {"equilibria", ""}, {"K_I", "Pa m^(1/2)"}, {"K_II", "Pa m^(1/2)"},
+        {"path_x", "m"},      {"path_y", "m"},    {"path_z", "m"}};
     if (!scene_in_steps(e->scene)) return 0;
     const int n = STATICS_COLUMNS - (e->part.dim < 3);
     if (column) array_copy(column, own, n, sizeof *own);
@@ -93,9 +92,14 @@ void statics_record(struct run *e, real *record)
     if (!scene_in_steps(e->scene)) return;
     measure(e);
     const real rate = s->record.area > 0 ? s->record.rate : NAN, bonds = 0.5 * (real)e->diagnostics->bonds_broken;
-    const real own[STATICS_COLUMNS - MODES - DIM_MAX] = {
-        s->t, s->overload, s->record.released, s->record.area, rate, bonds,
-        (real)(s->balance.directions - s->record.directions), (real)(s->solutions - s->record.solutions)};
+    const real own[STATICS_COLUMNS - MODES - DIM_MAX] = {s->t,
+                                                         s->overload,
+                                                         s->record.released,
+                                                         s->record.area,
+                                                         rate,
+                                                         bonds,
+                                                         (real)(s->balance.directions - s->record.directions),
+                                                         (real)(s->solutions - s->record.solutions)};
     memcpy(record, own, sizeof own);
     led_factors(e, record + COUNT_OF(own));
     led_place(e, place);

@@ -3,7 +3,6 @@
 
 #include "toughness.h"
 
-
 real stretch_work(real elastic, real yield, real hardening)
 {
     const real beyond = real_max(0, elastic - yield), slope = hardening / (1 + hardening);

@@ -39,6 +39,6 @@ void trial_undo(struct run *e, struct memory_archive *m, const struct break_list
     statics_plastic_keep(e); /* as the start of the next solutions: a trial within may have kept its own */
     statics_place(e, &e->statics->balance.u);
     frame_sync(e);
-    loads_mirror(&e->loads, &e->part);       /* bonds to images break by where these are */
+    loads_mirror(&e->loads, &e->part); /* bonds to images break by where these are */
     statics_react(e);
 }

@@ -236,4 +236,3 @@ void statics_react(struct run *e)
             if (load >= 0) e->loads.load[load].reaction[d] -= s->balance.f.of[d][k] / s->weight[k];
         }
 }
-

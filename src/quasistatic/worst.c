@@ -8,7 +8,7 @@
 #include "quasistatic/statics.h"
 #include "rigid/rigid_part.h"
 
-#define SIDEWAYS 1e-3 /* share of the largest loads from which others are no round-off */
+#define SIDEWAYS 1e-3               /* share of the largest loads from which others are no round-off */
 enum { LOOKS = 64, PLACES = 1024 }; /* load times, and particles of each load, that are looked at */
 
 /* Prescribed displacements of supports and rigid bodies at two load times, multiplied [m^2]; applied forces [N^2]. */
@@ -43,10 +43,14 @@ static void products(const struct run *e, real t, real u, real *product)
 }
 
 /* Load times at which loads are the largest, are most turned back from those, and most beside them [s]; NAN: never. */
-struct worst { real largest, back, beside; };
+struct worst {
+    real largest, back, beside;
+};
 
 /* Looks at a load time. found: products of the largest, and of what is found so far beyond it. */
-struct search { real largest[SORTS], back[SORTS], beside[SORTS]; };
+struct search {
+    real largest[SORTS], back[SORTS], beside[SORTS];
+};
 
 static void largest_try(const struct run *e, real t, struct worst *worst, struct search *found)
 {

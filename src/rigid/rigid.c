@@ -61,9 +61,11 @@ static void spin_of(struct rigid_body *r, real turn[DIM_MAX][DIM_MAX], real *spi
 
 enum { SAMPLES = 200, SAMPLES_SPACE = 80 }; /* points of a body along its longest edge, for its inertia */
 
-#define ON_FACE 1e-9                     /* points of slanting faces count on either side alike [longest edge] */
+#define ON_FACE 1e-9 /* points of slanting faces count on either side alike [longest edge] */
 
-struct box { real from[DIM_MAX], to[DIM_MAX]; };
+struct box {
+    real from[DIM_MAX], to[DIM_MAX];
+};
 
 /* Volume, centre and second moments of a region by its points on a grid. */
 static real region_moments(const struct region *shape, int dim, const struct box *b, real *centre,
@@ -114,16 +116,18 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
     array_copy(r->motion == RIGID_DRIVEN ? r->speed : r->v, velocity, dim, sizeof *velocity);
     for (int d = 0; d < DIM_MAX; d++) r->turn[d][d] = 1;
     if (!bounded && r->motion != RIGID_FIXED)
-        return status_set(REFUSED, "rigid body %s moves, and its shape has no end; a shape of boxes, balls, discs and "
-                          "cylinders is expected", r->name);
+        return status_set(REFUSED,
+                          "rigid body %s moves, and its shape has no end; a shape of boxes, balls, discs and "
+                          "cylinders is expected",
+                          r->name);
     if (bounded && !(region_moments(shape, dim, &box, r->centre, second) > 0))
         return status_set(REFUSED, "rigid body %s has no volume", r->name);
     for (int d = 0; d < dim && bounded; d++) r->radius += square(0.5 * (box.to[d] - box.from[d]));
     r->radius = bounded ? 2 * sqrt(r->radius) : spacing;
     r->face = dim == 1 ? 1 : 0;
     for (int d = 0; d < dim && dim > 1 && bounded; d++)
-        r->face = real_max(r->face, (box.to[d] - box.from[d]) *
-                                        (dim < 3 ? 1 : box.to[(d + 1) % 3] - box.from[(d + 1) % 3]));
+        r->face =
+            real_max(r->face, (box.to[d] - box.from[d]) * (dim < 3 ? 1 : box.to[(d + 1) % 3] - box.from[(d + 1) % 3]));
     memcpy(r->x, r->centre, sizeof r->x);
     inertia_make(r, second);
     r->turns = r->motion == RIGID_FREE && dim > 1;

@@ -6,8 +6,8 @@
 #include "rigid/rigid_part.h"
 #include "run/say.h"
 
-#define DEEP_MOST 0.6                    /* of a particle's centre in a rigid body at the start [spacings] */
-#define WAY_MOST 0.5                     /* in a step [spacings]: contact pushes over one */
+#define DEEP_MOST 0.6 /* of a particle's centre in a rigid body at the start [spacings] */
+#define WAY_MOST 0.5  /* in a step [spacings]: contact pushes over one */
 
 /* REFUSED where a rigid body holds particles. */
 static status check_room(const struct run *e, int k)
@@ -108,7 +108,8 @@ void rigids_meet(struct run *e)
                 continue;
             snprintf(text, sizeof text,
                      "rigid bodies %.60s and %.60s are inside each other at t = %.3g s: they meet particles, not each "
-                     "other", e->rigid->body[a].name, e->rigid->body[b].name, e->clock.t);
+                     "other",
+                     e->rigid->body[a].name, e->rigid->body[b].name, e->clock.t);
             run_say(e, text);
             e->rigid->met = true;
         }

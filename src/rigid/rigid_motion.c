@@ -11,14 +11,13 @@ status rigids_make(struct run *e)
     const struct scene *s = e->scene;
     e->rigid->shape = NEW("engine.shape", s->bodies, const struct region *);
     for (int b = 0; b < s->bodies; b++) e->rigid->shape[b] = s->body[b].file ? NULL : &s->body[b].shape;
-    for (int b = 0; b < s->bodies; b++)          /* of several solids side by side nobody knows the surface */
+    for (int b = 0; b < s->bodies; b++) /* of several solids side by side nobody knows the surface */
         if (s->body[b].joined != b) e->rigid->shape[s->body[b].joined] = NULL;
     e->rigid->body = NEW("engine.rigid", s->rigids, struct rigid_body);
     for (int k = 0; k < s->rigids; k++) {
         const struct scene_body *b = &s->body[s->bodies + k];
         memcpy(e->rigid->body[k].name, b->name, sizeof b->name);
-        TRY(status_at(b->place, rigid_make(&e->rigid->body[k], &b->shape, s->dim, b->mass, b->velocity,
-                                           s->spacing)));
+        TRY(status_at(b->place, rigid_make(&e->rigid->body[k], &b->shape, s->dim, b->mass, b->velocity, s->spacing)));
         e->rigid->body[k].ramp = b->ramp;
         for (int d = 0; d < s->dim; d++) e->rigid->body[k].weight[d] = b->force[d] + b->mass * s->gravity[d];
     }
@@ -113,8 +112,7 @@ void rigids_velocity(const struct run *e, int k, real *v)
 
 void rigids_kick(struct run *e)
 {
-    for (int k = 0; k < e->scene->rigids; k++)
-        rigids_velocity(e, k, e->rigid->motion + 2 * DIM_MAX * k + DIM_MAX);
+    for (int k = 0; k < e->scene->rigids; k++) rigids_velocity(e, k, e->rigid->motion + 2 * DIM_MAX * k + DIM_MAX);
 }
 
 void rigids_record(struct run *e, real *record)

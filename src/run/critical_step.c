@@ -7,7 +7,7 @@
 #include "base/eigenvalue.h"
 #include "base/memory.h"
 
-#define STRAIN 1e-7                  /* strain of the trial motion: its square is negligible, round-off is 1e-9 of it */
+#define STRAIN 1e-7 /* strain of the trial motion: its square is negligible, round-off is 1e-9 of it */
 /* The iteration ends some parts in a thousand below omega_max^2, and blocks of lattice have 1 or 2 % less than larger
  * blocks. */
 #define MARGIN 0.98
@@ -45,8 +45,7 @@ void bond_body_stiffness(void *context, const real *u, real *y)
     bond_forces(body->force, body->b, p, &bond_limit_never, NULL);
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)
-        for (int64_t i = 0; i < p->n; i++)
-            y[a * p->n + i] = scale > 0 ? -p->f[a][i] / (scale * body->root[i]) : 0;
+        for (int64_t i = 0; i < p->n; i++) y[a * p->n + i] = scale > 0 ? -p->f[a][i] / (scale * body->root[i]) : 0;
 }
 
 real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
@@ -67,7 +66,7 @@ real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force
     return omega2 > 0 ? MARGIN * 2 / sqrt(omega2) : INFINITY;
 }
 
-#define BONDS_DEAR 1e7                   /* [bonds] of a block: larger blocks are cut to the size of the body */
+#define BONDS_DEAR 1e7 /* [bonds] of a block: larger blocks are cut to the size of the body */
 
 /* Particles along the edges of a block of lattice: enough for particles with full families and for waves as long as a
  * small cost allows. longest: extent of the body [m]. Returns the number of particles of the block. */

@@ -11,7 +11,12 @@
 
 /* Particles or nodes: masses [kg] and velocities [m/s]; entries with FLAG_MESHED do not count, `flag` NULL: all
  * count. */
-struct movers { int dim; const real *mass; real *const *v; const uint8_t *flag; };
+struct movers {
+    int dim;
+    const real *mass;
+    real *const *v;
+    const uint8_t *flag;
+};
 
 /* Sums skip particles moved by the nodes of a mesh this many at a time: few that do not count are visited. */
 enum { MOTION_PIECE = 64 };
@@ -25,7 +30,9 @@ static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
 }
 
 /* Kinetic energy [J], momentum by component and the sum of |m v| [kg m/s]; the sums of a piece stay in registers. */
-struct motion { real kinetic, momentum[DIM_MAX], size; };
+struct motion {
+    real kinetic, momentum[DIM_MAX], size;
+};
 
 /* Adds the motion of entries first .. end - 1; `meshed`: flags are tested, `all`: momentum and |m v|, too. */
 static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int64_t end, struct motion *to,
@@ -55,9 +62,15 @@ static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, in
     const bool meshed = m->flag != NULL;
     if (meshed && all_meshed(m->flag, first, end)) return;
     switch (m->dim) {
-    case 1: meshed ? add_motion(m, first, end, to, 1, true, all) : add_motion(m, first, end, to, 1, false, all); break;
-    case 2: meshed ? add_motion(m, first, end, to, 2, true, all) : add_motion(m, first, end, to, 2, false, all); break;
-    default: meshed ? add_motion(m, first, end, to, 3, true, all) : add_motion(m, first, end, to, 3, false, all); break;
+    case 1:
+        meshed ? add_motion(m, first, end, to, 1, true, all) : add_motion(m, first, end, to, 1, false, all);
+        break;
+    case 2:
+        meshed ? add_motion(m, first, end, to, 2, true, all) : add_motion(m, first, end, to, 2, false, all);
+        break;
+    default:
+        meshed ? add_motion(m, first, end, to, 3, true, all) : add_motion(m, first, end, to, 3, false, all);
+        break;
     }
 }
 
@@ -71,8 +84,7 @@ static bool none_has_mass(const real *mass, int64_t first, int64_t end)
 }
 
 /* Motion of entries first .. end - 1: all sums, or the kinetic energy alone, which needs no roots. */
-static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t first, int64_t end,
-                                                         const bool all)
+static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t first, int64_t end, const bool all)
 {
     struct motion sum = {0};
     if (m->flag ? all_meshed(m->flag, first, end) : none_has_mass(m->mass, first, end)) return sum;
@@ -88,10 +100,7 @@ static void kinetic_block(const void *context, int64_t first, int64_t end, real 
     sum[0] += motion_of(context, first, end, false).kinetic;
 }
 
-static struct movers movers_of(const struct particles *p)
-{
-    return (struct movers){p->dim, p->mass, p->v, p->flag};
-}
+static struct movers movers_of(const struct particles *p) { return (struct movers){p->dim, p->mass, p->v, p->flag}; }
 
 real diagnostics_kinetic(const struct particles *p)
 {
@@ -101,7 +110,11 @@ real diagnostics_kinetic(const struct particles *p)
     return kinetic;
 }
 
-struct kick { const struct particles *p; real *const *before; real dt; };
+struct kick {
+    const struct particles *p;
+    real *const *before;
+    real dt;
+};
 
 /* Adds a quarter of m (change of velocity)^2 of particles first .. end - 1 to the sum [J]. Driven particles are left
  * out: they move as prescribed, and their work is booked as they move. */
@@ -152,7 +165,7 @@ struct strain_sum {
     const struct material *m;
     const struct partial_stress *partial;
     const int32_t *list;
-    real (*compliance)[SYM_MAX * SYM_MAX];   /* by material */
+    real (*compliance)[SYM_MAX * SYM_MAX]; /* by material */
 };
 
 real point_own_share(const struct partial_stress *partial, int dim, int64_t i)
@@ -186,7 +199,7 @@ static real strain_term(const void *context, int64_t k)
     for (int a = 0; a < n; a++) stress[a] = p->stress[a][i];
     stress_given(p, s->partial, i, given, p->dim);
     for (int a = 0; a < n; a++) {
-        real strain = 0, times = a < p->dim ? 1 : 2;         /* a shear component stands for two */
+        real strain = 0, times = a < p->dim ? 1 : 2; /* a shear component stands for two */
         for (int b = 0; b < n; b++) strain += s->compliance[p->material[i]][a * n + b] * stress[b];
         sum += times * given[a] * strain;
     }
@@ -194,7 +207,7 @@ static real strain_term(const void *context, int64_t k)
 }
 
 real diagnostics_strain_of(const struct particles *p, const struct material *m, const struct partial_stress *partial,
-                     const int32_t *list, int64_t n)
+                           const int32_t *list, int64_t n)
 {
     int materials = 0;
     for (int64_t k = 0; k < n; k++)

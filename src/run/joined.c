@@ -30,8 +30,10 @@ status joined_check(const struct run *e)
         const struct scene_interface *face = &s->interface[k];
         const struct scene_body *one = &s->body[face->body[0]], *other = &s->body[face->body[1]];
         if (!face->joined || one->file || other->file || are_near(e, &one->shape, &other->shape)) continue;
-        return status_set(REFUSED, "interfaces[%d]: %s and %s are farther apart than the horizon, so no bond joins "
-                          "them; bodies that touch are expected, or no interface", k, one->name, other->name);
+        return status_set(REFUSED,
+                          "interfaces[%d]: %s and %s are farther apart than the horizon, so no bond joins "
+                          "them; bodies that touch are expected, or no interface",
+                          k, one->name, other->name);
     }
     return OK;
 }

@@ -3,8 +3,7 @@
 
 void run_say(struct run *e, const char *text)
 {
-    if (warnings_add(&e->warnings, "%s", text) && !e->trial)
-        warnings_print(&e->warnings, e->warnings.n - 1, stderr);
+    if (warnings_add(&e->warnings, "%s", text) && !e->trial) warnings_print(&e->warnings, e->warnings.n - 1, stderr);
 }
 
 /* What a body of bonds bears that yield one by one, over von Mises' law, without hardening: bonds of all directions
@@ -29,7 +28,6 @@ void warn_of_yielding(const struct scene *s, struct warnings *to)
                          "yield_stress says in tension, %.2f times in shear, and contracts across by %.2f of its "
                          "plastic strain; by von Mises' law, which method mpm has, these are 1, 1 and %s",
                          s->material[m].name, s->method == METHOD_PD ? "" : ", which points convert to,",
-                         bonds_bear[s->space].body, bonds_bear[s->space].pull,
-                         bonds_bear[s->space].shear, bonds_bear[s->space].across,
-                         s->space == SPACE_PLANE_STRAIN ? "1" : "0.5");
+                         bonds_bear[s->space].body, bonds_bear[s->space].pull, bonds_bear[s->space].shear,
+                         bonds_bear[s->space].across, s->space == SPACE_PLANE_STRAIN ? "1" : "0.5");
 }

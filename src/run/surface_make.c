@@ -47,8 +47,8 @@ static status refuse_rows(const struct run *e, int64_t i, int mirror)
                       "body %s: its lattice does not go on beyond the mirror of boundary %s at %c = %.6g m: its first "
                       "row is %.3g spacings from it; 0.5 (a size along %c that is a multiple of particles.spacing), or "
                       "pd.surface volume, is expected",
-                      e->scene->body[body_made_for(e->scene, X, e->part.body[i])].name, m->name,
-                      "xyz"[m->axis], m->at, beside, "xyz"[m->axis]);
+                      e->scene->body[body_made_for(e->scene, X, e->part.body[i])].name, m->name, "xyz"[m->axis],
+                      m -> at, beside, "xyz"[m->axis]);
 }
 
 /* REFUSED: particles i < n and j are not whole spacings apart. */

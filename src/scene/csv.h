@@ -9,10 +9,10 @@
 enum { CSV_LINE_LENGTH = 4096 };
 
 struct csv_file {
-    const char *path, *holds;            /* what the file is and has in a line, for messages */
+    const char *path, *holds; /* what the file is and has in a line, for messages */
     FILE *file;
-    int64_t line;                        /* number of the current line, from 1 */
-    char separator;                      /* comma unless csv_separate finds another in the header; or a blank */
+    int64_t line;   /* number of the current line, from 1 */
+    char separator; /* comma unless csv_separate finds another in the header; or a blank */
     char text[CSV_LINE_LENGTH];
 };
 

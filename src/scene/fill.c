@@ -70,7 +70,7 @@ status draft_add(struct draft *d, const real *X, real volume, int material, int 
 
 /* Along one direction: places first .. last at centre + (k + 1/2 - m/2) spacing. */
 struct axis {
-    real centre, half_count, spacing;    /* [m], m/2, [m] */
+    real centre, half_count, spacing; /* [m], m/2, [m] */
     int64_t first, last;
 };
 
@@ -114,10 +114,7 @@ static real scatter(uint64_t seed, int64_t id, int component)
     return (real)(z >> 11) * 0x1p-53 - 0.5;
 }
 
-static real cell_volume(const struct scene *s)
-{
-    return lattice_volume(scene_section(s), s->spacing, s->dim);
-}
+static real cell_volume(const struct scene *s) { return lattice_volume(scene_section(s), s->spacing, s->dim); }
 
 /* Axes of the lattice that covers the whole shape of a body. REFUSED if the shape is unbounded or too large for the
  * spacing. */
@@ -165,7 +162,7 @@ static status lattice_point(struct draft *d, int body, const real *place, real v
     if (hollow_absent(d->hollow, place)) return place_skip(d, place);
     if (!region_contains(&s->body[body].shape, place, s->dim, ON_SURFACE * s->spacing)) return OK;
     for (int a = 0; a < s->dim; a++)
-        X[a] = place[a] + s->spacing * s->irregularity * scatter(s->seed, d->n, a);   /* Imachi et al. 2019, eq. 49 */
+        X[a] = place[a] + s->spacing * s->irregularity * scatter(s->seed, d->n, a); /* Imachi et al. 2019, eq. 49 */
     return draft_add(d, X, volume, scene_material_at(s, &s->body[body], place, s->body[body].material), body);
 }
 
@@ -173,7 +170,7 @@ static status lattice_point(struct draft *d, int body, const real *place, real v
 static status fill_lattice(struct draft *d, int body)
 {
     real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
-    struct axis axis[DIM_MAX] = {{0}};   /* unused directions hold the one place 0 */
+    struct axis axis[DIM_MAX] = {{0}}; /* unused directions hold the one place 0 */
     if (!(spacing > 0)) return draft_refuse(d, body, "a shape is filled with particles.spacing, which is not given");
     TRY(lattice_axes(d, body, axis));
     for (int64_t k = axis[2].first; k <= axis[2].last; k++)
@@ -312,7 +309,7 @@ static status check_distances(const struct particles *p, const struct draft *d, 
     int64_t first = p->n;
     int32_t other = -1;
     real X[DIM_MAX] = {0};
-    cells_make(&cells, p, 3 * spacing);  /* cells of a third of this edge: about one particle each */
+    cells_make(&cells, p, 3 * spacing); /* cells of a third of this edge: about one particle each */
 #pragma omp parallel for schedule(static) reduction(min : first)
     for (int64_t i = 0; i < p->n; i++) {
         real here[DIM_MAX];
@@ -345,8 +342,8 @@ static real start_slope(const struct scene_initial *s, int a, int b, const real 
     if (s->formula[a].n == 0) return 0;
     for (int d = 0; d < dim; d++) before[d] = after[d] = X[d];
     before[b] -= 0.5 * spacing, after[b] += 0.5 * spacing;
-    const real slope = (expression_at(&s->formula[a], after, dim, 0) - expression_at(&s->formula[a], before, dim, 0)) /
-                       spacing;
+    const real slope =
+        (expression_at(&s->formula[a], after, dim, 0) - expression_at(&s->formula[a], before, dim, 0)) / spacing;
     return isfinite(slope) ? slope : 0;
 }
 
@@ -369,7 +366,7 @@ static void start_velocity(struct particles *p, int64_t i, const struct scene_in
 /* Initial strain of particle i: x = X + H (X - centre), with stress C : sym H and volume factor 1 + tr H of small
  * strain. arm = X - centre [m]. */
 static void fill_start_strain(struct particles *p, int64_t i, const struct scene_initial *s, const struct material *m,
-                         const real *arm)
+                              const real *arm)
 {
     const real *H = s->displacement_gradient;
     int dim = p->dim, count = symmetric_count(dim);
@@ -469,7 +466,7 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     TRY(check_start(p, d, spacing));
     particles_sort(p, spacing, optional);
     TRY(check_distances(p, d, spacing));
-    for (int64_t i = 0; i < p->n; i++) p->body[i] = (uint8_t)s->body[p->body[i]].joined;     /* joined ones are one */
+    for (int64_t i = 0; i < p->n; i++) p->body[i] = (uint8_t)s->body[p->body[i]].joined; /* joined ones are one */
     return OK;
 }
 

@@ -8,12 +8,12 @@
 /* Particles in the order in which the scene makes them, collected before their number is known. */
 struct draft {
     const struct scene *scene;
-    const struct hollow *hollow;         /* cells whose particles are not made; NULL: none */
+    const struct hollow *hollow; /* cells whose particles are not made; NULL: none */
     int64_t n, room;
-    int64_t skipped;                     /* that are not made */
-    real low[DIM_MAX], high[DIM_MAX];    /* of those [m] */
-    real *X[DIM_MAX], *volume;           /* [m], [m^3] */
-    real *v[DIM_MAX], *mass;             /* as lists say; NAN: as the body and its material say [m/s], [kg] */
+    int64_t skipped;                  /* that are not made */
+    real low[DIM_MAX], high[DIM_MAX]; /* of those [m] */
+    real *X[DIM_MAX], *volume;        /* [m], [m^3] */
+    real *v[DIM_MAX], *mass;          /* as lists say; NAN: as the body and its material say [m/s], [kg] */
     uint8_t *material, *body;
     int32_t *id;
 };

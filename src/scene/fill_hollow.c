@@ -2,7 +2,7 @@
 #include "base/memory.h"
 #include "scene/fill.h"
 
-#define CLEARLY 1e-6                     /* of a cell: places on a surface are left to the fill */
+#define CLEARLY 1e-6 /* of a cell: places on a surface are left to the fill */
 
 /* Are all places of the particles of cell I in the shape? */
 static bool cell_inside(const struct grid *box, const struct region *shape, int64_t I)

@@ -23,7 +23,10 @@ static const char *materials_in_words(char *text, size_t room, const struct scen
     size_t used = 0;
     for (int m = 0; m < s->materials && m < NAMED; m++)
         used += (size_t)snprintf(text + used, room - used, "%s%.40s",
-                                 m == 0 ? "" : m + 1 == s->materials ? " and " : ", ", s->material[m].name);
+                                 m == 0                  ? ""
+                                 : m + 1 == s->materials ? " and "
+                                                         : ", ",
+                                 s->material[m].name);
     if (s->materials > NAMED) snprintf(text + used, room - used, " and %d more", s->materials - NAMED);
     return text;
 }
@@ -90,8 +93,10 @@ static status take_list(struct draft *d, int body, const struct particle_list *l
     for (int64_t i = 0; i < l->n; i++) {
         const int owner = l->body != NULL ? (int)l->body[i] : body;
         if (!shares_file(s, owner, path))
-            return status_set(REFUSED, "%s: this file is not that of body %d (numbered from 0 in the order of the "
-                              "scene)", entry_place(place, l, path, i, false), owner);
+            return status_set(REFUSED,
+                              "%s: this file is not that of body %d (numbered from 0 in the order of the "
+                              "scene)",
+                              entry_place(place, l, path, i, false), owner);
         if (owner == body) TRY(take_entry(d, body, l, i, volume));
     }
     return OK;

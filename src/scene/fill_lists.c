@@ -27,9 +27,9 @@ enum { LOOKED_AT = 128 };
  * factor: in another unit they differ by 1e3 and more; at random places by 2 on a line, 4 in the plane and 6 in
  * space. */
 #define VOLUME_MOST 100.0
-#define CROWDED 0.5               /* [spacings] at closer neighbours the memory of bonds is estimated beforehand */
-#define ONE_PLACE 1e-9                   /* [longest edge of the body] one place given twice; refused in fill.c */
-#define REACH_LEAST 1.5               /* least reach of a material point, for cells of at most one spacing [spacings] */
+#define CROWDED 0.5     /* [spacings] at closer neighbours the memory of bonds is estimated beforehand */
+#define ONE_PLACE 1e-9  /* [longest edge of the body] one place given twice; refused in fill.c */
+#define REACH_LEAST 1.5 /* least reach of a material point, for cells of at most one spacing [spacings] */
 
 /* The particles of one body, packed. */
 struct crowd {
@@ -37,17 +37,17 @@ struct crowd {
     const struct scene *s;
     int body;
     int64_t n;
-    real *X[DIM_MAX], *volume;           /* [n] [m], [m^3] */
-    real reach;                          /* distance within which particles are neighbours [m] */
-    real one_place;                      /* distance below which places count as one [m] */
+    real *X[DIM_MAX], *volume; /* [n] [m], [m^3] */
+    real reach;                /* distance within which particles are neighbours [m] */
+    real one_place;            /* distance below which places count as one [m] */
 };
 
 /* Statistics of a sample of the particles of a body. */
 struct verdict {
-    real lone;                           /* share without a neighbour                          [1]     */
-    real apart;                          /* median distance of the nearest other place         [m]     */
-    real family;                         /* mean number of neighbours within reach [1]                 */
-    real filled;                         /* median volume over space up to the nearest [1]             */
+    real lone;   /* share without a neighbour                          [1]     */
+    real apart;  /* median distance of the nearest other place         [m]     */
+    real family; /* mean number of neighbours within reach [1]                 */
+    real filled; /* median volume over space up to the nearest [1]             */
 };
 
 /* Packs the places and volumes of the particles of a body and sets one_place. */
@@ -136,9 +136,7 @@ static const char *unit_guess(real ratio, real by_volume)
     static const struct {
         real ratio;
         const char *guess;
-    } unit[] = {{1e2, " (is it in cm?)"},
-                {1e3, " (is it in mm?)"},
-                {1e6, " (is it in um?)"}};
+    } unit[] = {{1e2, " (is it in cm?)"}, {1e3, " (is it in mm?)"}, {1e6, " (is it in um?)"}};
     for (size_t k = 0; k < COUNT_OF(unit); k++)
         if (fabs(log(by_volume / unit[k].ratio)) < log(1.5)) return unit[k].guess;
     return ratio > 30 && ratio < 400        ? " (is it in mm, or in cm?)"
@@ -173,7 +171,7 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
     const real spacing = c->s->spacing, bytes = BYTES_PER_BOND * v->family * (real)c->n;
     const real by_volume =
         c->s->body[c->body].list.volumes ? pow(v->filled, -1.0 / (real)c->s->dim) : NAN; /* of a filled list 1 */
-    if (!isfinite(v->apart)) return OK;          /* all in one place: refused by check_distances (fill.c) */
+    if (!isfinite(v->apart)) return OK; /* all in one place: refused by check_distances (fill.c) */
     if (v->lone > LONE_MOST)
         return refuse_list(
             c,
@@ -203,8 +201,8 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
             "its particles have %.3g neighbours each within %.4g spacings of %.4g m, whose bonds need some %.2g "
             "GB, and %.2g can be had (%s); those of the list are %.4g m apart: a particles.spacing like that "
             "is expected",
-            v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)team_memory() * 1e-9,
-            team_memory_limit(), v->apart);
+            v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)team_memory() * 1e-9, team_memory_limit(),
+            v->apart);
     return OK;
 }
 

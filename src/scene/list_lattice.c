@@ -8,11 +8,12 @@
 #include "base/memory.h"
 #include "data/particles.h"
 
-#define DECIMALS 1e-3        /* a place that is written in decimals may be that far from its site [spacings] */
-#define EVEN 1e-3            /* likewise of volumes [1] */
-#define NEIGHBOURS_LEAST 0.5 /* share of particles with another one spacing away along x: sparse ones are no lattice   \
-                              */
-#define FARTHEST 1e6         /* [spacings] */
+#define DECIMALS 1e-3 /* a place that is written in decimals may be that far from its site [spacings] */
+#define EVEN 1e-3     /* likewise of volumes [1] */
+#define NEIGHBOURS_LEAST                                                                                               \
+    0.5              /* share of particles with another one spacing away along x: sparse ones are no lattice           \
+                      */
+#define FARTHEST 1e6 /* [spacings] */
 enum { BODIES = 256 };
 
 /* A place of a lattice and the body that it belongs to; in the order of x last. */

@@ -17,27 +17,36 @@
 #include "scene_internal.h"
 
 const struct list_quantity list_quantity[COLUMNS] = {
-    {"x", UNIT_LENGTH}, {"y", UNIT_LENGTH}, {"z", UNIT_LENGTH}, {"vx", UNIT_SPEED}, {"vy", UNIT_SPEED},
-    {"vz", UNIT_SPEED}, {"volume", UNIT_VOLUME}, {"mass", UNIT_MASS}, {"density", UNIT_DENSITY},
-    {"material", UNIT_NONE}, {"body", UNIT_NONE},
+    {"x", UNIT_LENGTH},        {"y", UNIT_LENGTH},      {"z", UNIT_LENGTH},      {"vx", UNIT_SPEED},
+    {"vy", UNIT_SPEED},        {"vz", UNIT_SPEED},      {"volume", UNIT_VOLUME}, {"mass", UNIT_MASS},
+    {"density", UNIT_DENSITY}, {"material", UNIT_NONE}, {"body", UNIT_NONE},
 };
 
 real **column_array(struct particle_list *l, int column)
 {
     switch (column) {
-    case COLUMN_VX: case COLUMN_VY: case COLUMN_VZ: return &l->v[column - COLUMN_VX];
-    case COLUMN_VOLUME: return &l->volume;
-    case COLUMN_MASS: return &l->mass;
-    case COLUMN_DENSITY: return &l->density;
-    case COLUMN_MATERIAL: return &l->material;
-    case COLUMN_BODY: return &l->body;
-    default: return &l->X[column];
+    case COLUMN_VX:
+    case COLUMN_VY:
+    case COLUMN_VZ:
+        return &l->v[column - COLUMN_VX];
+    case COLUMN_VOLUME:
+        return &l->volume;
+    case COLUMN_MASS:
+        return &l->mass;
+    case COLUMN_DENSITY:
+        return &l->density;
+    case COLUMN_MATERIAL:
+        return &l->material;
+    case COLUMN_BODY:
+        return &l->body;
+    default:
+        return &l->X[column];
     }
 }
 
 bool column_idle(int column, int dim)
 {
-    return column <= COLUMN_VZ && column % DIM_MAX >= dim;       /* x, y, z, vx, vy, vz */
+    return column <= COLUMN_VZ && column % DIM_MAX >= dim; /* x, y, z, vx, vy, vz */
 }
 
 void note_add(struct particle_list_head *head, const char *between, const char *what)
@@ -83,7 +92,7 @@ bool unit_factor(real *factor, const char *unit, enum unit of, char *what, size_
     return number_read(factor, number, of, false, what, room);
 }
 
-enum { PARTICLE_NUMBERS = 40 };     /* memory of a particle of a run without its bonds [numbers] */
+enum { PARTICLE_NUMBERS = 40 }; /* memory of a particle of a run without its bonds [numbers] */
 
 status list_affordable(const char *path, int64_t n)
 {
@@ -98,8 +107,8 @@ status list_affordable(const char *path, int64_t n)
 /* A dataset as columns of numbers. */
 struct table {
     int64_t rows, columns;
-    real *value;                         /* row major */
-    real factor;                         /* of its unit */
+    real *value; /* row major */
+    real factor; /* of its unit */
 };
 
 /* Shape of a dataset; false unless it is a list of numbers with at most PARTICLES_MAX rows and DIM_MAX columns. */
@@ -232,9 +241,11 @@ static status hdf5_column(struct particle_list *l, hid_t file, const char *path,
 
 static status hdf5_columns(struct particle_list *l, hid_t file, const char *path)
 {
-    static const struct { const char *name; int column; } sets[] = {
-        {"volumes", COLUMN_VOLUME}, {"mass", COLUMN_MASS}, {"density", COLUMN_DENSITY}, {"velocities", COLUMN_VX},
-        {"material", COLUMN_MATERIAL}, {"body", COLUMN_BODY}};
+    static const struct {
+        const char *name;
+        int column;
+    } sets[] = {{"volumes", COLUMN_VOLUME}, {"mass", COLUMN_MASS},         {"density", COLUMN_DENSITY},
+                {"velocities", COLUMN_VX},  {"material", COLUMN_MATERIAL}, {"body", COLUMN_BODY}};
     bool has[COLUMNS] = {false};
     TRY(hdf5_column(l, file, path, "positions", COLUMN_X, l->dim));
     for (size_t k = 0; k < COUNT_OF(sets); k++) {
@@ -253,7 +264,7 @@ static status hdf5_read(struct particle_list *l, const char *path)
     status s;
     input_remember(path);
     last_words_reading(path);
-    H5E_BEGIN_TRY                        /* one message per fault: the error stack of HDF5 is not printed */
+    H5E_BEGIN_TRY /* one message per fault: the error stack of HDF5 is not printed */
     {
         hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
         s = file < 0 ? status_set(REFUSED, "%s: not an HDF5 file", path) : hdf5_columns(l, file, path);

@@ -13,10 +13,10 @@ enum { FIELDS_MAX = 256 };
 
 struct csv {
     struct csv_file in;
-    int fields, column[FIELDS_MAX];      /* enum list_column of each field of a line */
-    real factor[FIELDS_MAX];             /* of its unit */
-    int first[FIELDS_MAX];               /* the number of the first: 1 of blocks, or 0 */
-    bool pending;                        /* the current line is the first entry: the names of columns lie elsewhere */
+    int fields, column[FIELDS_MAX]; /* enum list_column of each field of a line */
+    real factor[FIELDS_MAX];        /* of its unit */
+    int first[FIELDS_MAX];          /* the number of the first: 1 of blocks, or 0 */
+    bool pending;                   /* the current line is the first entry: the names of columns lie elsewhere */
     int64_t room;
 };
 
@@ -40,8 +40,10 @@ static bool names_block(const char *name)
 static int column_named(const char *name, int dim)
 {
     const int place = component_named(name, "points"), velocity = component_named(name, "velocity");
-    int found = names_block(name) ? COLUMN_MATERIAL : place >= 0 ? COLUMN_X + place
-              : velocity >= 0 ? COLUMN_VX + velocity : COLUMN_NONE;
+    int found = names_block(name) ? COLUMN_MATERIAL
+                : place >= 0      ? COLUMN_X + place
+                : velocity >= 0   ? COLUMN_VX + velocity
+                                  : COLUMN_NONE;
     for (int k = 0; k < COLUMNS; k++)
         if (strcasecmp(name, list_quantity[k].name) == 0) found = k;
     return found == COLUMN_NONE || column_idle(found, dim) ? COLUMN_NONE : found;
@@ -68,11 +70,14 @@ static status csv_column(struct csv *c, char *name, struct particle_list *l, boo
         return csv_fault(&c->in, name, "unknown column '%.40s'; names without quotes, or in double ones, are expected",
                          name);
     if (strcasecmp(name, "weight") == 0) TRY(weight_column(c, name, unit, &k));
-    if (k == COLUMN_NONE) note_add(&l->head, ", ", *name ? name : "a column without a name");
-    else if (has[k]) return csv_fault(&c->in, name, "column %s is named twice", list_quantity[k].name);
+    if (k == COLUMN_NONE)
+        note_add(&l->head, ", ", *name ? name : "a column without a name");
+    else if (has[k])
+        return csv_fault(&c->in, name, "column %s is named twice", list_quantity[k].name);
     else if (!unit_factor(&c->factor[c->fields], unit, list_quantity[k].unit, what, sizeof what))
         return csv_fault(&c->in, unit, "%s: [%.40s] %s", list_quantity[k].name, unit, what);
-    else has[k] = true;
+    else
+        has[k] = true;
     if (k == COLUMN_MATERIAL && names_block(name)) l->head.block = true, c->first[c->fields] = 1;
     c->column[c->fields++] = k;
     return OK;
@@ -305,14 +310,12 @@ static status csv_entry(struct csv *c, struct particle_list *l)
     char *rest = c->in.text;
     for (int k = 0; k < c->fields; k++) {
         const char *field = csv_field(&c->in, &rest);
-        if (field == NULL)
-            return csv_fault(&c->in, c->in.text, "%d values; the header names %d columns", k, c->fields);
+        if (field == NULL) return csv_fault(&c->in, c->in.text, "%d values; the header names %d columns", k, c->fields);
         if (c->column[k] != COLUMN_NONE) TRY(csv_value(c, l, k, field));
     }
     if (rest != NULL)
         return csv_fault(&c->in, rest,
-                         "more values than the %d columns of the header; numbers have a point, not a comma",
-                         c->fields);
+                         "more values than the %d columns of the header; numbers have a point, not a comma", c->fields);
     l->line[l->n++] = c->in.line;
     return OK;
 }
@@ -338,4 +341,3 @@ status list_csv_read(struct particle_list *l, const char *path, bool head)
     csv_close(&c.in);
     return s;
 }
-

@@ -9,10 +9,24 @@ enum { PARTICLES_MAX = INT32_MAX - 64, NAMES_MAX = 256, UNIT_TEXT = 40 };
 
 /* Columns of a list; coordinates come first. */
 enum list_column {
-    COLUMN_X, COLUMN_Y, COLUMN_Z, COLUMN_VX, COLUMN_VY, COLUMN_VZ, COLUMN_VOLUME, COLUMN_MASS, COLUMN_DENSITY,
-    COLUMN_MATERIAL, COLUMN_BODY, COLUMNS, COLUMN_NONE
+    COLUMN_X,
+    COLUMN_Y,
+    COLUMN_Z,
+    COLUMN_VX,
+    COLUMN_VY,
+    COLUMN_VZ,
+    COLUMN_VOLUME,
+    COLUMN_MASS,
+    COLUMN_DENSITY,
+    COLUMN_MATERIAL,
+    COLUMN_BODY,
+    COLUMNS,
+    COLUMN_NONE
 };
-struct list_quantity { const char *name; enum unit unit; };
+struct list_quantity {
+    const char *name;
+    enum unit unit;
+};
 extern const struct list_quantity list_quantity[COLUMNS];
 
 /* Where a column is kept. */

@@ -57,7 +57,7 @@ status scene_tree(struct reader *r, const char *text, size_t length, struct node
     TRY(tree_rename(r, *root));
     TRY(tree_include(r, *root));
     TRY(tree_override(r, *root));
-    TRY(tree_rename(r, *root));          /* values of overrides may be mappings */
+    TRY(tree_rename(r, *root)); /* values of overrides may be mappings */
     return read_variables(r, *root);
 }
 

@@ -7,7 +7,7 @@ status read_body_parts(struct reader *r, const struct node *list, const struct k
 {
     if (!list) return OK;
     TRY(expect_list(r, k, list));
-    int part = b->parts;                 /* behind those of images */
+    int part = b->parts; /* behind those of images */
     GROW("parts", b->part, b->parts + list->n);
     b->parts += list->n;
     for (const struct node *n = list->first; n; part++, n = n->next)

@@ -272,8 +272,7 @@ const char *scene_frame_unsupported(const struct scene *s, int body)
     for (int m = 0; m < s->materials; m++)
         if (scene_body_has(&s->body[body], m) && material_yields(&s->material[m])) {
             if (!scene_in_steps(s)) return "materials that yield want frame current";
-            if (s->method != METHOD_MPM)
-                return "its points yield, which load steps know with method mpm or pd";
+            if (s->method != METHOD_MPM) return "its points yield, which load steps know with method mpm or pd";
             if (s->lattice_constants) return "materials that yield there want mpm.constants isotropic";
         }
     return NULL;
@@ -332,7 +331,7 @@ static status check_times(struct reader *r, const struct node *root)
     if (every && s->duration / s->every > FRAMES_MOST)
         return fault(r, every, "%s makes more than %d frames; at least %.3g s is expected", shown(r, every),
                      FRAMES_MOST, s->duration / FRAMES_MOST);
-    if (every) s->frames = (int)ceil(s->duration / s->every * (1 - 1e-12));    /* the last one at the end */
+    if (every) s->frames = (int)ceil(s->duration / s->every * (1 - 1e-12)); /* the last one at the end */
     if (s->times.n == 0) return OK;
     if (frames) return fault_both(r, frames, times);
     for (s->frames = 0; s->frames < s->times.n && s->times.value[s->frames] <= s->duration * (1 + 1e-12);) s->frames++;

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { POWER_MOST = 18 };                /* twice the largest power of a unit */
+enum { POWER_MOST = 18 }; /* twice the largest power of a unit */
 
 /* ---- complaints -------------------------------------------------------------------------------------------------- */
 
@@ -38,10 +38,7 @@ static bool same_unit(const struct quantity *a, const struct quantity *b)
     return memcmp(a->twice, b->twice, sizeof a->twice) == 0;
 }
 
-bool is_plain(const struct quantity *q)
-{
-    return same_unit(q, &(struct quantity){0});
-}
+bool is_plain(const struct quantity *q) { return same_unit(q, &(struct quantity){0}); }
 
 /* ---- steps ------------------------------------------------------------------------------------------------------- */
 
@@ -131,8 +128,10 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
     for (int k = 0; k < 3; k++) {
         const real twice = unit->twice[k] * power;
         if (twice != floor(twice) || fabs(twice) > POWER_MOST)
-            return compile_wrong(c, "has %s to a power (character %d) that makes no unit; whole and half powers of m, "
-                                 "kg and s do", unit_named(&topmost(c, 1)->q).text, place);
+            return compile_wrong(c,
+                                 "has %s to a power (character %d) that makes no unit; whole and half powers of m, "
+                                 "kg and s do",
+                                 unit_named(&topmost(c, 1)->q).text, place);
         unit->twice[k] = (int)twice;
     }
     return true;
@@ -152,6 +151,6 @@ bool add_power(struct compile *c, const char *at)
         return compile_wrong(c, "has %s to a power that varies (character %d); a given number is expected there",
                              unit_named(&unit).text, place);
     if (!is_plain(&unit) && !power_of_unit(c, &unit, b->q.value, place)) return false;
-    if (two) c->operands--, c->steps--;  /* without the 2 */
+    if (two) c->operands--, c->steps--; /* without the 2 */
     return add_operation(c, two ? EXPRESSION_SQUARE : EXPRESSION_POWER, &unit);
 }

@@ -4,21 +4,24 @@
 
 #include "scene_internal.h"
 
-enum { EXPRESSION_TEXT = 4000 };         /* longest text, variables written out as numbers */
+enum { EXPRESSION_TEXT = 4000 }; /* longest text, variables written out as numbers */
 
 /* A value on the stack at the time of compiling; a constant one is the last step. */
-struct operand { struct quantity q; bool constant; };
+struct operand {
+    struct quantity q;
+    bool constant;
+};
 
 struct compile {
     struct reader *r;
-    unsigned of;                         /* EXPRESS_SPACE | EXPRESS_TIME */
+    unsigned of; /* EXPRESS_SPACE | EXPRESS_TIME */
     const char *text, *at;
     int depth, steps, operands;
     struct expression_step step[EXPRESSION_STEPS];
     struct operand operand[EXPRESSION_STACK];
-    char kept[EXPRESSION_TEXT + 1];            /* the text, numbers in place of variables */
+    char kept[EXPRESSION_TEXT + 1]; /* the text, numbers in place of variables */
     size_t used;
-    const char *copied;                  /* up to here the text is in it */
+    const char *copied; /* up to here the text is in it */
     char *what;
     size_t room;
 };
@@ -28,7 +31,9 @@ bool compile_wrong(struct compile *c, const char *format, ...) __attribute__((fo
 /* Number of the character at a place of the text, from 1. */
 int character_of(const struct compile *c, const char *place);
 /* The unit of an operand for a message. */
-struct named { char text[64]; };
+struct named {
+    char text[64];
+};
 struct named unit_named(const struct quantity *q);
 bool is_plain(const struct quantity *q);
 struct operand *topmost(struct compile *c, int below);

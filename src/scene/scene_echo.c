@@ -63,9 +63,12 @@ void write_quoted(struct writer *w, const char *text)
     for (const unsigned char *c = (const unsigned char *)text; *c;) {
         unsigned code;
         c += letter_of(c, &code);
-        if (code == '"' || code == '\\') fprintf(w->out, "\\%c", (char)code);
-        else if (code >= ' ' && code < 0x7F) fputc((int)code, w->out);
-        else fprintf(w->out, "\\U%08X", code);
+        if (code == '"' || code == '\\')
+            fprintf(w->out, "\\%c", (char)code);
+        else if (code >= ' ' && code < 0x7F)
+            fputc((int)code, w->out);
+        else
+            fprintf(w->out, "\\U%08X", code);
     }
     fputc('"', w->out);
 }
@@ -105,27 +108,52 @@ void write_value(struct writer *w, const struct key *k, const void *place)
     case KEY_REAL: {
         real value = *(const real *)place;
         bool word = k->words && (value == k->word_value || isnan(value));
-        if (word) fputs(k->words, w->out);
-        else write_real(w, value);
+        if (word)
+            fputs(k->words, w->out);
+        else
+            write_real(w, value);
         break;
     }
-    case KEY_INT: fprintf(w->out, "%d", *(const int *)place); break;
-    case KEY_SEED: fprintf(w->out, "%" PRIu64, *(const uint64_t *)place); break;
-    case KEY_FLAG: fputs(*(const bool *)place ? "true" : "false", w->out); break;
-    case KEY_CHOICE: write_choice(w, k, place); break;
-    case KEY_SET: write_set(w, k, *(const unsigned *)place); break;
+    case KEY_INT:
+        fprintf(w->out, "%d", *(const int *)place);
+        break;
+    case KEY_SEED:
+        fprintf(w->out, "%" PRIu64, *(const uint64_t *)place);
+        break;
+    case KEY_FLAG:
+        fputs(*(const bool *)place ? "true" : "false", w->out);
+        break;
+    case KEY_CHOICE:
+        write_choice(w, k, place);
+        break;
+    case KEY_SET:
+        write_set(w, k, *(const unsigned *)place);
+        break;
     case KEY_SERIES: {
         const struct number_list *list = place;
         write_list(w, list->value, list->n);
         break;
     }
-    case KEY_NAME: write_quoted(w, place); break;
-    case KEY_POINT: write_list(w, place, w->dim); break;
-    case KEY_MATRIX: write_matrix(w, place); break;
-    case KEY_REGION: write_region(w, place); break;
-    case KEY_BODY: write_quoted(w, s->body[*(const int *)place].name); break;
-    case KEY_MATERIAL: write_quoted(w, s->material[*(const int *)place].name); break;
-    default: break;
+    case KEY_NAME:
+        write_quoted(w, place);
+        break;
+    case KEY_POINT:
+        write_list(w, place, w->dim);
+        break;
+    case KEY_MATRIX:
+        write_matrix(w, place);
+        break;
+    case KEY_REGION:
+        write_region(w, place);
+        break;
+    case KEY_BODY:
+        write_quoted(w, s->body[*(const int *)place].name);
+        break;
+    case KEY_MATERIAL:
+        write_quoted(w, s->material[*(const int *)place].name);
+        break;
+    default:
+        break;
     }
 }
 
@@ -218,11 +246,11 @@ void write_part(struct writer *w, const char *key, const char *group, const void
 static void write_materials(struct writer *w)
 {
     const struct scene *s = w->scene;
-    bool one = s->materials == 1;        /* overrides of material.young then apply to the echo */
+    bool one = s->materials == 1; /* overrides of material.young then apply to the echo */
     fprintf(w->out, one ? "material:\n" : "materials:\n");
     for (int k = 0; k < s->materials; k++) {
         struct material m = s->material[k];
-        if (!isnan(m.energy_release_rate)) m.critical_stretch = NAN;     /* follows from energy_release_rate */
+        if (!isnan(m.energy_release_rate)) m.critical_stretch = NAN; /* follows from energy_release_rate */
         begin_item(w);
         if (one) w->indent = 2, w->dash = false;
         write_group(w, "material", &m);
@@ -307,7 +335,7 @@ static void write_growths(struct writer *w)
     if (s->growths) fputs("growth:\n", w->out);
     for (int k = 0; k < s->growths; k++) {
         struct growth_rule g = s->growth[k];
-        if (!g.probe[0]) g.toughness = NAN;      /* has no meaning without a probe */
+        if (!g.probe[0]) g.toughness = NAN; /* has no meaning without a probe */
         begin_item(w);
         write_group(w, "growth", &g);
     }
@@ -343,7 +371,7 @@ char *scene_echo(const struct scene *s)
 {
     char *text = NULL, *kept;
     size_t length = 0;
-    struct scene head = *s;              /* without measures that its space does not have */
+    struct scene head = *s; /* without measures that its space does not have */
     if (s->dim != 2) head.thickness = NAN;
     if (s->dim != 1) head.section = NAN;
     head.has_frames = s->times.n == 0 && s->every == 0;

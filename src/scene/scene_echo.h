@@ -9,9 +9,9 @@
 struct writer {
     FILE *out;
     const struct scene *scene;
-    int dim;                             /* of points: that of the scene, or 2 in an extrusion */
+    int dim; /* of points: that of the scene, or 2 in an extrusion */
     int indent;
-    bool dash;                           /* the next line begins an item of a list */
+    bool dash; /* the next line begins an item of a list */
 };
 
 /* A key, and an item of a list before its first key. */
@@ -28,7 +28,7 @@ void write_group(struct writer *w, const char *group, const void *base);
 void write_part(struct writer *w, const char *key, const char *group, const void *base);
 /* A file by its absolute path, so that the echo runs from any folder, and the checksum of its contents. */
 void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents);
-void write_boundaries(struct writer *w);             /* scene_echo_loads.c */
+void write_boundaries(struct writer *w); /* scene_echo_loads.c */
 /* A vector of numbers and formulas. */
 void write_formulas(struct writer *w, const char *key, const real *value, const struct expression *formula);
 

@@ -27,8 +27,10 @@ static void write_time(struct writer *w, const struct boundary *b)
     }
     static const char *const words[] = {[TIME_STEP] = "step", [TIME_PULSE] = "pulse", [TIME_RAMP] = "ramp"};
     begin(w, "time");
-    if (f->kind == TIME_CONSTANT) fputs(" constant", w->out);
-    else if (f->kind == TIME_TABLE) fputs(" {table: [", w->out);
+    if (f->kind == TIME_CONSTANT)
+        fputs(" constant", w->out);
+    else if (f->kind == TIME_TABLE)
+        fputs(" {table: [", w->out);
     else {
         fprintf(w->out, " {%s: {from: ", words[f->kind]);
         write_real(w, f->from);
@@ -60,8 +62,10 @@ static void write_profile(struct writer *w, const struct profile *f)
 /* Component d of a vector: its formula or its number. */
 static void write_formula(struct writer *w, const real *value, const struct expression *formula, int d)
 {
-    if (formula[d].n > 0) write_quoted(w, formula[d].text);
-    else write_real(w, value[d]);
+    if (formula[d].n > 0)
+        write_quoted(w, formula[d].text);
+    else
+        write_real(w, value[d]);
 }
 
 void write_formulas(struct writer *w, const char *key, const real *value, const struct expression *formula)
@@ -91,8 +95,10 @@ static void write_velocity(struct writer *w, const struct boundary *b)
     begin(w, b->displaces ? "displacement" : "velocity");
     for (int d = 0; d < w->scene->dim; d++) {
         fputs(d ? ", " : " [", w->out);
-        if (b->components >> d & 1) write_formula(w, b->value, b->formula, d);
-        else fputs("free", w->out);
+        if (b->components >> d & 1)
+            write_formula(w, b->value, b->formula, d);
+        else
+            fputs("free", w->out);
     }
     fputs("]\n", w->out);
 }
@@ -137,7 +143,7 @@ static void write_boundary(struct writer *w, const struct boundary *b)
 void write_boundaries(struct writer *w)
 {
     const struct scene *s = w->scene;
-    const bool falls = s->boundaries > 0 && s->boundary[s->boundaries - 1].by_mass;      /* a key of its own */
+    const bool falls = s->boundaries > 0 && s->boundary[s->boundaries - 1].by_mass; /* a key of its own */
     const int n = s->boundaries - falls;
     if (n) fputs("boundary:\n", w->out);
     for (int k = 0; k < n; k++) {

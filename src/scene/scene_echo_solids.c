@@ -43,10 +43,11 @@ static void write_extrusion(struct writer *w, const struct solid *s)
 /* The solid itself: `box: {..}`. */
 static void write_shape(struct writer *w, const struct solid *s)
 {
-    static const char *const words[] = {[SOLID_BOX] = "box", [SOLID_BALL] = "ball", [SOLID_CYLINDER] = "cylinder",
-                                        [SOLID_HALF_SPACE] = "half-space", [SOLID_RING] = "ring",
-                                        [SOLID_POLYGON] = "polygon", [SOLID_TUBE] = "tube", [SOLID_CONE] = "cone",
-                                        [SOLID_TORUS] = "torus", [SOLID_EXTRUSION] = "extrude"};
+    static const char *const words[] = {[SOLID_BOX] = "box",           [SOLID_BALL] = "ball",
+                                        [SOLID_CYLINDER] = "cylinder", [SOLID_HALF_SPACE] = "half-space",
+                                        [SOLID_RING] = "ring",         [SOLID_POLYGON] = "polygon",
+                                        [SOLID_TUBE] = "tube",         [SOLID_CONE] = "cone",
+                                        [SOLID_TORUS] = "torus",       [SOLID_EXTRUSION] = "extrude"};
     char group[32];
     if (s->kind == SOLID_ALL) {
         fputs("all: true", w->out);
@@ -59,18 +60,25 @@ static void write_shape(struct writer *w, const struct solid *s)
     const char *word = s->kind == SOLID_ELLIPSOID ? w->dim == 2 ? "ellipse" : "ellipsoid" : words[s->kind];
     fprintf(w->out, "%s: {", word);
     snprintf(group, sizeof group, "solid.%s", word);
-    if (s->kind == SOLID_POLYGON) write_corners(w, s->polygon);
-    else if (s->kind == SOLID_EXTRUSION) write_extrusion(w, s);
-    else write_keys(w, group, s, "");
+    if (s->kind == SOLID_POLYGON)
+        write_corners(w, s->polygon);
+    else if (s->kind == SOLID_EXTRUSION)
+        write_extrusion(w, s);
+    else
+        write_keys(w, group, s, "");
     fputc('}', w->out);
 }
 
 static void write_motions(struct writer *w, const struct solid *s)
 {
-    static const char *const begins[] = {[MOTION_ROTATE] = ", rotate: {", [MOTION_MIRROR] = ", mirror: {",
-                                         [MOTION_GRID] = ", pattern: {grid: {", [MOTION_RING] = ", pattern: {ring: {"};
-    static const char *const groups[] = {[MOTION_ROTATE] = "solid.rotate", [MOTION_MIRROR] = "solid.mirror",
-                                         [MOTION_GRID] = "solid.pattern.grid", [MOTION_RING] = "solid.pattern.ring"};
+    static const char *const begins[] = {[MOTION_ROTATE] = ", rotate: {",
+                                         [MOTION_MIRROR] = ", mirror: {",
+                                         [MOTION_GRID] = ", pattern: {grid: {",
+                                         [MOTION_RING] = ", pattern: {ring: {"};
+    static const char *const groups[] = {[MOTION_ROTATE] = "solid.rotate",
+                                         [MOTION_MIRROR] = "solid.mirror",
+                                         [MOTION_GRID] = "solid.pattern.grid",
+                                         [MOTION_RING] = "solid.pattern.ring"};
     for (int k = 0; k < s->motions; k++) {
         const struct solid_motion *m = &s->motion[k];
         if (m->kind == MOTION_MOVE) {
@@ -91,7 +99,8 @@ static void write_solid(struct writer *w, const struct solid *s, bool plain)
     const char *word = s->subtract ? "subtract" : s->intersect ? "intersect" : group || !plain ? "add" : NULL;
     fputc('{', w->out);
     if (word) fprintf(w->out, "%s: ", word);
-    if (group) write_items(w, &s->region, s->intersect);
+    if (group)
+        write_items(w, &s->region, s->intersect);
     else {
         if (word) fputc('{', w->out);
         write_shape(w, s);

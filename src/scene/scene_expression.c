@@ -10,7 +10,12 @@ enum { DEPTH_MOST = 24, NAME_MOST = 40 };
 
 /* What units a function takes and gives. */
 enum rule { PLAIN, KEEPS, ROOT, FORGETS, SAME, ANGLE };
-struct function { const char *name; enum expression_op op; enum rule rule; const char *help; };
+struct function {
+    const char *name;
+    enum expression_op op;
+    enum rule rule;
+    const char *help;
+};
 static const struct function functions[] = {
     {"sin", EXPRESSION_SIN, PLAIN, ""},
     {"cos", EXPRESSION_COS, PLAIN, ""},
@@ -87,7 +92,7 @@ static bool missing(struct compile *c, const char *expected)
     if (length == 0) length = 1;
     while (((unsigned char)c->at[length] & 0xC0) == 0x80) length++;
     return compile_wrong(c, "has %.*s at character %d, where %s is expected", (int)(length < 30 ? length : 30), c->at,
-                 character_of(c, c->at), expected);
+                         character_of(c, c->at), expected);
 }
 
 /* ---- grammar ----------------------------------------------------------------------------------------------------- */
@@ -119,11 +124,11 @@ static bool apply_function(struct compile *c, const struct function *f, const ch
     if (two) unit = topmost(c, 1)->q;
     if (f->rule == PLAIN && !is_plain(&unit))
         return compile_wrong(c, "takes %s of %s (character %d); a plain number is expected there, as (t/5us)", f->name,
-                     unit_named(&unit).text, character_of(c, at));
+                             unit_named(&unit).text, character_of(c, at));
     for (int k = 0; k < 3 && f->rule != KEEPS && f->rule != SAME; k++) {
         if (f->rule == ROOT && unit.twice[k] % 2 != 0)
             return compile_wrong(c, "takes sqrt of %s (character %d), which has no unit", unit_named(&unit).text,
-                         character_of(c, at));
+                                 character_of(c, at));
         unit.twice[k] = f->rule == ROOT ? unit.twice[k] / 2 : 0;
     }
     return add_operation(c, f->op, &unit);
@@ -188,7 +193,7 @@ static bool compile_name(struct compile *c)
     if (*c->at == '(' && f) return compile_call(c, f, at);
     if (*c->at == '(')
         return compile_wrong(c, "has an unknown function %s (character %d); `cleave help expression` lists them", name,
-                     character_of(c, at));
+                             character_of(c, at));
     if (f) return missing(c, "( and what it is of");
     if (length == 1 && strchr("xyzt", *name)) return compile_coordinate(c, *name);
     if (strcmp(name, "pi") == 0) return add_leaf(c, EXPRESSION_NUMBER, &q);
@@ -202,14 +207,15 @@ static bool compile_number(struct compile *c, bool power)
     struct quantity q;
     const char *why = NULL;
     const size_t length = quantity_read(&q, c->at, !power, &why);
-    if (length == 0)
-        return compile_wrong(c, "has no number at character %d: %s", character_of(c, c->at), why);
+    if (length == 0) return compile_wrong(c, "has no number at character %d: %s", character_of(c, c->at), why);
     c->at += length;
     const char *rest = c->at + strspn(c->at, " ");
     const int letters = (int)name_length(rest);
     if (letters == 0) return add_leaf(c, EXPRESSION_NUMBER, &q);
-    return compile_wrong(c, "has an unknown unit %.*s (character %d); between a number and a name an operation is "
-                         "expected", letters < 30 ? letters : 30, rest, character_of(c, rest));
+    return compile_wrong(c,
+                         "has an unknown unit %.*s (character %d); between a number and a name an operation is "
+                         "expected",
+                         letters < 30 ? letters : 30, rest, character_of(c, rest));
 }
 
 /* A number, a name with or without brackets, or brackets. */
@@ -220,7 +226,7 @@ static bool compile_primary(struct compile *c, bool power)
     if (*c->at == '(') return compile_brackets(c);
     if (name_length(c->at)) return compile_name(c);
     if (isdigit((unsigned char)*c->at) || *c->at == '.') return compile_number(c, power);
-    const size_t unit = quantity_unit(&q, c->at);        /* micro is no letter of ASCII */
+    const size_t unit = quantity_unit(&q, c->at); /* micro is no letter of ASCII */
     c->at += unit;
     return unit ? add_leaf(c, EXPRESSION_NUMBER, &q) : missing(c, "a number");
 }
@@ -344,7 +350,8 @@ void scene_help_expressions(FILE *out)
           "  pi, 30 deg       3.14159.., an angle\n"
           "  names            of `variables`, in any order: letters, digits and _, but no unit, function or\n"
           "                   coordinate\n\n"
-          "Functions, of a plain number unless they say otherwise; angles are in radians:\n", out);
+          "Functions, of a plain number unless they say otherwise; angles are in radians:\n",
+          out);
     fputs(" ", out);
     for (size_t k = 0; k < COUNT_OF(functions); k++)
         if (!*functions[k].help) fprintf(out, " %s", functions[k].name);
@@ -352,5 +359,6 @@ void scene_help_expressions(FILE *out)
     for (size_t k = 0; k < COUNT_OF(functions); k++)
         if (*functions[k].help) fprintf(out, "  %-8s %s\n", functions[k].name, functions[k].help);
     fputs("\nUnits are checked: lengths add to lengths, exp takes a plain number, the result has the unit of its key.\n"
-          "Numbers without a unit are SI only if none in the expression has one; a 0 fits everything.\n", out);
+          "Numbers without a unit are SI only if none in the expression has one; a 0 fits everything.\n",
+          out);
 }

@@ -10,7 +10,7 @@
 #include "output/checksum.h"
 #include "base/memory.h"
 
-enum { FILE_LONGEST = 16 * 1024 * 1024 };    /* [byte]; 1e5 events take far less */
+enum { FILE_LONGEST = 16 * 1024 * 1024 }; /* [byte]; 1e5 events take far less */
 
 status file_bytes(const char *path, char **bytes, size_t *length)
 {

@@ -10,24 +10,40 @@
 static const char *type_text(const struct key *k)
 {
     switch (k->type) {
-    case KEY_REAL: return k->words ? "number or auto" : "number";
+    case KEY_REAL:
+        return k->words ? "number or auto" : "number";
     case KEY_INT:
-    case KEY_SEED: return "whole number";
-    case KEY_FLAG: return "true or false";
-    case KEY_CHOICE: return "word";
-    case KEY_SET: return "list of words";
-    case KEY_SERIES: return "list of numbers";
-    case KEY_NAME: return "name";
-    case KEY_POINT: return "list of numbers";
-    case KEY_MATRIX: return "matrix";
-    case KEY_REGION: return "solids";
-    case KEY_BODY: return "name of a body";
-    case KEY_MATERIAL: return "name of a material";
+    case KEY_SEED:
+        return "whole number";
+    case KEY_FLAG:
+        return "true or false";
+    case KEY_CHOICE:
+        return "word";
+    case KEY_SET:
+        return "list of words";
+    case KEY_SERIES:
+        return "list of numbers";
+    case KEY_NAME:
+        return "name";
+    case KEY_POINT:
+        return "list of numbers";
+    case KEY_MATRIX:
+        return "matrix";
+    case KEY_REGION:
+        return "solids";
+    case KEY_BODY:
+        return "name of a body";
+    case KEY_MATERIAL:
+        return "name of a material";
     case KEY_MAP:
-    case KEY_PART: return "keys";
-    case KEY_LIST: return "list";
-    case KEY_GROUP: return "keys of solids";
-    default: return k->words;
+    case KEY_PART:
+        return "keys";
+    case KEY_LIST:
+        return "list";
+    case KEY_GROUP:
+        return "keys of solids";
+    default:
+        return k->words;
     }
 }
 
@@ -48,9 +64,12 @@ static void range_text(const struct key *k, char *text, size_t room)
     if (!k->range.given) return;
     number_text(least, k->range.least);
     number_text(most, k->range.most);
-    if (isinf(k->range.most)) snprintf(text, room, "%s %s", k->range.open ? ">" : ">=", least);
-    else if (k->range.open) snprintf(text, room, "> %s, <= %s", least, most);
-    else snprintf(text, room, "%s .. %s", least, most);
+    if (isinf(k->range.most))
+        snprintf(text, room, "%s %s", k->range.open ? ">" : ">=", least);
+    else if (k->range.open)
+        snprintf(text, room, "> %s, <= %s", least, most);
+    else
+        snprintf(text, room, "%s .. %s", least, most);
     if (k->type == KEY_LIST || k->type == KEY_HAND) {
         size_t used = strlen(text);
         if (k->type == KEY_LIST || k->range.least > 1) snprintf(text + used, room - used, " items");
@@ -69,7 +88,7 @@ static void default_text(const struct key *k, char *text, size_t room)
 /* All facts about a key but its path, in one line. */
 static void facts_text(const struct key *k, char *text, size_t room)
 {
-    char range[400], fallback[96];       /* all fields of frames are 270 */
+    char range[400], fallback[96]; /* all fields of frames are 270 */
     range_text(k, range, sizeof range);
     default_text(k, fallback, sizeof fallback);
     const char *symbol = unit_rows[k->unit].symbol;
@@ -96,8 +115,10 @@ static void path_of_table(const char *key, char *path, size_t room)
         skip = 9;
     }
     for (const char *c = key + skip; *c && used + 1 < room; c++) {
-        if (*c == '[') c += strcspn(c, "]");
-        else path[used++] = *c;
+        if (*c == '[')
+            c += strcspn(c, "]");
+        else
+            path[used++] = *c;
         if (*c == '\0') break;
     }
     path[used] = '\0';
@@ -142,8 +163,9 @@ status scene_help(FILE *out, const char *key)
     if (now) fprintf(out, "%s is now called %s\n\n", path, now), snprintf(path, sizeof path, "%s", now);
     for (int k = 0; k < keys_count; k++) found += is_below(&keys[k], path);
     if (found == 0) return help_unknown(path);
-    if (!key) fprintf(out, "Keys of a scene: type [SI unit]; range or words; default. A number without a unit is SI.\n"
-                           "Units are written behind it: 0.5 mm, 190 GPa, 7800 kg/m^3.\n\n");
+    if (!key)
+        fprintf(out, "Keys of a scene: type [SI unit]; range or words; default. A number without a unit is SI.\n"
+                     "Units are written behind it: 0.5 mm, 190 GPa, 7800 kg/m^3.\n\n");
     for (int k = 0; k < keys_count; k++) {
         if (!is_below(&keys[k], path)) continue;
         bool top = !strchr(keys[k].path, '.'), has_keys = keys[k].type >= KEY_MAP;
@@ -160,10 +182,14 @@ status scene_help(FILE *out, const char *key)
 static void troff(FILE *out, const char *text)
 {
     for (const char *c = text; *c; c++) {
-        if (*c == '\\') fputs("\\e", out);
-        else if (*c == '-') fputs("\\-", out);
-        else if (*c == '^') fputs("\\(ha", out);
-        else fputc(*c, out);
+        if (*c == '\\')
+            fputs("\\e", out);
+        else if (*c == '-')
+            fputs("\\-", out);
+        else if (*c == '^')
+            fputs("\\(ha", out);
+        else
+            fputc(*c, out);
     }
 }
 
@@ -188,8 +214,7 @@ void scene_manual_keys(FILE *out)
 static bool is_item_list(const char *path, size_t length)
 {
     for (int k = 0; k < keys_count; k++)
-        if (strncmp(keys[k].path, path, length) == 0 && keys[k].path[length] == '\0')
-            return keys[k].type == KEY_LIST;
+        if (strncmp(keys[k].path, path, length) == 0 && keys[k].path[length] == '\0') return keys[k].type == KEY_LIST;
     return false;
 }
 

@@ -54,8 +54,10 @@ static status interface_strength(struct reader *r, const struct node *n, struct 
     if (!(face->energy_release_rate > 0)) return OK;
     struct scene_body *one = &s->body[face->body[0]], *other = &s->body[face->body[1]];
     if (one->parts > 0 || other->parts > 0)
-        return fault(r, node_find(n, "energy_release_rate"), "%s has parts of other materials; bodies of one material "
-                     "are expected", one->parts > 0 ? one->name : other->name);
+        return fault(r, node_find(n, "energy_release_rate"),
+                     "%s has parts of other materials; bodies of one material "
+                     "are expected",
+                     one->parts > 0 ? one->name : other->name);
     if (one->material == other->material) TRY(material_apart(r, n, other));
     const struct material *a = &s->material[one->material], *b = &s->material[other->material];
     struct material between = a->young < b->young ? *a : *b;

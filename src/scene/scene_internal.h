@@ -8,7 +8,10 @@
 #include "scene/units.h"
 
 /* A region that is being read by its name, and the one that asked for it. */
-struct naming { const struct node *region; const struct naming *outer; };
+struct naming {
+    const struct node *region;
+    const struct naming *outer;
+};
 
 /* ---- nodes: YAML without types, every value is text until a key gives it a type (scene_yaml.c) ------------------- */
 
@@ -16,12 +19,12 @@ enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP };
 
 struct node {
     enum node_kind kind;
-    int line, column;                    /* of the key, or of an item without a key; from 1 */
-    int origin;                          /* number of the override it came from; -1: the file; -2, -3, ..: one that it
-                                            includes */
-    int n;                               /* entries of a list or map */
-    char *key;                           /* NULL: the root or an item of a list */
-    char *text;                          /* of a scalar, without quotes; else "" */
+    int line, column; /* of the key, or of an item without a key; from 1 */
+    int origin;       /* number of the override it came from; -1: the file; -2, -3, ..: one that it
+                         includes */
+    int n;            /* entries of a list or map */
+    char *key;        /* NULL: the root or an item of a list */
+    char *text;       /* of a scalar, without quotes; else "" */
     struct node *parent, *first, *last, *next;
 };
 
@@ -32,10 +35,10 @@ struct key;
 enum { ORIGIN_INCLUDED = -2, INCLUDED_MOST = 64 };
 
 struct reader {
-    const char *name;                    /* of the file, for messages */
+    const char *name; /* of the file, for messages */
     const struct scene_override *override;
     int overrides;
-    struct scene *scene;                 /* being filled */
+    struct scene *scene; /* being filled */
     int dim;
     bool bounded;                        /* solids being read belong to a body: no infinite bounds */
     bool cutting;                        /* ... and take something away from it: they may be infinite */
@@ -44,12 +47,12 @@ struct reader {
     bool files;                          /* check that particle lists exist */
     const char *included[INCLUDED_MOST]; /* names of the files that it includes */
     int includes;
-    struct variable *variable;           /* of the scene, in the arena */
-    int variables, variables_open;       /* how many; how many are being evaluated */
-    struct arena_block *arena;           /* nodes and texts of this reading */
-    const struct node *regions;          /* by name; NULL: none */
-    const struct node *sections;         /* likewise, of the plane, which extrusions in space call */
-    const struct naming *naming;         /* names of regions within whose reading this one is; NULL: none */
+    struct variable *variable;     /* of the scene, in the arena */
+    int variables, variables_open; /* how many; how many are being evaluated */
+    struct arena_block *arena;     /* nodes and texts of this reading */
+    const struct node *regions;    /* by name; NULL: none */
+    const struct node *sections;   /* likewise, of the plane, which extrusions in space call */
+    const struct naming *naming;   /* names of regions within whose reading this one is; NULL: none */
 };
 
 /* Memory that lasts until arena_free, zeroed. */
@@ -99,7 +102,11 @@ status wish_read(struct reader *r, const struct node *root, const char *text, si
 const char *number_text(char text[32], real value);
 
 /* A number [SI] with twice the powers of m, kg, s; bare: made of numbers without units, which are SI in every key. */
-struct quantity { real value; int twice[3]; bool bare; };
+struct quantity {
+    real value;
+    int twice[3];
+    bool bare;
+};
 /* Reads what number_read does, in any unit; false: it is nothing of the kind. */
 bool number_quantity(struct quantity *q, const char *text);
 /* Length of the number that a text begins with, and (with_unit) of the unit behind it; 0 with what is *wrong. */
@@ -142,31 +149,46 @@ const char *reserved_word(const char *name);
 /* ---- the table of keys (scene_keys.c) ---------------------------------------------------------------------------- */
 
 enum key_type {
-    KEY_REAL, KEY_INT, KEY_SEED, KEY_FLAG, KEY_CHOICE, KEY_NAME, KEY_POINT, KEY_MATRIX, KEY_REGION, KEY_BODY,
-    KEY_MATERIAL, KEY_SET, KEY_SERIES,   /* read and written by the table alone                       */
-    KEY_MAP,                             /* its keys are read into the same struct                    */
-    KEY_PART, KEY_LIST,                  /* a mapping, a list of mappings: read by a function         */
-    KEY_HAND,                            /* any other value, read by a function; `words`: its form */
-    KEY_GROUP                            /* not a key: heads the keys of solids                       */
+    KEY_REAL,
+    KEY_INT,
+    KEY_SEED,
+    KEY_FLAG,
+    KEY_CHOICE,
+    KEY_NAME,
+    KEY_POINT,
+    KEY_MATRIX,
+    KEY_REGION,
+    KEY_BODY,
+    KEY_MATERIAL,
+    KEY_SET,
+    KEY_SERIES, /* read and written by the table alone                       */
+    KEY_MAP,    /* its keys are read into the same struct                    */
+    KEY_PART,
+    KEY_LIST, /* a mapping, a list of mappings: read by a function         */
+    KEY_HAND, /* any other value, read by a function; `words`: its form */
+    KEY_GROUP /* not a key: heads the keys of solids                       */
 };
 
-struct range { real least, most; bool open, given; };   /* open: least itself is outside */
+struct range {
+    real least, most;
+    bool open, given;
+}; /* open: least itself is outside */
 
 struct key {
     const char *path;
     enum key_type type;
     enum unit unit;
-    size_t place, size;                  /* 1 + offset in its group's struct and bytes; 0: no place */
+    size_t place, size; /* 1 + offset in its group's struct and bytes; 0: no place */
     struct range range;
-    const char *fallback;                /* as text; "required"; "-": none; "(..)": explained, set by code */
+    const char *fallback; /* as text; "required"; "-": none; "(..)": explained, set by code */
     const char *help;
     /* CHOICE: a|b|c in the order of the enum; REAL: word allowed; NAME: any text is one; HAND: form */
     const char *words;
-    const char *low;                     /* complaint about a value below the range */
-    size_t has;                          /* 1 + offset of the bool that is set if the key is given */
-    real word_value;                     /* REAL: value of the word */
-    bool infinite;                       /* inf is allowed */
-    bool of_process;                     /* limits a process, not what it computes: no part of the echo */
+    const char *low; /* complaint about a value below the range */
+    size_t has;      /* 1 + offset of the bool that is set if the key is given */
+    real word_value; /* REAL: value of the word */
+    bool infinite;   /* inf is allowed */
+    bool of_process; /* limits a process, not what it computes: no part of the echo */
 };
 extern const struct key keys[];
 extern const int keys_count;
@@ -256,7 +278,7 @@ status read_frame_regions(struct reader *r, const struct node *root);
 status check_scene(struct reader *r, const struct node *root);
 /* Default share of the critical step, by whether bonds may break; after the materials are read. */
 void resolve_safety(struct reader *r, const struct node *root);
-status resolve_contact(struct reader *r, const struct node *root);  /* what meets, where the scene does not say */
+status resolve_contact(struct reader *r, const struct node *root); /* what meets, where the scene does not say */
 status check_size(struct reader *r, const struct node *root);
 status read_interfaces(struct reader *r, const struct node *root);
 status check_joined(struct reader *r, const struct node *root);

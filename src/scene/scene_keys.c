@@ -9,16 +9,33 @@
 #define NOWHERE .place = 0
 #define AT(s, member) .place = 1 + offsetof(struct s, member), .size = sizeof(((struct s *)0)->member)
 #define FLAG(s, member) 1 + offsetof(struct s, member)
-#define ANY {0, 0, false, false}
-#define ABOVE(a) {a, INFINITY, true, true}
-#define FROM(a) {a, INFINITY, false, true}
-#define BETWEEN(a, b) {a, b, false, true}
-#define INSIDE(a, b) {a, b, true, true}      /* a itself is outside */
+#define ANY                                                                                                            \
+    {                                                                                                                  \
+        0, 0, false, false                                                                                             \
+    }
+#define ABOVE(a)                                                                                                       \
+    {                                                                                                                  \
+        a, INFINITY, true, true                                                                                        \
+    }
+#define FROM(a)                                                                                                        \
+    {                                                                                                                  \
+        a, INFINITY, false, true                                                                                       \
+    }
+#define BETWEEN(a, b)                                                                                                  \
+    {                                                                                                                  \
+        a, b, false, true                                                                                              \
+    }
+#define INSIDE(a, b)                                                                                                   \
+    {                                                                                                                  \
+        a, b, true, true                                                                                               \
+    } /* a itself is outside */
 #define REQUIRED "required"
 #define NONE "-"
 #define KEY(path_, type_, unit_, place_, range_, fallback_, help_, ...)                                                \
-    {.path = path_, .type = type_, .unit = unit_, place_, .range = range_, .fallback = fallback_, .help = help_,       \
-     __VA_ARGS__}
+    {                                                                                                                  \
+        .path = path_, .type = type_, .unit = unit_, place_, .range = range_, .fallback = fallback_, .help = help_,    \
+        __VA_ARGS__                                                                                                    \
+    }
 
 /* path, type, unit, place in its group's struct, range, default, help; then fields that only some keys have. */
 const struct key keys[] = {
@@ -73,7 +90,8 @@ const struct key keys[] = {
         .words = "auto|bonds|hoop"),
     KEY("steps.energy", KEY_REAL, UNIT_ENERGY, AT(scene, steps.energy), ABOVE(0), "auto",
         "of an advance of the crack: what its bonds cost; auto: those of two spacings of what it cuts, materials or "
-        "interfaces", .words = "auto", .word_value = 0),
+        "interfaces",
+        .words = "auto", .word_value = 0),
     KEY("steps.from", KEY_POINT, UNIT_LENGTH, AT(scene, steps.from), ANY, "(required with control opening)",
         "one of the two places; the particle nearest to it is followed", .has = FLAG(scene, steps.has_from)),
     KEY("steps.to", KEY_POINT, UNIT_LENGTH, AT(scene, steps.to), ANY, "(required with control opening)",
@@ -99,8 +117,8 @@ const struct key keys[] = {
 
 #include "scene_keys_materials.h"
 
-    KEY("regions", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
-        "called by name wherever solids are read, as region: grip", .words = "mapping of names to solids"),
+    KEY("regions", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE, "called by name wherever solids are read, as region: grip",
+        .words = "mapping of names to solids"),
     KEY("sections", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
         "shapes of the plane, called by name as the shape of extrude; space solid only",
         .words = "mapping of names to solids of the plane"),

@@ -1,7 +1,7 @@
 /* Keys of boundary conditions: rows of the table in scene_keys.c. */
-    KEY("boundary", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 255), NONE,
-        "boundary conditions; each has one kind: fixed, velocity, displacement, rotation, traction, pressure, "
-        "body_force, mirror or absorbing"),
+KEY("boundary", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 255), NONE,
+    "boundary conditions; each has one kind: fixed, velocity, displacement, rotation, traction, pressure, "
+    "body_force, mirror or absorbing"),
     KEY("boundary.name", KEY_NAME, UNIT_NONE, AT(boundary, name), ANY, "(boundary0, boundary1, ..)",
         "what probes call it"),
     KEY("boundary.region", KEY_REGION, UNIT_NONE, AT(boundary, region), ANY, "(everywhere)",

@@ -1,5 +1,5 @@
 /* Rows of the table in scene_keys.c: the keys of materials. */
-    KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "the one material; its keys follow"),
+KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "the one material; its keys follow"),
     KEY("materials", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 255), "(required, or material)",
         "several materials, each with the keys of material and a name"),
     KEY("material.name", KEY_NAME, UNIT_NONE, AT(material, name), ANY, "(material; required in materials)",
@@ -18,7 +18,8 @@
         "K_Ic; gives G_c = K^2/E (line, plane stress) or K^2 (1 - nu^2)/E", .words = "number"),
     KEY("material.yield_stress", KEY_REAL, UNIT_PRESSURE, AT(material, yield_stress), ABOVE(0), "inf",
         "stress at which it yields (von Mises; bonds one by one: plates of them bear 1.4, solids 1.8 times as much); "
-        "inf: elastic", .infinite = true),
+        "inf: elastic",
+        .infinite = true),
     KEY("material.yield_tangent", KEY_REAL, UNIT_PRESSURE, AT(material, yield_tangent), FROM(0), "0 Pa",
         "E_t, slope of the uniaxial stress-strain curve once it yields; below young"),
     KEY("material.yield_hardening", KEY_HAND, UNIT_PRESSURE, NOWHERE, FROM(0), NONE,

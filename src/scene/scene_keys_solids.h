@@ -1,6 +1,6 @@
 /* Rows of the table of keys (scene_keys.c): solids, and what moves and repeats them. */
-    KEY("solid", KEY_GROUP, UNIT_NONE, NOWHERE, ANY, NONE,
-        "what bodies and regions are made of: one of the following, or a list of them, built in order"),
+KEY("solid", KEY_GROUP, UNIT_NONE, NOWHERE, ANY, NONE,
+    "what bodies and regions are made of: one of the following, or a list of them, built in order"),
     KEY("solid.box", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "axis-parallel box"),
     KEY("solid.box.from", KEY_POINT, UNIT_LENGTH, AT(solid, from), ANY, REQUIRED, "lower corner; -inf only in a region",
         .infinite = true),

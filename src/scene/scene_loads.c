@@ -34,7 +34,9 @@ static status read_axis(struct reader *r, const struct node *n, const char *text
     *axis = word_index("x|y|z", text);
     if (n->kind != NODE_SCALAR || *axis < 0 || *axis >= r->dim)
         return fault(r, n, "%s is no axis of space %s; %s is expected", shown(r, n), space_names[r->scene->space],
-                     r->dim == 1 ? "x" : r->dim == 2 ? "x or y" : "x, y or z");
+                     r->dim == 1   ? "x"
+                     : r->dim == 2 ? "x or y"
+                                   : "x, y or z");
     return OK;
 }
 
@@ -105,9 +107,8 @@ static status read_component(struct reader *r, const struct node *n, struct boun
  * b->components. */
 static status read_velocity(struct reader *r, const struct node *n, struct boundary *b)
 {
-    const char *const examples[2][DIM_MAX] = {
-        {"[22 m/s]", "[22 m/s, free]", "[22 m/s, free, free]"},
-        {"[0.1 mm]", "[0.1 mm, free]", "[0.1 mm, free, free]"}};
+    const char *const examples[2][DIM_MAX] = {{"[22 m/s]", "[22 m/s, free]", "[22 m/s, free, free]"},
+                                              {"[0.1 mm]", "[0.1 mm, free]", "[0.1 mm, free, free]"}};
     int d = 0;
     if (n->kind == NODE_LIST && n->n == r->dim) {
         for (const struct node *c = n->first; c; c = c->next) TRY(read_component(r, c, b, d++));
@@ -150,7 +151,7 @@ static status read_rotation(struct reader *r, const struct node *n, struct bound
     TRY(read_axis_of(r, n, "boundary.rotation", b->axis_of));
     b->rotates = true;
     b->components = (uint8_t)((1 << r->dim) - 1);
-    for (int d = 0; d < r->dim; d++) b->value[d] = 1;    /* it moves */
+    for (int d = 0; d < r->dim; d++) b->value[d] = 1; /* it moves */
     return OK;
 }
 
@@ -242,8 +243,10 @@ static status check_time_unit(struct reader *r, const struct node *kind, const s
     for (const struct node *c = kind->kind == NODE_LIST ? kind->first : NULL; c && k < r->dim; c = c->next)
         unit = carries_unit(r, c, b->value[k++]) || unit;
     if (!b->time_unit || (most <= 1 && !unit)) return OK;
-    return fault(r, kind, "%s times a column that has a unit itself; a direction such as [0, -1], or a column without "
-                 "unit, is expected", shown(r, kind));
+    return fault(r, kind,
+                 "%s times a column that has a unit itself; a direction such as [0, -1], or a column without "
+                 "unit, is expected",
+                 shown(r, kind));
 }
 
 /* Reads the value of a boundary condition by its kind. REFUSED for keys that have no meaning with its kind. */
@@ -256,8 +259,10 @@ static status read_kind(struct reader *r, const struct node *n, const struct nod
               : *kind->key == 'm' ? BOUNDARY_MIRROR
               : *kind->key == 'a' ? BOUNDARY_ABSORBING
                                   : BOUNDARY_VELOCITY;
-    if (b->kind == BOUNDARY_VELOCITY) TRY(read_layer(r, n, b));
-    else depth = node_find(n, "depth");
+    if (b->kind == BOUNDARY_VELOCITY)
+        TRY(read_layer(r, n, b));
+    else
+        depth = node_find(n, "depth");
     if (depth) return fault(r, depth, "has no meaning without fixed, velocity, displacement or rotation; leave it out");
     if (boundary_is_force(b) || b->kind == BOUNDARY_MIRROR) face = node_find(n, "face");
     if (face && b->kind != BOUNDARY_TRACTION) return fault(r, face, "has no meaning with %s; leave it out", kind->key);
@@ -318,7 +323,7 @@ status read_boundaries(struct reader *r, const struct node *root)
     s->boundary = NEW("boundary conditions", (list ? list->n : 0) + falls, struct boundary);
     for (int k = 0; n; k++, n = n->next) {
         struct boundary *b = &s->boundary[k];
-        s->boundaries++;                 /* what is read of it is freed when the rest is refused */
+        s->boundaries++; /* what is read of it is freed when the rest is refused */
         b->body = -1, b->end = s->duration;
         fault_place(r, n, b->place, sizeof b->place);
         snprintf(b->name, sizeof b->name, "boundary%d", k);
@@ -332,9 +337,8 @@ status read_boundaries(struct reader *r, const struct node *root)
 
 /* ---- probes ------------------------------------------------------------------------------------------------------ */
 
-const char *const probe_names[PROBES] = {"tip",   "break", "reaction", "patch",   "spall",
-                                         "point", "line",  "energy",   "momentum", "pulse",
-                                         "exact", "sif",   "growth",   "rigid"};
+const char *const probe_names[PROBES] = {"tip",    "break",    "reaction", "patch", "spall", "point",  "line",
+                                         "energy", "momentum", "pulse",    "exact", "sif",   "growth", "rigid"};
 
 /* The kind, and the mapping of its keys (NULL: none): `tip`, `tip:` or `tip: {at: [..]}`. */
 static status kind_of_probe(struct reader *r, const struct node *n, enum probe_kind *kind, const struct node **map)
@@ -382,8 +386,7 @@ static status check_exact(struct reader *r, const struct node *n, const struct n
         const struct node *given = node_find(map, numbers[k]);
         if (given && p->form != EXACT_MANUFACTURED)
             return fault(r, given, "has no meaning without form: manufactured; leave it out");
-        if (!given && p->form == EXACT_MANUFACTURED)
-            return fault_missing(r, map, key_find("probes.exact", numbers[k]));
+        if (!given && p->form == EXACT_MANUFACTURED) return fault_missing(r, map, key_find("probes.exact", numbers[k]));
     }
     return OK;
 }
@@ -420,7 +423,7 @@ static status read_probe(struct reader *r, const struct node *n, struct probe_re
     struct node form, short_form;
     char group[32];
     TRY(kind_of_probe(r, n, &p->kind, &map));
-    if (p->kind == PROBE_EXACT && map && map->kind == NODE_SCALAR) {     /* `exact: step bar` */
+    if (p->kind == PROBE_EXACT && map && map->kind == NODE_SCALAR) { /* `exact: step bar` */
         form = short_form = *map;
         form.key = (char *)"form", form.next = NULL;
         short_form.kind = NODE_MAP, short_form.n = 1, short_form.first = short_form.last = &form;

@@ -79,10 +79,15 @@ static status read_motion(struct reader *r, const struct node *n, const struct s
 {
     const int word = word_index("move|rotate|mirror|pattern", n->key);
     switch (word) {
-    case 0: m->kind = MOTION_MOVE; return read_key(r, key_find("solid", "move"), n, m);
-    case 1: return read_rotate(r, n, s, m);
-    case 2: return read_mirror_image(r, n, m);
-    default: return read_pattern(r, n, m);
+    case 0:
+        m->kind = MOTION_MOVE;
+        return read_key(r, key_find("solid", "move"), n, m);
+    case 1:
+        return read_rotate(r, n, s, m);
+    case 2:
+        return read_mirror_image(r, n, m);
+    default:
+        return read_pattern(r, n, m);
     }
 }
 

@@ -8,7 +8,7 @@
 enum { CHAIN_MOST = 32, NAME_LONGEST = 40 };
 
 struct variable {
-    const struct node *n;                /* its key is the name */
+    const struct node *n; /* its key is the name */
     struct quantity q;
     enum { WAITING, OPEN, KNOWN } state;
 };
@@ -31,7 +31,7 @@ static bool evaluate(struct reader *r, struct variable *v, char *what, size_t ro
     r->variables_open--;
     v->state = KNOWN;
     if (!fine || quantity_bounded(v->q.value, UNIT_NONE, what, room)) return fine;
-    what[strcspn(what, ";")] = '\0';     /* of no key, it has no unit to expect */
+    what[strcspn(what, ";")] = '\0'; /* of no key, it has no unit to expect */
     return false;
 }
 
@@ -60,7 +60,7 @@ const struct quantity *variable_value(struct reader *r, const char *name, char *
         return NULL;
     }
     if (evaluate(r, v, why, sizeof why)) return &v->q;
-    const bool further = strncmp(why, "needs ", 6) == 0;                 /* the last of a chain is the one to look at */
+    const bool further = strncmp(why, "needs ", 6) == 0; /* the last of a chain is the one to look at */
     snprintf(what, room, "%s%.40s%s%s", further ? "" : "needs ", further ? "" : name, further ? "" : ", which ", why);
     return NULL;
 }
@@ -105,8 +105,8 @@ static status check_overrides(struct reader *r, const struct node *root)
         if (v->n->origin < 0 || is_used(root, v->n)) continue;
         const struct variable *nearest = NULL;
         for (const struct variable *other = r->variable; other < r->variable + r->variables; other++)
-            if (other->n->origin < 0 && (!nearest || edit_distance(other->n->key, v->n->key) <
-                                                         edit_distance(nearest->n->key, v->n->key)))
+            if (other->n->origin < 0 &&
+                (!nearest || edit_distance(other->n->key, v->n->key) < edit_distance(nearest->n->key, v->n->key)))
                 nearest = other;
         return fault(r, v->n, "no value of the scene contains this variable%s%s",
                      nearest ? "; the nearest is " : "; `cleave help variables` says what they are for",
@@ -147,7 +147,7 @@ bool number_of_text(struct reader *r, real *value, const char *text, enum unit u
     struct quantity q;
     if (number_read(value, text, unit, infinite, what, room)) return true;
     const bool known = quantity_of_text(r, text, &q, other, sizeof other);
-    if (known && unit == UNIT_ANGLE && q.bare) {         /* 30 might be degrees */
+    if (known && unit == UNIT_ANGLE && q.bare) { /* 30 might be degrees */
         snprintf(what, room, "has no unit; %s is expected, as %s", unit_rows[unit].name, unit_rows[unit].example);
         return false;
     }

@@ -22,8 +22,10 @@ static bool step_of_path(const char **path, const char **key, size_t *length, in
         if (*length == 0) return false;
         c += *length;
     }
-    if (*c == '.' && c[1] != '\0' && c[1] != '[') c++;
-    else if (*c != '\0' && *c != '[') return false;
+    if (*c == '.' && c[1] != '\0' && c[1] != '[')
+        c++;
+    else if (*c != '\0' && *c != '[')
+        return false;
     *path = c;
     return true;
 }
@@ -135,7 +137,7 @@ static struct node *probe_keys(struct reader *r, struct node *item, const char *
 
 /* The node of `key` below a mapping, made if it is missing, or the item of a list of this number or name. */
 static status scene_override_entry_of(struct reader *r, struct node *map, const char *key, size_t length, int origin,
-                       struct node **out)
+                                      struct node **out)
 {
     struct node at = {.origin = origin, .key = arena_text(r, key, length)};
     if (map->kind == NODE_LIST) return item_called(r, map, key, length, origin, out);
@@ -181,9 +183,12 @@ static status override_one(struct reader *r, struct node *root, int origin)
         TRY(index >= 0 ? item_of(r, n, index, origin, &n) : scene_override_entry_of(r, n, key, length, origin, &n));
     }
     if (n == root) return fault_mark(r, origin, 0, 0, "no key; material.young=70e9 is an override");
-    if (value) replace(n, value);
-    else if (n->origin == origin) return fault(r, n, "is not in the scene; an empty value takes a key away");
-    else node_remove(n->parent, n);
+    if (value)
+        replace(n, value);
+    else if (n->origin == origin)
+        return fault(r, n, "is not in the scene; an empty value takes a key away");
+    else
+        node_remove(n->parent, n);
     return OK;
 }
 

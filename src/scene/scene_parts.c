@@ -84,7 +84,8 @@ static status read_scatter(struct reader *r, const struct node *n, struct materi
     if (!isfinite(m->critical_stretch) && isnan(m->energy_release_rate))
         return fault(r, n, "its bonds never break; energy_release_rate, critical_stretch or toughness is expected");
     if (material_yields(m) && r->scene->method == METHOD_ADAPTIVE)
-        return fault(r, n, "where it yields, stress does not say how far a bond is from its limit; method: pd is "
+        return fault(r, n,
+                     "where it yields, stress does not say how far a bond is from its limit; method: pd is "
                      "expected, or no yield_stress");
     return OK;
 }
@@ -124,8 +125,7 @@ static status scene_parts_read_material(struct reader *r, const struct node *n, 
                      "state-based models do not yield in this version; model bond, or no "
                      "yield_stress, is expected");
     material_derive(m, s->space);
-    if (!isnan(m->energy_release_rate))
-        m->critical_stretch = scene_critical_stretch(s, m);
+    if (!isnan(m->energy_release_rate)) m->critical_stretch = scene_critical_stretch(s, m);
     if (m->critical_stretch > 0) return OK;
     return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
 }
@@ -175,7 +175,8 @@ static status check_rigid_body(struct reader *r, const struct node *n, const str
         return fault(r, node_find(n, "force"), "moves only what has a mass; without, a body keeps its velocity");
     for (size_t k = 0; k < COUNT_OF(others) && b->rigid; k++)
         if (node_find(n, others[k]))
-            return fault(r, node_find(n, others[k]), "a rigid body has none; a shape is expected, and a mass if "
+            return fault(r, node_find(n, others[k]),
+                         "a rigid body has none; a shape is expected, and a mass if "
                          "it flies");
     if (b->rigid && region_has_endless_box(&b->shape, r->scene->dim))
         return fault(r, node_find(n, "shape"), "a box without end; a half-space is expected");
@@ -248,7 +249,7 @@ status read_bodies(struct reader *r, const struct node *root)
     const struct node *n = many->first;
     for (int k = 0; k < n_bodies; k++, n = n->next) {
         snprintf(s->body[k].name, sizeof s->body[k].name, "body%d", k);
-        s->bodies = k + 1;                       /* for whoever frees a refused scene */
+        s->bodies = k + 1; /* for whoever frees a refused scene */
         TRY(scene_parts_read_body(r, n, &s->body[k], k));
     }
     s->bodies = 0;
@@ -269,8 +270,10 @@ static status read_polarisation(struct reader *r, const struct node *n, struct w
 {
     const int dim = r->dim;
     real *moved = w->polarisation, length = sqrt(dot(moved, moved, dim));
-    if (!n) memcpy(moved, w->direction, sizeof w->direction);
-    else if (!(length > 0)) return fault(r, n, "has no length; direction, or a vector across it, is expected");
+    if (!n)
+        memcpy(moved, w->direction, sizeof w->direction);
+    else if (!(length > 0))
+        return fault(r, n, "has no length; direction, or a vector across it, is expected");
     for (int d = 0; n && d < dim; d++) moved[d] /= length;
     const real along = dot(moved, w->direction, dim);
     w->transverse = fabs(along) < 1e-6;
@@ -310,7 +313,7 @@ static status read_initial_rotation(struct reader *r, const struct node *map, st
     TRY(read_number(r, key_find("initial.rotation", "rate"), node_find(n, "rate"), &rate));
     const real scale = rate / sqrt(dot(w, w, DIM_MAX));
     for (int a = 0; a < r->dim; a++)
-        for (int b = 0; b < r->dim; b++) {               /* row a, column b of w x: -w_c or w_c, c the third */
+        for (int b = 0; b < r->dim; b++) { /* row a, column b of w x: -w_c or w_c, c the third */
             const real sign = (b - a + 3) % 3 == 1 ? -1 : 1;
             if (a != b) initial->velocity_gradient[a * r->dim + b] = sign * scale * w[3 - a - b];
         }
@@ -335,7 +338,8 @@ static status read_initial(struct reader *r, const struct node *n, struct scene_
     TRY(read_pulse(r, node_find(n, "pulse"), initial));
     TRY(read_initial_rotation(r, n, initial));
     if (initial->sets_velocity || initial->sets_strain || initial->sets_pulse) return OK;
-    return fault(r, n, "sets nothing; velocity, velocity_gradient, rotation, displacement_gradient or pulse is "
+    return fault(r, n,
+                 "sets nothing; velocity, velocity_gradient, rotation, displacement_gradient or pulse is "
                  "expected");
 }
 

@@ -39,8 +39,9 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
     const struct node *method = auto_method(root);
     if (method && wish) return wish_read(r, root, text, length, wish);
     if (method)
-        return fault(r, method, "auto is resolved by the pilot runs of `cleave run`; write a method and "
-                                "particles.spacing, or take the scene.yaml that such a run leaves");
+        return fault(r, method,
+                     "auto is resolved by the pilot runs of `cleave run`; write a method and "
+                     "particles.spacing, or take the scene.yaml that such a run leaves");
     TRY(scene_from_tree(r, root));
     s->text = scene_echo(s);
     return s->text ? OK : status_set(FAILED, "%s: no memory to write it out", r->name);
@@ -54,7 +55,7 @@ static status read_scene(struct reader *r, const char *text, size_t length, stru
     *s = (struct scene){0};
     locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     if (!c) return status_set(FAILED, "%s: no memory to read it", r->name);
-    locale_t old = uselocale(c);         /* the decimal sign is a point in every locale */
+    locale_t old = uselocale(c); /* the decimal sign is a point in every locale */
     s->path = NEW("scene path", strlen(r->name) + 1, char);
     strcpy(s->path, r->name);
     name_from_path(s->name, r->name);

@@ -5,7 +5,9 @@
 #include <string.h>
 
 /* Old and new path, which differ in the last key only. */
-static const struct { const char *old, *now; } renamed[] = {
+static const struct {
+    const char *old, *now;
+} renamed[] = {
     {"rim_damping", "interface_damping"},
     {"conversion.return", "conversion.reversion"},
     {"conversion.dwell", "conversion.hold_time"},
@@ -15,7 +17,9 @@ static const struct { const char *old, *now; } renamed[] = {
 
 /* Keys of an earlier version that no longer exist, and what replaces them. */
 #define TABLE_REMOVED "is no longer a key, as `method: auto` chooses by pilot runs alone; remove it"
-static const struct { const char *path, *what; } removed[] = {
+static const struct {
+    const char *path, *what;
+} removed[] = {
     {"accuracy_table", TABLE_REMOVED},
     {"accuracy_chart", TABLE_REMOVED},
 };

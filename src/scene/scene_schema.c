@@ -81,10 +81,14 @@ static void write_by_hand(FILE *out, const struct key *k)
 {
     const char *form = k->words ? k->words : "";
     const bool choice = strchr(form, '|') && !strstr(form, " or ") && !strchr(form, ' ');
-    if (choice || strcmp(form, "true") == 0) write_words(out, form);
-    else if (strcmp(form, "number") == 0) write_numbers(out, k, "number");
-    else if (strncmp(form, "solid", 5) == 0) fputs("{\"$ref\": \"#/definitions/region\"}", out);
-    else if (strncmp(form, "file name or list", 17) == 0) fputs("{\"$ref\": \"#/definitions/names\"}", out);
+    if (choice || strcmp(form, "true") == 0)
+        write_words(out, form);
+    else if (strcmp(form, "number") == 0)
+        write_numbers(out, k, "number");
+    else if (strncmp(form, "solid", 5) == 0)
+        fputs("{\"$ref\": \"#/definitions/region\"}", out);
+    else if (strncmp(form, "file name or list", 17) == 0)
+        fputs("{\"$ref\": \"#/definitions/names\"}", out);
     else if (strncmp(form, "file name", 9) == 0 || strncmp(form, "name", 4) == 0)
         fputs("{\"$ref\": \"#/definitions/name\"}", out);
     else if (strncmp(form, "list of number", 14) == 0) {
@@ -94,7 +98,8 @@ static void write_by_hand(FILE *out, const struct key *k)
         fputs("{\"type\": \"object\", \"additionalProperties\": {\"$ref\": \"#/definitions/number\"}}", out);
     else if (strcmp(form, "mapping of names to solids") == 0)
         fputs("{\"type\": \"object\", \"additionalProperties\": {\"$ref\": \"#/definitions/region\"}}", out);
-    else if (strcmp(form, "list of points") == 0) write_list_of(out, "point");
+    else if (strcmp(form, "list of points") == 0)
+        write_list_of(out, "point");
     else if (strstr(form, " or mapping") && has_children(k->path)) {
         fprintf(out, "{\"enum\": [\"%.*s\"]}, ", (int)strcspn(form, " "), form);
         write_object(out, k->path);
@@ -128,8 +133,10 @@ static void write_list_items(FILE *out, const struct key *k)
         fprintf(out, ", \"minItems\": %s, \"maxItems\": %s", number_text(least, k->range.least),
                 number_text(most, k->range.most));
     fputs(", \"items\": ", out);
-    if (strcmp(k->path, "probes") == 0) write_probe(out);
-    else write_object(out, items_group(k));
+    if (strcmp(k->path, "probes") == 0)
+        write_probe(out);
+    else
+        write_object(out, items_group(k));
     fputc('}', out);
 }
 
@@ -137,7 +144,7 @@ static void write_list_items(FILE *out, const struct key *k)
 static void write_alternatives(FILE *out, const struct key *k)
 {
     static const char *const definition[] = {
-        [KEY_NAME] = "name",     [KEY_BODY] = "name",     [KEY_MATERIAL] = "name",    [KEY_POINT] = "point",
+        [KEY_NAME] = "name",     [KEY_BODY] = "name",     [KEY_MATERIAL] = "name", [KEY_POINT] = "point",
         [KEY_MATRIX] = "matrix", [KEY_REGION] = "region", [KEY_SERIES] = "numbers"};
     const size_t type = k->type;
     if (type < COUNT_OF(definition) && definition[type]) {
@@ -158,7 +165,7 @@ static void write_alternatives(FILE *out, const struct key *k)
     } else if (type == KEY_LIST) {
         write_list_items(out, k);
     } else if (type == KEY_MAP || type == KEY_PART) {
-        const struct key *form = key_find(k->path, "form");              /* exact: step bar */
+        const struct key *form = key_find(k->path, "form"); /* exact: step bar */
         if (form && form->type == KEY_CHOICE) write_words(out, form->words), fputs(", ", out);
         write_object(out, k->path);
     } else {
@@ -186,8 +193,7 @@ static void write_property(FILE *out, const struct key *k)
     write_string(out, description, strlen(description));
     fputs(", \"anyOf\": [", out);
     write_alternatives(out, k);
-    if (is_in_merged(k) || (probe && k->type == KEY_PART))
-        fputs(", {\"type\": \"null\"}", out);
+    if (is_in_merged(k) || (probe && k->type == KEY_PART)) fputs(", {\"type\": \"null\"}", out);
     fputs("]}", out);
 }
 

@@ -9,11 +9,15 @@
 #include "geometry/geometry.h"
 
 enum { SOLIDS_MOST = 200000 };
-#define EFFORT_MOST 1e5                  /* primitive solids that one place of a lattice is compared with */
+#define EFFORT_MOST 1e5 /* primitive solids that one place of a lattice is compared with */
 
 /* ---- shapes ------------------------------------------------------------------------------------------------------ */
 
-static const struct solid_word { const char *name; enum solid_kind kind; int dim; } solid_words[] = {
+static const struct solid_word {
+    const char *name;
+    enum solid_kind kind;
+    int dim;
+} solid_words[] = {
     {"box", SOLID_BOX, 0},           {"disc", SOLID_BALL, 2},
     {"ball", SOLID_BALL, 0},         {"cylinder", SOLID_CYLINDER, 3},
     {"ellipse", SOLID_ELLIPSOID, 2}, {"ellipsoid", SOLID_ELLIPSOID, 3},
@@ -21,8 +25,8 @@ static const struct solid_word { const char *name; enum solid_kind kind; int dim
     {"tube", SOLID_TUBE, 3},         {"cone", SOLID_CONE, 3},
     {"torus", SOLID_TORUS, 3},       {"extrude", SOLID_EXTRUSION, 3},
     {"stl", SOLID_HULL, 3},          {"mesh", SOLID_HULL, 0},
-    {"image", SOLID_VOXELS, 0},
-    {"half-space", SOLID_HALF_SPACE, 0}, {"all", SOLID_ALL, 0},
+    {"image", SOLID_VOXELS, 0},      {"half-space", SOLID_HALF_SPACE, 0},
+    {"all", SOLID_ALL, 0},
 };
 
 static status read_solids(struct reader *r, const struct node *n, struct region *region, bool intersect);
@@ -74,16 +78,21 @@ static status read_corners(struct reader *r, const struct node *n, struct solid 
     TRY(expect_list(r, k, list));
     s->polygon->n = list->n;
     s->polygon->corner = memory_new("solids.corner", list->n, sizeof *s->polygon->corner);
-    for (const struct node *p = list->first; p; p = p->next)
-        TRY(read_point(r, &corner, p, s->polygon->corner[at++]));
+    for (const struct node *p = list->first; p; p = p->next) TRY(read_point(r, &corner, p, s->polygon->corner[at++]));
     switch (polygon_make(s->polygon, &at)) {
-    case POLYGON_SHORT: return fault(r, list, "corner %d is also the next one; corners differ", at);
-    case POLYGON_FLAT: return fault(r, list, "have no area; the corners of a polygon are expected");
-    case POLYGON_CROSSED: return fault(r, list, "the edge at corner %d meets another; edges do not cross", at);
+    case POLYGON_SHORT:
+        return fault(r, list, "corner %d is also the next one; corners differ", at);
+    case POLYGON_FLAT:
+        return fault(r, list, "have no area; the corners of a polygon are expected");
+    case POLYGON_CROSSED:
+        return fault(r, list, "the edge at corner %d meets another; edges do not cross", at);
     case POLYGON_TIGHT:
-        return fault(r, node_find(n, "round"), "is too large for the edge from corner %d to the next; a smaller radius "
-                     "is expected", at);
-    default: return OK;
+        return fault(r, node_find(n, "round"),
+                     "is too large for the edge from corner %d to the next; a smaller radius "
+                     "is expected",
+                     at);
+    default:
+        return OK;
     }
 }
 
@@ -176,8 +185,8 @@ static status read_named(struct reader *r, const struct node *n, struct solid *s
 static status read_names(struct reader *r, const struct node *map, struct named_region *named, int *count)
 {
     for (const struct node *n = map->first; n; n = n->next) {
-        const struct node name = {.text = n->key, .key = n->key, .line = n->line, .column = n->column,
-                                  .origin = n->origin};
+        const struct node name = {
+            .text = n->key, .key = n->key, .line = n->line, .column = n->column, .origin = n->origin};
         for (const struct node *twin = map->first; twin != n; twin = twin->next)
             if (strcmp(twin->key, n->key) == 0)
                 return fault(r, n, "given twice, first in line %d; keep one", twin->line);
@@ -262,11 +271,14 @@ static status read_solid(struct reader *r, const struct node *n, struct solid *s
     if (r->solids++ > SOLIDS_MOST) return fault(r, n, "one of more than %d solids; fewer are expected", SOLIDS_MOST);
     for (size_t k = 0; k < COUNT_OF(solid_words) && !word; k++)
         if (strcmp(solid_words[k].name, child->key) == 0) word = &solid_words[k];
-    if (word) TRY(read_shape(r, child, word, s));
-    else if (strcmp(child->key, "region") == 0) TRY(read_named(r, child, s));
+    if (word)
+        TRY(read_shape(r, child, word, s));
+    else if (strcmp(child->key, "region") == 0)
+        TRY(read_named(r, child, s));
     else if (signed_before)
         return fault(r, child, "stands inside add, subtract or intersect; a solid such as box is expected there");
-    else TRY(read_operation(r, n, child, s));
+    else
+        TRY(read_operation(r, n, child, s));
     TRY(read_motions(r, n, s));
     if (solid_effort(s) <= EFFORT_MOST) return OK;
     return fault(r, n, "makes more than %g solids with its copies; fewer are expected", EFFORT_MOST);

@@ -11,8 +11,10 @@ static status check_steps_motion(struct reader *r, const struct node *root)
     for (int k = 0; k < s->rigids; k++)
         if (s->body[s->bodies + k].mass > 0)
             return status_at(s->body[s->bodies + k].place,
-                             status_set(REFUSED, "rigid body %s flies (it has a mass), and load steps know no inertia; "
-                                        "a velocity, or solver: explicit, is expected", s->body[s->bodies + k].name));
+                             status_set(REFUSED,
+                                        "rigid body %s flies (it has a mass), and load steps know no inertia; "
+                                        "a velocity, or solver: explicit, is expected",
+                                        s->body[s->bodies + k].name));
     if (s->growths > 0)
         return fault(r, cracks ? cracks : solver, "cracks with a prescribed speed want solver explicit");
     if (s->contact_friction > 0)
@@ -70,7 +72,7 @@ status check_load_steps(struct reader *r, const struct node *root)
     const bool opening = s->steps.control == CONTROL_OPENING;
     TRY(check_steps_motion(r, root));
     TRY(check_steps_loads(r, root));
-    r->scene->active_set = false;        /* an equilibrium reaches the whole body at once */
+    r->scene->active_set = false; /* an equilibrium reaches the whole body at once */
     if (s->steps.then == THEN_EXPLICIT && s->steps.control != CONTROL_LOAD)
         return fault(r, tree_at(root, "steps.then"),
                      "a release in time belongs to control load: %s follows the crack while it is unstable",
@@ -78,8 +80,7 @@ status check_load_steps(struct reader *r, const struct node *root)
     if (s->steps.path == PATH_HOOP && s->dim == 1)
         return fault(r, tree_at(root, "steps.path"),
                      "hoop leads the tips of cracks; bonds, or auto, is expected on a line");
-    if (!opening || (s->steps.has_from && s->steps.has_to && s->steps.opening > 0))
-        return check_steps_loaded(r, root);
+    if (!opening || (s->steps.has_from && s->steps.has_to && s->steps.opening > 0)) return check_steps_loaded(r, root);
     return fault(r, steps,
                  "control opening wants steps.from and steps.to, two places, and steps.opening, how far they "
                  "are moved apart");

@@ -39,10 +39,10 @@ enum { TIMES_MAX = 1000000, UNIT_LONGEST_NAME = 40 };
 /* The two columns of a file that make a function of time. */
 struct time_columns {
     struct csv_file in;
-    int time, value, all;                /* from 0; -1: not found; all there are */
+    int time, value, all;                                             /* from 0; -1: not found; all there are */
     char time_unit[UNIT_LONGEST_NAME], value_unit[UNIT_LONGEST_NAME]; /* "": none */
-    enum unit unit;                      /* of the values */
-    const char *second;                  /* name of another column of values; NULL: none */
+    enum unit unit;                                                   /* of the values */
+    const char *second;                                               /* name of another column of values; NULL: none */
 };
 
 /* What a boundary's value counts in, so that a column can have this unit. */
@@ -50,9 +50,12 @@ static enum unit unit_of_boundary(const struct boundary *b)
 {
     switch (b->kind) {
     case BOUNDARY_TRACTION:
-    case BOUNDARY_PRESSURE: return UNIT_PRESSURE;
-    case BOUNDARY_BODY_FORCE: return UNIT_BODY_FORCE;
-    default: return b->rotates ? UNIT_RATE : b->displaces ? UNIT_LENGTH : UNIT_SPEED;
+    case BOUNDARY_PRESSURE:
+        return UNIT_PRESSURE;
+    case BOUNDARY_BODY_FORCE:
+        return UNIT_BODY_FORCE;
+    default:
+        return b->rotates ? UNIT_RATE : b->displaces ? UNIT_LENGTH : UNIT_SPEED;
     }
 }
 
@@ -118,8 +121,10 @@ static status time_entry(const struct time_columns *c, char *line, struct time_f
     char *rest = line, *time = line;
     for (char *field; (field = csv_field(&c->in, &rest)) != NULL; k++) {
         if (k == c->all)
-            return csv_fault(&c->in, field, "more values than the %d columns of the header; numbers have a point, not "
-                             "a comma", c->all);
+            return csv_fault(&c->in, field,
+                             "more values than the %d columns of the header; numbers have a point, not "
+                             "a comma",
+                             c->all);
         if (k != c->time && k != c->value) continue;
         found++;
         if (k == c->time) {
@@ -179,8 +184,7 @@ status read_time(struct reader *r, const struct node *n, struct boundary *b)
     const char *forms = "constant, step, pulse, ramp, table or file";
     struct time_function *f = &b->time;
     if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "constant") == 0)) return OK;
-    if (n->kind != NODE_MAP)
-        return fault(r, n, "%s is no function of time; %s is expected", shown(r, n), forms);
+    if (n->kind != NODE_MAP) return fault(r, n, "%s is no function of time; %s is expected", shown(r, n), forms);
     TRY(check_keys(r, n, "boundary.time"));
     if (node_find(n, "file") || node_find(n, "column")) {
         for (const struct node *other = n->first; other; other = other->next)

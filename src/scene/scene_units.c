@@ -33,14 +33,22 @@ const struct unit_row unit_rows[UNITS] = {
 /* ---- units ------------------------------------------------------------------------------------------------------- */
 
 /* A unit: twice the powers of m, kg and s, and twice the power of ten that converts to SI. */
-struct measure { int twice[3], ten; };
-
-static const struct symbol { const char *name; struct measure measure; } symbols[] = {
-    {"m", {{2, 0, 0}, 0}},    {"g", {{0, 2, 0}, -6}},   {"s", {{0, 0, 2}, 0}},    {"Pa", {{-2, 2, -4}, 0}},
-    {"N", {{2, 2, -4}, 0}},   {"J", {{4, 2, -4}, 0}},   {"Hz", {{0, 0, -2}, 0}},  {"%", {{0, 0, 0}, -4}},
-    {"1", {{0, 0, 0}, 0}},
+struct measure {
+    int twice[3], ten;
 };
-static const struct prefix { const char *name; int ten; } prefixes[] = {
+
+static const struct symbol {
+    const char *name;
+    struct measure measure;
+} symbols[] = {
+    {"m", {{2, 0, 0}, 0}},    {"g", {{0, 2, 0}, -6}}, {"s", {{0, 0, 2}, 0}},
+    {"Pa", {{-2, 2, -4}, 0}}, {"N", {{2, 2, -4}, 0}}, {"J", {{4, 2, -4}, 0}},
+    {"Hz", {{0, 0, -2}, 0}},  {"%", {{0, 0, 0}, -4}}, {"1", {{0, 0, 0}, 0}},
+};
+static const struct prefix {
+    const char *name;
+    int ten;
+} prefixes[] = {
     {"n", -18}, {"u", -12}, {"\u00b5", -12}, {"\u03bc", -12}, {"m", -6},
     {"c", -4},  {"k", 6},   {"M", 12},       {"G", 18},       {"T", 24},
 };
@@ -253,7 +261,10 @@ static const char *trap(const char *c, size_t length)
     return NULL;
 }
 
-struct complaint { char *what; size_t room; };
+struct complaint {
+    char *what;
+    size_t room;
+};
 
 /* Writes the complaint and the expected unit; returns false. */
 static bool complain(struct complaint c, const char *wrong, enum unit unit)
@@ -281,7 +292,10 @@ static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit,
 /* Seconds of min and h, which are no powers of ten and combine with no other unit; 0: another unit. */
 static int clock_seconds(const char *text, enum unit unit)
 {
-    static const struct { const char *name; int seconds; } clocks[] = {{"min", 60}, {"h", 3600}};
+    static const struct {
+        const char *name;
+        int seconds;
+    } clocks[] = {{"min", 60}, {"h", 3600}};
     for (size_t k = 0; k < COUNT_OF(clocks) && unit == UNIT_TIME; k++)
         if (strcmp(text, clocks[k].name) == 0) return clocks[k].seconds;
     return 0;
@@ -412,7 +426,7 @@ size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const
     real factor = 1;
     bool is_time = false;
     *wrong = length == 0 ? "is no number" : length > NUMBER_LONGEST ? "has too many digits" : trap(text, length);
-    if (length > 0 && text[length] == ',') *wrong = NULL;                /* it may part operands of a function */
+    if (length > 0 && text[length] == ',') *wrong = NULL; /* it may part operands of a function */
     if (*wrong) return 0;
     const char *unit = text + length + strspn(text + length, " ");
     size_t letters = with_unit ? factor_length(unit, &factor, &is_time) : 0;
@@ -456,14 +470,16 @@ const char *number_text(char text[32], real value)
 void scene_help_units(FILE *out)
 {
     fputs("A number without a unit is SI. A unit stands behind it, with or without a blank: 0.5 mm, 190GPa, 1/3.\n\n"
-          "symbols   ", out);
+          "symbols   ",
+          out);
     for (size_t k = 0; k < COUNT_OF(symbols); k++)
         if (strcmp(symbols[k].name, "1") != 0) fprintf(out, " %s", symbols[k].name);
     fputs("; times also min, h; angles deg, rad\nprefixes  ", out);
     for (size_t k = 0; k < COUNT_OF(prefixes); k++)
         fprintf(out, " %s 1e%d%s", prefixes[k].name, prefixes[k].ten / 2, k + 1 < COUNT_OF(prefixes) ? "," : "\n");
     fputs("powers     m^2, m2, m\u00b2, m^0.5, sqrt(m), s^-1; between factors a blank, * or /: N/m^2, MPa m^0.5\n\n"
-          "quantity              SI unit     as\n", out);
+          "quantity              SI unit     as\n",
+          out);
     for (int u = 0; u < UNITS; u++)
         fprintf(out, "%-21s %-11s %s\n", unit_rows[u].name, *unit_rows[u].symbol ? unit_rows[u].symbol : "1",
                 unit_rows[u].example);

@@ -19,7 +19,7 @@ const char *shown_text(struct reader *r, const char *text)
 {
     size_t length = strlen(text), cut = length;
     if (cut > SHOWN_LONGEST) cut = SHOWN_LONGEST;
-    while (cut < length && cut > 0 && ((unsigned char)text[cut] & 0xC0) == 0x80) cut--;   /* whole letters only */
+    while (cut < length && cut > 0 && ((unsigned char)text[cut] & 0xC0) == 0x80) cut--; /* whole letters only */
     char *copy = arena_new(r, cut + 4);
     memcpy(copy, text, cut);
     text_harmless(copy);
@@ -99,12 +99,18 @@ status fault_both(const struct reader *r, const struct node *a, const struct nod
 static const char *form_text(struct reader *r, const struct key *k)
 {
     switch (k->type) {
-    case KEY_REAL: return unit_rows[k->unit].name;
-    case KEY_POINT: return "a list of numbers";
-    case KEY_REGION: return "a solid or a list of solids";
-    case KEY_NAME: return "a name";
-    case KEY_MATERIAL: return "the name of a material";
-    default: return k->words ? word_list(r, k->words) : "a mapping of keys";
+    case KEY_REAL:
+        return unit_rows[k->unit].name;
+    case KEY_POINT:
+        return "a list of numbers";
+    case KEY_REGION:
+        return "a solid or a list of solids";
+    case KEY_NAME:
+        return "a name";
+    case KEY_MATERIAL:
+        return "the name of a material";
+    default:
+        return k->words ? word_list(r, k->words) : "a mapping of keys";
     }
 }
 
@@ -207,7 +213,9 @@ static status check_range(struct reader *r, const struct key *k, const struct no
     bool bounded = isfinite(range->most);
     return fault(r, n, "%s is out of range; %s %s %s%s%s is expected%s%s", shown(r, n), name,
                  range->open ? "above" : "from", number_text(least, range->least),
-                 bounded ? (range->open ? " up to " : " to ") : range->open ? "" : " on",
+                 bounded       ? (range->open ? " up to " : " to ")
+                 : range->open ? ""
+                               : " on",
                  bounded ? number_text(most, range->most) : "", k->unit ? ", as " : "", k->unit ? unit->example : "");
 }
 
@@ -215,8 +223,8 @@ status read_number(struct reader *r, const struct key *k, const struct node *n, 
 {
     char what[256];
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is not a number; %s is expected, as %s", shown(r, n),
-                     unit_rows[k->unit].name, unit_rows[k->unit].example);
+        return fault(r, n, "%s is not a number; %s is expected, as %s", shown(r, n), unit_rows[k->unit].name,
+                     unit_rows[k->unit].example);
     if (k->type == KEY_REAL && k->words && strcmp(n->text, k->words) == 0) {
         *value = k->word_value;
         return OK;
@@ -265,12 +273,14 @@ static status read_seed(struct reader *r, const struct node *n, uint64_t *value)
     real whole = -1;
     if (n->kind == NODE_SCALAR && looks_like_expression(r, n->text)) TRY(read_whole(r, n, &whole));
     errno = 0;
-    if (whole >= 0 && whole < 9e15) *value = (uint64_t)whole;
-    else if (n->kind == NODE_SCALAR && digits > 0 && n->text[digits] == '\0') *value = strtoull(n->text, NULL, 10);
-    else errno = EINVAL;
+    if (whole >= 0 && whole < 9e15)
+        *value = (uint64_t)whole;
+    else if (n->kind == NODE_SCALAR && digits > 0 && n->text[digits] == '\0')
+        *value = strtoull(n->text, NULL, 10);
+    else
+        errno = EINVAL;
     if (errno == 0) return OK;
-    return fault(r, n, "%s is no seed; a whole number from 0 to 18446744073709551615 is expected",
-                 shown(r, n));
+    return fault(r, n, "%s is no seed; a whole number from 0 to 18446744073709551615 is expected", shown(r, n));
 }
 
 static status read_flag(struct reader *r, const struct node *n, bool *value)
@@ -364,8 +374,7 @@ status read_point(struct reader *r, const struct key *k, const struct node *n, r
     if (r->dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, point);
     const char *space = space_shown(r);
     if (n->kind != NODE_LIST)
-        return fault(r, n, "%s is not a list; %d components are expected in %s", shown(r, n), r->dim,
-                     space);
+        return fault(r, n, "%s is not a list; %d components are expected in %s", shown(r, n), r->dim, space);
     if (n->n != r->dim) return fault(r, n, "has %d components; %d are expected in %s", n->n, r->dim, space);
     for (const struct node *c = n->first; c; c = c->next) TRY(read_number(r, k, c, &point[d++]));
     return OK;
@@ -392,8 +401,7 @@ enum { SERIES_MOST = 100000 };
 static status read_series(struct reader *r, const struct key *k, const struct node *n, struct number_list *series)
 {
     TRY(expect(r, n, NODE_LIST, "a list"));
-    if (n->n < 1 || n->n > SERIES_MOST)
-        return fault(r, n, "has %d items; 1 to %d are expected", n->n, SERIES_MOST);
+    if (n->n < 1 || n->n > SERIES_MOST) return fault(r, n, "has %d items; 1 to %d are expected", n->n, SERIES_MOST);
     series->value = NEW("scene series", n->n, real);
     for (const struct node *c = n->first; c; c = c->next) {
         TRY(read_number(r, k, c, &series->value[series->n]));
@@ -438,8 +446,10 @@ static status scene_value_read_body(struct reader *r, const struct node *n, int 
     }
     for (int k = s->bodies; k < s->bodies + s->rigids; k++)
         if (strcmp(b[k].name, n->text) == 0)
-            return fault(r, n, "%s is rigid; a body with particles is expected (rigid ones have a velocity, a mass "
-                         "and a force of their own)", shown(r, n));
+            return fault(r, n,
+                         "%s is rigid; a body with particles is expected (rigid ones have a velocity, a mass "
+                         "and a force of their own)",
+                         shown(r, n));
     return fault_reference(r, n, "body", b[nearest].name);
 }
 
@@ -450,20 +460,34 @@ status read_key(struct reader *r, const struct key *k, const struct node *n, voi
     char none[16];
     void *place = k->place ? (char *)base + (k->place - 1) : (void *)none;
     switch (k->type) {
-    case KEY_REAL: return read_number(r, k, n, place);
-    case KEY_INT: return read_int(r, k, n, place);
-    case KEY_SEED: return read_seed(r, n, place);
-    case KEY_FLAG: return read_flag(r, n, place);
-    case KEY_CHOICE: return read_choice(r, k, n, place);
-    case KEY_SET: return read_set(r, k, n, place);
-    case KEY_SERIES: return read_series(r, k, n, place);
-    case KEY_NAME: return k->words ? read_any_text(r, n, place) : read_name(r, n, place);
-    case KEY_POINT: return k->place ? read_point(r, k, n, place) : OK;
-    case KEY_MATRIX: return read_matrix(r, k, n, place);
-    case KEY_REGION: return read_region(r, n, place);
-    case KEY_BODY: return scene_value_read_body(r, n, place);
-    case KEY_MATERIAL: return scene_value_read_material(r, n, place);
-    default: return OK;
+    case KEY_REAL:
+        return read_number(r, k, n, place);
+    case KEY_INT:
+        return read_int(r, k, n, place);
+    case KEY_SEED:
+        return read_seed(r, n, place);
+    case KEY_FLAG:
+        return read_flag(r, n, place);
+    case KEY_CHOICE:
+        return read_choice(r, k, n, place);
+    case KEY_SET:
+        return read_set(r, k, n, place);
+    case KEY_SERIES:
+        return read_series(r, k, n, place);
+    case KEY_NAME:
+        return k->words ? read_any_text(r, n, place) : read_name(r, n, place);
+    case KEY_POINT:
+        return k->place ? read_point(r, k, n, place) : OK;
+    case KEY_MATRIX:
+        return read_matrix(r, k, n, place);
+    case KEY_REGION:
+        return read_region(r, n, place);
+    case KEY_BODY:
+        return scene_value_read_body(r, n, place);
+    case KEY_MATERIAL:
+        return scene_value_read_material(r, n, place);
+    default:
+        return OK;
     }
 }
 
@@ -486,9 +510,12 @@ status read_group(struct reader *r, const struct node *where, const struct node 
         const struct key *k = &keys[i];
         if (!key_in(k, group)) continue;
         const struct node *n = node_find(map, key_leaf(k));
-        if (k->type == KEY_MAP) TRY(read_group(r, n ? n : where, n, k->path, base));
-        else if (n) TRY(read_key(r, k, n, base));
-        else TRY(read_fallback(r, where, k, base));
+        if (k->type == KEY_MAP)
+            TRY(read_group(r, n ? n : where, n, k->path, base));
+        else if (n)
+            TRY(read_key(r, k, n, base));
+        else
+            TRY(read_fallback(r, where, k, base));
         if (n && k->has) *((char *)base + (k->has - 1)) = true;
     }
     return OK;

@@ -66,8 +66,10 @@ void node_remove(struct node *parent, struct node *child)
 {
     struct node *before = NULL;
     for (struct node *n = parent->first; n != child; n = n->next) before = n;
-    if (before) before->next = child->next;
-    else parent->first = child->next;
+    if (before)
+        before->next = child->next;
+    else
+        parent->first = child->next;
     if (parent->last == child) parent->last = before;
     parent->n--;
 }

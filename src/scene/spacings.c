@@ -9,7 +9,10 @@
  * gaps and crack tips along the axes keep their positions only if they, too, are between particles. */
 
 enum { LENGTHS_MOST = 64 };
-struct lengths { int n; real of[LENGTHS_MOST]; };
+struct lengths {
+    int n;
+    real of[LENGTHS_MOST];
+};
 
 /* Extent along an axis of the box that a body begins with [m]; 0: it begins with another solid. */
 static real box_extent(const struct scene *s, int body, int axis)
@@ -34,7 +37,7 @@ static void lengths_add_cracks(struct lengths *l, const struct scene *s, const s
 {
     for (int k = 0; k < s->cracks && s->dim == 2; k++) {
         const real *a = s->crack[k].corner[0], *b = s->crack[k].corner[1];
-        if (a[0] != b[0] && a[1] != b[1]) continue;      /* oblique: fits no lattice */
+        if (a[0] != b[0] && a[1] != b[1]) continue; /* oblique: fits no lattice */
         for (int d = 0; d < 2; d++) length_add_inside(l, box, d, a[d]), length_add_inside(l, box, d, b[d]);
     }
 }
@@ -44,7 +47,7 @@ static void lengths_collect(struct lengths *l, const struct scene *s)
 {
     l->n = 0;
     for (int b = 0; b < s->bodies; b++) {
-        if (s->body[b].shape.n == 0) continue;           /* particles from a list */
+        if (s->body[b].shape.n == 0) continue; /* particles from a list */
         const struct solid *box = &s->body[b].shape.solid[0];
         for (int d = 0; d < s->dim; d++) length_add(l, box_extent(s, b, d));
         for (int k = 1; k < s->body[b].shape.n; k++) {

@@ -25,7 +25,7 @@ enum { LOOKS_MOST = 10 };        /* for the length of a correction */
  * it is taken from the middle, too, where forces after it are more than this share of those before. */
 #define PUSH_LEFT 0.8
 #define WORK_CURVED 0.01
-enum { WORK_PARTS = 16 };        /* of that way where forces have kinks: 2 leave a 24th of the work beyond one */
+enum { WORK_PARTS = 16 }; /* of that way where forces have kinks: 2 leave a 24th of the work beyond one */
 
 /* Share of the residual that a correction leaves: the least is what one-sided differences resolve. */
 #define FORCING_MOST 0.1
@@ -382,8 +382,8 @@ status equilibrium_find(struct equilibrium *q, const struct field *way, bool mov
     q->bent = 0;
     if (!(q->strain_ratio > 0)) q->strain_ratio = 1 / q->length;
     const bool driven = prescribed;
-    bool settled = false;            /* laws are those of u */
-    real straight = NAN;             /* of the growth of loads along the first correction */
+    bool settled = false; /* laws are those of u */
+    real straight = NAN;  /* of the growth of loads along the first correction */
     if (prescribed) guess_check(q);
     for (int k = 0; k < CORRECTIONS_MOST; k++) {
         equilibrium_measure(q);
@@ -393,7 +393,7 @@ status equilibrium_find(struct equilibrium *q, const struct field *way, bool mov
             if (!settled) {
                 settled = true;
                 laws_settle(q);
-                continue;                /* with these laws, and the norm that loads have now */
+                continue; /* with these laws, and the norm that loads have now */
             }
             if (driven) supports += 0.5 * dot_held(q, way);
             if (!isnan(straight)) loads_bend(q, dot_free(q, &q->grown, &q->u) - straight);

@@ -43,7 +43,10 @@ void solver_tangent(const struct static_body *body, const struct field *in, stru
 }
 
 /* What solver_force_block reads. */
-struct constrained_forces { const struct particles *part; const uint8_t *held; };
+struct constrained_forces {
+    const struct particles *part;
+    const uint8_t *held;
+};
 
 /* Sums of squares of forces on free components, sum[0], and on constrained ones, sum[1]. */
 static void solver_force_block(const void *context, int64_t first, int64_t end, real *sum)
@@ -62,7 +65,7 @@ void solver_norms(const struct solver *s, const struct particles *p, real *norm)
 void solver_scale(struct solver *s, real reaction, real left)
 {
     s->scale = real_max(s->applied, reaction);
-    if (s->scale <= s->noise) s->scale = s->first = real_max(s->first, left);   /* no load: the residual of the start */
+    if (s->scale <= s->noise) s->scale = s->first = real_max(s->first, left); /* no load: the residual of the start */
     const bool rests = left == 0 || (s->scale == s->first && left <= s->noise);
     s->residual = rests ? 0 : left / s->scale;
 }

@@ -6,9 +6,9 @@
 #include "base/team.h"
 #include "solver_parts.h"
 
-#define CHECK_STEPS 50              /* steps between evaluations of the true residual, which gives the reactions, too */
+#define CHECK_STEPS 50 /* steps between evaluations of the true residual, which gives the reactions, too */
 
-#define STALLS_MOST 5                    /* restarts that do not halve the residual: the rest is round-off */
+#define STALLS_MOST 5 /* restarts that do not halve the residual: the rest is round-off */
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
@@ -135,7 +135,7 @@ static status check(struct solver *s, const struct static_body *body, int64_t st
     s->best = real_min(s->best, s->residual);
     restart(s, body->part);
     if (s->stalls < STALLS_MOST) return OK;
-    solver_cg_place(s, body);            /* the nearest that was found, in place of the last trial motion */
+    solver_cg_place(s, body); /* the nearest that was found, in place of the last trial motion */
     return status_set(FAILED,
                       "conjugate gradients at step %lld: a residual of %.3g of the load stays, where %.3g is "
                       "wanted; choose a larger solver_tolerance (round-off leaves 1e-8 of compact bodies, 1e-6 of "
@@ -154,13 +154,14 @@ status cg_step(struct solver *s, const struct static_body *body, int64_t step, b
     solver_tangent(body, &s->d, &s->q, s->strain_ratio);
     team_sums(s->n, 1, curvature_block, s, &curvature);
     if (!(curvature > 0))
-        return status_set(FAILED, "conjugate gradients at step %lld: the body gives way without a force; is every "
-                                  "part of it held, or bonded to one that is?", (long long)step);
+        return status_set(FAILED,
+                          "conjugate gradients at step %lld: the body gives way without a force; is every "
+                          "part of it held, or bonded to one that is?",
+                          (long long)step);
     s->strain_ratio = sqrt(curvature / unit_energy(body)) / solver_largest(&s->d, s->dim, s->n);
     const real left = sqrt(solver_cg_advance(s, s->rz / curvature));
     s->residual = left / s->scale;
     const bool claimed = left <= 0.9 * body->tolerance * s->scale;
-    if (claimed || step % CHECK_STEPS == CHECK_STEPS - 1)
-        return check(s, body, step, left, done);
+    if (claimed || step % CHECK_STEPS == CHECK_STEPS - 1) return check(s, body, step, left, done);
     return OK;
 }

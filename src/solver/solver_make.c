@@ -23,7 +23,10 @@ static void field_free(struct field *v)
 }
 
 /* What solver_scaled_stiffness works on. */
-struct scaled { struct solver *solver; const struct static_body *body; };
+struct scaled {
+    struct solver *solver;
+    const struct static_body *body;
+};
 
 /* y = Lambda^-1/2 K Lambda^-1/2 x, both [dim n]; `before` and v are scratch arrays. */
 static void solver_scaled_stiffness(void *context, const real *x, real *y)
@@ -40,7 +43,7 @@ static void solver_scaled_stiffness(void *context, const real *x, real *y)
         for (int64_t i = 0; i < n; i++) y[d * n + i] = out.of[d][i] / sqrt(s->diagonal[i]);
 }
 
-#define MARGIN_OF_EIGENVALUE 1.02        /* the iteration converges from below */
+#define MARGIN_OF_EIGENVALUE 1.02 /* the iteration converges from below */
 
 /* Lambda_i >= 1/4 sum |K_ij| for a unit step (Kilic & Madenci 2010), of the bonds as springs; scaled up by the largest
  * eigenvalue where the model is stiffer than its springs. */
@@ -62,7 +65,7 @@ static void make_diagonal(struct solver *s, const struct static_body *body)
     const real stiffer = MARGIN_OF_EIGENVALUE * largest_eigenvalue(p->dim * p->n, solver_scaled_stiffness, &scaled) / 4;
     for (int64_t i = 0; i < p->n; i++) s->diagonal[i] *= real_max(1, stiffer);
     for (int d = 0; d < p->dim; d++) array_copy(p->x[d], kept.of[d], p->n, sizeof(real));
-    solver_bond_force(body);              /* energies of state-based models use it */
+    solver_bond_force(body); /* energies of state-based models use it */
     for (int d = 0; d < p->dim; d++) {
         array_fill_bytes(p->v[d], 0, p->n, sizeof(real));
         array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
@@ -218,7 +221,7 @@ static status field_archive(const struct field *v, struct archive *a, const char
 
 status solver_archive(struct solver *s, struct archive *a)
 {
-    if (!s->held) return OK;             /* an explicit run */
+    if (!s->held) return OK; /* an explicit run */
     ARCHIVE_VALUE(a, "solver/residual", s->residual);
     ARCHIVE_VALUE(a, "solver/scale", s->scale);
     ARCHIVE_VALUE(a, "solver/first", s->first);

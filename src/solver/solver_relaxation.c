@@ -16,7 +16,10 @@ static void supports_move(const struct solver *s, struct particles *p, int64_t s
 }
 
 /* What damping_block reads. */
-struct relaxing { const struct solver *solver; const struct particles *part; };
+struct relaxing {
+    const struct solver *solver;
+    const struct particles *part;
+};
 
 /* u^T k u with k_ii = -(f^n - f^{n-1})/(Lambda_ii v^{n-1/2}), u^T u and v^T v, free components. */
 static void damping_block(const void *context, int64_t first, int64_t end, real *sum)
@@ -35,7 +38,7 @@ static void damping_block(const void *context, int64_t first, int64_t end, real 
         }
 }
 
-#define DAMPING_MOST 1.9                 /* 2 stops the motion */
+#define DAMPING_MOST 1.9 /* 2 stops the motion */
 
 /* Damping coefficient c = 2 sqrt(u^T k u / u^T u), from the sums of damping_block. */
 static real damping(const real *sum)

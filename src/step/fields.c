@@ -6,7 +6,7 @@
 #include "mesh/mesh_part.h"
 #include "output/output.h"
 
-#define NEAR_REACH 1.5 /* neighbours of material points: those of a lattice with diagonals [spacings] */
+#define NEAR_REACH 1.5   /* neighbours of material points: those of a lattice with diagonals [spacings] */
 #define SHAPE_LEAST 1e-6 /* determinant of neighbours that span space, over that of a ball */
 
 /* ---- displacement gradients -------------------------------------------------------------------------------------- */
@@ -14,7 +14,9 @@
 /* Sums over the neighbours of a particle: K = sum xi xi and M = sum u xi, xi and u their reference place and
  * displacement against its own. H = M K^-1 fits u = H xi by least squares; it is the shape tensor and the deformation
  * gradient of Silling et al. 2007, without weights, less 1. */
-struct gradient_sum { real K[3][3], M[3][3]; };
+struct gradient_sum {
+    real K[3][3], M[3][3];
+};
 
 static void gradient_add(struct gradient_sum *s, const struct particles *p, int64_t i, int64_t j)
 {
@@ -33,7 +35,7 @@ static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const
     real mean = 0, C[3][3];
     for (int d = 0; d < dim; d++) mean += s->K[d][d] / dim;
     for (int d = dim; d < 3; d++) s->K[d][d] = mean;
-    for (int a = 0; a < 3; a++)          /* the symmetric K's cofactors */
+    for (int a = 0; a < 3; a++) /* the symmetric K's cofactors */
         for (int b = 0; b < 3; b++) {
             const int c = (a + 1) % 3, d = (a + 2) % 3, e = (b + 1) % 3, f = (b + 2) % 3;
             C[a][b] = s->K[c][e] * s->K[d][f] - s->K[c][f] * s->K[d][e];
@@ -68,7 +70,8 @@ static void gradient_of_points(const struct run *e, struct near *near, int64_t i
         const int64_t j = near->at[k];
         const bool torn = p->kind[j] == KIND_PD && p->damage[j] > 0;
         if (p->body[j] != p->body[i] || torn || cracks_part(e->source.crack, e->source.cracks, p, i, j) ||
-            voids_part(e->source.voids, p, i, j)) continue;
+            voids_part(e->source.voids, p, i, j))
+            continue;
         gradient_add(&sum, p, i, j);
     }
     gradient_fit(&sum, p->dim, i, H);
@@ -90,8 +93,10 @@ static void gradients_make(const struct run *e, real **H)
         struct near near = {0};
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
-            if (p->kind[i] == KIND_PD) gradient_of_bonds(&e->bonds, &e->part, i, H);
-            else if (!in_mesh(e->frame, i)) gradient_of_points(e, &near, i, H);
+            if (p->kind[i] == KIND_PD)
+                gradient_of_bonds(&e->bonds, &e->part, i, H);
+            else if (!in_mesh(e->frame, i))
+                gradient_of_points(e, &near, i, H);
         memory_free(near.at);
     }
 }
@@ -110,8 +115,10 @@ static real *plastic_work_make(const struct run *e)
         const struct material *m = &e->scene->material[p->material[i]];
         const real a = p->plastic_strain ? p->plastic_strain[i] : 0;
         const bool bonds = p->kind[i] == KIND_PD && e->bonds.plastic_path && e->bonds.row_of[i] >= 0;
-        if (bonds) work[i] = bond_row_plastic_work(&e->bonds, e->bonds.row_of[i]) / p->volume0[i];
-        else if (a > 0) work[i] = (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
+        if (bonds)
+            work[i] = bond_row_plastic_work(&e->bonds, e->bonds.row_of[i]) / p->volume0[i];
+        else if (a > 0)
+            work[i] = (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
     }
     return work;
 }
@@ -126,7 +133,8 @@ static real *plastic_strain_make(const struct particles *p, const struct bonds *
     for (int64_t i = 0; i < p->n; i++)
         if (p->kind[i] == KIND_PD && bonds->row_of[i] >= 0)
             strain[i] = bond_row_plastic_path(bonds, bonds->row_of[i]);
-        else if (p->plastic_strain) strain[i] = p->plastic_strain[i];
+        else if (p->plastic_strain)
+            strain[i] = p->plastic_strain[i];
     return strain;
 }
 

@@ -19,8 +19,8 @@
 #include "step/sample.h"
 #include "step/checks.h"
 
-#define PROGRESS_SECONDS 0.5             /* between progress lines on a terminal */
-#define PROGRESS_SECONDS_FILE 60.0       /* and in files                         */
+#define PROGRESS_SECONDS 0.5       /* between progress lines on a terminal */
+#define PROGRESS_SECONDS_FILE 60.0 /* and in files                         */
 
 /* ---- schedule ---------------------------------------------------------------------------------------------------- */
 
@@ -45,15 +45,14 @@ static int64_t frame_step(const struct scene *s, const struct run_clock *clock, 
     const struct number_list *times = &s->times;
     if ((times->n == 0 && s->every == 0) || k < 1) return due_step(clock, k, n);
     const real time = k > n ? 0 : s->every > 0 ? real_min((real)k * s->every, s->duration) : times->value[k - 1];
-    int64_t step = k <= n ? (int64_t)floor(time / clock->dt + 0.5) : clock->steps,
-            last = clock->steps - (n - k);
+    int64_t step = k <= n ? (int64_t)floor(time / clock->dt + 0.5) : clock->steps, last = clock->steps - (n - k);
     return common_step(clock, step < k ? k : step > last ? last : step);
 }
 
 bool report_sample_due(const struct scene *s, const struct run_clock *clock)
 {
     const int64_t most = clock->steps / clock->stride, n = s->samples < most ? s->samples : most;
-    if (!scene_moves(s)) return clock->step == 0;    /* and the equilibrium, at the end */
+    if (!scene_moves(s)) return clock->step == 0; /* and the equilibrium, at the end */
     return due_step(clock, (clock->step * n + clock->steps / 2) / clock->steps, n) == clock->step;
 }
 
@@ -136,7 +135,7 @@ static status write_frames(struct run *e, unsigned due)
     struct fragments fragments = {0};
     unsigned asked = 0;
     status s = OK;
-    if (e->frame->shown.part.n > 0) TRY(output_wait(out));     /* which still reads them */
+    if (e->frame->shown.part.n > 0) TRY(output_wait(out)); /* which still reads them */
     run_sync(e);
     TRY(frame_sound(&e->clock, &e->part));
     if (parts) fragments_find(&fragments, &e->bonds, &e->part);
@@ -198,7 +197,7 @@ status report_start(struct run *e)
     contact_record(e->contact, &e->part);
     if (resumed) return say_lost(e);
     profiles_remove(e, r->out);
-    TRY(write_frames(e, frames_due(e, 0) | 1));      /* the body's, also where it is the only one */
+    TRY(write_frames(e, frames_due(e, 0) | 1)); /* the body's, also where it is the only one */
     return write_checkpoint(e);
 }
 
@@ -206,9 +205,12 @@ status report_start(struct run *e)
 
 static void duration_text(char *text, size_t size, double seconds)
 {
-    if (seconds < 100) snprintf(text, size, "%.0f s", seconds);
-    else if (seconds < 6000) snprintf(text, size, "%.0f min", seconds / 60);
-    else snprintf(text, size, "%.1f h", seconds / 3600);
+    if (seconds < 100)
+        snprintf(text, size, "%.0f s", seconds);
+    else if (seconds < 6000)
+        snprintf(text, size, "%.0f min", seconds / 60);
+    else
+        snprintf(text, size, "%.1f h", seconds / 3600);
 }
 
 /* Prints the progress line if it is due; `last`: after the last step. */
@@ -242,8 +244,7 @@ static void progress(struct run *e, bool last)
 real report_inactive_share(const struct run *e)
 {
     real at_rest = inactive_share(&e->bonds.active) * (real)e->part.n_of[KIND_PD];
-    if (e->frame->mesh.points > 0)
-        at_rest += inactive_share(&e->frame->mesh.active) * (real)e->frame->mesh.points;
+    if (e->frame->mesh.points > 0) at_rest += inactive_share(&e->frame->mesh.active) * (real)e->frame->mesh.points;
     return at_rest / (real)e->part.n;
 }
 

@@ -27,12 +27,22 @@
 enum { RECORD_FIXED = 25 };
 
 /* Columns that every run has; those between are rows of the ledger. */
-static const struct column fixed_columns[RECORD_FIXED] = {
-    [0] = {"time", "s"}, {"step", ""},
-    [7] = {"balance_error", ""}, {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"}, {"momentum_z", "kg m/s"},
-    {"momentum_error", ""}, {"particles_pd", ""}, {"pd_share", ""}, {"bonds", ""}, {"crack_length", "m"},
-    {"tip_x", "m"}, {"tip_y", "m"}, {"tip_z", "m"},
-    [20] = {"mpm_share", ""}, {"rest_share", ""}};
+static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},
+                                                          {"step", ""},
+                                                          [7] = {"balance_error", ""},
+                                                          {"momentum_x", "kg m/s"},
+                                                          {"momentum_y", "kg m/s"},
+                                                          {"momentum_z", "kg m/s"},
+                                                          {"momentum_error", ""},
+                                                          {"particles_pd", ""},
+                                                          {"pd_share", ""},
+                                                          {"bonds", ""},
+                                                          {"crack_length", "m"},
+                                                          {"tip_x", "m"},
+                                                          {"tip_y", "m"},
+                                                          {"tip_z", "m"},
+                                                          [20] = {"mpm_share", ""},
+                                                          {"rest_share", ""}};
 
 /* Mean inactive share of the body over the steps since the last sample; 0 where there was none. */
 static real inactive_since_sample(const struct run_clock *clock, struct run_report *report)
@@ -69,12 +79,22 @@ static void fill_record(struct run *e)
     const real *place = tip ? tip->place : (const real[DIM_MAX]){NAN, NAN, NAN};
     const int dim = e->part.dim;
     const real n = (real)e->part.n_body, pd = (real)e->report->sampling.pd;
-    const real fixed[RECORD_FIXED] = {
-        [0] = l->time, (real)e->clock.step,
-        [7] = l->balance_error, l->momentum[0], l->momentum[1], l->momentum[2], l->momentum_error, pd, pd / n,
-        (real)e->report->sampling.bonds, tip ? tip->growth : 0, place[0], dim > 1 ? place[1] : NAN,
-        dim > 2 ? place[2] : NAN,
-        [20] = 1 - pd / n, inactive_since_sample(&e->clock, e->report)};
+    const real fixed[RECORD_FIXED] = {[0] = l->time,
+                                      (real)e->clock.step,
+                                      [7] = l->balance_error,
+                                      l->momentum[0],
+                                      l->momentum[1],
+                                      l->momentum[2],
+                                      l->momentum_error,
+                                      pd,
+                                      pd / n,
+                                      (real)e->report->sampling.bonds,
+                                      tip ? tip->growth : 0,
+                                      place[0],
+                                      dim > 1 ? place[1] : NAN,
+                                      dim > 2 ? place[2] : NAN,
+                                      [20] = 1 - pd / n,
+                                      inactive_since_sample(&e->clock, e->report)};
     memcpy(r, fixed, sizeof fixed);
     for (int k = 0; k < ENERGIES; k++) r[ledger[k].column] = l->energy.of[k];
     r[ledger[LEDGER_WORK].column] = l->external_work;
@@ -233,7 +253,7 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
     time_momentum(e, now);
     sampling->energy.kinetic = kinetic;
     e->stability->lost = !isfinite(energy_sum(&sampling->energy) + work);
-    if (e->stability->lost) return;               /* energy_check reports it; nothing is written */
+    if (e->stability->lost) return; /* energy_check reports it; nothing is written */
     diagnostics_balance(e->diagnostics, e->clock.t, &sampling->energy, work);
     fill_record(e);
     if (e->report->out && e->report->history_status == OK)
@@ -270,8 +290,10 @@ void sample_begin(struct run *e)
     sampling->absorbed = e->loads.absorbing.energy;
     if (!sampling->due && e->clock.step < e->clock.steps - 1) return;
     sync_probes(e);
-    if (sampling->due) sample_state(e), rigids_meet(e);
-    else if (wants_stress(e->scene)) run_stress(e);
+    if (sampling->due)
+        sample_state(e), rigids_meet(e);
+    else if (wants_stress(e->scene))
+        run_stress(e);
     struct observed o = run_observed(e);
     probes_keep(&e->probing->probes, &o);
     keep_velocities(sampling, &e->part, e->coupling_kind);
@@ -313,7 +335,7 @@ void sample_end(struct run *e)
     const bool first = e->clock.step == 0;
     const struct velocity_time now = {e->clock.t + 0.5 * e->clock.dt, first ? 1 : 1 / damping_share(e)};
     if (!sampling->due) return;
-    if (first) {                             /* velocities of t = 0, not of half a step before; nothing is damped yet */
+    if (first) { /* velocities of t = 0, not of half a step before; nothing is damped yet */
         sampling->energy.damped = sampling->energy.absorbed = 0;
         sample_write(e, &now, sampling->kinetic + sampling->rigid, sampling->work);
         e->diagnostics->energy_start -= start_excess(e) / damping_share(e);
@@ -416,7 +438,7 @@ static real power_last(struct run *e, real *held)
         array_copy(own[b].reaction, e->loads.load[b].reaction, DIM_MAX, sizeof(real));
         e->loads.load[b] = own[b];
     }
-    memcpy(e->loads.impulse, account.impulse, sizeof account.impulse);      /* arrays may have grown with the grid */
+    memcpy(e->loads.impulse, account.impulse, sizeof account.impulse); /* arrays may have grown with the grid */
     e->loads.absorbing.energy = account.absorbing.energy, e->loads.absorbing.kick = account.absorbing.kick;
     e->loads.work = account.work, e->loads.constraint_work = account.constraint_work;
     e->loads.absorbing.idle = e->loads.ended = false;
@@ -430,7 +452,7 @@ void sample_last(struct run *e)
 {
     real held = 0;
     states_precompute(&e->bonds, &e->part, &e->source);
-    frame_sync(e);                         /* positions, velocities and stresses of points of the mesh */
+    frame_sync(e); /* positions, velocities and stresses of points of the mesh */
     sample_state(e);
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, e->frame);
@@ -466,8 +488,10 @@ static void say_torn(struct run *e, real t)
             tears |= (e->part.flag[l->particle[k]] & both) == both;
         if (tears) name = l->boundary->name, others++;
     }
-    if (scene_in_steps(e->scene)) snprintf(when, sizeof when, "in load step %lld", (long long)e->clock.load_step);
-    else snprintf(when, sizeof when, "at %.4g s", t);
+    if (scene_in_steps(e->scene))
+        snprintf(when, sizeof when, "in load step %lld", (long long)e->clock.load_step);
+    else
+        snprintf(when, sizeof when, "at %.4g s", t);
     snprintf(text, sizeof text,
              "boundary %s%s: bonds of the particles that it drives break, the first %s: a grip that tears off pulls no "
              "more; they count as crack.driven_bonds, not in crack.start_time and probes",
@@ -477,7 +501,7 @@ static void say_torn(struct run *e, real t)
 
 void sample_breaks(struct run *e, int64_t broken)
 {
-    const bool in_steps = scene_in_steps(e->scene);  /* whose bonds break before its end, which is its time */
+    const bool in_steps = scene_in_steps(e->scene); /* whose bonds break before its end, which is its time */
     const real step = e->scene->duration / (real)e->scene->steps.number;
     const real t = in_steps ? step * (real)e->clock.load_step : e->clock.t;
     struct observed o = run_observed(e);

@@ -13,10 +13,10 @@
 #include "rigid/rigid_part.h"
 #include "step/checks.h"
 
-#define LOAD_SHARE_LEAST 0.5 /* least share of a motion by loads that explain it: speeds double at free faces */
-#define LARGE_STRAIN 0.1                 /* initial strain; its stresses are a tenth of the modulus */
-#define ENERGY_STEPS 50                  /* steps before the energy check begins */
-#define ENERGY_OF_ROUND_OFF 1e-24        /* [kinetic energy of the body at its wave speed] */
+#define LOAD_SHARE_LEAST 0.5      /* least share of a motion by loads that explain it: speeds double at free faces */
+#define LARGE_STRAIN 0.1          /* initial strain; its stresses are a tenth of the modulus */
+#define ENERGY_STEPS 50           /* steps before the energy check begins */
+#define ENERGY_OF_ROUND_OFF 1e-24 /* [kinetic energy of the body at its wave speed] */
 /* share of all energies that no stable run gains: the first steps of a jump in velocity show 0.1, unstable runs that
  * break all bonds 0.9 */
 #define ENERGY_FROM_NOWHERE 0.5
@@ -26,8 +26,8 @@
 /* kinetic energy 1/2 m v- . v+ below this share of the strain energy, negative: velocities change sign in every step.
  * Steps below the critical one keep it above -(dt/dt_critical)^2. */
 #define KINETIC_LEAST -0.9
-enum { INVERSION_STEPS = 50 };               /* steps between checks for inverted cells, which cost about half a step */
-enum { MOMENTS = 256 };                  /* samples of a function of time */
+enum { INVERSION_STEPS = 50 }; /* steps between checks for inverted cells, which cost about half a step */
+enum { MOMENTS = 256 };        /* samples of a function of time */
 
 /* ---- speeds ------------------------------------------------------------------------------------------------------ */
 
@@ -42,7 +42,7 @@ static real fastest_now(const struct particles *p, const struct reference_frame 
 void stability_make(struct run *e)
 {
     e->stability->start_speed = real_max(diagnostics_fastest(&e->part, e->part.list[KIND_PD], e->part.n_of[KIND_PD]),
-                              diagnostics_fastest(&e->part, e->part.list[KIND_MPM], e->part.n_of[KIND_MPM]));
+                                         diagnostics_fastest(&e->part, e->part.list[KIND_MPM], e->part.n_of[KIND_MPM]));
     rise_note(&e->stability->speed, 0, square(e->stability->start_speed));
 }
 
@@ -73,8 +73,7 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     if (drives) return most * sqrt(dot(b->value, b->value, p->dim));
     for (int64_t k = 0; k < load->n; k++) {
         real a2 = 0;
-        for (int d = 0; d < p->dim; d++)
-            a2 += square(load->share[d][k] * b->value[d] / p->mass[load->particle[k]]);
+        for (int d = 0; d < p->dim; d++) a2 += square(load->share[d][k] * b->value[d] / p->mass[load->particle[k]]);
         fast2 = real_max(fast2, a2);
     }
     return mean * (clock->t - from) * sqrt(fast2);
@@ -142,9 +141,11 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
         "speed, and loads "
         "have done %.3g J of work; see whether its value is meant, and in which unit",
         b->name, b->displaces ? "displacement" : word[b->kind], value,
-        b->displaces ? "m" : b->by_mass ? "N/kg" : unit[b->kind],
-        b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed, within,
-        speed / e->tables.wave_speed, e->loads.work + e->loads.constraint_work);
+        b->displaces ? "m"
+        : b->by_mass ? "N/kg"
+                     : unit[b->kind],
+        b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed, within, speed / e->tables.wave_speed,
+        e->loads.work + e->loads.constraint_work);
     return true;
 }
 
@@ -167,16 +168,14 @@ static bool holds_images(const struct scene *s)
 
 /* Lists the alternatives of a scene where something gains energy: another choice for each of its parts that may be left
  * out. */
-static void say_others(const struct scene *s, const struct reference_frame *reference,
-                       enum coupling coupling, char *text, size_t room)
+static void say_others(const struct scene *s, const struct reference_frame *reference, enum coupling coupling,
+                       char *text, size_t room)
 {
     const char *other[8];
     int n = 0;
     if (s->method == METHOD_ADAPTIVE) other[n++] = "method: pd";
-    if (s->method != METHOD_PD)
-        other[n++] = reference->mesh.points > 0 ? "mpm.frame: current" : "mpm.frame: reference";
-    if (coupling != COUPLING_PARTIAL_STRESS && s->method == METHOD_ADAPTIVE)
-        other[n++] = "coupling: partial stress";
+    if (s->method != METHOD_PD) other[n++] = reference->mesh.points > 0 ? "mpm.frame: current" : "mpm.frame: reference";
+    if (coupling != COUPLING_PARTIAL_STRESS && s->method == METHOD_ADAPTIVE) other[n++] = "coupling: partial stress";
     if (s->method != METHOD_PD && reference->mesh.points == 0 && s->transfer == TRANSFER_FLIP)
         other[n++] = "mpm.transfer: apic";
     if (s->model != MODEL_BOND && s->method != METHOD_MPM) other[n++] = "model: bond";
@@ -186,7 +185,7 @@ static void say_others(const struct scene *s, const struct reference_frame *refe
         used += snprintf(text + used, room - (size_t)used, "%s%s", k == 0 ? "" : k == n - 1 ? " or " : ", ", other[k]);
 }
 
-#define SQUEEZED 0.4                     /* a bond's length over its own, below which no law here holds */
+#define SQUEEZED 0.4 /* a bond's length over its own, below which no law here holds */
 
 /* The smallest length of a bond over its own, 1 at the most. */
 static real shortest_bond(const struct bonds *b, const struct particles *p)
@@ -209,7 +208,8 @@ static bool squeeze_explanation(const struct run *e, char *text, size_t room)
     snprintf(text, room,
              "bonds are squeezed to %.2g of their length, where no law here holds; see whether so much compression is "
              "meant, or choose a smaller time.safety (now %.2f of the critical %.3g s), which keeps particles apart "
-             "a little farther", least, e->clock.dt / e->clock.dt_critical, e->clock.dt_critical);
+             "a little farther",
+             least, e->clock.dt / e->clock.dt_critical, e->clock.dt_critical);
     return true;
 }
 
@@ -218,8 +218,9 @@ void stability_remedy(const struct run *e, const struct rise *rise, real value, 
     real steps;
     char others[256];
     const enum rise_rate rate = rise_rate(rise, e->clock.step, value, &steps);
-    if (scene_in_steps(e->scene)) {      /* no step in time */
-        snprintf(text, room, "in an equilibrium: more load steps (steps.number), or a smaller solver_tolerance, are "
+    if (scene_in_steps(e->scene)) { /* no step in time */
+        snprintf(text, room,
+                 "in an equilibrium: more load steps (steps.number), or a smaller solver_tolerance, are "
                  "the way to find where it comes from; please report the scene");
         return;
     }
@@ -260,7 +261,7 @@ status divergence_check(const struct run *e, bool peridynamic, bool meshed)
     if (s == OK) return OK;
     const real speed = fastest_now(&e->part, e->frame), limit = e->tables.wave_speed;
     stability_remedy(e, &e->stability->speed, square(isfinite(speed) && speed > limit ? speed : limit), remedy,
-                  sizeof remedy);
+                     sizeof remedy);
     return status_set(s, "%s; %s", status_message(), remedy);
 }
 
@@ -268,8 +269,7 @@ status divergence_check(const struct run *e, bool peridynamic, bool meshed)
 static status inversion_check(const struct run_clock *clock, const struct particles *p,
                               const struct reference_frame *reference)
 {
-    if (reference->mesh.points == 0 || (clock->step % INVERSION_STEPS != 0 && clock->step < clock->steps))
-        return OK;
+    if (reference->mesh.points == 0 || (clock->step % INVERSION_STEPS != 0 && clock->step < clock->steps)) return OK;
     char what[48] = "a coarse cell";
     real X[DIM_MAX] = {0};
     const int64_t i = mesh_inverted(&reference->mesh, p);
@@ -302,8 +302,7 @@ static status formula_check(const struct run *e)
 
 status stability_check(struct run *e)
 {
-    const bool diverged =
-        e->frame->mesh.points > 0 && !(e->frame->speed <= e->tables.wave_speed / sqrt(e->part.dim));
+    const bool diverged = e->frame->mesh.points > 0 && !(e->frame->speed <= e->tables.wave_speed / sqrt(e->part.dim));
     TRY(formula_check(e));
     if (diverged) frame_sync_points(e, NULL, 0);
     TRY(divergence_check(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
@@ -382,13 +381,14 @@ static void say_stretched(struct run *e)
         char text[360];
         if (p->kind[i] != KIND_MPM || p->flag[i] & FLAG_MESHED || material_yields(m)) continue;
         for (int c = 0; c < n; c++) stress[c] = p->stress[c][i], sum += square(stress[c]);
-        if (2 * sum < square(STRETCH_MOST * m->young)) continue;   /* no less than the square of a principal stress */
+        if (2 * sum < square(STRETCH_MOST * m->young)) continue; /* no less than the square of a principal stress */
         const real strain = stress_principal(stress, p->dim) / m->young;
         if (!(strain > STRETCH_MOST)) continue;
         snprintf(text, sizeof text,
                  "points in mpm.frame current are stretched by %.0f %% at t = %.3g s, round x = %.4g m: from some 10 "
                  "%% on they come apart (mpm.transfer apic) or gain energy (flip), whatever the shape; mpm.frame "
-                 "reference bears any stretch", 100 * strain, e->clock.t, p->x[0][i]);
+                 "reference bears any stretch",
+                 100 * strain, e->clock.t, p->x[0][i]);
         run_say(e, text);
         e->stability->stretched = true;
     }

@@ -18,11 +18,11 @@
 
 /* What the phases of one step share. */
 struct step {
-    real middle;                /* t + dt/2 [s] */
-    real dt_velocity;           /* dt, half of it in the first step: velocities are half a step behind [s] */
-    struct pd_motion motion;    /* of peridynamic particles */
-    bool damps;                 /* the interface zone is damped in this step */
-    int64_t broken, converted;  /* directed bonds; particles */
+    real middle;               /* t + dt/2 [s] */
+    real dt_velocity;          /* dt, half of it in the first step: velocities are half a step behind [s] */
+    struct pd_motion motion;   /* of peridynamic particles */
+    bool damps;                /* the interface zone is damped in this step */
+    int64_t broken, converted; /* directed bonds; particles */
 };
 
 static struct step step_begin(struct run *e)
@@ -47,7 +47,7 @@ static void motion_begin(struct run *e, struct step *now)
     contact_update(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
                    e->diagnostics->bonds_broken, e->coupling->conversion.converted + e->coupling->conversion.reverted);
     now->motion = (struct pd_motion){e->clock.dt, now->dt_velocity, e->tables.wave_speed, e->loads.loaded, false};
-    e->grid->transfer.bonded = e->coupling->bonded;      /* reversion may have freed it */
+    e->grid->transfer.bonded = e->coupling->bonded; /* reversion may have freed it */
     lap(&e->laps, LAP_CONVERT);
 }
 
@@ -65,7 +65,7 @@ static void zone_damp(struct run *e, struct step *now)
     now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;
     if (!now->damps) return;
     e->damped += interface_damp_begin(&e->coupling->zone, &e->part, e->coupling->damping_share);
-    loads_mirror(&e->loads, &e->part);           /* bonds that break ask images for their velocity */
+    loads_mirror(&e->loads, &e->part); /* bonds that break ask images for their velocity */
 }
 
 /* True if nothing reads positions between forces and motion, as samples, growing cracks and viscosity do: then one
@@ -96,8 +96,9 @@ static void move_peridynamic(struct run *e, struct pd_motion *motion)
 {
     struct particles *p = &e->part;
     const struct loads *l = &e->loads;
-    motion->diverged |= sweep_moves(e->scene, e->report) ? e->kernels.pd_move(p, l->list, l->listed, motion)
-                                         : e->kernels.pd_move(p, p->list[KIND_PD], p->n_of[KIND_PD], motion);
+    motion->diverged |= sweep_moves(e->scene, e->report)
+                            ? e->kernels.pd_move(p, l->list, l->listed, motion)
+                            : e->kernels.pd_move(p, p->list[KIND_PD], p->n_of[KIND_PD], motion);
     e->stability->diverged = motion->diverged;
 }
 
@@ -106,10 +107,10 @@ static void move_grid(struct run *e, const struct step *now)
 {
     const bool any = e->part.n_free + e->part.n_grid_coupled > 0;
     viscosity_lend(e, true);
-    grid_map(e);                                                            /* 1, 3: mass, momentum, force to nodes */
+    grid_map(e); /* 1, 3: mass, momentum, force to nodes */
     viscosity_lend(e, false);
     residual_keep(e);
-    grid_step(e, now->middle);                                              /* 3, 4, 6, 7 */
+    grid_step(e, now->middle); /* 3, 4, 6, 7 */
     if (any && e->part.end_strain) partial_ends_update(&e->coupling->partial, &e->part, e->scene->material);
     if (any) lap(&e->laps, LAP_GATHER);
     if (now->damps) e->damped += interface_damp_end(&e->coupling->zone, &e->part);
@@ -179,7 +180,7 @@ status step(struct run *e)
     zone_damp(e, &now);
     damping_begin(e);
 
-    push_bonds(e, &now);                                                    /* 2, 5 */
+    push_bonds(e, &now); /* 2, 5 */
     viscosity_push(e);
     push_contact(e);
     rigids_book(e, now.dt_velocity);
@@ -189,14 +190,14 @@ status step(struct run *e)
     now.broken += cracks_grow(e);
     lap(&e->laps, LAP_SAMPLE);
 
-    move_peridynamic(e, &now.motion);                                       /* 4 */
-    rigids_move(e, now.middle, now.dt_velocity / damping_share(e));         /* these are not damped */
+    move_peridynamic(e, &now.motion);                               /* 4 */
+    rigids_move(e, now.middle, now.dt_velocity / damping_share(e)); /* these are not damped */
     lap(&e->laps, LAP_BONDS);
-    move_grid(e, &now);                                                     /* 1, 3, 4, 6, 7 */
-    move_frame(e, &now);                                                    /* 3, 4, 7 */
+    move_grid(e, &now);  /* 1, 3, 4, 6, 7 */
+    move_frame(e, &now); /* 3, 4, 7 */
     step_hold(e, &now);
 
-    conversion(e, &now);                                                    /* 8 */
+    conversion(e, &now); /* 8 */
     finish(e);
     return OK;
 }

@@ -27,7 +27,11 @@ static void damping_free_all(struct run *e)
 }
 
 /* Figures of one probe follow each other: a new name closes the object of the probe before. */
-struct probe_sink { struct json *json; char name[NAME_MAX_LENGTH]; bool open; };
+struct probe_sink {
+    struct json *json;
+    char name[NAME_MAX_LENGTH];
+    bool open;
+};
 
 /* Sink of the figures of probes; `context`: struct probe_sink. */
 static void put_figure(void *context, const char *probe, const char *quantity, real value)

@@ -25,9 +25,12 @@ static real points_share(const struct scene *s)
     case SHAPE_LINEAR:
         if (n < 1.5) return s->dim == 1 ? 0.48 : 0.42;
         return (fabs(n - 2) < 0.3 ? 0.52 : 0.62) * (1 + 0.4 * (s->dim - 1));
-    case SHAPE_QUADRATIC: return apic ? 0.75 : 1.8;
-    case SHAPE_CUBIC: return apic ? 1.15 : 2.1;
-    default: return apic ? (s->dim == 1 ? 0.89 : 0.84) / (1 + 0.16 * n) : 1.52;
+    case SHAPE_QUADRATIC:
+        return apic ? 0.75 : 1.8;
+    case SHAPE_CUBIC:
+        return apic ? 1.15 : 2.1;
+    default:
+        return apic ? (s->dim == 1 ? 0.89 : 0.84) / (1 + 0.16 * n) : 1.52;
     }
 }
 
@@ -77,9 +80,7 @@ static real share_of_coupling(const struct scene *s, enum coupling coupling)
 {
     const bool two = s->cell >= 2;
     if (coupling_unified(coupling)) return moved_by_grid[two][s->dim];
-    return coupling_moves_by_grid(coupling) && s->transfer == TRANSFER_FLIP
-               ? met_by_grid[two][s->dim]
-               : 1;
+    return coupling_moves_by_grid(coupling) && s->transfer == TRANSFER_FLIP ? met_by_grid[two][s->dim] : 1;
 }
 
 /* Force kernel of elastic bonds: yielding bonds are no stiffer. */
@@ -100,7 +101,7 @@ static real critical_of_lattices(struct run *e, real *bound)
     }
     for (int m = 0; m < s->materials; m++) {
         real its_bound;
-        struct bond_source one = e->source;      /* its particles are of material 0 */
+        struct bond_source one = e->source; /* its particles are of material 0 */
         one.material = &s->material[m], one.materials = 1;
         if (e->tables.modulus) one.modulus = &e->tables.modulus[m];
         one.yield = (struct bond_yield){0};
@@ -111,7 +112,7 @@ static real critical_of_lattices(struct run *e, real *bound)
     return step;
 }
 
-enum { ITERATED_MOST = 15000 };          /* particles: an iteration has some 30 rounds of a few steps each */
+enum { ITERATED_MOST = 15000 }; /* particles: an iteration has some 30 rounds of a few steps each */
 
 /* Critical step of bonds [s]. By iteration on the body where all of it is peridynamic. Where particles convert later,
  * or are many on a lattice, by iteration on a block of this lattice, reduced as the bound over all particles is smaller
@@ -123,7 +124,7 @@ static real critical_of_bonds(struct run *e)
     if (s->method == METHOD_MPM) return INFINITY;
     if (s->method == METHOD_PD && (s->irregularity > 0 || e->part.n <= ITERATED_MOST)) {
         const real step = critical_step_of(&e->bonds, &e->part, elastic_force(e), &e->loads, s->spacing);
-        return isfinite(step) ? step : s->spacing / e->tables.wave_speed;   /* no bond: any step that the loads allow */
+        return isfinite(step) ? step : s->spacing / e->tables.wave_speed; /* no bond: any step that the loads allow */
     }
     const real step = critical_of_lattices(e, &bound);
     const real share = real_min(1, bonds_critical_step(&e->part, &e->source) / bound);
@@ -132,14 +133,14 @@ static real critical_of_bonds(struct run *e)
 
 /* ---- the step ---------------------------------------------------------------------------------------------------- */
 
-#define STEPS_MOST 1e12                  /* as in scene_check.c: more than any machine can do */
+#define STEPS_MOST 1e12 /* as in scene_check.c: more than any machine can do */
 
 static status make_steps(const struct scene *s, struct run_clock *clock, real dt)
 {
     if (!(s->duration / dt <= STEPS_MOST))
         return status_set(REFUSED, "duration %.4g s would take %.1e steps of %.4g s; 1e12 is the most", s->duration,
                           s->duration / dt, dt);
-    clock->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12));    /* a little less: round-off adds no step */
+    clock->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12)); /* a little less: round-off adds no step */
     if (clock->steps < 1) clock->steps = 1;
     clock->steps += (clock->stride - clock->steps % clock->stride) % clock->stride;
     clock->dt = s->duration / (real)clock->steps;
@@ -182,9 +183,8 @@ static real lightest_share(const struct scene *s, const struct particles *p)
 status time_step_make(struct run *e)
 {
     const struct scene *s = e->scene;
-    e->clock.dt_critical =
-        real_min(real_min(critical_of_bonds(e), critical_of_points(e)), frame_critical_step(e)) *
-        sqrt(lightest_share(s, &e->part)) * viscosity_step_share(e);
+    e->clock.dt_critical = real_min(real_min(critical_of_bonds(e), critical_of_points(e)), frame_critical_step(e)) *
+                           sqrt(lightest_share(s, &e->part)) * viscosity_step_share(e);
     const real contact = contact_critical_step(e->contact, &e->part, s->material, e->clock.dt_critical);
     const real safety = frame_levels_number(e) > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;
     const real automatic =
@@ -196,9 +196,12 @@ status time_step_make(struct run *e)
                           "time.step: %.4g s is more than mpm.levels above 0 bears, %.4g s (%.2f of the critical step)",
                           dt, LEVELS_STEP_MOST * e->clock.dt_critical, LEVELS_STEP_MOST);
     e->clock.dt_bears = dt;
-    if (scene_in_steps(s)) e->clock.steps = s->steps.number, e->clock.dt = s->duration / s->steps.number;
-    else if (scene_moves(s)) TRY(make_steps(e->scene, &e->clock, dt));
-    else e->clock.steps = s->solver_steps, e->clock.dt = dt;
+    if (scene_in_steps(s))
+        e->clock.steps = s->steps.number, e->clock.dt = s->duration / s->steps.number;
+    else if (scene_moves(s))
+        TRY(make_steps(e->scene, &e->clock, dt));
+    else
+        e->clock.steps = s->solver_steps, e->clock.dt = dt;
     e->source.limit.dt = scene_in_steps(s) ? dt : e->clock.dt;
     e->source.core = e->bonds.core = core_stiffness(e->scene, &e->clock);
     return OK;

@@ -120,8 +120,10 @@ void viscosity_lend(struct run *e, bool on)
 #pragma omp parallel for schedule(static)
         for (int64_t k = 0; k < p->n_free; k++) {
             const int32_t i = p->list_free[k];
-            if (on) v->stress[d][i] = p->stress[d][i], p->stress[d][i] -= v->pressure[i];
-            else p->stress[d][i] = v->stress[d][i];
+            if (on)
+                v->stress[d][i] = p->stress[d][i], p->stress[d][i] -= v->pressure[i];
+            else
+                p->stress[d][i] = v->stress[d][i];
         }
     }
 }
@@ -249,7 +251,7 @@ void viscosity_push_nodes(struct run *e)
 
 /* ---- shocks that a scene expects --------------------------------------------------------------------------------- */
 
-#define SHOCK 0.1                        /* of the speed that breaks or yields a body, from which on it is said */
+#define SHOCK 0.1 /* of the speed that breaks or yields a body, from which on it is said */
 
 /* Smallest strain at which a material breaks or yields, times its wave speed [m/s]; INFINITY: it does neither. */
 static real speed_borne(const struct scene *s)

@@ -153,9 +153,9 @@ status figures_find(const struct convergence_study *s, const char *const *wanted
                     s->table.figure[f], s->table.figure[f]);
     for (int part = 0; part < 3; part++)
         for (int f = 0; f < s->table.figures; f++)
-            if ((wanteds > 0 || !is_one_of_several(s, s->table.figure[f])) &&
-                part_of(s->table.figure[f]) == part && is_wanted(s->table.figure[f], wanted, wanteds) &&
-                figure_make(&(*figure)[*figures], s, f) && (wanteds > 0 || figure_moves(&(*figure)[*figures])))
+            if ((wanteds > 0 || !is_one_of_several(s, s->table.figure[f])) && part_of(s->table.figure[f]) == part &&
+                is_wanted(s->table.figure[f], wanted, wanteds) && figure_make(&(*figure)[*figures], s, f) &&
+                (wanteds > 0 || figure_moves(&(*figure)[*figures])))
                 ++*figures;
     figures_units(s, *figure, *figures);
     if (*figures > 0) return OK;

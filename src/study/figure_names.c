@@ -20,9 +20,11 @@ static const struct figure_group {
     bool (*had)(const struct scene *s);
     const char *needs;
 } groups[] = {
-    {"", "steps time_step time_step_critical time_end particles particles_made particles_pd_start particles_pd_end "
-         "bonds_peak momentum_error angular_momentum_error threads wall_seconds loop_seconds memory_peak_bytes "
-         "ns_per_particle_step ns_per_bond_step rest_share", NULL, NULL},
+    {"",
+     "steps time_step time_step_critical time_end particles particles_made particles_pd_start particles_pd_end "
+     "bonds_peak momentum_error angular_momentum_error threads wall_seconds loop_seconds memory_peak_bytes "
+     "ns_per_particle_step ns_per_bond_step rest_share",
+     NULL, NULL},
     {"levels", "changes", NULL, NULL},
     {"solver", "steps residual bonds_past_limit", scene_at_rest, "`solver: relaxation` or `cg`"},
     {"load_steps", "steps load_time equilibria directions overload bonds_broken released crack_area release_rate",
@@ -31,13 +33,18 @@ static const struct figure_group {
     {"contact", "began ended nodes_max pairs_max friction_work overlap_max", of_contact, "bodies that meet"},
     {"rigid.#", "x y z velocity_x velocity_y velocity_z force_max patch", NULL, NULL},
     {"fragments", "count mass_max particles_alone mass_alone", of_fragments, "bonds that break in time, or cracks"},
-    {"crack", "start_time start_step driven_start_time driven_start_step driven_bonds tip_start_time tip_start_step "
-              "arrest_time arrest_step length_end angle_deg tied tip_speed_max tip_speed_mean",
+    {"crack",
+     "start_time start_step driven_start_time driven_start_step driven_bonds tip_start_time tip_start_step "
+     "arrest_time arrest_step length_end angle_deg tied tip_speed_max tip_speed_mean",
      scene_cracks, "cracks or bonds that break"},
-    {"crack.tips.#", "body origin_x origin_y origin_z x y z growth angle_deg start_time start_step arrest_time "
-                     "arrest_step speed_max speed_mean", scene_cracks, "cracks or bonds that break"},
-    {"conversion", "first_time x y z pd_share_start pd_share_end pd_share_max converted returned returns_most "
-                   "return_energy", NULL, NULL},
+    {"crack.tips.#",
+     "body origin_x origin_y origin_z x y z growth angle_deg start_time start_step arrest_time "
+     "arrest_step speed_max speed_mean",
+     scene_cracks, "cracks or bonds that break"},
+    {"conversion",
+     "first_time x y z pd_share_start pd_share_end pd_share_max converted returned returns_most "
+     "return_energy",
+     NULL, NULL},
 };
 
 #define READINGS(end)                                                                                                  \
@@ -65,7 +72,11 @@ static const char *const probe_leaves[PROBES] = {
 };
 
 /* The nearest name so far. */
-struct nearest { const char *to; char name[NAME_ROOM]; int distance; };
+struct nearest {
+    const char *to;
+    char name[NAME_ROOM];
+    int distance;
+};
 
 static void nearest_offer(struct nearest *n, const char *group, const char *leaf)
 {

@@ -7,8 +7,8 @@
 #include "study/convergence_study.h"
 #include "study/pilot.h"
 
-#define PILOT_FIRST_SHARE 0.6 /* of the budget for the first runs of all methods */
-#define PILOT_LONGEST 20.0    /* largest expected time of the chosen run over the budget */
+#define PILOT_FIRST_SHARE 0.6                          /* of the budget for the first runs of all methods */
+#define PILOT_LONGEST 20.0                             /* largest expected time of the chosen run over the budget */
 enum { PILOT_RUNS_FIRST = 3, PILOT_LEVELS_FIRST = 3 }; /* runs at each spacing, spacings of a study */
 
 /* A method that can do the scene, and what its runs say. */
@@ -18,10 +18,10 @@ struct pilot_candidate {
     double reached;                    /* half-width there as a share of the figure [1] */
     double spacing, seconds;           /* that is accurate enough, time of the run; 0: not known [m] [s] */
     double expected;                   /* half-width there [1] */
-    double value, width;          /* of the figure and the half-width of its interval, at the finest run */
+    double value, width;               /* of the figure and the half-width of its interval, at the finest run */
     bool seen;                         /* it was run at this spacing */
     char failed[300];                  /* why there are no figures; "": there are */
-    bool unknown;                  /* the runs have no figure of the name that is wanted */
+    bool unknown;                      /* the runs have no figure of the name that is wanted */
 };
 
 struct pilot_search {

@@ -16,10 +16,7 @@ static bool bonds_fit(const struct scene *s)
     return fit;
 }
 
-static bool needs_bonds(const struct scene *s)
-{
-    return scene_cracks(s) || s->has_pd_region || scene_watches_bonds(s);
-}
+static bool needs_bonds(const struct scene *s) { return scene_cracks(s) || s->has_pd_region || scene_watches_bonds(s); }
 
 static void candidate_add(struct pilot_search *p, const char *name, const char *method, const char *model)
 {
@@ -56,12 +53,17 @@ status pilot_plan(struct pilot_search *p)
                               "one; write a method and particles.spacing",
                               p->scene);
     if (!(p->wish.spacing > 0) && !(spacing_coarse(s) > 0))
-        return status_set(REFUSED, "%s: no length tells where pilot runs should begin; write a method and "
-                          "particles.spacing", p->scene);
+        return status_set(REFUSED,
+                          "%s: no length tells where pilot runs should begin; write a method and "
+                          "particles.spacing",
+                          p->scene);
     if (p->wish.figure[0]) TRY(figure_name_check(s, p->wish.figure));
     candidates_find(p);
-    return p->n > 0 ? OK : status_set(REFUSED, "%s: pilot runs have no method for the scene with its model, solver and "
-                                      "pd.region; write a method and particles.spacing", p->scene);
+    return p->n > 0 ? OK
+                    : status_set(REFUSED,
+                                 "%s: pilot runs have no method for the scene with its model, solver and "
+                                 "pd.region; write a method and particles.spacing",
+                                 p->scene);
 }
 
 const char *pilot_figure(const struct pilot_search *p)
@@ -83,8 +85,10 @@ status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out
     fprintf(out, "auto           they judge %s, within %.3g %%\n", pilot_figure(&p), 100 * w->within);
     fprintf(out, "auto           they vary the method (");
     for (int k = 0; k < p.n; k++) fprintf(out, "%s%s", k > 0 ? ", " : "", p.at[k].name);
-    if (w->spacing > 0) fprintf(out, "), the spacing (%.4g mm as given, and coarser)", spacing);
-    else fprintf(out, "), the spacing (%.4g mm and coarser at first, then finer)", spacing);
+    if (w->spacing > 0)
+        fprintf(out, "), the spacing (%.4g mm as given, and coarser)", spacing);
+    else
+        fprintf(out, "), the spacing (%.4g mm and coarser at first, then finer)", spacing);
     fprintf(out, "%s\n", w->at_rest ? "" : " and the time step (0.9 to 1.1 of its own)");
     if (w->at_rest)
         fprintf(out,
@@ -93,7 +97,6 @@ status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out
     fprintf(out,
             "auto           they cost at most %.4g s (accuracy.budget), of which %.4g s are for the first %d runs of "
             "each method; the run that they choose costs at most %.4g s\n",
-            w->budget, PILOT_FIRST_SHARE * w->budget, PILOT_RUNS_FIRST * PILOT_LEVELS_FIRST,
-            PILOT_LONGEST * w->budget);
+            w->budget, PILOT_FIRST_SHARE * w->budget, PILOT_RUNS_FIRST * PILOT_LEVELS_FIRST, PILOT_LONGEST * w->budget);
     return OK;
 }

@@ -18,7 +18,9 @@
 /* Bonds that are lost at all: a particle of the band has lost one of 28, or 0.036. */
 #define DAMAGED 0.02
 
-struct band { real width, growth, fracture; };           /* [m], [m], [J] */
+struct band {
+    real width, growth, fracture;
+}; /* [m], [m], [J] */
 
 /* Width of what is newly damaged: its area over the length by which both tips grew. Behind the ends of the
  * pre-crack, where particles are damaged from the start, nothing counts. */
@@ -27,7 +29,7 @@ static real band_width(const struct run *e, real growth)
     const struct particles *p = &e->part;
     real area = 0;
     for (int64_t i = 0; i < p->n; i++) {
-        real ahead = fabs(p->X[0][i]) - 5e-3;              /* of the pre-crack's end [m] */
+        real ahead = fabs(p->X[0][i]) - 5e-3; /* of the pre-crack's end [m] */
         if (p->damage[i] > DAMAGED && ahead > 0 && ahead < growth) area += square(e->scene->spacing);
     }
     return area / (2 * growth);
@@ -54,8 +56,10 @@ static struct band band_of(const char *spacing, const char *method)
  * adaptive by 3.54, 3.45, 3.76, 4.22 mm, and the same at any step up to 0.4 of the critical one. */
 static void check_bands(const char *method)
 {
-    static const struct { const char *text; real value; } spacing[] = {
-        {"1 mm", 1e-3}, {"0.625 mm", 0.625e-3}, {"0.5 mm", 0.5e-3}, {"0.3125 mm", 0.3125e-3}};
+    static const struct {
+        const char *text;
+        real value;
+    } spacing[] = {{"1 mm", 1e-3}, {"0.625 mm", 0.625e-3}, {"0.5 mm", 0.5e-3}, {"0.3125 mm", 0.3125e-3}};
     struct band b[COUNT_OF(spacing)];
     for (size_t k = 0; k < COUNT_OF(spacing); k++) b[k] = band_of(spacing[k].text, method);
     const struct band *finest = &b[COUNT_OF(spacing) - 1];
@@ -72,8 +76,16 @@ static void check_bands(const char *method)
     }
 }
 
-static void test_pd(void **state) { (void)state; check_bands("pd"); }
-static void test_adaptive(void **state) { (void)state; check_bands("adaptive"); }
+static void test_pd(void **state)
+{
+    (void)state;
+    check_bands("pd");
+}
+static void test_adaptive(void **state)
+{
+    (void)state;
+    check_bands("adaptive");
+}
 
 int main(void)
 {

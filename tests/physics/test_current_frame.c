@@ -17,13 +17,15 @@
 #include "coupling/coupling_part.h"
 #include "probes/diagnostics.h"
 
-#define AMPLITUDE 1e-5      /* of c: bonds turn by its square, which a pair of opposite motions leaves of third order */
-#define SYMMETRIC 1e-8         /* of the largest entry: places have ten spacings, 1e-15/1e-5 of a motion, a few times */
+#define AMPLITUDE 1e-5 /* of c: bonds turn by its square, which a pair of opposite motions leaves of third order */
+#define SYMMETRIC 1e-8 /* of the largest entry: places have ten spacings, 1e-15/1e-5 of a motion, a few times */
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
 /* Free blocks with nodes at odd places: for particles on the kinks of a shape forces depend on |u|. */
-struct block { const char *space, *edge, *origin, *region; };
+struct block {
+    const char *space, *edge, *origin, *region;
+};
 static const struct block line = {"line", "24 mm", "0.13 mm", "{box: {from: 7 mm, to: 16 mm}}"},
                           half = {"plane stress", "9 mm, 7 mm", "0.13 mm, 0.37 mm",
                                   "{box: {from: [-inf, -inf], to: [4 mm, inf]}}"},
@@ -36,7 +38,10 @@ static const struct block line = {"line", "24 mm", "0.13 mm", "{box: {from: 7 mm
                           cube = {"solid", "4 mm, 4 mm, 4 mm", "0.13 mm, 0.37 mm, 0.7 mm",
                                   "{box: {from: [-inf, -inf, -inf], to: [2 mm, inf, inf]}}"};
 
-struct held_run { struct run e; struct scene s; };
+struct held_run {
+    struct run e;
+    struct scene s;
+};
 
 /* `poisson` NULL: that of bonds; `more`: further keys, one a line. */
 static void run_make(struct held_run *r, const struct block *b, const char *method, const char *poisson,
@@ -59,12 +64,14 @@ static void run_make(struct held_run *r, const struct block *b, const char *meth
     bench_override(&o, "mpm.origin", "[%s]", b->origin);
     if (poisson) bench_override(&o, "material.poisson", "%s", poisson);
     assert_ok(bench_engine_make(&r->e, &r->s, "block", text, bench_overrides_ready(&o), o.n));
-    assert_ok(bench_engine_run(&r->e, 1, NULL));         /* the first step is half a step, and a sample */
+    assert_ok(bench_engine_run(&r->e, 1, NULL)); /* the first step is half a step, and a sample */
 }
 
 /* ---- operators of a step ----------------------------------------------------------------------------------------- */
 
-struct places { real *x[DIM_MAX], *volume; };
+struct places {
+    real *x[DIM_MAX], *volume;
+};
 
 static void at_rest(struct held_run *r, const struct places *was)
 {
@@ -80,7 +87,10 @@ static void at_rest(struct held_run *r, const struct places *was)
 }
 
 /* n x n each. */
-struct operators { int n; real *Q, *W, *third; };
+struct operators {
+    int n;
+    real *Q, *W, *third;
+};
 
 /* Adds velocities of now over `unit` to column k. */
 static void add_column(const struct particles *p, real *to, int n, int k, real unit)
@@ -180,7 +190,10 @@ static bool positive(const real *A, int n, real shift)
 
 /* ---- the leap-frog of one energy --------------------------------------------------------------------------------- */
 
-static const struct { const struct block *block; const char *more; } one_energy[] = {
+static const struct {
+    const struct block *block;
+    const char *more;
+} one_energy[] = {
     {&line, ""},
     {&line, "coupling: handshake\nmpm: {shape: linear}\n"},
     {&line, "coupling: pm\nmpm: {shape: linear}\n"},
@@ -208,7 +221,8 @@ static void check_one_energy(const struct block *b, const char *more)
     const char *const particles = strstr(more, "particles: {");
     if (particles)
         snprintf(keys, sizeof keys, "%.*sparticles: {spacing: 1 mm, %s", (int)(particles - more), more, particles + 12);
-    else snprintf(keys, sizeof keys, "particles: {spacing: 1 mm}\n%s", more);
+    else
+        snprintf(keys, sizeof keys, "particles: {spacing: 1 mm}\n%s", more);
     run_make(r, b, "adaptive", NULL, keys);
     struct operators o;
     operators_make(r, &o);
@@ -256,7 +270,10 @@ static real shaken(struct held_run *r, int steps)
 static void test_apic(void **state)
 {
     (void)state;
-    static const struct { const struct block *block; const char *method, *poisson, *more; } run[] = {
+    static const struct {
+        const struct block *block;
+        const char *method, *poisson, *more;
+    } run[] = {
         {&cube, "mpm", "0.49", "mpm: {transfer: apic, shape: gimp}\n"},
         {&cube, "mpm", "0.499", "mpm: {transfer: apic, shape: quadratic}\n"},
         {&half, "mpm", "0.49", "mpm: {transfer: apic, shape: cubic}\n"},
@@ -269,7 +286,7 @@ static void test_apic(void **state)
         struct block at = *run[k].block;
         char keys[256];
         snprintf(keys, sizeof keys, "particles: {spacing: 1 mm}\n%s", run[k].more);
-        at.origin = at.space[0] == 's' ? "0, 0, 0" : "0, 0";       /* where limits are lowest */
+        at.origin = at.space[0] == 's' ? "0, 0, 0" : "0, 0"; /* where limits are lowest */
         run_make(r, &at, run[k].method, run[k].poisson, keys);
         assert_true(shaken(r, 3000) <= 1);
         bench_engine_free(&r->e, &r->s);
@@ -293,10 +310,10 @@ static void test_plate(void **state)
         "initial: [{velocity_gradient: [10, 3, 0, -7]}]\noutput: {frames: 0, samples: 40}\n",
         bench_overrides_ready(&o), o.n));
     const real start = diagnostics_kinetic(&r->e.part);
-    assert_ok(bench_engine_run(&r->e, 1, NULL));         /* makes the record of samples */
+    assert_ok(bench_engine_run(&r->e, 1, NULL)); /* makes the record of samples */
     while (r->e.clock.step < 10000) {
         assert_ok(engine_step(&r->e));
-        if (r->e.clock.step < 1000) continue;  /* what ended the record's first step is extrapolated */
+        if (r->e.clock.step < 1000) continue; /* what ended the record's first step is extrapolated */
         if (!(fabs(r->e.diagnostics->now.balance_error) < 1e-5))
             print_message("step %d: %g\n", (int)r->e.clock.step, r->e.diagnostics->now.balance_error);
         /* weights change with strains of 2e-5 and turns of 0.4 degrees */
@@ -316,16 +333,22 @@ static void test_plate(void **state)
 static void test_turning(void **state)
 {
     (void)state;
-    static const char plane[] = "space: plane stress\nthickness: 1 mm\nduration: 2.51327 ms\n"
+    static const char plane[] =
+        "space: plane stress\nthickness: 1 mm\nduration: 2.51327 ms\n"
         "body: {disc: {centre: [0, 0], radius: 10 mm}}\npd: {region: {disc: {centre: [0, 0], radius: 4 mm}}}\n"
         "particles: {spacing: 1 mm}\ninitial: [{velocity_gradient: [[0, -5000], [5000, 0]]}]\n";
-    static const char solid[] = "space: solid\nduration: 2.51327 ms\n"
+    static const char solid[] =
+        "space: solid\nduration: 2.51327 ms\n"
         "body: {ball: {centre: [0, 0, 0], radius: 5 mm}}\npd: {region: {ball: {centre: [0, 0, 0], radius: 2 mm}}}\n"
         "particles: {spacing: 1 mm, horizon: 2.015}\n"
         "initial: [{velocity_gradient: [[0, -3000, 2400], [3000, 0, -3200], [-2400, 3200, 0]]}]\n";
-    static const struct { const char *text, *model, *coupling; } ball[] = {
-        {plane, "bond", "partial stress"}, {plane, "mospd", "partial stress"}, {plane, "ospd", "handshake"},
-        {solid, "bond", "partial stress"}, {solid, "mospd", "handshake"}};
+    static const struct {
+        const char *text, *model, *coupling;
+    } ball[] = {{plane, "bond", "partial stress"},
+                {plane, "mospd", "partial stress"},
+                {plane, "ospd", "handshake"},
+                {solid, "bond", "partial stress"},
+                {solid, "mospd", "handshake"}};
     for (size_t k = 0; k < COUNT_OF(ball); k++) {
         struct held_run *r = NEW("test.run", 1, struct held_run);
         char text[1024];
@@ -345,7 +368,7 @@ static void test_turning(void **state)
 
 int main(void)
 {
-    omp_set_num_threads(1);              /* bodies of a hundred particles */
+    omp_set_num_threads(1); /* bodies of a hundred particles */
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_one_energy), cmocka_unit_test(test_apic),
                                        cmocka_unit_test(test_plate), cmocka_unit_test(test_turning)};
     return cmocka_run_group_tests(tests, NULL, NULL);

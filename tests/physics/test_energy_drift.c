@@ -63,8 +63,8 @@ static void test_seen(void **state)
 /* ---- energy is kept ---------------------------------------------------------------------------------------------- */
 
 #define PLATE .dim = 2, .edge = 12
-#define MESH(by, law, nu, where) PLATE, .method = "adaptive", .frame = "reference", .coupling = by, .model = law,      \
-                                 .poisson = nu, .region = where
+#define MESH(by, law, nu, where)                                                                                       \
+    PLATE, .method = "adaptive", .frame = "reference", .coupling = by, .model = law, .poisson = nu, .region = where
 static const struct drift_case meshed[] = {
     {.c = {MESH("partial stress", "bond", 0, DISC)}},
     {.c = {MESH("partial stress", "ospd", 0.2, NOTCH)}},
@@ -79,14 +79,14 @@ static void test_meshed(void **state)
 {
     (void)state;
     const struct drift_case solid = {.c = {.dim = 3,
-                                             .edge = 6,
-                                             .method = "adaptive",
-                                             .frame = "reference",
-                                             .coupling = "partial stress",
-                                             .model = "mospd",
-                                             .poisson = 0.3,
-                                             .horizon = 2.015,
-                                             .region = CORNER}};
+                                           .edge = 6,
+                                           .method = "adaptive",
+                                           .frame = "reference",
+                                           .coupling = "partial stress",
+                                           .model = "mospd",
+                                           .poisson = 0.3,
+                                           .horizon = 2.015,
+                                           .region = CORNER}};
     all_hold(meshed, COUNT_OF(meshed), steps_of(100000));
     all_hold(&solid, 1, steps_of(20000));
 }
@@ -128,8 +128,9 @@ static void test_touching(void **state)
 
 /* ---- and never gained -------------------------------------------------------------------------------------------- */
 
-#define GRID(by, law, nu, where, to) PLATE, .method = "adaptive", .frame = "current", .transfer = to, .shape = "gimp", \
-                                     .coupling = by, .model = law, .poisson = nu, .region = where
+#define GRID(by, law, nu, where, to)                                                                                   \
+    PLATE, .method = "adaptive", .frame = "current", .transfer = to, .shape = "gimp", .coupling = by, .model = law,    \
+           .poisson = nu, .region = where
 static const struct drift_case current[] = {
     {.c = {GRID("partial stress", "bond", 0, SQUARE, "flip"), .offset = 0.25}},
     {.c = {GRID("handshake", "bond", 0, HALF, "flip")}},
@@ -166,11 +167,16 @@ static void test_noise(void **state)
 
 /* A plate with a slit between its cells or inside them, which nothing breaks: 1e5 steps keep its energy as 1e4 do. */
 #define SLIT(height)                                                                                                   \
-    {.name = "slit at " height, .c = {.dim = 2, .text =                                                                \
-     "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: adaptive\n"                                           \
-     "material: {young: 72e9, density: 2440}\nbody: {box: {from: [0, 0], to: [14e-3, 10e-3]}}\n"                       \
-     "particles: {spacing: 1e-3, horizon: 2.015}\ncracks: [{from: [-1e-3, " height "], to: [9.3e-3, " height "]}]\n"   \
-     "conversion: {notch: slit, tips: 1}\ncontact: {between: none}\noutput: {frames: 0, samples: 1}\n"}}
+    {                                                                                                                  \
+        .name = "slit at " height, .c = {                                                                              \
+            .dim = 2,                                                                                                  \
+            .text = "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: adaptive\n"                            \
+                    "material: {young: 72e9, density: 2440}\nbody: {box: {from: [0, 0], to: [14e-3, 10e-3]}}\n"        \
+                    "particles: {spacing: 1e-3, horizon: 2.015}\ncracks: [{from: [-1e-3, " height                      \
+                    "], to: [9.3e-3, " height "]}]\n"                                                                  \
+                    "conversion: {notch: slit, tips: 1}\ncontact: {between: none}\noutput: {frames: 0, samples: 1}\n"  \
+        }                                                                                                              \
+    }
 
 static void test_slit(void **state)
 {
@@ -193,9 +199,9 @@ static void test_named(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_seen),     cmocka_unit_test(test_meshed),
-                                       cmocka_unit_test(test_held),     cmocka_unit_test(test_touching),
-                                       cmocka_unit_test(test_current),  cmocka_unit_test(test_noise),
-                                       cmocka_unit_test(test_named),    cmocka_unit_test(test_slit)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_seen),    cmocka_unit_test(test_meshed),
+                                       cmocka_unit_test(test_held),    cmocka_unit_test(test_touching),
+                                       cmocka_unit_test(test_current), cmocka_unit_test(test_noise),
+                                       cmocka_unit_test(test_named),   cmocka_unit_test(test_slit)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -53,7 +53,7 @@ int main(void)
 {
     struct CMUnitTest tests[FAILING_SCENES];
     for (int k = 0; k < FAILING_SCENES; k++)
-        tests[k] = (struct CMUnitTest){.name = limits_scene[k]->name, .test_func = figures_are_as_known,
-                                       .initial_state = (void *)limits_scene[k]};
+        tests[k] = (struct CMUnitTest){
+            .name = limits_scene[k]->name, .test_func = figures_are_as_known, .initial_state = (void *)limits_scene[k]};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

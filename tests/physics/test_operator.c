@@ -18,14 +18,18 @@
 #include "mesh/mesh_part.h"
 #include "step/step.h"
 
-#define SYMMETRIC 1e-8                   /* of the largest entry: differences leave 1e-11 */
-#define LEDGER 1e-6                      /* terms of third order at displacements of 1e-6 spacings */
-#define NEGATIVE (-1e-8)                 /* of the highest eigenvalue: differences leave 1e-11 */
+#define SYMMETRIC 1e-8   /* of the largest entry: differences leave 1e-11 */
+#define LEDGER 1e-6      /* terms of third order at displacements of 1e-6 spacings */
+#define NEGATIVE (-1e-8) /* of the highest eigenvalue: differences leave 1e-11 */
 
 /* `loose`: motions that bonds or cells alone let go, besides rigid ones. */
-struct body { const char *name; struct stability_case c; int loose; };
+struct body {
+    const char *name;
+    struct stability_case c;
+    int loose;
+};
 
-static char **asked;                     /* parts of names on the command line */
+static char **asked; /* parts of names on the command line */
 static int asks, done, wrong;
 
 /* ---- one case ---------------------------------------------------------------------------------------------------- */
@@ -47,7 +51,7 @@ static bool is_asked(const char *name)
     return asks == 0;
 }
 
-static void dump(const struct operator *o, const char *name)
+static void dump(const struct operator* o, const char *name)
 {
     char path[512];
     if (!getenv("OPERATOR_DUMP")) return;
@@ -70,8 +74,8 @@ static void check(const char *name, const struct stability_case *c, int loose)
     }
     const struct spectrum s = operator_spectrum(&o, getenv("OPERATOR_FLUTTER") != NULL);
     const int rigid = rigid_of(c, o.s.bodies);
-    const bool good = s.asymmetry <= SYMMETRIC && s.lowest >= NEGATIVE * s.highest && s.zeros <= rigid + loose &&
-                      s.energy <= LEDGER;
+    const bool good =
+        s.asymmetry <= SYMMETRIC && s.lowest >= NEGATIVE * s.highest && s.zeros <= rigid + loose && s.energy <= LEDGER;
     wrong += !good;
     printf("%s %-62s %4lld %9.1e %10.1e  %2lld of %d %9.1e", good ? "  " : "! ", name, (long long)o.n, s.asymmetry,
            s.lowest / s.highest, (long long)s.zeros, rigid + loose, s.energy);
@@ -90,7 +94,7 @@ static void check_all(const struct body *b, int n)
 /* Every test begins like this and ends with the count of what is wrong in it. */
 static void begin(void)
 {
-    omp_set_num_threads(1);              /* bodies are small */
+    omp_set_num_threads(1); /* bodies are small */
     wrong = 0;
 }
 
@@ -107,7 +111,7 @@ static void test_tools(void **state)
         for (int j = 0; j < N; j++) A[i * N + j] = i == j ? (i == 0 || i == N - 1 ? 1 : 2) : abs(i - j) == 1 ? -1 : 0;
     eigen_symmetric(A, N, d, scratch);
     for (int k = 0; k < N; k++) assert_near(d[k], 2 - 2 * cos(k * M_PI / N), 1e-14);
-    for (int i = 0; i < N; i++)          /* a dense one: 1 + n on the diagonal, else 1 */
+    for (int i = 0; i < N; i++) /* a dense one: 1 + n on the diagonal, else 1 */
         for (int j = 0; j < N; j++) A[i * N + j] = 1 + (i == j) * N;
     eigen_symmetric(A, N, d, scratch);
     for (int k = 0; k < N; k++) assert_near(d[k], k < N - 1 ? N : 2 * N, 1e-12);
@@ -238,7 +242,10 @@ static void test_parts(void **state)
 
 /* ---- both -------------------------------------------------------------------------------------------------------- */
 
-static const struct { const char *name; enum stability_region region; double offset;
+static const struct {
+    const char *name;
+    enum stability_region region;
+    double offset;
 } shapes[] = {{"half", HALF, 0},
               {"half, cut cells", HALF, 0.5},
               {"strip", STRIP, 0},
@@ -250,7 +257,10 @@ static const struct { const char *name; enum stability_region region; double off
               {"notch", NOTCH, 0},
               {"notch, cut cells", NOTCH, 0.5},
               {"spots", SPOTS, 0}};
-static const struct { const char *name; struct stability_case c; } laws[] = {
+static const struct {
+    const char *name;
+    struct stability_case c;
+} laws[] = {
     {"bond", {.model = "bond"}},
     {"bond lattice", {.model = "bond", .constants = "lattice"}},
     {"bond isotropic weights 2.015", {.model = "bond", .weights = "isotropic", .horizon = 2.015}},
@@ -328,7 +338,9 @@ static void test_coupled_elsewhere(void **state)
 
 /* ---- supports ---------------------------------------------------------------------------------------------------- */
 
-static const struct { const char *name; enum stability_support support;
+static const struct {
+    const char *name;
+    enum stability_support support;
 } supports[] = {{"mirror", MIRROR}, {"mirror across", MIRROR_ACROSS}, {"two mirrors", MIRRORS},
                 {"clamp", CLAMP},   {"clamp across", CLAMP_ACROSS},   {"clamp and mirror", CLAMP_MIRROR},
                 {"fixed", FIXED}};
@@ -349,8 +361,8 @@ static void test_supports(void **state)
                 snprintf(name, sizeof name, "%s %s, %s", coupled_too ? "partial" : "pd", model[m], supports[k].name);
                 check(name, &c, 0);
             }
-    const struct stability_case shaken = {.dim = 2, .edge = 10, .method = "pd", .model = "bond", .irregularity = 0.5,
-                                          .support = CLAMP_MIRROR};
+    const struct stability_case shaken = {
+        .dim = 2, .edge = 10, .method = "pd", .model = "bond", .irregularity = 0.5, .support = CLAMP_MIRROR};
     check("pd bond, irregular, clamp and mirror", &shaken, 0);
     const struct stability_case solid = {
         .dim = 3, .edge = 5, .method = "pd", .model = "mospd", .poisson = 0.3, .horizon = 2.015, .support = CLAMP};
@@ -362,7 +374,8 @@ int main(int n, char **words)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_tools),
                                        cmocka_unit_test(test_alone),
-                                       cmocka_unit_test(test_cells), cmocka_unit_test(test_slits),
+                                       cmocka_unit_test(test_cells),
+                                       cmocka_unit_test(test_slits),
                                        cmocka_unit_test(test_parts),
                                        cmocka_unit_test(test_coupled),
                                        cmocka_unit_test(test_coupled_elsewhere),

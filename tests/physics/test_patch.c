@@ -69,7 +69,9 @@ static void lattice_stress(const struct cloud_plan *plan, const real strain[DIM_
 }
 
 /* C11, C12, C66 of the lattice and its answer to dilatation, over those of the material. */
-struct constants { real dilatation, c11, c12, c66; };
+struct constants {
+    real dilatation, c11, c12, c66;
+};
 
 static struct constants lattice_constants(const struct cloud_plan *plan)
 {
@@ -177,7 +179,7 @@ static void test_mpm_rest(void **state)
             patch_grid(&s, 2, 0);
             patch_map(&s, (enum shape)shape);
             real face = 1e6 * pow(2 * CLOUD_SPACING, dim - 1) * s.c.source.family.section;
-            at_most("inner nodal force", patch_residual(&s, from, to) / face, 1e-12);     /* of about six stresses */
+            at_most("inner nodal force", patch_residual(&s, from, to) / face, 1e-12); /* of about six stresses */
             assert_true(patch_residual(&s, (real[]){-9, -9, -9}, (real[]){99, 99, 99}) >
                         0.4 * face); /* the edge is felt */
             patch_free(&s);
@@ -215,9 +217,9 @@ static real crossing_residual(enum shape shape, real lambda)
 static void test_mpm_crossing(void **state)
 {
     (void)state;
-    static const struct { real lambda, linear, gimp, cpgimp, quadratic; } row[] = {
-        {1.0, 0, 0, 0, 0}, {1.1, 0.55, 0.055, 0, 0.055}, {1.5, 0.75, 0.375, 0, 0.19},
-        {3.0, 1.5, 1.5, 0, 0.75}};
+    static const struct {
+        real lambda, linear, gimp, cpgimp, quadratic;
+    } row[] = {{1.0, 0, 0, 0, 0}, {1.1, 0.55, 0.055, 0, 0.055}, {1.5, 0.75, 0.375, 0, 0.19}, {3.0, 1.5, 1.5, 0, 0.75}};
     for (size_t k = 0; k < COUNT_OF(row); k++) {
         /* printed to two digits, and 1 % for sampling the positions; exact zeros to round-off of places of up to 60
          * cells */
@@ -234,12 +236,8 @@ static void test_mpm_crossing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pd_rest),
-        cmocka_unit_test(test_pd_lattice),
-        cmocka_unit_test(test_pd_isotropic),
-        cmocka_unit_test(test_pd_calibrations),
-        cmocka_unit_test(test_mpm_rest),
-        cmocka_unit_test(test_mpm_crossing),
+        cmocka_unit_test(test_pd_rest),         cmocka_unit_test(test_pd_lattice), cmocka_unit_test(test_pd_isotropic),
+        cmocka_unit_test(test_pd_calibrations), cmocka_unit_test(test_mpm_rest),   cmocka_unit_test(test_mpm_crossing),
     };
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);

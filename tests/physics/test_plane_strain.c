@@ -25,7 +25,7 @@ enum { ROW_KEYS = 6 };
     "output: {frames: 1, samples: 1}\n"                                                                                \
     "probes: [{point: {name: gauge, at: [50.5 mm, 0.5 mm]}}, "                                                         \
     "{line: {name: across, from: [-50 mm, 0.5 mm], to: [-49 mm, 0.5 mm], points: 2}}]\n"
-#define TRACE 3e-5                       /* eps_xx + eps_yy of it */
+#define TRACE 3e-5 /* eps_xx + eps_yy of it */
 /* half width of the undisturbed middle of a block: 12 mm less two horizons, which corrected surfaces reach, or
  * less the wave [m] */
 #define INSIDE 3.6e-3
@@ -36,9 +36,14 @@ enum { ROW_KEYS = 6 };
  * its cell. */
 #define SMALL 1e-4
 
-struct row { const char *name; struct scene_override key[ROW_KEYS]; };
-#define STATES(model) {"model", model}, {"materials[0].poisson", "0.1"}, {"materials[1].poisson", "0.4"}
-#define HALF {"method", "adaptive"}, {"pd.region", "{box: {from: [-inf, -inf], to: [inf, 0]}}"}
+struct row {
+    const char *name;
+    struct scene_override key[ROW_KEYS];
+};
+#define STATES(model)                                                                                                  \
+    {"model", model}, {"materials[0].poisson", "0.1"}, { "materials[1].poisson", "0.4" }
+#define HALF                                                                                                           \
+    {"method", "adaptive"}, { "pd.region", "{box: {from: [-inf, -inf], to: [inf, 0]}}" }
 static const struct row uniform[] = {
     {"mpm flip", {{"materials[0].poisson", "0.1"}, {"materials[1].poisson", "0.4"}}},
     {"mpm apic linear", {{"mpm.transfer", "apic"}, {"materials[0].poisson", "0"}}},
@@ -53,13 +58,17 @@ static const struct row uniform[] = {
     {"adaptive mospd reference", {HALF, STATES("mospd"), {"mpm.frame", "reference"}}},
 };
 
-struct ran { struct scene s; struct run e; struct output o; };
+struct ran {
+    struct scene s;
+    struct run e;
+    struct output o;
+};
 
 static void run(struct ran *r, const char *text, const struct scene_override *key)
 {
     int keys = 0;
     *r = (struct ran){0};
-    assert_int_equal(system("rm -rf " FOLDER), 0);         /* of a test that failed */
+    assert_int_equal(system("rm -rf " FOLDER), 0); /* of a test that failed */
     while (keys < ROW_KEYS && key && key[keys].key) keys++;
     if (scene_read_text(&r->s, text, strlen(text), "test.yaml", key, keys) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(&r->e, &r->s, &r->o));
@@ -87,7 +96,8 @@ static double last_value(const char *file, const char *name)
     while (fgets(line, sizeof line, in)) strcpy(last, line);
     fclose(in);
     char *value = last, *rest = head, *title;
-    for (; (title = strsep(&rest, ",\n")) != NULL && strncmp(title, name, strlen(name)) != 0; column++) ;
+    for (; (title = strsep(&rest, ",\n")) != NULL && strncmp(title, name, strlen(name)) != 0; column++)
+        ;
     for (; title && column > 0; column--) value = strchr(value, ',') + 1;
     return title ? strtod(value, NULL) : NAN;
 }
@@ -136,7 +146,7 @@ static void uniform_strain(void **state)
     const double gauge = last_value(FOLDER "/history.csv", "gauge.stress_zz");
     const double wanted = r.s.material[1].poisson * (last_value(FOLDER "/history.csv", "gauge.stress_xx") +
                                                      last_value(FOLDER "/history.csv", "gauge.stress_yy"));
-    assert_close(gauge, wanted, 1e-7);                     /* written with nine digits */
+    assert_close(gauge, wanted, 1e-7); /* written with nine digits */
     if (points) assert_near(gauge, across_of(&r.s.material[1]), SMALL * r.s.material[1].young * TRACE);
     if (points)
         assert_near(last_value(FOLDER "/across_000001.csv", "stress_zz"), across_of(&r.s.material[0]),
@@ -185,7 +195,7 @@ static void flow(void **state)
         assert_near(f.stress[3][i], f.stress[1][i], 1e-4 * yield);
         assert_near(f.stress[0][i] - f.stress[1][i], yield, 1e-4 * yield);
         assert_near(f.stress[3][i], wanted, 1e-3 * wanted);
-        assert_true(f.stress[3][i] > 1.1 * 0.25 * (f.stress[0][i] + f.stress[1][i]));   /* no elastic one */
+        assert_true(f.stress[3][i] > 1.1 * 0.25 * (f.stress[0][i] + f.stress[1][i])); /* no elastic one */
         seen++;
     }
     assert_int_equal(seen, 64);

@@ -138,7 +138,7 @@ static void test_scales(void **state)
                      "density: 2440}\nbody: {box: {from: [0, 0], to: [%.9g, %.9g]}}\nparticles: {spacing: %.9g}\n",
                      D, D, method[m / COUNT_OF(frame)], 12 * D, 8 * D, D);
             share[k] = automatic_of(text, "mpm.frame", frame[m % COUNT_OF(frame)]) / D;
-            assert_close(share[k], share[0], 1e-7);     /* strains of the trial motion */
+            assert_close(share[k], share[0], 1e-7); /* strains of the trial motion */
         }
     }
     const char *const one =

@@ -13,16 +13,14 @@
 #include "tests/support/solution.h"
 
 #define PISTON                                                                                                         \
-    "material: {young: 70 GPa, density: 2700}\nparticles: {spacing: 1 mm}\noutput: {samples: 20, frames: 1}\n"        \
+    "material: {young: 70 GPa, density: 2700}\nparticles: {spacing: 1 mm}\noutput: {samples: 20, frames: 1}\n"         \
     "mpm: {frame: reference, levels: 0}\n"
 
 static const char *const line =
-    "space: line\nsection: 3 cm^2\nduration: 11 us\n" PISTON
-    "body: {box: {from: [0], to: [90 mm]}}\n"
+    "space: line\nsection: 3 cm^2\nduration: 11 us\n" PISTON "body: {box: {from: [0], to: [90 mm]}}\n"
     "boundary:\n  - {velocity: [5 m/s], region: {box: {from: [-1 mm], to: [2 mm]}}}\n";
 static const char *const flat =
-    "space: plane strain\nthickness: 7 mm\nduration: 10 us\n" PISTON
-    "body: {box: {from: [0, 0], to: [90 mm, 6 mm]}}\n"
+    "space: plane strain\nthickness: 7 mm\nduration: 10 us\n" PISTON "body: {box: {from: [0, 0], to: [90 mm, 6 mm]}}\n"
     "boundary:\n  - {velocity: [5 m/s, free], region: {box: {from: [-1 mm, -1 mm], to: [2 mm, 7 mm]}}}\n"
     "  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 6 mm}}\n";
 static const char *const solid =
@@ -32,7 +30,9 @@ static const char *const solid =
     "  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 4 mm}}\n"
     "  - {mirror: {axis: z, at: 0}}\n  - {mirror: {axis: z, at: 4 mm}}\n";
 
-struct front { const char *name, *scene, *method; };
+struct front {
+    const char *name, *scene, *method;
+};
 
 /* The largest velocity, and the largest difference from v behind the front, but for a tenth of the way at the piston
  * and the last spacings before the front, over v. */
@@ -92,7 +92,7 @@ static void momenta_are_kept(void **state)
     assert_true(now->energy.viscous > 0.02 * a.e.diagnostics->energy_scale);
     assert_near(now->momentum_error, 0, 1e-12);
     assert_near(now->spin_error, 0, 1e-12);
-    assert_near(now->balance_error, 0, 2e-3);                    /* of the contact, without viscosity as with it */
+    assert_near(now->balance_error, 0, 2e-3); /* of the contact, without viscosity as with it */
     solution_free(&a);
 }
 
@@ -140,9 +140,9 @@ static void refused(void **state)
 
 int main(void)
 {
-    static const struct front front[] = {{"line, bonds", line, "pd"},      {"line, cells", line, "mpm"},
-                                         {"plane, bonds", flat, "pd"},     {"plane, cells", flat, "mpm"},
-                                         {"solid, bonds", solid, "pd"},    {"solid, cells", solid, "mpm"}};
+    static const struct front front[] = {{"line, bonds", line, "pd"},   {"line, cells", line, "mpm"},
+                                         {"plane, bonds", flat, "pd"},  {"plane, cells", flat, "mpm"},
+                                         {"solid, bonds", solid, "pd"}, {"solid, cells", solid, "mpm"}};
     static char *const method[] = {"method=pd", "method=mpm"};
     struct CMUnitTest tests[COUNT_OF(front) + 4];
     int n = 0;

@@ -19,12 +19,12 @@
 #include "scene/scene.h"
 #include "trees.h"
 
-enum { NAME = 256, SIGNAL = 1000, PATIENCE = 20 };        /* SIGNAL + 9: ended by signal 9; seconds until a run hangs */
+enum { NAME = 256, SIGNAL = 1000, PATIENCE = 20 }; /* SIGNAL + 9: ended by signal 9; seconds until a run hangs */
 
 static const struct fault_plan undisturbed = {.deed = DO_NOTHING};
 
-static long *count;                      /* of the last run, in shared memory */
-static int wrong;                        /* what this process complained about */
+static long *count; /* of the last run, in shared memory */
+static int wrong;   /* what this process complained about */
 
 static void complain(const char *format, ...)
 {
@@ -40,7 +40,9 @@ static void complain(const char *format, ...)
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
 /* A run: the folder it is in, its scene and what it said. */
-struct place { char folder[NAME], scene[NAME], said[NAME]; };
+struct place {
+    char folder[NAME], scene[NAME], said[NAME];
+};
 
 static struct place place_of(const char *name, const struct fault_scene *s)
 {
@@ -122,8 +124,10 @@ static void resumes(const char *what, const struct place *reference, const struc
 {
     int lines;
     const int end = run(&undisturbed, p, threads, true);
-    if (end != 0) complain("%s, then --resume: status %d: %s", what, end, said(p, &lines));
-    else if (!same(reference, p)) complain("%s, then --resume: other results", what);
+    if (end != 0)
+        complain("%s, then --resume: status %d: %s", what, end, said(p, &lines));
+    else if (!same(reference, p))
+        complain("%s, then --resume: other results", what);
 }
 
 /* Work for two processes, for two processors: what they complain about. */

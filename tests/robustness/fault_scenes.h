@@ -6,20 +6,23 @@
 #define EVERY_STEP "output: {frames: 3, samples: 1000000}\n"
 #define EVERY_STEP_KEPT "output: {frames: 3, samples: 1000000, checkpoint: 0}\n"
 
-struct fault_scene { const char *name, *text; };
+struct fault_scene {
+    const char *name, *text;
+};
 
 /* The smallest that writes everything: for faults at every call. */
-static const struct fault_scene small_scene = {"small",
-    "space: plane stress\nthickness: 1 mm\nduration: 1 us\n"
-    "material: {young: 190 GPa, density: 7800, energy_release_rate: 100}\n"
-    "body: {box: {from: [0, 0], to: [8 mm, 6 mm]}}\nparticles: {spacing: 1 mm}\ntime: {step: 0.2 us}\n"
-    "cracks: [{from: [0, 3 mm], to: [4 mm, 3 mm]}]\n"
-    "boundary: [{name: pull, velocity: [free, 10], region: {box: {from: [0, 5 mm], to: [8 mm, 6 mm]}}}]\n"
-    "output: {frames: 1, samples: 2, checkpoint: 0}\n"
-    "probes: [tip, line: {from: [0, 1 mm], to: [8 mm, 1 mm], points: 3}]\n"};
+static const struct fault_scene small_scene = {
+    "small", "space: plane stress\nthickness: 1 mm\nduration: 1 us\n"
+             "material: {young: 190 GPa, density: 7800, energy_release_rate: 100}\n"
+             "body: {box: {from: [0, 0], to: [8 mm, 6 mm]}}\nparticles: {spacing: 1 mm}\ntime: {step: 0.2 us}\n"
+             "cracks: [{from: [0, 3 mm], to: [4 mm, 3 mm]}]\n"
+             "boundary: [{name: pull, velocity: [free, 10], region: {box: {from: [0, 5 mm], to: [8 mm, 6 mm]}}}]\n"
+             "output: {frames: 1, samples: 2, checkpoint: 0}\n"
+             "probes: [tip, line: {from: [0, 1 mm], to: [8 mm, 1 mm], points: 3}]\n"};
 
 /* Two notches of a plate crack: material points convert in most of its steps. */
-static const struct fault_scene converting_scene = {"converting",
+static const struct fault_scene converting_scene = {
+    "converting",
     "space: plane stress\nthickness: 1 mm\nduration: 8 us\n"
     "material: {young: 190 GPa, density: 7800, energy_release_rate: 2000}\n"
     "body: {box: {from: [0, 0], to: [30 mm, 24 mm]}}\nparticles: {spacing: 1 mm}\ntime: {step: 0.1 us}\n"
@@ -27,8 +30,7 @@ static const struct fault_scene converting_scene = {"converting",
     "cracks: [{from: [-1 mm, 12 mm], to: [10 mm, 12 mm]}]\n"
     "boundary:\n"
     "  - {name: top, velocity: [free, 30], region: {box: {from: [0, 23 mm], to: [30 mm, 24 mm]}}}\n"
-    "  - {name: bottom, velocity: [free, -30], region: {box: {from: [0, 0], to: [30 mm, 1 mm]}}}\n"
-    EVERY_STEP_KEPT
+    "  - {name: bottom, velocity: [free, -30], region: {box: {from: [0, 0], to: [30 mm, 1 mm]}}}\n" EVERY_STEP_KEPT
     "probes: [tip, break, energy, momentum, reaction: {boundary: top}, point: {at: [20 mm, 12 mm]},\n"
     "         line: {from: [1 mm, 5 mm], to: [29 mm, 5 mm], points: 9}]\n"};
 
@@ -95,7 +97,7 @@ static const struct fault_scene fault_scenes[] = {
      "boundary:\n  - {name: top, velocity: [free, 20, free], region: {box: {from: [0, 9 mm, 0], to: [12 mm, 10 mm, 4 "
      "mm]}}}\n"
      "  - {mirror: {axis: y, at: 0}}\n" EVERY_STEP "probes: [tip, break, reaction: {boundary: top}, line: {from: [1 "
-                                                   "mm, 5 mm, 2 mm], to: [11 mm, 5 mm, 2 mm], points: 5}]\n"},
+     "mm, 5 mm, 2 mm], to: [11 mm, 5 mm, 2 mm], points: 5}]\n"},
 };
 
 #endif

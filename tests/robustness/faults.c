@@ -25,14 +25,13 @@
 #include "src/quasistatic/overload.h"
 
 const char *const fault_name[FAULT_CALLS] = {
-    "own malloc", "own open", "own read", "own write", "own fsync",  "own close", "own rename", "own mkdir",
-    "own unlink", "malloc",   "mmap",     "open",      "read",       "write",     "fsync",      "close",
-    "rename",     "mkdir",    "unlink",   "sample",    "conversion", "coupling",
-    "equilibrium",
+    "own malloc", "own open", "own read", "own write", "own fsync",  "own close", "own rename",  "own mkdir",
+    "own unlink", "malloc",   "mmap",     "open",      "read",       "write",     "fsync",       "close",
+    "rename",     "mkdir",    "unlink",   "sample",    "conversion", "coupling",  "equilibrium",
 };
 
 static struct fault_plan plan;
-static long *counts;                     /* NULL: not armed */
+static long *counts; /* NULL: not armed */
 
 void faults_arm(const struct fault_plan *p, long *count)
 {
@@ -57,8 +56,8 @@ static bool hit(enum fault_call call)
 static bool hit_file(enum fault_call call, int fd) { return fd > STDERR_FILENO && hit(call); }
 
 /* The C library's function of this name. */
-#define NEXT(type, name, ...)                                                                          \
-    static type (*next)(__VA_ARGS__);                                                                  \
+#define NEXT(type, name, ...)                                                                                          \
+    static type (*next)(__VA_ARGS__);                                                                                  \
     if (!next) *(void **)&next = dlsym(RTLD_NEXT, name)
 
 /* ---- the log ----------------------------------------------------------------------------------------------------- */
@@ -162,7 +161,7 @@ int close(int fd)
 {
     NEXT(int, "close", int);
     const bool fails = hit_file(ALL_CLOSE, fd);
-    const int closed = next(fd);         /* a close that fails closes all the same */
+    const int closed = next(fd); /* a close that fails closes all the same */
     if (fails) errno = plan.cause;
     return fails ? -1 : closed;
 }
@@ -214,8 +213,8 @@ int posix_memalign(void **pointer, size_t alignment, size_t n)
 
 /* ---- the program's own calls ------------------------------------------------------------------------------------- */
 
-#define WRAP(type, name, parameters, arguments, fails, failed) \
-    type __wrap_##name parameters;                             \
+#define WRAP(type, name, parameters, arguments, fails, failed)                                                         \
+    type __wrap_##name parameters;                                                                                     \
     type __wrap_##name parameters { return fails ? failed : name arguments; }
 
 WRAP(void *, malloc, (size_t n), (n), hit(OWN_MALLOC), NULL)
@@ -230,7 +229,7 @@ WRAP(ssize_t, read, (int fd, void *bytes, size_t n), (fd, bytes, n), hit(OWN_REA
 WRAP(ssize_t, pread, (int fd, void *bytes, size_t n, off_t at), (fd, bytes, n, at), hit(OWN_READ), -1)
 WRAP(ssize_t, write, (int fd, const void *bytes, size_t n), (fd, bytes, n), hit_file(OWN_WRITE, fd), -1)
 WRAP(ssize_t, pwrite, (int fd, const void *bytes, size_t n, off_t at), (fd, bytes, n, at), hit_file(OWN_WRITE, fd), -1)
-WRAP(int, fflush, (FILE *f), (f), f && f != stdout && f != stderr && hit(OWN_WRITE), EOF)
+WRAP(int, fflush, (FILE * f), (f), f &&f != stdout && f != stderr && hit(OWN_WRITE), EOF)
 WRAP(int, fsync, (int fd), (fd), hit(OWN_FSYNC), -1)
 WRAP(int, rename, (const char *from, const char *to), (from, to), hit(OWN_RENAME), -1)
 WRAP(int, mkdir, (const char *path, mode_t mode), (path, mode), hit(OWN_MKDIR), -1)
@@ -240,21 +239,22 @@ WRAP(int, close, (int fd), (fd), hit_file(OWN_CLOSE, fd) && (close(fd), errno = 
 /* ---- places of a run --------------------------------------------------------------------------------------------- */
 
 /* A moment in which the run may be stopped or killed, before the function does its work. */
-#define PLACE(type, name, parameters, arguments, place) \
-    type __real_##name parameters;                      \
-    type __wrap_##name parameters;                      \
-    type __wrap_##name parameters                       \
-    {                                                   \
-        (void)hit(place);                               \
-        return __real_##name arguments;                 \
+#define PLACE(type, name, parameters, arguments, place)                                                                \
+    type __real_##name parameters;                                                                                     \
+    type __wrap_##name parameters;                                                                                     \
+    type __wrap_##name parameters                                                                                      \
+    {                                                                                                                  \
+        (void)hit(place);                                                                                              \
+        return __real_##name arguments;                                                                                \
     }
 
 PLACE(status, output_history, (struct output *o, const real *value), (o, value), AT_SAMPLE)
-PLACE(int64_t, convert, (struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
-      const struct bond_source *source, struct partial_stress *partial, const struct conversion_sync *look, real t),
+PLACE(int64_t, convert,
+      (struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
+       const struct bond_source *source, struct partial_stress *partial, const struct conversion_sync *look, real t),
       (c, rule, p, b, source, partial, look, t), AT_CONVERSION)
 PLACE(void, partial_stress_make,
-      (struct partial_stress * partial, const struct particles *p, const struct bonds *b,
+      (struct partial_stress *partial, const struct particles *p, const struct bonds *b,
        const struct bond_source *source, const int32_t *changed, int64_t n),
       (partial, p, b, source, changed, n), AT_COUPLING)
 PLACE(real, statics_overload, (const struct run *e), (e), AT_EQUILIBRIUM)

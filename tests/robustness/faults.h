@@ -5,9 +5,29 @@
 #define CLEAVE_TESTS_FAULTS
 
 enum fault_call {
-    OWN_MALLOC, OWN_OPEN, OWN_READ, OWN_WRITE, OWN_FSYNC, OWN_CLOSE, OWN_RENAME, OWN_MKDIR, OWN_UNLINK,
-    ALL_MALLOC, ALL_MMAP, ALL_OPEN, ALL_READ, ALL_WRITE, ALL_FSYNC, ALL_CLOSE, ALL_RENAME, ALL_MKDIR, ALL_UNLINK,
-    AT_SAMPLE, AT_CONVERSION, AT_COUPLING, AT_EQUILIBRIUM,   /* functions of the engine: before they do their work */
+    OWN_MALLOC,
+    OWN_OPEN,
+    OWN_READ,
+    OWN_WRITE,
+    OWN_FSYNC,
+    OWN_CLOSE,
+    OWN_RENAME,
+    OWN_MKDIR,
+    OWN_UNLINK,
+    ALL_MALLOC,
+    ALL_MMAP,
+    ALL_OPEN,
+    ALL_READ,
+    ALL_WRITE,
+    ALL_FSYNC,
+    ALL_CLOSE,
+    ALL_RENAME,
+    ALL_MKDIR,
+    ALL_UNLINK,
+    AT_SAMPLE,
+    AT_CONVERSION,
+    AT_COUPLING,
+    AT_EQUILIBRIUM, /* functions of the engine: before they do their work */
     FAULT_CALLS
 };
 
@@ -17,9 +37,9 @@ enum fault_deed { DO_NOTHING, DO_FAIL, DO_STOP, DO_KILL, DO_BREAK };
 struct fault_plan {
     enum fault_call call;
     enum fault_deed deed;
-    long number;                         /* the first call is 1 */
-    int cause;                           /* errno of a call that fails */
-    int log;                             /* descriptor for lines of fsync, rename and mkdir; 0: none */
+    long number; /* the first call is 1 */
+    int cause;   /* errno of a call that fails */
+    int log;     /* descriptor for lines of fsync, rename and mkdir; 0: none */
 };
 
 extern const char *const fault_name[FAULT_CALLS];

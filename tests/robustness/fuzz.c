@@ -21,20 +21,28 @@
 
 enum { POOL = 20000, WORDS = 5000, INPUT_MOST = 1 << 18, BRANCHES = 1 << 18, PATIENCE = 20 };
 
-struct input { uint8_t *bytes; size_t n; };
+struct input {
+    uint8_t *bytes;
+    size_t n;
+};
 
-static const struct { const char *name; void (*run)(const uint8_t *, size_t); size_t most; } targets[] = {
-    {"scene", fuzz_scene, 6000}, {"override", fuzz_override, 400}, {"list", fuzz_list, 3000},
-    {"checkpoint", fuzz_checkpoint, INPUT_MOST}, {"valid", fuzz_valid, 120},
+static const struct {
+    const char *name;
+    void (*run)(const uint8_t *, size_t);
+    size_t most;
+} targets[] = {
+    {"scene", fuzz_scene, 6000}, {"override", fuzz_override, 400},
+    {"list", fuzz_list, 3000},   {"checkpoint", fuzz_checkpoint, INPUT_MOST},
+    {"valid", fuzz_valid, 120},
 };
 
 static struct input pool[POOL];
 static int pooled;
 static char *word[WORDS];
 static int words;
-static unsigned char branch[BRANCHES];   /* was there */
+static unsigned char branch[BRANCHES]; /* was there */
 static int branches;
-static bool running, found;              /* in a target; it was where none has been */
+static bool running, found; /* in a target; it was where none has been */
 static uint64_t state;
 
 void __sanitizer_cov_trace_pc(void);
@@ -130,9 +138,15 @@ static void change(uint8_t *bytes, size_t *n, size_t most)
     const size_t at = (size_t)draw(*n + 1);
     const struct input *other = &pool[draw((uint64_t)pooled)];
     switch (draw(9)) {
-    case 0: if (at < *n) bytes[at] ^= (uint8_t)(1u << draw(8)); break;
-    case 1: if (at < *n) bytes[at] = (uint8_t)draw(256); break;
-    case 2: shift(bytes, n, at, -1 - (long)draw(40), most); break;
+    case 0:
+        if (at < *n) bytes[at] ^= (uint8_t)(1u << draw(8));
+        break;
+    case 1:
+        if (at < *n) bytes[at] = (uint8_t)draw(256);
+        break;
+    case 2:
+        shift(bytes, n, at, -1 - (long)draw(40), most);
+        break;
     case 3:
     case 4:
         if (words > 0) {
@@ -140,7 +154,9 @@ static void change(uint8_t *bytes, size_t *n, size_t most)
             put(bytes, n, at, w, strlen(w), draw(2), most);
         }
         break;
-    case 5: put_number(bytes, *n, at); break;
+    case 5:
+        put_number(bytes, *n, at);
+        break;
     case 6: {
         uint8_t piece[64];
         const size_t length = 1 + (size_t)draw(sizeof piece), from = (size_t)draw(*n);
@@ -165,14 +181,15 @@ static uint8_t *make_room(const char *target)
     snprintf(path, sizeof path, "%s.input", target);
     const int fd = open(path, O_RDWR | O_CREAT | O_TRUNC, 0666);
     uint8_t *room = fd < 0 || ftruncate(fd, INPUT_MOST) != 0
-                        ? MAP_FAILED : mmap(NULL, INPUT_MOST, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+                        ? MAP_FAILED
+                        : mmap(NULL, INPUT_MOST, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     if (room == MAP_FAILED) fuzz_fail("cannot write", path);
     return room;
 }
 
 static void run_one(int target, const uint8_t *bytes, size_t n)
 {
-    uint8_t *copy = malloc(n + 1);       /* of this size: what is read behind its end is found */
+    uint8_t *copy = malloc(n + 1); /* of this size: what is read behind its end is found */
     if (!copy) fuzz_fail("no memory", "");
     memcpy(copy, bytes, n);
     alarm(PATIENCE);

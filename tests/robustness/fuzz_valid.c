@@ -14,7 +14,13 @@
 
 enum { STEPS = 12, TEXT = 8192 };
 
-struct maker { const uint8_t *bytes; size_t n, at; char text[TEXT]; size_t length; int dim; };
+struct maker {
+    const uint8_t *bytes;
+    size_t n, at;
+    char text[TEXT];
+    size_t length;
+    int dim;
+};
 
 /* A number below `below`, by the next byte; 0 when they are used up. */
 static int choose(struct maker *m, int below) { return m->at < m->n ? m->bytes[m->at++] % below : 0; }

@@ -32,18 +32,22 @@ int __wrap_main(int argc, char **argv);
 /* Every `step`-th call of a run fails. A run that fails here is resumed for each `look`-th of these, and a resumed
  * one, stopped at sample 2 before, meets them only then, too. `lossy`: libraries do not survive it; the test is only
  * that nothing is lost. */
-struct sweep { enum fault_call call; int cause, step, look; bool lossy; };
+struct sweep {
+    enum fault_call call;
+    int cause, step, look;
+    bool lossy;
+};
 
 static const struct sweep own_sweeps[] = {
-    {OWN_MALLOC, ENOMEM, 3, 8, false}, {OWN_OPEN, EMFILE, 1, 2, false},   {OWN_READ, EIO, 1, 2, false},
-    {OWN_WRITE, ENOSPC, 1, 1, false},  {OWN_FSYNC, EIO, 1, 2, false},     {OWN_CLOSE, EIO, 1, 2, false},
-    {OWN_RENAME, EACCES, 1, 1, false}, {OWN_MKDIR, EROFS, 1, 1, false},   {OWN_UNLINK, EACCES, 1, 2, false},
+    {OWN_MALLOC, ENOMEM, 3, 8, false}, {OWN_OPEN, EMFILE, 1, 2, false}, {OWN_READ, EIO, 1, 2, false},
+    {OWN_WRITE, ENOSPC, 1, 1, false},  {OWN_FSYNC, EIO, 1, 2, false},   {OWN_CLOSE, EIO, 1, 2, false},
+    {OWN_RENAME, EACCES, 1, 1, false}, {OWN_MKDIR, EROFS, 1, 1, false}, {OWN_UNLINK, EACCES, 1, 2, false},
     {ALL_WRITE, ENOSPC, 20, 1, false},
 };
 static const struct sweep whole_sweeps[] = {
-    {ALL_OPEN, EMFILE, 1, 1, false},  {ALL_WRITE, ENOSPC, 1, 1, false}, {ALL_FSYNC, EIO, 1, 1, false},
-    {ALL_RENAME, EIO, 1, 1, false},   {ALL_CLOSE, EIO, 1, 1, false},    {ALL_READ, EIO, 1, 1, false},
-    {ALL_MKDIR, ENOSPC, 1, 1, false}, {ALL_UNLINK, EIO, 1, 1, false},   {ALL_MMAP, ENOMEM, 1, 1, true},
+    {ALL_OPEN, EMFILE, 1, 1, false},   {ALL_WRITE, ENOSPC, 1, 1, false},   {ALL_FSYNC, EIO, 1, 1, false},
+    {ALL_RENAME, EIO, 1, 1, false},    {ALL_CLOSE, EIO, 1, 1, false},      {ALL_READ, EIO, 1, 1, false},
+    {ALL_MKDIR, ENOSPC, 1, 1, false},  {ALL_UNLINK, EIO, 1, 1, false},     {ALL_MMAP, ENOMEM, 1, 1, true},
     {ALL_MALLOC, ENOMEM, 47, 1, true}, {OWN_MALLOC, ENOMEM, 1, 16, false},
 };
 static const struct sweep *sweeps = own_sweeps;
@@ -59,8 +63,10 @@ static void outcome(const char *what, const struct place *p, int end, int cause)
         if (!same(&small_reference, p)) complain("%s: status 0 and other results", what);
         return;
     }
-    if (end != 1 && end != 2) complain("%s: status %d: %s", what, end, line);
-    else if (lines != 1) complain("%s: %d lines: %s", what, lines, line);
+    if (end != 1 && end != 2)
+        complain("%s: status %d: %s", what, end, line);
+    else if (lines != 1)
+        complain("%s: %d lines: %s", what, lines, line);
     else if (!strstr(line, strerror(cause)) && !(cause == ENOMEM && strstr(line, "memory")))
         complain("%s: no cause in: %s", what, line);
 }
@@ -131,7 +137,7 @@ static void texts_in_memory_are_whole_or_refused(void **state)
             complain("allocation %ld fails: %zu bytes of %zu without a word", number, length, sizeof wanted - 1);
         free(text);
     }
-    assert_in_range(refused, 3, 39);     /* stream, context, growth; the last allocations of 40 are never reached */
+    assert_in_range(refused, 3, 39); /* stream, context, growth; the last allocations of 40 are never reached */
     assert_int_equal(wrong, 0);
 }
 
@@ -204,7 +210,7 @@ static void stop_share(int worker)
 {
     for (size_t k = (size_t)worker; k < COUNT_OF(fault_scenes); k += 2)
         disturb(&fault_scenes[k], AT_SAMPLE, 0, DO_STOP, 4);
-    if (worker == 0) disturb(&steps_scene, AT_EQUILIBRIUM, 0, DO_STOP, 4);     /* within load steps */
+    if (worker == 0) disturb(&steps_scene, AT_EQUILIBRIUM, 0, DO_STOP, 4); /* within load steps */
 }
 
 static void stopped_runs_resume(void **state)
@@ -216,8 +222,10 @@ static void stopped_runs_resume(void **state)
 /* A resumed run couples once when it starts, and once more where it was killed. */
 static void kill_share(int worker)
 {
-    if (worker == 0) disturb(&converting_scene, AT_CONVERSION, 0, DO_KILL, 10);
-    else disturb(&passing_scene, AT_COUPLING, 3, DO_KILL, 10);
+    if (worker == 0)
+        disturb(&converting_scene, AT_CONVERSION, 0, DO_KILL, 10);
+    else
+        disturb(&passing_scene, AT_COUPLING, 3, DO_KILL, 10);
     if (worker == 1) disturb(&steps_scene, AT_EQUILIBRIUM, 0, DO_KILL, 4);
 }
 
@@ -233,11 +241,16 @@ static void folder_of(const char *path, char *folder)
 {
     snprintf(folder, NAME, "%s", path);
     char *slash = strrchr(folder, '/');
-    if (slash) *slash = '\0';
-    else strcpy(folder, ".");
+    if (slash)
+        *slash = '\0';
+    else
+        strcpy(folder, ".");
 }
 
-struct log_line { char what[8], path[NAME], to[NAME]; unsigned long hash; };
+struct log_line {
+    char what[8], path[NAME], to[NAME];
+    unsigned long hash;
+};
 
 /* Line `from` and those before it (`step` -1) or behind it (1): the first sync of this path, -1 where there is none
  * before a line of `end` (NULL: none ends it). */
@@ -258,7 +271,7 @@ static void check_rename(const struct log_line *line, int lines, int k)
     const int synced = find_sync(line, lines, k, -1, line[k].path, NULL);
     folder_of(line[k].to, folder);
     snprintf(history, sizeof history, "%s/history.csv", folder);
-    if (strcmp(name, "checkpoint.previous.h5") == 0) return;           /* was synced under its first name */
+    if (strcmp(name, "checkpoint.previous.h5") == 0) return; /* was synced under its first name */
     if (synced < 0 || line[synced].hash != line[k].hash) complain("%s is not on the disk when it gets its name", name);
     if (find_sync(line, lines, k, 1, folder, line[k].to) < 0) complain("the name of %s is not on the disk", name);
     if (strcmp(name, "checkpoint.h5") == 0 && line[k].hash && find_sync(line, lines, k, -1, history, line[k].to) < 0)
@@ -288,7 +301,7 @@ static void files_are_synced_in_order(void **state)
     remove_tree("new");
     scene_put(&small_scene);
     assert_non_null(getcwd(here, sizeof here));
-    snprintf(p.folder, sizeof p.folder, "%s/new/below", here);         /* two new folders, and frames in it */
+    snprintf(p.folder, sizeof p.folder, "%s/new/below", here); /* two new folders, and frames in it */
     const struct fault_plan plan = {.log = open("log", O_CREAT | O_TRUNC | O_WRONLY | O_APPEND, 0666)};
     assert_int_equal(run(&plan, &p, 1, false), 0);
     close(plan.log);
@@ -365,18 +378,21 @@ int __wrap_main(int argc, char **argv)
 {
     static const struct CMUnitTest whole[] = {cmocka_unit_test(failing_calls_lose_nothing)};
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_probe_is_watched),     cmocka_unit_test(failing_calls_lose_nothing),
+        cmocka_unit_test(every_probe_is_watched),
+        cmocka_unit_test(failing_calls_lose_nothing),
         cmocka_unit_test(texts_in_memory_are_whole_or_refused),
-        cmocka_unit_test(stopped_runs_resume),        cmocka_unit_test(killed_runs_resume),
-        cmocka_unit_test(files_are_synced_in_order),  cmocka_unit_test(damaged_checkpoints_are_found),
+        cmocka_unit_test(stopped_runs_resume),
+        cmocka_unit_test(killed_runs_resume),
+        cmocka_unit_test(files_are_synced_in_order),
+        cmocka_unit_test(damaged_checkpoints_are_found),
         cmocka_unit_test(broken_invariants_lose_nothing),
     };
     const bool of_all = argc > 1 && strcmp(argv[1], "whole") == 0;
-    if (argc > 1 && !of_all) cmocka_set_test_filter(argv[1]);        /* one of them: its name */
+    if (argc > 1 && !of_all) cmocka_set_test_filter(argv[1]); /* one of them: its name */
     char folder[NAME];
     if (enter(argv[0], folder) != 0) return 1;
-    setenv("GOMP_SPINCOUNT", "2000", 1);             /* the program would run itself again */
-    setenv("HWLOC_SYNTHETIC", "core:2 pu:1", 1);     /* to look at the machine takes longer than these runs */
+    setenv("GOMP_SPINCOUNT", "2000", 1);         /* the program would run itself again */
+    setenv("HWLOC_SYNTHETIC", "core:2 pu:1", 1); /* to look at the machine takes longer than these runs */
     count = mmap(NULL, FAULT_CALLS * sizeof *count, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (of_all) sweeps = whole_sweeps, sweep_count = COUNT_OF(whole_sweeps);
     const int failed = of_all ? cmocka_run_group_tests(whole, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,7 +18,7 @@ enum { SCENES_MOST = 400, SETTINGS_MOST = 24, LINE_MOST = 2000, WORDS_MOST = 40,
 
 /* seen[k][0]: key k of the table stands in a scene; seen[k][1 + w]: so does word w of it. */
 static bool seen[KEYS_MOST][1 + WORDS_MOST];
-static bool here[KEYS_MOST];             /* key k stands in the scene at hand */
+static bool here[KEYS_MOST]; /* key k stands in the scene at hand */
 
 /* ---- the list ---------------------------------------------------------------------------------------------------- */
 
@@ -108,11 +108,12 @@ static void key_walk(const struct key *k, const struct node *n)
     if (n->kind == NODE_SCALAR) word_seen(k, n->text);
     for (const struct node *item = n->first; item; item = item->next)
         if (n->kind == NODE_LIST && item->kind == NODE_SCALAR) word_seen(k, item->text);
-    const struct key *form = key_find(k->path, "form");                  /* exact: step bar */
+    const struct key *form = key_find(k->path, "form"); /* exact: step bar */
     if (form && n->kind == NODE_SCALAR) word_seen(form, n->text), seen[form - keys][0] = true;
     if (k->words && strncmp(k->words, "mapping of names to solids", 26) == 0)
         for (const struct node *named = n->first; named; named = named->next) group_walk(named, "solid");
-    else group_walk(n, group_below(k));
+    else
+        group_walk(n, group_below(k));
 }
 
 /* Notes the keys of a group that a node has; a word in a list stands for a kind, as of probes. */
@@ -139,8 +140,7 @@ static bool group_is_here(const struct key *k)
     if (!dot) return true;
     *dot = '\0';
     for (int g = 0; g < keys_count; g++)
-        if (strcmp(keys[g].path, group) == 0)
-            return here[g] || (keys[g].type == KEY_MAP && !strchr(group, '.'));
+        if (strcmp(keys[g].path, group) == 0) return here[g] || (keys[g].type == KEY_MAP && !strchr(group, '.'));
     return false;
 }
 
@@ -151,8 +151,8 @@ static void scene_note(const struct small_scene *small)
     size_t length = 0;
     struct node *root = NULL, *plain = NULL;
     struct scene s = {0};
-    struct reader r = {.name = small->file, .override = small->setting, .overrides = small->n, .scene = &s,
-                       .files = true};
+    struct reader r = {
+        .name = small->file, .override = small->setting, .overrides = small->n, .scene = &s, .files = true};
     memset(here, 0, sizeof here);
     if (file_bytes(small->file, &text, &length) != OK || tree_read(&r, text, length, -1, &plain) != OK ||
         scene_tree(&r, text, length, &root) != OK)
@@ -185,8 +185,10 @@ static void every_small_scene_is_accepted(void **state)
     for (int k = 0; k < n; k++) {
         struct scene s;
         const status read = scene_read(&s, list[k].file, list[k].setting, list[k].n);
-        if (read == OK) scene_free(&s);
-        else fprintf(stderr, "%s: %s\n", list[k].name, status_message()), refused++;
+        if (read == OK)
+            scene_free(&s);
+        else
+            fprintf(stderr, "%s: %s\n", list[k].name, status_message()), refused++;
         for (int j = 0; j < k; j++) assert_string_not_equal(list[j].name, list[k].name);
     }
     assert_true(n > 100);

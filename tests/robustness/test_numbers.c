@@ -28,15 +28,20 @@ static double *numbers_of(hid_t list, hsize_t *n)
     double *value = NULL;
     if (H5Tget_class(type) == H5T_FLOAT && count >= 0) {
         value = malloc(((size_t)count + 1) * sizeof *value);
-        if (value && H5Dread(list, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) < 0) *value = NAN, *n = 1;
-        else *n = (hsize_t)count;
+        if (value && H5Dread(list, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) < 0)
+            *value = NAN, *n = 1;
+        else
+            *n = (hsize_t)count;
     }
     H5Sclose(space);
     H5Tclose(type);
     return value;
 }
 
-struct search { const char *file; hsize_t bad, lists; };
+struct search {
+    const char *file;
+    hsize_t bad, lists;
+};
 
 static herr_t sync_near(hid_t file, const char *name, const H5O_info_t *info, void *context)
 {

@@ -13,11 +13,14 @@
 
 /* Sums of a few hundred terms of order one: their round-off is below a hundred times 2^-53. */
 #define ROUND_OFF 1e-13
-#define BODY_MASS 1.7                    /* of a particle [kg] */
+#define BODY_MASS 1.7 /* of a particle [kg] */
 
 /* ---- a lattice of spacing 1 m, particles at half-integers -------------------------------------------------------- */
 
-struct body { struct particles p; struct cells c; };
+struct body {
+    struct particles p;
+    struct cells c;
+};
 
 static inline void body_make(struct body *b, int dim, const int *count)
 {
@@ -26,8 +29,7 @@ static inline void body_make(struct body *b, int dim, const int *count)
     particles_make(&b->p, dim, n, 0);
     for (int64_t i = 0; i < n; i++) {
         int64_t rest = i;
-        for (int d = 0; d < dim; d++, rest /= count[d - 1])
-            b->p.X[d][i] = b->p.x[d][i] = 0.5 + (real)(rest % count[d]);
+        for (int d = 0; d < dim; d++, rest /= count[d - 1]) b->p.X[d][i] = b->p.x[d][i] = 0.5 + (real)(rest % count[d]);
         b->p.volume0[i] = b->p.volume[i] = 1, b->p.mass[i] = BODY_MASS;
         b->p.id[i] = (int32_t)i;
     }
@@ -63,14 +65,21 @@ static inline void hurt(struct body *b, real x, real y, real z)
 /* ---- archives in memory ------------------------------------------------------------------------------------------ */
 
 enum { ENTRIES = 64 };
-struct store { int n; struct { char name[64]; size_t size; char *data; } entry[ENTRIES]; };
+struct store {
+    int n;
+    struct {
+        char name[64];
+        size_t size;
+        char *data;
+    } entry[ENTRIES];
+};
 
 static inline status store_exchange(struct archive *a, const char *name, void *data, size_t size)
 {
     struct store *s = a->file;
     for (int k = 0; k < s->n; k++) {
         if (strcmp(s->entry[k].name, name) != 0) continue;
-        assert_false(a->saving);         /* names are unique */
+        assert_false(a->saving); /* names are unique */
         assert_int_equal(s->entry[k].size, size);
         memcpy(data, s->entry[k].data, size);
         return OK;

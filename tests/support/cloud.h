@@ -11,16 +11,16 @@
 #include "data/particles.h"
 
 enum { CLOUD_MATERIALS = 2 };
-#define CLOUD_SPACING 1e-3               /* [m] */
+#define CLOUD_SPACING 1e-3 /* [m] */
 
 /* What to make. Zeros are a regular lattice with whole volumes, calibrated on the lattice. */
 struct cloud_plan {
     enum space space;
-    int count[DIM_MAX];                  /* particles per direction; 0 is 1                      */
-    real horizon;                        /* in spacings                                          */
-    real shake;                          /* largest displacement in spacings; volumes vary as much */
+    int count[DIM_MAX]; /* particles per direction; 0 is 1                      */
+    real horizon;       /* in spacings                                          */
+    real shake;         /* largest displacement in spacings; volumes vary as much */
     uint64_t seed;
-    int optional;                        /* WITH_* arrays                                        */
+    int optional; /* WITH_* arrays                                        */
     enum volume_rule volume;
     enum calibration calibration;
     enum surface_rule surface;
@@ -32,7 +32,7 @@ struct cloud {
     struct particles p;
     struct material material[CLOUD_MATERIALS];
     real limit[CLOUD_MATERIALS * CLOUD_MATERIALS];
-    real yield[CLOUD_MATERIALS * CLOUD_MATERIALS], hardening[CLOUD_MATERIALS * CLOUD_MATERIALS];   /* never, 0 */
+    real yield[CLOUD_MATERIALS * CLOUD_MATERIALS], hardening[CLOUD_MATERIALS * CLOUD_MATERIALS]; /* never, 0 */
     struct cells cells;
     struct bond_source source;
     struct bonds bonds;
@@ -57,8 +57,8 @@ static inline void cloud_materials(struct cloud *c, enum space space)
     static const real young[] = {200e9, 70e9}, density[] = {8000, 2700};
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         struct material *k = &c->material[m];
-        *k = (struct material){.young = young[m], .density = density[m], .energy_release_rate = NAN,
-                               .critical_stretch = INFINITY};
+        *k = (struct material){
+            .young = young[m], .density = density[m], .energy_release_rate = NAN, .critical_stretch = INFINITY};
         k->poisson = space == SPACE_LINE ? 0 : material_bond_poisson(space);
         material_derive(k, space);
     }
@@ -74,8 +74,10 @@ static inline void cloud_make(struct cloud *c, const struct cloud_plan *plan)
     int64_t count[DIM_MAX], n = 1;
     for (int d = 0; d < DIM_MAX; d++) n *= count[d] = d < dim && plan->count[d] ? plan->count[d] : 1;
     cloud_materials(c, plan->space);
-    c->source.family = (struct family){.volume = plan->volume, .calibration = plan->calibration,
-                                       .surface = plan->surface, .shells = plan->shells,
+    c->source.family = (struct family){.volume = plan->volume,
+                                       .calibration = plan->calibration,
+                                       .surface = plan->surface,
+                                       .shells = plan->shells,
                                        .influence = plan->influence};
     family_make(&c->source.family, plan->space, CLOUD_SPACING, plan->horizon, section[dim]);
 

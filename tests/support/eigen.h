@@ -25,7 +25,7 @@ static inline void eigen_reduce_row(real *a, int64_t n, int64_t i, real *d, real
     h -= row[i - 1] * g;
     row[i - 1] -= g;
     for (int64_t j = 0; j < i; j++) d[j] = 0;
-    for (int64_t j = 0; j < i; j++) {                    /* d = A u, from the lower half, row by row */
+    for (int64_t j = 0; j < i; j++) { /* d = A u, from the lower half, row by row */
         const real *lower = a + j * n, u = row[j];
         real sum = lower[j] * u;
         for (int64_t k = 0; k < j; k++) sum += lower[k] * row[k], d[k] += lower[k] * u;
@@ -126,8 +126,10 @@ static inline void eigen_double_step(real *a, int64_t n, int64_t l, int64_t m, i
         }
         const real s = copysign(sqrt(p * p + q * q + r * r), p);
         if (s == 0) continue;
-        if (k != m) a[k * n + k - 1] = -s * scale;
-        else if (l != m) a[k * n + k - 1] = -a[k * n + k - 1];
+        if (k != m)
+            a[k * n + k - 1] = -s * scale;
+        else if (l != m)
+            a[k * n + k - 1] = -a[k * n + k - 1];
         p += s;
         const real x = p / s, y = q / s, z = r / s;
         q /= p, r /= p;

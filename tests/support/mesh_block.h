@@ -31,8 +31,8 @@ static void block_make_with(struct block *b, enum space space, bool hole, bool c
     struct particles *p = &b->c.p;
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         const struct material *k = &b->c.material[m];
-        b->elastic[m] = (struct elastic){.c11 = k->c11, .c12 = (cubic ? 0.8 : 1) * k->c12, .shear = k->shear,
-                                         .trigger = INFINITY, .space = space};
+        b->elastic[m] = (struct elastic){
+            .c11 = k->c11, .c12 = (cubic ? 0.8 : 1) * k->c12, .shear = k->shear, .trigger = INFINITY, .space = space};
     }
     b->source = (struct mesh_source){.elastic = b->elastic, .isotropic = b->elastic, .materials = CLOUD_MATERIALS};
     for (int d = 0; d < dim; d++) {
@@ -101,7 +101,7 @@ static real point_energy(const struct block *b, int64_t i, bool finite)
         for (int k = 0; k < dim; k++) {
             F[a * dim + k] = mean[a * dim + k] = a == k;
             for (int c = 0; c < 1 << dim; c++) {
-                real slope = 1, flat = 1;        /* of the hat functions at the point, at the cell's centre */
+                real slope = 1, flat = 1; /* of the hat functions at the point, at the cell's centre */
                 for (int d = 0; d < dim; d++) {
                     const real xi = place >> d & 1 ? 0.75 : 0.25, sign = c >> d & 1 ? 1 : -1;
                     slope *= d == k ? sign : c >> d & 1 ? xi : 1 - xi;

@@ -13,28 +13,33 @@
 #include "step/step.h"
 
 /* Component d of particle `at`, or of a node of the mesh. */
-struct unknown { bool node; int32_t at; int d; };
+struct unknown {
+    bool node;
+    int32_t at;
+    int d;
+};
 
-struct operator {
+struct operator
+{
     struct run e;
     struct scene s;
     int64_t n;
-    struct unknown *unknown;             /* [n] */
-    real *mass;                          /* [n] by unknown, with that of a node beyond a plane that follows it [kg] */
-    real *K;                             /* [n][n] force on a row's unknown over -displacement of a column's [N/m] */
+    struct unknown *unknown; /* [n] */
+    real *mass;              /* [n] by unknown, with that of a node beyond a plane that follows it [kg] */
+    real *K;                 /* [n][n] force on a row's unknown over -displacement of a column's [N/m] */
 };
 
 /* What is known of it. Eigenvalues of M^-1/2 K M^-1/2, of the symmetric part but for the imaginary ones. */
 struct spectrum {
-    real asymmetry;                      /* max |K - K^T| over max |K| */
-    real lowest, highest;                /* [1/s^2] */
-    int64_t zeros;                       /* eigenvalues below OPERATOR_ZERO of the highest */
-    real energy;                   /* |energy that the energy balance has/(1/2 u K u) - 1| of a body shaken at random */
-    real imaginary;                   /* largest |Im| of an eigenvalue of M^-1 K over the highest; NAN: not computed  */
+    real asymmetry;       /* max |K - K^T| over max |K| */
+    real lowest, highest; /* [1/s^2] */
+    int64_t zeros;        /* eigenvalues below OPERATOR_ZERO of the highest */
+    real energy;          /* |energy that the energy balance has/(1/2 u K u) - 1| of a body shaken at random */
+    real imaginary;       /* largest |Im| of an eigenvalue of M^-1 K over the highest; NAN: not computed  */
 };
 #define OPERATOR_ZERO 1e-9
-#define OPERATOR_SHAKE 1e-6              /* displacement [spacings]: terms of third order are as much of the energy */
-#define OPERATOR_STEP 2e-4    /* displacement [spacings]: four-point differences are off by 1e-14, round-off by 1e-11 */
+#define OPERATOR_SHAKE 1e-6 /* displacement [spacings]: terms of third order are as much of the energy */
+#define OPERATOR_STEP 2e-4  /* displacement [spacings]: four-point differences are off by 1e-14, round-off by 1e-11 */
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
@@ -56,7 +61,7 @@ static inline uint8_t *operator_held(struct run *e, bool node)
     return held;
 }
 
-static inline void operator_add(struct operator *o, bool node, const uint8_t *held, int64_t at, real mass)
+static inline void operator_add(struct operator* o, bool node, const uint8_t *held, int64_t at, real mass)
 {
     for (int d = 0; d < o->e.part.dim; d++) {
         if (held[at] >> d & 1) continue;
@@ -65,7 +70,7 @@ static inline void operator_add(struct operator *o, bool node, const uint8_t *he
     }
 }
 
-static inline void operator_unknowns(struct operator *o)
+static inline void operator_unknowns(struct operator* o)
 {
     struct run *e = &o->e;
     const struct grid *g = &e->frame->mesh.grid;
@@ -90,15 +95,17 @@ static inline void operator_unknowns(struct operator *o)
 
 /* ---- forces ------------------------------------------------------------------------------------------------------ */
 
-static inline void operator_place(struct operator *o, struct unknown q, real u)
+static inline void operator_place(struct operator* o, struct unknown q, real u)
 {
     struct run *e = &o->e;
-    if (q.node) e->frame->mesh.displacement[q.d][q.at] = u;
-    else e->part.x[q.d][q.at] = e->part.X[q.d][q.at] + u;
+    if (q.node)
+        e->frame->mesh.displacement[q.d][q.at] = u;
+    else
+        e->part.x[q.d][q.at] = e->part.X[q.d][q.at] + u;
 }
 
 /* Nodes beyond planes of symmetry follow their images, which take the forces on them: as mesh_move has it. */
-static inline void operator_forces(struct operator *o, real *f)
+static inline void operator_forces(struct operator* o, real *f)
 {
     struct run *e = &o->e;
     struct grid *g = &e->frame->mesh.grid;
@@ -119,7 +126,7 @@ static inline void operator_forces(struct operator *o, real *f)
 }
 
 /* Column by column: -df/du = (8 (f(-h) - f(h)) - (f(-2h) - f(2h)))/12 h. */
-static inline void operator_fill(struct operator *o)
+static inline void operator_fill(struct operator* o)
 {
     const real h = OPERATOR_STEP * o->s.spacing;
     real *f = NEW("test.f", o->n, real);
@@ -139,7 +146,7 @@ static inline void operator_fill(struct operator *o)
 
 /* ---- the whole --------------------------------------------------------------------------------------------------- */
 
-static inline status operator_make(struct operator *o, const struct stability_case *c)
+static inline status operator_make(struct operator* o, const struct stability_case *c)
 {
     char text[4096];
     *o = (struct operator){.n = 0};
@@ -150,7 +157,7 @@ static inline status operator_make(struct operator *o, const struct stability_ca
     return OK;
 }
 
-static inline void operator_free(struct operator *o)
+static inline void operator_free(struct operator* o)
 {
     memory_free(o->unknown);
     memory_free(o->mass);
@@ -159,7 +166,7 @@ static inline void operator_free(struct operator *o)
 }
 
 /* The energy balance's energy of bonds and cells beside half u K u. */
-static inline real operator_energy(struct operator *o)
+static inline real operator_energy(struct operator* o)
 {
     struct run *e = &o->e;
     uint64_t seed = 3;
@@ -178,7 +185,7 @@ static inline real operator_energy(struct operator *o)
     return fabs(W / half - 1);
 }
 
-static inline struct spectrum operator_spectrum(struct operator *o, bool imaginary)
+static inline struct spectrum operator_spectrum(struct operator* o, bool imaginary)
 {
     const int64_t n = o->n;
     struct spectrum s = {.imaginary = NAN, .energy = operator_energy(o)};
@@ -204,7 +211,7 @@ static inline struct spectrum operator_spectrum(struct operator *o, bool imagina
 
 /* One line an unknown (node or particle, its number, component, reference place [m], mass [kg]), then K row by row
  * [N/m]. */
-static inline void operator_dump(const struct operator *o, const char *path)
+static inline void operator_dump(const struct operator* o, const char *path)
 {
     FILE *to = fopen(path, "w");
     if (!to) return;

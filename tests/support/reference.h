@@ -61,10 +61,14 @@ static inline real reference_modulus(const struct family *f, const struct materi
 {
     real E = m->young, nu = m->poisson, sigma = reference_sigma(f);
     switch (f->space) {
-    case SPACE_LINE: return 2 * E / sigma;
-    case SPACE_PLANE_STRESS: return 8 * E / (2 * (1 - nu)) / sigma;
-    case SPACE_PLANE_STRAIN: return 8 * E / (2 * (1 + nu) * (1 - 2 * nu)) / sigma;
-    default: return 18 * E / (3 * (1 - 2 * nu)) / sigma;
+    case SPACE_LINE:
+        return 2 * E / sigma;
+    case SPACE_PLANE_STRESS:
+        return 8 * E / (2 * (1 - nu)) / sigma;
+    case SPACE_PLANE_STRAIN:
+        return 8 * E / (2 * (1 + nu) * (1 - 2 * nu)) / sigma;
+    default:
+        return 18 * E / (3 * (1 - 2 * nu)) / sigma;
     }
 }
 
@@ -121,7 +125,7 @@ static inline bool reference_cut(const struct crack *c, const real *a, const rea
         return (reference_turn(c->corner[0], c->corner[1], a) > 0) !=
                    (reference_turn(c->corner[0], c->corner[1], b) > 0) &&
                (reference_turn(a, b, c->corner[0]) > 0) != (reference_turn(a, b, c->corner[1]) > 0);
-    for (int k = 1; k + 1 < c->n; k++)   /* a convex polygon is a fan of triangles */
+    for (int k = 1; k + 1 < c->n; k++) /* a convex polygon is a fan of triangles */
         if (reference_pierced(c->corner[0], c->corner[k], c->corner[k + 1], a, b)) return true;
     return false;
 }
@@ -140,7 +144,9 @@ static inline real *reference_table(const struct bonds *b, const struct particle
 }
 
 /* Bond of i to j: stretch, unit vector from i to j, reference length [m]. */
-struct reference_bond { real stretch, length, n[DIM_MAX], y[DIM_MAX]; };
+struct reference_bond {
+    real stretch, length, n[DIM_MAX], y[DIM_MAX];
+};
 
 static inline struct reference_bond reference_bond(const struct particles *p, int64_t i, int64_t j)
 {
@@ -153,7 +159,9 @@ static inline struct reference_bond reference_bond(const struct particles *p, in
 }
 
 /* What one particle gets from its bonds. */
-struct reference_row { real force[DIM_MAX], energy, stress[DIM_MAX][DIM_MAX]; };
+struct reference_row {
+    real force[DIM_MAX], energy, stress[DIM_MAX][DIM_MAX];
+};
 
 static inline struct reference_row reference_row(const struct particles *p, const real *w, real stiffness, int64_t i)
 {
@@ -165,8 +173,7 @@ static inline struct reference_row reference_row(const struct particles *p, cons
         row.energy += 0.5 * (0.5 * force * q.stretch * q.length);
         for (int a = 0; a < p->dim; a++) {
             row.force[a] += force * q.n[a];
-            for (int b = 0; b < p->dim; b++)
-                row.stress[a][b] += force * q.n[a] * q.y[b] / (2 * p->volume0[i]);
+            for (int b = 0; b < p->dim; b++) row.stress[a][b] += force * q.n[a] * q.y[b] / (2 * p->volume0[i]);
         }
     }
     return row;

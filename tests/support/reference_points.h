@@ -9,7 +9,9 @@
 
 /* ==== shape functions ==================================================== */
 
-struct reference_shape { real value, slope; };
+struct reference_shape {
+    real value, slope;
+};
 
 static inline real reference_tent(real r, real h) { return fmax(0, 1 - fabs(r) / h); }
 
@@ -26,7 +28,8 @@ static inline struct reference_shape reference_shape(enum shape shape, real r, r
 {
     real s = fabs(r) / h, sign = r < 0 ? -1 : 1;
     switch (shape) {
-    case SHAPE_LINEAR: return (struct reference_shape){reference_tent(r, h), s < 1 ? -sign / h : 0};
+    case SHAPE_LINEAR:
+        return (struct reference_shape){reference_tent(r, h), s < 1 ? -sign / h : 0};
     case SHAPE_GIMP:
     case SHAPE_CPGIMP:
         return (struct reference_shape){(reference_tent_integral(r + l, h) - reference_tent_integral(r - l, h)) /
@@ -41,7 +44,8 @@ static inline struct reference_shape reference_shape(enum shape shape, real r, r
             return (struct reference_shape){2.0 / 3 - s * s + 0.5 * s * s * s, (-2 * s + 1.5 * s * s) * sign / h};
         if (s < 2) return (struct reference_shape){pow(2 - s, 3) / 6, -0.5 * (2 - s) * (2 - s) * sign / h};
         return (struct reference_shape){0, 0};
-    default: return (struct reference_shape){NAN, NAN};
+    default:
+        return (struct reference_shape){NAN, NAN};
     }
 }
 
@@ -53,10 +57,10 @@ struct reference_step {
     real half_width, dt, dt_velocity, smallest_mass;
     const struct elastic *elastic;
     const struct partial_stress *partial;
-    const uint8_t *bonded;               /* not 0: bonds meet the point; NULL: none        */
-    struct particles *p;                 /* overwritten step by step                       */
-    const struct grid *g;                /* where nodes are; its values are not touched    */
-    real *value, *slope[DIM_MAX];        /* N and grad N, [n][nodes], of the old positions */
+    const uint8_t *bonded;        /* not 0: bonds meet the point; NULL: none        */
+    struct particles *p;          /* overwritten step by step                       */
+    const struct grid *g;         /* where nodes are; its values are not touched    */
+    real *value, *slope[DIM_MAX]; /* N and grad N, [n][nodes], of the old positions */
     real *mass, *momentum[DIM_MAX], *force[DIM_MAX], *velocity[DIM_MAX], *change[DIM_MAX];
 };
 

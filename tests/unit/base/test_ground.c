@@ -28,7 +28,7 @@ static void status_keeps_its_message(void **state)
     char *text = memory_new("text", 5001, 1);
     memset(text, 'a', 5000);
     assert_int_equal(status_set(FAILED, "%s", text), FAILED);
-    assert_int_equal(strlen(status_message()), 1023);   /* cut, not overrun */
+    assert_int_equal(strlen(status_message()), 1023); /* cut, not overrun */
     memory_free(text);
 }
 
@@ -55,10 +55,10 @@ static void refusals_have_one_place(void **state)
 {
     (void)state;
     assert_refused(status_at("x.yaml:3:1: ", status_set(REFUSED, "no particle")), "x.yaml:3:1: no particle");
-    assert_refused(status_at("x.yaml: ", REFUSED), "x.yaml:3:1: no particle");     /* the first place stays */
+    assert_refused(status_at("x.yaml: ", REFUSED), "x.yaml:3:1: no particle"); /* the first place stays */
     assert_int_equal(strncmp(status_message(), "x.yaml:3:1: ", 12), 0);
     status_at("x.yaml: ", status_set(FAILED, "disk full"));
-    assert_string_equal(status_message(), "disk full");                          /* a failure has none */
+    assert_string_equal(status_message(), "disk full"); /* a failure has none */
     status_at("", status_set(REFUSED, "no particle"));
     assert_string_equal(status_message(), "no particle");
 }
@@ -99,7 +99,7 @@ static void out_of_memory_says_so(void **state)
     for (size_t c = 0; c < COUNT_OF(count); c++) {
         assert_int_equal(exit_of(allocate, &count[c], line), FAILED);
         assert_non_null(strstr(line, "out of memory: bonds.w"));
-        assert_ptr_equal(strchr(line, '\n'), line + strlen(line) - 1);   /* one line */
+        assert_ptr_equal(strchr(line, '\n'), line + strlen(line) - 1); /* one line */
         if (count[c] < 0) continue;
         char wanted[80];
         snprintf(wanted, sizeof wanted, "out of memory: bonds.w needs %lld entries of 8 bytes", (long long)count[c]);
@@ -107,7 +107,7 @@ static void out_of_memory_says_so(void **state)
         assert_non_null(strstr(line, wanted));
     }
     assert_int_equal(exit_of(allocate, &few, line), 0);
-    assert_true(memory_peak() > 1000000);        /* a process with its libraries is larger than 1 MB */
+    assert_true(memory_peak() > 1000000); /* a process with its libraries is larger than 1 MB */
 }
 
 /* Every thread of a team breaks the same invariant; returns the line on which it stands. */
@@ -126,7 +126,7 @@ static void broken_invariants_leave_one_line(void **state)
     (void)state;
     char line[512], place[256];
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
-    assert_int_equal(exit_of(break_here, NULL, line), -1);       /* abort */
+    assert_int_equal(exit_of(break_here, NULL, line), -1); /* abort */
 #else
     assert_int_equal(exit_of(break_here, NULL, line), FAILED);
 #endif
@@ -155,7 +155,7 @@ static void sums_do_not_depend_on_threads(void **state)
             sum[threads - 1] = team_sum(n[c], harmonic, &scale);
             assert_memory_equal(&sum[threads - 1], &sum[0], sizeof(real));
         }
-        assert_close(sum[0], plain, 1e-13);      /* round-off of 1e5 additions in another order */
+        assert_close(sum[0], plain, 1e-13); /* round-off of 1e5 additions in another order */
     }
     omp_set_num_threads(2);
 }
@@ -172,7 +172,7 @@ static void team_has_the_threads_asked_for(void **state)
         seen = omp_get_num_threads();
         assert_int_equal(seen, threads);
     }
-    struct machine m = team_machine();           /* binding helpers hides nothing from the next call */
+    struct machine m = team_machine(); /* binding helpers hides nothing from the next call */
     assert_int_equal(m.cores, before.cores);
     assert_int_equal(m.threads_allowed, before.threads_allowed);
     assert_true(m.cores >= 1 && m.threads_allowed >= m.cores);
@@ -210,7 +210,7 @@ static void solids_are_closed_and_grow(void **state)
     struct solid half = {.kind = SOLID_HALF_SPACE, .point = {0, 1, 0}, .normal = {0, 5, 0}};
     const struct {
         struct solid *solid;
-        real inside[DIM_MAX], surface[DIM_MAX], outside[DIM_MAX];   /* outside by 0.1 */
+        real inside[DIM_MAX], surface[DIM_MAX], outside[DIM_MAX]; /* outside by 0.1 */
     } c[] = {{&box, {1, 0.5, 2}, {2, 1, 3}, {2.1, 0.5, 1}},
              {&ball, {1.2, 1, 1}, {1, 1.5, 1}, {1, 1, 1.6}},
              {&cylinder, {0.5, 0.5, 1}, {1, 0, 2}, {0, 0, 2.1}},
@@ -236,9 +236,9 @@ static void regions_build_in_order(void **state)
     assert_true(region_contains(&r, POINT(2, 2), 2, 0));
     assert_false(region_contains(&turned, POINT(2, 2), 2, 0));
     assert_false(region_contains(&r, POINT(2.7, 2), 2, 0));
-    assert_true(region_contains(&r, POINT(3, 2), 2, 0));        /* the hole's edge belongs to the plate */
+    assert_true(region_contains(&r, POINT(3, 2), 2, 0)); /* the hole's edge belongs to the plate */
     assert_false(region_contains(&r, POINT(3, 2), 2, -1e-9));
-    assert_true(region_contains(&r, POINT(2.95, 2), 2, 0.06));  /* a grown plate has a smaller hole */
+    assert_true(region_contains(&r, POINT(2.95, 2), 2, 0.06)); /* a grown plate has a smaller hole */
     assert_false(region_contains(&r, POINT(5, 2), 2, 0));
     assert_true(region_contains(&(struct region){0}, POINT(1e9, -1e9), 2, 0));
     struct solid all = {.kind = SOLID_ALL};
@@ -254,7 +254,7 @@ static void bounds_hold_the_added_solids(void **state)
                         {.kind = SOLID_HALF_SPACE, .subtract = true, .normal = {1, 0, 0}}};
     struct region r = {.n = 3, .solid = s};
     assert_true(region_bounds(&r, 3, low, high));
-    const real want_low[] = {-2, -2, -1}, want_high[] = {3.8, 4.6, 7};   /* cylinder: reach 0.8, 0.6, 1 */
+    const real want_low[] = {-2, -2, -1}, want_high[] = {3.8, 4.6, 7}; /* cylinder: reach 0.8, 0.6, 1 */
     for (int d = 0; d < 3; d++) {
         assert_near(low[d], want_low[d], 1e-14);
         assert_near(high[d], want_high[d], 1e-14);
@@ -273,19 +273,22 @@ static void bounds_hold_the_added_solids(void **state)
 static void time_functions_follow_their_definitions(void **state)
 {
     (void)state;
-    real t[] = {0, 1, 1, 3}, value[] = {5, 6, 0, 4};         /* a jump at t = 1 */
+    real t[] = {0, 1, 1, 3}, value[] = {5, 6, 0, 4}; /* a jump at t = 1 */
     const struct time_function constant = {.kind = TIME_CONSTANT}, step = {TIME_STEP, 1, 2, 0, NULL, NULL},
                                pulse = {TIME_PULSE, 1, 3, 0, NULL, NULL}, ramp = {TIME_RAMP, 1, 3, 0, NULL, NULL},
                                table = {.kind = TIME_TABLE, .n = 4, .t = t, .value = value},
                                sudden = {TIME_RAMP, 1, 1, 0, NULL, NULL};
-    const struct { const struct time_function *f; real t, value; } c[] = {
-        {&constant, -3, 1}, {&step, 0.999, 0}, {&step, 1, 1},    {&step, 1.999, 1}, {&step, 2, 0},    {&pulse, 1, 0},
-        {&pulse, 2, 1},     {&pulse, 1.5, 0.5}, {&pulse, 3, 0},  {&pulse, 0, 0},     {&ramp, 0, 0},
-        {&ramp, 1.5, 0.25}, {&ramp, 3, 1},      {&ramp, 9, 1},   {&table, -1, 5},    {&table, 0.5, 5.5},
-        {&table, 1, 0},     {&table, 2, 2},     {&table, 9, 4},  {&sudden, 0.9, 0},  {&sudden, 1, 1},
+    const struct {
+        const struct time_function *f;
+        real t, value;
+    } c[] = {
+        {&constant, -3, 1}, {&step, 0.999, 0},  {&step, 1, 1},   {&step, 1.999, 1},  {&step, 2, 0},  {&pulse, 1, 0},
+        {&pulse, 2, 1},     {&pulse, 1.5, 0.5}, {&pulse, 3, 0},  {&pulse, 0, 0},     {&ramp, 0, 0},  {&ramp, 1.5, 0.25},
+        {&ramp, 3, 1},      {&ramp, 9, 1},      {&table, -1, 5}, {&table, 0.5, 5.5}, {&table, 1, 0}, {&table, 2, 2},
+        {&table, 9, 4},     {&sudden, 0.9, 0},  {&sudden, 1, 1},
     };
     for (size_t k = 0; k < COUNT_OF(c); k++)
-        assert_near(time_function_at(c[k].f, c[k].t), c[k].value, 1e-15);   /* round-off of sin^2 */
+        assert_near(time_function_at(c[k].f, c[k].t), c[k].value, 1e-15); /* round-off of sin^2 */
     assert_exact(time_function_at(&(struct time_function){.kind = TIME_STEP, .until = INFINITY}, 1e9), 1);
 }
 
@@ -303,20 +306,20 @@ static void cracks_cut_in_one_and_two_dimensions(void **state)
     struct crack point = {1, (real[][DIM_MAX]){{1}}}, edge = {2, (real[][DIM_MAX]){{0, 0}, {2, 0}}};
     check_cut(&point, POINT(0.5), POINT(1.5), 1, true);
     check_cut(&point, POINT(0.5), POINT(0.7), 1, false);
-    check_cut(&point, POINT(1), POINT(1.5), 1, false);           /* on the crack: the positive side */
+    check_cut(&point, POINT(1), POINT(1.5), 1, false); /* on the crack: the positive side */
     check_cut(&point, POINT(1), POINT(0.5), 1, true);
     check_cut(&edge, POINT(1, -1), POINT(1.5, 1), 2, true);
-    check_cut(&edge, POINT(2, -1), POINT(2, 1), 2, true);        /* exactly through the tip */
+    check_cut(&edge, POINT(2, -1), POINT(2, 1), 2, true); /* exactly through the tip */
     check_cut(&edge, POINT(1.5, -1), POINT(2.5, 1), 2, true);
     check_cut(&edge, POINT(2.001, -1), POINT(2.001, 1), 2, false);
     check_cut(&edge, POINT(-0.001, -1), POINT(-0.001, 1), 2, false);
     check_cut(&edge, POINT(1, 0.1), POINT(1, 1), 2, false);
-    check_cut(&edge, POINT(0.5, 0), POINT(1.5, 0), 2, false);    /* along the crack */
-    check_cut(&edge, POINT(0.5, 1e-10), POINT(1, -1), 2, true);  /* 1e-10 on either side is the same side */
+    check_cut(&edge, POINT(0.5, 0), POINT(1.5, 0), 2, false);   /* along the crack */
+    check_cut(&edge, POINT(0.5, 1e-10), POINT(1, -1), 2, true); /* 1e-10 on either side is the same side */
     check_cut(&edge, POINT(0.5, -1e-10), POINT(1, -1), 2, true);
     check_cut(&edge, POINT(0.5, -1e-10), POINT(1, 1), 2, false);
-    check_cut(&edge, POINT(0.5, -1.9e-9), POINT(1, -2.1e-9), 2, true);   /* cut between them, not far away */
-    check_cut(&edge, POINT(3, 0), POINT(3, -1), 2, false);       /* on the line, ahead of the tip */
+    check_cut(&edge, POINT(0.5, -1.9e-9), POINT(1, -2.1e-9), 2, true); /* cut between them, not far away */
+    check_cut(&edge, POINT(3, 0), POINT(3, -1), 2, false);             /* on the line, ahead of the tip */
     check_cut(&edge, POINT(1, 1), POINT(1, 1), 2, false);
     struct crack nothing = {2, (real[][DIM_MAX]){{1, 1}, {1, 1}}};
     check_cut(&nothing, POINT(0, 1), POINT(2, 1), 2, false);
@@ -327,13 +330,13 @@ static void cracks_cut_in_three_dimensions(void **state)
     (void)state;
     real corner[][DIM_MAX] = {{0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {1, 3, 1}, {0, 2, 1}}, back[5][DIM_MAX];
     for (int k = 0; k < 5; k++) memcpy(back[k], corner[4 - k], sizeof back[k]);
-    for (int rotation = 0; rotation < 2; rotation++) {                       /* either sense of rotation */
+    for (int rotation = 0; rotation < 2; rotation++) { /* either sense of rotation */
         struct crack c = {5, rotation ? back : corner};
         check_cut(&c, POINT(1, 1, 0), POINT(1, 1, 2), 3, true);
-        check_cut(&c, POINT(0.5, 2.5, 0), POINT(0.5, 2.5, 2), 3, true);    /* on an oblique edge */
+        check_cut(&c, POINT(0.5, 2.5, 0), POINT(0.5, 2.5, 2), 3, true); /* on an oblique edge */
         check_cut(&c, POINT(0.4, 2.5, 0), POINT(0.4, 2.5, 2), 3, false);
-        check_cut(&c, POINT(0, 0, 0), POINT(0, 0, 2), 3, true);            /* on a corner */
-        check_cut(&c, POINT(3, 1, 0), POINT(0, 1, 3), 3, true);            /* slanting, through (2, 1, 1) */
+        check_cut(&c, POINT(0, 0, 0), POINT(0, 0, 2), 3, true); /* on a corner */
+        check_cut(&c, POINT(3, 1, 0), POINT(0, 1, 3), 3, true); /* slanting, through (2, 1, 1) */
         check_cut(&c, POINT(3.01, 1, 0), POINT(2.01, 1, 3), 3, false);
         check_cut(&c, POINT(1, 1, 1.5), POINT(1, 1, 2), 3, false);
     }
@@ -348,8 +351,8 @@ static void cracks_are_symmetric_at_their_tips(void **state)
     struct crack edge = {2, (real[][DIM_MAX]){{-0.1, 0.03}, {0.3, 0.7}}};
     int cut = 0;
     for (int k = 0; k < 20000; k++) {
-        real angle = 1.1 + 1e-4 * k, far = 0.4 + 1e-5 * k;       /* never along the crack, which points to 1.03 */
-        real past = 1e-9 + 1e-16 * (k % 13 - 6);                 /* a few roundings to either side of the limit */
+        real angle = 1.1 + 1e-4 * k, far = 0.4 + 1e-5 * k; /* never along the crack, which points to 1.03 */
+        real past = 1e-9 + 1e-16 * (k % 13 - 6);           /* a few roundings to either side of the limit */
         real end[2] = {0.3 + past * 0.4, 0.7 + past * 0.67};
         real a[2] = {end[0] + cos(angle), end[1] + sin(angle)};
         real b[2] = {end[0] - far * cos(angle), end[1] - far * sin(angle)};
@@ -357,7 +360,7 @@ static void cracks_are_symmetric_at_their_tips(void **state)
         assert_int_equal(forth, crack_cuts(&edge, b, a, 2));
         cut += forth;
     }
-    assert_in_range(cut, 1000, 19000);           /* or round-off does not decide here */
+    assert_in_range(cut, 1000, 19000); /* or round-off does not decide here */
 }
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
@@ -404,7 +407,7 @@ static void compliance_inverts_stiffness(void **state)
                 for (int l = 0; l < n; l++) sum += C[i * n + l] * S[l * n + j];
                 assert_near(sum, i == j, 1e-14);
             }
-        if (dim > 1) assert_close(C[n * n - 1], 7e10 / 1.2, 1e-14);   /* 2G on the tensor shear strain */
+        if (dim > 1) assert_close(C[n * n - 1], 7e10 / 1.2, 1e-14); /* 2G on the tensor shear strain */
     }
 }
 
@@ -413,11 +416,13 @@ static void bond_constants_agree_with_closed_forms(void **state)
     (void)state;
     const real E = 3e9, d = 0.01, h = 0.002, A = 1e-4, pi = acos(-1), G_c = 50;
     struct material m = {.young = E, .density = 1000, .energy_release_rate = G_c};
-    const struct { enum space space; real poisson, section, c, s; } want[] = {
-        {SPACE_LINE, 0, A, 2 * E / (A * d * d), sqrt(3 * G_c / (E * d))},
-        {SPACE_PLANE_STRESS, 1.0 / 3, h, 9 * E / (pi * h * d * d * d), sqrt(4 * pi * G_c / (9 * E * d))},
-        {SPACE_PLANE_STRAIN, 0.25, h, 48 * E / (5 * pi * h * d * d * d), sqrt(5 * pi * G_c / (12 * E * d))},
-        {SPACE_SOLID, 0.25, 1, 12 * E / (pi * d * d * d * d), sqrt(5 * G_c / (6 * E * d))}};
+    const struct {
+        enum space space;
+        real poisson, section, c, s;
+    } want[] = {{SPACE_LINE, 0, A, 2 * E / (A * d * d), sqrt(3 * G_c / (E * d))},
+                {SPACE_PLANE_STRESS, 1.0 / 3, h, 9 * E / (pi * h * d * d * d), sqrt(4 * pi * G_c / (9 * E * d))},
+                {SPACE_PLANE_STRAIN, 0.25, h, 48 * E / (5 * pi * h * d * d * d), sqrt(5 * pi * G_c / (12 * E * d))},
+                {SPACE_SOLID, 0.25, 1, 12 * E / (pi * d * d * d * d), sqrt(5 * G_c / (6 * E * d))}};
     for (size_t k = 0; k < COUNT_OF(want); k++) {
         m.poisson = want[k].poisson;
         material_derive(&m, want[k].space);

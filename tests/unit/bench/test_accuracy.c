@@ -47,7 +47,7 @@ static void front_of_random_clouds(void **state)
             assert_true(dot[front[k]].error < dot[front[k - 1]].error);
         }
         for (int k = 0; k < N; k++) {
-            bool reached = false;        /* by a point of the front */
+            bool reached = false; /* by a point of the front */
             for (int j = 0; j < n; j++)
                 reached |= dot[front[j]].time <= dot[k].time && dot[front[j]].error <= dot[k].error;
             assert_true(reached);
@@ -69,7 +69,7 @@ static void cheapest_is_the_first_good_enough(void **state)
 
 struct motion {
     int dim;
-    real c12, shear, density, length, time;      /* size of its features, for the steps of differences */
+    real c12, shear, density, length, time; /* size of its features, for the steps of differences */
     void (*at)(const void *context, const real *X, real t, real *u);
     const void *context;
 };
@@ -124,9 +124,11 @@ static void force_of_scene(const struct manufactured *m, const real *X, real t, 
     char text[4096];
     struct scene s;
     FILE *to = fmemopen(text, sizeof text, "w");
-    fprintf(to, "space: %s\nduration: 1\nmethod: mpm\nmaterial: {young: 1, density: 1}\nparticles: {spacing: 0.5}\n"
-                "body: {box: {from: %s, to: %s}}\nboundary:\n", m->dim == 2 ? "plane stress\nthickness: 1" : "solid",
-            m->dim == 2 ? "[0, 0]" : "[0, 0, 0]", m->dim == 2 ? "[1, 1]" : "[1, 1, 1]");
+    fprintf(to,
+            "space: %s\nduration: 1\nmethod: mpm\nmaterial: {young: 1, density: 1}\nparticles: {spacing: 0.5}\n"
+            "body: {box: {from: %s, to: %s}}\nboundary:\n",
+            m->dim == 2 ? "plane stress\nthickness: 1" : "solid", m->dim == 2 ? "[0, 0]" : "[0, 0, 0]",
+            m->dim == 2 ? "[1, 1]" : "[1, 1, 1]");
     manufactured_boundaries(to, m);
     fclose(to);
     assert_int_equal(scene_read_text(&s, text, strlen(text), "test", NULL, 0), OK);
@@ -174,7 +176,11 @@ static void manufactured_is_a_solution(void **state)
     }
 }
 
-struct wave { struct wave_pulse pulse; real speed; int dim; };
+struct wave {
+    struct wave_pulse pulse;
+    real speed;
+    int dim;
+};
 
 static void wave_motion(const void *context, const real *X, real t, real *u)
 {
@@ -285,8 +291,11 @@ static void line_is_of_the_plan(char *const *column)
     assert_non_null(q);
     assert_non_null(m);
     assert_true(m->family & q->families);
-    const struct accuracy_point at = {.problem = q, .method = m, .at = case_named(q, column[CASE]),
-                                      .resolution = atoi(column[RESOLUTION]), .horizon = atof(column[HORIZON]),
+    const struct accuracy_point at = {.problem = q,
+                                      .method = m,
+                                      .at = case_named(q, column[CASE]),
+                                      .resolution = atoi(column[RESOLUTION]),
+                                      .horizon = atof(column[HORIZON]),
                                       .step = atof(column[STEP])};
     assert_true(at.at >= 0 && (!q->applies || q->applies(&at)));
     struct accuracy_scene s;

@@ -37,7 +37,7 @@ static void hole_is_free_and_edges_are_pulled(void **state)
 {
     (void)state;
     double u[2], s[3];
-    for (int k = 0; k <= 90; k++) {      /* boundary collocation met them to 4e-5 */
+    for (int k = 0; k <= 90; k++) { /* boundary collocation met them to 4e-5 */
         const double angle = k * M_PI / 180, c = cos(angle), n = sin(angle), side = 5 * n;
         accuracy_hole_exact((double[2]){c, n}, u, s);
         assert_true(fabs(s[0] * c + s[2] * n) <= 3e-4 * 1e4 && fabs(s[2] * c + s[1] * n) <= 3e-4 * 1e4);
@@ -110,8 +110,12 @@ static void points_are_as_far_off_as_measured(void **state)
     for (size_t k = 0; k < COUNT_OF(cheap); k++) {
         const struct accuracy_method *method = method_called(cheap[k].method);
         assert_non_null(method);
-        const struct accuracy_point p = {cheap[k].problem, method, cheap[k].at, cheap[k].resolution,
-                                         method->family & ACCURACY_MPM ? 0 : ACCURACY_HORIZON, ACCURACY_STEP};
+        const struct accuracy_point p = {cheap[k].problem,
+                                         method,
+                                         cheap[k].at,
+                                         cheap[k].resolution,
+                                         method->family & ACCURACY_MPM ? 0 : ACCURACY_HORIZON,
+                                         ACCURACY_STEP};
         struct accuracy_scene from;
         struct run e;
         struct scene s;

@@ -22,7 +22,7 @@ static void search_equals_all_pairs(const struct particles *p, const struct cell
         for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][j] - X[d]);
         if (r2 > radius * radius || j == skip) continue;
         assert_true(expected < n);
-        assert_int_equal(found[expected++], j);           /* ascending, none twice, none missing */
+        assert_int_equal(found[expected++], j); /* ascending, none twice, none missing */
     }
     assert_int_equal(n, expected);
     assert_int_equal(cells_near(c, p, X, radius, skip, NULL, 0), expected);
@@ -34,7 +34,7 @@ static void searches(const struct cloud_plan *plan, real edge, bool outlier)
     struct cells cells;
     uint64_t seed = 7;
     cloud_make(&c, plan);
-    if (outlier)                          /* a box that is mostly empty must not need a cell for every spacing of it */
+    if (outlier) /* a box that is mostly empty must not need a cell for every spacing of it */
         for (int d = 0; d < c.p.dim; d++) c.p.X[d][c.p.n - 1] = 1e3 * CLOUD_SPACING;
     cells_make(&cells, &c.p, edge);
     for (int32_t i = 0; i < c.p.n; i++) {
@@ -71,7 +71,10 @@ static void test_search(void **state)
 
 enum { MIXED = 1, BODIES = 2, MATERIALS = 4, CRACKED = 8 };
 
-struct rows_case { struct cloud_plan plan; int what; };
+struct rows_case {
+    struct cloud_plan plan;
+    int what;
+};
 
 static const struct rows_case rows_case[] = {
     {{.space = SPACE_LINE, .count = {37}, .horizon = 3}, 0},
@@ -220,16 +223,16 @@ static void check_rows(const struct cloud *c)
     if (c->source.family.surface == SURFACE_VOLUME) {
         volume = NEW("test.volume", p->n, real);
         for (int64_t i = 0; i < p->n; i++) volume[i] = reference_neighbour_volume(p, &c->source.family, i);
-        assert_true(cloud_difference(c->neighbour_volume, volume, p->n) <= 1e-9);   /* the engine rounds beta to 1e-9 */
+        assert_true(cloud_difference(c->neighbour_volume, volume, p->n) <= 1e-9); /* the engine rounds beta to 1e-9 */
     }
     int64_t rows = 0;
     for (int64_t i = 0; i < p->n; i++) {
-        bool wanted = false;                                                /* eight of consecutive numbers together */
+        bool wanted = false; /* eight of consecutive numbers together */
         for (int64_t j = i / LANES * LANES; j < i / LANES * LANES + LANES && j < p->n; j++)
             wanted = wanted || p->kind[j] == KIND_PD || touches_pd(c, j);
         assert_int_equal(c->bonds.row_of[i] >= 0, wanted);
         if (wanted) {
-            assert_int_equal(c->bonds.row_of[i], rows);                     /* rows in ascending particle order */
+            assert_int_equal(c->bonds.row_of[i], rows); /* rows in ascending particle order */
             assert_int_equal(c->bonds.particle[rows++], i);
             check_row(c, i);
         }
@@ -251,7 +254,7 @@ static void test_rows(void **state)
         case_make(&c, &rows_case[k]);
         /* stiffness is c V V of two lattice particles; c from the same lattice sum in another order of terms */
         real expected = reference_modulus(&c.source.family, &c.material[0]) * square(c.source.family.cell_volume);
-        assert_true(fabs(c.bonds.stiffness / expected - 1) <= 1e-9);        /* beta of the ramp is rounded to 1e-9 */
+        assert_true(fabs(c.bonds.stiffness / expected - 1) <= 1e-9); /* beta of the ramp is rounded to 1e-9 */
         check_rows(&c);
         cloud_free(&c);
     }
@@ -262,7 +265,7 @@ static void check_row_block_like_new(const struct bonds *b, int64_t column, cons
                                      int64_t columns)
 {
     assert_memory_equal(b->first + column, new->first + of, (size_t)columns * sizeof *b->first);
-    assert_memory_equal(b->nbr + column * LANES, new->nbr + of * LANES, (size_t)(columns * LANES) * sizeof *b->nbr);
+    assert_memory_equal(b->nbr + column * LANES, new->nbr + of *LANES, (size_t)(columns * LANES) * sizeof *b->nbr);
     for (int64_t k = 0; k < columns * LANES; k++) {
         const int64_t q = column * LANES + k, m = of * LANES + k;
         assert_true(fabs(b->inverse_length[q]) == fabs(new->inverse_length[m]));
@@ -278,7 +281,7 @@ static int64_t check_like_new(struct cloud *c, const struct bonds *old)
     struct bonds new;
     struct particles p = c->p;
     int64_t taken = 0;
-    p.damage = NEW("test.damage", p.n_all, real);        /* making rows sets it */
+    p.damage = NEW("test.damage", p.n_all, real); /* making rows sets it */
     bonds_make(&new, NULL, &p, &c->source);
     cloud_unfold(b), cloud_unfold(&new);
     assert_int_equal(b->columns, new.columns);
@@ -319,7 +322,7 @@ static void test_rows_inherit(void **state)
         real *after = reference_table(&c.bonds, p);
         check_columns(&c);
         taken += check_like_new(&c, &old);
-        for (int64_t q = 0; q < p->n * p->n; q++)                /* NAN: was no bond; w = 0: was broken or cut */
+        for (int64_t q = 0; q < p->n * p->n; q++) /* NAN: was no bond; w = 0: was broken or cut */
             if (!isnan(before[q])) assert_true(before[q] == after[q]);
         assert_true(fabs(bonds_fracture_energy(&c.bonds) - energy) <= 1e-14 * energy);
         for (int64_t i = 0; i < p->n; i++)
@@ -348,7 +351,7 @@ static void test_rows_again(void **state)
         for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = c.p.X[last][i] < 2e-3 ? KIND_PD : KIND_MPM;
         particles_list(&c.p);
         cloud_source(&c);
-        c.source.yield = (struct bond_yield){NULL, NULL, 0};      /* bonds that may yield always move */
+        c.source.yield = (struct bond_yield){NULL, NULL, 0}; /* bonds that may yield always move */
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
         for (int column = 3; column <= plan[k].count[last]; column++) {
             struct bonds old = c.bonds;
@@ -359,7 +362,7 @@ static void test_rows_again(void **state)
             bonds_make(&c.bonds, &old, &c.p, &c.source);
             moved += c.bonds.w != was, stayed += c.bonds.w == was;
             assert_true(c.bonds.used <= c.bonds.room && c.bonds.used >= c.bonds.columns);
-            check_like_new(&c, &old);           /* unfolds */
+            check_like_new(&c, &old); /* unfolds */
             check_columns(&c);
             bonds_free(&old);
         }
@@ -389,7 +392,7 @@ static void test_rows_of_lattice(void **state)
         struct cloud c;
         struct bonds searched;
         cloud_make(&c, &plan[k % COUNT_OF(plan)]);
-        if (k >= COUNT_OF(plan)) cloud_exact(&c);        /* then most follow stencils, if all are of one material */
+        if (k >= COUNT_OF(plan)) cloud_exact(&c); /* then most follow stencils, if all are of one material */
         for (int64_t i = 0; i < c.p.n && k < COUNT_OF(plan); i++) c.p.material[i] = i % 3 == 0;
         for (int64_t i = 2 * c.p.n / 3; i < c.p.n && k % 2; i++) c.p.kind[i] = KIND_MPM;
         for (int m = 0; m < CLOUD_MATERIALS * CLOUD_MATERIALS; m++) c.limit[m] = 0.01 + 0.001 * m;
@@ -406,11 +409,13 @@ static void test_rows_of_lattice(void **state)
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
         const real step = bonds_critical_step_made(&c.bonds, &c.p);
         if (c.p.n_of[KIND_PD] == c.p.n) assert_true(step == bonds_critical_step(&c.p, &c.source));
-        struct bond_source states = c.source;            /* between equal ends of states as of bonds, else stiffer */
+        struct bond_source states = c.source; /* between equal ends of states as of bonds, else stiffer */
         states.modulus = (const struct state_modulus[CLOUD_MATERIALS]){{0, 0}};
         const real of_states = bonds_critical_step(&c.p, &states), of_bonds = bonds_critical_step(&c.p, &c.source);
-        if (k >= COUNT_OF(plan)) assert_true(fabs(of_states - of_bonds) <= 1e-12 * of_bonds);
-        else assert_true(of_states < of_bonds);
+        if (k >= COUNT_OF(plan))
+            assert_true(fabs(of_states - of_bonds) <= 1e-12 * of_bonds);
+        else
+            assert_true(of_states < of_bonds);
         struct bonds *b = &c.bonds;
         cloud_unfold(b), cloud_unfold(&searched);
         const size_t columns = (size_t)b->columns, entries = columns * LANES, rows = (size_t)b->rows;
@@ -451,11 +456,9 @@ static void test_rows_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_search),
-        cmocka_unit_test(test_rows),
-        cmocka_unit_test(test_rows_inherit), cmocka_unit_test(test_rows_again),
-        cmocka_unit_test(test_rows_of_lattice),
-        cmocka_unit_test(test_rows_threads),
+        cmocka_unit_test(test_search),          cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_rows_inherit),    cmocka_unit_test(test_rows_again),
+        cmocka_unit_test(test_rows_of_lattice), cmocka_unit_test(test_rows_threads),
     };
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,15 +9,19 @@
 #include "tests/support/cloud.h"
 #include "kernels/kernels.h"
 
-#define STRETCH 1e-4                     /* small: lengths are of first order in the opening */
+#define STRETCH 1e-4 /* small: lengths are of first order in the opening */
 enum { COLUMNS = 15, ROWS = 12, STEPS = 1000 };
 
-struct pulled { struct cloud c; struct state_modulus modulus[CLOUD_MATERIALS]; enum pd_model model; };
+struct pulled {
+    struct cloud c;
+    struct state_modulus modulus[CLOUD_MATERIALS];
+    enum pd_model model;
+};
 
 static void pulled_make(struct pulled *b, enum pd_model model, real poisson, enum influence influence, bool local)
 {
-    const struct cloud_plan plan = {.space = SPACE_PLANE_STRESS, .count = {COLUMNS, ROWS}, .horizon = 3.015,
-                                    .influence = influence};
+    const struct cloud_plan plan = {
+        .space = SPACE_PLANE_STRESS, .count = {COLUMNS, ROWS}, .horizon = 3.015, .influence = influence};
     memset(b, 0, sizeof *b);
     b->model = model;
     cloud_make(&b->c, &plan);
@@ -49,7 +53,7 @@ static real separation(struct pulled *b)
     const real most = 5.5 * STRETCH * CLOUD_SPACING, step = most / STEPS;
     real work = 0;
     for (int k = 0; k < STEPS; k++) work += pull(b, (k + 0.5) * step) * step;
-    assert_true(fabs(pull(b, most)) < 1e-8 * work / most);     /* round-off of places: 1e-16 over openings of 1e-4 */
+    assert_true(fabs(pull(b, most)) < 1e-8 * work / most); /* round-off of places: 1e-16 over openings of 1e-4 */
     return work / (b->c.source.family.section * CLOUD_SPACING * square(STRETCH));
 }
 
@@ -92,8 +96,10 @@ static void test_ordinary(void **state)
 static void test_crossing(void **state)
 {
     (void)state;
-    static const struct { enum space space; real over; } in[] = {{SPACE_LINE, 1.0 / 3},
-                                                                 {SPACE_PLANE_STRESS, 9 / (4 * 3.14159265358979)}};
+    static const struct {
+        enum space space;
+        real over;
+    } in[] = {{SPACE_LINE, 1.0 / 3}, {SPACE_PLANE_STRESS, 9 / (4 * 3.14159265358979)}};
     for (size_t k = 0; k < COUNT_OF(in); k++) {
         struct material m = {.young = 3.1e9, .poisson = k ? 1.0 / 3 : 0, .density = 1180, .critical_stretch = 0.013};
         struct family f = {.volume = VOLUME_RAMP, .calibration = CALIBRATION_LATTICE};

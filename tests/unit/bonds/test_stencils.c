@@ -146,7 +146,10 @@ static void test_twins(void **state)
 }
 
 /* Everything the kernels make of the places of now, one number after the other. */
-struct made { real *value; int64_t n; };
+struct made {
+    real *value;
+    int64_t n;
+};
 
 static void made_add(struct made *m, const real *from, int64_t n)
 {
@@ -159,7 +162,7 @@ static struct made make_all(struct cloud *c, enum pd_model model)
     struct kernels k;
     struct made m = {NEW("test.made", 2 * (DIM_MAX + SYM_MAX) * c->p.n + 4, real), 0};
     kernels_choose(&k, c->p.dim, model, SHAPE_LINEAR, TRANSFER_FLIP);
-    for (int rotation = 0; rotation < 2; rotation++) {               /* in the first some break */
+    for (int rotation = 0; rotation < 2; rotation++) { /* in the first some break */
         const real broken = (real)k.bond_force(&c->bonds, &c->p, &c->source.limit, NULL);
         const real energy = k.bond_energy(&c->bonds, &c->p);
         k.bond_stress(&c->bonds, &c->p);
@@ -191,11 +194,11 @@ static void test_same_bits(void **state)
             exact_cloud(&implicit, dim, weighed ? SURFACE_VOLUME : SURFACE_NONE, states ? modulus : NULL);
             exact_cloud(&open, dim, weighed ? SURFACE_VOLUME : SURFACE_NONE, states ? modulus : NULL);
             follow_nothing(&open.bonds);
-            const real most = dim == 2 ? 0.013 : 0.0104;                   /* some row blocks stay whole */
+            const real most = dim == 2 ? 0.013 : 0.0104; /* some row blocks stay whole */
             shake(&implicit, most), shake(&open, most);
             struct made a = make_all(&implicit, models[k]), b = make_all(&open, models[k]);
-            assert_true(a.value[0] > 0);                                   /* some bonds have broken, */
-            assert_true(count_folded(&implicit.bonds) > 0);                /* and not all row blocks have been opened */
+            assert_true(a.value[0] > 0);                    /* some bonds have broken, */
+            assert_true(count_folded(&implicit.bonds) > 0); /* and not all row blocks have been opened */
             assert_true(weighed || count_units(&implicit.bonds) > 0);
             assert_null(bonds_fault(&implicit.bonds)), assert_null(bonds_fault(&open.bonds));
             assert_int_equal(a.n, b.n);
@@ -214,7 +217,7 @@ static void test_fault(void **state)
     struct bonds *b = &c.bonds;
     assert_null(bonds_fault(b));
     const int64_t q = bond_to_write(b, b->row_blocks / 2, 3, 4), column = q / LANES;
-    assert_null(bonds_fault(b));                 /* written, it still follows its stencil */
+    assert_null(bonds_fault(b)); /* written, it still follows its stencil */
     bond_fade(b, &c.p, b->row_blocks / 2 * LANES + 4, q, 0.5);
     assert_null(bonds_fault(b));
     b->inverse_length[q] *= -1;
@@ -352,13 +355,9 @@ static void test_beside_points(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_who_follows),
-        cmocka_unit_test(test_what_is_stored),
-        cmocka_unit_test(test_twins),
-        cmocka_unit_test(test_same_bits),
-        cmocka_unit_test(test_fault), cmocka_unit_test(test_who_leaves),
-        cmocka_unit_test(test_who_stays_out),
-        cmocka_unit_test(test_beside_points),
+        cmocka_unit_test(test_who_follows),   cmocka_unit_test(test_what_is_stored), cmocka_unit_test(test_twins),
+        cmocka_unit_test(test_same_bits),     cmocka_unit_test(test_fault),          cmocka_unit_test(test_who_leaves),
+        cmocka_unit_test(test_who_stays_out), cmocka_unit_test(test_beside_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

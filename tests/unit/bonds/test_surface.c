@@ -26,9 +26,11 @@ struct plain {
     int dim, strains;
 };
 
-#define FOR4(dim) \
-    for (int a = 0; a < (dim); a++) for (int b = 0; b < (dim); b++) \
-        for (int c = 0; c < (dim); c++) for (int d = 0; d < (dim); d++)
+#define FOR4(dim)                                                                                                      \
+    for (int a = 0; a < (dim); a++)                                                                                    \
+        for (int b = 0; b < (dim); b++)                                                                                \
+            for (int c = 0; c < (dim); c++)                                                                            \
+                for (int d = 0; d < (dim); d++)
 
 /* P^-1 = 1 + 1000 Q for the faces near particle t, then x.P.x by elimination. */
 static real weighed(const struct plain *s, int64_t t, const real *x)
@@ -41,8 +43,7 @@ static real weighed(const struct plain *s, int64_t t, const real *x)
             FOR4(s->dim) second[a][b] += s->full[a][b][c][d] * s->strain[l][c][d];
             for (int a = 0; a < s->dim; a++)
                 for (int b = 0; b < s->dim; b++)
-                    for (int c = 0; c < s->dim; c++)
-                        traction += first[a][b] * s->faces.normal2[t][b][c] * second[a][c];
+                    for (int c = 0; c < s->dim; c++) traction += first[a][b] * s->faces.normal2[t][b][c] * second[a][c];
             m[k][l] = (k == l) + 1000 * traction;
         }
         m[k][s->strains] = x[k];
@@ -52,7 +53,7 @@ static real weighed(const struct plain *s, int64_t t, const real *x)
             const real factor = m[r][k] / m[k][k];
             for (int c = k; c <= s->strains; c++) m[r][c] -= factor * m[k][c];
         }
-    for (int k = 0; k < s->strains; k++) sum += square(m[k][s->strains]) / m[k][k];      /* of L^-1 x, D^-1 */
+    for (int k = 0; k < s->strains; k++) sum += square(m[k][s->strains]) / m[k][k]; /* of L^-1 x, D^-1 */
     return sum;
 }
 
@@ -199,8 +200,8 @@ static void check_least(const struct cloud_plan *plan)
         if (f > 0.2 * (1 + 1e-12) && f < 3 * (1 - 1e-12)) {
             if (!(fabs(g) <= 1e-6 * largest)) fail_msg("slope %g of %g", g, largest);
             free++;
-        }
-        else assert_true(f < 1 ? g >= 0 : g <= 0), bound++;
+        } else
+            assert_true(f < 1 ? g >= 0 : g <= 0), bound++;
     }
     assert_true(free > 0);
     plain_free(&s);
@@ -210,12 +211,15 @@ static void check_least(const struct cloud_plan *plan)
 static void factors_are_least(void **state)
 {
     (void)state;
-    check_least(&(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {11, 7}, .horizon = 3.015,
-                                     .surface = SURFACE_MOMENTS, .shells = SHELLS_ISOTROPIC});
-    check_least(&(struct cloud_plan){.space = SPACE_PLANE_STRAIN, .count = {9, 8}, .horizon = 2.015,
-                                     .surface = SURFACE_MOMENTS});
-    check_least(&(struct cloud_plan){.space = SPACE_SOLID, .count = {6, 5, 7}, .horizon = 2.015,
-                                     .surface = SURFACE_MOMENTS});
+    check_least(&(struct cloud_plan){.space = SPACE_PLANE_STRESS,
+                                     .count = {11, 7},
+                                     .horizon = 3.015,
+                                     .surface = SURFACE_MOMENTS,
+                                     .shells = SHELLS_ISOTROPIC});
+    check_least(&(struct cloud_plan){
+        .space = SPACE_PLANE_STRAIN, .count = {9, 8}, .horizon = 2.015, .surface = SURFACE_MOMENTS});
+    check_least(
+        &(struct cloud_plan){.space = SPACE_SOLID, .count = {6, 5, 7}, .horizon = 2.015, .surface = SURFACE_MOMENTS});
 }
 
 /* ---- faces ------------------------------------------------------------------------------------------------------- */
@@ -228,8 +232,8 @@ static void faces_are_at_their_places(void **state)
 {
     (void)state;
     enum { WIDE = 11, HIGH = 19 };
-    const struct cloud_plan plan = {.space = SPACE_PLANE_STRESS, .count = {WIDE, HIGH}, .horizon = 2.015,
-                                    .surface = SURFACE_MOMENTS};
+    const struct cloud_plan plan = {
+        .space = SPACE_PLANE_STRESS, .count = {WIDE, HIGH}, .horizon = 2.015, .surface = SURFACE_MOMENTS};
     const real seen[] = {1, (0.75 + 2 * (1 - sqrt(2) / 4)) / 3.5, 0.5 / 3.5};
     struct plain s;
     real sum = 0, moment = 0;
@@ -253,8 +257,11 @@ static void faces_are_at_their_places(void **state)
 static real bending_energy(enum space space, enum surface_rule surface, int length, int layers)
 {
     const real curvature = 1e-3;
-    struct cloud_plan plan = {.space = space, .count = {length, layers, layers}, .horizon = 3.015,
-                              .surface = surface, .shells = SHELLS_ISOTROPIC};
+    struct cloud_plan plan = {.space = space,
+                              .count = {length, layers, layers},
+                              .horizon = 3.015,
+                              .surface = surface,
+                              .shells = SHELLS_ISOTROPIC};
     struct cloud c;
     cloud_make(&c, &plan);
     cloud_exact(&c);
@@ -278,7 +285,11 @@ static real bending_energy(enum space space, enum surface_rule surface, int leng
 static void bending_has_the_energy_of_a_beam(void **state)
 {
     (void)state;
-    static const struct { enum space space; int layers; real without, with; } body[] = {
+    static const struct {
+        enum space space;
+        int layers;
+        real without, with;
+    } body[] = {
         {SPACE_PLANE_STRESS, 10, 0.88, 0.01}, {SPACE_PLANE_STRESS, 20, 0.95, 0.005}, {SPACE_SOLID, 10, 0.82, 0.02}};
     for (size_t k = 0; k < COUNT_OF(body); k++) {
         const int length = 24, longer = 34;
@@ -301,8 +312,8 @@ static const struct boundary mirror[] = {{.name = "left", .kind = BOUNDARY_MIRRO
 static void half_is_as_the_whole(void **state)
 {
     (void)state;
-    struct cloud_plan plan = {.space = SPACE_PLANE_STRESS, .count = {14, 9}, .horizon = 3.015,
-                              .surface = SURFACE_MOMENTS};
+    struct cloud_plan plan = {
+        .space = SPACE_PLANE_STRESS, .count = {14, 9}, .horizon = 3.015, .surface = SURFACE_MOMENTS};
     struct cloud whole, half;
     struct loads loads = {0};
     cloud_make(&whole, &plan);
@@ -329,8 +340,7 @@ static void half_is_as_the_whole(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(factors_are_least),
-                                       cmocka_unit_test(faces_are_at_their_places),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(factors_are_least), cmocka_unit_test(faces_are_at_their_places),
                                        cmocka_unit_test(bending_has_the_energy_of_a_beam),
                                        cmocka_unit_test(half_is_as_the_whole)};
     team_make(0);

@@ -30,12 +30,11 @@ static const char space[] =
     "velocity: [50 m/s, 0, 5 m/s]}\n"
     "  - {name: target, shape: {box: {from: [0, 0, 0], to: [5 mm, 8 mm, 8 mm]}}}\n"
     "particles: {spacing: 1 mm}\ncontact: {between: bodies}\noutput: {frames: 1, samples: 10}\n";
-static const char line[] =
-    "name: hit\nspace: line\nsection: 4 mm^2\nmethod: pd\nduration: 30 us\n"
-    "material: {young: 200 GPa, density: 8000}\n"
-    "bodies:\n  - {name: striker, shape: {box: {from: [-20 mm], to: [0]}}, velocity: [10 m/s]}\n"
-    "  - {name: target, shape: {box: {from: [0.02 mm], to: [20.02 mm]}}}\n"
-    "particles: {spacing: 1 mm}\ncontact: {between: all}\noutput: {frames: 1, samples: 10}\n";
+static const char line[] = "name: hit\nspace: line\nsection: 4 mm^2\nmethod: pd\nduration: 30 us\n"
+                           "material: {young: 200 GPa, density: 8000}\n"
+                           "bodies:\n  - {name: striker, shape: {box: {from: [-20 mm], to: [0]}}, velocity: [10 m/s]}\n"
+                           "  - {name: target, shape: {box: {from: [0.02 mm], to: [20.02 mm]}}}\n"
+                           "particles: {spacing: 1 mm}\ncontact: {between: all}\noutput: {frames: 1, samples: 10}\n";
 
 /* A turned box, whose side faces have steps on the lattice, cut through and sheared: columns of the one half pass those
  * of the other. */
@@ -139,8 +138,10 @@ static real height_of(int dim, real density)
     real low = 0, high = 2;
     for (int k = 0; k < 60; k++) {
         const real middle = 0.5 * (low + high);
-        if (above_layer(dim, middle) > density) low = middle;
-        else high = middle;
+        if (above_layer(dim, middle) > density)
+            low = middle;
+        else
+            high = middle;
     }
     return 0.5 * (low + high);
 }
@@ -354,13 +355,12 @@ static void test_stiffness(void **state)
 /* Bodies one spacing apart at rest, and a crack: no force, and nothing moves, to the last bit. */
 static void check_rest(const char *law)
 {
-    static const char text[] =
-        "name: rest\nspace: plane stress\nthickness: 1 mm\nmethod: pd\nduration: 100 us\n"
-        "material: {young: 72 GPa, density: 2440}\n"
-        "bodies:\n  - {name: low, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}\n"
-        "  - {name: high, shape: {box: {from: [0, 10 mm], to: [20 mm, 20 mm]}}}\n"
-        "cracks: [{from: [5 mm, -1 mm], to: [5 mm, 8 mm]}]\nparticles: {spacing: 1 mm}\n"
-        "contact: {between: all}\ntime: {step: 0.1 us}\noutput: {frames: 1, samples: 10}\n";
+    static const char text[] = "name: rest\nspace: plane stress\nthickness: 1 mm\nmethod: pd\nduration: 100 us\n"
+                               "material: {young: 72 GPa, density: 2440}\n"
+                               "bodies:\n  - {name: low, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}\n"
+                               "  - {name: high, shape: {box: {from: [0, 10 mm], to: [20 mm, 20 mm]}}}\n"
+                               "cracks: [{from: [5 mm, -1 mm], to: [5 mm, 8 mm]}]\nparticles: {spacing: 1 mm}\n"
+                               "contact: {between: all}\ntime: {step: 0.1 us}\noutput: {frames: 1, samples: 10}\n";
     struct scene s;
     struct run *e = contact_run(&s, text, law);
     for (int step = 0; step < 1000; step++) assert_ok(engine_step(e));
@@ -406,9 +406,16 @@ static void test_sizes(void **state)
         real corner[2][DIM_MAX] = {{-h, 0.5 * h}, {h, 0.5 * h}};
         const struct crack notch = {.n = 2, .corner = corner, .width = 0.31 * h};
         struct particles p;
-        struct contact c = {.n = 3, .rows = 3, .particle = NEW("test", 3, int32_t),
-                            .law = {.spacing = h, .section = dim == 1 ? 4e-6 : dim == 2 ? 0.37e-3 : 1, .shape = shape,
-                                    .crack = &notch, .cracks = dim == 2}};
+        struct contact c = {.n = 3,
+                            .rows = 3,
+                            .particle = NEW("test", 3, int32_t),
+                            .law = {.spacing = h,
+                                    .section = dim == 1   ? 4e-6
+                                               : dim == 2 ? 0.37e-3
+                                                          : 1,
+                                    .shape = shape,
+                                    .crack = &notch,
+                                    .cracks = dim == 2}};
         particles_make(&p, dim, 3, 0);
         for (int i = 0; i < 3; i++) {
             c.particle[i] = i;
@@ -442,8 +449,15 @@ static void test_beside_a_ball(void **state)
     int32_t particle[] = {0, 1, 2};
     real size[] = {h, h, h}, rise[3] = {0};
     for (int k = 1; k < 5; k++) {
-        c[k] = (struct contact){.made = true, .n = 3, .rows = 3, .particle = particle, .size = size, .rise = rise,
-                                .law = {.spacing = h, .section = 1}, .rigids = 1, .rigid = &rigid};
+        c[k] = (struct contact){.made = true,
+                                .n = 3,
+                                .rows = 3,
+                                .particle = particle,
+                                .size = size,
+                                .rise = rise,
+                                .law = {.spacing = h, .section = 1},
+                                .rigids = 1,
+                                .rigid = &rigid};
         for (int i = 0; i < 3; i++) { /* on the ball at three angles, as deep as each other */
             const real r = 9e-3 + (0.5 - depth[k - 1]) * h, angle = 0.2 + 0.4 * i;
             p.x[0][i] = r * cos(angle), p.x[1][i] = r * sin(angle);
@@ -463,10 +477,9 @@ static void test_beside_a_ball(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_account), cmocka_unit_test(test_sizes),
-                                       cmocka_unit_test(test_beside_a_ball),
-                                       cmocka_unit_test(test_line), cmocka_unit_test(test_plane),
-                                       cmocka_unit_test(test_space), cmocka_unit_test(test_steps),
-                                       cmocka_unit_test(test_stiffness), cmocka_unit_test(test_rest)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_account), cmocka_unit_test(test_sizes),     cmocka_unit_test(test_beside_a_ball),
+        cmocka_unit_test(test_line),    cmocka_unit_test(test_plane),     cmocka_unit_test(test_space),
+        cmocka_unit_test(test_steps),   cmocka_unit_test(test_stiffness), cmocka_unit_test(test_rest)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

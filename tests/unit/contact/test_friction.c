@@ -31,7 +31,7 @@ static void spring_of_coulomb(void **state)
     }
     assert_true(k * size * 40 > 1.5 * most);
     assert_close(s.stored + s.lost, given, 1e-12);
-    contact_slide(&s, 3, none, none, k, 0);              /* parted */
+    contact_slide(&s, 3, none, none, k, 0); /* parted */
     assert_near(s.stored, 0, 0);
     assert_close(s.lost, given, 1e-12);
 }
@@ -81,7 +81,6 @@ static void forces_at(struct run *e, real dt)
     for (int d = 0; d < p->dim; d++) memset(p->f[d], 0, (size_t)p->n * sizeof(real));
     contact_force(e->contact, p, dt);
 }
-
 
 /* A block pressed into a disc, by 0.1 spacings, off its middle. */
 static const char pressed[] =
@@ -149,7 +148,7 @@ static void rigid_moment(void **state)
         force -= p->f[1][i];
         turning -= (p->x[0][i] - r->x[0]) * p->f[1][i] - (p->x[1][i] - r->x[1]) * p->f[0][i];
     }
-    assert_true(force > 0 && turning < -5e-3 * force);   /* pressed up on its left end: it turns clockwise */
+    assert_true(force > 0 && turning < -5e-3 * force); /* pressed up on its left end: it turns clockwise */
     assert_close(r->moment[2], turning, 1e-12);
     body_end(e, &s);
 }
@@ -157,12 +156,11 @@ static void rigid_moment(void **state)
 /* ---- faces that slide -------------------------------------------------------------------------------------------- */
 
 /* Two blocks, one on the other. */
-static const char blocks[] =
-    "space: plane strain\nthickness: 0.37 m\nduration: 1 us\nmethod: pd\n"
-    "material: {young: 3 GPa, poisson: 1/4, density: 1180}\nbodies:\n"
-    "  - {name: low, shape: {box: {from: [0, 0], to: [20 mm, 5 mm]}}}\n"
-    "  - {name: high, shape: {box: {from: [4 mm, 5 mm], to: [14 mm, 9 mm]}}}\n"
-    "particles: {spacing: 1 mm}\ncontact: {between: bodies, friction: 0.3}\n";
+static const char blocks[] = "space: plane strain\nthickness: 0.37 m\nduration: 1 us\nmethod: pd\n"
+                             "material: {young: 3 GPa, poisson: 1/4, density: 1180}\nbodies:\n"
+                             "  - {name: low, shape: {box: {from: [0, 0], to: [20 mm, 5 mm]}}}\n"
+                             "  - {name: high, shape: {box: {from: [4 mm, 5 mm], to: [14 mm, 9 mm]}}}\n"
+                             "particles: {spacing: 1 mm}\ncontact: {between: bodies, friction: 0.3}\n";
 
 /* What moves along does not rub; what slides is dragged by friction times the pressure, against its motion. */
 static void faces_rub(void **state)
@@ -181,11 +179,11 @@ static void faces_rub(void **state)
     assert_near(contact_friction_stored(e->contact), 0, 1e-20);
     assert_near(contact_friction_work(e->contact), 0, 1e-20);
     for (int64_t i = 0; i < p->n; i++) p->v[0][i] = p->body[i] == 1 ? 9 : 7, p->v[1][i] = 0;
-    for (int k = 0; k < 400; k++) forces_at(e, 1e-7);    /* 80 um: springs have long given way */
+    for (int k = 0; k < 400; k++) forces_at(e, 1e-7); /* 80 um: springs have long given way */
     for (int64_t i = 0; i < p->n; i++) drag[p->body[i]] += p->f[0][i], press[p->body[i]] += p->f[1][i];
     assert_true(press[1] > 0);
     assert_near(drag[0] + drag[1], 0, 1e-9 * press[1]);
-    assert_close(drag[1], -0.3 * press[1], 0.02);        /* forces at the ends of the face lean */
+    assert_close(drag[1], -0.3 * press[1], 0.02); /* forces at the ends of the face lean */
     assert_true(contact_friction_work(e->contact) > 0);
     body_end(e, &s);
 }
@@ -228,7 +226,7 @@ static void rigid_body_rubs(void **state)
     assert_near(contact_friction_work(e->contact), 0, 1e-20);
     r->spin[2] = 0;
     for (int64_t i = 0; i < p->n; i++) p->v[0][i] = 5.4, p->v[1][i] = 2;
-    for (int k = 0; k < 400; k++) forces_at(e, 1e-7);    /* 64 um: springs have long given way */
+    for (int k = 0; k < 400; k++) forces_at(e, 1e-7); /* 64 um: springs have long given way */
     block_force(p, force);
     assert_true(force[1] < 0);
     assert_close(force[0], -0.3 * force[1], 1e-9);
@@ -243,7 +241,7 @@ static void rigid_body_rubs(void **state)
     e->report->sampling.due = true, e->damped = 0.021;
     sample_energy(e);
     assert_close(e->report->sampling.energy.damped, 0.021 + before + lost, 1e-9);
-    assert_true(lost > 1e-6 * 0.021);                    /* it counts beside the other */
+    assert_true(lost > 1e-6 * 0.021); /* it counts beside the other */
     body_end(e, &s);
 }
 
@@ -277,9 +275,13 @@ static void weights_of_sizes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spring_of_coulomb), cmocka_unit_test(spring_follows_its_face),
-        cmocka_unit_test(rigid_force_is_a_gradient), cmocka_unit_test(rigid_moment), cmocka_unit_test(faces_rub),
-        cmocka_unit_test(rigid_body_rubs), cmocka_unit_test(weights_of_sizes),
+        cmocka_unit_test(spring_of_coulomb),
+        cmocka_unit_test(spring_follows_its_face),
+        cmocka_unit_test(rigid_force_is_a_gradient),
+        cmocka_unit_test(rigid_moment),
+        cmocka_unit_test(faces_rub),
+        cmocka_unit_test(rigid_body_rubs),
+        cmocka_unit_test(weights_of_sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

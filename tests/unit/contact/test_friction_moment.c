@@ -218,7 +218,7 @@ static void turning_together(void **state)
 
 /* ---- particles in a line ----------------------------------------------------------------------------------------- */
 
-#define H 0.7e-3                         /* spacing [m] */
+#define H 0.7e-3 /* spacing [m] */
 
 /* A particle H above `felt` particles along x, each `aside` of the line in turn, which goes by 1 um along axis `along`
  * and sticks. Returns the largest force of the couple on one of them over the drag; *balance: the part of the moment
@@ -232,8 +232,18 @@ static real couple_of(int felt, real aside, int along, real *balance)
     int32_t particle[4] = {0, 1, 2, 3}, other[3] = {1, 2, 3};
     int64_t first[2] = {0, felt};
     real size[4] = {H, H, H, H}, rise[4] = {0}, most = 0, moment[3], sum = 0, force[3];
-    struct contact c = {.law = {.friction = 1}, .n = 4, .rows = 1, .particle = particle, .root = particle, .size = size,
-                        .rise = rise, .first = first, .other = other, .pairs = felt, .face = &face, .spring = &spring,
+    struct contact c = {.law = {.friction = 1},
+                        .n = 4,
+                        .rows = 1,
+                        .particle = particle,
+                        .root = particle,
+                        .size = size,
+                        .rise = rise,
+                        .first = first,
+                        .other = other,
+                        .pairs = felt,
+                        .face = &face,
+                        .spring = &spring,
                         .reaction = &reaction};
     particles_make(&p, 3, 4, 0);
     p.x[2][0] = H, p.v[along][0] = 10;

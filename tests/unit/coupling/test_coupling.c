@@ -10,15 +10,15 @@
 #include "coupling/approach.h"
 #include "coupling/notch.h"
 
-#define STRAIN 1e-7          /* bonds stretch by finite geometry: deviations from linear theory of this order */
+#define STRAIN 1e-7 /* bonds stretch by finite geometry: deviations from linear theory of this order */
 
 /* ---- a flat interface -------------------------------------------------------------------------------------------- */
 
 struct interface {
     struct cloud_plan plan;
-    int split;                           /* peridynamic columns, left of the interface                        */
+    int split; /* peridynamic columns, left of the interface                        */
     enum shape shape;
-    real ratio, offset;                  /* cell size and place of the grid's nodes [spacings]                */
+    real ratio, offset; /* cell size and place of the grid's nodes [spacings]                */
     enum coupling coupling;
 };
 
@@ -69,7 +69,9 @@ static void test_interface_1d(void **state)
 {
     (void)state;
     static const real axial[DIM_MAX][DIM_MAX] = {{STRAIN}};
-    static const struct { real ratio, handshake; } row[] = {{1, 0.75}, {2, 0.54}};
+    static const struct {
+        real ratio, handshake;
+    } row[] = {{1, 0.75}, {2, 0.54}};
     for (size_t k = 0; k < COUNT_OF(row); k++)
         for (int shape = SHAPE_LINEAR; shape <= SHAPE_CPGIMP; shape++) {
             real S[SYM_MAX];
@@ -94,8 +96,9 @@ static void test_interface_2d(void **state)
 {
     (void)state;
     static const real load[][DIM_MAX][DIM_MAX] = {{{STRAIN}}, {{STRAIN}, {0, STRAIN}}, {{0, STRAIN}, {STRAIN, 0}}};
-    static const struct { real offset, handshake[3], partial[3]; } row[] = {
-        {0, {0.497, 0.637, 0.420}, {0.0114, 0, 0.0343}}, {1, {0.364, 0.473, 0.331}, {0.0057, 0, 0.0172}}};
+    static const struct {
+        real offset, handshake[3], partial[3];
+    } row[] = {{0, {0.497, 0.637, 0.420}, {0.0114, 0, 0.0343}}, {1, {0.364, 0.473, 0.331}, {0.0057, 0, 0.0172}}};
     for (size_t k = 0; k < COUNT_OF(row); k++)
         for (int l = 0; l < 3; l++) {
             real S[SYM_MAX];
@@ -109,7 +112,7 @@ static void test_interface_2d(void **state)
             is_near("2D handshake", residual / scale, row[k].handshake[l], 0.001);
             i.coupling = COUPLING_PARTIAL_STRESS;
             is_near("2D partial stress", interface_residual(&i, load[l], S) / scale, row[k].partial[l], 1e-4);
-            i.plan.shells = SHELLS_ISOTROPIC;    /* no anisotropy, no residual */
+            i.plan.shells = SHELLS_ISOTROPIC; /* no anisotropy, no residual */
             at_most("2D partial stress, isotropic", interface_residual(&i, load[l], S) / scale, 3e-6);
         }
 }
@@ -121,7 +124,11 @@ static void test_interface_3d(void **state)
     static const real strain[DIM_MAX][DIM_MAX] = {{3e-7, 1e-7, -2e-7}, {1e-7, -2e-7, 1e-7}, {-2e-7, 1e-7, 2e-7}};
     real S[SYM_MAX];
     struct interface i = {{.space = SPACE_SOLID, .count = {16, 16, 16}, .horizon = 2.015, .shells = SHELLS_ISOTROPIC},
-                          8, SHAPE_LINEAR, 2, 0, COUPLING_PARTIAL_STRESS};
+                          8,
+                          SHAPE_LINEAR,
+                          2,
+                          0,
+                          COUPLING_PARTIAL_STRESS};
     at_most("3D partial stress", interface_residual(&i, strain, S) / S[0], 5e-6);
     i.coupling = COUPLING_HANDSHAKE;
     assert_true(interface_residual(&i, strain, S) / S[0] > 0.2);
@@ -140,7 +147,8 @@ static void test_share_given(void **state)
     partial_stress_make(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
     for (int64_t i = 0; i < c.p.n; i++) {
         int64_t k = i - 16;
-        if (k < 0 || k > 2) assert_true(partial.index[i] < 0);
+        if (k < 0 || k > 2)
+            assert_true(partial.index[i] < 0);
         else
             is_near("share given", 1 - partial.matrix[partial.index[i]], given[k], 1e-12);
     }
@@ -207,8 +215,10 @@ static void test_energy_at_start(void **state)
 {
     (void)state;
     static const real strain[DIM_MAX][DIM_MAX] = {{STRAIN}};
-    static const struct { int block; real handshake, partial; } row[] = {
-        {1, 1, -0.5}, {2, 11.0 / 6, -1.0 / 3}, {3, 7.0 / 3, 0}, {4, 7.0 / 3, 0}, {9, 7.0 / 3, 0}};
+    static const struct {
+        int block;
+        real handshake, partial;
+    } row[] = {{1, 1, -0.5}, {2, 11.0 / 6, -1.0 / 3}, {3, 7.0 / 3, 0}, {4, 7.0 / 3, 0}, {9, 7.0 / 3, 0}};
     for (size_t k = 0; k < COUNT_OF(row); k++) {
         struct cloud c;
         struct partial_stress partial = {0};
@@ -263,7 +273,7 @@ static void test_energy_in_run(void **state)
         assert_int_equal(convert(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 0);
         p->flag[15] |= FLAG_STRESSED;
         assert_int_equal(convert(&conversion, &by_breaks, p, &c.bonds, &c.source, NULL, NULL, 2e-6), 0);
-        p->flag[15] |= FLAG_STRESSED;                    /* it has been cleared */
+        p->flag[15] |= FLAG_STRESSED; /* it has been cleared */
         assert_int_equal(convert(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 7);
         for (int64_t i = 0; i < p->n; i++) assert_int_equal(p->kind[i], i >= 12 && i <= 18 ? KIND_PD : KIND_MPM);
         assert_int_equal(p->flag[15], 0);
@@ -320,7 +330,8 @@ static void test_approach(void **state)
 {
     (void)state;
     enum { BODIES = 3, WIDE = 21, HIGH = 5 };
-    static struct solid box = {.kind = SOLID_BOX, .from = {16 * CLOUD_SPACING, -4 * CLOUD_SPACING},
+    static struct solid box = {.kind = SOLID_BOX,
+                               .from = {16 * CLOUD_SPACING, -4 * CLOUD_SPACING},
                                .to = {30 * CLOUD_SPACING, -1.7 * CLOUD_SPACING}};
     const struct region shape = {.n = 1, .solid = &box};
     const real rest[DIM_MAX] = {0}, reach = 3 * CLOUD_SPACING;
@@ -382,16 +393,11 @@ static void test_faces_meet(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_interface_1d),
-        cmocka_unit_test(test_interface_2d),
-        cmocka_unit_test(test_interface_3d),
-        cmocka_unit_test(test_share_given),
-        cmocka_unit_test(test_wide_families),
-        cmocka_unit_test(test_energy_at_start),
-        cmocka_unit_test(test_energy_in_run),
-        cmocka_unit_test(test_block_in_its_body),
-        cmocka_unit_test(test_crack_in_its_body),
-        cmocka_unit_test(test_approach),
+        cmocka_unit_test(test_interface_1d),      cmocka_unit_test(test_interface_2d),
+        cmocka_unit_test(test_interface_3d),      cmocka_unit_test(test_share_given),
+        cmocka_unit_test(test_wide_families),     cmocka_unit_test(test_energy_at_start),
+        cmocka_unit_test(test_energy_in_run),     cmocka_unit_test(test_block_in_its_body),
+        cmocka_unit_test(test_crack_in_its_body), cmocka_unit_test(test_approach),
         cmocka_unit_test(test_faces_meet),
     };
     team_make(2);

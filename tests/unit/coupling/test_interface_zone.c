@@ -106,7 +106,7 @@ static void test_waves(void **state)
         struct cloud c;
         struct interface_zone r = {0};
         half_make(&c, &r, SPACE_LINE, 0);
-        const int32_t middle = 21;      /* points 20 .. 23: the zone; the inner ones see whole neighbourhoods */
+        const int32_t middle = 21; /* points 20 .. 23: the zone; the inner ones see whole neighbourhoods */
         const real q = wave_number[k], phase = q < pi ? -q * middle + 0.5 * pi : 0.5 * pi - pi * middle;
         assert_int_equal(r.points, 4);
         for (int64_t i = 0; i < c.p.n; i++) c.p.v[0][i] = sin(q * (real)i + phase);

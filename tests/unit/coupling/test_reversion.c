@@ -8,7 +8,7 @@
 #include "kernels/mpm/stress.h"
 #include "base/team.h"
 
-#define STRAIN 1e-6          /* bonds stretch by finite geometry: deviations from linear theory of this order */
+#define STRAIN 1e-6 /* bonds stretch by finite geometry: deviations from linear theory of this order */
 
 struct setting {
     struct cloud c;
@@ -99,7 +99,7 @@ static void test_bar(void **state)
     assert_int_equal(s.c.bonds.rows, 0);
     assert_int_equal(conversion.reverted, 20);
     for (int64_t i = 0; i < p->n; i++) {
-        const bool had = i >= 16 && i < 48;      /* a row of bonds, which come in eights, whose force is gone now */
+        const bool had = i >= 16 && i < 48; /* a row of bonds, which come in eights, whose force is gone now */
         assert_near(p->stress[0][i], STRAIN * s.c.material[0].young, 3 * STRAIN * STRAIN * s.c.material[0].young);
         assert_true(p->f[0][i] == (had ? 0 : 7) && partial.index[i] < 0);
         if (i < 20 || i >= 40) continue;
@@ -165,7 +165,7 @@ static void test_surfaces(void **state)
         assert_int_equal(choose(&s, &list), p->n);
         real middle[SYM_MAX], most = 0;
         const int n = symmetric_count(p->dim);
-        for (int64_t i = 0; i < p->n; i++)       /* a full family: its plain virial */
+        for (int64_t i = 0; i < p->n; i++) /* a full family: its plain virial */
             if (s.c.bonds.family_volume[i] > 0.999 * s.c.source.family.full)
                 for (int c = 0; c < n; c++) middle[c] = p->stress[c][i], most = real_max(most, fabs(middle[c]));
         assert_true(most > 0);
@@ -222,7 +222,8 @@ static void test_who_stays(void **state)
             stay += stays;
             if (k < n && list[k] == i) assert_false(stays), k++;
             /* a ball of one horizon has to fit in beside what stays: all have one, but where the body's edge is near */
-            else assert_true(stays);
+            else
+                assert_true(stays);
         }
         assert_true(k == n && stay == p->n - n && stay > 20);
         memory_free(list);
@@ -242,10 +243,10 @@ static void test_dwell_and_gap(void **state)
     cloud_bonds(&s.c);
     setting_never(&s);
     know_stress(&s);
-    for (int t = 0; t < 5; t++) {                /* at rest but for 0.5 < share at times 0, 1, 2 */
+    for (int t = 0; t < 5; t++) { /* at rest but for 0.5 < share at times 0, 1, 2 */
         p->stress[0][30] = t < 3 ? 0.51 * s.elastic[0].trigger : 0.49 * s.elastic[0].trigger;
         const int64_t n = reversion_choose(&s.rule, p, &s.c.bonds, t, &list);
-        assert_int_equal(n, t == 0 ? 0 : t < 4 ? 53 : 60);       /* three on either side stay with it */
+        assert_int_equal(n, t == 0 ? 0 : t < 4 ? 53 : 60); /* three on either side stay with it */
         memory_free(list);
     }
     /* at the end of the bar, where a family is half of a whole one, so much of the stress counts as twice as much */
@@ -327,7 +328,7 @@ static void test_mesh(void **state)
         }
     for (int d = 0; d < dim; d++) assert_near(is[d], was[d], 1e-13 * p->mass[0] * (real)p->n), memory_free(u[d]);
     assert_near((mesh_kinetic(&mesh) + lost) / kinetic, 1, 1e-13);
-    assert_true(lost > 0);                       /* velocities of nodes were at random: means lose */
+    assert_true(lost > 0); /* velocities of nodes were at random: means lose */
     mesh_free(&mesh);
     cloud_free(&s.c);
 }

@@ -10,14 +10,14 @@
 #include "base/team.h"
 #include "src/coupling/partial_parts.h"
 
-#define STRAIN 1e-7                      /* finite geometry deviates from linear theory by as much */
+#define STRAIN 1e-7 /* finite geometry deviates from linear theory by as much */
 
 struct partners {
     struct cloud_plan plan;
     enum pd_model model;
     real poisson;
-    int split;                           /* peridynamic columns, left of the interface */
-    real offset;                         /* of the grid's nodes [spacings] */
+    int split;   /* peridynamic columns, left of the interface */
+    real offset; /* of the grid's nodes [spacings] */
 };
 
 struct both {
@@ -114,8 +114,11 @@ static void test_flat_solid(void **state)
 {
     (void)state;
     static const real strain[DIM_MAX][DIM_MAX] = {{3e-7, 1e-7, -2e-7}, {1e-7, -2e-7, 1e-7}, {-2e-7, 1e-7, 2e-7}};
-    struct partners k = {.plan = {.space = SPACE_SOLID, .count = {16, 20, 20}, .horizon = 2.015,
-                                  .influence = INFLUENCE_INVERSE}, .model = PD_MOSPD, .poisson = 0.35, .split = 8};
+    struct partners k = {
+        .plan = {.space = SPACE_SOLID, .count = {16, 20, 20}, .horizon = 2.015, .influence = INFLUENCE_INVERSE},
+        .model = PD_MOSPD,
+        .poisson = 0.35,
+        .split = 8};
     at_most("solid", residual(&k, strain), 5e-6);
 }
 
@@ -185,8 +188,10 @@ static real energy_of(const struct both *b, enum pd_model model)
 /* Energy that comes of making a square block in a uniformly strained plate peridynamic, in energies of a particle. */
 static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int edge)
 {
-    const struct partners k = {.plan = {.space = SPACE_PLANE_STRESS, .count = {32, 32}, .horizon = 3.015,
-                                        .influence = INFLUENCE_INVERSE}, .model = model, .poisson = 0.3};
+    const struct partners k = {
+        .plan = {.space = SPACE_PLANE_STRESS, .count = {32, 32}, .horizon = 3.015, .influence = INFLUENCE_INVERSE},
+        .model = model,
+        .poisson = 0.3};
     struct solid box = {.kind = SOLID_BOX};
     struct both b;
     for (int d = 0; d < 2; d++)
@@ -219,8 +224,10 @@ static void test_energy(void **state)
         for (int edge = 8; edge <= 12; edge += 4) {
             is_near("jump, with rotations", jump(PD_MOSPD, load[l], edge), 4 * CORNER, 1e-4);
             real ordinary = jump(PD_OSPD, load[l], edge) - 4 * CORNER;
-            if (l == 1) at_most("jump, ordinary, dilatation", ordinary, 1e-4);
-            else at_most("jump, ordinary", ordinary, (l == 0 ? 0.0137 : 0.0343) * square(edge + 2));
+            if (l == 1)
+                at_most("jump, ordinary, dilatation", ordinary, 1e-4);
+            else
+                at_most("jump, ordinary", ordinary, (l == 0 ? 0.0137 : 0.0343) * square(edge + 2));
         }
 }
 
@@ -230,8 +237,8 @@ static void test_energy(void **state)
 static void test_response(void **state)
 {
     (void)state;
-    const struct partners k = {.plan = {.space = SPACE_PLANE_STRESS, .count = {9, 7}, .horizon = 2.015},
-                               .model = PD_MOSPD, .poisson = 0.2};
+    const struct partners k = {
+        .plan = {.space = SPACE_PLANE_STRESS, .count = {9, 7}, .horizon = 2.015}, .model = PD_MOSPD, .poisson = 0.2};
     struct both b;
     both_make(&b, &k);
     struct cloud *c = &b.s.c;
@@ -247,7 +254,7 @@ static void test_response(void **state)
             const struct response other = response_of(&c->p, &c->bonds, &c->source, j, &back);
             assert_true(one.central == 0 && other.central == 0);
             assert_true(fabs(one.vector / other.vector - 1) < 1e-12 && fabs(one.pressure / other.pressure - 1) < 1e-12);
-            if (i % 9 != 4 || i / 9 != 3 || j != i + 1) continue;        /* both have whole families */
+            if (i % 9 != 4 || i / 9 != 3 || j != i + 1) continue; /* both have whole families */
             const struct state_modulus *m = &b.modulus[i % 2], *n = &b.modulus[j % 2];
             const real scale = it.bond.w * square(CLOUD_SPACING) * full;
             is_near("vector", one.vector, scale * (m->B + n->B), 1e-6 * one.vector);
@@ -267,7 +274,9 @@ static void test_rows(void **state)
 {
     (void)state;
     const struct partners k = {.plan = {.space = SPACE_PLANE_STRESS, .count = {18, 11}, .horizon = 3.015},
-                               .model = PD_MOSPD, .poisson = 0.3, .split = 9};
+                               .model = PD_MOSPD,
+                               .poisson = 0.3,
+                               .split = 9};
     const real angle = 0.3, c = cos(angle), s = sin(angle), stretch = 1e-3;
     const real turned[DIM_MAX][DIM_MAX] = {{c * (1 + stretch) - 1, -s}, {s * (1 + stretch), c - 1}};
     struct both b;
@@ -294,8 +303,11 @@ static void test_positive(void **state)
     for (int dim = 2; dim <= 3; dim++) {
         const int n = symmetric_count(dim);
         const struct partners k = {.plan = {.space = dim == 2 ? SPACE_PLANE_STRESS : SPACE_SOLID,
-                                            .count = {5, 4, dim == 3 ? 3 : 1}, .horizon = 2.015},
-                                   .model = PD_OSPD, .poisson = 0.2, .split = 2};
+                                            .count = {5, 4, dim == 3 ? 3 : 1},
+                                            .horizon = 2.015},
+                                   .model = PD_OSPD,
+                                   .poisson = 0.2,
+                                   .split = 2};
         struct both b;
         real T[SYM_MAX * SYM_MAX], C[SYM_MAX * SYM_MAX], rest[SYM_MAX * SYM_MAX], taken[SYM_MAX * SYM_MAX], before;
         both_make(&b, &k);
@@ -330,8 +342,8 @@ static void test_positive(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_flat), cmocka_unit_test(test_flat_solid),
-                                       cmocka_unit_test(test_torque), cmocka_unit_test(test_energy),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_flat),     cmocka_unit_test(test_flat_solid),
+                                       cmocka_unit_test(test_torque),   cmocka_unit_test(test_energy),
                                        cmocka_unit_test(test_response), cmocka_unit_test(test_positive),
                                        cmocka_unit_test(test_rows)};
     team_make(2);

@@ -15,8 +15,8 @@
 #include "run/energies.h"
 #include "scene/scene_read.h"
 
-#define TURN_MOST 0.2                    /* of a particle [rad] */
-#define SHAKE 0.02                       /* of places [spacings]: strains of some percent */
+#define TURN_MOST 0.2 /* of a particle [rad] */
+#define SHAKE 0.02    /* of places [spacings]: strains of some percent */
 
 /* Half a body whose bonds end at points, and at images of peridynamic particles. */
 static const char plate[] =
@@ -252,7 +252,7 @@ static void test_partials(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_gradient), cmocka_unit_test(test_points),
-                                      cmocka_unit_test(test_partials)};
+                                       cmocka_unit_test(test_partials)};
     team_make(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,8 +11,12 @@ static const enum space spaces[SPACES] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_
 
 static struct material made(enum space space, real poisson)
 {
-    struct material m = {.young = 7.3e9, .poisson = poisson, .density = 2300, .energy_release_rate = 37,
-                         .yield_stress = 3.1e6, .yield_tangent = 1.7e9};
+    struct material m = {.young = 7.3e9,
+                         .poisson = poisson,
+                         .density = 2300,
+                         .energy_release_rate = 37,
+                         .yield_stress = 3.1e6,
+                         .yield_tangent = 1.7e9};
     material_derive(&m, space);
     return m;
 }
@@ -103,7 +107,7 @@ static void critical_stretch(void **state)
                 const real beyond = dim == 1 ? 0.5 : dim == 2 ? acos(z / r) / pi : 0.5 * (1 - z / r);
                 energy += 0.5 * c * s * s * r * beyond * shell(dim, r, section) * HORIZON / PIECES * r / PIECES;
             }
-        assert_close(energy, 37, 1e-3);                  /* roots at the ends of acos, 400 pieces */
+        assert_close(energy, 37, 1e-3); /* roots at the ends of acos, 400 pieces */
     }
 }
 
@@ -140,9 +144,12 @@ static void families(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elastic_constants), cmocka_unit_test(bilinear_curve),
-        cmocka_unit_test(micro_modulus),     cmocka_unit_test(critical_stretch),
-        cmocka_unit_test(critical_stretch_of_states), cmocka_unit_test(families),
+        cmocka_unit_test(elastic_constants),
+        cmocka_unit_test(bilinear_curve),
+        cmocka_unit_test(micro_modulus),
+        cmocka_unit_test(critical_stretch),
+        cmocka_unit_test(critical_stretch_of_states),
+        cmocka_unit_test(families),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,7 +41,7 @@ static void sort_follows_rows(void **state)
     struct particles p;
     particles_make(&p, 3, N, EVERYTHING);
     for (int i = 0; i < N; i++) {
-        int place = i * 37 % N, at[3] = {place % 5, place / 5 % 4, place / 20};   /* 37 and 60 have no divisor */
+        int place = i * 37 % N, at[3] = {place % 5, place / 5 % 4, place / 20}; /* 37 and 60 have no divisor */
         for (int d = 0; d < 3; d++) p.X[d][i] = 0.1 * at[d] + 1e-13 * ((i * 7 + d) % 11 - 5);
         p.id[i] = i;
         p.mass[i] = p.stress[5][i] = p.gradient[8][i] = p.stretch[2][i] = place;
@@ -113,7 +113,7 @@ static void extent_and_sites(void **state)
     particles_extent(&p, 0, 1, &low, &high);
     assert_true(isinf(low) && isinf(high) && high < low);
     particles_free(&p);
-    for (int k = -1000; k <= 1000; k++) {            /* places as a scene computes them: round-off does not matter */
+    for (int k = -1000; k <= 1000; k++) { /* places as a scene computes them: round-off does not matter */
         assert_true(lattice_site(0.3 + k * 1e-3, 0.3, 1e-3, &site));
         assert_exact(site, k);
         assert_false(lattice_site(0.3 + (k + 1e-7) * 1e-3, 0.3, 1e-3, &site));
@@ -123,10 +123,8 @@ static void extent_and_sites(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(table_covers_the_struct),
-        cmocka_unit_test(sort_follows_rows),
-        cmocka_unit_test(equal_places_sort_by_id),
-        cmocka_unit_test(images_are_added_behind),
+        cmocka_unit_test(table_covers_the_struct), cmocka_unit_test(sort_follows_rows),
+        cmocka_unit_test(equal_places_sort_by_id), cmocka_unit_test(images_are_added_behind),
         cmocka_unit_test(extent_and_sites),
     };
     omp_set_num_threads(2);

@@ -37,7 +37,11 @@ static real arrow_area(real r)
     return area;
 }
 
-static struct example { struct solid s; int dim; real volume; } examples[] = {
+static struct example {
+    struct solid s;
+    int dim;
+    real volume;
+} examples[] = {
     {{.kind = SOLID_BOX, .from = {-1, 0, 0.5}, .to = {1, 0.5, 2}}, 3, 1.5},
     {{.kind = SOLID_BALL, .centre = {1, 2}, .radius = 1.5}, 2, 0},
     {{.kind = SOLID_CYLINDER, .from = {0, 0, 0}, .to = {1, 2, 2}, .radius = 0.7}, 3, 0},
@@ -58,9 +62,20 @@ static void examples_make(void)
 {
     int corner;
     const real third = 4 * pi / 3, length = sqrt(5);
-    const real volumes[] = {1.5, pi * 2.25, pi * 0.49 * 3, pi * 1.4, third, third * 0.3, pi * (4 - 1.44),
-                            pi * 0.64 * length, pi / 3 * length * (1 + 0.4 + 0.16), pi / 3, 2 * pi * pi * 0.09,
-                            arrow_area(0), arrow_area(0.25), pi * 0.84 * 1.5};
+    const real volumes[] = {1.5,
+                            pi * 2.25,
+                            pi * 0.49 * 3,
+                            pi * 1.4,
+                            third,
+                            third * 0.3,
+                            pi * (4 - 1.44),
+                            pi * 0.64 * length,
+                            pi / 3 * length * (1 + 0.4 + 0.16),
+                            pi / 3,
+                            2 * pi * pi * 0.09,
+                            arrow_area(0),
+                            arrow_area(0.25),
+                            pi * 0.84 * 1.5};
     assert_int_equal(polygon_make(&sharp, &corner), POLYGON_FINE);
     if (!rounded.bend) assert_int_equal(polygon_make(&rounded, &corner), POLYGON_FINE);
     for (size_t k = 0; k < COUNT_OF(examples); k++) examples[k].volume = volumes[k];
@@ -98,7 +113,7 @@ static void check_bounds(const struct solid *s, int dim)
             assert_true(level > 0);
             nearest = real_min(nearest, level);
         }
-        assert_true(nearest < 0.15);     /* 3000 points leave no larger hole */
+        assert_true(nearest < 0.15); /* 3000 points leave no larger hole */
     }
 }
 
@@ -308,7 +323,8 @@ static void test_index_of_copies(void **state)
     const struct solid_motion turn = {.kind = MOTION_ROTATE, .angle = 0.7, .axis = {0, 1, 2}},
                               grid = {.kind = MOTION_GRID, .count = {10, 20, 1}, .step = {2, 1, 0}};
     struct solid plate[] = {{.kind = SOLID_BOX, .to = {20, 20}},
-                            {.kind = SOLID_BOX, .subtract = true, .from = {0, 0, -1}, .to = {1.4, 0.3, 1}}}, list[MANY];
+                            {.kind = SOLID_BOX, .subtract = true, .from = {0, 0, -1}, .to = {1.4, 0.3, 1}}},
+                 list[MANY];
     assert_true(solid_move(&plate[1], &turn, 2) && solid_move(&plate[1], &grid, 2));
     for (int k = 0; k < MANY; k++) {
         list[k] = plate[1], list[k].image = &plate[1].image[k], list[k].images = 1;
@@ -354,7 +370,12 @@ static void test_intersection(void **state)
 static void test_polygon_faults(void **state)
 {
     (void)state;
-    static struct { real corner[4][2]; int n; real round; enum polygon_fault fault; } q[] = {
+    static struct {
+        real corner[4][2];
+        int n;
+        real round;
+        enum polygon_fault fault;
+    } q[] = {
         {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 4, 0.5, POLYGON_FINE},
         {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 4, 0.51, POLYGON_TIGHT},
         {{{0, 0}, {1, 1}, {1, 0}, {0, 1}}, 4, 0, POLYGON_CROSSED},
@@ -396,9 +417,10 @@ static void test_mirrored_cracks(void **state)
         const struct crack *c = &list.crack[k];
         const real *end = hypot(c->corner[0][0] - 0.3, c->corner[0][1] - 1.9) > 0.5 ? c->corner[0] : c->corner[1];
         assert_true(fabs(fabs(end[0] - 0.3) - 1) < 1e-12 && fabs(fabs(end[1] - 1.9) - 1) < 1e-12);
-        for (int other = 0; other < k; other++) assert_true(list.crack[other].corner[0][0] != c->corner[0][0] ||
-                                                            list.crack[other].corner[0][1] != c->corner[0][1] ||
-                                                            list.crack[other].corner[1][1] != c->corner[1][1]);
+        for (int other = 0; other < k; other++)
+            assert_true(list.crack[other].corner[0][0] != c->corner[0][0] ||
+                        list.crack[other].corner[0][1] != c->corner[0][1] ||
+                        list.crack[other].corner[1][1] != c->corner[1][1]);
     }
     crack_list_free(&list);
 }

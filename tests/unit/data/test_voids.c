@@ -22,7 +22,9 @@ static struct solid block(void)
 
 static struct solid ball(real radius)
 {
-    return (struct solid){.kind = SOLID_BALL, .subtract = true, .radius = radius * SPACING,
+    return (struct solid){.kind = SOLID_BALL,
+                          .subtract = true,
+                          .radius = radius * SPACING,
                           .centre = {0.3 * SPACING, -0.7 * SPACING, 0.4 * SPACING}};
 }
 
@@ -69,11 +71,11 @@ static void round_holes(void **state)
                 for (int d = 0; d < dim; d++) a[d] += solids[1].centre[d], b[d] += solids[1].centre[d];
                 const real near = line_distance(a, b, solids[1].centre, dim);
                 const real out = fmax(region_level(&r, a, dim), region_level(&r, b, dim));
-                if (fabs(near - solids[1].radius) < 2e-5 * v.spacing || out > 0) continue;   /* a seam is closed */
+                if (fabs(near - solids[1].radius) < 2e-5 * v.spacing || out > 0) continue; /* a seam is closed */
                 const bool hides = near < solids[1].radius;
                 assert_int_equal(voids_between(&v, 3, a, b, &across), hides);
                 assert_int_equal(voids_between(&v, 3, b, a, NULL), hides);
-                assert_false(voids_between(&v, 2, a, b, NULL));     /* of another body */
+                assert_false(voids_between(&v, 2, a, b, NULL)); /* of another body */
                 /* the faces look at each other where the line turns by less than a right angle on its way through */
                 if (hides && fabs(near / solids[1].radius - sqrt(0.5)) > 1e-3)
                     assert_int_equal(across, near < sqrt(0.5) * solids[1].radius);
@@ -134,9 +136,9 @@ static void joined_and_mirrored(void **state)
     v.mirror = &plane, v.mirrors = 1, v.shapes = 1;
     const real a[DIM_MAX] = {-0.4 * SPACING, 0.3 * SPACING}, b[DIM_MAX] = {1.1 * SPACING, -0.6 * SPACING};
     assert_false(voids_between(&v, 3, a, b, NULL));
-    left.to[0] = 0.09 * SPACING;                 /* now the body ends before the plane */
+    left.to[0] = 0.09 * SPACING; /* now the body ends before the plane */
     assert_true(voids_between(&v, 3, a, b, NULL));
-    left.to[0] = 0.1 * SPACING;                  /* a slot half a spacing before the plane has its image behind it */
+    left.to[0] = 0.1 * SPACING; /* a slot half a spacing before the plane has its image behind it */
     struct solid slotted[2] = {left, block()};
     slotted[1].subtract = true, slotted[1].from[0] = -0.55 * SPACING, slotted[1].to[0] = -0.45 * SPACING;
     r[0] = (struct region){.n = 2, .solid = slotted};
@@ -173,7 +175,7 @@ static void bits_of_particles(void **state)
         for (int64_t j = 0; j < p->n; j++) {
             const real x = p->X[0][j] - p->X[0][i], y = p->X[1][j] - p->X[1][i], cut = low[1] + 2.5 * CLOUD_SPACING;
             if (j == i || hypot(x, y) > reach || (p->X[1][i] < cut) == (p->X[1][j] < cut)) continue;
-            const real face = 0.1 * CLOUD_SPACING;               /* where the line crosses both faces of the slot */
+            const real face = 0.1 * CLOUD_SPACING; /* where the line crosses both faces of the slot */
             const real at[2] = {p->X[0][i] + (cut - face - p->X[1][i]) / y * x,
                                 p->X[0][i] + (cut + face - p->X[1][i]) / y * x};
             const bool one = fmin(at[0], at[1]) < solids[1].to[0];
@@ -195,8 +197,8 @@ static void bits_of_particles(void **state)
 static void slit_file(char *text, int dim)
 {
     const int layers = dim == 3 ? 2 : 0, columns = 5, slit = 3;
-    int used = sprintf(text, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n",
-                       (columns * 3 + slit - 1) * (layers + 1));
+    int used =
+        sprintf(text, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n", (columns * 3 + slit - 1) * (layers + 1));
     for (int k = 0; k <= layers; k++)
         for (int j = 0; j < 4; j++)
             for (int i = 0; i < (j == 3 ? slit - 1 : columns); i++)
@@ -241,7 +243,7 @@ static void slits_of_doubled_nodes(void **state)
             assert_near(crack[0].corner[c][1], 2.5, 1e-12);
             far = fmax(far, fabs(crack[0].corner[c][0] - 2.5));
         }
-        assert_near(far, 2.5, 1e-12);                            /* from 0 to 5 */
+        assert_near(far, 2.5, 1e-12); /* from 0 to 5 */
         if (dim == 3) {
             crack_area_vector(&crack[0], area);
             assert_near(fabs(area[1]), 25, 1e-10);

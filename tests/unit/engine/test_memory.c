@@ -31,7 +31,7 @@ static void takes_what_it_says(const char *space, const char *box, const char *p
     const double said = run_memory(&e);
     print_message("%.5s, %s: said %.0f MB, with what was there before at most %.0f MB\n", space, particles, 1e-6 * said,
                   1e-6 * *taken);
-    assert_true(*taken < 1.1 * said + 30e6);     /* the program and its libraries */
+    assert_true(*taken < 1.1 * said + 30e6); /* the program and its libraries */
     assert_true(*taken > 0.5 * said);
     engine_free(&e);
     scene_free(&s);

@@ -38,8 +38,7 @@ static real least_of(const struct run *e, int64_t row)
     const int32_t i = e->bonds.particle[row];
     real least = INFINITY;
     for (struct bond_iterator it = bonds_of_row(&e->bonds, row); bond_next(&it);)
-        if (it.bond.w != 0)
-            least = real_min(least, 1e-3 * real_min(p->strength[i], p->strength[it.bond.nbr]));
+        if (it.bond.w != 0) least = real_min(least, 1e-3 * real_min(p->strength[i], p->strength[it.bond.nbr]));
     return least;
 }
 
@@ -87,7 +86,7 @@ static void check_breaks(const char *text)
             }
     }
     assert_true(broken_in(&e) > 0);
-    assert_near(first, 1, 0.1);              /* the plate grows evenly until waves come from its edges; steps are 2 % */
+    assert_near(first, 1, 0.1); /* the plate grows evenly until waves come from its edges; steps are 2 % */
     drop(&e, &s);
 }
 
@@ -153,8 +152,7 @@ static void test_triggers(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_triggers),
-                                       cmocka_unit_test(test_rows_are_watched),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_triggers), cmocka_unit_test(test_rows_are_watched),
                                        cmocka_unit_test(test_weakest_breaks_first),
                                        cmocka_unit_test(test_points_convert_by_their_own)};
     return cmocka_run_group_tests(tests, NULL, NULL);

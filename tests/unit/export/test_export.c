@@ -190,7 +190,8 @@ static void what_lammps_cannot(void **state)
     assert_int_equal(export_text("space: solid\nduration: 1 us\nmethod: pd\nparticles: {spacing: 1 mm}\n"
                                  "material: {young: 192 GPa, density: 8000, viscosity: {}}\n"
                                  "body: {box: {from: [0, 0, 0], to: [6 mm, 6 mm, 6 mm]}}\n",
-                                 scene_equal, "", false, false), REFUSED);
+                                 scene_equal, "", false, false),
+                     REFUSED);
     assert_non_null(strstr(status_message(), "viscosity is not exported"));
     refused("pd: {volume: cut-ramp, surface: none, weights: uniform, last_force: whole, influence: inverse, "
             "normalisation: local}\n"

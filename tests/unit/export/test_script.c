@@ -63,7 +63,10 @@ static real number_behind(const char *script, const char *words) { return strtod
 /* ---- formulas of LAMMPS ------------------------------------------------------------------------------------------ */
 
 /* Place in a formula; step; of an atom its mass. */
-struct formula { const char *at, *script; real step, mass; };
+struct formula {
+    const char *at, *script;
+    real step, mass;
+};
 
 static real sum_of(struct formula *f);
 
@@ -92,12 +95,16 @@ static real factor_of(struct formula *f)
         const char *name = f->at;
         while (isalnum((unsigned char)*f->at) || *f->at == '_') f->at++;
         const size_t length = (size_t)(f->at - name);
-        if (length == 4 && memcmp(name, "step", 4) == 0) value = f->step;
-        else if (length == 4 && memcmp(name, "mass", 4) == 0) value = f->mass;
-        else if (length == 2 && memcmp(name, "PI", 2) == 0) value = 3.14159265358979323846;
+        if (length == 4 && memcmp(name, "step", 4) == 0)
+            value = f->step;
+        else if (length == 4 && memcmp(name, "mass", 4) == 0)
+            value = f->mass;
+        else if (length == 2 && memcmp(name, "PI", 2) == 0)
+            value = 3.14159265358979323846;
         else if (length == 3 && memcmp(name, "sin", 3) == 0) {
             f->at++, value = sin(sum_of(f)), f->at++;
-        } else value = variable_of(f, name + 2, length - 2);
+        } else
+            value = variable_of(f, name + 2, length - 2);
     }
     if (*f->at == '^') f->at++, value = pow(value, factor_of(f));
     return sign * value;
@@ -165,13 +172,12 @@ static void coefficients(void **state)
 static void bonds_of_two(void **state)
 {
     (void)state;
-    static const char two[] =
-        "materials:\n  - {name: a, young: 192 GPa, density: 8000, critical_stretch: 0.013}\n"
-        "  - {name: b, young: 70 GPa, density: 2700, critical_stretch: 0.013}\n"
-        "space: plane stress\nthickness: 0.37 mm\nduration: 1 us\nmethod: pd\n"
-        "bodies:\n  - {material: a, shape: {box: {from: [-3 mm, -3 mm], to: [3 mm, 3 mm]}}, "
-        "parts: [{region: {box: {from: [0, -inf], to: [inf, inf]}}, material: b}]}\n"
-        "particles: {spacing: 0.5 mm, horizon: 3.015}\n";
+    static const char two[] = "materials:\n  - {name: a, young: 192 GPa, density: 8000, critical_stretch: 0.013}\n"
+                              "  - {name: b, young: 70 GPa, density: 2700, critical_stretch: 0.013}\n"
+                              "space: plane stress\nthickness: 0.37 mm\nduration: 1 us\nmethod: pd\n"
+                              "bodies:\n  - {material: a, shape: {box: {from: [-3 mm, -3 mm], to: [3 mm, 3 mm]}}, "
+                              "parts: [{region: {box: {from: [0, -inf], to: [inf, inf]}}, material: b}]}\n"
+                              "particles: {spacing: 0.5 mm, horizon: 3.015}\n";
     real c[3];
     char *script = script_of(two, "", "", false);
     const char *at = script;
@@ -234,12 +240,14 @@ static void bonds_of_three(void **state)
 static void forces(void **state)
 {
     (void)state;
-    static const struct { const char *time; int kind; } f[] = {
-        {"ramp: {from: 0.1 us, until: 0.7 us}", 0},
-        {"pulse: {from: 0.1 us, until: 0.7 us}", 1},
-        {"step: {from: 0.11 us, until: 0.69 us}", 2},
-        {"step: {until: 0.69 us}", 4},
-        {"table: [[0.1 us, 0.2], [0.3 us, -1], [0.8 us, 0.5]]", 3}};
+    static const struct {
+        const char *time;
+        int kind;
+    } f[] = {{"ramp: {from: 0.1 us, until: 0.7 us}", 0},
+             {"pulse: {from: 0.1 us, until: 0.7 us}", 1},
+             {"step: {from: 0.11 us, until: 0.69 us}", 2},
+             {"step: {until: 0.69 us}", 4},
+             {"table: [[0.1 us, 0.2], [0.3 us, -1], [0.8 us, 0.5]]", 3}};
     for (size_t k = 0; k < COUNT_OF(f); k++)
         for (int style = 0; style < 2; style++) {
             char load[200];
@@ -273,11 +281,10 @@ static void forces(void **state)
 static void drives(void **state)
 {
     (void)state;
-    static const char loads[] =
-        "boundary:\n  - {traction: [0, -8 MPa], face: y-}\n"
-        "  - {velocity: [3 m/s, free], time: {ramp: {until: 0.7 us}}, "
-        "region: {box: {from: [-3 mm, 2 mm], to: [3 mm, 3 mm]}}}\n"
-        "  - {fixed: [x], region: {box: {from: [-3 mm, 1 mm], to: [3 mm, 2 mm]}}}\n";
+    static const char loads[] = "boundary:\n  - {traction: [0, -8 MPa], face: y-}\n"
+                                "  - {velocity: [3 m/s, free], time: {ramp: {until: 0.7 us}}, "
+                                "region: {box: {from: [-3 mm, 2 mm], to: [3 mm, 3 mm]}}}\n"
+                                "  - {fixed: [x], region: {box: {from: [-3 mm, 1 mm], to: [3 mm, 2 mm]}}}\n";
     char *script = script_of(plate, glass, loads, false);
     real force[3];
     const char *line = behind(script, "fix load1 load1 addforce");
@@ -288,7 +295,7 @@ static void drives(void **state)
     assert_non_null(strstr(script, "fix load3 load3 setforce 0.0 NULL NULL\n"));
     for (int step = 0; step <= 50; step += 3) {
         const real to = real_min(1, (step + 0.5) * STEP / 7e-7), from = real_min(1, (step - 0.5) * STEP / 7e-7);
-        const real rate = step > 0 ? (to - from) / STEP : 0;         /* the first step begins with its velocity */
+        const real rate = step > 0 ? (to - from) / STEP : 0; /* the first step begins with its velocity */
         assert_near(formula_at(script, "drive2x", step, 2.3), 2.3 * 3 * rate, 1e-6 * 2.3 * 3 / 7e-7);
     }
     memory_free(script);
@@ -297,8 +304,8 @@ static void drives(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(coefficients), cmocka_unit_test(bonds_of_two),
-                                       cmocka_unit_test(bonds_of_three),
-                                       cmocka_unit_test(forces), cmocka_unit_test(drives)};
+                                       cmocka_unit_test(bonds_of_three), cmocka_unit_test(forces),
+                                       cmocka_unit_test(drives)};
     team_make(1);
     return cmocka_run_group_tests(tests, folder_enter, folder_leave);
 }

@@ -6,8 +6,8 @@
 #include "tests/support/cloud.h"
 #include "tests/support/near.h"
 
-#define STEP 1e-7                        /* [s] */
-#define SPEED 3000.0                     /* 0.3 spacings a step [m/s] */
+#define STEP 1e-7    /* [s] */
+#define SPEED 3000.0 /* 0.3 spacings a step [m/s] */
 #define STEPS 30
 #define HORIZON (3.015 * CLOUD_SPACING)
 
@@ -35,8 +35,13 @@ static void stage_lay(struct stage *s, enum pd_model model, bool local)
     }
     if (model != PD_BOND) s->c.source.modulus = s->modulus;
     s->c.source.local = local, s->c.source.rotates = model == PD_MOSPD;
-    s->rule = (struct growth_rule){.name = "crack", .at = {7.3e-3, 11.1e-3}, .direction = {0.96, 0.28}, .speed = SPEED,
-                                   .length = INFINITY, .damping = 0.5 * HORIZON, .exponent = 4};
+    s->rule = (struct growth_rule){.name = "crack",
+                                   .at = {7.3e-3, 11.1e-3},
+                                   .direction = {0.96, 0.28},
+                                   .speed = SPEED,
+                                   .length = INFINITY,
+                                   .damping = 0.5 * HORIZON,
+                                   .exponent = 4};
 }
 
 static void stage_set(struct stage *s)
@@ -55,8 +60,7 @@ static int64_t steps(struct stage *s, int from, int n)
 {
     int64_t released = 0;
     for (int k = from; k < from + n; k++)
-        released += growth_step(&s->g, &s->c.bonds, &s->c.p, &s->c.source, s->ruled ? &s->K : NULL,
-                                k * STEP, STEP);
+        released += growth_step(&s->g, &s->c.bonds, &s->c.p, &s->c.source, s->ruled ? &s->K : NULL, k * STEP, STEP);
     return released;
 }
 
@@ -66,8 +70,7 @@ static void disturb(struct stage *s)
     uint64_t seed = 5;
     struct particles *p = &s->c.p;
     for (int64_t i = 0; i < p->n; i++)
-        for (int d = 0; d < 2; d++)
-            p->x[d][i] = 1.01 * p->X[d][i] + cloud_between(&seed, -0.03, 0.03) * CLOUD_SPACING;
+        for (int d = 0; d < 2; d++) p->x[d][i] = 1.01 * p->X[d][i] + cloud_between(&seed, -0.03, 0.03) * CLOUD_SPACING;
 }
 
 static int64_t force_with(struct stage *s, enum pd_model model, const struct bond_limit *limit)
@@ -102,7 +105,7 @@ static real crossed_at(const struct growth_rule *r, const real *X, const real *Y
 static void check_weights(struct stage *s, real damping, real exponent, int64_t *crossed)
 {
     struct stage whole;
-    s->rule.damping = damping == 0.5 * HORIZON ? NAN : damping;      /* so much where none is given */
+    s->rule.damping = damping == 0.5 * HORIZON ? NAN : damping; /* so much where none is given */
     s->rule.exponent = exponent;
     stage_set(s);
     stage_lay(&whole, PD_OSPD, true);
@@ -138,7 +141,9 @@ static void check_weights(struct stage *s, real damping, real exponent, int64_t 
 static void test_law(void **state)
 {
     (void)state;
-    static const struct { real damping, exponent; } cases[] = {{0.5 * HORIZON, 4}, {HORIZON, 1}, {0, 4}};
+    static const struct {
+        real damping, exponent;
+    } cases[] = {{0.5 * HORIZON, 4}, {HORIZON, 1}, {0, 4}};
     int64_t crossed[COUNT_OF(cases)] = {0};
     for (size_t k = 0; k < COUNT_OF(cases); k++) {
         struct stage s;
@@ -180,8 +185,10 @@ static void check_forces(const struct stage *s)
     assert_true(b->rows > 0);
 }
 
-static const struct { enum pd_model model; bool local; } laws[] = {
-    {PD_BOND, false}, {PD_OSPD, false}, {PD_OSPD, true}, {PD_MOSPD, false}, {PD_MOSPD, true}};
+static const struct {
+    enum pd_model model;
+    bool local;
+} laws[] = {{PD_BOND, false}, {PD_OSPD, false}, {PD_OSPD, true}, {PD_MOSPD, false}, {PD_MOSPD, true}};
 
 /* Nothing moves: what the bonds have lost is what is booked, once the last half of the last step is, too. */
 static void test_energy_of_fading(void **state)
@@ -299,7 +306,7 @@ static void test_smoothing(void **state)
 
 /* ---- a speed that follows the toughness -------------------------------------------------------------------------- */
 
-#define TOUGHNESS 1e6                    /* [Pa m^(1/2)] */
+#define TOUGHNESS 1e6 /* [Pa m^(1/2)] */
 
 /* Runs until `end` [s] under K = k(v_seen) K_still(t), v_seen behind the speed by `delay` [s]: Freund's law for any
  * body, and what a field at a distance makes of it. Returns the largest speed on the way. */
@@ -317,8 +324,16 @@ static real follow(struct stage *s, real (*still)(real t), real delay, real end)
     return fastest;
 }
 
-static real steady(real t) { (void)t; return 1.4 * TOUGHNESS; }
-static real weak(real t) { (void)t; return 0.99 * TOUGHNESS; }
+static real steady(real t)
+{
+    (void)t;
+    return 1.4 * TOUGHNESS;
+}
+static real weak(real t)
+{
+    (void)t;
+    return 0.99 * TOUGHNESS;
+}
 static real passing(real t) { return (t < 8e-6 ? 1.4 : 0.9) * TOUGHNESS; }
 static real rising(real t) { return TOUGHNESS * sqrt(t / 10e-6); }
 
@@ -396,7 +411,12 @@ static void test_points(void **state)
 
 /* ---- restarts ---------------------------------------------------------------------------------------------------- */
 
-struct drawer { char name[8][64]; char data[8][200000]; size_t size[8]; int n; };
+struct drawer {
+    char name[8][64];
+    char data[8][200000];
+    size_t size[8];
+    int n;
+};
 
 static status exchange(struct archive *a, const char *name, void *data, size_t size)
 {

@@ -42,7 +42,7 @@ static void field_is_a_solution(const struct crack_medium *m, enum crack_mode mo
                 assert_near((to[j][1].displacement[i] - to[j][0].displacement[i]) / (2 * e), here.state.gradient[i][j],
                             1e-8 * size);
             }
-            assert_near(balance, 0, 1e-8);                /* of stresses of 0.3 Pa; differences cost half the digits */
+            assert_near(balance, 0, 1e-8); /* of stresses of 0.3 Pa; differences cost half the digits */
             assert_near((to[0][1].state.velocity[i] - to[0][0].state.velocity[i]) / (2 * e),
                         here.state.velocity_along[i], 1e-8 * size * (v + 1));
         }
@@ -111,7 +111,7 @@ static void constants_of_the_medium(void **state)
 {
     (void)state;
     const struct crack_medium thin = glass(SPACE_PLANE_STRESS), thick = glass(SPACE_PLANE_STRAIN);
-    for (int k = 0; k < 2; k++) {        /* 8 G/E* = kappa + 1 in both */
+    for (int k = 0; k < 2; k++) { /* 8 G/E* = kappa + 1 in both */
         const struct crack_medium *m = k ? &thick : &thin;
         assert_close(8 * m->shear / m->modulus, m->kappa + 1, 1e-14);
         assert_close(m->lambda, m->shear * (3 - m->kappa) / (m->kappa - 1), 1e-14);
@@ -140,7 +140,7 @@ static void direction_is_that_of_the_largest_hoop_stress(void **state)
             if (hoop > best) best = hoop, at = theta;
         }
         assert_near(crack_direction(K[k]), at, 2 * pi / ANGLES);
-        assert_near(crack_equivalent(K[k]), best * sqrt(2 * pi), 1e-6);    /* quadratic in the step of the angles */
+        assert_near(crack_equivalent(K[k]), best * sqrt(2 * pi), 1e-6); /* quadratic in the step of the angles */
     }
     assert_near(crack_direction((const real[]){1, 1e-200}), -2e-200, 1e-210);
     assert_exact(crack_direction((const real[]){1, 0}), 0);
@@ -151,8 +151,8 @@ static void direction_is_that_of_the_largest_hoop_stress(void **state)
 /* Gauss points of five in [0, 1]. */
 static const real gauss_place[] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155,
                                    0.95308992296933200};
-static const real gauss_weight[] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
-                                    0.23931433524968324, 0.11846344252809454};
+static const real gauss_weight[] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
+                                    0.11846344252809454};
 
 /* I of two motions: panels in radius; points evenly round the tip, which converge faster than any power as products of
  * two fields are periodic. The disc inside 1e-3 is left out: the second sum vanishes point by point. */
@@ -185,8 +185,8 @@ static void exact_fields_return_the_universal_functions(void **state)
         for (size_t n = 0; n < COUNT_OF(speed); n++)
             for (int form = 0; form < 3; form++) {
                 const struct contour *c = &contour[(n + form) % 2];
-                const struct sif_tip tip = {.medium = glass(thin ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN),
-                                            .speed = speed[n], .weight = form};
+                const struct sif_tip tip = {
+                    .medium = glass(thin ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN), .speed = speed[n], .weight = form};
                 for (int mode = 0; mode < MODES; mode++) {
                     const real I = integral(&tip, c, mode, mode), A = crack_universal(&tip.medium, mode, tip.speed);
                     assert_near(0.5 * tip.medium.modulus * I / A, 1, 1e-10);

@@ -10,10 +10,14 @@
 
 /* ---- gradients --------------------------------------------------------------------------------------------------- */
 
-#define THICKNESS 0.37                   /* [m], of particles of 1 m */
+#define THICKNESS 0.37 /* [m], of particles of 1 m */
 
 /* A shaken square of particles with room for two fields. */
-struct patch { struct particles p; struct cells c; real *u[2]; };
+struct patch {
+    struct particles p;
+    struct cells c;
+    real *u[2];
+};
 
 static void patch_make(struct patch *k, int edge, real shake, uint64_t seed)
 {
@@ -63,10 +67,10 @@ static void gradients_are_exact_for_polynomials(const struct gradient_rule *rule
         gradient_of(&s, i, field, gradient);
         for (int a = 0; a < 2; a++)
             for (int d = 0; d < 2; d++)
-                worst = real_max(worst, fabs(gradient[a][d]
-                                             - quadratic_slope(coefficient[a], k->p.X[0][i], k->p.X[1][i], d)));
+                worst = real_max(worst,
+                                 fabs(gradient[a][d] - quadratic_slope(coefficient[a], k->p.X[0][i], k->p.X[1][i], d)));
     }
-    assert_near(worst, 0, 1e-10);            /* slopes up to 20; corners of the patch lie badly */
+    assert_near(worst, 0, 1e-10); /* slopes up to 20; corners of the patch lie badly */
     gradient_stencil_free(&s);
 }
 
@@ -95,12 +99,11 @@ static void cracks_hide_particles(void **state)
     struct gradient_rule rule = {.reach = 1.5, .sight = {.crack = &crack, .cracks = 1}, .tip = {0.5, 0.5}};
     struct gradient_stencil s = {0};
     const real *const field[2] = {k.u[0], k.u[1]};
-    for (int64_t i = 0; i < k.p.n; i++)
-        k.u[0][i] = 3 * k.p.X[0][i] + (k.p.X[1][i] > 0.5 && k.p.X[0][i] < 0.5 ? 7 : 0);
+    for (int64_t i = 0; i < k.p.n; i++) k.u[0][i] = 3 * k.p.X[0][i] + (k.p.X[1][i] > 0.5 && k.p.X[0][i] < 0.5 ? 7 : 0);
     for (int64_t i = 0; i < k.p.n; i++) {
         real gradient[2][2];
         for (int method = 0; method < 2; method++) {
-            if (k.p.X[0][i] > -3) continue;               /* wholly behind the tip */
+            if (k.p.X[0][i] > -3) continue; /* wholly behind the tip */
             rule.method = method;
             gradient_stencil_at(&s, &rule, &k.p, &k.c, i);
             gradient_of(&s, i, field, gradient);
@@ -108,7 +111,7 @@ static void cracks_hide_particles(void **state)
             assert_near(gradient[0][1], 0, 1e-12);
         }
     }
-    int64_t i = 6 * 13 + 6;                               /* the origin, beside the tip */
+    int64_t i = 6 * 13 + 6; /* the origin, beside the tip */
     rule.method = GRADIENT_MLS;
     gradient_stencil_at(&s, &rule, &k.p, &k.c, i);
     const int seen = s.n;
@@ -173,7 +176,10 @@ static void gradients_have_their_weights(void **state)
     const struct crack crack = {2, corner};
     for (int hidden = 0; hidden < 2; hidden++)
         for (int method = 0; method < 2; method++) {
-            struct gradient_rule rule = {.method = method, .reach = reach, .tip = {0.5, 0.3}, .diffraction = 2,
+            struct gradient_rule rule = {.method = method,
+                                         .reach = reach,
+                                         .tip = {0.5, 0.3},
+                                         .diffraction = 2,
                                          .sight = {.crack = &crack, .cracks = hidden}};
             struct particles p;
             struct cells c;
@@ -244,9 +250,13 @@ static void site_map_make(struct site_map *l, int edge, real degrees, const real
     memset(l, 0, sizeof *l);
     patch_make(&l->patch, edge, 0, 1);
     const real angle = degrees * pi / 180;
-    l->tip = (struct sif_tip){.medium = glass(SPACE_PLANE_STRAIN), .place = {shift[0], shift[1]},
-                              .along = {cos(angle), sin(angle)}, .face = 1, .body = -1,
-                              .thickness = THICKNESS, .speed = speed};
+    l->tip = (struct sif_tip){.medium = glass(SPACE_PLANE_STRAIN),
+                              .place = {shift[0], shift[1]},
+                              .along = {cos(angle), sin(angle)},
+                              .face = 1,
+                              .body = -1,
+                              .thickness = THICKNESS,
+                              .speed = speed};
     for (int d = 0; d < 2; d++) {
         l->corner[0][d] = shift[d] - 2 * edge * l->tip.along[d];
         l->corner[1][d] = shift[d];
@@ -315,7 +325,9 @@ static void lattice_sums_of_exact_gradients(void **state)
                 assert_near(exact_gradient_error(&l, outer[k], mode), 0, quintic[k]);
                 l.tip.weight = SIF_CUBIC;
                 assert_near(exact_gradient_error(&l, outer[k], mode), 0,
-                            cubic[k] * (n < COUNT_OF(degrees) ? 1 : k == 1 ? 2.4 : 1.7));
+                            cubic[k] * (n < COUNT_OF(degrees) ? 1
+                                        : k == 1              ? 2.4
+                                                              : 1.7));
             }
         site_map_free(&l);
     }
@@ -328,7 +340,7 @@ static void lattice_sums_of_fitted_gradients(void **state)
     (void)state;
     const real shift[][2] = {{0, 0}, {0.5, 0.5}, {0.2, 0.4}}, degrees[] = {0, 30, 45}, outer[] = {10, 20, 40};
     const real Ks[][MODES] = {{1, 0}, {0, 1}, {0.8, -0.6}};
-    const real allowed[] = {0.0025, 0.00025, 0.00005};       /* gradients err by 1/r^2, and quadrature by more */
+    const real allowed[] = {0.0025, 0.00025, 0.00005}; /* gradients err by 1/r^2, and quadrature by more */
     real worst[2][3] = {{0}};
     for (size_t n = 0; n < COUNT_OF(degrees) * COUNT_OF(shift); n++) {
         struct site_map l;
@@ -386,7 +398,7 @@ static void body_forces_leave_the_factors(void **state)
             assert_near(s.J * m->modulus, 1, 0.008);
             motion.body[0] = motion.body[1] = NULL;
             sif_integrate(&l.tip, &ring, 1, &motion, &l.rule, &l.patch.p, &l.patch.c, &s);
-            
+
             assert_true(sif_error(&s, K) > 0.015);
         }
         for (int d = 0; d < 2; d++) memory_free(body[d]);
@@ -437,8 +449,8 @@ static void lattice_sums_of_a_moving_crack(void **state)
         l.tip.core = 5;
         lattice_field(&l, K);
         const struct sif s = lattice_sif(&l, 10, 20), large = lattice_sif(&l, 20, 40);
-        const real J = crack_universal(&l.tip.medium, MODE_I, l.tip.speed) * square(K[0])
-                       + crack_universal(&l.tip.medium, MODE_II, l.tip.speed) * square(K[1]);
+        const real J = crack_universal(&l.tip.medium, MODE_I, l.tip.speed) * square(K[0]) +
+                       crack_universal(&l.tip.medium, MODE_II, l.tip.speed) * square(K[1]);
         print_message("moving at %g m/s, %g deg: %.4f %%, %.4f %%, J %.4f %%\n", l.tip.speed, degrees[n % 2],
                       100 * sif_error(&s, K), 100 * sif_error(&large, K),
                       100 * (large.J * l.tip.medium.modulus / J - 1));
@@ -491,7 +503,8 @@ int main(void)
         cmocka_unit_test(gradients_have_their_weights),
         cmocka_unit_test(lattice_sums_of_exact_gradients),
         cmocka_unit_test(lattice_sums_of_fitted_gradients),
-        cmocka_unit_test(particle_stresses_are_turned), cmocka_unit_test(body_forces_leave_the_factors),
+        cmocka_unit_test(particle_stresses_are_turned),
+        cmocka_unit_test(body_forces_leave_the_factors),
         cmocka_unit_test(lattice_sums_of_a_moving_crack),
         cmocka_unit_test(a_core_does_not_see_single_particles),
         cmocka_unit_test(spread_of_contours),

@@ -70,9 +70,9 @@ static void tip_speed_is_the_slope_of_growth(void **state)
     assert_near(tip->first_time, dt, 1e-15);
     assert_near(tip->start_time, 2 * dt, 1e-15);
     assert_near(tip->arrest_time, 10 * dt, 1e-15);
-    assert_near(tip->speed_max, 500, 1e-9);       /* slopes of exact lines: round-off times 500 / dt */
+    assert_near(tip->speed_max, 500, 1e-9); /* slopes of exact lines: round-off times 500 / dt */
     assert_near(tip->speed_mean, 500, 1e-9);
-    assert_near(tip_angle(tip, 2), 0, 1e-5);      /* acos near 1 halves the digits */
+    assert_near(tip_angle(tip, 2), 0, 1e-5); /* acos near 1 halves the digits */
     notched_free(&b, &t);
 }
 
@@ -108,7 +108,7 @@ static void tip_turns(void **state)
     assert_int_equal(tips_tied(&t), 1);
     hurt(&b, 10.5, 9.5, 0), hurt(&b, 11.5, 8.5, 0);
     tips_sample(&t, &b.p, &b.c, 1);
-    assert_int_equal(tips_tied(&t), 1);                        /* 3.9 and 2.5 */
+    assert_int_equal(tips_tied(&t), 1); /* 3.9 and 2.5 */
     hurt(&b, 12.5, 7.5, 0);
     tips_sample(&t, &b.p, &b.c, 2);
     assert_int_equal(t.tip[0].particles, 6);
@@ -119,7 +119,7 @@ static void tip_turns(void **state)
     hurt(&b, 13.5, 6.5, 0);
     tips_sample(&t, &b.p, &b.c, 3);
     assert_near(t.tip[0].place[1], 6.5, ROUND_OFF);
-    assert_int_equal(tips_tied(&t), 1);                        /* 5.3 and 3.9 */
+    assert_int_equal(tips_tied(&t), 1); /* 5.3 and 3.9 */
     notched_free(&b, &t);
 }
 
@@ -150,7 +150,7 @@ static void tips_that_tie(void **state)
     tips_sample(&t, &b.p, &b.c, 1);
     const struct tip *longest = tips_longest(&t);
     assert_near(longest->place[0], 31.5, ROUND_OFF);
-    assert_near(longest->place[1], 13.5, ROUND_OFF);           /* a place that is damaged, not (31.5, 10) */
+    assert_near(longest->place[1], 13.5, ROUND_OFF); /* a place that is damaged, not (31.5, 10) */
     assert_int_equal(tips_tied(&t), 2);
     notched_free(&b, &t);
 }
@@ -169,7 +169,7 @@ static void places_of_groups(void **state)
     }
     assert_int_equal(places_middle(place, 24, 2, 1.5, none, middle), 1);
     assert_near(hypot(middle[0] - 7, middle[1] - 3), 5, ROUND_OFF);
-    assert_int_equal(places_middle(place, 24, 2, 1.2, none, middle), 24);      /* they are 1.305 apart */
+    assert_int_equal(places_middle(place, 24, 2, 1.2, none, middle), 24); /* they are 1.305 apart */
     assert_near(middle[0], 12, ROUND_OFF);
     assert_near(middle[1], 3, ROUND_OFF);
     assert_int_equal(places_middle(place, 48, 3, 1.5, none, middle), 2);
@@ -225,7 +225,7 @@ static void tip_joins_a_crack_ahead(void **state)
     assert_near(t.tip[1].growth, 3, ROUND_OFF);
     assert_near(t.tip[0].growth, 4.5, ROUND_OFF);
     real origin = t.tip[1].origin[0];
-    assert_near(origin, 16.5, 0);                 /* equal damage: the lowest index */
+    assert_near(origin, 16.5, 0); /* equal damage: the lowest index */
     hurt(&b, 15.5, 10.5, 0);
     hurt(&b, 30.5, 6.5, 0);
     tips_sample(&t, &b.p, &b.c, 6);
@@ -301,7 +301,7 @@ static void tips_area_of_a_front(void **state)
     struct crack crack = {4, corner};
     tips_make(&t, &b.p, &b.c, &crack, 1, 1, 4);
     assert_int_equal(t.n, 1);
-    assert_near(2 * t.tip[0].edge[2], 6, 1);             /* ends are found in steps of a spacing */
+    assert_near(2 * t.tip[0].edge[2], 6, 1); /* ends are found in steps of a spacing */
     for (real z = 0.5; z < 6; z++)
         for (real x = 5.5; x < (z < 3 ? 8 : 6); x++) hurt(&b, x, 3.5, z), hurt(&b, x, 2.5, z);
     tips_sample(&t, &b.p, &b.c, 0);

@@ -356,10 +356,11 @@ static void abaqus_generates(void **state)
     for (int k = 0; k < SQUARES; k++)
         fprintf(file, "%d, %d, %d, %d, %d\n", 10 * (k + 1), 2 * k + 1, 2 * k + 3, 2 * k + 4, 2 * k + 2);
     fputs("*Elset, elset=third, generate\n10, 65, 30\n*Elset, elset=all, generate\n10, 30, 10\n40, 70, 10\n"
-          "*Nset, nset=lower, generate\n5, 11, 2\n*Nset, nset=plain, generate\n3, 4\n", file);
+          "*Nset, nset=lower, generate\n5, 11, 2\n*Nset, nset=plain, generate\n3, 4\n",
+          file);
     assert_int_equal(fclose(file), 0);
     assert_ok(geometry_read(&g, "c.inp", 2, 1, NAN));
-    assert_close(geometry_find(&g, "third")->hull.volume, 2, 1e-12);     /* 10 and 40 */
+    assert_close(geometry_find(&g, "third")->hull.volume, 2, 1e-12); /* 10 and 40 */
     assert_close(geometry_find(&g, "all")->hull.volume, 7, 1e-12);
     assert_close(hull_distance(&geometry_find(&g, "third")->hull, (real[]){2.2, 0.5}, NULL), 0.8, 1e-12);
     /* nodes 5, 7, 9, 11 at y = 0, x = 2 to 5; of these none is nearer to (3, 1) than 1 */
@@ -374,13 +375,15 @@ static void abaqus_generates(void **state)
 static void abaqus_solids(void **state)
 {
     (void)state;
-    static const struct { const char *type, *corners; real volume, outside; } solid[] = {
-        {"C3D5", "1, 2, 3, 4, 9", 2. * 3 * 1.7 / 3, 0.6},  /* a pyramid, its base below */
-        {"C3D5", "1, 4, 3, 2, 9", 2. * 3 * 1.7 / 3, 0.6},
-        {"C3D6", "1, 2, 3, 5, 6, 7", 3 * 2.3, 0.6},        /* half of the brick */
-        {"C3D6", "5, 6, 7, 1, 2, 3", 3 * 2.3, 0.6},
-        {"C3D8R", "1, 2, 3, 4, 5, 6, 7, 8", 6 * 2.3, 0.6},
-        {"C3D8", "5, 6, 7, 8, 1, 2, 3, 4", 6 * 2.3, 0.6}};
+    static const struct {
+        const char *type, *corners;
+        real volume, outside;
+    } solid[] = {{"C3D5", "1, 2, 3, 4, 9", 2. * 3 * 1.7 / 3, 0.6}, /* a pyramid, its base below */
+                 {"C3D5", "1, 4, 3, 2, 9", 2. * 3 * 1.7 / 3, 0.6},
+                 {"C3D6", "1, 2, 3, 5, 6, 7", 3 * 2.3, 0.6}, /* half of the brick */
+                 {"C3D6", "5, 6, 7, 1, 2, 3", 3 * 2.3, 0.6},
+                 {"C3D8R", "1, 2, 3, 4, 5, 6, 7, 8", 6 * 2.3, 0.6},
+                 {"C3D8", "5, 6, 7, 8, 1, 2, 3, 4", 6 * 2.3, 0.6}};
     for (size_t k = 0; k < COUNT_OF(solid); k++) {
         struct geometry g;
         char text[512];
@@ -478,8 +481,8 @@ static int enter_folder(void **state)
 
 static int leave_folder(void **state)
 {
-    static const char *const names[] = {"a.stl", "b.stl",   "c.stl", "a.msh", "b.msh",  "c.msh",
-                                        "d.msh", "bad.msh", "a.inp", "b.inp", "c.inp", "solid.inp", "bad.inp"};
+    static const char *const names[] = {"a.stl",   "b.stl", "c.stl", "a.msh", "b.msh",     "c.msh",  "d.msh",
+                                        "bad.msh", "a.inp", "b.inp", "c.inp", "solid.inp", "bad.inp"};
     (void)state;
     for (size_t k = 0; k < COUNT_OF(names); k++) unlink(names[k]);
     return chdir("/") != 0 || rmdir(folder) != 0;
@@ -488,9 +491,15 @@ static int leave_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stl_of_both_forms), cmocka_unit_test(bad_stl),      cmocka_unit_test(gmsh_of_both_versions),
-        cmocka_unit_test(gmsh_tags_by_dimension), cmocka_unit_test(gmsh_groups_of_entities), cmocka_unit_test(bad_gmsh),
-        cmocka_unit_test(abaqus_decks), cmocka_unit_test(abaqus_generates), cmocka_unit_test(abaqus_solids),
+        cmocka_unit_test(stl_of_both_forms),
+        cmocka_unit_test(bad_stl),
+        cmocka_unit_test(gmsh_of_both_versions),
+        cmocka_unit_test(gmsh_tags_by_dimension),
+        cmocka_unit_test(gmsh_groups_of_entities),
+        cmocka_unit_test(bad_gmsh),
+        cmocka_unit_test(abaqus_decks),
+        cmocka_unit_test(abaqus_generates),
+        cmocka_unit_test(abaqus_solids),
         cmocka_unit_test(bad_abaqus),
         cmocka_unit_test(damaged),
     };

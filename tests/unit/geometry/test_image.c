@@ -110,9 +110,9 @@ static void kinds_of_images(void **state)
     (void)state;
     static const struct {
         int kind, bits;
-    } png[] = {{PNG_COLOR_TYPE_GRAY, 8}, {PNG_COLOR_TYPE_GRAY, 16},     {PNG_COLOR_TYPE_GRAY, 1},
-               {PNG_COLOR_TYPE_RGB, 8},  {PNG_COLOR_TYPE_RGB_ALPHA, 8}, {PNG_COLOR_TYPE_PALETTE, 8},
-               {PNG_COLOR_TYPE_RGB, 16}, {PNG_COLOR_TYPE_RGB_ALPHA, 16}, {PNG_COLOR_TYPE_GRAY_ALPHA, 8},
+    } png[] = {{PNG_COLOR_TYPE_GRAY, 8},       {PNG_COLOR_TYPE_GRAY, 16},      {PNG_COLOR_TYPE_GRAY, 1},
+               {PNG_COLOR_TYPE_RGB, 8},        {PNG_COLOR_TYPE_RGB_ALPHA, 8},  {PNG_COLOR_TYPE_PALETTE, 8},
+               {PNG_COLOR_TYPE_RGB, 16},       {PNG_COLOR_TYPE_RGB_ALPHA, 16}, {PNG_COLOR_TYPE_GRAY_ALPHA, 8},
                {PNG_COLOR_TYPE_GRAY_ALPHA, 16}};
     for (size_t k = 0; k < COUNT_OF(png); k++) {
         write_png("a.png", png[k].kind, png[k].bits);
@@ -143,7 +143,8 @@ static int sample_at(const struct layout *a, int j, int i, int c)
     const int row = a->orientation >= ORIENTATION_BOTRIGHT ? HIGH - 1 - j : j, column = right ? WIDE - 1 - i : i;
     const int most = a->bits == 16 ? 65535 : 255;
     const int value = row < 0 || column < 0 || row >= HIGH || column >= WIDE ? 0
-                      : a->bits == 16 ? value_at(row, column, 0) * 256 + 7 : value_at(row, column, 0);
+                      : a->bits == 16                                        ? value_at(row, column, 0) * 256 + 7
+                                                                             : value_at(row, column, 0);
     return a->samples % 2 == 0 && c == a->samples - 1 ? most * 3 / 8 : a->white ? most - value : value;
 }
 
@@ -154,8 +155,10 @@ static void fill_row(const struct layout *a, uint8_t *row, int j, int wide, int 
     for (int i = 0; i < wide; i++)
         for (int c = 0; c < n; c++) {
             const uint16_t value = (uint16_t)sample_at(a, j, i, plane < 0 ? c : plane);
-            if (a->bits == 16) memcpy(row + 2 * (n * i + c), &value, 2);
-            else row[n * i + c] = (uint8_t)value;
+            if (a->bits == 16)
+                memcpy(row + 2 * (n * i + c), &value, 2);
+            else
+                row[n * i + c] = (uint8_t)value;
         }
 }
 
@@ -168,15 +171,19 @@ static void write_layout(const char *name, const struct layout *a)
     TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, HIGH);
     TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, a->bits);
     TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, a->samples);
-    TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, a->samples > 2 ? PHOTOMETRIC_RGB : a->white ? PHOTOMETRIC_MINISWHITE
-                                                                                         : PHOTOMETRIC_MINISBLACK);
+    TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC,
+                 a->samples > 2 ? PHOTOMETRIC_RGB
+                 : a->white     ? PHOTOMETRIC_MINISWHITE
+                                : PHOTOMETRIC_MINISBLACK);
     TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, a->planar);
     TIFFSetField(tiff, TIFFTAG_ORIENTATION, a->orientation);
     TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, a->format);
     TIFFSetField(tiff, TIFFTAG_COMPRESSION, a->bits == 16 ? COMPRESSION_LZW : COMPRESSION_NONE);
     if (a->samples % 2 == 0) TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &extra);
-    if (a->tiled) TIFFSetField(tiff, TIFFTAG_TILEWIDTH, 16), TIFFSetField(tiff, TIFFTAG_TILELENGTH, 16);
-    else TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 2);
+    if (a->tiled)
+        TIFFSetField(tiff, TIFFTAG_TILEWIDTH, 16), TIFFSetField(tiff, TIFFTAG_TILELENGTH, 16);
+    else
+        TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 2);
     for (int c = 0; c < (a->planar == PLANARCONFIG_SEPARATE ? a->samples : 1); c++) {
         const int plane = a->planar == PLANARCONFIG_SEPARATE ? c : -1, wide = a->tiled ? 16 : WIDE;
         const int bytes = wide * (plane < 0 ? a->samples : 1) * a->bits / 8;
@@ -194,9 +201,12 @@ static void layouts_of_tiff(void **state)
 {
     (void)state;
     for (int k = 0; k < 2 * 4 * 2 * 2 * 4 * 2; k++) {
-        const struct layout a = {.bits = k & 1 ? 16 : 8, .samples = 1 + k / 2 % 4, .tiled = k / 8 & 1,
+        const struct layout a = {.bits = k & 1 ? 16 : 8,
+                                 .samples = 1 + k / 2 % 4,
+                                 .tiled = k / 8 & 1,
                                  .planar = k / 16 & 1 ? PLANARCONFIG_SEPARATE : PLANARCONFIG_CONTIG,
-                                 .orientation = 1 + k / 32 % 4, .white = k / 128 && k / 2 % 4 < 2,
+                                 .orientation = 1 + k / 32 % 4,
+                                 .white = k / 128 && k / 2 % 4 < 2,
                                  .format = SAMPLEFORMAT_UINT};
         write_layout("a.tif", &a);
         check_values("a.tif", 2, 1, a.bits);
@@ -210,8 +220,9 @@ static void samples_refused(void **state)
     static const struct {
         struct layout layout;
         const char *message;
-    } bad[] = {{{.bits = 16, .format = SAMPLEFORMAT_INT}, "a.tif: values of 16 bits with a sign; grey values without "
-                                                          "are expected: add 32768 to each"},
+    } bad[] = {{{.bits = 16, .format = SAMPLEFORMAT_INT},
+                "a.tif: values of 16 bits with a sign; grey values without "
+                "are expected: add 32768 to each"},
                {{.bits = 8, .format = SAMPLEFORMAT_INT}, "a.tif: values of 8 bits with a sign"},
                {{.bits = 16, .format = SAMPLEFORMAT_IEEEFP}, "with fractions"},
                {{.bits = 12, .format = SAMPLEFORMAT_UINT}, "a.tif: values of 12 bits; grey values of 8 or 16"},
@@ -364,10 +375,10 @@ static void colours_have_a_luminance(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kinds_of_images), cmocka_unit_test(a_stack_of_files), cmocka_unit_test(bad_images),
-        cmocka_unit_test(distances),       cmocka_unit_test(damaged),
-        cmocka_unit_test(colours_have_a_luminance), cmocka_unit_test(layouts_of_tiff),
-        cmocka_unit_test(samples_refused),
+        cmocka_unit_test(kinds_of_images), cmocka_unit_test(a_stack_of_files),
+        cmocka_unit_test(bad_images),      cmocka_unit_test(distances),
+        cmocka_unit_test(damaged),         cmocka_unit_test(colours_have_a_luminance),
+        cmocka_unit_test(layouts_of_tiff), cmocka_unit_test(samples_refused),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

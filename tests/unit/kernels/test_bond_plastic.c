@@ -7,7 +7,7 @@
 #include "tests/support/sets.h"
 
 #define YIELD 5e-5
-#define HARDENING 1.0                    /* E_t = E/2 */
+#define HARDENING 1.0 /* E_t = E/2 */
 
 /* ---- one bond ---------------------------------------------------------------------------------------------------- */
 
@@ -36,14 +36,23 @@ static void test_path(void **state)
 {
     (void)state;
     const real slope = HARDENING / (1 + HARDENING), y = YIELD;
-    const real first = y + slope * 2 * y;                            /* at 3 s_y: also the yield force from then on */
-    const real back = 3 * y - 2 * first;                             /* stretch of reverse yield */
-    const real second = first + slope * (back + 4 * y);              /* size of the force at -4 s_y */
-    const real again = -4 * y + 2 * second;                          /* stretch of the third yield */
-    const real path[][2] = {
-        {0.5 * y, 0.5 * y}, {y, y}, {2 * y, y + slope * y}, {3 * y, first}, {2 * y, first - y}, {3 * y, first},
-        {0, first - 3 * y}, {back, -first}, {0.5 * (back - 4 * y), -first + slope * 0.5 * (-4 * y - back)},
-        {-4 * y, -second}, {-2 * y, -second + 2 * y}, {again, second}, {again + y, second + slope * y}};
+    const real first = y + slope * 2 * y;               /* at 3 s_y: also the yield force from then on */
+    const real back = 3 * y - 2 * first;                /* stretch of reverse yield */
+    const real second = first + slope * (back + 4 * y); /* size of the force at -4 s_y */
+    const real again = -4 * y + 2 * second;             /* stretch of the third yield */
+    const real path[][2] = {{0.5 * y, 0.5 * y},
+                            {y, y},
+                            {2 * y, y + slope * y},
+                            {3 * y, first},
+                            {2 * y, first - y},
+                            {3 * y, first},
+                            {0, first - 3 * y},
+                            {back, -first},
+                            {0.5 * (back - 4 * y), -first + slope * 0.5 * (-4 * y - back)},
+                            {-4 * y, -second},
+                            {-2 * y, -second + 2 * y},
+                            {again, second},
+                            {again + y, second + slope * y}};
     struct cloud c;
     real dissipated = 0;
     pair_make(&c);
@@ -100,7 +109,9 @@ static void test_broken(void **state)
 
 /* ---- many bonds -------------------------------------------------------------------------------------------------- */
 
-struct twin { real plastic, path; };
+struct twin {
+    real plastic, path;
+};
 
 /* The same rule in scalars. */
 static real twin_force(struct twin *t, real stretch, real yield, real hardening)
@@ -231,8 +242,8 @@ static void test_taken_over(void **state)
     bonds_free(&old);
     bond_force_table[1][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit, NULL);
     bond_stress_table[1][PD_BOND_PLASTIC](&c.bonds, &c.p);
-    for (int64_t i = 4; i < 20; i++) {   /* whole families: round-off of stretches of 1e-4 */
-        assert_close(c.p.stress[0][i], stress * (1 + strain), 1e-11);    /* the virial is of current lengths */
+    for (int64_t i = 4; i < 20; i++) { /* whole families: round-off of stretches of 1e-4 */
+        assert_close(c.p.stress[0][i], stress * (1 + strain), 1e-11); /* the virial is of current lengths */
         assert_near(c.p.f[0][i], 0, 1e-11 * stress * 4e-6);
     }
     cloud_free(&c);
@@ -247,8 +258,8 @@ static void test_taken_over_in_the_plane(void **state)
     struct cloud c;
     const real E = 200e9, nu = 1.0 / 3;
     uint64_t seed = 7;
-    cloud_make(&c, &(struct cloud_plan){
-                       .space = SPACE_PLANE_STRESS, .count = {6, 5}, .horizon = 2, .optional = WITH_PLASTIC});
+    cloud_make(
+        &c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {6, 5}, .horizon = 2, .optional = WITH_PLASTIC});
     c.yield[0] = YIELD, c.hardening[0] = HARDENING;
     for (int64_t i = 0; i < c.p.n; i++) {
         for (int d = 0; d < 2; d++) c.p.x[d][i] += cloud_between(&seed, -1e-3, 1e-3) * CLOUD_SPACING;
@@ -276,11 +287,13 @@ static void test_taken_over_in_the_plane(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_path), cmocka_unit_test(test_work), cmocka_unit_test(test_broken),
-        cmocka_unit_test(test_lanes),
-        cmocka_unit_test(test_ends), cmocka_unit_test(test_taken_over),
-        cmocka_unit_test(test_taken_over_in_the_plane)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_path),
+                                       cmocka_unit_test(test_work),
+                                       cmocka_unit_test(test_broken),
+                                       cmocka_unit_test(test_lanes),
+                                       cmocka_unit_test(test_ends),
+                                       cmocka_unit_test(test_taken_over),
+                                       cmocka_unit_test(test_taken_over_in_the_plane)};
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -28,7 +28,9 @@ enum { REGULAR = 0, SHAKEN = 1, MIXED = 2, WAYS = 4 };
 /* A strained, shaken body of two materials; MIXED: two of three particles are material points. */
 static void body_make(struct cloud *c, int dim, int way)
 {
-    struct cloud_plan plan = {.space = space_of[dim], .horizon = dim == 3 ? 2.015 : 3.015, .seed = 21 + (uint64_t)dim,
+    struct cloud_plan plan = {.space = space_of[dim],
+                              .horizon = dim == 3 ? 2.015 : 3.015,
+                              .seed = 21 + (uint64_t)dim,
                               .shake = way & SHAKEN ? 0.3 : 0};
     uint64_t seed = 31;
     memcpy(plan.count, count_of[dim], sizeof plan.count);
@@ -74,7 +76,7 @@ static int64_t check_breaking(const struct cloud *c, const real *w, const real *
     const struct particles *p = &c->p;
     int64_t row = c->bonds.row_of[i], broken = 0;
     real volume = 0, energy = 0;
-    bool cracked = false;                /* by a bond that no driven particle pulls */
+    bool cracked = false; /* by a bond that no driven particle pulls */
     for (int64_t j = 0; j < p->n; j++) {
         if (isnan(w[i * p->n + j])) continue;
         struct reference_bond q = reference_bond(p, i, j);
@@ -112,7 +114,7 @@ static void force_case(bond_force_fn *bond_force, int dim, int way)
         if (c.bonds.row_of[i] >= 0) expected += check_breaking(&c, w, after, i);
     assert_true(expected > 0);
     assert_int_equal(directed, expected);
-    for (int64_t i = 0; i < c.p.n; i++)           /* both ends break a bond in the same call */
+    for (int64_t i = 0; i < c.p.n; i++) /* both ends break a bond in the same call */
         for (int64_t j = 0; j < c.p.n; j++)
             if (!isnan(after[i * c.p.n + j]) && !isnan(after[j * c.p.n + i]))
                 assert_true(after[i * c.p.n + j] == after[j * c.p.n + i]);
@@ -231,8 +233,10 @@ static void test_column_kinds(void **unused)
             const size_t bytes = (size_t)(dim * c.p.n) * sizeof(real);
             real *f = forces_by_kind(&c, state ? state_force_table[dim][model] : bond_force_table[dim][model], kinds);
             assert_memory_equal(f, f + dim * c.p.n, bytes);
-            if (state) assert_true(cloud_difference(f, f + 2 * dim * c.p.n, dim * c.p.n) <= CLOSE);
-            else assert_memory_equal(f, f + 2 * dim * c.p.n, bytes);
+            if (state)
+                assert_true(cloud_difference(f, f + 2 * dim * c.p.n, dim * c.p.n) <= CLOSE);
+            else
+                assert_memory_equal(f, f + 2 * dim * c.p.n, bytes);
             memory_free(f);
             cloud_free(&c);
         }
@@ -268,7 +272,7 @@ static void test_bond_stress(void **state)
                 struct cloud c;
                 body_make(&c, dim, way);
                 real *w = reference_table(&c.bonds, &c.p), *stress = NEW("test.stress", c.p.n, real);
-                for (int s = 0; s < symmetric_count(dim); s++)      /* material points keep theirs */
+                for (int s = 0; s < symmetric_count(dim); s++) /* material points keep theirs */
                     for (int64_t i = 0; i < c.p.n; i++) c.p.stress[s][i] = 1e6 * (real)(i + s);
                 bond_stress_table[dim][model](&c.bonds, &c.p);
                 for (int a = 0; a < dim; a++)
@@ -381,7 +385,7 @@ static bool check_partial(const struct cloud *c, const struct partial_stress *pa
     }
     assert_int_equal(partial->index[q] >= 0, largest > 0);
     const struct material *m = &c->material[p->material[q]];
-    if (least_kept(m, p->dim, expected) < 0) {       /* bonds would carry more than there is: as much as there is */
+    if (least_kept(m, p->dim, expected) < 0) { /* bonds would carry more than there is: as much as there is */
         assert_true(least_kept(m, p->dim, got) >= -CLOSE * m->c11);
         return false;
     }
@@ -401,7 +405,7 @@ static void check_partials(const struct cloud *c, const struct partial_stress *p
 static void test_partial_stress(void **state)
 {
     (void)state;
-    int whole[2] = {0};                  /* points that bonds would take more from than they have, and others */
+    int whole[2] = {0}; /* points that bonds would take more from than they have, and others */
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int way = 0; way < WAYS; way++) {
             struct cloud c;
@@ -411,7 +415,7 @@ static void test_partial_stress(void **state)
             particles_list(&c.p);
             bonds_free(&c.bonds);
             bonds_make(&c.bonds, NULL, &c.p, &c.source);
-            if (way & MIXED)                                                     /* broken bonds carry nothing */
+            if (way & MIXED) /* broken bonds carry nothing */
                 bond_force_table[dim][PD_BOND](&c.bonds, &c.p, &c.source.limit, NULL);
             partial_stress_make(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
             check_partials(&c, &partial, whole);
@@ -450,16 +454,11 @@ static void test_partial_stress_corner(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bond_force),
-        cmocka_unit_test(test_equality_keeps),
-        cmocka_unit_test(test_bond_momentum),
-        cmocka_unit_test(test_column_kinds),
-        cmocka_unit_test(test_bond_energy),
-        cmocka_unit_test(test_bond_stress),
-        cmocka_unit_test(test_pd_move),
-        cmocka_unit_test(test_bond_threads),
-        cmocka_unit_test(test_partial_stress),
-        cmocka_unit_test(test_partial_stress_corner),
+        cmocka_unit_test(test_bond_force),     cmocka_unit_test(test_equality_keeps),
+        cmocka_unit_test(test_bond_momentum),  cmocka_unit_test(test_column_kinds),
+        cmocka_unit_test(test_bond_energy),    cmocka_unit_test(test_bond_stress),
+        cmocka_unit_test(test_pd_move),        cmocka_unit_test(test_bond_threads),
+        cmocka_unit_test(test_partial_stress), cmocka_unit_test(test_partial_stress_corner),
     };
     team_make(2);
     int failures = 0;

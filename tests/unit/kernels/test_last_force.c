@@ -8,7 +8,7 @@
 
 /* ---- two particles ----------------------------------------------------------------------------------------------- */
 
-enum { PHASES = 16 };                    /* of the first step in its own length */
+enum { PHASES = 16 }; /* of the first step in its own length */
 #define LIMIT 0.01
 
 /* Relative speed at which two particles of one bond part, over that at which they start, when the bond's energy at its
@@ -45,7 +45,7 @@ static void parted_error(enum last_force rule, real step, real *largest, real *m
         real fracture;
         const real error = parted(rule, step, (k + 0.5) / PHASES, &fracture) - 0.5;
         *largest = real_max(*largest, fabs(error)), *mean += error / PHASES;
-        if (rule == LAST_FORCE_MOMENT) assert_near(fracture, 1, 1e-12);  /* linear in time between two places */
+        if (rule == LAST_FORCE_MOMENT) assert_near(fracture, 1, 1e-12); /* linear in time between two places */
     }
 }
 
@@ -85,7 +85,7 @@ static void burst_make(struct burst *b, int dim, enum pd_model model, bool local
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) b->c.limit[k] = LIMIT;
     cloud_bonds(&b->c);
     kernels_choose(&b->k, dim, model, SHAPE_LINEAR, TRANSFER_FLIP);
-    struct particles *p = &b->c.p;                             /* flies apart along x, the more so the farther right */
+    struct particles *p = &b->c.p; /* flies apart along x, the more so the farther right */
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < dim; d++)
             p->v[d][i] = (d == 0 ? 4e6 * square(p->X[0][i]) : 0) + cloud_between(&seed, -2, 2);
@@ -112,7 +112,7 @@ static real burst_lost(int dim, enum pd_model model, bool local, real dt, real d
     int64_t broken = 0;
     for (int d = 0; d < dim; d++) before[d] = NEW("test.v", p->n, real);
     const int steps = (int)(duration / dt);
-    for (int n = 0; n < steps; n++) {                          /* none breaks in the last: a sample */
+    for (int n = 0; n < steps; n++) { /* none breaks in the last: a sample */
         broken += b.k.bond_force(&b.c.bonds, p, n < steps - 1 ? &limit : &bond_limit_never, NULL);
         for (int d = 0; d < dim; d++) memcpy(before[d], p->v[d], (size_t)p->n * sizeof(real));
         for (int d = 0; d < dim; d++)
@@ -134,7 +134,7 @@ static real burst_error(int dim, enum pd_model model, bool local, real step)
     enum { RUNS = 5 };
     real sum = 0;
     for (int r = 0; r < RUNS; r++) {
-        const real dt = step * (0.9 + 0.05 * r) * 1e-7;                       /* spacing over wave speed: some 2e-7 s */
+        const real dt = step * (0.9 + 0.05 * r) * 1e-7; /* spacing over wave speed: some 2e-7 s */
         sum += square(burst_lost(dim, model, local, dt, 6e-6));
     }
     return sqrt(sum / RUNS);
@@ -145,8 +145,10 @@ static real burst_error(int dim, enum pd_model model, bool local, real step)
 static void test_bursts(void **state)
 {
     (void)state;
-    static const struct { enum pd_model model; bool local; } law[] = {
-        {PD_BOND, false}, {PD_OSPD, false}, {PD_OSPD, true}, {PD_MOSPD, false}, {PD_MOSPD, true}};
+    static const struct {
+        enum pd_model model;
+        bool local;
+    } law[] = {{PD_BOND, false}, {PD_OSPD, false}, {PD_OSPD, true}, {PD_MOSPD, false}, {PD_MOSPD, true}};
     for (int dim = 2; dim <= DIM_MAX; dim++)
         for (size_t k = 0; k < COUNT_OF(law); k++) {
             const real coarse = burst_error(dim, law[k].model, law[k].local, 0.5);

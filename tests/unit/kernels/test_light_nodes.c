@@ -56,10 +56,10 @@ static void test_light_nodes(void **state)
                     moment += mass[I] * own * (real)(I / g.stride[1] % g.count[1] - J / g.stride[1] % g.count[1]);
             }
             assert_near(total, 1, 1e-12);
-            assert_near(moment, 0, 1e-5);    /* but for what the light ones themselves weigh */
+            assert_near(moment, 0, 1e-5); /* but for what the light ones themselves weigh */
         }
         for (int64_t k = 0; k < g.n * g.n; k++) assert_near(a[k], a[k % g.n * g.n + k / g.n], 1e-12 * largest);
-        assert_true(largest < 30);          /* (2 + 1)^2 of the heavy ones' 1/m, each below 2, and no more at corners */
+        assert_true(largest < 30); /* (2 + 1)^2 of the heavy ones' 1/m, each below 2, and no more at corners */
         memory_free(mass);
         memory_free(a);
         grid_free(&g);

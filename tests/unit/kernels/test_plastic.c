@@ -14,14 +14,19 @@
 /* Of the tests below: E = 1 Pa makes strains and stresses alike. */
 #define YIELD 1e-3
 
-struct point { real s[SYM_MAX], a, zz; };
+struct point {
+    real s[SYM_MAX], a, zz;
+};
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
 
 /* E = 1, H as given. */
 static struct material material(enum space space, real poisson, real hardening)
 {
-    struct material m = {.young = 1, .poisson = space == SPACE_LINE ? 0 : poisson, .density = 1, .yield_stress = YIELD,
+    struct material m = {.young = 1,
+                         .poisson = space == SPACE_LINE ? 0 : poisson,
+                         .density = 1,
+                         .yield_stress = YIELD,
                          .yield_tangent = hardening / (1 + hardening)};
     material_derive(&m, space);
     return m;
@@ -29,8 +34,13 @@ static struct material material(enum space space, real poisson, real hardening)
 
 static struct elastic constants(const struct material *m, enum space space)
 {
-    return (struct elastic){.c11 = m->c11, .c12 = m->c12, .shear = m->shear, .yield = m->yield_stress, .space = space,
-                            .hardening = m->yield_hardening, .poisson = m->poisson};
+    return (struct elastic){.c11 = m->c11,
+                            .c12 = m->c12,
+                            .shear = m->shear,
+                            .yield = m->yield_stress,
+                            .space = space,
+                            .hardening = m->yield_hardening,
+                            .poisson = m->poisson};
 }
 
 static struct elastic steel(enum space space, real hardening)
@@ -59,8 +69,10 @@ static real step(struct point *p, const struct elastic *m, const real *L)
 static void whole_stress(const struct point *p, const struct elastic *m, real *s)
 {
     memset(s, 0, SYM_MAX * sizeof *s);
-    if (m->space == SPACE_SOLID) memcpy(s, p->s, SYM_MAX * sizeof *s);
-    else s[0] = p->s[0];
+    if (m->space == SPACE_SOLID)
+        memcpy(s, p->s, SYM_MAX * sizeof *s);
+    else
+        s[0] = p->s[0];
     if (space_dim(m->space) != 2) return;
     s[1] = p->s[1], s[3] = p->s[2];
     if (m->space == SPACE_PLANE_STRAIN) s[2] = m->poisson * (s[0] + s[1]) + p->zz;
@@ -103,7 +115,7 @@ static void check_return(const struct elastic *m, const struct point *trial, con
         assert_true(more == 0 && p->zz == trial->zz && memcmp(p->s, trial->s, sizeof p->s) == 0);
         return;
     }
-    assert_true(more > 0);                               /* so the dissipation q da is positive */
+    assert_true(more > 0); /* so the dissipation q da is positive */
     assert_near(q, bound + m->hardening * more, CLOSE * size);
     for (int c = 0; c < SYM_MAX; c++) before[c] -= after[c];
     strain_of(before, m->poisson, strain);
@@ -175,7 +187,7 @@ static void test_rotation(void **state)
         struct point p = {.a = 0};
         const real pull2[] = {9e-3, 4e-3, 2e-3, -3e-3}, pull3[] = {9e-3, 4e-3, 1e-3, 2e-3, -3e-3, 2e-3, 0, 5e-3, 1e-3};
         const real spin2[] = {0, 0.02, -0.02, 0}, spin3[] = {0, 0.02, 0.01, -0.02, 0, -0.03, -0.01, 0.03, 0};
-        real rotation[DIM_MAX * DIM_MAX];        /* W + W W/2: free of strain */
+        real rotation[DIM_MAX * DIM_MAX]; /* W + W W/2: free of strain */
         const bool solid = spaces[s] == SPACE_SOLID;
         assert_true(step(&p, &m, solid ? pull3 : pull2) > 0);
         const struct point start = p;
@@ -190,7 +202,7 @@ static void test_rotation(void **state)
         for (int n = 0; n < 100; n++) step(&p, &m, rotation);
         assert_near(equivalent_of(&p, &m), q, 100 * 1e-15 * q);
         assert_near(p.a, start.a, 100 * 1e-15);
-        assert_true(fabs(p.s[0] - start.s[0]) > 0.1 * q);      /* it did turn */
+        assert_true(fabs(p.s[0] - start.s[0]) > 0.1 * q); /* it did turn */
     }
 }
 
@@ -257,10 +269,12 @@ static void test_plane_stress_is_solid(void **state)
 static void test_bilinear_law(void **state)
 {
     (void)state;
-    const struct elastic m = steel(SPACE_LINE, 1);                /* E_t = 1/2 */
+    const struct elastic m = steel(SPACE_LINE, 1); /* E_t = 1/2 */
     struct point p = {.a = 0};
-    static const struct { real strain, stress; } rotation[] = {      /* in units of the yield strain and stress */
-        {1, 1}, {3, 2}, {2, 1}, {3, 2}, {5, 3}, {-1, -3}, {-3, -4}, {1, 0}, {5, 4}, {7, 5}};
+    static const struct {
+        real strain, stress;
+    } rotation[] = {/* in units of the yield strain and stress */
+                    {1, 1}, {3, 2}, {2, 1}, {3, 2}, {5, 3}, {-1, -3}, {-3, -4}, {1, 0}, {5, 4}, {7, 5}};
     real strain = 0;
     for (size_t k = 0; k < COUNT_OF(rotation); k++) {
         const real L = (rotation[k].strain * YIELD - strain) / 50;
@@ -268,7 +282,7 @@ static void test_bilinear_law(void **state)
         strain = rotation[k].strain * YIELD;
         assert_near(p.s[0], rotation[k].stress * YIELD, CLOSE * YIELD);
     }
-    assert_near(p.a, 4 * YIELD, CLOSE * YIELD);                  /* H a = |sigma| - sigma_y */
+    assert_near(p.a, 4 * YIELD, CLOSE * YIELD); /* H a = |sigma| - sigma_y */
 }
 
 /* Pure shear: yields at sigma_y/sqrt(3), then d tau = G H/(3 G + H) d gamma; in the three spaces that have one. */
@@ -335,7 +349,7 @@ static void test_biaxial(void **state)
 static void test_uniaxial_stress(void **state)
 {
     (void)state;
-    const struct elastic m = steel(SPACE_PLANE_STRESS, 1);        /* E_t = 1/2 */
+    const struct elastic m = steel(SPACE_PLANE_STRESS, 1); /* E_t = 1/2 */
     struct point p = {.a = 0};
     for (int n = 1; n <= 50; n++) {
         real low = -YIELD, high = YIELD, L[] = {YIELD / 10, 0, 0, 0};
@@ -355,7 +369,7 @@ static void test_uniaxial_stress(void **state)
 
 /* One particle of unit volume with the state of p; energies of the energy balance. */
 static real balance_energy(const struct point *p, const struct material *m, enum space space,
-                          const struct partial_stress *partial)
+                           const struct partial_stress *partial)
 {
     const int dim = space_dim(space);
     struct particles body;
@@ -384,7 +398,7 @@ static void test_work_is_booked(void **state)
         for (int k = 0; k < 2 * steps; k++) {
             real L[DIM_MAX * DIM_MAX];
             for (int a = 0; a < dim; a++)
-                for (int b = 0; b < dim; b++)                    /* symmetric: no spin */
+                for (int b = 0; b < dim; b++) /* symmetric: no spin */
                     L[a * dim + b] = 0.5 * YIELD / steps * (whole[k / steps][a * 3 + b] + whole[k / steps][b * 3 + a]);
             const struct point old = p;
             step(&p, &m, L);
@@ -410,11 +424,16 @@ static void test_work_is_booked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_conditions),           cmocka_unit_test(test_unloading),
-        cmocka_unit_test(test_rotation),             cmocka_unit_test(test_plane_strain_is_solid),
-        cmocka_unit_test(test_plane_stress_is_solid), cmocka_unit_test(test_bilinear_law),
-        cmocka_unit_test(test_pure_shear),           cmocka_unit_test(test_uniaxial_strain),
-        cmocka_unit_test(test_biaxial),              cmocka_unit_test(test_uniaxial_stress),
+        cmocka_unit_test(test_conditions),
+        cmocka_unit_test(test_unloading),
+        cmocka_unit_test(test_rotation),
+        cmocka_unit_test(test_plane_strain_is_solid),
+        cmocka_unit_test(test_plane_stress_is_solid),
+        cmocka_unit_test(test_bilinear_law),
+        cmocka_unit_test(test_pure_shear),
+        cmocka_unit_test(test_uniaxial_strain),
+        cmocka_unit_test(test_biaxial),
+        cmocka_unit_test(test_uniaxial_stress),
         cmocka_unit_test(test_work_is_booked),
     };
     int failures = 0;

@@ -7,7 +7,6 @@
 #include "tests/support/near.h"
 #include "tests/support/sets.h"
 
-
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
 struct body {
@@ -46,7 +45,7 @@ static real energy(struct body *b)
 
 /* ---- patch tests ------------------------------------------------------------------------------------------------- */
 
-#define STRAIN 1e-6                      /* its square is not seen */
+#define STRAIN 1e-6 /* its square is not seen */
 
 enum patch_load { DILATATION, UNIAXIAL, SHEAR, PATCH_LOADS };
 
@@ -55,16 +54,19 @@ static void strain_of(enum patch_load load, int dim, real strain[DIM_MAX][DIM_MA
     memset(strain, 0, DIM_MAX * sizeof *strain);
     for (int d = 0; d < dim && load == DILATATION; d++) strain[d][d] = STRAIN;
     if (load == UNIAXIAL) strain[0][0] = STRAIN;
-    if (load == SHEAR) strain[0][1] = STRAIN;        /* simple shear: half of it is rotation */
+    if (load == SHEAR) strain[0][1] = STRAIN; /* simple shear: half of it is rotation */
 }
 
 /* Classical energy per volume. */
 static real classical(const struct material *m, enum patch_load load, int dim)
 {
     switch (load) {
-    case DILATATION: return 0.5 * dim * (m->c11 + (dim - 1) * m->c12) * square(STRAIN);
-    case UNIAXIAL: return 0.5 * m->c11 * square(STRAIN);
-    default: return 0.5 * m->shear * square(STRAIN);
+    case DILATATION:
+        return 0.5 * dim * (m->c11 + (dim - 1) * m->c12) * square(STRAIN);
+    case UNIAXIAL:
+        return 0.5 * m->c11 * square(STRAIN);
+    default:
+        return 0.5 * m->shear * square(STRAIN);
     }
 }
 
@@ -123,7 +125,7 @@ static void check_quarter_turn(struct body *b)
     }
     force(b);
     state_stress_table[dim][b->model](&b->c.bonds, p);
-    const real close = 1e-4 * b->c.material[0].young * STRAIN;       /* stretches of 1e-6 carry round-off of 1e-10 */
+    const real close = 1e-4 * b->c.material[0].young * STRAIN; /* stretches of 1e-6 carry round-off of 1e-10 */
     for (int64_t i = 0; i < p->n; i++) {
         assert_near(p->stress[0][i], before[p->n + i], close);
         assert_near(p->stress[1][i], before[i], close);
@@ -137,15 +139,22 @@ static void check_quarter_turn(struct body *b)
 static void test_ospd_plane_stress(void **state)
 {
     (void)state;
-    static const struct { enum influence influence; real ratio[PATCH_LOADS]; } want[] = {
-        {INFLUENCE_ONE, {1, 1.012, 0.965}}, {INFLUENCE_INVERSE, {1, 1.012, 0.966}},
-        {INFLUENCE_GAUSSIAN, {1, 1.006, 0.984}}, {INFLUENCE_INVERSE_SQUARE, {1, 1.022, 0.937}}};
+    static const struct {
+        enum influence influence;
+        real ratio[PATCH_LOADS];
+    } want[] = {{INFLUENCE_ONE, {1, 1.012, 0.965}},
+                {INFLUENCE_INVERSE, {1, 1.012, 0.966}},
+                {INFLUENCE_GAUSSIAN, {1, 1.006, 0.984}},
+                {INFLUENCE_INVERSE_SQUARE, {1, 1.022, 0.937}}};
     const int count[DIM_MAX] = {17, 17};
     for (size_t k = 0; k < COUNT_OF(want); k++)
         for (int load = 0; load < PATCH_LOADS; load++) {
             struct body b;
-            body_make(&b, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {17, 17}, .horizon = 3.015,
-                                               .influence = want[k].influence}, PD_OSPD, 0.3, true);
+            body_make(
+                &b,
+                &(struct cloud_plan){
+                    .space = SPACE_PLANE_STRESS, .count = {17, 17}, .horizon = 3.015, .influence = want[k].influence},
+                PD_OSPD, 0.3, true);
             cloud_bonds(&b.c);
             assert_near(patch_ratio(&b, count, (enum patch_load)load, SPACE_PLANE_STRESS), want[k].ratio[load],
                         load == DILATATION ? 1e-5 : 6e-4);
@@ -230,12 +239,15 @@ static void test_ospd_spaces(void **state)
         for (size_t k = 0; k < COUNT_OF(poisson); k++)
             for (int load = 0; load < PATCH_LOADS; load++) {
                 struct body b;
-                body_make(&b, &(struct cloud_plan){.space = spaces[s], .count = {15, 15, 15}, .horizon = 3.015,
-                                                   .influence = INFLUENCE_ONE}, PD_OSPD, poisson[k], false);
+                body_make(&b,
+                          &(struct cloud_plan){
+                              .space = spaces[s], .count = {15, 15, 15}, .horizon = 3.015, .influence = INFLUENCE_ONE},
+                          PD_OSPD, poisson[k], false);
                 cloud_bonds(&b.c);
                 const real ratio = patch_ratio(&b, count, (enum patch_load)load, spaces[s]);
                 assert_near(ratio, lattice_ratio(&b.c.material[0], (enum patch_load)load, space_dim(spaces[s])), 1e-5);
-                if (load == DILATATION) assert_near(ratio, 1, 1e-5);
+                if (load == DILATATION)
+                    assert_near(ratio, 1, 1e-5);
                 else if (spaces[s] == SPACE_SOLID && poisson[k] == 0.3)
                     assert_near(ratio, load == UNIAXIAL ? 0.94 : 1.10, 0.015);
                 else if (spaces[s] == SPACE_PLANE_STRESS && poisson[k] == 0.3)
@@ -250,13 +262,13 @@ static const enum pd_model models[] = {PD_OSPD, PD_MOSPD};
 
 static void cracked_make(struct body *b, enum space space, enum pd_model model, bool local)
 {
-    struct cloud_plan plan = {.space = space, .count = {9, 8, 6}, .horizon = 2.5, .shake = 0.2, .seed = 3,
-                              .influence = INFLUENCE_INVERSE};
+    struct cloud_plan plan = {
+        .space = space, .count = {9, 8, 6}, .horizon = 2.5, .shake = 0.2, .seed = 3, .influence = INFLUENCE_INVERSE};
     const int dim = space_dim(space);
     body_make(b, &plan, model, 0.3, local);
     cloud_bonds(&b->c);
     for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) row_block_expand(&b->c.bonds, g);
-    for (int64_t g = 0; g < b->c.bonds.row_blocks; g++)          /* a cut along x = 4.5, up to y = 4 */
+    for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) /* a cut along x = 4.5, up to y = 4 */
         for (int64_t q = b->c.bonds.column[g] * LANES; q < (b->c.bonds.column[g] + b->c.bonds.column_count[g]) * LANES;
              q++) {
             int32_t i = b->c.bonds.particle[g * LANES + q % LANES], j = b->c.bonds.nbr[q];
@@ -344,8 +356,8 @@ static void test_rotation(void **state)
                 force(&b);
                 for (int d = 0; d < p->dim; d++)
                     for (int64_t i = 0; i < p->n; i++)
-                        assert_near(p->f[d][i], 0, 1e-12 * 200e9 * pow(CLOUD_SPACING, p->dim - 1) *
-                                                       (solid ? 1 : 2e-3) * 10);
+                        assert_near(p->f[d][i], 0,
+                                    1e-12 * 200e9 * pow(CLOUD_SPACING, p->dim - 1) * (solid ? 1 : 2e-3) * 10);
                 cloud_free(&b.c);
             }
 }
@@ -360,8 +372,10 @@ static void test_volumes(void **state)
         real Q[2], corner[2];
         for (int local = 0; local < 2; local++) {
             struct body b;
-            body_make(&b, &(struct cloud_plan){.space = spaces[s], .count = {7, 7, 7}, .horizon = 2.515,
-                                               .influence = INFLUENCE_INVERSE}, PD_OSPD, 0.23, local);
+            body_make(&b,
+                      &(struct cloud_plan){
+                          .space = spaces[s], .count = {7, 7, 7}, .horizon = 2.515, .influence = INFLUENCE_INVERSE},
+                      PD_OSPD, 0.23, local);
             const real middle[DIM_MAX] = {3.5 * CLOUD_SPACING, 3.5 * CLOUD_SPACING, 3.5 * CLOUD_SPACING};
             const int64_t i = particles_nearest(&b.c.p, middle);
             b.c.p.volume0[i] *= 1.37, b.c.p.volume0[0] *= 1.37;
@@ -382,8 +396,12 @@ static void test_volumes_at_faces(void **state)
 {
     (void)state;
     struct body b;
-    body_make(&b, &(struct cloud_plan){.space = SPACE_PLANE_STRAIN, .count = {9, 9}, .horizon = 2.515,
-                                       .influence = INFLUENCE_INVERSE, .surface = SURFACE_MOMENTS},
+    body_make(&b,
+              &(struct cloud_plan){.space = SPACE_PLANE_STRAIN,
+                                   .count = {9, 9},
+                                   .horizon = 2.515,
+                                   .influence = INFLUENCE_INVERSE,
+                                   .surface = SURFACE_MOMENTS},
               PD_OSPD, 0.23, false);
     b.c.p.volume0[0] *= 1.37;
     cloud_bonds(&b.c);
@@ -402,11 +420,15 @@ static void test_volumes_at_faces(void **state)
 static void test_critical_step(void **state)
 {
     (void)state;
-    const struct { enum pd_model model; real nu, limit; } want[] = {{PD_OSPD, 0.3, 1.79}, {PD_MOSPD, 0.3, 1.94}};
+    const struct {
+        enum pd_model model;
+        real nu, limit;
+    } want[] = {{PD_OSPD, 0.3, 1.79}, {PD_MOSPD, 0.3, 1.94}};
     for (size_t k = 0; k < COUNT_OF(want); k++) {
         struct body b;
-        body_make(&b, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {12, 12}, .horizon = 3.015,
-                                           .influence = INFLUENCE_INVERSE},
+        body_make(&b,
+                  &(struct cloud_plan){
+                      .space = SPACE_PLANE_STRESS, .count = {12, 12}, .horizon = 3.015, .influence = INFLUENCE_INVERSE},
                   want[k].model, want[k].nu, true);
         cloud_bonds(&b.c);
         real step =

@@ -17,7 +17,11 @@ static const enum space space_of[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_P
 /* Long enough for every thread to have row blocks that only its own part reads. */
 static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {701}, {9, 111}, {5, 4, 61}};
 
-struct body { struct cloud c; struct state_modulus modulus[CLOUD_MATERIALS]; uint8_t *loaded; };
+struct body {
+    struct cloud c;
+    struct state_modulus modulus[CLOUD_MATERIALS];
+    uint8_t *loaded;
+};
 
 /* Every third row block, but for the first, is inactive: its particles have no new forces, do not move, and keep the
  * states of their families. */
@@ -53,7 +57,7 @@ static void body_make(struct body *b, int dim, enum pd_model model, int way)
     if (model >= PD_OSPD)
         b->c.source.modulus = b->modulus, b->c.source.rotates = model == PD_MOSPD, b->c.source.local = true;
     cloud_bonds(&b->c);
-    b->c.source.limit.last_force = LAST_FORCE_MOMENT, b->c.source.limit.dt = 2e-6;    /* velocities are read, too */
+    b->c.source.limit.last_force = LAST_FORCE_MOMENT, b->c.source.limit.dt = 2e-6; /* velocities are read, too */
     if (way & ASLEEP) put_to_sleep(&b->c.bonds, p, model);
 }
 
@@ -87,7 +91,11 @@ static int64_t forces_then_motion(struct body *b, bond_force_fn *force, int way,
 }
 
 /* A body after all forces, then all motion. */
-struct plain { struct body body; int64_t broken; bool diverged; };
+struct plain {
+    struct body body;
+    int64_t broken;
+    bool diverged;
+};
 
 static real fastest_of(int way) { return way % 2 ? 1e9 : 1e-3; }
 

@@ -31,7 +31,9 @@ struct scene {
     real smallest_mass;
 };
 
-struct choice { int dim, shape, transfer; };
+struct choice {
+    int dim, shape, transfer;
+};
 
 static void random_state(struct scene *s, uint64_t *seed, real spin)
 {
@@ -69,7 +71,7 @@ static void scene_grid(struct scene *s)
     bool changed;
     s->g = (struct grid){.dim = s->dim, .h = 2 * CLOUD_SPACING};
     for (int d = 0; d < s->dim; d++) {
-        s->g.anchor[d] = (3.17 + d) * CLOUD_SPACING;            /* points on both sides of node 0 */
+        s->g.anchor[d] = (3.17 + d) * CLOUD_SPACING; /* points on both sides of node 0 */
         from[d] = INFINITY, to[d] = -INFINITY;
         for (int64_t i = 0; i < s->c.p.n; i++)
             from[d] = fmin(from[d], s->c.p.x[d][i]), to[d] = fmax(to[d], s->c.p.x[d][i]);
@@ -108,8 +110,12 @@ static void scene_make(struct scene *s, const struct choice *k, real spin)
         s->elastic[m] = (struct elastic){.c11 = c->c11, .c12 = c->c12, .shear = c->shear, .trigger = 1e8};
     }
     s->smallest_mass = GRID_MASS_SMALLEST * s->c.p.mass[0];
-    s->t = (struct transfer_data){.order = &s->order, .partial = &s->partial, .elastic = s->elastic,
-                                  .half_width = 0.5 * CLOUD_SPACING, .dt = 2e-7, .dt_velocity = 1e-7};
+    s->t = (struct transfer_data){.order = &s->order,
+                                  .partial = &s->partial,
+                                  .elastic = s->elastic,
+                                  .half_width = 0.5 * CLOUD_SPACING,
+                                  .dt = 2e-7,
+                                  .dt_velocity = 1e-7};
     transfer_order_sort(&s->order, &s->c.p, s->c.p.list[KIND_MPM], s->c.p.n_of[KIND_MPM], &s->g);
 }
 
@@ -171,8 +177,10 @@ static void check_particles(const struct scene *s, const struct particles *expec
             void *got = particle_array(&s->c.p, field, k), *want = particle_array(expected, field, k);
             /* velocities near 300 m/s that differ by 2: gradients have two digits less */
             real close = strcmp(field->name, "gradient") == 0 ? 10 * CLOSE : CLOSE;
-            if (field->size == sizeof(real)) assert_true(cloud_difference(got, want, expected->n) <= close);
-            else assert_memory_equal(got, want, (size_t)expected->n * field->size);
+            if (field->size == sizeof(real))
+                assert_true(cloud_difference(got, want, expected->n) <= close);
+            else
+                assert_memory_equal(got, want, (size_t)expected->n * field->size);
         }
     }
 }
@@ -187,7 +195,7 @@ static int64_t marks(const struct scene *s, struct particles *expected, const st
         if (expected->kind[i] != KIND_MPM) continue;
         for (int a = 0; a < symmetric_count(s->dim); a++) stress[a] = expected->stress[a][i];
         real largest = reference_principal(stress, s->dim), trigger = s->elastic[expected->material[i]].trigger;
-        assert_true(fabs(largest - trigger) > 1e-9 * trigger);      /* no tie that round-off could decide */
+        assert_true(fabs(largest - trigger) > 1e-9 * trigger); /* no tie that round-off could decide */
         if (largest > trigger) expected->flag[i] |= FLAG_STRESSED;
         for (int d = 0; d < s->dim; d++)
             moved |= floor((expected->x[d][i] - s->g.anchor[d]) / s->g.h) !=
@@ -207,8 +215,10 @@ static void step_case(const struct choice *k, real spin, real smallest_mass, boo
     struct partial_stress none = {0};
     uint8_t *bonded = NEW("test.bonded", s.c.p.n, uint8_t);
     for (int64_t i = 0; i < s.c.p.n; i++) bonded[i] = s.partial.index[i] >= 0;
-    if (partial) s.t.bonded = bonded;
-    else s.t.partial = &none;
+    if (partial)
+        s.t.bonded = bonded;
+    else
+        s.t.partial = &none;
     cloud_copy(&p, &s.c.p, s.optional);
     cloud_copy(&before, &s.c.p, s.optional);
     struct reference_step r = {.shape = (enum shape)k->shape,
@@ -258,15 +268,17 @@ static void step_case(const struct choice *k, real spin, real smallest_mass, boo
 static void step_cases(const struct choice *k)
 {
     step_case(k, 2, GRID_MASS_SMALLEST, true);
-    step_case(k, 2, 0.1, false);                   /* many nodes lighter than the smallest: at rest */
-    step_case(k, 200, GRID_MASS_SMALLEST, true);   /* turns of 0.01 rad and more a step */
+    step_case(k, 2, 0.1, false);                 /* many nodes lighter than the smallest: at rest */
+    step_case(k, 200, GRID_MASS_SMALLEST, true); /* turns of 0.01 rad and more a step */
 }
 
 static void test_steps(void **state) { (void)state, for_all(step_cases); }
 
 /* ---- conservation ------------------------------------------------------------------------------------------------ */
 
-struct total { real mass, momentum[DIM_MAX], size; };
+struct total {
+    real mass, momentum[DIM_MAX], size;
+};
 
 static struct total total_of(const struct particles *p)
 {
@@ -301,11 +313,12 @@ static void conserved(const struct choice *k)
         for (int d = 0; d < s.dim; d++)
             assert_true(fabs(grid_coupled[d] - before.momentum[d]) <= CONSERVED * before.size);
 
-        s.smallest_mass = 1e-30;                   /* no node with any mass rests */
+        s.smallest_mass = 1e-30; /* no node with any mass rests */
         for (int64_t I = 0; I < s.g.n && walls; I += 7)
             if (s.g.mass[I] > 0.1 * p->mass[0])
-                grid_add_wall(&s.g, &(struct wall){.node = (int32_t)I, .component = (int16_t)(I % s.dim),
-                                                   .velocity = 250, .change = 3});
+                grid_add_wall(&s.g,
+                              &(struct wall){
+                                  .node = (int32_t)I, .component = (int16_t)(I % s.dim), .velocity = 250, .change = 3});
         assert_int_equal(s.g.walls > 0, walls);
         scene_step(&s, k, impulse, &work);
         for (int64_t i = 0; i < p->n; i++)
@@ -316,7 +329,7 @@ static void conserved(const struct choice *k)
                         CONSERVED * before.size);
         }
         for (int64_t w = 0; w < s.g.walls; w++) {
-            const struct wall *wall = &s.g.wall[w];        /* on the wall's own way, at the mean of 247 and 250 m/s */
+            const struct wall *wall = &s.g.wall[w]; /* on the wall's own way, at the mean of 247 and 250 m/s */
             expected_work += (wall->reaction + s.g.mass[wall->node] * wall->change) * 248.5;
         }
         assert_true(fabs(work - expected_work) <= CONSERVED * 250 * before.size);
@@ -355,7 +368,7 @@ static void linear_field(const struct choice *k)
     scene_step(&s, k, impulse, &work);
     for (int a = 0; a < s.dim; a++) {
         assert_true(cloud_difference(p->v[a], old.v[a], p->n) <= CLOSE);
-        for (int b = 0; b < s.dim; b++)            /* differences over h of velocities near 2 with an error of 4e-16 */
+        for (int b = 0; b < s.dim; b++) /* differences over h of velocities near 2 with an error of 4e-16 */
             for (int64_t i = 0; i < p->n; i++)
                 assert_true(fabs(p->gradient[a * s.dim + b][i] - gradient[a][b]) <= 1e-9);
     }
@@ -377,7 +390,7 @@ static void test_rotation(void **state)
             const struct choice choice = {dim, SHAPE_QUADRATIC, TRANSFER_APIC};
             scene_make(&s, &choice, 0);
             struct particles *p = &s.c.p;
-            s.t.dt_velocity = 0;                     /* stresses turn, and move nothing */
+            s.t.dt_velocity = 0; /* stresses turn, and move nothing */
             for (int64_t i = 0; i < p->n; i++) {
                 for (int d = 0; d < dim; d++) p->v[d][i] = p->f[d][i] = 0;
                 for (int c = 0; c < dim * dim; c++) p->gradient[c][i] = 0;
@@ -447,12 +460,8 @@ static void test_threads(void **state) { (void)state, for_all(same_bits); }
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_steps),
-        cmocka_unit_test(test_conserved),
-        cmocka_unit_test(test_linear_field),
-        cmocka_unit_test(test_rotation),
-        cmocka_unit_test(test_spread),
-        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_steps),    cmocka_unit_test(test_conserved), cmocka_unit_test(test_linear_field),
+        cmocka_unit_test(test_rotation), cmocka_unit_test(test_spread),    cmocka_unit_test(test_threads),
     };
     team_make(2);
     int failures = 0;

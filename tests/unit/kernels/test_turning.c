@@ -27,8 +27,11 @@ struct scene {
 static void scene_make(struct scene *s, int dim, int shape)
 {
     static const int count[DIM_MAX + 1][DIM_MAX] = {{0}, {0}, {15, 11}, {9, 8, 7}};
-    struct cloud_plan plan = {.space = dim == 2 ? SPACE_PLANE_STRESS : SPACE_SOLID, .horizon = 3, .shake = 0.3,
-                              .seed = 5, .optional = shape == SHAPE_CPGIMP ? WITH_STRETCH : 0};
+    struct cloud_plan plan = {.space = dim == 2 ? SPACE_PLANE_STRESS : SPACE_SOLID,
+                              .horizon = 3,
+                              .shake = 0.3,
+                              .seed = 5,
+                              .optional = shape == SHAPE_CPGIMP ? WITH_STRETCH : 0};
     const bool held[2] = {false};
     const int one[2] = {0, 1};
     bool changed;
@@ -98,8 +101,7 @@ static void points_moments(const struct particles *p, real *const *v, real *sum,
 static void gather(struct scene *s)
 {
     for (int64_t I = 0; I < s->g.n; I++)
-        for (int d = 0; d < s->dim; d++)
-            s->g.force[d][I] = s->g.mass[I] > 0 ? cloud_between(&s->seed, -2, 1) : 0;
+        for (int d = 0; d < s->dim; d++) s->g.force[d][I] = s->g.mass[I] > 0 ? cloud_between(&s->seed, -2, 1) : 0;
     turning_begin(&s->turning, &s->c.p, CLOUD_SPACING);
     turn_gather_table[s->dim][s->shape](&s->g, &s->c.p, &s->t);
     turning_share(&s->turning, &s->c.p);

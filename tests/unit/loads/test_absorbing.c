@@ -27,8 +27,8 @@ static void test_kick(void **state)
         {.name = "right", .kind = BOUNDARY_ABSORBING, .body = -1, .face = 0, .side = 1, .section = 2e-3},
         {.name = "top", .kind = BOUNDARY_ABSORBING, .body = -1, .face = 1, .side = 1, .section = 2e-3}};
     const struct impedance bond[] = {{4e7, 2e7}, {7e7, 3e7}}, other[] = {{5e7, 6e7}, {9e7, 8e7}};
-    const struct impedance *const all[MOVERS] = {[MOVED_BY_BONDS] = bond, [MOVED_BY_GRID] = other,
-                                                 [MOVED_BY_MESH] = other};
+    const struct impedance *const all[MOVERS] = {
+        [MOVED_BY_BONDS] = bond, [MOVED_BY_GRID] = other, [MOVED_BY_MESH] = other};
     const real dt = 1e-6, area = CLOUD_SPACING * 2e-3;
     struct cloud c;
     struct loads l;
@@ -38,10 +38,10 @@ static void test_kick(void **state)
     for (int64_t i = 0; i < p->n; i++) p->material[i] = i % 3 == 0;
     assert_ok(loads_make(&l, row, 2, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     loads_absorbing_make(&l, p, all);
-    assert_int_equal(l.absorbing.n, 5 * 2 + 4 * 2 - 4);  /* two layers deep, for nodes */
+    assert_int_equal(l.absorbing.n, 5 * 2 + 4 * 2 - 4); /* two layers deep, for nodes */
     real right = -INFINITY, top = -INFINITY;
     for (int64_t i = 0; i < p->n; i++) right = real_max(right, p->X[0][i]), top = real_max(top, p->X[1][i]);
-    for (int64_t k = 0; k < l.absorbing.n; k++) {        /* points bear the face by 3/2 less 1/2 of those behind */
+    for (int64_t k = 0; k < l.absorbing.n; k++) { /* points bear the face by 3/2 less 1/2 of those behind */
         const int32_t i = l.absorbing.particle[k];
         const real behind = (right - p->X[0][i]) / CLOUD_SPACING;
         if (p->X[1][i] > top - 1.5 * CLOUD_SPACING) continue;
@@ -76,7 +76,9 @@ static void test_kick(void **state)
 
 /* ---- waves leave ------------------------------------------------------------------------------------------------- */
 
-struct left { real start, rest, absorbed, balance, momentum, most, back; };
+struct left {
+    real start, rest, absorbed, balance, momentum, most, back;
+};
 
 /* Runs a scene to its end. */
 static struct left run_text(const char *text)
@@ -109,9 +111,13 @@ static struct left run_text(const char *text)
 static void test_bar(void **state)
 {
     (void)state;
-    static const struct { const char *method; real rest, balance, back; } at[] = {
-        {bonds, 0.025 * 0.025, 1e-8, 0}, {cells, 0.01 * 0.01, 1e-12, 0}, {flip, 0.065 * 0.065, 1e-4, 1e-5},
-        {apic, 0.05 * 0.05, 0.02, 0}};
+    static const struct {
+        const char *method;
+        real rest, balance, back;
+    } at[] = {{bonds, 0.025 * 0.025, 1e-8, 0},
+              {cells, 0.01 * 0.01, 1e-12, 0},
+              {flip, 0.065 * 0.065, 1e-4, 1e-5},
+              {apic, 0.05 * 0.05, 0.02, 0}};
     for (size_t k = 0; k < COUNT_OF(at); k++) {
         char text[1024];
         snprintf(text, sizeof text,
@@ -119,7 +125,8 @@ static void test_bar(void **state)
                  "material: {young: 2.3e4, density: 2.3}\n"
                  "body: {box: {from: [0], to: [0.4]}}\nparticles: {spacing: 1 mm, horizon: 3}\n"
                  "initial:\n  - pulse: {at: [0.2], direction: [1], width: 32 mm, velocity: 1 mm/s}\n"
-                 "boundary:\n  - {absorbing: true, face: x+}\noutput: {frames: 0, samples: 200}\n", at[k].method);
+                 "boundary:\n  - {absorbing: true, face: x+}\noutput: {frames: 0, samples: 200}\n",
+                 at[k].method);
         const struct left m = run_text(text);
         assert_true(m.rest <= at[k].rest * m.start);
         assert_true(m.balance <= at[k].balance);
@@ -134,8 +141,10 @@ static void test_bar(void **state)
 static void test_long(void **state)
 {
     (void)state;
-    static const struct { const char *method; real balance, rest; } at[] = {
-        {bonds, 1e-7, 1e-4}, {cells, 1e-6, 1e-4}, {flip, 1e-2, 2e-2}};
+    static const struct {
+        const char *method;
+        real balance, rest;
+    } at[] = {{bonds, 1e-7, 1e-4}, {cells, 1e-6, 1e-4}, {flip, 1e-2, 2e-2}};
     for (size_t k = 0; k < COUNT_OF(at); k++) {
         char text[1024];
         snprintf(text, sizeof text,
@@ -145,8 +154,8 @@ static void test_long(void **state)
                  "initial:\n  - {velocity_gradient: [3, 1, -2, 4], centre: [6 mm, 5 mm]}\n"
                  "boundary:\n  - {absorbing: true, face: x+}\n  - {absorbing: true, face: x-}\n"
                  "  - {absorbing: true, face: y+}\n  - {absorbing: true, face: y-}\n"
-                 "output: {frames: 0, samples: 500}\n", k == 0 ? "0.5 s" : "0.8 s", at[k].method,
-                 k == 0 ? "5 us" : "8 us");
+                 "output: {frames: 0, samples: 500}\n",
+                 k == 0 ? "0.5 s" : "0.8 s", at[k].method, k == 0 ? "5 us" : "8 us");
         const struct left m = run_text(text);
         if (!(m.most <= (1 + 1e-9) * m.start && m.rest <= at[k].rest * m.start && m.balance <= at[k].balance &&
               m.momentum <= 1e-10))
@@ -162,8 +171,10 @@ static void test_long(void **state)
 static void test_mirror_faces(void **state)
 {
     (void)state;
-    static const struct { const char *method, *origin; real tolerance; } at[] = {
-        {bonds, "", 1e-9}, {cells, "", 1e-9}, {cells, ", origin: [0, 1 mm]", 1e-9}, {apic, "", 3e-3}};
+    static const struct {
+        const char *method, *origin;
+        real tolerance;
+    } at[] = {{bonds, "", 1e-9}, {cells, "", 1e-9}, {cells, ", origin: [0, 1 mm]", 1e-9}, {apic, "", 3e-3}};
     for (size_t k = 0; k < COUNT_OF(at); k++) {
         struct left m[2];
         for (int half = 0; half < 2; half++) {
@@ -202,7 +213,8 @@ static void test_held(void **state)
                  "initial:\n  - pulse: {at: [0.2], direction: [1], width: 32 mm, velocity: 1 mm/s}\n"
                  "boundary:\n  - {absorbing: true, face: x+}\n"
                  "  - {fixed: all, region: {box: {from: [398 mm], to: [400 mm]}}}\n"
-                 "output: {frames: 0, samples: 200}\n", method[k]);
+                 "output: {frames: 0, samples: 200}\n",
+                 method[k]);
         const struct left m = run_text(text);
         assert_true(m.rest >= 0.9 * m.start && m.absorbed <= 1e-3 * m.start && m.balance <= 0.05);
     }
@@ -234,7 +246,7 @@ static void test_conversion_at_face(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_kick), cmocka_unit_test(test_bar),  cmocka_unit_test(test_long),
+        cmocka_unit_test(test_kick),         cmocka_unit_test(test_bar),  cmocka_unit_test(test_long),
         cmocka_unit_test(test_mirror_faces), cmocka_unit_test(test_held), cmocka_unit_test(test_conversion_at_face),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -22,8 +22,8 @@
 /* Differences of forces: a step of 2e-5 of a spacing has a second-order error below 1e-9 of the largest entry, and
  * the last bits of stretches, 2^-49, are 1e-10 of it. */
 #define STEP 2e-5
-#define SYMMETRIC 1e-8                   /* of the largest entry; without the energy it is 0.1 */
-#define NEGATIVE 1e-8              /* of the largest entry: round-off of zero modes, of which a clamped body has none */
+#define SYMMETRIC 1e-8 /* of the largest entry; without the energy it is 0.1 */
+#define NEGATIVE 1e-8  /* of the largest entry: round-off of zero modes, of which a clamped body has none */
 /* Energies: differences over 2e-4 of a spacing miss by its square, 4e-8, times third derivatives of order one. */
 #define SLIDE 2e-4
 #define GRADIENT 1e-6
@@ -39,7 +39,10 @@
     "space: solid\nduration: 1 us\nmethod: pd\nmaterial: {young: 200 GPa, poisson: 1/4, density: 7850}\n"              \
     "body: {box: {from: [0, 0, 0], to: [4 mm, 5 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 2.015}\n"
 
-struct body { struct scene s; struct run e; };
+struct body {
+    struct scene s;
+    struct run e;
+};
 
 /* A scene with the overrides `key=value`, NULL behind the last. */
 static void body_make(struct body *a, const char *text, const char *const *with)
@@ -147,7 +150,8 @@ static void check_gradient(struct run *e, const char *name)
     memory_free(way);
 }
 
-static const struct { const char *name, *text, *with[6];
+static const struct {
+    const char *name, *text, *with[6];
 } body_case[] = {
     {"bonds", PLANE STEEL SMALL LEFT, {NULL}},
     {"bonds, plain surface", PLANE STEEL SMALL LEFT, {"pd.surface=none"}},
@@ -220,7 +224,8 @@ static void test_yielded(void **state)
 
 /* So many bonds that a team shares them. */
 #define WALL                                                                                                           \
-    "space: solid\nduration: 1 us\nmethod: pd\nmodel: mospd\nmaterial: {young: 200 GPa, poisson: 1/4, density: 7850}\n"\
+    "space: solid\nduration: 1 us\nmethod: pd\nmodel: mospd\nmaterial: {young: 200 GPa, poisson: 1/4, density: "       \
+    "7850}\n"                                                                                                          \
     "body: {box: {from: [0, 0, 0], to: [3 mm, 16 mm, 16 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT
 
 static void test_threads(void **state)
@@ -238,8 +243,10 @@ static void test_threads(void **state)
         omp_set_num_threads(threads);
         forces(&a.e);
         for (int d = 0; d < p->dim; d++) {
-            if (threads == 1) memcpy(f + d * p->n, p->f[d], (size_t)p->n * sizeof *f);
-            else assert_memory_equal(f + d * p->n, p->f[d], (size_t)p->n * sizeof *f);
+            if (threads == 1)
+                memcpy(f + d * p->n, p->f[d], (size_t)p->n * sizeof *f);
+            else
+                assert_memory_equal(f + d * p->n, p->f[d], (size_t)p->n * sizeof *f);
         }
     }
     omp_set_num_threads(before);
@@ -265,7 +272,7 @@ static real run(struct run *e)
 }
 
 #define BEAM                                                                                                           \
-    "space: plane stress\nthickness: 1 mm\nduration: 9 ms\nmethod: pd\n" STEEL                                        \
+    "space: plane stress\nthickness: 1 mm\nduration: 9 ms\nmethod: pd\n" STEEL                                         \
     "body: {box: {from: [0, 0], to: [20 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT                \
     "  - body_force: [0, 1e4]\n    time: {step: {until: 0.2 ms}}\n"
 
@@ -360,7 +367,7 @@ static void test_reflection(void **state)
             most = real_max(most, fabs(a.e.part.x[0][i] - b.e.part.x[0][i]));
             largest = real_max(largest, fabs(a.e.part.x[0][i] - a.e.part.X[0][i]));
         }
-        assert_true(largest > 1e-8 && most < 1e-9 * largest + 1e-17);    /* last bits of positions */
+        assert_true(largest > 1e-8 && most < 1e-9 * largest + 1e-17); /* last bits of positions */
         body_free(&a), body_free(&b);
     }
 }
@@ -384,7 +391,7 @@ static void test_torn(void **state)
             struct body a;
             int64_t broken = 0;
             body_make(&a, TORN, (const char *const[]){model[k], fine ? "time.safety=0.125" : "time.safety=0.5", NULL});
-            run(&a.e);                   /* on the way bonds that break in a sampled step have one side of it only */
+            run(&a.e); /* on the way bonds that break in a sampled step have one side of it only */
             error[fine] = fabs(a.e.diagnostics->now.balance_error);
             for (int64_t q = 0; q < a.e.bonds.clamped.n; q++) broken += a.e.bonds.w[a.e.bonds.clamped.entry[q]] == 0;
             assert_true(broken > a.e.bonds.clamped.n / 2);
@@ -407,7 +414,10 @@ static void test_torn(void **state)
 static void test_cantilever(void **state)
 {
     (void)state;
-    static const struct { const char *with[4]; real over; } model[] = {
+    static const struct {
+        const char *with[4];
+        real over;
+    } model[] = {
         {{"model=bond"}, 0.98}, {{"particles.horizon=2.015"}, 0.984}, {{"model=ospd"}, 0.98}, {{"model=mospd"}, 1.013}};
     const real L = 50e-3, h = 10e-3, young = 200e9, shear = young / (2 * (1 + 1.0 / 3)), b = 1e4;
     const real beam = b * L * L * L * L / (8 * young * h * h / 12) + b * L * L / (2 * shear * 5 / 6);
@@ -432,9 +442,9 @@ static void test_cantilever(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_energy),     cmocka_unit_test(test_threads), cmocka_unit_test(test_long),
-        cmocka_unit_test(test_reflection), cmocka_unit_test(test_torn),    cmocka_unit_test(test_cantilever),
-        cmocka_unit_test(test_coupled),    cmocka_unit_test(test_in_plane),   cmocka_unit_test(test_yielded),
+        cmocka_unit_test(test_energy),     cmocka_unit_test(test_threads),  cmocka_unit_test(test_long),
+        cmocka_unit_test(test_reflection), cmocka_unit_test(test_torn),     cmocka_unit_test(test_cantilever),
+        cmocka_unit_test(test_coupled),    cmocka_unit_test(test_in_plane), cmocka_unit_test(test_yielded),
     };
     team_make(0);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -72,8 +72,14 @@ static void test_values(void **state)
 static void test_turn_in_space(void **state)
 {
     (void)state;
-    const struct boundary b = {.name = "grip", .kind = BOUNDARY_VELOCITY, .body = -1, .components = 7, .rotates = true,
-                               .rate = 0.7, .centre = {0.3, -0.1, 0.8}, .axis_of = {2, -3, 6},
+    const struct boundary b = {.name = "grip",
+                               .kind = BOUNDARY_VELOCITY,
+                               .body = -1,
+                               .components = 7,
+                               .rotates = true,
+                               .rate = 0.7,
+                               .centre = {0.3, -0.1, 0.8},
+                               .axis_of = {2, -3, 6},
                                .time = {.kind = TIME_CONSTANT}};
     const real axis[] = {2 / 7.0, -3 / 7.0, 6 / 7.0}, arm[] = {1.3, 0.4, -0.6}, angle = 0.7 * 1.9;
     const struct displacing by = displacing_make(&b, 3, 1.9);
@@ -206,10 +212,9 @@ static void test_static(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_turn),
-                                       cmocka_unit_test(test_turn_in_space),
-                                       cmocka_unit_test(test_formula_of_time), cmocka_unit_test(test_steepest),
-                                       cmocka_unit_test(test_static)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),        cmocka_unit_test(test_turn),
+                                       cmocka_unit_test(test_turn_in_space), cmocka_unit_test(test_formula_of_time),
+                                       cmocka_unit_test(test_steepest),      cmocka_unit_test(test_static)};
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

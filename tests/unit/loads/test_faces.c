@@ -15,11 +15,15 @@
 #include "probes/diagnostics.h"
 #include "step/step.h"
 
-#define H 1e-3                           /* spacing [m] */
-#define T 2e-3                           /* thickness of plates [m] */
+#define H 1e-3 /* spacing [m] */
+#define T 2e-3 /* thickness of plates [m] */
 enum { TEXT = 4096 };
 
-struct sample { struct scene s; struct particles p; struct loads l; };
+struct sample {
+    struct scene s;
+    struct particles p;
+    struct loads l;
+};
 
 /* Scene of a body with one traction; the loads are made, or refused with `refusal`. */
 static void sample_try(struct sample *a, const char *space, const char *body, const char *more, const char *traction,
@@ -41,8 +45,10 @@ static void sample_try(struct sample *a, const char *space, const char *body, co
     if (scene_read_text(&a->s, text, strlen(text), "faces.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_ok(fill_particles(&a->p, &a->s, NULL, 0));
     const status made = loads_make(&a->l, a->s.boundary, a->s.boundaries, &a->p, a->s.spacing, 3 * H, 0);
-    if (refusal) status_check(made, REFUSED, refusal, __FILE__, __LINE__);
-    else if (made != OK) fail_msg("%s", status_message());
+    if (refusal)
+        status_check(made, REFUSED, refusal, __FILE__, __LINE__);
+    else if (made != OK)
+        fail_msg("%s", status_message());
 }
 
 static void sample_make(struct sample *a, const char *space, const char *body, const char *more, const char *traction)
@@ -186,7 +192,7 @@ static void test_hidden(void **state)
     assert_exact(share_at(&a, 1, 20.5 * H, 9.5 * H), 0);
     sample_free(&a);
     sample_make(&a, "plane stress", overhang, "", "traction: [0, 1], face: y+, region: " BOX(0, 0, 30, 12));
-    assert_int_equal(a.l.load[0].n, 20);                     /* the lower arm; the web beside it goes on upwards */
+    assert_int_equal(a.l.load[0].n, 20); /* the lower arm; the web beside it goes on upwards */
     assert_close(share_at(&a, 1, 20.5 * H, 9.5 * H), H * T, 1e-12);
     sample_free(&a);
 
@@ -194,7 +200,7 @@ static void test_hidden(void **state)
     for (int64_t k = 0; k < a.l.load[0].n; k++) assert_true(a.p.X[1][a.l.load[0].particle[k]] > 29 * H);
     sample_free(&a);
     sample_make(&a, "plane stress", holed, "", "traction: [0, 1], face: y+, region: " DISC(15, 15, 8));
-    assert_close(area(&a, 1), 12 * H * T, 1e-12);            /* the hole is as wide */
+    assert_close(area(&a, 1), 12 * H * T, 1e-12); /* the hole is as wide */
     for (int64_t k = 0; k < a.l.load[0].n; k++) {
         const int32_t i = a.l.load[0].particle[k];
         assert_true(a.p.X[1][i] < 15 * H && hypot(a.p.X[0][i] - 15 * H, a.p.X[1][i] - 15 * H) < 7.5 * H);
@@ -227,10 +233,13 @@ static void test_bodies(void **state)
     static const char towers[] = "bodies:\n  - {name: a, shape: [" BOX(0, 0, 20, 10) "]}\n  - {name: b, shape: [" BOX(
         22, 0, 30, 5) "]}\n"
                       "  - {name: c, shape: [" BOX(5.5, 10, 12.5, 15) "]}\n";
-    static const struct { const char *traction; int face; real shows; } row[] = {
-        {"traction: [0, 1], face: y+", 1, 28e-3}, {"traction: [0, 1], face: y-", 1, 28e-3},
-        {"traction: [1, 0], face: x+", 0, 15e-3}, {"traction: [1, 0], face: x-", 0, 15e-3},
-        {"traction: [0, 1], face: y+, body: a", 1, 20e-3}, {"traction: [0, 1], face: y-, body: c", 1, 7e-3}};
+    static const struct {
+        const char *traction;
+        int face;
+        real shows;
+    } row[] = {{"traction: [0, 1], face: y+", 1, 28e-3},          {"traction: [0, 1], face: y-", 1, 28e-3},
+               {"traction: [1, 0], face: x+", 0, 15e-3},          {"traction: [1, 0], face: x-", 0, 15e-3},
+               {"traction: [0, 1], face: y+, body: a", 1, 20e-3}, {"traction: [0, 1], face: y-, body: c", 1, 7e-3}};
     for (size_t k = 0; k < COUNT_OF(row); k++)
         for (int shaken = 0; shaken < 2; shaken++) {
             struct sample a;
@@ -295,9 +304,13 @@ static void put_list(FILE *out, enum list list)
 static void test_lists(void **state)
 {
     (void)state;
-    static const struct { real shows[2], spacing; } solid[LISTS] = {
-        [RINGS] = {{40 * H, 40 * H}, H}, [HEXAGONS] = {{20.785 * H, 30.5 * H}, H}, [TWO_SIZES] = {{20 * H, 40 * H}, H},
-        [NODES] = {{20 * H, 30 * H}, H}, [WIDE] = {{13 * H, 26 * H}, 1e-9 * H}};
+    static const struct {
+        real shows[2], spacing;
+    } solid[LISTS] = {[RINGS] = {{40 * H, 40 * H}, H},
+                      [HEXAGONS] = {{20.785 * H, 30.5 * H}, H},
+                      [TWO_SIZES] = {{20 * H, 40 * H}, H},
+                      [NODES] = {{20 * H, 30 * H}, H},
+                      [WIDE] = {{13 * H, 26 * H}, 1e-9 * H}};
     for (int list = 0; list < LISTS; list++) {
         FILE *out = fopen(list_name, "w");
         assert_non_null(out);
@@ -333,7 +346,7 @@ static void test_packed(void **state)
     for (int z = -11; z <= 11; z++)
         for (int y = -11; y <= 11; y++)
             for (int x = -11; x <= 11; x++) {
-                const real edge = H * cbrt(4);               /* of the cubic cell of four */
+                const real edge = H * cbrt(4); /* of the cubic cell of four */
                 const real X[3] = {0.5 * edge * x, 0.5 * edge * y, 0.5 * edge * z};
                 if ((x + y + z) % 2 != 0 || dot(X, X, 3) > square(8 * H)) continue;
                 for (int d = 0; d < 3; d++) fprintf(out, "%.9g,", X[d] + cloud_between(&seed, -0.2, 0.2) * H);
@@ -388,13 +401,10 @@ static void check_impulse(const struct solid_shown *q, int64_t columns, const ch
     diagnostics_make(&w);
     const struct grid *nodes[] = {&e->frame->mesh.grid};
     diagnostics_momentum(&w, &e->part, nodes, 1, (const real[DIM_MAX]){0});
-    const real t = run_observed(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) *
-                                                          (one     ? 3e-6
-                                                           : three ? 1
-                                                                   : T);
+    const real t = run_observed(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) * (one ? 3e-6 : three ? 1 : T);
     for (int d = 0; d < s.dim; d++) {
         const real given = (const real[]){3e5, three || one ? 2e5 : -2e5, -1e5}[d] * shows * t;
-        if (!(fabs(w.now.momentum[d] - given) <= 1e-10 * fabs(given)))      /* of 3e5: round-off of 12 steps */
+        if (!(fabs(w.now.momentum[d] - given) <= 1e-10 * fabs(given))) /* of 3e5: round-off of 12 steps */
             fail_msg("%s, %s: momentum %.12g where %.12g was given", q->name, method, w.now.momentum[d], given);
     }
     engine_free(e);
@@ -406,7 +416,9 @@ static void test_impulse(void **state)
 {
     (void)state;
     static const char *const method[] = {
-        "method: pd", "method: mpm\nmpm: {frame: current}", "method: mpm\nmpm: {frame: current, transfer: apic}",
+        "method: pd",
+        "method: mpm\nmpm: {frame: current}",
+        "method: mpm\nmpm: {frame: current, transfer: apic}",
         "method: mpm\nmpm: {frame: reference}",
         "method: adaptive\nmpm: {frame: current}\npd: {region: {half-space: {point: [%s], normal: [1%s]}}}",
         "method: adaptive\nmpm: {frame: reference}\npd: {region: {half-space: {point: [%s], normal: [1%s]}}}"};
@@ -414,8 +426,9 @@ static void test_impulse(void **state)
         struct sample a;
         if (strcmp(shapes[k].name, "shell") == 0 || strcmp(shapes[k].name, "cylinder") == 0) continue; /* as the ball */
         sample_make(&a, shapes[k].space, shapes[k].body, "",
-                    *shapes[k].space == 'l' ? "traction: 1, face: x+"
-                    : *shapes[k].space == 'p' ? "traction: [1, 0], face: x+" : "traction: [1, 0, 0], face: x+");
+                    *shapes[k].space == 'l'   ? "traction: 1, face: x+"
+                    : *shapes[k].space == 'p' ? "traction: [1, 0], face: x+"
+                                              : "traction: [1, 0, 0], face: x+");
         const int64_t columns = lattice_columns(&a.p, 0);
         const int dim = a.p.dim;
         sample_free(&a);

@@ -16,7 +16,10 @@ static void test_sine(void **state)
 {
     (void)state;
     const real length = 5 * CLOUD_SPACING, volume = square(CLOUD_SPACING) * 2e-3, dt = 1e-6;
-    const struct boundary push = {.name = "push", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {2e6, -3e6},
+    const struct boundary push = {.name = "push",
+                                  .kind = BOUNDARY_BODY_FORCE,
+                                  .body = -1,
+                                  .value = {2e6, -3e6},
                                   .time = {.kind = TIME_RAMP, .until = 4},
                                   .profile = {PROFILE_SINE, length, {CLOUD_SPACING, -CLOUD_SPACING}, {3, 4}}};
     struct cloud c;
@@ -27,7 +30,7 @@ static void test_sine(void **state)
     assert_ok(loads_make(&l, &push, 1, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     for (int64_t i = 0; i < p->n; i++) p->x[0][i] += 0.3 * CLOUD_SPACING, p->f[1][i] = 77;
     loads_clear(&l, p);
-    loads_apply(&l, p, 1 + 0.5 * dt, dt, dt);        /* a kick round t = 1: a quarter of the ramp */
+    loads_apply(&l, p, 1 + 0.5 * dt, dt, dt); /* a kick round t = 1: a quarter of the ramp */
     for (int64_t i = 0; i < p->n; i++) {
         real along = 0.6 * (p->X[0][i] - CLOUD_SPACING) + 0.8 * (p->X[1][i] + CLOUD_SPACING);
         real factor = 0.25 * sin(2 * M_PI * along / length);
@@ -37,15 +40,15 @@ static void test_sine(void **state)
     }
     for (int d = 0; d < 2; d++) assert_near(l.impulse[d], sum[d], 1e-12 * 3e6 * volume * dt * (double)p->n);
 
-    real work = 0;                                   /* over the way they go, with the same forces */
+    real work = 0; /* over the way they go, with the same forces */
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < 2; d++) {
             real way = 1e-6 * (real)(i + d);
             p->x[d][i] += way;
             work += way * p->f[d][i];
         }
-    loads_hold(&l, p, 1, dt);                 /* as if the step's middle were at t = 1 */
-    assert_close(l.work, work, 1e-8);                /* ways of 1e-6 of positions near 1e-2, to 1e-18 */
+    loads_hold(&l, p, 1, dt);         /* as if the step's middle were at t = 1 */
+    assert_close(l.work, work, 1e-8); /* ways of 1e-6 of positions near 1e-2, to 1e-18 */
     assert_true(fabs(work) > 1e-9);
     loads_free(&l);
     cloud_free(&c);
@@ -111,7 +114,7 @@ static void test_together(void **state)
         check_together(threads, true, impulse[threads], &work[threads], f[threads]);
     for (int i = 0; i < 2 * N; i++) assert_near(f[1][i], f[0][i], 1e-14 * 2e7 * square(CLOUD_SPACING) * 2e-3);
     for (int d = 0; d < 2; d++) assert_close(impulse[1][d], impulse[0][d], 1e-12);
-    assert_close(work[1], work[0], 1e-10);           /* terms of both signs, 1e-3 of them left */
+    assert_close(work[1], work[0], 1e-10); /* terms of both signs, 1e-3 of them left */
     for (int threads = 2; threads <= 3; threads++) {
         assert_memory_equal(f[threads], f[1], sizeof f[1]);
         assert_memory_equal(impulse[threads], impulse[1], sizeof impulse[1]);
@@ -127,15 +130,18 @@ static void test_kicks(void **state)
 {
     (void)state;
     const real volume = CLOUD_SPACING * 4e-6, dt = 1e-3;
-    const struct { struct time_function time; real until_now; } row[] = {
+    const struct {
+        struct time_function time;
+        real until_now;
+    } row[] = {
         {{.kind = TIME_CONSTANT}, 9.5 * dt},
-        {{.kind = TIME_STEP, .until = 5 * dt}, 5 * dt},                          /* all of it */
+        {{.kind = TIME_STEP, .until = 5 * dt}, 5 * dt}, /* all of it */
         {{.kind = TIME_STEP, .from = 3 * dt, .until = 99}, 6.5 * dt},
-        {{.kind = TIME_RAMP, .until = 20 * dt}, 9.5 * 9.5 / 40 * dt},            /* integral of t/20 dt */
+        {{.kind = TIME_RAMP, .until = 20 * dt}, 9.5 * 9.5 / 40 * dt}, /* integral of t/20 dt */
     };
     for (size_t k = 0; k < COUNT_OF(row); k++) {
-        const struct boundary push = {.name = "push", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {3e6},
-                                      .time = row[k].time};
+        const struct boundary push = {
+            .name = "push", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {3e6}, .time = row[k].time};
         struct cloud c;
         struct loads l;
         cloud_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {4}, .horizon = 3});
@@ -166,12 +172,15 @@ static void test_traction(void **state)
     const real area = rows * CLOUD_SPACING * 2e-3, t[2] = {3e6, -7e6};
     for (int shaken = 0; shaken < 2; shaken++)
         for (int side = -1; side <= 1; side += 2) {
-            const struct boundary pull = {.name = "pull", .kind = BOUNDARY_TRACTION, .body = -1, .value = {t[0], t[1]},
-                                          .face = 0, .side = side};
+            const struct boundary pull = {
+                .name = "pull", .kind = BOUNDARY_TRACTION, .body = -1, .value = {t[0], t[1]}, .face = 0, .side = side};
             struct cloud c;
             struct loads l;
-            cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {columns, rows}, .horizon = 3,
-                                                .shake = shaken ? 0.3 : 0, .seed = 5});
+            cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS,
+                                                .count = {columns, rows},
+                                                .horizon = 3,
+                                                .shake = shaken ? 0.3 : 0,
+                                                .seed = 5});
             real sum[2] = {0}, first = 0, *X = c.p.X[0];
             even_volumes(&c.p);
             assert_ok(loads_make(&l, &pull, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
@@ -183,8 +192,9 @@ static void test_traction(void **state)
                 first += c.p.f[1][i] * X[i];
             }
             for (int d = 0; d < 2; d++) assert_close(sum[d], t[d] * area, 1e-12);
-            if (!shaken) assert_near(first / (t[1] * area), (side > 0 ? high : low) + side * 0.5 * CLOUD_SPACING,
-                                     1e-9 * CLOUD_SPACING);
+            if (!shaken)
+                assert_near(first / (t[1] * area), (side > 0 ? high : low) + side * 0.5 * CLOUD_SPACING,
+                            1e-9 * CLOUD_SPACING);
             loads_free(&l);
             cloud_free(&c);
         }
@@ -196,7 +206,10 @@ static void test_mean_displacement(void **state)
 {
     (void)state;
     const real length = 5 * CLOUD_SPACING, volume = square(CLOUD_SPACING) * 2e-3;
-    const struct boundary push = {.name = "push", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {2e6, -3e6},
+    const struct boundary push = {.name = "push",
+                                  .kind = BOUNDARY_BODY_FORCE,
+                                  .body = -1,
+                                  .value = {2e6, -3e6},
                                   .profile = {PROFILE_SINE, length, {-0.3 * CLOUD_SPACING, 0}, {1, 0}}};
     struct cloud c;
     struct loads l;
@@ -223,7 +236,10 @@ static void test_force_at(void **state)
 {
     (void)state;
     const struct expression_step step[] = {{EXPRESSION_X, 0}, {EXPRESSION_T, 0}, {EXPRESSION_TIMES, 0}};
-    struct boundary push = {.name = "push", .kind = BOUNDARY_BODY_FORCE, .body = -1, .value = {2e6, -3e6},
+    struct boundary push = {.name = "push",
+                            .kind = BOUNDARY_BODY_FORCE,
+                            .body = -1,
+                            .value = {2e6, -3e6},
                             .time = {.kind = TIME_RAMP, .until = 4}};
     struct cloud c;
     struct loads l;
@@ -253,11 +269,11 @@ static void test_relief(void **state)
     struct cloud c;
     struct loads l;
     real sum[2] = {0}, moment = 0, size = 0;
-    cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {12, 9}, .horizon = 3, .shake = 0.2,
-                                        .seed = 3});
+    cloud_make(
+        &c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {12, 9}, .horizon = 3, .shake = 0.2, .seed = 3});
     even_volumes(&c.p);
     assert_ok(loads_make(&l, shear, 2, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
-    assert_true(loads_static_balance(&l, &c.p) > 0.3);     /* nothing but moment, not at the farthest from the centre */
+    assert_true(loads_static_balance(&l, &c.p) > 0.3); /* nothing but moment, not at the farthest from the centre */
     loads_static_force(&l, &c.p);
     for (int64_t i = 0; i < c.p.n; i++) {
         for (int d = 0; d < 2; d++) sum[d] += c.p.f[d][i], size += fabs(c.p.f[d][i]);
@@ -271,9 +287,9 @@ static void test_relief(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sine), cmocka_unit_test(test_kicks),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sine),     cmocka_unit_test(test_kicks),
                                        cmocka_unit_test(test_together), cmocka_unit_test(test_traction),
-                                       cmocka_unit_test(test_relief), cmocka_unit_test(test_mean_displacement),
+                                       cmocka_unit_test(test_relief),   cmocka_unit_test(test_mean_displacement),
                                        cmocka_unit_test(test_force_at)};
     team_make(2);
     return cmocka_run_group_tests(tests, NULL, NULL);

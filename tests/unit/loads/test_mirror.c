@@ -20,7 +20,7 @@
 struct quarter {
     struct cloud whole, part;
     struct loads loads;
-    int32_t *twin;                       /* particle of the whole at the place of a particle of the part */
+    int32_t *twin; /* particle of the whole at the place of a particle of the part */
 };
 
 static const struct boundary mirror[] = {
@@ -133,7 +133,7 @@ static void check_partial(const struct quarter *q, const struct partial_stress *
         int32_t a = part->index[i], b = whole->index[q->twin[i]];
         assert_int_equal(a >= 0, b >= 0);
         if (a < 0) continue;
-        for (int k = 0; k < size; k++)         /* shares of stress: of order one */
+        for (int k = 0; k < size; k++) /* shares of stress: of order one */
             assert_true(fabs(part->matrix[a * size + k] - whole->matrix[b * size + k]) <= CLOSE);
         entries++;
     }
@@ -164,13 +164,13 @@ static void test_mirror(void **state)
     static const enum space space[] = {SPACE_PLANE_STRESS, SPACE_SOLID};
     for (size_t k = 0; k < COUNT_OF(space); k++)
         for (int surface = SURFACE_NONE; surface <= SURFACE_VOLUME; surface++) {
-            quarter_case(space[k], (enum surface_rule)surface, 3.3);     /* a core of peridynamic particles */
-            quarter_case(space[k], (enum surface_rule)surface, 0.9);     /* so small that all its bonds reach over */
-            quarter_case(space[k], (enum surface_rule)surface, 99);      /* all of them */
+            quarter_case(space[k], (enum surface_rule)surface, 3.3); /* a core of peridynamic particles */
+            quarter_case(space[k], (enum surface_rule)surface, 0.9); /* so small that all its bonds reach over */
+            quarter_case(space[k], (enum surface_rule)surface, 99);  /* all of them */
         }
 }
 
-enum { LOOKS_MOST = 4096 };             /* more than a quarter has particles */
+enum { LOOKS_MOST = 4096 }; /* more than a quarter has particles */
 
 /* How often each particle was listed, and that no list holds a particle twice. */
 static void count_looks(void *context, const int32_t *list, int64_t n)
@@ -194,7 +194,7 @@ static void test_mirror_convert(void **state)
     const struct conversion_rule rule = {.criteria = CONVERT_ON_STRESS, .stress = NAN, .alpha = 1, .block = true};
     quarter_make(&q, SPACE_PLANE_STRESS, SURFACE_NONE, 0);
     struct particles *part = &q.part.p, *whole = &q.whole.p;
-    int32_t marked = 3;                  /* beside the lower mirror, away from the left one */
+    int32_t marked = 3; /* beside the lower mirror, away from the left one */
     part->flag[marked] |= FLAG_STRESSED;
     for (int64_t j = 0; j < whole->n; j++)
         if (fabs(fabs(whole->X[0][j]) - part->X[0][marked]) + fabs(fabs(whole->X[1][j]) - part->X[1][marked]) < 1e-9)
@@ -301,7 +301,7 @@ static void points_state(struct particles *p)
         }
         p->kind[i] = KIND_MPM;
         for (int c = 0; c < p->dim; c++) p->stress[c][i] = 1e8 * (1 + c + 0.1 * r2);
-        p->stress[p->dim][i] = 1e7 * X[0] * X[1];          /* xy */
+        p->stress[p->dim][i] = 1e7 * X[0] * X[1]; /* xy */
         if (p->dim == 3) p->stress[4][i] = 1e7 * X[1], p->stress[5][i] = 1e7 * X[0];
     }
     particles_list(p);
@@ -313,8 +313,8 @@ static void points_make(struct points *s, struct particles *p, const struct boun
     real from[DIM_MAX], to[DIM_MAX];
     bool changed;
     *s = (struct points){.p = p, .g = {.dim = p->dim, .h = 2 * CLOUD_SPACING}};
-    s->t = (struct transfer_data){.order = &s->order, .partial = &s->partial, .elastic = &steel,
-                                  .half_width = 0.5 * CLOUD_SPACING, .dt = 1e-7};
+    s->t = (struct transfer_data){
+        .order = &s->order, .partial = &s->partial, .elastic = &steel, .half_width = 0.5 * CLOUD_SPACING, .dt = 1e-7};
     for (int d = 0; d < p->dim; d++) {
         s->g.anchor[d] = d < 2 ? offset * s->g.h : 0;
         from[d] = -20 * CLOUD_SPACING, to[d] = 20 * CLOUD_SPACING;
@@ -415,8 +415,8 @@ static void test_mirror_points(void **state)
     for (size_t k = 0; k < COUNT_OF(space); k++)
         for (int shape = 0; shape < SHAPES; shape++)
             for (int transfer = 0; transfer < TRANSFERS; transfer++) {
-                points_case(space[k], (enum shape)shape, (enum transfer)transfer, 0);     /* planes on nodes */
-                points_case(space[k], (enum shape)shape, (enum transfer)transfer, 0.5);   /* half-way between */
+                points_case(space[k], (enum shape)shape, (enum transfer)transfer, 0);   /* planes on nodes */
+                points_case(space[k], (enum shape)shape, (enum transfer)transfer, 0.5); /* half-way between */
             }
 }
 
@@ -454,10 +454,8 @@ static void test_mirror_places(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mirror_places),
-        cmocka_unit_test(test_mirror),
-        cmocka_unit_test(test_mirror_convert),
-        cmocka_unit_test(test_mirror_breaks),
+        cmocka_unit_test(test_mirror_places),  cmocka_unit_test(test_mirror),
+        cmocka_unit_test(test_mirror_convert), cmocka_unit_test(test_mirror_breaks),
         cmocka_unit_test(test_mirror_points),
     };
     team_make(2);

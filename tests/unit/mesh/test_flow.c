@@ -140,7 +140,7 @@ static void test_flow_state(void **state)
     assert_close(incremental_energy(&b, kept, true), first, 1e-12);
     assert_close(largest_force(&b), most, 1e-12);
     rotation(&b, 0.9, 0.2);
-    assert_close(incremental_energy(&b, kept, true), first, 1e-12);        /* rotation changes nothing */
+    assert_close(incremental_energy(&b, kept, true), first, 1e-12); /* rotation changes nothing */
     rotation(&b, 0.3, 0.19);
     incremental_energy(&b, kept, true);
     assert_close(b.c.p.plastic_strain[b.c.p.n - 1], strain, 1e-12);

@@ -19,7 +19,7 @@ struct plate {
     struct mesh_levels levels;
     struct elastic elastic[CLOUD_MATERIALS];
     struct mesh_source source;
-    real dt;                             /* [s] */
+    real dt; /* [s] */
     int64_t step;
 };
 
@@ -65,8 +65,8 @@ static void plate_make_of(struct plate *b, enum space space, int levels, int len
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         const struct material *k = &b->c.material[m];
         density[m] = k->density;
-        b->elastic[m] = (struct elastic){.c11 = k->c11, .c12 = k->c12, .shear = k->shear, .trigger = INFINITY,
-                                         .space = space};
+        b->elastic[m] =
+            (struct elastic){.c11 = k->c11, .c12 = k->c12, .shear = k->shear, .trigger = INFINITY, .space = space};
     }
     b->source = (struct mesh_source){.elastic = b->elastic, .isotropic = b->elastic, .materials = CLOUD_MATERIALS};
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = KIND_MPM, p->flag[i] |= FLAG_MESHED;
@@ -116,8 +116,10 @@ static void motion_set(struct plate *b, const real A[9], const real *c, real by,
                 real value = c[a] + (by > 0 ? cloud_between(&seed, -by, by) : 0);
                 for (int d = 0; d < dim; d++) value += A[a * 3 + d] * place_of(mesh, I, d);
                 if (!node_free(l, level, I)) value = 0;
-                if (velocity) mesh->grid.velocity[a][I] = value;
-                else mesh->displacement[a][I] = value;
+                if (velocity)
+                    mesh->grid.velocity[a][I] = value;
+                else
+                    mesh->displacement[a][I] = value;
             }
     }
     if (velocity) levels_momenta_find(l);
@@ -385,7 +387,7 @@ static void pulse_set(struct plate *b, real at, real width)
         struct mesh *mesh = level_mesh(l, level);
         for (int64_t I = 0; I < mesh->grid.n; I++) {
             const real x = (place_of(mesh, I, 0) - at) / s;
-            const real early = x + 0.5 * (real)(1 << level) * b->dt * c / s;     /* half a step before */
+            const real early = x + 0.5 * (real)(1 << level) * b->dt * c / s; /* half a step before */
             const bool own = node_free(l, level, I);
             mesh->displacement[0][I] = own ? 1e-6 * s * exp(-0.5 * x * x) : 0;
             mesh->grid.velocity[0][I] = own ? 1e-6 * c * early * exp(-0.5 * early * early) : 0;
@@ -488,12 +490,12 @@ static void test_reflection(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_gradient), cmocka_unit_test(test_patch),      cmocka_unit_test(test_changes),
-        cmocka_unit_test(test_steps),    cmocka_unit_test(test_materials),  cmocka_unit_test(test_dispersion),
+        cmocka_unit_test(test_gradient),   cmocka_unit_test(test_patch),     cmocka_unit_test(test_changes),
+        cmocka_unit_test(test_steps),      cmocka_unit_test(test_materials), cmocka_unit_test(test_dispersion),
         cmocka_unit_test(test_reflection),
     };
     int failures = 0;
-    omp_set_num_threads(1);              /* bars of a hundred cells */
+    omp_set_num_threads(1); /* bars of a hundred cells */
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;
 }

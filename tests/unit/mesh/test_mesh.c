@@ -45,7 +45,7 @@ static void test_gradient(void **state)
     (void)state;
     for (unsigned s = 0; s < COUNT_OF(spaces); s++)
         for (int finite = 0; finite < 2; finite++) gradient_of(spaces[s], finite, false);
-    gradient_of(SPACE_PLANE_STRESS, true, true);         /* constants of a lattice, not isotropic */
+    gradient_of(SPACE_PLANE_STRESS, true, true); /* constants of a lattice, not isotropic */
     gradient_of(SPACE_SOLID, true, true);
 }
 
@@ -64,7 +64,7 @@ static void test_whole_and_cut(void **state)
                 whole[d] = NEW("test.whole", b.mesh.grid.n, real);
                 memcpy(whole[d], b.mesh.grid.force[d], sizeof(real) * (size_t)b.mesh.grid.n);
             }
-            struct partial_stress nothing;       /* the same with every cell cut */
+            struct partial_stress nothing; /* the same with every cell cut */
             partial_of(&nothing, &b.c.p, b.c.material, 0);
             b.source.partial = &nothing;
             mesh_follow(&b.mesh, &b.c.p, &b.source, NULL, 0);
@@ -121,14 +121,16 @@ static void test_partial(void **state)
         partial_of(&partial, p, b.c.material, 0.2);
         int32_t changed[2] = {-1, -1};
         for (int64_t i = 0; i < p->n; i++) {
-            if (i % 3) partial.index[i] = -1;
-            else if (b.mesh.place[i] >= 0) changed[i % 2] = (int32_t)i;
+            if (i % 3)
+                partial.index[i] = -1;
+            else if (b.mesh.place[i] >= 0)
+                changed[i % 2] = (int32_t)i;
         }
         b.source.partial = &partial;
         mesh_follow(&b.mesh, &b.c.p, &b.source, NULL, 0);
         for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= -0.5;
         partial.index[changed[1]] = -1;
-        assert_true(dim > 1 || !mesh_refresh(&b.mesh, &b.c.p, &b.source, changed, 2));     /* one cell less is cut */
+        assert_true(dim > 1 || !mesh_refresh(&b.mesh, &b.c.p, &b.source, changed, 2)); /* one cell less is cut */
         mesh_follow(&b.mesh, &b.c.p, &b.source, changed, 2);
         for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= 0.7;
         assert_true(mesh_refresh(&b.mesh, &b.c.p, &b.source, changed, 1));
@@ -166,7 +168,7 @@ static void test_patch(void **state)
             int inside = 0;
             for (int64_t I = 0; I < b.mesh.grid.n; I++) full = real_max(full, b.mesh.grid.mass[I]);
             const real scale = b.elastic[0].c11 * 0.01 * b.mesh.volume / CLOUD_SPACING;
-            assert_true(largest_force(&b) > 0.1 * scale);    /* its edges do have forces */
+            assert_true(largest_force(&b) > 0.1 * scale); /* its edges do have forces */
             for (int64_t I = 0; I < b.mesh.grid.n; I++) {
                 if (b.mesh.grid.mass[I] < full * (1 - 1e-12)) continue;
                 inside++;
@@ -203,8 +205,10 @@ static void test_momentum(void **state)
                 arms += fabs(x[0] * b.mesh.grid.force[1][I]) + fabs(x[1] * b.mesh.grid.force[0][I]);
             }
             for (int d = 0; d < b.c.p.dim; d++) assert_near(sum[d], 0, 1e-13 * scale);
-            if (finite) assert_near(moment, 0, 1e-13 * arms);
-            else assert_true(fabs(moment) > 1e-6 * arms);
+            if (finite)
+                assert_near(moment, 0, 1e-13 * arms);
+            else
+                assert_true(fabs(moment) > 1e-6 * arms);
             block_free(&b);
         }
 }
@@ -336,9 +340,13 @@ static void test_matched_kick(void **state)
         real cell_mass[] = {0.31, 0.83}, want = 0;
         const real match = 0.43, dt = 0.7;
         uint64_t seed = 23;
-        struct mesh mesh = {.grid = {.dim = dim, .n = 1, .force = {force[0], force[1], force[2]}}, .points = 5,
-                            .inverse_mass = inverse_mass, .matched = matched, .material = material,
-                            .cell_mass = cell_mass, .match = match};
+        struct mesh mesh = {.grid = {.dim = dim, .n = 1, .force = {force[0], force[1], force[2]}},
+                            .points = 5,
+                            .inverse_mass = inverse_mass,
+                            .matched = matched,
+                            .material = material,
+                            .cell_mass = cell_mass,
+                            .match = match};
         for (int d = 0; d < dim; d++) mesh.grid.stride[d] = mesh.grid.n, mesh.grid.count[d] = EDGE, mesh.grid.n *= EDGE;
         for (int c = 0; c < 1 << dim; c++)
             for (int d = 0; d < dim; d++) mesh.corner[c] += (int32_t)((c >> d & 1) * mesh.grid.stride[d]);
@@ -366,10 +374,9 @@ static void test_matched_kick(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_gradient), cmocka_unit_test(test_whole_and_cut), cmocka_unit_test(test_partial),
-        cmocka_unit_test(test_patch),
-        cmocka_unit_test(test_momentum), cmocka_unit_test(test_start),
-        cmocka_unit_test(test_release), cmocka_unit_test(test_step), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_gradient),     cmocka_unit_test(test_whole_and_cut), cmocka_unit_test(test_partial),
+        cmocka_unit_test(test_patch),        cmocka_unit_test(test_momentum),      cmocka_unit_test(test_start),
+        cmocka_unit_test(test_release),      cmocka_unit_test(test_step),          cmocka_unit_test(test_refused),
         cmocka_unit_test(test_matched_kick),
     };
     int failures = 0;

@@ -5,11 +5,14 @@
 #include "mesh/levels.h"
 #include "src/mesh/mesh_parts.h"
 
-#define EDGE 0.4e-3                      /* of a cell [m] */
+#define EDGE 0.4e-3 /* of a cell [m] */
 enum { MARGIN = 2 };
 
 /* A box of cells, all of them full of the body. */
-struct body { struct mesh mesh; uint8_t *room; };
+struct body {
+    struct mesh mesh;
+    uint8_t *room;
+};
 
 static void body_make(struct body *b, int dim, int x, int y, int z)
 {
@@ -97,10 +100,10 @@ static void wedges(void **state)
     body_make(&b, 2, 200, 50, 0);
     for (int x = 0; x < 200; x++)
         for (int y = x / 4 + 1; y < 50; y++) b.mesh.kind[cell_at(&b, x, y, 0)] = CELL_EMPTY;
-    assert_int_equal(mesh_room(&b.mesh, NULL, 0, b.room), level_for(40));      /* 4 (40 - 1) + 40 cells */
+    assert_int_equal(mesh_room(&b.mesh, NULL, 0, b.room), level_for(40)); /* 4 (40 - 1) + 40 cells */
     for (int x = 0; x < 200; x++)
         for (int level = 1; level <= LEVELS_MAX; level++) {
-            const int side = 6 * (1 << level) - 1, from = 4 * (side - 1);        /* so high from there on */
+            const int side = 6 * (1 << level) - 1, from = 4 * (side - 1); /* so high from there on */
             const bool fits = side <= 50 && from + side <= 200 && x >= from;
             assert_int_equal(b.room[cell_at(&b, x, 0, 0)] >= level, fits);
         }

@@ -30,7 +30,8 @@ static const struct crack *slit_of(const struct block *b, enum slit_kind kind, r
 static void slit_block(struct block *b, enum space space, enum slit_kind kind, real to, bool hole)
 {
     block_make(b, space, hole, false);
-    const struct grid like = {.dim = b->mesh.grid.dim, .h = b->mesh.grid.h,
+    const struct grid like = {.dim = b->mesh.grid.dim,
+                              .h = b->mesh.grid.h,
                               .anchor = {b->mesh.grid.anchor[0], b->mesh.grid.anchor[1], b->mesh.grid.anchor[2]}};
     b->source.slit = slit_of(b, kind, to), b->source.slits = 1;
     mesh_free(&b->mesh);
@@ -67,13 +68,13 @@ static void test_parts(void **state)
     for (int s = 1; s < 3; s++)
         for (int kind = 0; kind < SLITS; kind++) {
             struct block b;
-            slit_block(&b, spaces[s], kind, 30, false);            /* through the block */
+            slit_block(&b, spaces[s], kind, 30, false); /* through the block */
             const int dim = b.c.p.dim, corners = 1 << dim;
             const struct mesh *mesh = &b.mesh;
             int64_t pairs = 0;
             for (int64_t i = 0; i < b.c.p.n; i++)
                 for (int64_t j = 0; j < i; j++) {
-                    bool near = true;                            /* others share no node anyway */
+                    bool near = true; /* others share no node anyway */
                     for (int d = 0; d < dim; d++)
                         near = near && fabs(b.c.p.X[d][i] - b.c.p.X[d][j]) < 4 * CLOUD_SPACING;
                     if (!near || !parted(&b, i, j)) continue;
@@ -107,7 +108,7 @@ static void test_gradient(void **state)
                 for (int64_t I = 0; I < b.mesh.grid.n; I++)
                     for (int d = 0; d < b.c.p.dim && b.mesh.slits.split[I] && b.mesh.grid.mass[I] > 0; d++) {
                         real *u = &b.mesh.displacement[d][I], W[2];
-                        if (tried++ % (s == 2 ? 97 : 7)) continue;   /* of many */
+                        if (tried++ % (s == 2 ? 97 : 7)) continue; /* of many */
                         *u += step, W[1] = plain_energy(&b, finite);
                         *u -= 2 * step, W[0] = plain_energy(&b, finite);
                         *u += step;

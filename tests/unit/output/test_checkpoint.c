@@ -48,7 +48,7 @@ static status toy_archive(void *context, struct archive *a)
     struct toy *toy = context;
     toy->calls++;
     ARCHIVE_VALUE(a, "toy/step", toy->step);
-    ARCHIVE_VALUE(a, "toy", toy->n);                   /* begins as the others do: no clash */
+    ARCHIVE_VALUE(a, "toy", toy->n); /* begins as the others do: no clash */
     if (!a->saving) {
         int64_t size = a->stored_size(a, "toy/value");
         if (size != toy->n * (int64_t)sizeof(real))
@@ -233,7 +233,7 @@ static void older_checkpoint_stands_in(void **state)
     memory_free(said);
     /* The damaged one is out of the way: the next checkpoint keeps the whole one. */
     assert_int_equal(write_step(&o, 7, 100), OK);
-    unlink("older/checkpoint.h5");                     /* as a kill between the two renames */
+    unlink("older/checkpoint.h5"); /* as a kill between the two renames */
     said = said_by_resume(&o, 5, 100);
     assert_non_null(strstr(said, "older/checkpoint.h5 is missing"));
     memory_free(said);
@@ -325,7 +325,7 @@ static int write_to_full_disk(struct output *o, bool frame_first)
 {
     struct particles p;
     struct rlimit limit = {.rlim_cur = 20000, .rlim_max = RLIM_INFINITY};
-    omp_set_num_threads(1);                            /* the team of threads stayed behind in the parent */
+    omp_set_num_threads(1); /* the team of threads stayed behind in the parent */
     particles_make(&p, 2, 5000, 0);
     for (int64_t i = 0; i < p.n; i++) p.id[i] = (int32_t)i;
     if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 1;
@@ -334,7 +334,8 @@ static int write_to_full_disk(struct output *o, bool frame_first)
     if (frame_first) {
         expected = "cannot write full/frames/000000.hdf: File too large; free space or choose another -o";
         s = output_frame(o, &p, 0, 0, scene_text);
-    } else s = write_step(o, 7, 5000);
+    } else
+        s = write_step(o, 7, 5000);
     if (s != FAILED) return 2;
     if (strcmp(status_message(), expected) != 0) return 3;
     /* HDF5 is not called again, and the first message stands. */
@@ -356,7 +357,7 @@ static void full_disk_loses_nothing(void **state)
         int ended = 0;
         fflush(NULL);
         pid_t child = fork();
-        if (child == 0) exit(write_to_full_disk(&o, frame_first));   /* exit: HDF5's handlers must not crash */
+        if (child == 0) exit(write_to_full_disk(&o, frame_first)); /* exit: HDF5's handlers must not crash */
         assert_true(child > 0);
         assert_int_equal(waitpid(child, &ended, 0), child);
         assert_true(WIFEXITED(ended));

@@ -19,7 +19,7 @@
 #include "output/summary_read.h"
 
 enum { SIDE = 12, TEXT = 16384 };
-static const double SPACING = 1e-3;                  /* [m] */
+static const double SPACING = 1e-3; /* [m] */
 
 static void put(const char *path, const char *text)
 {
@@ -44,15 +44,18 @@ static const char sound[] =
 static void figures_are_found(void **state)
 {
     (void)state;
-    const struct { const char *key; double value; } wanted[] = {
-        {"steps", 12}, {"x", -1.5e-3}, {"crack.tips.0.x", 1}, {"crack.tips.1.x", 2.5}, {"crack.tips.0.deep.x", 7},
+    const struct {
+        const char *key;
+        double value;
+    } wanted[] = {
+        {"steps", 12},  {"x", -1.5e-3}, {"crack.tips.0.x", 1}, {"crack.tips.1.x", 2.5}, {"crack.tips.0.deep.x", 7},
         {"crack.x", 9}, {"list.0.1", 2}};
     mkdir("sound", 0777);
     put("sound/summary.json", sound);
     for (size_t k = 0; k < COUNT_OF(wanted); k++) {
         double value;
         assert_int_equal(summary_number("sound", wanted[k].key, &value), OK);
-        assert_true(value == wanted[k].value);       /* the same text gives the same number */
+        assert_true(value == wanted[k].value); /* the same text gives the same number */
     }
     char name[32], cut[4];
     assert_int_equal(summary_string("sound", "name", name, sizeof name), OK);
@@ -64,8 +67,9 @@ static void figures_are_found(void **state)
 static void absent_figures_are_refused(void **state)
 {
     (void)state;
-    const char *absent[] = {"start", "tips.0.x", "crack.tips.2.x", "crack.tips.x", "crack.start", "crack.tips", "name",
-                            "ok", "step", "steps.0", "list.1.0", "crack.", ".x", "list.00.1"};
+    const char *absent[] = {"start", "tips.0.x", "crack.tips.2.x", "crack.tips.x", "crack.start", "crack.tips",
+                            "name",  "ok",       "step",           "steps.0",      "list.1.0",    "crack.",
+                            ".x",    "list.00.1"};
     mkdir("sound", 0777);
     put("sound/summary.json", sound);
     for (size_t k = 0; k < COUNT_OF(absent); k++) {
@@ -78,11 +82,23 @@ static void absent_figures_are_refused(void **state)
 static void unsound_files_are_refused(void **state)
 {
     (void)state;
-    const char *unsound[] = {"", "{", "{\"steps\": 12", "{\"steps\": 12}}", "{\"steps\": 12,}", "{\"steps\" 12}",
-                             "{steps: 12}", "{\"steps\": 012}", "{\"steps\": 12.}", "{\"steps\": .5}",
+    const char *unsound[] = {"",
+                             "{",
+                             "{\"steps\": 12",
+                             "{\"steps\": 12}}",
+                             "{\"steps\": 12,}",
+                             "{\"steps\" 12}",
+                             "{steps: 12}",
+                             "{\"steps\": 012}",
+                             "{\"steps\": 12.}",
+                             "{\"steps\": .5}",
                              "{\"steps\": nan}",
-                             "{\"steps\": 12} x", "{\"steps\": 12, \"a\": \"\n\"}", "{\"steps\": 12, \"a\": \"\\q\"}",
-                             "{\"steps\": 12, \"a\": \"\\u12g4\"}", "[12", "{\"steps\": 12, \"a\": tru}"};
+                             "{\"steps\": 12} x",
+                             "{\"steps\": 12, \"a\": \"\n\"}",
+                             "{\"steps\": 12, \"a\": \"\\q\"}",
+                             "{\"steps\": 12, \"a\": \"\\u12g4\"}",
+                             "[12",
+                             "{\"steps\": 12, \"a\": tru}"};
     mkdir("unsound", 0777);
     for (size_t k = 0; k < COUNT_OF(unsound); k++) {
         double value = 1;
@@ -91,7 +107,7 @@ static void unsound_files_are_refused(void **state)
         assert_true(isnan(value));
         assert_non_null(strstr(status_message(), "not JSON"));
     }
-    char deep[4096] = "";                            /* deeper than any summary: refused, not a crash */
+    char deep[4096] = ""; /* deeper than any summary: refused, not a crash */
     memset(deep, '[', sizeof deep - 1);
     put("unsound/summary.json", deep);
     double value;
@@ -109,7 +125,7 @@ static void history_is_read_by_name(void **state)
     put("history/history.csv", "time [s],step,kinetic [J],tip_x [m]\n0,0,1.5,nan\n1e-6,10,2.5,0.25\n2e-6,20,3.");
     assert_int_equal(history_read(&h, "history"), OK);
     assert_int_equal(h.columns, 4);
-    assert_int_equal(h.rows, 2);                     /* the third is still being written */
+    assert_int_equal(h.rows, 2); /* the third is still being written */
     assert_int_equal(history_column(&h, "kinetic"), 2);
     assert_int_equal(history_column(&h, "kin"), -1);
     assert_true(history_at(&h, 1, history_column(&h, "time")) == 1e-6);
@@ -152,9 +168,10 @@ static void write_run(const char *folder, double shift, double loop_seconds, dou
         assert_int_equal(output_frame(&o, &p, 1e-6 * k, 10 * k, "name: test\n"), OK);
         particles_free(&p);
     }
-    snprintf(text, sizeof text, "{\"name\": \"test\", \"method\": \"pd\", \"status\": \"done\", \"loop_seconds\": %g, "
-             "\"crack\": {\"angle_deg\": 67, \"tips\": [{\"x\": %g, \"y\": %g}]}}\n", loop_seconds, tip_x,
-             4 * (tip_x - 0.010) / 3);
+    snprintf(text, sizeof text,
+             "{\"name\": \"test\", \"method\": \"pd\", \"status\": \"done\", \"loop_seconds\": %g, "
+             "\"crack\": {\"angle_deg\": 67, \"tips\": [{\"x\": %g, \"y\": %g}]}}\n",
+             loop_seconds, tip_x, 4 * (tip_x - 0.010) / 3);
     assert_int_equal(output_text(&o, "summary.json", text, strlen(text)), OK);
     output_close(&o);
     snprintf(text, sizeof text, "%s/history.csv", folder);
@@ -199,12 +216,12 @@ static void runs_are_compared(void **state)
     /* the last frame of b is shifted by 2e-6; frames are single precision: one part in 1e4 of it at X ~ 1e-2 */
     double apart = number_after(printed, "displacement [m]");
     assert_true(fabs(apart - 2e-6) < 1e-9);
-    double largest = 0, mean = 0;                    /* alike at all particles */
+    double largest = 0, mean = 0; /* alike at all particles */
     assert_int_equal(sscanf(strstr(printed, "displacement [m]"), "displacement [m] %lf %lf", &largest, &mean), 2);
     assert_true(fabs(mean - largest) < 1e-9);
     assert_true(number_after(printed, "damage") == 0);
     assert_true(number_after(printed, "particles of another kind") == 0);
-    assert_true(fabs(number_after(printed, "t_r = 1 - A/B = ") - 0.75) < 1e-4);       /* printed with four digits */
+    assert_true(fabs(number_after(printed, "t_r = 1 - A/B = ") - 0.75) < 1e-4); /* printed with four digits */
     assert_true(fabs(number_after(printed, "nearest of B") - 5e-3) < 1e-6);
     assert_non_null(strstr(printed, "5 spacings"));
     assert_non_null(strstr(printed, "comparable particle by particle: yes"));
@@ -350,7 +367,7 @@ static void missing_gnuplot_is_named(void **state)
 /* The share of pixels of a rectangle [spacings] that show a body. */
 static double covered(const struct cloud *c, double from_x, double to_x)
 {
-    enum { PIXELS = 20 * SIDE };                       /* twenty a spacing: a seam of a tenth of it shows */
+    enum { PIXELS = 20 * SIDE }; /* twenty a spacing: a seam of a tenth of it shows */
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     struct view v = {.from = {from_x * SPACING, 0}, .to = {to_x * SPACING, SIDE * SPACING}, .top = 0.5};
     raster_paint(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
@@ -367,18 +384,18 @@ static void bodies_are_closed_and_gaps_open(void **state)
     struct cloud c;
     write_run("a", 0, 2, 0.010);
     assert_int_equal(frame_read(&f, "a/frames/000000.hdf"), OK);
-    assert_true(fabs(frame_spacing(&f) - SPACING) < 1e-6 * SPACING);      /* single precision */
+    assert_true(fabs(frame_spacing(&f) - SPACING) < 1e-6 * SPACING); /* single precision */
     cloud_make(&c, &f, NULL);
     assert_true(c.aligned);
     assert_int_equal(c.n, SIDE * SIDE);
-    assert_true(covered(&c, 0, SIDE) == 1);          /* no seam between neighbours */
+    assert_true(covered(&c, 0, SIDE) == 1); /* no seam between neighbours */
     assert_true(covered(&c, SIDE + 1, SIDE + 3) == 0);
     cloud_free(&c);
     for (int64_t i = 0; i < f.n; i++) f.u[0][i] = f.X[0][i] > 0.5F * SIDE * 1e-3F ? 2e-3F : 0;
     cloud_make(&c, &f, NULL);
-    assert_true(covered(&c, 0.5 * SIDE + 0.2, 0.5 * SIDE + 1.8) == 0);    /* two spacings apart */
+    assert_true(covered(&c, 0.5 * SIDE + 0.2, 0.5 * SIDE + 1.8) == 0); /* two spacings apart */
     cloud_free(&c);
-    const double rotation = 0.5;                         /* radian: a turned lattice is closed too */
+    const double rotation = 0.5; /* radian: a turned lattice is closed too */
     for (int64_t i = 0; i < f.n; i++) {
         double x = f.X[0][i] - 6e-3, y = f.X[1][i] - 6e-3;
         f.u[0][i] = (float)(x * cos(rotation) - y * sin(rotation) - x);
@@ -416,12 +433,18 @@ static int leave(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(figures_are_found),          cmocka_unit_test(absent_figures_are_refused),
-        cmocka_unit_test(unsound_files_are_refused),  cmocka_unit_test(history_is_read_by_name),
-        cmocka_unit_test(runs_are_compared),          cmocka_unit_test(unequal_runs_are_told_apart),
-        cmocka_unit_test(stress_across_is_compared),  cmocka_unit_test(runs_of_lammps_are_read),
-        cmocka_unit_test(damaged_files_are_refused),  cmocka_unit_test(wrong_words_are_refused),
-        cmocka_unit_test(missing_gnuplot_is_named),   cmocka_unit_test(pictures_are_drawn),
+        cmocka_unit_test(figures_are_found),
+        cmocka_unit_test(absent_figures_are_refused),
+        cmocka_unit_test(unsound_files_are_refused),
+        cmocka_unit_test(history_is_read_by_name),
+        cmocka_unit_test(runs_are_compared),
+        cmocka_unit_test(unequal_runs_are_told_apart),
+        cmocka_unit_test(stress_across_is_compared),
+        cmocka_unit_test(runs_of_lammps_are_read),
+        cmocka_unit_test(damaged_files_are_refused),
+        cmocka_unit_test(wrong_words_are_refused),
+        cmocka_unit_test(missing_gnuplot_is_named),
+        cmocka_unit_test(pictures_are_drawn),
         cmocka_unit_test(bodies_are_closed_and_gaps_open),
     };
     return cmocka_run_group_tests(tests, enter, leave);

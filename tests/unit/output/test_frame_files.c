@@ -59,7 +59,7 @@ static void fields_are_read_by_name(void **state)
         for (int64_t k = 0; k < f.n; k++) {
             double mean = 0;
             for (int d = 0; d < dim; d++) mean -= f.stress[d][k] / 3;
-            assert_near(value[k], mean, 1e-7 * 1e6);   /* single precision of the terms */
+            assert_near(value[k], mean, 1e-7 * 1e6); /* single precision of the terms */
         }
         memory_free(value);
         assert_int_equal(frame_field_read(&f, path, "stress", &columns, &value), OK);
@@ -79,8 +79,9 @@ static void fields_are_read_by_name(void **state)
  * one cell offset more than cells for each part before, rows of a field from its own offset on. */
 static void check_step(struct hdf *f, int step, int steps, const struct particles *p)
 {
-    static const char *const start[] = {"PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets",
-                                        "PointDataOffsets/stress", "NumberOfParts"};
+    static const char *const start[] = {
+        "PartOffsets",  "PointOffsets", "CellOffsets", "ConnectivityIdOffsets", "PointDataOffsets/stress",
+        "NumberOfParts"};
     int64_t at[6], *all = calloc((size_t)steps, sizeof *all), counts[3], n = 0;
     char path[80];
     for (int k = 0; k < 6; k++) {
@@ -104,7 +105,7 @@ static void check_step(struct hdf *f, int step, int steps, const struct particle
     hdf_read_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, corner);
     assert_false(f->failed);
     for (int64_t k = 0; k < p->n; k++) {
-        const int64_t i = p->n - 1 - k;                /* ids run backwards */
+        const int64_t i = p->n - 1 - k; /* ids run backwards */
         assert_true(points[3 * (at[1] + k)] == (float)p->x[0][i]);
         assert_true(stress[6 * (at[4] + k)] == (float)p->stress[0][i]);
         assert_int_equal(offset[at[2] + at[0] + k], k);

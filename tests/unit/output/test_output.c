@@ -95,7 +95,7 @@ static void check_frame(const struct frame *f, const struct particles *p)
     assert_int_equal(f->n, p->n);
     assert_int_equal(f->dim, p->dim);
     for (int64_t k = 0; k < f->n; k++) {
-        int64_t i = p->n - 1 - k;                      /* ids run backwards */
+        int64_t i = p->n - 1 - k; /* ids run backwards */
         assert_int_equal(f->id[k], p->id[i]);
         for (int d = 0; d < p->dim; d++) {
             assert_true(f->X[d][k] == (float)p->X[d][i]);
@@ -176,7 +176,7 @@ static void plastic_strain_where_it_is(void **state)
         hdf_open(&f, "plastic/frames/000000.hdf");
         hdf_read_rows(&f, "/VTKHDF/PointData/plastic_strain", HDF_F32, 2, strain);
         assert_int_equal(f.failed, !yields);
-        if (yields) assert_true(strain[0] == 0.5f && strain[1] == 0.25f);      /* by id */
+        if (yields) assert_true(strain[0] == 0.5f && strain[1] == 0.25f); /* by id */
         hdf_close(&f);
         assert_int_equal(file_get("plastic/frames.xdmf", &text, &length), OK);
         assert_int_equal(strstr(text, "PointData/plastic_strain") != NULL, yields);
@@ -254,7 +254,7 @@ static void same_state_gives_same_bytes(void **state)
         open_fresh(&b, "bytes_b", compress);
         make_particles(&p, 3, PARTICLES);
         assert_int_equal(output_frame(&a, &p, 1, 1, scene_text), OK);
-        usleep(1100000);                               /* a stored time of day has a resolution of 1 s */
+        usleep(1100000); /* a stored time of day has a resolution of 1 s */
         assert_int_equal(output_frame(&b, &p, 1, 1, scene_text), OK);
         assert_same_files("bytes_a/frames/000000.hdf", "bytes_b/frames/000000.hdf");
         particles_free(&p);
@@ -299,7 +299,7 @@ static void folders_of_others_are_refused(void **state)
     memset(name, 'x', sizeof name - 1);
     name[sizeof name - 1] = '\0';
     assert_int_equal(output_open(&o, name, scene_text, OUTPUT_FIRST, false), REFUSED);
-    name[300] = '\0';                                  /* longer than any file system's names */
+    name[300] = '\0'; /* longer than any file system's names */
     assert_int_equal(output_open(&o, name, scene_text, OUTPUT_FIRST, false), FAILED);
     assert_message("choose another -o");
     mkdir("folder/empty", 0777);
@@ -328,7 +328,7 @@ static void older_run_is_replaced_unless_resumed(void **state)
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_FIRST, false), REFUSED);
     assert_message("again holds an interrupted run of this scene; go on with --resume, replace it with --overwrite");
     assert_int_equal(unlink("again/checkpoint.h5") | unlink("again/checkpoint.previous.h5"), 0);
-    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK);      /* it has but begun */
+    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK); /* it has but begun */
     assert_int_equal(output_text(&o, "history.csv", "time [s],step\n0,0\n", 18), OK);
     output_close(&o);
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), REFUSED);
@@ -344,10 +344,14 @@ static void older_run_is_replaced_unless_resumed(void **state)
 static void tables_of_others_stay(void **state)
 {
     (void)state;
-    static const struct { const char *name, *text; status ended; } table[] = {
-        {"history.csv", "mine", REFUSED}, {"history.csv", "", OK},
-        {"history.csv", "time [s", OK},   {"fragments.csv", "body,mass\n", REFUSED},
-        {"fragments.csv", "body,particles,mass [kg]\n", OK}};
+    static const struct {
+        const char *name, *text;
+        status ended;
+    } table[] = {{"history.csv", "mine", REFUSED},
+                 {"history.csv", "", OK},
+                 {"history.csv", "time [s", OK},
+                 {"fragments.csv", "body,mass\n", REFUSED},
+                 {"fragments.csv", "body,particles,mass [kg]\n", OK}};
     struct output o;
     open_fresh(&o, "tables", false);
     output_close(&o);
@@ -435,21 +439,33 @@ static void summary_has_the_figures(void **state)
     e->diagnostics->break_time = NAN;
     e->coupling->conversion = (struct conversion){.first_time = 0.05, .events = 1, .start = 1, .first_place = {1, 2}};
     e->fracture->tips = (struct tips){.dim = 2, .n = 1, .spacing = 1e-3};
-    e->fracture->tips.tip[0] = (struct tip){.along = {1}, .place = {0, 2e-3}, .growth = 2e-3, .start_time = 0.06,
-                                  .arrest_time = 0.08, .first_time = 0.05, .particles = 2};
+    e->fracture->tips.tip[0] = (struct tip){.along = {1},
+                                            .place = {0, 2e-3},
+                                            .growth = 2e-3,
+                                            .start_time = 0.06,
+                                            .arrest_time = 0.08,
+                                            .first_time = 0.05,
+                                            .particles = 2};
     assert_int_equal(summary_write(e, OK, 2, 1.5), OK);
     assert_int_equal(file_get("summary/summary.json", &text, &length), OK);
-    static const char *const part[] = {"\"name\": \"a \\\"b\\\"\\u000a\"", "\"status\": \"done\"", "\"steps\": 7",
-                                       "\"time_end\": 0.10000000000000001", "\"length_end\": 0.002",
-                                       "\"pd_share_start\": 0.25", "\"pd_share_end\": 0.75", "\"y\": 2",
-                                       "\"ns_per_particle_step\": 1000", "\"threads\": 2", "\"angle_deg\": 90"};
+    static const char *const part[] = {"\"name\": \"a \\\"b\\\"\\u000a\"",
+                                       "\"status\": \"done\"",
+                                       "\"steps\": 7",
+                                       "\"time_end\": 0.10000000000000001",
+                                       "\"length_end\": 0.002",
+                                       "\"pd_share_start\": 0.25",
+                                       "\"pd_share_end\": 0.75",
+                                       "\"y\": 2",
+                                       "\"ns_per_particle_step\": 1000",
+                                       "\"threads\": 2",
+                                       "\"angle_deg\": 90"};
     for (size_t k = 0; k < COUNT_OF(part); k++)
         if (!strstr(text, part[k])) fail_msg("%s lacks %s", text, part[k]);
     assert_null(strstr(text, "nan"));
     assert_null(strstr(text, "inf"));
     assert_null(strstr(text, "message"));
     memory_free(text);
-    remove_tree("summary");                            /* where it cannot be written, the run's own fault stands */
+    remove_tree("summary"); /* where it cannot be written, the run's own fault stands */
     assert_int_equal(summary_write(e, status_set(FAILED, "the run's own fault"), 2, 1.5), FAILED);
     assert_string_equal(status_message(), "the run's own fault");
     assert_int_equal(summary_write(e, OK, 2, 1.5), FAILED);

@@ -15,7 +15,7 @@
 #include "plot/scene_picture.h"
 #include "scene/words.h"
 
-static const double SPACING = 1e-3;                  /* [m] */
+static const double SPACING = 1e-3; /* [m] */
 
 /* A block of nx x ny x nz particles at rest, without damage. */
 static struct frame block_make(int nx, int ny, int nz, int dim)
@@ -56,7 +56,7 @@ static void fields_follow_from_stress(void **state)
     f.stress[0][0] = 30, f.stress[1][0] = 10, f.stress[2][0] = 10;
     f.v[0][0] = 3, f.v[1][0] = -4;
     assert_float_equal(value_of(&f, "principal_stress"), 20 + sqrt(200), 1e-4);
-    assert_float_equal(value_of(&f, "principal_stress_3"), 0, 1e-4);         /* that across the plane */
+    assert_float_equal(value_of(&f, "principal_stress_3"), 0, 1e-4); /* that across the plane */
     assert_float_equal(value_of(&f, "pressure"), -40.0 / 3, 1e-4);
     assert_float_equal(value_of(&f, "von_mises"), sqrt(30 * 30 + 10 * 10 - 30 * 10 + 3 * 10 * 10), 1e-3);
     assert_float_equal(value_of(&f, "speed"), 5, 1e-5);
@@ -78,14 +78,25 @@ static void unknown_fields_are_refused(void **state)
 static void fields_name_components(void **state)
 {
     (void)state;
-    static const struct { const char *name, *stored; int component; } want[] = {
-        {"displacement_y", "displacement", 1}, {"velocity_x", "velocity", 0}, {"velocity_z", "velocity", 2},
-        {"stress_yy", "stress", 1}, {"stress_zz", "stress", 2}, {"stress_xy", "stress", 3},
-        {"stress_yz", "stress", 4}, {"stress_zx", "stress", 5}, {"strain_zz", "strain", 2},
-        {"strain_xy", "strain", 3}, {"strain_yz", "strain", 4}, {"strain_zx", "strain", 5},
-        {"principal_stress", "principal_stress", 0}, {"principal_stress_3", "principal_stress", 2},
-        {"principal_directions_1_y", "principal_directions", 1},
-        {"principal_directions_3_x", "principal_directions", 6}};
+    static const struct {
+        const char *name, *stored;
+        int component;
+    } want[] = {{"displacement_y", "displacement", 1},
+                {"velocity_x", "velocity", 0},
+                {"velocity_z", "velocity", 2},
+                {"stress_yy", "stress", 1},
+                {"stress_zz", "stress", 2},
+                {"stress_xy", "stress", 3},
+                {"stress_yz", "stress", 4},
+                {"stress_zx", "stress", 5},
+                {"strain_zz", "strain", 2},
+                {"strain_xy", "strain", 3},
+                {"strain_yz", "strain", 4},
+                {"strain_zx", "strain", 5},
+                {"principal_stress", "principal_stress", 0},
+                {"principal_stress_3", "principal_stress", 2},
+                {"principal_directions_1_y", "principal_directions", 1},
+                {"principal_directions_3_x", "principal_directions", 6}};
     for (size_t k = 0; k < COUNT_OF(want); k++) {
         const struct plot_field *field;
         assert_int_equal(plot_field_find(&field, want[k].name, 3), OK);
@@ -142,9 +153,11 @@ static void slices_are_near_the_middle(void **state)
 static void axes_have_prefixes(void **state)
 {
     (void)state;
-    static const struct { double largest, factor; const char *name; } axis[] = {
-        {3.2e9, 1e9, "GPa"}, {7e6, 1e6, "MPa"}, {2.5e3, 1e3, "kPa"}, {40, 1, "Pa"}, {0.3, 1e-3, "mPa"},
-        {3.2e-5, 1e-6, "µPa"}, {4e-9, 1e-9, "nPa"}, {0, 1, "Pa"}, {-5e4, 1e3, "kPa"}};
+    static const struct {
+        double largest, factor;
+        const char *name;
+    } axis[] = {{3.2e9, 1e9, "GPa"},   {7e6, 1e6, "MPa"},   {2.5e3, 1e3, "kPa"}, {40, 1, "Pa"},     {0.3, 1e-3, "mPa"},
+                {3.2e-5, 1e-6, "µPa"}, {4e-9, 1e-9, "nPa"}, {0, 1, "Pa"},        {-5e4, 1e3, "kPa"}};
     for (size_t k = 0; k < COUNT_OF(axis); k++) {
         const struct unit u = unit_for(axis[k].largest, "Pa");
         assert_true(fabs(u.factor / axis[k].factor - 1) < 1e-12);
@@ -189,7 +202,7 @@ static void solids_are_seen_from_outside(void **state)
     struct frame f = block_make(10, 10, 10, 3);
     struct cloud c;
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
-    f.damage[555] = 1;                               /* inside */
+    f.damage[555] = 1; /* inside */
     const struct look look = {.outside = true, .camera = camera_along(2, 1), .normal = -1};
     cloud_make(&c, &f, &look);
     struct view v = {.from = {-6e-3, -6e-3}, .to = {6e-3, 6e-3}, .top = 1};
@@ -199,11 +212,11 @@ static void solids_are_seen_from_outside(void **state)
         shown += pixel[q].alpha > 0;
         dark += pixel[q].green < 100 && pixel[q].alpha;
     }
-    assert_true(abs(shown - 100 * 100) <= 4 * 101);  /* ten of twelve spacings wide, and the seams */
-    assert_int_equal(dark, 0);                       /* its damage is hidden */
+    assert_true(abs(shown - 100 * 100) <= 4 * 101); /* ten of twelve spacings wide, and the seams */
+    assert_int_equal(dark, 0);                      /* its damage is hidden */
     boxes_paint(pixel, PIXELS, PIXELS, &v, &c, MAP_CRACKS);
     for (int q = 0; q < PIXELS * PIXELS; q++) dark += pixel[q].green < 100 && pixel[q].alpha;
-    assert_true(dark >= 100 && dark <= 144);         /* one particle, ten pixels wide */
+    assert_true(dark >= 100 && dark <= 144); /* one particle, ten pixels wide */
     memory_free(pixel), cloud_free(&c), frame_free(&f);
 }
 
@@ -252,11 +265,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fields_follow_from_stress),  cmocka_unit_test(unknown_fields_are_refused),
-        cmocka_unit_test(fields_name_components),
-        cmocka_unit_test(slices_show_damage),         cmocka_unit_test(slices_are_near_the_middle),
-        cmocka_unit_test(axes_have_prefixes),         cmocka_unit_test(one_particle_sets_no_scale),
-        cmocka_unit_test(solids_are_seen_from_outside), cmocka_unit_test(cameras_are_right_handed),
-        cmocka_unit_test(colours_keep_their_order),   cmocka_unit_test(words_have_units),
+        cmocka_unit_test(fields_name_components),     cmocka_unit_test(slices_show_damage),
+        cmocka_unit_test(slices_are_near_the_middle), cmocka_unit_test(axes_have_prefixes),
+        cmocka_unit_test(one_particle_sets_no_scale), cmocka_unit_test(solids_are_seen_from_outside),
+        cmocka_unit_test(cameras_are_right_handed),   cmocka_unit_test(colours_keep_their_order),
+        cmocka_unit_test(words_have_units),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,7 @@ static void ledger_of_a_known_field(void **state)
     (void)state;
     struct body b;
     struct diagnostics w;
-    body_make(&b, 2, (const int[]){40, 40});            /* more than one block of the sums */
+    body_make(&b, 2, (const int[]){40, 40}); /* more than one block of the sums */
     real kinetic = 0, moving = 0;
     for (int64_t i = 0; i < b.p.n; i++) {
         b.p.mass[i] = 3;
@@ -53,15 +53,20 @@ static void ledger_of_a_known_field(void **state)
 }
 
 /* An archive of at most 4 KiB in memory, read in the order in which it was written. */
-struct tape { unsigned char byte[4096]; size_t used; };
+struct tape {
+    unsigned char byte[4096];
+    size_t used;
+};
 
 static status tape_exchange(struct archive *a, const char *name, void *data, size_t size)
 {
     (void)name;
     struct tape *t = a->file;
     assert_true(t->used + size <= sizeof t->byte);
-    if (a->saving) memcpy(t->byte + t->used, data, size);
-    else memcpy(data, t->byte + t->used, size);
+    if (a->saving)
+        memcpy(t->byte + t->used, data, size);
+    else
+        memcpy(data, t->byte + t->used, size);
     t->used += size;
     return OK;
 }
@@ -128,7 +133,7 @@ static void strain_energy_of_material_points(void **state)
         struct partial_stress partial = {.index = index, .matrix = half, .entries = 1};
         real expected = whole * (1 - 2.5 / (real)b.p.n);
         assert_near(diagnostics_strain(&b.p, &m, &partial), expected, 1e-12 * whole);
-        b.p.kind[0] = KIND_PD;                           /* its energy is in bonds */
+        b.p.kind[0] = KIND_PD; /* its energy is in bonds */
         particles_list(&b.p);
         assert_near(diagnostics_strain(&b.p, &m, NULL), whole * (1 - 1 / (real)b.p.n), 1e-12 * whole);
         memory_free(index);
@@ -145,7 +150,7 @@ static void first_break_is_booked_once(void **state)
     diagnostics_make(&w);
     diagnostics_breaks(&w, &b.p, 3.015, 0, 1);
     assert_true(isnan(w.break_time));
-    b.p.flag[0] = FLAG_LOST_BOND;                              /* of a bond with a driven particle */
+    b.p.flag[0] = FLAG_LOST_BOND; /* of a bond with a driven particle */
     diagnostics_breaks(&w, &b.p, 3.015, 2, 2);
     assert_true(isnan(w.break_time));
     b.p.flag[particle_at(&b, 2.5, 3.5, 0)] |= FLAG_CRACKED;
@@ -170,7 +175,7 @@ static void first_break_is_booked_once(void **state)
     struct diagnostics other;
     diagnostics_make(&other);
     assert_false(diagnostics_breaks(&other, &b.p, 2.2, 2, 1) && isnan(other.break_time));
-    assert_int_equal(other.break_ends, 3);                     /* none of the three within 2.2 of another */
+    assert_int_equal(other.break_ends, 3); /* none of the three within 2.2 of another */
     assert_near(other.break_place[0], 8.5, ROUND_OFF);
 
     struct diagnostics again;
@@ -193,7 +198,7 @@ static void alarm_names_the_first_runaway(void **state)
     (void)state;
     struct body b;
     body_make(&b, 2, (const int[]){60, 50});
-    b.p.v[0][17] = 5000, b.p.v[1][17] = 1500;           /* |v| = 5220.2 */
+    b.p.v[0][17] = 5000, b.p.v[1][17] = 1500; /* |v| = 5220.2 */
     assert_ok(diagnostics_divergence(&b.p, true, true, 5232, 123, 4.1e-6));
     b.p.v[0][17] = 6.1e5, b.p.v[1][17] = 0;
     b.p.v[0][2500] = NAN;
@@ -220,7 +225,7 @@ static void alarm_sees_everybody_listed(void **state)
         const real limit = 5000, diverged[3] = {1.0000001 * limit, -INFINITY, NAN};
         for (int64_t n = 0; n <= 40; n++)
             for (int64_t k = 0; k < 64; k++) {
-                const bool gaps = n % 2;                /* every other particle up to the 16th is left out */
+                const bool gaps = n % 2; /* every other particle up to the 16th is left out */
                 bool listed = false;
                 b.p.n_of[KIND_PD] = 0;
                 for (int64_t i = 0; b.p.n_of[KIND_PD] < n; i++) {
@@ -289,14 +294,10 @@ static void energies_of_yielded_points(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ledger_of_a_known_field),
-        cmocka_unit_test(ledger_survives_a_restart),
-        cmocka_unit_test(strain_energy_of_material_points),
-        cmocka_unit_test(energies_of_yielded_points),
-        cmocka_unit_test(first_break_is_booked_once),
-        cmocka_unit_test(alarm_names_the_first_runaway),
-        cmocka_unit_test(alarm_sees_everybody_listed),
-        cmocka_unit_test(alarm_passes_gaps_at_the_end),
+        cmocka_unit_test(ledger_of_a_known_field),          cmocka_unit_test(ledger_survives_a_restart),
+        cmocka_unit_test(strain_energy_of_material_points), cmocka_unit_test(energies_of_yielded_points),
+        cmocka_unit_test(first_break_is_booked_once),       cmocka_unit_test(alarm_names_the_first_runaway),
+        cmocka_unit_test(alarm_sees_everybody_listed),      cmocka_unit_test(alarm_passes_gaps_at_the_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

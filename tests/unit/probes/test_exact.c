@@ -13,7 +13,9 @@ enum { CELLS = 40, TRANSITS = 5 };
 
 /* Characteristics on cells that a wave crosses in one step, exact for steps: w+- = sigma -+ rho c v move right and left
  * by a cell; ends: sigma = F at the loaded one, v = 0 or sigma = 0 at the other. */
-struct waves { real right[CELLS], left[CELLS], displacement[CELLS]; };
+struct waves {
+    real right[CELLS], left[CELLS], displacement[CELLS];
+};
 
 static void waves_step(struct waves *w, const struct exact *e, real impedance, real dt)
 {
@@ -21,9 +23,9 @@ static void waves_step(struct waves *w, const struct exact *e, real impedance, r
     int in = e->loaded > 0 ? CELLS - 1 : 0, far = CELLS - 1 - in;
     for (int k = 0; k + 1 < CELLS; k++) right[k + 1] = w->right[k], left[k] = w->left[k + 1];
     real *enters = e->loaded > 0 ? &left[in] : &right[in], *reversions = e->loaded > 0 ? &right[far] : &left[far];
-    *enters = 2 * e->load - (e->loaded > 0 ? w->right[in] : w->left[in]);                /* sigma = F */
+    *enters = 2 * e->load - (e->loaded > 0 ? w->right[in] : w->left[in]); /* sigma = F */
     *reversions = e->reflection[e->loaded > 0 ? 0 : 1] * (e->loaded > 0 ? w->left[far] : w->right[far]);
-    for (int k = 0; k < CELLS; k++) {        /* a wave passes the middle of its cell at half a step */
+    for (int k = 0; k < CELLS; k++) { /* a wave passes the middle of its cell at half a step */
         real old = (w->left[k] - w->right[k]) / (2 * impedance), now = (left[k] - right[k]) / (2 * impedance);
         w->displacement[k] += 0.5 * dt * (old + now);
         w->right[k] = right[k], w->left[k] = left[k];
@@ -35,9 +37,15 @@ static void step_bar_by_characteristics(void **state)
     (void)state;
     for (int which = 0; which < 4; which++) {
         int loaded = which & 1 ? 1 : -1, far = which & 2 ? 1 : -1;
-        struct exact e = {.form = EXACT_STEP_BAR, .left = -0.5, .right = 1.5, .young = 1e4, .density = 4,
-                          .reflection = {loaded > 0 ? far : -1, loaded > 0 ? -1 : far}, .loaded = loaded, .load = -3};
-        real dx = 2.0 / CELLS, c = 50, impedance = 200;          /* sqrt(1e4 / 4), 4 x 50 */
+        struct exact e = {.form = EXACT_STEP_BAR,
+                          .left = -0.5,
+                          .right = 1.5,
+                          .young = 1e4,
+                          .density = 4,
+                          .reflection = {loaded > 0 ? far : -1, loaded > 0 ? -1 : far},
+                          .loaded = loaded,
+                          .load = -3};
+        real dx = 2.0 / CELLS, c = 50, impedance = 200; /* sqrt(1e4 / 4), 4 x 50 */
         struct waves w = {{0}, {0}, {0}};
         for (int step = 1; step <= TRANSITS * CELLS + 7; step++) {
             waves_step(&w, &e, impedance, dx / c);
@@ -55,8 +63,15 @@ static void step_bar_by_characteristics(void **state)
 /* A bar of length 1 fixed at 0, c = 100: the numbers of Zeng et al. 2021, section 5.1. */
 static struct exact unit_bar(enum exact_form form)
 {
-    return (struct exact){.form = form, .right = 1, .young = 1e4, .tangent = 5e3, .yield = 0.5, .density = 1,
-                          .reflection = {1, -1}, .loaded = 1, .load = 1};
+    return (struct exact){.form = form,
+                          .right = 1,
+                          .young = 1e4,
+                          .tangent = 5e3,
+                          .yield = 0.5,
+                          .density = 1,
+                          .reflection = {1, -1},
+                          .loaded = 1,
+                          .load = 1};
 }
 
 static void step_bar_fronts_and_plateaus(void **state)
@@ -64,11 +79,16 @@ static void step_bar_fronts_and_plateaus(void **state)
     (void)state;
     struct exact e = unit_bar(EXACT_STEP_BAR);
     struct exact_front f[EXACT_FRONTS];
-    static const struct { real t, place; int ahead; real before, behind; bool plateau; real from, to; } want[] = {
-        {0.005, 0.5, -1, 0, 1, true, 0.6, 0.9},    {0.0125, 0.25, 1, 1, 2, true, 0.1, 0.15},
-        {0.0025, 0.75, -1, 0, 1, true, 0.85, 0.9}, {0.015, 0.5, 1, 1, 2, true, 0.1, 0.4},
-        {0.0275, 0.25, -1, 2, 1, true, 0.35, 0.9}, {0.0325, 0.25, 1, 1, 0, true, 0.1, 0.15},
-        {0.001, 0.9, -1, 0, 1, false, 0, 0}};
+    static const struct {
+        real t, place;
+        int ahead;
+        real before, behind;
+        bool plateau;
+        real from, to;
+    } want[] = {{0.005, 0.5, -1, 0, 1, true, 0.6, 0.9},    {0.0125, 0.25, 1, 1, 2, true, 0.1, 0.15},
+                {0.0025, 0.75, -1, 0, 1, true, 0.85, 0.9}, {0.015, 0.5, 1, 1, 2, true, 0.1, 0.4},
+                {0.0275, 0.25, -1, 2, 1, true, 0.35, 0.9}, {0.0325, 0.25, 1, 1, 0, true, 0.1, 0.15},
+                {0.001, 0.9, -1, 0, 1, false, 0, 0}};
     for (size_t k = 0; k < COUNT_OF(want); k++) {
         real from, to;
         assert_int_equal(exact_fronts(&e, want[k].t, f), 1);
@@ -101,11 +121,11 @@ static void plastic_bar_jumps(void **state)
         for (int k = 0; k < 2; k++) {
             struct exact_values a = exact_at(&e, f[k].place + 1e-9 * f[k].ahead, t);
             struct exact_values b = exact_at(&e, f[k].place - 1e-9 * f[k].ahead, t);
-            real along = f[k].ahead * speed[k];              /* velocity of the front */
+            real along = f[k].ahead * speed[k]; /* velocity of the front */
             assert_int_equal(f[k].ahead, -side);
             assert_near(f[k].place, side > 0 ? place[k] : 1 - place[k], 1e-12);
-            assert_near(b.stress - a.stress, -1 * along * (b.velocity - a.velocity), 1e-12);       /* momentum */
-            assert_near(b.velocity - a.velocity, -along * (b.strain - a.strain), 1e-13);           /* no gap   */
+            assert_near(b.stress - a.stress, -1 * along * (b.velocity - a.velocity), 1e-12); /* momentum */
+            assert_near(b.velocity - a.velocity, -along * (b.strain - a.strain), 1e-13);     /* no gap   */
             assert_near(b.displacement, a.displacement, 1e-10);
             assert_near(a.stress, f[k].before, 0);
             assert_near(b.stress, f[k].behind, 0);
@@ -116,18 +136,18 @@ static void plastic_bar_jumps(void **state)
         assert_near(first.strain, -5e-5, 1e-18);
         assert_near(second.stress, -1, 0);
         assert_near(second.strain, -1.5e-4, 1e-18);
-        real from, to, h = 1e-5;                             /* velocity is the rate of displacement */
+        real from, to, h = 1e-5; /* velocity is the rate of displacement */
         for (real X = 0.3; X < 0.71; X += 0.1)
             assert_near((exact_at(&e, X, t + h).displacement - exact_at(&e, X, t - h).displacement) / (2 * h),
                         exact_at(&e, X, t).velocity, 1e-12);
         assert_true(exact_plateau(&e, t, EXACT_PRECURSOR, &from, &to));
-        assert_near(side > 0 ? from : 1 - to, 0.32, 5e-4);   /* the windows of the published figures, to a tenth of a */
-        assert_near(side > 0 ? to : 1 - from, 0.42, 5e-4);   /* spacing of 5e-3                                       */
+        assert_near(side > 0 ? from : 1 - to, 0.32, 5e-4); /* the windows of the published figures, to a tenth of a */
+        assert_near(side > 0 ? to : 1 - from, 0.42, 5e-4); /* spacing of 5e-3                                       */
         assert_true(exact_plateau(&e, t, EXACT_PLATEAU, &from, &to));
         assert_near(side > 0 ? from : 1 - to, 0.55, 5e-4);
         assert_near(side > 0 ? to : 1 - from, 0.9, 5e-4);
         assert_true(isnan(exact_at(&e, 0.5, 0.0101).stress) && exact_fronts(&e, 0.0101, f) == 0);
-        e.load = -0.4;                                       /* below yield nothing follows */
+        e.load = -0.4; /* below yield nothing follows */
         assert_int_equal(exact_fronts(&e, t, f), 1);
         assert_near(exact_at(&e, 0.5, t).strain, -4e-5, 1e-18);
     }
@@ -155,16 +175,22 @@ static void pulses_obey_the_wave_equation(void **state)
     (void)state;
     const struct wave_pulse pulse[] = {{{0.3}, {1}, 0.2, 2, {1}, false}, {{0.6}, {-1}, 0.12, -1, {-1}, false}};
     for (int ends = 0; ends < 4; ends++) {
-        struct exact e = {.form = EXACT_PULSE, .left = 0, .right = 1, .young = 1e4, .density = 1,
-                          .reflection = {ends & 1 ? 1 : -1, ends & 2 ? 1 : -1}, .pulse = pulse, .pulses = 2};
+        struct exact e = {.form = EXACT_PULSE,
+                          .left = 0,
+                          .right = 1,
+                          .young = 1e4,
+                          .density = 1,
+                          .reflection = {ends & 1 ? 1 : -1, ends & 2 ? 1 : -1},
+                          .pulse = pulse,
+                          .pulses = 2};
         for (real X = 0.02; X < 1; X += 0.0531) {
             real first = exp(-square((X - 0.3) / 0.05)), second = exp(-square((X - 0.6) / 0.03));
             struct exact_values v = exact_at(&e, X, 0);
-            assert_near(v.velocity, 2 * first + second, 1e-9);                   /* along their ways */
-            assert_near(v.strain, (-2 * first + second) / 100, 1e-11);           /* f' = -v/c */
+            assert_near(v.velocity, 2 * first + second, 1e-9);         /* along their ways */
+            assert_near(v.strain, (-2 * first + second) / 100, 1e-11); /* f' = -v/c */
             for (real t = 1e-3; t < 0.05; t += 1.713e-3) check_smooth(&e, X, t, 0.03, 4e-8, true);
         }
-        for (real t = 0; t < 0.05; t += 1e-3)                                    /* what the ends require */
+        for (real t = 0; t < 0.05; t += 1e-3) /* what the ends require */
             for (int end = 0; end < 2; end++) {
                 struct exact_values v = exact_at(&e, end, t);
                 assert_near(e.reflection[end] > 0 ? v.velocity : 100 * v.strain, 0, 1e-9);
@@ -175,9 +201,15 @@ static void pulses_obey_the_wave_equation(void **state)
 static void manufactured_is_its_formula(void **state)
 {
     (void)state;
-    struct exact e = {.form = EXACT_MANUFACTURED, .right = 1, .young = 1e4, .density = 1, .amplitude = 1e-3,
-                      .period = 0.02, .wavelength = 0.5, .origin = 0.1};
-    assert_near(exact_at(&e, 0.225, 0.01).displacement, 1e-3, 1e-15);            /* a quarter wave on, at its peak */
+    struct exact e = {.form = EXACT_MANUFACTURED,
+                      .right = 1,
+                      .young = 1e4,
+                      .density = 1,
+                      .amplitude = 1e-3,
+                      .period = 0.02,
+                      .wavelength = 0.5,
+                      .origin = 0.1};
+    assert_near(exact_at(&e, 0.225, 0.01).displacement, 1e-3, 1e-15); /* a quarter wave on, at its peak */
     for (real X = 0; X < 1; X += 0.07) {
         struct exact_values v = exact_at(&e, X, 0);
         assert_near(fabs(v.displacement) + fabs(v.velocity) + fabs(v.stress), 0, 0);
@@ -192,7 +224,11 @@ static void manufactured_is_its_formula(void **state)
 static void flux_is_the_force_across(void **state)
 {
     (void)state;
-    const struct cloud_plan plan = {.space = SPACE_LINE, .count = {40}, .horizon = 3.2, .shake = 0.3, .seed = 5,
+    const struct cloud_plan plan = {.space = SPACE_LINE,
+                                    .count = {40},
+                                    .horizon = 3.2,
+                                    .shake = 0.3,
+                                    .seed = 5,
                                     .calibration = CALIBRATION_CONTINUUM};
     const struct boundary wall = {.kind = BOUNDARY_MIRROR, .name = "wall"};
     struct cloud c;
@@ -236,7 +272,7 @@ static void flux_is_the_force_across(void **state)
         scale = real_max(scale, fabs(sum));
         assert_near(flux[k], sum, 1e-12 * scale + 1);
     }
-    assert_true(scale > 1e7);                                /* 1 Pa above is nothing */
+    assert_true(scale > 1e7); /* 1 Pa above is nothing */
     memory_free(bar.order), memory_free(bar.rank);
     loads_free(&l);
     cloud_free(&c);
@@ -244,7 +280,11 @@ static void flux_is_the_force_across(void **state)
 
 /* ---- the probe --------------------------------------------------------------------------------------------------- */
 
-struct figures { int n; char name[32][NAME_MAX_LENGTH]; real value[32]; };
+struct figures {
+    int n;
+    char name[32][NAME_MAX_LENGTH];
+    real value[32];
+};
 
 static void keep(void *context, const char *probe, const char *quantity, real value)
 {
@@ -284,8 +324,8 @@ static void lab_make(struct lab *b)
     b->load[1] = (struct load){.boundary = &b->boundary[1], .n = 1, .particle = &b->last};
     b->load[2].boundary = &b->boundary[2], b->load[3].boundary = &b->boundary[3];
     b->loads = (struct loads){.n = 2, .load = b->load};
-    b->o = (struct observed){.part = &b->p, .loads = &b->loads, .material = &b->material, .spacing = 0.005,
-                             .thickness = 1};
+    b->o = (struct observed){
+        .part = &b->p, .loads = &b->loads, .material = &b->material, .spacing = 0.005, .thickness = 1};
 }
 
 static void measured(struct lab *b, enum exact_form form, real t, struct figures *f)
@@ -297,7 +337,7 @@ static void measured(struct lab *b, enum exact_form form, real t, struct figures
     real stress[200];
     for (int i = 0; i < 200; i++) stress[i] = b->p.stress[0][i];
     struct exact e = unit_bar(form);
-    for (int i = 0; i < 200; i++) {          /* the exact motion; the stress is the test's own */
+    for (int i = 0; i < 200; i++) { /* the exact motion; the stress is the test's own */
         struct exact_values v = exact_at(&e, b->p.X[0][i], t);
         b->p.x[0][i] = b->p.X[0][i] + v.displacement, b->p.v[0][i] = v.velocity + 0.25, b->p.stress[0][i] += v.stress;
     }
@@ -305,7 +345,7 @@ static void measured(struct lab *b, enum exact_form form, real t, struct figures
     probes_figures(&s, &b->o, keep, f);
     probes_sample(&s, &b->o);
     assert_int_equal(s.columns, bar_figures_count(form));
-    for (int k = 0; k < s.columns; k++) {    /* columns are the figures */
+    for (int k = 0; k < s.columns; k++) { /* columns are the figures */
         real value = figure(f, strchr(s.column[k].name, '.') + 1);
         assert_true(isnan(value) ? isnan(s.value[k]) : value == s.value[k]);
     }
@@ -319,15 +359,15 @@ static void figures_of_a_made_up_field(void **state)
     struct lab b;
     struct figures f;
     lab_make(&b);
-    for (int i = 0; i < 200; i++) b.p.stress[0][i] = i % 2 ? 0.01 : -0.02;       /* around the exact stress */
+    for (int i = 0; i < 200; i++) b.p.stress[0][i] = i % 2 ? 0.01 : -0.02; /* around the exact stress */
     measured(&b, EXACT_STEP_BAR, 0.005, &f);
     assert_near(figure(&f, "L1"), 0.015, 1e-15);
     assert_near(figure(&f, "L2"), sqrt(0.5 * (1e-4 + 4e-4)), 1e-15);
     assert_near(figure(&f, "plateau"), 0.995, 1e-12);
     assert_near(figure(&f, "L1_velocity"), 0.25, 1e-14);
     assert_near(figure(&f, "L2_velocity"), 0.25, 1e-14);
-    assert_near(figure(&f, "L2_displacement"), 0, 1e-16);                        /* round-off of x - X */
-    assert_near(figure(&f, "end_displacement"), 0.4975e-4, 1e-15);               /* ct - s, s half a spacing */
+    assert_near(figure(&f, "L2_displacement"), 0, 1e-16);          /* round-off of x - X */
+    assert_near(figure(&f, "end_displacement"), 0.4975e-4, 1e-15); /* ct - s, s half a spacing */
     /* particles 99 (0.01 off) and 100 (-0.02): 0.01 to 0.98 over a spacing from 0.4975 */
     assert_near(figure(&f, "front"), 0.4975 + 0.005 * 0.49 / 0.97, 1e-12);
     /* the kink lies half-way between them: central differences of 1/4 and 3/4 of the strain, 2 of 200 particles */
@@ -336,7 +376,7 @@ static void figures_of_a_made_up_field(void **state)
     assert_near(figure(&f, "plateau_strain"), 1, 1e-9);
     assert_true(isnan(figure(&f, "strain_plastic")));
 
-    measured(&b, EXACT_STEP_BAR, 0.0125, &f);                                    /* reflected: from 1 to 2, at 0.25 */
+    measured(&b, EXACT_STEP_BAR, 0.0125, &f); /* reflected: from 1 to 2, at 0.25 */
     assert_near(figure(&f, "front"), 0.25, 0.0051);
     assert_near(figure(&f, "plateau"), 1.995, 1e-12);
     measured(&b, EXACT_PLASTIC_BAR, 0.0075, &f);
@@ -346,7 +386,7 @@ static void figures_of_a_made_up_field(void **state)
     assert_near(figure(&f, "strain_plastic"), 1.5e-4, 1e-14);
     assert_near(figure(&f, "plateau"), 0.995, 1e-12);
     assert_true(isnan(figure(&f, "plateau_strain")));
-    measured(&b, EXACT_PLASTIC_BAR, 0.011, &f);                                  /* no solution, no figure */
+    measured(&b, EXACT_PLASTIC_BAR, 0.011, &f); /* no solution, no figure */
     assert_true(isnan(figure(&f, "L1")) && isnan(figure(&f, "front")) && isnan(figure(&f, "strain_plastic")));
     particles_free(&b.p);
 }
@@ -419,11 +459,15 @@ static void bars_that_have_no_closed_form(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(step_bar_by_characteristics),   cmocka_unit_test(step_bar_fronts_and_plateaus),
-        cmocka_unit_test(plastic_bar_jumps),             cmocka_unit_test(pulses_obey_the_wave_equation),
-        cmocka_unit_test(manufactured_is_its_formula),   cmocka_unit_test(flux_is_the_force_across),
+        cmocka_unit_test(step_bar_by_characteristics),
+        cmocka_unit_test(step_bar_fronts_and_plateaus),
+        cmocka_unit_test(plastic_bar_jumps),
+        cmocka_unit_test(pulses_obey_the_wave_equation),
+        cmocka_unit_test(manufactured_is_its_formula),
+        cmocka_unit_test(flux_is_the_force_across),
         cmocka_unit_test(figures_of_a_made_up_field),
-        cmocka_unit_test(bars_drawn_at_the_left),   cmocka_unit_test(bars_that_have_no_closed_form),
+        cmocka_unit_test(bars_drawn_at_the_left),
+        cmocka_unit_test(bars_that_have_no_closed_form),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

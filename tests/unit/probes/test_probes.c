@@ -4,7 +4,13 @@
 #include "tests/support/bodies.h"
 #include "probes/probes.h"
 
-struct figure_list { int n; struct { char probe[NAME_MAX_LENGTH], quantity[NAME_MAX_LENGTH]; real value; } entry[64]; };
+struct figure_list {
+    int n;
+    struct {
+        char probe[NAME_MAX_LENGTH], quantity[NAME_MAX_LENGTH];
+        real value;
+    } entry[64];
+};
 
 static void figure_keep(void *context, const char *probe, const char *quantity, real value)
 {
@@ -96,7 +102,10 @@ static void probes_refuse_what_is_not_there(void **state)
     struct observed o = seen(&b);
     o.loads = &loads;
     struct solid outside = box(20, 20, 30, 30);
-    struct { struct probe_request request; const char *says; } bad[] = {
+    struct {
+        struct probe_request request;
+        const char *says;
+    } bad[] = {
         {{.name = "p", .kind = PROBE_POINT, .at = {11.6, 5}}, "point (11.6, 5) m lies outside"},
         {{.name = "p", .kind = PROBE_BREAK, .region = {.n = 1, .solid = &outside}}, "holds no particle"},
         {{.name = "p", .kind = PROBE_REACTION, .boundary = "grap"},
@@ -230,7 +239,7 @@ static void probe_of_a_turning_body(void **state)
     assert_near(s.value[column_named(&s, "turn.shear_max")], sqrt(5), ROUND_OFF);
     assert_near(s.value[column_named(&s, "turn.angular_momentum_error")], 0.1, 1e-12);
     assert_near(s.value[column_named(&s, "turn.kinetic_energy_error")], 0.21, 1e-12);
-    b.p.stress[0][4] = -3, b.p.stress[1][4] = -1, b.p.out_of_plane[7] = -4;      /* now the largest is in the plane */
+    b.p.stress[0][4] = -3, b.p.stress[1][4] = -1, b.p.out_of_plane[7] = -4; /* now the largest is in the plane */
     probes_sample(&s, &o);
     assert_near(s.value[column_named(&s, "turn.stress_max")], 2 + sqrt(5), ROUND_OFF);
     probes_free(&s);
@@ -260,14 +269,19 @@ static void probe_of_a_tip(void **state)
     assert_near(figure(&l, "tip", "length_end"), 3.5, ROUND_OFF);
     assert_near(figure(&l, "tip", "start_time"), 2, 0);
     assert_near(figure(&l, "right", "length_end"), 1, ROUND_OFF);
-    assert_true(isnan(figure(&l, "tip", "speed_max")));  /* one sample has no speed: left out */
+    assert_true(isnan(figure(&l, "tip", "speed_max"))); /* one sample has no speed: left out */
     probes_free(&s);
     notched_free(&b, &t);
 }
 
 /* ---- probes of breaks, on real bonds ----------------------------------------------------------------------------- */
 
-struct bar { struct body b; struct material m; struct bonds bonds; real stretch; };
+struct bar {
+    struct body b;
+    struct material m;
+    struct bonds bonds;
+    real stretch;
+};
 
 static void bar_bond(struct bar *bar)
 {
@@ -329,7 +343,7 @@ static void probe_of_a_spall(void **state)
     bar_cut(&bar, 25, 2);
     probes_step(&s, &o);
     probes_figures(&s, &o, figure_keep, &l);
-    assert_int_equal(l.n, 0);                            /* its shortest bond still holds */
+    assert_int_equal(l.n, 0); /* its shortest bond still holds */
     bar_cut(&bar, 25, 1);
     o.t = 2;
     probes_step(&s, &o);
@@ -339,7 +353,7 @@ static void probe_of_a_spall(void **state)
     probes_figures(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "spall", "position"), 25, 1e-12);
     assert_near(figure(&l, "spall", "time"), 2, 0);
-    assert_near(figure(&l, "spall", "speed"), (3 * 28 + 2 * 3 * 20) / 9.0, 1e-12);     /* the mean by mass */
+    assert_near(figure(&l, "spall", "speed"), (3 * 28 + 2 * 3 * 20) / 9.0, 1e-12); /* the mean by mass */
     assert_near(figure(&l, "spall", "speed_rest"), -0.5, 1e-12);
     probes_free(&s);
     bonds_free(&bar.bonds);
@@ -417,7 +431,7 @@ static void probe_of_a_break(void **state)
     bar_cut(&bar, 5, 1);
     probes_step(&s, &o);
     memset(p->flag, 0, (size_t)p->n);
-    bar_cut(&bar, 25, 3);                                /* three bonds of length 3: 22.5-25.5, 23.5-26.5, 24.5-27.5 */
+    bar_cut(&bar, 25, 3); /* three bonds of length 3: 22.5-25.5, 23.5-26.5, 24.5-27.5 */
     o.t = 2;
     probes_step(&s, &o);
     probes_figures(&s, &o, figure_keep, &l);
@@ -436,7 +450,7 @@ static void probe_of_a_break(void **state)
     real half_energy = 0, full = 0.5 * bar.m.young * square(1e-3);
     for (int64_t i = 0; i < p->n; i++)
         for (int64_t j = 0; j < p->n; j++)
-            if (i != j && llabs(i - j) <= 3) half_energy += full * (real)llabs(i - j) / 12;   /* 2 (1 + 2 + 3) = 12 */
+            if (i != j && llabs(i - j) <= 3) half_energy += full * (real)llabs(i - j) / 12; /* 2 (1 + 2 + 3) = 12 */
     probes_sample(&s, &o);
     assert_near(s.value[column_named(&s, "energy.strain")], half_energy, 1e-12 * half_energy);
     probes_free(&s);
@@ -444,7 +458,9 @@ static void probe_of_a_break(void **state)
     body_free(&bar.b);
 }
 
-struct kept_profile { char name[64], text[4096]; };
+struct kept_profile {
+    char name[64], text[4096];
+};
 
 static status profile_keep(void *context, const char *name, const char *text, size_t length)
 {
@@ -471,7 +487,7 @@ static void profile_of_a_line(void **state)
     assert_ok(probes_profiles(&s, &o, profile_keep, &kept, 7));
     assert_string_equal(kept.name, "a_b_000007.csv");
     assert_string_equal(kept.text, "s [m],x [m],displacement_x [m],velocity_x [m/s],stress_xx [Pa],damage [1]\n"
-                        "0,0.5,0,0,0,0\n3,3.5,0,3,0,0\n6,6.5,0,6,0,0\n9,9.5,0,9,0,0\n");
+                                   "0,0.5,0,0,0,0\n3,3.5,0,3,0,0\n6,6.5,0,6,0,0\n9,9.5,0,9,0,0\n");
     assert_failed(probes_profiles(&s, &o, profile_keep, &kept, 7), "there is one already");
     struct figure_list l = {0};
     probes_figures(&s, &o, figure_keep, &l);
@@ -491,7 +507,8 @@ int main(void)
         cmocka_unit_test(probe_of_a_pulse),
         cmocka_unit_test(probe_of_a_turning_body),
         cmocka_unit_test(probe_of_a_tip),
-        cmocka_unit_test(probe_of_a_spall), cmocka_unit_test(probe_of_a_wide_spall),
+        cmocka_unit_test(probe_of_a_spall),
+        cmocka_unit_test(probe_of_a_wide_spall),
         cmocka_unit_test(probe_of_a_spall_knows_the_grid),
         cmocka_unit_test(probe_of_a_break),
         cmocka_unit_test(profile_of_a_line),

@@ -20,7 +20,7 @@ static void plate_make(struct plate *p, int cracks, const real *tip)
 {
     memset(p, 0, sizeof *p);
     body_make(&p->body, 2, (const int[]){WIDTH, HEIGHT});
-    for (int64_t i = 0; i < p->body.p.n; i++) p->body.p.volume0[i] = 0.37;      /* the thickness [m] */
+    for (int64_t i = 0; i < p->body.p.n; i++) p->body.p.volume0[i] = 0.37; /* the thickness [m] */
     for (int k = 0; k < 2; k++) {
         p->material[k] = (struct material){.young = 75.629e9, .poisson = 0.286, .density = 2456};
         material_derive(&p->material[k], SPACE_PLANE_STRAIN);
@@ -30,9 +30,16 @@ static void plate_make(struct plate *p, int cracks, const real *tip)
     p->corner[1][0][0] = tip[0] + 10, p->corner[1][1][0] = tip[0] + 10;
     p->corner[1][0][1] = 10, p->corner[1][1][1] = 50;
     tips_make(&p->tips, &p->body.p, &p->body.c, p->crack, cracks, 1, 1);
-    p->o = (struct observed){.part = &p->body.p, .cells = &p->body.c, .tips = &p->tips, .material = p->material,
-                             .spacing = 1, .thickness = 0.37, .space = SPACE_PLANE_STRAIN, .horizon = 3.015,
-                             .crack = p->crack, .cracks = cracks};
+    p->o = (struct observed){.part = &p->body.p,
+                             .cells = &p->body.c,
+                             .tips = &p->tips,
+                             .material = p->material,
+                             .spacing = 1,
+                             .thickness = 0.37,
+                             .space = SPACE_PLANE_STRAIN,
+                             .horizon = 3.015,
+                             .crack = p->crack,
+                             .cracks = cracks};
 }
 
 static void plate_free(struct plate *p)
@@ -55,8 +62,10 @@ static void plate_field(struct plate *k, const real K[MODES], const real *place,
             for (int d = 0; d < 2; d++) u[d] += K[mode] * f.displacement[d], w[d] += K[mode] * f.state.velocity[d];
         }
         for (int d = 0; d < 2; d++) {
-            if (velocities) p->v[d][i] = w[d];
-            else p->x[d][i] = p->X[d][i] + u[d];
+            if (velocities)
+                p->v[d][i] = w[d];
+            else
+                p->x[d][i] = p->X[d][i] + u[d];
         }
     }
 }
@@ -73,7 +82,10 @@ static int column_named(const struct probes *s, const char *name)
 
 static real value_of(const struct probes *s, const char *name) { return s->value[column_named(s, name)]; }
 
-struct figures { int n; real value[16]; };
+struct figures {
+    int n;
+    real value[16];
+};
 
 static void figure_keep(void *context, const char *probe, const char *quantity, real value)
 {
@@ -109,10 +121,10 @@ static void tip_at_rest(void **state)
         for (int k = 0; k < (cracks ? 3 : 1); k++) {
             char name[4][32];
             for (int c = 0; c < SIF_FIGURES; c++) snprintf(name[c], 32, "%s.%.16s", names[k], sif_figure[c].name);
-            assert_near(value_of(&s, name[0]), K[0], 2);      /* 0.03 % at 16 spacings */
+            assert_near(value_of(&s, name[0]), K[0], 2); /* 0.03 % at 16 spacings */
             assert_near(value_of(&s, name[1]), K[1], 2);
             assert_close(value_of(&s, name[2]), (K[0] * K[0] + K[1] * K[1]) / (75.629e9 / (1 - 0.286 * 0.286)), 1e-3);
-            assert_near(value_of(&s, name[3]), 0, 3e-3);      /* the smallest ring has 9.6 spacings */
+            assert_near(value_of(&s, name[3]), 0, 3e-3); /* the smallest ring has 9.6 spacings */
             assert_true(value_of(&s, name[3]) > 0);
         }
         probes_figures(&s, &p.o, figure_keep, &f);
@@ -158,7 +170,7 @@ static void bad_requests_are_refused(void **state)
     p.o.part->material[40 * WIDTH + 30] = 1;
     refused(&p, &(struct probe_request){.outer = 20}, "another material");
     p.o.part->material[40 * WIDTH + 30] = 0;
-    plate_make(&two, 2, start);              /* its ends stand (10, -20) and (10, 20) away */
+    plate_make(&two, 2, start); /* its ends stand (10, -20) and (10, 20) away */
     refused(&two, &(struct probe_request){.outer = 24}, "another crack's tip at (40, ");
     plate_make(&corner, 1, (const real[]){8, 30});
     refused(&corner, &(struct probe_request){.outer = 20}, "choose a smaller outer radius");
@@ -186,7 +198,7 @@ static void tip_in_motion(void **state)
     for (int k = 0; k < 13; k++) p.tips.time[k] = 1e-3 * k, p.tips.growth[k * TIPS_MAX] = k;
     p.tips.window = 5e-3;
     assert_close(tips_speed(&p.tips, 0), v, 1e-12);
-    tip->growth = 12, tip->place[0] = p.corner[0][1][0] = 42;    /* no bonds here that would hide particles */
+    tip->growth = 12, tip->place[0] = p.corner[0][1][0] = 42; /* no bonds here that would hide particles */
     p.o.t = 12e-3, p.o.t_velocity = p.o.t - 0.5 * dt;
     for (int round = 0; round < 2; round++) {
         const real before[2] = {42 - 0.5 * dt * v, 30}, after[2] = {42 + 0.5 * dt * v, 30};
@@ -198,7 +210,7 @@ static void tip_in_motion(void **state)
         probes_sample_end(now, &p.o, &(struct velocity_time){p.o.t + 0.5 * dt, 1});
         const struct crack_medium m = crack_medium_of(&p.material[0], SPACE_PLANE_STRAIN);
         const real A[MODES] = {crack_universal(&m, MODE_I, v), crack_universal(&m, MODE_II, v)};
-        assert_near(value_of(now, "sif.K_I"), K[0], 5);       /* 0.14 %; a crack at rest would be 5 % off */
+        assert_near(value_of(now, "sif.K_I"), K[0], 5); /* 0.14 %; a crack at rest would be 5 % off */
         assert_near(value_of(now, "sif.K_II"), K[1], 5);
         assert_close(value_of(now, "sif.J"), (A[0] * K[0] * K[0] + A[1] * K[1] * K[1]) / m.modulus, 0.003);
         struct store store = {0};
@@ -209,7 +221,7 @@ static void tip_in_motion(void **state)
         store_free(&store);
     }
     assert_exact(value_of(&again, "sif.K_II"), value_of(&s, "sif.K_II"));
-    tip->place[0] = 60;                      /* 12 from the edge */
+    tip->place[0] = 60; /* 12 from the edge */
     probes_sample_end(&s, &p.o, &(struct velocity_time){p.o.t, 1});
     assert_true(isnan(value_of(&s, "sif.K_I")));
     probes_free(&again);

@@ -143,9 +143,9 @@ static void block(struct solution *a, const int *order, real askew, int steps)
              "  - {traction: [%d MPa, %d MPa, %d MPa], face: %c-, time: {ramp: {until: 1 s}}}\n"
              "  - {fixed: all, region: {box: {from: %s, to: %s}}}\n",
              steps, point(p[0], order, 0, -8, 0), point(p[1], order, 20, 8, 4), point(p[2], order, -1, -up, -1),
-             point(p[3], order, 7, -up, -1), point(p[4], order, 7, up, 5), point(p[5], order, -1, up, 5),
-             pull[0], pull[1], pull[2], axis, -pull[0], -pull[1], -pull[2], axis,
-             point(p[6], order, 18.9, -0.9, 1), point(p[7], order, 21, 0.9, 3));
+             point(p[3], order, 7, -up, -1), point(p[4], order, 7, up, 5), point(p[5], order, -1, up, 5), pull[0],
+             pull[1], pull[2], axis, -pull[0], -pull[1], -pull[2], axis, point(p[6], order, 18.9, -0.9, 1),
+             point(p[7], order, 21, 0.9, 3));
     run(a, text);
 }
 

@@ -67,7 +67,7 @@ static void field_set(struct run *e, const struct led_tip *tip, enum space space
 static void test_plane_state(void **state)
 {
     static char text[1000];
-    static const int thickness[] = {4, 15};              /* the ring has a mean radius of 5 spacings */
+    static const int thickness[] = {4, 15}; /* the ring has a mean radius of 5 spacings */
     const real K[MODES] = {2.1e5, -0.9e5};
     (void)state;
     for (int k = 0; k < 2; k++) {
@@ -81,11 +81,12 @@ static void test_plane_state(void **state)
                  "particles: {spacing: 1 mm, horizon: 3.015}\n"
                  "cracks:\n  - {polygon: [[-1 mm, 0, -1 mm], [7 mm, 0, -1 mm], [7 mm, 0, %d mm], [-1 mm, 0, %d mm]]}\n"
                  "boundary:\n  - {displacement: [0, 0.1 mm, 0], face: y+, time: {ramp: {until: 1 s}}}\n"
-                 "  - {fixed: all, face: y-}\n", thickness[k], thickness[k] + 1, thickness[k] + 1);
+                 "  - {fixed: all, face: y-}\n",
+                 thickness[k], thickness[k] + 1, thickness[k] + 1);
         const struct led_tip *tip = solution_begin(&a, text);
         field_set(&a.e, tip, k == 0 ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN, K);
         assert_true(led_measure(&a.e, tip, found));
-        for (int mode = 0; mode < MODES; mode++)         /* round-off, and equations of nine terms */
+        for (int mode = 0; mode < MODES; mode++) /* round-off, and equations of nine terms */
             if (!(fabs(found[mode] / K[mode] - 1) < 1e-4)) fail_msg("%d mm: K %g", thickness[k], found[mode]);
         solution_free(&a);
     }
@@ -170,8 +171,10 @@ static void test_release_rate(void **state)
         assert_true(fabs(record[3] - 0.37e-3 * grown[k]) <= 1e-12 * grown[k]);
         const int since = k > 2 ? k - 2 : 0;
         const real rate = (released[k] - released[since]) / (0.37e-3 * (grown[k] - grown[since]));
-        if (k == 0) assert_true(isnan(record[4]));
-        else if (!(fabs(record[4] / rate - 1) < 1e-12)) fail_msg("growth %d: %g J/m^2 of %g", k, record[4], rate);
+        if (k == 0)
+            assert_true(isnan(record[4]));
+        else if (!(fabs(record[4] / rate - 1) < 1e-12))
+            fail_msg("growth %d: %g J/m^2 of %g", k, record[4], rate);
     }
     solution_free(&a);
 }

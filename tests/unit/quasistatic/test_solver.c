@@ -18,20 +18,24 @@
 #include "scene/scene_read.h"
 
 /* Strains are 1e-6 and less in all scenes: what is linear in the solution is so to 1e-5. */
-#define BAR \
-    "space: line\nduration: 2 s\nmethod: pd\n" \
-    "material: {young: 1000 GPa, density: 1000}\nbody: {box: {from: 0, to: 1 m}}\n" \
+#define BAR                                                                                                            \
+    "space: line\nduration: 2 s\nmethod: pd\n"                                                                         \
+    "material: {young: 1000 GPa, density: 1000}\nbody: {box: {from: 0, to: 1 m}}\n"                                    \
     "particles: {spacing: 0.01 m, horizon: 3.015}\n"
 #define BAR_FIXED "boundary:\n  - {mirror: {axis: x, at: 0, tangential: held}}\n"
 #define BAR_PULLED BAR_FIXED "  - {traction: 1 MPa, face: x+}\n"
-#define PLATE \
-    "space: plane stress\nthickness: 1 mm\nduration: 1 s\nmethod: pd\n" \
+#define PLATE                                                                                                          \
+    "space: plane stress\nthickness: 1 mm\nduration: 1 s\nmethod: pd\n"                                                \
     "material: {young: 20000 GPa, density: 1000}\nparticles: {spacing: 0.2 mm, horizon: 3.015}\n"
 #define WHOLE PLATE "body: {box: {from: [-5 mm, -5 mm], to: [5 mm, 5 mm]}}\n"
 #define PULLED "boundary:\n  - {traction: [0, 1 MPa], face: y+}\n  - {traction: [0, -1 MPa], face: y-}\n"
 #define CRACKED WHOLE "cracks:\n  - {from: [-6 mm, 0], to: [0, 0]}\n" PULLED
 
-struct solution { struct scene s; struct run e; status made, ran; };
+struct solution {
+    struct scene s;
+    struct run e;
+    status made, ran;
+};
 
 /* Solves a scene with the overrides `key=value`, up to NULL. */
 static void solve(struct solution *a, const char *text, ...)
@@ -124,15 +128,18 @@ static void test_integrals(void **state)
     (void)state;
     enum { PIECES = 200000 };
     real t[] = {-0.5, 0.25, 0.5, 1.75}, value[] = {2, -1, 3, 0.5};
-    const struct time_function f[] = {
-        {.kind = TIME_CONSTANT}, {.kind = TIME_STEP, .from = 0.25, .until = 1.5},
-        {.kind = TIME_STEP, .from = -1, .until = 1.5}, {.kind = TIME_PULSE, .from = 0.25, .until = 1.5},
-        {.kind = TIME_PULSE, .from = -0.5, .until = 3}, {.kind = TIME_RAMP, .from = 0.25, .until = 1.5},
-        {.kind = TIME_RAMP, .from = -0.5, .until = 3}, {.kind = TIME_RAMP, .from = -0.9, .until = -0.3},
-        {.kind = TIME_TABLE, .n = 4, .t = t, .value = value}};
+    const struct time_function f[] = {{.kind = TIME_CONSTANT},
+                                      {.kind = TIME_STEP, .from = 0.25, .until = 1.5},
+                                      {.kind = TIME_STEP, .from = -1, .until = 1.5},
+                                      {.kind = TIME_PULSE, .from = 0.25, .until = 1.5},
+                                      {.kind = TIME_PULSE, .from = -0.5, .until = 3},
+                                      {.kind = TIME_RAMP, .from = 0.25, .until = 1.5},
+                                      {.kind = TIME_RAMP, .from = -0.5, .until = 3},
+                                      {.kind = TIME_RAMP, .from = -0.9, .until = -0.3},
+                                      {.kind = TIME_TABLE, .n = 4, .t = t, .value = value}};
     for (size_t k = 0; k < COUNT_OF(f); k++)
         for (real end = 0.125; end < 2.2; end += 0.25) {
-            real sum = 0;                   /* midpoint rule: exact but for a piece with a jump, and h^2 of the pulse */
+            real sum = 0; /* midpoint rule: exact but for a piece with a jump, and h^2 of the pulse */
             for (int i = 0; i < PIECES; i++) sum += time_function_at(&f[k], (i + 0.5) * end / PIECES) * end / PIECES;
             assert_true(fabs(time_function_integral(&f[k], end) - sum) < 2 * end / PIECES);
         }
@@ -170,7 +177,7 @@ static void test_bar_support(void **state)
         solve(&a, BAR BAR_FIXED "  - {name: end, velocity: [0.5 um/s], region: {box: {from: 0.97 m, to: inf}}}\n",
               solver[k], "solver_tolerance=1e-7", NULL);
         solved(&a);
-        near("displacement", moved(&a, 0, 0.995, 0), 1e-6, 1e-7);    /* round-off of positions in 100 steps */
+        near("displacement", moved(&a, 0, 0.995, 0), 1e-6, 1e-7); /* round-off of positions in 100 steps */
         near("displacement of the load", a.e.loads.load[1].displacement[0], 1e-6, 1e-12);
         near("reaction", a.e.loads.load[1].reaction[0], 1e12 * strain(&a, 0, quarter_place, far_place), 1e-5);
         near("energy", a.e.diagnostics->now.energy.strain, a.e.diagnostics->now.external_work, 1e-5);
@@ -205,8 +212,10 @@ static void test_points_support(void **state)
     (void)state;
     struct solution a;
     real figure[2] = {0};
-    solve(&a, BAR BAR_FIXED "  - {name: end, velocity: [0.5 um/s], region: {box: {from: 0.97 m, to: inf}}}\n"
-          "probes: [{reaction: {boundary: end}}]\n", "solver=relaxation", "method=mpm", NULL);
+    solve(&a,
+          BAR BAR_FIXED "  - {name: end, velocity: [0.5 um/s], region: {box: {from: 0.97 m, to: inf}}}\n"
+                        "probes: [{reaction: {boundary: end}}]\n",
+          "solver=relaxation", "method=mpm", NULL);
     solved(&a);
     const struct observed o = {.loads = &a.e.loads, .part = &a.e.part};
     probes_figures(&a.e.probing->probes, &o, reaction_keep, figure);
@@ -239,7 +248,10 @@ static void test_plate(void **state)
 {
     (void)state;
     struct solution a;
-    static const struct { const char *method; real tolerance; } run[] = {{"method=pd", 0.025}, {"method=mpm", 0.01}};
+    static const struct {
+        const char *method;
+        real tolerance;
+    } run[] = {{"method=pd", 0.025}, {"method=mpm", 0.01}};
     for (int k = 0; k < 2; k++) {
         solve(&a, WHOLE PULLED, "solver=relaxation", run[k].method, NULL);
         solved(&a);
@@ -309,20 +321,22 @@ static void test_irregular(void **state)
     (void)state;
     struct solution a, b;
     static const char plate[] = WHOLE "cracks:\n  - {from: [-6 mm, 0], to: [0, 0]}\nboundary:\n"
-        "  - {traction: [0, 1 MPa], face: y+}\n"
-        "  - {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, -4.5 mm]}}}\n";
+                                      "  - {traction: [0, 1 MPa], face: y+}\n"
+                                      "  - {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, -4.5 mm]}}}\n";
     solve(&a, plate, "solver=relaxation", "solver_tolerance=1e-6", "particles.irregularity=0.5",
           "material.young=2000 GPa", NULL);
-    solve(&b, plate, "solver=cg", "solver_tolerance=1e-6", "particles.irregularity=0.5",
-          "material.young=2000 GPa", NULL);
+    solve(&b, plate, "solver=cg", "solver_tolerance=1e-6", "particles.irregularity=0.5", "material.young=2000 GPa",
+          NULL);
     solved(&a), solved(&b);
     assert_true(difference(&a, &b) < 1e-4);
     near("energy of cg", b.e.diagnostics->now.energy.strain, b.e.diagnostics->now.external_work, 1e-4);
     solution_free(&a), solution_free(&b);
 }
 
-#define QUARTER(from, to) PLATE "body: {box: {from: [" from ", " from "], to: [" to ", " to "]}}\n" \
-    "boundary:\n  - {mirror: {axis: x, at: 0}}\n  - {mirror: {axis: y, at: 0}}\n  - {traction: [0, 1 MPa], face: y+}\n"
+#define QUARTER(from, to)                                                                                              \
+    PLATE "body: {box: {from: [" from ", " from "], to: [" to ", " to "]}}\n"                                          \
+          "boundary:\n  - {mirror: {axis: x, at: 0}}\n  - {mirror: {axis: y, at: 0}}\n  - {traction: [0, 1 MPa], "     \
+          "face: y+}\n"
 
 static void test_quarter(void **state)
 {
@@ -348,7 +362,7 @@ static void test_on_plane(void **state)
     solve(&b, QUARTER("-0.1 mm", "4.9 mm"), "solver=cg", "solver_tolerance=1e-7", NULL);
     solved(&a), solved(&b);
     assert_true(fabs(a.e.part.X[0][0]) < 1e-15);
-    assert_int_equal(a.e.loads.images, 3 * 24 + 3 * 24 + 3 * 3 + 2 * 3);   /* three layers, and those of the planes */
+    assert_int_equal(a.e.loads.images, 3 * 24 + 3 * 24 + 3 * 3 + 2 * 3); /* three layers, and those of the planes */
     assert_true(difference(&a, &b) < 1e-4);
     assert_true(b.e.clock.step < 150);
     solution_free(&a), solution_free(&b);
@@ -367,7 +381,7 @@ static void test_solid(void **state)
     solve(&b, block, "solver=cg", "solver_tolerance=1e-7", NULL);
     solved(&a), solved(&b);
     assert_true(difference(&a, &b) < 1e-4);
-    near("reaction along", a.e.loads.load[0].reaction[2], -36, 1e-5);     /* 1 MPa on 36 mm^2 */
+    near("reaction along", a.e.loads.load[0].reaction[2], -36, 1e-5); /* 1 MPa on 36 mm^2 */
     near("reaction across", b.e.loads.load[0].reaction[0], -36, 1e-5);
     solution_free(&a), solution_free(&b);
 }
@@ -397,15 +411,14 @@ static void test_limits(void **state)
 static void test_strength_of_pairs(void **state)
 {
     (void)state;
-    static const char two[] =
-        "space: plane stress\nthickness: 0.37 mm\nduration: 1 s\nmethod: pd\n"
-        "particles: {spacing: 0.5 mm, horizon: 3.015}\n"
-        "materials:\n  - {name: weak, young: 20000 GPa, density: 1000, critical_stretch: 1e-9}\n"
-        "  - {name: strong, young: 20000 GPa, density: 1000, critical_stretch: 1e-3}\nbodies:\n"
-        "  - {name: rests, material: weak, shape: {box: {from: [20 mm, 0], to: [24 mm, 3 mm]}}}\n"
-        "  - {name: bears, material: strong, shape: {box: {from: [0, 0], to: [5 mm, 5 mm]}}}\n"
-        "boundary:\n  - {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, 1.1 mm]}}}\n"
-        "  - {traction: [0, 1.7 MPa], face: y+, body: bears}\n";
+    static const char two[] = "space: plane stress\nthickness: 0.37 mm\nduration: 1 s\nmethod: pd\n"
+                              "particles: {spacing: 0.5 mm, horizon: 3.015}\n"
+                              "materials:\n  - {name: weak, young: 20000 GPa, density: 1000, critical_stretch: 1e-9}\n"
+                              "  - {name: strong, young: 20000 GPa, density: 1000, critical_stretch: 1e-3}\nbodies:\n"
+                              "  - {name: rests, material: weak, shape: {box: {from: [20 mm, 0], to: [24 mm, 3 mm]}}}\n"
+                              "  - {name: bears, material: strong, shape: {box: {from: [0, 0], to: [5 mm, 5 mm]}}}\n"
+                              "boundary:\n  - {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, 1.1 mm]}}}\n"
+                              "  - {traction: [0, 1.7 MPa], face: y+, body: bears}\n";
     struct solution a;
     solve(&a, two, "solver=cg", NULL), solved(&a);
     assert_int_equal(a.e.solver->past_limit, 0);
@@ -438,21 +451,22 @@ static void test_unloaded(void **state)
     }
     solve(&a, BAR BAR_FIXED "initial:\n  - {displacement_gradient: [1e-6]}\n", "solver=relaxation", NULL);
     solved(&a);
-    assert_true(fabs(moved(&a, 0, 0.995, 0)) < 1e-9);      /* it springs back, from 1e-6 */
+    assert_true(fabs(moved(&a, 0, 0.995, 0)) < 1e-9); /* it springs back, from 1e-6 */
     solution_free(&a);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_integrals), cmocka_unit_test(test_bar_traction), cmocka_unit_test(test_bar_support),
-        cmocka_unit_test(test_bar_weight), cmocka_unit_test(test_points_support),
-        cmocka_unit_test(test_bar_points), cmocka_unit_test(test_plate),
-        cmocka_unit_test(test_crack), cmocka_unit_test(test_models), cmocka_unit_test(test_crack_coupled),
-        cmocka_unit_test(test_irregular),
-        cmocka_unit_test(test_quarter), cmocka_unit_test(test_on_plane), cmocka_unit_test(test_solid),
-        cmocka_unit_test(test_limits), cmocka_unit_test(test_strength_of_pairs),
-        cmocka_unit_test(test_strength), cmocka_unit_test(test_unloaded),
+        cmocka_unit_test(test_integrals),      cmocka_unit_test(test_bar_traction),
+        cmocka_unit_test(test_bar_support),    cmocka_unit_test(test_bar_weight),
+        cmocka_unit_test(test_points_support), cmocka_unit_test(test_bar_points),
+        cmocka_unit_test(test_plate),          cmocka_unit_test(test_crack),
+        cmocka_unit_test(test_models),         cmocka_unit_test(test_crack_coupled),
+        cmocka_unit_test(test_irregular),      cmocka_unit_test(test_quarter),
+        cmocka_unit_test(test_on_plane),       cmocka_unit_test(test_solid),
+        cmocka_unit_test(test_limits),         cmocka_unit_test(test_strength_of_pairs),
+        cmocka_unit_test(test_strength),       cmocka_unit_test(test_unloaded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

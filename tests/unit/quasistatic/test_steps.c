@@ -322,11 +322,10 @@ static void test_opening(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stretch_work), cmocka_unit_test(test_models), cmocka_unit_test(test_variants),
-        cmocka_unit_test(test_points),
-        cmocka_unit_test(test_quarter), cmocka_unit_test(test_parted),   cmocka_unit_test(test_motions),
-        cmocka_unit_test(test_trial),   cmocka_unit_test(test_opening),
-                                       cmocka_unit_test(test_let_go),
+        cmocka_unit_test(test_stretch_work), cmocka_unit_test(test_models),  cmocka_unit_test(test_variants),
+        cmocka_unit_test(test_points),       cmocka_unit_test(test_quarter), cmocka_unit_test(test_parted),
+        cmocka_unit_test(test_motions),      cmocka_unit_test(test_trial),   cmocka_unit_test(test_opening),
+        cmocka_unit_test(test_let_go),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

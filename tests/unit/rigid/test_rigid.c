@@ -103,7 +103,7 @@ static void test_tumbling(void **state)
         least = real_min(least, r.turn[1][1]);
         assert_near(rigid_kinetic(&r), before, 1e-5 * before);
     }
-    assert_true(least < -0.9);           /* it has tumbled over */
+    assert_true(least < -0.9); /* it has tumbled over */
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             real sum = 0;
@@ -152,17 +152,19 @@ static void test_points_move(void **state)
     real X[] = {3.7, 0.2, 0.4}, before[3], after[3], v[3], work = 0, start = 0;
     for (int k = 0; k < 5000; k++) {
         memcpy(r.force, force, sizeof force), memcpy(r.moment, moment, sizeof moment);
-        if (k == 0) for (int d = 0; d < 3; d++) r.force[d] = r.moment[d] = r.weight[d] = 0;
+        if (k == 0)
+            for (int d = 0; d < 3; d++) r.force[d] = r.moment[d] = r.weight[d] = 0;
         rigid_place(&r, X, before);
         rigid_move(&r, 0, dt, dt);
         rigid_place(&r, X, after);
         if (k == 0) start = r.kinetic, memcpy(r.weight, weight, sizeof weight);
-        for (int d = 0; d < 3 && k > 0; d++)             /* kinetic is that of before the last step's motion */
+        for (int d = 0; d < 3 && k > 0; d++) /* kinetic is that of before the last step's motion */
             work += (force[d] * r.way[d] + moment[d] * r.spin[d] * dt) * (k == 4999 ? 0.5 : 1);
     }
-    rigid_velocity(&r, (const real[]){0.5 * (before[0] + after[0]), 0.5 * (before[1] + after[1]),
-                                      0.5 * (before[2] + after[2])}, v);
-    for (int d = 0; d < 3; d++) assert_near((after[d] - before[d]) / dt, v[d], 3e-3);     /* the centre is dt/2 older */
+    rigid_velocity(
+        &r, (const real[]){0.5 * (before[0] + after[0]), 0.5 * (before[1] + after[1]), 0.5 * (before[2] + after[2])},
+        v);
+    for (int d = 0; d < 3; d++) assert_near((after[d] - before[d]) / dt, v[d], 3e-3); /* the centre is dt/2 older */
     for (int d = 0; d < 3; d++) work += weight[d] * (r.x[d] - r.centre[d] - 0.5 * r.way[d]);
     assert_near(r.kinetic, start + work, 2e-3 * work);
     assert_true(work > 0.5);
@@ -173,8 +175,14 @@ static void test_points_move(void **state)
 static void test_kick(void **state)
 {
     (void)state;
-    struct rigid_body r = {.dim = 3, .motion = RIGID_FREE, .turns = true, .mass = 5.3, .v = {0.3, -0.2, 0.5},
-                           .force = {4, -3, 2.5}, .weight = {0.7, 1.1, -9}, .moment = {2, 0.4, -1.7},
+    struct rigid_body r = {.dim = 3,
+                           .motion = RIGID_FREE,
+                           .turns = true,
+                           .mass = 5.3,
+                           .v = {0.3, -0.2, 0.5},
+                           .force = {4, -3, 2.5},
+                           .weight = {0.7, 1.1, -9},
+                           .moment = {2, 0.4, -1.7},
                            .spin = {0.6, -1.3, 0.9}};
     const real force = 4 * 0.3 + 3 * 0.2 + 2.5 * 0.5, weight = 0.7 * 0.3 - 1.1 * 0.2 - 9 * 0.5;
     const real moment = 2 * 0.6 - 0.4 * 1.3 - 1.7 * 0.9;
@@ -203,8 +211,8 @@ static void test_record(void **state)
     static const char *const what[] = {"force_", "moment_", "", "velocity_"};
     struct rigid_body body[2];
     for (int b = 0; b < 2; b++) {
-        body[b] = (struct rigid_body){.motion = RIGID_FREE, .mass = 5.3 + 2 * b, .kinetic = 0.9 + 1.7 * b,
-                                      .work = 3.1 + 0.4 * b};
+        body[b] = (struct rigid_body){
+            .motion = RIGID_FREE, .mass = 5.3 + 2 * b, .kinetic = 0.9 + 1.7 * b, .work = 3.1 + 0.4 * b};
         snprintf(body[b].name, sizeof body[b].name, "%s", b ? "ram" : "anvil");
         for (int d = 0; d < 3; d++) {
             body[b].force[d] = 11 + d + 30 * b, body[b].moment[d] = 14.5 + d + 30 * b;
@@ -278,10 +286,9 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_distance), cmocka_unit_test(test_cavity),
-                                       cmocka_unit_test(test_inertia),
-                                       cmocka_unit_test(test_tumbling), cmocka_unit_test(test_driven),
-                                       cmocka_unit_test(test_points_move), cmocka_unit_test(test_ramp),
-                                       cmocka_unit_test(test_kick), cmocka_unit_test(test_record),
-                                       cmocka_unit_test(test_refused)};
+                                       cmocka_unit_test(test_inertia),  cmocka_unit_test(test_tumbling),
+                                       cmocka_unit_test(test_driven),   cmocka_unit_test(test_points_move),
+                                       cmocka_unit_test(test_ramp),     cmocka_unit_test(test_kick),
+                                       cmocka_unit_test(test_record),   cmocka_unit_test(test_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,8 +39,8 @@ static status compile(struct expression *e, const char *text, enum unit unit)
     F(UNIT_SPEED, "22 m/s*sin(2*pi*x/10 mm)", 22 * sin(2 * PI * x / 0.01))                                             \
     F(UNIT_SPEED, "x/t - y/(2 us)", x / t - y / 2e-6)                                                                  \
     F(UNIT_SPEED, "3 mm/us/2", 1500.)                                                                                  \
-    F(UNIT_LENGTH, "sqrt(x^2 + y^2 + z^2)", sqrt(x * x + y * y + z * z))                                               \
-    F(UNIT_LENGTH, "(x^2 + y^2)^0.5", sqrt(x * x + y * y))                                                             \
+    F(UNIT_LENGTH, "sqrt(x^2 + y^2 + z^2)", sqrt(x *x + y * y + z * z))                                                \
+    F(UNIT_LENGTH, "(x^2 + y^2)^0.5", sqrt(x *x + y * y))                                                              \
     F(UNIT_TOUGHNESS, "60 MPa sqrt(m)*x/m", 60e6 * x)                                                                  \
     F(UNIT_TOUGHNESS, "5 MPa*sqrt(pi*x)", 5e6 * sqrt(PI * x))                                                          \
     F(UNIT_NONE, "atan2(y, x) + atan(y/x)", atan2(y, x) + atan(y / x))                                                 \
@@ -51,7 +51,7 @@ static status compile(struct expression *e, const char *text, enum unit unit)
     F(UNIT_NONE, "sign(x - 5 mm)", (x > 5e-3) - (x < 5e-3))                                                            \
     F(UNIT_NONE, "step(y - y) + 10*sign(y - y) + 100*ramp((y - y)/m)", 1.)                                             \
     F(UNIT_NONE, "ramp(t/5us) + ramp(x/m - 1) + ramp(2)", RAMP(t / 5e-6) + RAMP(x - 1) + 1)                            \
-    F(UNIT_NONE, "pulse(t/20us)", sin(PI * t / 20e-6) * sin(PI * t / 20e-6))                                           \
+    F(UNIT_NONE, "pulse(t/20us)", sin(PI *t / 20e-6) * sin(PI * t / 20e-6))                                            \
     F(UNIT_NONE, "pulse(-0.5) + pulse(1.5)", 0.)                                                                       \
     F(UNIT_NONE, "tanh(x/mm) + sinh(x/m) + cosh(x/m)", tanh(x / 1e-3) + sinh(x) + cosh(x))                             \
     F(UNIT_NONE, "tan(x/cm) + asin(x/m) + acos(y/m)", tan(x / 0.01) + asin(x) + acos(y))                               \
@@ -60,20 +60,23 @@ static status compile(struct expression *e, const char *text, enum unit unit)
     F(UNIT_DENSITY, "7.8 g/cm^3*(1 - 5 %)", 7800 * 0.95)                                                               \
     F(UNIT_TIME, "2 min - 1 h/60", 60.)                                                                                \
     F(UNIT_BODY_FORCE, "7800 kg/m^3*9.81 m/s^2*x/m", 7800 * 9.81 * x)                                                  \
-    F(UNIT_NONE, "x^(2)/m^2", x * x)                                                                                   \
-    F(UNIT_NONE, "x^2/m/m", x * x)                                                                                     \
+    F(UNIT_NONE, "x^(2)/m^2", x *x)                                                                                    \
+    F(UNIT_NONE, "x^2/m/m", x *x)                                                                                      \
     F(UNIT_NONE, "2^(x/m)", pow(2, x))                                                                                 \
     F(UNIT_NONE, "0.5 \u00b5m/\u00b5m", 0.5)
 
 #define FORMULA(unit_, text_, value_) {unit_, text_},
-static const struct { enum unit unit; const char *text; } formulas[] = {FORMULAS(FORMULA)};
+static const struct {
+    enum unit unit;
+    const char *text;
+} formulas[] = {FORMULAS(FORMULA)};
 
 static void values_are_those_of_c(void **state)
 {
     (void)state;
     for (int place = 0; place < 3; place++) {
         const real x = 3e-3 + 4e-3 * place, y = 2e-3, z = 0.7e-3 * (1 + place), t = 1.3e-6 * (1 + place);
-        #define VALUE(unit_, text_, value_) value_,
+#define VALUE(unit_, text_, value_) value_,
         const real value[] = {FORMULAS(VALUE)};
         for (size_t k = 0; k < COUNT_OF(formulas); k++) {
             struct expression e;
@@ -133,7 +136,7 @@ static void constants_are_folded(void **state)
     assert_int_equal(compile(&e, "2*(3 mm + 4 mm)^2/7 mm", UNIT_LENGTH), OK);
     assert_true(e.n == 1 && !e.in_space && !e.in_time);
     expression_free(&e);
-    assert_int_equal(compile(&e, "1/3 mm", UNIT_LENGTH), OK);                 /* a number as every key reads it */
+    assert_int_equal(compile(&e, "1/3 mm", UNIT_LENGTH), OK); /* a number as every key reads it */
     assert_true(e.n == 1 && bits_equal(expression_at(&e, NULL, 0, 0), 1e-3 / 3));
     expression_free(&e);
     assert_int_equal(compile(&e, "2*pi*x + 0*t*m/s", UNIT_LENGTH), OK);
@@ -146,21 +149,27 @@ static void constants_are_folded(void **state)
 static void faults_are_placed(void **state)
 {
     (void)state;
-    static const struct { enum unit unit; const char *text, *message; } wrong[] = {
+    static const struct {
+        enum unit unit;
+        const char *text, *message;
+    } wrong[] = {
         {UNIT_LENGTH, "x + t",
          "x + t has a length and a time about + (character 3); both are expected to have one unit"},
         {UNIT_LENGTH, "x + 3",
          "x + 3 has a length and a plain number about + (character 3); both are expected to have one unit"},
-        {UNIT_NONE, "2*exp(x)", "2*exp(x) takes exp of a length (character 3); a plain number is expected there, as "
-                                "(t/5us)"},
+        {UNIT_NONE, "2*exp(x)",
+         "2*exp(x) takes exp of a length (character 3); a plain number is expected there, as "
+         "(t/5us)"},
         {UNIT_PRESSURE, "3 mm*x/m", "3 mm*x/m is a length; a stress is expected, as 190 GPa"},
         {UNIT_PRESSURE, "12e6*sin(t/us)", "12e6*sin(t/us) is a plain number; a stress is expected, as 190 GPa"},
         {UNIT_NONE, "x*x", "x*x is an area; a plain number is expected, as 0.25"},
         {UNIT_NONE, "x*t", "x*t is in m^1 s^1; a plain number is expected, as 0.25"},
-        {UNIT_NONE, "2*(3 +", "2*(3 + ends where a number is expected (in a list a formula with a comma "
-                               "stands in quotes)"},
-        {UNIT_NONE, "2*(3", "2*(3 ends where an operation or ) is expected (in a list a formula with a comma "
-                             "stands in quotes)"},
+        {UNIT_NONE, "2*(3 +",
+         "2*(3 + ends where a number is expected (in a list a formula with a comma "
+         "stands in quotes)"},
+        {UNIT_NONE, "2*(3",
+         "2*(3 ends where an operation or ) is expected (in a list a formula with a comma "
+         "stands in quotes)"},
         {UNIT_NONE, "2*3)", "2*3) has ) at character 4, where an operation is expected"},
         {UNIT_NONE, "2**3", "2**3 has * at character 3, where a number is expected"},
         {UNIT_NONE, "--2", "--2 has - at character 2, where a number is expected"},
@@ -169,14 +178,16 @@ static void faults_are_placed(void **state)
         {UNIT_NONE, "2*sin", "2*sin ends where ( and what it is of is expected"},
         {UNIT_NONE, "2*tau", "2*tau has an unknown name tau, and the scene has no variables"},
         {UNIT_NONE, "3 mm*s1", "3 mm*s1 has an unknown name s1, and the scene has no variables"},
-        {UNIT_NONE, "2*3 pounds", "2*3 pounds has an unknown unit pounds (character 5); between a number and a name an "
-                                  "operation is expected"},
+        {UNIT_NONE, "2*3 pounds",
+         "2*3 pounds has an unknown unit pounds (character 5); between a number and a name an "
+         "operation is expected"},
         {UNIT_NONE, "min(x)/m", "min(x)/m has ) at character 6, where a comma and another operand is expected"},
         {UNIT_NONE, "sin(1, 2)", "sin(1, 2) has , at character 6, where an operation or ) is expected"},
         {UNIT_NONE, "2*1_000",
          "2*1_000 has no number at character 3: digits cannot be grouped by _; write 1000 or 1e3"},
-        {UNIT_NONE, "2*007", "2*007 has no number at character 3: a leading 0 means octal elsewhere; write the decimal "
-                             "number without it"},
+        {UNIT_NONE, "2*007",
+         "2*007 has no number at character 3: a leading 0 means octal elsewhere; write the decimal "
+         "number without it"},
         {UNIT_NONE, "2/(1 - 1)", "2/(1 - 1) divides by 0 (character 2)"},
         {UNIT_NONE, "log(-1)*t/s", "log(-1)*t/s has a part that is no finite number"},
         {UNIT_LENGTH, "x^t", "x^t has a time as a power (character 2); a plain number is expected there"},

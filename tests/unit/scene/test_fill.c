@@ -22,7 +22,7 @@ static void boxes_are_filled_in_every_space(void **state)
         setting_make(&s, space[k], edge);
         s.scene.section = 0.1, s.scene.thickness = 0.2;
         int dim = s.scene.dim;
-        if (dim == 1) s.scene.thickness = 77;    /* each space reads its own */
+        if (dim == 1) s.scene.thickness = 77; /* each space reads its own */
         if (dim == 2) s.scene.section = 77;
         if (dim == 3) s.scene.section = s.scene.thickness = 77;
         s.body[0].material = 1;
@@ -41,7 +41,7 @@ static void boxes_are_filled_in_every_space(void **state)
             assert_close(p.volume0[i], volume[dim], 1e-15);
             assert_exact(p.volume[i], p.volume0[i]);
             assert_close(p.mass[i], 2000 * volume[dim], 1e-15);
-            assert_int_equal(p.id[i], i);        /* the lattice is made in the order in which it is sorted */
+            assert_int_equal(p.id[i], i); /* the lattice is made in the order in which it is sorted */
             assert_int_equal(p.material[i], 1);
         }
         particles_free(&p);
@@ -101,7 +101,7 @@ static void symmetric_bodies_are_filled_symmetrically(void **state)
         struct setting s;
         struct particles p;
         setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
-        real spacing = s.scene.spacing = parity ? 0.105 : 0.1;      /* 20 and 19.05 particles across */
+        real spacing = s.scene.spacing = parity ? 0.105 : 0.1; /* 20 and 19.05 particles across */
         s.solid[0][0] = (struct solid){.kind = SOLID_BALL, .radius = 1};
         s.solid[0][1] = (struct solid){.kind = SOLID_BALL, .subtract = true, .radius = 0.35};
         s.body[0].shape.n = 2;
@@ -128,7 +128,7 @@ static void added_solids_continue_the_lattice(void **state)
     (void)state;
     struct setting s;
     struct particles p;
-    setting_make(&s, SPACE_PLANE_STRESS, (real[]){2.1, 1});          /* 4 columns, centred in 2.1 */
+    setting_make(&s, SPACE_PLANE_STRESS, (real[]){2.1, 1}); /* 4 columns, centred in 2.1 */
     s.solid[0][1] = (struct solid){.kind = SOLID_BOX, .from = {0, -1}, .to = {2.1, 0}};
     s.body[0].shape.n = 2;
     assert_ok(fill_particles(&p, &s.scene, NULL, 0));
@@ -148,7 +148,7 @@ static void added_solids_continue_the_lattice(void **state)
     assert_ok(fill_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 16);
     for (int i = 0; i < 16; i++) assert_int_equal(p.body[i], i < 8);
-    for (int i = 0; i < 16; i++) assert_int_equal(p.id[i], (i + 8) % 16);    /* the layer is made second, lies first */
+    for (int i = 0; i < 16; i++) assert_int_equal(p.id[i], (i + 8) % 16); /* the layer is made second, lies first */
     particles_free(&p);
 }
 
@@ -164,7 +164,7 @@ static void particles_on_surfaces_are_kept(void **state)
     s.solid[0][2] = (struct solid){.kind = SOLID_BOX, .subtract = true, .from = {0.35, -1}, .to = {0.65, 1}};
     s.body[0].shape.n = 3;
     assert_ok(fill_particles(&p, &s.scene, NULL, 0));
-    assert_int_equal(p.n, 30);                   /* 12 columns but for 0.45 and 0.55 */
+    assert_int_equal(p.n, 30); /* 12 columns but for 0.45 and 0.55 */
     for (int i = 0; i < 10; i++) assert_near(p.X[0][i], -0.05 + 0.1 * (i < 5 ? i : i + 2), 1e-15);
     particles_free(&p);
 }
@@ -194,8 +194,8 @@ static void irregularity_is_seeded_and_bounded(void **state)
             assert_exact(one.X[d][i], again.X[d][i]);
             same += one.X[d][i] == other.X[d][i];
         }
-        assert_near(mean, 0, 0.04);              /* standard error of 1000 numbers: 0.009 */
-        assert_near(spread, 1.0 / 12, 0.01);     /* uniform: 1/12; standard error 0.0024 */
+        assert_near(mean, 0, 0.04);          /* standard error of 1000 numbers: 0.009 */
+        assert_near(spread, 1.0 / 12, 0.01); /* uniform: 1/12; standard error 0.0024 */
         memory_free(place);
     }
     assert_int_equal(same, 0);
@@ -238,7 +238,7 @@ static void later_initial_entries_overwrite(void **state)
     s.initial[1].velocity[1] = 2;
     memcpy(s.initial[1].velocity_gradient, (real[]){0.5, -3, 3, 0}, 4 * sizeof(real));
     s.initial[1].centre[0] = 1;
-    s.initial[2].body = 1;                       /* none   */
+    s.initial[2].body = 1; /* none   */
     s.initial[2].velocity[0] = 99;
     s.body[0].velocity[1] = 5;
     assert_ok(fill_particles(&p, &s.scene, NULL, WITH_GRADIENT));
@@ -271,7 +271,7 @@ static void velocities_by_formulas(void **state)
         const real x = p.X[0][i], y = p.X[1][i], dx = x - 1.7e-3, dy = y - 0.6e-3;
         assert_near(p.v[0][i], 11 * x * (1 + y / 3e-3) + 13 * dx - 5 * dy, 1e-14);
         assert_near(p.v[1][i], -7 * y * y / 2e-3 + 3 * dx + 17 * dy, 1e-14);
-        assert_near(p.gradient[0][i], 13 + 11 * (1 + y / 3e-3), 1e-11);      /* round-off over a spacing */
+        assert_near(p.gradient[0][i], 13 + 11 * (1 + y / 3e-3), 1e-11); /* round-off over a spacing */
         assert_near(p.gradient[1][i], -5 + 11 * x / 3e-3, 1e-11);
         assert_near(p.gradient[2][i], 3, 1e-11);
         assert_near(p.gradient[3][i], 17 - 7 * y / 1e-3, 1e-11);
@@ -310,7 +310,7 @@ static void initial_strain_is_hooke(void **state)
                 assert_close(p.stretch[a][i], 1 + H[a][a], 1e-15);
                 /* c12 tr eps + 2 G eps; the line has c11 alone */
                 real want = dim == 1 ? m->young * H[0][0] : m->c12 * trace + (m->c11 - m->c12) * H[a][a];
-                assert_near(p.stress[a][i], want, 1e-6);         /* of 1e6 Pa */
+                assert_near(p.stress[a][i], want, 1e-6); /* of 1e6 Pa */
             }
             for (int c = dim; c < symmetric_count(dim); c++) {
                 const int *ab = pair[c - dim];
@@ -329,11 +329,11 @@ static void bad_bodies_are_refused(void **state)
     (void)state;
     struct setting s;
     struct particles p;
-    setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 0.2});          /* 0.4 of a spacing thick */
+    setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 0.2}); /* 0.4 of a spacing thick */
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body plate: holds no particle");
     s.solid[0][0].to[1] = 1e300;
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body plate: too large for the spacing");
-    s.solid[0][0].to[0] = s.solid[0][0].to[1] = 2e8;             /* 1.6e17 places */
+    s.solid[0][0].to[0] = s.solid[0][0].to[1] = 2e8; /* 1.6e17 places */
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body plate: too large for the spacing");
     s.solid[0][0].to[0] = s.solid[0][0].to[1] = 1;
     s.body[0].shape.n = 0;
@@ -343,14 +343,14 @@ static void bad_bodies_are_refused(void **state)
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "particles.spacing, which is not given");
     s.scene.spacing = 0.5;
     s.scene.bodies = 2;
-    s.solid[1][0] = s.solid[0][0];               /* the same place twice */
+    s.solid[1][0] = s.solid[0][0]; /* the same place twice */
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "particles in one place");
     s.scene.bodies = 1;
     s.scene.initials = 1;
     s.initial[0].sets_strain = true;
     s.initial[0].displacement_gradient[0] = -1.5;
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "inside out");
-    s.initial[0].displacement_gradient[s.scene.dim + 1] = 3;     /* stretched across as much as that and more */
+    s.initial[0].displacement_gradient[s.scene.dim + 1] = 3; /* stretched across as much as that and more */
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "inside out");
     s.scene.bodies = 0;
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "no bodies");

@@ -34,21 +34,20 @@ static int leave_folder(void **state)
     return chdir("/") || system(command);
 }
 
-static const char base[] =
-    "name: base\n"
-    "variables: {a: 2 mm, n: 4}\n"
-    "space: plane stress\n"
-    "thickness: a\n"
-    "duration: 20 us\n"
-    "method: pd\n"
-    "material: {young: 190 GPa, density: 7800, energy_release_rate: 69 kJ/m^2}\n"
-    "body: {box: {from: [0, 0], to: [10*a, 10*a]}}\n"
-    "particles: {spacing: a/n, horizon: 3.015, seed: 5}\n"
-    "cracks: [{from: [0, 5*a], to: [4*a, 5*a]}]\n"
-    "boundary:\n"
-    "  - {traction: [1 MPa, 0], face: x+}\n"
-    "output: {frames: 3, samples: 20}\n"
-    "probes: [tip, energy]\n";
+static const char base[] = "name: base\n"
+                           "variables: {a: 2 mm, n: 4}\n"
+                           "space: plane stress\n"
+                           "thickness: a\n"
+                           "duration: 20 us\n"
+                           "method: pd\n"
+                           "material: {young: 190 GPa, density: 7800, energy_release_rate: 69 kJ/m^2}\n"
+                           "body: {box: {from: [0, 0], to: [10*a, 10*a]}}\n"
+                           "particles: {spacing: a/n, horizon: 3.015, seed: 5}\n"
+                           "cracks: [{from: [0, 5*a], to: [4*a, 5*a]}]\n"
+                           "boundary:\n"
+                           "  - {traction: [1 MPa, 0], face: x+}\n"
+                           "output: {frames: 3, samples: 20}\n"
+                           "probes: [tip, energy]\n";
 
 /* The same scene as `flat`, but for its name, by what is written out. */
 static void assert_like(const char *path, const char *flat)
@@ -92,8 +91,8 @@ static void names_and_overrides_are_of_the_scene(void **state)
     struct scene s;
     write_file("base.yaml", base);
     write_file("outer.yaml", "include: base.yaml\n");
-    const struct scene_override o[] = {{"variables.n", "2"}, {"boundary.0.traction", "[3 MPa, 0]"},
-                                        {"material.young", "1 GPa"}};
+    const struct scene_override o[] = {
+        {"variables.n", "2"}, {"boundary.0.traction", "[3 MPa, 0]"}, {"material.young", "1 GPa"}};
     if (scene_read(&s, "outer.yaml", o, 3) != OK) fail_msg("%s", status_message());
     assert_string_equal(s.name, "outer");
     assert_true(s.spacing == 1e-3 && s.boundary->value[0] == 3e6 && s.material->young == 1e9);
@@ -119,7 +118,9 @@ static void files_are_sought_beside_who_names_them(void **state)
 static void faults_name_the_file(void **state)
 {
     (void)state;
-    static const struct { const char *outer, *inner, *message; } wrong[] = {
+    static const struct {
+        const char *outer, *inner, *message;
+    } wrong[] = {
         {"include: inner.yaml\n", "space: line\nduration: 5 kg\n",
          "sub/inner.yaml:2:1: duration: 5 kg is a mass; a time is expected, as 20 us"},
         {"include: inner.yaml\n", "space: line\nmaterial:\n  yuong: 1\n",
@@ -127,18 +128,17 @@ static void faults_name_the_file(void **state)
         {"include: inner.yaml\nduration: 1\nparticles: {spacing: 1}\n", "space: line\nmaterial:\n  yuong: 1\n",
          "sub/inner.yaml:3:3: yuong: unknown key; the nearest is young"},
         {"include: inner.yaml\nmaterial: {yuong: 3}\nduration: 1\nparticles: {spacing: 1}\n",
-         "space: line\nmaterial: {young: 1}",
-         "sub/outer.yaml:2:12: yuong: unknown key; the nearest is young"},
+         "space: line\nmaterial: {young: 1}", "sub/outer.yaml:2:12: yuong: unknown key; the nearest is young"},
         {"include: inner.yaml\nbodies: []\nduration: 1\nparticles: {spacing: 1}\n",
          "space: line\nmaterial: {young: 1, density: 1}\nbody: {box: {from: 0, to: 1}}\n",
          "sub/outer.yaml:2:1: bodies: given beside body; keep one of the two"},
         {"include: inner.yaml\n", "space: [",
          "sub/inner.yaml:2:1: not YAML: did not find expected node content; spaces (not "
-                                              "tabs) indent, a key ends in `: `, brackets close"},
+         "tabs) indent, a key ends in `: `, brackets close"},
         {"include: inner.yaml\n", "a: 1\na: 2\n", "sub/inner.yaml:2:1: a: given twice, first in line 1; keep one"},
         {"include: inner.yaml\n", "a: &b 1\n",
          "sub/inner.yaml:1:4: an anchor (&) is not allowed in a scene; write the value "
-                                               "out where it is used"},
+         "out where it is used"},
         {"include: inner.yaml\n", "- 1\n",
          "sub/inner.yaml:1:1: a list is not a mapping of keys to values, as a scene is"},
         {"include: inner.yaml\n", "", "sub/inner.yaml:1:1: empty; a scene begins with keys such as space and duration"},

@@ -66,8 +66,10 @@ static void spacing_of_volumes(void **state)
         s.scene.spacing = 0, s.scene.thickness = 1e-3;
         snprintf(whole, sizeof whole, text, k ? "1.0005" : "1.0015");
         list_written(&s, name, whole);
-        if (k) assert_refused(fill_particles(&p, &s.scene, NULL, 0), "");
-        else assert_ok(fill_particles(&p, &s.scene, NULL, 0));
+        if (k)
+            assert_refused(fill_particles(&p, &s.scene, NULL, 0), "");
+        else
+            assert_ok(fill_particles(&p, &s.scene, NULL, 0));
         if (!k) particles_free(&p);
         remove(name);
     }
@@ -81,15 +83,12 @@ static void lists_of_programs_are_read(void **state)
         "\"Points:0\",\"Points:1\",\"Points:2\",\"volume\",\"block_id\"\n0.5,1,0,\"2e-3\",2\n",
         "\"volume (mm^3)\";\"Points_0 (mm)\";\"Points_1\";\"a; b\";\"material\"\n\" 2e6 \";500;1;\"c; d\";\"hard\"\n",
         "\"x [mm]\" \"y (m)\" \"volume\" \"a name\" \"material\"\n500 1 2e-3 \"of it\" \"1\"\n",
-        "# of mesh 7\n# x y z block_id volume\n# 1 particle\n0.5 1 0 2 2e-3\n",
-        "\t5e-1 1.0 0 2 2e-3 \r\n",
+        "# of mesh 7\n# x y z block_id volume\n# 1 particle\n0.5 1 0 2 2e-3\n", "\t5e-1 1.0 0 2 2e-3 \r\n",
         "# nodes\nheader: x y block_id volume\n0.5 1 2 2e-3\n",
         /* tabs separate like blanks, whatever the lines have; where names or fields need it, each tab ends a field */
         "header: \t x [mm] \t y \t block_id \t volume\n 500 1 2 2e-3\n",
-        "x\ty [mm]  volume\tblock_id\n0.5\t1000 2e-3\t2\n",
-        "x y\tblock_id volume\t\n\t0.5 1 2 2e-3\n",
-        "#\tx \ty\tblock_id \tvolume\n0.5 1\t2 2e-3\n",
-        "the node\tx\ty\tvolume\tblock_id\n\t0.5\t1\t2e-3\t2\n",
+        "x\ty [mm]  volume\tblock_id\n0.5\t1000 2e-3\t2\n", "x y\tblock_id volume\t\n\t0.5 1 2 2e-3\n",
+        "#\tx \ty\tblock_id \tvolume\n0.5 1\t2 2e-3\n", "the node\tx\ty\tvolume\tblock_id\n\t0.5\t1\t2e-3\t2\n",
         "x,\ty,volume,\tblock_id\n0.5,\t1,2e-3,2\n"}; /* a tab behind a comma is a blank */
     for (size_t k = 0; k < COUNT_OF(text); k++) {
         struct setting s;
@@ -176,8 +175,7 @@ static int leave_columns(void **state) { return chdir("/") != 0 || rmdir(*state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lists_of_others_are_read),
-                                       cmocka_unit_test(spacing_of_volumes),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lists_of_others_are_read), cmocka_unit_test(spacing_of_volumes),
                                        cmocka_unit_test(lists_of_programs_are_read),
                                        cmocka_unit_test(volumes_have_a_default),
                                        cmocka_unit_test(mutated_lists_are_bounded)};

@@ -27,13 +27,14 @@ static void csv_lists_are_read(void **state)
     struct particles p;
     char name[] = "list.csv";
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
-    list_of(&s, name, "\xEF\xBB\xBF# two particles\r\n\r\n body , volume,y,material, x\r\n"
-                      "0,2e-3,1,1,-1.5\r\n#\n0, 1e-3 ,\t0.5,0,2.5e-1");
+    list_of(&s, name,
+            "\xEF\xBB\xBF# two particles\r\n\r\n body , volume,y,material, x\r\n"
+            "0,2e-3,1,1,-1.5\r\n#\n0, 1e-3 ,\t0.5,0,2.5e-1");
     s.body[0].velocity[0] = 4;
-    s.scene.irregularity = 0.5;                  /* shifts lattices, not lists */
+    s.scene.irregularity = 0.5; /* shifts lattices, not lists */
     assert_ok(fill_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 2);
-    const real want[2][5] = {{0.25, 0.5, 1e-3, 1, 1}, {-1.5, 1, 2e-3, 4, 0}};    /* x, y, volume, mass, id; by row */
+    const real want[2][5] = {{0.25, 0.5, 1e-3, 1, 1}, {-1.5, 1, 2e-3, 4, 0}}; /* x, y, volume, mass, id; by row */
     for (int i = 0; i < 2; i++) {
         assert_exact(p.X[0][i], want[i][0]);
         assert_exact(p.X[1][i], want[i][1]);
@@ -74,7 +75,9 @@ static void bodies_share_a_list(void **state)
 static void bad_lists_are_refused(void **state)
 {
     (void)state;
-    static const struct { const char *text, *message; } c[] = {
+    static const struct {
+        const char *text, *message;
+    } c[] = {
         {"", "bad.csv: empty"},
         {"# nothing\n\n", "bad.csv: empty"},
         {"x,y,volume\n", "body plate: its list holds no particle"},
@@ -163,8 +166,8 @@ static void hdf5_lists_are_read(void **state)
         if (part >= 2) write_table(file, "volumes", 1, (hsize_t[]){3}, H5T_NATIVE_DOUBLE, volume);
         if (part == 3) write_table(file, "material", 1, (hsize_t[]){3}, H5T_NATIVE_INT, material);
         H5Fclose(file);
-        if (part == 1) assert_refused(fill_particles(&p, &s.scene, NULL, 0),
-                                      "volumes has 2 x 1 numbers; 3 x 1 are wanted");
+        if (part == 1)
+            assert_refused(fill_particles(&p, &s.scene, NULL, 0), "volumes has 2 x 1 numbers; 3 x 1 are wanted");
         if (part == 1) continue;
         assert_ok(fill_particles(&p, &s.scene, NULL, 0));
         for (int i = 0; i < 3; i++) {
@@ -273,7 +276,10 @@ static void hdf5_lists_are_whole(void **state)
 /* Clusters of `together` particles `near` apart along x, on a square or cubic grid of `side` places `apart` from
  * each other; the first `single` places have one particle alone. Volumes fill the space up to the nearest neighbour
  * `times` over, 0: once. */
-struct grains { int side, together, single; real near, apart, times; };
+struct grains {
+    int side, together, single;
+    real near, apart, times;
+};
 
 static void write_grains(const char *name, int dim, const struct grains *g)
 {
@@ -297,7 +303,13 @@ static void write_grains(const char *name, int dim, const struct grains *g)
 enum { PD = METHOD_PD, MPM = METHOD_MPM, BOTH = METHOD_ADAPTIVE };
 
 /* A list in a scene, and what is said of it; NULL: it is taken. */
-static const struct { enum space space; int method; real spacing; struct grains g; const char *says; } told[] = {
+static const struct {
+    enum space space;
+    int method;
+    real spacing;
+    struct grains g;
+    const char *says;
+} told[] = {
     /* metres meant, millimetres written, and the other way round */
     {SPACE_PLANE_STRESS,
      PD,

@@ -50,7 +50,7 @@ static void test_plate_materials_bodies(void **state)
     assert_true(m[0].critical_stretch == material_critical_stretch(&m[0], s.space, 4.015 * 1e-3, STRETCH_BOND));
     assert_true(m[0].wave_speed > 0);
     assert_true(m[1].density == 2440 && m[1].critical_stretch == 1e-3 && isnan(m[1].energy_release_rate));
-    assert_true(m[2].energy_release_rate == 60e6 * 60e6 / 200e9);      /* plane stress: K^2 / E */
+    assert_true(m[2].energy_release_rate == 60e6 * 60e6 / 200e9); /* plane stress: K^2 / E */
     assert_true(m[2].poisson == 1.0 / 3);
     assert_true(isinf(m[3].critical_stretch));
     assert_int_equal(s.bodies, 3);
@@ -102,9 +102,9 @@ static void test_plate_conditions(void **state)
 static void test_plate_probes(void **state)
 {
     (void)state;
-    static const enum probe_kind kinds[] = {PROBE_TIP,   PROBE_TIP,   PROBE_BREAK, PROBE_REACTION, PROBE_PATCH,
-                                            PROBE_SPALL, PROBE_POINT, PROBE_LINE,  PROBE_ENERGY,   PROBE_MOMENTUM,
-                                            PROBE_SIF,   PROBE_RIGID};
+    static const enum probe_kind kinds[] = {PROBE_TIP,    PROBE_TIP,      PROBE_BREAK, PROBE_REACTION,
+                                            PROBE_PATCH,  PROBE_SPALL,    PROBE_POINT, PROBE_LINE,
+                                            PROBE_ENERGY, PROBE_MOMENTUM, PROBE_SIF,   PROBE_RIGID};
     struct scene s = read_ok(plate, NULL, 0);
     const struct probe_request *p = s.probe;
     assert_int_equal(s.probes, COUNT_OF(kinds));
@@ -202,25 +202,46 @@ static void test_units(void **state)
 {
     (void)state;
     /* Right to the last bit: a unit only moves the decimal exponent. */
-    static const struct { const char *key, *value; real expected; } cases[] = {
-        {"material.young", "190 GPa", 190e9},       {"material.young", "0.3 MPa", 0.3e6},
-        {"material.young", "200 N/mm^2", 200e6},    {"material.young", "5kPa", 5e3},
-        {"material.young", "1e9", 1e9},             {"material.young", "2E+3", 2000},
-        {"material.young", "1 MN/m\u00b2", 1e6},     {"material.young", "1 kg / m / s^2", 1},
-        {"particles.spacing", "0.3 mm", 0.3e-3},    {"particles.spacing", "1/3 mm", 1e-3 / 3},
-        {"particles.spacing", "0.7 um", 0.7e-6},    {"particles.spacing", "0.7 \u00b5m", 0.7e-6},
-        {"particles.spacing", "0.1 km", 100},       {"particles.spacing", "900 nm", 900e-9},
-        {"particles.spacing", "+.5cm", 0.5e-2},     {"particles.spacing", "\"1 mm\"", 1e-3},
-        {"duration", "20 us", 20e-6},               {"duration", "0.1 ms", 0.1e-3},
-        {"duration", "7 ns", 7e-9},                 {"duration", "3 s", 3},
-        {"material.density", "7.8 g/cm^3", 7800},   {"material.density", "7800 kg/m3", 7800},
-        {"material.density", "7.8e3 kg m^-3", 7800}, {"material.energy_release_rate", "69 kJ/m^2", 69e3},
-        {"material.energy_release_rate", "3 N/mm", 3e3}, {"thickness", "1/8", 0.125},
-        {"material.young", "0.2 TPa", 0.2e12},      {"material.young", "3 MJ/m^3", 3e6},
-        {"duration", "2 min", 120},                 {"duration", "0.3 h", 1080},
-        {"material.density", "7 Mg/m^3", 7000},     {"material.young", "7 N/cm^2", 7e4},
-        {"conversion.alpha", "95 %", 0.95},         {"conversion.alpha", "19 / 20", 0.95},
-        {"particles.spacing", "0.7 \u03bcm", 0.7e-6}, {"material.density", "7.3 g/cm\u00b3", 7300},
+    static const struct {
+        const char *key, *value;
+        real expected;
+    } cases[] = {
+        {"material.young", "190 GPa", 190e9},
+        {"material.young", "0.3 MPa", 0.3e6},
+        {"material.young", "200 N/mm^2", 200e6},
+        {"material.young", "5kPa", 5e3},
+        {"material.young", "1e9", 1e9},
+        {"material.young", "2E+3", 2000},
+        {"material.young", "1 MN/m\u00b2", 1e6},
+        {"material.young", "1 kg / m / s^2", 1},
+        {"particles.spacing", "0.3 mm", 0.3e-3},
+        {"particles.spacing", "1/3 mm", 1e-3 / 3},
+        {"particles.spacing", "0.7 um", 0.7e-6},
+        {"particles.spacing", "0.7 \u00b5m", 0.7e-6},
+        {"particles.spacing", "0.1 km", 100},
+        {"particles.spacing", "900 nm", 900e-9},
+        {"particles.spacing", "+.5cm", 0.5e-2},
+        {"particles.spacing", "\"1 mm\"", 1e-3},
+        {"duration", "20 us", 20e-6},
+        {"duration", "0.1 ms", 0.1e-3},
+        {"duration", "7 ns", 7e-9},
+        {"duration", "3 s", 3},
+        {"material.density", "7.8 g/cm^3", 7800},
+        {"material.density", "7800 kg/m3", 7800},
+        {"material.density", "7.8e3 kg m^-3", 7800},
+        {"material.energy_release_rate", "69 kJ/m^2", 69e3},
+        {"material.energy_release_rate", "3 N/mm", 3e3},
+        {"thickness", "1/8", 0.125},
+        {"material.young", "0.2 TPa", 0.2e12},
+        {"material.young", "3 MJ/m^3", 3e6},
+        {"duration", "2 min", 120},
+        {"duration", "0.3 h", 1080},
+        {"material.density", "7 Mg/m^3", 7000},
+        {"material.young", "7 N/cm^2", 7e4},
+        {"conversion.alpha", "95 %", 0.95},
+        {"conversion.alpha", "19 / 20", 0.95},
+        {"particles.spacing", "0.7 \u03bcm", 0.7e-6},
+        {"material.density", "7.3 g/cm\u00b3", 7300},
     };
     for (size_t k = 0; k < COUNT_OF(cases); k++) {
         struct scene_override o[] = {{"particles.horizon", "2"}, {cases[k].key, cases[k].value}};
@@ -228,10 +249,16 @@ static void test_units(void **state)
                                    "material: {young: 1, density: 1, poisson: 0, energy_release_rate: 1}\n"
                                    "body: {box: {from: [0, 0], to: [1 mm, 1 mm]}}\nparticles: {spacing: 1 mm}\n";
         struct scene s = read_ok(text, o, 2);
-        const struct { const char *key; real value; } got[] = {
-            {"material.young", s.material->young},     {"particles.spacing", s.spacing},
-            {"duration", s.duration},                  {"material.density", s.material->density},
-            {"thickness", s.thickness},                {"conversion.alpha", s.conversion.alpha},
+        const struct {
+            const char *key;
+            real value;
+        } got[] = {
+            {"material.young", s.material->young},
+            {"particles.spacing", s.spacing},
+            {"duration", s.duration},
+            {"material.density", s.material->density},
+            {"thickness", s.thickness},
+            {"conversion.alpha", s.conversion.alpha},
             {"material.energy_release_rate", s.material->energy_release_rate},
         };
         for (size_t j = 0; j < COUNT_OF(got); j++)
@@ -247,12 +274,18 @@ static void test_overrides(void **state)
 {
     (void)state;
     static const struct scene_override o[] = {
-        {"name", "no"},                             {"materials[1].young", "5 GPa"},
-        {"bodies[0].velocity", "[1, 0]"},           {"boundary[0].velocity", "[0, 20 m/s]"},
-        {"boundary[3].time.table[1][1]", "0.25"},   {"probes[6].point.at", "[2, 3]"},
-        {"conversion.criteria", "none"},            {"cracks", "[]"},
-        {"pd.region", ""},                          {"materials[2].toughness", ""},
-        {"materials[2].critical_stretch", "0.5"},   {"boundary[1].fixed", "[x]"},
+        {"name", "no"},
+        {"materials[1].young", "5 GPa"},
+        {"bodies[0].velocity", "[1, 0]"},
+        {"boundary[0].velocity", "[0, 20 m/s]"},
+        {"boundary[3].time.table[1][1]", "0.25"},
+        {"probes[6].point.at", "[2, 3]"},
+        {"conversion.criteria", "none"},
+        {"cracks", "[]"},
+        {"pd.region", ""},
+        {"materials[2].toughness", ""},
+        {"materials[2].critical_stretch", "0.5"},
+        {"boundary[1].fixed", "[x]"},
     };
     struct scene s = read_ok(plate, o, COUNT_OF(o));
     assert_string_equal(s.name, "no");
@@ -262,13 +295,20 @@ static void test_overrides(void **state)
     assert_true(s.probe[6].at[1] == 3 && s.conversion.criteria == 0 && s.cracks == 0 && !s.has_pd_region);
     assert_true(s.material[2].critical_stretch == 0.5 && isnan(s.material[2].energy_release_rate));
     scene_free(&s);
-    static const struct scene_override named[] = {       /* the same by plain numbers and by names */
-        {"materials.glass.young", "5 GPa"},         {"bodies.bar.velocity", "[1, 0]"},
-        {"bodies.2.material", "hard"},              {"boundary.impact.velocity.1", "20 m/s"},
-        {"boundary.boundary3.time.table.1.1", "0.25"}, {"boundary.4", "{fixed: [x]}"},
-        {"boundary.7", ""},                         {"cracks.1.to", "[51 mm, -25 mm]"},
-        {"probes.p.at", "[2, 3]"},                  {"probes.7.from", "[3 mm, 0]"},
-        {"probes.0.at", "[1, 4]"},                  {"probes.line.points", "13"},
+    static const struct scene_override named[] = {
+        /* the same by plain numbers and by names */
+        {"materials.glass.young", "5 GPa"},
+        {"bodies.bar.velocity", "[1, 0]"},
+        {"bodies.2.material", "hard"},
+        {"boundary.impact.velocity.1", "20 m/s"},
+        {"boundary.boundary3.time.table.1.1", "0.25"},
+        {"boundary.4", "{fixed: [x]}"},
+        {"boundary.7", ""},
+        {"cracks.1.to", "[51 mm, -25 mm]"},
+        {"probes.p.at", "[2, 3]"},
+        {"probes.7.from", "[3 mm, 0]"},
+        {"probes.0.at", "[1, 4]"},
+        {"probes.line.points", "13"},
     };
     s = read_ok(plate, named, COUNT_OF(named));
     assert_true(s.material[1].young == 5e9 && s.body[0].velocity[0] == 1 && s.body[2].material == 3);
@@ -279,7 +319,7 @@ static void test_overrides(void **state)
                 s.probe[0].at[1] == 4);
     scene_free(&s);
     static const struct scene_override sections[] = {{"pd.volume", "ramp"}, {"method", "pd"}, {"method", "mpm"}};
-    s = read_ok(bar, sections, 3);       /* a section the file does not have; the later of two wins */
+    s = read_ok(bar, sections, 3); /* a section the file does not have; the later of two wins */
     assert_true(s.volume == VOLUME_RAMP && s.method == METHOD_MPM);
     scene_free(&s);
 }
@@ -336,11 +376,13 @@ int main(void)
         cmocka_unit_test(test_plate_conditions),
         cmocka_unit_test(test_plate_probes),
         cmocka_unit_test(test_bar_and_defaults),
-        cmocka_unit_test(test_block), cmocka_unit_test(test_turn),
+        cmocka_unit_test(test_block),
+        cmocka_unit_test(test_turn),
         cmocka_unit_test(test_growth),
         cmocka_unit_test(test_closed_forms_and_frame_times),
         cmocka_unit_test(test_units),
-        cmocka_unit_test(test_overrides), cmocka_unit_test(test_renamed),
+        cmocka_unit_test(test_overrides),
+        cmocka_unit_test(test_renamed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,46 +12,46 @@
 #include "scene/scene.h"
 #include "scene/scene_read.h"
 
-static const char good[] =
-    "name: plate\n"
-    "space: plane stress\n"
-    "thickness: 10 mm\n"
-    "duration: 50 us\n"
-    "method: adaptive\n"
-    "material:\n"
-    "  young: 190 GPa\n"
-    "  poisson: 1/3\n"
-    "  density: 7800 kg/m^3\n"
-    "  energy_release_rate: 69 kJ/m^2\n"
-    "bodies:\n"
-    "  - name: plate\n"
-    "    shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}\n"
-    "particles:\n"
-    "  spacing: 1 mm\n"
-    "  horizon: 3.015\n"
-    "  seed: 7\n"
-    "pd:\n"
-    "  surface: none\n"
-    "mpm: {transfer: flip, shape: gimp}\n"
-    "conversion:\n"
-    "  block: true\n"
-    "cracks:\n"
-    "  - {from: [0, 25 mm], to: [50 mm, 25 mm]}\n"
-    "boundary:\n"
-    "  - name: impact\n"
-    "    region: {box: {from: [-inf, -25 mm], to: [3 mm, 25 mm]}}\n"
-    "    velocity: [22 m/s, free]\n"
-    "    time: {step: {until: 5 us}}\n"
-    "  - {name: pull, traction: [1 MPa, 0], face: x+}\n"
-    "time: {step: auto}\n"
-    "output: {frames: 20}\n"
-    "probes:\n"
-    "  - tip\n"
-    "  - point: {name: a, at: [1 mm, 1 mm]}\n"
-    "  - reaction: {boundary: impact}\n";
+static const char good[] = "name: plate\n"
+                           "space: plane stress\n"
+                           "thickness: 10 mm\n"
+                           "duration: 50 us\n"
+                           "method: adaptive\n"
+                           "material:\n"
+                           "  young: 190 GPa\n"
+                           "  poisson: 1/3\n"
+                           "  density: 7800 kg/m^3\n"
+                           "  energy_release_rate: 69 kJ/m^2\n"
+                           "bodies:\n"
+                           "  - name: plate\n"
+                           "    shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}\n"
+                           "particles:\n"
+                           "  spacing: 1 mm\n"
+                           "  horizon: 3.015\n"
+                           "  seed: 7\n"
+                           "pd:\n"
+                           "  surface: none\n"
+                           "mpm: {transfer: flip, shape: gimp}\n"
+                           "conversion:\n"
+                           "  block: true\n"
+                           "cracks:\n"
+                           "  - {from: [0, 25 mm], to: [50 mm, 25 mm]}\n"
+                           "boundary:\n"
+                           "  - name: impact\n"
+                           "    region: {box: {from: [-inf, -25 mm], to: [3 mm, 25 mm]}}\n"
+                           "    velocity: [22 m/s, free]\n"
+                           "    time: {step: {until: 5 us}}\n"
+                           "  - {name: pull, traction: [1 MPa, 0], face: x+}\n"
+                           "time: {step: auto}\n"
+                           "output: {frames: 20}\n"
+                           "probes:\n"
+                           "  - tip\n"
+                           "  - point: {name: a, at: [1 mm, 1 mm]}\n"
+                           "  - reaction: {boundary: impact}\n";
 
 /* piece of the good scene, what stands in its place, message after the file's name */
-static const struct { const char *piece, *instead, *message;
+static const struct {
+    const char *piece, *instead, *message;
 } cases[] = {
     {"particles:\n", "parts: [{region: {all: true}, material: material}]\nparticles:\n",
      "14:1: parts: of which body is it; bodies have parts of their own"},
@@ -61,7 +61,8 @@ static const struct { const char *piece, *instead, *message;
      "13:35: material: there is no material glass; the nearest is material"},
     {"  - name: plate\n", "  - name: plate\n    parts: {region: {all: true}}\n",
      "13:5: parts: a mapping is not a list"},
-    {"  - name: plate\n", "  - {rigid: true, shape: {box: {from: [0, 0], to: [1, 1]}}, parts: [{region: {all: true}, "
+    {"  - name: plate\n",
+     "  - {rigid: true, shape: {box: {from: [0, 0], to: [1, 1]}}, parts: [{region: {all: true}, "
      "material: material}]}\n  - name: plate\n",
      "12:61: parts: a rigid body has none; a shape is expected, and a mass if it flies"},
     {"duration: 50 us", "duraton: 50 us", "4:1: duraton: unknown key; the nearest is duration"},
@@ -124,8 +125,7 @@ static const struct { const char *piece, *instead, *message;
     {"method: adaptive", "coupling: glue",
      "5:1: coupling: glue is unknown; partial stress, handshake, pm, pg, pmg or pgg is expected"},
     {"method: adaptive", "horizon: 3", "5:1: horizon: does not belong here; it is the key particles.horizon"},
-    {"surface: none", "model: bond",
-     "19:3: model: does not belong here; model stands alone, at the left margin"},
+    {"surface: none", "model: bond", "19:3: model: does not belong here; model stands alone, at the left margin"},
     {"method: adaptive", "section: 1", "5:1: section: space plane stress has no section; leave it out"},
     {"method: adaptive", "body: {ball: {centre: [0, 0], radius: 1}}",
      "11:1: bodies: given beside body; keep one of the two"},
@@ -337,7 +337,7 @@ static void test_bytes(void **state)
     check_refused("", 0, "1:1: empty; a scene begins with keys such as space and duration");
     check_refused("# nothing\n", 10, "1:1: empty; a scene begins with keys such as space and duration");
     check_refused("- a\n", 4, "1:1: a list is not a mapping of keys to values, as a scene is");
-    char *many = test_malloc(4000000);   /* five events come before the first item */
+    char *many = test_malloc(4000000); /* five events come before the first item */
     memcpy(many, "a: [", 4);
     for (int k = 0; k < 1000000; k++) memcpy(many + 4 + 2 * k, "1,", 2);
     check_refused(many, 2000004, "1:1999995: more than 1000000 YAML events; long data belong into a particle list");
@@ -347,7 +347,9 @@ static void test_bytes(void **state)
 static void test_overrides(void **state)
 {
     (void)state;
-    static const struct { struct scene_override o; const char *message;
+    static const struct {
+        struct scene_override o;
+        const char *message;
     } wrong[] = {
         {{"material.yuong", "70e9"}, "-s material.yuong=70e9: yuong: unknown key; the nearest is young"},
         {{"material.young", "70 kg"},

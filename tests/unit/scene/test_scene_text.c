@@ -51,7 +51,8 @@ static void test_round_trip(void **state)
         scene_free(&s);
     }
     static const struct scene_override awkward[] = {{"bodies[2].particles", "\"gr\\u00e4 \\\"1\\\\ \\x01.csv\""},
-                                                    {"particles.spacing", "1/3 mm"}, {"name", "\"__-\""}};
+                                                    {"particles.spacing", "1/3 mm"},
+                                                    {"name", "\"__-\""}};
     struct scene s = read_ok(plate, awkward, 3);
     check_round_trip(&s);
     scene_free(&s);
@@ -73,10 +74,17 @@ static size_t mutate(char *text, size_t length, uint64_t *seed)
         size_t at = draw(seed) % length, piece = draw(seed) % 40 + 1;
         if (at + piece > length) piece = length - at;
         switch (draw(seed) % 4) {
-        case 0: text[at] = letters[draw(seed) % (sizeof letters - 1)]; break;
-        case 1: text[at] = (char)draw(seed); break;
-        case 2: memmove(text + at + piece, text + at, length - at), length += piece; break;
-        default: if (piece < length) memmove(text + at, text + at + piece, length - at - piece), length -= piece;
+        case 0:
+            text[at] = letters[draw(seed) % (sizeof letters - 1)];
+            break;
+        case 1:
+            text[at] = (char)draw(seed);
+            break;
+        case 2:
+            memmove(text + at + piece, text + at, length - at), length += piece;
+            break;
+        default:
+            if (piece < length) memmove(text + at, text + at + piece, length - at - piece), length -= piece;
         }
     }
     return length;
@@ -95,7 +103,7 @@ static void test_mutations(void **state)
         char *copy = test_malloc(length + 1000);
         memcpy(copy, text, length);
         length = mutate(copy, length, &seed);
-        char *exact = test_malloc(length);              /* so that reading beyond the end shows */
+        char *exact = test_malloc(length); /* so that reading beyond the end shows */
         memcpy(exact, copy, length);
         status result = scene_read_text(&s, exact, length, "m.yaml", NULL, 0);
         if (result == OK) {

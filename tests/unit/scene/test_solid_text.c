@@ -14,51 +14,100 @@ static void scene_text(char *text, size_t room, int dim, const char *regions, co
              "space: %s\n%sduration: 1 us\nmethod: mpm\n"
              "material: {young: 1 GPa, density: 1000}\n"
              "%sbody: %s\n"
-             "particles: {spacing: 0.5}\n", dim == 3 ? "solid" : "plane stress", dim == 3 ? "" : "thickness: 1\n",
-             regions, shape);
+             "particles: {spacing: 0.5}\n",
+             dim == 3 ? "solid" : "plane stress", dim == 3 ? "" : "thickness: 1\n", regions, shape);
 }
 
 /* ---- round trip -------------------------------------------------------------------------------------------------- */
 
 /* Shapes that use every key of solids between them; a place within, a place without. */
-static const struct shown_shape { int dim; const char *regions, *shape; real in[3], out[3]; } shapes[] = {
+static const struct shown_shape {
+    int dim;
+    const char *regions, *shape;
+    real in[3], out[3];
+} shapes[] = {
     {2, "", "{polygon: {corners: [[0, 0], [4, 0], [4, 3], [2, 1], [0, 3]], round: 20 cm}}", {1, 1}, {2, 1.5}},
     {2, "", "{box: {from: [0, 0], to: [4, 1]}, rotate: {angle: 90 deg}}", {2, 2}, {0.5, 0.5}},
-    {2, "", "{box: {from: [0, 0], to: [4, 1]}, rotate: {angle: 1.25 rad, about: [0, 0]}, move: [1, 0]}", {1.2, 1},
+    {2,
+     "",
+     "{box: {from: [0, 0], to: [4, 1]}, rotate: {angle: 1.25 rad, about: [0, 0]}, move: [1, 0]}",
+     {1.2, 1},
      {3, 0}},
-    {2, "", "[{ellipse: {centre: [1, 0], radii: [3, 2]}}, {subtract: [{disc: {centre: [0, 0], radius: 0.5}}, "
-            "{disc: {centre: [2, 0], radius: 0.5}}]}]", {-1.5, 0}, {2, 0.2}},
+    {2,
+     "",
+     "[{ellipse: {centre: [1, 0], radii: [3, 2]}}, {subtract: [{disc: {centre: [0, 0], radius: 0.5}}, "
+     "{disc: {centre: [2, 0], radius: 0.5}}]}]",
+     {-1.5, 0},
+     {2, 0.2}},
     {2, "", "{ring: {centre: [0, 0], radius: 3, inner: 2}}", {2.5, 0}, {1, 1}},
-    {2, "", "{intersect: [{disc: {centre: [0, 0], radius: 2}}, {box: {from: [0, -5], to: [5, 5]}}, "
-            "{subtract: {disc: {centre: [1, 0], radius: 0.5}}}]}", {0.25, 1}, {1, 0}},
-    {2, "", "[{disc: {centre: [0, 0], radius: 2}}, {intersect: {half-space: {point: [0, 0], normal: [1, 1]}}}]",
-     {-1, 0}, {1, 0}},
-    {2, "", "[{disc: {centre: [0, 0], radius: 10}}, {polygon: {corners: [[9, -1], [12, -0.5], [12, 0.5], [9, 1]]}, "
-            "pattern: {ring: {count: 18, centre: [0, 0]}}}]", {10.806, 3.933}, {0, 11.5}},
-    {2, "", "{add: [{box: {from: [0, 0], to: [1, 1]}}, {disc: {centre: [2, 0], radius: 1}, mirror: {point: [0, 0], "
-            "normal: [1, 0], keep: false}}], mirror: {point: [5, 0], normal: [1, 0]}, pattern: {grid: {count: [1, 3], "
-            "step: [0, 4]}}}", {12, 8.5}, {2, 0}},
-    {2, "", "{disc: {centre: [3, 0], radius: 1}, pattern: {ring: {count: 2, centre: [0, 0], angle: 90 deg}}}", {0, 3},
+    {2,
+     "",
+     "{intersect: [{disc: {centre: [0, 0], radius: 2}}, {box: {from: [0, -5], to: [5, 5]}}, "
+     "{subtract: {disc: {centre: [1, 0], radius: 0.5}}}]}",
+     {0.25, 1},
+     {1, 0}},
+    {2,
+     "",
+     "[{disc: {centre: [0, 0], radius: 2}}, {intersect: {half-space: {point: [0, 0], normal: [1, 1]}}}]",
+     {-1, 0},
+     {1, 0}},
+    {2,
+     "",
+     "[{disc: {centre: [0, 0], radius: 10}}, {polygon: {corners: [[9, -1], [12, -0.5], [12, 0.5], [9, 1]]}, "
+     "pattern: {ring: {count: 18, centre: [0, 0]}}}]",
+     {10.806, 3.933},
+     {0, 11.5}},
+    {2,
+     "",
+     "{add: [{box: {from: [0, 0], to: [1, 1]}}, {disc: {centre: [2, 0], radius: 1}, mirror: {point: [0, 0], "
+     "normal: [1, 0], keep: false}}], mirror: {point: [5, 0], normal: [1, 0]}, pattern: {grid: {count: [1, 3], "
+     "step: [0, 4]}}}",
+     {12, 8.5},
+     {2, 0}},
+    {2,
+     "",
+     "{disc: {centre: [3, 0], radius: 1}, pattern: {ring: {count: 2, centre: [0, 0], angle: 90 deg}}}",
+     {0, 3},
      {-3, 0}},
-    {2, "regions: {web: {box: {from: [0, 0], to: [2, 9]}}, both: [{region: web}, {region: web, move: [4, 0]}]}\n",
-     "[{region: both}, {box: {from: [0, 9], to: [6, 10]}}]", {5, 5}, {3, 5}},
-    {2, "regions: {web: {box: {from: [0, 0], to: [4, 4]}}, hole: {disc: {centre: [2, 2], radius: 1}}}\n",
-     "[{region: web}, {subtract: {region: hole}}, {add: {region: hole, move: [4, 0]}}]", {6, 2}, {2, 2}},
+    {2,
+     "regions: {web: {box: {from: [0, 0], to: [2, 9]}}, both: [{region: web}, {region: web, move: [4, 0]}]}\n",
+     "[{region: both}, {box: {from: [0, 9], to: [6, 10]}}]",
+     {5, 5},
+     {3, 5}},
+    {2,
+     "regions: {web: {box: {from: [0, 0], to: [4, 4]}}, hole: {disc: {centre: [2, 2], radius: 1}}}\n",
+     "[{region: web}, {subtract: {region: hole}}, {add: {region: hole, move: [4, 0]}}]",
+     {6, 2},
+     {2, 2}},
     {2, "regions: {web: {box: {from: [0, 0], to: [4, 4]}}}\n", "web", {2, 2}, {5, 5}},
     {3, "", "{tube: {from: [0, 0, 0], to: [0, 0, 5], radius: 3, inner: 2}}", {2.5, 0, 1}, {0, 0, 1}},
     {3, "", "{cone: {from: [0, 0, 0], to: [0, 0, 4], from_radius: 3, to_radius: 1}}", {2.4, 0, 0.5}, {2.4, 0, 3}},
     {3, "", "{cone: {from: [0, 0, 0], to: [0, 0, 4], from_radius: 3}}", {0, 0, 3.9}, {1, 0, 3.9}},
     {3, "", "{torus: {centre: [0, 0, 0], axis: [0, 1, 0], radius: 3, section: 1}}", {3, 0, 0}, {0, 3, 0}},
-    {3, "", "{ellipsoid: {centre: [0, 0, 0], radii: [3, 2, 1]}, rotate: {angle: 90 deg, axis: [0, 1, 0]}}",
-     {0, 0, 2.9}, {2.9, 0, 0}},
-    {3, "", "{extrude: {shape: [{disc: {centre: [1, 2], radius: 3}}, {subtract: {ellipse: {centre: [1, 2], radii: "
-            "[1, 2]}, rotate: {angle: 0.5 rad}}}], along: y, from: -2, to: 3}}", {3.5, 0, 2}, {1, 0, 2}},
-    {3, "sections: {web: [{disc: {centre: [1, 2], radius: 3}}, {subtract: {region: hole}}], hole: {disc: {centre: [1, "
-        "2], radius: 1}}}\n",
+    {3,
+     "",
+     "{ellipsoid: {centre: [0, 0, 0], radii: [3, 2, 1]}, rotate: {angle: 90 deg, axis: [0, 1, 0]}}",
+     {0, 0, 2.9},
+     {2.9, 0, 0}},
+    {3,
+     "",
+     "{extrude: {shape: [{disc: {centre: [1, 2], radius: 3}}, {subtract: {ellipse: {centre: [1, 2], radii: "
+     "[1, 2]}, rotate: {angle: 0.5 rad}}}], along: y, from: -2, to: 3}}",
+     {3.5, 0, 2},
+     {1, 0, 2}},
+    {3,
+     "sections: {web: [{disc: {centre: [1, 2], radius: 3}}, {subtract: {region: hole}}], hole: {disc: {centre: [1, "
+     "2], radius: 1}}}\n",
      "[{extrude: {shape: web, from: 0, to: 1}}, {extrude: {shape: [{region: hole}, {region: hole, move: [9, 0]}], "
-     "from: -3, to: -2}}]", {10, 2, -2.5}, {1, 2, 0.5}},
-    {3, "", "{cylinder: {from: [0, 0, 0], to: [0, 0, 4], radius: 1}, pattern: {ring: {count: 3, centre: [3, 0, 0], "
-            "axis: [0, 0, 2]}}}", {3 + 1.5, 2.598, 1}, {6, 0, 1}},
+     "from: -3, to: -2}}]",
+     {10, 2, -2.5},
+     {1, 2, 0.5}},
+    {3,
+     "",
+     "{cylinder: {from: [0, 0, 0], to: [0, 0, 4], radius: 1}, pattern: {ring: {count: 3, centre: [3, 0, 0], "
+     "axis: [0, 0, 2]}}}",
+     {3 + 1.5, 2.598, 1},
+     {6, 0, 1}},
 };
 
 static void test_round_trip_of_solids(void **state)
@@ -75,7 +124,7 @@ static void test_round_trip_of_solids(void **state)
         if (scene_read_text(&b, a.text, strlen(a.text), "again.yaml", NULL, 0) != OK)
             fail_msg("%s in\n%s", status_message(), a.text);
         assert_string_equal(a.text, b.text);
-        for (int i = 0; i < 500; i++) {  /* the same bits */
+        for (int i = 0; i < 500; i++) { /* the same bits */
             const real X[] = {i % 8 * 1.7 - 6.3, i / 8 % 8 * 1.6 - 5.1, i / 64 - 3.3};
             assert_true(region_level(&a.body->shape, X, q->dim) == region_level(&b.body->shape, X, q->dim));
         }
@@ -115,8 +164,7 @@ static void test_filled_alike(void **state)
         {"{box: {from: [0, 0], to: [4, 2]}}",
          "{box: {from: [0, 0], to: [2, 1]}, pattern: {grid: {count: [2, 2], step: [2, 1]}}}"},
     };
-    for (size_t k = 0; k < COUNT_OF(same); k++)
-        assert_int_equal(filled("", same[k][0], 2), filled("", same[k][1], 2));
+    for (size_t k = 0; k < COUNT_OF(same); k++) assert_int_equal(filled("", same[k][0], 2), filled("", same[k][1], 2));
 }
 
 /* A wheel with slots all round holds as many particles in each quarter. */
@@ -143,16 +191,16 @@ static void test_filled_symmetrically(void **state)
 static void test_names(void **state)
 {
     (void)state;
-    struct scene s = read_ok(
-        "space: plane stress\nthickness: 1\nduration: 1 us\nmethod: pd\n"
-        "material: {young: 1 GPa, density: 1000}\n"
-        "regions:\n  grip: {box: {from: [-inf, 0], to: [1, inf]}}\n"
-        "  both: [{region: grip}, {region: grip, move: [9, 0]}]\n"
-        "bodies:\n  - {name: bar, shape: {box: {from: [0, 0], to: [9, 3]}}}\n"
-        "particles: {spacing: 1}\n"
-        "boundary:\n  - {region: both, fixed: all}\n"
-        "initial:\n  - {region: [{all: true}, {subtract: {region: grip}}], velocity: [1, 0]}\n"
-        "probes:\n  - energy: {region: grip}\n", NULL, 0);
+    struct scene s = read_ok("space: plane stress\nthickness: 1\nduration: 1 us\nmethod: pd\n"
+                             "material: {young: 1 GPa, density: 1000}\n"
+                             "regions:\n  grip: {box: {from: [-inf, 0], to: [1, inf]}}\n"
+                             "  both: [{region: grip}, {region: grip, move: [9, 0]}]\n"
+                             "bodies:\n  - {name: bar, shape: {box: {from: [0, 0], to: [9, 3]}}}\n"
+                             "particles: {spacing: 1}\n"
+                             "boundary:\n  - {region: both, fixed: all}\n"
+                             "initial:\n  - {region: [{all: true}, {subtract: {region: grip}}], velocity: [1, 0]}\n"
+                             "probes:\n  - energy: {region: grip}\n",
+                             NULL, 0);
     assert_int_equal(s.regions, 2);
     assert_string_equal(s.named[1].name, "both");
     assert_int_equal(s.probe->region.n, 1);
@@ -168,7 +216,10 @@ static void test_names(void **state)
 static void test_refusals(void **state)
 {
     (void)state;
-    static const struct { int dim; const char *regions, *shape, *message; } cases[] = {
+    static const struct {
+        int dim;
+        const char *regions, *shape, *message;
+    } cases[] = {
         {2, "", "{polygon: {corners: [[0, 0], [1, 1], [1, 0], [0, 1]]}}", "edges do not cross"},
         {2, "", "{polygon: {corners: [[0, 0], [1, 0], [1, 1]], round: 1}}", "a smaller radius is expected"},
         {2, "", "{polygon: {corners: [[0, 0], [1, 0]]}}", "has 2 items"},
@@ -238,9 +289,12 @@ static void test_multiplied_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip_of_solids), cmocka_unit_test(test_filled_alike),
-        cmocka_unit_test(test_filled_symmetrically), cmocka_unit_test(test_names),
-        cmocka_unit_test(test_refusals),             cmocka_unit_test(test_multiplied_names),
+        cmocka_unit_test(test_round_trip_of_solids),
+        cmocka_unit_test(test_filled_alike),
+        cmocka_unit_test(test_filled_symmetrically),
+        cmocka_unit_test(test_names),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_multiplied_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

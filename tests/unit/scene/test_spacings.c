@@ -31,7 +31,7 @@ static void spacings_divide_lengths(void **state)
     assert_true(fabs(spacing_fit(&s, 1, false) - 1) < 1e-12);
     /* 60, 40, 30 and 20: a whole part of 10 */
     assert_true(fabs(spacing_fit(&s, 0.99, false) - 10.0 / 11) < 1e-12);
-    assert_true(fabs(spacing_fit(&s, 3.4, true) - 10.0 / 3) < 1e-12);      /* 60 and 40 over 20/3: 9 and 6 pairs */
+    assert_true(fabs(spacing_fit(&s, 3.4, true) - 10.0 / 3) < 1e-12); /* 60 and 40 over 20/3: 9 and 6 pairs */
     assert_true(fabs(spacing_fit(&s, 1e-3, true) - 1e-3) < 1e-12);
     scene_free(&s);
 }

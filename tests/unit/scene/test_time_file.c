@@ -36,7 +36,11 @@ static status read_with(struct scene *s, const char *time, const char *csv, size
 static void columns_are_read_with_their_units(void **state)
 {
     (void)state;
-    static const struct { const char *time, *csv; real t, value; bool unit; } c[] = {
+    static const struct {
+        const char *time, *csv;
+        real t, value;
+        bool unit;
+    } c[] = {
         {"{file: blast.csv}", "time [us], value\n1, 2\n3, -4.5\n", 3e-6, -4.5, false},
         {"{file: blast.csv}", "\xEF\xBB\xBF# blast\r\n\r\nvalue;\"Time\"\r\n2 ; 1e-6\r\n #\n-4.5;\t3e-6", 3e-6, -4.5,
          false},
@@ -66,7 +70,9 @@ static void columns_are_read_with_their_units(void **state)
 static void bad_files_are_refused(void **state)
 {
     (void)state;
-    static const struct { const char *csv, *message; } c[] = {
+    static const struct {
+        const char *csv, *message;
+    } c[] = {
         {"", "blast.csv: empty"},
         {"time, value\n", "blast.csv: has no times below its header"},
         {"0, 1\n1, 2\n", "blast.csv:1:1: no column is called time; a header such as time [us], value is expected"},

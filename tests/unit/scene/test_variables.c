@@ -20,25 +20,23 @@
     "body: {box: {from: [0, -b/2], to: [L, b/2]}}\n"                                                                   \
     "particles: {spacing: a/n, seed: 3*n, horizon: 3 + 0.015}\n"                                                       \
     "initial:\n"                                                                                                       \
-    "  - {region: {ball: {centre: [L/2, 0], radius: b/4}}, velocity_gradient: [[0, 100/ms], [-1/2 us/ms^2, 0]]}\n"    \
+    "  - {region: {ball: {centre: [L/2, 0], radius: b/4}}, velocity_gradient: [[0, 100/ms], [-1/2 us/ms^2, 0]]}\n"     \
     "boundary:\n"                                                                                                      \
     "  - {face: x+, traction: [2*MPa*n, 0], time: {table: [[0, 0], [tau, 1/n], [2*tau, 1]]}}\n"                        \
     "  - {region: {box: {from: [-inf, -inf], to: [a, inf]}}, velocity: [speed, free], time: {ramp: {until: tau}}}\n"   \
     "output: {times: [tau, 2*tau], samples: 10*n}\n"
 
-static const char scene_text[] =
-    "variables:\n"
-    "  b: 2*a + 4 mm\n"
-    "  a: 3 mm\n"
-    "  n: 4\n"
-    "  L: 10*b\n"
-    "  E: 190 GPa\n"
-    "  nu: 1/4\n"
-    "  rho: 7.8 g/cm^3\n"
-    "  c: sqrt(E/rho)\n"
-    "  speed: c/1000\n"
-    "  tau: L/c\n"
-    SCENE;
+static const char scene_text[] = "variables:\n"
+                                 "  b: 2*a + 4 mm\n"
+                                 "  a: 3 mm\n"
+                                 "  n: 4\n"
+                                 "  L: 10*b\n"
+                                 "  E: 190 GPa\n"
+                                 "  nu: 1/4\n"
+                                 "  rho: 7.8 g/cm^3\n"
+                                 "  c: sqrt(E/rho)\n"
+                                 "  speed: c/1000\n"
+                                 "  tau: L/c\n" SCENE;
 
 static struct scene read_with(const struct scene_override *o, int n)
 {
@@ -101,7 +99,9 @@ static void overrides_set_them(void **state)
 static void wrong_ones_are_refused(void **state)
 {
     (void)state;
-    static const struct { const char *line, *message; } wrong[] = {
+    static const struct {
+        const char *line, *message;
+    } wrong[] = {
         {"a: b/2", "2:3: b: 2*a + 4 mm needs b, which depends on itself"},
         {"a: a", "2:3: b: 2*a + 4 mm needs a, which depends on itself"},
         {"a: 3 s",
@@ -126,22 +126,26 @@ static void wrong_ones_are_refused(void **state)
         {"a: 1/0*1 mm", "2:3: b: 2*a + 4 mm needs a, which divides by 0 (character 2)"},
         {"a: 1e40 mm", "2:3: b: 2*a + 4 mm needs a, which is above 1e30 in SI units"},
     };
-    static const struct { struct scene_override o; const char *message; } override[] = {
+    static const struct {
+        struct scene_override o;
+        const char *message;
+    } override[] = {
         {{"thickness", "E"}, "-s thickness=E: thickness: E is a stress; a length is expected, as 0.5 mm"},
         {{"thickness", "n"}, "v.yaml:8:1: "},
         {{"thickness", "2*aa"}, "-s thickness=2*aa: thickness: 2*aa has an unknown name aa; the nearest variable is a"},
-        {{"thickness",
-         "a - a"}, "-s thickness=a - a: thickness: a - a is out of range; a length above 0 is expected, as 0.5 mm"},
+        {{"thickness", "a - a"},
+         "-s thickness=a - a: thickness: a - a is out of range; a length above 0 is expected, as 0.5 mm"},
         {{"output.samples", "n/3"}, "-s output.samples=n/3: samples: n/3 is 1.33333; a whole number is expected"},
-        {{"output.samples",
-         "-n"}, "-s output.samples=-n: samples: -n is out of range; a whole number from 1 to 10000000 is expected"},
-        {{"particles.seed", "-n"}, "-s particles.seed=-n: seed: -n is no seed; a whole number from 0 to "
-                                   "18446744073709551615 is expected"},
-        {{"variables.aa",
-         "3 mm"}, "-s variables.aa=3 mm: aa: no value of the scene contains this variable; the nearest is a"},
+        {{"output.samples", "-n"},
+         "-s output.samples=-n: samples: -n is out of range; a whole number from 1 to 10000000 is expected"},
+        {{"particles.seed", "-n"},
+         "-s particles.seed=-n: seed: -n is no seed; a whole number from 0 to "
+         "18446744073709551615 is expected"},
+        {{"variables.aa", "3 mm"},
+         "-s variables.aa=3 mm: aa: no value of the scene contains this variable; the nearest is a"},
         {{"variables", "3 mm"}, "-s variables=3 mm: variables: 3 mm is not a mapping such as {a: 3 mm, b: 2*a}"},
-        {{"variables.a",
-         "t*m/s"}, "v.yaml:2:3: b: 2*a + 4 mm needs a, which contains t, which has no meaning in this key"},
+        {{"variables.a", "t*m/s"},
+         "v.yaml:2:3: b: 2*a + 4 mm needs a, which contains t, which has no meaning in this key"},
     };
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         struct scene s;
@@ -156,7 +160,7 @@ static void wrong_ones_are_refused(void **state)
     for (size_t k = 0; k < COUNT_OF(override); k++) {
         struct scene s;
         const status read = scene_read_text(&s, scene_text, strlen(scene_text), "v.yaml", &override[k].o, 1);
-        if (strcmp(override[k].message, "v.yaml:8:1: ") == 0) {          /* a number without a unit is SI: 4 m */
+        if (strcmp(override[k].message, "v.yaml:8:1: ") == 0) { /* a number without a unit is SI: 4 m */
             assert_int_equal(read, OK);
             assert_true(s.thickness == 4);
             scene_free(&s);
@@ -177,7 +181,7 @@ static void chains_are_bounded(void **state)
     for (int k = 1; k < 900; k++) used += (size_t)sprintf(text + used, ", v%d: v%d + 1 mm", k, k - 1);
     strcpy(text + used, "}\nspace: line\n");
     assert_int_equal(scene_read_text(&s, text, strlen(text), "v.yaml", NULL, 0), REFUSED);
-    assert_non_null(strstr(status_message(), "duration: missing"));      /* each is known when the next needs it */
+    assert_non_null(strstr(status_message(), "duration: missing")); /* each is known when the next needs it */
     used = strlen(strcpy(text, "variables: {"));
     for (int k = 0; k < 900; k++) used += (size_t)sprintf(text + used, "v%d: v%d, ", k, k + 1);
     strcpy(text + used, "}\nspace: line\n");
@@ -188,8 +192,10 @@ static void chains_are_bounded(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_number_may_contain_them), cmocka_unit_test(the_scene_as_run_holds_numbers),
-        cmocka_unit_test(overrides_set_them),            cmocka_unit_test(wrong_ones_are_refused),
+        cmocka_unit_test(every_number_may_contain_them),
+        cmocka_unit_test(the_scene_as_run_holds_numbers),
+        cmocka_unit_test(overrides_set_them),
+        cmocka_unit_test(wrong_ones_are_refused),
         cmocka_unit_test(chains_are_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

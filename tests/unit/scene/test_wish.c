@@ -52,7 +52,8 @@ static void all_that_can_be_given(void **state)
     (void)state;
     struct pilot_wish w;
     assert_int_equal(wish_of(&w, PLATE "accuracy: {of: energy.strain, within: 3 %, budget: 2 min}\nmodel: ospd\n"
-                                       "solver: static\nparticles: {spacing: 1 mm}\npd: {surface: volume}\n"), OK);
+                                       "solver: static\nparticles: {spacing: 1 mm}\npd: {surface: volume}\n"),
+                     OK);
     assert_true(w.wanted && w.at_rest && fabs(w.spacing - 1e-3) < 1e-15 && w.budget == 120);
     assert_string_equal(w.figure, "energy.strain");
     assert_string_equal(w.model, "ospd");
@@ -70,7 +71,8 @@ static void joined_bodies_are_for_bonds(void **state)
                                  "  - {name: light, young: 70 GPa, density: 2700}\nbodies:\n"
                                  "  - {name: left, material: steel, shape: {box: {from: [0], to: [10 mm]}}}\n"
                                  "  - {name: right, material: light, shape: {box: {from: [10 mm], to: [20 mm]}}}\n"
-                                 "interfaces: [{bodies: [left, right]}]\n"), OK);
+                                 "interfaces: [{bodies: [left, right]}]\n"),
+                     OK);
     assert_int_equal(w.provisional.method, METHOD_PD);
     assert_false(w.has_accuracy);
     scene_free(&w.provisional);
@@ -80,7 +82,9 @@ static void joined_bodies_are_for_bonds(void **state)
 static void other_scenes_have_no_wish(void **state)
 {
     (void)state;
-    static const struct { const char *text, *why; } wrong[] = {
+    static const struct {
+        const char *text, *why;
+    } wrong[] = {
         {PLATE "accuracy: 0\n", "out of range"},
         {PLATE "accuracy: {of: [1]}\n", "no figure of summary.json"},
         {PLATE "accuracy: {budget: 0}\n", "out of range"},
@@ -98,7 +102,7 @@ static void other_scenes_have_no_wish(void **state)
         assert_null(w.provisional.path);
     }
     const char *plain = strchr(PLATE, '\n') + 1;
-    assert_int_equal(wish_of(&w, plain), REFUSED);         /* particles.spacing is missing */
+    assert_int_equal(wish_of(&w, plain), REFUSED); /* particles.spacing is missing */
     char whole[1024];
     snprintf(whole, sizeof whole, "%sparticles: {spacing: 1 mm}\n", plain);
     assert_int_equal(wish_of(&w, whole), OK);

@@ -84,8 +84,8 @@ static const char mirror[] =
 static const char late[] = ", {body_force: [1e9, 0], region: {box: {from: [60 mm, -10 mm], to: [70 mm, 10 mm]}}, time: "
                            "{step: {from: 6 us, until: 8 us}}}";
 
-static struct run *run_make(struct scene *s, const char *body, const char *boundary, const char *more,
-                               const char *keys, bool rest)
+static struct run *run_make(struct scene *s, const char *body, const char *boundary, const char *more, const char *keys,
+                            bool rest)
 {
     char text[4096], edges[1024];
     struct run *e = NEW("test.engine", 1, struct run);
@@ -139,7 +139,7 @@ static int64_t check_same(const char *body, const char *boundary, const char *mo
 {
     struct scene s[2];
     struct run *on = run_make(&s[0], body, boundary, more, keys, true),
-                  *off = run_make(&s[1], body, boundary, more, keys, false);
+               *off = run_make(&s[1], body, boundary, more, keys, false);
     assert_true(on->clock.steps > 50);
     const int64_t before = on->part.n_of[KIND_PD];
     const int64_t look =

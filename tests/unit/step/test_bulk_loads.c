@@ -117,7 +117,7 @@ static void gravity_makes_rigid_bodies_fall(void **state)
         assert_true(fabs((ball->v[d] + 0.5 * a[d] * r.e.clock.dt) / (a[d] * T) - 1) < 1e-9);
     }
     assert_true(fabs(now->external_work / work - 1) < 1e-9);
-    balanced(&r, 0.26 / square((real)r.e.clock.steps));      /* that of the start is 1/2 m v- . v+, v+- = +- a dt/2 */
+    balanced(&r, 0.26 / square((real)r.e.clock.steps)); /* that of the start is 1/2 m v- . v+, v+- = +- a dt/2 */
     run_end(&r);
 }
 
@@ -135,7 +135,7 @@ static void rigid_bodies_take_momentum(void **state)
     struct finished_run r;
     run(&r, floor, NULL);
     assert_true(r.e.rigid->body[0].force_most > 1 && fabs(r.e.loads.impulse[1]) > 0.1);
-    balanced(&r, 0.02);                                  /* steps of an eighth of a collision */
+    balanced(&r, 0.02); /* steps of an eighth of a collision */
     run_end(&r);
 }
 
@@ -365,7 +365,7 @@ static void pressure_follows_beside_mirrors(void **state)
     snprintf(whole, sizeof whole, "body=[%s]", tube), snprintf(alone, sizeof alone, "boundary=[%s]", load);
     snprintf(quarter, sizeof quarter, "body=[%s, {intersect: {box: {from: [0, 0], to: [1, 1]}}}]", tube);
     snprintf(mirrors, sizeof mirrors, "boundary=[%s, {mirror: {axis: x, at: 0}}, {mirror: {axis: y, at: 0}}]", load);
-    for (size_t k = 0; k < 2; k++) {                     /* bonds; the mesh of the reference frame */
+    for (size_t k = 0; k < 2; k++) { /* bonds; the mesh of the reference frame */
         struct finished_run a, b;
         real most = 0, off = 0;
         run(&a, SQUARE, frames[k][0], frames[k][1], quarter, mirrors, "duration=2 ms", NULL);
@@ -462,7 +462,7 @@ static void initial_velocities_are_formulas(void **state)
         const real off = along / squares / (2 / (acos(-1) * c)) - 1;
         if (!(fabs(off) < 0.01)) fail_msg("%s %s: amplitude off by %g", frames[k][0], frames[k][1], off);
         const real energy = 0.25 * 2440 * 0.73e-4 * 4;
-        if (!(fabs(a.e.diagnostics->energy_start / energy - 1) < 5e-3))                        /* lumped cells: 0.3 % */
+        if (!(fabs(a.e.diagnostics->energy_start / energy - 1) < 5e-3)) /* lumped cells: 0.3 % */
             fail_msg("%s %s: energy %g", frames[k][0], frames[k][1], a.e.diagnostics->energy_start);
         balanced(&a, k == 2 ? 1e-3 : 1e-10);
         assert_non_null(strstr(a.s.text, "velocity: [\"2 m/s*cos(pi*x/m)\"]"));
@@ -478,10 +478,9 @@ int main(void)
         cmocka_unit_test(any_damping_only_takes),           cmocka_unit_test(pressure_all_round_is_balanced),
         cmocka_unit_test(pressure_shrinks_a_body),          cmocka_unit_test(pressure_follows_a_turning_body),
         cmocka_unit_test(pressure_follows_beside_mirrors),  cmocka_unit_test(pressure_spares_mirrored_faces),
-        cmocka_unit_test(rigid_bodies_take_momentum),
-        cmocka_unit_test(gravity_makes_rigid_bodies_fall),  cmocka_unit_test(damping_slows_turning_bodies),
-        cmocka_unit_test(rotation_drives_on_circles),       cmocka_unit_test(formulas_are_what_they_say),
-        cmocka_unit_test(initial_velocities_are_formulas),
+        cmocka_unit_test(rigid_bodies_take_momentum),       cmocka_unit_test(gravity_makes_rigid_bodies_fall),
+        cmocka_unit_test(damping_slows_turning_bodies),     cmocka_unit_test(rotation_drives_on_circles),
+        cmocka_unit_test(formulas_are_what_they_say),       cmocka_unit_test(initial_velocities_are_formulas),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -48,13 +48,12 @@ static void run_end(struct scene_run *a)
 static void formulas_without_value_stop_the_run(void **state)
 {
     (void)state;
-    static const char *const load[][2] = {
-        {"displacement: [free, '1e-9 m*(t/1us)*", "face: y+, depth: 1 mm"},
-        {"traction: [0, '1e3 Pa*", "face: y+"},
-        {"body_force: [0, '1e3 N/m^3*", "region: {all: true}"},
-        {"pressure: '1e3 Pa*", "region: {all: true}"},
-        {"velocity: [free, '1e-3 m/s*", "face: y+, depth: 1 mm"},
-        {"pressure: '1e3 Pa*", "region: {all: true}, follow: true"}};
+    static const char *const load[][2] = {{"displacement: [free, '1e-9 m*(t/1us)*", "face: y+, depth: 1 mm"},
+                                          {"traction: [0, '1e3 Pa*", "face: y+"},
+                                          {"body_force: [0, '1e3 N/m^3*", "region: {all: true}"},
+                                          {"pressure: '1e3 Pa*", "region: {all: true}"},
+                                          {"velocity: [free, '1e-3 m/s*", "face: y+, depth: 1 mm"},
+                                          {"pressure: '1e3 Pa*", "region: {all: true}, follow: true"}};
     static const char *const ends[] = {"1us", "4.99us", "5us"};
     static const char *const solver[][2] = {{"method=pd", "mpm.frame=auto"},
                                             {"method=mpm", "mpm.frame=reference"},

@@ -39,7 +39,11 @@ static void run_text(const char *text, bool begins)
 }
 
 /* A frame with all of its fields, by name. */
-struct shown { struct hdf f; int64_t n; double *X; };
+struct shown {
+    struct hdf f;
+    int64_t n;
+    double *X;
+};
 
 static void shown_open(struct shown *a, int frame, int dim)
 {
@@ -96,7 +100,12 @@ static void field_is(struct shown *a, int dim, double reach, const char *name, i
 #define YOUNG 1e9
 #define DENSITY 1000.0
 
-struct block { const char *space; int dim; double poisson, spacing; const char *method; };
+struct block {
+    const char *space;
+    int dim;
+    double poisson, spacing;
+    const char *method;
+};
 
 static const struct block block[] = {
     {"line", 1, 0, 0.05, "method: pd"},
@@ -122,8 +131,10 @@ static const struct block block[] = {
 static void run_block(const struct block *b, const double H[3][3], const char *more)
 {
     char text[2000], gradient[400] = "";
-    static const char *const low[] = {"", "[-0.5]", "[-0.5, -0.5]", "[-0.5, -0.5, -0.5]"},
-                      *const high[] = {"", "[0.5]", "[0.5, 0.5]", "[0.5, 0.5, 0.5]"};
+    static const char *const low[] = {"", "[-0.5]", "[-0.5, -0.5]", "[-0.5, -0.5, -0.5]"}, *const high[] = {
+                                                                                               "", "[0.5]",
+                                                                                               "[0.5, 0.5]",
+                                                                                               "[0.5, 0.5, 0.5]"};
     for (int k = 0; k < b->dim * b->dim; k++)
         snprintf(gradient + strlen(gradient), sizeof gradient - strlen(gradient), "%s%.17g", k ? ", " : "",
                  H[k / b->dim][k % b->dim]);
@@ -133,7 +144,7 @@ static void run_block(const struct block *b, const double H[3][3], const char *m
              "initial: [{displacement_gradient: [%s]}]\noutput: {fields: all, frames: 1}\n",
              b->space, b->dim == 2 ? "thickness: 0.37\n" : "", b->method, more, YOUNG, b->poisson, DENSITY, low[b->dim],
              high[b->dim], b->spacing, gradient);
-    if (b->dim == 1) {                   /* a line has no Poisson's ratio */
+    if (b->dim == 1) { /* a line has no Poisson's ratio */
         char *from = strstr(text, " poisson"), *to = strstr(from, " density");
         memmove(from, to, strlen(to) + 1);
     }
@@ -181,7 +192,7 @@ static void uniform_strain(void **state)
         double deviator = 0;
         for (int c = 0; c < 6; c++) deviator += (c < 3 ? 1.5 : 3) * (S[c] - (c < 3) * mean) * (S[c] - (c < 3) * mean);
         field_is(&a, block[k].dim, 0, "strain", 6, E, 1e-11);
-        field_is(&a, block[k].dim, 0, "density", 1, &density, 1e-4);          /* single precision: 6e-5 */
+        field_is(&a, block[k].dim, 0, "density", 1, &density, 1e-4); /* single precision: 6e-5 */
         field_is(&a, block[k].dim, reach, "stress", 6, S, close);
         field_is(&a, block[k].dim, reach, "pressure", 1, &(double){-mean}, close);
         field_is(&a, block[k].dim, reach, "von_mises", 1, &(double){sqrt(deviator)}, 2 * close);
@@ -209,7 +220,8 @@ static void strain_of_parts(void **state)
                  "bodies:\n  - {name: sheet, material: one, shape: {box: {from: [-0.5, -0.5], to: [0.5, 0.5]}},\n"
                  "     parts: [{region: {box: {from: [0, -1], to: [1, 1]}}, material: two}]}\n"
                  "particles: {spacing: 0.25}\ninitial: [{displacement_gradient: [2e-3, 3e-4, 5e-4, -7e-3]}]\n"
-                 "output: {fields: [strain, density], frames: 1}\n", space[k]);
+                 "output: {fields: [strain, density], frames: 1}\n",
+                 space[k]);
         run_text(text, true);
         shown_open(&a, 0, 2);
         float *strain = shown_field(&a, "strain", 6), *density = shown_field(&a, "density", 1),
@@ -219,7 +231,7 @@ static void strain_of_parts(void **state)
             const bool two = a.X[2 * i] > 0;
             const double nu = two ? 0.4 : 0.2, across = k == 0 ? -nu / (1 - nu) * (xx + yy) : 0;
             const double S = k == 0 ? 0 : nu * (stress[6 * i] + stress[6 * i + 1]);
-            assert_near(strain[6 * i + 2], across, 1e-9);                            /* single precision: 6e-8 of it */
+            assert_near(strain[6 * i + 2], across, 1e-9); /* single precision: 6e-8 of it */
             assert_near(stress[6 * i + 2], S, 1e-6 * fabs(stress[6 * i + 1]));
             assert_near(density[i], (two ? 1700 : 1100) / (grown * sqrt(1 + 2 * across)), 1e-3);
         }
@@ -259,7 +271,7 @@ static void fields_follow(void **state)
           *axes = shown_field(&a, "principal_directions", 9);
     for (int64_t i = 0; i < a.n; i++) {
         const float *S = stress + 6 * i, *v = value + 3 * i, *n = axes + 9 * i;
-        const double middle = 0.5 * (S[0] + S[1]), radius = hypot(0.5 * (S[0] - S[1]), S[3]);     /* Mohr's circle */
+        const double middle = 0.5 * (S[0] + S[1]), radius = hypot(0.5 * (S[0] - S[1]), S[3]); /* Mohr's circle */
         double in_plane[2] = {middle + radius, middle - radius}, seen[3] = {v[0], v[1], v[2]};
         assert_near(S[2], block[8].poisson * (S[0] + S[1]), 1e-6 * radius);
         int across = 0;
@@ -306,7 +318,7 @@ static void yielding_bar(void **state)
             if (!shown_inside(&a, i, 1, 0.2)) continue;
             const double S = stress[6 * i], exact = (S * S - yield * yield) / (2 * hardening);
             assert_near(plastic[i], (S - yield) / hardening, 0.01 * plastic[i]);
-            assert_near(work[i], exact, 0.015 * exact);              /* finite strain of 0.4 % */
+            assert_near(work[i], exact, 0.015 * exact); /* finite strain of 0.4 % */
             assert_near(strain[6 * i], S / YOUNG + (S - yield) / hardening, 0.01 * strain[6 * i]);
             assert_near(strain[6 * i], 100 * 40e-6, 0.01 * strain[6 * i]);
         }
@@ -338,7 +350,7 @@ static void yielding_sheet(void **state)
         assert_true(flow[i] > 1e-4);
         assert_near(strain[6 * i], 50 * 40e-6, 0.01 * strain[6 * i]);
         assert_near(strain[6 * i + 2], E, 0.01 * fabs(E));
-        assert_near(density[i], DENSITY * (1 - (1 - 2 * nu) * 2 * S / YOUNG), 0.02);  /* squares of strains: 1e-5 */
+        assert_near(density[i], DENSITY * (1 - (1 - 2 * nu) * 2 * S / YOUNG), 0.02); /* squares of strains: 1e-5 */
     }
     free(stress), free(flow), free(strain), free(density);
     shown_close(&a);
@@ -361,7 +373,8 @@ static void only_what_is_asked_for(void **state)
         hdf_open(&f, "run/frames/000000.hdf");
         for (int k = 0; k < 9; k++) {
             static const char *const name[] = {"von_mises", "pressure", "principal_stress", "principal_directions",
-                                               "strain", "density", "plastic_work", "speed", "level"};
+                                               "strain",    "density",  "plastic_work",     "speed",
+                                               "level"};
             char path[64];
             snprintf(path, sizeof path, "/VTKHDF/PointData/%s", name[k]);
             assert_int_equal(hdf_count(&f, path) >= 0, asked && k >= 7);
@@ -374,9 +387,9 @@ static void only_what_is_asked_for(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(uniform_strain), cmocka_unit_test(strain_of_parts), cmocka_unit_test(rigid_turn),
-        cmocka_unit_test(fields_follow),  cmocka_unit_test(yielding_bar),
-        cmocka_unit_test(yielding_sheet), cmocka_unit_test(only_what_is_asked_for),
+        cmocka_unit_test(uniform_strain),         cmocka_unit_test(strain_of_parts), cmocka_unit_test(rigid_turn),
+        cmocka_unit_test(fields_follow),          cmocka_unit_test(yielding_bar),    cmocka_unit_test(yielding_sheet),
+        cmocka_unit_test(only_what_is_asked_for),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     nftw("run", remove_one, 8, FTW_DEPTH | FTW_PHYS);

@@ -26,8 +26,8 @@
 static void test_reactions(void **state)
 {
     (void)state;
-    static const char *const driven = QUARTER
-        "  - {velocity: [1.3 nm/s, 3 nm/s], region: {box: {from: [-inf, 2 mm], to: [inf, inf]}}}\n";
+    static const char *const driven =
+        QUARTER "  - {velocity: [1.3 nm/s, 3 nm/s], region: {box: {from: [-inf, 2 mm], to: [inf, inf]}}}\n";
     struct solution a, b;
     solution_run(&a, driven, "solver=static", "steps.number=2", "solver_tolerance=1e-8", NULL);
     solution_run(&b, driven, "solver=cg", "solver_tolerance=1e-8", NULL);
@@ -168,18 +168,19 @@ static void test_shear_beside_clamps(void **state)
         "material: {young: 3 GPa, poisson: 0.3, density: 1180}\nparticles: {spacing: 0.5 mm}\n"
         "body: {box: {from: [0, -15 mm], to: [4 mm, 15 mm]}}\nboundary:\n"
         "  - {mirror: {axis: x, at: 0, tangential: held}}\n  - {traction: [0, 1.7 MPa], face: x+}\n";
-    static const char whole[] =
-        "space: plane strain\nthickness: 0.37 mm\nduration: 3 us\nmethod: mpm\n"
-        "material: {young: 3 GPa, poisson: 0.3, density: 1180}\nparticles: {spacing: 0.5 mm}\n"
-        "body: {box: {from: [-4 mm, -15 mm], to: [4 mm, 15 mm]}}\nboundary:\n"
-        "  - {traction: [0, -1.7 MPa], face: x-}\n  - {traction: [0, 1.7 MPa], face: x+}\n";
-    static const struct { const char *frame, *origin, *transfer; real apart; } with[] = {
-        {"mpm.frame=reference", "mpm.origin=[0, 0]", NULL, 1e-9},
-        {"mpm.frame=reference", "mpm.origin=[0.5 mm, 0]", NULL, 1e-9},
-        {"mpm.frame=current", "mpm.origin=[0, 0]", "mpm.transfer=apic", 1e-9},
-        {"mpm.frame=current", "mpm.origin=[0.5 mm, 0]", "mpm.transfer=apic", 1e-9},
-        {"mpm.frame=current", "mpm.origin=[0, 0]", "mpm.transfer=flip", 2e-3},
-        {"mpm.frame=current", "mpm.origin=[0.5 mm, 0]", "mpm.transfer=flip", 2e-3}};
+    static const char whole[] = "space: plane strain\nthickness: 0.37 mm\nduration: 3 us\nmethod: mpm\n"
+                                "material: {young: 3 GPa, poisson: 0.3, density: 1180}\nparticles: {spacing: 0.5 mm}\n"
+                                "body: {box: {from: [-4 mm, -15 mm], to: [4 mm, 15 mm]}}\nboundary:\n"
+                                "  - {traction: [0, -1.7 MPa], face: x-}\n  - {traction: [0, 1.7 MPa], face: x+}\n";
+    static const struct {
+        const char *frame, *origin, *transfer;
+        real apart;
+    } with[] = {{"mpm.frame=reference", "mpm.origin=[0, 0]", NULL, 1e-9},
+                {"mpm.frame=reference", "mpm.origin=[0.5 mm, 0]", NULL, 1e-9},
+                {"mpm.frame=current", "mpm.origin=[0, 0]", "mpm.transfer=apic", 1e-9},
+                {"mpm.frame=current", "mpm.origin=[0.5 mm, 0]", "mpm.transfer=apic", 1e-9},
+                {"mpm.frame=current", "mpm.origin=[0, 0]", "mpm.transfer=flip", 2e-3},
+                {"mpm.frame=current", "mpm.origin=[0.5 mm, 0]", "mpm.transfer=flip", 2e-3}};
     for (size_t k = 0; k < COUNT_OF(with); k++) {
         struct solution a, b;
         real most = 0, largest = 0;
@@ -218,10 +219,13 @@ static void test_others_pass(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_reactions), cmocka_unit_test(test_foot),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_reactions),
+                                       cmocka_unit_test(test_foot),
                                        cmocka_unit_test(test_clamped_plane),
-                                       cmocka_unit_test(test_mirrored_nodes), cmocka_unit_test(test_ramp),
+                                       cmocka_unit_test(test_mirrored_nodes),
+                                       cmocka_unit_test(test_ramp),
                                        cmocka_unit_test(test_ramp_below),
-                                       cmocka_unit_test(test_shear_beside_clamps), cmocka_unit_test(test_others_pass)};
+                                       cmocka_unit_test(test_shear_beside_clamps),
+                                       cmocka_unit_test(test_others_pass)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,7 +26,10 @@ static struct rise rising(real tenfold, int64_t stride)
 static void pace_of_exponentials(void **state)
 {
     (void)state;
-    static const struct { real tenfold; int64_t stride; enum rise_rate target_speed;
+    static const struct {
+        real tenfold;
+        int64_t stride;
+        enum rise_rate target_speed;
     } at[] = {
         {5, 64, RISE_FAST},     {60, 64, RISE_FAST},   {95, 64, RISE_FAST},
         {95, 700, RISE_FAST},   {150, 64, RISE_SLOW},  {1000, 64, RISE_SLOW},
@@ -37,10 +40,12 @@ static void pace_of_exponentials(void **state)
         real steps;
         assert_int_equal(rise_rate(&r, 20000, 1, &steps), at[k].target_speed);
         /* values 16 steps apart, 64 of them: just so */
-        if (at[k].stride == 1) assert_true(steps > 990 && steps < 1010);
-        else assert_near(steps, at[k].tenfold, 1e-6 * at[k].tenfold);                    /* between values: round-off */
+        if (at[k].stride == 1)
+            assert_true(steps > 990 && steps < 1010);
+        else
+            assert_near(steps, at[k].tenfold, 1e-6 * at[k].tenfold); /* between values: round-off */
     }
-    const struct rise endless = rising(1e5, 64);             /* more than 64 x 64 steps ago */
+    const struct rise endless = rising(1e5, 64); /* more than 64 x 64 steps ago */
     real steps;
     assert_int_equal(rise_rate(&endless, 20000, 1, &steps), RISE_SLOW);
     assert_true(isinf(steps));
@@ -53,13 +58,13 @@ static void pace_of_few_values(void **state)
     struct rise r = {0};
     assert_int_equal(rise_rate(&r, 10, 1, &steps), RISE_UNSURE);
     rise_note(&r, 0, 0);
-    assert_int_equal(rise_rate(&r, 10, 1, &steps), RISE_FAST);           /* out of nothing */
-    assert_int_equal(rise_rate(&r, 20000, 1, &steps), RISE_UNSURE);      /* some time in 20000 steps */
+    assert_int_equal(rise_rate(&r, 10, 1, &steps), RISE_FAST);      /* out of nothing */
+    assert_int_equal(rise_rate(&r, 20000, 1, &steps), RISE_UNSURE); /* some time in 20000 steps */
     rise_note(&r, 640, -1e-3);
     assert_int_equal(rise_rate(&r, 1280, 1, &steps), RISE_FAST);
-    rise_note(&r, 650, 0.5);                             /* too close to the last: left out */
+    rise_note(&r, 650, 0.5); /* too close to the last: left out */
     assert_int_equal(r.n, 2);
-    rise_note(&r, 1280, 1e-3);                           /* a background, or slow growth: one cannot tell */
+    rise_note(&r, 1280, 1e-3); /* a background, or slow growth: one cannot tell */
     assert_int_equal(rise_rate(&r, 1920, 1, &steps), RISE_UNSURE);
     rise_note(&r, 1920, 0.06);
     assert_int_equal(rise_rate(&r, 2560, 1, &steps), RISE_SLOW);
@@ -112,7 +117,7 @@ static void remedy_of(const char *key, const char *value, real tenfold, char *re
     assert_ok(bench_engine_make(&e, &s, "plate", plate, bench_overrides_ready(&o), o.n));
     const struct rise r = rising(tenfold, 200);
     e.clock.step = 20000, e.clock.t = 20000 * e.clock.dt;
-    e.part.v[0][0] = 1;                                  /* which no load has paid for */
+    e.part.v[0][0] = 1; /* which no load has paid for */
     stability_remedy(&e, &r, 1, remedy, REMEDY_LENGTH);
     bench_engine_free(&e, &s);
 }
@@ -137,7 +142,7 @@ static void slow_growth_is_no_matter_of_the_step(void **state)
     remedy_of(NULL, NULL, 20, remedy);
     assert_true(strncmp(remedy, "choose a smaller time.safety (now dt = ", 39) == 0);
     assert_null(strstr(remedy, "gains energy"));
-    remedy_of("time.step", "1 us", 1000, remedy);            /* above the critical one: 0.4 us */
+    remedy_of("time.step", "1 us", 1000, remedy); /* above the critical one: 0.4 us */
     assert_true(strncmp(remedy, "choose a smaller time.step (now dt = ", 37) == 0);
 }
 
@@ -158,15 +163,18 @@ static const char *stopped(const char *const *method, const char *const *set)
     return status_message();
 }
 
-static const char *const methods[][5] = {
-    {"method", "pd"}, {"method", "pd", "model", "mospd"}, {"method", "mpm"}, {"method", "adaptive"},
-    {"method", "mpm", "mpm.frame", "reference"}, {"method", "adaptive", "mpm.frame", "reference"}};
+static const char *const methods[][5] = {{"method", "pd"},
+                                         {"method", "pd", "model", "mospd"},
+                                         {"method", "mpm"},
+                                         {"method", "adaptive"},
+                                         {"method", "mpm", "mpm.frame", "reference"},
+                                         {"method", "adaptive", "mpm.frame", "reference"}};
 
-static void check_said(const char *const *set, const char *said, const char *not)
+static void check_said(const char *const *set, const char *said, const char * not )
 {
     for (size_t k = 0; k < COUNT_OF(methods); k++) {
         const char *message = stopped(methods[k], set);
-        if (!strstr(message, said) || strstr(message, not)) fail_msg("method %zu: %s", k, message);
+        if (!strstr(message, said) || strstr(message, not )) fail_msg("method %zu: %s", k, message);
     }
 }
 
@@ -210,10 +218,12 @@ static void the_last_sample_is_looked_at(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pace_of_exponentials), cmocka_unit_test(pace_of_few_values),
-        cmocka_unit_test(steps_beyond_the_limit_are_fast), cmocka_unit_test(slow_growth_is_no_matter_of_the_step),
-        cmocka_unit_test(loads_beyond_reason_are_named), cmocka_unit_test(steps_too_long_are_named),
-        cmocka_unit_test(the_last_sample_is_looked_at)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pace_of_exponentials),
+                                       cmocka_unit_test(pace_of_few_values),
+                                       cmocka_unit_test(steps_beyond_the_limit_are_fast),
+                                       cmocka_unit_test(slow_growth_is_no_matter_of_the_step),
+                                       cmocka_unit_test(loads_beyond_reason_are_named),
+                                       cmocka_unit_test(steps_too_long_are_named),
+                                       cmocka_unit_test(the_last_sample_is_looked_at)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,6 @@
 #include "tests/support/near.h"
 #include "step/report.h"
 
-
 static void put(const char *path, const char *text)
 {
     FILE *to = fopen(path, "w");

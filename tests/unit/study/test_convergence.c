@@ -42,7 +42,7 @@ static void power_laws_are_found(void **state)
         assert_near(c.order, p, 1e-9);
         assert_near(c.index, 1.25 * 0.2, 1e-9);
         assert_true(fabs(c.order_likely - p) < 2 * c.order_error);
-        assert_true(c.order_error > 0 && c.order_error < 0.75); /* orders from 0.5 to 2 */
+        assert_true(c.order_error > 0 && c.order_error < 0.75);            /* orders from 0.5 to 2 */
         assert_true(c.uncertainty[0] > 0.2 && c.uncertainty[0] < 3 * 0.2); /* -0.2 is its true error */
         assert_near(c.level[0].error, 0, 0);
     }
@@ -279,8 +279,11 @@ static void intervals_at_hand(void **state)
     assert_int_equal(mkdir("plate_converge", 0777), 0);
     assert_int_equal(study_scene_put("plate_converge", text), OK);
     assert_int_equal(file_put("plate_converge/converge.csv", table, strlen(table)), OK);
-    static const struct { double spacing; int bars; double first; } at[] = {
-        {0.31e-3, 2, 0.11}, {0.44e-3, 1, 0.23}, {0.63e-3, 2, 0.47}, {0.5e-3, 0, 0}};
+    static const struct {
+        double spacing;
+        int bars;
+        double first;
+    } at[] = {{0.31e-3, 2, 0.11}, {0.44e-3, 1, 0.23}, {0.63e-3, 2, 0.47}, {0.5e-3, 0, 0}};
     struct scene s = {.name = "plate", .text = text};
     for (size_t k = 0; k < COUNT_OF(at); k++) {
         struct error_bar bar[4];
@@ -301,13 +304,17 @@ static void intervals_at_hand(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(power_laws_are_found),          cmocka_unit_test(bounds_where_no_order_is_seen),
-        cmocka_unit_test(scatter_hides_small_trends),    cmocka_unit_test(chance_moves_the_order),
-        cmocka_unit_test(intervals_as_defined),          cmocka_unit_test(intervals_hold_what_they_name),
+        cmocka_unit_test(power_laws_are_found),
+        cmocka_unit_test(bounds_where_no_order_is_seen),
+        cmocka_unit_test(scatter_hides_small_trends),
+        cmocka_unit_test(chance_moves_the_order),
+        cmocka_unit_test(intervals_as_defined),
+        cmocka_unit_test(intervals_hold_what_they_name),
         cmocka_unit_test(bias_widens_intervals),
         cmocka_unit_test(levels_are_apart),
         cmocka_unit_test(intervals_at_hand),
-        cmocka_unit_test(student_as_published),          cmocka_unit_test(steps_of_a_figure_are_errors),
+        cmocka_unit_test(student_as_published),
+        cmocka_unit_test(steps_of_a_figure_are_errors),
         cmocka_unit_test(spacings_fit_faces_and_cracks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

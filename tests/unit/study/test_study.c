@@ -186,12 +186,25 @@ static void figures_fit_their_scene(void **state)
                                     {.name = "pull", .kind = PROBE_REACTION},
                                     {.name = "tip", .kind = PROBE_TIP}};
     struct material whole = {.critical_stretch = INFINITY}, brittle = {.critical_stretch = 0.004};
-    const struct scene plate = {.space = SPACE_PLANE_STRESS, .dim = 2, .materials = 1, .material = &whole, .probes = 3,
-                                .probe = probe, .contact_between = CONTACT_NONE};
-    const struct scene steps = {.space = SPACE_PLANE_STRAIN, .dim = 2, .materials = 1, .material = &brittle,
-                                .probes = 4, .probe = probe, .solver = SOLVER_STATIC, .rigids = 2,
+    const struct scene plate = {.space = SPACE_PLANE_STRESS,
+                                .dim = 2,
+                                .materials = 1,
+                                .material = &whole,
+                                .probes = 3,
+                                .probe = probe,
                                 .contact_between = CONTACT_NONE};
-    static const struct { const char *name, *plate, *steps; } figure[] = {
+    const struct scene steps = {.space = SPACE_PLANE_STRAIN,
+                                .dim = 2,
+                                .materials = 1,
+                                .material = &brittle,
+                                .probes = 4,
+                                .probe = probe,
+                                .solver = SOLVER_STATIC,
+                                .rigids = 2,
+                                .contact_between = CONTACT_NONE};
+    static const struct {
+        const char *name, *plate, *steps;
+    } figure[] = {
         {"energy.kinetic", NULL, NULL},
         {"crack.angle_deg", "needs cracks or bonds that break", NULL},
         {"crack.start_time", "needs cracks", "load steps have no speed"},
