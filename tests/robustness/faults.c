@@ -217,6 +217,7 @@ int posix_memalign(void **pointer, size_t alignment, size_t n)
     type __wrap_##name parameters;                                                                                     \
     type __wrap_##name parameters { return fails ? failed : name arguments; }
 
+/* clang-format off */
 WRAP(void *, malloc, (size_t n), (n), hit(OWN_MALLOC), NULL)
 WRAP(void *, calloc, (size_t count, size_t n), (count, n), hit(OWN_MALLOC), NULL)
 WRAP(void *, realloc, (void *old, size_t n), (old, n), hit(OWN_MALLOC), NULL)
@@ -229,7 +230,7 @@ WRAP(ssize_t, read, (int fd, void *bytes, size_t n), (fd, bytes, n), hit(OWN_REA
 WRAP(ssize_t, pread, (int fd, void *bytes, size_t n, off_t at), (fd, bytes, n, at), hit(OWN_READ), -1)
 WRAP(ssize_t, write, (int fd, const void *bytes, size_t n), (fd, bytes, n), hit_file(OWN_WRITE, fd), -1)
 WRAP(ssize_t, pwrite, (int fd, const void *bytes, size_t n, off_t at), (fd, bytes, n, at), hit_file(OWN_WRITE, fd), -1)
-WRAP(int, fflush, (FILE * f), (f), f &&f != stdout && f != stderr && hit(OWN_WRITE), EOF)
+WRAP(int, fflush, (FILE *f), (f), f && f != stdout && f != stderr && hit(OWN_WRITE), EOF)
 WRAP(int, fsync, (int fd), (fd), hit(OWN_FSYNC), -1)
 WRAP(int, rename, (const char *from, const char *to), (from, to), hit(OWN_RENAME), -1)
 WRAP(int, mkdir, (const char *path, mode_t mode), (path, mode), hit(OWN_MKDIR), -1)
@@ -258,6 +259,7 @@ PLACE(void, partial_stress_make,
        const struct bond_source *source, const int32_t *changed, int64_t n),
       (partial, p, b, source, changed, n), AT_COUPLING)
 PLACE(real, statics_overload, (const struct run *e), (e), AT_EQUILIBRIUM)
+/* clang-format on */
 
 /* ---- the program ------------------------------------------------------------------------------------------------- */
 
