@@ -56,7 +56,6 @@ struct run {
     real mass;                   /* of the body [kg] */
     real damped;                 /* energy that damping and conversion of moving cells took so far [J] */
     struct warnings warnings;    /* what engine_warn and the run found */
-    bool trial;                  /* steps are taken on trial: warnings are stored, not printed */
     struct laps laps;
     struct grid_method *grid;        /* material points on the grid of the current frame: grid/grid_part.h */
     struct reference_frame *frame;   /* bodies in the reference frame: mesh/mesh_part.h */

@@ -40,7 +40,7 @@ static status time_steps(struct run *e, double *step)
     const int64_t period = e->clock.steps / samples > 0 ? e->clock.steps / samples : 1;
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
-    e->report->quiet = e->trial = true;
+    e->report->quiet = e->warnings.silent = true;
     TRY(report_start(e));
     const double begun = team_clock();
     TRY(engine_step(e));
@@ -107,7 +107,7 @@ static status make_other(struct scene *s, struct run *e, const struct run_argume
 static double all_steps(struct run *e)
 {
     const double start = team_clock();
-    e->report->quiet = e->trial = true;
+    e->report->quiet = e->warnings.silent = true;
     memory_reuse(true);
     if (report_start(e) != OK) return NAN;
     laps_start(&e->laps);
@@ -238,7 +238,7 @@ status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a
 {
     const int known = e->warnings.n;
     c->all_peridynamic = NAN;
-    e->trial = true;
+    e->warnings.silent = true;
     if (scene_in_steps(e->scene)) {
         c->output = output_seconds(e) + FILE_SECONDS * e->scene->steps.number; /* a checkpoint after each load step */
         const status result = cost_load_steps(c, e);

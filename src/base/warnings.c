@@ -35,6 +35,16 @@ void warnings_print(const struct warnings *w, int first, FILE *out)
     for (int k = first; k < w->n; k++) fprintf(out, "warning: %s\n", w->text[k]);
 }
 
+void warnings_print_new(const struct warnings *w, int first)
+{
+    if (!w->silent) warnings_print(w, first, stderr);
+}
+
+void warnings_say(struct warnings *w, const char *text)
+{
+    if (warnings_add(w, "%s", text)) warnings_print_new(w, w->n - 1);
+}
+
 /* All in one text, each with its end. */
 status warnings_archive(struct warnings *w, struct archive *a)
 {

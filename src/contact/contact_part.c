@@ -93,7 +93,7 @@ status contact_overlap_check(struct run *e)
              "particles in contact overlap by more than %.1f spacings (contact.overlap_max in the summary): pressures "
              "there are no longer those of the material; a larger contact.stiffness overlaps less",
              OVERLAP_DOUBTFUL);
-    run_say(e, text);
+    warnings_say(&e->warnings, text);
     return OK;
 }
 

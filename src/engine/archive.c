@@ -61,7 +61,7 @@ static status kernels_archive(struct run *e, struct archive *a)
              "the last bit; "
              "CLEAVE_SIMD=%s keeps the bits, where the processor runs them",
              then, now->name, then);
-    run_say(e, text);
+    warnings_say(&e->warnings, text);
     return OK;
 }
 

@@ -37,7 +37,7 @@ void profiles_check(struct run *e, struct output *out)
     char others[48];
     if (lost > 1) snprintf(others, sizeof others, ", and %lld profiles more are", (long long)lost - 1), more = others;
     snprintf(text, sizeof text, "%s is missing%s: a run of its own would make it again", first, more);
-    run_say(e, text);
+    warnings_say(&e->warnings, text);
 }
 
 /* Removes a profile, and leaves a file of others. False: there is none. */

@@ -290,8 +290,9 @@ static void say_closed(struct run *e)
     real K[MODES];
     led_factors(e, K);
     if (K[MODE_I] < 0 && e->contact->law.between == CONTACT_NONE)
-        run_say(e, "K_I of a crack is negative: its faces are pressed together, and pass through each other without "
-                   "contact.between: all");
+        warnings_say(&e->warnings,
+                     "K_I of a crack is negative: its faces are pressed together, and pass through each other without "
+                     "contact.between: all");
 }
 
 #define FLOW_LARGE 0.1 /* plastic strain beyond which strains are no small ones */
@@ -306,7 +307,7 @@ static void say_flowed(struct run *e)
              "points have flowed by a plastic strain of %.2g, and load steps know that of a few per cent: see whether "
              "the body bears its loads, or choose smaller ones, or solver explicit",
              most);
-    if (most > FLOW_LARGE) run_say(e, text);
+    if (most > FLOW_LARGE) warnings_say(&e->warnings, text);
 }
 
 /* Says that a rigid body has gone its way and pushed nothing: past the body, or a body that nothing holds before it. */
@@ -318,7 +319,8 @@ static void say_missed(struct run *e)
         snprintf(text, sizeof text,
                  "rigid body %.60s went its way and pushed nothing: see whether it meets a body, and what holds that",
                  r->name);
-        if (r->motion == RIGID_DRIVEN && r->force_most <= ROUND_OFF * e->statics->balance.largest) run_say(e, text);
+        if (r->motion == RIGID_DRIVEN && r->force_most <= ROUND_OFF * e->statics->balance.largest)
+            warnings_say(&e->warnings, text);
     }
 }
 
@@ -337,8 +339,9 @@ static status check_held(struct run *e, bool *apart)
     const status held = statics_unheld(e);
     *apart = parts && (held != OK || e->statics->severs);
     if (*apart)
-        run_say(e, "the crack goes through: after its next advance next to nothing holds a piece of the body under "
-                   "its loads, and the run ends before it");
+        warnings_say(&e->warnings,
+                     "the crack goes through: after its next advance next to nothing holds a piece of the body under "
+                     "its loads, and the run ends before it");
     return parts ? OK : held;
 }
 

@@ -62,7 +62,7 @@ static void say_past_limit(struct run *e)
              "%lld bonds are beyond their critical stretch in the solution, and none broke: smaller loads, or "
              "solver explicit",
              (long long)e->solver->past_limit);
-    if (e->solver->past_limit > 0) run_say(e, text);
+    if (e->solver->past_limit > 0) warnings_say(&e->warnings, text);
 }
 
 #define STRAIN_LARGE 0.1 /* beyond it neither straight bonds nor Hooke's law describe a solid */
@@ -81,7 +81,7 @@ static void say_large_strain(struct run *e)
              "stresses of the solution reach %.2g times Young's modulus: no solid bears that, and elasticity of small "
              "strains does not describe it; see whether loads are meant, and in which unit",
              most);
-    if (!(most <= STRAIN_LARGE)) run_say(e, text);
+    if (!(most <= STRAIN_LARGE)) warnings_say(&e->warnings, text);
 }
 
 /* Completes a solution: the body at rest at the end of the duration. */

@@ -110,7 +110,7 @@ void rigids_meet(struct run *e)
                      "rigid bodies %.60s and %.60s are inside each other at t = %.3g s: they meet particles, not each "
                      "other",
                      e->rigid->body[a].name, e->rigid->body[b].name, e->clock.t);
-            run_say(e, text);
+            warnings_say(&e->warnings, text);
             e->rigid->met = true;
         }
 }

@@ -1,10 +1,5 @@
-/* Warnings of a running run. */
+/* Warns how bonds that yield differ from von Mises' law. */
 #include "run/say.h"
-
-void run_say(struct run *e, const char *text)
-{
-    if (warnings_add(&e->warnings, "%s", text) && !e->trial) warnings_print(&e->warnings, e->warnings.n - 1, stderr);
-}
 
 /* What a body of bonds bears that yield one by one, over von Mises' law, without hardening: bonds of all directions
  * carry K s_y each per angle, stretched within an angle a of the pull and shortened beyond; sides without stress fix

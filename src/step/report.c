@@ -179,7 +179,7 @@ static status say_lost(struct run *e)
     char text[PATH_NAME_ROOM + 200];
     int lost;
     TRY(output_frames_check(e->report->out, &lost, text, sizeof text));
-    if (lost > 0) run_say(e, text);
+    if (lost > 0) warnings_say(&e->warnings, text);
     profiles_check(e, e->report->out);
     return OK;
 }

@@ -496,7 +496,7 @@ static void say_torn(struct run *e, real t)
              "boundary %s%s: bonds of the particles that it drives break, the first %s: a grip that tears off pulls no "
              "more; they count as crack.driven_bonds, not in crack.start_time and probes",
              name, others > 0 ? " and others" : "", when);
-    run_say(e, text);
+    warnings_say(&e->warnings, text);
 }
 
 void sample_breaks(struct run *e, int64_t broken)

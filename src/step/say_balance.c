@@ -22,7 +22,7 @@ static void say_released(struct run *e)
              "bonds released %.3g J as they broke that they had not held (energy.fracture %.3g): families of model %s "
              "under pressure gain energy where they lose bonds; compare with model: bond, do not trust what came after",
              released, -released, e->scene->model == MODEL_OSPD ? "ospd" : "mospd");
-    run_say(e, text);
+    warnings_say(&e->warnings, text);
 }
 
 #define SPIN_DOUBTFUL 0.01 /* share of the angular momentum of bodies */
@@ -38,7 +38,7 @@ static void say_spin(struct run *e)
              "%.*f %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error)%s",
              error < 0.095, 100 * error,
              apic ? ": mpm.transfer apic leaves some percent to velocity gradients, flip keeps it to 0.1 to 1 %" : "");
-    run_say(e, text);
+    warnings_say(&e->warnings, text);
 }
 
 /* Says that the interface zone took motion that was more than noise. */
@@ -53,7 +53,7 @@ static void say_damped(struct run *e)
              "%.0f %% of the energy was damped beside bonds (energy.damped): interface_damping takes vibrations of "
              "some spacings, in small bodies all there are; interface_damping: 0 keeps them, as method pd does",
              100 * share);
-    run_say(e, text);
+    warnings_say(&e->warnings, text);
 }
 
 /* Writes that the first bonds broke in a collision whose fronts ring; false: none did. */
@@ -79,7 +79,7 @@ void say_balance(struct run *e)
     const real error = e->diagnostics->now.balance_error;
     const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
     char text[400];
-    if (shock_text(e->scene, e->diagnostics, text, sizeof text)) run_say(e, text);
+    if (shock_text(e->scene, e->diagnostics, text, sizeof text)) warnings_say(&e->warnings, text);
     if (scene_at_rest(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || energy_is_round_off(e)) return;
     snprintf(
         text, sizeof text,
@@ -88,7 +88,7 @@ void say_balance(struct run *e)
         error < 0 && apic
             ? ": APIC damps what its grid does not resolve, mpm.transfer flip and mpm.frame reference keep it"
             : "");
-    run_say(e, text);
+    warnings_say(&e->warnings, text);
 }
 
 void say_yielding(struct run *e)
@@ -100,5 +100,5 @@ void say_yielding(struct run *e)
     const int known = e->warnings.n;
     e->report->yield_said = true;
     warn_of_yielding(e->scene, &e->warnings);
-    if (!e->trial) warnings_print(&e->warnings, known, stderr);
+    warnings_print_new(&e->warnings, known);
 }

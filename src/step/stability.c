@@ -389,7 +389,7 @@ static void say_stretched(struct run *e)
                  "%% on they come apart (mpm.transfer apic) or gain energy (flip), whatever the shape; mpm.frame "
                  "reference bears any stretch",
                  100 * strain, e->clock.t, p->x[0][i]);
-        run_say(e, text);
+        warnings_say(&e->warnings, text);
         e->stability->stretched = true;
     }
 }
