@@ -145,9 +145,6 @@ void contact_make(struct contact *c, enum contact_between between, struct contac
                   const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
                   int rigids);
 void contact_free(struct contact *c);
-/* Takes the pairs of other particles of the same body, whose numbers here are `now`; n: of the body's particles.
- * contact_follow is due. `old` is then as good as made anew. No rigid bodies. */
-void contact_take(struct contact *c, struct contact *old, const int32_t *now, int64_t n);
 
 /* Critical step of particles that contact pushes on one side and bonds hold on the other [s]; `bonds`: of bonds [s]. */
 real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *m, real bonds);

@@ -13,15 +13,17 @@ status engine_make(struct run *e, const struct scene *s, struct output *out);
 void engine_free(struct run *e);
 /* What a run of its lattice bodies takes at the most, about, before anything of it is made but materials and family
  * [byte]; the same for all particles of the body, as peridynamic ones. */
-real run_memory(const struct run *e);
-real run_memory_peridynamic(const struct run *e);
+real run_memory(const struct scene *s, const struct particles *p, const struct bond_source *source);
+real run_memory_peridynamic(const struct scene *s, const struct particles *p, const struct bond_source *source);
 /* Runs to the end of the scene. INTERRUPTED after a checkpoint when a signal came. */
 status engine_run(struct run *e);
 /* One step in time, levels of cells before it. */
 status engine_step(struct run *e);
-/* Saves or restores the state between two steps; says on standard error where a checkpoint was written with other
- * kernels. run: struct run. */
+/* Saves the state between two steps. run: a struct run. */
 status engine_archive(void *run, struct archive *a);
+/* Restores it, after engine_make of the same scene; prints on standard error where it was saved with other kernels.
+ * FAILED if the archive is of another body or in no state that a run can have. run: a struct run. */
+status engine_restore(void *run, struct archive *a);
 /* After the run: the same scene on material points alone, if a pulse probe compares with it. */
 status engine_baseline(struct run *e);
 /* Everything about the scene that is allowed but probably not meant, into e->warnings. Call once, before the first

@@ -78,8 +78,6 @@ struct tip_surroundings {
  * half the particles; of a crack in a plane of symmetry half of it, as of its energy. */
 real tips_area(const struct tips *t, const struct particles *p, const struct tip_surroundings *s);
 void tips_free(struct tips *t);
-/* Takes what `old` knows of other particles of the same body, whose numbers here are `now`, -1: none. */
-void tips_take(struct tips *t, struct tips *old, const int32_t *now);
 status tips_archive(struct tips *t, struct archive *a);
 
 #endif

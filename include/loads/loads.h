@@ -370,8 +370,6 @@ void loads_static_hold(struct loads *l, struct particles *p);
  * proportion on a linear body, into `work` and `constraint_work`. */
 void loads_static_work(struct loads *l, const struct particles *p);
 
-/* Accounts of the same boundaries on other particles. */
-void loads_take(struct loads *l, const struct loads *old);
 status loads_archive(struct loads *l, struct archive *a);
 
 enum { BOUNDARIES_MAX = 255 }; /* their number fits the byte of struct held and struct image; scene_keys.c */

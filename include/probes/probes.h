@@ -82,8 +82,6 @@ struct velocity_time {
 /* Binds requests to particles. Refuses a point outside the body, an unknown boundary name, or a bar that is not that of
  * the closed form. */
 status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed *o);
-/* What these probes of the same requests remember is that of others. */
-void probes_take(struct probes *s, const struct probes *old);
 void probes_free(struct probes *s);
 /* Fills value[], as far as positions tell. */
 void probes_sample(struct probes *s, const struct observed *o);

@@ -72,7 +72,7 @@ void say_levels_saving(const struct run *e, const struct cost *c)
                many(points_in_coarse_cells(l, e->part.dim), millions, few), many((double)e->part.n_body, millions, all),
                many(cells, false, made));
     printf("; memory %s", much_memory(c->bytes, memory));
-    const double peridynamic = run_memory_peridynamic(e);
+    const double peridynamic = run_memory_peridynamic(e->scene, &e->part, &e->source);
     if (e->scene->method == METHOD_ADAPTIVE && peridynamic > c->bytes)
         printf(" instead of %s", much_memory(peridynamic, whole));
     printf("; %s %s", c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about",

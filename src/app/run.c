@@ -95,7 +95,7 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
         fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads,
                 omp_get_num_procs());
     e->report->stop = stop_signals();
-    if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_archive, e));
+    if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_restore, e));
     output_temporal_remove(out);
     status ran = engine_run(e);
     if (ran == OK) ran = engine_baseline(e);

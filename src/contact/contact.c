@@ -203,19 +203,6 @@ real contact_energy(const struct contact *c, const struct particles *p)
 
 /* ---- other particles --------------------------------------------------------------------------------------------- */
 
-void contact_take(struct contact *c, struct contact *old, const int32_t *now, int64_t n)
-{
-    const struct contact fresh = *c;
-    const struct contact_law theirs = old->law;
-    *c = *old, *old = fresh, old->law = theirs;
-    c->law = fresh.law;
-    for (int64_t k = 0; k < c->n && c->made; k++) c->particle[k] = now[c->particle[k]];
-    for (int d = 0; d < DIM_MAX && c->push[d]; d++) {
-        memory_free(c->push[d]);
-        c->push[d] = NEW("contact.push", n, real); /* the step of a frame records it anew */
-    }
-}
-
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
 status contact_stored(struct archive *a, const char *name, void **array, int64_t count, size_t size)
@@ -254,6 +241,7 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
     if (c->n < 0 || c->rows < 0 || c->pairs < 0 || c->n > p->n_all || c->rows > c->n || c->pairs > INT32_MAX)
         return status_set(FAILED, "cannot resume: the checkpoint has an impossible number of pairs in contact");
     TRY(contact_stored(a, "contact/particle", (void **)&c->particle, c->n, sizeof *c->particle));
+    archive_renumber(a, c->particle, c->n);
     for (int d = 0; d < p->dim; d++) {
         char name[] = "contact/at_x";
         name[sizeof name - 2] = (char)('x' + d);

@@ -1,4 +1,4 @@
-/* State of the engine in checkpoints: what is saved and restored, and what is made again. */
+/* State of a run in checkpoints: what is saved and restored, and what is rebuilt from it. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,7 +11,6 @@
 #include "grid/grid_part.h"
 #include "mesh/mesh_part.h"
 #include "output/output.h"
-#include "run/say.h"
 
 #define FAR_AWAY 1e7 /* [spacings], as too_far in fill.c */
 
@@ -36,18 +35,8 @@ static status particles_check(const struct scene *s, const struct particles *p)
     return OK;
 }
 
-/* Makes again all that follows from the particles; the rest is read back. */
-static void engine_archive_rebuild(struct run *e)
-{
-    particles_list(&e->part);
-    bonds_free(&e->bonds);
-    bonds_make(&e->bonds, NULL, &e->part, &e->source);
-    partial_stress_free(&e->coupling->partial);
-    e->grid->sort_needed = true;
-}
-
 /* Warns if a checkpoint was written with another set of kernels: sets agree to round-off only. */
-static status kernels_archive(struct run *e, struct archive *a)
+static status kernels_archive(struct warnings *to, struct archive *a)
 {
     char text[256];
     const struct simd_set *now = simd_in_use();
@@ -58,40 +47,75 @@ static status kernels_archive(struct run *e, struct archive *a)
     if (strcmp(then, now->name) == 0) return OK;
     snprintf(text, sizeof text,
              "the checkpoint was written with %s kernels and the run goes on with %s: the same to round-off, not to "
-             "the last bit; "
-             "CLEAVE_SIMD=%s keeps the bits, where the processor runs them",
+             "the last bit; CLEAVE_SIMD=%s keeps the bits, where the processor runs them",
              then, now->name, then);
-    warnings_say(&e->warnings, text);
+    warnings_say(to, text);
+    return OK;
+}
+
+/* Saves which cells are hollow; restore.c reads them before all else. */
+static status hollow_save(const struct hollow *h, struct archive *a)
+{
+    int64_t n = h->absent ? h->box.n : 0;
+    ARCHIVE_VALUE(a, "hollow/cells", n);
+    return n > 0 ? a->exchange(a, "hollow/absent", h->absent, (size_t)n) : OK;
+}
+
+/* Saves or restores where the run is in time. */
+static status clock_archive(struct run_clock *c, struct archive *a)
+{
+    ARCHIVE_VALUE(a, "engine/t", c->t);
+    ARCHIVE_VALUE(a, "engine/step", c->step);
+    ARCHIVE_VALUE(a, "engine/steps", c->steps);
+    ARCHIVE_VALUE(a, "engine/dt", c->dt);
+    return OK;
+}
+
+/* Saves particles and bonds. */
+static status body_save(struct run *e, struct archive *a)
+{
+    TRY(hollow_save(&e->frame->hollow, a));
+    TRY(particles_archive(&e->part, e->optional, a));
+    return bonds_archive(&e->bonds, &e->part, a);
+}
+
+/* Restores particles and bonds, and rebuilds what follows from them: lists, coupling, mesh and coarse cells. */
+static status body_restore(struct run *e, struct archive *a)
+{
+    TRY(particles_archive(&e->part, e->optional, a));
+    TRY(particles_check(e->scene, &e->part));
+    particles_list(&e->part);
+    bonds_free(&e->bonds);
+    bonds_make(&e->bonds, NULL, &e->part, &e->source);
+    partial_stress_free(&e->coupling->partial);
+    e->grid->sort_needed = true;
+    TRY(bonds_archive(&e->bonds, &e->part, a));
+    state_weigh(&e->bonds, &e->part, &e->source);
+    coupling_partial_make(e);
+    levels_free(&e->frame->levels);
+    mesh_free(&e->frame->mesh);
+    memory_free(e->frame->elastic);
+    TRY(coupling_frame_make(e, true));
+    return frame_levels_make(e, true);
+}
+
+status parts_archive(struct run *e, struct archive *a)
+{
+    TRY(loads_archive(&e->loads, a));
+    for (const struct part *const *p = e->parts; *p; p++)
+        if ((*p)->state) TRY((*p)->state(e, a));
     return OK;
 }
 
 status engine_archive(void *engine, struct archive *a)
 {
     struct run *e = engine;
-    TRY(kernels_archive(e, a));
-    TRY(restore_hollow(e, a));
-    TRY(particles_archive(&e->part, e->optional, a));
-    if (!a->saving) TRY(particles_check(e->scene, &e->part));
-    if (!a->saving) engine_archive_rebuild(e);
-    TRY(bonds_archive(&e->bonds, &e->part, a));
-    if (!a->saving) state_weigh(&e->bonds, &e->part, &e->source);
-    if (!a->saving) {
-        coupling_partial_make(e);
-        levels_free(&e->frame->levels);
-        mesh_free(&e->frame->mesh);
-        memory_free(e->frame->elastic);
-        TRY(coupling_frame_make(e, true));
-        TRY(frame_levels_make(e, true));
-    }
-    ARCHIVE_VALUE(a, "engine/t", e->clock.t);
-    ARCHIVE_VALUE(a, "engine/step", e->clock.step);
-    ARCHIVE_VALUE(a, "engine/steps", e->clock.steps);
-    ARCHIVE_VALUE(a, "engine/dt", e->clock.dt);
+    TRY(kernels_archive(&e->warnings, a));
+    TRY(a->saving ? body_save(e, a) : body_restore(e, a));
+    TRY(clock_archive(&e->clock, a));
     ARCHIVE_VALUE(a, "engine/damped", e->damped);
     TRY(active_set_archive(&e->bonds.active, "bonds", a));
-    TRY(loads_archive(&e->loads, a));
-    for (const struct part *const *p = e->parts; *p; p++)
-        if ((*p)->state) TRY((*p)->state(e, a));
+    TRY(parts_archive(e, a));
     const int known = e->warnings.n;
     TRY(warnings_archive(&e->warnings, a));
     warnings_print(&e->warnings, known, stderr);

@@ -23,8 +23,8 @@ status engine_refill(struct run *e, const uint8_t *level);
 /* What a run takes of its predecessor while it is made: particles, once it has images; what load has broken. */
 void engine_take_particles(struct run *e, struct predecessor *before);
 void engine_take_bonds(struct run *e, const struct predecessor *before);
-/* Saves or restores the cells that are hollow; where they differ, the run is made again. */
-status restore_hollow(struct run *e, struct archive *a);
+/* Saves or restores the state of loads and of all parts, as archive->scope says. */
+status parts_archive(struct run *e, struct archive *a);
 
 /* Warns of particles that have no neighbour. */
 void engine_warn_of_lone(const struct run *e, struct warnings *to);

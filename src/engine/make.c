@@ -166,11 +166,10 @@ static status make_bonds(struct run *e, struct predecessor *before)
 
 #define DAMPING_SHARE_MOST (1.0 / 16) /* interface_zone.h */
 
-static void make_interface_damping_share(struct run *e)
+/* Share of the velocity across the interface that a step damps [1]. c: wave speed [m/s], dt [s], h: of the grid [m]. */
+static real interface_damping_share(const struct scene *s, real c, real dt, real h)
 {
-    e->coupling->damping_share =
-        real_min(e->scene->interface_damping * e->tables.wave_speed * e->clock.dt / e->grid->field[0].grid.h,
-                 DAMPING_SHARE_MOST);
+    return real_min(s->interface_damping * c * dt / h, DAMPING_SHARE_MOST);
 }
 
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
@@ -228,30 +227,30 @@ static real memory_of(const struct scene *s, const struct bond_source *source, r
     return n * (BYTES_PER_PARTICLE + bonds * (follow ? BYTES_PER_BOND_LATTICE : BYTES_PER_BOND));
 }
 
-real run_memory(const struct run *e)
+real run_memory(const struct scene *s, const struct particles *p, const struct bond_source *source)
 {
     real longest;
-    const real n = particles_now(e->scene, &e->part, &longest);
-    return memory_of(e->scene, &e->source, n, longest, e->scene->method == METHOD_PD);
+    const real n = particles_now(s, p, &longest);
+    return memory_of(s, source, n, longest, s->method == METHOD_PD);
 }
 
-real run_memory_peridynamic(const struct run *e)
+real run_memory_peridynamic(const struct scene *s, const struct particles *p, const struct bond_source *source)
 {
     real longest;
-    particles_expected(e->scene, &longest);
-    return memory_of(e->scene, &e->source, (real)e->part.n_body, longest, true);
+    particles_expected(s, &longest);
+    return memory_of(s, source, (real)p->n_body, longest, true);
 }
 
 /* REFUSED if a run needs more memory than is available. */
-static status make_affordable(const struct run *e)
+static status make_affordable(const struct scene *s, const struct particles *p, const struct bond_source *source)
 {
-    const real memory = (real)team_memory(), bytes = run_memory(e);
+    const real memory = (real)team_memory(), bytes = run_memory(s, p, source);
     real longest;
     if (memory <= 0 || bytes <= memory) return OK;
     return status_set(
         REFUSED,
         "about %.2g particles would need some %.2g GB, and %.2g can be had (%s); choose a larger particles.spacing",
-        particles_now(e->scene, &e->part, &longest), bytes * 1e-9, memory * 1e-9, team_memory_limit());
+        particles_now(s, p, &longest), bytes * 1e-9, memory * 1e-9, team_memory_limit());
 }
 
 static void tables_free(struct material_tables *t)
@@ -304,13 +303,14 @@ static status make_time(struct run *e, const struct predecessor *before)
     return OK;
 }
 
-static void make_contact(struct run *e)
+/* Initialises the contact law of the scene. source and rigid are kept by reference. */
+static void make_contact(struct contact *c, const struct scene *s, const struct bond_source *source,
+                         struct rigid_set *rigid)
 {
-    const struct scene *s = e->scene;
     const struct contact_law law = {
         .form = s->contact_form, .distance = s->contact_distance, .friction = s->contact_friction};
-    contact_make(e->contact, !scene_at_rest(s) && has_peridynamics(s) ? s->contact_between : CONTACT_NONE, law,
-                 s->contact_stiffness, &e->source, e->rigid->shape, e->rigid->body, s->rigids);
+    contact_make(c, !scene_at_rest(s) && has_peridynamics(s) ? s->contact_between : CONTACT_NONE, law,
+                 s->contact_stiffness, source, rigid->shape, rigid->body, s->rigids);
 }
 
 /* Materials, kernels, and the particles that are made. */
@@ -322,10 +322,10 @@ static status make_particles(struct run *e)
     make_family(s, &e->source);
     kernels_choose(&e->kernels, s->dim, law_of(s, &e->source), s->shape, s->transfer);
     TRY(named(s, frame_hollow_plan(e)));
-    if (!e->frame->hollow.absent) TRY(named(s, make_affordable(e)));
+    if (!e->frame->hollow.absent) TRY(named(s, make_affordable(s, &e->part, &e->source)));
     TRY(fill_particles(&e->part, s, &e->frame->hollow, e->optional));
     strength_found(e);
-    return named(s, make_affordable(e)); /* with the actual number of particles */
+    return named(s, make_affordable(s, &e->part, &e->source)); /* with the actual number of particles */
 }
 
 /* What looks at the run: tips, growing cracks, probes. */
@@ -365,7 +365,7 @@ static status make_forces(struct run *e, struct predecessor *before)
     TRY(rigids_check(e));
     TRY(named(s, joined_check(e)));
     TRY(named(s, statics_check(e)));
-    make_contact(e);
+    make_contact(e->contact, s, &e->source, e->rigid);
     coupling_partial_make(e);
     TRY(named(s, coupling_frame_make(e, before != NULL)));
     TRY(driving_check(e, before == NULL));
@@ -390,7 +390,8 @@ status engine_make_again(struct run *e, const struct scene *s, struct output *ou
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
     e->mass += (real)(e->part.n_body - e->part.n) * e->part.mass[0];
     if (!before) TRY(named(s, frame_levels_make(e, false)));
-    make_interface_damping_share(e);
+    e->coupling->damping_share =
+        interface_damping_share(s, e->tables.wave_speed, e->clock.dt, e->grid->field[0].grid.h);
     e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&
                               s->contact_convert && body_apart(s, 1) + s->rigids >= 0 && !coupling_unified(s->coupling);
     e->grid->transfer = (struct transfer_data){&e->grid->field[0].order,

@@ -3,57 +3,12 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/memory_archive.h"
+#include "contact/contact.h"
 #include "mesh/mesh_part.h"
 #include "coupling/coupling_part.h"
-#include "probes/probes_part.h"
-#include "step/stability.h"
 #include "step/report.h"
-#include "contact/contact.h"
-#include "fracture/fracture_part.h"
 #include "engine_internal.h"
-#include "probes/diagnostics.h"
-
-/* Numbers of the particles and images of `old` in e, -1: not there. Both are in the order of their ids. The caller
- * frees them. */
-static int32_t *numbers_now(const struct particles *p, const struct loads *loads, const struct run *old)
-{
-    const struct particles *q = &old->part;
-    int32_t *now = NEW("replace.now", q->n_all, int32_t);
-    int64_t i = 0, k = 0;
-    for (int64_t j = 0; j < q->n; j++) {
-        while (i < p->n && p->id[i] < q->id[j]) i++;
-        now[j] = i < p->n && p->id[i] == q->id[j] ? (int32_t)i : -1;
-    }
-    for (int64_t j = 0; j < old->loads.images; j++) {
-        const struct image *was = &old->loads.image[j];
-        const int32_t source = now[was->source];
-        int64_t next = k;
-        while (source >= 0 && next < loads->images &&
-               (loads->image[next].source != source || loads->image[next].load != was->load))
-            next++;
-        const bool found = source >= 0 && next < loads->images;
-        now[q->n + j] = found ? (int32_t)(p->n + next) : -1;
-        if (found) k = next + 1;
-    }
-    return now;
-}
-
-void engine_take_particles(struct run *e, struct predecessor *before)
-{
-    before->now = numbers_now(&e->part, &e->loads, before->run);
-    particles_take(&e->part, &before->run->part, before->now, e->optional);
-    particles_list(&e->part);
-    bonds_images_follow(&e->part, &e->source);
-}
-
-void engine_take_bonds(struct run *e, const struct predecessor *before)
-{
-    struct run *old = before->run;
-    bonds_take(&e->bonds, &e->part, &old->bonds, &old->part, before->now);
-    state_weigh(&e->bonds, &e->part, &e->source);
-    bonds_free(&old->bonds);
-    particles_free(&old->part);
-}
 
 /* Frees what is made anew from particles and scene: large bodies have no room for two of it. Of the mesh the motion of
  * its nodes is left. */
@@ -97,39 +52,39 @@ static void nodes_take(struct run *e, struct run *old)
     ends_update(e);
 }
 
-/* Accounts and figures that do not depend on which particles are made. */
-static void accounts_take(struct run *e, struct run *old)
+/* Moves what is not described by the functions of state: the motion of nodes, files, timers and warnings. */
+static void rest_take(struct run *e, struct run *old)
 {
-    loads_take(&e->loads, &old->loads);
-    probes_take(&e->probing->probes, &old->probing->probes);
+    nodes_take(e, old);
     e->damped = old->damped;
-    e->coupling->conversion = old->coupling->conversion;
-    *e->diagnostics = *old->diagnostics;
-    *e->stability = *old->stability;
-    e->probing->residual_step0 = old->probing->residual_step0;
     e->warnings = old->warnings, e->laps = old->laps;
     old->warnings = (struct warnings){0};
     *e->report = *old->report;
     *old->report = (struct run_report){.out = NULL};
 }
 
+/* Sets the run up again with the hollow cells of its frame. The parts pass on what its steps have changed as
+ * checkpoints do. */
 static status run_replace(struct run *e)
 {
     struct run *old = NEW("replace.old", 1, struct run);
     struct predecessor before = {.run = old};
+    struct memory_archive parts;
     const struct hollow hollow = e->frame->hollow;
+    memory_archive_make(&parts, ARCHIVE_REBUILD);
+    status s = parts_archive(e, &parts.archive);
     *old = *e;
     old->frame->hollow = (struct hollow){0};
     memory_reuse(false);
     leave_derived(old);
-    status s = engine_make_again(e, old->scene, NULL, hollow, &before);
+    if (s == OK) s = engine_make_again(e, old->scene, NULL, hollow, &before);
     if (s == OK) {
-        nodes_take(e, old);
-        contact_take(e->contact, old->contact, before.now, e->part.n);
-        if (e->contact->made) contact_follow(e->contact, &e->part, &e->bonds, &e->loads);
-        tips_take(&e->fracture->tips, &old->fracture->tips, before.now);
-        accounts_take(e, old);
+        rest_take(e, old);
+        memory_archive_rewind(&parts);
+        parts.archive.now = before.now;
+        s = parts_archive(e, &parts.archive);
     }
+    memory_archive_free(&parts);
     memory_free(before.now);
     engine_free(old);
     memory_free(old);
@@ -144,5 +99,7 @@ status engine_refill(struct run *e, const uint8_t *level)
         output_particles_changed(e->report->out);
     }
     frame_hollow_change(e, level);
-    return run_replace(e);
+    TRY(run_replace(e));
+    if (e->report->out) contact_record(e->contact, &e->part);
+    return OK;
 }

@@ -1,10 +1,10 @@
-/* Runs whose particles a checkpoint, or the next levels of cells, want to be others. */
+/* A run goes on from a checkpoint. */
 #include "base/memory.h"
 #include "engine_internal.h"
 #include "mesh/mesh_part.h"
 #include "step/report.h"
 
-/* Makes the run again with the cells hollow that a checkpoint has so. */
+/* Sets the run up again with the hollow cells of a checkpoint. absent: taken over. */
 static status remake(struct run *e, uint8_t *absent)
 {
     struct run_report *const report = e->report;
@@ -23,17 +23,23 @@ static status remake(struct run *e, uint8_t *absent)
     return made;
 }
 
-status restore_hollow(struct run *e, struct archive *a)
+/* Reads which cells are hollow in a checkpoint, and sets the run up again where they are others. */
+static status hollow_restore(struct run *e, struct archive *a)
 {
     struct hollow *h = &e->frame->hollow;
     int64_t n = h->absent ? h->box.n : 0;
     ARCHIVE_VALUE(a, "hollow/cells", n);
-    if (n == 0 && (a->saving || !h->absent)) return OK;
-    if (a->saving) return a->exchange(a, "hollow/absent", h->absent, (size_t)n);
+    if (n == 0 && !h->absent) return OK;
     if (n > 0 && n != h->box.n) return status_set(FAILED, "cannot resume: the checkpoint is of another body");
     uint8_t *absent = n > 0 ? NEW("hollow.absent", n, uint8_t) : NULL;
     if (n > 0) TRY(a->exchange(a, "hollow/absent", absent, (size_t)n));
     for (int64_t J = 0; J < n; J++)
         if (absent[J] > h->whole[J]) return status_set(FAILED, "cannot resume: the checkpoint lacks particles");
     return remake(e, absent);
+}
+
+status engine_restore(void *run, struct archive *a)
+{
+    TRY(hollow_restore(run, a));
+    return engine_archive(run, a);
 }

@@ -8,22 +8,21 @@
 #include "step/step.h"
 #include "step/checks.h"
 
-/* The rings of sif probes, where coarse cells have to stay away from. */
-static void rings_find(struct run *e)
+/* Finds the rings of sif probes, from which coarse cells keep away. */
+static void rings_find(struct reference_frame *f, struct probes *p, const struct observed *seen)
 {
-    const struct observed seen = run_observed(e);
-    struct reference_frame *f = e->frame;
-    if (!f->ring) f->ring = NEW("frame.rings", e->scene->probes, struct frame_ring);
+    if (!f->ring) f->ring = NEW("frame.rings", p->n, struct frame_ring);
     f->rings = 0;
-    for (int k = 0; k < e->probing->probes.n; k++)
-        f->rings += probes_sif_ring(&e->probing->probes, k, &seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
+    for (int k = 0; k < p->n; k++)
+        f->rings += probes_sif_ring(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
 }
 
 /* Levels of cells follow cracks and stress; where finer cells lack particles, the run is made again with them. */
 static status refine(struct run *e)
 {
     if (!frame_levels_due(e)) return OK;
-    rings_find(e);
+    const struct observed seen = run_observed(e);
+    rings_find(e->frame, &e->probing->probes, &seen);
     uint8_t *level = frame_levels_plan(e);
     if (!level) return OK;
     const status s = frame_hollow_lacks(e, level) ? engine_refill(e, level) : OK;

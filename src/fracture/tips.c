@@ -368,16 +368,6 @@ int64_t tips_tied(const struct tips *t)
     return tied;
 }
 
-void tips_take(struct tips *t, struct tips *old, const int32_t *now)
-{
-    const struct tips fresh = *t;
-    *t = *old;
-    t->label = fresh.label, t->count = fresh.count;
-    for (int64_t j = 0; j < old->count; j++)
-        if (now[j] >= 0) t->label[now[j]] = old->label[j];
-    old->time = fresh.time, old->growth = fresh.growth;
-}
-
 status tips_archive(struct tips *t, struct archive *a)
 {
     int64_t samples = t->samples;
@@ -392,5 +382,5 @@ status tips_archive(struct tips *t, struct archive *a)
         TRY(a->exchange(a, "tips/time", t->time, (size_t)samples * sizeof *t->time));
         TRY(a->exchange(a, "tips/growth", t->growth, (size_t)samples * TIPS_MAX * sizeof *t->growth));
     }
-    return a->exchange(a, "tips/label", t->label, (size_t)t->count);
+    return archive_by_particle(a, "tips/label", t->label, t->count, sizeof *t->label);
 }

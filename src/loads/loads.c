@@ -258,17 +258,6 @@ bool loads_hold(struct loads *l, struct particles *p, real t, real dt)
     return moved;
 }
 
-void loads_take(struct loads *l, const struct loads *old)
-{
-    memcpy(l->impulse, old->impulse, sizeof l->impulse);
-    l->work = old->work, l->constraint_work = old->constraint_work;
-    l->absorbing.energy = old->absorbing.energy;
-    for (int b = 0; b < l->n; b++) {
-        memcpy(l->load[b].displacement, old->load[b].displacement, sizeof l->load[b].displacement);
-        memcpy(l->load[b].reaction, old->load[b].reaction, sizeof l->load[b].reaction);
-    }
-}
-
 status loads_archive(struct loads *l, struct archive *a)
 {
     ARCHIVE_VALUE(a, "loads/impulse", l->impulse);
@@ -279,6 +268,7 @@ status loads_archive(struct loads *l, struct archive *a)
         char name[48];
         snprintf(name, sizeof name, "loads/displacement%d", b);
         ARCHIVE_VALUE(a, name, l->load[b].displacement);
+        if (a->scope == ARCHIVE_ACCOUNTS) continue;
         snprintf(name, sizeof name, "loads/reaction%d", b);
         ARCHIVE_VALUE(a, name, l->load[b].reaction); /* reaction of the last step, for samples before the next step */
     }

@@ -27,6 +27,7 @@ static void put_levels(const struct run *e, struct json *j)
 static status frame_state(struct run *e, struct archive *a)
 {
     struct reference_frame *f = e->frame;
+    if (a->scope == ARCHIVE_REBUILD) return OK;
     TRY(mesh_archive(&f->mesh, a));
     TRY(levels_archive(&f->levels, &e->part, &f->source, a));
     return active_set_archive(&f->mesh.active, "mesh", a);

@@ -423,13 +423,6 @@ void probes_sample_end(struct probes *s, const struct observed *o, const struct 
 
 /* ---- other particles --------------------------------------------------------------------------------------------- */
 
-void probes_take(struct probes *s, const struct probes *old)
-{
-    for (int k = 0; k < s->n; k++) s->probe[k].memory = old->probe[k].memory;
-    array_copy(s->value, old->value, s->columns, sizeof *s->value);
-    s->sampled = old->sampled;
-}
-
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
 status probes_archive(struct probes *s, struct archive *a)

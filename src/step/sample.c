@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/memory_archive.h"
 #include "run/part.h"
 #include "step/sample.h"
 #include "step/report.h"
@@ -420,10 +421,11 @@ static void reactions_at_end(struct run *e)
  * the power; that of driven particles is. */
 static real power_last(struct run *e, real *held)
 {
-    const struct loads account = e->loads;
-    struct load *own = BARE("report.load", e->loads.n, struct load);
-    array_copy(own, e->loads.load, e->loads.n, sizeof *own);
+    struct memory_archive accounts;
+    const real before = e->loads.constraint_work, kick = e->loads.absorbing.kick;
     const real dt_velocity = e->clock.dt * damping_share(e);
+    memory_archive_make(&accounts, ARCHIVE_ACCOUNTS);
+    INVARIANT(loads_archive(&e->loads, &accounts.archive) == OK);
     e->loads.absorbing.idle = e->loads.ended = true;
     loads_clear(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
@@ -432,17 +434,13 @@ static real power_last(struct run *e, real *held)
     if (e->frame->mesh.points > 0) frame_force(e);
     const real power = power_now(&e->part, e->frame) + grid_power(e, e->clock.t + 0.5 * e->clock.dt);
     const real walls = power_of_walls(e->frame);
-    *held = e->loads.constraint_work - account.constraint_work - e->clock.dt * walls;
+    *held = e->loads.constraint_work - before - e->clock.dt * walls;
     reactions_at_end(e);
-    for (int b = 0; b < e->loads.n; b++) {
-        array_copy(own[b].reaction, e->loads.load[b].reaction, DIM_MAX, sizeof(real));
-        e->loads.load[b] = own[b];
-    }
-    memcpy(e->loads.impulse, account.impulse, sizeof account.impulse); /* arrays may have grown with the grid */
-    e->loads.absorbing.energy = account.absorbing.energy, e->loads.absorbing.kick = account.absorbing.kick;
-    e->loads.work = account.work, e->loads.constraint_work = account.constraint_work;
+    memory_archive_rewind(&accounts);
+    INVARIANT(loads_archive(&e->loads, &accounts.archive) == OK);
+    memory_archive_free(&accounts);
+    e->loads.absorbing.kick = kick;
     e->loads.absorbing.idle = e->loads.ended = false;
-    memory_free(own);
     return power - walls;
 }
 

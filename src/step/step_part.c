@@ -75,6 +75,7 @@ static void put_figures(const struct run *e, struct json *j)
 static status report_state(struct run *e, struct archive *a)
 {
     struct run_report *r = e->report;
+    if (a->scope == ARCHIVE_REBUILD) return OK;
     ARCHIVE_VALUE(a, "engine/particle_steps", r->particle_steps);
     ARCHIVE_VALUE(a, "engine/bond_visits", r->bond_visits);
     ARCHIVE_VALUE(a, "engine/inactive", r->inactive);

@@ -25,6 +25,16 @@ twice_interrupted "$work/stopped" 30 60 $plate -s mpm.fill=needed
 calm "$work/stopped" -t 2 --resume $plate -s mpm.fill=needed
 same "on 2 threads, interrupted after 30 and 60 lines" "$work/needed" "$work/stopped"
 
+# Contact of faces that have broken goes on where particles are added, and its forces are in frames after that.
+rubs="inputs/kalthoff_winkler.yaml -s particles.spacing=1mm -s duration=44us -s mpm.levels=2 -s conversion.criteria=[bond,stress] -s output.frames=2"
+for fill in all needed; do calm "$work/rubs_$fill" $rubs -s mpm.fill=$fill; done
+between "rubs: particles made" "$(f rubs_needed particles_made)" 15000 19000         # of 20150
+between "rubs: pairs in contact" "$(f rubs_needed contact.pairs_max)" 1 20
+for figure in contact.began contact.ended contact.overlap_max energy.kinetic; do
+    alike "rubs: $figure" "$(f rubs_all $figure)" "$(f rubs_needed $figure)" 1e-9
+done
+holds "rubs: contact forces in the last frame" grep -q contact_force "$work/rubs_needed/frames/000002.hdf"
+
 # Tractions on faces, a family of states, a mirror between nodes of coarse cells: what loads and mirrors need is made.
 cat >"$work/pulled.yaml" <<EOF2
 space: plane strain

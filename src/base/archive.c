@@ -1,0 +1,22 @@
+/* State of arrays that follow the particles. */
+#include "base/archive.h"
+
+#include "base/arrays.h"
+#include "base/memory.h"
+
+status archive_by_particle(struct archive *a, const char *name, void *array, int64_t n, size_t size)
+{
+    if (a->saving || !a->now) return a->exchange(a, name, array, (size_t)n * size);
+    const int64_t bytes = a->stored_size(a, name);
+    char *stored = NEW("archive.stored", bytes, char), *to = array;
+    const status s = a->exchange(a, name, stored, (size_t)bytes);
+    for (int64_t j = 0; s == OK && j < bytes / (int64_t)size; j++)
+        if (a->now[j] >= 0) array_copy(to + (size_t)a->now[j] * size, stored + (size_t)j * size, 1, (int64_t)size);
+    memory_free(stored);
+    return s;
+}
+
+void archive_renumber(const struct archive *a, int32_t *index, int64_t n)
+{
+    for (int64_t k = 0; k < n && !a->saving && a->now; k++) index[k] = a->now[index[k]];
+}

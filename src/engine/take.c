@@ -1,0 +1,45 @@
+/* Particles and bonds that a run takes over from its predecessor while it is set up. */
+#include "base/memory.h"
+#include "engine_internal.h"
+
+/* Returns the indices in the new run (p, loads) of the particles q and images of its predecessor, -1 where they are
+ * absent. [q->n_all], freed by the caller. Particles are in the order of their ids in both. */
+static int32_t *numbers_now(const struct particles *p, const struct loads *loads, const struct particles *q,
+                            const struct loads *images)
+{
+    int32_t *now = NEW("replace.now", q->n_all, int32_t);
+    int64_t i = 0, k = 0;
+    for (int64_t j = 0; j < q->n; j++) {
+        while (i < p->n && p->id[i] < q->id[j]) i++;
+        now[j] = i < p->n && p->id[i] == q->id[j] ? (int32_t)i : -1;
+    }
+    for (int64_t j = 0; j < images->images; j++) {
+        const struct image *was = &images->image[j];
+        const int32_t source = now[was->source];
+        int64_t next = k;
+        while (source >= 0 && next < loads->images &&
+               (loads->image[next].source != source || loads->image[next].load != was->load))
+            next++;
+        const bool found = source >= 0 && next < loads->images;
+        now[q->n + j] = found ? (int32_t)(p->n + next) : -1;
+        if (found) k = next + 1;
+    }
+    return now;
+}
+
+void engine_take_particles(struct run *e, struct predecessor *before)
+{
+    before->now = numbers_now(&e->part, &e->loads, &before->run->part, &before->run->loads);
+    particles_take(&e->part, &before->run->part, before->now, e->optional);
+    particles_list(&e->part);
+    bonds_images_follow(&e->part, &e->source);
+}
+
+void engine_take_bonds(struct run *e, const struct predecessor *before)
+{
+    struct run *old = before->run;
+    bonds_take(&e->bonds, &e->part, &old->bonds, &old->part, before->now);
+    state_weigh(&e->bonds, &e->part, &e->source);
+    bonds_free(&old->bonds);
+    particles_free(&old->part);
+}
