@@ -28,8 +28,7 @@ void statics_plastic_keep(struct run *e)
     INVARIANT(kept == OK);
 }
 
-/* Restores the plastic state saved last, if there is any. */
-static void statics_plastic_restore(struct run *e)
+void statics_plastic_restore(struct run *e)
 {
     struct memory_archive *m = &e->statics->plastic;
     if (m->n == 0) return;

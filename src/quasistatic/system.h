@@ -18,5 +18,7 @@ void statics_flow(struct run *e);
 status plastic_archive(struct run *e, struct archive *a);
 /* Saves the plastic state of bonds and points as the start of the next solutions. */
 void statics_plastic_keep(struct run *e);
+/* Restores the plastic state saved last. Does nothing if none has been saved. */
+void statics_plastic_restore(struct run *e);
 
 #endif

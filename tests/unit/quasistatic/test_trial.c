@@ -1,0 +1,67 @@
+/* Trial equilibria of load steps, one within another: each gives back the plastic state of bonds with which it began,
+ * and leaves it as the start of the next solutions. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "engine/engine.h"
+#include "src/quasistatic/system.h"
+#include "src/quasistatic/trial.h"
+#include "scene/scene_read.h"
+
+static const char plate[] =
+    "space: plane stress\nthickness: 3 mm\nduration: 2 s\nmethod: pd\nsolver: static\nsteps: {number: 2}\n"
+    "material: {young: 70 GPa, density: 2700 kg/m^3, critical_stretch: 0.1, yield_stress: 200 MPa}\n"
+    "body: {box: {from: [0, 0], to: [8 mm, 6 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"
+    "boundary:\n  - {fixed: all, region: {box: {from: [0, 0], to: [2 mm, 6 mm]}}}\n"
+    "  - {traction: [1 MPa, 0], face: x+, time: {ramp: {until: 2 s}}}\noutput: {frames: 0}\n";
+
+/* Number of slots of bonds in the columns of the row blocks. */
+static int64_t bond_slots(const struct run *e) { return e->bonds.columns * LANES; }
+
+/* Adds `more` to the plastic stretch of all bonds [1]. */
+static void flow(struct run *e, real more)
+{
+    for (int64_t q = 0; q < bond_slots(e); q++) e->bonds.plastic_stretch[q] += more;
+}
+
+/* Fails unless all bonds have this plastic stretch [1]. */
+static void expect(const struct run *e, real stretch)
+{
+    for (int64_t q = 0; q < bond_slots(e); q++) assert_true(e->bonds.plastic_stretch[q] == stretch);
+}
+
+static void test_trial_within_trial(void **state)
+{
+    struct scene s = {0};
+    struct run e = {0};
+    struct memory_archive outer, inner;
+    (void)state;
+    if (scene_read_text(&s, plate, strlen(plate), "plate.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    if (engine_make(&e, &s, NULL) != OK || engine_run(&e) != OK) fail_msg("%s", status_message());
+    assert_true(bond_slots(&e) > 0);
+    array_fill_bytes(e.bonds.plastic_stretch, 0, bond_slots(&e), sizeof *e.bonds.plastic_stretch);
+    flow(&e, 0.125);
+    trial_begin(&e, &outer);
+    flow(&e, 0.25);
+    trial_begin(&e, &inner);
+    flow(&e, 0.5);
+    trial_undo(&e, &inner, NULL);
+    expect(&e, 0.375);
+    trial_undo(&e, &outer, NULL);
+    expect(&e, 0.125);
+    flow(&e, 0.5);
+    statics_plastic_restore(&e);
+    expect(&e, 0.125); /* what the next solution begins with, not the start of the inner trial */
+    engine_free(&e);
+    scene_free(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_trial_within_trial)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
