@@ -28,10 +28,14 @@ int64_t cracks_grow(struct run *e);
  * nodes of grid g. Between forces and motion. */
 void residual_keep(struct run *e);
 void residual_keep_of(struct run *e, const struct grid *g);
-/* Profiles of probes: written with the frame that `out` has just written; a warning of those that a resumed run lacks;
- * those of an older run removed, before a run that replaces it. */
-status profiles_write(struct run *e, struct output *out, const struct observed *o);
-void profiles_check(struct run *e, struct output *out);
-void profiles_remove(struct run *e, struct output *out);
+/* Writes the profiles of LINE and EXACT probes, with the number of the frame that `out` has just written. FAILED if a
+ * file cannot be written. */
+status profiles_write(const struct probes *s, const struct output *out, const struct observed *o);
+
+/* Warns of profiles that a resumed run had written and that are missing. */
+void profiles_check(const struct probes *s, const struct output *out, struct warnings *to);
+
+/* Removes the profiles of an older run, before a run that replaces it. */
+void profiles_remove(const struct probes *s, const struct output *out);
 
 #endif

@@ -52,11 +52,17 @@ struct run_report {
     const volatile sig_atomic_t *stop; /* set by a signal: checkpoint and leave; NULL: never */
 };
 
-/* How many frames of the body follow the one of t = 0; the step of frame k. */
-int64_t report_frames(const struct run *e);
-int64_t report_frame_step(const struct run *e, int64_t k);
-/* Does a frame follow the step to come? */
-bool report_frame_follows(const struct run *e);
+/* Returns how many frames of the body follow the one of t = 0. */
+int64_t report_frames(const struct scene *s, const struct run_clock *clock);
+
+/* Returns the step after which frame k of the body is written, k = 0 at t = 0. */
+int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, int64_t k);
+
+/* Returns bits of the series, 0 the body's, of which a frame is due once `step` steps are done; 0 without files (out
+ * NULL). With solvers that are not explicit, frames are due at the start and at the end. */
+unsigned report_frames_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
+                           int64_t step);
+
 /* Is the step to come one of those that samples are spread over? */
 bool report_sample_due(const struct scene *s, const struct run_clock *clock);
 /* Before the first step of this process: history file, frame 0, first checkpoint; a restart has the last two already.
@@ -66,11 +72,11 @@ status report_start(struct run *e);
 status report_step(struct run *e);
 /* After the last step. */
 status report_end(struct run *e);
-/* Share of the body at rest now (data/active_set.h). */
-real report_inactive_share(const struct run *e);
+/* Returns the share of all particles that are at rest now (data/active_set.h) [1]. */
+real report_inactive_share(const struct bonds *b, const struct mesh *mesh, const struct particles *p);
 /* Warnings at the end: of energy and angular momentum that were not kept; of bonds that have yielded. */
 void say_balance(struct run *e);
-void say_yielding(struct run *e);
+void say_yielding(struct run_report *r, const struct bonds *b, const struct scene *s, struct warnings *to);
 /* What a frame is asked for that particles do not keep: made once all particles are up to date and extra->more is
  * known; freed when the frame has been begun. */
 void fields_make(struct run *e, unsigned asked, struct frame_extra *extra);

@@ -154,9 +154,9 @@ static void test_write(FILE *to, int64_t steps)
 /* Steps between the frames of this program, where they are one number; 0: they differ. */
 static int64_t frame_distance(const struct run *e, int64_t frames)
 {
-    const int64_t first = report_frame_step(e, 1);
+    const int64_t first = report_frame_step(e->scene, &e->clock, 1);
     for (int64_t k = 2; k <= frames; k++)
-        if (report_frame_step(e, k) != k * first) return 0;
+        if (report_frame_step(e->scene, &e->clock, k) != k * first) return 0;
     return first;
 }
 
@@ -166,7 +166,7 @@ static void frames_write(FILE *to, const struct exported *x)
     static const char columns[] = "plate.dump id x y z vx vy vz c_damage\n"
                                   "dump_modify frames sort id format float %.17g";
     const struct run *e = x->e;
-    const int64_t frames = report_frames(e), steps = e->clock.steps;
+    const int64_t frames = report_frames(e->scene, &e->clock), steps = e->clock.steps;
     int64_t every = frames > 0 ? frame_distance(e, frames) : steps;
     if (every == 0 && frames > FRAMES_MOST) {
         every = steps / frames;
@@ -176,9 +176,10 @@ static void frames_write(FILE *to, const struct exported *x)
         fprintf(to, "dump frames all custom %lld %s\n", (long long)every, columns);
         return;
     }
-    fprintf(to, "variable next equal %lld", (long long)report_frame_step(e, 1));
+    fprintf(to, "variable next equal %lld", (long long)report_frame_step(e->scene, &e->clock, 1));
     for (int64_t k = 1; k <= frames; k++) {
-        const int64_t here = report_frame_step(e, k), next = k < frames ? report_frame_step(e, k + 1) : steps + 1;
+        const int64_t here = report_frame_step(e->scene, &e->clock, k),
+                      next = k < frames ? report_frame_step(e->scene, &e->clock, k + 1) : steps + 1;
         if (next > here) fprintf(to, "+(step>=%lld)*%lld", (long long)here, (long long)(next - here));
     }
     fprintf(to, "\ndump frames all custom %lld %s every v_next first yes\n", (long long)steps, columns);

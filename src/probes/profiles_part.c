@@ -16,19 +16,19 @@ static status profiles_put(void *folder, const char *name, const char *text, siz
     return file_put_unsettled(path.text, text, length);
 }
 
-status profiles_write(struct run *e, struct output *out, const struct observed *o)
+status profiles_write(const struct probes *s, const struct output *out, const struct observed *o)
 {
-    if (probes_profiled(&e->probing->probes) == 0) return OK;
-    TRY(probes_profiles(&e->probing->probes, o, profiles_put, out->folder, out->series[0].frames - 1));
+    if (probes_profiled(s) == 0) return OK;
+    TRY(probes_profiles(s, o, profiles_put, out->folder, out->series[0].frames - 1));
     return file_settle(path_join(out->folder, "history.csv").text);
 }
 
-void profiles_check(struct run *e, struct output *out)
+void profiles_check(const struct probes *s, const struct output *out, struct warnings *to)
 {
     char text[PATH_NAME_ROOM + 120], name[PROFILE_NAME], first[PROFILE_NAME] = "";
     int64_t lost = 0;
     for (int frame = 0; frame < out->series[0].frames; frame++)
-        for (int k = 0; probes_profile_name(&e->probing->probes, k, frame, name); k++) {
+        for (int k = 0; probes_profile_name(s, k, frame, name); k++) {
             if (path_is_file(path_join(out->folder, name).text)) continue;
             if (lost++ == 0) snprintf(first, sizeof first, "%s", name);
         }
@@ -37,7 +37,7 @@ void profiles_check(struct run *e, struct output *out)
     char others[48];
     if (lost > 1) snprintf(others, sizeof others, ", and %lld profiles more are", (long long)lost - 1), more = others;
     snprintf(text, sizeof text, "%s is missing%s: a run of its own would make it again", first, more);
-    warnings_say(&e->warnings, text);
+    warnings_say(to, text);
 }
 
 /* Removes a profile, and leaves a file of others. False: there is none. */
@@ -47,10 +47,10 @@ static bool profile_remove(const char *path)
     return file_begin_guard(path, profile_begin, COUNT_OF(profile_begin)) != OK || unlink(path) == 0;
 }
 
-void profiles_remove(struct run *e, struct output *out)
+void profiles_remove(const struct probes *s, const struct output *out)
 {
     char name[PROFILE_NAME];
-    for (int k = 0; probes_profile_name(&e->probing->probes, k, 0, name); k++)
-        for (int frame = 0; probes_profile_name(&e->probing->probes, k, frame, name); frame++)
+    for (int k = 0; probes_profile_name(s, k, 0, name); k++)
+        for (int frame = 0; probes_profile_name(s, k, frame, name); frame++)
             if (!profile_remove(path_join(out->folder, name).text)) break;
 }

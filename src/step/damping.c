@@ -17,12 +17,12 @@
 #include "base/team.h"
 #include "mesh/mesh_part.h"
 #include "step/damping.h"
-#include "step/report.h"
 
 #define EXPONENT_MOST 50.0 /* of what is then no more */
 
 /* What has mass and velocity; flag NULL: nodes. */
 struct damped {
+    int64_t n;
     int dim;
     real factor; /* D */
     const real *mass;
@@ -58,86 +58,75 @@ static void slow_block(const void *context, int64_t first, int64_t end, real *su
         }
 }
 
-static real damping_exponent(const struct scene *scene, const struct run_clock *clock)
+/* Returns c dt of a step, at most EXPONENT_MOST [1]. */
+static real capped(real decay) { return real_min(decay, EXPONENT_MOST); }
+
+real damping_share(real decay) { return exp(-0.5 * capped(decay)); }
+
+/* Lists particles and the nodes of a mesh, with the factor of their velocities; returns how many of the two there are.
+ */
+static int damped_find(const struct particles *p, const struct mesh *mesh, real factor, struct damped all[2])
 {
-    return real_min(scene->damping * clock->dt, EXPONENT_MOST);
+    all[0] = (struct damped){.n = p->n, p->dim, factor, p->mass, p->v, .flag = p->flag};
+    all[1] = (struct damped){.n = mesh->grid.n, p->dim, factor, mesh->grid.mass, mesh->grid.velocity};
+    return mesh->points > 0 ? 2 : 1;
 }
 
-real damping_share(const struct run *e) { return exp(-0.5 * damping_exponent(e->scene, &e->clock)); }
-
-/* Particles and nodes; returns how many of the two there are. */
-static int damped_find(struct run *e, struct damped *all, int64_t *n)
-{
-    struct particles *p = &e->part;
-    struct grid *nodes = &e->frame->mesh.grid;
-    const real factor = exp(-damping_exponent(e->scene, &e->clock));
-    n[0] = p->n, n[1] = nodes->n;
-    all[0] = (struct damped){p->dim, factor, p->mass, p->v, e->damping->before[0], p->flag};
-    all[1] = (struct damped){p->dim, factor, nodes->mass, nodes->velocity, e->damping->before[1], NULL};
-    return e->frame->mesh.points > 0 ? 2 : 1;
-}
-
-/* Multiplies all velocities by the factor; returns the kinetic energy before it [J]. */
-static real slow_all(struct run *e, real factor)
+/* Multiplies all velocities by the factor; subtracts the momentum that they lose from the impulse of loads. Returns the
+ * kinetic energy before [J]. */
+static real slow_all(struct particles *p, const struct mesh *mesh, struct loads *l, real factor)
 {
     struct damped all[2];
-    int64_t n[2];
     real kinetic = 0;
-    const int kinds = damped_find(e, all, n);
+    const int kinds = damped_find(p, mesh, factor, all);
     for (int k = 0; k < kinds; k++) {
         real sum[DIM_MAX + 1];
-        all[k].factor = factor;
-        team_sums(n[k], DIM_MAX + 1, slow_block, &all[k], sum);
-        for (int d = 0; d < e->part.dim; d++) e->loads.impulse[d] -= sum[d];
+        team_sums(all[k].n, DIM_MAX + 1, slow_block, &all[k], sum);
+        for (int d = 0; d < p->dim; d++) l->impulse[d] -= sum[d];
         kinetic += sum[DIM_MAX];
     }
-    for (int c = 0; c < square(e->part.dim) && e->part.gradient[c]; c++) /* what APIC carries beside velocities */
-        for (int64_t i = 0; i < e->part.n; i++) e->part.gradient[c][i] *= factor;
-    loads_mirror(&e->loads, &e->part);
+    for (int c = 0; c < square(p->dim) && p->gradient[c]; c++) /* velocity gradients of APIC */
+        for (int64_t i = 0; i < p->n; i++) p->gradient[c][i] *= factor;
+    loads_mirror(l, p);
     return kinetic;
 }
 
-/* The half of a decay before the first kick, which samples of the start do not see. */
-static void damping_start(struct run *e)
+real damping_start(struct particles *p, const struct mesh *mesh, struct loads *l, real decay)
 {
-    const real share = damping_share(e);
-    e->damped += (1 - share) * slow_all(e, share);
-    for (int d = 0; d < e->part.dim && e->report->sampling.before[d]; d++)
-        for (int64_t i = 0; i < e->part.n; i++) e->report->sampling.before[d][i] *= share;
+    const real share = damping_share(decay);
+    return (1 - share) * slow_all(p, mesh, l, share);
 }
 
-void damping_begin(struct run *e)
+void damping_keep(struct damping_state *s, const struct particles *p, const struct mesh *mesh)
 {
     struct damped all[2];
-    int64_t n[2];
-    if (!(e->scene->damping > 0)) return;
-    if (e->clock.step == 0) damping_start(e);
-    const int kinds = damped_find(e, all, n);
+    const int kinds = damped_find(p, mesh, 1, all);
     for (int k = 0; k < kinds; k++)
-        for (int d = 0; d < e->part.dim; d++) {
-            if (!e->damping->before[k][d]) e->damping->before[k][d] = NEW("engine.damping", n[k], real);
-            array_copy(e->damping->before[k][d], all[k].v[d], n[k], sizeof(real));
+        for (int d = 0; d < p->dim; d++) {
+            if (!s->before[k][d]) s->before[k][d] = NEW("engine.damping", all[k].n, real);
+            array_copy(s->before[k][d], all[k].v[d], all[k].n, sizeof(real));
         }
 }
 
-real damping_loss(struct run *e)
+real damping_loss(const struct damping_state *s, const struct particles *p, const struct mesh *mesh, real decay)
 {
     struct damped all[2];
-    int64_t n[2];
     real loss = 0, sum;
-    if (!(e->scene->damping > 0) || e->clock.step == 0) return 0; /* nothing is damped before the first step */
-    const int kinds = damped_find(e, all, n);
-    for (int k = 0; k < kinds; k++) team_sums(n[k], 1, loss_block, &all[k], &sum), loss += sum;
-    return loss / damping_share(e);
+    const int kinds = damped_find(p, mesh, exp(-capped(decay)), all);
+    for (int k = 0; k < kinds; k++) {
+        all[k].before = s->before[k];
+        team_sums(all[k].n, 1, loss_block, &all[k], &sum), loss += sum;
+    }
+    return loss / damping_share(decay);
 }
 
-real damping_last(const struct run *e, real kinetic_before, real kinetic)
+real damping_last(real decay, real kinetic_before, real kinetic)
 {
-    const real grown = exp(damping_exponent(e->scene, &e->clock));
-    return e->clock.step > 0 ? (grown - 1) * (grown * kinetic_before + kinetic) / damping_share(e) : 0;
+    const real grown = exp(capped(decay));
+    return (grown - 1) * (grown * kinetic_before + kinetic) / damping_share(decay);
 }
 
-void damping_end(struct run *e)
+void damping_end(struct particles *p, const struct mesh *mesh, struct loads *l, real decay)
 {
-    if (e->scene->damping > 0) slow_all(e, exp(-damping_exponent(e->scene, &e->clock)));
+    slow_all(p, mesh, l, exp(-capped(decay)));
 }

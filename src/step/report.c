@@ -38,11 +38,18 @@ static int64_t due_step(const struct run_clock *clock, int64_t k, int64_t n)
     return common_step(clock, k * (clock->steps / n) + (k * (clock->steps % n) + n / 2) / n);
 }
 
-/* Step of frame k after the one at t = 0: nearest to its time, or evenly spread. A step writes one frame at the most,
- * so frames closer than a step are moved apart and keep their number. */
-static int64_t frame_step(const struct scene *s, const struct run_clock *clock, int64_t k, int64_t n)
+int64_t report_frames(const struct scene *s, const struct run_clock *clock)
+{
+    const int64_t most = clock->steps / clock->stride;
+    return s->frames < most ? s->frames : most;
+}
+
+/* The step nearest to the time of the frame, or evenly spread. A step writes one frame at the most, so frames closer
+ * than a step are moved apart and keep their number. */
+int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, int64_t k)
 {
     const struct number_list *times = &s->times;
+    const int64_t n = report_frames(s, clock);
     if ((times->n == 0 && s->every == 0) || k < 1) return due_step(clock, k, n);
     const real time = k > n ? 0 : s->every > 0 ? real_min((real)k * s->every, s->duration) : times->value[k - 1];
     int64_t step = k <= n ? (int64_t)floor(time / clock->dt + 0.5) : clock->steps, last = clock->steps - (n - k);
@@ -78,48 +85,32 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
         (long long)clock->step, clock->t, (int)p->id[first]);
 }
 
-int64_t report_frames(const struct run *e)
+/* Is frame number `frames` of the body due once `step` steps are done? */
+static bool body_frame_due(const struct scene *s, const struct run_clock *clock, int frames, int64_t step)
 {
-    const int64_t most = e->clock.steps / e->clock.stride;
-    return e->scene->frames < most ? e->scene->frames : most;
+    return frames <= report_frames(s, clock) && step >= report_frame_step(s, clock, frames);
 }
 
-int64_t report_frame_step(const struct run *e, int64_t k)
+/* Is frame number `frames` of a region due? Where its time passes more than once in a step, a step writes one; the last
+ * one is that of the end. every, duration: of its frames, of the run [s]. */
+static bool region_frame_due(const struct run_clock *clock, real every, real duration, int frames, int64_t step)
 {
-    return frame_step(e->scene, &e->clock, k, report_frames(e));
-}
-
-/* Is the next frame of the body due once so many steps are done? */
-static bool body_frame_due(const struct run *e, int64_t step)
-{
-    const int frames = e->report->out->series[0].frames;
-    return frames <= report_frames(e) && step >= report_frame_step(e, frames);
-}
-
-/* Is the next frame of a region due? Where its time passes more than once in a step, a step writes one; the last one is
- * that of the end. */
-static bool region_frame_due(const struct run *e, int k, int64_t step)
-{
-    const real every = e->scene->series[k - 1].every, duration = e->scene->duration;
-    const int frames = e->report->out->series[k].frames;
     if (frames > (int64_t)ceil(duration / every * (1 - 1e-12))) return false;
-    const int64_t due = (int64_t)floor(real_min((real)frames * every, duration) / e->clock.dt + 0.5);
-    return step >= (due < e->clock.steps ? common_step(&e->clock, due) : e->clock.steps);
+    const int64_t due = (int64_t)floor(real_min((real)frames * every, duration) / clock->dt + 0.5);
+    return step >= (due < clock->steps ? common_step(clock, due) : clock->steps);
 }
 
-/* Bits of the series, 0 the body's, of which a frame is due once so many steps are done. Those of solvers that are not
- * explicit: at the start and at the end. */
-static unsigned frames_due(const struct run *e, int64_t step)
+unsigned report_frames_due(const struct output *out, const struct scene *s, const struct run_clock *clock, int64_t step)
 {
-    const bool at_rest = scene_at_rest(e->scene), last = step == e->clock.steps;
+    const bool at_rest = scene_at_rest(s);
     unsigned due = 0;
-    if (!e->report->out || (at_rest && step > 0 && !last)) return 0;
-    for (int k = 0; k <= e->report->out->n_series; k++)
-        if (k == 0 ? body_frame_due(e, step) : at_rest || region_frame_due(e, k, step)) due |= 1u << k;
+    if (!out || (at_rest && step > 0 && step < clock->steps)) return 0;
+    if (body_frame_due(s, clock, out->series[0].frames, step)) due |= 1;
+    for (int k = 1; k <= out->n_series; k++)
+        if (at_rest || region_frame_due(clock, s->series[k - 1].every, s->duration, out->series[k].frames, step))
+            due |= 1u << k;
     return due;
 }
-
-bool report_frame_follows(const struct run *e) { return frames_due(e, e->clock.step + 1) != 0; }
 
 /* Fields that the frames of series k are asked for. */
 static unsigned asked_of(const struct scene *scene, int k)
@@ -155,7 +146,7 @@ static status write_frames(struct run *e, unsigned due)
     fields_free(&extra);
     fragments_free(&fragments);
     const struct observed seen = run_observed(e);
-    return s == OK && due & 1 ? profiles_write(e, out, &seen) : s;
+    return s == OK && due & 1 ? profiles_write(&e->probing->probes, out, &seen) : s;
 }
 
 static status write_checkpoint(struct run *e)
@@ -174,13 +165,13 @@ static bool wall_is_over(const struct scene *s, const struct run_report *report)
 }
 
 /* Warns of frames and profiles that a resumed run had written and that are lost. */
-static status say_lost(struct run *e)
+static status say_lost(struct output *out, const struct probes *probes, struct warnings *to)
 {
     char text[PATH_NAME_ROOM + 200];
     int lost;
-    TRY(output_frames_check(e->report->out, &lost, text, sizeof text));
-    if (lost > 0) warnings_say(&e->warnings, text);
-    profiles_check(e, e->report->out);
+    TRY(output_frames_check(out, &lost, text, sizeof text));
+    if (lost > 0) warnings_say(to, text);
+    profiles_check(probes, out, to);
     return OK;
 }
 
@@ -195,9 +186,10 @@ status report_start(struct run *e)
     TRY(sample_start(e, resumed));
     if (!r->out) return OK;
     contact_record(e->contact, &e->part);
-    if (resumed) return say_lost(e);
-    profiles_remove(e, r->out);
-    TRY(write_frames(e, frames_due(e, 0) | 1)); /* the body's, also where it is the only one */
+    if (resumed) return say_lost(r->out, &e->probing->probes, &e->warnings);
+    profiles_remove(&e->probing->probes, r->out);
+    TRY(write_frames(e, report_frames_due(r->out, e->scene, &e->clock, 0) |
+                            1)); /* the body's, also where it is the only one */
     return write_checkpoint(e);
 }
 
@@ -241,42 +233,43 @@ static void progress(struct run *e, bool last)
 
 /* ---- after a step ------------------------------------------------------------------------------------------------ */
 
-real report_inactive_share(const struct run *e)
+real report_inactive_share(const struct bonds *b, const struct mesh *mesh, const struct particles *p)
 {
-    real at_rest = inactive_share(&e->bonds.active) * (real)e->part.n_of[KIND_PD];
-    if (e->frame->mesh.points > 0) at_rest += inactive_share(&e->frame->mesh.active) * (real)e->frame->mesh.points;
-    return at_rest / (real)e->part.n;
+    real at_rest = inactive_share(&b->active) * (real)p->n_of[KIND_PD];
+    if (mesh->points > 0) at_rest += inactive_share(&mesh->active) * (real)mesh->points;
+    return at_rest / (real)p->n;
 }
 
 status report_step(struct run *e)
 {
-    e->report->particle_steps[KIND_PD] += e->part.n_of[KIND_PD];
-    e->report->particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
-    e->report->bond_visits += e->bonds.n;
-    e->report->inactive += report_inactive_share(e);
+    struct run_report *r = e->report;
+    const bool last = e->clock.step == e->clock.steps, in_steps = scene_in_steps(e->scene);
+    r->particle_steps[KIND_PD] += e->part.n_of[KIND_PD];
+    r->particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
+    r->bond_visits += e->bonds.n;
+    r->inactive += report_inactive_share(&e->bonds, &e->frame->mesh, &e->part);
     lap(&e->laps, LAP_SAMPLE);
     /* before any checkpoint, so that a finished run has nothing left to write */
-    if (e->clock.step == e->clock.steps && !scene_in_steps(e->scene)) sample_last(e);
-    TRY(e->report->history_status);
+    if (last && !in_steps) sample_last(e);
+    TRY(r->history_status);
     TRY(energy_check(e));
-    if (e->clock.step == e->clock.steps) say_balance(e);
-    if (e->clock.step == e->clock.steps || scene_in_steps(e->scene)) say_yielding(e);
-    if (e->report->out) {
-        const unsigned due = frames_due(e, e->clock.step);
+    if (last) say_balance(e);
+    if (last || in_steps) say_yielding(r, &e->bonds, e->scene, &e->warnings);
+    if (r->out) {
+        const unsigned due = report_frames_due(r->out, e->scene, &e->clock, e->clock.step);
         if (due) TRY(write_frames(e, due));
-        const bool late = wall_is_over(e->scene, e->report), stop = late || (e->report->stop && *e->report->stop);
-        if (stop || scene_in_steps(e->scene) ||
-            team_clock() - e->report->last_checkpoint > e->scene->checkpoint_interval)
+        const bool late = wall_is_over(e->scene, r), stop = late || (r->stop && *r->stop);
+        if (stop || in_steps || team_clock() - r->last_checkpoint > e->scene->checkpoint_interval)
             TRY(write_checkpoint(e));
-        if (stop && e->clock.step < e->clock.steps)
+        if (stop && !last)
             return status_set(INTERRUPTED, "%s at step %lld of %lld; go on with --resume",
                               late ? "time.wall is over" : "interrupted", (long long)e->clock.step,
                               (long long)e->clock.steps);
     }
     progress(e, false);
     lap(&e->laps, LAP_OUTPUT);
-    e->report->loop_seconds = e->report->loop_before - e->laps.spent[LAP_OUTPUT];
-    for (int k = 0; k < LAPS; k++) e->report->loop_seconds += e->laps.spent[k];
+    r->loop_seconds = r->loop_before - e->laps.spent[LAP_OUTPUT];
+    for (int k = 0; k < LAPS; k++) r->loop_seconds += e->laps.spent[k];
     return OK;
 }
 

@@ -334,12 +334,13 @@ void sample_end(struct run *e)
 {
     struct sampling *sampling = &e->report->sampling;
     const bool first = e->clock.step == 0;
-    const struct velocity_time now = {e->clock.t + 0.5 * e->clock.dt, first ? 1 : 1 / damping_share(e)};
+    const real share = damping_share(e->scene->damping * e->clock.dt);
+    const struct velocity_time now = {e->clock.t + 0.5 * e->clock.dt, first ? 1 : 1 / share};
     if (!sampling->due) return;
     if (first) { /* velocities of t = 0, not of half a step before; nothing is damped yet */
         sampling->energy.damped = sampling->energy.absorbed = 0;
         sample_write(e, &now, sampling->kinetic + sampling->rigid, sampling->work);
-        e->diagnostics->energy_start -= start_excess(e) / damping_share(e);
+        e->diagnostics->energy_start -= start_excess(e) / share;
         return;
     }
     real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&e->part, e->frame)) - kick_now(e);
@@ -347,7 +348,7 @@ void sample_end(struct run *e)
     sampling->energy.absorbed = 0.5 * (sampling->absorbed + e->loads.absorbing.energy);
     const struct rigid_energy rigid = rigids_energy(e);
     rigids_mean(e);
-    sample_write(e, &now, kinetic / damping_share(e) + rigid.step,
+    sample_write(e, &now, kinetic / share + rigid.step,
                  sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
 }
 
@@ -423,7 +424,7 @@ static real power_last(struct run *e, real *held)
 {
     struct memory_archive accounts;
     const real before = e->loads.constraint_work, kick = e->loads.absorbing.kick;
-    const real dt_velocity = e->clock.dt * damping_share(e);
+    const real dt_velocity = e->clock.dt * damping_share(e->scene->damping * e->clock.dt);
     memory_archive_make(&accounts, ARCHIVE_ACCOUNTS);
     INVARIANT(loads_archive(&e->loads, &accounts.archive) == OK);
     e->loads.absorbing.idle = e->loads.ended = true;
@@ -455,14 +456,14 @@ void sample_last(struct run *e)
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, e->frame);
     const real before = kinetic;
-    const real kick = e->clock.dt * damping_share(e);
+    const real decay = e->scene->damping * e->clock.dt, share = damping_share(decay), kick = e->clock.dt * share;
     if (scene_moves(e->scene)) kinetic += 0.5 * kick * power_last(e, &held);
-    e->report->sampling.energy.damped += damping_last(e, before, kinetic);
+    if (e->clock.step > 0) e->report->sampling.energy.damped += damping_last(decay, before, kinetic);
     e->report->sampling.energy.damped += e->grid->contact.begun;
     const struct rigid_energy rigid = rigids_energy(e);
-    const struct velocity_time now = {e->clock.t - 0.5 * e->clock.dt, 1 / square(damping_share(e))};
+    const struct velocity_time now = {e->clock.t - 0.5 * e->clock.dt, 1 / square(share)};
     rigids_kick(e);
-    sample_write(e, &now, kinetic / damping_share(e) + rigid.last,
+    sample_write(e, &now, kinetic / share + rigid.last,
                  e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);
 }
 

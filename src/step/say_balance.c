@@ -91,14 +91,14 @@ void say_balance(struct run *e)
     warnings_say(&e->warnings, text);
 }
 
-void say_yielding(struct run *e)
+void say_yielding(struct run_report *r, const struct bonds *b, const struct scene *s, struct warnings *to)
 {
     bool yields = false;
-    if (e->report->yield_said || !e->bonds.plastic_path) return;
-    for (int64_t row = 0; row < e->bonds.rows && !yields; row++) yields = bond_row_plastic_path(&e->bonds, row) > 0;
+    if (r->yield_said || !b->plastic_path) return;
+    for (int64_t row = 0; row < b->rows && !yields; row++) yields = bond_row_plastic_path(b, row) > 0;
     if (!yields) return;
-    const int known = e->warnings.n;
-    e->report->yield_said = true;
-    warn_of_yielding(e->scene, &e->warnings);
-    warnings_print_new(&e->warnings, known);
+    const int known = to->n;
+    r->yield_said = true;
+    warn_of_yielding(s, to);
+    warnings_print_new(to, known);
 }

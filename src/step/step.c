@@ -19,7 +19,8 @@
 /* What the phases of one step share. */
 struct step {
     real middle;               /* t + dt/2 [s] */
-    real dt_velocity;          /* dt, half of it in the first step: velocities are half a step behind [s] */
+    real decay, share;         /* c dt of bulk damping; share of a kick that it leaves (step/damping.h) [1] */
+    real dt_velocity;          /* dt, half of it in the first step: velocities are half a step behind; damped [s] */
     struct pd_motion motion;   /* of peridynamic particles */
     bool damps;                /* the interface zone is damped in this step */
     int64_t broken, converted; /* directed bonds; particles */
@@ -27,9 +28,10 @@ struct step {
 
 static struct step step_begin(struct run *e)
 {
-    const real dt = e->clock.dt, dt_velocity = (e->clock.step == 0 ? 0.5 : 1) * dt * damping_share(e);
+    const real dt = e->clock.dt, decay = e->scene->damping * dt, share = damping_share(decay);
+    const real dt_velocity = (e->clock.step == 0 ? 0.5 : 1) * dt * share;
     e->grid->transfer.dt_velocity = dt_velocity;
-    return (struct step){.middle = e->clock.t + 0.5 * dt, .dt_velocity = dt_velocity};
+    return (struct step){.middle = e->clock.t + 0.5 * dt, decay, share, dt_velocity};
 }
 
 /* Conversion, and the records of bonds that have broken. */
@@ -68,6 +70,20 @@ static void zone_damp(struct run *e, struct step *now)
     loads_mirror(&e->loads, &e->part); /* bonds that break ask images for their velocity */
 }
 
+/* Keeps the velocities before bulk damping. At the start it also slows them by half a step, which samples of the start
+ * do not show. */
+static void damping_begin(struct run *e, const struct step *now)
+{
+    real *const *before = e->report->sampling.before;
+    if (!(now->decay > 0)) return;
+    if (e->clock.step == 0) {
+        e->damped += damping_start(&e->part, &e->frame->mesh, &e->loads, now->decay);
+        for (int d = 0; d < e->part.dim && before[d]; d++)
+            for (int64_t i = 0; i < e->part.n; i++) before[d][i] *= now->share;
+    }
+    damping_keep(e->damping, &e->part, &e->frame->mesh);
+}
+
 /* True if nothing reads positions between forces and motion, as samples, growing cracks and viscosity do: then one
  * sweep computes the forces of particles and moves those whose rows it has left behind (kernels/pd/sweep.h), with the
  * bits of forces first, then motion. With 1.7 million particles, which no cache holds, that saves 38 % of a step. */
@@ -86,7 +102,8 @@ static void push_bonds(struct run *e, struct step *now)
 
 static void push_contact(struct run *e)
 {
-    e->contact->recorded = e->contact->push[0] && report_frame_follows(e);
+    e->contact->recorded =
+        e->contact->push[0] && report_frames_due(e->report->out, e->scene, &e->clock, e->clock.step + 1) != 0;
     contact_force(e->contact, &e->part, e->clock.step > 0 ? e->clock.dt : 0);
     contact_clock(e->contact, e->clock.t);
 }
@@ -136,13 +153,14 @@ static void step_hold(struct run *e, const struct step *now)
 }
 
 /* The line of history.csv of a sample, at t_n; damping; then t and the step advance. */
-static void finish(struct run *e)
+static void finish(struct run *e, const struct step *now)
 {
-    const real loss = damping_loss(e);
+    const bool damps = now->decay > 0;
+    const real loss = damps && e->clock.step > 0 ? damping_loss(e->damping, &e->part, &e->frame->mesh, now->decay) : 0;
     e->damped += loss;
     e->report->sampling.energy.damped += loss;
     sample_end(e);
-    damping_end(e);
+    if (damps) damping_end(&e->part, &e->frame->mesh, &e->loads, now->decay);
     e->clock.t = (real)(e->clock.step + 1) * e->clock.dt;
     e->clock.step++;
     lap(&e->laps, LAP_SAMPLE);
@@ -178,7 +196,7 @@ status step(struct run *e)
     sample_begin(e);
     TRY(sort(e));
     zone_damp(e, &now);
-    damping_begin(e);
+    damping_begin(e, &now);
 
     push_bonds(e, &now); /* 2, 5 */
     viscosity_push(e);
@@ -190,14 +208,14 @@ status step(struct run *e)
     now.broken += cracks_grow(e);
     lap(&e->laps, LAP_SAMPLE);
 
-    move_peridynamic(e, &now.motion);                               /* 4 */
-    rigids_move(e, now.middle, now.dt_velocity / damping_share(e)); /* these are not damped */
+    move_peridynamic(e, &now.motion);                        /* 4 */
+    rigids_move(e, now.middle, now.dt_velocity / now.share); /* rigid bodies are not damped */
     lap(&e->laps, LAP_BONDS);
     move_grid(e, &now);  /* 1, 3, 4, 6, 7 */
     move_frame(e, &now); /* 3, 4, 7 */
     step_hold(e, &now);
 
     conversion(e, &now); /* 8 */
-    finish(e);
+    finish(e, &now);
     return OK;
 }

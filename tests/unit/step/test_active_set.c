@@ -129,7 +129,7 @@ static real sleeping(const struct run *e)
     const struct transfer_order *active = e->grid->transfer.order;
     const struct transfer_order *all = &e->grid->field[0].order;
     const real points = all->n > 0 && active != all ? 1 - (real)active->n / (real)all->n : 0;
-    return real_max(report_inactive_share(e), points);
+    return real_max(report_inactive_share(&e->bonds, &e->frame->mesh, &e->part), points);
 }
 
 /* Runs it with and without; they agree after every tenth step. At least `early` of the body is inactive after a
