@@ -13,9 +13,8 @@ void sample_energy(struct run *e);
 /* After the motion: the kinetic energy between the velocities before and after, the work up to t_n, and the line of
  * history.csv. */
 void sample_end(struct run *e);
-/* A sample of a body at rest on which nothing has done work; of one at rest after a load step. */
+/* Takes a sample of a body at rest: at the start, and after a load step. */
 void sample_rest(struct run *e);
-void sample_equilibrium(struct run *e);
 /* The last sample, after the last step. All particles are up to date after it, but for the stress of peridynamic ones
  * (run_stress). */
 void sample_last(struct run *e);

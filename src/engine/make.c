@@ -370,7 +370,7 @@ static status make_forces(struct run *e, struct predecessor *before)
     TRY(named(s, coupling_frame_make(e, before != NULL)));
     TRY(driving_check(e, before == NULL));
     ends_update(e);
-    stability_make(e);
+    stability_make(e->stability, &e->part);
     return make_time(e, before);
 }
 

@@ -365,7 +365,7 @@ status engine_steps(struct run *e)
         if (apart) e->clock.steps = e->clock.step;
         e->clock.t = e->clock.dt * (real)e->clock.step;
         state_note(e);
-        sample_equilibrium(e);
+        sample_rest(e);
         statics_record_keep(e);
         if (e->statics->t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
         lap(&e->laps, LAP_BONDS);

@@ -62,11 +62,11 @@ static bool is_free(const struct scene *s, const struct reference_frame *frame)
 }
 
 /* Columns of the angular momentum of free bodies, NULL: only counted. Returns how many. */
-static int spin_columns(const struct run *e, struct column *column)
+static int spin_columns(const struct scene *s, const struct reference_frame *frame, struct column *column)
 {
     static const char *const name[] = {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};
     int n = 0;
-    for (int d = e->part.dim == 2 ? 2 : 0; d < 3 && is_free(e->scene, e->frame); d++, n++)
+    for (int d = s->dim == 2 ? 2 : 0; d < 3 && is_free(s, frame); d++, n++)
         if (column) column[n] = (struct column){.unit = "kg m^2/s"}, strcpy(column[n].name, name[d]);
     return n;
 }
@@ -106,7 +106,7 @@ static void fill_record(struct run *e)
         (*p)->record(e, r);
         r += (*p)->columns(e, NULL);
     }
-    for (int c = 0; c < spin_columns(e, NULL); c++) r[c] = l->spin[e->part.dim == 2 ? 2 : c];
+    for (int c = 0; c < spin_columns(e->scene, e->frame, NULL); c++) r[c] = l->spin[e->part.dim == 2 ? 2 : c];
 }
 
 /* Columns of probes, of the parts of the run, and of the angular momentum, NULL: only counted. Returns how many. */
@@ -117,7 +117,7 @@ static int own_columns(const struct run *e, struct column *column)
     for (int c = 0; c < probes->columns && column; c++) column[c] = probes->column[c];
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->columns) n += (*p)->columns(e, column ? column + n : NULL);
-    return n + spin_columns(e, column ? column + n : NULL);
+    return n + spin_columns(e->scene, e->frame, column ? column + n : NULL);
 }
 
 status sample_start(struct run *e, bool resume)
@@ -158,15 +158,16 @@ void run_sync(struct run *e)
     run_stress(e);
 }
 
-/* Updates the points of a mesh for probes of the motion of particles; damage and bonds are always up to date. */
-static void sync_probes(struct run *e)
+/* True if a probe reads the motion of particles, for which points of a mesh are updated; damage and bonds are always up
+ * to date. */
+static bool wants_motion(const struct scene *s)
 {
     bool motion = false;
-    for (int k = 0; k < e->scene->probes; k++) {
-        const enum probe_kind kind = e->scene->probe[k].kind;
+    for (int k = 0; k < s->probes; k++) {
+        const enum probe_kind kind = s->probe[k].kind;
         motion |= kind != PROBE_TIP && kind != PROBE_BREAK && kind != PROBE_REACTION && kind != PROBE_GROWTH;
     }
-    if (motion) frame_sync(e);
+    return motion;
 }
 
 static real kinetic_now(const struct particles *p, const struct reference_frame *reference)
@@ -183,27 +184,20 @@ static int meshes(const struct reference_frame *frame, const struct grid *nodes[
     return 1 + levels->n;
 }
 
-/* Keeps the momentum before a step. */
-static void keep_momentum(struct run *e)
+/* Momentum of all bodies at present [dim, kg m/s]. */
+static void momentum_now(const struct particles *p, const struct reference_frame *frame, real *momentum)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
-    const int grids = meshes(e->frame, nodes);
-    e->report->sampling.t_velocity = run_observed(e).t_velocity;
-    diagnostics_momentum_of(&e->part, nodes, grids, e->report->sampling.momentum);
+    const int grids = meshes(frame, nodes);
+    diagnostics_momentum_of(p, nodes, grids, momentum);
 }
 
-/* Sets the momentum of a sample to that of its own time, linear between those of the velocities before and after. */
-static void time_momentum(struct run *e, const struct velocity_time *now)
+/* Momentum of a sample at time t [s], linear between those of the velocities before and after the step; it has that
+ * after the step at first [dim, kg m/s]. */
+static void momentum_at(const struct sampling *s, const struct velocity_time *now, real t, int dim, real *momentum)
 {
-    const struct grid *nodes[LEVELS_MAX + 1];
-    const int grids = meshes(e->frame, nodes);
-    const struct sampling *s = &e->report->sampling;
-    real after[DIM_MAX];
-    if (!scene_moves(e->scene)) return;
-    const real share = (e->clock.t - s->t_velocity) / (now->t - s->t_velocity);
-    diagnostics_momentum_of(&e->part, nodes, grids, after);
-    for (int d = 0; d < e->part.dim; d++)
-        e->diagnostics->now.momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * after[d]);
+    const real share = (t - s->t_velocity) / (now->t - s->t_velocity);
+    for (int d = 0; d < dim; d++) momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * momentum[d]);
 }
 
 /* Samples all quantities but energies: stress, momentum, tips, probes. */
@@ -248,10 +242,13 @@ static void sample_energies(struct run *e)
 static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report->sampling;
-    sync_probes(e);
+    if (wants_motion(e->scene)) frame_sync(e);
     struct observed o = run_observed(e);
     probes_sample_end(&e->probing->probes, &o, now);
-    time_momentum(e, now);
+    if (scene_moves(e->scene)) {
+        momentum_now(&e->part, e->frame, e->diagnostics->now.momentum);
+        momentum_at(sampling, now, e->clock.t, e->part.dim, e->diagnostics->now.momentum);
+    }
     sampling->energy.kinetic = kinetic;
     e->stability->lost = !isfinite(energy_sum(&sampling->energy) + work);
     if (e->stability->lost) return; /* energy_check reports it; nothing is written */
@@ -290,7 +287,7 @@ void sample_begin(struct run *e)
     sampling->constraint_work = e->loads.constraint_work;
     sampling->absorbed = e->loads.absorbing.energy;
     if (!sampling->due && e->clock.step < e->clock.steps - 1) return;
-    sync_probes(e);
+    if (wants_motion(e->scene)) frame_sync(e);
     if (sampling->due)
         sample_state(e), rigids_meet(e);
     else if (wants_stress(e->scene))
@@ -298,7 +295,8 @@ void sample_begin(struct run *e)
     struct observed o = run_observed(e);
     probes_keep(&e->probing->probes, &o);
     keep_velocities(sampling, &e->part, e->coupling_kind);
-    keep_momentum(e);
+    sampling->t_velocity = o.t_velocity;
+    momentum_now(&e->part, e->frame, sampling->momentum);
     sampling->kinetic = kinetic_now(&e->part, e->frame);
     sampling->rigid = rigids_energy(e).before;
 }
@@ -320,14 +318,11 @@ static bool velocity_jumps(const struct scene *s)
     return drives;
 }
 
-/* Twice the excess of the start [J]: leap-frog keeps 1/2 m v- . v+, v+- = v +- a dt/2, and not the 1/2 m v^2 of the
- * start. 0 where the first step changes velocities by more than forces do and the two cannot be separated: with APIC,
- * for points beside driven ones, and for bodies that meet. */
-static real start_excess(const struct run *e)
+/* False where the first step changes velocities by more than forces do, and the two cannot be separated: with APIC, for
+ * points beside driven ones, and for bodies that meet on the grid. */
+static bool start_separable(const struct scene *s, const struct particles *p, const struct grid_method *grid)
 {
-    const bool kept = e->part.n_free == 0 || (e->scene->transfer == TRANSFER_FLIP && !velocity_jumps(e->scene) &&
-                                              e->grid->contact.touching == 0);
-    return kept ? 2 * kick_now(e) : 0;
+    return p->n_free == 0 || (s->transfer == TRANSFER_FLIP && !velocity_jumps(s) && grid->contact.touching == 0);
 }
 
 void sample_end(struct run *e)
@@ -340,7 +335,8 @@ void sample_end(struct run *e)
     if (first) { /* velocities of t = 0, not of half a step before; nothing is damped yet */
         sampling->energy.damped = sampling->energy.absorbed = 0;
         sample_write(e, &now, sampling->kinetic + sampling->rigid, sampling->work);
-        e->diagnostics->energy_start -= start_excess(e) / share;
+        /* leap-frog keeps 1/2 m v- . v+, v+- = v +- a dt/2, and not the 1/2 m v^2 of the start */
+        if (start_separable(e->scene, &e->part, e->grid)) e->diagnostics->energy_start -= 2 * kick_now(e) / share;
         return;
     }
     real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&e->part, e->frame)) - kick_now(e);
@@ -353,13 +349,6 @@ void sample_end(struct run *e)
 }
 
 void sample_rest(struct run *e)
-{
-    sample_state(e);
-    sample_energies(e);
-    sample_write(e, &(struct velocity_time){e->clock.t, 1}, 0, 0);
-}
-
-void sample_equilibrium(struct run *e)
 {
     sample_state(e);
     sample_energies(e);
@@ -405,16 +394,15 @@ static void reactions_add(struct loads *l, const struct grid *g)
 }
 
 /* Completes the reactions of the loads, those on particles being known, by those on nodes that the forces after the
- * last step have met. */
-static void reactions_at_end(struct run *e)
+ * last step have met. grid: NULL where nothing is on the grid. */
+static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct reference_frame *frame,
+                             const struct run_clock *clock)
 {
-    const struct mesh_levels *levels = &e->frame->levels;
-    for (int k = 0; k < e->grid->fields && e->part.n_free + e->part.n_grid_coupled > 0; k++)
-        loads_react(&e->loads, &e->grid->field[k].grid, e->clock.dt);
-    if (e->frame->mesh.points == 0) return;
-    reactions_add(&e->loads, &e->frame->mesh.grid);
-    for (int level = 1; level <= levels_due(levels, e->clock.step); level++)
-        reactions_add(&e->loads, &levels->at[level].mesh.grid);
+    for (int k = 0; grid && k < grid->fields; k++) loads_react(l, &grid->field[k].grid, clock->dt);
+    if (frame->mesh.points == 0) return;
+    reactions_add(l, &frame->mesh.grid);
+    for (int level = 1; level <= levels_due(&frame->levels, clock->step); level++)
+        reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
 /* Sum of v . f by the forces after the last step, which no motion follows [W]: no bond breaks, and the accounts of
@@ -436,7 +424,8 @@ static real power_last(struct run *e, real *held)
     const real power = power_now(&e->part, e->frame) + grid_power(e, e->clock.t + 0.5 * e->clock.dt);
     const real walls = power_of_walls(e->frame);
     *held = e->loads.constraint_work - before - e->clock.dt * walls;
-    reactions_at_end(e);
+    const bool on_grid = e->part.n_free + e->part.n_grid_coupled > 0;
+    reactions_at_end(&e->loads, on_grid ? e->grid : NULL, e->frame, &e->clock);
     memory_archive_rewind(&accounts);
     INVARIANT(loads_archive(&e->loads, &accounts.archive) == OK);
     memory_archive_free(&accounts);
@@ -473,29 +462,26 @@ void sample_probes(struct run *e)
     probes_step(&e->probing->probes, &o);
 }
 
-/* Says that the first bonds of driven particles break, with the first boundary that drives such particles. */
-static void say_torn(struct run *e, real t)
+/* Warns that the first bonds of driven particles break, with the first boundary that drives such particles. when: "at"
+ * or "in" and the time. */
+static void say_torn(struct warnings *to, const struct loads *loads, const struct particles *p, const char *when)
 {
     const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;
     const char *name = "";
-    char text[400], when[48];
+    char text[400];
     int others = -1;
-    for (int b = e->loads.n; b-- > 0;) {
-        const struct load *l = &e->loads.load[b];
+    for (int b = loads->n; b-- > 0;) {
+        const struct load *l = &loads->load[b];
         bool tears = false;
         for (int64_t k = 0; k < l->n && l->boundary->kind == BOUNDARY_VELOCITY; k++)
-            tears |= (e->part.flag[l->particle[k]] & both) == both;
+            tears |= (p->flag[l->particle[k]] & both) == both;
         if (tears) name = l->boundary->name, others++;
     }
-    if (scene_in_steps(e->scene))
-        snprintf(when, sizeof when, "in load step %lld", (long long)e->clock.load_step);
-    else
-        snprintf(when, sizeof when, "at %.4g s", t);
     snprintf(text, sizeof text,
              "boundary %s%s: bonds of the particles that it drives break, the first %s: a grip that tears off pulls no "
              "more; they count as crack.driven_bonds, not in crack.start_time and probes",
              name, others > 0 ? " and others" : "", when);
-    warnings_say(&e->warnings, text);
+    warnings_say(to, text);
 }
 
 void sample_breaks(struct run *e, int64_t broken)
@@ -504,7 +490,13 @@ void sample_breaks(struct run *e, int64_t broken)
     const real step = e->scene->duration / (real)e->scene->steps.number;
     const real t = in_steps ? step * (real)e->clock.load_step : e->clock.t;
     struct observed o = run_observed(e);
-    if (diagnostics_breaks(e->diagnostics, &e->part, e->source.family.horizon, broken, t)) say_torn(e, t);
+    char when[48];
+    if (in_steps)
+        snprintf(when, sizeof when, "in load step %lld", (long long)e->clock.load_step);
+    else
+        snprintf(when, sizeof when, "at %.4g s", t);
+    if (diagnostics_breaks(e->diagnostics, &e->part, e->source.family.horizon, broken, t))
+        say_torn(&e->warnings, &e->loads, &e->part, when);
     if (scene_moves(e->scene)) sample_probes(e);
     o.t = t;
     if (in_steps && broken > 0) probes_breaks(&e->probing->probes, &o);

@@ -13,47 +13,49 @@
 #define DAMPED_DOUBTFUL 0.1  /* share damped beside bonds: three times the most of scenes in inputs/ */
 
 /* Says that breaking bonds released more than they had held. */
-static void say_released(struct run *e)
+static void say_released(const struct scene *s, const struct diagnostics *w, struct warnings *to)
 {
     char text[320];
-    const real released = energy_released(e->diagnostics);
-    if (scene_at_rest(e->scene) || released <= ENERGY_DOUBTFUL * e->diagnostics->energy_scale) return;
+    const real released = energy_released(w);
+    if (scene_at_rest(s) || released <= ENERGY_DOUBTFUL * w->energy_scale) return;
     snprintf(text, sizeof text,
              "bonds released %.3g J as they broke that they had not held (energy.fracture %.3g): families of model %s "
              "under pressure gain energy where they lose bonds; compare with model: bond, do not trust what came after",
-             released, -released, e->scene->model == MODEL_OSPD ? "ospd" : "mospd");
-    warnings_say(&e->warnings, text);
+             released, -released, s->model == MODEL_OSPD ? "ospd" : "mospd");
+    warnings_say(to, text);
 }
 
 #define SPIN_DOUBTFUL 0.01 /* share of the angular momentum of bodies */
 
 /* Says that bodies have lost, or gained, angular momentum that nothing took from them. */
-static void say_spin(struct run *e)
+static void say_spin(const struct diagnostics *w, bool apic, struct warnings *to)
 {
-    const real error = e->diagnostics->now.spin_error;
-    const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
+    const real error = w->now.spin_error;
     char text[360];
-    if (!e->diagnostics->turns || !(error > SPIN_DOUBTFUL)) return;
+    if (!w->turns || !(error > SPIN_DOUBTFUL)) return;
     snprintf(text, sizeof text,
              "%.*f %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error)%s",
              error < 0.095, 100 * error,
              apic ? ": mpm.transfer apic leaves some percent to velocity gradients, flip keeps it to 0.1 to 1 %" : "");
-    warnings_say(&e->warnings, text);
+    warnings_say(to, text);
 }
 
-/* Says that the interface zone took motion that was more than noise. */
-static void say_damped(struct run *e)
+/* Is damping of the interface zone all that took energy? */
+static bool zone_damps(const struct scene *s, const struct coupling_state *coupling)
+{
+    return coupling->damping_share > 0 && coupling->zone.points > 0 && !(s->damping > 0) && scene_moves(s);
+}
+
+/* Says that the interface zone took motion that was more than noise. share: of the energy [1]. */
+static void say_damped(real share, struct warnings *to)
 {
     char text[320];
-    const real share = e->damped / e->diagnostics->energy_scale;
-    if (!(e->coupling->damping_share > 0) || e->coupling->zone.points == 0 || e->scene->damping > 0 ||
-        !scene_moves(e->scene) || !(share > DAMPED_DOUBTFUL) || energy_is_round_off(e))
-        return;
+    if (!(share > DAMPED_DOUBTFUL)) return;
     snprintf(text, sizeof text,
              "%.0f %% of the energy was damped beside bonds (energy.damped): interface_damping takes vibrations of "
              "some spacings, in small bodies all there are; interface_damping: 0 keeps them, as method pd does",
              100 * share);
-    warnings_say(&e->warnings, text);
+    warnings_say(to, text);
 }
 
 /* Writes that the first bonds broke in a collision whose fronts ring; false: none did. */
@@ -72,15 +74,17 @@ static bool shock_text(const struct scene *s, const struct diagnostics *w, char 
 
 void say_balance(struct run *e)
 {
-    if (e->report->excerpt) return;
-    say_spin(e);
-    say_released(e);
-    say_damped(e);
-    const real error = e->diagnostics->now.balance_error;
+    const struct diagnostics *w = e->diagnostics;
     const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
+    const bool round_off = energy_is_round_off(w, e->mass, e->tables.wave_speed);
+    const real error = w->now.balance_error;
     char text[400];
-    if (shock_text(e->scene, e->diagnostics, text, sizeof text)) warnings_say(&e->warnings, text);
-    if (scene_at_rest(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || energy_is_round_off(e)) return;
+    if (e->report->excerpt) return;
+    say_spin(w, apic, &e->warnings);
+    say_released(e->scene, w, &e->warnings);
+    if (zone_damps(e->scene, e->coupling) && !round_off) say_damped(e->damped / w->energy_scale, &e->warnings);
+    if (shock_text(e->scene, w, text, sizeof text)) warnings_say(&e->warnings, text);
+    if (scene_at_rest(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || round_off) return;
     snprintf(
         text, sizeof text,
         "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows when: do not trust what came after",

@@ -39,11 +39,11 @@ static real fastest_now(const struct particles *p, const struct reference_frame 
     return reference->mesh.points > 0 ? real_max(moving, reference->speed) : moving;
 }
 
-void stability_make(struct run *e)
+void stability_make(struct stability *s, const struct particles *p)
 {
-    e->stability->start_speed = real_max(diagnostics_fastest(&e->part, e->part.list[KIND_PD], e->part.n_of[KIND_PD]),
-                                         diagnostics_fastest(&e->part, e->part.list[KIND_MPM], e->part.n_of[KIND_MPM]));
-    rise_note(&e->stability->speed, 0, square(e->stability->start_speed));
+    s->start_speed = real_max(diagnostics_fastest(p, p->list[KIND_PD], p->n_of[KIND_PD]),
+                              diagnostics_fastest(p, p->list[KIND_MPM], p->n_of[KIND_MPM]));
+    rise_note(&s->speed, 0, square(s->start_speed));
 }
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
@@ -79,11 +79,10 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     return mean * (clock->t - from) * sqrt(fast2);
 }
 
-/* True if initial energy and work of loads are at least LOAD_SHARE_LEAST times the kinetic energy. */
-static bool loads_explain_motion(const struct run *e)
+/* True if initial energy and work of loads, `given` [J], are at least LOAD_SHARE_LEAST times the kinetic energy. */
+static bool loads_explain_motion(const struct particles *p, const struct reference_frame *frame, real given)
 {
-    const real kinetic = diagnostics_kinetic(&e->part) + frame_kinetic(e->frame);
-    const real given = e->diagnostics->energy_start + e->loads.work + e->loads.constraint_work;
+    const real kinetic = diagnostics_kinetic(p) + frame_kinetic(frame);
     return !isfinite(kinetic) || given >= LOAD_SHARE_LEAST * kinetic;
 }
 
@@ -107,7 +106,9 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
         real_min((real)e->clock.step, isfinite(steps) ? real_max(ceil(steps), RISE_STRIDE) : (real)e->clock.step);
     const struct load *worst = NULL;
     real speed = LOAD_SHARE_LEAST * e->tables.wave_speed;
-    if (!loads_explain_motion(e)) return false;
+    const real work = e->loads.work + e->loads.constraint_work;
+    const real given = e->diagnostics->energy_start + e->loads.work + e->loads.constraint_work;
+    if (!loads_explain_motion(&e->part, e->frame, given)) return false;
     if (e->stability->start_speed >= speed) {
         snprintf(
             text, room,
@@ -144,8 +145,7 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
         b->displaces ? "m"
         : b->by_mass ? "N/kg"
                      : unit[b->kind],
-        b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed, within, speed / e->tables.wave_speed,
-        e->loads.work + e->loads.constraint_work);
+        b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed, within, speed / e->tables.wave_speed, work);
     return true;
 }
 
@@ -201,15 +201,16 @@ static real shortest_bond(const struct bonds *b, const struct particles *p)
 }
 
 /* Says how far bonds are squeezed, if so far that it explains what happens. */
-static bool squeeze_explanation(const struct run *e, char *text, size_t room)
+static bool squeeze_explanation(const struct bonds *b, const struct particles *p, const struct run_clock *clock,
+                                char *text, size_t room)
 {
-    const real least = shortest_bond(&e->bonds, &e->part);
+    const real least = shortest_bond(b, p);
     if (!(least < SQUEEZED)) return false;
     snprintf(text, room,
              "bonds are squeezed to %.2g of their length, where no law here holds; see whether so much compression is "
              "meant, or choose a smaller time.safety (now %.2f of the critical %.3g s), which keeps particles apart "
              "a little farther",
-             least, e->clock.dt / e->clock.dt_critical, e->clock.dt_critical);
+             least, clock->dt / clock->dt_critical, clock->dt_critical);
     return true;
 }
 
@@ -225,8 +226,9 @@ void stability_remedy(const struct run *e, const struct rise *rise, real value, 
         return;
     }
     if (load_explanation(e, steps, text, room)) return;
-    if (e->clock.dt <= e->clock.dt_critical && squeeze_explanation(e, text, room)) return;
-    if (rate == RISE_FAST || e->clock.dt > e->clock.dt_critical || !scene_moves(e->scene)) {
+    const bool long_step = e->clock.dt > e->clock.dt_critical;
+    if (!long_step && squeeze_explanation(&e->bonds, &e->part, &e->clock, text, room)) return;
+    if (rate == RISE_FAST || long_step || !scene_moves(e->scene)) {
         say_step(e->scene, &e->clock, text, room);
         return;
     }
@@ -290,20 +292,18 @@ static status inversion_check(const struct run_clock *clock, const struct partic
 /* FAILED where a formula had no finite value in the step that has been made, which asks for values at its ends and
  * middle, of the step before and of the next: then the impulse is no number. At the end of the run all formulas are
  * asked once. */
-static status formula_check(const struct run *e)
+static status formula_check(const struct loads *l, const struct particles *p, const struct run_clock *clock)
 {
-    const struct run_clock *clock = &e->clock;
-    const real *impulse = e->loads.impulse;
+    const real *impulse = l->impulse;
     if (!isfinite(impulse[0] + impulse[1] + impulse[2]))
-        for (int half = -3; half <= 2; half++)
-            TRY(loads_finite(&e->loads, &e->part, real_max(0, clock->t + 0.5 * half * clock->dt)));
-    return clock->step == clock->steps ? loads_finite(&e->loads, &e->part, clock->t) : OK;
+        for (int half = -3; half <= 2; half++) TRY(loads_finite(l, p, real_max(0, clock->t + 0.5 * half * clock->dt)));
+    return clock->step == clock->steps ? loads_finite(l, p, clock->t) : OK;
 }
 
 status stability_check(struct run *e)
 {
     const bool diverged = e->frame->mesh.points > 0 && !(e->frame->speed <= e->tables.wave_speed / sqrt(e->part.dim));
-    TRY(formula_check(e));
+    TRY(formula_check(&e->loads, &e->part, &e->clock));
     if (diverged) frame_sync_points(e, NULL, 0);
     TRY(divergence_check(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, e->frame));
@@ -328,9 +328,9 @@ static int64_t fastest_particle(const struct particles *p)
     return fastest;
 }
 
-bool energy_is_round_off(const struct run *e)
+bool energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed)
 {
-    return e->diagnostics->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * e->mass * square(e->tables.wave_speed);
+    return w->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * mass * square(wave_speed);
 }
 
 /* What bonds released as they broke without ever having held it [J]. A row of a state-based model may hold more after a
@@ -353,9 +353,8 @@ static bool swings(const struct run_clock *clock, const struct energy *energy)
 }
 
 /* FAILED with step, time and the fastest particle of "a body " and `what`. */
-static status unstable(const struct run *e, const char *what, const char *remedy)
+static status unstable(const struct particles *p, const struct run_clock *clock, const char *what, const char *remedy)
 {
-    const struct particles *p = &e->part;
     const int64_t i = fastest_particle(p);
     char place[96];
     int used = 0;
@@ -363,20 +362,20 @@ static status unstable(const struct run *e, const char *what, const char *remedy
         used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
     return status_set(FAILED,
                       "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body %s; %s",
-                      (long long)e->clock.step, e->clock.t, (int)p->id[i], place, what, remedy);
+                      (long long)clock->step, clock->t, (int)p->id[i], place, what, remedy);
 }
 
 /* Elastic strain of points in the current frame beyond which they come apart: a strip that is pulled tears or gains
  * energy from strains of 0.09 on, with every shape and transfer (tests/scenes/test_frame.sh). */
 #define STRETCH_MOST 0.08
 
-/* Says that points in the current frame are stretched farther than their grid holds them together. */
-static void say_stretched(struct run *e)
+/* Warns of the first point in the current frame that is stretched farther than its grid holds it together; returns true
+ * if there is one. t: present time [s]. */
+static bool say_stretched(const struct particles *p, const struct material *material, real t, struct warnings *to)
 {
-    const struct particles *p = &e->part;
     const int n = symmetric_count(p->dim);
-    for (int64_t i = 0; i < p->n && p->n_free > 0 && !e->stability->stretched; i++) {
-        const struct material *m = &e->scene->material[p->material[i]];
+    for (int64_t i = 0; i < p->n && p->n_free > 0; i++) {
+        const struct material *m = &material[p->material[i]];
         real stress[SYM_MAX], sum = 0;
         char text[360];
         if (p->kind[i] != KIND_MPM || p->flag[i] & FLAG_MESHED || material_yields(m)) continue;
@@ -388,10 +387,11 @@ static void say_stretched(struct run *e)
                  "points in mpm.frame current are stretched by %.0f %% at t = %.3g s, round x = %.4g m: from some 10 "
                  "%% on they come apart (mpm.transfer apic) or gain energy (flip), whatever the shape; mpm.frame "
                  "reference bears any stretch",
-                 100 * strain, e->clock.t, p->x[0][i]);
-        warnings_say(&e->warnings, text);
-        e->stability->stretched = true;
+                 100 * strain, t, p->x[0][i]);
+        warnings_say(to, text);
+        return true;
     }
+    return false;
 }
 
 /* For unstable runs without a particle that is too fast for diagnostics_divergence: a body that breaks all its bonds,
@@ -410,14 +410,15 @@ status energy_check(struct run *e)
     char what[96], remedy[REMEDY_LENGTH];
     if (!e->report->sampling.due && !last) return OK;
     rise_note(&e->stability->excess, e->clock.step, excess);
-    say_stretched(e);
-    if (energy_is_round_off(e)) return OK;
+    if (!e->stability->stretched)
+        e->stability->stretched = say_stretched(&e->part, e->scene->material, e->clock.t, &e->warnings);
+    if (energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;
     if (swings(&e->clock, &w->now.energy)) {
         say_step(e->scene, &e->clock, remedy, sizeof remedy);
-        return unstable(e, "whose velocities change sign in every step", remedy);
+        return unstable(&e->part, &e->clock, "whose velocities change sign in every step", remedy);
     }
     if (!gains(&e->clock, w)) return OK;
     snprintf(what, sizeof what, "with %.0f %% of its energy from nowhere", 100 * excess / w->energy_scale);
     stability_remedy(e, &e->stability->excess, excess, remedy, sizeof remedy);
-    return unstable(e, what, remedy);
+    return unstable(&e->part, &e->clock, what, remedy);
 }
