@@ -24,10 +24,13 @@ void make_pulses(const struct scene *s, struct probing *probing);
 /* Advances the growing cracks by one step, those that a sif probe controls by its factors; returns the number of
  * directed bonds released. */
 int64_t cracks_grow(struct run *e);
-/* Keeps the largest nodal force of the first step, for patch probes: of points and nodes of grids, of particles; of the
- * nodes of grid g. Between forces and motion. */
-void residual_keep(struct run *e);
-void residual_keep_of(struct run *e, const struct grid *g);
+/* Keeps the largest force on nodes of grids and on peridynamic particles in the regions of patch probes. In the first
+ * step, between forces and motion. */
+void residual_keep(struct probing *q, const struct scene *s, const struct particles *p, const struct grid_method *grid);
+
+/* Keeps the largest force on nodes of a mesh in the regions of patch probes, likewise. */
+void residual_keep_mesh(struct probing *q, const struct scene *s, const struct mesh *mesh);
+
 /* Writes the profiles of LINE and EXACT probes, with the number of the frame that `out` has just written. FAILED if a
  * file cannot be written. */
 status profiles_write(const struct probes *s, const struct output *out, const struct observed *o);

@@ -29,28 +29,28 @@ static void put_when(struct json *j, const struct scene *scene, const struct run
         json_count(j, key, (int64_t)floor(t / clock->dt + 0.5));
 }
 
-static void put_tip(struct json *j, const struct run *e, const struct tip *tip)
+static void put_tip(struct json *j, const struct scene *s, const struct run_clock *clock, const struct tip *tip)
 {
-    const int dim = e->part.dim;
+    const int dim = s->dim;
     json_open(j, NULL, '{');
     json_count(j, "body", tip->body);
     json_point(j, "origin_", tip->origin, dim);
     json_point(j, "", tip->place, dim);
     json_real(j, "growth", tip->growth);
     json_real(j, "angle_deg", tip_angle(tip, dim));
-    put_when(j, e->scene, &e->clock, "start", tip->start_time);
-    put_when(j, e->scene, &e->clock, "arrest", tip->arrest_time);
-    if (!scene_in_steps(e->scene)) json_real(j, "speed_max", tip->speed_max);
-    if (!scene_in_steps(e->scene)) json_real(j, "speed_mean", tip->speed_mean);
+    put_when(j, s, clock, "start", tip->start_time);
+    put_when(j, s, clock, "arrest", tip->arrest_time);
+    if (!scene_in_steps(s)) json_real(j, "speed_max", tip->speed_max);
+    if (!scene_in_steps(s)) json_real(j, "speed_mean", tip->speed_mean);
     json_close(j, '}');
 }
 
 /* Bonds of driven particles that loads have broken; of one between two of them both count. */
-static int64_t driven_bonds(const struct run *e)
+static int64_t driven_bonds(const struct bonds *b, const struct particles *p)
 {
     int64_t broken = 0;
-    for (int64_t row = 0; row < e->bonds.rows; row++)
-        if (e->part.flag[e->bonds.particle[row]] & FLAG_DRIVEN) broken += e->bonds.broken[row];
+    for (int64_t row = 0; row < b->rows; row++)
+        if (p->flag[b->particle[row]] & FLAG_DRIVEN) broken += b->broken[row];
     return broken;
 }
 
@@ -61,7 +61,7 @@ static void put_crack(struct json *j, const struct run *e)
     json_open(j, "crack", '{');
     put_when(j, e->scene, &e->clock, "start", e->diagnostics->break_time);
     put_when(j, e->scene, &e->clock, "driven_start", e->diagnostics->driven_time);
-    if (!isnan(e->diagnostics->driven_time)) json_count(j, "driven_bonds", driven_bonds(e));
+    if (!isnan(e->diagnostics->driven_time)) json_count(j, "driven_bonds", driven_bonds(&e->bonds, &e->part));
     if (longest) {
         put_when(j, e->scene, &e->clock, "tip_start", longest->start_time);
         put_when(j, e->scene, &e->clock, "arrest", longest->arrest_time);
@@ -74,7 +74,7 @@ static void put_crack(struct json *j, const struct run *e)
         json_real(j, "tip_speed_mean", longest->speed_mean);
     }
     json_open(j, "tips", '[');
-    for (int k = 0; k < e->fracture->tips.n; k++) put_tip(j, e, &e->fracture->tips.tip[k]);
+    for (int k = 0; k < e->fracture->tips.n; k++) put_tip(j, e->scene, &e->clock, &e->fracture->tips.tip[k]);
     json_close(j, ']');
     json_close(j, '}');
 }

@@ -12,36 +12,33 @@ static bool in_patch(const struct scene *s, const real *x)
     return false;
 }
 
-static bool wants_residual(const struct scene *s, const struct run_clock *clock)
+/* Raises *most to the largest component of the force on a node, if the node is in a patch [N]. at: its number on the
+ * lattice of nodes. */
+static void node_keep(const struct scene *s, const struct grid *g, int64_t I, int64_t at, real *most)
 {
-    bool wanted = false;
-    for (int k = 0; k < s->probes; k++) wanted |= s->probe[k].kind == PROBE_PATCH;
-    return wanted && clock->step == 0;
+    real x[DIM_MAX];
+    for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
+    for (int d = 0; d < g->dim; d++)
+        if (in_patch(s, x)) *most = real_max(*most, fabs(g->force[d][I]));
 }
 
-void residual_keep_of(struct run *e, const struct grid *g)
+void residual_keep_mesh(struct probing *q, const struct scene *s, const struct mesh *mesh)
 {
-    real x[DIM_MAX], *most = &e->probing->residual_step0;
-    if (!wants_residual(e->scene, &e->clock)) return;
-    for (int64_t I = 0; I < g->n; I++) {
-        const int64_t at = g == &e->frame->mesh.grid ? mesh_base(&e->frame->mesh, I) : I;
-        for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
-        for (int d = 0; d < g->dim; d++)
-            if (in_patch(e->scene, x)) *most = real_max(*most, fabs(g->force[d][I]));
+    for (int64_t I = 0; I < mesh->grid.n; I++) node_keep(s, &mesh->grid, I, mesh_base(mesh, I), &q->residual_step0);
+}
+
+void residual_keep(struct probing *q, const struct scene *s, const struct particles *p, const struct grid_method *grid)
+{
+    real x[DIM_MAX], *most = &q->residual_step0;
+    for (int k = 0; k < grid->fields; k++) {
+        const struct grid *g = &grid->field[k].grid;
+        for (int64_t I = 0; I < g->n; I++) node_keep(s, g, I, I, most);
     }
-}
-
-void residual_keep(struct run *e)
-{
-    const struct particles *p = &e->part;
-    real x[DIM_MAX], *most = &e->probing->residual_step0;
-    if (!wants_residual(e->scene, &e->clock)) return;
-    for (int k = 0; k < e->grid->fields; k++) residual_keep_of(e, &e->grid->field[k].grid);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         int32_t i = p->list[KIND_PD][k];
         if (particle_on_grid(p, i)) continue;
         for (int d = 0; d < p->dim; d++) x[d] = p->X[d][i];
         for (int d = 0; d < p->dim; d++)
-            if (in_patch(e->scene, x)) *most = real_max(*most, fabs(p->f[d][i]));
+            if (in_patch(s, x)) *most = real_max(*most, fabs(p->f[d][i]));
     }
 }

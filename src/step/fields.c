@@ -59,18 +59,17 @@ static void gradient_of_bonds(const struct bonds *bonds, const struct particles 
     gradient_fit(&sum, part->dim, i, H);
 }
 
-/* Of a material point on the grid: over the nearest points of its body on its side of pre-cracks, but peridynamic ones
+/* Of a material point on the grid: over the near points of its body on its side of pre-cracks, but peridynamic ones
  * with broken bonds, behind which a crack may pass. */
-static void gradient_of_points(const struct run *e, struct near *near, int64_t i, real *const *H)
+static void gradient_of_points(const struct particles *p, const struct bond_source *source, const struct near *near,
+                               int64_t i, real *const *H)
 {
-    const struct particles *p = &e->part;
     struct gradient_sum sum = {{{0}}, {{0}}};
-    near_find(near, &e->cells, p, i, NEAR_REACH * e->scene->spacing, false);
     for (int k = 0; k < near->n; k++) {
         const int64_t j = near->at[k];
         const bool torn = p->kind[j] == KIND_PD && p->damage[j] > 0;
-        if (p->body[j] != p->body[i] || torn || cracks_part(e->source.crack, e->source.cracks, p, i, j) ||
-            voids_part(e->source.voids, p, i, j))
+        if (p->body[j] != p->body[i] || torn || cracks_part(source->crack, source->cracks, p, i, j) ||
+            voids_part(source->voids, p, i, j))
             continue;
         gradient_add(&sum, p, i, j);
     }
@@ -94,9 +93,11 @@ static void gradients_make(const struct run *e, real **H)
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
             if (p->kind[i] == KIND_PD)
-                gradient_of_bonds(&e->bonds, &e->part, i, H);
-            else if (!in_mesh(e->frame, i))
-                gradient_of_points(e, &near, i, H);
+                gradient_of_bonds(&e->bonds, p, i, H);
+            else if (!in_mesh(e->frame, i)) {
+                near_find(&near, &e->cells, p, i, NEAR_REACH * e->scene->spacing, false);
+                gradient_of_points(p, &e->source, &near, i, H);
+            }
         memory_free(near.at);
     }
 }
@@ -105,18 +106,17 @@ static void gradients_make(const struct run *e, real **H)
 
 /* Of material points sigma_y a + H a^2/2 of the equivalent plastic strain a; of peridynamic particles half that of
  * their bonds. */
-static real *plastic_work_make(const struct run *e)
+static real *plastic_work_make(const struct particles *p, const struct bonds *b, const struct material *material)
 {
-    const struct particles *p = &e->part;
-    if (!p->plastic_strain && !e->bonds.plastic_path) return NULL;
+    if (!p->plastic_strain && !b->plastic_path) return NULL;
     real *work = NEW("report.plastic_work", p->n, real);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
-        const struct material *m = &e->scene->material[p->material[i]];
+        const struct material *m = &material[p->material[i]];
         const real a = p->plastic_strain ? p->plastic_strain[i] : 0;
-        const bool bonds = p->kind[i] == KIND_PD && e->bonds.plastic_path && e->bonds.row_of[i] >= 0;
+        const bool bonds = p->kind[i] == KIND_PD && b->plastic_path && b->row_of[i] >= 0;
         if (bonds)
-            work[i] = bond_row_plastic_work(&e->bonds, e->bonds.row_of[i]) / p->volume0[i];
+            work[i] = bond_row_plastic_work(b, b->row_of[i]) / p->volume0[i];
         else if (a > 0)
             work[i] = (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
     }
@@ -162,7 +162,8 @@ void fields_make(struct run *e, unsigned asked, struct frame_extra *extra)
 {
     extra->asked = asked, extra->material = e->scene->material, extra->space = e->scene->space;
     if (asked & (ASK_STRAIN | ASK_DENSITY)) gradients_make(e, extra->state.gradient);
-    if (asked & ASK_PLASTIC_WORK) extra->state.plastic_work = plastic_work_make(e);
+    if (asked & ASK_PLASTIC_WORK)
+        extra->state.plastic_work = plastic_work_make(&e->part, &e->bonds, e->scene->material);
     extra->state.plastic_strain = plastic_strain_make(&e->part, &e->bonds);
     if (asked & ASK_LEVEL) extra->state.level = cell_levels_make(e->frame, &e->part);
     if (!extra->more) return;

@@ -123,10 +123,10 @@ static void move_peridynamic(struct run *e, struct pd_motion *motion)
 static void move_grid(struct run *e, const struct step *now)
 {
     const bool any = e->part.n_free + e->part.n_grid_coupled > 0;
-    viscosity_lend(e, true);
+    viscosity_lend(e->viscosity, &e->part, true);
     grid_map(e); /* 1, 3: mass, momentum, force to nodes */
-    viscosity_lend(e, false);
-    residual_keep(e);
+    viscosity_lend(e->viscosity, &e->part, false);
+    if (e->clock.step == 0) residual_keep(e->probing, e->scene, &e->part, e->grid);
     grid_step(e, now->middle); /* 3, 4, 6, 7 */
     if (any && e->part.end_strain) partial_ends_update(&e->coupling->partial, &e->part, e->scene->material);
     if (any) lap(&e->laps, LAP_GATHER);
@@ -139,7 +139,7 @@ static void move_frame(struct run *e, const struct step *now)
     if (e->frame->mesh.points == 0) return;
     frame_force(e);
     viscosity_push_nodes(e);
-    residual_keep_of(e, &e->frame->mesh.grid);
+    if (e->clock.step == 0) residual_keep_mesh(e->probing, e->scene, &e->frame->mesh);
     frame_move(e, now->middle, now->dt_velocity);
 }
 

@@ -38,32 +38,30 @@ static real points_share(const struct scene *s)
  * c11 + (dim - 1) c12, waves c11: near nu = 1/2 the ratio is 2 in the plane and 3 in space. The shares above were
  * observed up to a ratio of 5/3 (nu 1/4 in space); beyond, limits fall with its root: from nu 0.25 to 0.499 in space by
  * 0.80 (FLIP) and 0.76 (APIC), where the root gives 0.75. */
-static real volume_share(const struct scene *s, const struct material_tables *tables, const struct particles *p)
+static real volume_share(const struct scene *s, const struct material_tables *tables)
 {
     const real observed = 5.0 / 3;
     real most = observed;
     for (int m = 0; m < s->materials; m++)
-        most = real_max(most, 1 + (p->dim - 1) * tables->elastic[m].c12 / tables->elastic[m].c11);
+        most = real_max(most, 1 + (s->dim - 1) * tables->elastic[m].c12 / tables->elastic[m].c11);
     return sqrt(observed / most);
 }
 
-static real engine_time_fastest(const struct run *e)
+/* Returns the largest speed to be expected [m/s]: at the start, `speed`, and of what boundaries drive. */
+static real fastest_driven(const struct scene *s, const struct loads *l, const struct particles *p, real speed)
 {
-    const struct scene *s = e->scene;
-    real speed = e->stability->start_speed;
     for (int b = 0; b < s->boundaries; b++)
         if (s->boundary[b].displaces && s->solver == SOLVER_EXPLICIT)
-            speed = real_max(speed, load_displacing_speed(&e->loads.load[b], &e->part, s->duration));
+            speed = real_max(speed, load_displacing_speed(&l->load[b], p, s->duration));
         else if (s->boundary[b].kind == BOUNDARY_VELOCITY && !s->boundary[b].displaces)
             speed = real_max(speed, sqrt(dot(s->boundary[b].value, s->boundary[b].value, s->dim)));
     return speed;
 }
 
-static real critical_of_points(const struct run *e)
+/* Critical step of points on a grid with node distance h [m] that move at `speed` at most [m/s] [s]. */
+static real critical_of_points(const struct scene *s, const struct material_tables *tables, real h, real speed)
 {
-    if (e->part.n_free + e->part.n_grid_coupled == 0) return INFINITY;
-    return points_share(e->scene) * volume_share(e->scene, &e->tables, &e->part) * e->grid->field[0].grid.h /
-           (e->tables.wave_speed + engine_time_fastest(e));
+    return points_share(s) * volume_share(s, tables) * h / (tables->wave_speed + speed);
 }
 
 /* ---- bonds ------------------------------------------------------------------------------------------------------- */
@@ -84,29 +82,28 @@ static real share_of_coupling(const struct scene *s, enum coupling coupling)
 }
 
 /* Force kernel of elastic bonds: yielding bonds are no stiffer. */
-static bond_force_fn *elastic_force(const struct run *e)
+static bond_force_fn *elastic_force(const struct scene *s, const struct kernels *kernels)
 {
-    return e->scene->model == MODEL_BOND ? bond_force_table[e->part.dim][PD_BOND] : e->kernels.bond_force;
+    return s->model == MODEL_BOND ? bond_force_table[s->dim][PD_BOND] : kernels->bond_force;
 }
 
 /* Smallest critical step of the lattices of all materials [s]; *bound: the smallest of their bounds [s]. */
-static real critical_of_lattices(struct run *e, real *bound)
+static real critical_of_lattices(const struct bond_source *all, const struct particles *p, bond_force_fn *force,
+                                 real *bound)
 {
-    const struct scene *s = e->scene;
     real step = INFINITY, longest[DIM_MAX], low, high;
     *bound = INFINITY;
-    for (int d = 0; d < s->dim; d++) {
-        particles_extent(&e->part, e->part.n, d, &low, &high);
+    for (int d = 0; d < p->dim; d++) {
+        particles_extent(p, p->n, d, &low, &high);
         longest[d] = high - low;
     }
-    for (int m = 0; m < s->materials; m++) {
+    for (int m = 0; m < all->materials; m++) {
         real its_bound;
-        struct bond_source one = e->source; /* its particles are of material 0 */
-        one.material = &s->material[m], one.materials = 1;
-        if (e->tables.modulus) one.modulus = &e->tables.modulus[m];
+        struct bond_source one = *all; /* its particles are of material 0 */
+        one.material = &all->material[m], one.materials = 1;
+        if (all->modulus) one.modulus = &all->modulus[m];
         one.yield = (struct bond_yield){0};
-        step = real_min(step,
-                        critical_step_of_lattice(&one, elastic_force(e), s->material[m].density, longest, &its_bound));
+        step = real_min(step, critical_step_of_lattice(&one, force, all->material[m].density, longest, &its_bound));
         *bound = real_min(*bound, its_bound);
     }
     return step;
@@ -120,13 +117,14 @@ enum { ITERATED_MOST = 15000 }; /* particles: an iteration has some 30 rounds of
 static real critical_of_bonds(struct run *e)
 {
     const struct scene *s = e->scene;
+    bond_force_fn *const force = elastic_force(s, &e->kernels);
     real bound;
     if (s->method == METHOD_MPM) return INFINITY;
     if (s->method == METHOD_PD && (s->irregularity > 0 || e->part.n <= ITERATED_MOST)) {
-        const real step = critical_step_of(&e->bonds, &e->part, elastic_force(e), &e->loads, s->spacing);
+        const real step = critical_step_of(&e->bonds, &e->part, force, &e->loads, s->spacing);
         return isfinite(step) ? step : s->spacing / e->tables.wave_speed; /* no bond: any step that the loads allow */
     }
-    const real step = critical_of_lattices(e, &bound);
+    const real step = critical_of_lattices(&e->source, &e->part, force, &bound);
     const real share = real_min(1, bonds_critical_step(&e->part, &e->source) / bound);
     return share * step * share_of_coupling(e->scene, e->coupling_kind);
 }
@@ -183,8 +181,13 @@ static real lightest_share(const struct scene *s, const struct particles *p)
 status time_step_make(struct run *e)
 {
     const struct scene *s = e->scene;
-    e->clock.dt_critical = real_min(real_min(critical_of_bonds(e), critical_of_points(e)), frame_critical_step(e)) *
-                           sqrt(lightest_share(s, &e->part)) * viscosity_step_share(e);
+    const bool on_grid = e->part.n_free + e->part.n_grid_coupled > 0;
+    real points = INFINITY;
+    if (on_grid)
+        points = critical_of_points(s, &e->tables, e->grid->field[0].grid.h,
+                                    fastest_driven(s, &e->loads, &e->part, e->stability->start_speed));
+    e->clock.dt_critical = real_min(real_min(critical_of_bonds(e), points), frame_critical_step(e)) *
+                           sqrt(lightest_share(s, &e->part)) * viscosity_step_share(s, &e->part);
     const real contact = contact_critical_step(e->contact, &e->part, s->material, e->clock.dt_critical);
     const real safety = frame_levels_number(e) > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;
     const real automatic =

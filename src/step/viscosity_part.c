@@ -11,12 +11,11 @@
 #include "run/part.h"
 
 /* Makes the arrays, once. Returns false where no material is viscous. */
-static bool viscosity_made(struct run *e)
+static bool viscosity_made(struct viscosity *v, const struct scene *s, int64_t n, int64_t nodes)
 {
-    struct viscosity *v = e->viscosity;
-    const int64_t n = e->part.n, nodes = e->frame->mesh.grid.n;
-    if (v->work || !scene_viscous(e->scene)) return v->work != NULL;
-    for (int d = 0; d < e->part.dim; d++) {
+    if (v->work || !scene_viscous(s)) return v->work != NULL;
+    v->material = s->material, v->cell = s->cell * s->spacing, v->small_strain = s->small_strain;
+    for (int d = 0; d < s->dim; d++) {
         v->bonds[d] = NEW("viscosity.bonds", n, real), v->stress[d] = NEW("viscosity.stress", n, real);
         v->nodes[d] = NEW("viscosity.nodes", nodes, real);
     }
@@ -40,18 +39,16 @@ static real viscous_pressure(const struct material *m, real h, real rate)
            viscous_strain(m->viscosity.linear, m->viscosity.quadratic, h / m->wave_speed, -rate);
 }
 
-/* Edge of a cell of the grid and of the reference frame [m]. */
-static real cell_edge(const struct scene *s) { return s->cell * s->spacing; }
-
 static real taken_by(const void *work, int64_t i) { return ((const real *)work)[i]; }
 
 /* ---- bonds ------------------------------------------------------------------------------------------------------- */
 
-/* Adds the force of a bond of particle i to f [N]. Of a bond between two materials coefficients are means. */
-static void bond_push(const struct run *e, int32_t i, const struct bond *bond, real *f)
+/* Adds the force of a bond of particle i to f [N]. Of a bond between two materials coefficients are means. stiffness:
+ * of the bonds. */
+static void bond_push(const struct material *material, const struct particles *p, int64_t i, const struct bond *bond,
+                      real stiffness, real *f)
 {
-    const struct particles *p = &e->part;
-    const struct material *a = &e->scene->material[p->material[i]], *b = &e->scene->material[p->material[bond->nbr]];
+    const struct material *a = &material[p->material[i]], *b = &material[p->material[bond->nbr]];
     real way[DIM_MAX], length2 = 0, rate = 0;
     for (int d = 0; d < p->dim; d++) {
         way[d] = p->x[d][bond->nbr] - p->x[d][i];
@@ -63,19 +60,16 @@ static void bond_push(const struct run *e, int32_t i, const struct bond *bond, r
     const real strain = viscous_strain(0.5 * (a->viscosity.linear + b->viscosity.linear),
                                        0.5 * (a->viscosity.quadratic + b->viscosity.quadratic), crossing,
                                        -rate / length * bond->inverse_length);
-    for (int d = 0; d < p->dim; d++) f[d] -= e->bonds.stiffness * bond->w * strain * way[d] / length;
+    for (int d = 0; d < p->dim; d++) f[d] -= stiffness * bond->w * strain * way[d] / length;
 }
 
-static void bonds_push(struct run *e)
+static void bonds_push(struct viscosity *v, const struct bonds *b, struct particles *p, real half)
 {
-    struct viscosity *v = e->viscosity;
-    struct particles *p = &e->part;
-    const real half = e->clock.step > 0 ? 0.5 * e->clock.dt : 0;
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
         real f[DIM_MAX] = {0};
-        for (struct bond_iterator it = bonds_of_row(&e->bonds, e->bonds.row_of[i]); bond_next(&it);)
-            if (it.bond.w != 0) bond_push(e, (int32_t)i, &it.bond, f);
+        for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);)
+            if (it.bond.w != 0) bond_push(v->material, p, i, &it.bond, b->stiffness, f);
         v->work[i] = 0;
         for (int d = 0; d < p->dim; d++) {
             v->work[i] -= half * p->v[d][i] * (v->bonds[d][i] + f[d]);
@@ -88,34 +82,34 @@ static void bonds_push(struct run *e)
 
 /* ---- points on the grid ------------------------------------------------------------------------------------------ */
 
-static void points_pressure(struct run *e)
+static void points_pressure(struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
+                            real dt)
 {
-    struct viscosity *v = e->viscosity;
-    const struct particles *p = &e->part;
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
         const real before = v->pressure[i], volume = v->volume[i];
         const bool on_grid = p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED);
         v->pressure[i] = v->work[i] = 0, v->volume[i] = on_grid ? p->volume[i] : 0;
         if (!on_grid || volume == 0) continue;
-        const real growth = p->volume[i] - volume, rate = growth / (0.5 * (p->volume[i] + volume) * e->clock.dt);
-        v->pressure[i] = viscous_pressure(&e->scene->material[p->material[i]], cell_edge(e->scene), rate);
-        v->work[i] = -0.5 * point_own_share(&e->coupling->partial, p->dim, i) * (before + v->pressure[i]) * growth;
+        const real growth = p->volume[i] - volume, rate = growth / (0.5 * (p->volume[i] + volume) * dt);
+        v->pressure[i] = viscous_pressure(&v->material[p->material[i]], v->cell, rate);
+        v->work[i] = -0.5 * point_own_share(partial, p->dim, i) * (before + v->pressure[i]) * growth;
     }
     v->taken += team_sum(p->n, taken_by, v->work);
 }
 
+/* Half of the time over which forces of the previous step and of this one do work [s]. */
+static real half_step(const struct run_clock *clock) { return clock->step > 0 ? 0.5 * clock->dt : 0; }
+
 void viscosity_push(struct run *e)
 {
-    if (!viscosity_made(e)) return;
-    bonds_push(e);
-    points_pressure(e);
+    if (!viscosity_made(e->viscosity, e->scene, e->part.n, e->frame->mesh.grid.n)) return;
+    bonds_push(e->viscosity, &e->bonds, &e->part, half_step(&e->clock));
+    points_pressure(e->viscosity, &e->part, &e->coupling->partial, e->clock.dt);
 }
 
-void viscosity_lend(struct run *e, bool on)
+void viscosity_lend(struct viscosity *v, const struct particles *p, bool on)
 {
-    struct viscosity *v = e->viscosity;
-    const struct particles *p = &e->part;
     for (int d = 0; d < p->dim && v->work; d++) {
 #pragma omp parallel for schedule(static)
         for (int64_t k = 0; k < p->n_free; k++) {
@@ -155,18 +149,17 @@ static real invert_gradient(const real *F, int dim, real *inverse)
 
 /* Turns the displacement gradient H of point i, and that of its velocity G, into what its volume and q give to the
  * slopes of shares: volume0 J q F^-T, in H [dim dim, N m]. */
-static void viscous_stress(const struct run *e, int64_t i, real *const *H, real *const *G)
+static void viscous_stress(const struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
+                           int64_t i, real *const *H, real *const *G)
 {
-    const struct particles *p = &e->part;
     const int dim = p->dim;
     real F[DIM_MAX * DIM_MAX], inverse[DIM_MAX * DIM_MAX], rate = 0;
     for (int a = 0; a < dim; a++)
-        for (int b = 0; b < dim; b++) F[a * dim + b] = (a == b) + (e->scene->small_strain ? 0 : H[a * dim + b][i]);
+        for (int b = 0; b < dim; b++) F[a * dim + b] = (a == b) + (v->small_strain ? 0 : H[a * dim + b][i]);
     const real J = invert_gradient(F, dim, inverse);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) rate += G[a * dim + b][i] * inverse[b * dim + a];
-    const real q = viscous_pressure(&e->scene->material[p->material[i]], cell_edge(e->scene), rate) *
-                   point_own_share(&e->coupling->partial, dim, i);
+    const real q = viscous_pressure(&v->material[p->material[i]], v->cell, rate) * point_own_share(partial, dim, i);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) H[a * dim + b][i] = p->volume0[i] * J * q * inverse[b * dim + a];
 }
@@ -210,11 +203,8 @@ static void cells_push(const struct mesh *mesh, real *const *P, real *const *f)
 }
 
 /* Books the work of the nodes' forces of the step before and of now, f [grid.n]; these become the former. */
-static void nodes_book(struct run *e, real *const *f)
+static void nodes_book(struct viscosity *v, const struct grid *g, real half, real *const *f)
 {
-    struct viscosity *v = e->viscosity;
-    const struct grid *g = &e->frame->mesh.grid;
-    const real half = e->clock.step > 0 ? 0.5 * e->clock.dt : 0;
     real *work = NEW("viscosity.node_work", g->n, real);
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < g->n; I++)
@@ -242,9 +232,9 @@ void viscosity_push_nodes(struct run *e)
     mesh_points_gradient(&moving, G);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < e->part.n; i++)
-        if (mesh->place[i] >= 0) viscous_stress(e, i, H, G);
+        if (mesh->place[i] >= 0) viscous_stress(e->viscosity, &e->part, &e->coupling->partial, i, H, G);
     cells_push(mesh, H, f);
-    nodes_book(e, f);
+    nodes_book(e->viscosity, &mesh->grid, half_step(&e->clock), f);
     for (int k = 0; k < dim * dim; k++) memory_free(H[k]), memory_free(G[k]);
     for (int d = 0; d < dim; d++) memory_free(f[d]);
 }
@@ -312,12 +302,12 @@ static real speed_expected(const struct scene *s, const struct particles *part)
     return most;
 }
 
-real viscosity_step_share(const struct run *e)
+real viscosity_step_share(const struct scene *s, const struct particles *p)
 {
-    const real speed = scene_viscous(e->scene) ? speed_expected(e->scene, &e->part) : 0;
+    const real speed = scene_viscous(s) ? speed_expected(s, p) : 0;
     real q = 0;
-    for (int m = 0; m < e->scene->materials; m++) {
-        const struct material *own = &e->scene->material[m];
+    for (int m = 0; m < s->materials; m++) {
+        const struct material *own = &s->material[m];
         q = real_max(q, own->viscosity.linear + own->viscosity.quadratic * speed / own->wave_speed);
     }
     return sqrt(1 + q * q) - q;
@@ -336,7 +326,7 @@ static status viscosity_state(struct run *e, struct archive *a)
     const size_t n = (size_t)e->part.n * sizeof(real), nodes = (size_t)e->frame->mesh.grid.n * sizeof(real);
     static const char *const name[] = {"viscosity/bonds_x", "viscosity/bonds_y", "viscosity/bonds_z"};
     static const char *const node[] = {"viscosity/nodes_x", "viscosity/nodes_y", "viscosity/nodes_z"};
-    if (!viscosity_made(e)) return OK;
+    if (!viscosity_made(v, e->scene, e->part.n, e->frame->mesh.grid.n)) return OK;
     for (int d = 0; d < e->part.dim; d++) TRY(a->exchange(a, name[d], v->bonds[d], n));
     for (int d = 0; d < e->part.dim && nodes > 0; d++) TRY(a->exchange(a, node[d], v->nodes[d], nodes));
     TRY(a->exchange(a, "viscosity/pressure", v->pressure, n));
