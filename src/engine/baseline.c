@@ -16,16 +16,15 @@ static bool wanted(const struct scene *s)
     return false;
 }
 
-/* Copies velocities and energy change of the finished reference run `twin`. Both runs number their particles alike,
- * since these are made and sorted before any becomes peridynamic. */
-static void baseline_keep(struct probing *probing, const struct run *twin)
+/* Copies velocities of the particles p, and the energy change [1], of the finished reference run. Both runs number
+ * their particles alike, since these are made and sorted before any becomes peridynamic. */
+static void baseline_keep(struct probing *probing, const struct particles *p, real energy_change)
 {
-    const struct particles *p = &twin->part;
     for (int d = 0; d < p->dim; d++) {
         probing->baseline.v[d] = NEW("baseline.v", p->n, real);
         array_copy(probing->baseline.v[d], p->v[d], p->n, sizeof *p->v[d]);
     }
-    probing->baseline.energy_change = run_observed(twin).energy_change;
+    probing->baseline.energy_change = energy_change;
     probing->has_baseline = true;
 }
 
@@ -40,7 +39,7 @@ status engine_baseline(struct run *e)
     status s = engine_make(&twin, &scene, NULL);
     twin.report->quiet = true;
     if (s == OK) s = engine_run(&twin);
-    if (s == OK) baseline_keep(e->probing, &twin);
+    if (s == OK) baseline_keep(e->probing, &twin.part, run_observed(&twin).energy_change);
     engine_free(&twin);
     return s;
 }

@@ -27,8 +27,9 @@ void engine_take_bonds(struct run *e, const struct predecessor *before);
 status parts_archive(struct run *e, struct archive *a);
 
 /* Warns of particles that have no neighbour. */
-void engine_warn_of_lone(const struct run *e, struct warnings *to);
+void engine_warn_of_lone(const struct scene *s, const struct cells *cells, const struct bonds *b,
+                         const struct particles *p, struct warnings *to);
 /* Warns of loads whose speed breaks bonds beside what they drive. */
-void engine_warn_of_speed(const struct run *e, struct warnings *to);
+void engine_warn_of_speed(const struct scene *s, const struct loads *l, const struct particles *p, struct warnings *to);
 
 #endif

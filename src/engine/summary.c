@@ -95,21 +95,26 @@ static status fragments_write(const struct particles *part, const struct run_rep
 
 /* ---- figures of the machine -------------------------------------------------------------------------------------- */
 
-/* Figures that depend on the machine: threads, kernels, times, memory; laps: parts of the loop of this process [s]. */
-static void put_machine(struct json *j, const struct run *e, int threads, double wall_seconds)
+/* Figures that depend on the machine: threads, kernels, times, memory. steps: of the run. */
+static void put_machine(struct json *j, const struct run_report *r, int64_t steps, int threads, double wall_seconds)
 {
-    real steps = 0, ns = 1e9 * e->report->loop_seconds;
-    for (int k = 0; k < KINDS; k++) steps += (real)e->report->particle_steps[k];
+    real updates = 0, ns = 1e9 * r->loop_seconds;
+    for (int k = 0; k < KINDS; k++) updates += (real)r->particle_steps[k];
     json_count(j, "threads", threads);
     json_text(j, "kernels", simd_in_use()->name);
     json_number(j, "wall_seconds", wall_seconds, JSON_TIMING);
-    json_number(j, "loop_seconds", e->report->loop_seconds, JSON_TIMING);
+    json_number(j, "loop_seconds", r->loop_seconds, JSON_TIMING);
     json_count(j, "memory_peak_bytes", memory_peak());
-    json_number(j, "ns_per_particle_step", ns / steps, JSON_TIMING);
-    json_number(j, "ns_per_bond_step", ns / (real)e->report->bond_visits, JSON_TIMING);
-    json_number(j, "rest_share", e->report->inactive / (real)(e->clock.step > 0 ? e->clock.step : 1), JSON_TIMING);
+    json_number(j, "ns_per_particle_step", ns / updates, JSON_TIMING);
+    json_number(j, "ns_per_bond_step", ns / (real)r->bond_visits, JSON_TIMING);
+    json_number(j, "rest_share", r->inactive / (real)(steps > 0 ? steps : 1), JSON_TIMING);
+}
+
+/* Times of the parts of the loop in this process [s]. */
+static void put_laps(struct json *j, const struct laps *laps)
+{
     json_open(j, "laps", '{');
-    for (int k = 0; k < LAPS; k++) json_number(j, lap_name[k], e->laps.spent[k], JSON_TIMING);
+    for (int k = 0; k < LAPS; k++) json_number(j, lap_name[k], laps->spent[k], JSON_TIMING);
     json_close(j, '}');
 }
 
@@ -123,7 +128,8 @@ static void summary_print(FILE *file, const struct run *e, const struct fragment
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->summary) (*p)->summary(e, &j);
     if (has_fragments(e->scene, e->diagnostics)) put_fragments(&j, fragments);
-    put_machine(&j, e, threads, wall_seconds);
+    put_machine(&j, e->report, e->clock.step, threads, wall_seconds);
+    put_laps(&j, &e->laps);
     fputs("\n}\n", file);
 }
 

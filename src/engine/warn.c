@@ -37,37 +37,37 @@ static bool spins(const struct scene *s)
 }
 
 /* Measured with a plate that turns freely, edges at 30 m/s, cells of two spacings. */
-static void warn_of_spin(const struct run *e, struct warnings *to)
+static void warn_of_spin(const struct scene *s, const struct grid_method *grid, struct warnings *to)
 {
-    const struct scene *s = e->scene;
-    if (scene_moves(s) && s->transfer == TRANSFER_FLIP && e->part.n_free > 0 && spins(s) &&
-        e->grid->turning.groups == 0)
+    if (scene_moves(s) && s->transfer == TRANSFER_FLIP && spins(s) && grid->turning.groups == 0)
         warnings_add(to,
                      "mpm.transfer flip does not keep the spin of bodies in mpm.frame current: a plate of 20 x 10 "
                      "points loses 7 %% of its angular momentum in 0.3 rad, 28 %% in half a turn, under stresses 100 "
                      "times too large; apic loses 2e-5");
 }
 
-/* Method, coupling, transfer and time step. */
-static void warn_of_method(const struct run *e, struct warnings *to)
+/* Warns of pre-cracks without bonds, and of couplings beside their definition. */
+static void warn_of_coupling(const struct scene *s, enum coupling kind, struct warnings *to)
 {
-    const struct scene *s = e->scene;
-    if (scene_moves(s) && e->clock.dt > e->clock.dt_critical)
-        warnings_add(to, "the time step is above the critical one: expect a run that blows up");
     if (s->method == METHOD_MPM && s->cracks > 0)
         warnings_add(to, "method mpm has one velocity field and ignores the pre-cracks; pd or adaptive represent them");
-    if ((e->coupling_kind == COUPLING_PM || e->coupling_kind == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
+    if ((kind == COUPLING_PM || kind == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
         warnings_add(to,
                      "coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and pgg");
-    if (coupling_moves_by_grid(e->coupling_kind))
+    if (coupling_moves_by_grid(kind))
         warnings_add(
             to,
             "coupling %s is as published: no energy stands behind its forces, and a long run may gain some; watch "
             "energy.balance_error, or use partial stress",
-            coupling_name[e->coupling_kind]);
+            coupling_name[kind]);
+}
+
+/* Warns of shape functions beside driven particles, and of cells with one point. on_grid: points are on the grid. */
+static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *to)
+{
     bool driven = false;
     for (int b = 0; b < s->boundaries; b++) driven |= s->boundary[b].kind == BOUNDARY_VELOCITY;
-    if (driven && e->part.n_free > 0 && (s->shape == SHAPE_QUADRATIC || s->shape == SHAPE_CUBIC))
+    if (driven && on_grid && (s->shape == SHAPE_QUADRATIC || s->shape == SHAPE_CUBIC))
         warnings_add(to,
                      "mpm.shape %s beside fixed and driven particles: stress there comes out up to a third too "
                      "large, displacements 2 to 3 %%; with a mirror in place of what holds the face, or shapes linear "
@@ -146,44 +146,52 @@ static void warn_of_lists(const struct scene *s, struct warnings *to)
 }
 
 /* A field that is asked for by name, and that no frame will have. */
-static void warn_of_fields(const struct run *e, struct warnings *to)
+static void warn_of_fields(unsigned asked, const struct particles *p, const struct bonds *b, struct warnings *to)
 {
     enum { ASK_PLASTIC_STRAIN = 1 << 4, ASK_OTHERS = ASK_LEVEL | ASK_STRAIN | ASK_PLASTIC_WORK };
-    const unsigned asked = e->scene->fields;
-    if (asked & ASK_PLASTIC_STRAIN && (asked & ASK_OTHERS) != ASK_OTHERS && !e->part.plastic_strain &&
-        !e->bonds.plastic_path)
+    if (asked & ASK_PLASTIC_STRAIN && (asked & ASK_OTHERS) != ASK_OTHERS && !p->plastic_strain && !b->plastic_path)
         warnings_add(to, "output.fields: no material here yields, and frames will have no plastic_strain");
 }
 
-static void warn_of_empty(const struct run *e, struct warnings *to)
+/* Warns of regions of frames without a particle. */
+static void warn_of_regions(const struct scene *s, const struct reference_frame *frame, const struct particles *p,
+                            struct warnings *to)
 {
-    warn_of_fields(e, to);
-    for (int k = 0; k < e->scene->n_series; k++)
-        if (!region_is_met(e->frame, &e->part, &e->scene->series[k].region))
-            warnings_add(to, "output.regions: %s holds no particle: its frames will be empty",
-                         e->scene->series[k].name);
-    for (int b = 0; b < e->loads.n; b++)
-        if (e->loads.load[b].n == 0 && e->scene->boundary[b].kind == BOUNDARY_VELOCITY)
-            warnings_add(to, "boundary %s holds no particle%s", e->scene->boundary[b].name,
-                         e->scene->method == METHOD_PD ? "" : "; it acts on grid nodes in its region only");
-    if (e->source.givens > 0 && !bonds_are_cut(&e->bonds))
-        warnings_add(to, "the pre-cracks cut no bond: do they lie in the body?");
+    for (int k = 0; k < s->n_series; k++)
+        if (!region_is_met(frame, p, &s->series[k].region))
+            warnings_add(to, "output.regions: %s holds no particle: its frames will be empty", s->series[k].name);
+}
+
+/* Warns of driving boundaries without a particle. */
+static void warn_of_boundaries(const struct scene *s, const struct loads *l, struct warnings *to)
+{
+    for (int b = 0; b < l->n; b++)
+        if (l->load[b].n == 0 && s->boundary[b].kind == BOUNDARY_VELOCITY)
+            warnings_add(to, "boundary %s holds no particle%s", s->boundary[b].name,
+                         s->method == METHOD_PD ? "" : "; it acts on grid nodes in its region only");
 }
 
 void engine_warn(struct run *e)
 {
+    const struct scene *s = e->scene;
     struct warnings *to = &e->warnings;
-    if (e->scene->renamed[0])
-        warnings_add(to, "%s; earlier names work in this version, with the same meaning", e->scene->renamed);
-    warn_of_method(e, to);
-    warn_of_spin(e, to);
-    warn_of_idle_keys(e->scene, e->frame, to);
-    warn_of_materials(e->scene, &e->tables, to);
-    warn_of_lists(e->scene, to);
-    warn_of_probes(e->scene, to);
-    engine_warn_of_lone(e, to);
-    engine_warn_of_speed(e, to);
-    warn_of_empty(e, to);
+    if (s->renamed[0]) warnings_add(to, "%s; earlier names work in this version, with the same meaning", s->renamed);
+    if (scene_moves(s) && e->clock.dt > e->clock.dt_critical)
+        warnings_add(to, "the time step is above the critical one: expect a run that blows up");
+    warn_of_coupling(s, e->coupling_kind, to);
+    warn_of_cells(s, e->part.n_free > 0, to);
+    if (e->part.n_free > 0) warn_of_spin(s, e->grid, to);
+    warn_of_idle_keys(s, e->frame, to);
+    warn_of_materials(s, &e->tables, to);
+    warn_of_lists(s, to);
+    warn_of_probes(s, to);
+    engine_warn_of_lone(s, &e->cells, &e->bonds, &e->part, to);
+    engine_warn_of_speed(s, &e->loads, &e->part, to);
+    warn_of_fields(s->fields, &e->part, &e->bonds, to);
+    warn_of_regions(s, e->frame, &e->part, to);
+    warn_of_boundaries(s, &e->loads, to);
+    if (e->source.givens > 0 && !bonds_are_cut(&e->bonds))
+        warnings_add(to, "the pre-cracks cut no bond: do they lie in the body?");
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->warn) (*p)->warn(e, to);
 }

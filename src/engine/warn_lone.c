@@ -36,21 +36,23 @@ static bool from_file(const struct scene *s, int body)
     return any;
 }
 
-/* Counts peridynamic particles by their rows of bonds, and material points of bodies from files by what lies within a
- * cell of theirs. */
-static void lone_count(const struct run *e, struct lone *lone)
+/* Counts peridynamic particles without bonds. */
+static void lone_bonds_count(const struct bonds *b, const struct particles *p, struct lone *lone)
 {
-    const struct particles *p = &e->part;
-    const struct scene *s = e->scene;
-    struct near near = {0};
-    for (int64_t i = 0; i < p->n; i++) lone[p->body[i]].all++;
-    for (int64_t row = 0; row < e->bonds.rows; row++) {
-        const int64_t i = e->bonds.particle[row];
-        if (i >= 0 && i < p->n && p->kind[i] == KIND_PD && row_empty(&e->bonds, row)) lone_add(&lone[p->body[i]], i);
+    for (int64_t row = 0; row < b->rows; row++) {
+        const int64_t i = b->particle[row];
+        if (i >= 0 && i < p->n && p->kind[i] == KIND_PD && row_empty(b, row)) lone_add(&lone[p->body[i]], i);
     }
+}
+
+/* Counts material points of bodies from files that have no neighbour within a cell. */
+static void lone_points_count(const struct scene *s, const struct cells *cells, const struct particles *p,
+                              struct lone *lone)
+{
+    struct near near = {0};
     for (int64_t i = 0; i < p->n && s->method != METHOD_PD; i++) {
         if (p->kind[i] == KIND_PD || !from_file(s, p->body[i])) continue;
-        near_find(&near, &e->cells, p, i, real_max(1.5, s->cell) * s->spacing, false);
+        near_find(&near, cells, p, i, real_max(1.5, s->cell) * s->spacing, false);
         if (near.n == 0) lone_add(&lone[p->body[i]], i);
     }
     memory_free(near.at);
@@ -78,14 +80,12 @@ static real median_sorted(real *a, int n)
     return a[n / 2];
 }
 
-/* Sets the distance of the nearest neighbour of a particle, INFINITY if there is none within NEAR, the number of
- * those within, and of those at the least distance. */
-static void surroundings(const struct run *e, struct near *near, int64_t i, real *apart, real *count, real *beside)
+/* Sets the distance of the nearest neighbour of a particle [m], INFINITY if there is none within NEAR, and the number
+ * of neighbours at that distance. */
+static void surroundings(const struct particles *p, const struct near *near, int64_t i, real *apart, real *beside)
 {
-    const struct particles *p = &e->part;
     real least2 = INFINITY;
     *beside = 0;
-    near_find(near, &e->cells, p, i, NEAR * e->scene->spacing, false);
     for (int k = 0; k < near->n; k++) {
         real distance2 = 0;
         for (int d = 0; d < p->dim; d++) distance2 += square(p->X[d][near->at[k]] - p->X[d][i]);
@@ -93,24 +93,24 @@ static void surroundings(const struct run *e, struct near *near, int64_t i, real
                                                          : *beside;
         least2 = real_min(least2, distance2);
     }
-    *apart = sqrt(least2), *count = near->n + 1;
+    *apart = sqrt(least2);
 }
 
 /* Warns of a list without volumes, which have that of the spacing, whose particles are farther apart or denser. */
-static void warn_of_list_spacing(const struct run *e, int body, struct warnings *to)
+static void warn_of_list_spacing(const struct scene_body *b, real spacing, const struct cells *cells,
+                                 const struct particles *p, struct warnings *to)
 {
     static const real ball[] = {0, 2 * NEAR, 3.14159 * NEAR * NEAR, 4.18879 * NEAR * NEAR * NEAR};
-    const struct particles *p = &e->part;
-    const struct scene_body *b = &e->scene->body[body];
-    const real spacing = e->scene->spacing;
     real apart[SAMPLED], count[SAMPLED], beside[SAMPLED];
     struct near near = {0};
     int64_t own = 0;
     int n = 0;
     for (int64_t i = 0; i < p->n; i++) own += p->body[i] == b->joined;
-    for (int64_t i = 0, k = 0; i < p->n && n < SAMPLED; i++)
-        if (p->body[i] == b->joined && k++ % (own / SAMPLED + 1) == 0)
-            surroundings(e, &near, i, &apart[n], &count[n], &beside[n]), n++;
+    for (int64_t i = 0, k = 0; i < p->n && n < SAMPLED; i++) {
+        if (p->body[i] != b->joined || k++ % (own / SAMPLED + 1) != 0) continue;
+        near_find(&near, cells, p, i, NEAR * spacing, false);
+        surroundings(p, &near, i, &apart[n], &beside[n]), count[n++] = near.n + 1;
+    }
     memory_free(near.at);
     if (own <= MASS_POINTS) return;
     const real distance = median_sorted(apart, n), share = median_sorted(count, n) / ball[p->dim];
@@ -125,24 +125,26 @@ static void warn_of_list_spacing(const struct run *e, int body, struct warnings 
                      b->file, spacing, distance, distance);
 }
 
-void engine_warn_of_lone(const struct run *e, struct warnings *to)
+void engine_warn_of_lone(const struct scene *s, const struct cells *cells, const struct bonds *b,
+                         const struct particles *p, struct warnings *to)
 {
-    const struct scene *s = e->scene;
     struct lone *lone = NEW("warn.lone", s->bodies, struct lone);
-    lone_count(e, lone);
-    for (int b = 0; b < s->bodies; b++)
-        if (s->body[b].file && !s->body[b].list.volumes && s->body[b].joined == b && s->spacing > 0)
-            warn_of_list_spacing(e, b, to);
-    for (int b = 0; b < s->bodies; b++) {
+    for (int64_t i = 0; i < p->n; i++) lone[p->body[i]].all++;
+    lone_bonds_count(b, p, lone);
+    lone_points_count(s, cells, p, lone);
+    for (int k = 0; k < s->bodies; k++)
+        if (s->body[k].file && !s->body[k].list.volumes && s->body[k].joined == k && s->spacing > 0)
+            warn_of_list_spacing(&s->body[k], s->spacing, cells, p, to);
+    for (int k = 0; k < s->bodies; k++) {
         real X[DIM_MAX] = {0};
         char place[96] = "";
-        if (lone[b].n == 0 || lone[b].all <= MASS_POINTS) continue;
-        particle_place(&e->part, lone[b].first, X);
+        if (lone[k].n == 0 || lone[k].all <= MASS_POINTS) continue;
+        particle_place(p, lone[k].first, X);
         for (int d = 0, used = 0; d < s->dim; d++)
             used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d ? ", " : "", X[d]);
         warnings_add(to, "body %s: %lld of its particles ha%s no neighbour, the first at (%s) m: nothing holds %s%s",
-                     s->body[b].name, (long long)lone[b].n, lone[b].n == 1 ? "s" : "ve", place,
-                     lone[b].n == 1 ? "it" : "them",
+                     s->body[k].name, (long long)lone[k].n, lone[k].n == 1 ? "s" : "ve", place,
+                     lone[k].n == 1 ? "it" : "them",
                      scene_at_rest(s) ? ", and there is no equilibrium; remove what lies alone" : "");
     }
     memory_free(lone);

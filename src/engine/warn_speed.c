@@ -19,16 +19,23 @@ static bool load_meets(const struct scene *scene, const struct particles *part, 
     return any;
 }
 
-/* Returns true if load number `which` finds nothing that keeps its bodies from moving with it: no mirror across its
- * components, no absorbing face, damping or other body, no load that drives the same components otherwise by more than
- * `slow` [m/s]. body: its bodies. */
-static bool moves_freely(const struct run *e, int which, const bool *body, real slow)
+/* A load that drives particles: the bodies of these [bodies], and the speed at which bonds beside them break [m/s]. */
+struct driver {
+    const struct load *load;
+    bool *body;
+    real bears;
+};
+
+/* Returns true if nothing keeps the bodies of a driving load from moving with it: no mirror across its components, no
+ * absorbing face, damping or other body, no load that drives the same components otherwise by more than the speed at
+ * which bonds break. */
+static bool moves_freely(const struct driver *d, const struct scene *s, const struct loads *all,
+                         const struct particles *p)
 {
-    const struct scene *s = e->scene;
-    const struct load *own = &e->loads.load[which];
+    const struct load *own = d->load;
     bool freely = s->damping == 0 && !scene_bodies_meet(s);
-    for (int b = 0; b < e->loads.n && freely; b++) {
-        const struct load *l = &e->loads.load[b];
+    for (int b = 0; b < all->n && freely; b++) {
+        const struct load *l = &all->load[b];
         const unsigned both = l->boundary->components & own->boundary->components;
         switch (l->boundary->kind) {
         case BOUNDARY_ABSORBING:
@@ -38,8 +45,8 @@ static bool moves_freely(const struct run *e, int which, const bool *body, real 
             freely = !is_clamp(l->boundary, s->dim) && !(own->boundary->components >> l->boundary->axis & 1);
             break;
         case BOUNDARY_VELOCITY:
-            freely = b == which || both == 0 || !load_meets(e->scene, &e->part, l, body) ||
-                     loads_velocity_apart(own, l, &e->part, s->duration) <= slow;
+            freely = l == own || both == 0 || !load_meets(s, p, l, d->body) ||
+                     loads_velocity_apart(own, l, p, s->duration) <= d->bears;
             break;
         default:
             break;
@@ -68,37 +75,38 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
     return most / slowest;
 }
 
-/* Warns of load number `which` on bodies that move freely: only what changes faster than a wave crosses them strains
- * them. bears: speed at which bonds break [m/s]. */
-static void warn_of_change(const struct run *e, int which, const bool *body, real bears, struct warnings *to)
+/* Warns of a load on bodies that move freely, if its velocity changes faster than a wave crosses the bodies: only that
+ * strains them. */
+static void warn_of_change(const struct driver *d, const struct scene *s, const struct particles *p,
+                           struct warnings *to)
 {
-    const struct scene *s = e->scene;
-    const real within = body_crossing_time(&e->part, e->scene, body);
-    const real change = load_velocity_change(&e->loads.load[which], &e->part, s->duration, within);
-    if (change > bears)
+    const real within = body_crossing_time(p, s, d->body);
+    const real change = load_velocity_change(d->load, p, s->duration, within);
+    if (change > d->bears)
         warnings_add(to,
                      "boundary %s: its velocity changes by up to %.3g m/s within the %.3g s that a wave takes across "
                      "what it drives; bonds beside it break at %.3g m/s, the critical stretch times the wave speed: a "
                      "slower change is expected, if it is no blow",
-                     s->boundary[which].name, change, within, bears);
+                     d->load->boundary->name, change, within, d->bears);
 }
 
 /* A face that is moved at v strains what is behind it by v/c at once. */
-void engine_warn_of_speed(const struct run *e, struct warnings *to)
+void engine_warn_of_speed(const struct scene *s, const struct loads *loads, const struct particles *p,
+                          struct warnings *to)
 {
-    const struct scene *s = e->scene;
     real bears = INFINITY;
     bool *body = NEW("warn.bodies", s->bodies, bool);
     for (int m = 0; m < s->materials; m++)
         bears = real_min(bears, s->material[m].critical_stretch * s->material[m].wave_speed);
-    for (int b = 0; b < e->loads.n && s->solver == SOLVER_EXPLICIT && s->method != METHOD_MPM; b++) {
-        const struct load *l = &e->loads.load[b];
-        const real speed = load_displacing_speed(l, &e->part, s->duration);
-        const real jump = load_velocity_jump(l, &e->part, s->duration);
+    for (int b = 0; b < loads->n && s->solver == SOLVER_EXPLICIT && s->method != METHOD_MPM; b++) {
+        const struct load *l = &loads->load[b];
+        const struct driver driver = {l, body, bears};
+        const real speed = load_displacing_speed(l, p, s->duration);
+        const real jump = load_velocity_jump(l, p, s->duration);
         if (!(speed > bears || jump > bears)) continue;
-        bodies_mark(e->scene, &e->part, l, body);
-        if (isfinite(speed) && moves_freely(e, b, body, bears))
-            warn_of_change(e, b, body, bears, to);
+        bodies_mark(s, p, l, body);
+        if (isfinite(speed) && moves_freely(&driver, s, loads, p))
+            warn_of_change(&driver, s, p, to);
         else if (speed > bears)
             warnings_add(to,
                          "boundary %s: its displacement grows by up to %.3g m/s; bonds beside it break at %.3g m/s, "
