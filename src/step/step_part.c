@@ -47,12 +47,11 @@ static void put_figure(void *context, const char *probe, const char *quantity, r
     json_real(sink->json, quantity, value);
 }
 
-static void put_probes(struct json *j, const struct run *e)
+static void put_probes(struct json *j, const struct probes *s, const struct observed *o)
 {
-    struct observed o = run_observed(e);
     struct probe_sink sink = {.json = j};
     json_open(j, "probes", '{');
-    probes_figures(&e->probing->probes, &o, put_figure, &sink);
+    probes_figures(s, o, put_figure, &sink);
     if (sink.open) json_close(j, '}');
     json_close(j, '}');
 }
@@ -68,7 +67,8 @@ static void put_error_bars(struct json *j, const struct run_report *r)
 
 static void put_figures(const struct run *e, struct json *j)
 {
-    put_probes(j, e);
+    const struct observed o = run_observed(e);
+    put_probes(j, &e->probing->probes, &o);
     put_error_bars(j, e->report);
 }
 
