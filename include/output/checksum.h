@@ -1,6 +1,7 @@
-/* Hashes of files, and a footer behind the last byte of HDF5 files: 24 bytes, a mark, the number of bytes
- * before and a hash of them. The library, and all that reads by it, opens such a file as if nothing were there;
- * every changed, lost or added byte shows. */
+/* Hashes of files, and the footer that detects damaged HDF5 files.
+ * The footer is 24 bytes appended to the file: a magic number, the number of preceding bytes and their hash. HDF5
+ * and all programs that read through it ignore the footer. A changed, missing or additional byte makes the footer
+ * invalid. */
 #ifndef CLEAVE_CHECKSUM
 #define CLEAVE_CHECKSUM
 
@@ -8,15 +9,19 @@
 
 enum { FOOTER_BYTES = 24 };
 
-/* Puts the footer behind PATH.cleave.tmp and syncs it. On a fault PATH.cleave.tmp is removed. */
+/* Appends the footer to the temporary file PATH.cleave.tmp and syncs the file to disk. On a fault PATH.cleave.tmp is
+ * removed and the status is returned. */
 status file_seal_whole(const char *path);
 
-/* What is wrong with a file that ought to have a footer, to be put behind its name; NULL: it is whole. */
+/* Checks the footer of a file. Returns NULL if the file is whole, else a phrase that completes "PATH ..." in a message
+ * (for example "is cut short"); the phrase is a constant. A file that cannot be read counts as faulty. */
 const char *whole_fault(const char *path);
-/* The same; NULL as well where it cannot be read, and may be whole. */
+
+/* Checks the footer of a file as whole_fault does, but returns NULL also if the file cannot be read: only damage that
+ * is certain is reported. */
 const char *whole_fault_certain(const char *path);
 
-/* Hash of a regular file's contents; REFUSED where it cannot be read. */
+/* Computes the hash of the contents of a regular file. REFUSED if the file cannot be read. */
 status file_contents(const char *path, uint64_t *hash);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include "base/base.h"
 
-/* A column of history.csv or a figure of summary.json. */
+/* Name and unit of a column of history.csv or of a value in summary.json. */
 struct column {
     char name[2 * NAME_MAX_LENGTH];
     char unit[16];

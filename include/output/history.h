@@ -1,27 +1,31 @@
-/* history.csv read back, of a finished or a running run. */
+/* Reader of history.csv for finished and for running runs. */
 #ifndef CLEAVE_HISTORY
 #define CLEAVE_HISTORY
 
 #include "base/base.h"
 
 struct history {
+    /* Contents of a table with one header line. */
     int columns;
-    char **name; /* [columns] without the unit */
+    char **name; /* [columns] names without units */
     int64_t rows;
-    double *value; /* [rows][columns] SI; NAN where the file has none */
+    double *value; /* [rows][columns] in SI units; NAN for an empty or non-numeric entry */
 };
 
-/* Reads folder/history.csv; a last line that is still being written is left out. FAILED: no file, no header, or a
- * line with another number of columns. */
+/* Reads folder/history.csv into h. An incomplete last line, which a run is still writing, is left out. FAILED without a
+ * file or a header, and for a line with another number of columns. Release with history_free. */
 status history_read(struct history *h, const char *folder);
-/* The same of any file of this form, as the profiles of probes are. */
+
+/* Reads any file of the form of history.csv, for example a profile of a probe, as history_read does. */
 status history_read_file(struct history *h, const char *path);
+
+/* Releases the memory of h. */
 void history_free(struct history *h);
 
-/* Place of a column, -1 without. */
+/* Returns the index of the column `name`, or -1 if there is none. */
 int history_column(const struct history *h, const char *name);
 
-/* Entry of a row; NAN for column -1. */
+/* Returns the value in a row and column, or NAN if `column` is -1. */
 static inline double history_at(const struct history *h, int64_t row, int column)
 {
     return column < 0 ? __builtin_nan("") : h->value[row * h->columns + column];

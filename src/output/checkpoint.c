@@ -22,8 +22,8 @@ static const char newest_name[] = "checkpoint.h5", previous_name[] = "checkpoint
 
 /* ---- archive entries --------------------------------------------------------------------------------------------- */
 
-/* Path of an entry in the file. Entries are flat: '/' becomes '.', so that the name of one entry may be the beginning
- * of another name. */
+/* Composes the path of an archive entry in the file. Entries lie in one group: '/' becomes '.', so that the name of one
+ * entry may be the beginning of another name. path: capacity `room` [byte]. */
 static void entry_path(char *path, size_t room, const char *name)
 {
     int length = snprintf(path, room, "/state/%s", name);
@@ -31,7 +31,8 @@ static void entry_path(char *path, size_t room, const char *name)
     for (char *c = path + strlen("/state/"); *c; c++) *c = *c == '/' ? '.' : *c;
 }
 
-/* Writes one entry. A fault of the file is kept in struct hdf; the function that opened the file reports it. */
+/* Writes one archive entry. Returns OK also after a fault, which struct hdf keeps; the function that opened the file
+ * reports it. */
 static status entry_save(struct archive *a, const char *name, void *data, size_t size)
 {
     struct hdf *f = a->file;
@@ -120,7 +121,7 @@ status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* True if the open checkpoint holds this scene. */
+/* Returns true if the open checkpoint belongs to this scene. */
 static bool same_scene(struct hdf *f, const char *scene_text)
 {
     int64_t length = hdf_count(f, "/Cleave/scene");
@@ -168,7 +169,7 @@ status checkpoint_read(const struct output *o, const char *scene_text, archive_a
                           older_fault);
     fprintf(stderr, "%s %s: resuming from %s\n", shown_name(newest.text).text, fault, previous_name);
     TRY(state_read(previous.text, scene_text, archive_all, context));
-    /* The damaged file is renamed, or the next checkpoint would rename it over the whole one. */
+    /* Rename the damaged file: the next checkpoint would otherwise replace the whole one by it. */
     if (path_exists(newest.text) && rename(newest.text, path_join(o->folder, damaged_name).text) != 0)
         return file_fault(newest.text, errno);
     return OK;

@@ -13,14 +13,15 @@ enum { BLOCK = 1 << 14 }; /* [byte] fits the stack of any thread; a multiple of 
 
 /* ---- the hash ---------------------------------------------------------------------------------------------------- */
 
-/* Four independent lanes, because each step of a lane waits for its multiplication. */
+/* Four independent lanes of the hash: within a lane each step waits for the multiplication of the previous one. */
 enum { LANES_OF_HASH = 4, STRIDE = LANES_OF_HASH * 8 };
 struct hash {
     uint64_t lane[LANES_OF_HASH], length;
 };
 
-/* One step: after Fowler, Noll and Vo, on words instead of bytes, with a shift because a product carries only upwards.
- * Invertible in `lane` and in `word`: a change of one word changes the lane in all later steps. */
+/* Mixes one word into a lane: the hash of Fowler, Noll and Vo (FNV-1a) on 64-bit words instead of bytes, with an
+ * additional shift because a product carries only to higher bits. Invertible in `lane` and in `word`: a change of one
+ * word changes the lane in all later steps. */
 static inline uint64_t hash_step(uint64_t lane, uint64_t word)
 {
     lane = (lane ^ word) * UINT64_C(0x9E3779B97F4A7C15);
@@ -33,7 +34,7 @@ static void hash_start(struct hash *h)
     h->length = 0;
 }
 
-/* Adds whole strides of STRIDE bytes. */
+/* Adds `strides` blocks of STRIDE bytes to the hash. */
 static void hash_strides(struct hash *h, const unsigned char *bytes, size_t strides)
 {
     uint64_t a = h->lane[0], b = h->lane[1], c = h->lane[2], d = h->lane[3], word[LANES_OF_HASH];
@@ -47,7 +48,7 @@ static void hash_strides(struct hash *h, const unsigned char *bytes, size_t stri
     h->lane[0] = a, h->lane[1] = b, h->lane[2] = c, h->lane[3] = d;
 }
 
-/* Adds bytes; in all calls but the last `length` must be a multiple of STRIDE. */
+/* Adds bytes to the hash. In all calls but the last `length` must be a multiple of STRIDE. */
 static void hash_add(struct hash *h, const unsigned char *bytes, size_t length)
 {
     unsigned char rest[STRIDE] = {0};
@@ -66,7 +67,7 @@ static uint64_t hash_value(const struct hash *h)
     return value;
 }
 
-/* Hash of the first `length` bytes of an open file; returns 0 or an errno. */
+/* Computes the hash of the first `length` bytes of an open file. Returns 0 or an errno. */
 static int hash_file(int fd, uint64_t length, uint64_t *value)
 {
     struct hash h;
@@ -102,7 +103,7 @@ static const char footer_magic[8] = {'C', 'L', 'E', 'A', 'V', 'E', 'O', 'K'};
 
 static const char unread[] = "cannot be read";
 
-/* Fault of an open file, as the end of a sentence; NULL: it is whole. */
+/* Checks the footer of an open file. Returns NULL if the file is whole, else a phrase for a message. */
 static const char *open_fault(int fd)
 {
     struct stat s;
@@ -122,7 +123,7 @@ static const char *open_fault(int fd)
 const char *whole_fault(const char *path)
 {
     if (!path_exists(path)) return "is missing";
-    /* Non-blocking, or a FIFO of this name would hang the program. */
+    /* Open without blocking: a FIFO of this name would otherwise stop the program. */
     const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (fd < 0) return errno == ENOENT ? "is a link to nothing" : unread;
     const char *fault = open_fault(fd);

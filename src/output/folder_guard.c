@@ -14,7 +14,8 @@ bool entry_is_ignored(const char *name)
     return name[0] == '.' || (length > 4 && strcmp(name + length - 4, ".tmp") == 0);
 }
 
-/* REFUSED with the first entry of the folder that is neither hidden nor temporary nor an early one of this kind. */
+/* REFUSED, with its name, if the folder holds an entry that is neither hidden nor temporary nor an early entry of this
+ * kind. */
 static status entries_guard(const struct folder_kind *kind, const char *folder)
 {
     char found[PATH_NAME_ROOM] = "";

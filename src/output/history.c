@@ -10,10 +10,10 @@
 #include "base/memory.h"
 #include "output/output_files.h"
 
-/* The entry's length up to a comma or the end of the line. */
+/* Returns the length of the entry that starts at `from`: up to a comma or the end of the line. */
 static size_t entry_length(const char *from) { return strcspn(from, ",\n"); }
 
-/* `name [unit]` without its unit. */
+/* Returns an allocated copy of the name in `name [unit]`, without the unit. */
 static char *history_column_name(const char *from, size_t length)
 {
     char *name = NEW("history.name", (int64_t)length + 1, char);
@@ -36,7 +36,8 @@ static void read_header(struct history *h, const char *line)
     }
 }
 
-/* Reads one line into a row, [columns]; false if the number of entries differs. An entry that is no number is NaN. */
+/* Reads one line into row[columns]. An entry that is not a number becomes NaN. Returns false if the number of entries
+ * differs. */
 static bool read_row(const struct history *h, const char *line, double *row)
 {
     const char *at = line;
@@ -51,7 +52,8 @@ static bool read_row(const struct history *h, const char *line, double *row)
     return true;
 }
 
-/* Reads all lines with an end into h->value, [rows][columns]. FAILED with file and line for a malformed one. */
+/* Reads all complete lines into h->value, [rows][columns]. FAILED, with file and line, for a malformed line. line,
+ * room: buffer of getline. */
 static status read_rows(struct history *h, FILE *from, const char *path, char **line, size_t *room)
 {
     ssize_t length;

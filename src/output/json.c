@@ -17,7 +17,7 @@ static void json_string(struct json *j, const char *text)
     fputc('"', j->file);
 }
 
-/* Starts an entry; key NULL inside a list. */
+/* Starts an entry: comma, line feed, indent and the key, unless `key` is NULL. */
 static void json_key(struct json *j, const char *key)
 {
     fprintf(j->file, "%s\n%*s", j->filled ? "," : "", 2 * j->depth, "");
@@ -55,7 +55,6 @@ void json_count(struct json *j, const char *key, int64_t value)
     fprintf(j->file, "%lld", (long long)value);
 }
 
-/* A figure that a run does not have (NaN, infinite) is left out. */
 void json_number(struct json *j, const char *key, real value, int digits)
 {
     if (!isfinite(value)) return;
@@ -65,7 +64,6 @@ void json_number(struct json *j, const char *key, real value, int digits)
 
 void json_real(struct json *j, const char *key, real value) { json_number(j, key, value, JSON_EXACT); }
 
-/* x, y, z of a point, as far as the space has them; `prefix` stands before the letter. */
 void json_point(struct json *j, const char *prefix, const real *x, int dim)
 {
     for (int d = 0; d < dim; d++) {

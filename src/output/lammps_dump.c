@@ -1,4 +1,4 @@
-/* Reads text dumps of LAMMPS line by line: they may be larger than memory. */
+/* Reads text dumps of LAMMPS line by line, because they may be larger than memory. */
 #include "output/lammps_dump.h"
 
 #include <errno.h>
@@ -9,7 +9,12 @@
 
 #include "base/memory.h"
 
-enum { LINE_ROOM = 1024, FRAME_COLUMNS_MOST = 32, LEAST_LINE = 8 }; /* bytes of `1 0 0 0\n` */
+enum {
+    LINE_ROOM = 1024,
+    FRAME_COLUMNS_MOST = 32,
+    LEAST_LINE = 8
+}; /* LEAST_LINE: bytes of `1 0 0 0\n`, the shortest
+    * possible line */
 enum { WANTED = 8 };
 static const char *const wanted_name[WANTED] = {"id", "x", "y", "z", "vx", "vy", "vz", "c_damage"};
 
@@ -20,8 +25,7 @@ struct dump {
     char text[LINE_ROOM];
 };
 
-/* What stands before the particles of a step: their number, and the place of each wanted column, -1: it is not there.
- */
+/* Header of one time step: number of particles, and the column of each wanted quantity, -1 if it is missing. */
 struct dump_head {
     int64_t step, n;
     int column[WANTED];
@@ -42,7 +46,7 @@ static status dump_open(struct dump *d, const char *path)
     return OK;
 }
 
-/* The next line; false at the end, or where the line has none. */
+/* Reads the next line. Returns false at the end of the file or if the line is incomplete. */
 static bool dump_line(struct dump *d)
 {
     d->line++;
@@ -74,7 +78,7 @@ static status head_columns(struct dump *d, struct dump_head *h)
     return OK;
 }
 
-/* The head of the next step; *more false at the end. */
+/* Reads the header of the next time step. Sets *more to false at the end of the file. */
 static status head_next(struct dump *d, struct dump_head *h, bool *more)
 {
     *more = dump_line(d);
@@ -145,7 +149,7 @@ void lammps_frame_free(struct lammps_frame *f)
     *f = (struct lammps_frame){0};
 }
 
-/* Numbers of the wanted columns of the line in d; false: not all are there. */
+/* Reads the wanted quantities from the line in d. Returns false if a column is missing or not a number. */
 static bool dump_row_read(const struct dump *d, const struct dump_head *h, double value[WANTED])
 {
     double number[FRAME_COLUMNS_MOST];

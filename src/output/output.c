@@ -17,7 +17,7 @@
 
 void output_start(void)
 {
-    /* HDF5 1.10 flushes its open files again at exit, and crashes on those that could not be written. */
+    /* HDF5 1.10 flushes its open files again at exit, and crashes on files that could not be written. */
     H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     signal(SIGXFSZ, SIG_IGN);
@@ -27,8 +27,8 @@ void output_start(void)
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
 
-/* Files of a run, in the order of their removal: checkpoints first, since none may outlive the frames before it. begin:
- * what a table begins with. */
+/* Files of a run in the order of their removal: checkpoints first, because none may outlive the frames that it refers
+ * to. begin: required first characters of a table; NULL: any. */
 static const struct {
     const char *name, *begin;
 } made[] = {
@@ -39,7 +39,7 @@ static const struct {
     {"frames.vtkhdf", NULL},
 };
 
-/* True for the name of a frame, 123456.hdf, followed by `end`. */
+/* Returns true if `name` is that of a frame, 123456.hdf, followed by `end`. */
 static bool is_frame(const char *name, const char *end)
 {
     const size_t digits = strspn(name, "0123456789");
@@ -48,7 +48,7 @@ static bool is_frame(const char *name, const char *end)
 
 static status file_remove(const char *path) { return (void)unlink(path), OK; }
 
-/* Removes a picture that Cleave drew; those of others stay. */
+/* Removes a picture that Cleave drew; other pictures stay. */
 static status picture_remove(const char *path) { return picture_is_ours(path) ? file_remove(path) : OK; }
 
 static bool has_frames(const char *folder)
@@ -63,7 +63,8 @@ static bool has_frames(const char *folder)
 
 /* ---- check of the folder ----------------------------------------------------------------------------------------- */
 
-/* The part of a line that identifies a scene: of a particle list the checksum of its contents, not its path. */
+/* Returns the part of a line that identifies the scene: for a particle list the checksum of its contents instead of its
+ * path. */
 static const char *line_meaning(const char *line, size_t *length)
 {
     static const char mark[] = "  # contents ";
@@ -73,7 +74,8 @@ static const char *line_meaning(const char *line, size_t *length)
     return contents ? contents : line;
 }
 
-/* Number of the first line in which two scenes differ, with *a and *b at this line; 0: the scenes are equal. */
+/* Returns the number of the first line in which two scenes differ and moves *a and *b to this line; 0 if the scenes are
+ * equal. */
 static int scene_difference(const char **a, const char **b)
 {
     for (int line = 1; **a || **b; line++) {
@@ -101,7 +103,7 @@ bool scene_file_same(const char *path, const char *scene_text)
     return same;
 }
 
-/* The first line in which two scenes differ, in words. */
+/* Describes the first line in which two scenes differ. text: capacity `room` [byte]. */
 static void difference_text(const char *a, const char *b, char *text, size_t room)
 {
     const int line = scene_difference(&a, &b);
@@ -118,8 +120,8 @@ static void difference_text(const char *a, const char *b, char *text, size_t roo
              b);
 }
 
-/* Returns true if the file is the scene of a run: Cleave wrote it, and it is beside the folder of frames, which a run
- * makes first; or it is this scene. */
+/* Returns true if the file is the scene.yaml of a run: Cleave wrote it and it is beside a folder of frames, which a run
+ * creates first; or it has the text scene_text. */
 static bool is_scene_of_run(const char *path, const char *scene_text)
 {
     struct path frames;
@@ -133,7 +135,7 @@ static bool is_scene_of_run(const char *path, const char *scene_text)
     return is;
 }
 
-/* A run that was killed before it wrote scene.yaml leaves a folder of frames without any. */
+/* Returns true for a folder of frames: a run that was killed before it wrote scene.yaml leaves only this folder. */
 static bool is_frames_folder(const char *folder, const char *name)
 {
     const struct path frames = path_join(folder, name);
@@ -148,7 +150,7 @@ static bool is_frames_folder(const char *folder, const char *name)
 static const struct folder_kind run_kind = {
     .what = "run", .sign = "scene.yaml", .is_sign = is_scene_of_run, .is_early = is_frames_folder, .inner = {"frames"}};
 
-/* REFUSED for a folder that holds anything but a run of this scene. */
+/* REFUSED if the folder holds anything but a run of this scene. */
 static status folder_check(const char *folder, const char *scene_text, enum output_mode mode)
 {
     char difference[500], *text = NULL;
@@ -167,7 +169,7 @@ static status folder_check(const char *folder, const char *scene_text, enum outp
                       folder, difference);
 }
 
-/* True if the folder holds any file of a run but scene.yaml. */
+/* Returns true if the folder holds any file of a run other than scene.yaml. */
 static bool has_run(const char *folder)
 {
     bool any = has_frames(path_join(folder, "frames").text);
@@ -175,7 +177,8 @@ static bool has_run(const char *folder)
     return any;
 }
 
-/* True if a run has written more than its output before the first step, where the first checkpoint is written. */
+/* Returns true if a run has written output after the first step; its first checkpoint is written before the first
+ * step. */
 static bool has_advanced(const char *folder)
 {
     char *text = NULL;
@@ -188,8 +191,8 @@ static bool has_advanced(const char *folder)
     return lines > 1;
 }
 
-/* REFUSED where the folder holds an older run of the scene and no option applies to it (--resume, --overwrite), and for
- * --resume of a run without checkpoints. */
+/* REFUSED if the folder holds an older run of the scene and `mode` is OUTPUT_FIRST, or if `mode` is OUTPUT_RESUME and
+ * the older run has no checkpoints. */
 static status mode_check(const char *folder, enum output_mode mode)
 {
     char ended[NAME_MAX_LENGTH] = "interrupted";
@@ -214,14 +217,15 @@ static status mode_check(const char *folder, enum output_mode mode)
     return OK;
 }
 
-/* Calls `each` for a file of this name in the folder, if there is one. */
+/* Calls `each` for the file `name` in the folder, if there is one. */
 static status file_each(const char *folder, const char *name, each_file *each)
 {
     const struct path path = path_join(folder, name);
     return path_exists(path.text) ? each(path.text) : OK;
 }
 
-/* Calls `each` for the frames of a region in the folder frames_NAME, and for their indices; `end` as in files_each. */
+/* Calls `each` for the frames of a region in the subfolder `inner` (frames_NAME) and for their indices. end: as in
+ * files_each. */
 static status region_each(const char *folder, const char *inner, const char *end, each_file *each)
 {
     static const char *const index[] = {".hdf.series", ".xdmf", ".vtkhdf"};
@@ -233,11 +237,11 @@ static status region_each(const char *folder, const char *inner, const char *end
         snprintf(name, sizeof name, "%.250s%s%s", inner + 7, index[k], end);
         TRY(file_each(folder, name, each));
     }
-    if (!end[0] && each == file_remove) rmdir(path.text); /* unless it holds what is no run's */
+    if (!end[0] && each == file_remove) rmdir(path.text); /* fails, as intended, if other files are left */
     return OK;
 }
 
-/* Returns true if `inner` is the folder frames_NAME of a region that the scene of the run names. */
+/* Returns true if `inner` is the folder frames_NAME of a region of the scene. */
 static bool is_frames_of_region(const char *inner, const char *scene_text)
 {
     char line[PATH_NAME_ROOM + 16];
@@ -246,8 +250,8 @@ static bool is_frames_of_region(const char *inner, const char *scene_text)
     return strstr(scene_text, line) != NULL;
 }
 
-/* Calls `each` as region_each does, for every region of the scene that the folder holds. Copies that a user made of
- * such a folder stay. */
+/* Calls `each` as region_each does for every region of the scene that the folder holds. Copies of such folders under
+ * other names stay. */
 static status regions_each(const char *folder, const char *end, each_file *each)
 {
     char *text;
@@ -263,7 +267,7 @@ static status regions_each(const char *folder, const char *end, each_file *each)
     return s;
 }
 
-/* Calls `each` for every file that a run replaces; stops at the first fault. */
+/* Calls `each` for every file that a new run replaces. Stops at the first fault and returns it. */
 static status run_each(const char *folder, each_file *each)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++) TRY(file_each(folder, made[k].name, each));
@@ -273,7 +277,8 @@ static status run_each(const char *folder, each_file *each)
     return files_each(pictures_folder(folder).text, is_picture, ASIDE_ENDING, each);
 }
 
-/* Temporary files of the run itself; those of pictures may be of a `cleave plot` that draws a run to be resumed. */
+/* Removes temporary files of the run. Temporary files of pictures stay: they may belong to a `cleave plot` that is
+ * drawing a run to be resumed. */
 static void temporary_remove(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_aside(path_join(folder, made[k].name).text).text);
@@ -282,7 +287,7 @@ static void temporary_remove(const char *folder)
     regions_each(folder, ASIDE_ENDING, file_remove);
 }
 
-/* REFUSED if a table that a run writes anew is a file of others. */
+/* REFUSED if a table that a run writes is an existing file that Cleave did not write. */
 static status tables_guard(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++)
@@ -326,7 +331,7 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
     return OK;
 }
 
-/* Folder of the frames of a region. */
+/* Returns the path of the folder of frames of a region, or of the whole body if `name` is "". */
 static struct path series_folder(const char *folder, const char *name)
 {
     char inner[PATH_NAME_ROOM];
@@ -356,7 +361,7 @@ status output_add_series(struct output *o, const char *name, const struct region
 
 void output_close(struct output *o)
 {
-    (void)output_wait(o); /* the result was returned by output_wait before   */
+    (void)output_wait(o); /* its status was returned by an earlier output_wait */
     if (o->history) fclose(o->history);
     if (o->folder) folder_unlock(&o->lock, o->folder);
     memory_free(o->folder);

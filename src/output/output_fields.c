@@ -1,5 +1,5 @@
-/* The fields of frames: one table, and what copies them from the particles. A symmetric tensor has VTK's order xx yy zz
- * xy yz xz; components that the space does not have are 0, plane strain has zz. */
+/* Table of the fields of frames, and the functions that copy fields from the particles. Symmetric tensors are in VTK's
+ * order xx yy zz xy yz xz. Components that the space lacks are 0, but plane strain has zz. */
 #include "output_fields.h"
 
 #include <math.h>
@@ -7,7 +7,8 @@
 
 #include "data/derived_fields.h"
 
-/* Vectors `of`, or the differences of - less, in rows of three; components that the space does not have are 0. */
+/* Copies vectors `of`, or the differences of - less if `less` is not NULL, into rows of three numbers. Components that
+ * the space lacks become 0. */
 static ALWAYS_INLINE void copy_vectors(float *rows, int64_t first, int64_t end, real *const *of, real *const *less,
                                        int dim)
 {
@@ -31,16 +32,16 @@ static void copy_velocity(const struct frame_source *s, int64_t first, int64_t e
     copy_vectors(rows, first, end, s->p->v, NULL, s->p->dim);
 }
 
-/* One number per particle, at a stride of `columns`. */
+/* Copies one number per particle into rows of `columns` numbers. */
 static void copy_scalars(float *rows, int64_t first, int64_t end, const real *of, int columns)
 {
     for (int64_t i = first; i < end; i++) rows[columns * i] = (float)of[i];
 }
 
-/* The stress of a particle in VTK's order, with that across the plane [Pa]. */
+/* Copies the stress of a particle in VTK's order, with the out-of-plane component zz [Pa]. */
 static ALWAYS_INLINE void stress_row(const struct particles *p, int64_t i, real *row)
 {
-    /* Place of component k of struct particles in VTK's order; differs only in 2D: xx yy xy. */
+    /* Index in VTK's order of component k of struct particles; differs only in 2D, which has xx yy xy. */
     static const int place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
     for (int k = 0; k < SYM_MAX; k++) row[k] = 0;
     for (int k = 0; k < symmetric_count(p->dim); k++) row[place[p->dim][k]] = p->stress[k][i];
@@ -56,7 +57,7 @@ static void copy_stress(const struct frame_source *s, int64_t first, int64_t end
     }
 }
 
-/* Rows of a field that follows from another one. */
+/* Fills rows of a field that is derived from another field. */
 static void copy_derived(const struct derived_field *field, const struct frame_source *s, int64_t first, int64_t end,
                          float *rows)
 {
@@ -71,9 +72,9 @@ static void copy_derived(const struct derived_field *field, const struct frame_s
 
 /* ---- fields of the displacement gradient ------------------------------------------------------------------------- */
 
-/* Strain across a stressed plane from F_zz of its thickness. An elastic material contracts by nu/(1 - nu) times the
- * strains in the plane; flow keeps volumes, so that a yielding one has J/J_plane with the elastic J of its mean
- * stress. */
+/* Returns the strain zz normal to a plane-stress plane from the stretch F_zz of the thickness [1].
+ * An elastic material contracts by nu/(1 - nu) times the sum of the in-plane strains. Plastic flow preserves volume, so
+ * that a yielding material has F_zz = J/J_plane with the elastic volume ratio J of its mean stress. */
 static real strain_across(const struct frame_source *s, int64_t i, const real *strain)
 {
     const struct material *m = &s->extra.material[s->p->material[i]];
@@ -84,7 +85,8 @@ static real strain_across(const struct frame_source *s, int64_t i, const real *s
     return 0.5 * (square(elastic / plane) - 1);
 }
 
-/* Green and Lagrange's strain 1/2 (H + H^T + H^T H) of a particle: no rotation changes it. */
+/* Computes the Green-Lagrange strain E = 1/2 (H + H^T + H^T H) of a particle from its displacement gradient H; E is
+ * invariant under rotation. */
 static void strain_row(const struct frame_source *s, int64_t i, real *strain)
 {
     static const int row[SYM_MAX] = {0, 1, 2, 0, 1, 0}, column[SYM_MAX] = {0, 1, 2, 1, 2, 2};
@@ -110,7 +112,7 @@ static void copy_strain(const struct frame_source *s, int64_t first, int64_t end
     }
 }
 
-/* rho_0/J with J^2 = det(1 + 2 strain). */
+/* Fills rows of the density rho_0/J with J^2 = det(1 + 2 E), E the Green-Lagrange strain [kg/m^3]. */
 static void copy_density(const struct frame_source *s, int64_t first, int64_t end, void *rows)
 {
     for (int64_t i = first; i < end; i++) {
@@ -209,7 +211,7 @@ const struct frame_field frame_fields[FRAME_FIELDS] = {
     {"/Cleave/reference", "m", HDF_F64, 0, fill_reference, NULL},
 };
 
-/* Fields that only runs that ask for them write; bit k of what is asked for is field k + 1. */
+/* Indices of the fields that are written only if the scene requests them; bit k of the request selects field k + 1. */
 enum { FIELD_ON_DEMAND = 13, FIELD_ON_DEMAND_LAST = 21 };
 
 static bool field_exists(const struct frame_field *field, const struct frame_source *s)

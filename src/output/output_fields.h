@@ -1,46 +1,59 @@
-/* The fields of frames, for output_frames.c. */
+/* Fields of frames, shared by the sources of this room. */
 #ifndef CLEAVE_OUTPUT_FIELDS
 #define CLEAVE_OUTPUT_FIELDS
 
 #include "output/output.h"
 #include "output/output_hdf5.h"
 
-/* What a frame shows. */
+/* Source of the values of a frame. */
 struct frame_source {
     const struct particles *p;
     struct frame_extra extra;
 };
 
-/* One dataset with a row per particle; `columns` 0 stands for dim; `unit` as people write it, "" for a pure number.
- * `fill`, for fields that are constant during a run, writes the row of particle i; the writing thread calls it. `copy`,
- * for all other fields, writes rows first .. end - 1 of `rows` of all particles; the step loop waits for it. Fields
- * without either follow from another one (data/derived_fields.h). */
+/* Describes a dataset with one row per particle (or material point of a coarse cell). */
 struct frame_field {
+    /* path in the file; unit as people write it, "" for a pure number */
     const char *path, *unit;
     enum hdf_type type;
+    /* numbers per row; 0: dim */
     int columns;
+    /* Writes the row of particle i. For fields that are constant during a run; called by the writing thread. Else
+     * NULL. */
     void (*fill)(const struct particles *p, int64_t i, void *row);
+    /* Writes rows first .. end - 1 into `rows`, which starts at particle 0. For fields that change; the step loop waits
+     * for the copy. NULL: `fill` is set, or the field is derived from another one (data/derived_fields.h). */
     void (*copy)(const struct frame_source *s, int64_t first, int64_t end, void *rows);
 };
 
-enum { FIELD_POINTS, FRAME_FIELDS = 24 }; /* place of the positions in the table; its length */
+enum { FIELD_POINTS, FRAME_FIELDS = 24 }; /* index of the positions in the table; size of the table */
+
+/* Table of all fields, in the order of their bits. */
 extern const struct frame_field frame_fields[FRAME_FIELDS];
 
-/* Bits of the fields that there are: plastic strain where a material yields, the force of contact where there is
- * contact, fragments where bodies can break, others where they are asked for. */
+/* Returns the bit set of the fields of a frame: plastic strain if a material yields, contact force if contact is on,
+ * fragments if bodies can break, others if the scene requests them. */
 unsigned frame_fields_of(const struct frame_source *s);
-/* Rows first .. end - 1 of a field that is not constant. */
+
+/* Writes rows first .. end - 1 of a field that changes during a run into `rows`, which starts at particle 0. */
 void frame_field_copy(const struct frame_field *field, const struct frame_source *source, int64_t first, int64_t end,
                       void *rows);
-/* Rows of the points of coarse cells (extra.more), of a field that is copied. */
+
+/* Writes the rows of the material points of coarse cells (extra.more) for a field that changes during a run. */
 void frame_field_copy_more(const struct frame_field *field, const struct frame_source *source, void *rows);
-/* `field [unit]` of the fields that have one, a line each. */
+
+/* Writes one line `field [unit]` for every field of the bit set `fields` that has a unit. text: capacity `room`
+ * [byte]. */
 void frame_units_text(unsigned fields, char *text, size_t room);
-/* Bytes of a particle. */
+
+/* Returns the size of one row of a field [byte]. */
 size_t frame_field_row(const struct frame_field *field, int dim);
 
-/* Names relative to the run's folder: of a frame of a series, of its files with this end. */
+/* Writes the name of frame `number` of a series relative to the run's folder. name: capacity `room` [byte]. */
 void frame_name(const struct frame_series *s, char *name, size_t room, int number);
+
+/* Writes the name of an index of a series relative to the run's folder: that of the series with the ending `end`. name:
+ * capacity `room` [byte]. */
 void series_file(const struct frame_series *s, char *name, size_t room, const char *end);
 
 #endif

@@ -1,4 +1,4 @@
-/* Paths, and whole files: written aside, synced, renamed. */
+/* Paths, and files that are written under a temporary name, synced and renamed. */
 #include "output/output_files.h"
 
 #include <dirent.h>
@@ -19,7 +19,7 @@ static struct path path_compose(const char *first, const char *between, const ch
 {
     struct path p;
     int length = snprintf(p.text, sizeof p.text, "%s%s%s", first, between, last);
-    /* A path that is too long becomes empty: every system call refuses it, while a truncated one could be another
+    /* A path that is too long becomes empty, which every system call refuses; a truncated path could name another
      * file. */
     if (length < 0 || (size_t)length >= sizeof p.text) p.text[0] = '\0';
     return p;
@@ -55,12 +55,13 @@ bool path_is_folder(const char *path)
 
 /* ---- unfinished files -------------------------------------------------------------------------------------------- */
 
-/* Paths of files that are being written, by the stepping thread and by the one that writes frames; "": a free slot. */
+/* Paths of files that are being written, by the stepping thread and by the thread that writes frames; "": a free
+ * slot. */
 enum { UNFINISHED_MOST = 8 };
 static struct path unfinished[UNFINISHED_MOST];
 static pthread_mutex_t unfinished_lock = PTHREAD_MUTEX_INITIALIZER;
 
-/* Replaces the first entry `from` of the list by `to`, if there is one. */
+/* Replaces the first list entry equal to `from` by `to`, if there is one. */
 static void unfinished_replace(const char *from, const char *to)
 {
     bool found = false;
@@ -92,7 +93,7 @@ void files_unfinished_remove(void)
 
 /* ---- faults ------------------------------------------------------------------------------------------------------ */
 
-/* Advice for the cause (an errno) of a failed write. */
+/* Returns advice on how to remove the cause (an errno) of a failed write. */
 static const char *file_remedy(int cause)
 {
     switch (cause) {
@@ -166,7 +167,7 @@ bool file_holds(const char *path, const void *bytes, size_t length)
 
 /* ---- whole files ------------------------------------------------------------------------------------------------- */
 
-/* Writes all bytes; returns 0 or an errno. */
+/* Writes `length` bytes. Returns 0 or an errno. */
 static int write_all(int fd, const char *bytes, size_t length)
 {
     while (length > 0) {
@@ -181,10 +182,10 @@ static int write_all(int fd, const char *bytes, size_t length)
     return 0;
 }
 
-/* Opens, writes at the end, syncs and closes; returns 0 or an errno. */
+/* Opens a file, writes at its end, syncs and closes it. Returns 0 or an errno. */
 static int write_synced(const char *path, int flags, const void *bytes, size_t length)
 {
-    if (flags & O_EXCL) unlink(path); /* left by a kill; links of this name are not followed */
+    if (flags & O_EXCL) unlink(path); /* left by a killed run; a link of this name is not followed */
     int fd = open(path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW | flags, 0666);
     if (fd < 0) return errno;
     int fault = write_all(fd, bytes, length);
@@ -193,8 +194,8 @@ static int write_synced(const char *path, int flags, const void *bytes, size_t l
     return fault;
 }
 
-/* Syncs the folder of a path, which makes a rename durable; returns 0 or an errno. File systems that cannot sync a
- * folder return EINVAL, which is no fault. */
+/* Syncs the folder that holds `path`, so that a rename survives a crash. Returns 0 or an errno. File systems that
+ * cannot sync a folder return EINVAL, which is not a fault. */
 static int sync_folder_of(const char *path)
 {
     struct path folder = path_compose(path, "", "");
@@ -208,7 +209,7 @@ static int sync_folder_of(const char *path)
     return fault;
 }
 
-/* Status of one of the steps below; a fault (an errno) removes the incomplete file. */
+/* Converts the result of a write (0 or an errno) to a status; on a fault the incomplete file is removed. */
 static status outcome(const char *path, int fault)
 {
     if (!fault) return OK;
@@ -234,7 +235,7 @@ static status file_rename(const char *path)
 status file_settle(const char *path)
 {
     const int fault = sync_folder_of(path);
-    return fault && fault != EACCES ? file_fault(path, fault) : OK; /* a folder that may be written but not read */
+    return fault && fault != EACCES ? file_fault(path, fault) : OK; /* EACCES: the folder may be written but not read */
 }
 
 status file_publish(const char *path)
@@ -258,7 +259,7 @@ status file_put(const char *path, const void *bytes, size_t length)
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
 
-/* Makes one folder unless it exists. REFUSED if a file has this name. */
+/* Creates one folder unless it exists. REFUSED if a file has this name. */
 static status folder_make_one(const char *path)
 {
     if (mkdir(path, 0777) == 0) return file_settle(path);
@@ -293,7 +294,7 @@ status files_each(const char *folder, bool (*chosen)(const char *name, const cha
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Reads up to `room` bytes; returns their number, -1 on a fault. */
+/* Reads up to `room` bytes. Returns their number, or -1 on a fault. */
 static int64_t output_files_read_all(int fd, char *bytes, size_t room)
 {
     size_t have = 0;
@@ -309,7 +310,7 @@ static int64_t output_files_read_all(int fd, char *bytes, size_t room)
 status file_get(const char *path, char **text, size_t *length)
 {
     struct stat s;
-    /* Non-blocking, or a FIFO of this name would hang the program. */
+    /* Open without blocking: a FIFO of this name would otherwise stop the program. */
     int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (fd < 0) return status_set(FAILED, "cannot read %s: %s", path, strerror(errno));
     if (fstat(fd, &s) != 0 || !S_ISREG(s.st_mode)) {

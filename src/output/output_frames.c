@@ -1,7 +1,7 @@
-/* Frames in VTKHDF, each a whole file, and their two indices: frames.hdf.series and frames.xdmf.
+/* Writes frames as VTKHDF files, and their two indices: frames.hdf.series and frames.xdmf.
  *
- * Written for the reader of VTK 9.1 (ParaView 5.11): a static UnstructuredGrid with one vertex cell per particle. Data
- * that VTK does not define are in /Cleave. What they hold: output_fields.c. */
+ * The layout serves the reader of VTK 9.1 (ParaView 5.11): a static UnstructuredGrid with one vertex cell per particle.
+ * Data that VTK does not define are in the group /Cleave. The fields are described in output_fields.c. */
 #include "output_fields.h"
 
 #include <errno.h>
@@ -17,7 +17,7 @@
 #include "output/output_files.h"
 
 enum { FRAME_VERSION = 1, VTK_VERTEX = 1 };
-enum { COPIED = 4096 }; /* particles whose rows a thread copies at once */
+enum { COPIED = 4096 }; /* particles whose rows a thread copies at a time */
 
 /* ---- one frame --------------------------------------------------------------------------------------------------- */
 
@@ -25,28 +25,28 @@ enum { COPIED = 4096 }; /* particles whose rows a thread copies at once */
  * particles while the run continues. */
 struct frame_job {
     struct path path;
-    const struct particles *p;    /* borrowed; constant fields only */
-    const struct particles *more; /* points of coarse cells, as well; NULL: none */
-    struct output *o;             /* borrowed; holds the room kept for the writer */
-    struct frame_series *series;  /* borrowed: what it shows, and in which order */
-    int64_t n, step;              /* rows that are written */
+    const struct particles *p;    /* borrowed; read only for constant fields */
+    const struct particles *more; /* material points of coarse cells, borrowed likewise; NULL if there are none */
+    struct output *o;             /* borrowed; owns the buffers of the writing thread */
+    struct frame_series *series;  /* borrowed: order of the rows and list of frames */
+    int64_t n, step;              /* number of rows; number of the time step */
     int dim;
     real t;
     bool compress, broken;
-    unsigned fields;        /* bits of those that there are */
+    unsigned fields;        /* bit set of the fields of this frame */
     const char *scene_text; /* borrowed */
-    /* in frame_copy, in the order of the particles; NULL: constant, or not in this frame */
+    /* copies in output.frame_copy, in the order of the particles; NULL: constant, or not in this frame */
     char *field[FRAME_FIELDS];
     char *index[2]; /* texts of the two indices, including this frame */
     size_t index_length[2];
     pthread_t thread;
-    bool apart; /* the thread runs      */
+    bool apart; /* the thread is running */
     status ended;
     char message[512];
 };
 
-/* Makes a job for a frame at time t [s] and copies the changing fields; the room of the copies is kept for the next
- * frame. */
+/* Creates a job for a frame at time t [s] and copies the fields that change. The memory of the copies is kept for the
+ * next frame. */
 static struct frame_job *job_make(struct output *o, struct frame_series *series, const struct frame_source *source,
                                   real t, int64_t step, const char *scene_text)
 {
@@ -87,7 +87,7 @@ static void job_free(struct frame_job *job)
     memory_free(job);
 }
 
-/* ---- writing thread: no teams, hence no arrays of memory_new ----------------------------------------------------- */
+/* ---- writing thread: has no thread team, hence allocates no arrays with memory_new ---------------------------- */
 
 static int32_t *ascending_order(int64_t n)
 {
@@ -96,8 +96,8 @@ static int32_t *ascending_order(int64_t n)
     return order;
 }
 
-/* Indices of the particles in the order of their ids, [n]; ids are unique but may have gaps. NULL: no memory. Free with
- * free. */
+/* Returns the indices of the particles sorted by id, [n]; ids are unique but may have gaps. NULL if memory is
+ * exhausted. Release with free. */
 static int32_t *order_by_id(const struct particles *p)
 {
     int64_t room = 0, k = 0;
@@ -114,7 +114,7 @@ static int32_t *order_by_id(const struct particles *p)
     return order;
 }
 
-enum { ROW_MOST = 36 }; /* bytes of a field's row: nine singles */
+enum { ROW_MOST = 36 }; /* bytes of the longest row: nine single-precision numbers */
 
 static void write_field(struct hdf *f, const struct frame_job *job, int k, const int32_t *order, char *room)
 {
@@ -136,7 +136,7 @@ static void write_field(struct hdf *f, const struct frame_job *job, int k, const
     hdf_mark_text(f, field->path, "unit", field->unit[0] ? field->unit : "1");
 }
 
-/* One vertex cell per particle: the k-th cell is point k and starts at k. */
+/* Writes one vertex cell per particle: cell k consists of point k and starts at k. room: buffer for one field. */
 static void write_cells(struct hdf *f, int64_t n, char *room)
 {
     int64_t *number = (int64_t *)room;
@@ -150,7 +150,7 @@ static void write_cells(struct hdf *f, int64_t n, char *room)
     hdf_rows(f, "/VTKHDF/Types", HDF_U8, n, 1, room);
 }
 
-/* What VTK shows with the particles: the time, units, the scene. */
+/* Writes the data that VTK shows beside the particles: the time, the units and the scene. */
 static void write_field_data(struct hdf *f, const struct frame_job *job)
 {
     char units[1000];
@@ -161,7 +161,7 @@ static void write_field_data(struct hdf *f, const struct frame_job *job)
     hdf_text_list(f, "/VTKHDF/FieldData/scene", job->scene_text);
 }
 
-/* Groups and attributes of a frame, and the text of its scene. */
+/* Writes the groups and attributes of a frame, and the text of its scene. */
 static void write_marks(struct hdf *f, int dim, real t, int64_t step, const char *scene_text)
 {
     static const int32_t vtk_version[2] = {1, 0}, version = FRAME_VERSION;
@@ -184,7 +184,8 @@ static void kept_free(struct frame_series *s)
     memset(&s->kept, 0, sizeof s->kept);
 }
 
-/* Is point i, a particle or behind them a point of a coarse cell, in the series? */
+/* Returns true if the series shows point i: a particle, or (i >= number of particles) a material point of a coarse
+ * cell. */
 static bool series_shows(const struct frame_series *s, const struct frame_source *source, int64_t i)
 {
     const struct particles *p = i < source->p->n ? source->p : source->extra.more;
@@ -194,8 +195,8 @@ static bool series_shows(const struct frame_series *s, const struct frame_source
     return region_contains(s->region, X, p->dim, 0);
 }
 
-/* Order and room of a series, kept while neither the particles nor their ids change (output_particles_changed), nor
- * the points of coarse cells may. False: no memory. */
+/* Fills the stored order and the buffer of a series. Both are kept until output_particles_changed and while there are
+ * no points of coarse cells, which may change at any step. Returns false if memory is exhausted. */
 static bool kept_make(struct frame_series *s, const struct frame_source *source)
 {
     const int64_t own = source->p->n, all = own + (source->extra.more ? source->extra.more->n : 0);
@@ -220,7 +221,7 @@ void output_particles_changed(struct output *o)
     for (int k = 0; k <= o->n_series; k++) kept_free(&o->series[k]);
 }
 
-/* Writes PATH.cleave.tmp and publishes it as PATH. */
+/* Writes PATH.cleave.tmp and renames it to PATH. */
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;
@@ -269,7 +270,7 @@ static void series_print(FILE *out, const struct frame_series *s)
     fprintf(out, "\n]}\n");
 }
 
-/* A reference to a whole dataset of a frame. */
+/* Writes a reference to a whole dataset of a frame. */
 static void xdmf_item(FILE *out, const char *frame, const struct frame_field *field, int64_t n)
 {
     static const char *const number[] = {
@@ -282,7 +283,7 @@ static void xdmf_item(FILE *out, const char *frame, const struct frame_field *fi
 
 static void xdmf_attribute(FILE *out, const char *frame, const struct frame_field *field, int64_t n)
 {
-    /* The six components are no XDMF tensor: XDMF has another order, and readers would permute them. */
+    /* A Matrix, not an XDMF Tensor6: XDMF orders the six components differently, and readers would permute them. */
     const char *shape = field->columns == 1 ? "Scalar" : field->columns == 3 ? "Vector" : "Matrix";
     const char *name = strrchr(field->path, '/') + 1;
     fprintf(out, "<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"Node\">", name, shape);
@@ -293,7 +294,7 @@ static void xdmf_attribute(FILE *out, const char *frame, const struct frame_fiel
 /* Writes the XDMF grid of one frame of n particles at time t [s]. */
 static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n, unsigned fields)
 {
-    /* Cells are listed, because the XDMF3 reader makes none from a count alone. */
+    /* Lists the cells, because the XDMF3 reader creates none from their number alone. */
     static const struct frame_field vertices = {"/VTKHDF/Connectivity", "", HDF_I64, 1, NULL, NULL};
     fprintf(out, "<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
     fprintf(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%lld\" NodesPerElement=\"1\">",
@@ -331,7 +332,7 @@ static struct path index_path(const char *folder, const struct frame_series *s, 
     return path_join(folder, name);
 }
 
-/* Composes the text of an index in memory. */
+/* Composes the text of an index in memory. which: 0 for frames.hdf.series, 1 for frames.xdmf. */
 static status index_make(const struct output *o, struct frame_job *job, int which)
 {
     static void (*const print[2])(FILE *, const struct frame_series *) = {series_print, xdmf_print};
@@ -341,7 +342,7 @@ static status index_make(const struct output *o, struct frame_job *job, int whic
     return whole ? OK : file_fault(index_path(o->folder, job->series, which).text, ENOMEM);
 }
 
-/* Both indices of a series. */
+/* Writes both indices of a series. */
 static status indices_put(const char *folder, const struct frame_job *job)
 {
     for (int k = 0; k < 2; k++)
@@ -349,8 +350,8 @@ static status indices_put(const char *folder, const struct frame_job *job)
     return OK;
 }
 
-/* The frame is written before the indices, which never name a frame that does not exist. The folder of the run is two
- * levels above the frame. */
+/* Writes the frame and then the indices, which thus never list a missing frame. The folder of the run is two levels
+ * above the frame. */
 static status job_write(struct frame_job *job)
 {
     TRY(frame_write(job));
@@ -381,7 +382,7 @@ status output_wait(struct output *o)
     return s;
 }
 
-/* Counts a frame before it is written; output_wait takes the count back on a fault. */
+/* Counts a frame before it is written; output_wait reverses the count on a fault. */
 static void frame_count(struct frame_series *s, const struct frame_job *job)
 {
     GROW("output.frame_time", s->frame_time, s->frames + 1);
@@ -391,7 +392,8 @@ static void frame_count(struct frame_series *s, const struct frame_job *job)
     s->frame_fields = job->fields;
 }
 
-/* Starts the writing thread. It blocks all signals, which the stepping thread receives, but those of its own faults. */
+/* Starts the writing thread. The thread blocks all signals, which the stepping thread then receives, except the signals
+ * of its own faults. */
 static void output_frames_job_start(struct frame_job *job)
 {
     sigset_t all, before;
@@ -400,7 +402,7 @@ static void output_frames_job_start(struct frame_job *job)
     pthread_sigmask(SIG_SETMASK, &all, &before);
     job->apart = pthread_create(&job->thread, NULL, job_run, job) == 0;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
-    if (!job->apart) job_run(job); /* no thread available: write at once */
+    if (!job->apart) job_run(job); /* no thread available: write synchronously */
 }
 
 status output_frame_begin(struct output *o, int k, const struct particles *p, const struct frame_extra *extra, real t,
@@ -433,8 +435,8 @@ status output_frame(struct output *o, const struct particles *p, real t, int64_t
 
 /* ---- after a restart --------------------------------------------------------------------------------------------- */
 
-/* Certain fault of the frame of this time [s], as the end of a sentence; NULL: none, or the file cannot be read. A time
- * of NAN marks a frame lost before. */
+/* Returns the fault of the frame at `path` as a phrase for a message; NULL if it has none or cannot be read. time: [s],
+ * NAN for a frame that was lost earlier. */
 static const char *frame_fault(const char *path, real time)
 {
     struct hdf f;
@@ -449,7 +451,8 @@ static const char *frame_fault(const char *path, real time)
     return read && !bits_equal(found, time) ? "is another one" : NULL;
 }
 
-/* Marks the frames of a series that are lost; adds them to *lost, and the first of all to `text`. */
+/* Marks the lost frames of a series, adds their number to *lost and writes the first of all to `text`, capacity `room`
+ * [byte]. Returns the number of frames lost in this series. */
 static int series_check(const struct output *o, struct frame_series *s, int *lost, char *text, size_t room)
 {
     int own = 0;
@@ -465,7 +468,7 @@ static int series_check(const struct output *o, struct frame_series *s, int *los
     return own;
 }
 
-/* Both indices of a series anew. */
+/* Rewrites both indices of a series. */
 static status series_index(const struct output *o, struct frame_series *series)
 {
     struct frame_job job = {.series = series};

@@ -1,4 +1,4 @@
-/* A dozen operations on HDF5 files. After the first fault all further operations on a file do nothing. */
+/* HDF5 operations of the program. After the first fault all further operations on a file do nothing. */
 #include "output/output_hdf5.h"
 
 #include <errno.h>
@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Rows per chunk of a compressed dataset: 64 Ki rows of 24 bytes fit HDF5's chunk cache of 1 MiB and a half. */
+/* Rows per chunk of a compressed dataset: 64 Ki rows of 24 bytes, 1.5 MiB, fit HDF5's chunk cache. */
 enum { CHUNK_ROWS = 1 << 16, GZIP_LEVEL = 4 };
 
 size_t hdf_size(enum hdf_type type)
@@ -31,7 +31,7 @@ static hid_t hdf_native(enum hdf_type type)
     }
 }
 
-/* Records the outcome of one HDF5 call, which is negative on a fault; true: no fault. */
+/* Records the result of one HDF5 call, negative on a fault. Returns true if there was no fault. */
 static bool good(struct hdf *f, int64_t result)
 {
     if (result >= 0) return true;
@@ -46,7 +46,8 @@ static bool ready(const struct hdf *f)
     return !f->failed;
 }
 
-/* Access list: closing a file closes all objects in it; no file locks, which some network file systems lack. */
+/* Returns a file access list: closing a file closes all objects in it; no file locks, which some network file systems
+ * lack. */
 static hid_t access_list(struct hdf *f)
 {
     hid_t list = -1;
@@ -64,7 +65,7 @@ void hdf_create(struct hdf *f, const char *path, bool compress)
     errno = 0;
     hid_t access = access_list(f);
     if (f->failed) return;
-    unlink(path); /* left by a kill; links of this name are not followed */
+    unlink(path); /* left by a killed run; a link of this name is not followed */
     (void)(good(f, create = H5Pcreate(H5P_FILE_CREATE)) && good(f, H5Pset_obj_track_times(create, false)) &&
            good(f, f->file = H5Fcreate(path, H5F_ACC_EXCL, create, access)) && good(f, H5Pclose(create)) &&
            good(f, H5Pclose(access)));
@@ -99,7 +100,7 @@ void hdf_group(struct hdf *f, const char *name)
            good(f, H5Pclose(list)));
 }
 
-/* Creation list of a dataset of this shape: contiguous, or chunked and gzipped. */
+/* Returns the creation list of a dataset of this shape: contiguous, or in chunks compressed with gzip. */
 static hid_t dataset_list(struct hdf *f, int rank, const hsize_t *shape)
 {
     hid_t list = -1;
@@ -124,7 +125,7 @@ void hdf_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows,
            good(f, H5Dclose(set)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)));
 }
 
-/* Maps the rows of one source to rows `at` and following of a virtual dataset. */
+/* Maps the rows of one source to the rows from at[0] on of a virtual dataset. Returns false on a fault. */
 static bool source_map(struct hdf *f, hid_t list, hid_t space, const char *name, const hsize_t *at,
                        const struct hdf_source *source, const hsize_t *shape, int rank)
 {
@@ -155,7 +156,7 @@ void hdf_virtual(struct hdf *f, const char *name, enum hdf_type type, int column
            good(f, H5Dclose(set)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)));
 }
 
-/* A fixed-length string type; VTK 9.1 reads no other. */
+/* Returns a fixed-length string type; VTK 9.1 reads no other. */
 static hid_t text_type(struct hdf *f, const char *text)
 {
     hid_t type = -1;
@@ -254,7 +255,7 @@ void hdf_read_mark(struct hdf *f, const char *group, const char *name, enum hdf_
     if (!ready(f)) return;
     if (!good(f, at = H5Aopen_by_name(f->file, group, name, H5P_DEFAULT, H5P_DEFAULT))) return;
     if (!good(f, space = H5Aget_space(at))) return;
-    /* A damaged or foreign file may hold more numbers than there is room for. */
+    /* A damaged or foreign file may hold more numbers than `value` has room for. */
     if (H5Sget_simple_extent_npoints(space) != 1) f->failed = true;
     if (!f->failed) (void)(good(f, H5Aread(at, hdf_native(type), value)) && good(f, H5Aclose(at)));
     H5Sclose(space);

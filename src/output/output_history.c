@@ -12,7 +12,7 @@
 
 static struct path history_path(const struct output *o) { return path_join(o->folder, "history.csv"); }
 
-/* Hash of Fowler, Noll and Vo (FNV-1a), updated with each byte, so that checkpoints need not read the file. */
+/* FNV-1a hash (Fowler, Noll and Vo), updated with each byte, so that a checkpoint need not read the file. */
 #define HASH_START UINT64_C(0xCBF29CE484222325)
 static uint64_t hash_bytes(uint64_t hash, const char *bytes, size_t n)
 {
@@ -34,7 +34,7 @@ static bool line_begin(struct line *l)
     return l->to != NULL;
 }
 
-/* Ends a line; counts and hashes it if all of it reached the file. */
+/* Ends a line; adds it to length and hash of the file if it was written completely. */
 static status line_end(struct output *o, struct line *l)
 {
     errno = 0;
@@ -56,7 +56,7 @@ static status history_header(struct output *o, const struct column *column)
         const char *end = k + 1 < o->columns ? "," : "\n";
         char name[sizeof column->name];
         snprintf(name, sizeof name, "%s", column[k].name);
-        /* Characters that end a field become _. */
+        /* Replace characters that would end a field by _. */
         for (char *c = name; *c; c++) *c = *c == ',' || *c == '"' || *c == '\n' || *c == '\r' ? '_' : *c;
         if (column[k].unit[0])
             fprintf(l.to, "%s [%s]%s", name, column[k].unit, end);
@@ -66,8 +66,8 @@ static status history_header(struct output *o, const struct column *column)
     return line_end(o, &l);
 }
 
-/* Cuts the file to its length at the checkpoint. The file is made anew, so that what a link or a second name leads to
- * stays as it is. FAILED if this part is missing or has changed. */
+/* Cuts the file to its length at the checkpoint. A new file is created, so that targets of links and other hard links
+ * stay unchanged. FAILED if the first part is missing or has changed. */
 static status history_cut(const struct output *o)
 {
     struct path path = history_path(o);
@@ -85,7 +85,7 @@ static status history_cut(const struct output *o)
                       path.text, shorter ? "shorter than" : "not what it was", (long long)o->history_bytes);
 }
 
-/* Opens a file without following a link. NULL with errno on a fault. */
+/* Opens a file without following a link. Returns NULL and sets errno on a fault. */
 static FILE *history_file(const char *path, bool resume)
 {
     if (!resume) unlink(path);
@@ -114,7 +114,7 @@ status output_history(struct output *o, const real *value)
     struct line l;
     if (!line_begin(&l)) return file_fault(history_path(o).text, ENOMEM);
     for (int k = 0; k < o->columns; k++) {
-        /* The sign of a NaN has no meaning and must not make two runs differ. */
+        /* Remove the sign of a NaN, which has no meaning and would make files of equal runs differ. */
         const real a = isnan(value[k]) ? fabs(NAN) : value[k];
         fprintf(l.to, "%.9g%s", a, k + 1 < o->columns ? "," : "\n");
     }

@@ -1,5 +1,5 @@
-/* Lock of a folder for one run at a time. The lock ends with its process, also on file systems that several machines
- * share (POSIX record locks, which NFS supports). The lock file names the process and is removed when the run ends. */
+/* Lock of a folder for one run at a time. POSIX record locks end with their process, also on file systems that several
+ * machines share (NFS supports them). The lock file names the process and is removed when the run ends. */
 #include "output/output_lock.h"
 
 #include <errno.h>
@@ -15,21 +15,22 @@ static const char lock_name[] = ".running", lock_begin[] = "process ";
 
 enum { TRIES = 100 }; /* a lock file may be removed between open and lock */
 
-/* True if the open file still has this path. */
+/* Returns true if `path` still names the open file. */
 static bool is_still_there(int fd, const char *path)
 {
     struct stat own, there;
     return fstat(fd, &own) == 0 && lstat(path, &there) == 0 && own.st_ino == there.st_ino && own.st_dev == there.st_dev;
 }
 
-/* True if the file has another hard link, through which a write to it would change another file. */
+/* Returns true if the file has another hard link, through which a write would change another file. */
 static bool has_other_names(int fd)
 {
     struct stat own;
     return fstat(fd, &own) == 0 && own.st_nlink > 1;
 }
 
-/* REFUSED for an open file that is neither empty nor begins as sign() begins it; FAILED if it cannot be read. */
+/* REFUSED for an open file that is neither empty nor begins with the text that sign() writes; FAILED if the file cannot
+ * be read. */
 static status lock_file_check(int fd, const char *path)
 {
     char begin[sizeof lock_begin - 1];
@@ -49,7 +50,7 @@ static int lock_try(int fd)
     return errno == EACCES ? EAGAIN : errno;
 }
 
-/* REFUSED with the process that the lock file names. */
+/* Returns REFUSED with the process that the lock file names. */
 static status say_holder(int fd, const char *folder)
 {
     char who[160];
@@ -66,7 +67,7 @@ static void sign(int fd)
     char host[64] = "this machine", text[128];
     if (gethostname(host, sizeof host - 1) != 0) strcpy(host, "this machine");
     const int length = snprintf(text, sizeof text, "%s%ld on %s\n", lock_begin, (long)getpid(), host);
-    /* for messages only: faults are ignored */
+    /* The text serves messages only: faults are ignored. */
     if (ftruncate(fd, 0) != 0 || pwrite(fd, text, (size_t)length, 0) != length) errno = 0;
 }
 
@@ -116,7 +117,7 @@ status folder_held(const struct folder_lock *l, const char *folder)
 void folder_unlock(struct folder_lock *l, const char *folder)
 {
     if (l->fd < 0) return;
-    /* before the lock is released: the next process that locks this file finds it removed */
+    /* Remove the file before the lock is released: the next process that locks it then finds that it is removed. */
     if (folder_held(l, folder) == OK) unlink(path_join(folder, lock_name).text);
     close(l->fd);
     l->fd = -1;

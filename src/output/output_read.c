@@ -13,11 +13,11 @@
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
-/* Most particles per byte of a file: gzip does not compress 8-byte reference positions further. Bounds the memory that
- * a damaged file claims. */
+/* Largest plausible number of particles per byte of a file: gzip compresses the 8-byte reference positions by less.
+ * Limits the memory that a damaged file can request. */
 enum { PARTICLES_PER_BYTE_MOST = 1024 };
 
-/* Reads `columns` numbers per particle and copies column from[k] to out[k], [n], k < wanted. */
+/* Reads a dataset of n rows and `columns` columns and copies column from[k] to out[k], [n], for k < wanted. */
 static void read_columns(struct hdf *h, const char *name, int64_t n, int columns, int wanted, const int *from,
                          float **out)
 {
@@ -57,7 +57,7 @@ static void read_fields(struct frame *f, struct hdf *h)
         f->spacing = read_list(h, "/VTKHDF/PointData/spacing", HDF_F32, f->n);
 }
 
-/* Reads dimension, time, step and number of particles; a value out of range is a fault of the file. */
+/* Reads dimension, time, step and number of particles. A value out of range is recorded as a fault of the file. */
 static void read_size(struct frame *f, struct hdf *h, int64_t bytes)
 {
     int32_t dim = 0;
@@ -112,10 +112,10 @@ void frame_free(struct frame *f)
 
 /* ---- one field by name ------------------------------------------------------------------------------------------- */
 
-/* Row i of the field from which another follows, components that the space does not have 0. */
+/* Fills `row` with row i of the field from which another field is derived; components that the space lacks are 0. */
 static void source_row(const struct frame *f, enum derived_from from, int64_t i, real *row)
 {
-    static const int plane[] = {0, 1, 3, 2}, plain[] = {0, 1, 2, 3, 4, 5}; /* read_fields */
+    static const int plane[] = {0, 1, 3, 2}, plain[] = {0, 1, 2, 3, 4, 5}; /* order of read_fields */
     memset(row, 0, SYM_MAX * sizeof *row);
     if (from == FROM_VELOCITY)
         for (int d = 0; d < f->dim; d++) row[d] = f->v[d][i];
@@ -136,7 +136,7 @@ static float *derive_field(const struct frame *f, const struct derived_field *fi
     return value;
 }
 
-/* Most numbers of a field at a particle, against files that claim any. */
+/* Largest accepted number of components of a field, a guard against damaged files. */
 enum { COLUMNS_MOST = 16 };
 
 status frame_field_read(const struct frame *f, const char *path, const char *name, int *columns, float **value)
@@ -168,7 +168,7 @@ status frame_field_read(const struct frame *f, const char *path, const char *nam
 
 /* ---- times of frames --------------------------------------------------------------------------------------------- */
 
-/* Reads the next entry of the index; false at the end. */
+/* Reads the next entry of the index. Returns false at the end. */
 static bool next_frame(const char **at, struct listed_frame *f)
 {
     static const char name[] = "frames/", key[] = "\"time\":";

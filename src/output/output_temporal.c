@@ -1,9 +1,10 @@
-/* All frames of a run as one file for ParaView 5.12 and later: frames.vtkhdf, a temporal UnstructuredGrid of VTKHDF 2.
+/* Writes all frames of a run as one temporal file for ParaView 5.12 and later: frames.vtkhdf, an UnstructuredGrid of
+ * VTKHDF 2.
  *
- * Its datasets are virtual: the rows of all frames one after the other, which stay where they are, in files of their
- * own that no crash damages. Group Steps says where a time begins in them (docs.vtk.org, VTKHDF specification,
- * "Temporal data"): each time is one part, its points, cells and connectivity begin at the sum of the points before,
- * and its part of Offsets, which has one entry more than cells, one entry further for each part before. */
+ * Its datasets are virtual: they concatenate the rows of all frames, which stay in their own files, so that no crash
+ * damages them. The group Steps stores where each time begins (docs.vtk.org, VTKHDF specification, "Temporal data"):
+ * each time is one part; its points, cells and connectivity begin at the number of preceding points, and its part of
+ * Offsets, which has one entry more than cells, begins one entry later per preceding part. */
 #include "output_fields.h"
 
 #include <math.h>
@@ -14,20 +15,20 @@
 #include "base/memory.h"
 #include "output/output_files.h"
 
-/* Beyond so many a file of virtual datasets is slower to open than the frames. */
+/* Largest number of frames; with more, a file of virtual datasets takes longer to open than the frames. */
 enum { TEMPORAL_MOST = 2000 };
 
 struct temporal {
     const char *folder;           /* of the run */
-    int n;                        /* times */
+    int n;                        /* number of times */
     real *time;                   /* [n] [s] */
     struct hdf_source *source;    /* [n] */
-    char (*name)[PATH_NAME_ROOM]; /* [n] of the frames, relative to the run's folder */
-    int64_t *start;               /* [n] points of the frames before */
-    unsigned fields;              /* that all frames have */
+    char (*name)[PATH_NAME_ROOM]; /* [n] paths of the frames relative to the run's folder */
+    int64_t *start;               /* [n] number of points in all preceding frames */
+    unsigned fields;              /* bit set of the fields that all frames have */
 };
 
-/* Size and fields of frame k; false: it cannot be read. */
+/* Reads size and fields of frame k. Returns false if it cannot be read. */
 static bool frame_look(struct temporal *a, int k)
 {
     struct hdf f;
@@ -45,7 +46,7 @@ static bool frame_look(struct temporal *a, int k)
     return whole;
 }
 
-/* Looks at all frames; those that are lost or cannot be read are left out. */
+/* Reads sizes and fields of all frames; frames that are lost or unreadable are left out. */
 static void frames_look(struct temporal *a, const struct frame_series *series)
 {
     a->fields = (1u << FRAME_FIELDS) - 1;
@@ -58,7 +59,7 @@ static void frames_look(struct temporal *a, const struct frame_series *series)
     }
 }
 
-/* Group Steps: times, and where each begins. */
+/* Writes the group Steps: the times, and the offset of each time. number: [n] scratch. */
 static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number)
 {
     static const char *const start[] = {"PointOffsets", "CellOffsets", "ConnectivityIdOffsets"};
@@ -85,7 +86,7 @@ static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number
     }
 }
 
-/* Points, cells and fields, in the frames. */
+/* Writes points, cells and fields as virtual datasets. */
 static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
 {
     static const char *const count[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"};
@@ -107,7 +108,7 @@ static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
     }
 }
 
-/* Texts that all times share: units and the scene. */
+/* Writes the texts that all times share: units and the scene. */
 static void write_texts(struct hdf *f, const struct temporal *a, const char *scene_text, int64_t *number)
 {
     static const char *const name[] = {"units", "scene"};

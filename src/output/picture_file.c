@@ -1,4 +1,5 @@
-/* The end of a picture's file says whether it is whole; the mark of Cleave stands there, where viewers ignore it. */
+/* Completes pictures. The end of a file shows whether it is whole; the mark of Cleave is placed near the end, where
+ * viewers ignore it. */
 #include "output/picture_file.h"
 
 #include <errno.h>
@@ -9,17 +10,18 @@
 
 #include "output/output_files.h"
 
-enum { END_LENGTH = 64, END_SLACK = 3 }; /* searched for the mark; most line feeds behind an end [byte] */
+enum { END_LENGTH = 64, END_SLACK = 3 }; /* bytes searched for the mark; most line feeds after the end [byte] */
 
 #define BYTES(text) text, sizeof text - 1
 
-/* How a format ends and what marks it: a chunk, comment, box or extension that the format has for such things. */
+/* End of a whole file and mark of Cleave for each format: a chunk, comment, box or extension that the format provides
+ * for such data. */
 static const struct picture_end {
-    const char *end; /* of a whole file; "": boxes up to its length */
+    const char *end; /* last bytes of a whole file; "": a sequence of boxes up to the length of the file */
     size_t end_length;
     const char *mark;
     size_t mark_length;
-    bool before; /* the mark stands before the end, else behind it */
+    bool before; /* the mark precedes the end, else it follows */
 } ends[PICTURE_FORMATS] = {
     [PICTURE_PNG] = {BYTES("\0\0\0\0IEND\xAE\x42\x60\x82"), BYTES("\0\0\0\x0FtEXtSoftware\0cleave\x02\xEE\x55\xA2"),
                      true},
@@ -35,7 +37,7 @@ static const struct picture_end {
                      true},
 };
 
-/* Reads the last bytes of an open file; returns their number. */
+/* Reads up to `room` bytes from the end of an open file. Returns their number. */
 static size_t read_end(int fd, int64_t length, char *to, size_t room)
 {
     const size_t wanted = length < (int64_t)room ? (size_t)length : room;
@@ -43,7 +45,7 @@ static size_t read_end(int fd, int64_t length, char *to, size_t room)
     return have < 0 ? 0 : (size_t)have;
 }
 
-/* True if the lengths that the boxes of a film state add up to that of the file. */
+/* Returns true if the lengths of the boxes of a film add up to the length of the file. */
 static bool boxes_are_whole(int fd, int64_t length)
 {
     int64_t at = 0;
@@ -60,7 +62,7 @@ static bool boxes_are_whole(int fd, int64_t length)
     return length > 0;
 }
 
-/* Returns the place of the end in a whole file [byte]; -1: the file is cut short. */
+/* Returns the offset of the end in a whole file [byte]; -1 if the file is incomplete. */
 static int64_t find_end(int fd, int64_t length, const struct picture_end *e)
 {
     char last[END_LENGTH];
@@ -72,7 +74,7 @@ static int64_t find_end(int fd, int64_t length, const struct picture_end *e)
     return length - (int64_t)(have - own + e->end_length);
 }
 
-/* Writes the mark and syncs the file. Returns 0, an errno, or -1 if the picture is cut short. */
+/* Writes the mark and syncs the file. Returns 0, an errno, or -1 if the picture is incomplete. */
 static int mark_and_sync(int fd, const struct picture_end *e)
 {
     char bytes[2 * END_LENGTH];

@@ -1,4 +1,4 @@
-/* Names of pictures: the one table of them. */
+/* Table of the names of pictures. */
 #include "output/pictures.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@ static const char field_prefix[] = "field_";
 
 struct path pictures_folder(const char *dir) { return path_join(dir, "pictures"); }
 
-/* `number` "" or _000012. */
+/* Composes the path of a picture. of: base name; number: "" or "_000012". */
 static struct path picture_place(const char *dir, const char *of, const char *number, const char *ending)
 {
     char name[PATH_NAME_ROOM];
@@ -41,7 +41,7 @@ struct path picture_path_of_field(const char *dir, const char *field, const char
     return picture_place(dir, field_prefix, field, ending);
 }
 
-/* Is the rest of a name `.png` or another ending, followed by `end`? */
+/* Returns true if the rest of a name is `.png` or another ending of pictures, followed by `end`. */
 static bool ends_as_picture(const char *rest, const char *end)
 {
     static const char *const ending[] = {".png", ".svg", ".pdf", ".mp4", ".gif"};

@@ -1,7 +1,7 @@
-/* Reads one value of summary.json, or all its numbers, with a strict reader of JSON.
+/* Reads one value of summary.json, or all its numbers, with a strict JSON parser.
  *
- * The document is checked from its first to its last byte. The functions pass on the rest of the dotted key: `rest` is
- * NULL off the path and "" at the wanted value. */
+ * The document is checked from its first to its last byte. The functions pass the remaining part of the dotted key as
+ * `rest`: NULL if the value is not on the path, "" at the wanted value. */
 #include "output/summary_read.h"
 
 #include <ctype.h>
@@ -18,7 +18,7 @@ enum { DEPTH_MAX = 64, SIZE_MAX_BYTES = 64 << 20, KEY_ROOM = 512 };
 struct reader {
     const char *at;       /* next byte; the text ends with a 0 byte   */
     const char *found;    /* first byte of the wanted value, or NULL  */
-    summary_visit *visit; /* is handed every number; NULL: nobody     */
+    summary_visit *visit; /* receives every number; NULL if there is none */
     void *context;
     char key[KEY_ROOM]; /* dotted key of the value that is read     */
     size_t length;
@@ -48,7 +48,7 @@ static bool escape(struct reader *r)
     return true;
 }
 
-/* A string; its bytes between the quotes are [*from, *to). */
+/* Parses a string; its bytes between the quotes are [*from, *to). Returns false if it is malformed. */
 static bool string(struct reader *r, const char **from, const char **to)
 {
     if (!summary_read_take(r, '"')) return false;
@@ -94,7 +94,7 @@ static bool word(struct reader *r, const char *text)
     return true;
 }
 
-/* Rest of the key inside a member of this name; NULL if the member is off the path. */
+/* Returns the rest of the key below a member of this name; NULL if the member is not on the path. */
 static const char *summary_read_below(const char *rest, const char *name, size_t length)
 {
     if (rest == NULL || strncmp(rest, name, length) != 0) return NULL;
@@ -102,7 +102,7 @@ static const char *summary_read_below(const char *rest, const char *name, size_t
     return rest[length] == '.' ? rest + length + 1 : NULL;
 }
 
-/* The value of a member of this name, `length` bytes. A key that is too long is cut. */
+/* Parses the value of a member with a name of `length` bytes. A key that is too long is truncated. */
 static bool member(struct reader *r, const char *rest, const char *name, size_t length, int depth)
 {
     const size_t above = r->length;
@@ -138,7 +138,8 @@ static bool list(struct reader *r, const char *rest, int depth)
 }
 
 static bool value(struct reader *r, const char *rest, int depth)
-/* Reads any value; notes where the wanted one begins. */
+
+/* Parses any value; records where the wanted one begins. */
 {
     const char *from, *to;
     if (depth == DEPTH_MAX) return false;
@@ -197,8 +198,8 @@ static status read_text(const char *path, char **text)
     return OK;
 }
 
-/* Reads the whole document. *text: its bytes, which the caller frees, on a fault as well. FAILED with file and line if
- * it is not JSON. */
+/* Parses the whole document. text: receives its bytes, which the caller frees, on a fault as well. FAILED, with file
+ * and line, if it is not JSON. */
 static status summary_read_document(struct reader *r, const char *folder, const char *key, char **text)
 {
     char path[4096];
@@ -215,8 +216,8 @@ static status summary_read_document(struct reader *r, const char *folder, const 
     return status_set(FAILED, "%s:%d: not JSON", path, line);
 }
 
-/* Finds the value of a key. *text: the document, which the caller frees; *found: the first byte of the value in it.
- * FAILED as summary_read_document, or without such a key. */
+/* Finds the value of a key. text: receives the document, which the caller frees; found: first byte of the value in it.
+ * FAILED as summary_read_document, or if there is no such key. */
 static status summary_read_find(const char *folder, const char *key, char **text, const char **found)
 {
     struct reader r = {0};
