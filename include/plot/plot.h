@@ -26,7 +26,7 @@ struct camera camera_along(int axis, int side);
 
 struct plot_field;
 /* What of a frame is drawn: in space a slice or what is seen from outside, in the plane everything. */
-struct look {
+struct projection {
     bool outside;         /* else a slice */
     struct camera camera; /* of `outside` */
     int normal;           /* of the slice; -1: the thinnest direction */
@@ -44,7 +44,7 @@ struct plot_request {
     int times;
     double time[PANELS_MAX]; /* the nearest frames instead [s] */
     const char *field;       /* NULL: the standard pictures */
-    struct look look;
+    struct projection projection;
     enum picture_format format;
     const char *out; /* file or folder; NULL: DIR/pictures */
     bool overwrite;  /* `out` may be a file that Cleave has not drawn */
@@ -143,11 +143,11 @@ struct cloud {
     double from[2], to[2]; /* box round reference positions [m] */
 };
 /* `look` NULL: the slice with most damage. */
-void cloud_make(struct cloud *c, const struct frame *f, const struct look *look);
+void cloud_make(struct cloud *c, const struct frame *f, const struct projection *projection);
 void cloud_free(struct cloud *c);
 /* The slice that a look leaves open, by the particles of a frame: normal and place. REFUSED where no particle is near
  * the place that it names. */
-status look_settle(struct look *look, const struct frame *f);
+status projection_complete(struct projection *projection, const struct frame *f);
 
 /* Distance of neighbouring particles: median over a sample, reference positions [m]. */
 double frame_spacing(const struct frame *f);

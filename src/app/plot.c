@@ -59,26 +59,26 @@ static status read_times(struct plot_words *w, const char *text)
 /* `z=4mm`, or `z`: the slice with most damage of that direction. */
 static status read_slice(struct plot_words *w, const char *text)
 {
-    struct look *look = &w->request.look;
+    struct projection *projection = &w->request.projection;
     char what[256];
     const char *wrong = "the direction and place of a slice are expected, as z=4mm, or the direction alone";
     if (text[0] < 'x' || text[0] > 'z' || (text[1] && text[1] != '='))
         return status_set(REFUSED, "plot: --slice %s: %s", shown_name(text).text, wrong);
-    look->normal = text[0] - 'x';
-    look->placed = text[1] == '=';
-    if (!look->placed || word_length(&look->layer, text + 2, what, sizeof what)) return OK;
+    projection->normal = text[0] - 'x';
+    projection->placed = text[1] == '=';
+    if (!projection->placed || word_length(&projection->layer, text + 2, what, sizeof what)) return OK;
     return status_set(REFUSED, "plot: --slice %s: %s %s", shown_name(text).text, shown_name(text + 2).text, what);
 }
 
 static status read_view(struct plot_words *w, const char *text)
 {
-    struct look *look = &w->request.look;
-    look->outside = true;
-    look->camera = camera_isometric;
+    struct projection *projection = &w->request.projection;
+    projection->outside = true;
+    projection->camera = camera_isometric;
     if (strcmp(text, "iso") == 0) return OK;
     if (strlen(text) != 2 || text[0] < 'x' || text[0] > 'z' || (text[1] != '+' && text[1] != '-'))
         return status_set(REFUSED, "plot: --view %s: iso, x+, x-, y+, y-, z+ or z- is expected", shown_name(text).text);
-    look->camera = camera_along(text[0] - 'x', text[1] == '+' ? 1 : -1);
+    projection->camera = camera_along(text[0] - 'x', text[1] == '+' ? 1 : -1);
     return OK;
 }
 
@@ -141,7 +141,7 @@ static status settle_format(struct plot_words *w)
 static status words_together(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;
-    if (w->scene.scene && (r->folder || r->field || w->times || w->frames || r->look.normal >= 0))
+    if (w->scene.scene && (r->folder || r->field || w->times || w->frames || r->projection.normal >= 0))
         return status_set(REFUSED, "plot: --scene draws a scene before it runs: no folder, field, time or slice");
     if (w->times && w->frames)
         return status_set(REFUSED, "plot: --times %s and --frames (or --times) %s: one of them",
@@ -153,7 +153,7 @@ static status words_together(const struct plot_words *w)
                           r->panels, PANELS_MAX);
     if (!w->scene.scene && w->scene.overrides)
         return status_set(REFUSED, "plot: -s changes a scene; it goes with --scene");
-    if (r->look.outside && r->look.normal >= 0)
+    if (r->projection.outside && r->projection.normal >= 0)
         return status_set(REFUSED, "plot: --slice looks into the body, --view at it from outside: one of them");
     if (!w->scene.scene && !r->folder) return status_set(REFUSED, "plot: which run? usage: %s", usage);
     return OK;
@@ -161,7 +161,7 @@ static status words_together(const struct plot_words *w)
 
 static status plot_words_read(struct plot_words *w, int argc, char **argv)
 {
-    w->request = (struct plot_request){.look = {.normal = -1, .camera = camera_isometric}};
+    w->request = (struct plot_request){.projection = {.normal = -1, .camera = camera_isometric}};
     for (int k = 1; k < argc; k++) {
         if (strcmp(argv[k], "--overwrite") == 0) {
             w->request.overwrite = true;
@@ -199,7 +199,8 @@ static status draw_words(const struct plot_words *w)
     const struct plot_request *r = &w->request;
     if (w->scene.scene) return scene_picture(w->scene.scene, w->scene.override, w->scene.overrides, r);
     TRY(check_folder(r->folder));
-    const bool one = r->field || r->look.outside || r->look.normal >= 0 || r->out || picture_moves(r->format);
+    const bool one =
+        r->field || r->projection.outside || r->projection.normal >= 0 || r->out || picture_moves(r->format);
     return one ? field_picture(r) : run_pictures(r);
 }
 

@@ -57,7 +57,7 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
         struct cloud c;
         const int number = frames->list[k].number;
         TRY(run_frame(&f, r->folder, number));
-        cloud_make(&c, &f, &r->look);
+        cloud_make(&c, &f, &r->projection);
         frame_free(&f);
         status s = draw_map(r, picture_path_of_frame(r->folder, DRAWN_DAMAGE, number).text, MAP_DAMAGE, view, &c, 1);
         if (s == OK) s = draw_map(r, picture_path_of_frame(r->folder, DRAWN_KIND, number).text, MAP_KIND, view, &c, 1);
@@ -122,7 +122,7 @@ static status draw_clouds(const struct plot_request *r, const struct run_frames 
         struct frame f;
         s = run_frame(&f, r->folder, frames->show[k].number);
         if (s != OK) break;
-        cloud_make(&cloud[k], &f, &r->look);
+        cloud_make(&cloud[k], &f, &r->projection);
         frame_free(&f);
     }
     if (s == OK) s = draw(r, frames, cloud);
@@ -161,11 +161,11 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
 
 static status draw_solid(struct plot_request *r, const struct run_frames *frames, const struct frame *last)
 {
-    r->look.outside = false;
-    TRY(look_settle(&r->look, last));
+    r->projection.outside = false;
+    TRY(projection_complete(&r->projection, last));
     TRY(draw_clouds(r, frames, draw_flat));
     if (last->dim < 3) return OK;
-    r->look.outside = true;
+    r->projection.outside = true;
     return draw_clouds(r, frames, draw_outside);
 }
 
@@ -188,7 +188,7 @@ status run_pictures(const struct plot_request *request)
     struct plot_request r = *request;
     char title[TITLE_LENGTH];
     if (r.panels == 0) r.panels = PANELS;
-    r.look.in_steps = run_in_steps(r.folder);
+    r.projection.in_steps = run_in_steps(r.folder);
     const bool frames = run_holds(r.folder, "frames.hdf.series"), history = run_holds(r.folder, "history.csv");
     const struct path pictures = pictures_folder(r.folder);
     TRY(pictures_folder_make(pictures.text));

@@ -144,25 +144,25 @@ static double damaged_layer(const struct frame *f, int normal)
     return nearest_coordinate(f, normal, at);
 }
 
-status look_settle(struct look *look, const struct frame *f)
+status projection_complete(struct projection *projection, const struct frame *f)
 {
-    if (f->dim < 3 || look->outside) return OK;
-    if (look->normal < 0) look->normal = thinnest_direction(f);
-    if (!look->placed) {
-        look->layer = damaged_layer(f, look->normal);
-        look->placed = true;
+    if (f->dim < 3 || projection->outside) return OK;
+    if (projection->normal < 0) projection->normal = thinnest_direction(f);
+    if (!projection->placed) {
+        projection->layer = damaged_layer(f, projection->normal);
+        projection->placed = true;
         return OK;
     }
     double from, to;
-    const double near = nearest_coordinate(f, look->normal, look->layer);
-    frame_extent(f, look->normal, &from, &to);
-    if (fabs(near - look->layer) > frame_spacing(f)) {
+    const double near = nearest_coordinate(f, projection->normal, projection->layer);
+    frame_extent(f, projection->normal, &from, &to);
+    if (fabs(near - projection->layer) > frame_spacing(f)) {
         const struct unit metre = unit_for_length(fmax(fabs(from), fabs(to)));
         return status_set(REFUSED, "plot: --slice %c=%.4g %s: no particle is there; they lie from %.4g to %.4g %s",
-                          'x' + look->normal, look->layer / metre.factor, metre.name, from / metre.factor,
+                          'x' + projection->normal, projection->layer / metre.factor, metre.name, from / metre.factor,
                           to / metre.factor, metre.name);
     }
-    look->layer = near;
+    projection->layer = near;
     return OK;
 }
 
@@ -208,41 +208,41 @@ static void cloud_place(struct cloud *c, const struct frame *f, int64_t i)
     }
 }
 
-static void cloud_allocate(struct cloud *c, const struct frame *f, const struct look *look)
+static void cloud_allocate(struct cloud *c, const struct frame *f, const struct projection *projection)
 {
-    for (int k = 0; k < (f->dim == 3 && look->outside ? 3 : 2); k++) c->place[k] = NEW("plot.place", f->n, float);
+    for (int k = 0; k < (f->dim == 3 && projection->outside ? 3 : 2); k++) c->place[k] = NEW("plot.place", f->n, float);
     c->damage = NEW("plot.damage", f->n, float);
     c->kind = NEW("plot.kind", f->n, uint8_t);
     if (f->fragment) c->fragment = NEW("plot.fragment", f->n, int32_t);
     if (f->spacing) c->size = NEW("plot.size", f->n, float);
-    if (look->value) c->value = NEW("plot.value", f->n, float);
+    if (projection->value) c->value = NEW("plot.value", f->n, float);
 }
 
 /* Axes of the map: x y, those of a slice, or those of a camera. */
-static void cloud_axes(struct cloud *c, const struct frame *f, const struct look *look)
+static void cloud_axes(struct cloud *c, const struct frame *f, const struct projection *projection)
 {
-    c->camera = f->dim == 3 && look->outside ? look->camera : camera_along(2, 1);
-    if (f->dim < 3 || look->outside) return;
-    c->normal = look->normal, c->layer = look->layer;
+    c->camera = f->dim == 3 && projection->outside ? projection->camera : camera_along(2, 1);
+    if (f->dim < 3 || projection->outside) return;
+    c->normal = projection->normal, c->layer = projection->layer;
     c->axis[0] = c->normal == 0 ? 1 : 0;
     c->axis[1] = c->normal == 2 ? 1 : 2;
     c->camera = camera_along(c->normal, c->normal == 1 ? -1 : 1);
 }
 
-void cloud_make(struct cloud *c, const struct frame *f, const struct look *look)
+void cloud_make(struct cloud *c, const struct frame *f, const struct projection *projection)
 {
-    struct look open = {.normal = -1};
-    if (!look) (void)look_settle(&open, f), look = &open;
+    struct projection open = {.normal = -1};
+    if (!projection) (void)projection_complete(&open, f), projection = &open;
     *c = (struct cloud){.axis = {0, 1},
                         .normal = -1,
                         .t = f->t,
                         .spacing = frame_spacing(f),
-                        .in_steps = look->in_steps,
+                        .in_steps = projection->in_steps,
                         .step = f->step,
                         .from = {INFINITY, INFINITY},
                         .to = {-INFINITY, -INFINITY}};
-    cloud_axes(c, f, look);
-    cloud_allocate(c, f, look);
+    cloud_axes(c, f, projection);
+    cloud_allocate(c, f, projection);
     for (int64_t i = 0; i < f->n; i++) {
         const double size = f->spacing ? f->spacing[i] : c->spacing;
         if (c->normal >= 0 && fabs(f->X[c->normal][i] - c->layer) > 0.5 * size - 0.01 * c->spacing) continue;
@@ -251,7 +251,7 @@ void cloud_make(struct cloud *c, const struct frame *f, const struct look *look)
         c->damage[c->n] = f->damage[i];
         if (f->fragment) c->fragment[c->n] = f->fragment[i];
         if (f->fragment && f->fragment[i] >= c->fragments) c->fragments = f->fragment[i] + 1;
-        if (c->value) c->value[c->n] = look->value[i];
+        if (c->value) c->value[c->n] = projection->value[i];
         c->kind[c->n++] = f->kind[i];
     }
     c->aligned = !c->place[2] && is_aligned(c);

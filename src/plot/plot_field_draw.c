@@ -40,7 +40,7 @@ static bool same_everywhere(const struct cloud *cloud, int clouds)
 static void field_title(char *title, const struct plot_request *r, const struct cloud *c)
 {
     char name[TITLE_LENGTH];
-    snprintf(name, sizeof name, "%s", r->look.field->name);
+    snprintf(name, sizeof name, "%s", r->projection.field->name);
     for (char *at = name; *at; at++)
         if (*at == '_') *at = ' ';
     compose_title(title, r->folder, name, c);
@@ -58,14 +58,14 @@ static void say_categories(const struct categories *k)
 static status say_field(const char *path, const struct view *view, const struct plot_request *r, int frames,
                         int64_t particles)
 {
-    const bool damage = map_of_field(r->look.field) == MAP_DAMAGE;
-    printf("%s: %s of %d frame%s, %lld particles", shown_name(path).text, r->look.field->name, frames,
+    const bool damage = map_of_field(r->projection.field) == MAP_DAMAGE;
+    printf("%s: %s of %d frame%s, %lld particles", shown_name(path).text, r->projection.field->name, frames,
            frames > 1 ? "s" : "", (long long)particles);
     if (view->categories)
         say_categories(view->categories);
     else
         printf(", colours from %.4g to %.4g%s%s\n", damage ? 0 : view->low, damage ? view->top : view->high,
-               *r->look.field->unit ? " " : "", r->look.field->unit);
+               *r->projection.field->unit ? " " : "", r->projection.field->unit);
     return ferror(stdout) || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
 }
 
@@ -73,20 +73,20 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
 {
     char title[TITLE_LENGTH];
     struct view view = view_of(cloud, clouds);
-    view_set_field(&view, r->look.field, cloud, clouds);
+    view_set_field(&view, r->projection.field, cloud, clouds);
     if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
         return status_set(FAILED, "%s: the frames hold no particles, or places that are not numbers", r->folder);
     if (same_everywhere(cloud, clouds)) {
         char why[96];
-        snprintf(why, sizeof why, "%s is %.4g%s%s everywhere", r->look.field->name, cloud[0].value[0],
-                 *r->look.field->unit ? " " : "", r->look.field->unit);
+        snprintf(why, sizeof why, "%s is %.4g%s%s everywhere", r->projection.field->name, cloud[0].value[0],
+                 *r->projection.field->unit ? " " : "", r->projection.field->unit);
         return nothing_to_draw(path, why);
     }
     field_title(title, r, &cloud[0]);
-    const enum map map = map_of_field(r->look.field);
+    const enum map map = map_of_field(r->projection.field);
     struct categories categories;
     if (map == MAP_CATEGORY) {
-        categories_find(&categories, r->look.field, r->folder, cloud, clouds);
+        categories_find(&categories, r->projection.field, r->folder, cloud, clouds);
         view.categories = &categories;
     }
     TRY(picture_moves(r->format) ? film_draw((struct sheet){path, r->format}, title, map, &view, cloud, clouds)
@@ -100,9 +100,9 @@ static status read_cloud(struct cloud *c, struct plot_request *r, const struct l
     struct frame f;
     float *value = NULL;
     TRY(run_frame(&f, r->folder, shown->number));
-    const status s = plot_field_read(&value, r->look.field, &f, run_frame_path(r->folder, shown->number).text);
-    r->look.value = value;
-    if (s == OK) cloud_make(c, &f, &r->look);
+    const status s = plot_field_read(&value, r->projection.field, &f, run_frame_path(r->folder, shown->number).text);
+    r->projection.value = value;
+    if (s == OK) cloud_make(c, &f, &r->projection);
     memory_free(value);
     frame_free(&f);
     return s;
@@ -130,24 +130,25 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
     float **value = NEW("plot.values", frames->shown, float *);
     status s = OK;
     for (int k = 0; s == OK && k < frames->shown; k++)
-        s = plot_field_read(&value[k], r->look.field, &f[k], run_frame_path(r->folder, frames->show[k].number).text);
+        s = plot_field_read(&value[k], r->projection.field, &f[k],
+                            run_frame_path(r->folder, frames->show[k].number).text);
     field_title(title, r, NULL);
     if (s == OK)
-        s = field_profiles_draw((struct sheet){path, r->format}, title, r->look.field, value, f, frames->shown);
+        s = field_profiles_draw((struct sheet){path, r->format}, title, r->projection.field, value, f, frames->shown);
     for (int k = 0; k < frames->shown; k++) memory_free(value[k]);
     memory_free(value);
     frames_free(f, frames->shown);
-    if (s == OK && printf("%s: %s of %d frames\n", shown_name(path).text, r->look.field->name, frames->shown) < 0)
+    if (s == OK && printf("%s: %s of %d frames\n", shown_name(path).text, r->projection.field->name, frames->shown) < 0)
         s = status_set(FAILED, "cannot write to standard output");
     return s;
 }
 
 /* A look that a run in the plane cannot have. */
-static status look_check(const struct plot_request *r, int dim)
+static status projection_check(const struct plot_request *r, int dim)
 {
-    if (dim == 3 || (!r->look.placed && r->look.normal < 0 && !r->look.outside)) return OK;
+    if (dim == 3 || (!r->projection.placed && r->projection.normal < 0 && !r->projection.outside)) return OK;
     return status_set(REFUSED, "plot: %s is for runs in space; this one has %d dimension%s",
-                      r->look.outside ? "--view" : "--slice", dim, dim > 1 ? "s" : "");
+                      r->projection.outside ? "--view" : "--slice", dim, dim > 1 ? "s" : "");
 }
 
 static status field_of_frames(struct plot_request *r, const struct run_frames *frames)
@@ -156,13 +157,13 @@ static status field_of_frames(struct plot_request *r, const struct run_frames *f
     struct path path;
     TRY(run_frame(&last, r->folder, frames->show[frames->shown - 1].number));
     const int dim = last.dim;
-    status s = look_check(r, dim);
-    if (s == OK) s = plot_field_find(&r->look.field, r->field ? r->field : "damage", dim);
-    if (s == OK && dim == 3 && r->look.normal < 0) r->look.outside = true;
-    if (s == OK) s = look_settle(&r->look, &last);
+    status s = projection_check(r, dim);
+    if (s == OK) s = plot_field_find(&r->projection.field, r->field ? r->field : "damage", dim);
+    if (s == OK && dim == 3 && r->projection.normal < 0) r->projection.outside = true;
+    if (s == OK) s = projection_complete(&r->projection, &last);
     frame_free(&last);
     TRY(s);
-    TRY(field_path(&path, r, r->look.field->name));
+    TRY(field_path(&path, r, r->projection.field->name));
     return dim == 1 ? draw_field_bar(r, path.text, frames) : draw_field_map(r, path.text, frames);
 }
 
@@ -172,7 +173,7 @@ status field_picture(const struct plot_request *request)
     struct run_frames frames;
     if (picture_moves(r.format)) TRY(film_possible());
     if (r.panels == 0) r.panels = picture_moves(r.format) ? INT_MAX : r.every ? PANELS_MAX : PANELS;
-    r.look.in_steps = run_in_steps(r.folder);
+    r.projection.in_steps = run_in_steps(r.folder);
     TRY(run_frames_choose(&frames, &r));
     const status s = field_of_frames(&r, &frames);
     run_frames_free(&frames);

@@ -116,13 +116,13 @@ void panel_directions(FILE *to, const struct layout *l, const struct view *view,
     const double length = plot_maps_tic_distance(300 * pixel, 300, 60);
     fputs("unset xtics\nunset ytics\nunset xlabel\nunset ylabel\nset border 0\nunset arrow\n", to);
     for (int d = 0; d < 3; d++) {
-        const double way[2] = {26 * pixel * c->camera.right[d], 26 * pixel * c->camera.up[d]};
-        if (hypot(way[0], way[1]) < 2 * pixel) continue;
+        const double arrow[2] = {26 * pixel * c->camera.right[d], 26 * pixel * c->camera.up[d]};
+        if (hypot(arrow[0], arrow[1]) < 2 * pixel) continue;
         fprintf(to,
                 "set arrow from %.9g,%.9g rto %.9g,%.9g size screen 0.006,20 front lw 1.3 lc rgb '#333333'\n"
                 "set label %d '%c' at %.9g,%.9g center front font ',11' textcolor rgb '#333333'\n",
-                corner[0], corner[1], way[0], way[1], 40 + d, 'x' + d, corner[0] + 1.45 * way[0],
-                corner[1] + 1.45 * way[1]);
+                corner[0], corner[1], arrow[0], arrow[1], 40 + d, 'x' + d, corner[0] + 1.45 * arrow[0],
+                corner[1] + 1.45 * arrow[1]);
     }
     const double end = view->to[0] / metre->factor - 8 * pixel, at = corner[1] - 10 * pixel;
     fprintf(to,

@@ -109,7 +109,7 @@ status sif_bench_draw(const char *folder, const char *title, const struct series
 
 /* ---- paths of tips ----------------------------------------------------------------------------------------------- */
 
-struct way {
+struct tip_path {
     char name[NAME_MAX_LENGTH];
     int x, y, length;                    /* columns                                                         */
     double from[2], to[2], grown;        /* ends [m]; length [m]                                            */
@@ -125,16 +125,16 @@ static double plot_sif_figure_of(const char *folder, const char *probe, const ch
 }
 
 /* Paths of the tips that have grown, into w, [PATHS_SHOWN]; returns their number. */
-static int find_ways(struct way *w, const char *folder, const struct history *h)
+static int find_tip_paths(struct tip_path *w, const char *folder, const struct history *h)
 {
     char name[PATHS_SHOWN][NAME_MAX_LENGTH];
     const int found = probes_with(h, ".K_eq", name, PATHS_SHOWN);
     int n = 0;
     for (int k = 0; k < found; k++) {
-        struct way *a = &w[n];
-        *a = (struct way){.x = plot_sif_column_of(h, name[k], "x"),
-                          .y = plot_sif_column_of(h, name[k], "y"),
-                          .length = plot_sif_column_of(h, name[k], "length")};
+        struct tip_path *a = &w[n];
+        *a = (struct tip_path){.x = plot_sif_column_of(h, name[k], "x"),
+                               .y = plot_sif_column_of(h, name[k], "y"),
+                               .length = plot_sif_column_of(h, name[k], "length")};
         strcpy(a->name, name[k]);
         a->grown = history_at(h, h->rows - 1, a->length);
         if (!(a->grown > 0)) continue;
@@ -151,7 +151,7 @@ static int find_ways(struct way *w, const char *folder, const struct history *h)
 }
 
 /* The data block $wK: the tip from sample to sample, each place once. */
-static void send_way(FILE *to, const struct history *h, const struct way *w, int k, double factor)
+static void send_tip_path(FILE *to, const struct history *h, const struct tip_path *w, int k, double factor)
 {
     double last = -1;
     fprintf(to, "$w%d << EOD\n", k);
@@ -164,7 +164,7 @@ static void send_way(FILE *to, const struct history *h, const struct way *w, int
 }
 
 /* End of the ray at the angle of an experiment [m], on the side to which the tip turned; false: no experiment. */
-static bool ray_of(const struct way *w, double end[2])
+static bool ray_of(const struct tip_path *w, double end[2])
 {
     const double pi = 3.14159265358979323846, along = w->direction * pi / 180;
     const double across = cos(along) * (w->to[1] - w->from[1]) - sin(along) * (w->to[0] - w->from[0]);
@@ -174,7 +174,7 @@ static bool ray_of(const struct way *w, double end[2])
 }
 
 /* Ranges of a square that holds all paths, with room for a part of the initial crack. */
-static void set_square(FILE *to, const struct way *w, int n, const struct unit *metre)
+static void set_square(FILE *to, const struct tip_path *w, int n, const struct unit *metre)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, end[2], side = 0;
     for (int k = 0; k < n; k++)
@@ -193,7 +193,7 @@ static void set_square(FILE *to, const struct way *w, int n, const struct unit *
 }
 
 /* Plots initial cracks, angles of experiments, and paths. */
-static void plot_ways(FILE *to, const struct way *w, int n, const struct unit *metre)
+static void plot_tip_paths(FILE *to, const struct tip_path *w, int n, const struct unit *metre)
 {
     double end[2];
     fputs("plot ", to);
@@ -221,18 +221,18 @@ static void plot_ways(FILE *to, const struct way *w, int n, const struct unit *m
 status paths_draw(const char *folder, const char *title, const struct series *s)
 {
     const struct history *h = s->h;
-    struct way way[PATHS_SHOWN];
+    struct tip_path path[PATHS_SHOWN];
     struct gnuplot g;
-    const int n = find_ways(way, folder, h);
+    const int n = find_tip_paths(path, folder, h);
     if (n == 0) return OK;
-    const struct unit metre = unit_for_length(fmax(fabs(way[0].to[0]), fabs(way[0].to[1])));
+    const struct unit metre = unit_for_length(fmax(fabs(path[0].to[0]), fabs(path[0].to[1])));
     TRY(gnuplot_open(&g, picture_path(folder, DRAWN_PATH, picture_ending[s->format]).text, s->format, 940, 760));
     curves_title(g.to, title, "path of the crack");
-    for (int k = 0; k < n; k++) send_way(g.to, h, &way[k], k, metre.factor);
-    set_square(g.to, way, n, &metre);
+    for (int k = 0; k < n; k++) send_tip_path(g.to, h, &path[k], k, metre.factor);
+    set_square(g.to, path, n, &metre);
     fputs("set lmargin at screen 0.1\nset rmargin at screen 0.74\nset tmargin at screen 0.9\n"
           "set bmargin at screen 0.105\nset key at screen 0.755,0.89 left top\nset samples 2\n",
           g.to);
-    plot_ways(g.to, way, n, &metre);
+    plot_tip_paths(g.to, path, n, &metre);
     return gnuplot_close(&g);
 }

@@ -57,14 +57,14 @@ static double longest_of(const struct history *h, const struct components *c)
 /* A curve: the force of a reaction probe, and what it is drawn over. */
 struct reaction {
     char name[NAME_MAX_LENGTH];
-    struct components force, way;
+    struct components force, displacement;
     int64_t peak; /* row of the largest force */
 };
 struct reactions {
     int n;
     struct reaction of[REACTIONS_SHOWN];
     char over[NAME_MAX_LENGTH]; /* probe whose displacement all are drawn over; "": each over its own */
-    double force, way;          /* largest [N]; largest while there is a force [m] */
+    double force, displacement; /* largest [N]; largest while there is a force [m] */
 };
 
 static int64_t peak_of(const struct history *h, const struct components *force)
@@ -98,26 +98,26 @@ static void reactions_find(struct reactions *r, const struct history *h)
     for (int pass = 0; pass < 2 && r->n == 0; pass++)
         for (int k = 0; (k = probe_from(h, k, ".force_x", name)) >= 0 && r->n < REACTIONS_SHOWN; k++) {
             struct reaction a = {.force = components_of(h, name, "force"),
-                                 .way = components_of(h, name, "displacement")};
-            const bool moves = longest_of(h, &a.way) > 0;
+                                 .displacement = components_of(h, name, "displacement")};
+            const bool moves = longest_of(h, &a.displacement) > 0;
             moving |= moves;
-            if (a.way.n == 0 || (pass == 0 && !moves)) continue;
+            if (a.displacement.n == 0 || (pass == 0 && !moves)) continue;
             memcpy(a.name, name, sizeof name);
             a.peak = peak_of(h, &a.force);
             r->of[r->n++] = a;
         }
     for (int k = 0; !moving && (k = probe_from(h, k, ".displacement_x", name)) >= 0 && !r->over[0]; k++) {
-        const struct components way = components_of(h, name, "displacement");
-        if (!(longest_of(h, &way) > 0)) continue;
+        const struct components displacement = components_of(h, name, "displacement");
+        if (!(longest_of(h, &displacement) > 0)) continue;
         memcpy(r->over, name, sizeof name);
-        for (int m = 0; m < r->n; m++) r->of[m].way = way;
+        for (int m = 0; m < r->n; m++) r->of[m].displacement = displacement;
     }
     for (int m = 0; m < r->n; m++) {
         const double most = longest_of(h, &r->of[m].force);
         r->force = fmax(r->force, most);
         for (int64_t i = 0; i < h->rows; i++)
             if (length_at(h, i, &r->of[m].force) > FORCE_LEFT * most)
-                r->way = fmax(r->way, length_at(h, i, &r->of[m].way));
+                r->displacement = fmax(r->displacement, length_at(h, i, &r->of[m].displacement));
     }
 }
 
@@ -127,7 +127,7 @@ static void reactions_send(FILE *to, const struct history *h, const struct react
     for (int m = 0; m < r->n; m++) {
         fprintf(to, "$f%d << EOD\n", m);
         for (int64_t i = 0; i < h->rows; i++)
-            fprintf(to, "%.9g %.9g\n", length_at(h, i, &r->of[m].way) / metre.factor,
+            fprintf(to, "%.9g %.9g\n", length_at(h, i, &r->of[m].displacement) / metre.factor,
                     length_at(h, i, &r->of[m].force) / newton.factor);
         fputs("EOD\n", to);
     }
@@ -144,7 +144,7 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
                 curve_colour[m]);
         gnuplot_quote(to, a->name);
         snprintf(text, sizeof text, "%.4g %s at %.4g %s", length_at(h, a->peak, &a->force) / newton.factor, newton.name,
-                 length_at(h, a->peak, &a->way) / metre.factor, metre.name);
+                 length_at(h, a->peak, &a->displacement) / metre.factor, metre.name);
         fprintf(to, ", $f%d every ::%lld::%lld with points pt 6 ps 2 lw 2 lc rgb '%s' title ", m, (long long)a->peak,
                 (long long)a->peak, curve_colour[CURVE_COLOURS - 1]);
         gnuplot_quote(to, text);
@@ -158,8 +158,9 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
     struct gnuplot g;
     reactions_find(&r, h);
     if (r.n == 0) return nothing_to_draw(sheet.path, "no reaction probe says what a support bears");
-    if (!(r.way > 0)) return nothing_to_draw(sheet.path, "no support with a reaction probe and no point probe moves");
-    const struct unit newton = unit_for(r.force, "N"), metre = unit_for_length(r.way);
+    if (!(r.displacement > 0))
+        return nothing_to_draw(sheet.path, "no support with a reaction probe and no point probe moves");
+    const struct unit newton = unit_for(r.force, "N"), metre = unit_for_length(r.displacement);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     reactions_send(g.to, h, &r, newton, metre);
     curves_title(g.to, title, "load and displacement");
@@ -167,7 +168,7 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
             "set lmargin at screen 0.1\nset rmargin at screen 0.72\nset tmargin at screen 0.9\n"
             "set bmargin at screen 0.13\nset key at screen 0.735,0.895 left top\nset xrange [0:%.9g]\n"
             "set yrange [0:%.9g]\nset ylabel 'force [%s]'\nset xlabel ",
-            1.15 * r.way / metre.factor, r.force > 0 ? 1.08 * r.force / newton.factor : 1, newton.name);
+            1.15 * r.displacement / metre.factor, r.force > 0 ? 1.08 * r.force / newton.factor : 1, newton.name);
     char label[3 * NAME_MAX_LENGTH];
     snprintf(label, sizeof label, "displacement%s%.63s [%s]", r.over[0] ? " of " : "", r.over, metre.name);
     gnuplot_quote(g.to, label);

@@ -75,11 +75,11 @@ void marks_cracks(struct marks *m)
                  text);
     }
     for (int k = 0; k < s->growths; k++) {
-        double way[DIM_MAX];
-        for (int d = 0; d < s->dim; d++) way[d] = m->arrow * s->growth[k].direction[d];
+        double arrow[DIM_MAX];
+        for (int d = 0; d < s->dim; d++) arrow[d] = m->arrow * s->growth[k].direction[d];
         snprintf(text, sizeof text, "%.40s: a crack grows from here", s->growth[k].name);
         mark_begin(m);
-        mark_place(m, s->growth[k].at, way);
+        mark_place(m, s->growth[k].at, arrow);
         mark_end(m, "using 1:2:3:4 with vectors head filled size screen 0.014,20 lw 2 lc rgb '#7a1020'", text);
     }
 }

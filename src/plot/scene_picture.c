@@ -293,12 +293,12 @@ static status draw_made(struct run *e, const struct scene *s, const struct plot_
 {
     struct path path;
     struct cloud c;
-    if (r->look.outside && s->dim < 3)
+    if (r->projection.outside && s->dim < 3)
         return status_set(REFUSED, "plot: --view is for scenes in space; this one has %d dimension%s", s->dim,
                           s->dim > 1 ? "s" : "");
     TRY(engine_make(e, s, NULL));
     TRY(scene_sheet(&path, s, r));
-    scene_cloud(&c, e, &r->look.camera);
+    scene_cloud(&c, e, &r->projection.camera);
     const int64_t drawn = c.n;
     const status drew = draw_scene((struct sheet){path.text, r->format}, e, &c);
     cloud_free(&c);
