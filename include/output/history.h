@@ -5,8 +5,7 @@
 #include "base/base.h"
 
 struct history {
-    /* Contents of a table with one header line. */
-    int columns;
+    int columns; /* Contents of a table with one header line. */
     char **name; /* [columns] names without units */
     int64_t rows;
     double *value; /* [rows][columns] in SI units; NAN for an empty or non-numeric entry */

@@ -114,13 +114,12 @@ struct frame_state {
 
 /* Quantities in frames besides the particles' own arrays, each [n]. NULL: the frames of this run do not have them. */
 struct frame_extra {
-    real *const *push;            /* [dim] contact force [N] */
-    const int32_t *fragment;      /* index of the fragment, 0 for the heaviest; -1: none */
-    const struct particles *more; /* material points of coarse cells, written after the particles; must stay
-                                   * unchanged until output_wait */
-    real spacing;                 /* spacing of the particles [m] */
-    /* [more->n] spacing of the material points of coarse cells [m] */
-    const real *more_spacing;
+    real *const *push;               /* [dim] contact force [N] */
+    const int32_t *fragment;         /* index of the fragment, 0 for the heaviest; -1: none */
+    const struct particles *more;    /* material points of coarse cells, written after the particles; must stay
+                                      * unchanged until output_wait */
+    real spacing;                    /* spacing of the particles [m] */
+    const real *more_spacing;        /* [more->n] spacing of the material points of coarse cells [m] */
     unsigned asked;                  /* bit set of the requested fields: ASK_STRAIN and so on */
     const struct material *material; /* materials of the particles, borrowed; needed for strain and density */
     enum space space;
@@ -165,8 +164,7 @@ status output_history(struct output *o, const real *value);
 struct frame {
     int64_t n;
     int dim;
-    /* time [s] */
-    real t;
+    real t; /* time [s] */
     int64_t step;
     /* reference position, displacement [m], velocity [m/s], damage [1] */
     float *X[DIM_MAX], *u[DIM_MAX], *v[DIM_MAX], *damage;
@@ -195,10 +193,8 @@ status frame_field_read(const struct frame *f, const char *path, const char *nam
 
 /* Entry of frames.hdf.series. Numbers have gaps where files were lost. */
 struct listed_frame {
-    /* number in the file name */
-    int number;
-    /* [s] */
-    real time;
+    int number; /* number in the file name */
+    real time;  /* [s] */
 };
 
 /* Lists the frames in frames.hdf.series of a run's folder in ascending order. Stores their number in *n and an

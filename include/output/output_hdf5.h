@@ -10,7 +10,9 @@
 
 /* Types of numbers in a file. */
 enum hdf_type { HDF_F32, HDF_F64, HDF_U8, HDF_I32, HDF_I64 };
-size_t hdf_size(enum hdf_type type); /* Returns the size of one number [byte]. */
+
+/* Returns the size of one number [byte]. */
+size_t hdf_size(enum hdf_type type);
 
 /* An open HDF5 file and its first fault. */
 struct hdf {

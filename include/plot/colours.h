@@ -1,29 +1,42 @@
-/* Colours of all pictures: one table for each purpose. */
+/* Colour tables of all pictures. */
 #ifndef CLEAVE_COLOURS
 #define CLEAVE_COLOURS
 
 #include <stdbool.h>
 #include <stdint.h>
 
+/* Colour with 8 bits per channel; alpha 255 is opaque. */
 struct colour {
     uint8_t red, green, blue, alpha;
 };
 
-/* `at` from 0 to 1, else the nearer end; not finite: 1. */
-struct colour colour_sequential(double at); /* dark to light, evenly in lightness */
-struct colour colour_diverging(double at);  /* blue, grey in the middle, red: of signed quantities */
-struct colour colour_damage(double at);
-struct colour colour_bonds(double at); /* damage of peridynamic particles beside material points */
-struct colour colour_points(void);     /* material points */
+/* Returns a colour of a scale for `at` in 0 .. 1; values outside are clamped, NaN and infinity count as 1. Sequential
+ * scale: dark to light, with uniformly increasing lightness. */
+struct colour colour_sequential(double at);
 
-/* Of a fragment by its number; -1: single particles. */
+/* Returns a colour of a diverging scale for signed quantities: blue, grey at 0.5, red. at: as for colour_sequential. */
+struct colour colour_diverging(double at);
+
+/* Returns a colour of the damage scale: grey, orange, dark red. at: damage [1], as for colour_sequential. */
+struct colour colour_damage(double at);
+
+/* Returns the colour of a peridynamic particle in maps of the particle kind: light to dark blue with damage. at:
+ * damage [1], as for colour_sequential. */
+struct colour colour_bonds(double at);
+
+/* Returns the colour of material points in maps of the particle kind. */
+struct colour colour_points(void);
+
+/* Returns the colour of a fragment by its index; -1: particles without bonds. */
 struct colour fragment_colour(int32_t fragment);
-/* Of the k-th material or body: light, so that marks show on it. */
+
+/* Returns the colour of material or body k: light, so that marks drawn over it are visible. Colours repeat. */
 struct colour part_colour(int k);
 
-/* `share` 1: the colour as it is; 0: white. */
+/* Mixes a colour with white. share: 1 returns c, 0 white. */
 struct colour colour_faded(struct colour c, double share);
-/* `share` 1: the colour as it is; 0: black. */
+
+/* Mixes a colour with black. share: 1 returns c, 0 black. */
 struct colour colour_shaded(struct colour c, double share);
 
 #endif

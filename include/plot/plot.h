@@ -1,7 +1,7 @@
-/* Room `plot`: pictures and comparisons of finished or running runs, from their files alone; and of scenes before they
- * run. Commands call it.
+/* Room `plot`: pictures and comparisons of finished or running runs, made from their files alone, and pictures of
+ * scenes before they run. Called by commands.
  *
- * What the files of `cleave plot` share, and what `cleave compare` shares with them. */
+ * This header declares what the files of `cleave plot` share with each other and with `cleave compare`. */
 #ifndef CLEAVE_PLOT
 #define CLEAVE_PLOT
 
@@ -12,248 +12,320 @@
 #include "plot/colours.h"
 #include "plot/gnuplot.h"
 
-/* ---- what is asked for ------------------------------------------------------------------------------------------- */
+/* ---- requests ---------------------------------------------------------------------------------------------------- */
 
+/* Number of panels of a picture: default, largest. */
 enum { PANELS = 6, PANELS_MAX = 24 };
 
-/* Directions of a view in space: unit vectors to the right, upwards and to the viewer. */
+/* Directions of a view of a solid: right-handed unit vectors to the right, upwards and towards the viewer. */
 struct camera {
     double right[3], up[3], towards[3];
 };
+
+/* Isometric view. */
 extern const struct camera camera_isometric;
-/* Along an axis; side: +1, the viewer is on its upper side. */
+
+/* Returns the view along a coordinate axis (0 .. 2). side: +1, the viewer is on the side of larger coordinates; -1, on
+ * the other. */
 struct camera camera_along(int axis, int side);
 
 struct plot_field;
-/* What of a frame is drawn: in space a slice or what is seen from outside, in the plane everything. */
+
+/* Selects the particles of a frame that are drawn: in 3D a slice or an outside view, in 2D all. */
 struct projection {
-    bool outside;         /* else a slice */
-    struct camera camera; /* of `outside` */
-    int normal;           /* of the slice; -1: the thinnest direction */
-    bool placed;
-    double layer;                   /* where it is [m]; else where most damage is */
-    const struct plot_field *field; /* NULL: none but damage, kind and fragment */
-    const float *value;             /* its values in the frame at hand */
-    bool in_steps;                  /* frames are those of load steps */
+    bool outside;                   /* outside view; else a slice */
+    struct camera camera;           /* direction of the outside view */
+    int normal;                     /* normal axis of the slice; -1: the thinnest direction of the body */
+    bool placed;                    /* `layer` is set */
+    double layer;                   /* coordinate of the slice along its normal [m]; default: the slice with the
+                                     * largest sum of damage */
+    const struct plot_field *field; /* field to be drawn; NULL: only damage, kind and fragment */
+    const float *value;             /* [n] values of the field in the current frame */
+    bool in_steps;                  /* the frames are those of load steps */
 };
 
+/* Options of `cleave plot`. */
 struct plot_request {
-    const char *folder;
-    int panels; /* frames evenly spread; 0: as many as suit, all of a film */
-    bool every; /* all frames; of standard pictures one picture each */
-    int times;
-    double time[PANELS_MAX]; /* the nearest frames instead [s] */
-    const char *field;       /* NULL: the standard pictures */
+    const char *folder;      /* folder of the run */
+    int panels;              /* number of frames to show, evenly spread; 0: a default, or all frames of a film */
+    bool every;              /* show all frames; standard pictures: one file per frame */
+    int times;               /* number of entries of `time` */
+    double time[PANELS_MAX]; /* show the frames nearest to these times instead [s] */
+    const char *field;       /* name of the field; NULL: draw the standard pictures */
     struct projection projection;
     enum picture_format format;
-    const char *out; /* file or folder; NULL: DIR/pictures */
-    bool overwrite;  /* `out` may be a file that Cleave has not drawn */
+    const char *out; /* output file or folder; NULL: DIR/pictures */
+    bool overwrite;  /* replace `out` even if Cleave did not draw it */
 };
 
-/* All pictures of a run, or one of a field; what was made is printed. */
+/* Draws all standard pictures of a run and prints their names. */
 status run_pictures(const struct plot_request *r);
+
+/* Draws a picture or film of one field and prints its name and the range of the colours. */
 status field_picture(const struct plot_request *r);
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Is there a file of this name in the folder of a run? */
+/* Returns true if the folder of a run holds the file `name`. */
 bool run_holds(const char *folder, const char *name);
-/* The file of a frame, and frame `number` of a run. */
+
+/* Returns the path of frame `number` of a run. */
 struct path run_frame_path(const char *folder, int number);
+
+/* Reads frame `number` of a run, as frame_read. */
 status run_frame(struct frame *f, const char *folder, int number);
 
+/* The frames of a run and the selected ones. */
 struct run_frames {
     int listed;
     struct listed_frame *list; /* [listed] */
     int shown;
     struct listed_frame *show; /* [shown] frames of the panels */
 };
-/* The frames of a run, and those that the request shows. */
+
+/* Lists the frames of a run and selects those that the request asks for. REFUSED for a time outside the range of the
+ * frames. Release with run_frames_free. */
 status run_frames_choose(struct run_frames *f, const struct plot_request *r);
+
+/* Releases the lists. */
 void run_frames_free(struct run_frames *f);
-/* All frames that are shown. */
+
+/* Reads all selected frames into an allocated array *f, [frames->shown], released with frames_free. */
 status frames_read(struct frame **f, const char *folder, const struct run_frames *frames);
+
+/* Releases n frames and their array. */
 void frames_free(struct frame *f, int n);
 
-/* DIR/pictures. REFUSED where it is a link. */
+/* Creates the folder of pictures, DIR/pictures. REFUSED if a link has this name. */
 status pictures_folder_make(const char *path);
-/* Finds the file that -o names, or one of this name in the folder that it names, and makes missing folders. REFUSED if
- * the file is there already and is no picture of Cleave, unless `overwrite` is set. */
+
+/* Determines the path of a picture from the option -o: `out` is a file, or a folder in which the file `name` is
+ * created. Missing folders are created. REFUSED if the file exists and Cleave did not draw it, unless `overwrite` is
+ * set. */
 status picture_destination(struct path *path, const char *out, const char *name, bool overwrite);
-/* Prints why a picture is not drawn, and removes the picture of Cleave that an earlier command has left there. */
+
+/* Prints that a picture is not drawn and why, and removes the picture of an earlier command if Cleave drew it. */
 status nothing_to_draw(const char *path, const char *why);
 
 enum { TITLE_LENGTH = 256 };
 struct cloud;
-/* `name, method: what`, with the slice of c (NULL: none); parts that are unknown are left out. */
+
+/* Composes the title `name, method: what` of a picture into title[TITLE_LENGTH]; unknown parts are left out. c: adds
+ * the position of its slice and its time; may be NULL. */
 void compose_title(char *title, const char *folder, const char *what, const struct cloud *c);
 
-/* A unit for display: shown = SI / factor. */
+/* Unit for display: displayed value = SI value / factor. */
 struct unit {
     double factor;
     char name[8];
 };
 
-/* The SI prefix under which `largest` has one to three digits: unit_for(2e-5, "s") is microseconds. */
+/* Returns the unit with the SI prefix for which `largest` has one to three digits: microseconds for unit_for(2e-5,
+ * "s"). */
 struct unit unit_for(double largest, const char *name);
-/* Millimetres for anything between 0.5 mm and 10 m. */
+
+/* Returns a unit of length for values up to `largest`: millimetres between 0.5 mm and 10 m. */
 struct unit unit_for_length(double largest);
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
 
-/* Colours of a field: from zero on; as far below it as above; from its least value; or one for each of a few values,
- * which are names. */
+/* Range of the colours of a field: from zero; symmetric about zero; from the least value; or one colour for each of a
+ * few named values. */
 enum field_scale { FROM_ZERO, BOTH_SIGNS, FROM_LEAST, CATEGORY };
 
-/* One number a particle: a component of what a frame holds or what follows from it, or the length of a vector. */
+/* A scalar field: one component of a field of frames or of a derived field, or the magnitude of a vector. */
 struct plot_field {
-    const char *name, *stored; /* of the field, of that in frames */
-    int component;             /* -1: the length */
+    const char *name, *stored; /* name of this field; name of the field in the file from which it is computed */
+    int component;             /* index of the component; -1: magnitude */
     const char *unit;
     enum field_scale scale;
 };
-/* REFUSED with the nearest name for an unknown one, or one that runs of this dimension do not have. */
+
+/* Finds a field by name. REFUSED, with the most similar name, if the name is unknown or the field does not exist in
+ * this dimension. */
 status plot_field_find(const struct plot_field **field, const char *name, int dim);
-/* Its values [f->n] of a frame that was read from `path`; freed with memory_free. */
+
+/* Reads the values of a field, allocated [f->n], at the particles of f, which was read from `path`. Release with
+ * memory_free. */
 status plot_field_read(float **value, const struct plot_field *field, const struct frame *f, const char *path);
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
-/* One frame as a map: all particles in 2D; in 3D a slice, or all of them as seen from outside. */
+/* Particles of one frame that are drawn: all particles in 2D; in 3D a slice, or all in an outside view. Arrays are
+ * [n]. */
 struct cloud {
     int64_t n;
-    float *place[DIM_MAX]; /* current positions along the axes of the map [m]; [2] NULL: it is flat, else
-                            * towards the viewer */
+    float *place[DIM_MAX]; /* current position along the axes of the map [m]; place[2], towards the viewer, is NULL
+                            * for a flat map */
     float *damage;         /* [1] */
     uint8_t *kind;
-    int32_t *fragment;     /* NULL: not known */
-    int32_t fragments;     /* numbers of fragments are below */
-    float *value;          /* of the field [SI]; NULL: none */
-    struct colour *colour; /* of each particle, whatever the map; NULL: by the map */
-    int axis[2], normal;   /* 0..2: x y z; normal -1: no slice */
-    struct camera camera;  /* of a map that is not flat */
-    double layer;          /* where the layer is along the normal [m] */
-    double t;              /* [s] */
-    bool in_steps;
-    int64_t step;          /* is it that of a load step, and of which? */
-    double spacing;        /* of the particles [m] */
-    double tall;           /* half height of a particle of a bar [m]; 0: as wide as high */
-    float *size;           /* [n] of particles and points of coarse cells; NULL: all that spacing [m] */
-    bool aligned;          /* neighbours still lie along the axes */
-    double from[2], to[2]; /* box round reference positions [m] */
+    int32_t *fragment;     /* NULL: unknown */
+    int32_t fragments;     /* number of fragments: largest index + 1 */
+    float *value;          /* values of the field in SI units; NULL: none */
+    struct colour *colour; /* colour of each particle for every map; NULL: determined by the map */
+    int axis[2], normal;   /* axes of the map, 0 .. 2 for x y z; normal of the slice, -1: no slice */
+    struct camera camera;  /* directions of an outside view */
+    double layer;          /* coordinate of the slice along its normal [m] */
+    double t;              /* time [s] */
+    bool in_steps;         /* the frame is that of a load step */
+    int64_t step;          /* number of the time step or load step */
+    double spacing;        /* spacing of the particles [m] */
+    double tall;           /* half height of a particle of a 1D bar [m]; 0: particles are as high as wide */
+    float *size;           /* size of the particles and of the material points of coarse cells [m]; NULL: spacing
+                            * everywhere */
+    bool aligned;          /* nearest neighbours still lie along the axes */
+    double from[2], to[2]; /* bounding box of the reference positions [m] */
 };
-/* `look` NULL: the slice with most damage. */
+
+/* Fills the cloud from a frame. projection: NULL for the slice with the largest damage. Release with cloud_free. */
 void cloud_make(struct cloud *c, const struct frame *f, const struct projection *projection);
+
+/* Releases the arrays of c. */
 void cloud_free(struct cloud *c);
-/* The slice that a look leaves open, by the particles of a frame: normal and place. REFUSED where no particle is near
- * the place that it names. */
+
+/* Completes a slice from the particles of a frame: chooses the normal and the layer if they are not set, and moves a
+ * given layer to the nearest particles. REFUSED if no particle is within one spacing of the given layer. */
 status projection_complete(struct projection *projection, const struct frame *f);
 
-/* Distance of neighbouring particles: median over a sample, reference positions [m]. */
+/* Returns the particle spacing [m]: the median distance of neighbours in the reference positions of a sample of
+ * particles. */
 double frame_spacing(const struct frame *f);
 
+/* Quantity that a map shows. */
 enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRACKS };
 
-/* Values of a field of names that are seen: no more than part_colour can tell apart. */
+/* Number of named values that part_colour can distinguish. */
 enum { CATEGORIES_MOST = 9 };
+
+/* A named value and its colour. */
 struct category {
     struct colour colour;
     char name[NAME_MAX_LENGTH];
 };
+
+/* The named values in a set of clouds; `more` further values are not listed. */
 struct categories {
     int n, more;
     struct category of[CATEGORIES_MOST];
-}; /* more: not listed */
-/* Those of the clouds, with the names of the scene in the run's folder. */
+};
+/* Finds the named values of a field that occur in the clouds. Names of bodies and materials are read from the scene in
+ * the run's folder. */
 void categories_find(struct categories *k, const struct plot_field *field, const char *folder,
                      const struct cloud *cloud, int clouds);
+
+/* Returns the colour of a named value. */
 struct colour category_colour(const struct plot_field *field, float value);
 
-/* Rectangle of the map [m], and how its frames are shown. */
+/* Rectangle of a map and the options of its display. */
 struct view {
-    double from[2], to[2];
-    double top;                     /* damage at the upper end of the colours */
-    const struct plot_field *field; /* of MAP_FIELD, and the values at the ends of its colours */
-    double low, high;
-    const struct categories *categories; /* of MAP_CATEGORY; borrowed */
-    int64_t outside;                     /* particles that are not in the rectangle, in the frame that has most */
+    double from[2], to[2];               /* lower left and upper right corner [m] */
+    double top;                          /* damage at the upper end of the colour scale */
+    const struct plot_field *field;      /* field of MAP_FIELD */
+    double low, high;                    /* values of the field at the ends of the colour scale */
+    const struct categories *categories; /* named values of MAP_CATEGORY; borrowed */
+    int64_t outside;                     /* largest number of particles of a frame outside the rectangle */
     int notches;
-    const struct crack *notch; /* pre-cracks of a plane scene, lines where damage is shown; borrowed */
+    const struct crack *notch; /* [notches] pre-cracks of a plane scene, drawn as lines in maps of damage; borrowed */
 };
-/* Particles of the cracks of MAP_CRACKS: damage that a plane through a whole family of bonds makes is a half. */
+
+/* Particles with at least this damage are cracks in MAP_CRACKS; a plane that cuts all bonds of a family across it
+ * causes damage 1/2. */
 #define CRACK_DAMAGE 0.35
 
-/* The rectangle of all clouds: that of the body with a margin; what few particles fly further is left out. */
+/* Returns the common rectangle of all clouds: the body with a margin. A few particles that are far from the others are
+ * left outside. */
 struct view view_of(const struct cloud *cloud, int clouds);
-/* Colours of a field: from zero, or as far below zero as above it where it has a sign; extreme values of few particles
- * do not count. */
+
+/* Sets the field of a view and the values at the ends of its colour scale, by field->scale. Extreme values of a few
+ * particles are ignored. */
 void view_set_field(struct view *v, const struct plot_field *field, const struct cloud *cloud, int clouds);
-/* Colour of particle i. */
+
+/* Returns the colour of particle i in a map. */
 struct colour particle_colour(const struct view *v, const struct cloud *c, int64_t i, enum map map);
-/* `a` 0..1 of the colours of a map. */
+
+/* Returns the colour at position `a`, 0 .. 1, of the colour scale of a map. */
 struct colour map_colour(const struct view *v, enum map map, double a);
 
-/* Paints the particles, each over its own square (or disc where the lattice has turned), the nearest on top, into
- * width x height pixels, row 0 at the bottom; white and transparent where there is no body. */
+/* Paints the particles of a flat cloud into pixel[height][width], row 0 at the bottom: each on its own square, or disc
+ * where the lattice is rotated; each pixel shows the nearest particle. Pixels without a particle are white and
+ * transparent. */
 void raster_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
                   enum map map);
-/* The same of a cloud that is not flat: cubes, the nearest to the viewer on top. Of MAP_CRACKS those of the cracks, in
- * front of the faded rest. */
+
+/* Paints the particles of an outside view into pixel[height][width], row 0 at the bottom: each as a cube; each pixel
+ * shows the cube nearest to the viewer. MAP_CRACKS paints the cubes of cracks in front of the faded body. */
 void boxes_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
                  enum map map);
 
-/* A format and the pixels of a panel that is to be so wide; 0: as suits. */
+/* Output file of a picture. */
 struct sheet {
     const char *path;
     enum picture_format format;
 };
-/* One picture with a panel for each cloud, a common colour bar, and `title` above. */
+
+/* Draws one picture with a panel for each cloud, a common colour scale or key, and `title` above. FAILED if gnuplot
+ * fails. */
 status maps_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
                  const struct cloud *cloud, int clouds);
 
 /* ---- curves ------------------------------------------------------------------------------------------------------ */
 
-/* What is drawn over time: one row a sample, sent as the gnuplot data block $data. */
+/* Data of curves over time: one row per sample, sent as the gnuplot data block $data. */
 struct series {
     const struct history *h;
-    int time;           /* column; of a run in load steps that of their numbers */
-    struct unit second; /* factor 1, no name, of load steps */
+    int time;           /* column of the time, or of the number of the load step */
+    struct unit second; /* unit of the time; factor 1 without name for load steps */
     enum picture_format format;
 };
-/* Largest |value| of a column; 0 where there is none. */
+
+/* Returns the largest absolute value of a column; 0 if there is none. */
 double curves_largest(const struct history *h, int column);
-/* Sends `columns` over time, each divided by its factor; some thousand rows at most, the last one always. */
+
+/* Sends the time and column[columns], each divided by its factor, as the data block $data. Long histories are thinned
+ * to a few thousand rows that include the last one. */
 void curves_send(FILE *to, const struct series *s, const int *column, const double *factor, int columns);
-/* `title` and `what` above the picture; the axis of time below it. */
+
+/* Writes the commands for a heading above the picture: `title` and `what`. */
 void curves_title(FILE *to, const char *title, const char *what);
+
+/* Writes the commands for the axis of time or load steps below the picture. */
 void curves_time_axis(FILE *to, const struct series *s);
 
-/* sif.png: stress-intensity factors over time, below how far contours differ; nothing without sif probes. */
+/* Draws sif.png: stress-intensity factors over time, and below the spread of the contours. Draws nothing for a run
+ * without sif probes. title: as for curves_title. */
 status sif_bench_draw(const char *folder, const char *title, const struct series *s);
-/* path.png: the paths of tips that growth probes measured, beside the angle of an experiment where the scene
- * tells one; nothing without such probes. */
+
+/* Draws path.png: paths of crack tips from growth probes, with the angle of an experiment if the scene states one.
+ * Draws nothing for a run without such probes. */
 status paths_draw(const char *folder, const char *title, const struct series *s);
 
-/* Has a run gone in load steps? */
+/* Returns true if a run consists of load steps. */
 bool run_in_steps(const char *folder);
-/* Of load steps: force over displacement of each reaction probe, with its peak; release rate over the new area of
- * cracks, beside G_c. */
+
+/* Draws, for a run in load steps, the force over the displacement of each reaction probe, with its peak. */
 status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h);
+
+/* Draws, for a run in load steps, the energy release rate over the new crack area (R-curve), with G_c of the
+ * materials. */
 status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *h);
 
-/* history.csv: crack.png, energy.png, sif.png and path.png (output/pictures.h), in any format of stills; of load steps
- * load_displacement.png and r_curve.png. */
+/* Draws the pictures of history.csv: crack, energy, sif and path; for load steps also load_displacement and r_curve
+ * (names in output/pictures.h). format: one for still pictures. */
 status curves_draw(const char *folder, const char *title, enum picture_format format);
 
-/* One-dimensional frames: velocity, stress, damage along the bar; of a field that alone, with its
- * values [frames]. */
+/* Draws velocity, stress and damage along a bar (1D) for `frames` frames. */
 status profiles_draw(struct sheet sheet, const char *title, const struct frame *frame, int frames);
+
+/* Draws one field along a bar (1D). value[frames]: its values in each frame. */
 status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field, float *const *value,
                            const struct frame *frame, int frames);
 
-/* The name of a probe of the run that has compared a bar with a closed form; false if there is none. */
+/* Finds a probe of the run that compares a bar with a closed-form solution and stores its name. Returns false if there
+ * is none. */
 bool bar_probe(const char *folder, char name[NAME_MAX_LENGTH]);
-/* Its profiles: stress, strain, velocity (and damage, where there is any) beside the closed form, at these frames. */
+
+/* Draws the profiles of such a probe at the frames show[frames]: stress, strain, velocity, and damage if there is any,
+ * with the closed-form solution. */
 status bar_draw(struct sheet sheet, const char *title, const char *folder, const char *probe,
                 const struct listed_frame *show, int frames);
 

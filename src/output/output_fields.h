@@ -13,11 +13,9 @@ struct frame_source {
 
 /* Describes a dataset with one row per particle (or material point of a coarse cell). */
 struct frame_field {
-    /* path in the file; unit as people write it, "" for a pure number */
-    const char *path, *unit;
+    const char *path, *unit; /* path in the file; unit as people write it, "" for a pure number */
     enum hdf_type type;
-    /* numbers per row; 0: dim */
-    int columns;
+    int columns; /* numbers per row; 0: dim */
     /* Writes the row of particle i. For fields that are constant during a run; called by the writing thread. Else
      * NULL. */
     void (*fill)(const struct particles *p, int64_t i, void *row);

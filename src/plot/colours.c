@@ -1,5 +1,5 @@
-/* The tables of colours. All of them remain apart for any colour vision; those of quantities change evenly in
- * lightness, so that they can be read in grey print. */
+/* Colour tables. Colours are distinguishable with any colour vision; the lightness of scales changes uniformly, so that
+ * they remain readable in grey. */
 #include "plot/colours.h"
 
 #include <math.h>
@@ -11,12 +11,13 @@ struct stop {
     double at, red, green, blue;
 };
 
-/* viridis (Smith & van der Walt 2015), every eighth of it. */
+/* Every eighth colour of viridis (Smith & van der Walt 2015). */
 static const struct stop sequential[] = {
     {0.000, 68, 1, 84},    {0.125, 71, 45, 123}, {0.250, 59, 82, 139},  {0.375, 44, 114, 142}, {0.500, 33, 145, 140},
     {0.625, 40, 174, 128}, {0.750, 94, 201, 98}, {0.875, 173, 220, 48}, {1.000, 253, 231, 37},
 };
-/* RdBu of ColorBrewer (Harrower & Brewer 2003), blue first; grey in the middle, to be told from paper. */
+
+/* RdBu of ColorBrewer (Harrower & Brewer 2003), blue first; the middle is grey to differ from white paper. */
 static const struct stop diverging[] = {
     {0.0, 5, 48, 97},     {0.1, 33, 102, 172},  {0.2, 67, 147, 195},  {0.3, 146, 197, 222},
     {0.4, 200, 217, 228}, {0.5, 226, 226, 226}, {0.6, 240, 209, 192}, {0.7, 244, 165, 130},
@@ -51,8 +52,8 @@ struct colour colour_damage(double at) { return along_stops(damage_stops, COUNT_
 struct colour colour_bonds(double at) { return along_stops(bond_stops, COUNT_OF(bond_stops), at); }
 struct colour colour_points(void) { return (struct colour){236, 233, 226, 255}; }
 
-/* The heaviest fragment is light grey; nine colours in turn for the others, apart in lightness and hue; what has no
- * bond is nearly black. */
+/* Fragment 0, the heaviest, is light grey; nine colours that differ in lightness and hue repeat for the others;
+ * particles without bonds are nearly black. */
 struct colour fragment_colour(int32_t fragment)
 {
     static const struct colour turn[] = {{68, 119, 170, 255}, {238, 153, 51, 255},  {34, 136, 51, 255},
@@ -63,7 +64,7 @@ struct colour fragment_colour(int32_t fragment)
     return turn[(size_t)(fragment - 1) % COUNT_OF(turn)];
 }
 
-/* The light scheme of Tol (2021). */
+/* Light qualitative scheme of Tol (2021). */
 struct colour part_colour(int k)
 {
     static const struct colour turn[] = {{187, 204, 220, 255}, {238, 221, 136, 255}, {187, 204, 51, 255},

@@ -1,5 +1,5 @@
-/* Films by ffmpeg, which is started without a shell and reads its pictures from a pipe, one after the other: no folder
- * of pictures is left behind, and no name of a file is taken for a pattern or an address. */
+/* Films by ffmpeg, which is started without a shell and reads its pictures from a pipe: no folder of pictures remains,
+ * and no file name is interpreted as a pattern or an address. */
 #include "plot/film.h"
 
 #include <errno.h>
@@ -18,14 +18,14 @@
 enum { NOT_FOUND = 127, FILM_WORDS = 24 };
 static const char *const FRAMES_PER_SECOND = "8";
 
-/* An ffmpeg that reads pictures. */
+/* A running ffmpeg that reads pictures. */
 struct ffmpeg {
-    int to, process;  /* its standard input; -1: closed */
-    FILE *complaints; /* its standard error */
+    int to, process;  /* standard input of ffmpeg, -1: closed; process id */
+    FILE *complaints; /* standard error of ffmpeg */
 };
 
-/* Child process: standard input is `from` (-1: nothing), output and errors go to the file `complaints` (-1: nowhere).
- */
+/* Runs in the child process: executes ffmpeg with standard input `from` (-1: none) and its output and errors in the
+ * file `complaints` (-1: discarded). word: arguments. */
 static _Noreturn void become_ffmpeg(char *const *word, int from, int complaints)
 {
     const int nothing = open("/dev/null", O_RDWR);
@@ -50,7 +50,7 @@ status film_possible(void)
                                        "or take --format png");
 }
 
-/* A pipe whose ends no program that is started later keeps open; false: none, with errno. */
+/* Creates a pipe whose ends are closed in programs started later. Returns false and sets errno on a fault. */
 static bool pipe_make(int *ends)
 {
     if (pipe(ends) != 0) return false;
@@ -58,8 +58,8 @@ static bool pipe_make(int *ends)
     return true;
 }
 
-/* Starts ffmpeg on the film PATH.cleave.tmp: one that plays everywhere (H.264, even sizes), or a GIF by a palette of
- * its own. */
+/* Starts ffmpeg for the film PATH.cleave.tmp: H.264 with even sizes, which most players support, or a GIF with a
+ * palette of its own. */
 static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet)
 {
     struct path to;
@@ -91,7 +91,8 @@ static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet)
     return OK;
 }
 
-/* Writes a file into the pipe. FAILED without a message if ffmpeg reads no more: it says why. */
+/* Writes a file into the pipe. FAILED without a message if ffmpeg has stopped reading: its own message states the
+ * cause. */
 static status ffmpeg_feed(struct ffmpeg *f, const char *picture)
 {
     char *bytes;
@@ -107,7 +108,8 @@ static status ffmpeg_feed(struct ffmpeg *f, const char *picture)
     return sent == length ? OK : status_set(FAILED, "%s", "");
 }
 
-/* Ends the input of ffmpeg and waits for the film. `fed`: of the pictures. FAILED with ffmpeg's own words. */
+/* Closes the input of ffmpeg and waits for the film. fed: status of writing the pictures. FAILED with ffmpeg's
+ * message. */
 static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
 {
     char reason[256];
@@ -136,7 +138,7 @@ status film_draw(struct sheet sheet, const char *title, enum map map, const stru
     if (length >= (int)(sizeof picture.text - sizeof ASIDE_ENDING))
         return status_set(FAILED, "%s: the name is too long", sheet.path);
     TRY(file_guard(sheet.path));
-    unlink(path_aside(sheet.path).text); /* links of this name are not followed */
+    unlink(path_aside(sheet.path).text); /* a link of this name is not followed */
     status s = ffmpeg_start(&f, sheet);
     for (int k = 0; s == OK && k < clouds; k++) {
         leaving_set(LEAVING_FRAME, picture.text, 0);

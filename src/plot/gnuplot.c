@@ -1,4 +1,4 @@
-/* Starts gnuplot without a shell, sets the style of all pictures, waits for the picture. */
+/* Starts gnuplot without a shell, sets the common style of pictures and waits for the picture. */
 #include "plot/gnuplot.h"
 
 #include <ctype.h>
@@ -27,13 +27,14 @@ void gnuplot_quote(FILE *to, const char *text)
 {
     putc('\'', to);
     for (; *text != '\0'; text++) {
-        if (*text == '\'') putc('\'', to); /* doubled: a quote itself */
+        if (*text == '\'') putc('\'', to); /* a quote is written twice */
         putc(iscntrl((unsigned char)*text) ? ' ' : *text, to);
     }
     putc('\'', to);
 }
 
-/* Child process: standard input is the pipe, output and errors go to the file `complaints`; executes gnuplot. */
+/* Runs in the child process: executes gnuplot with standard input from the pipe and its output and errors in the file
+ * `complaints`. */
 static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
 {
     leavings_child();
@@ -43,22 +44,22 @@ static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
     dup2(complaints, STDERR_FILENO);
     close(pipe_ends[0]);
     close(pipe_ends[1]);
-    setenv("GNUTERM", "unknown", 1);                  /* no window */
-    execlp("gnuplot", "gnuplot", "-d", (char *)NULL); /* -d: without settings of the user */
+    setenv("GNUTERM", "unknown", 1);                  /* opens no window */
+    execlp("gnuplot", "gnuplot", "-d", (char *)NULL); /* -d: ignores the user's settings */
     _exit(NOT_FOUND);
 }
 
-/* Starts gnuplot with a pipe to it, g->to, and a file for its messages, g->complaints. */
+/* Starts gnuplot: opens a pipe to it, g->to, and a file for its messages, g->complaints. */
 static status gnuplot_start(struct gnuplot *g)
 {
     int ends[2];
-    remove(g->aside); /* links of this name are not followed */
+    remove(g->aside); /* a link of this name is not followed */
     const int own = open(g->aside, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    g->complaints = own < 0 ? NULL : fdopen(own, "w+"); /* an unlinked file, beside the picture */
+    g->complaints = own < 0 ? NULL : fdopen(own, "w+"); /* an unlinked file in the folder of the picture */
     if (g->complaints == NULL) return status_set(FAILED, "cannot write %s: %s", g->path, strerror(errno));
     remove(g->aside);
     if (pipe(ends) != 0) return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(errno));
-    signal(SIGPIPE, SIG_IGN); /* a gnuplot that ends early is an error, not a signal */
+    signal(SIGPIPE, SIG_IGN); /* an early end of gnuplot becomes an error instead of a signal */
     g->process = (int)fork();
     if (g->process == 0) become_gnuplot(ends, fileno(g->complaints));
     close(ends[0]);
@@ -69,7 +70,7 @@ static status gnuplot_start(struct gnuplot *g)
     g->to = fdopen(ends[1], "w");
     if (g->to != NULL) return OK;
     int cause = errno;
-    close(ends[1]); /* or child and parent would wait for each other */
+    close(ends[1]); /* an open copy of this end would keep gnuplot waiting for input */
     return status_set(FAILED, "%s: no pipe to gnuplot: %s", g->path, strerror(cause));
 }
 
@@ -78,7 +79,7 @@ static void set_style(FILE *to)
     fputs("set encoding utf8\n"
           "set border 3 lw 0.8 lc rgb '#555555'\n"
           "set tics nomirror out scale 0.5 textcolor rgb '#333333'\n"
-          "set format '%g'\n" /* its own begins with a blank: numbers beside their tics */
+          "set format '%g'\n" /* the default format begins with a blank, which shifts the numbers from their tics */
           "set xlabel textcolor rgb '#333333'\nset ylabel textcolor rgb '#333333'\n"
           "set y2label textcolor rgb '#333333'\n"
           "set title textcolor rgb '#222222'\n"
@@ -90,10 +91,11 @@ static void set_style(FILE *to)
         fprintf(to, "set linetype %d lc rgb '%s' lw 2.2 pt 7 ps 0.6\n", k + 1, curve_colour[k]);
 }
 
-/* Pixels of a picture on paper: a picture 1000 pixels wide is as wide as a page of text, its letters as those. */
+/* Resolution on paper: a picture of 1000 pixels is then as wide as a text page, with letters of the size of the
+ * text. */
 #define PIXELS_PER_INCH 144.0
 
-/* SVG, PDF, or PNG by pngcairo, which has smooth edges, where gnuplot has it. */
+/* Selects the terminal: SVG, PDF, or PNG by pngcairo (antialiased) if gnuplot has it. */
 static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height)
 {
     if (format == PICTURE_SVG)
@@ -136,7 +138,7 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
                 REFUSED, "%s: gnuplot draws into no folder whose name holds a line break or other control character",
                 path);
     g->path = strdup(path);
-    /* gnuplot takes a name that begins with a bar for a command */
+    /* gnuplot interprets a name that begins with a bar as a command. */
     if (g->path == NULL || asprintf(&g->aside, "%s%s" ASIDE_ENDING, path[0] == '/' ? "" : "./", path) < 0) {
         g->aside = NULL;
         gnuplot_release(g);

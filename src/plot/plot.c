@@ -29,11 +29,11 @@ static status draw_map(const struct plot_request *r, const char *path, enum map 
     return maps_draw((struct sheet){path, r->format}, title, map, view, cloud, clouds);
 }
 
-/* What the frames have that a map would show. */
+/* Content of the frames that maps would show. */
 struct contents {
     bool damage, cracks, kinds;
     double cracked;
-}; /* cracked: share of particles in the last frame */
+}; /* cracked: share of particles on cracks in the last frame */
 
 static struct contents contents_of(const struct cloud *cloud, int clouds)
 {
@@ -49,7 +49,7 @@ static struct contents contents_of(const struct cloud *cloud, int clouds)
     return has;
 }
 
-/* Draws one picture of each kind per frame. */
+/* Draws, for each frame, one picture of each kind. */
 static status draw_every(const struct plot_request *r, const struct run_frames *frames, const struct view *view)
 {
     for (int k = 0; k < frames->listed; k++) {
@@ -67,7 +67,7 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
     return OK;
 }
 
-/* Damage and kinds of flat clouds, where there are any. */
+/* Draws damage and kinds of flat clouds, if the frames have any. */
 static status draw_views(const struct plot_request *r, const struct run_frames *frames, const struct cloud *cloud,
                          const struct scene *scene)
 {
@@ -90,7 +90,8 @@ static status draw_views(const struct plot_request *r, const struct run_frames *
     return r->every ? draw_every(r, frames, &view) : OK;
 }
 
-/* The scene, as run, has the pre-cracks; pictures of a folder without one go without. */
+/* Draws the maps of flat clouds. Pre-cracks are read from the scene.yaml of the run; without this file they are left
+ * out. */
 static status draw_flat(const struct plot_request *r, const struct run_frames *frames, const struct cloud *cloud)
 {
     struct scene scene;
@@ -100,7 +101,7 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
     return s;
 }
 
-/* A solid from outside, and its cracks. */
+/* Draws a solid in an outside view, and its cracks. */
 static status draw_outside(const struct plot_request *r, const struct run_frames *frames, const struct cloud *cloud)
 {
     const struct view view = view_of(cloud, frames->shown);
@@ -112,8 +113,10 @@ static status draw_outside(const struct plot_request *r, const struct run_frames
     return draw_map(r, cracks.text, MAP_CRACKS, &view, cloud, frames->shown);
 }
 
-/* Reads the frames that are shown as clouds, and hands them on. */
+/* Draws pictures of clouds, cloud[frames->shown]. */
 typedef status draw_clouds_fn(const struct plot_request *r, const struct run_frames *frames, const struct cloud *cloud);
+
+/* Reads the selected frames as clouds and calls `draw`. */
 static status draw_clouds(const struct plot_request *r, const struct run_frames *frames, draw_clouds_fn *draw)
 {
     struct cloud *cloud = NEW("plot.clouds", frames->shown, struct cloud);
@@ -133,7 +136,7 @@ static status draw_clouds(const struct plot_request *r, const struct run_frames 
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
-/* Draws the profiles of a bar beside its closed form, without the frame of t = 0. */
+/* Draws the profiles of a bar with the closed-form solution of a probe, without the frame at t = 0. */
 static status plot_draw_bar(const struct plot_request *r, const struct run_frames *frames, const char *probe)
 {
     char title[TITLE_LENGTH];
@@ -143,7 +146,7 @@ static status plot_draw_bar(const struct plot_request *r, const struct run_frame
                     frames->show + skipped, frames->shown - skipped);
 }
 
-/* Draws profiles of a bar: beside its closed form if a probe has one, else of the particles. */
+/* Draws profiles of a bar: with the closed-form solution if a probe has one, else from the particles. */
 static status draw_profiles(const struct plot_request *r, const struct run_frames *frames)
 {
     char title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];

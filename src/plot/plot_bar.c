@@ -1,4 +1,4 @@
-/* Profiles of a bar beside its closed form. */
+/* Profiles of a bar with a closed-form solution. */
 #include <dirent.h>
 #include <math.h>
 #include <stdlib.h>
@@ -10,9 +10,9 @@
 
 enum { PATH_LENGTH = 4096, QUANTITIES = 4, DIGITS = 6 };
 
-#define TINT "#e8f1f9" /* background of peridynamic parts, where the bar has both kinds */
+#define TINT "#e8f1f9" /* background of peridynamic parts of a bar with both kinds */
 
-/* Panels from top to bottom, by columns of the files of the probe. */
+/* Panels from top to bottom: names of the computed and exact columns in the files of the probe, label and unit. */
 static const struct {
     const char *computed, *exact, *label, *unit;
 } quantity[QUANTITIES] = {
@@ -32,7 +32,8 @@ static status profile_read(struct history *h, const char *folder, const char *pr
     return history_read_file(h, path);
 }
 
-/* True if `file` is the profile of a first frame and has the columns of a closed form; `name`: its probe. */
+/* Returns true if `file` is the profile at the first frame and has the columns of a closed-form solution; stores the
+ * name of its probe. */
 static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_LENGTH])
 {
     const char ending[] = "_000000.csv";
@@ -47,7 +48,7 @@ static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_
     return has;
 }
 
-/* The first probe by name, independent of the order of the folder. */
+/* Chooses the first probe in alphabetical order, so that the choice does not depend on the order of the folder. */
 bool bar_probe(const char *folder, char name[NAME_MAX_LENGTH])
 {
     char here[NAME_MAX_LENGTH];
@@ -80,7 +81,7 @@ static void extend(struct scale *s, const struct history *h, const char *column)
     }
 }
 
-/* 10 to a power, with raised digits. */
+/* Writes a power of ten with superscript digits in UTF-8. text: capacity `room` [byte]. */
 static void power_text(char *text, size_t room, int power)
 {
     static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -88,7 +89,8 @@ static void power_text(char *text, size_t room, int power)
     snprintf(text, room, "10%s%s%s", power < 0 ? "⁻" : "", size > 9 ? raised[size / 10 % 10] : "", raised[size % 10]);
 }
 
-/* Strains in powers of ten, the rest in SI prefixes; a margin above and below. */
+/* Returns the scale of panel q with a margin at both ends: strains in powers of ten, other quantities with SI
+ * prefixes. */
 static struct scale scale_of(const struct history *h, int frames, int q)
 {
     struct scale s = {.factor = 1};
@@ -125,7 +127,7 @@ static void send_number(FILE *to, double a)
         fputs(" NaN", to);
 }
 
-/* The data block $fK: x, then computed and exact of every panel. */
+/* Sends the data block $fK: x, then computed and exact values of every panel. metre: unit of x [m]. */
 static void send_frame(FILE *to, const struct history *h, int k, double metre, const struct scale *scale)
 {
     fprintf(to, "$f%d << EOD\n", k);
@@ -141,8 +143,8 @@ static void send_frame(FILE *to, const struct history *h, int k, double metre, c
     fputs("EOD\n", to);
 }
 
-/* Tints the peridynamic parts of a frame behind the curves; false if the frame has one kind only. half: half a spacing
- * [m]. */
+/* Colours the background of the peridynamic parts of a frame. half: half a spacing [m]. Returns false if the frame has
+ * particles of one kind only. */
 static bool tint_kinds(FILE *to, const struct history *h, double metre, double half)
 {
     int x = history_column(h, "x"), kind = history_column(h, "kind"), parts = 0;
@@ -161,7 +163,7 @@ static bool tint_kinds(FILE *to, const struct history *h, double metre, double h
     return true;
 }
 
-/* Curves of panel q for the frames shown, each with its exact solution dashed. */
+/* Plots the curves of panel q for the selected frames, exact solutions dashed. */
 static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int frames, bool tinted)
 {
     struct unit second = unit_for(show[frames - 1].time, "s");
@@ -182,7 +184,8 @@ static status plot_bar_draw(struct sheet sheet, const char *title, const struct 
     struct gnuplot g;
     struct scale scale[QUANTITIES], x = {.low = INFINITY, .high = -INFINITY};
     for (int q = 0; q < QUANTITIES; q++) scale[q] = scale_of(h, frames, q);
-    int panels = QUANTITIES - scale[QUANTITIES - 1].zero; /* damage, the last, where there is any */
+    int panels = QUANTITIES - scale[QUANTITIES - 1].zero; /* the last panel, damage, is left out if damage is zero
+                                                           * everywhere */
     for (int k = 0; k < frames; k++) extend(&x, &h[k], "x");
     int at = history_column(&h[0], "x");
     double half = h[0].rows > 1 ? 0.5 * fabs(history_at(&h[0], 1, at) - history_at(&h[0], 0, at)) : 0;

@@ -1,29 +1,32 @@
-/* A solid as pixels: every particle is a cube of the lattice, seen along parallel lines; of those that cover a pixel
- * the one nearest to the viewer is shown. A face of the body is then an even colour, as its cubes show the same face,
- * and the three faces are told apart by their shade. No light is needed, nor any search for the surface. */
+/* Paints an outside view of a solid: every particle is a cube of the lattice in parallel projection, and each pixel
+ * shows the nearest cube. A face of the body has one colour because its cubes show the same face; the three directions
+ * differ in brightness. Neither lighting nor surface detection is needed. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "plot/plot.h"
 
-/* Half a spacing, and a little to close the seams of a strained lattice. */
+/* Half size of a cube over the spacing; slightly more than 0.5 to close the gaps of a strained lattice. */
 static const double HALF = 0.52;
-/* Brightness of faces whose normal is x, y, z. Along an axis one face alone is seen: it has the colours of the bar. */
+
+/* Brightness of faces with normal x, y, z. In a view along an axis the only visible face has full brightness, as the
+ * colour bar. */
 static const double SHADE[3] = {0.74, 0.87, 1};
-static const double STRAIGHT = 0.999; /* cosine */
-/* How much of its colour the body keeps behind its cracks. */
+static const double STRAIGHT = 0.999; /* cosine of the angle to an axis below which a view is along this axis */
+/* Share of its colour that the body keeps behind its cracks. */
 static const double GHOST = 0.45;
 
 struct scene_canvas {
     struct colour *pixel;
-    float *depth; /* of what is painted there, towards the viewer [m] */
+    float *depth; /* [height][width] depth of the painted surface, towards the viewer [m] */
     int size[2];
-    double per_metre[2]; /* pixels */
+    double per_metre[2]; /* pixels per metre */
     const struct view *view;
 };
 
-/* Where the line of sight through `at` (in the plane of the picture, from the middle of the cube) leaves the cube of
- * this half size, towards the viewer [m], and the axis of the face there; -1: it misses the cube. */
+/* Intersects a line of sight with a cube. at: point of the line in the picture plane relative to the cube's centre [m];
+ * half: half sizes [m]. Returns the axis of the face through which the line leaves the cube towards the viewer and
+ * stores the depth of that point [m]; -1 if the line misses the cube. */
 static int leaves_cube(const struct camera *eye, const double *half, const double *at, double *depth)
 {
     double enters = -INFINITY, leaves = INFINITY;
@@ -42,7 +45,7 @@ static int leaves_cube(const struct camera *eye, const double *half, const doubl
     return enters < leaves ? face : -1;
 }
 
-/* Half sizes of a particle's cube [m]; one that is smaller than a pixel is painted as one. */
+/* Computes the half sizes of a particle's cube [m]; a cube smaller than a pixel is enlarged to one pixel. */
 static void cube_of(const struct scene_canvas *v, const struct cloud *c, int64_t i, double *half)
 {
     const double least = 0.6 / v->per_metre[0], own = HALF * (c->size ? c->size[i] : c->spacing);
@@ -60,7 +63,7 @@ static void paint_cube(struct scene_canvas *v, const struct cloud *c, int64_t i,
     for (int a = 0; a < 2; a++) {
         at[a] = c->place[a][i] - v->view->from[a];
         const double low = (at[a] - reach[a]) * v->per_metre[a], high = (at[a] + reach[a]) * v->per_metre[a];
-        if (!(high > 0 && low < v->size[a])) return; /* outside, or not a number */
+        if (!(high > 0 && low < v->size[a])) return; /* outside the picture, or NaN */
         from[a] = (int)fmax(ceil(low - 0.5), 0);
         to[a] = (int)fmin(floor(high - 0.5), v->size[a] - 1);
     }

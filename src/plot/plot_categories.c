@@ -1,5 +1,5 @@
-/* Fields whose values are names (kind, body, material, fragment, level): a colour for each value, and what the key says
- * of those that are seen. */
+/* Fields with named values (kind, body, material, fragment, level): a colour for each value, and the key of the values
+ * that occur. */
 #include <math.h>
 #include <string.h>
 
@@ -14,7 +14,8 @@ struct colour category_colour(const struct plot_field *field, float value)
     return strcmp(field->name, "fragment") == 0 ? fragment_colour((int32_t)value) : part_colour((int)value);
 }
 
-/* The name of a value; that of bodies and materials is the scene's (NULL: not known). */
+/* Writes the name of a value; names of bodies and materials are those of the scene s (NULL: unknown). name: capacity
+ * `room` [byte]. */
 static void category_name(char *name, size_t room, const char *field, int value, const struct scene *s)
 {
     const char *known = NULL;
@@ -29,14 +30,14 @@ static void category_name(char *name, size_t room, const char *field, int value,
         snprintf(name, room, "%s %d", field, value);
 }
 
-/* From -1 on, also of files that hold other numbers. */
+/* Returns the value of particle i, at least -1 also for damaged files. */
 static int category_value(const struct cloud *c, int64_t i)
 {
     static const float MOST = 1 << 24;
     return (int)fminf(fmaxf(c->value[i], -1), MOST);
 }
 
-/* Which values the clouds have; the largest through `last`. */
+/* Returns an allocated array of flags of the values that occur in the clouds; stores the largest value in *last. */
 static bool *values_seen(int *last, const struct cloud *cloud, int clouds)
 {
     *last = -1;

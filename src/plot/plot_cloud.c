@@ -1,4 +1,4 @@
-/* The particles of a frame that a map shows, and the rectangle that shows them. */
+/* Selects the particles of a frame that a map shows. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "plot/plot.h"
 
-/* Number of sampled particles, and of comparisons of distances, for the estimate of the spacing. */
+/* Number of sampled particles, and of distance comparisons, to estimate the spacing. */
 enum { SAMPLES = 200, SAMPLES_MIN = 9 };
 static const double COMPARISONS = 2e7;
 
@@ -19,7 +19,8 @@ static int64_t sample_count(int64_t n)
     return samples < n ? samples : n;
 }
 
-/* Mean distance of the `dim` nearest particles of i: a corner of a lattice has that many at one spacing. */
+/* Returns the mean distance of the `dim` nearest neighbours of particle i [m]: even the corner of a lattice has `dim`
+ * neighbours at one spacing. */
 static double near_distance(const struct frame *f, int64_t i)
 {
     double nearest[DIM_MAX];
@@ -27,7 +28,7 @@ static double near_distance(const struct frame *f, int64_t i)
     for (int64_t j = 0; j < f->n; j++) {
         double r2 = j == i ? INFINITY : 0;
         for (int d = 0; d < f->dim; d++) r2 += square((double)f->X[d][j] - f->X[d][i]);
-        for (int k = 0; k < f->dim; k++) { /* insert, keeping ascending order */
+        for (int k = 0; k < f->dim; k++) { /* insert in ascending order */
             if (r2 >= nearest[k]) continue;
             double passed = nearest[k];
             nearest[k] = r2;
@@ -59,7 +60,7 @@ double frame_spacing(const struct frame *f)
     return median_of(distance, known);
 }
 
-/* True if the nearest neighbour in the map lies within 8 degrees of an axis. */
+/* Returns true if the nearest neighbour in the map is within 8 degrees of an axis. */
 static bool lies_along(const struct cloud *c, int64_t i)
 {
     double best = INFINITY, along = 0, across = 1;
@@ -91,7 +92,7 @@ static void frame_extent(const struct frame *f, int d, double *from, double *to)
     }
 }
 
-/* Thinnest direction of a solid, the last of equals. */
+/* Returns the thinnest direction of a solid; the last of equal ones. */
 static int thinnest_direction(const struct frame *f)
 {
     double thinnest = INFINITY;
@@ -99,14 +100,14 @@ static int thinnest_direction(const struct frame *f)
     for (int d = 0; d < 3; d++) {
         double from, to;
         frame_extent(f, d, &from, &to);
-        if (to - from > thinnest * (1 + 1e-5)) continue; /* single precision: equal is not exact */
+        if (to - from > thinnest * (1 + 1e-5)) continue; /* tolerance: positions are in single precision */
         thinnest = to - from;
         normal = d;
     }
     return normal;
 }
 
-/* The coordinate of a particle that is nearest to `wanted`. */
+/* Returns the coordinate of the particle nearest to `wanted` [m]. */
 static double nearest_coordinate(const struct frame *f, int normal, double wanted)
 {
     double best = INFINITY, at = wanted;
@@ -119,8 +120,8 @@ static double nearest_coordinate(const struct frame *f, int normal, double wante
     return at;
 }
 
-/* Where the sum of damage over a layer is largest; the nearest to the middle of layers that have nearly as much, or of
- * all where nothing is damaged. */
+/* Returns the coordinate of the layer with the largest sum of damage [m]; among layers with at least 0.98 of this sum,
+ * and among all layers of an undamaged body, the one nearest to the middle. */
 static double damaged_layer(const struct frame *f, int normal)
 {
     enum { LAYERS_MAX = 100000 };
@@ -181,7 +182,7 @@ struct camera camera_along(int axis, int side)
     return c;
 }
 
-/* Current position of a particle [m]. */
+/* Computes the current position of a particle [m]. */
 static void place_now(const struct frame *f, int64_t i, double *x)
 {
     for (int d = 0; d < 3; d++) x[d] = d < f->dim ? (double)f->X[d][i] + f->u[d][i] : 0;
@@ -192,7 +193,8 @@ static double along(const double *direction, const double *x)
     return direction[0] * x[0] + direction[1] * x[1] + direction[2] * x[2];
 }
 
-/* Places of particle k of the cloud; the box of reference positions grows. */
+/* Appends particle i to the cloud: its position along the axes of the map; extends the bounding box of reference
+ * positions. */
 static void cloud_place(struct cloud *c, const struct frame *f, int64_t i)
 {
     const int64_t k = c->n;
@@ -218,7 +220,7 @@ static void cloud_allocate(struct cloud *c, const struct frame *f, const struct 
     if (projection->value) c->value = NEW("plot.value", f->n, float);
 }
 
-/* Axes of the map: x y, those of a slice, or those of a camera. */
+/* Sets the axes of the map: x and y in 2D, the in-plane axes of a slice, or the directions of a camera. */
 static void cloud_axes(struct cloud *c, const struct frame *f, const struct projection *projection)
 {
     c->camera = f->dim == 3 && projection->outside ? projection->camera : camera_along(2, 1);

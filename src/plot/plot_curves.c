@@ -1,4 +1,4 @@
-/* Curves: crack and share of peridynamics, energies, profiles along a bar. */
+/* Curves: crack length and PD share, energies, profiles along a bar. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,7 +59,7 @@ void curves_time_axis(FILE *to, const struct series *s)
 
 /* ---- crack ------------------------------------------------------------------------------------------------------- */
 
-/* An axis from zero to `top`, in the colour of its curve. */
+/* Sets an axis from zero to `top` in the colour of its curve. */
 static void set_axis(FILE *to, const char *axis, const char *label, int colour, double top)
 {
     fprintf(to,
@@ -68,7 +68,7 @@ static void set_axis(FILE *to, const char *axis, const char *label, int colour, 
             axis, label, curve_colour[colour], axis, curve_colour[colour], axis, top > 0 ? top : 1);
 }
 
-/* Crack length and share of peridynamic particles over time. */
+/* Draws crack length and share of peridynamic particles over time. */
 static status draw_crack(struct sheet sheet, const char *title, const struct series *s)
 {
     int column[2] = {history_column(s->h, "crack_length"), history_column(s->h, "pd_share")};
@@ -104,10 +104,10 @@ struct energies {
     struct unit joule;
 };
 
-/* Least part of the largest energy whose curve can be told from the axis. */
+/* Energies below this fraction of the largest one are not drawn: their curves coincide with the axis. */
 #define ENERGY_SHOWN 5e-4
 
-/* Chooses the columns of energies that exist and can be seen. */
+/* Selects the columns of energies that exist and are large enough to be visible. */
 static void choose_energies(struct energies *e, const struct history *h)
 {
     double largest = 0;
@@ -123,7 +123,7 @@ static void choose_energies(struct energies *e, const struct history *h)
     for (int k = 0; k < e->n; k++) e->factor[k] = e->joule.factor;
 }
 
-/* Plots all energies, and their sum (external work left out) dashed. */
+/* Plots all energies, and their sum without external work dashed. */
 static void plot_energies(FILE *to, const struct energies *e)
 {
     fputs("plot ", to);
@@ -136,7 +136,7 @@ static void plot_energies(FILE *to, const struct energies *e)
     fputs(") with lines lw 1.6 dt (6,4) lc rgb '#3d3d3d' title 'sum'\n", to);
 }
 
-/* A round distance of tics that leaves one or two of them between 0 and `top`. */
+/* Returns a round distance of tics that places one or two of them between 0 and `top`. */
 static double plot_curves_tic_distance(double top)
 {
     double decade = pow(10, floor(log10(top))), lead = top / decade;
@@ -145,7 +145,7 @@ static double plot_curves_tic_distance(double top)
 
 static void plot_balance(FILE *to, const struct series *s, double largest)
 {
-    double top = largest > 0 ? 120 * largest : 1; /* percent, a fifth above the largest */
+    double top = largest > 0 ? 120 * largest : 1; /* percent; 20 % above the largest value */
     curves_time_axis(to, s);
     fprintf(to,
             "unset label\nunset key\nset format x '%%g'\nset tmargin at screen 0.255\nset bmargin at screen 0.105\n"
@@ -154,7 +154,7 @@ static void plot_balance(FILE *to, const struct series *s, double largest)
             -top, top, plot_curves_tic_distance(top), curve_colour[6]);
 }
 
-/* Energies over time, and the balance error below them. */
+/* Draws energies over time, and the balance error below. */
 static status draw_energy(struct sheet sheet, const char *title, const struct series *s)
 {
     struct energies e;
@@ -212,7 +212,8 @@ status curves_draw(const char *folder, const char *title, enum picture_format fo
 
 /* ---- profiles ---------------------------------------------------------------------------------------------------- */
 
-/* Few frames have the colours of curves; more of them run from dark to light, short of what is too light for lines. */
+/* Writes the colour of frame k: colours of curves for a few frames, else a scale from dark to light without the colours
+ * too light for lines. text: capacity `room` [byte]. */
 static void frame_colour(char *text, size_t room, int k, int frames)
 {
     const struct colour c = colour_sequential(0.88 * k / fmax(frames - 1, 1));
@@ -232,8 +233,8 @@ static int plot_curves_by_place(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The axis along the bar, with the halves of its outer particles: its ends are then round numbers where those of the
- * body are. */
+/* Sets the axis along the bar, extended by half a spacing at both ends, so that the ends are round numbers if those of
+ * the body are. */
 static void profile_range(FILE *to, const struct frame *frame, int frames, double metre)
 {
     const double half = 0.5 * frame_spacing(&frame[0]);
@@ -243,11 +244,11 @@ static void profile_range(FILE *to, const struct frame *frame, int frames, doubl
             const double x = (double)frame[k].X[0][i] + frame[k].u[0][i];
             from = fmin(from, x - half), end = fmax(end, x + half);
         }
-    const double beside = 1e-3 * (end - from); /* or rounding takes the tics at the ends */
+    const double beside = 1e-3 * (end - from); /* avoids that rounding removes the tics at the ends */
     if (end > from) fprintf(to, "set xrange [%.9g:%.9g]\n", (from - beside) / metre, (end + beside) / metre);
 }
 
-/* The data block $fK: the bar from left to right, with an empty line at each separation. */
+/* Sends the data block $fK: the bar from left to right, with an empty line at each separation. */
 static void send_profile(FILE *to, const struct frame *f, int k, double spacing, const struct unit *unit)
 {
     struct station *s = NEW("plot.profile", f->n, struct station);
@@ -271,7 +272,7 @@ static double largest_in(const float *a, int64_t n)
     return largest;
 }
 
-/* Units of place, velocity and stress that suit all frames. */
+/* Chooses units of position, velocity and stress for all frames. */
 static void choose_units(struct unit *unit, const struct frame *frame, int frames)
 {
     double largest[3] = {0};
@@ -298,7 +299,7 @@ static void plot_profile(FILE *to, const struct frame *frame, int frames, int co
     putc('\n', to);
 }
 
-/* Damage is the last panel, where there is any. */
+/* Returns the number of panels: damage, the last, is left out if it is zero everywhere. */
 static int profile_panels(const struct frame *frame, int frames)
 {
     double damage = 0;
@@ -337,7 +338,7 @@ status profiles_draw(struct sheet sheet, const char *title, const struct frame *
     return gnuplot_close(&g);
 }
 
-/* The data block $fK: place and value, with an empty line at each separation. */
+/* Sends the data block $fK: position and value, with an empty line at each separation. */
 static void send_field(FILE *to, const struct frame *f, int k, const float *value, double spacing,
                        const double factor[2])
 {

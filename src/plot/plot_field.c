@@ -1,4 +1,4 @@
-/* The fields that `cleave plot --field` draws: those of frames, and what follows from them (data/derived_fields.h). */
+/* Fields that `cleave plot --field` draws: fields of frames and derived fields (data/derived_fields.h). */
 #include <math.h>
 #include <string.h>
 
@@ -57,8 +57,8 @@ static const struct plot_field fields[] = {
     {"spacing", "spacing", 0, "m", FROM_ZERO},
 };
 
-/* Is it a component along an axis that the run lacks? Every run has a stress across the plane, which may be a principal
- * one. */
+/* Returns true if the field is a component along an axis that the run lacks. Every run has the stress normal to the
+ * plane, which may be a principal stress. */
 static bool lacks_component(const struct plot_field *field, int dim)
 {
     const char *end = strrchr(field->name, '_');

@@ -11,7 +11,7 @@
 #include "plot/film.h"
 #include "plot/plot.h"
 
-/* Where the picture goes: as -o says, or into DIR/pictures. */
+/* Determines the path of the picture: the option -o, or a file in DIR/pictures. */
 static status field_path(struct path *path, const struct plot_request *r, const char *field)
 {
     const char *ending = picture_ending[r->format];
@@ -46,7 +46,7 @@ static void field_title(char *title, const struct plot_request *r, const struct 
     compose_title(title, r->folder, name, c);
 }
 
-/* The names that categories have. */
+/* Prints the named values and how many more there are. */
 static void say_categories(const struct categories *k)
 {
     for (int i = 0; i < k->n; i++) printf("%s%s", i ? ", " : ": ", k->of[i].name);
@@ -54,7 +54,7 @@ static void say_categories(const struct categories *k)
     putchar('\n');
 }
 
-/* Says what was drawn, with the range of the colours in SI units. */
+/* Prints what was drawn, with the range of the colours in SI units. */
 static status say_field(const char *path, const struct view *view, const struct plot_request *r, int frames,
                         int64_t particles)
 {
@@ -94,7 +94,7 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
     return say_field(path, &view, r, clouds, cloud[clouds - 1].n);
 }
 
-/* The k-th frame that is shown, with its values. */
+/* Reads a selected frame and the values of the field, and fills its cloud. */
 static status read_cloud(struct cloud *c, struct plot_request *r, const struct listed_frame *shown)
 {
     struct frame f;
@@ -143,7 +143,7 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
     return s;
 }
 
-/* A look that a run in the plane cannot have. */
+/* REFUSED if the request asks for a slice or an outside view of a plane run. */
 static status projection_check(const struct plot_request *r, int dim)
 {
     if (dim == 3 || (!r->projection.placed && r->projection.normal < 0 && !r->projection.outside)) return OK;

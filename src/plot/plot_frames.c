@@ -1,4 +1,4 @@
-/* What frames of a run are shown, and what is said of them. */
+/* Selects the frames of a run that are shown; units, paths and titles of pictures. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -59,7 +59,7 @@ status run_frame(struct frame *f, const char *folder, int number)
     return path.text[0] ? frame_read(f, path.text) : status_set(FAILED, "%s: the name is too long", folder);
 }
 
-/* Frames evenly spread from the first to the last; a single one is the last. */
+/* Selects frames evenly spread from the first to the last; a single one is the last. */
 static void spread_frames(struct run_frames *r, int panels)
 {
     r->shown = r->listed < panels ? r->listed : panels;
@@ -68,7 +68,7 @@ static void spread_frames(struct run_frames *r, int panels)
         r->show[k] = r->list[r->shown == 1 ? r->listed - 1 : (int)lround((double)k * (r->listed - 1) / (r->shown - 1))];
 }
 
-/* The frames nearest to the times that are asked for, each once. */
+/* Selects the frames nearest to the requested times, each once. */
 static void nearest_frames(struct run_frames *r, const double *time, int times)
 {
     r->show = NEW("plot.show", times, struct listed_frame);
@@ -80,7 +80,7 @@ static void nearest_frames(struct run_frames *r, const double *time, int times)
     }
 }
 
-/* REFUSED for a time that is farther from the frames than they are from each other. */
+/* REFUSED if a time is farther from the nearest frame than the frames are from each other. */
 static status times_within(const struct run_frames *f, const double *time, int times)
 {
     if (f->listed == 0) return OK;

@@ -1,4 +1,4 @@
-/* Damage and kind maps: panels, colour bar, titles. */
+/* Maps of damage, kind and fields: panels, colour bar, titles. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,19 +6,24 @@
 #include "base/memory.h"
 #include "maps_parts.h"
 
-/* Room round the panels [pixel]. */
+/* Margins of the panels and gaps between them [pixel]. */
 enum { LEFT = 104, RIGHT = 136, RIGHT_MAX = 420, ABOVE = 84, BELOW = 70, GAP_X = 26, GAP_Y = 42 };
+
 /* Least distance of tics: the width and twice the height of their numbers [pixel]. */
 enum { TICS_X = 50, TICS_Y = 36 };
-/* The colour bar; its image is two pixels wide because gnuplot draws none of a single one. */
+
+/* Position and width of the colour bar [pixel] and number of its colours; its image has two columns because gnuplot
+ * draws no image of a single column. */
 enum { BAR_FROM = 26, BAR_WIDTH = 16, BAR_STEPS = 256, BAR_COLUMNS = 2 };
-/* Size of the whole picture [pixel]: on a page of text its letters are then as large as those of the text. */
+
+/* Size of the whole picture [pixel]: printed on a text page, its letters have the size of the text. */
 enum { WIDTH = 1280, WIDTH_SINGLE = 1000, HEIGHT_MAX = 1180, PANEL_MIN = 24 };
-enum { KEY_LINE = 22 };                  /* from one name to the next [pixel] */
-enum { KEY_BELOW = 760 };                /* pictures that narrow have the key below the title [pixel] */
+enum { KEY_LINE = 22 };                  /* distance of lines of the key [pixel] */
+enum { KEY_BELOW = 760 };                /* narrower pictures have the key below the title [pixel] */
 static const double SHAPE_WANTED = 0.72; /* height over width of the picture */
 
-/* Layout with this number of columns; aspect: height over width of a panel. */
+/* Returns the layout with a given number of columns. aspect: height over width of a panel; right: margin on the right
+ * [pixel]. */
 static struct layout layout_of(int columns, int panels, double aspect, int right)
 {
     struct layout l = {.columns = columns, .rows = (panels + columns - 1) / columns, .right = right};
@@ -34,7 +39,7 @@ static struct layout layout_of(int columns, int panels, double aspect, int right
     return l;
 }
 
-/* The arrangement with the largest panels among those not far from the wanted shape. */
+/* Returns the arrangement with the largest panels among those with about the wanted shape. */
 static struct layout layout_choose(int panels, double aspect, int right)
 {
     struct layout best = layout_of(1, panels, aspect, right);
@@ -43,7 +48,7 @@ static struct layout layout_choose(int panels, double aspect, int right)
         struct layout l = layout_of(columns, panels, aspect, right);
         double area = (double)l.panel_width * l.panel_height;
         double cost = fabs(log((double)l.height / l.width / SHAPE_WANTED)) - 0.5 * log(area);
-        cost += 0.2 * (l.rows * l.columns - panels); /* empty places */
+        cost += 0.2 * (l.rows * l.columns - panels); /* empty panels */
         if (cost >= best_cost) continue;
         best_cost = cost;
         best = l;
@@ -51,7 +56,7 @@ static struct layout layout_choose(int panels, double aspect, int right)
     return best;
 }
 
-/* Margins of a box given in pixels from the upper left corner. */
+/* Sets the margins of a box given in pixels from the upper left corner. */
 static void set_box(FILE *to, const struct layout *l, double left, double above, double width, double height)
 {
     fprintf(to, "set lmargin at screen %.9g\nset rmargin at screen %.9g\n", left / l->width, (left + width) / l->width);
@@ -64,7 +69,7 @@ void panel_place(FILE *to, const struct layout *l, double left, double above)
     set_box(to, l, left, above, l->panel_width, l->panel_height);
 }
 
-/* A round distance of tics over `range`: at least `apart` pixels, and about ten tics at most. */
+/* Returns a round distance of tics over `range`: at least `apart` pixels, and for at most about ten tics. */
 static double plot_maps_tic_distance(double range, int pixels, int apart)
 {
     double least = range * fmax(apart, pixels / 10.0) / pixels, decade = pow(10, floor(log10(least)));
@@ -82,7 +87,7 @@ void panel_image(FILE *to, const struct colour *pixel, int width, int height, co
     fwrite(pixel, sizeof *pixel, (size_t)width * (size_t)height, to);
 }
 
-/* Pre-cracks as thin lines over the next panel: slits of a mesh have no damage that would show them. */
+/* Draws pre-cracks as thin lines over the next panel: slits of a mesh cause no damage that would show them. */
 static void draw_notches(FILE *to, const struct view *view, double metre)
 {
     fputs("unset arrow\n", to);
@@ -131,7 +136,8 @@ void panel_directions(FILE *to, const struct layout *l, const struct view *view,
             end - length, at, end, at, length, metre->name, end - 0.5 * length, at + 10 * pixel);
 }
 
-/* Draws the panel at a place of the grid of panels; `second`: unit of time of all panels; `lowest`: no panel below. */
+/* Draws panel number `place`, counted row by row. second: unit of time of all panels; lowest: there is no panel
+ * below. */
 static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
                                  enum map map, const struct unit *second, int place, bool lowest)
 {
@@ -163,7 +169,7 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
     memory_free(pixel);
 }
 
-/* What the colour bar means: text, ends and distance of tics in the unit of the text. */
+/* Scale of the colour bar: label, ends and distance of tics in the unit of the label. */
 struct bar_scale {
     char label[64];
     double low, high, tics;
@@ -185,7 +191,7 @@ static struct bar_scale bar_scale_of(const struct view *view, enum map map)
     return s;
 }
 
-/* Pixels that the longest number beside the bar takes. */
+/* Returns the width of the longest number beside the bar [pixel]. */
 static double bar_numbers_width(const struct bar_scale *scale, const char *format)
 {
     int longest = 0;
@@ -197,7 +203,7 @@ static double bar_numbers_width(const struct bar_scale *scale, const char *forma
     return 10.0 * longest;
 }
 
-/* The colours as a narrow panel on the right, at most a panel's height, beside the first row. */
+/* Draws the colour bar as a narrow panel on the right beside the first row, at most as high as a panel. */
 static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct view *view, enum map map)
 {
     struct colour pixel[BAR_STEPS * BAR_COLUMNS];
@@ -220,7 +226,8 @@ static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct vi
     panel_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step, "");
 }
 
-/* A square of a colour, if it has any, and what it means, in pixels from the upper left corner. */
+/* Draws an entry of the key: a square in colour c, unless c is transparent, and its text. x, y: pixels from the upper
+ * left corner. */
 static void key_entry(FILE *to, const struct layout *l, double x, double y, struct colour c, const char *text)
 {
     if (c.alpha > 0)
@@ -235,7 +242,7 @@ static void key_entry(FILE *to, const struct layout *l, double x, double y, stru
             1 - (y - 1) / l->height);
 }
 
-/* What colours mean, above the panels: the two kinds of particles, or fragments. */
+/* Draws the key above the panels: the two kinds of particles, or fragments. */
 static void draw_key(FILE *to, const struct layout *l, enum map map)
 {
     const struct category entry[2][2] = {{{colour_points(), "material points"}, {colour_bonds(0.25), "peridynamics"}},
@@ -246,7 +253,7 @@ static void draw_key(FILE *to, const struct layout *l, enum map map)
     }
 }
 
-/* On the right, where quantities have their colour bar. */
+/* Draws the key of named values on the right, in place of the colour bar. */
 static void draw_categories(FILE *to, const struct layout *l, const struct categories *k)
 {
     const double x = l->width - l->right + BAR_FROM;
@@ -256,7 +263,7 @@ static void draw_categories(FILE *to, const struct layout *l, const struct categ
     if (k->more > 0) key_entry(to, l, x, ABOVE + 8 + KEY_LINE * k->n, (struct colour){0}, more);
 }
 
-/* Room on the right for the longest name of a category. */
+/* Returns the width on the right for the longest name of a category [pixel]. */
 static int right_room(const struct view *view, enum map map)
 {
     size_t longest = 12; /* `and 120 more` */
@@ -267,7 +274,7 @@ static int right_room(const struct view *view, enum map map)
     return (int)fmin(map == MAP_CATEGORY ? fmax(RIGHT, BAR_FROM + 30 + 9 * (double)longest) : RIGHT, RIGHT_MAX);
 }
 
-/* The title, and what the rectangle leaves out. */
+/* Draws the title, and the number of particles outside the rectangle. */
 static void draw_title(FILE *to, const struct layout *l, const char *title, int64_t outside)
 {
     char text[TITLE_LENGTH + 64];

@@ -1,7 +1,7 @@
-/* A flat cloud as pixels.
+/* Paints a flat cloud into pixels.
  *
- * A picture made of point symbols has gaps or overlaps at every size but one. Here each pixel takes the colour of the
- * nearest particle, so that a body is a closed surface and a crack an open line. */
+ * Point symbols would leave gaps or overlap at every scale but one. Here each pixel takes the colour of the nearest
+ * particle, so that a body appears as a closed surface and a crack as an open line. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,29 +9,29 @@
 #include "base/memory.h"
 #include "plot/plot.h"
 
-/* A square a little larger than the spacing closes the seams of a strained lattice; a disc that reaches the
- * diagonal and more closes those of a turned or irregular one. */
-static const double SQUARE = 0.55, DISC = 0.9; /* half width, radius over spacing */
+/* Half width of a square and radius of a disc over the spacing. A square slightly wider than the spacing closes the
+ * gaps of a strained lattice; a disc that reaches beyond the diagonal those of a rotated or irregular one. */
+static const double SQUARE = 0.55, DISC = 0.9;
 
 struct canvas {
     struct colour *pixel;
-    float *rank; /* of the particle painted there; the smaller rank wins */
+    float *rank; /* [height][width] rank of the painted particle; the smallest wins */
     int width, height;
-    double per_metre[2]; /* pixels */
+    double per_metre[2]; /* pixels per metre */
 };
 
-/* Paints particle i on the pixels that it covers and where its rank is the smallest. */
+/* Paints particle i on the pixels that it covers and in which its rank is the smallest. */
 static void paint_particle(struct canvas *v, const struct view *view, const struct cloud *c, int64_t i, enum map map)
 {
     double at[2], reach[2];
     int from[2], to[2], size[2] = {v->width, v->height};
-    const double wide = c->size ? c->size[i] - c->spacing : 0; /* of a coarse cell's point beyond a particle */
+    const double wide = c->size ? c->size[i] - c->spacing : 0; /* additional width of a coarse cell's point */
     const double half = c->aligned ? SQUARE * c->spacing + 0.5 * wide : DISC * (c->spacing + wide);
-    bool fine = c->spacing * v->per_metre[0] < 1.5; /* several particles a pixel: show the most damaged */
+    bool fine = c->spacing * v->per_metre[0] < 1.5; /* several particles per pixel: show the most damaged one */
     for (int k = 0; k < 2; k++) {
         at[k] = (c->place[k][i] - view->from[k]) * v->per_metre[k];
         reach[k] = fmax(half * v->per_metre[k], 0.5);
-        if (!(at[k] > -reach[k] && at[k] < size[k] + reach[k])) return; /* outside, or not a number */
+        if (!(at[k] > -reach[k] && at[k] < size[k] + reach[k])) return; /* outside the picture, or NaN */
         from[k] = (int)fmax(ceil(at[k] - reach[k] - 0.5), 0);
         to[k] = (int)fmin(floor(at[k] + reach[k] - 0.5), size[k] - 1);
     }

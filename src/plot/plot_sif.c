@@ -9,7 +9,8 @@
 
 enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6 };
 
-/* Names of the probes with a column that ends in `quantity`; returns their number, at most `most`. */
+/* Finds the probes that have a column whose name ends in `quantity`; stores at most `most` names and returns their
+ * number. */
 static int probes_with(const struct history *h, const char *quantity, char name[][NAME_MAX_LENGTH], int most)
 {
     const size_t tail = strlen(quantity);
@@ -35,12 +36,12 @@ static int plot_sif_column_of(const struct history *h, const char *probe, const 
 struct factors {
     int n;
     char name[PROBES_SHOWN][NAME_MAX_LENGTH];
-    int column[2 * PROBES_SHOWN], spread[PROBES_SHOWN]; /* K_I and K_II of each */
+    int column[2 * PROBES_SHOWN], spread[PROBES_SHOWN]; /* columns of K_I and K_II of each probe; of contour_spread */
     double factor[2 * PROBES_SHOWN], percent[PROBES_SHOWN];
     struct unit unit;
 };
 
-/* Columns of K_I, K_II and contour_spread of the sif probes. */
+/* Finds the columns K_I, K_II and contour_spread of the sif probes. */
 static void find_factors(struct factors *f, const struct history *h)
 {
     double largest = 0;
@@ -57,7 +58,7 @@ static void find_factors(struct factors *f, const struct history *h)
     for (int k = 0; k < 2 * f->n; k++) f->factor[k] = f->unit.factor;
 }
 
-/* One probe: a colour for each mode; several: a colour for each probe, K_II dashed. */
+/* Plots the factors. One probe: a colour for each mode; several probes: a colour for each, K_II dashed. */
 static void plot_factors(FILE *to, const struct factors *f)
 {
     fputs("plot 0 with lines lw 0.8 lc rgb '#888888'", to);
@@ -69,7 +70,7 @@ static void plot_factors(FILE *to, const struct factors *f)
     putc('\n', to);
 }
 
-/* Spread of the contours: more than a half indicates waves in the ring, or a kink of the crack in it. */
+/* Plots the spread of the contours; more than 1/2 indicates waves or a kink of the crack inside the ring. */
 static void plot_spread(FILE *to, const struct series *s, const struct factors *f)
 {
     curves_time_axis(to, s);
@@ -112,8 +113,9 @@ status sif_bench_draw(const char *folder, const char *title, const struct series
 struct tip_path {
     char name[NAME_MAX_LENGTH];
     int x, y, length;                    /* columns                                                         */
-    double from[2], to[2], grown;        /* ends [m]; length [m]                                            */
-    double angle, experiment, direction; /* of the chord, of an experiment, of the start; NAN: unknown [degree] */
+    double from[2], to[2], grown;        /* start and end [m]; length [m] */
+    double angle, experiment, direction; /* angle of the chord, of an experiment, of the initial direction; NAN:
+                                          * unknown [degree] */
 };
 
 static double plot_sif_figure_of(const char *folder, const char *probe, const char *quantity)
@@ -124,7 +126,7 @@ static double plot_sif_figure_of(const char *folder, const char *probe, const ch
     return summary_number(folder, key, &value) == OK ? value : NAN;
 }
 
-/* Paths of the tips that have grown, into w, [PATHS_SHOWN]; returns their number. */
+/* Finds the paths of the tips that have grown and stores them in w, [PATHS_SHOWN]; returns their number. */
 static int find_tip_paths(struct tip_path *w, const char *folder, const struct history *h)
 {
     char name[PATHS_SHOWN][NAME_MAX_LENGTH];
@@ -150,7 +152,7 @@ static int find_tip_paths(struct tip_path *w, const char *folder, const struct h
     return n;
 }
 
-/* The data block $wK: the tip from sample to sample, each place once. */
+/* Sends the data block $wK: the tip position of each sample, without repeated positions. */
 static void send_tip_path(FILE *to, const struct history *h, const struct tip_path *w, int k, double factor)
 {
     double last = -1;
@@ -163,7 +165,8 @@ static void send_tip_path(FILE *to, const struct history *h, const struct tip_pa
     fputs("EOD\n", to);
 }
 
-/* End of the ray at the angle of an experiment [m], on the side to which the tip turned; false: no experiment. */
+/* Computes the end of the ray at the angle of an experiment [m], on the side to which the tip has turned. Returns false
+ * if there is no experiment. */
 static bool ray_of(const struct tip_path *w, double end[2])
 {
     const double pi = 3.14159265358979323846, along = w->direction * pi / 180;
@@ -173,7 +176,7 @@ static bool ray_of(const struct tip_path *w, double end[2])
     return isfinite(angle);
 }
 
-/* Ranges of a square that holds all paths, with room for a part of the initial crack. */
+/* Sets ranges that form a square around all paths and a part of the initial crack. */
 static void set_square(FILE *to, const struct tip_path *w, int n, const struct unit *metre)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, end[2], side = 0;

@@ -1,4 +1,4 @@
-/* Pictures of load steps: load over displacement, and what a crack releases as it grows (R-curve). */
+/* Pictures of load steps: load over displacement, and energy release rate over crack growth (R-curve). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,8 @@
 #include "plot/plot.h"
 #include "scene/scene_read.h"
 
-/* Least part of the largest force that an axis of displacements shows: a body that is broken is only pulled apart. */
+/* The axis of displacements ends where the force stays below this fraction of its largest value: afterwards the broken
+ * body only moves apart. */
 #define FORCE_LEFT 0.01
 enum { REACTIONS_SHOWN = CURVE_COLOURS - 1, TOUGHNESSES_SHOWN = 3 };
 
@@ -23,7 +24,7 @@ bool run_in_steps(const char *folder)
 
 /* ---- load over displacement -------------------------------------------------------------------------------------- */
 
-/* Columns of the components of a vector, as NAME.force_x; none: of a name that has no such columns. */
+/* Columns of the components of a vector, for example NAME.force_x; n is 0 if the probe has no such columns. */
 struct components {
     int n, column[3];
 };
@@ -54,7 +55,7 @@ static double longest_of(const struct history *h, const struct components *c)
     return most;
 }
 
-/* A curve: the force of a reaction probe, and what it is drawn over. */
+/* A curve: force and displacement of a reaction probe. */
 struct reaction {
     char name[NAME_MAX_LENGTH];
     struct components force, displacement;
@@ -63,8 +64,8 @@ struct reaction {
 struct reactions {
     int n;
     struct reaction of[REACTIONS_SHOWN];
-    char over[NAME_MAX_LENGTH]; /* probe whose displacement all are drawn over; "": each over its own */
-    double force, displacement; /* largest [N]; largest while there is a force [m] */
+    char over[NAME_MAX_LENGTH]; /* point probe whose displacement all curves use; "": each curve uses its own */
+    double force, displacement; /* largest force [N]; largest displacement while there is a force [m] */
 };
 
 static int64_t peak_of(const struct history *h, const struct components *force)
@@ -75,7 +76,8 @@ static int64_t peak_of(const struct history *h, const struct components *force)
     return at;
 }
 
-/* The probe, named before a point in a column, of the first column from `from` on that ends in `quantity`; -1: none. */
+/* Finds the first column from `from` on whose name ends in `quantity`; returns its index and the name of its probe (the
+ * part before the point), or -1. */
 static int probe_from(const struct history *h, int from, const char *quantity, char name[NAME_MAX_LENGTH])
 {
     const size_t tail = strlen(quantity);
@@ -89,7 +91,8 @@ static int probe_from(const struct history *h, int from, const char *quantity, c
     return -1;
 }
 
-/* Reaction probes whose supports move; where none does, all of them, over the displacement of the first point probe. */
+/* Finds the reaction probes whose supports move; if none moves, all reaction probes, over the displacement of the first
+ * point probe. */
 static void reactions_find(struct reactions *r, const struct history *h)
 {
     char name[NAME_MAX_LENGTH];
@@ -133,7 +136,7 @@ static void reactions_send(FILE *to, const struct history *h, const struct react
     }
 }
 
-/* Curves, and on each a ring at its peak. */
+/* Plots the curves, each with a ring at its peak. */
 static void reactions_plot(FILE *to, const struct history *h, const struct reactions *r, struct unit newton,
                            struct unit metre)
 {
@@ -179,7 +182,7 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
 
 /* ---- R-curve ----------------------------------------------------------------------------------------------------- */
 
-/* G_c of the materials that have been given one, each value once; their number. */
+/* Collects the distinct values of G_c that are given for the materials; returns their number. */
 static int toughnesses_of(const char *folder, double value[TOUGHNESSES_SHOWN])
 {
     struct scene s;
@@ -195,13 +198,13 @@ static int toughnesses_of(const char *folder, double value[TOUGHNESSES_SHOWN])
     return n;
 }
 
-/* Square millimetres for anything between 0.01 and 100,000 of them. */
+/* Returns a unit of area: square millimetres between 0.01 and 100,000 of them. */
 static struct unit unit_for_area(double largest)
 {
     return largest > 1e-8 && largest < 0.1 ? (struct unit){1e-6, "mm²"} : (struct unit){1, "m²"};
 }
 
-/* The data block $data: area and release rate of each load step in which the crack has grown. */
+/* Sends the data block $data: crack area and energy release rate of each load step in which the crack has grown. */
 static void release_send(FILE *to, const struct history *h, int area, int rate, struct unit square, double factor)
 {
     double before = 0;

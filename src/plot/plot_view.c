@@ -1,11 +1,11 @@
-/* What rectangle and what range of values a map shows: by the bulk of the particles, not by single ones that fly. */
+/* Rectangle and range of values of a map, determined by the bulk of the particles instead of a few distant ones. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "plot/plot.h"
 
-enum { SAMPLE_MOST = 100000 }; /* values that quantiles are taken of */
+enum { SAMPLE_MOST = 100000 }; /* number of values of which quantiles are computed */
 
 static int plot_view_ascending(const void *a, const void *b)
 {
@@ -13,7 +13,7 @@ static int plot_view_ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Finite ones of n values, some thousand at most, ascending into `sample` [SAMPLE_MOST]; how many. */
+/* Sorts a sample of the finite ones of n values, evenly spaced by index, into sample[SAMPLE_MOST]. Returns its size. */
 static int64_t sample_sorted(float *sample, const float *value, int64_t n)
 {
     const int64_t stride = n / SAMPLE_MOST + 1;
@@ -28,8 +28,8 @@ struct span {
     double from, to;
 };
 
-/* The value below which a share of them lies, and that above which it does; but `few` of them at least, where that is
- * not more than a twentieth. */
+/* Returns the quantiles `share` and 1 - share of n values. At least `few` values are excluded at each end, unless that
+ * is more than 1/20 of all. */
 static struct span bulk_of(float *sample, const float *value, int64_t n, double share, int64_t few)
 {
     const int64_t kept = sample_sorted(sample, value, n), part = (int64_t)(share * (double)(kept - 1));
@@ -44,8 +44,8 @@ static struct span values_extent(const float *value, int64_t n)
     return s;
 }
 
-/* Along an axis: where all but a hundredth of the particles of each frame are, with a fifth of that on both sides, and
- * where the body was at first; but no more than there is. */
+/* Returns the range along axis k: in each frame all particles but 1 %, extended by 20 % at both ends, united with the
+ * initial body and limited to the extent of all particles. */
 static struct span span_along(const struct cloud *cloud, int clouds, int k)
 {
     static const double SHARE = 0.01, BESIDE = 0.2;
@@ -88,9 +88,9 @@ struct view view_of(const struct cloud *cloud, int clouds)
             v.top = fmax(v.top, fmin(cloud[c].damage[i], 1));
             if (cloud[c].size) reach = fmax(reach, 0.5 * cloud[c].size[i]);
         }
-    v.top = ceil(10 * v.top - 1e-3) / 10; /* the colour bar ends on a tenth, 0.5 at least */
+    v.top = ceil(10 * v.top - 1e-3) / 10; /* the colour bar ends at a multiple of 0.1, at least 0.5 */
     double margin = fmax(fmax(cloud[0].spacing, reach), 0.02 * longest);
-    if (!(margin > 0)) margin = 1e-3; /* a single particle: a millimetre round it [m] */
+    if (!(margin > 0)) margin = 1e-3; /* a single particle: 1 mm around it */
     for (int k = 0; k < 2; k++) {
         const double beside = k == 1 && cloud[0].tall > 0 ? 1.5 * cloud[0].tall : margin;
         v.from[k] -= beside, v.to[k] += beside;
@@ -99,7 +99,7 @@ struct view view_of(const struct cloud *cloud, int clouds)
     return v;
 }
 
-/* Of the values of all clouds. */
+/* Returns the quantiles of the values of all clouds, as bulk_of for one array. */
 static struct span values_bulk(const struct cloud *cloud, int clouds, double share, int64_t few)
 {
     float *sample = NEW("plot.sample", SAMPLE_MOST, float);
@@ -115,11 +115,11 @@ static struct span values_bulk(const struct cloud *cloud, int clouds, double sha
 void view_set_field(struct view *v, const struct plot_field *field, const struct cloud *cloud, int clouds)
 {
     struct span s = values_bulk(cloud, clouds, 0.002, 3);
-    if (!(s.to > s.from)) s = values_bulk(cloud, clouds, 0, 0); /* what few particles alone have */
+    if (!(s.to > s.from)) s = values_bulk(cloud, clouds, 0, 0); /* include the values of a few particles */
     if (field->scale != FROM_LEAST) s.from = fmin(s.from, 0), s.to = fmax(s.to, 0);
     if (field->scale == BOTH_SIGNS) s.to = fmax(-s.from, s.to), s.from = -s.to;
     v->field = field, v->low = s.from, v->high = s.to;
-    if (!(v->high > v->low)) v->high = v->low + 1; /* nothing but zero, or one value */
+    if (!(v->high > v->low)) v->high = v->low + 1; /* all values are equal */
 }
 
 struct colour map_colour(const struct view *v, enum map map, double a)

@@ -1,4 +1,4 @@
-/* Loads and supports of a scene, on the particles that bear them. */
+/* Draws loads and supports of a scene at the particles on which they act. */
 #include "scene_marks.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static int add_words(char *text, int length, const char *words)
     return length + more < TEXT ? length + more : TEXT - 1;
 }
 
-/* `12 MPa`, of a vector its length. */
+/* Appends a value with its unit, for example `12 MPa`, or the magnitude of a vector. Returns the length of the text. */
 static int add_value(char *text, int length, double value, const char *unit)
 {
     char words[64];
@@ -45,24 +45,25 @@ static const char *unit_of_value(const struct boundary *b)
     return b->displaces ? "m" : b->kind == BOUNDARY_VELOCITY ? "m/s" : "";
 }
 
-/* ---- what acts --------------------------------------------------------------------------------------------------- */
+/* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* A load at the moment at which it is largest: its largest value [unit_of_value], on how many particles; whether other
- * particles or moments have another one. */
+/* A load at the time of its largest magnitude: time, largest value [unit_of_value], number of particles, and whether
+ * the value differs between particles or times. */
 struct acting {
     double t, most;
     int64_t particles;
     bool varies;
 };
 
-/* Static solvers have boundaries of their own, whose velocities are those of their ramp. */
+/* Returns the boundary of a load. Static solvers have boundaries of their own, with velocities that ramp the
+ * displacements. */
 static const struct boundary *boundary_of(const struct run *e, const struct load *l)
 {
     const int64_t number = l - e->loads.load;
     return number < e->scene->boundaries ? &e->scene->boundary[number] : l->boundary;
 }
 
-/* What a load does to its k-th particle at t; returns the size [unit_of_value]. */
+/* Computes the vector of a load at its k-th particle at time t; returns its magnitude [unit_of_value]. */
 static double vector_at(const struct run *e, const struct load *l, int64_t k, double t, real *vector)
 {
     const struct particles *p = &e->part;
@@ -83,13 +84,13 @@ static double vector_at(const struct run *e, const struct load *l, int64_t k, do
     }
     if (b->kind != BOUNDARY_PRESSURE) return value_size(vector, p->dim);
     const double pressure = fabs(vector[0]);
-    load_force_at(l, p, k, t, vector); /* the normal, from corners between two of them */
+    load_force_at(l, p, k, t, vector); /* average of corner normals */
     const double force = value_size(vector, p->dim);
     for (int d = 0; d < p->dim && force > 0; d++) vector[d] *= pressure / force;
     return force > 0 ? pressure : 0;
 }
 
-/* Looks at a load at t; at every n-th particle. */
+/* Evaluates a load at time t at every n-th particle. */
 static struct acting acting_at(const struct run *e, const struct load *l, const uint8_t *on, double t, int64_t every)
 {
     struct acting a = {.t = t};
@@ -113,7 +114,8 @@ static void face_on(void *context, int32_t particle, int axis, int side, real ar
     ((uint8_t *)context)[particle] |= area > 0;
 }
 
-/* Which particles have a face on which a pressure acts: the layer behind bears a share, too, that is none [n]. */
+/* Marks the particles whose face carries a pressure, [n], allocated: the layer behind also carries a share of the load
+ * but has no face. */
 static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
 {
     const struct particles *p = &e->part;
@@ -125,7 +127,7 @@ static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
     return on;
 }
 
-/* Moments at which a load is looked at: those of its function of time, and MOMENTS even ones. */
+/* Evaluates a load at the times of its time function and at MOMENTS equidistant times. */
 static struct acting acting_of(const struct run *e, const struct load *l, const uint8_t *on)
 {
     enum { MOMENTS = 32, LOOKED_AT = 400 };
@@ -149,7 +151,7 @@ static struct acting acting_of(const struct run *e, const struct load *l, const 
     return most;
 }
 
-/* What a boundary condition does, for the key. */
+/* Describes a boundary condition for the key. */
 static void describe_boundary(char *text, const struct boundary *b, int dim, const struct acting *acting)
 {
     char face[16], many[48];
@@ -181,10 +183,10 @@ static void describe_boundary(char *text, const struct boundary *b, int dim, con
 
 /* ---- marks ------------------------------------------------------------------------------------------------------- */
 
-/* Every particle that is drawn of n, spread evenly. */
+/* Returns the stride that selects at most `most` of n particles. */
 static int64_t stride_for(int64_t n, int64_t most) { return n > most ? (n + most - 1) / most : 1; }
 
-/* Of a load: those on every m-th line of the lattice in each direction, so that they cover the whole of it. */
+/* Particles of a load that are drawn: every m-th line of the lattice in each direction, which covers the whole load. */
 struct chosen {
     double from[DIM_MAX], spacing;
     int64_t layers[DIM_MAX], every;
@@ -197,7 +199,7 @@ static bool chosen_has(const struct chosen *c, const struct particles *p, int32_
     particle_place(p, i, X);
     for (int d = 0; d < p->dim; d++) {
         const int64_t layer = (int64_t)floor((X[d] - c->from[d]) / c->spacing + 0.5);
-        const int64_t first = ((c->layers[d] - 1) % c->every) / 2; /* as far from both ends */
+        const int64_t first = ((c->layers[d] - 1) % c->every) / 2; /* centred between both ends */
         on = on && layer % c->every == first;
     }
     return on;
@@ -229,7 +231,7 @@ static struct chosen choose_particles(const struct marks *m, const struct load *
     return c;
 }
 
-/* Arrows of a load: pulling ones begin at the particle, pushing ones end there. */
+/* Draws the arrows of a load: arrows of tension begin at the particle, arrows of compression end there. */
 static void arrows_of_load(struct marks *m, const struct load *l, const uint8_t *on, const struct acting *acting)
 {
     const struct particles *p = &m->engine->part;
@@ -260,7 +262,7 @@ static void points_of_load(struct marks *m, const struct load *l)
     }
 }
 
-/* A plane of symmetry: a line across the picture in the plane, the frame of the body's box in space. */
+/* Draws a plane of symmetry: a line across the picture in 2D, the outline in the body's box in 3D. */
 static void mirror_plane_mark(struct marks *m, const struct boundary *b)
 {
     const struct particles *p = &m->engine->part;
@@ -305,7 +307,7 @@ static void boundary_mark(struct marks *m, int number)
     memory_free(on);
 }
 
-/* Points over arrows, which would hide them. */
+/* Draws points after arrows, which would hide them. */
 void marks_loads(struct marks *m)
 {
     const struct run *e = m->engine;
@@ -323,7 +325,7 @@ static double speed_at_start(const struct particles *p, int64_t i)
     return sqrt(sum);
 }
 
-/* Of all rigid bodies that move: an arrow from the middle of each. */
+/* Draws an arrow from the centre of each moving rigid body. */
 static void rigid_arrows(struct marks *m, double fastest)
 {
     const struct scene *s = m->engine->scene;

@@ -1,4 +1,4 @@
-/* Pre-cracks, probes and levels over the particles of a scene; and how marks are drawn. */
+/* Draws pre-cracks, probes and levels over the particles of a scene. */
 #include "scene_marks.h"
 #include "fracture/tips.h"
 #include "probes/probes.h"
@@ -33,12 +33,12 @@ void mark_place(struct marks *m, const real *X, const double *vector)
     putc('\n', m->to);
 }
 
-/* Ends a line: the next place begins another one. */
+/* Ends a line: the next position begins another one. */
 static void mark_break(struct marks *m) { putc('\n', m->to); }
 
 void mark_end(struct marks *m, const char *how, const char *text)
 {
-    fputs("NaN NaN NaN NaN\nEOD\n", m->to); /* a block must hold something */
+    fputs("NaN NaN NaN NaN\nEOD\n", m->to); /* a data block must not be empty */
     fprintf(m->plot, ", $m%d %s ", m->blocks++, how);
     if (!*text) {
         fputs("notitle", m->plot);
@@ -88,7 +88,7 @@ void marks_cracks(struct marks *m)
 
 enum { PROBES_NAMED = 10, CIRCLE = 48 };
 
-/* The corners of a box in the plane, or its twelve edges in space. */
+/* Sends the four edges of a box in 2D, or its twelve edges in 3D. */
 static void box_lines(struct marks *m, const real *from, const real *to, int dim)
 {
     for (int a = 0; a < dim; a++)
@@ -112,14 +112,14 @@ static void circle_line(struct marks *m, const real *centre, double radius)
     }
 }
 
-/* Crack tips at the start: a probe of tips follows the longest. */
+/* Marks the initial crack tips, of which a tip probe follows that of the longest crack. */
 static void tip_marks(struct marks *m)
 {
     const struct tips *t = &m->engine->fracture->tips;
     for (int k = 0; k < t->n; k++) mark_place(m, t->tip[k].origin, NULL);
 }
 
-/* The place or line of a probe; those without one stand in the key alone. */
+/* Draws the position or line of a probe; a probe without a position is listed in the key only. */
 static void probe_mark(struct marks *m, int k, const char *text)
 {
     const struct scene *s = m->engine->scene;
@@ -183,7 +183,7 @@ void marks_regions(struct marks *m)
         snprintf(text, sizeof text, "region %.60s", s->named[k].name);
         mark_begin(m);
         box_lines(m, from, to, s->dim);
-        /* the darker of the colours of fragments, each with dashes of its own once they come again */
+        /* The darker fragment colours; when they repeat, each repetition has another dash pattern. */
         const struct colour c = fragment_colour(1 + k);
         snprintf(how, sizeof how, "with lines lw 2.4 dt (%d,3) lc rgb '#%02x%02x%02x'", 3 + 4 * (k / 9), c.red, c.green,
                  c.blue);
@@ -193,7 +193,7 @@ void marks_regions(struct marks *m)
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* The cell of level 0 at the lower corner of a coarse cell? `k`: its place in the box. */
+/* Returns true if the cell is at the lower corner of a coarse cell. k: receives its index in the box. */
 static bool is_corner_cell(const struct mesh_levels *l, int64_t cell, int64_t *k)
 {
     const struct grid *g = &l->fine->grid;

@@ -1,37 +1,49 @@
-/* What is drawn over the particles of a scene. */
+/* Marks drawn over the particles of a scene. */
 #ifndef CLEAVE_SCENE_MARKS
 #define CLEAVE_SCENE_MARKS
 
 #include "engine/engine.h"
 #include "plot/plot.h"
 
-/* Data go to gnuplot at once, the parts of its plot command are collected. */
+/* State of the marks. Data are sent to gnuplot at once; the elements of its plot command are collected in `plot`. */
 struct marks {
     FILE *to, *plot;
     const struct run *engine;
     struct camera camera;
-    double metre;                 /* [m] of a unit of the axes */
-    double from[2], to_corner[2]; /* the rectangle that is shown [m] */
+    double metre;                 /* length of one unit of the axes [m] */
+    double from[2], to_corner[2]; /* visible rectangle [m] */
     double arrow;                 /* length of the longest arrow [m] */
-    int blocks;                   /* data blocks so far */
+    int blocks;                   /* number of data blocks so far */
 };
 
 /* Begins the data block of a mark. */
 void mark_begin(struct marks *m);
-/* A place X [m], and a second number pair: a vector in space [m], or NULL. */
+
+/* Adds a line with the projected position X [m] and a projected vector [m]; vector: NULL for none. */
 void mark_place(struct marks *m, const real *X, const double *vector);
-/* Ends the block; `how` is the rest of gnuplot's plot element, `text` its line of the key ("": none). */
+
+/* Ends the data block. how: rest of its element of the plot command; text: its line of the key, "" for none. */
 void mark_end(struct marks *m, const char *how, const char *text);
 
-/* Loads, supports, mirrors, absorbing faces; velocities at the start. */
+/* Draws loads, supports, mirrors and absorbing faces. */
 void marks_loads(struct marks *m);
+
+/* Draws the initial velocities. */
 void marks_motion(struct marks *m);
-/* Pre-cracks, cracks that grow, probes, levels of cells, boxes round regions that have names. */
+
+/* Draws pre-cracks and growing cracks. */
 void marks_cracks(struct marks *m);
+
+/* Draws the positions of probes. */
 void marks_probes(struct marks *m);
+
+/* Draws the coarse cells of the levels. */
 void marks_levels(struct marks *m);
+
+/* Draws boxes around named regions. */
 void marks_regions(struct marks *m);
-/* A line of the key for a colour. */
+
+/* Adds a line with a coloured square to the key. */
 void marks_colour(struct marks *m, struct colour c, const char *text);
 
 #endif

@@ -1,5 +1,5 @@
-/* `cleave plot --scene SCENE`: the scene as its run begins. Particles, loads, levels and all else come from
- * engine_make, as in a run: what is drawn is what will be computed. */
+/* `cleave plot --scene SCENE`: draws the scene in its initial state. Particles, loads, levels and everything else are
+ * created by engine_make, as in a run, so that the picture shows what will be computed. */
 #include "plot/scene_picture.h"
 
 #include <math.h>
@@ -15,19 +15,21 @@
 #include "step/report.h"
 #include "mesh/mesh_part.h"
 
-/* Room round the panel, its size, and the height of a line of the key [pixel]. */
+/* Margins of the panel, its size, and the line height of the key [pixel]. */
 enum { PICTURE_LEFT = 100, PICTURE_KEY = 400, PICTURE_ABOVE = 66, PICTURE_BELOW = 66, KEY_LINE = 23 };
 enum { PANEL_WIDEST = 860, PANEL_HIGHEST = 760, PANEL_LOWEST = 90 };
 enum { RIGID_POINTS = 60000, RIGID_ACROSS = 12, TEXT_ROOM = 200 };
-/* How dark peridynamic particles are beside material points of the same body; rigid bodies. */
+
+/* Brightness of peridynamic particles relative to material points of the same body; colour of rigid bodies. */
 static const double PERIDYNAMIC = 0.72;
 static const struct colour RIGID = {120, 120, 126, 255};
+
 /* Half height of the particles of a bar over its length. */
 static const double BAR_HALF = 0.02;
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
 
-/* Materials have colours of their own, or bodies where there is one material alone. */
+/* Returns the index of the material of a particle, or of its body if all bodies have the same material. */
 static int part_number(const struct scene *s, const struct particles *p, int64_t i)
 {
     return s->materials > 1 ? p->material[i] : p->body[i];
@@ -46,7 +48,7 @@ static void cloud_add(struct cloud *c, const real *x, int dim, double size, stru
     c->colour[c->n++] = colour;
 }
 
-/* Places of the particles with their colours; `spacing` NULL: all that of the scene. */
+/* Appends the positions of particles and their colours. spacing: [p->n], NULL: the spacing of the scene. */
 static void cloud_add_particles(struct cloud *c, const struct scene *s, const struct particles *part,
                                 const struct particles *p, const real *spacing)
 {
@@ -60,8 +62,8 @@ static void cloud_add_particles(struct cloud *c, const struct scene *s, const st
     }
 }
 
-/* The box of a rigid body, of one without bounds the part of it beside the particles; sites along each axis of a
- * lattice that shows it. Returns the number of sites, and through `step` their distance. */
+/* Computes the lattice of sites that shows a rigid body: from: its lower corner [m] (for a body without bounds, of its
+ * part beside the particles); count: sites along each axis; step: their distance [m]. Returns the number of sites. */
 static int64_t rigid_sites(const struct scene *s, const struct particles *part, const struct region *shape, real *from,
                            int64_t *count, double *step)
 {
@@ -98,7 +100,7 @@ static void cloud_add_rigid(struct cloud *c, const struct scene *scene, const st
     }
 }
 
-/* Everything that has a place, from the engine. */
+/* Collects everything that has a position from the run. */
 static void scene_cloud(struct cloud *c, struct run *e, const struct camera *camera)
 {
     const struct scene *s = e->scene;
@@ -128,7 +130,7 @@ static void scene_cloud(struct cloud *c, struct run *e, const struct camera *cam
 
 /* ---- key --------------------------------------------------------------------------------------------------------- */
 
-/* Particles of a part, hollow cells left out. */
+/* Counts the particles of a part, without hollow cells. */
 static int64_t count_part(const struct particles *part, const struct scene *scene, int number)
 {
     int64_t n = 0;
@@ -136,7 +138,7 @@ static int64_t count_part(const struct particles *part, const struct scene *scen
     return n;
 }
 
-/* `ball: rigid, 4.1 g, 150 m/s`. */
+/* Describes a rigid body, for example `ball: rigid, 4.1 g, 150 m/s`. */
 static void rigid_words(char *text, const struct scene_body *b, int dim)
 {
     double speed = 0;
@@ -174,7 +176,7 @@ static void key_of_parts(struct marks *m)
     }
 }
 
-/* Lines of the key, about. */
+/* Estimates the number of lines of the key. */
 static int key_lines(const struct scene *s)
 {
     return s->materials + s->bodies + s->rigids + s->boundaries + s->probes + s->growths + s->regions + 6;
@@ -182,7 +184,7 @@ static int key_lines(const struct scene *s)
 
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
-/* Room for arrows beside the body. */
+/* Returns the view with a margin for arrows beside the body. */
 static struct view scene_view(const struct cloud *c, double arrow)
 {
     struct view v = view_of(c, 1);
@@ -235,7 +237,7 @@ static void set_panel(FILE *to, const struct layout *l, const struct view *v, co
             (PICTURE_LEFT + l->panel_width + 14.0) / l->width, 1 - 58.0 / l->height);
 }
 
-/* Image first, then the marks in one plot command. */
+/* Sends the image, then the marks, in one plot command. */
 static void plot_scene(FILE *to, const struct layout *l, const struct view *v, const struct cloud *c,
                        const struct unit *metre, const char *marks)
 {
