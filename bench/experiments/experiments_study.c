@@ -123,14 +123,14 @@ status experiment_study(struct experiments *x, const struct experiment_case *c)
     int pairs = 1;
     const struct path text = path_join(x->folder, "scene.yaml"), into = path_join(x->folder, "study");
     while (pairs <= EXPERIMENT_PAIRS_MOST && c->pair[pairs - 1].key) pair[pairs] = c->pair[pairs - 1], pairs++;
-    const struct convergence_wish wish = {.scene = c->path ? c->path : text.text,
-                                          .folder = into.text,
-                                          .override = pair,
-                                          .overrides = pairs,
-                                          .levels = LEVELS_LEAST,
-                                          .runs = c->runs[x->quick],
-                                          .budget = EXPERIMENT_BUDGET,
-                                          .way.quiet = true};
+    const struct convergence_request wish = {.scene = c->path ? c->path : text.text,
+                                             .folder = into.text,
+                                             .override = pair,
+                                             .overrides = pairs,
+                                             .levels = LEVELS_LEAST,
+                                             .runs = c->runs[x->quick],
+                                             .budget = EXPERIMENT_BUDGET,
+                                             .options.quiet = true};
     if (x->quick && !c->quick) return OK;
     if (c->path && !bench_scene_exists(c->path)) return OK;
     if (!c->path) remove(text.text); /* that of the case before, which this process has read */

@@ -42,7 +42,7 @@ static status chosen_run(const struct pilot *p, const char *scene, const char *f
     TRY(study_make(&s, scene, folder, "run"));
     study_add(&s, "run", p->override, p->overrides);
     status done = study_check(&s, false);
-    if (done == OK) done = study_run(&s, (struct study_way){.quiet = true});
+    if (done == OK) done = study_run(&s, (struct study_options){.quiet = true});
     if (done == OK) done = summary_number(study_folder(&s, &s.at[0]).text, figure, value);
     study_free(&s);
     return done;
@@ -64,7 +64,8 @@ static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene 
     const double begun = team_clock();
     status done = pilot_scene_write(scene.text, k, within);
     struct scene s;
-    if (done == OK) done = pilot_scene_read(&s, &p, scene.text, NULL, 0, into.text, (struct study_way){.quiet = true});
+    if (done == OK)
+        done = pilot_scene_read(&s, &p, scene.text, NULL, 0, into.text, (struct study_options){.quiet = true});
     if (done == OK) scene_free(&s);
     const double pilots = team_clock() - begun;
     if (done == OK) done = chosen_run(&p, scene.text, into.text, &value, k->figure);

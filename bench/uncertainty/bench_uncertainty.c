@@ -53,12 +53,12 @@ static status study_of(struct known_rows *rows, const struct known_scene *k, con
 {
     struct convergence_study s;
     const struct path scene = path_join(folder, "scene.yaml.in"), into = path_join(folder, "study");
-    const struct convergence_wish wish = {.scene = scene.text,
-                                          .folder = into.text,
-                                          .levels = LEVELS_LEAST,
-                                          .runs = quick ? RUNS_QUICK : RUNS,
-                                          .budget = BUDGET,
-                                          .way.quiet = true};
+    const struct convergence_request wish = {.scene = scene.text,
+                                             .folder = into.text,
+                                             .levels = LEVELS_LEAST,
+                                             .runs = quick ? RUNS_QUICK : RUNS,
+                                             .budget = BUDGET,
+                                             .options.quiet = true};
     TRY(scene_text_write(scene.text, k, variant[1], spacing));
     TRY(convergence_study_run(&s, &wish));
     for (int f = 0; f < KNOWN_FIGURES_MOST && k->figure[f].name; f++) {

@@ -155,9 +155,9 @@ status plot_field_read(float **value, const struct plot_field *field, const stru
  * [n]. */
 struct cloud {
     int64_t n;
-    float *place[DIM_MAX]; /* current position along the axes of the map [m]; place[2], towards the viewer, is NULL
-                            * for a flat map */
-    float *damage;         /* [1] */
+    float *position[DIM_MAX]; /* current position along the axes of the map [m]; position[2], towards the viewer, is
+                               * NULL for a flat map */
+    float *damage;            /* [1] */
     uint8_t *kind;
     int32_t *fragment;     /* NULL: unknown */
     int32_t fragments;     /* number of fragments: largest index + 1 */

@@ -52,7 +52,7 @@ struct figure_study {
     double horizon_moves; /* by a horizon one spacing longer, at level 1; NAN: not known */
 };
 
-struct convergence_wish {
+struct convergence_request {
     const char *scene, *folder;
     const struct scene_override *override;
     int overrides, levels, runs; /* runs at the most */
@@ -60,12 +60,12 @@ struct convergence_wish {
     const char *const *wanted;   /* figures that are asked for: a warning where the first run has none such; NULL */
     int wanteds;
     bool fixed_horizon, finer; /* finer: also spacings below the scene's own, as the budget allows */
-    struct study_way way;
+    struct study_options options;
 };
 
 /* Runs the study. Fails of single runs leave gaps. REFUSED where the scene cannot be refined or the budget is too
  * little, with how much it would take. */
-status convergence_study_run(struct convergence_study *s, const struct convergence_wish *w);
+status convergence_study_run(struct convergence_study *s, const struct convergence_request *w);
 void convergence_study_free(struct convergence_study *s);
 
 /* The figures that all levels have, physical ones alone; `wanted` (NULL: all) must be among them, or REFUSED. The

@@ -21,10 +21,10 @@ struct pilot_wish;
 status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out);
 
 /* Reads a scene, with the overrides. Where it has `method: auto`, pilot runs are made in FOLDER_pilot (`folder` NULL:
- * results/NAME) and the choice is kept there: the same scene has it without runs. `way`: quiet, stop. REFUSED where the
- * scene is not sound, or where no method reaches what is asked, with how far each comes; INTERRUPTED. */
+ * results/NAME) and the choice is kept there: the same scene has it without runs. options: quiet, stop. REFUSED where
+ * the scene is not sound, or where no method reaches what is asked, with how far each comes; INTERRUPTED. */
 status pilot_scene_read(struct scene *s, struct pilot *p, const char *scene, const struct scene_override *override,
-                        int overrides, const char *folder, struct study_way way);
+                        int overrides, const char *folder, struct study_options options);
 void pilot_free(struct pilot *p);
 
 #endif

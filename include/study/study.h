@@ -39,7 +39,7 @@ struct study {
     struct folder_lock lock;
     struct study_case *at;
     int n;
-    int *place, places; /* the runs by the hashes of their names: number + 1, 0: none */
+    int *slot, slots; /* the runs by the hashes of their names: number + 1, 0: none */
 };
 
 /* ---- values (study_values.c) ------------------------------------------------------------------------------------- */
@@ -59,7 +59,7 @@ status study_make(struct study *s, const char *scene, const char *folder, const 
 status study_make_of(struct study *s, const char *scene, const char *folder, const char *kind,
                      const struct varied_key *key, int keys);
 /* The folder that a study of a scene has if the user names none. */
-void study_place(char *to, size_t room, const struct scene *scene, const char *kind);
+void study_folder_default(char *to, size_t room, const struct scene *scene, const char *kind);
 /* REFUSED if the folder holds a study of another scene. */
 status study_folder_fits(const char *folder, const char *text);
 /* Takes the folder for a study: writes STUDY_SCENE without a scene unless the folder has one. REFUSED if the folder
@@ -87,13 +87,13 @@ const char *study_value(const struct study_case *c, const char *key);
 /* Closes a file of open_memstream (NULL: no memory) and writes its bytes, which are freed, as FOLDER/name. */
 status study_put(const struct study *s, const char *name, FILE *to, char **text, const size_t *length);
 /* The run that stands for a run: itself unless it is the same as another one. */
-const struct study_case *study_stands(const struct study *s, const struct study_case *c);
+const struct study_case *study_representative(const struct study *s, const struct study_case *c);
 /* Folder of the run that stands for a run. */
 struct path study_folder(const struct study *s, const struct study_case *c);
 
 /* ---- runs (study_run.c) ------------------------------------------------------------------------------------------ */
 
-struct study_way {
+struct study_options {
     int jobs, threads; /* runs at once, threads of each; 0: as the cores allow */
     bool overwrite, quiet;
     double until;                      /* on team_clock: none starts after, those that run are stopped; 0: never */
@@ -105,10 +105,10 @@ struct study_way {
 status study_take(struct study *s, bool overwrite);
 /* Makes and takes the folder, and runs what waits. Runs that fail are booked in their states, with a line on standard
  * error. REFUSED as study_take, INTERRUPTED where it was stopped. */
-status study_run(struct study *s, struct study_way how);
+status study_run(struct study *s, struct study_options how);
 /* Prints the line of the command that runs a case by itself, wherever it is given, with the words that a shell must not
  * touch in quotes. */
-void study_print_command(const struct study *s, const struct study_case *c, struct study_way how, FILE *out);
+void study_print_command(const struct study *s, const struct study_case *c, struct study_options how, FILE *out);
 
 /* ---- what comes out (study_table.c, study_draw.c) ---------------------------------------------------------------- */
 

@@ -15,7 +15,7 @@ enum { RUNS_USUAL = 5, LEVELS_USUAL = 3 };
 #define BUDGET_USUAL 600.0 /* [s] */
 
 struct converge_arguments {
-    struct convergence_wish wish;
+    struct convergence_request wish;
     struct varied_key *key; /* overrides, each with one value */
     const char **wanted;
     int keys, wanteds;
@@ -24,7 +24,7 @@ struct converge_arguments {
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
 
-static status budget_read(struct convergence_wish *w, const char *text)
+static status budget_read(struct convergence_request *w, const char *text)
 {
     char what[256];
     real value;
@@ -47,15 +47,15 @@ static status converge_override(struct converge_arguments *a, const char *text)
 
 static status converge_option(struct converge_arguments *a, const char *word, const char *value)
 {
-    struct convergence_wish *w = &a->wish;
+    struct convergence_request *w = &a->wish;
     if (!strcmp(word, "-o"))
         w->folder = value;
     else if (!strcmp(word, "-s"))
         return converge_override(a, value);
     else if (!strcmp(word, "-j"))
-        return option_count(&w->way.jobs, word, value, 1, THREADS_MOST);
+        return option_count(&w->options.jobs, word, value, 1, THREADS_MOST);
     else if (!strcmp(word, "-t"))
-        return option_count(&w->way.threads, word, value, 1, THREADS_MOST);
+        return option_count(&w->options.threads, word, value, 1, THREADS_MOST);
     else if (!strcmp(word, "--runs"))
         return option_count(&w->runs, word, value, 1, RUNS_MOST);
     else if (!strcmp(word, "--levels"))
@@ -80,9 +80,9 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
         else if (!strcmp(word, "--horizon"))
             a->wish.fixed_horizon = true;
         else if (!strcmp(word, "--overwrite"))
-            a->wish.way.overwrite = true;
+            a->wish.options.overwrite = true;
         else if (!strcmp(word, "-q"))
-            a->wish.way.quiet = true;
+            a->wish.options.quiet = true;
         else if (word[0] == '-' && word[1])
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
         else if (a->wish.scene)
@@ -98,12 +98,12 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
 /* The folder; REFUSED if it is that of another scene's study, or holds files of others. */
 static status converge_place(struct converge_arguments *a)
 {
-    struct convergence_wish *w = &a->wish;
+    struct convergence_request *w = &a->wish;
     struct scene scene;
     TRY(scene_read(&scene, w->scene, w->override, w->overrides));
-    study_place(a->folder, sizeof a->folder, &scene, "converge");
+    study_folder_default(a->folder, sizeof a->folder, &scene, "converge");
     if (!w->folder) w->folder = a->folder;
-    const status fits = w->way.overwrite ? OK : study_folder_fits(w->folder, scene.text);
+    const status fits = w->options.overwrite ? OK : study_folder_fits(w->folder, scene.text);
     scene_free(&scene);
     return fits == OK ? figures_guard(w->folder) : fits;
 }
@@ -114,7 +114,7 @@ static status converge_all(struct converge_arguments *a)
     struct figure_study *figure = NULL;
     int figures = 0;
     TRY(converge_place(a));
-    struct convergence_wish wish = a->wish;
+    struct convergence_request wish = a->wish;
     wish.wanted = a->wanted, wish.wanteds = a->wanteds;
     TRY(convergence_study_run(&s, &wish));
     study_print_warnings(&s.study, stderr);
@@ -132,7 +132,7 @@ status command_converge(int argc, char **argv)
     struct converge_arguments a = {
         .key = NEW("converge.keys", argc, struct varied_key),
         .wanted = NEW("converge.wanted", argc, const char *),
-        .wish = {.runs = RUNS_USUAL, .levels = LEVELS_USUAL, .budget = BUDGET_USUAL, .way.stop = stop_signals()}};
+        .wish = {.runs = RUNS_USUAL, .levels = LEVELS_USUAL, .budget = BUDGET_USUAL, .options.stop = stop_signals()}};
     status done = converge_words(&a, argc, argv);
     struct scene_override *override = NEW("converge.overrides", argc, struct scene_override);
     for (int k = 0; k < a.keys; k++) override[k] = (struct scene_override){a.key[k].key, a.key[k].value[0]};

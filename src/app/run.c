@@ -125,7 +125,7 @@ status command_run(int argc, char **argv)
     struct run e = {0};
     struct output out = {0};
     status result = pilot_scene_read(&s, &pilot, a.scene, a.override, a.overrides, a.folder,
-                                     (struct study_way){.quiet = a.quiet, .stop = stop});
+                                     (struct study_options){.quiet = a.quiet, .stop = stop});
     if (result == OK) result = run_engine(&e, &s, &out, &a, threads);
     engine_free(&e);
     output_close(&out);

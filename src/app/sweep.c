@@ -13,7 +13,7 @@ struct sweep_arguments {
     const char *scene, *folder;
     struct varied_key *key;
     int keys;
-    struct study_way way;
+    struct study_options options;
     bool list, collect;
 };
 
@@ -40,17 +40,17 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
         else if (!strcmp(word, "-s"))
             TRY(key_add(a, argv[++k]));
         else if (!strcmp(word, "-j"))
-            TRY(option_count(&a->way.jobs, word, argv[++k], 1, THREADS_MOST));
+            TRY(option_count(&a->options.jobs, word, argv[++k], 1, THREADS_MOST));
         else if (!strcmp(word, "-t"))
-            TRY(option_count(&a->way.threads, word, argv[++k], 1, THREADS_MOST));
+            TRY(option_count(&a->options.threads, word, argv[++k], 1, THREADS_MOST));
         else if (!strcmp(word, "--list"))
             a->list = true;
         else if (!strcmp(word, "--collect"))
             a->collect = true;
         else if (!strcmp(word, "--overwrite"))
-            a->way.overwrite = true;
+            a->options.overwrite = true;
         else if (!strcmp(word, "-q"))
-            a->way.quiet = true;
+            a->options.quiet = true;
         else if (word[0] == '-' && word[1])
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
         else if (a->scene)
@@ -101,9 +101,9 @@ static status sweep_collect(const struct study *s, const struct sweep_arguments 
 /* The commands of the runs that are not the same as others. */
 static status sweep_list(const struct study *s, const struct sweep_arguments *a)
 {
-    TRY(a->way.overwrite ? study_folder_guard(s->folder) : study_folder_fits(s->folder, s->text));
+    TRY(a->options.overwrite ? study_folder_guard(s->folder) : study_folder_fits(s->folder, s->text));
     for (int k = 0; k < s->n; k++)
-        if (s->at[k].state != CASE_SAME) study_print_command(s, &s->at[k], a->way, stdout);
+        if (s->at[k].state != CASE_SAME) study_print_command(s, &s->at[k], a->options, stdout);
     return OK;
 }
 
@@ -117,9 +117,9 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
     TRY(study_output_guard(s, a->key, a->keys));
     status ran = OK;
     if (a->collect)
-        TRY(study_take(s, a->way.overwrite));
+        TRY(study_take(s, a->options.overwrite));
     else
-        ran = study_run(s, a->way);
+        ran = study_run(s, a->options);
     if (ran != OK && ran != INTERRUPTED) return ran;
     char message[256];
     snprintf(message, sizeof message, "%s", status_message());
@@ -137,7 +137,7 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
 
 status command_sweep(int argc, char **argv)
 {
-    struct sweep_arguments a = {.key = NEW("sweep.keys", argc, struct varied_key), .way.stop = stop_signals()};
+    struct sweep_arguments a = {.key = NEW("sweep.keys", argc, struct varied_key), .options.stop = stop_signals()};
     struct study s = {.lock.fd = -1};
     status done = sweep_words(&a, argc, argv);
     if (done == OK) done = sweep_all(&s, &a);

@@ -61,7 +61,7 @@ static void paint_cube(struct scene_canvas *v, const struct cloud *c, int64_t i,
     for (int k = 0; k < 3; k++)
         reach[0] += half[k] * fabs(c->camera.right[k]), reach[1] += half[k] * fabs(c->camera.up[k]);
     for (int a = 0; a < 2; a++) {
-        at[a] = c->place[a][i] - v->view->from[a];
+        at[a] = c->position[a][i] - v->view->from[a];
         const double low = (at[a] - reach[a]) * v->per_metre[a], high = (at[a] + reach[a]) * v->per_metre[a];
         if (!(high > 0 && low < v->size[a])) return; /* outside the picture, or NaN */
         from[a] = (int)fmax(ceil(low - 0.5), 0);
@@ -73,11 +73,12 @@ static void paint_cube(struct scene_canvas *v, const struct cloud *c, int64_t i,
             double depth = 0;
             const int face = leaves_cube(&c->camera, half, off, &depth);
             const int64_t q = (int64_t)row * v->size[0] + column;
-            if (c->place[2]) depth += c->place[2][i];
+            if (c->position[2]) depth += c->position[2][i];
             if (face < 0 || depth <= v->depth[q]) continue;
             v->depth[q] = (float)depth;
-            v->pixel[q] =
-                c->place[2] && fabs(c->camera.towards[face]) < STRAIGHT ? colour_shaded(colour, SHADE[face]) : colour;
+            v->pixel[q] = c->position[2] && fabs(c->camera.towards[face]) < STRAIGHT
+                              ? colour_shaded(colour, SHADE[face])
+                              : colour;
         }
 }
 

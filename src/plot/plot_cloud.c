@@ -65,7 +65,8 @@ static bool lies_along(const struct cloud *c, int64_t i)
 {
     double best = INFINITY, along = 0, across = 1;
     for (int64_t j = 0; j < c->n; j++) {
-        double a = fabs((double)c->place[0][j] - c->place[0][i]), b = fabs((double)c->place[1][j] - c->place[1][i]);
+        double a = fabs((double)c->position[0][j] - c->position[0][i]),
+               b = fabs((double)c->position[1][j] - c->position[1][i]);
         if (j == i || a * a + b * b >= best) continue;
         best = a * a + b * b;
         along = fmax(a, b);
@@ -203,7 +204,7 @@ static void cloud_place(struct cloud *c, const struct frame *f, int64_t i)
     for (int d = 0; d < 3; d++) X[d] = d < f->dim ? f->X[d][i] : 0;
     const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
     for (int a = 0; a < 3; a++)
-        if (c->place[a]) c->place[a][k] = (float)along(axis[a], x);
+        if (c->position[a]) c->position[a][k] = (float)along(axis[a], x);
     for (int a = 0; a < 2; a++) {
         c->from[a] = fmin(c->from[a], along(axis[a], X));
         c->to[a] = fmax(c->to[a], along(axis[a], X));
@@ -212,7 +213,8 @@ static void cloud_place(struct cloud *c, const struct frame *f, int64_t i)
 
 static void cloud_allocate(struct cloud *c, const struct frame *f, const struct projection *projection)
 {
-    for (int k = 0; k < (f->dim == 3 && projection->outside ? 3 : 2); k++) c->place[k] = NEW("plot.place", f->n, float);
+    for (int k = 0; k < (f->dim == 3 && projection->outside ? 3 : 2); k++)
+        c->position[k] = NEW("plot.position", f->n, float);
     c->damage = NEW("plot.damage", f->n, float);
     c->kind = NEW("plot.kind", f->n, uint8_t);
     if (f->fragment) c->fragment = NEW("plot.fragment", f->n, int32_t);
@@ -256,12 +258,12 @@ void cloud_make(struct cloud *c, const struct frame *f, const struct projection 
         if (c->value) c->value[c->n] = projection->value[i];
         c->kind[c->n++] = f->kind[i];
     }
-    c->aligned = !c->place[2] && is_aligned(c);
+    c->aligned = !c->position[2] && is_aligned(c);
 }
 
 void cloud_free(struct cloud *c)
 {
-    for (int k = 0; k < DIM_MAX; k++) memory_free(c->place[k]);
+    for (int k = 0; k < DIM_MAX; k++) memory_free(c->position[k]);
     memory_free(c->damage);
     memory_free(c->kind);
     memory_free(c->fragment);

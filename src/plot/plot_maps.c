@@ -159,7 +159,7 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
         fprintf(to, "t = %.3g %s", c->t / second->factor, second->name);
     fputs("' font ',13' offset 0,-0.5\n", to);
     if (map == MAP_DAMAGE) draw_notches(to, view, metre.factor);
-    if (c->place[2])
+    if (c->position[2])
         panel_directions(to, l, view, c, &metre);
     else
         panel_axes(to, l, view, c, &metre, column, lowest);

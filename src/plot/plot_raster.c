@@ -29,7 +29,7 @@ static void paint_particle(struct canvas *v, const struct view *view, const stru
     const double half = c->aligned ? SQUARE * c->spacing + 0.5 * wide : DISC * (c->spacing + wide);
     bool fine = c->spacing * v->per_metre[0] < 1.5; /* several particles per pixel: show the most damaged one */
     for (int k = 0; k < 2; k++) {
-        at[k] = (c->place[k][i] - view->from[k]) * v->per_metre[k];
+        at[k] = (c->position[k][i] - view->from[k]) * v->per_metre[k];
         reach[k] = fmax(half * v->per_metre[k], 0.5);
         if (!(at[k] > -reach[k] && at[k] < size[k] + reach[k])) return; /* outside the picture, or NaN */
         from[k] = (int)fmax(ceil(at[k] - reach[k] - 0.5), 0);
@@ -53,7 +53,7 @@ void raster_paint(struct colour *pixel, int width, int height, const struct view
                   enum map map)
 {
     int64_t pixels = (int64_t)width * height;
-    if (c->place[2] || c->tall > 0) {
+    if (c->position[2] || c->tall > 0) {
         boxes_paint(pixel, width, height, view, c, map);
         return;
     }

@@ -52,8 +52,8 @@ static struct span span_along(const struct cloud *cloud, int clouds, int k)
     float *sample = NEW("plot.sample", SAMPLE_MOST, float);
     struct span shown = {INFINITY, -INFINITY}, all = shown;
     for (int c = 0; c < clouds; c++) {
-        const struct span here = values_extent(cloud[c].place[k], cloud[c].n);
-        struct span bulk = bulk_of(sample, cloud[c].place[k], cloud[c].n, SHARE, 0);
+        const struct span here = values_extent(cloud[c].position[k], cloud[c].n);
+        struct span bulk = bulk_of(sample, cloud[c].position[k], cloud[c].n, SHARE, 0);
         const double beside = BESIDE * (bulk.to - bulk.from);
         all.from = fmin(all.from, here.from), all.to = fmax(all.to, here.to);
         shown.from = fmin(shown.from, fmin(bulk.from - beside, cloud[c].from[k]));
@@ -68,7 +68,7 @@ static int64_t count_outside(const struct view *v, const struct cloud *c)
     int64_t outside = 0;
     for (int64_t i = 0; i < c->n; i++) {
         bool in = true;
-        for (int k = 0; k < 2; k++) in = in && c->place[k][i] >= v->from[k] && c->place[k][i] <= v->to[k];
+        for (int k = 0; k < 2; k++) in = in && c->position[k][i] >= v->from[k] && c->position[k][i] <= v->to[k];
         outside += !in;
     }
     return outside;

@@ -41,7 +41,7 @@ static void cloud_add(struct cloud *c, const real *x, int dim, double size, stru
     for (int a = 0; a < 3; a++) {
         double sum = 0;
         for (int d = 0; d < dim; d++) sum += axis[a][d] * x[d];
-        if (c->place[a]) c->place[a][c->n] = (float)sum;
+        if (c->position[a]) c->position[a][c->n] = (float)sum;
         if (a < 2) c->from[a] = fmin(c->from[a], sum), c->to[a] = fmax(c->to[a], sum);
     }
     c->size[c->n] = (float)size;
@@ -118,7 +118,7 @@ static void scene_cloud(struct cloud *c, struct run *e, const struct camera *cam
                         .camera = s->dim == 3 ? *camera : camera_along(2, 1),
                         .from = {INFINITY, INFINITY},
                         .to = {-INFINITY, -INFINITY}};
-    for (int a = 0; a < (s->dim == 3 ? 3 : 2); a++) c->place[a] = NEW("plot.place", room, float);
+    for (int a = 0; a < (s->dim == 3 ? 3 : 2); a++) c->position[a] = NEW("plot.position", room, float);
     c->damage = NEW("plot.damage", room, float);
     c->size = NEW("plot.size", room, float);
     c->colour = NEW("plot.colour", room, struct colour);
@@ -226,7 +226,7 @@ static void set_panel(FILE *to, const struct layout *l, const struct view *v, co
     panel_place(to, l, PICTURE_LEFT, PICTURE_ABOVE);
     for (int a = 0; a < 2; a++)
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + a, v->from[a] / metre->factor, v->to[a] / metre->factor);
-    if (c->place[2])
+    if (c->position[2])
         panel_directions(to, l, v, c, metre);
     else
         panel_axes(to, l, v, c, metre, 0, true);

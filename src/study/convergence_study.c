@@ -134,7 +134,7 @@ static bool runs_fit(struct convergence_study *s, int runs, int jobs, double lef
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
 /* Why a scene cannot be studied; NULL: it can. */
-static const char *study_refusal(const struct scene *s, const struct convergence_wish *w)
+static const char *study_refusal(const struct scene *s, const struct convergence_request *w)
 {
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].file)
@@ -145,17 +145,17 @@ static const char *study_refusal(const struct scene *s, const struct convergence
 
 /* The first run, of the coarsest level: what the others will take is known from it. *refused: the scene is not sound at
  * this spacing, as with rings that are too narrow for it. */
-static status first_run(struct convergence_study *s, const struct convergence_wish *w, bool *refused)
+static status first_run(struct convergence_study *s, const struct convergence_request *w, bool *refused)
 {
-    struct study_way way = w->way;
+    struct study_options options = w->options;
     s->first = s->study.n;
-    way.jobs = 1;
-    if (way.threads <= 0) way.threads = 1;
-    way.quiet = true;
-    way.until = s->begun + s->budget;
+    options.jobs = 1;
+    if (options.threads <= 0) options.threads = 1;
+    options.quiet = true;
+    options.until = s->begun + s->budget;
     level_run_add(s, s->spacings.levels - 1, 0, w->runs);
     TRY(study_check(&s->study, false));
-    TRY(study_run(&s->study, way));
+    TRY(study_run(&s->study, options));
     const struct study_case *run = &s->study.at[s->first];
     *refused = run->state == CASE_FAILED && run->ended == REFUSED;
     if (run->state == CASE_STOPPED || run->state == CASE_WAITING)
@@ -168,7 +168,7 @@ static status first_run(struct convergence_study *s, const struct convergence_wi
 }
 
 /* Says at once what may be a wrong name: cracks and tips may still come at finer spacings. */
-static void wanted_warn(const struct convergence_study *s, const struct convergence_wish *w)
+static void wanted_warn(const struct convergence_study *s, const struct convergence_request *w)
 {
     const struct path folder = study_folder(&s->study, &s->study.at[s->first]);
     double value;
@@ -179,7 +179,7 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
 }
 
 /* Where a scene is not sound at the coarsest level, all become finer. */
-static status first_run_sound(struct convergence_study *s, const struct convergence_wish *w)
+static status first_run_sound(struct convergence_study *s, const struct convergence_request *w)
 {
     bool refused = false;
     status done = FAILED;
@@ -196,7 +196,7 @@ static status first_run_sound(struct convergence_study *s, const struct converge
 
 /* Plans levels from `shift` steps of sqrt(2) above the scene's own spacing, leaving out those at which it is not sound.
  * False: too few are left. */
-static bool levels_plan(struct convergence_study *s, const struct convergence_wish *w, int shift)
+static bool levels_plan(struct convergence_study *s, const struct convergence_request *w, int shift)
 {
     int levels = w->levels - (shift < 0 ? shift : 0);
     if (levels > LEVELS_MOST) return false;
@@ -209,7 +209,7 @@ static bool levels_plan(struct convergence_study *s, const struct convergence_wi
 }
 
 /* The levels and runs that fit: where the finest is too dear, all become coarser. */
-static status plan_fit(struct convergence_study *s, const struct convergence_wish *w, int jobs)
+static status plan_fit(struct convergence_study *s, const struct convergence_request *w, int jobs)
 {
     static const int finer_first[] = {-2, -1, 0, 1, 2, 3, 4, 5, 6}, own_first[] = {0, -1, -2, 1, 2, 3, 4, 5, 6};
     const double left = s->budget - (team_clock() - s->begun);
@@ -259,9 +259,9 @@ static void plan_print(const struct convergence_study *s)
                 1e3 * s->scene.spacing, 1e3 * s->spacings.at[0][0]);
 }
 
-static status study_go(struct convergence_study *s, const struct convergence_wish *w)
+static status study_go(struct convergence_study *s, const struct convergence_request *w)
 {
-    struct study_way way = w->way;
+    struct study_options options = w->options;
     const int cores = team_cores();
     TRY(study_make(&s->study, w->scene, w->folder, "converge"));
     spacings_plan(&s->spacings, &s->scene, w->levels, s->scene.spacing);
@@ -272,14 +272,14 @@ static status study_go(struct convergence_study *s, const struct convergence_wis
                           horizon_at(s, s->spacings.at[0][0]), HORIZON_MOST);
     TRY(first_run_sound(s, w));
     wanted_warn(s, w);
-    if (way.threads <= 0) way.threads = 1;
-    if (way.jobs <= 0) way.jobs = cores > way.threads ? cores / way.threads : 1;
-    TRY(plan_fit(s, w, way.jobs));
-    if (!way.quiet) plan_print(s);
+    if (options.threads <= 0) options.threads = 1;
+    if (options.jobs <= 0) options.jobs = cores > options.threads ? cores / options.threads : 1;
+    TRY(plan_fit(s, w, options.jobs));
+    if (!options.quiet) plan_print(s);
     runs_add_all(s);
     TRY(study_check(&s->study, false));
-    way.until = s->begun + s->budget;
-    TRY(study_run(&s->study, way));
+    options.until = s->begun + s->budget;
+    TRY(study_run(&s->study, options));
     int failed = 0;
     for (int k = s->first; k < s->study.n; k++) failed += s->study.at[k].state == CASE_FAILED;
     if (failed > 0)
@@ -288,7 +288,7 @@ static status study_go(struct convergence_study *s, const struct convergence_wis
     return study_table_read(&s->table, &s->study);
 }
 
-status convergence_study_run(struct convergence_study *s, const struct convergence_wish *w)
+status convergence_study_run(struct convergence_study *s, const struct convergence_request *w)
 {
     *s = (struct convergence_study){.override = w->override,
                                     .overrides = w->overrides,

@@ -54,15 +54,16 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
         return REFUSED;
     }
     candidate_write(&own, p, c, spacing);
-    const struct convergence_wish w = {.scene = p->scene,
-                                       .folder = folder.text,
-                                       .override = own.override,
-                                       .overrides = own.overrides,
-                                       .levels = PILOT_LEVELS_FIRST,
-                                       .runs = PILOT_RUNS_FIRST,
-                                       .budget = budget,
-                                       .finer = finer,
-                                       .way = {.threads = 1, .quiet = true, .overwrite = true, .stop = p->way.stop}};
+    const struct convergence_request w = {
+        .scene = p->scene,
+        .folder = folder.text,
+        .override = own.override,
+        .overrides = own.overrides,
+        .levels = PILOT_LEVELS_FIRST,
+        .runs = PILOT_RUNS_FIRST,
+        .budget = budget,
+        .finer = finer,
+        .options = {.threads = 1, .quiet = true, .overwrite = true, .stop = p->options.stop}};
     status done = convergence_study_run(&s, &w);
     if (done == OK) {
         done = pilot_judge(p, c, &s);
@@ -102,7 +103,7 @@ static status search_first(struct pilot_search *p)
             if (fixed > 0) break;
         }
         if (done == INTERRUPTED || p->at[k].unknown) return done;
-        if (!p->way.quiet) pilot_print(p, &p->at[k]);
+        if (!p->options.quiet) pilot_print(p, &p->at[k]);
     }
     return OK;
 }
@@ -123,7 +124,7 @@ static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, s
         return false;
     }
     *c = again;
-    if (!p->way.quiet) pilot_print(p, c);
+    if (!p->options.quiet) pilot_print(p, c);
     return true;
 }
 
@@ -185,7 +186,7 @@ static status search_end(struct pilot *to, const struct pilot_search *p, const s
                           p->scene, p->figure, best->name, best->value, best->width, other->name, other->value,
                           other->width);
     candidate_write(to, p, best, best->spacing);
-    if (!p->way.quiet)
+    if (!p->options.quiet)
         fprintf(stderr, "pilot          %s, spacing %.4g mm: %s within %.2g %% %s, in about %.2g s on one thread\n",
                 best->name, 1e3 * best->spacing, p->figure, 100 * best->expected,
                 best->seen ? "as seen" : "as expected from coarser ones", best->seconds);
@@ -197,12 +198,12 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
     TRY(folder_make(p->folder));
     TRY(study_folder_claim(p->folder));
     TRY(figures_guard(p->folder));
-    if (!p->way.quiet)
+    if (!p->options.quiet)
         fprintf(stderr,
                 "pilot          runs at coarse spacings choose method and spacing for %s within %.3g %%, in at most "
                 "%.3g s (accuracy.budget); they are in %s\n",
                 pilot_figure(p), 100 * p->wish.within, p->wish.budget, shown_name(p->folder).text);
-    if (!p->way.quiet && p->wish.at_rest)
+    if (!p->options.quiet && p->wish.at_rest)
         fprintf(stderr,
                 "pilot          a body at rest is one equilibrium, in which no bond breaks; load steps want method "
                 "pd or adaptive\n");
@@ -226,10 +227,10 @@ static status pilot_choose(struct pilot *to, struct pilot_search *p, const char 
 }
 
 status pilot_scene_read(struct scene *s, struct pilot *to, const char *scene, const struct scene_override *override,
-                        int overrides, const char *folder, struct study_way way)
+                        int overrides, const char *folder, struct study_options options)
 {
     struct pilot_search p = {
-        .scene = scene, .override = override, .overrides = overrides, .way = way, .begun = team_clock()};
+        .scene = scene, .override = override, .overrides = overrides, .options = options, .begun = team_clock()};
     *to = (struct pilot){0};
     TRY(scene_read_or_wish(s, &p.wish, scene, override, overrides));
     if (!p.wish.wanted) return OK;

@@ -111,7 +111,7 @@ bool pilot_kept(struct pilot *to, const struct pilot_search *p)
                       strcmp(asked, before) == 0 && file_get(path_join(p->folder, CHOSEN).text, &text, &length) == OK;
     if (same) {
         pilot_fill(to, p->override, p->overrides, answer_read(to, text));
-        if (!p->way.quiet)
+        if (!p->options.quiet)
             fprintf(stderr, "pilot          as chosen before: %s\n",
                     shown_name(path_join(p->folder, CHOSEN).text).text);
     }

@@ -28,7 +28,7 @@ struct pilot_search {
     const char *scene;
     const struct scene_override *override; /* of the user; borrowed */
     int overrides;
-    struct study_way way;
+    struct study_options options;
     struct pilot_wish wish;
     char folder[PATH_ROOM], figure[128]; /* of the runs; that is judged */
     double begun;                        /* on team_clock */

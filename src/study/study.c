@@ -15,7 +15,7 @@
 
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
-void study_place(char *to, size_t room, const struct scene *scene, const char *kind)
+void study_folder_default(char *to, size_t room, const struct scene *scene, const char *kind)
 {
     snprintf(to, room, "results/%s_%s", scene->name, kind);
 }
@@ -25,7 +25,7 @@ static status place_read(char *to, size_t room, const char *path, const char *ki
 {
     struct scene scene;
     TRY(scene_read(&scene, path, NULL, 0));
-    study_place(to, room, &scene, kind);
+    study_folder_default(to, room, &scene, kind);
     scene_free(&scene);
     return OK;
 }
@@ -83,7 +83,7 @@ status study_make_of(struct study *s, const char *scene, const char *folder, con
         done = scene_unread(&text, scene, fixed, n);
     }
     if (read) {
-        study_place(place, sizeof place, &is, kind);
+        study_folder_default(place, sizeof place, &is, kind);
         scene_free(&is);
     }
     if (done == OK) done = study_make(s, scene, folder ? folder : place, kind);
@@ -192,19 +192,19 @@ void study_free(struct study *s)
     folder_unlock(&s->lock, s->folder);
     for (int k = 0; k < s->n; k++) case_free(&s->at[k]);
     memory_free(s->at);
-    memory_free(s->place);
+    memory_free(s->slot);
     memory_free(s->text);
     *s = (struct study){.lock.fd = -1};
 }
 
-const struct study_case *study_stands(const struct study *s, const struct study_case *c)
+const struct study_case *study_representative(const struct study *s, const struct study_case *c)
 {
     return c->state == CASE_SAME ? &s->at[c->same] : c;
 }
 
 struct path study_folder(const struct study *s, const struct study_case *c)
 {
-    return path_join(s->folder, study_stands(s, c)->name);
+    return path_join(s->folder, study_representative(s, c)->name);
 }
 
 /* ---- cases ------------------------------------------------------------------------------------------------------- */

@@ -27,23 +27,23 @@ static uint64_t overrides_hash(const struct scene_override *o, int n)
 }
 
 /* Place of a name in the table, or the empty one where it belongs. */
-static int name_place(const struct study *s, const char *name)
+static int name_slot(const struct study *s, const char *name)
 {
-    int at = (int)(study_hash(STUDY_HASH_START, name) % (uint64_t)s->places);
-    while (s->place[at] > 0 && strcmp(s->at[s->place[at] - 1].name, name) != 0) at = (at + 1) % s->places;
+    int at = (int)(study_hash(STUDY_HASH_START, name) % (uint64_t)s->slots);
+    while (s->slot[at] > 0 && strcmp(s->at[s->slot[at] - 1].name, name) != 0) at = (at + 1) % s->slots;
     return at;
 }
 
-static bool name_taken(const struct study *s, const char *name) { return s->place[name_place(s, name)] > 0; }
+static bool name_taken(const struct study *s, const char *name) { return s->slot[name_slot(s, name)] > 0; }
 
-void study_name_book(struct study *s, int number) { s->place[name_place(s, s->at[number].name)] = number + 1; }
+void study_name_book(struct study *s, int number) { s->slot[name_slot(s, s->at[number].name)] = number + 1; }
 
 void study_names_grow(struct study *s)
 {
-    if (2 * (s->n + 1) <= s->places) return;
-    memory_free(s->place);
-    s->places = s->places > 0 ? 2 * s->places : 64;
-    s->place = NEW("study.names", s->places, int);
+    if (2 * (s->n + 1) <= s->slots) return;
+    memory_free(s->slot);
+    s->slots = s->slots > 0 ? 2 * s->slots : 64;
+    s->slot = NEW("study.names", s->slots, int);
     for (int k = 0; k < s->n; k++) study_name_book(s, k);
 }
 

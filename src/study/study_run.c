@@ -24,7 +24,7 @@ enum { WORDS_FIXED = 12 };
 
 struct runner {
     struct study *study;
-    struct study_way how;
+    struct study_options how;
     struct core_shares *shares;
     int running, ended;
     bool stopped; /* those that run were told to stop ... */
@@ -96,7 +96,7 @@ static struct path path_whole(const char *path)
     return whole;
 }
 
-void study_print_command(const struct study *s, const struct study_case *c, struct study_way how, FILE *out)
+void study_print_command(const struct study *s, const struct study_case *c, struct study_options how, FILE *out)
 {
     char team[16], *pairs;
     const char *name = program_invocation_name;
@@ -292,7 +292,7 @@ static status cases_run(struct runner *r)
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
 /* As many runs at once as there are cores, each with its share of them. */
-static struct study_way way_filled(struct study_way how, const struct study *s)
+static struct study_options options_filled(struct study_options how, const struct study *s)
 {
     const int cores = team_cores();
     int waiting = 0;
@@ -324,7 +324,7 @@ status study_take(struct study *s, bool overwrite)
     return scene_put(s, overwrite);
 }
 
-status study_run(struct study *s, struct study_way how)
+status study_run(struct study *s, struct study_options how)
 {
     struct runner r = {.study = s};
     TRY(folder_make(s->folder));
@@ -337,7 +337,7 @@ status study_run(struct study *s, struct study_way how)
     for (int k = 0; k < s->n; k++)
         if (s->at[k].state == CASE_WAITING) TRY(case_guard(s, &s->at[k]));
     TRY(folder_make(path_join(s->folder, "logs").text));
-    r.how = way_filled(how, s);
+    r.how = options_filled(how, s);
     r.shares = core_shares_make(r.how.jobs);
     const status ran = cases_run(&r);
     core_shares_free(r.shares);

@@ -112,7 +112,7 @@ static const char *state_of(const struct study *s, const struct study_case *c, c
 {
     const struct path folder = study_folder(s, c);
     if (!path_is_file(path_join(folder.text, "summary.json").text))
-        return study_stands(s, c)->state == CASE_FAILED ? "failed" : "missing";
+        return study_representative(s, c)->state == CASE_FAILED ? "failed" : "missing";
     return summary_string(folder.text, "status", text, room) == OK ? text : "unknown";
 }
 
@@ -126,7 +126,7 @@ static void table_print(FILE *to, const struct study_table *t, const struct stud
     putc('\n', to);
     for (int c = 0; c < s->n; c++) {
         char state[NAME_MAX_LENGTH];
-        cell_print(to, study_stands(s, &s->at[c])->name);
+        cell_print(to, study_representative(s, &s->at[c])->name);
         putc(',', to);
         cell_print(to, state_of(s, &s->at[c], state, sizeof state));
         for (int k = 0; k < keys; k++)
