@@ -1,57 +1,67 @@
-/* How far a figure is from what it converges to, from runs at several spacings that differ in nothing physical. */
+/* Discretisation error of a figure (a scalar result), estimated from runs of one scene at several particle spacings. */
 #ifndef CLEAVE_CONVERGENCE
 #define CLEAVE_CONVERGENCE
 
 #include "study/study.h"
 
+/* Fewest and most spacing levels; most runs. */
 enum { LEVELS_LEAST = 3, LEVELS_MOST = 6, RUNS_MOST = 15 };
 
-/* Runs at about one spacing. */
+/* Statistics of the runs of one level, which have about the same spacing. */
 struct level_figures {
-    double spacing, mean; /* of its runs [m], in units of the figure */
-    double deviation;     /* standard, of one run */
-    double error;         /* half of the 95 % interval of the mean: by Student, and the resolution */
+    double spacing, mean; /* mean spacing [m]; mean of the figure */
+    double deviation;     /* standard deviation of a single run */
+    double error;         /* half of the 95 % interval of the mean: Student's t and the resolution of the figure */
     int runs;
 };
 
+/* Behaviour of a figure under refinement. */
 enum verdict {
-    VERDICT_CONVERGES,  /* with an observed order of 0.5 or more */
-    VERDICT_SCATTERS,   /* differences of spacings, or their order, are hidden in the scatter of runs */
-    VERDICT_OSCILLATES, /* the means go up and down */
-    VERDICT_SLOW,       /* an order below 0.5 */
-    VERDICT_DIVERGES,   /* differences grow as the spacing shrinks */
+    VERDICT_CONVERGES,  /* converges with an observed order of 0.5 or more */
+    VERDICT_SCATTERS,   /* differences between levels, or their order, are smaller than the scatter of the runs */
+    VERDICT_OSCILLATES, /* the means increase and decrease */
+    VERDICT_SLOW,       /* converges with an order below 0.5 */
+    VERDICT_DIVERGES,   /* differences grow as the spacing decreases */
     VERDICTS
 };
+
+/* Word for each verdict, for tables. */
 extern const char *const verdict_name[VERDICTS];
 
-/* Level 0 is the finest. All but orders are in units of the figure. */
+/* Convergence of a figure. Level 0 is the finest. All members but orders are in units of the figure. */
 struct convergence {
     struct level_figures level[LEVELS_MOST];
     int levels;
     enum verdict verdict;
-    double bias;  /* half-width of what no spacing takes away, as by families of a shaken lattice; 0: none */
-    double order; /* observed on the three finest levels; NAN: none */
-    double index; /* grid convergence index of the finest level (Roache 1998, factor of safety 1.25); NAN: no order of
-                   * 1/2 or more is seen */
-    double order_likely, order_error; /* of all levels: mean and standard deviation of the orders that fit */
-    double extrapolated;              /* to spacing 0: mean of what they lead to */
-    double uncertainty[LEVELS_MOST];  /* half-width of the 95 % interval of the true value round the mean of a level */
-    double
-        discretisation[LEVELS_MOST]; /* what of it is not the error of the mean (root of the difference of squares) */
+    double bias;  /* half-width of an error that does not decrease with the spacing, for example of irregular
+                   * lattices; 0: none */
+    double order; /* order observed on the three finest levels; NAN: none */
+    double index; /* grid convergence index of the finest level (Roache 1998, factor of safety 1.25); NAN: no order
+                   * of 1/2 or more is observed */
+    double order_likely, order_error;   /* mean and standard deviation of the orders that are consistent with all
+                                         * levels */
+    double extrapolated;                /* value extrapolated to spacing 0: mean over the consistent orders */
+    double uncertainty[LEVELS_MOST];    /* half-width of the 95 % interval of the true value around the mean of each
+                                         * level */
+    double discretisation[LEVELS_MOST]; /* part of `uncertainty` that is not the error of the mean: root of the
+                                         * difference of squares */
 };
 
-/* n runs: value[k] at spacing[k], of level[k] = 0 .. levels - 1; NAN: the run has none. resolution[level]: half of the
- * steps in which the figure comes there; NULL: none. False where one of the three finest levels has no value. */
+/* Determines order, verdict and intervals of a figure from n runs.
+ * value[k]: figure of run k at spacing[k] and level[k] = 0 .. levels - 1; NAN: the run has no value. resolution[level]:
+ * half the step in which the figure is quantised; NULL: not quantised. Returns false if one of the three finest levels
+ * has no value. */
 bool convergence_find(struct convergence *c, const double *spacing, const double *value, const int *level, int n,
                       int levels, const double *resolution);
 
-/* Half-width of the interval round the value `about` that holds the true one with probability `share`, from the means
- * of all levels and their errors (convergence_interval.c). */
+/* Returns the half-width of the interval around `about` that contains the true value with probability `share`. Uses the
+ * means of all levels and their errors (convergence_interval.c). */
 double convergence_half_width(const struct convergence *c, double about, double share);
-/* Sets order_likely, order_error, extrapolated, uncertainty and discretisation of a convergence with levels. */
+
+/* Sets order_likely, order_error, extrapolated, uncertainty and discretisation from the levels of c. */
 void convergence_intervals(struct convergence *c);
 
-/* Quantile 97.5 % of Student's t with n >= 1 degrees of freedom. */
+/* Returns the 97.5 % quantile of Student's t distribution with n >= 1 degrees of freedom. */
 double student_95(int n);
 
 #endif

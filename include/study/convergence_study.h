@@ -1,4 +1,5 @@
-/* A study of convergence: the same scene at several spacings, each some times with what changes nothing physical. */
+/* Convergence study: runs a scene at several spacings, each several times with variations that have no physical
+ * meaning. */
 #ifndef CLEAVE_CONVERGENCE_STUDY
 #define CLEAVE_CONVERGENCE_STUDY
 
@@ -6,80 +7,92 @@
 
 enum { SPACINGS_MOST = 3 };
 
-/* Spacings of each level, the finest first: the level's own and others within some percent, at which the lattice lies
- * as well [m]. */
+/* Spacings of each level [m], level 0 the finest. at[level][0] is the spacing of the level; the others differ from it
+ * by a few percent and also fit the lattice to the body. */
 struct spacings {
-    int levels, n[LEVELS_MOST];
+    int levels, n[LEVELS_MOST]; /* number of levels; number of spacings of each */
     double at[LEVELS_MOST][SPACINGS_MOST];
-    double misfit[LEVELS_MOST]; /* of the level's own: largest distance of a face or crack from where the
-                                 * lattice would meet it [spacings] */
+    double misfit[LEVELS_MOST]; /* largest distance between a face or crack and the lattice position that it should
+                                 * have, at at[level][0] [spacings] */
 };
 
-/* Plans levels a factor sqrt(2) apart, level 0 near `finest`. */
+/* Chooses the spacings of `levels` levels with ratio sqrt(2), level 0 near `finest` [m]. */
 void spacings_plan(struct spacings *to, const struct scene *s, int levels, double finest);
 
-/* What a run of the study differs in. */
+/* Parameters in which a run of the study differs from the scene. */
 struct study_point {
-    int level;                     /* -1: a run of level 1 with a longer horizon */
-    double spacing, step, horizon; /* [m], share of the scene's own [1], [spacings] */
-    int run;                       /* of its level, from 0 */
+    int level;                     /* index of its level; -1: a run at the spacing of level 1 with a longer horizon */
+    double spacing, step, horizon; /* spacing [m]; time step over that of the scene [1]; horizon [spacings] */
+    int run;                       /* index among the runs of its level, from 0 */
 };
 
+/* State of a convergence study. */
 struct convergence_study {
-    struct scene scene; /* as the user gave it */
+    struct scene scene; /* the scene as given by the user */
     struct study study;
-    struct study_point *point; /* of each run of `study` */
-    int first;                 /* run from which the time of the others is known */
-    double refused;            /* spacing at which the scene is not sound; INFINITY: none [m] */
+    struct study_point *point; /* [study.n] parameters of each run of `study` */
+    int first;                 /* index of the first run, whose duration predicts those of the others */
+    double refused;            /* largest spacing below which the scene is valid; INFINITY: not limited [m] */
     struct spacings spacings;
-    const struct scene_override *override; /* of the user; borrowed */
+    const struct scene_override *override; /* overrides by the user; borrowed */
     int overrides;
-    int runs[LEVELS_MOST];  /* of each level */
-    bool fixed_horizon;     /* its length stays while the spacing shrinks */
-    int own;                /* level of the scene's own spacing; -1: it does not fit the budget */
-    double budget, begun;   /* [s], on team_clock */
-    double spent, expected; /* of the first run [s]; of all, with so many side by side [s] */
+    int runs[LEVELS_MOST];  /* number of runs of each level */
+    bool fixed_horizon;     /* the horizon keeps its length [m] at all spacings, instead of its number of spacings */
+    int own;                /* level with the spacing of the scene; -1: that spacing exceeds the budget */
+    double budget, begun;   /* allowed duration [s]; start time on team_clock [s] */
+    double spent, expected; /* duration of the first run [s]; predicted duration of all, run in parallel [s] */
     struct study_table table;
 };
 
-/* Result of one figure. */
+/* Convergence of one figure. */
 struct figure_study {
     const char *name;
-    char unit[UNIT_ROOM]; /* SI; "": none */
+    char unit[UNIT_ROOM]; /* SI unit; "": none */
     struct convergence c;
-    double step_moves;    /* by a step a tenth longer; NAN: not known */
-    double spacing_moves; /* from the second to the finest level */
-    double horizon_moves; /* by a horizon one spacing longer, at level 1; NAN: not known */
+    double step_moves;    /* change of the figure for a time step 10 % longer; NAN: unknown */
+    double spacing_moves; /* change from level 1 to level 0 */
+    double horizon_moves; /* change for a horizon one spacing longer, at level 1; NAN: unknown */
 };
 
+/* Request for a convergence study. */
 struct convergence_request {
-    const char *scene, *folder;
+    const char *scene, *folder; /* path of the scene; folder of the study, NULL: default */
     const struct scene_override *override;
+    /* number of overrides; of levels; largest number of runs per level */
     int overrides, levels, runs; /* runs at the most */
-    double budget;               /* [s] */
-    const char *const *wanted;   /* figures that are asked for: a warning where the first run has none such; NULL */
+    double budget;               /* allowed duration [s] */
+    const char *const *wanted;   /* [wanteds] names of requested figures, with a warning if the first run lacks one;
+                                  * NULL: none requested */
     int wanteds;
-    bool fixed_horizon, finer; /* finer: also spacings below the scene's own, as the budget allows */
+    bool fixed_horizon, finer; /* fixed_horizon: as in struct convergence_study; finer: also use spacings below that
+                                * of the scene if the budget allows */
     struct study_options options;
 };
 
-/* Runs the study. Fails of single runs leave gaps. REFUSED where the scene cannot be refined or the budget is too
- * little, with how much it would take. */
+/* Runs the study. Failed runs leave NAN in the table. REFUSED if the scene cannot be refined, or if the budget is too
+ * small; the message then states the required budget. Release with convergence_study_free. */
 status convergence_study_run(struct convergence_study *s, const struct convergence_request *w);
+
+/* Releases the memory of s. */
 void convergence_study_free(struct convergence_study *s);
 
-/* The figures that all levels have, physical ones alone; `wanted` (NULL: all) must be among them, or REFUSED. The
- * caller frees *figure. */
+/* Determines the convergence of the physical figures that all levels have. wanted[wanteds]: only these figures, REFUSED
+ * if one is missing; NULL: all. Stores an allocated array in *figure, which the caller releases with memory_free, and
+ * its length in *figures. */
 status figures_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
                     struct figure_study **figure, int *figures);
-/* REFUSED if the folder is that of a study and the table or a picture that a study of convergence leaves there is a
- * file of others. Other folders are refused by study_take. */
+
+/* REFUSED if the folder is that of a study, and the table or a picture to be written there exists and Cleave did not
+ * write it. Other folders are checked by study_take. */
 status figures_guard(const char *folder);
-/* Writes FOLDER/converge.csv. */
+
+/* Writes the table FOLDER/converge.csv. */
 status figures_write(const struct convergence_study *s, const struct figure_study *figure, int figures);
-/* Prints a table, the sentence for each figure, and what moves it most. */
+
+/* Prints a table, a sentence for each figure, and the parameter to which it is most sensitive. */
 void figures_print(const struct convergence_study *s, const struct figure_study *figure, int figures);
-/* Draws FOLDER/pictures/convergence.png, and path.png where the runs have cracks. */
+
+/* Draws FOLDER/pictures/convergence.png, and path.png if the runs have cracks. */
 status figures_draw(const struct convergence_study *s, const struct figure_study *figure, int figures);
 
 #endif

@@ -1,4 +1,4 @@
-/* Error bars of a scene from a study of convergence that is at hand. */
+/* Error bars of the figures of a run from an existing convergence study of its scene. */
 #ifndef CLEAVE_UNCERTAINTY
 #define CLEAVE_UNCERTAINTY
 
@@ -6,11 +6,11 @@
 #include "output/output_files.h"
 #include "step/report.h"
 
-/* The folder of the pilot runs of a run: its own name with _pilot behind it. */
+/* Returns the folder of the pilot runs of a run: FOLDER_pilot. */
 struct path pilot_folder(const char *folder);
 
-/* The 95 % intervals of the figures of a scene that is run in `folder`, if NAME_converge beside that folder is a study
- * of it. Returns how many; 0: there is none, or it cannot be read. */
+/* Reads the 95 % intervals of figures from the convergence study in NAME_converge beside `folder`, if it is a study of
+ * scene s. bar: receives at most `most` of them. Returns their number; 0 if there is no study or it cannot be read. */
 int error_bars_at_hand(struct error_bar *bar, int most, const struct scene *s, const char *folder);
 
 #endif

@@ -1,4 +1,4 @@
-/* Observed order, grid convergence index and verdict of a figure. Its intervals: convergence_interval.c. */
+/* Observed order, grid convergence index and verdict of a figure; its intervals are in convergence_interval.c. */
 #include "study/convergence.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 #define SAFETY                                                                                                         \
     1.25 /* factor of the grid convergence index with three spacings and an order that is seen (Roache 1998) */
 #define ORDER_LEAST 0.5
-#define ORDER_MOST 2.0 /* of the methods, which an observed order may pass by chance */
+#define ORDER_MOST 2.0 /* formal order of the methods, which an observed order may exceed by chance */
 
 const char *const verdict_name[VERDICTS] = {
     [VERDICT_CONVERGES] = "converges", [VERDICT_SCATTERS] = "scatters",          [VERDICT_OSCILLATES] = "oscillates",
@@ -19,7 +19,7 @@ double student_95(int n)
                                    2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086};
     const double normal = 1.95996;
     INVARIANT(n >= 1);
-    return n <= (int)COUNT_OF(table) ? table[n - 1] : normal + 2.5 / n; /* to 0.2 % */
+    return n <= (int)COUNT_OF(table) ? table[n - 1] : normal + 2.5 / n; /* accurate to 0.2 % */
 }
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
@@ -41,7 +41,7 @@ static void level_find(struct level_figures *l, const double *spacing, const dou
     l->deviation = l->runs > 1 ? sqrt(sum / (l->runs - 1)) : NAN;
 }
 
-/* The error of each mean. A level of one run is taken to scatter as the others do. */
+/* Computes the error of the mean of each level. A level with a single run is assumed to scatter as the others. */
 static void errors_find(struct convergence *c, const double *resolution)
 {
     double sum = 0;
@@ -63,7 +63,7 @@ static void errors_find(struct convergence *c, const double *resolution)
 
 /* ---- order ------------------------------------------------------------------------------------------------------- */
 
-/* What the ratio (m2 - m1)/(m1 - m0) would be at order p. */
+/* Returns the ratio (m2 - m1)/(m1 - m0) of the means at order p. */
 static double ratio_at(const struct level_figures *l, double p)
 {
     const double h0 = l[0].spacing, h1 = l[1].spacing / h0, h2 = l[2].spacing / h0;
@@ -71,7 +71,8 @@ static double ratio_at(const struct level_figures *l, double p)
     return (pow(h2, p) - pow(h1, p)) / (pow(h1, p) - 1);
 }
 
-/* The order at which the means of the three finest levels lie on a line in h^p. The ratio grows with p. */
+/* Returns the order p for which the means of the three finest levels are linear in h^p. The ratio grows with p, so that
+ * bisection finds it. */
 static double order_find(const struct level_figures *l, double ratio)
 {
     double low = -10, high = 20;
@@ -85,8 +86,8 @@ static double order_find(const struct level_figures *l, double ratio)
     return 0.5 * (low + high);
 }
 
-/* Orders that the means allow within their errors: `low` and `high`, and the one that they have, NAN where they go up
- * and down. False: no order does. */
+/* Range of the orders that are consistent with the means and their errors, and the observed order `seen`, NAN if the
+ * means oscillate. */
 struct orders {
     double low, seen, high;
 };
@@ -137,7 +138,7 @@ bool convergence_find(struct convergence *c, const double *spacing, const double
         level_find(&c->level[k], spacing, value, level, n, k);
         if (c->level[k].runs > 0) continue;
         if (k < LEVELS_LEAST) return false;
-        c->levels = k; /* coarser ones do not count */
+        c->levels = k; /* levels coarser than a gap are ignored */
         break;
     }
     errors_find(c, resolution);

@@ -1,4 +1,4 @@
-/* Pictures of a study of convergence: figures over the spacing, and the paths of all cracks over each other. */
+/* Pictures of a convergence study: figures over the spacing, and the crack paths of all runs. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "study/convergence_study.h"
 
 enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16 };
-#define FLICKER 3.0 /* by which a tip moves without growing [spacings] */
+#define FLICKER 3.0 /* largest apparent motion of a tip that does not grow [spacings] */
 
 static struct path convergence_picture(const char *folder, const char *name)
 {
@@ -21,7 +21,7 @@ static struct path convergence_picture(const char *folder, const char *name)
 status figures_guard(const char *folder)
 {
     static const char *const begin[] = {"figure,unit,"};
-    if (study_folder_guard(folder) != OK) return OK; /* study_take says why */
+    if (study_folder_guard(folder) != OK) return OK; /* study_take reports the fault */
     TRY(file_begin_guard(path_join(folder, "converge.csv").text, begin, COUNT_OF(begin)));
     TRY(picture_guard(convergence_picture(folder, "convergence.png").text));
     return picture_guard(convergence_picture(folder, "path.png").text);
@@ -29,7 +29,8 @@ status figures_guard(const char *folder)
 
 /* ---- figures over the spacing ------------------------------------------------------------------------------------ */
 
-/* $r: every run; $m: means with the errors of the means; $e: what they converge to, with the interval, at spacing 0. */
+/* Sends data blocks: $r: every run; $m: means with their errors; $e: extrapolated value with its interval, at spacing
+ * 0. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct figure_study *f, int panel)
 {
     const int at = study_figure(&s->table, f->name);
@@ -66,7 +67,7 @@ static void plot_figure(FILE *to, const struct figure_study *f, int panel)
             panel, panel, curve_colour[5], panel, curve_colour[0]);
 }
 
-/* A round distance of tics, of which some five lie between 0 and `most`. */
+/* Returns a round distance of tics that places about five of them between 0 and `most`. */
 static double tics_apart(double most)
 {
     const double decade = pow(10, floor(log10(most / 3))), lead = most / 3 / decade;
@@ -96,21 +97,21 @@ static status draw_figures(const struct convergence_study *s, const struct figur
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
-/* The place of the longest tip in each sample at which it has grown; `tip`: which of the tips that were the longest in
- * turn, as the history does not say. */
+/* Position of the longest crack tip at each sample at which it has grown. tip[k]: index among the tips that were the
+ * longest in turn, reconstructed because the history does not identify them. */
 struct longest {
     int64_t n;
     double *x, *y, *grown;
     int *tip, tips;
 };
 
-/* What is drawn [m]. */
+/* Bounding box of the drawn paths [m]. */
 struct extent {
     double low[2], high[2];
 };
 
-/* Between samples a tip moves about as far as it grows, and its damage flickers by some spacings: a place that is
- * farther off is that of another tip. */
+/* Returns the index of the tip at sample i. Between samples a tip moves about as far as its crack grows, and its damage
+ * fluctuates by a few spacings: a position farther away belongs to another tip. */
 static int tip_drawn(const struct longest *l, int64_t i, double spacing)
 {
     bool seen[TIPS_MOST] = {false};
@@ -153,7 +154,8 @@ static void longest_free(struct longest *l)
     memory_free(l->tip);
 }
 
-/* Sends the paths of the longest tips of a run as $wK [mm], each for itself; false: it has none. */
+/* Sends the paths of the longest tips of run k as data block $wK [mm], each as a separate line. Returns false if there
+ * are none. */
 static bool send_path(FILE *to, const struct convergence_study *s, int k, struct extent *e)
 {
     struct history h;
@@ -178,7 +180,7 @@ static bool send_path(FILE *to, const struct convergence_study *s, int k, struct
     return sent;
 }
 
-/* Some room round what is drawn, and a straight path has a height, too. */
+/* Sets the ranges with a margin around the paths, nonzero also for a straight path. */
 static void send_ranges(FILE *to, const struct extent *e)
 {
     static const char axis[] = "xy";

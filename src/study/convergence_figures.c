@@ -1,4 +1,4 @@
-/* Figures of a study of convergence: found, written, printed. */
+/* Figures of a convergence study: selection, table and printed summary. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,13 +11,16 @@
 #include "study/uncertainty.h"
 
 enum { PRINTED_MOST = 24 };
-/* Families of a shaken lattice are summed with an error that no spacing takes away, only more neighbours: with a
- * horizon m it falls about as m^(-3/2), so that from one horizon to the next but a third of it goes. */
+
+/* Factor from the change between two horizons to the remaining error. The summation error of irregular lattices does
+ * not decrease with the spacing, only with the number of neighbours: it falls with the horizon m as about m^(-3/2)
+ * (empirical), so that one step of the horizon removes only a third of it. */
 #define HORIZON_REST 2.9
 
-/* ---- what moves a figure ----------------------------------------------------------------------------------------- */
+/* ---- sensitivity of a figure ------------------------------------------------------------------------------------- */
 
-/* By least squares through the runs of all levels, each from the mean of its level. */
+/* Returns the change of a figure for a time step 10 % longer, by least squares over the runs of all levels, relative to
+ * the mean of their level. */
 static double step_moves(const struct convergence_study *s, const struct convergence *c, const double *value)
 {
     double xx = 0, xy = 0;
@@ -44,8 +47,8 @@ static double horizon_moves(const struct convergence_study *s, const double *val
     return longer - own;
 }
 
-/* Half of the steps in which a figure comes at each level: places and lengths of tips by spacings, angles as these
- * turn them. False: it comes in no steps. */
+/* Computes half the step in which a figure is quantised at each level: one spacing for positions and crack lengths, the
+ * corresponding rotation for angles. Returns false if it is not quantised. */
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
@@ -87,7 +90,7 @@ static bool figure_make(struct figure_study *f, const struct convergence_study *
     return true;
 }
 
-/* False: the same in all runs, as an energy that the scene does not have. */
+/* Returns false if the figure is equal in all runs, for example an energy that the scene does not have. */
 static bool figure_moves(const struct figure_study *f)
 {
     bool moves = false;
@@ -98,14 +101,16 @@ static bool figure_moves(const struct figure_study *f)
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Is a figure one that a study without wishes is about? Tips are numbered anew in each run. */
+/* Returns true if a study without requested figures reports this one. Single tips are left out: their numbering differs
+ * between runs. */
 static bool is_of_interest(const char *name)
 {
     const char *dot = strrchr(name, '.');
     return !study_figure_is_technical(name) && strncmp(name, "crack.tips.", 11) != 0 && !(dot && !strcmp(dot, ".tied"));
 }
 
-/* Is a figure the coordinate of one of several places that tie in a run? Runs may give another one each. */
+/* Returns true if the figure is a coordinate of one of several positions that tie in a run: other runs may report
+ * another position. */
 static bool is_one_of_several(const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -118,7 +123,7 @@ static bool is_one_of_several(const struct convergence_study *s, const char *nam
     return false;
 }
 
-/* Cracks come first, then what is neither crack nor energy, as probes. */
+/* Returns the rank of a figure in the output: cracks, then others such as probes, then energies. */
 static int part_of(const char *name) { return !strncmp(name, "crack.", 6) ? 0 : !strncmp(name, "energy.", 7) ? 2 : 1; }
 
 static bool is_wanted(const char *name, const char *const *wanted, int wanteds)
@@ -212,9 +217,9 @@ status figures_write(const struct convergence_study *s, const struct figure_stud
     return study_scene_put(s->study.folder, s->scene.text);
 }
 
-/* ---- what is printed --------------------------------------------------------------------------------------------- */
+/* ---- printed summary --------------------------------------------------------------------------------------------- */
 
-/* A value with the digits that its uncertainty leaves, two of which are uncertain. */
+/* Writes a value with the digits that its uncertainty justifies: two uncertain digits. text: capacity `room` [byte]. */
 static void certain_digits(char *text, size_t room, double value, double uncertainty)
 {
     const double size = fabs(value);
@@ -228,7 +233,8 @@ static void certain_digits(char *text, size_t room, double value, double uncerta
         snprintf(text, room, "%.*f", uncertain > 0 ? 0 : uncertain < -9 ? 9 : -uncertain, value);
 }
 
-/* What moves a figure most: a step a tenth longer, the spacing (by a factor sqrt(2)), a horizon one spacing longer. */
+/* Names the parameter that changes the figure most: the time step (10 % longer), the spacing (factor sqrt(2)) or the
+ * horizon (one spacing longer). */
 static const char *mover(const struct figure_study *f)
 {
     const double step = fabs(f->step_moves), spacing = fabs(f->spacing_moves), horizon = fabs(f->horizon_moves);

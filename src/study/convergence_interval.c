@@ -1,12 +1,13 @@
-/* The interval that holds the true value of a figure.
+/* Interval that contains the true value of a figure with a given probability (Bayesian).
  *
- * The means of the levels are m_k = v + a (h_k/h_0)^p + noise, with the value v at spacing 0 that is sought. The noise
- * is the error of the mean, of standard deviation e_k/2, and a misfit of standard deviation t S, by which lattices of
- * different spacings meet a body differently; S is the range of the means. Before the means are looked at, nothing is
- * known of v, the order p is anywhere from 1/2 (fronts) to 2 (smooth fields), the trend from the coarsest to the finest
- * level is normal with the standard deviation S, and t has any size up to 1. For each (p, t) v is normal, by linear
- * least squares; each counts by how likely it makes the means. The result is a mixture of normal distributions, which
- * widens by itself where means scatter, turn or leave several orders open.
+ * Model: the means of the levels are m_k = v + a (h_k/h_0)^p + noise, with the value v at spacing 0 that is to be
+ * found. The noise consists of the error of the mean, with standard deviation e_k/2, and of a misfit with standard
+ * deviation t S, because lattices of different spacings fit a body differently; S is the range of the means.
+ * Prior: v is nearly unknown; the order p is uniform between 1/2 (fronts) and 2 (smooth fields); the trend from the
+ * coarsest to the finest level is normal with standard deviation S; t is log-uniform up to 1.
+ * For each (p, t) the posterior of v is normal and follows from linear least squares; its weight is the likelihood of
+ * the means. The posterior is thus a mixture of normal distributions. It widens if the means scatter, oscillate or are
+ * consistent with several orders.
  *
  * `cleave bench uncertainty` compares these intervals with figures whose true values are known. */
 #include <math.h>
@@ -14,12 +15,12 @@
 #include "study/convergence.h"
 
 enum { ORDERS = 7, MISFITS = 10 };
-#define ORDER_FIRST 0.5   /* p in equal steps from here ... */
-#define ORDER_LAST 2.0    /* ... to here */
-#define MISFIT_LEAST 1e-3 /* t from here to 1, evenly in its logarithm */
-#define VAGUE 100.0       /* standard deviation of v before anything is known, in units of S */
+#define ORDER_FIRST 0.5   /* range of the order p, sampled in equal steps */
+#define ORDER_LAST 2.0    /* end of the range */
+#define MISFIT_LEAST 1e-3 /* smallest t; sampled from here to 1 in equal steps of its logarithm */
+#define VAGUE 100.0       /* standard deviation of the prior of v over S */
 
-/* Normal distributions of v - m_0, in units of S, with their weights. */
+/* Mixture of normal distributions of (v - m_0)/S, with their weights. */
 struct mixture {
     struct {
         double weight, centre, deviation, order;
@@ -28,7 +29,7 @@ struct mixture {
 
 /* ---- the mixture ------------------------------------------------------------------------------------------------- */
 
-/* S: range of the means, and their errors. */
+/* Returns S: the range of the means including their errors. */
 static double range_scale(const struct convergence *c)
 {
     double least = INFINITY, most = -INFINITY, error = 0;
@@ -39,7 +40,8 @@ static double range_scale(const struct convergence *c)
     return hypot(most - least, 0.5 * error);
 }
 
-/* Least squares for v and a at order p and misfit t. Returns the logarithm of the likelihood of the means. */
+/* Solves the least-squares problem for v and a at order p and misfit t. Stores centre and standard deviation of the
+ * posterior of v. Returns the logarithm of the likelihood of the means. */
 static double part_fit(const struct convergence *c, double scale, double p, double t, double *centre, double *deviation)
 {
     const double trend = pow(c->level[c->levels - 1].spacing / c->level[0].spacing, p) - 1;
@@ -59,7 +61,7 @@ static double part_fit(const struct convergence *c, double scale, double p, doub
     return -0.5 * (misfit - v * value - a * slope + spread + log(determinant));
 }
 
-/* False where all means are the same and exact. */
+/* Computes the mixture. Returns false if all means are equal and exact. */
 static bool mixture_make(struct mixture *m, const struct convergence *c, double scale)
 {
     double most = -INFINITY, sum = 0;
@@ -68,7 +70,7 @@ static bool mixture_make(struct mixture *m, const struct convergence *c, double 
     for (int o = 0; o < ORDERS; o++)
         for (int k = 0; k < MISFITS; k++, n++) {
             const double p = ORDER_FIRST + (ORDER_LAST - ORDER_FIRST) * o / (ORDERS - 1);
-            const bool at_end = o == 0 || o == ORDERS - 1; /* half a step of p */
+            const bool at_end = o == 0 || o == ORDERS - 1; /* trapezoidal rule: end points count half */
             const double t = pow(MISFIT_LEAST, 1 - (double)k / (MISFITS - 1));
             m->part[n].order = p;
             m->part[n].weight =
@@ -84,7 +86,7 @@ static bool mixture_make(struct mixture *m, const struct convergence *c, double 
 
 static double normal_below(double z) { return 0.5 * erfc(-z * 0.70710678118654752); }
 
-/* Probability that v lies within half_width of `about`. */
+/* Returns the probability that v is within half_width of `about`. */
 static double mixture_within(const struct mixture *m, double about, double half_width)
 {
     double sum = 0;
@@ -95,7 +97,7 @@ static double mixture_within(const struct mixture *m, double about, double half_
     return sum;
 }
 
-/* By bisection, to 1e-9 of S. */
+/* Returns the half-width that contains v with probability `share`, by bisection to 1e-9 S. */
 static double mixture_half_width(const struct mixture *m, double about, double share)
 {
     double low = 0, high = 4 * VAGUE;
@@ -109,7 +111,7 @@ static double mixture_half_width(const struct mixture *m, double about, double s
     return high;
 }
 
-/* Half-width that a normal distribution of 95 % within 1 has for another share. */
+/* Returns the half-width that contains a share of a normal distribution whose 95 % interval has half-width 1. */
 static double normal_half_width(double share)
 {
     double low = 0, high = 10;

@@ -1,18 +1,18 @@
-/* The spacings of a study of convergence: those near the wanted ones at which the lattice meets faces and cracks of the
- * scene as its own spacing does. A body that ends between two lattice points, or a crack that moves from beside a row
- * of particles onto it, would be another scene. */
+/* Spacings of a convergence study: near the wanted ones, and such that the lattice fits faces and cracks of the scene
+ * as at the scene's own spacing. A body that ends between two lattice planes, or a crack that moves from between rows
+ * of particles onto a row, would change the problem. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "study/convergence_study.h"
 
-#define MEETS 0.02       /* a place this close to a lattice plane, or half-way, is met [spacings] */
-#define NEAR_WANTED 0.12 /* spacings are looked for so far from the wanted one [1] */
-#define FAR_WANTED 0.16  /* ... or, if none there fits, so far: levels keep apart [1] */
-#define NEAR_CHOSEN 0.07 /* others beside the chosen one [1] */
+#define MEETS 0.02       /* tolerance for a position on a lattice plane or midway between two [spacings] */
+#define NEAR_WANTED 0.12 /* range around the wanted spacing that is searched [1] */
+#define FAR_WANTED 0.16  /* range if none there fits; levels remain apart [1] */
+#define NEAR_CHOSEN 0.07 /* range around the chosen spacing for further ones of the level [1] */
 
-/* Distances of faces and cracks from the lower corner of their body, each a multiple of the scene's own spacing, or
- * half-way between two. */
+/* Distances of faces and cracks from the lower corner of their body that are integer or half-integer multiples of the
+ * scene's own spacing. */
 struct places {
     int n;
     struct {
@@ -21,7 +21,7 @@ struct places {
     } * place;
 };
 
-/* ---- places ------------------------------------------------------------------------------------------------------ */
+/* ---- positions --------------------------------------------------------------------------------------------------- */
 
 static void place_add(struct places *p, double distance, double spacing)
 {
@@ -55,7 +55,8 @@ static void places_find(struct places *p, const struct scene *s)
     }
 }
 
-/* Largest distance of a place from where the lattice of a spacing should meet it [spacings]. */
+/* Returns the largest distance between a position and the lattice position that it should have at this spacing
+ * [spacings]. */
 static double misfit(const struct places *p, double spacing)
 {
     double worst = 0;
@@ -68,7 +69,8 @@ static double misfit(const struct places *p, double spacing)
 
 /* ---- spacings ---------------------------------------------------------------------------------------------------- */
 
-/* The spacing that fits best within `reach` of `wanted`, of several that fit the nearest; none of `taken`. 0: none. */
+/* Returns the spacing within the relative range `reach` of `wanted` that fits best, the nearest of several equal ones,
+ * and none of taken[n]; 0: none. */
 static double spacing_near(const struct places *p, double wanted, double reach, const double *taken, int n)
 {
     double longest = 0, best = 0, least = INFINITY;

@@ -1,4 +1,4 @@
-/* Which runs a study of convergence takes within its budget, and how it makes them. */
+/* Plans the runs of a convergence study within its budget and makes them. */
 #include "study/convergence_study.h"
 
 #include <math.h>
@@ -12,14 +12,15 @@
 #include "scene/scene_read.h"
 
 enum { RUNS_LEAST = 3, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
-#define STEP_RANGE 0.1    /* steps from 0.9 to 1.1 of the scene's own */
-#define SAFETY_MOST 1.0   /* share of the critical step that no run exceeds */
-#define MISFIT_MOST 0.1   /* of coarser levels than asked for: with more it is another body [spacings] */
+#define STEP_RANGE 0.1    /* time steps vary from 0.9 to 1.1 of the scene's own */
+#define SAFETY_MOST 1.0   /* largest time step over the critical one */
+#define MISFIT_MOST 0.1   /* largest misfit of a coarser level than requested: beyond, the body differs [spacings] */
 #define HORIZON_MOST 10.5 /* [spacings] */
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Steps of runs 0, 1, ..: the scene's own, then to either side, the far ones first. */
+/* Returns the factor on the time step of a run: 1 for run 0, then values on alternating sides, the most distant
+ * first. */
 static double step_of(const struct convergence_study *s, int run, int runs)
 {
     const double most = s->scene.time_step > 0 ? INFINITY : SAFETY_MOST / s->scene.safety;
@@ -29,7 +30,7 @@ static double step_of(const struct convergence_study *s, int run, int runs)
     return centre * (1 + (run % 2 ? -1 : 1) * range * (pairs - pair) / pairs);
 }
 
-/* The level's own spacing for run 0; the others in turn. */
+/* Returns the spacing of a run: the level's own for run 0, then the others in turn. */
 static double spacing_in_turn(const struct convergence_study *s, int level, int run)
 {
     return s->spacings.at[level][run % s->spacings.n[level]];
@@ -37,7 +38,7 @@ static double spacing_in_turn(const struct convergence_study *s, int level, int 
 
 static bool has_bonds(const struct scene *s) { return s->method != METHOD_MPM; }
 
-/* Horizon of a run of this spacing [spacings]. */
+/* Returns the horizon of a run at this spacing [spacings]. */
 static double horizon_at(const struct convergence_study *s, double spacing)
 {
     const double coarsest = s->spacings.at[s->spacings.levels - 1][0];
@@ -51,7 +52,7 @@ static void value_put(struct scene_override *o, int *n, char value[][VALUE_ROOM]
     ++*n;
 }
 
-/* Adds a run to the study: the user's overrides, then its own. */
+/* Adds a run to the study: the overrides of the user, then its own. */
 static void point_add(struct convergence_study *s, struct study_point p)
 {
     char value[OVERRIDES_OWN][VALUE_ROOM], name[CASE_NAME_ROOM];
@@ -89,7 +90,8 @@ static void level_run_add(struct convergence_study *s, int level, int run, int r
 
 /* ---- budget ------------------------------------------------------------------------------------------------------ */
 
-/* Time of a run at a spacing beside that of the first run: particles, steps, and bonds of a longer horizon. */
+/* Returns the duration of a run at a spacing over that of the first run: ratio of particles, steps, and bonds if the
+ * horizon is longer. */
 static double cost_beside(const struct convergence_study *s, double spacing)
 {
     const double first = s->point[s->first].spacing, finer = first / spacing;
@@ -97,7 +99,7 @@ static double cost_beside(const struct convergence_study *s, double spacing)
     return s->spent * pow(finer, s->scene.dim + 1) * longer;
 }
 
-/* Time of all runs, `jobs` at once [s]. */
+/* Returns the duration of all runs, `jobs` at a time [s]. */
 static double cost_of_all(const struct convergence_study *s, int jobs)
 {
     double sum = 0, longest = 0;
@@ -109,7 +111,8 @@ static double cost_of_all(const struct convergence_study *s, int jobs)
     return fmax(sum / jobs, longest);
 }
 
-/* Runs that would differ in nothing are left out: without steps or random numbers each spacing is run once. */
+/* Sets the number of runs of each level. Runs that would be equal are left out: without variation of the time step or
+ * random numbers each spacing is run once. */
 static void runs_set(struct convergence_study *s, int runs, int finest)
 {
     const bool steps = scene_moves(&s->scene) && step_of(s, 1, 3) != step_of(s, 2, 3);
@@ -120,7 +123,7 @@ static void runs_set(struct convergence_study *s, int runs, int finest)
     }
 }
 
-/* The most runs that the time left has room for; false: there is room for none. */
+/* Reduces the number of runs to the time left [s]. Returns false if there is not enough time for any. */
 static bool runs_fit(struct convergence_study *s, int runs, int jobs, double left)
 {
     for (int k = runs; k >= RUNS_LEAST; k--) {
@@ -133,7 +136,7 @@ static bool runs_fit(struct convergence_study *s, int runs, int jobs, double lef
 
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
-/* Why a scene cannot be studied; NULL: it can. */
+/* Returns the reason why the scene cannot be studied; NULL if it can. */
 static const char *study_refusal(const struct scene *s, const struct convergence_request *w)
 {
     for (int b = 0; b < s->bodies; b++)
@@ -143,8 +146,8 @@ static const char *study_refusal(const struct scene *s, const struct convergence
     return NULL;
 }
 
-/* The first run, of the coarsest level: what the others will take is known from it. *refused: the scene is not sound at
- * this spacing, as with rings that are too narrow for it. */
+/* Makes the first run, at the coarsest level, whose duration predicts those of the others. refused: set to true if the
+ * scene is invalid at this spacing, for example if rings of probes are too narrow. */
 static status first_run(struct convergence_study *s, const struct convergence_request *w, bool *refused)
 {
     struct study_options options = w->options;
@@ -167,7 +170,8 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     return summary_number(study_folder(&s->study, run).text, "wall_seconds", &s->spent);
 }
 
-/* Says at once what may be a wrong name: cracks and tips may still come at finer spacings. */
+/* Warns about requested figures that the first run lacks, because their names may be wrong; cracks and tips may still
+ * appear at finer spacings. */
 static void wanted_warn(const struct convergence_study *s, const struct convergence_request *w)
 {
     const struct path folder = study_folder(&s->study, &s->study.at[s->first]);
@@ -178,7 +182,7 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
                     w->wanted[k], shown_name(folder.text).text);
 }
 
-/* Where a scene is not sound at the coarsest level, all become finer. */
+/* Makes the first run; while the scene is invalid at the coarsest level, all levels are refined. */
 static status first_run_sound(struct convergence_study *s, const struct convergence_request *w)
 {
     bool refused = false;
@@ -194,8 +198,8 @@ static status first_run_sound(struct convergence_study *s, const struct converge
     return done;
 }
 
-/* Plans levels from `shift` steps of sqrt(2) above the scene's own spacing, leaving out those at which it is not sound.
- * False: too few are left. */
+/* Plans levels that start `shift` steps of sqrt(2) above the scene's own spacing, without those at which the scene is
+ * invalid. Returns false if too few are left. */
 static bool levels_plan(struct convergence_study *s, const struct convergence_request *w, int shift)
 {
     int levels = w->levels - (shift < 0 ? shift : 0);
@@ -208,7 +212,7 @@ static bool levels_plan(struct convergence_study *s, const struct convergence_re
     return s->spacings.at[levels - 1][0] < 0.999 * s->refused;
 }
 
-/* The levels and runs that fit: where the finest is too dear, all become coarser. */
+/* Chooses levels and runs within the budget: while the finest level is too expensive, all levels are coarsened. */
 static status plan_fit(struct convergence_study *s, const struct convergence_request *w, int jobs)
 {
     static const int finer_first[] = {-2, -1, 0, 1, 2, 3, 4, 5, 6}, own_first[] = {0, -1, -2, 1, 2, 3, 4, 5, 6};
@@ -222,7 +226,7 @@ static status plan_fit(struct convergence_study *s, const struct convergence_req
         if (!fits) continue;
         s->own = shift > 0 ? -1 : -shift;
         struct study_point *first = &s->point[s->first];
-        first->level = -2; /* unless a level has its spacing */
+        first->level = -2; /* changed below if a level has its spacing */
         for (int l = 0; l < s->spacings.levels; l++)
             if (fabs(s->spacings.at[l][0] / first->spacing - 1) < 1e-9) first->level = l;
         return OK;
@@ -232,7 +236,7 @@ static status plan_fit(struct convergence_study *s, const struct convergence_req
                       s->budget, need + s->spent);
 }
 
-/* One run of each level comes first, so that there is a result however soon the budget ends. */
+/* Adds all runs, one of each level first, so that there is a result even if the budget ends early. */
 static void runs_add_all(struct convergence_study *s)
 {
     const int first = s->point[s->first].level;

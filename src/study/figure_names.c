@@ -1,4 +1,4 @@
-/* Names of all figures that summary.json of a run may have, by which a wrong one is refused before anything runs. */
+/* Names of all figures that summary.json of a run may have. A wrong name is refused before anything runs. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,12 +9,14 @@
 
 enum { LEAF_ROOM = 40, NAME_ROOM = 160 };
 
-/* Can a run of the scene have figures of a group? */
+/* Returns true if a run of the scene can have the figures of the group on contact. */
 static bool of_contact(const struct scene *s) { return s->contact_between != CONTACT_NONE || scene_bodies_meet(s); }
+
+/* Returns true if a run of the scene can have the figures of the group on fragments. */
 static bool of_fragments(const struct scene *s) { return scene_moves(s) && scene_cracks(s); }
 
-/* Figures of a group, with blanks between them; group "": of the run. `#` in a group stands for a number. had: can the
- * scene have them; NULL: every one can. needs: what a scene has that can. */
+/* Figures of a group, separated by blanks; group "": of the whole run. `#` in a group stands for a number. had: returns
+ * true if the scene can have the figures; NULL: always. needs: requirement on the scene, for messages. */
 static const struct figure_group {
     const char *group, *leaves;
     bool (*had)(const struct scene *s);
@@ -52,7 +54,7 @@ static const struct figure_group {
     " velocity_z" end " stress_xx" end " stress_yy" end " stress_zz" end " stress_xy" end " stress_yz" end             \
     " stress_zx" end " damage" end
 
-/* Figures of each kind of probe. */
+/* Figures of each kind of probe, separated by blanks. */
 static const char *const probe_leaves[PROBES] = {
     [PROBE_TIP] = "x y z tied start_time arrest_time length_end angle_deg speed_max speed_mean",
     [PROBE_BREAK] = "x y z tied first_step first_time bonds",
@@ -71,7 +73,7 @@ static const char *const probe_leaves[PROBES] = {
     [PROBE_RIGID] = "angle stress_max shear_max angular_momentum_error kinetic_energy_error",
 };
 
-/* The nearest name so far. */
+/* Most similar name found so far. */
 struct nearest {
     const char *to;
     char name[NAME_ROOM];
@@ -86,7 +88,7 @@ static void nearest_offer(struct nearest *n, const char *group, const char *leaf
     if (distance < n->distance) n->distance = distance, snprintf(n->name, sizeof n->name, "%s", name);
 }
 
-/* Returns true if `leaf` is one of the leaves; offers each of them as the nearest name. */
+/* Returns true if `leaf` is one of the leaves; compares each with the wanted name to find the most similar one. */
 static bool leaf_is_known(const char *leaves, const char *group, const char *leaf, struct nearest *n)
 {
     bool known = false;
@@ -99,7 +101,7 @@ static bool leaf_is_known(const char *leaves, const char *group, const char *lea
     return known;
 }
 
-/* The name with `#` in place of whole numbers between points. */
+/* Copies a name with `#` in place of whole numbers between points. to: capacity `room` [byte]. */
 static void numbers_hidden(char *to, size_t room, const char *name)
 {
     size_t n = 0;
@@ -112,7 +114,7 @@ static void numbers_hidden(char *to, size_t room, const char *name)
     to[n] = '\0';
 }
 
-/* Is it a figure of a probe of the scene? `group`: the name before its last point. */
+/* Returns true if the name is a figure of a probe of the scene. group: name before its last point. */
 static bool probe_has(const struct scene *s, const char *group, const char *leaf, struct nearest *n)
 {
     char own[NAME_ROOM];
@@ -125,7 +127,8 @@ static bool probe_has(const struct scene *s, const char *group, const char *leaf
     return known;
 }
 
-/* What the scene lacks for a figure with these axes in its name (x, velocity_y, stress_zx_max); NULL: nothing. */
+/* Returns what the scene lacks for a figure with these axes in its name (x, velocity_y, stress_zx_max); NULL:
+ * nothing. */
 static const char *axes_lack(const struct scene *s, const char *leaf)
 {
     char axes[LEAF_ROOM];
@@ -141,7 +144,8 @@ static const char *axes_lack(const struct scene *s, const char *leaf)
     return strchr(own, 'z') && s->dim < 3 && !across ? "a solid" : NULL;
 }
 
-/* What the scene lacks for times and speeds of cracks, which load steps have not, or for their load steps. */
+/* Returns what the scene lacks for times and speeds of cracks, which runs in load steps do not have, or for numbers of
+ * load steps; NULL: nothing. */
 static const char *clock_lacks(const struct scene *s, const char *leaf)
 {
     const char *end = strrchr(leaf, '_');
@@ -150,7 +154,7 @@ static const char *clock_lacks(const struct scene *s, const char *leaf)
     return (time || speed) && scene_in_steps(s) ? "a solver in time: load steps have no speed" : NULL;
 }
 
-/* What the scene lacks for a figure of a known name; NULL: nothing. */
+/* Returns what the scene lacks for a figure of a known name; NULL: nothing. */
 static const char *figure_lacks(const struct scene *s, const char *group, const char *name, const char *leaf)
 {
     const bool crack = strncmp(group, "crack", 5) == 0, probe = strncmp(group, "probes.", 7) == 0;

@@ -1,5 +1,5 @@
-/* Pilot runs: each method that can do the scene is studied at coarse spacings; the cheapest that reaches the accuracy
- * is chosen, at the coarsest spacing that does. */
+/* Pilot runs: studies each applicable method at coarse spacings and chooses the cheapest that reaches the accuracy, at
+ * the coarsest sufficient spacing. */
 #include "study/pilot.h"
 
 #include <math.h>
@@ -13,9 +13,10 @@
 #include "scene/spacings.h"
 #include "study/uncertainty.h"
 
-#define FARTHEST 8.0    /* coarsest spacing run over the one chosen: beyond, an order is no forecast */
-#define FINER_LEAST 1.4 /* a study goes on so much finer than the one before ... */
-#define FINER_MOST 2.9  /* ... to so much: three levels beyond it */
+/* Largest ratio of the coarsest spacing to the chosen one; beyond, extrapolation by the order is unreliable. */
+#define FARTHEST 8.0
+#define FINER_LEAST 1.4 /* least refinement from one study of a method to the next */
+#define FINER_MOST 2.9  /* largest refinement: three levels */
 enum { REFUSED_MOST = 4 };
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
@@ -28,7 +29,7 @@ static void chosen_put(struct pilot *to, int *n, const char *key, const char *va
     ++*n;
 }
 
-/* Writes the keys of a candidate at a spacing behind the user's. */
+/* Writes the keys of a candidate at a spacing after the overrides of the user. */
 static void candidate_write(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *c,
                             double spacing)
 {
@@ -80,7 +81,7 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
 
 static double time_left(const struct pilot_search *p) { return fmax(p->wish.budget - (team_clock() - p->begun), 0); }
 
-/* The candidate whose run is the cheapest; NULL: none has a forecast. */
+/* Returns the candidate with the cheapest predicted run; NULL if none has a prediction. */
 static struct pilot_candidate *cheapest(struct pilot_search *p)
 {
     struct pilot_candidate *best = NULL;
@@ -95,7 +96,7 @@ static status search_first(struct pilot_search *p)
     for (int k = 0; k < p->n; k++) {
         double spacing = first;
         status done = FAILED;
-        /* rings and notches refuse spacings that are too coarse for them */
+        /* Rings of probes and notches refuse spacings that are too coarse for them. */
         for (int finer = 0; finer <= REFUSED_MOST && done == FAILED; finer++) {
             const double share = PILOT_FIRST_SHARE * time_left(p) / (p->n - k);
             if (finer > 0) spacing = spacing_fit(&p->wish.provisional, spacing / FINER_LEAST, true);
@@ -108,7 +109,7 @@ static status search_first(struct pilot_search *p)
     return OK;
 }
 
-/* One study of a method at finer spacings. False: there is no time for it, or nothing more came out. */
+/* Studies a method at finer spacings. Returns false if there is no time left or the study yields nothing new. */
 static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, status *done)
 {
     const double left = time_left(p), wanted = c->finest / c->spacing;
@@ -128,7 +129,7 @@ static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, s
     return true;
 }
 
-/* The method with the cheapest forecast goes on, until one is seen to be accurate enough. */
+/* Refines the method with the cheapest prediction, until one is accurate enough in a run. */
 static status search_finer(struct pilot_search *p)
 {
     status done = OK;
@@ -137,8 +138,8 @@ static status search_finer(struct pilot_search *p)
     return done;
 }
 
-/* The method whose interval is apart from that of c by more than is asked: one of them is not what it seems; NULL: all
- * agree. */
+/* Returns a method whose result differs from that of c by more than both intervals and the accuracy allow: one of both
+ * is wrong; NULL if all agree. */
 static const struct pilot_candidate *contradiction(const struct pilot_search *p, const struct pilot_candidate *c)
 {
     for (int k = 0; k < p->n; k++) {
@@ -150,7 +151,7 @@ static const struct pilot_candidate *contradiction(const struct pilot_search *p,
     return NULL;
 }
 
-/* REFUSED with how far each method came. */
+/* Returns REFUSED with the accuracy that each method reached. */
 static status search_failed(const struct pilot_search *p)
 {
     char text[900] = "";
@@ -214,7 +215,7 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
     return pilot_keep(to, p, best);
 }
 
-/* Chooses the overrides of a scene with `method: auto`: those kept of an earlier choice, or by pilot runs. */
+/* Chooses the overrides of a scene with `method: auto`: reads a stored choice, or makes pilot runs. */
 static status pilot_choose(struct pilot *to, struct pilot_search *p, const char *folder)
 {
     char run[NAME_MAX_LENGTH + sizeof "results/"];

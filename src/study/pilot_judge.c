@@ -1,4 +1,4 @@
-/* What the study of a method says about the spacing that it needs. */
+/* Determines the spacing that a method requires from its convergence study. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,8 +9,8 @@
 
 /* ---- the figure -------------------------------------------------------------------------------------------------- */
 
-/* A figure of a scene that names none: the first of its probes that is not zero, the start of cracks, the largest
- * energy. */
+/* Returns the default figure of a scene that requests none: the first nonzero figure of its probes, the start of
+ * cracks, or the largest energy. */
 static const struct figure_study *figure_usual(const struct figure_study *figure, int figures)
 {
     const struct figure_study *start = NULL, *energy = NULL;
@@ -28,7 +28,7 @@ static const struct figure_study *figure_usual(const struct figure_study *figure
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* The run of a level that differs in nothing from the one that will be made: -1: it has failed. */
+/* Returns the index of the run of a level with the parameters of the final run; -1 if it has failed. */
 static int level_run(const struct convergence_study *s, int level)
 {
     for (int k = 0; k < s->study.n; k++)
@@ -42,8 +42,8 @@ static double pilot_run_figure(const struct convergence_study *s, const char *na
     return figure >= 0 && run >= 0 ? s->table.value[figure][run] : NAN;
 }
 
-/* The coarsest level whose own run is accurate enough; else, from the finest, the spacing that would be, by the least
- * order that the means allow. */
+/* Finds the coarsest level whose own run is accurate enough. If there is none, extrapolates the required spacing from
+ * the finest level with the smallest order consistent with the means. */
 static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s,
                          const struct figure_study *f)
 {
@@ -60,20 +60,20 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
         c->spacing = c->finest, c->seconds = seconds, c->expected = c->reached, c->seen = true;
         return;
     }
-    /* a wished spacing that the budget did not reach is finer than one that is accurate enough */
+    /* A requested spacing that exceeds the budget is finer than a spacing that is accurate enough. */
     if (p->wish.spacing > 0 && p->wish.spacing < c->finest && c->reached <= p->wish.within) {
         c->spacing = p->wish.spacing, c->expected = c->reached, c->seen = true;
         c->seconds = c->finest_seconds * pow(c->finest / c->spacing, s->scene.dim + 1);
     }
     if (!(c->finest > 0) || !isfinite(c->reached) || p->wish.spacing > 0) return;
-    /* what finer spacings take away has to become this small; a bias stays */
+    /* The part of the error that refinement reduces must become small enough beside the bias, which stays. */
     const double bias = f->c.bias / size, within = sqrt(square(p->wish.within) - square(bias));
     if (!(within > 0)) return;
     const double likely = isfinite(f->c.order_likely) ? f->c.order_likely - f->c.order_error : 0.5;
     const double finer = pow(sqrt(square(c->reached) - square(bias)) / within, 1 / fmax(likely, 0.5));
     c->spacing = spacing_fit(&p->wish.provisional, c->finest / finer, false);
-    const double loop =
-        pilot_run_figure(s, "loop_seconds", level_run(s, 0)); /* the rest is mostly the start of a process */
+    const double loop = pilot_run_figure(s, "loop_seconds", level_run(s, 0)); /* the rest of wall_seconds is mostly the
+                                                                               * start of the process */
     const double growth = pow(c->finest / c->spacing, s->scene.dim + 1);
     c->seconds = isfinite(loop) ? c->finest_seconds + loop * (growth - 1) : c->finest_seconds * growth;
     c->expected = p->wish.within;

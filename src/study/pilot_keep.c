@@ -1,4 +1,5 @@
-/* The choice of pilot runs beside what it answers: the same question has the same answer, without runs. */
+/* Stores the choice of pilot runs with the request that it answers: the same request later has the same answer without
+ * runs. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +10,8 @@
 #include "pilot_parts.h"
 #include "study/uncertainty.h"
 
-#define ASKED "asked.yaml"  /* the scene's file, and the overrides as comments */
-#define CHOSEN "chosen.txt" /* KEY=VALUE a line */
+#define ASKED "asked.yaml"  /* text of the scene's file, with the overrides as comments */
+#define CHOSEN "chosen.txt" /* one KEY=VALUE per line */
 
 void pilot_fill(struct pilot *to, const struct scene_override *override, int overrides, int n)
 {
@@ -29,7 +30,7 @@ void pilot_free(struct pilot *to)
 
 /* ---- the question ------------------------------------------------------------------------------------------------ */
 
-/* Its text, freed with free; NULL: the scene cannot be read. */
+/* Returns the text of the request, released with free; NULL if the scene cannot be read. */
 static char *question_text(const struct pilot_search *p)
 {
     char *scene, *text = NULL;
@@ -57,7 +58,8 @@ static status file_copy(const char *folder, const char *from, const char *name)
     return put;
 }
 
-/* The scene as it will be run, and the error bars of the method's study: summary.json of the run will have them. */
+/* Stores the scene as it will be run and the error bars of the chosen method's study, which are copied to summary.json
+ * of the run. */
 static status bars_keep(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     struct scene s;

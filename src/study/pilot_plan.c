@@ -1,4 +1,4 @@
-/* The plan of pilot runs: which methods can do the scene, and what `cleave check` says of the runs. */
+/* Plan of the pilot runs: applicable methods, and what `cleave check` prints about the runs. */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 
 /* ---- methods ----------------------------------------------------------------------------------------------------- */
 
-/* Bonds impose Poisson's ratio; a line has no other law. */
+/* Returns true if the bond model is applicable: it fixes Poisson's ratio; a line has no other model. */
 static bool bonds_fit(const struct scene *s)
 {
     bool fit = true;
@@ -33,7 +33,7 @@ static void candidates_find(struct pilot_search *p)
     const struct scene *s = &p->wish.provisional;
     const bool asked_bond = !strcmp(p->wish.model, "bond"), bond = asked_bond || bonds_fit(s);
     const bool breaks = may_crack(s), zones = s->has_pd_region;
-    /* at rest, points take their time: bonds have conjugate gradients */
+    /* At equilibrium material points converge slowly, while bonds have conjugate gradients. */
     if (!needs_bonds(s) && !p->wish.at_rest) candidate_add(p, "points", "mpm", NULL);
     if (!zones) candidate_add(p, bond ? "bonds" : "states", "pd", bond ? "bond" : "ospd");
     if (!zones && !strcmp(p->wish.model, "mospd")) candidate_add(p, "rotations", "pd", "mospd");

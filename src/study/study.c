@@ -1,4 +1,4 @@
-/* The runs of a study: their folders and overrides; which of them are done, and which are the same. */
+/* Runs of a study: folders, overrides, and which of them are done or equal. */
 #include "study/study.h"
 
 #include <stdio.h>
@@ -20,7 +20,7 @@ void study_folder_default(char *to, size_t room, const struct scene *scene, cons
     snprintf(to, room, "results/%s_%s", scene->name, kind);
 }
 
-/* results/NAME_KIND of the scene as its file has it. */
+/* Determines the folder results/NAME_KIND from the file of a scene. to: capacity `room` [byte]. */
 static status place_read(char *to, size_t room, const char *path, const char *kind)
 {
     struct scene scene;
@@ -44,9 +44,9 @@ status study_make(struct study *s, const char *scene, const char *folder, const 
     return OK;
 }
 
-/* ---- what it is a study of --------------------------------------------------------------------------------------- */
+/* ---- scene of the study ------------------------------------------------------------------------------------------ */
 
-/* The file as it stands and the overrides: a scene that is none without the keys that vary. */
+/* Returns the text of the file and the overrides, for a scene that is incomplete without the varied keys. */
 static status scene_unread(char **text, const char *path, const struct scene_override *override, int overrides)
 {
     size_t length, room;
@@ -96,9 +96,9 @@ status study_make_of(struct study *s, const char *scene, const char *folder, con
 /* First line of STUDY_SCENE. */
 static const char study_mark[] = "# study by cleave: the scene without what varies\n";
 
-/* Reads the scene of a study without its first line. A study of an earlier build has a scene without that
- * line, which begins as every scene that Cleave writes. Returns NULL if there is no such file, or if it begins
- * otherwise. The caller frees the text with memory_free. */
+/* Reads the scene of a study without its first line. Studies of an earlier format have a scene without that line, which
+ * begins as every scene that Cleave writes. Returns NULL if there is no such file or it begins otherwise. The caller
+ * releases the text with memory_free. */
 static char *study_scene_read(const char *path)
 {
     char *text;
@@ -141,7 +141,8 @@ status study_scene_put(const char *folder, const char *text)
     return put;
 }
 
-/* Folders of runs that were started one by one, as `--list` prints them, and of the studies of pilot runs. */
+/* Returns true for folders of runs that were started individually, with the commands of `--list`, and for studies of
+ * pilot runs. */
 static bool is_run_or_study(const char *folder, const char *name)
 {
     const struct path inner = path_join(folder, name);
@@ -253,9 +254,9 @@ status study_cross(struct study *s, const struct varied_key *key, int keys)
     return OK;
 }
 
-/* ---- what is done ------------------------------------------------------------------------------------------------ */
+/* ---- finished runs ----------------------------------------------------------------------------------------------- */
 
-/* How the run in a folder has ended, if it is one of a scene that says the same; else "". */
+/* Reads the status of the run in a folder if it has this scene; else writes "". ended: capacity `room` [byte]. */
 static void ended_as(char *ended, size_t room, const char *folder, const char *scene_text)
 {
     if (!path_is_file(path_join(folder, "summary.json").text) || summary_string(folder, "status", ended, room) != OK ||
@@ -263,13 +264,13 @@ static void ended_as(char *ended, size_t room, const char *folder, const char *s
         ended[0] = '\0';
 }
 
-/* Runs by the hashes of their scenes: number + 1, 0: none. */
+/* Hash table of the scenes of runs: index of the run + 1; 0: empty slot. */
 struct scenes_seen {
     int *number, room;
     uint64_t *hash;
 };
 
-/* Is the scene of a run that of another one? Hashes that agree are not believed. */
+/* Determines whether the run `other` has the scene `text`, by comparing the texts: equal hashes are not sufficient. */
 static status case_same(bool *same, const struct study *s, const struct study_case *other, const char *text)
 {
     struct scene scene;
@@ -279,7 +280,7 @@ static status case_same(bool *same, const struct study *s, const struct study_ca
     return OK;
 }
 
-/* Looks for an earlier run with the scene of run `number`, which is that one then; else books it. */
+/* Marks run `number` as equal to an earlier run with the same scene, or enters it into the table. */
 static status scene_seen(struct scenes_seen *seen, struct study *s, int number, const char *text)
 {
     struct study_case *c = &s->at[number];

@@ -1,4 +1,4 @@
-/* Pictures of a study: figures over each key that varies, and over two as maps. */
+/* Pictures of a study: figures over each varied key, and over two keys as maps. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,39 +9,41 @@
 #include "study_internal.h"
 
 enum { PANELS_MOST = 6, LINES_MOST = CURVE_COLOURS, COLUMNS_MOST = 3, TICS_MOST = 12, STEPS_MOST = 4, NOTE_ROOM = 200 };
-/* In pixels: of a panel; a character and a row of text; room of numbers at an axis, of a title, of tics and a label
- * below the axis, of a colour bar. */
+
+/* Sizes [pixel]: width and height of a panel; a character; a line of text; width of the numbers at an axis; height of a
+ * title; of tics and label below the axis; width of a colour bar. */
 enum { WIDE = 320, HIGH = 220, CHARACTER = 10, ROW = 24, NUMBERS = 115, TITLE = 45, BELOW = 70, COLOURS = 150 };
 
-/* What a key does in a picture: its values stand along the axis, have a line each, or the picture is of its first value
- * alone; what changes nothing physical are points with bars. */
+/* Role of a key in a picture: its values are along the axis; each has a line; the picture shows its first value only;
+ * it has no physical meaning (random seed), and its values are combined to points with bars. */
 enum key_role { ROLE_NONE, ROLE_ACROSS, ROLE_LINES, ROLE_HELD, ROLE_CHANCE };
 
-/* Of the runs of one point: their mean, and how far they scatter by chance. */
+/* Statistics of the runs of one point: mean, scatter over ROLE_CHANCE keys, number. */
 struct point_of {
     double mean, scatter;
     int runs;
 };
 
-/* One picture: the study, the figures that it shows, the key along its axis. */
+/* One picture: study, figures, roles of the keys, layout. */
 struct study_picture {
     const struct study_table *table;
     const struct study *study;
     const struct varied_key *key;
     int keys;
-    int **value_at;      /* [keys][runs] number of the key's value in a run; -1: another one */
+    int **value_at;      /* [keys][runs] index of the key's value in a run; -1: another value */
     enum key_role *role; /* [keys] */
-    int across, lines;   /* the key along the axis; lines, of which there is at least one */
+    int across, lines;   /* index of the key along the axis; number of lines, at least 1 */
     int figure[PANELS_MOST], panels;
-    bool numbers, chance; /* places along the axis are the values, else 0, 1, 2; a key of chance varies */
+    bool numbers, chance; /* positions along the axis are the values, else 0, 1, 2; a ROLE_CHANCE key varies */
     const char *unit;
-    const char *header;                     /* of a history, with the units of figures */
-    int left, right, below, legend, height; /* room round a panel, to the right of all, of the picture [pixel] */
+    const char *header;                     /* header of history.csv with the units of figures */
+    int left, right, below, legend, height; /* margins of a panel; width right of all panels; height of the picture
+                                             * [pixel] */
     int width, notes;
     char note[2][NOTE_ROOM];
 };
 
-/* ---- what is shown ----------------------------------------------------------------------------------------------- */
+/* ---- selection --------------------------------------------------------------------------------------------------- */
 
 static bool figure_varies(const struct study_table *t, int f)
 {
@@ -63,7 +65,7 @@ static void panel_add(struct study_picture *p, int f)
     p->figure[p->panels++] = f;
 }
 
-/* What one looks at first: the crack, what probes measure, energies, the time taken. */
+/* Chooses the figures of the panels in order of interest: crack, probes, energies, duration. */
 static void panels_choose(struct study_picture *p)
 {
     static const char *const first[] = {"crack.start_time", "crack.length_end", "crack.angle_deg",
@@ -78,7 +80,7 @@ static void panels_choose(struct study_picture *p)
     panel_add(p, study_figure(t, "loop_seconds"));
 }
 
-/* Are a key's values numbers of one unit? */
+/* Returns true if all values of the key are numbers with the same unit. */
 static bool key_is_number(const struct varied_key *key, const char **unit)
 {
     for (int v = 0; v < key->values; v++) {
@@ -89,13 +91,13 @@ static bool key_is_number(const struct varied_key *key, const char **unit)
     return true;
 }
 
-/* Keys that change nothing physical: their runs are one point with a bar. */
+/* Returns true for keys without physical meaning, whose runs are combined to one point with a bar. */
 static bool key_is_chance(const char *key)
 {
     return !strcmp(key, "particles.seed") || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
 }
 
-/* Fills value_at. Runs that follow each other have the same value of a key, or its next one. */
+/* Fills value_at. Consecutive runs have the same value of a key or its next one, so that the search is short. */
 static void values_find(int **value_at, const struct study *s, const struct varied_key *key, int keys)
 {
     for (int k = 0; k < keys; k++) {
@@ -113,7 +115,8 @@ static void values_find(int **value_at, const struct study *s, const struct vari
     }
 }
 
-/* Keys that vary have lines in turn, as long as these can be told apart; the others are held. */
+/* Assigns roles: varied keys get lines in turn while at most lines_most lines result; the others are held at their
+ * first value. */
 static void roles_choose(struct study_picture *p, int lines_most)
 {
     p->lines = 1;
@@ -132,7 +135,7 @@ static void roles_choose(struct study_picture *p, int lines_most)
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
 
-/* Number of the line that a run belongs to; -1: none. */
+/* Returns the index of the line of a run; -1: none. */
 static int line_of(const struct study_picture *p, int run)
 {
     int line = 0;
@@ -144,7 +147,8 @@ static int line_of(const struct study_picture *p, int run)
     return line;
 }
 
-/* [lines][values along the axis]; the caller frees it. */
+/* Computes the points of a figure, allocated [lines][values along the axis]; the caller releases them with
+ * memory_free. */
 static struct point_of *means_find(const struct study_picture *p, int figure)
 {
     const double *value = p->table->value[figure];
@@ -160,16 +164,19 @@ static struct point_of *means_find(const struct study_picture *p, int figure)
             else
                 to->scatter += square(value[c] - to->mean);
         }
-        for (int k = 0; k < p->lines * across && pass == 0; k++) point[k].mean /= point[k].runs; /* 0/0: NAN */
+        for (int k = 0; k < p->lines * across && pass == 0; k++)
+            point[k].mean /= point[k].runs; /* 0/0 gives NAN for
+                                             * a point without
+                                             * runs */
     }
     for (int k = 0; k < p->lines * across; k++)
         point[k].scatter = point[k].runs > 1 ? sqrt(point[k].scatter / (point[k].runs - 1)) : 0;
     return point;
 }
 
-/* ---- words round the panels -------------------------------------------------------------------------------------- */
+/* ---- text around the panels -------------------------------------------------------------------------------------- */
 
-/* The values of the keys with lines, of one line: `60GPa, 1mm`. */
+/* Composes the title of a line from the values of its keys: `60GPa, 1mm`. text: capacity `room` [byte]. */
 static void line_title(char *text, size_t room, const struct study_picture *p, int line)
 {
     size_t used = 0;
@@ -184,7 +191,8 @@ static void line_title(char *text, size_t room, const struct study_picture *p, i
     }
 }
 
-/* The keys with this role: `material.young, load`. */
+/* Lists the keys with a role: `material.young, load`. text: capacity `room` [byte]. with_value: append the held
+ * value. */
 static void keys_text(char *text, size_t room, const struct study_picture *p, enum key_role role, bool with_value)
 {
     size_t used = 0;
@@ -206,7 +214,7 @@ static void screen_label(FILE *to, const struct study_picture *p, const char *te
     fprintf(to, " at screen %.5f,%.5f %s textcolor rgb '#333333'\n", x / p->width, y / p->height, how);
 }
 
-/* What the points are of, to stand below the panels. */
+/* Composes the notes below the panels that describe the points. */
 static void notes_find(struct study_picture *p, bool map)
 {
     char keys[NOTE_ROOM - 64];
@@ -219,7 +227,7 @@ static void notes_find(struct study_picture *p, bool map)
                  map ? "means over %s" : "points and bars: mean and standard deviation over %s", keys);
 }
 
-/* Places of the values along the axis as tics, where they are words; some of them, where they are many. */
+/* Sends the positions of values along the axis as tics if they are words; only some of them if there are many. */
 static void send_tics(FILE *to, const char *axis, const struct varied_key *key, bool rotated)
 {
     const int each = (key->values + TICS_MOST - 1) / TICS_MOST;
@@ -236,13 +244,13 @@ static void send_tics(FILE *to, const char *axis, const struct varied_key *key, 
 
 static int tics_shown(const struct varied_key *key) { return key->values < TICS_MOST ? key->values : TICS_MOST; }
 
-/* Words along an axis that would touch each other. */
+/* Returns true if words along the axis would overlap. */
 static bool words_touch(const struct varied_key *key)
 {
     return tics_shown(key) * (study_values_longest(key) + 2) * CHARACTER > WIDE;
 }
 
-/* ---- room -------------------------------------------------------------------------------------------------------- */
+/* ---- layout ------------------------------------------------------------------------------------------------------ */
 
 static int panel_columns(const struct study_picture *p) { return p->panels < COLUMNS_MOST ? p->panels : COLUMNS_MOST; }
 static int panel_rows(const struct study_picture *p) { return (p->panels + COLUMNS_MOST - 1) / COLUMNS_MOST; }
@@ -292,7 +300,7 @@ static status picture_open(struct gnuplot *g, const struct study_picture *p, con
     return OK;
 }
 
-/* Margins, title and names of the axes of a panel; `up`: NULL, a number. */
+/* Sets margins, title and axis labels of a panel. up: label of the vertical axis, NULL for numbers. */
 static void panel_begin(FILE *to, const struct study_picture *p, int panel, const char *up)
 {
     const int column = panel % COLUMNS_MOST, row = panel / COLUMNS_MOST;
@@ -328,7 +336,7 @@ static void send_points(FILE *to, const struct study_picture *p, int panel)
             const double x = p->numbers ? value_number(across->value[v], &unit) : v;
             if (at->runs > 0) fprintf(to, "%.10g %.10g %.10g\n", x, at->mean, at->scatter);
         }
-        fputs("NaN NaN NaN\nEOD\n", to); /* no line has no points: gnuplot would not plot it */
+        fputs("NaN NaN NaN\nEOD\n", to); /* gnuplot refuses a block without points */
     }
     memory_free(point);
 }
@@ -428,7 +436,8 @@ static status draw_study_map(struct study_picture *p, int up)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* The two keys of a map, in their order: those that are not chance, or all that vary. False: they are not two. */
+/* Finds the two keys of a map: the varied keys without chance, or all varied keys. Returns false if they are not
+ * exactly two. */
 static bool map_keys(const struct study_picture *p, int *up, int *across)
 {
     for (int all = 0; all < 2; all++) {

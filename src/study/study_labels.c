@@ -1,4 +1,4 @@
-/* Values of keys and figures as pictures of a study show them: short, and apart from each other. */
+/* Labels of values and figures in pictures of a study: short and distinct. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 
 enum { VALUE_SHOWN = LABEL_ROOM - 8, CUT_SHOWN = 20, LEFT_OUT_LEAST = 4 };
 
-/* What all values of a key begin and end with, as far as it is not part of a longer number. */
+/* Determines the lengths of the common beginning and end of all values of a key, without cutting numbers. */
 static void values_common(const struct varied_key *key, size_t *begin, size_t *end)
 {
     const char *first = key->value[0];
@@ -27,7 +27,7 @@ static void values_common(const struct varied_key *key, size_t *begin, size_t *e
     if (*end < LEFT_OUT_LEAST) *end = 0;
 }
 
-/* Keeps as much of what is common as there is room for. */
+/* Keeps as many of the common characters as fit into a label. */
 static void common_keep(size_t *begin, size_t *end, size_t longest)
 {
     const size_t wanted = longest - *begin - *end + 4;

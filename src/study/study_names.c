@@ -1,5 +1,5 @@
-/* Names of the runs of a study, which are those of their folders: the same for the same run, whatever stands before it
- * or in which order its keys are given. */
+/* Names of the runs of a study and of their folders. A run has the same name in every study, independent of preceding
+ * runs and of the order of its keys. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ uint64_t study_hash(uint64_t hash, const char *text)
     return hash ^ hash >> 29;
 }
 
-/* The same for any order of the overrides. */
+/* Returns a hash of the overrides that is independent of their order. */
 static uint64_t overrides_hash(const struct scene_override *o, int n)
 {
     uint64_t sum = 0;
@@ -26,7 +26,7 @@ static uint64_t overrides_hash(const struct scene_override *o, int n)
     return sum;
 }
 
-/* Place of a name in the table, or the empty one where it belongs. */
+/* Returns the slot of a name in the hash table, or the empty slot where it belongs. */
 static int name_slot(const struct study *s, const char *name)
 {
     int at = (int)(study_hash(STUDY_HASH_START, name) % (uint64_t)s->slots);
@@ -49,7 +49,7 @@ void study_names_grow(struct study *s)
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
-/* What every file system and shell takes as it is; blanks and brackets go. */
+/* Appends a text without blanks and brackets and without characters that file systems or shells treat specially. */
 static void name_append(char *name, const char *text)
 {
     size_t n = strlen(name);
@@ -60,7 +60,6 @@ static void name_append(char *name, const char *text)
     name[n] = '\0';
 }
 
-/* Names that are too long to be whole, reserved or taken are replaced by what the overrides have as their hash. */
 void study_name_settle(const struct study *s, char *name, const char *wanted, const struct scene_override *o, int n)
 {
     *name = '\0';
@@ -80,7 +79,7 @@ static const char *key_last(const char *key)
     return dot ? dot + 1 : key;
 }
 
-/* The last part of a key, or all of it where another key that varies ends alike. */
+/* Returns the last part of a key, or the whole key if another varied key has the same last part. */
 static const char *key_label(const struct varied_key *key, int keys, int k)
 {
     const char *own = key_last(key[k].key);

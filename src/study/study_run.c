@@ -1,4 +1,4 @@
-/* Runs of a study as processes side by side, each on its share of the cores. */
+/* Starts the runs of a study as parallel processes, each on its share of the cores. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -20,20 +20,21 @@
 
 enum { WORDS_FIXED = 12 };
 
-#define PATIENCE 0.5 /* of a budget with runs that stop late [s] */
+#define PATIENCE 0.5 /* time after the budget at which runs that have not stopped are killed [s] */
 
 struct runner {
     struct study *study;
     struct study_options how;
     struct core_shares *shares;
     int running, ended;
-    bool stopped; /* those that run were told to stop ... */
-    double since; /* ... on team_clock */
+    bool stopped; /* running runs have been told to stop */
+    double since; /* time of that on team_clock [s] */
 };
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Words of `cleave run`, the last one NULL; overrides as `key=value` in `pairs`, which the caller frees. */
+/* Composes the words of `cleave run`, terminated by NULL. pairs: receives the overrides as `key=value`, released by the
+ * caller. */
 static char **command_words(const char *scene, const struct study_case *c, char *threads, char *folder, char *mode,
                             char **pairs)
 {
@@ -53,8 +54,8 @@ static char **command_words(const char *scene, const struct study_case *c, char 
     return word;
 }
 
-/* Prints a character within quotes. `harmful`: a terminal would act on it, and the stream would replace it: its number
- * instead, which the shell gives to printf. */
+/* Prints a character within quotes. harmful: a terminal would interpret it and the output stream would replace it; then
+ * its number is printed, which the shell passes to printf. */
 static void print_quoted(FILE *out, char c, bool harmful)
 {
     if (harmful)
@@ -65,7 +66,7 @@ static void print_quoted(FILE *out, char c, bool harmful)
         putc(c, out);
 }
 
-/* A word as a shell reads it: in quotes unless it holds nothing that a shell would touch. */
+/* Prints a word as a shell reads it: in quotes if it contains characters that a shell interprets. */
 static void print_word(FILE *out, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
@@ -84,8 +85,7 @@ static void print_word(FILE *out, const char *word)
     memory_free(shown);
 }
 
-/* A path that means the same wherever the command is given. Links stay: a scene has the name of the one that leads to
- * it. */
+/* Returns an absolute path. Links are kept: a scene is named after the link through which it is reached. */
 static struct path path_whole(const char *path)
 {
     char here[PATH_ROOM];
@@ -128,8 +128,8 @@ static struct path log_path(const struct study *s, const struct study_case *c)
 /* First line of a log. */
 static const char log_mark[] = "# log by cleave of a run of a study\n";
 
-/* REFUSED if the run would be somewhere else, or if its log is a file of others. Logs of earlier builds have no first
- * line of their own and begin with a warning. */
+/* REFUSED if the folder of the run would leave the study's folder, or if its log is a file that Cleave did not write.
+ * Logs of an earlier format have no such first line and begin with a warning. */
 static status case_guard(const struct study *s, const struct study_case *c)
 {
     static const char *const begin[] = {log_mark, "warning: "};
@@ -140,8 +140,8 @@ static status case_guard(const struct study *s, const struct study_case *c)
     return file_begin_guard(log.text, begin, COUNT_OF(begin));
 }
 
-/* Child process: a group of its own, so that the terminal's interrupt reaches the study alone, which passes it on once;
- * ended where the study is killed. */
+/* Runs in the child process: executes the run in its own process group, so that an interrupt from the terminal reaches
+ * only the study, which passes it on once. The child is killed if the study is killed. */
 static _Noreturn void become_run(char **word, int log)
 {
     setpgid(0, 0);
@@ -153,7 +153,7 @@ static _Noreturn void become_run(char **word, int log)
     dup2(log, STDOUT_FILENO);
     dup2(log, STDERR_FILENO);
     execv("/proc/self/exe", word);
-    execvp(program_invocation_name, word); /* a system without /proc */
+    execvp(program_invocation_name, word); /* for systems without /proc */
     dprintf(STDERR_FILENO, "cannot start %s: %s\n", program_invocation_name, strerror(errno));
     _exit(FAILED);
 }
@@ -165,17 +165,17 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
     const bool there = path_exists(path_join(folder.text, "scene.yaml").text);
     snprintf(threads, sizeof threads, "%d", r->how.threads);
     TRY(case_guard(r->study, c));
-    unlink(log.text); /* links of this name are not followed */
+    unlink(log.text); /* a link of this name is not followed */
     const int fd = open(log.text, O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (fd < 0) return file_fault(log.text, errno);
-    if (write(fd, log_mark, sizeof log_mark - 1) < 0) errno = 0; /* the study goes on without its logs */
+    if (write(fd, log_mark, sizeof log_mark - 1) < 0) errno = 0; /* the study continues without its logs */
     char **word = command_words(r->study->scene, c, threads, folder.text,
                                 r->how.overwrite ? "--overwrite"
                                 : there          ? "--resume"
                                                  : NULL,
                                 &pairs);
     c->seconds = -team_clock();
-    core_share_take(r->shares, slot); /* the child inherits it */
+    core_share_take(r->shares, slot); /* inherited by the child */
     fflush(NULL);
     c->process = (int)fork();
     if (c->process == 0) become_run(word, fd);
@@ -191,7 +191,7 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
     return OK;
 }
 
-/* Last line of what a run has printed. */
+/* Reads the last line that a run has printed. line: capacity `room` [byte]. */
 static void last_line(const char *path, char *line, size_t room)
 {
     char *text;
@@ -228,7 +228,7 @@ static void case_end(struct runner *r, struct study_case *c, int ended)
     if (stat(log.text, &info) == 0 && info.st_size < (off_t)sizeof log_mark) unlink(log.text);
 }
 
-/* Takes in the runs that have ended. */
+/* Records the results of the runs that have ended. */
 static void cases_take(struct runner *r)
 {
     for (int k = 0; k < r->study->n; k++) {
@@ -238,7 +238,7 @@ static void cases_take(struct runner *r)
     }
 }
 
-/* A slot that no run has. */
+/* Returns a slot without a running process. */
 static int slot_free(const struct runner *r)
 {
     for (int slot = 0;; slot++) {
@@ -249,7 +249,7 @@ static int slot_free(const struct runner *r)
     }
 }
 
-/* Tells those that run to stop, once: a second signal would end them without checkpoints. */
+/* Tells the running processes to stop, once: a second signal would end them without a checkpoint. */
 static void cases_stop(struct runner *r)
 {
     for (int k = 0; k < r->study->n && !r->stopped; k++)
@@ -258,7 +258,7 @@ static void cases_stop(struct runner *r)
     r->stopped = true;
 }
 
-/* Ends those that have not stopped, as in a long set-up, once a budget is over. */
+/* Kills processes that have not stopped after the budget, for example during a long set-up. */
 static void cases_kill(struct runner *r)
 {
     if (!r->stopped || team_clock() < r->since + PATIENCE) return;
@@ -289,9 +289,9 @@ static status cases_run(struct runner *r)
     return s;
 }
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
+/* ---- whole study ------------------------------------------------------------------------------------------------- */
 
-/* As many runs at once as there are cores, each with its share of them. */
+/* Fills in the options that are 0: as many parallel runs as there are cores, each with an equal share of threads. */
 static struct study_options options_filled(struct study_options how, const struct study *s)
 {
     const int cores = team_cores();
@@ -304,7 +304,7 @@ static struct study_options options_filled(struct study_options how, const struc
     return how;
 }
 
-/* Refuses a folder of others or of the study of another scene, and writes into the folder which study it holds now. */
+/* Writes STUDY_SCENE. REFUSED if the folder holds other files or the study of another scene. */
 static status scene_put(const struct study *s, bool overwrite)
 {
     TRY(study_folder_claim(s->folder));
@@ -341,6 +341,6 @@ status study_run(struct study *s, struct study_options how)
     r.shares = core_shares_make(r.how.jobs);
     const status ran = cases_run(&r);
     core_shares_free(r.shares);
-    rmdir(path_join(s->folder, "logs").text); /* stays unless it is empty */
+    rmdir(path_join(s->folder, "logs").text); /* succeeds only if the folder is empty */
     return ran;
 }

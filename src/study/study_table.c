@@ -1,4 +1,4 @@
-/* The figures of all runs of a study as one table. */
+/* Collects the figures of all runs of a study in a table. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +12,8 @@
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* `next`: where the next figure is expected, as runs have their figures in the same order. */
+/* Position while the table is filled. next: index of the expected figure, as runs have their figures in the same
+ * order. */
 struct filled {
     struct study_table *table;
     int row, next;
@@ -47,7 +48,7 @@ status study_table_read(struct study_table *t, const struct study *s)
     for (int k = 0; k < s->n; k++) {
         const struct path folder = study_folder(s, &s->at[k]);
         struct filled f = {.table = t, .row = k};
-        /* a run that was stopped has a summary, too: figures of a part of the scene */
+        /* A stopped run also has a summary, but with figures of a part of the scene. */
         if (s->at[k].state != CASE_DONE && s->at[k].state != CASE_DONE_BEFORE) continue;
         if (!path_is_file(path_join(folder.text, "summary.json").text)) continue;
         const status read = summary_numbers(folder.text, number_take, &f);
@@ -93,7 +94,7 @@ bool study_figure_is_technical(const char *name)
 
 /* ---- sweep.csv --------------------------------------------------------------------------------------------------- */
 
-/* A cell of a table: in quotes where it holds what separates cells. */
+/* Prints a cell of a table, in quotes if it contains a separator. */
 static void cell_print(FILE *to, const char *text)
 {
     if (!strpbrk(text, ",\"\n")) {
@@ -155,7 +156,7 @@ status study_output_guard(const struct study *s, const struct varied_key *key, i
 {
     static const char *const begin[] = {"run,state"};
     const struct path pictures = path_join(s->folder, "pictures");
-    if (study_folder_guard(s->folder) != OK) return OK; /* study_take says why */
+    if (study_folder_guard(s->folder) != OK) return OK; /* study_take reports the fault */
     TRY(file_begin_guard(path_join(s->folder, "sweep.csv").text, begin, COUNT_OF(begin)));
     TRY(picture_guard(path_join(pictures.text, "map.png").text));
     for (int k = 0; k < keys; k++) {

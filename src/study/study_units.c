@@ -1,12 +1,12 @@
-/* Units of the figures of summary.json, which has them all in SI. What a history has as a column, too, has its unit in
- * the header there, from the tables that the columns are made of; here are those of the other figures. */
+/* Units of the figures of summary.json, which are all in SI. The unit of a figure that is also a column of history.csv
+ * is read from the header of that file; this table has the others. */
 #include <stdio.h>
 #include <string.h>
 
 #include "output/output_files.h"
 #include "study/study.h"
 
-/* Beginnings, whole names and ends of the last part of a name, in the order in which they are tried. */
+/* Beginning and end of the last part of a name, and its unit; the first matching entry applies. */
 static const struct {
     const char *begin, *end, *unit;
 } unit_of_name[] = {
@@ -24,7 +24,7 @@ static bool name_fits(const char *name, const char *begin, const char *end)
     return strncmp(name, begin, strlen(begin)) == 0 && n >= e && strcmp(name + n - e, end) == 0;
 }
 
-/* The unit of a column in the header of a history; false: there is no such column. */
+/* Finds the unit of a column in the header of a history. Returns false if there is no such column. */
 static bool unit_in_header(char *unit, size_t room, const char *header, const char *column)
 {
     const size_t length = strlen(column);

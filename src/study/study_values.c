@@ -1,4 +1,4 @@
-/* The values that a key takes in a study, as they stand behind `-s`. */
+/* Values that a key takes in a study, parsed from the text after `-s`. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -25,7 +25,7 @@ double value_number(const char *value, const char **unit)
 
 /* ---- pieces of a list -------------------------------------------------------------------------------------------- */
 
-/* First `mark` outside brackets and quotes; the end of the text without one. */
+/* Returns the first `mark` outside brackets and quotes, or the end of the text. */
 static const char *value_end(const char *at, char mark)
 {
     int depth = 0;
@@ -45,7 +45,7 @@ static const char *value_end(const char *at, char mark)
     return at;
 }
 
-/* Copy of [from, to) without blanks at its ends. */
+/* Returns an allocated copy of [from, to) without blanks at its ends. */
 static char *trimmed(const char *from, const char *to)
 {
     while (from < to && isspace((unsigned char)*from)) from++;
@@ -73,15 +73,15 @@ static status value_add(struct varied_key *k, char *value)
     return OK;
 }
 
-/* ---- rows of numbers --------------------------------------------------------------------------------------------- */
+/* ---- ranges of numbers ------------------------------------------------------------------------------------------- */
 
-/* from:to:step, each a number; their unit, which is that of all that have one. */
+/* A range from:to:step, and the common unit of the numbers that have one. */
 struct row {
     double number[3];
     char unit[32];
 };
 
-/* False: the text is no row. REFUSED through `s` if it is one that makes no sense. */
+/* Parses a range. Returns false if the text is not a range; sets *s to REFUSED if it is a range without a meaning. */
 static bool row_read(struct row *r, const struct varied_key *k, const char *text, status *s)
 {
     *r = (struct row){.unit = ""};
@@ -111,7 +111,7 @@ static bool row_read(struct row *r, const struct varied_key *k, const char *text
 
 static status values_add_row(struct varied_key *k, const struct row *r)
 {
-    const double whole = 1e-9; /* of a step: `to` is met in spite of rounding */
+    const double whole = 1e-9; /* tolerance in steps with which `to` is reached in spite of rounding */
     const int steps = (int)floor((r->number[1] - r->number[0]) / r->number[2] + whole);
     for (int v = 0; v <= steps; v++) {
         char *value = NEW("study.value", 64, char);
@@ -141,7 +141,7 @@ static status values_read(struct varied_key *k, const char *text)
     }
 }
 
-/* `a[1].b` is the same key as `a.1.b`. */
+/* Rewrites `a[1].b` as `a.1.b`, the same key. */
 static void key_unify(char *key)
 {
     char *to = key;

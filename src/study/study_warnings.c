@@ -1,4 +1,4 @@
-/* What the runs of a study have warned of, which they say in their own summaries alone. */
+/* Collects the warnings in the summaries of the runs of a study. */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,13 +10,13 @@
 
 enum { WARNING_ROOM = 1024, KINDS_MOST = 64, SHOWN_LONGEST = 240 };
 
-/* One warning, whatever the numbers in it: runs differ by spacing. */
+/* A warning, irrespective of the numbers in it, because runs with different spacings print different numbers. */
 struct warning_kind {
     char text[WARNING_ROOM];
-    int runs, last; /* that have it; the last one of them */
+    int runs, last; /* number of runs that have it; index of the last one */
 };
 
-/* Do two texts differ in numbers alone? */
+/* Returns true if two texts differ only in numbers. */
 static bool is_alike(const char *a, const char *b)
 {
     static const char number[] = "0123456789.+-e";

@@ -1,4 +1,4 @@
-/* Error bars of a scene from a study of convergence that is at hand. */
+/* Error bars of the figures of a run from an existing convergence study of its scene. */
 #include "study/uncertainty.h"
 
 #include <math.h>
@@ -12,9 +12,10 @@
 #include "study/study.h"
 #include "step/report.h"
 
-#define SAME_LEVEL 0.05 /* spacings of a level's runs differ by less from that of the scene [1] */
+/* Largest relative difference between the spacings of a level's runs and that of the scene [1]. */
+#define SAME_LEVEL 0.05
 
-/* The folder of the study of convergence beside that of a run; that of its pilot runs is FOLDER_pilot. */
+/* Returns the folder NAME_converge beside the folder of a run. */
 static struct path study_beside(const char *folder, const char *name)
 {
     char place[PATH_NAME_ROOM];
@@ -34,7 +35,7 @@ struct path pilot_folder(const char *folder)
     return to;
 }
 
-/* Cuts the next cell of a line; NULL at its end. */
+/* Cuts the next cell off a line. Returns NULL at its end. */
 static char *cell_next(char **line)
 {
     char *cell = *line;
@@ -45,7 +46,7 @@ static char *cell_next(char **line)
     return cell;
 }
 
-/* Places of the columns `spacing_K [m]` and `uncertainty_K`. */
+/* Indices of the columns `spacing_K [m]` and `uncertainty_K` of level K. */
 struct bar_columns {
     int spacing[16], half_width[16], levels;
 };
@@ -63,7 +64,7 @@ static void columns_find(struct bar_columns *c, char *header)
     }
 }
 
-/* One line: the half-width of the level whose spacing is nearest. */
+/* Reads one line: the half-width of the level whose spacing is nearest to `spacing`. */
 static bool bar_read(struct error_bar *bar, const struct bar_columns *c, char *line, double spacing)
 {
     enum { CELLS_MOST = 256 };
