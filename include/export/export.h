@@ -1,27 +1,27 @@
-/* Room `export`: scenes for other engines. It knows the engine and all below it, reads a scene, makes its particles and
- * bonds, and writes them in another program's words; only commands call it.
+/* Room `export`: writes scenes for other programs. It uses the engine and all rooms below to create particles and bonds
+ * of a scene; only commands call it.
  *
- * LAMMPS: the peridynamics of a scene for a machine, or many, that Cleave does not reach, and a second opinion on it.
- */
+ * LAMMPS: runs the peridynamics of a scene on distributed machines, and serves as an independent check of the
+ * results. */
 #ifndef CLEAVE_EXPORT
 #define CLEAVE_EXPORT
 
 #include "base/base.h"
 #include "scene/scene.h"
 
-/* What is exported where. */
+/* Request for an export. */
 struct export_request {
-    const char *scene, *folder; /* borrowed */
-    const struct scene_override *override;
+    const char *scene, *folder;            /* path of the scene; output folder; borrowed */
+    const struct scene_override *override; /* [overrides] overrides of the scene; borrowed */
     int overrides;
-    bool bond_style;      /* for bond_style bpm/peri (2026), else pair_style peri/pmb, peri/lps (2021) */
-    bool allow_different; /* what LAMMPS has otherwise is exported LAMMPS' way */
-    bool overwrite;       /* replaces an older export in the folder */
+    bool bond_style;      /* export for bond_style bpm/peri (2026), else for pair_style peri/pmb or peri/lps (2021) */
+    bool allow_different; /* export also if LAMMPS treats something differently; its treatment is used then */
+    bool overwrite;       /* replace an older export in the folder */
 };
 
-/* Writes in.lammps, plate.data, README.txt, scene.yaml and check.csv into the folder, and prints what the run there
- * costs. REFUSED, in a line with the reason, if LAMMPS cannot run the scene, or not to the same result, or if the
- * folder holds files of others, or an export and `overwrite` is not set; nothing is written then. */
+/* Writes in.lammps, plate.data, README.txt, scene.yaml and check.csv into the folder, and prints the estimated cost of
+ * the run in LAMMPS. REFUSED, with the reason and without writing anything, if LAMMPS cannot run the scene or would
+ * give another result, if the folder holds other files, or if it holds an export and `overwrite` is false. */
 status export_lammps(const struct export_request *request);
 
 #endif

@@ -1,35 +1,45 @@
-/* What the files of the engine share. */
+/* Declarations shared by the files of src/engine. */
 #ifndef CLEAVE_ENGINE_INTERNAL
 #define CLEAVE_ENGINE_INTERNAL
 
 #include "data/hollow.h"
 #include "engine/engine.h"
 
-/* Makes all parts of a run, empty; frees them and what they own: nothing where they have not been made. */
+/* Creates all parts of a run in an empty state. */
 void run_parts_make(struct run *e);
+
+/* Releases all parts of a run and what they own; parts that were not created are skipped. */
 void run_parts_free(struct run *e);
 
-/* A run whose place another takes that has other particles. */
+/* A run that is replaced by one with other particles. */
 struct predecessor {
     struct run *run;
-    int32_t *now; /* [its particles and images] their numbers in the other, -1: not there */
+    int32_t *now; /* [particles and images of `run`] their indices in the new run; -1: not in the new run */
 };
-/* engine_make with these cells hollow. `before` not NULL: with its particles, bonds and time; the rest that its steps
- * have changed, and levels of cells, are left to the caller. */
+
+/* Creates a run as engine_make does, with given hollow cells. before: if not NULL, particles, bonds and time are taken
+ * from this run; other state that its steps have changed, and the levels of cells, are set by the caller. */
 status engine_make_again(struct run *e, const struct scene *s, struct output *out, struct hollow hollow,
                          struct predecessor *before);
-/* Makes a run again with the particles that these levels of cells need, and goes on where it was. */
+
+/* Recreates a run with the particles that the given levels of cells need, and continues from its current state. level:
+ * refinement level of each cell. */
 status engine_refill(struct run *e, const uint8_t *level);
-/* What a run takes of its predecessor while it is made: particles, once it has images; what load has broken. */
+
+/* Transfers the particles of the predecessor to a run that is being created; call when its images exist. */
 void engine_take_particles(struct run *e, struct predecessor *before);
+
+/* Transfers the broken bonds of the predecessor to a run that is being created. */
 void engine_take_bonds(struct run *e, const struct predecessor *before);
-/* Saves or restores the state of loads and of all parts, as archive->scope says. */
+
+/* Saves or restores the state of loads and of all parts, as far as a->scope includes it. */
 status parts_archive(struct run *e, struct archive *a);
 
-/* Warns of particles that have no neighbour. */
+/* Warns about particles without neighbours. */
 void engine_warn_of_lone(const struct scene *s, const struct cells *cells, const struct bonds *b,
                          const struct particles *p, struct warnings *to);
-/* Warns of loads whose speed breaks bonds beside what they drive. */
+
+/* Warns about loads whose speed breaks the bonds next to the particles that they drive. */
 void engine_warn_of_speed(const struct scene *s, const struct loads *l, const struct particles *p, struct warnings *to);
 
 #endif

@@ -1,19 +1,22 @@
-/* The bonds that LAMMPS makes, pairs within its cutoff, beside those of the scene: which are to be cut there. */
+/* Compares the bonds that LAMMPS creates, pairs within its cutoff, with those of the scene, to find which LAMMPS has to
+ * cut. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "export_parts.h"
 
-/* Shares of volume are rounded, and so are weights (family.c); any other rule is farther off. */
+/* Tolerance of weights: shares of volume are rounded, and so are weights (family.c); every other rule differs by
+ * more. */
 static const real WEIGHT_NEAR = 1e-6;
 
-/* peri/pmb, peri/lps: 1, within half a lattice constant of the horizon a ramp that is 1/2 there. */
+/* Returns the share of volume of a neighbour at distance r in peri/pmb and peri/lps: 1, and within half a lattice
+ * constant of the horizon a linear ramp that is 1/2 at the horizon. */
 static real lammps_share(const struct exported *x, real r)
 {
     return fabs(r - x->cutoff) <= 0.5 * x->lattice ? 0.5 + (x->cutoff - r) / x->lattice : 1;
 }
 
-/* Distance as LAMMPS finds it; in the plane all are at z = 0. */
+/* Returns the squared distance as LAMMPS computes it [m^2]; in 2D all particles are at z = 0. */
 static real distance2(const struct particles *p, int64_t i, int64_t j)
 {
     real sum = 0;
@@ -21,7 +24,7 @@ static real distance2(const struct particles *p, int64_t i, int64_t j)
     return sum;
 }
 
-/* Micro-modulus over that of the first material: springs in series between two materials. */
+/* Returns the micro-modulus of a bond between materials a and b over that of material 0: springs in series. */
 static real modulus_ratio(const struct exported *x, int a, int b)
 {
     const struct family *f = &x->e->source.family;
@@ -31,7 +34,7 @@ static real modulus_ratio(const struct exported *x, int a, int b)
     return 2 * first * second / (first + second) / family_micro_modulus(f, &m[0]);
 }
 
-/* Is this the weight that LAMMPS gives the bond? */
+/* Returns true if LAMMPS gives the bond the same weight. */
 static bool weight_alike(const struct exported *x, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &x->e->part;
@@ -49,7 +52,8 @@ static status bond_refuse(const struct exported *x, int64_t i, const char *what)
                       p->X[0][i], p->X[1][i], p->dim > 2 ? p->X[2][i] : 0, what);
 }
 
-/* Marks the bonds of particle i in `bonded`; how many through *n. */
+/* Marks the bonds of particle i in `bonded` and stores their number in *n. REFUSED if LAMMPS would weight one
+ * differently. */
 static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int *n)
 {
     const struct run *e = x->e;
@@ -67,7 +71,7 @@ static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int
     return OK;
 }
 
-/* Neighbours of i in LAMMPS, into found; how many. */
+/* Finds the neighbours of particle i in LAMMPS; stores them in found[room] and returns their number. */
 static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int room)
 {
     const struct run *e = x->e;
@@ -93,7 +97,8 @@ static int64_t lattice_place(const struct exported *x, int64_t i, int d)
     return (int64_t)floor((x->e->part.X[d][i] - x->e->part.X[d][0]) / x->s->spacing + 0.5);
 }
 
-/* What particles that cannot be mistaken for each other may share: material, loads, place modulo the reach. */
+/* Returns the key of particle i: a hash of its material, its loads and its lattice position modulo the reach of
+ * bonds. */
 static uint64_t key_of(const struct exported *x, int64_t i)
 {
     const int64_t period = 2 * (int64_t)floor(x->cutoff / x->s->spacing + 1e-6) + 1;
@@ -118,7 +123,7 @@ struct search {
     int room;
 };
 
-/* Which particles are touched: number 1, else 0. Counts bonds. */
+/* Marks the touched particles with 1, others with 0. Adds the numbers of bonds and of cut bonds. */
 static status touched_find(const struct exported *x, struct search *a, int64_t *bonds, int64_t *cut)
 {
     int64_t ends = 0, ends_cut = 0;
@@ -146,7 +151,7 @@ static void touched_list(struct touched *t, const struct exported *x, struct sea
     }
 }
 
-/* Neighbours of those that are touched, and their keys. */
+/* Lists the neighbours of the touched particles, and their keys. */
 static void touched_near(struct touched *t, const struct exported *x, struct search *a)
 {
     for (int64_t k = 0; k < t->n; k++) {

@@ -1,5 +1,5 @@
-/* What of a scene LAMMPS can run: what it has no command for is refused; what it has by one rule only is a key to
- * change. */
+/* Determines what of a scene LAMMPS can run: features without a LAMMPS command are refused; features for which LAMMPS
+ * has one fixed rule become keys to change. */
 #include <math.h>
 
 #include "export_parts.h"
@@ -65,7 +65,8 @@ static void settings_add(struct lammps_settings *to, bool differs, const char *k
     if (differs) to->of[to->n++] = (struct lammps_setting){key, value, effect};
 }
 
-/* Contact that peri/pmb has: its own, or none where no pair of particles is in its list any more. */
+/* Adds the contact settings of peri/pmb: its own contact (`own`), or none because no pair of particles remains in its
+ * neighbour list. */
 static void contact_settings(struct lammps_settings *to, const struct scene *s, bool own)
 {
     static const char *const effect = "pieces that meet push each other by LAMMPS' rule for pairs of particles";

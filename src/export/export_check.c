@@ -1,11 +1,12 @@
-/* check.csv: where this program has the particles after some steps, and which share of their bonds has broken. */
+/* Writes check.csv: positions of particles in Cleave after some steps, and the broken share of their bonds. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "export_parts.h"
 #include "step/report.h"
 
-/* Volume of the neighbours that intact bonds of every particle lead to: LAMMPS counts damage by it [m^3]. */
+/* Computes for every particle the volume of the neighbours with an intact bond, from which LAMMPS computes damage
+ * [m^3]. */
 static void joined_volume(real *volume, const struct particles *part, const struct bonds *bonds)
 {
     for (int64_t i = 0; i < part->n; i++) {
@@ -45,7 +46,7 @@ status lammps_check_write(FILE *to, struct exported *x)
     const status ran = engine_run(e);
     e->clock.steps = steps;
     if (ran == OK) {
-        /* there the positions just reached have broken bonds already */
+        /* In LAMMPS the new positions have already broken bonds. */
         e->kernels.bond_force(&e->bonds, &e->part, &e->source.limit, NULL);
         joined_volume(after, &e->part, &e->bonds);
         check_rows_write(to, &e->part, before, after, damage);

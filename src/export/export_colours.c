@@ -1,10 +1,10 @@
-/* Colours of particles for LAMMPS' only way to leave bonds out: pairs of types, excluded while its first neighbour list
- * is made.
+/* Colours of particles, for the only means of LAMMPS to omit bonds: pairs of types that are excluded while its first
+ * neighbour list is built.
  *
- * On a lattice the place modulo the reach and the bonds that are cut make a key: two particles of such keys that are
- * neighbours are so by one offset alone, and are cut or not. The number of colours then does not grow with the length
- * of a crack. Elsewhere keys may mislead; a particle that does not fit takes a colour of its own key that does, or a
- * new one. */
+ * On a lattice, a key consists of the position modulo the reach of bonds and the bonds that are cut: two neighbours
+ * with given keys have a unique offset, and all such pairs are cut or none. The number of colours then does not grow
+ * with the length of a crack. Elsewhere keys are not unique; a particle that does not fit takes another colour of its
+ * key that fits, or a new one. */
 #include "export_parts.h"
 
 #include "base/memory.h"
@@ -19,7 +19,7 @@ void touched_free(struct touched *t)
     *t = (struct touched){0};
 }
 
-/* Colours as far as they are given; pairs of them by rows of COLOURS_MOST. */
+/* Colours assigned so far. Pairs of colours are stored in rows of COLOURS_MOST. */
 struct colouring {
     const struct touched *t;
     int32_t *of;
@@ -30,7 +30,7 @@ struct colouring {
 
 static uint8_t pair_kind(const struct touched *t, int64_t q) { return t->cut[q] ? PAIR_CUT : PAIR_BONDED; }
 
-/* Does colour c suit particle k beside those that have one? */
+/* Returns true if colour c is consistent with particle k and its coloured neighbours. */
 static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
 {
     for (int64_t q = a->t->first[k]; q < a->t->first[k + 1]; q++) {
@@ -41,7 +41,7 @@ static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
     return true;
 }
 
-/* Gives k the colour c; false: two of its neighbours, of one colour, differ. */
+/* Assigns colour c to k. Returns false if two neighbours with the same colour need different entries. */
 static bool colour_take(struct colouring *a, int64_t k, int32_t c)
 {
     a->of[k] = c;

@@ -1,11 +1,11 @@
-/* What a run in LAMMPS costs beside one here, and what it lacks. */
+/* Estimates the cost of a run in LAMMPS beside Cleave, and lists what it lacks. */
 #include <math.h>
 
 #include "export_parts.h"
 
-/* Time of a directed bond and step on one core, both programs on one machine [ns]: `cleave bench peers`, of
- * bench/README.md, LAMMPS of 29 September 2021. bpm/peri: 3.6 and 5.4 times as fast as peri on 4096 particles, by the
- * benchmark of LAMMPS' own examples/bpm/peri. */
+/* Time per directed bond and step on one core of the same machine [ns], from `cleave bench peers` (bench/README.md):
+ * here: Cleave; there: LAMMPS of 29 September 2021, pair_style peri; there_bonds: bond_style bpm/peri, 3.6 and 5.4
+ * times as fast as pair_style peri on 4096 particles in LAMMPS' own examples/bpm/peri. */
 struct bond_time {
     real here, there, there_bonds;
 };
@@ -16,7 +16,7 @@ static struct bond_time bond_time_of(const struct scene *s)
     return s->dim == 2 ? (struct bond_time){1.13, 40.6, 40.6 / 5.4} : (struct bond_time){1.39, 44.7, 44.7 / 5.4};
 }
 
-/* A duration in words. */
+/* A duration as text. */
 struct duration {
     char text[40];
 };

@@ -1,9 +1,10 @@
-/* plate.data: particles as they are at rest, their initial velocities, what loads give to each, bonds of bpm/peri. */
+/* Writes plate.data: particles at rest, their initial velocities, per-particle values of loads, and bonds of
+ * bpm/peri. */
 #include <math.h>
 
 #include "export_parts.h"
 
-/* Bond types: one for each pair of materials. */
+/* Returns the type of bonds between materials a and b: one type for each pair of materials, from 1. */
 static int bond_type(int materials, int a, int b)
 {
     const int low = a < b ? a : b, high = a < b ? b : a;
@@ -45,7 +46,7 @@ static void velocities_write(FILE *to, const struct exported *x)
     }
 }
 
-/* Last of all: LAMMPS of 2021 reads no section behind one of `fix property/atom`. */
+/* Writes the columns. They come last: LAMMPS of 2021 reads no section after one of `fix property/atom`. */
 static void columns_write(FILE *to, const struct exported *x)
 {
     fputs("\nColumns\n\n", to);

@@ -1,5 +1,5 @@
-/* The export to LAMMPS: reads the scene, with bonds everywhere and with what LAMMPS has by one rule only; makes its
- * particles and bonds; writes the files. */
+/* Exports a scene to LAMMPS: reads it, with bonds everywhere and with the fixed rules of LAMMPS; creates its particles
+ * and bonds; writes the files. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 
 /* ---- the scene --------------------------------------------------------------------------------------------------- */
 
-/* The scene with its user's overrides, bonds everywhere, and the settings. */
+/* Reads the scene with the overrides of the user, bonds everywhere, and the settings. */
 static status scene_make(struct scene *s, const struct export_request *r, const struct lammps_settings *with)
 {
     struct scene_override *all = NEW("export.overrides", r->overrides + 1 + with->n, struct scene_override);
@@ -28,7 +28,7 @@ static status scene_make(struct scene *s, const struct export_request *r, const 
     return read;
 }
 
-/* REFUSED with all keys to change in one line. */
+/* Returns REFUSED with all keys to change in one line. */
 static status settings_refuse(const struct lammps_settings *settings, const struct scene *s)
 {
     char list[1024] = "";
@@ -67,7 +67,7 @@ static status scene_to_export(struct scene *s, struct lammps_settings *settings,
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Prints which requests of the scene for output the script of LAMMPS does not have; nothing if it has all. */
+/* Prints which output requested by the scene the script of LAMMPS lacks; nothing if it has all. */
 static void left_out_write(FILE *to, const struct scene *s)
 {
     if (s->probes == 0 && s->n_series == 0) return;
@@ -118,7 +118,7 @@ static void readme_write(FILE *to, const struct exported *x)
           to);
 }
 
-/* One file of an export and the function that writes it. */
+/* A file of an export and the function that writes it. */
 struct export_file {
     const char *name;
     status (*write)(FILE *to, struct exported *x, const struct lammps_types *t);
@@ -152,18 +152,20 @@ static status put_script(FILE *to, struct exported *x, const struct lammps_types
     return lammps_script_write(to, x, t), OK;
 }
 
-/* In the order of writing: the check runs steps, and so comes after the data; a folder with the script is whole. */
+/* Files in the order of writing: the check runs steps and therefore follows the data; a folder with the script is
+ * complete. */
 static const struct export_file files[] = {{"plate.data", put_data},
                                            {"README.txt", put_readme},
                                            {"scene.yaml", put_scene_text},
                                            {"check.csv", put_check},
                                            {"in.lammps", put_script}};
 
-/* Writes and syncs one file beside its final name; FAILED, with nothing left, if it cannot be written whole. */
+/* Writes and syncs a file under its temporary name. FAILED, with the file removed, if it cannot be written
+ * completely. */
 static status file_export(const struct export_file *f, struct exported *x, const struct lammps_types *t)
 {
     const struct path path = path_join(x->request->folder, f->name), aside = file_begin(path.text);
-    unlink(aside.text); /* links of this name are not followed */
+    unlink(aside.text); /* a link of this name is not followed */
     FILE *to = fopen(aside.text, "wx");
     if (!to) return file_fault(path.text, errno);
     status s = f->write(to, x, t);
@@ -191,8 +193,8 @@ static bool is_script_of_export(const char *path, const char *scene_text)
     return is;
 }
 
-/* REFUSED if the folder holds files of others or an older export that is not to be replaced, or if the export would
- * write over a file that it reads. */
+/* REFUSED if the folder holds other files, or an older export that must not be replaced, or if the export would
+ * overwrite a file that it reads. */
 static status export_guard(const struct export_request *r)
 {
     static const struct folder_kind kind = {.what = "export", .sign = "in.lammps", .is_sign = is_script_of_export};
@@ -204,9 +206,9 @@ static status export_guard(const struct export_request *r)
     return OK;
 }
 
-/* Writes the files into a folder that is locked: all of them aside, so that an older export stays whole if one fails.
- * Then the older script goes and the new files get their names, the script last: without it nobody takes the rest for
- * an export. */
+/* Writes the files into a locked folder: first all under temporary names, so that an older export stays complete if one
+ * fails. Then the older script is removed and the new files are renamed, the script last, because a folder without
+ * script is not recognised as an export. */
 static status files_write_locked(struct exported *x, const struct lammps_types *t)
 {
     const char *folder = x->request->folder;
@@ -252,7 +254,7 @@ static status export_write(struct exported *x)
     const struct family *f = &x->e->source.family;
     const bool ramp = f->volume == VOLUME_CUT_RAMP;
     x->cutoff = ramp ? f->horizon : f->cutoff;
-    x->lattice = ramp ? f->spacing : 1e-8 * f->spacing; /* so narrow a ramp that no neighbour lies on it */
+    x->lattice = ramp ? f->spacing : 1e-8 * f->spacing; /* a ramp so narrow that no neighbour is on it */
     TRY(lammps_loads_make(x));
     status s = lammps_types_make(&t, x);
     if (s == OK) s = files_write(x, &t);

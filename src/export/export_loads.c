@@ -1,7 +1,8 @@
-/* Loads in LAMMPS' words: what is driven has its force replaced (fix setforce) so that its velocity is the prescribed
- * one in the middle of each step, and what is displaced so that the step ends at its place; forces are added (fix
- * addforce), as means over the kick that they act in. Both give the steps of this program to round-off, for any
- * function of time. */
+/* Translates loads to commands of LAMMPS.
+ * Prescribed velocities replace the force (fix setforce) such that the velocity in the middle of each step is the
+ * prescribed one; prescribed displacements replace it such that each step ends at the prescribed position. Forces are
+ * added (fix addforce), as means over the velocity update in which they act. The steps agree with those of Cleave to
+ * round-off for any function of time. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -87,8 +88,8 @@ void lammps_velocity(const struct exported *x, int64_t i, real v[DIM_MAX])
 
 /* ---- columns of plate.data --------------------------------------------------------------------------------------- */
 
-/* Component d of a force on its k-th particle: by volume in peri, whose mass is density; whole with bonds [N/m^3, N].
- */
+/* Returns component d of a force on its k-th particle: force per volume for pair styles, whose mass is the density
+ * [N/m^3]; force for bond styles [N]. */
 static real force_on(const struct exported *x, const struct load *load, int d, int64_t k)
 {
     const real force = load->boundary->value[d] * load->share[d][k];
@@ -100,7 +101,7 @@ static bool pushes_along(const struct load *load, int d)
     return is_force(load) && load->n > 0 && load->boundary->value[d] != 0;
 }
 
-/* Do the particles of a force differ by more than round-off? */
+/* Returns true if the particles of a force differ by more than round-off. */
 static bool force_varies(const struct exported *x, const struct load *load, int d)
 {
     for (int64_t k = 1; k < load->n; k++)
@@ -150,8 +151,8 @@ void lammps_columns_compute(FILE *to, const struct exported *x)
     }
 }
 
-/* Place of particle i in the list of a load, which ascends; -1: it is not there. */
-static int64_t place_in(const struct load *load, int64_t i)
+/* Returns the index of particle i in the ascending list of a load; -1: not in the list. */
+static int64_t index_in_load(const struct load *load, int64_t i)
 {
     int64_t low = 0, high = load->n;
     while (low < high) {
@@ -169,20 +170,20 @@ real lammps_column_value(const struct exported *x, int c, int64_t i)
     const int d = x->column[c].axis;
     if (x->column[c].load < 0) return x->e->part.x[d][i] - x->e->part.X[d][i];
     const struct load *load = &x->e->loads.load[x->column[c].load];
-    const int64_t k = place_in(load, i);
+    const int64_t k = index_in_load(load, i);
     return k < 0 ? 0 : force_on(x, load, d, k);
 }
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* A finite number for LAMMPS, in brackets where it has a sign. */
+/* Writes a finite number, in parentheses if it is negative. */
 static void put(FILE *to, real value)
 {
     if (!isfinite(value)) value = value > 0 ? 1e300 : -1e300;
     fprintf(to, value < 0 ? "(%.17g)" : "%.17g", value);
 }
 
-/* Text with numbers at its percent signs. */
+/* Writes a text with the numbers inserted at its percent signs. */
 static void put_formula(FILE *to, const char *text, const char *t, const real *number)
 {
     for (; *text; text++)
@@ -205,7 +206,7 @@ static void put_table(FILE *to, const struct time_function *f, const char *t)
     put_formula(to, "+(t>=%)*%)", t, (real[]){f->t[f->n - 1], f->value[f->n - 1]});
 }
 
-/* A function of time (time_function_at) of the variable t. */
+/* Writes a function of time (time_function_at) of the LAMMPS variable t. */
 static void put_function(FILE *to, const struct time_function *f, const char *t)
 {
     const real a = f->from, b = f->until;
@@ -239,7 +240,7 @@ static void group_write(FILE *to, int k, const struct lammps_types *t, const str
     fputc('\n', to);
 }
 
-/* Component d of a force: a number, or a variable of time, of the particle, or of both. */
+/* Returns component d of a force as a LAMMPS argument: a number, or a variable of time, of the particle, or of both. */
 static struct word force_word(FILE *to, const struct exported *x, int k, int d)
 {
     const struct load *load = &x->e->loads.load[k];
@@ -259,7 +260,8 @@ static struct word force_word(FILE *to, const struct exported *x, int k, int d)
     return w;
 }
 
-/* Force by the mean of its function over the kick, which ends half a step later; of the first step, over half a one. */
+/* Writes a force as the mean of its function over the velocity update, which ends half a step later; the first update
+ * takes half a step. */
 static void force_write(FILE *to, const struct exported *x, int k)
 {
     const struct load *load = &x->e->loads.load[k];
@@ -275,9 +277,9 @@ static void force_write(FILE *to, const struct exported *x, int k)
     fprintf(to, "fix load%d load%d addforce %s %s %s\n", k + 1, k + 1, w[0].text, w[1].text, w[2].text);
 }
 
-/* Component d of the force on what is displaced: from its velocity in the middle of the last step to the one that takes
- * it from where it is to where it has to be. */
-static void place_write(FILE *to, const struct exported *x, int k, int d)
+/* Writes component d of the force on displaced particles: it changes the velocity in the middle of the last step to the
+ * one that moves the particle to its prescribed position. */
+static void displacement_write(FILE *to, const struct exported *x, int k, int d)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;
     fprintf(to, "variable drive%d%c atom \"(step>0)*mass*((", k + 1, axis_name[d]);
@@ -287,7 +289,8 @@ static void place_write(FILE *to, const struct exported *x, int k, int d)
     fprintf(to, "-c_placed[%d])/%.17g-v%c)/%.17g\"\n", d + 1, x->e->clock.dt, axis_name[d], x->e->clock.dt);
 }
 
-/* The force that takes what is driven from its velocity in the middle of the last step to that in this one. */
+/* Writes the force that changes the velocity of driven particles from the middle of the last step to the prescribed one
+ * in the middle of this step. */
 static void drive_write(FILE *to, const struct exported *x, int k)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;
@@ -306,7 +309,7 @@ static void drive_write(FILE *to, const struct exported *x, int k)
         if (!varies || b->value[d] == 0) continue;
         snprintf(w[d].text, sizeof w[d].text, "v_drive%d%c", k + 1, axis_name[d]);
         if (b->displaces) {
-            place_write(to, x, k, d);
+            displacement_write(to, x, k, d);
             continue;
         }
         fprintf(to, "variable drive%d%c atom \"mass*", k + 1, axis_name[d]);
@@ -334,6 +337,6 @@ void lammps_loads_write(FILE *to, const struct exported *x, const struct lammps_
         group_write(to, k, t, x);
         if (is_force(&l->load[k])) force_write(to, x, k);
     }
-    for (int k = 0; k < l->n; k++) /* after all forces, which they replace */
+    for (int k = 0; k < l->n; k++) /* after all forces, which these commands replace */
         if (l->load[k].n > 0 && !is_force(&l->load[k])) drive_write(to, x, k);
 }

@@ -1,13 +1,14 @@
-/* in.lammps: the commands. The order matters: bonds are made from the first neighbour list at rest, by a run of no
- * step; a second one lets peri/lps of 2021 know its stretches before anything moves, or every bond breaks at once. */
+/* Writes in.lammps. The order of commands matters: bonds are created from the first neighbour list at rest, by a run of
+ * zero steps; a second such run lets peri/lps of 2021 compute its stretches before anything moves, without which every
+ * bond would break at once. */
 #include <math.h>
 
 #include "export_parts.h"
 #include "step/report.h"
 
-#define SKIN 0.3         /* of the neighbour list [spacings] */
-#define FRAMES_MOST 1000 /* at uneven steps: as terms of a variable */
-#define FAR 0.5          /* stretch at which ghosts of bonds that never break may be lost */
+#define SKIN 0.3         /* skin of the neighbour list [spacings] */
+#define FRAMES_MOST 1000 /* most frames at irregular steps, each a term of a variable */
+#define FAR 0.5          /* stretch beyond which ghost particles of unbreakable bonds may be lost */
 
 static real stretch_of(const struct exported *x, int a, int b)
 {
@@ -23,8 +24,8 @@ static real modulus_of(const struct exported *x, int a, int b)
     return first == second ? first : 2 * first * second / (first + second);
 }
 
-/* Coefficients of two materials. In the plane G_L = 8 G/15 and K_L = 4 (lambda + G)/9 make the law of three dimensions
- * that of two. */
+/* Writes the coefficients of a pair of materials. In 2D, G_L = 8 G/15 and K_L = 4 (lambda + G)/9 turn the 3D law of
+ * LAMMPS into the 2D law. */
 static void law_write(FILE *to, const struct exported *x, int a, int b)
 {
     const struct material *m = &x->s->material[a];
@@ -37,7 +38,7 @@ static void law_write(FILE *to, const struct exported *x, int a, int b)
     fprintf(to, " %.17g %.17g 0.0\n", x->cutoff, stretch_of(x, a, b));
 }
 
-/* Types of a material follow each other. */
+/* Writes the range of types of a material, which are consecutive. */
 static void types_of(FILE *to, const struct lammps_types *t, int material)
 {
     int first = 0, last = 0;
@@ -118,11 +119,11 @@ static void particles_write(FILE *to, const struct exported *x)
     if (x->bond_style) fputs("compute damage all property/atom d_damage\n", to);
 }
 
-/* Bonds are there; what is no longer excluded may touch. */
+/* Writes the commands after the bonds exist: ends the exclusion of pairs, which may then come into contact. */
 static void start_write(FILE *to, const struct exported *x, const struct lammps_types *t)
 {
     fprintf(to, "\ntimestep %.17g\nthermo 1000\n", x->e->clock.dt);
-    if (x->displaced) /* variables may use only what this step has computed */
+    if (x->displaced) /* variables may use only quantities computed in the current step */
         fprintf(to, "compute starts all reduce max c_startx c_starty%s\nthermo_style custom step c_starts[1]\n",
                 x->s->dim > 2 ? " c_startz" : "");
     fputs("run 0 post no\nrun 0 post no\n", to);
@@ -137,7 +138,7 @@ static void start_write(FILE *to, const struct exported *x, const struct lammps_
     fputs("fix motion all nve\n", to);
 }
 
-/* The test is for a machine without Cleave. */
+/* Writes the comparison with check.csv, which works on a machine without Cleave. */
 static void test_write(FILE *to, int64_t steps)
 {
     fprintf(to,
@@ -151,7 +152,7 @@ static void test_write(FILE *to, int64_t steps)
             (long long)steps, (long long)steps);
 }
 
-/* Steps between the frames of this program, where they are one number; 0: they differ. */
+/* Returns the number of steps between frames if it is constant, else 0. */
 static int64_t frame_distance(const struct run *e, int64_t frames)
 {
     const int64_t first = report_frame_step(e->scene, &e->clock, 1);
@@ -160,7 +161,7 @@ static int64_t frame_distance(const struct run *e, int64_t frames)
     return first;
 }
 
-/* The dump has the very steps of this program's frames: the variable is the step of the next one. */
+/* Writes the dump at exactly the steps of Cleave's frames: a variable returns the step of the next frame. */
 static void frames_write(FILE *to, const struct exported *x)
 {
     static const char columns[] = "plate.dump id x y z vx vy vz c_damage\n"
@@ -194,7 +195,7 @@ static void runs_write(FILE *to, const struct exported *x)
             "dump check all custom %lld check.dump id x y z c_damage\ndump_modify check sort id format float %%.17g\n"
             "run %lld\nundump check\n",
             (long long)check, (long long)check);
-    if (steps > check) /* forces anew would lack the last ones of bonds that have just broken */
+    if (steps > check) /* recomputed forces would lack the last forces of bonds that have just broken */
         fprintf(to, "run %lld pre no\n", (long long)(steps - check));
     test_write(to, check);
 }

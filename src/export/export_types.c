@@ -1,12 +1,12 @@
-/* Types of particles in LAMMPS: one for those with the same material and loads, which makes groups of a word; more
- * where bonds are cut, so that pairs of types say which. */
+/* Assigns types of particles in LAMMPS: one for each combination of material and loads, so that groups are lists of
+ * types; more where bonds are cut, so that pairs of types identify the bonds to cut. */
 #include "base/memory.h"
 #include "export_parts.h"
 
 enum { CLASSES_MOST = 1000 };
 
-/* Particles of one material and one set of loads are a class (of one mass, too, where types have masses); colours are
- * parts of a class that cut bonds single out. */
+/* Classes of particles with the same material and loads (and mass, where types have masses). Colours divide a class
+ * where bonds are cut. any: [n] a particle of each class. */
 struct classes {
     int n;
     int32_t *any;
@@ -19,7 +19,7 @@ static bool class_alike(const struct exported *x, int64_t i, int64_t j)
            (!x->bond_style || bits_equal(p->mass[i], p->mass[j]));
 }
 
-/* Number of the class of particle i; -1: there are too many. */
+/* Returns the class of particle i, a new one if necessary; -1: there are too many. */
 static int class_of(struct classes *c, const struct exported *x, int64_t i)
 {
     for (int k = c->n; k-- > 0;)
@@ -30,7 +30,7 @@ static int class_of(struct classes *c, const struct exported *x, int64_t i)
     return c->n++;
 }
 
-/* Numbers the types so that those of a material follow each other: `first` has classes, then colours. */
+/* Numbers the types such that those of a material are consecutive. first: classes, then colours. */
 static void types_number(struct lammps_types *t, const struct exported *x, int32_t *number, const int32_t *any, int n)
 {
     t->material = NEW("types.material", n + 1, int32_t);
@@ -57,7 +57,7 @@ static void types_exclude(struct lammps_types *t, const int32_t *number, const u
     }
 }
 
-/* Classes of all particles, into t->of. */
+/* Finds the classes of all particles and stores them in t->of. */
 static status classes_find(struct classes *c, struct lammps_types *t, const struct exported *x)
 {
     t->of = NEW("types.of", x->e->part.n, int32_t);
