@@ -135,7 +135,7 @@ struct study_options {
 status study_take(struct study *s, bool overwrite);
 
 /* Creates and locks the folder and starts all waiting runs. A failed run is recorded in its state, with a line on
- * standard error, and the study continues. REFUSED as study_take; INTERRUPTED by options.stop. */
+ * standard error, and the study continues. REFUSED as study_take; INTERRUPTED by how.stop. */
 status study_run(struct study *s, struct study_options how);
 
 /* Prints a shell command that runs one case, valid in any current folder, with quotes where the shell requires them. */
