@@ -1,4 +1,4 @@
-/* Plane pulses at right angles to an absorbing face. */
+/* Plane pulses at normal incidence on an absorbing face. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,13 +9,13 @@
 #include "step/report.h"
 #include "mesh/mesh_part.h"
 
-/* A strip of so many spacings between mirrors; the pulse starts in its middle, and what comes back is the difference to
- * a strip twice as long. */
+/* Length of a strip between mirrors [spacings]; the pulse starts in its middle. The reflected wave is the difference
+ * from a strip twice as long. */
 enum { NORMAL_LENGTH = 384 };
 #define NORMAL_VELOCITY 1e-3
 
-/* Space, material and strip by the number of dimensions. In plane strain and in space C11 = 6/5 E at Poisson's ratio
- * 1/4, G = C11/3. */
+/* Writes the scene for `dim` dimensions. In plane strain and in 3D, C11 = 6/5 E at Poisson's ratio 1/4, and G = C11/3.
+ * text: capacity `room` [byte]. */
 static int normal_scene(char *text, size_t room, const struct absorbing_method *m, int dim, int width, int length)
 {
     static const char *const spaces[DIM_MAX + 1] = {"", "line\nsection: 1 m^2", "plane strain\nthickness: 1 m",
@@ -38,7 +38,7 @@ static int normal_scene(char *text, size_t room, const struct absorbing_method *
                     zeros[dim], zeros[dim], width * ABSORBING_SPACING, NORMAL_VELOCITY, mirrors[dim]);
 }
 
-/* Runs the strip, or one twice as long; *v: the velocities along x at the end, [particles]. */
+/* Runs a strip of `length` spacings. v: receives the velocities along x at the end, [particles], allocated. */
 static status normal_run(const struct absorbing_method *m, int dim, int width, int length, real **v,
                          struct absorbing_pulse *figure)
 {
@@ -71,7 +71,7 @@ status absorbing_pulse(const struct absorbing_method *m, int dim, int width, str
     *figure = twin;
     status ran = normal_run(m, dim, width, 2 * NORMAL_LENGTH, &without, &twin);
     if (ran == OK) ran = normal_run(m, dim, width, NORMAL_LENGTH, &with, figure);
-    for (int64_t i = 0; i < L * rows && ran == OK; i++) /* row by row, x first */
+    for (int64_t i = 0; i < L * rows && ran == OK; i++) /* row by row, x varies fastest */
         figure->reflected = fmax(figure->reflected, fabs(with[i] - without[i / L * 2 * L + i % L]) / NORMAL_VELOCITY);
     memory_free(with), memory_free(without);
     return ran;

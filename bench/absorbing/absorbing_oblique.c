@@ -1,9 +1,9 @@
-/* Oblique waves at an absorbing face. Between two mirrors half a wavelength apart two plane waves at +-angle make the
- * field u_x = U(x, t) cos(k y), u_y = V(x, t) sin(k y), a superposition that each reflects as a plane wave. What
- * comes back is the difference to a body that goes on where the face is; at one frequency it consists of a P and an S
- * wave, whose polarisations are known. */
+/* Oblique waves at an absorbing face. Between two mirrors half a wavelength apart, two plane waves at +-angle form the
+ * field u_x = U(x, t) cos(k y), u_y = V(x, t) sin(k y); each is reflected as a plane wave. The reflected wave is the
+ * difference from a body that continues beyond the face; at one frequency it consists of a P and an S wave with known
+ * polarisations. */
 #include <complex.h>
-#undef I /* a name of nodes in headers */
+#undef I /* avoids a conflict of complex.h with other headers */
 #include <math.h>
 #include <stdio.h>
 
@@ -12,16 +12,17 @@
 #include "step/report.h"
 #include "mesh/mesh_part.h"
 
-/* Of the strip: mirrors `across` spacings apart, the face at x = `along` spacings, the packet's centre and its radius,
- * where it is observed [m]; slowness along y, frequency [1/s]; the amplitudes there by frequency. */
+/* Parameters of the strip: distance of the mirrors `across` and position of the face `along` [spacings]; centre `from`
+ * and radius of the wave packet, position `station` of the observation [m]; wavenumber k along y, frequency [1/s], end
+ * time `until` [s]. */
 struct oblique {
     bool shear;
     int across, along;
     double k, wave, from, radius, station, frequency, until;
 };
 
-/* Velocity field of a P wave, the gradient of g(x) cos(k y), or of an S wave, the curl of g(x) sin(k y), with g a wave
- * packet. */
+/* Computes the initial velocity of a P wave, the gradient of g(x) cos(k y), or of an S wave, the curl of g(x) sin(k y),
+ * with a wave packet g. */
 static void packet(const void *context, const real *X, real *v)
 {
     const struct oblique *o = context;
@@ -33,7 +34,7 @@ static void packet(const void *context, const real *X, real *v)
     v[1] = scale * (o->shear ? -slope : -o->k * g) * sin(o->k * X[1]);
 }
 
-/* Whole spacings for the mirrors, and from these the wave. */
+/* Rounds the distance of the mirrors to whole spacings and derives the wave from it. */
 static struct oblique oblique_of(bool shear, double angle, double wavelength)
 {
     const double h = ABSORBING_SPACING, speed = shear ? ABSORBING_SPEED / sqrt(3) : ABSORBING_SPEED;
@@ -47,11 +48,12 @@ static struct oblique oblique_of(bool shear, double angle, double wavelength)
     o.along = (int)ceil(12 * o.radius / h / 2) * 2;
     o.from = o.along * h - 4 * o.radius;
     o.station = (o.along - nearbyint(0.5 * length / h) - 0.5) * h;
-    o.until = 10 * o.radius / (speed * cos(angle)); /* what the other ends send back comes later */
+    o.until = 10 * o.radius / (speed * cos(angle)); /* before reflections from the other ends arrive */
     return o;
 }
 
-/* Amplitudes of U and V at the station, by frequency, of a strip `along` spacings long [m]. */
+/* Runs a strip `along` spacings long and computes the Fourier amplitudes of U and V at the station. sum: by frequency,
+ * for U and V [m]. */
 static status oblique_run(const struct oblique *o, const struct absorbing_method *m, int along, double complex *sum)
 {
     struct run e;

@@ -1,17 +1,17 @@
-/* Reflection from dashpots in closed form. */
+/* Reflection from dashpots in closed form (Lysmer & Kuhlemeyer 1969). */
 #include <complex.h>
-#undef I /* a name of nodes in headers */
+#undef I /* avoids a conflict of complex.h with other headers */
 #include <math.h>
 
 #include "absorbing_bench.h"
 
-/* A plane wave exp(i w (s x + p y - t)) with displacement a. */
+/* A plane wave a exp(i w (s x + p y - t)): displacement a, slowness s along x. */
 struct plane_wave {
     double complex s, a[2];
 };
 
-/* What it makes of both boundary conditions at x = 0, over i w: stress_xx + rho c_p v_x and stress_xy + rho c_s v_y; of
- * density and c_p 1, and of mu = c_s^2. */
+/* Computes the residuals of both boundary conditions at x = 0 over i w: stress_xx + rho c_p v_x and stress_xy + rho c_s
+ * v_y, for density 1, c_p = 1 and mu = c_s^2. */
 static void conditions(const struct plane_wave *w, double p, double mu, double complex *to)
 {
     to[0] = w->s * w->a[0] + (1 - 2 * mu) * p * w->a[1] - w->a[0];

@@ -1,4 +1,4 @@
-/* `cleave bench absorbing`: how much of a wave comes back from an absorbing face. */
+/* `cleave bench absorbing`: measures how much of a wave an absorbing face reflects. */
 #include <math.h>
 #include <stdio.h>
 
@@ -14,7 +14,7 @@ const struct absorbing_method absorbing_methods[ABSORBING_METHODS] = {
     {"cells", "method: mpm\nmpm: {frame: reference}"},
 };
 
-/* ---- at right angles --------------------------------------------------------------------------------------------- */
+/* ---- normal incidence -------------------------------------------------------------------------------------------- */
 
 static const int pulse_widths[] = {16, 32, 64};
 
@@ -34,7 +34,7 @@ static void normal_row(const struct absorbing_method *m, int dim, struct bench_t
     printf("\n");
 }
 
-/* ---- at an angle ------------------------------------------------------------------------------------------------- */
+/* ---- oblique incidence ------------------------------------------------------------------------------------------- */
 
 static void oblique_row(const struct absorbing_method *m, bool shear, int degrees, double wavelength,
                         struct bench_table *rows)

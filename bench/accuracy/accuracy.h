@@ -1,13 +1,12 @@
-/* What the parts of `cleave bench accuracy` share: error against loop time of every method on problems with
- * known solutions.
+/* `cleave bench accuracy`: error against computing time of every method on problems with known solutions. Declarations
+ * shared by its files.
  *
- *   a METHOD is a row of a table: a name and the scene keys that make it
- *   a PROBLEM is a row of a table: its cases, which methods and resolutions apply, a function that writes the scene of
- *   a
- *     point and one that measures the error of the finished run
- *   a POINT is one run: problem, case, method, resolution, horizon, share of the critical time step
+ *   METHOD   row of a table: a name and the scene keys that select the method
+ *   PROBLEM  row of a table: cases, applicable methods and resolutions, a function that writes the scene of a point,
+ *            and one that measures the error of the finished run
+ *   POINT    one run: problem, case, method, resolution, horizon, fraction of the critical time step
  *
- * To add a problem: write its two functions in a file of its own, and a line in accuracy_problem[]
+ * To add a problem: write its two functions in a file of its own, and add a line to accuracy_problem[]
  * (accuracy_plan.c). */
 #ifndef CLEAVE_BENCH_ACCURACY
 #define CLEAVE_BENCH_ACCURACY
@@ -16,14 +15,14 @@
 
 /* ---- methods (accuracy_methods.c) -------------------------------------------------------------------------------- */
 
-/* Kinds of methods; a problem says which apply (bits). */
+/* Families of methods, as bits; a problem states which apply. */
 enum accuracy_family {
-    ACCURACY_BONDS = 1,     /* bond-based peridynamics                                  */
-    ACCURACY_STATES = 2,    /* state-based: plane and solid                             */
-    ACCURACY_POINTS = 4,    /* material points in the current frame                     */
-    ACCURACY_REFERENCE = 8, /* material points in the reference frame                   */
-    ACCURACY_COUPLED = 16,  /* a fixed region is peridynamic: the scene gives pd.region */
-    ACCURACY_ADAPTIVE = 32  /* the scene converts                                       */
+    ACCURACY_BONDS = 1,     /* bond-based peridynamics */
+    ACCURACY_STATES = 2,    /* state-based peridynamics: plane and solid problems */
+    ACCURACY_POINTS = 4,    /* material points in the current frame */
+    ACCURACY_REFERENCE = 8, /* material points in the reference frame */
+    ACCURACY_COUPLED = 16,  /* a fixed region is peridynamic: the scene sets pd.region */
+    ACCURACY_ADAPTIVE = 32  /* the scene converts material points adaptively */
 };
 enum {
     ACCURACY_PD = ACCURACY_BONDS | ACCURACY_STATES,
@@ -31,17 +30,19 @@ enum {
     ACCURACY_SETTINGS = 5
 };
 
+/* A method. */
 struct accuracy_method {
-    const char *name; /* as printed */
+    const char *name; /* name in tables */
     enum accuracy_family family;
-    bool quick;                                   /* also with --quick */
-    struct scene_override set[ACCURACY_SETTINGS]; /* key NULL: no more */
+    bool quick;                                   /* also run with --quick */
+    struct scene_override set[ACCURACY_SETTINGS]; /* scene keys; ends with key NULL */
 };
 extern const struct accuracy_method accuracy_method[];
 extern const int accuracy_methods;
 
 /* ---- problems (accuracy_plan.c) ---------------------------------------------------------------------------------- */
 
+/* Largest numbers of entries of the tables. */
 enum {
     ACCURACY_CASES = 6,
     ACCURACY_RESOLUTIONS = 6,
@@ -52,140 +53,173 @@ enum {
 
 struct accuracy_problem;
 
+/* A run of the table. */
 struct accuracy_point {
     const struct accuracy_problem *problem;
     const struct accuracy_method *method;
-    int at;         /* its case */
-    int resolution; /* as the problem counts */
-    double horizon; /* [spacings]; 0: it has no bonds */
-    double step;    /* time.safety: share of the critical step */
+    int at;         /* index of the case */
+    int resolution; /* in the units of the problem */
+    double horizon; /* horizon [spacings]; 0: no bonds */
+    double step;    /* time.safety: time step over the critical one */
 };
 
-/* The scene of a point: a file or a text, and overrides. Those of the method, the horizon and the step are added. */
+/* Scene of a point: a file or a text, and overrides; keys of the method, the horizon and the time step are added
+ * later. */
 struct accuracy_scene {
-    char path[64]; /* "": the text */
+    char path[64]; /* path of the file; "": use `text` */
     char text[4096];
     struct bench_overrides set;
 };
 
+/* A problem with known solution. */
 struct accuracy_problem {
     const char *name, *title;
-    const char *error;                    /* what the error is, in words */
-    const char *part[ACCURACY_PARTS];     /* what it is split into; NULL: nothing */
-    bool levels;                          /* methods with coarse cells apply, too */
-    bool draws_parts;                     /* they have panels, of the worst of all cases */
-    const char *cases[ACCURACY_CASES];    /* a table has a panel for each; NULL ends */
-    const char *counts;                   /* what its resolutions count */
-    int families;                         /* that apply */
-    int dim;                              /* of its space: how work grows with resolution */
-    int resolution[ACCURACY_RESOLUTIONS]; /* ascending; 0 ends */
-    int quick_resolutions;                /* the first few */
-    /* of pure peridynamics beside 3.015: the first at every resolution, others at one; 0 ends */
+    const char *error;                    /* definition of the error, for captions */
+    const char *part[ACCURACY_PARTS];     /* names of the parts of the error; NULL: not split */
+    bool levels;                          /* methods with coarse cells also apply */
+    bool draws_parts;                     /* pictures have panels for the parts, each with the worst of all cases */
+    const char *cases[ACCURACY_CASES];    /* names of the cases, a panel each; ends with NULL */
+    const char *counts;                   /* unit of the resolutions */
+    int families;                         /* bit set of the applicable families */
+    int dim;                              /* dimension, which determines how work grows with resolution */
+    int resolution[ACCURACY_RESOLUTIONS]; /* in ascending order; ends with 0 */
+    int quick_resolutions;                /* number of resolutions run with --quick */
+    /* Further horizons for pure peridynamics besides 3.015: the first at every resolution, others at one; ends with
+     * 0. */
     double horizon[ACCURACY_VARIATIONS];
-    double step[ACCURACY_VARIATIONS];     /* beside 0.8, at that one; 0 ends */
-    bool steps;                           /* the first of them at every resolution, and with --quick */
-    int varied;                           /* 1 + its place; 0: the second */
-    const char *remark[ACCURACY_REMARKS]; /* for the page: what stands out and why */
-    int samples;                          /* its tips are looked at so often; 0: once */
-    double seconds, quick_seconds;        /* it takes about, until measured */
-    void (*scene)(const struct accuracy_point *p, struct accuracy_scene *s);
+    double step[ACCURACY_VARIATIONS];     /* further time steps besides 0.8, at one resolution; ends with 0 */
+    bool steps;                           /* run the first of them at every resolution and with --quick */
+    int varied;                           /* 1 + index of that resolution; 0: the second */
+    const char *remark[ACCURACY_REMARKS]; /* remarks on notable results for the overview page */
+    int samples;                          /* number of evaluations of crack tips; 0: one */
+    double seconds, quick_seconds;        /* predicted duration of all points [s], replaced by measured times */
+    void (*scene)(const struct accuracy_point *p, struct accuracy_scene *s); /* Writes the scene of a point. */
+    /* Runs a point; NULL: engine_run. */
     status (*run)(const struct accuracy_point *p, struct run *e); /* NULL: engine_run */
-    /* Relative error and its parts, of a run that reached its end. */
+    /* Computes the relative error and its parts of a finished run. */
     status (*measure)(const struct accuracy_point *p, struct run *e, double *error, double *part);
-    bool (*applies)(const struct accuracy_point *p); /* NULL: every point of the families */
+    /* Returns true if a point of the applicable families is possible; NULL: always. */
+    bool (*applies)(
+        const struct accuracy_point *p); /* returns true if a point of these families is possible; NULL: always */
 };
 extern const struct accuracy_problem *const accuracy_problem[];
 extern const int accuracy_problems;
 
+/* Usual horizon [spacings] and usual fraction of the critical time step. */
 #define ACCURACY_HORIZON 3.015
 #define ACCURACY_STEP 0.8
 
 extern const struct accuracy_problem accuracy_bar, accuracy_wave, accuracy_square, accuracy_cube, accuracy_hole,
     accuracy_cracks, accuracy_sudden, accuracy_spall, accuracy_fracture, accuracy_beam, accuracy_rod;
 
-/* `cleave bench accuracy=reference`: prints the lines of accuracy_reference.h, finer and finer. */
+/* `cleave bench accuracy=reference`: prints the lines of accuracy_reference.h, at increasing resolution. */
 status accuracy_reference(bool quick);
-/* accuracy_hole.c: displacement [m] and stress xx, yy, xy [Pa] of the pulled plate with a hole of radius 1. */
+
+/* Computes displacement [m] and stress xx, yy, xy [Pa] at X [m] in a plate under tension with a hole of radius 1 m
+ * (accuracy_hole.c). */
 void accuracy_hole_exact(const double X[2], double u[2], double stress[3]);
 
-/* Material points of its method keep to the reference frame; it can relax to rest (solver: relaxation). */
+/* Returns true if the material points of the method use the reference frame. */
 bool accuracy_is_reference(const struct accuracy_point *p);
+
+/* Returns true if the method can reach equilibrium by relaxation (solver: relaxation). */
 bool accuracy_relaxes(const struct accuracy_point *p);
-/* It has coarse cells (mpm.levels). */
+
+/* Returns true if the method has coarse cells (mpm.levels). */
 bool accuracy_is_coarse(const struct accuracy_method *method);
-/* How its method finds rest: by a static solver, or in the reference frame under a load that grows slowly. */
+
+/* Returns the name of the solver with which the method reaches equilibrium: a static solver, or explicit with a slowly
+ * growing load in the reference frame. */
 const char *accuracy_solver(const struct accuracy_point *p);
 
-/* Helps for `measure`: a figure of a probe (NAN: none), in memory. */
+/* Returns a quantity of a probe after a run, for `measure`; NAN if there is none. */
 double accuracy_figure(const struct run *e, const char *probe, const char *quantity);
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
+/* Result of a point. */
 struct accuracy_result {
-    bool known; /* measured, now or before */
-    bool stable;
-    double error, part[ACCURACY_PARTS]; /* [1]; NAN: none */
-    double seconds[2];                  /* in the loop on one thread and on two, least of some runs */
+    bool known;                         /* measured, now or earlier */
+    bool stable;                        /* the run reached its end */
+    double error, part[ACCURACY_PARTS]; /* relative error and its parts [1]; NAN: none */
+    double seconds[2];                  /* time of the loop on one and on two threads, least of several runs [s] */
     double particles, steps;
-    char settings[20]; /* of scene and machine, as a number */
+    char settings[20]; /* hash of scene and machine; results with another hash are not reused */
 };
 
-/* A point of the whole table and what is known of it. */
+/* A point of the complete table and its result. */
 struct accuracy_entry {
     struct accuracy_point point;
     struct accuracy_result result;
-    bool quick; /* belongs to the short table, too */
+    bool quick; /* also in the table of --quick */
 };
 
-/* accuracy_plan.c: every point of the whole table, and the scene that it is. */
+/* All points of the complete table. */
 struct accuracy_plan {
     int n;
     struct accuracy_entry *entry;
     struct machine machine;
 };
+
+/* Creates all points with their scenes (accuracy_plan.c). Release with accuracy_plan_free. */
 status accuracy_plan_make(struct accuracy_plan *plan);
+
+/* Releases the memory of the plan. */
 void accuracy_plan_free(struct accuracy_plan *plan);
+
+/* Composes the scene of a point: that of the problem, with the keys of the method, the horizon and the time step. */
 void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *s);
 
-/* accuracy_store.c: results/bench/accuracy.csv. Read: what it holds of points with the same settings and program
- * version. Append: one line, at once. Write: all that is known, with what goes with it. */
+/* Reads the results in results/bench/accuracy.csv for points with the same settings and program version
+ * (accuracy_store.c). */
 status accuracy_store_read(struct accuracy_plan *plan);
+
+/* Appends the result of a point to results/bench/accuracy.csv and flushes the file. */
 status accuracy_store_append(const struct accuracy_entry *entry);
+
+/* Writes all known results to results/bench/accuracy.csv and its other formats. */
 status accuracy_store_write(const struct accuracy_plan *plan);
 
-/* Header of cost_accuracy.csv. `keys`: the scene keys that make the method, key=value;key=value, beside spacing,
- * horizon and step. */
+/* Header of cost_accuracy.csv. keys: scene keys of the method besides spacing, horizon and step, as
+ * key=value;key=value. */
 #define ACCURACY_TABLE_HEADER "problem,case,method,resolution,horizon,step,error,seconds,particles,steps,keys"
-/* Writes results/bench/cost_accuracy.csv: the known points of all lines that reach the front of their family in some
- * case (accuracy_table.c). bench/accuracy/cost_accuracy.csv is a copy of the last full measurement. */
+/* Writes results/bench/cost_accuracy.csv: the known points of all lines that are on the Pareto front of their family in
+ * some case (accuracy_table.c). bench/accuracy/cost_accuracy.csv is a copy of the last complete measurement. */
 status accuracy_table_write(const struct accuracy_plan *plan);
 
-/* ---- accuracy_front.c: what a cloud of points says --------------------------------------------------------------- */
+/* ---- Pareto front (accuracy_front.c) ----------------------------------------------------------------------------- */
 
-/* Time [s] and error [1] of a point; either not finite: it does not count. */
+/* Time [s] and error [1] of a point; ignored if one is not finite. */
 struct accuracy_dot {
     double time, error;
 };
 
-/* Points that no other beats in both, by ascending time (and so descending error), into `front`; returns how many. Of
- * equal points the first. */
+/* Finds the Pareto front: the points with no other point better in both time and error; of equal points the first.
+ * Stores their indices in front[n] in the order of ascending time, and thus descending error. Returns their number. */
 int accuracy_front(const struct accuracy_dot *dot, int n, int *front);
-/* The point of least time with at most this error; -1: none. */
+
+/* Returns the index of the fastest point with at most this error; -1 if there is none. */
 int accuracy_cheapest(const struct accuracy_dot *dot, int n, double error);
 
 /* ---- accuracy_draw.c, accuracy_page.c ---------------------------------------------------------------------------- */
 
-/* `pd bond 100`, with `h` the horizon and `dt` the share of the critical step where they are not the usual ones. */
+/* Writes the label of a point: `pd bond 100`, followed by `h` and the horizon, and by `dt` and the fraction of the
+ * critical step, unless they are the usual ones. text: capacity `size` [byte]. */
 void accuracy_label(const struct accuracy_point *p, char *text, size_t size);
-/* results/bench/accuracy_<problem>.png for every problem with known points, and accuracy.png with all of them. */
+
+/* Draws results/bench/accuracy_<problem>.png for every problem with known points, and accuracy.png with all
+ * problems. */
 status accuracy_draw(const struct accuracy_plan *plan);
-/* results/bench/accuracy.md, and the same table to standard output. */
+
+/* Writes results/bench/accuracy.md and prints the same table. */
 status accuracy_page(const struct accuracy_plan *plan);
-/* Dots of one case (or the worst of all cases: at < 0) of a problem, of its error (part < 0) or of the size of a part,
- * and the entry that each stands for. */
+
+/* Collects the points of one case of a problem, or the worst of all cases (at < 0). part: use the magnitude of this
+ * part of the error; < 0: the error. dot, of: receive the values and their entries. Returns the number of points. */
 int accuracy_dots(const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at, int part,
                   struct accuracy_dot *dot, const struct accuracy_entry **of);
-/* Names of the cases: how many. */
+
+/* Returns the number of cases of a problem. */
 int accuracy_cases(const struct accuracy_problem *problem);
 
 #endif

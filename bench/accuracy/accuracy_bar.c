@@ -1,5 +1,5 @@
-/* Problem 1 of the cost-accuracy table: an elastic bar, a step and a smooth pulse, beside d'Alembert's
- * solution. */
+/* Problem 1 of the cost-accuracy table: an elastic bar with a step load and with a smooth pulse, compared with
+ * d'Alembert's solution. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,8 +8,8 @@
 
 enum { STEP, PULSE };
 
-/* A stress of 1 Pa on one end of 1 m, the other fixed, at three quarters of a transit: the front is at 0.25 m. As
- * inputs/bar_step.yaml. */
+/* Step: a stress of 1 Pa on one end of a bar of 1 m with the other end fixed. At three quarters of the transit time the
+ * front is at 0.25 m. As inputs/bar_step.yaml. */
 static const char step_text[] =
     "space: line\nduration: 7.5 ms\nmaterial: {young: 1e4, density: 1, critical_stretch: inf}\n"
     "body: {box: {from: [0], to: [1]}}\nparticles: {spacing: 0.01}\n"
@@ -17,8 +17,8 @@ static const char step_text[] =
     "boundary: [{name: wall, mirror: {axis: x, at: 0}}, {name: pull, traction: [1 Pa], face: x+}]\n"
     "probes: [exact: step bar]\n";
 
-/* A Gaussian pulse four radii = 0.4 m wide runs 0.4 m, clear of both ends, through the middle where methods meet.
- * Strains of 1e-7. As inputs/bar_smooth.yaml. */
+/* Pulse: a Gaussian pulse four radii = 0.4 m wide travels 0.4 m without reaching the ends, through the middle where the
+ * methods are coupled. Strains of 1e-7. As inputs/bar_smooth.yaml. */
 static const char pulse_text[] =
     "space: line\nduration: 4 ms\nmaterial: {young: 1e4, density: 1, critical_stretch: inf}\n"
     "body: {box: {from: [0], to: [1.6]}}\nparticles: {spacing: 0.01}\n"
@@ -33,10 +33,11 @@ static void accuracy_bar_make_scene(const struct accuracy_point *p, struct accur
     if (p->at == PULSE) bench_override(&s->set, "pd.surface", "none");
 }
 
-/* Root mean square of v exp(-(x/r)^2), r = 0.1 m, over 1.6 m; of the stress rho c v as well. */
+/* Returns the root mean square over 1.6 m of amplitude * exp(-(x/r)^2), r = 0.1 m; used for velocity and stress. */
 static double pulse_rms(double amplitude) { return amplitude * sqrt(0.1 * sqrt(0.5 * M_PI) / 1.6); }
 
-/* Stress and velocity carry the same energy. A front is of no order in the mean square: there the mean counts. */
+/* Computes the error in the energy norm: stress and velocity carry equal energies. At a front the mean square does not
+ * converge with a fixed order, so that there the mean of the absolute error is used. */
 static status accuracy_bar_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const double impedance = 100; /* rho c [Pa s/m] */
@@ -52,7 +53,7 @@ static status accuracy_bar_measure(const struct accuracy_point *p, struct run *e
     return OK;
 }
 
-/* A line has one shell of bonds for each distance: uniform weights change nothing. */
+/* Leaves out `uniform` methods: on a line each distance has one shell of bonds, and uniform weights change nothing. */
 static bool accuracy_bar_applies(const struct accuracy_point *p) { return !strstr(p->method->name, "uniform"); }
 
 const struct accuracy_problem accuracy_bar = {

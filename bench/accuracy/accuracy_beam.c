@@ -1,7 +1,8 @@
-/* Problems 10 and 11 of the cost-accuracy table: first modes of free bodies a few spacings thick. A plate of 10 to 1 in
- * plane stress bends; a square bar of 4 to 1 bends and twists. References are frequencies by Ritz in products of
- * Legendre polynomials to the degree 16 along and 9 across, which stand in these digits. The body starts in the mode's
- * velocities (a Ritz solution of lower degree) and the time of its second zero is three quarters of its period. */
+/* Problems 10 and 11 of the cost-accuracy table: first eigenmodes of free bodies that are a few spacings thick. A plate
+ * of aspect ratio 10 in plane stress bends; a square bar of aspect ratio 4 bends and twists. Reference frequencies are
+ * from the Ritz method with products of Legendre polynomials up to degree 16 along and 9 across the body, converged to
+ * the digits given. The body starts with the velocities of the mode (a Ritz solution of lower degree); the second zero
+ * of the motion is at three quarters of its period. */
 #include <math.h>
 #include <stdio.h>
 
@@ -9,7 +10,8 @@
 #include "probes/probes.h"
 #include "step/step.h"
 
-/* Component `axis` of a mode: coefficients of products of Legendre polynomials over the body, from -1 to 1. */
+/* A term of component `axis` of a mode: coefficient `of` times a product of Legendre polynomials on [-1, 1] over the
+ * body. */
 struct term {
     int axis, degree[DIM_MAX];
     double of;
@@ -33,7 +35,7 @@ static const struct term twisted[] = {{0, {0, 1, 3}, 0.0325}, {0, {0, 3, 1}, -0.
                                       {1, {5, 0, 1}, 0.0081}, {2, {1, 1, 0}, -1.0000}, {2, {1, 1, 2}, -0.0056},
                                       {2, {3, 1, 0}, 0.1843}, {2, {5, 1, 0}, -0.0081}};
 
-/* Thickness, Young's modulus and density are 1. */
+/* Modes for thickness, Young's modulus and density 1. */
 static const struct mode {
     const struct term *term;
     int terms;
@@ -49,7 +51,7 @@ static const struct mode *mode_of(const struct accuracy_point *p)
 
 static const double speed = 1e-7;
 
-static double measured; /* frequency of the run that was last [1/s] */
+static double measured; /* frequency measured in the last run [1/s] */
 
 static void accuracy_beam_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
@@ -62,7 +64,7 @@ static void accuracy_beam_make_scene(const struct accuracy_point *p, struct accu
              p->problem->dim == 2 ? "" : ", 1", p->resolution);
 }
 
-/* Legendre polynomial of a degree. */
+/* Returns the Legendre polynomial of a degree at x. */
 static double legendre(int degree, double x)
 {
     double before = 1, now = x;
@@ -86,7 +88,7 @@ static void mode_at(const void *context, const real *X, real *v)
     }
 }
 
-/* Momentum in the mode. */
+/* Returns the projection of the momentum on the mode. */
 static double part_in_mode(const struct mode *m, const struct run *e)
 {
     const struct particles *p = run_observed(e).part;
@@ -100,7 +102,8 @@ static double part_in_mode(const struct mode *m, const struct run *e)
     return sum;
 }
 
-/* In pieces of 1/300 of the run, to the second zero, between the last two of which the line is straight. */
+/* Runs in pieces of 1/300 of the duration up to the second zero, which is interpolated linearly between the last
+ * two. */
 static status accuracy_beam_run(const struct accuracy_point *p, struct run *e)
 {
     const struct mode *m = mode_of(p);

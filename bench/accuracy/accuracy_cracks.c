@@ -1,12 +1,12 @@
-/* Problem 5 of the cost-accuracy table: stress-intensity factors of an edge crack and of an inclined one,
- * at rest. As inputs/edge_crack_k1.yaml and inputs/inclined_crack.yaml. Solvers as with the hole (accuracy_hole.c).
- * Material points alone know cracks only as gaps, here of one cell, and an inclined one does not follow the lattice.
- * In the current frame they do not apply: beside a gap of two cells relaxation (gimp, apic) was not at rest after
- * 200,000 steps, and cubic splines reach across it (K_I 64 % low).
+/* Problem 5 of the cost-accuracy table: static stress-intensity factors of an edge crack and of an inclined crack. As
+ * inputs/edge_crack_k1.yaml and inputs/inclined_crack.yaml. Solvers as for the hole (accuracy_hole.c). Methods with
+ * only material points represent cracks as gaps, here of one cell, and an inclined gap does not follow the lattice.
+ * They do not apply in the current frame: beside a gap of two cells relaxation (gimp, apic) had not converged after
+ * 200,000 steps, and cubic splines interact across the gap (K_I 64 % too low).
  *
- * In the reference frame the load grows over 200 transits: the slowest motion of the edge crack's halves takes about
- * 13, and a body lags behind a load that grows by sin^2 by a share of (period/duration)^2/8 (over 30 transits 2.5 %
- * were measured). */
+ * In the reference frame the load grows over 200 transit times: the slowest motion of the halves beside the edge crack
+ * has a period of about 13 transit times, and under a load that grows as sin^2 the response lags by a fraction
+ * (period/duration)^2/8 (2.5 % were measured for 30 transit times). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,8 +15,8 @@
 
 enum { EDGE, INCLINED };
 
-/* Over sigma (pi a)^0.5. Edge crack: a/W = 0.5, H = W, by boundary collocation: 3.0070, 3.0084, 3.0087 with 60, 90,
- * 130 terms, 3.009 as in handbooks. Inclined: 45 degrees, as inputs/inclined_crack.yaml. */
+/* Exact factors over sigma (pi a)^0.5. Edge crack: a/W = 0.5, H = W, by boundary collocation: 3.0070, 3.0084, 3.0087
+ * with 60, 90, 130 terms, 3.009 as in handbooks. Inclined crack: 45 degrees, as in inputs/inclined_crack.yaml. */
 static const double exact[2][2] = {{3.009, 0}, {0.6612, 0.5674}}, length[2] = {5e-3, 3e-3};
 static const double pull = 1e6;
 
@@ -65,12 +65,12 @@ static void accuracy_cracks_make_scene(const struct accuracy_point *p, struct ac
         put_inclined(to, time);
     fclose(to);
     bench_override(&s->set, "particles.spacing", "10/%d mm", p->resolution);
-    /* what suits each: as inputs/edge_crack_k1.yaml and inclined_crack.yaml found */
+    /* The setting that gave the smaller error for each family in inputs/edge_crack_k1.yaml and inclined_crack.yaml. */
     if (p->method->family & ACCURACY_STATES && (p->horizon == 1.5 || strcmp(p->method->name, "pd ospd") == 0))
         bench_override(&s->set, "pd.normalisation", "local");
 }
 
-/* Shares of the size of both factors. */
+/* Computes the errors of both factors relative to the magnitude of the exact pair. */
 static status accuracy_cracks_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     static const char *const factor[2] = {"K_I", "K_II"};
@@ -85,7 +85,7 @@ static bool accuracy_cracks_applies(const struct accuracy_point *p)
 {
     const bool inclined = p->at == INCLINED;
     if (p->method->family & ACCURACY_MPM && inclined) return false;
-    /* bonds to eight neighbours: not isotropic */
+    /* Excluded: bonds to eight neighbours are not isotropic. */
     if (p->method->family & ACCURACY_BONDS && p->horizon == 1.5) return false;
     if (p->resolution > (inclined ? 200 : 400)) return false;
     if (p->method->family & (ACCURACY_PD | ACCURACY_REFERENCE)) return true;

@@ -1,8 +1,8 @@
-/* Pictures of the cost-accuracy table: a panel for each case of a problem, and one page with all problems.
+/* Pictures of the cost-accuracy table: one per problem with a panel for each case, and one page with all problems.
  *
- * A point is a run, by its time on one thread. Runs on the front, which nothing beats in both time and error, have the
- * colour of their family, and a label where there is room; all others are small and grey; a cross at the upper edge is
- * one that was unstable. */
+ * A dot is a run, at its time on one thread. Runs on the Pareto front (no other is better in both time and error) have
+ * the colour of their family, and a label if there is space. All others are small and grey. A cross at the upper edge
+ * is an unstable run. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -27,14 +27,15 @@ static bool same_but_case(const struct accuracy_point *a, const struct accuracy_
            a->horizon == b->horizon && a->step == b->step;
 }
 
-/* A part that is exactly 0 has no place on the axis of a logarithm: 1e-9. */
+/* Returns the dot of a result. A part of the error that is exactly 0 is drawn at 1e-9 on the logarithmic axis. */
 static struct accuracy_dot dot_of(const struct accuracy_result *r, int part)
 {
     const double error = part < 0 ? r->error : fmax(fabs(r->part[part]), 1e-9);
     return (struct accuracy_dot){r->seconds[0], r->stable ? error : NAN};
 }
 
-/* The worst error and the longest time of all cases; false: one of them is not known yet, or not for this method. */
+/* Computes the worst error and the longest time of all cases. Returns false if a case is unknown or does not apply to
+ * the method. */
 static bool worst_dot(const struct accuracy_plan *plan, const struct accuracy_point *p, int part,
                       struct accuracy_dot *worst)
 {
@@ -71,8 +72,8 @@ struct panel {
     int n, front_n, *front, number;
     struct accuracy_dot *dot;
     const struct accuracy_entry **of;
-    double least, most;     /* error: ends of the axis */
-    double soonest, latest; /* the same of time; on the left there is room for labels */
+    double least, most;     /* ends of the axis of errors */
+    double soonest, latest; /* ends of the axis of times, with space for labels on the left */
 };
 
 static void panel_range(struct panel *q)
@@ -103,8 +104,8 @@ static void panel_free(struct panel *q) { memory_free(q->dot), memory_free(q->fr
 
 /* ---- families ---------------------------------------------------------------------------------------------------- */
 
-/* Families of methods, each with a colour: dark enough for letters, apart for any colour vision (Okabe & Ito 2008; Tol
- * 2021). */
+/* Families of methods with their colours: dark enough for letters and distinguishable with any colour vision (Okabe &
+ * Ito 2008; Tol 2021). */
 enum { BOND, STATE, CURRENT_FRAME, REFERENCE_FRAME, COARSE, COUPLED_HERE, ADAPTIVE_MESH, ADAPTIVE_GRID, GROUPS };
 static const struct {
     const char *name, *colour;
@@ -130,7 +131,7 @@ static int group_of(const struct accuracy_point *p)
     return family == ACCURACY_REFERENCE ? REFERENCE_FRAME : CURRENT_FRAME;
 }
 
-/* Is a point of this family on the front of a panel? */
+/* Returns true if a point of family g is on the front of a panel. */
 static bool has_group(const struct panel *q, int g)
 {
     for (int k = 0; k < q->front_n; k++)
@@ -138,9 +139,10 @@ static bool has_group(const struct panel *q, int g)
     return false;
 }
 
-/* ---- what a panel shows ------------------------------------------------------------------------------------------ */
+/* ---- content of a panel ------------------------------------------------------------------------------------------ */
 
-/* Runs that are not on the front, and unstable ones at the upper edge. A block must hold something. */
+/* Sends the runs that are not on the front, and unstable ones at the upper edge, as a data block that is never
+ * empty. */
 static void put_others(FILE *to, const struct panel *q)
 {
     for (int unstable = 0; unstable < 2; unstable++) {
@@ -153,8 +155,8 @@ static void put_others(FILE *to, const struct panel *q)
     }
 }
 
-/* The front as a line, and by families with labels: from the most accurate point upwards, as many as do not lie on
- * each other. */
+/* Sends the front as a line, and its points by families with labels: from the most accurate point upwards, those that
+ * do not overlap. */
 static void put_front(FILE *to, const struct panel *q)
 {
     const double line = 0.052 * log(q->most / q->least);
@@ -202,7 +204,7 @@ static void accuracy_draw_panel(FILE *to, const struct panel *q)
     putc('\n', to);
 }
 
-/* The key is a panel without axes, at this place of the screen. */
+/* Plots the key as a panel without axes. left, above: position in units of the screen. */
 static void plot_key(FILE *to, const struct panel *panel, int panels, double left, double above)
 {
     fprintf(to,
@@ -228,7 +230,7 @@ static void plot_key(FILE *to, const struct panel *panel, int panels, double lef
 /* ---- a page of panels -------------------------------------------------------------------------------------------- */
 
 enum { COLUMNS = 2, PANELS_MAX = 16, KEY_PIXELS = 330, PANEL_WIDTH = 570, PANEL_HEIGHT = 380 };
-enum { PANEL_LEFT = 108, PANEL_RIGHT = 14, PANEL_ABOVE = 40, PANEL_BELOW = 56 }; /* room in a panel [pixel] */
+enum { PANEL_LEFT = 108, PANEL_RIGHT = 14, PANEL_ABOVE = 40, PANEL_BELOW = 56 }; /* margins of a panel [pixel] */
 
 struct page {
     int panels, columns, rows;
@@ -236,7 +238,7 @@ struct page {
     char title[PANELS_MAX][128];
 };
 
-/* The key stands in the place of a panel that is not there, else on the right of all. */
+/* Returns true if the key fills an empty panel; else it is to the right of all panels. */
 static bool key_inside(const struct page *p) { return p->panels % p->columns != 0; }
 static int page_width(const struct page *p) { return p->columns * PANEL_WIDTH + (key_inside(p) ? 0 : KEY_PIXELS); }
 static int page_height(const struct page *p) { return p->rows * PANEL_HEIGHT; }

@@ -1,6 +1,6 @@
-/* Problem 8 of the cost-accuracy table: the plates of inputs/kalthoff_winkler.yaml and
- * inputs/plate_crack.yaml: path, start and speed of their cracks beside peridynamics at a quarter of the scenes'
- * spacing (accuracy_reference.h). */
+/* Problem 8 of the cost-accuracy table: plates of inputs/kalthoff_winkler.yaml and inputs/plate_crack.yaml. Compares
+ * path, start time and speed of their cracks with peridynamics at a quarter of the scenes' spacing
+ * (accuracy_reference.h). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,8 +12,8 @@
 
 enum { KALTHOFF, PULLED };
 
-/* Growth at which a crack has started, and to which its speed counts at the most; of its path, rings round the end
- * of the pre-crack. */
+/* Observed crack growth: growth at which a crack counts as started, growth up to which its speed is measured; radii and
+ * width of rings around the end of the pre-crack in which its path is measured [m]. */
 static const struct {
     double start, until, ring[FRACTURE_RINGS], width;
 } watched[2] = {[KALTHOFF] = {5e-3, 20e-3, {7.5e-3, 12.5e-3, 17.5e-3, 22.5e-3}, 2.5e-3},
@@ -22,8 +22,8 @@ enum { SAMPLES = 200 };
 
 /* ---- scenes ------------------------------------------------------------------------------------------------------ */
 
-/* Both plates are `resolution` particles high or wide by 100 and 50 mm; three layers, or as thick as in the files, are
- * driven. Edges, notches and ends of cracks lie between particles. */
+/* Writes the scene: both plates are `resolution` particles per 100 mm height or 50 mm width. Loads drive three layers
+ * of particles, or a layer as thick as in the files. Edges, notches and crack ends are midway between particles. */
 static void accuracy_fracture_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     const double h = (p->at == KALTHOFF ? 100.0 : 50.0) / p->resolution;
@@ -59,9 +59,10 @@ static void accuracy_fracture_make_scene(const struct accuracy_point *p, struct 
     if (p->at == KALTHOFF && accuracy_relaxes(p)) bench_override(&s->set, "mpm.transfer", "apic");
 }
 
-/* ---- what cracks did --------------------------------------------------------------------------------------------- */
+/* ---- observed cracks --------------------------------------------------------------------------------------------- */
 
-/* Time at which the cracks have grown by `length`, between the samples in which their mean growth rose; NAN: never. */
+/* Returns the time at which the cracks have grown by `length` [m], interpolated between the samples at which their mean
+ * growth increased; NAN: never. */
 static double time_of(const struct tips *t, double length)
 {
     double time[2] = {NAN, NAN}, growth[2] = {0, 0};
@@ -74,14 +75,14 @@ static double time_of(const struct tips *t, double length)
         if (mean <= growth[1] + 1e-9) continue;
         time[0] = time[1], growth[0] = growth[1], time[1] = t->time[s], growth[1] = mean;
         if (mean < length || s == 0) continue;
-        if (isnan(time[0])) return time[1]; /* came there in one step */
+        if (isnan(time[0])) return time[1]; /* reached within one step */
         return time[0] + (time[1] - time[0]) * (length - growth[0]) / (growth[1] - growth[0]);
     }
     return NAN;
 }
 
-/* Angle, away from the middle of the plate, of the damaged particles of both cracks about a ring round their start
- * [rad]. */
+/* Returns the angle of the crack path, away from the middle plane of the plate, from the damaged particles of both
+ * cracks in a ring around their starting points [rad]. */
 static double angle_at(const struct run *e, double radius, double width)
 {
     const struct tips *t = &e->fracture->tips;
@@ -114,10 +115,11 @@ struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struc
 
 /* ---- errors ------------------------------------------------------------------------------------------------------ */
 
-/* A crack that does not come so far is off by all there is. */
+/* Returns the relative error of a value; -1 (100 %) if the crack did not grow so far. */
 static double accuracy_fracture_off(double value, double wanted) { return isfinite(value) ? value / wanted - 1 : -1; }
 
-/* Path: how far it lies beside the other, over the distance from its start, and its length. */
+/* Computes the error: distance of the path from the reference path over the distance from its start; start time; speed;
+ * length. */
 static status accuracy_fracture_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct fracture f = accuracy_fracture_of(p, e), *wanted = &fracture_reference[p->at][FRACTURE_QUARTER];
@@ -131,7 +133,7 @@ static status accuracy_fracture_measure(const struct accuracy_point *p, struct r
     return OK;
 }
 
-/* What is not on its way to the reference, or takes longest, stays coarse. */
+/* Restricts methods that do not converge to the reference, or take the longest, to coarse resolutions. */
 static bool accuracy_fracture_applies(const struct accuracy_point *p)
 {
     if (p->resolution <= 100) return true;

@@ -1,4 +1,4 @@
-/* The Pareto front of a cloud of points, and the cheapest one that is good enough. */
+/* Pareto front of a set of points, and the cheapest point of sufficient accuracy. */
 #include <math.h>
 
 #include "accuracy.h"

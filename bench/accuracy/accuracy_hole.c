@@ -1,10 +1,9 @@
-/* Problem 4 of the cost-accuracy table: a square plate with a circular hole, pulled at two edges, at rest.
- * Its exact field is a series: complex potentials whose coefficients boundary collocation found (Muskhelishvili
- * 1953).
+/* Problem 4 of the cost-accuracy table: static tension of a square plate with a circular hole. The exact field is a
+ * series of complex potentials with coefficients from boundary collocation (Muskhelishvili 1953).
  *
- * Peridynamics takes conjugate gradients, material points of the current frame relaxation (apic: with flip they
- * creep). There is no static solver for the reference frame: there the load grows by sin^2 over 30 transits of the
- * plate, whose motion is then 0.1 % of its displacement. */
+ * Peridynamics uses conjugate gradients, material points in the current frame relaxation (apic; flip converges too
+ * slowly). There is no static solver for the reference frame: there the load grows as sin^2 over 30 transit times of
+ * the plate, whose residual motion is then 0.1 % of its displacement. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,14 +13,17 @@
 #include <complex.h> /* last: it takes the name I */
 
 static const double young = 1e9, poisson = 1.0 / 3, pull = 1e4; /* [Pa] [1] [Pa]: strains of 1e-5 */
-static const double ring[2] = {1.5, 3};                         /* where the field is compared [hole radii] */
-static const double rim = 1.25;                                 /* the strain at the hole's ends: from 1 to this */
+static const double ring[2] = {1.5, 3};                         /* radii between which the fields are compared [hole
+                                                                 * radii] */
+static const double rim = 1.25;                                 /* outer radius for the strain beside the hole [hole
+                                                                 * radii] */
 
 /* ---- the exact field --------------------------------------------------------------------------------------------- */
 
-/* phi = sum a_k (z/R_k)^k, psi = sum b_k (z/R_k)^k over odd k from -23 to 23, R_k = 1, the hole's radius, for k < 0 and
- * 5 sqrt 2 for k > 0, for a pull of 1 along y on a plate from -5 to 5. Tractions on hole and edges are met to 4e-5; the
- * largest hoop stress, 3.3601, is the same with four coefficients more or less to 2e-6. */
+/* Coefficients of phi = sum a_k (z/R_k)^k and psi = sum b_k (z/R_k)^k over odd k from -23 to 23, with R_k = 1 (the
+ * hole's radius) for k < 0 and 5 sqrt 2 for k > 0, for unit tension along y on a plate from -5 to 5. The tractions on
+ * hole and edges are accurate to 4e-5; the largest hoop stress, 3.3601, changes by 2e-6 with four coefficients more or
+ * less. */
 enum { POWERS = 24, LEAST = -23 };
 static const double potential[POWERS][2] = {
     {1.65023676e-20, 1.70652278e-17},   {6.66074892e-19, -1.06937585e-16}, {-5.29103182e-18, 1.12236888e-16},
@@ -34,8 +36,8 @@ static const double potential[POWERS][2] = {
     {-0.0033372314, -0.00298985703},    {0.000620108693, -0.00403252779},  {-0.000282598929, 0.00225840748},
 };
 
-/* 2 G (u + i v) = kappa phi - z conj(phi') - conj(psi); sxx + syy = 4 Re phi', syy - sxx + 2 i sxy = 2 (conj(z)
- * phi'' + psi'). */
+/* 2 G (u + i v) = kappa phi - z conj(phi') - conj(psi); sxx + syy = 4 Re phi', syy - sxx + 2 i sxy = 2 (conj(z) phi'' +
+ * psi') (Muskhelishvili 1953). */
 void accuracy_hole_exact(const double X[2], double u[2], double stress[3])
 {
     const double kappa = (3 - poisson) / (1 + poisson), shear = young / (2 * (1 + poisson));
@@ -79,7 +81,8 @@ static void accuracy_hole_make_scene(const struct accuracy_point *p, struct accu
 
 /* ---- errors ------------------------------------------------------------------------------------------------------ */
 
-/* Displacements in the ring, and at the hole's ends the mean strain across the axis, of which u_y/y is a difference. */
+/* Computes the errors of the displacements in the ring and of the mean strain across the axis beside the hole, obtained
+ * from differences of u_y/y. */
 static status accuracy_hole_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct particles *q = &e->part;
@@ -100,7 +103,7 @@ static status accuracy_hole_measure(const struct accuracy_point *p, struct run *
     return OK;
 }
 
-/* Where the whole table would take minutes a point: relaxation. */
+/* Returns false where relaxation would take minutes per point. */
 static bool accuracy_hole_applies(const struct accuracy_point *p)
 {
     if (accuracy_is_reference(p)) return true;

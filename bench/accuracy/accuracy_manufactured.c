@@ -1,4 +1,4 @@
-/* Problem 3 of the cost-accuracy table: a square and a cube between mirrors, driven along a known motion. */
+/* Problem 3 of the cost-accuracy table: a square and a cube between mirrors with a manufactured solution. */
 #include <math.h>
 #include <stdio.h>
 
@@ -9,7 +9,7 @@
 #include "step/step.h"
 #include "run/energies.h"
 
-/* P waves run at 100 m/s; both parts of the motion, with and without rotation, are there. */
+/* P waves travel at 100 m/s. The motion has parts with and without rotation. */
 #define MOTION .amplitude = 1e-7, .period = 14e-3, .length = 2, .c12 = 1e4 / 3, .shear = 1e4 / 3, .density = 1
 static const struct manufactured square_motion = {.dim = 2, .share = {1, -0.5}, MOTION};
 static const struct manufactured cube_motion = {.dim = 3, .share = {1, -0.5, 0.75}, MOTION};
@@ -19,7 +19,7 @@ static const struct manufactured *accuracy_manufactured_motion_of(const struct a
     return p->problem->dim == 2 ? &square_motion : &cube_motion;
 }
 
-/* The run ends at 0.4 T, where displacement, velocity and strain are all large. */
+/* Writes the scene. The run ends at 0.4 T, when displacement, velocity and strain are all large. */
 static void accuracy_manufactured_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     static const char plane[] =
@@ -42,7 +42,8 @@ static void accuracy_manufactured_make_scene(const struct accuracy_point *p, str
     bench_override(&s->set, "particles.spacing", "1/%d", p->resolution);
 }
 
-/* Stress by the stiffness of the material; shear components count twice in the sum over the tensor. */
+/* Adds the squared stress of `strain` and its squared error to *all and *off, with the stiffness of the material; shear
+ * components count twice in the sum over the tensor. */
 static void add_stress(const struct particles *p, int64_t i, const real *stiffness, const real *strain, double *off,
                        double *all)
 {

@@ -1,4 +1,4 @@
-/* The methods of `cleave bench accuracy`: names, and the scene keys that make them. */
+/* Methods of `cleave bench accuracy`: names, and the scene keys that select them. */
 #include <string.h>
 
 #include "accuracy.h"
@@ -89,7 +89,8 @@ const char *accuracy_solver(const struct accuracy_point *p)
     return accuracy_is_reference(p) ? "explicit" : p->method->family & ACCURACY_PD ? "cg" : "relaxation";
 }
 
-/* With flip they creep, and linear shapes, which couplings pm and pmg take, know no apic. */
+/* Returns false for flip, with which relaxation converges too slowly, and for couplings pm and pmg, whose linear shapes
+ * have no apic. */
 bool accuracy_relaxes(const struct accuracy_point *p)
 {
     return !sets(p->method, "mpm.transfer", "flip") && !sets(p->method, "coupling", "pm") &&

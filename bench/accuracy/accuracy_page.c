@@ -1,4 +1,4 @@
-/* The overview page of the cost-accuracy table: the cheapest way to 5 %, 1 % and 0.3 % of every problem. */
+/* Overview page of the cost-accuracy table: the cheapest method for errors of 5 %, 1 % and 0.3 % in every problem. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,8 @@ static const double wanted[] = {0.05, 0.01, 0.003};
 
 /* ---- the table --------------------------------------------------------------------------------------------------- */
 
-/* One cell: method, resolution, time, and error reached; a dash where nothing reaches it. */
+/* Writes a cell: method, resolution, time and error of the cheapest run with at most `error`; a dash if there is
+ * none. */
 static void put_cheapest(FILE *to, const struct accuracy_dot *dot, const struct accuracy_entry *const *of, int n,
                          double error)
 {

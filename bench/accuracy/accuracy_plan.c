@@ -1,4 +1,4 @@
-/* Every point of the cost-accuracy table: which there are, and the scene of each. */
+/* List of all points of the cost-accuracy table, and their scenes. */
 #include <stdio.h>
 #include <string.h>
 
@@ -29,12 +29,13 @@ void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *
     if (p->horizon > 0) bench_override(&s->set, "particles.horizon", "%.9g", p->horizon);
     bench_override(&s->set, "time.step", "auto");
     bench_override(&s->set, "time.safety", "%.9g", p->step);
-    bench_override(&s->set, "contact.between", "none"); /* nothing meets in these problems */
+    bench_override(&s->set, "contact.between", "none"); /* no bodies come into contact in these problems */
     bench_override(&s->set, "output.frames", "0");
     bench_override(&s->set, "output.samples", "%d", p->problem->samples ? p->problem->samples : 1);
 }
 
-/* FNV-1a over the scene with all its defaults and over the machine's name: whatever changes a result changes it. */
+/* Adds a text to an FNV-1a hash. The hash of a point covers the scene with all defaults and the name of the machine,
+ * and thus everything that changes a result. */
 static void add_to_hash(uint64_t *hash, const char *text)
 {
     for (; *text; text++) *hash = (*hash ^ (unsigned char)*text) * 1099511628211u;
@@ -66,7 +67,7 @@ static status add_point(struct accuracy_plan *plan, struct accuracy_point p, boo
     return read_settings(&plan->entry[plan->n++], plan->machine.model);
 }
 
-/* The first of the horizons at every resolution, all the others and the steps at one. */
+/* Adds the further horizons and time steps of a point: the first horizon at every resolution, others (`all`) at one. */
 static status add_variations(struct accuracy_plan *plan, struct accuracy_point p, bool all, bool quick)
 {
     const struct accuracy_problem *q = p.problem;
@@ -102,7 +103,7 @@ static status add_case(struct accuracy_plan *plan, const struct accuracy_problem
     return OK;
 }
 
-/* Scenes that are files may be elsewhere: then their problem is left out. */
+/* Returns false if the scene files of a problem are missing; the problem is then left out. */
 static bool is_here(const struct accuracy_problem *q)
 {
     const struct accuracy_point any = {
@@ -112,7 +113,7 @@ static bool is_here(const struct accuracy_problem *q)
     return !s.path[0] || bench_scene_exists(s.path);
 }
 
-/* Coarse to fine, so that a table that is broken off shows every case and method. */
+/* Lists the points from coarse to fine, so that an interrupted table has every case and method. */
 status accuracy_plan_make(struct accuracy_plan *plan)
 {
     *plan = (struct accuracy_plan){.machine = team_machine()};

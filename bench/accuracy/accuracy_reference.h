@@ -1,18 +1,20 @@
-/* What cracks did in peridynamics (bonds, a horizon of 3.015) at fine spacings: the reference of `cleave
- * bench accuracy=fracture`, made by `cleave bench accuracy=reference`, which prints these lines (0.4 of the critical
- * step).
+/* Cracks computed by bond-based peridynamics (horizon 3.015, 0.4 of the critical step) at fine spacings: reference
+ * values of `cleave bench accuracy=fracture`, printed by `cleave bench accuracy=reference`.
  *
- * Particles across the plate: 100, the spacing of the scenes, to 800. The table's reference are those with 400. What
- * 800 says otherwise is how well it is known: of Kalthoff's plate the path by 0.041 rad (2.3 degrees), start 0.02 %,
- * speed 1.4 %, in all 2.5 %; of the pulled plate length 2.2 %, start 0.8 %, speed 0.9 %, in all 1.4 %. Smaller
- * errors mean nothing. */
+ * Resolution: particles across the plate, from 100 (the spacing of the scenes) to 800. The table is compared with 400.
+ * The difference between 400 and 800 is the uncertainty of the reference: for Kalthoff's plate 0.041 rad (2.3 degrees)
+ * of the path, 0.02 % of the start time, 1.4 % of the speed, 2.5 % in all; for the plate under tension 2.2 % of the
+ * length, 0.8 % of the start time, 0.9 % of the speed, 1.4 % in all. Smaller errors are not significant. */
 #ifndef CLEAVE_BENCH_ACCURACY_REFERENCE
 #define CLEAVE_BENCH_ACCURACY_REFERENCE
 
 enum { FRACTURE_RINGS = 4, FRACTURE_SPACINGS = 4, FRACTURE_QUARTER = 2 };
+
+/* Observed cracks. */
 struct fracture {
-    double start, speed, length;  /* when it had grown by some [s]; from then on [m/s]; at the end [m] */
-    double angle[FRACTURE_RINGS]; /* of its path about rings [rad] */
+    double start, speed, length;  /* time at which the growth exceeds a threshold [s]; speed afterwards [m/s]; length
+                                   * at the end [m] */
+    double angle[FRACTURE_RINGS]; /* angle of the path in rings around the start [rad] */
 };
 
 static const struct fracture fracture_reference[2][FRACTURE_SPACINGS] = {

@@ -1,4 +1,4 @@
-/* Results/bench/accuracy.csv: what was measured before, and what is added point by point. */
+/* File results/bench/accuracy.csv: reads earlier results and appends new ones point by point. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
     "problem,case,method,resolution,horizon,step,error,part_1,part_2,part_3,loop_1_thread,loop_2_threads,particles,"   \
     "steps,stable,version,settings"
 
-/* What says which point a line is of: the columns before the figures. */
+/* Writes the columns that identify a point. text: capacity `size` [byte]. */
 static void put_key(const struct accuracy_point *p, char *text, size_t size)
 {
     snprintf(text, size, "%s,%s,%s,%d,%.9g,%.9g,", p->problem->name, p->problem->cases[p->at], p->method->name,
@@ -23,7 +23,7 @@ static void put_key(const struct accuracy_point *p, char *text, size_t size)
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* The next column of a line: a number, NAN where it is empty. */
+/* Reads the next column of a line: a number, or NAN if it is empty. */
 static double next_number(const char **at)
 {
     char *end;
@@ -40,7 +40,8 @@ static bool line_ends_with(const char *line, const char *tail)
     return line[length] == '\n' && length >= wanted && strncmp(line + length - wanted, tail, wanted) == 0;
 }
 
-/* A line of an older program or of other settings says nothing of this point; nor does one that was broken off. */
+/* Reads the result in a line. Lines of other program versions or settings and incomplete lines are ignored. key: length
+ * of the identifying columns. */
 static void take_line(struct accuracy_result *r, const char *line, size_t key)
 {
     char tail[64];
@@ -129,7 +130,7 @@ status accuracy_store_write(const struct accuracy_plan *plan)
     return s;
 }
 
-/* What is left of it is written anew, without a line that was broken off. */
+/* Rewrites the remaining lines of the file without an incomplete last one. */
 status accuracy_store_read(struct accuracy_plan *plan)
 {
     char *text, key[256];

@@ -1,6 +1,6 @@
-/* Problem 6 of the cost-accuracy table: plane waves load a semi-infinite crack suddenly, at rest and
- * running at 1000 m/s (Freund 1990). As inputs/semi_infinite_crack.yaml, with the Poisson's ratio that bonds have.
- * Material points alone know the crack only as a gap, and only at rest. */
+/* Problem 6 of the cost-accuracy table: plane waves suddenly load a semi-infinite crack, stationary and running at 1000
+ * m/s (Freund 1990). As inputs/semi_infinite_crack.yaml, with the Poisson's ratio of bond-based peridynamics. Methods
+ * with only material points represent the crack as a gap and only the stationary crack. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,12 +12,12 @@
 
 enum { REST, MOVING };
 
-/* [m/s]; on the crack's plane [Pa]; of the waves to it [m] */
+/* Crack speed [m/s]; stress on the crack plane [Pa]; distance of the initial wave fronts from the crack [m]. */
 static const double speed = 1000, stress = 2e6, way = 20e-3;
 enum { INSTANTS = 6 };
 static const double instant[INSTANTS] = {5.5e-6, 6.2e-6, 6.9e-6, 7.6e-6, 8.3e-6, 9e-6}; /* [s] */
 
-static double factor[INSTANTS]; /* K_I over the exact one, of the run that was last */
+static double factor[INSTANTS]; /* K_I of the last run over the exact value */
 
 static const char text[] =
     "space: plane strain\nthickness: 1 mm\nduration: 9 us\n"
@@ -46,7 +46,7 @@ static void accuracy_sudden_make_scene(const struct accuracy_point *p, struct ac
     bench_override(&s->set, "particles.spacing", "20/%d mm", p->resolution);
 }
 
-/* In pieces: the last step of each is a sample, at which all levels of coarse cells are at the same time. */
+/* Runs in pieces: the last step of each is a sample, at which all levels of coarse cells are at the same time. */
 static status accuracy_sudden_run(const struct accuracy_point *p, struct run *e)
 {
     const struct crack_medium m = crack_medium_of(&e->scene->material[0], e->scene->space);
@@ -56,14 +56,14 @@ static status accuracy_sudden_run(const struct accuracy_point *p, struct run *e)
         const int64_t whole = stride * llround(instant[k] / (e->clock.dt * (double)stride));
         const int64_t until = k < INSTANTS - 1 ? whole : e->clock.steps;
         TRY(bench_engine_run(e, until, NULL));
-        /* forces are those of the step before the last */
+        /* Forces are those at the beginning of the last step. */
         factor[k] = accuracy_figure(e, "sif", "K_I") / slower /
                     crack_suddenly_loaded(&m, stress, e->clock.t - e->clock.dt - way / m.longitudinal);
     }
     return OK;
 }
 
-/* The mean, and what is left about it. */
+/* Computes the mean error and the scatter around the mean. */
 static status accuracy_sudden_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     (void)p, (void)e;
@@ -78,7 +78,7 @@ static status accuracy_sudden_measure(const struct accuracy_point *p, struct run
 static bool accuracy_sudden_applies(const struct accuracy_point *p)
 {
     if (p->at == MOVING && p->method->family & ACCURACY_MPM) return false;
-    if (p->method->family & ACCURACY_POINTS && p->resolution < 40) return false; /* the ring would meet the gap */
+    if (p->method->family & ACCURACY_POINTS && p->resolution < 40) return false; /* the ring would intersect the gap */
     return p->resolution <= 80 || p->method->quick;
 }
 

@@ -1,6 +1,6 @@
-/* Writes results/bench/cost_accuracy.csv from the known points of the table. Kept are lines, all resolutions of a
- * method at one horizon and step, of which a point is on the front of its family in some case: a scene may rule out
- * all families but one. */
+/* Writes results/bench/cost_accuracy.csv from the known points of the table. A line (all resolutions of a method at one
+ * horizon and time step) is written if one of its points is on the Pareto front of its family in some case, because a
+ * scene may exclude all families but one. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "output/output_files.h"
 
-/* ---- which lines ------------------------------------------------------------------------------------------------- */
+/* ---- selection of lines ------------------------------------------------------------------------------------------ */
 
 static bool is_usable(const struct accuracy_entry *e)
 {
@@ -22,9 +22,9 @@ static bool accuracy_table_same_line(const struct accuracy_point *a, const struc
     return a->problem == b->problem && a->method == b->method && a->horizon == b->horizon && a->step == b->step;
 }
 
-#define WORST 0.2 /* no front is needed beyond this: those of a line that is worse do not count */
+#define WORST 0.2 /* points with larger errors are ignored for the front */
 
-/* Marks what is on the front of one family in one case. */
+/* Marks the points on the front of one family in one case. */
 static void mark_front(const struct accuracy_plan *plan, const struct accuracy_problem *q, int at, int family,
                        bool *kept)
 {
@@ -58,7 +58,7 @@ static bool *kept_points(const struct accuracy_plan *plan)
 
 /* ---- lines of the file ------------------------------------------------------------------------------------------- */
 
-/* Keys that have columns of their own or say nothing of the method. */
+/* Returns true for keys that have columns of their own or do not describe the method. */
 static bool accuracy_table_is_apart(const char *key)
 {
     return strncmp(key, "particles.", 10) == 0 || strncmp(key, "time.", 5) == 0 || strncmp(key, "output.", 7) == 0;

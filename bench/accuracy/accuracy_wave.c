@@ -1,6 +1,5 @@
-/* Problem 2 of the cost-accuracy table: plane P and S waves across a square, at three angles to the
- * lattice. The waves are endless in their planes; what comes from the edges has not reached the disc where they are
- * compared. */
+/* Problem 2 of the cost-accuracy table: plane P and S waves across a square, at three angles to the lattice. The wave
+ * fronts are infinite; disturbances from the edges do not reach the disc in which the waves are compared. */
 #include <math.h>
 #include <stdio.h>
 
@@ -15,8 +14,8 @@ static const struct {
 } wave_of[] = {{0, false}, {22.5, false}, {45, false}, {0, true}, {22.5, true}, {45, true}};
 
 static const double longitudinal = 100; /* speed of P waves [m/s]                                */
-static const double duration = 2e-3;    /* P waves go 0.2 m                                [s]   */
-static const double radius = 0.05;      /* of the packet: a quarter of its width           [m]   */
+static const double duration = 2e-3;    /* P waves travel 0.2 m [s] */
+static const double radius = 0.05;      /* radius of the packet, a quarter of its width [m] */
 static const double window = 0.22;      /* radius of the disc                              [m]   */
 
 static const char text[] =
@@ -25,7 +24,7 @@ static const char text[] =
     "body: {box: {from: [-0.5, -0.5], to: [0.5, 0.5]}}\nparticles: {spacing: 0.01}\n"
     "pd: {region: {half-space: {point: [0, 0], normal: [-1, 0]}}}\nconversion: {criteria: none}\n";
 
-/* The packet passes the middle half-way: S waves go 1/sqrt(3) of the way. */
+/* Returns the pulse, which passes the middle at half the duration; S waves travel 1/sqrt(3) times as far. */
 static struct wave_pulse pulse_of(const struct accuracy_point *p)
 {
     const double angle = wave_of[p->at].angle * M_PI / 180, c = cos(angle), s = sin(angle);
@@ -55,7 +54,7 @@ static void accuracy_wave_make_scene(const struct accuracy_point *p, struct accu
 
 /* ---- errors ------------------------------------------------------------------------------------------------------ */
 
-/* The exact wave beside that of the particles in the window: sums for a wave that has come `ahead` farther. */
+/* Sums over the particles in the window that compare the computed wave with the exact wave shifted by `ahead`. */
 struct match {
     double exact2, product, off2;
 };
@@ -87,7 +86,7 @@ static double correlation(const struct wave_pulse *w, const struct particles *p,
     return m.product / sqrt(m.exact2);
 }
 
-/* Where the correlation is largest, by golden section: within two radii it has one maximum. */
+/* Returns the shift with the largest correlation, by golden-section search: within two radii there is one maximum. */
 static double best_shift(const struct wave_pulse *w, const struct particles *p, double gone)
 {
     const double golden = 0.6180339887498949;
@@ -104,7 +103,8 @@ static double best_shift(const struct wave_pulse *w, const struct particles *p, 
     return 0.5 * (low + high) - gone;
 }
 
-/* A shift by `phase` radii makes an error of |phase|, root mean square, as an amplitude off by as much does. */
+/* Computes the error. A shift by `phase` radii causes a root-mean-square error |phase|, as does a relative error of the
+ * amplitude of the same size. */
 static status accuracy_wave_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct wave_pulse w = pulse_of(p);

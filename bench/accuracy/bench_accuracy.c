@@ -1,5 +1,5 @@
-/* `cleave bench accuracy`: error against loop time of every method on problems with known solutions. Runs
- * what is not known yet of the table, point by point, then writes tables, charts and the overview page. */
+/* `cleave bench accuracy`: error against computing time of every method on problems with known solutions. Runs the
+ * unknown points of the table one by one, then writes tables, charts and the overview page. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "step/report.h"
 
-/* ---- figures of a run -------------------------------------------------------------------------------------------- */
+/* ---- results of a run -------------------------------------------------------------------------------------------- */
 
 double accuracy_figure(const struct run *e, const char *probe, const char *quantity)
 {
@@ -21,9 +21,9 @@ double accuracy_figure(const struct run *e, const char *probe, const char *quant
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
 enum { RUNS_MOST = 3 };
-#define RUNS_SECONDS 0.3 /* short runs are repeated for their time: at most this long */
+#define RUNS_SECONDS 0.3 /* total time within which short runs are repeated to measure their duration [s] */
 
-/* Of this thread: what other programs take from its processor does not count. */
+/* Returns the processor time of this thread [s], which excludes time taken by other programs. */
 static double processor_seconds(void)
 {
     struct timespec t;
@@ -31,8 +31,8 @@ static double processor_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Runs a point on `team` + 1 threads and keeps the least loop time so far; measures the error where the result is not
- * yet known. A run that the program stops as unstable is a result, too. */
+/* Runs a point on team + 1 threads and keeps the shortest loop time; measures the error if it is unknown. A run that
+ * stops as unstable is also a result. */
 static status accuracy_run_once(struct accuracy_entry *entry, int team)
 {
     struct run e;
@@ -55,7 +55,8 @@ static status accuracy_run_once(struct accuracy_entry *entry, int team)
     return ran == FAILED ? OK : ran;
 }
 
-/* The error hangs on no number of threads, so it is measured once. A bar is too short to be shared. */
+/* Measures a point. The error does not depend on the number of threads and is measured once; bars are too short for two
+ * threads. */
 static status run_point(struct accuracy_entry *entry)
 {
     struct accuracy_result *r = &entry->result;
@@ -75,8 +76,8 @@ static status run_point(struct accuracy_entry *entry)
 
 /* ---- all points -------------------------------------------------------------------------------------------------- */
 
-/* Work of a point beside others of its problem, about in seconds: 100 ns a particle and step, more with long
- * horizons; its set-up; repetitions. */
+/* Returns the predicted work of a point relative to others of its problem, about in seconds: 100 ns per particle and
+ * step, more for long horizons; set-up; repetitions. */
 static double work_of(const struct accuracy_point *p)
 {
     const int dim = p->problem->dim;
@@ -97,7 +98,7 @@ static int accuracy_number_of(const struct accuracy_problem *q)
     return k;
 }
 
-/* Problems of which something is done go on at their rate, the others take what their tables say. */
+/* Predicts the remaining time: measured rates for problems with results, tabulated durations for others [s]. */
 static double seconds_left(const struct progress *g, bool quick)
 {
     double left = 0;
@@ -149,7 +150,7 @@ static status accuracy_run_all(struct accuracy_plan *plan, const char *only, boo
     return OK;
 }
 
-/* What goes with what is known, without a run. */
+/* Writes tables, charts and page from the known results, without runs. */
 static status write_known(struct accuracy_plan *plan)
 {
     TRY(accuracy_plan_make(plan));

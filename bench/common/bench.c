@@ -1,4 +1,4 @@
-/* `cleave bench`: the table of benches, and the choice among them. */
+/* `cleave bench`: table of the benches, and their selection. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,10 +7,10 @@
 struct bench {
     const char *name;
     status (*call)(bool quick);
-    bool apart; /* runs when its whole name is asked for, and not otherwise */
+    bool apart; /* runs only if its full name is given */
 };
 
-/* In the order in which they run: kernels first, while the process is still small. NAME=PART: also with NAME. */
+/* Benches in the order in which they run: kernels first, while the process is small. NAME=PART: also run with NAME. */
 /* clang-format off */
 static const struct bench benches[] = {
     {"kernels", bench_kernels, false},         {"efficiency", bench_efficiency, false},
@@ -27,13 +27,13 @@ static const struct bench benches[] = {
 /* clang-format on */
 enum { BENCHES = COUNT_OF(benches) };
 
-/* Names of earlier versions. */
+/* Names used in earlier versions. */
 static const struct {
     const char *old, *name;
 } renamed[] = {{"factors", "sif"}, {"scatter", "sensitivity"}};
 
-/* `accuracy=NAME`: that problem alone, or another thing that bench_accuracy_of knows; `stability=lasting`, or a part
- * of a case's name: its long map alone. */
+/* Prefixes of partial benches. `accuracy=NAME`: a single problem, or another argument of bench_accuracy_of;
+ * `stability=lasting`, or a part of the name of a case: only its long map. */
 static const char accuracy_of[] = "accuracy=", stability_of[] = "stability=";
 
 static status bench_mark(const char *word, bool *asked)
@@ -60,13 +60,13 @@ static status bench_mark(const char *word, bool *asked)
                       word);
 }
 
-/* One bench; with `readme` its figures go to bench/README.md, too. */
+/* Runs a bench; with `readme` its output is also written to bench/README.md. */
 static status bench_call(const struct bench *b, bool quick, bool readme)
 {
     struct bench_readme r;
-    char files[64]; /* name of its files: of a part of a bench that of the whole */
+    char files[64]; /* name of the files: for a part of a bench that of the whole bench */
     snprintf(files, sizeof files, "%.*s", (int)strcspn(b->name, "="), b->name);
-    TRY(bench_guard(files)); /* before it measures for minutes */
+    TRY(bench_guard(files)); /* before minutes of measurement */
     if (!readme) return b->call(quick);
     TRY(bench_readme_begin(&r, b->name));
     return bench_readme_end(&r, b->name, quick, b->call(quick));

@@ -1,4 +1,4 @@
-/* Blocks of any size for timing: squares and cubes that move everywhere and break nowhere. */
+/* Blocks of any size for timing: squares and cubes in which every particle moves and no bond breaks. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,7 +20,7 @@ const struct bench_block bench_blocks[BENCH_BLOCKS] = {
     {"adaptive reference", 3, "adaptive", "reference"},
 };
 
-/* A tenth of an adaptive block is peridynamic whatever its size, and half of that holds a crack. */
+/* Writes the peridynamic region of an adaptive block, a tenth of its volume, half of which contains a crack. */
 static void block_parts(FILE *to, const struct bench_block *b, double edge)
 {
     const double low = 0.45 * edge, high = 0.55 * edge, middle = 0.5 * edge;
@@ -37,14 +37,15 @@ static void block_parts(FILE *to, const struct bench_block *b, double edge)
         fprintf(to, "pd: {region: {box: {from: [%.9g, 0, 0], to: [%.9g, %.9g, %.9g]}}}\n", low, high, edge, edge);
 }
 
-/* Edge of the block in particles. */
+/* Returns the number of particles along the edge of a block. */
 static int64_t edge_of_block(const struct bench_block *b, double particles)
 {
     const int64_t n = (int64_t)round(pow(particles, 1.0 / b->dim));
     return n > 12 ? n : 12;
 }
 
-/* Every particle moves, or what rests might be left out; none gets far: a metre a second at the farthest corner. */
+/* Writes the scene. Every particle moves, because particles at rest may be skipped; displacements stay small: 1 m/s at
+ * the farthest corner. */
 static void block_text(FILE *to, const struct bench_block *b, double particles, int64_t steps, int frames)
 {
     const double spacing = 1e-3, step = 5e-8, edge = spacing * (double)edge_of_block(b, particles), rate = 1 / edge;

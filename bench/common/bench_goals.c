@@ -1,4 +1,4 @@
-/* Runs as processes of their own, side by side; figures beside what is asked of them. */
+/* Runs as parallel separate processes; results compared with goals. */
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
@@ -45,7 +45,7 @@ double bench_summary_figure(const char *folder, const char *key)
     return summary_number(folder, key, &value) == OK ? value : NAN;
 }
 
-/* ---- goals ------------------------------------------------------------------------------------------------------ */
+/* ---- goals ------------------------------------------------------------------------------------------------------- */
 
 void bench_ask(struct bench_goals *t, const char *unit, double measured, double asked, const char *name, ...)
 {
@@ -85,7 +85,7 @@ static status goals_write(const char *name, const struct bench_goals *t)
     return s;
 }
 
-/* Bars of measured over target. */
+/* Draws bars of measured over required values. */
 static void goals_draw(FILE *to, const void *context)
 {
     const struct bench_goals *t = context;

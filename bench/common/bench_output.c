@@ -1,4 +1,4 @@
-/* Tables of figures as csv and json, and their picture. */
+/* Tables of results as CSV and JSON, and their picture. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -43,7 +43,7 @@ void bench_table_free(struct bench_table *t)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Without what would end a cell. */
+/* Writes a text without characters that would end a cell. */
 static void output_put_text(FILE *to, const char *text)
 {
     for (; *text; text++) fputc(*text == ',' || *text == '"' ? ';' : *text, to);
@@ -62,7 +62,7 @@ static void put_csv(FILE *to, const struct bench_table *t)
     }
 }
 
-/* Column k of the header. */
+/* Copies the name of column k from the header. name: capacity `size` [byte]. */
 static void output_column_name(const struct bench_table *t, int64_t k, char *name, size_t size)
 {
     const char *from = t->header;
@@ -105,7 +105,7 @@ static void put_json(FILE *to, const char *name, const struct bench_table *table
     fputs("\n}\n", to);
 }
 
-/* REFUSED if files would be made somewhere else: the folder, or the one above it, is a link. */
+/* REFUSED if the folder results/bench or results is a link, through which files would be written elsewhere. */
 static status bench_folder_guard(void)
 {
     static const char *const folder[] = {"results", BENCH_FOLDER};
@@ -123,7 +123,7 @@ status bench_folder_make(void)
     return OK;
 }
 
-/* First bytes of NAME.json, by which the files of a bench are recognised. */
+/* Composes the first bytes of NAME.json, by which the files of a bench are recognised. text: capacity `room` [byte]. */
 static void json_begin(char *text, size_t room, const char *name)
 {
     snprintf(text, room, "{\n  \"name\": \"%s\",\n  \"version\"", name);
@@ -149,7 +149,7 @@ status bench_guard(const char *name)
     return ours ? OK : status_set(REFUSED, "%s is there already and not of cleave bench; move it away", path);
 }
 
-/* One file, composed in memory: json of all tables, or csv of one. */
+/* Writes one file, composed in memory: JSON of all tables (`json` is the bench's name) or CSV of one (`json` NULL). */
 static status write_file(const char *path, const char *json, const struct bench_table *table, int tables)
 {
     char *text = NULL;

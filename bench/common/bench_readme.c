@@ -1,5 +1,5 @@
-/* `cleave bench NAME --readme`: what a bench prints goes between the two marks of its name in bench/README.md, with the
- * command and the date, so that no figure there is older than its bench. */
+/* `cleave bench NAME --readme`: writes the output of a bench between the two marks of its name in bench/README.md, with
+ * command and date, so that the text always stems from the current bench. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +14,7 @@
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* All bytes of an open file from its start, ended by 0; NULL: it cannot be read. Freed with free. */
+/* Returns all bytes of an open file from its start, terminated by 0; NULL if it cannot be read. Release with free. */
 static char *text_of(FILE *from)
 {
     if (fseek(from, 0, SEEK_END) != 0) return NULL;
@@ -26,7 +26,7 @@ static char *text_of(FILE *from)
     return text;
 }
 
-/* The bytes of bench/README.md. REFUSED if it is not there. */
+/* Reads bench/README.md. REFUSED if it does not exist. */
 static status readme_text(char **text)
 {
     FILE *in = fopen(README, "r");
@@ -38,7 +38,7 @@ static status readme_text(char **text)
 
 /* ---- blocks ------------------------------------------------------------------------------------------------------ */
 
-/* Finds the marks of a bench: *from is behind the first, *to at the second. REFUSED if one is missing. */
+/* Finds the marks of a bench: *from is after the first mark, *to at the second. REFUSED if one is missing. */
 static status block_find(const char *text, const char *name, const char **from, const char **to)
 {
     char mark[2][80];
@@ -62,7 +62,7 @@ static status readme_check(const char *name)
     return s;
 }
 
-/* Puts what was printed into the block of its bench. The file is written aside and renamed. */
+/* Replaces the block of a bench by the printed text. The file is written under a temporary name and renamed. */
 static status block_put(const char *name, bool quick, const char *printed)
 {
     const char *from, *to;

@@ -1,4 +1,4 @@
-/* Engines made for timing: from a file or a text, without output, in pieces; and runs as processes. */
+/* Runs for timing: from a file or a text, without output, in pieces; and runs as separate processes. */
 #include <errno.h>
 #include <fcntl.h>
 #include <ftw.h>
@@ -65,7 +65,7 @@ void bench_engine_free(struct run *e, struct scene *s)
 status bench_engine_run(struct run *e, int64_t until, struct laps *spent)
 {
     const int64_t steps = e->clock.steps;
-    memory_free(e->report->record); /* each call of engine_run makes its own */
+    memory_free(e->report->record); /* each call of engine_run allocates its own */
     e->report->record = NULL;
     e->clock.steps = until < steps ? until : steps;
     status ran = engine_run(e);
@@ -92,7 +92,7 @@ void bench_engine_start(struct run *e, bench_field *field, const void *context)
     }
 }
 
-/* ---- figures of a run -------------------------------------------------------------------------------------------- */
+/* ---- results of a run -------------------------------------------------------------------------------------------- */
 
 void bench_override(struct bench_overrides *o, const char *key, const char *value, ...)
 {
@@ -141,9 +141,9 @@ status bench_figures(const char *path, const char *text, struct bench_overrides 
     return ran;
 }
 
-/* ---- a process of its own ---------------------------------------------------------------------------------------- */
+/* ---- separate processes ------------------------------------------------------------------------------------------ */
 
-/* fork() would copy a team of threads of which only one goes on: the child is started from the program's file. */
+/* Starts a child process with posix_spawn: after fork() only one thread of the team would exist in the child. */
 static status spawn(char **argv, pid_t *child)
 {
     posix_spawn_file_actions_t actions;

@@ -1,24 +1,24 @@
-/* Loads of fracture specimens. */
+/* Loads of fracture specimens in linear elastic fracture mechanics. */
 #include <math.h>
 
 #include "handbook.h"
 
 static const double pi = 3.14159265358979323846;
 
-/* ASTM E399-20, A4.5: K = P f / (B W^1/2). */
+/* Compact tension: ASTM E399-20, A4.5: K = P f / (B W^1/2); returns f at x = a/W. */
 static double compact_tension(double x)
 {
     return (2 + x) * (0.886 + 4.64 * x - 13.32 * x * x + 14.72 * x * x * x - 5.6 * x * x * x * x) / pow(1 - x, 1.5);
 }
 
-/* ASTM E399-20, A3.5, span 4 W: K = P S f / (B W^3/2). */
+/* Three-point bend, span 4 W: ASTM E399-20, A3.5: K = P S f / (B W^3/2); returns f at x = a/W. */
 static double three_point_bend(double x)
 {
     return 3 * sqrt(x) * (1.99 - x * (1 - x) * (2.15 - 3.93 * x + 2.7 * x * x)) / (2 * (1 + 2 * x) * pow(1 - x, 1.5));
 }
 
-/* An edge crack under tension and in pure bending, K = stress (pi a)^1/2 F, 0.5 % (Tada, Paris & Irwin 2000, 2.10 and
- * 2.13). */
+/* Edge crack in tension: K = stress (pi a)^1/2 F; returns F at x = a/W, accurate to 0.5 % (Tada, Paris & Irwin 2000,
+ * 2.10; in pure bending 2.13). */
 static double edge_tension(double x)
 {
     const double t = 0.5 * pi * x;
@@ -31,9 +31,9 @@ static double edge_bending(double x)
     return sqrt(tan(t) / t) * (0.923 + 0.199 * pow(1 - sin(t), 4)) / cos(t);
 }
 
-/* An edge crack between grips that do not turn: K = force/(B W) (pi a)^1/2 F. The moment of the grips is that which
- * turns the plate back by as much as its crack turns it, of which both rotations follow from the energy of the crack
- * (Castigliano): stress of bending over that of tension = -6 pi J_tb / (H/W + 6 pi J_bb), J = integral of x F F dx. */
+/* Edge crack between grips that do not rotate: K = force/(B W) (pi a)^1/2 F; returns F. The moment of the grips cancels
+ * the rotation caused by the crack; both rotations follow from the energy of the crack (Castigliano): bending stress
+ * over tension = -6 pi J_tb / (H/W + 6 pi J_bb), J_ij the integral of x F_i F_j dx. slenderness: H/W. */
 static double edge_in_grips(double x, double slenderness)
 {
     enum { PARTS = 400 };
@@ -57,13 +57,14 @@ double specimen_load(const struct specimen *s, double a)
     case THREE_POINT_BEND:
         return K * s->thickness * pow(s->width, 1.5) / (s->length * three_point_bend(x));
     case DOUBLE_CANTILEVER:
-        break; /* beams that the body ahead of the crack holds elastically (Fichter 1983) */
+        break; /* beams on an elastic foundation, the body ahead of the crack (Fichter 1983) */
     }
     return s->thickness * K * sqrt(pow(s->width, 3) / 12) / (a + 0.673 * s->width);
 }
 
-/* Increments of 2 mm in the direction of the largest hoop stress, with factors of quadratic finite elements of 0.1 mm
- * at the tip, whose K_I of a notch in the middle is 0.4 % off that of ASTM E399. */
+/* Angle of the chord after increments of 2 mm in the direction of the largest hoop stress [degree], with
+ * stress-intensity factors from quadratic finite elements of 0.1 mm at the tip; for a central notch these deviate by
+ * 0.4 % from ASTM E399. */
 static const double chord_step = 2e-3, chord[] = {14.66, 15.0, 15.13, 15.12, 15.0, 14.77, 14.44, 14.01, 13.49, 12.88};
 
 double bend_chord(double length)

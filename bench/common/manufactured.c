@@ -1,9 +1,9 @@
-/* A motion that is known because its body force is chosen so. */
+/* Manufactured solution: a motion whose body force is chosen such that it solves the equations of motion. */
 #include "manufactured.h"
 
 #include <math.h>
 
-/* sin(k x_a) prod cos(k x_b), or its slope along axis `slope` over k (< 0: itself). */
+/* Returns sin(k x_a) prod cos(k x_b), or its derivative along axis `slope` over k (slope < 0: the function itself). */
 static real mode(const struct manufactured *m, const real *X, int a, int slope)
 {
     const real k = 2 * M_PI / m->length;
@@ -18,7 +18,8 @@ static real mode(const struct manufactured *m, const real *X, int a, int slope)
     return product;
 }
 
-/* Factors of the mode of component a in the body force: what is steady and what goes with sin^2(pi t/T) [N/m^3]. */
+/* Computes the factors of the mode of component a in the body force: steady part, and part proportional to sin^2(pi
+ * t/T) [N/m^3]. */
 static void manufactured_forces(const struct manufactured *m, int a, real *steady, real *beat)
 {
     const real k = 2 * M_PI / m->length, inertia = m->density * m->share[a] * square(M_PI / m->period);
@@ -49,8 +50,8 @@ struct manufactured_values manufactured_at(const struct manufactured *m, const r
     return v;
 }
 
-/* A product of one sine and cosines is the mean of 2^(dim - 1) sines of plane waves, of the sign of their direction's
- * component a. */
+/* Writes plane waves: a product of one sine and cosines is the mean of 2^(dim - 1) sines of plane waves, with the sign
+ * of component a of their direction. */
 static void put_wave(FILE *to, const struct manufactured *m, const int *sign, bool beats)
 {
     const int waves = 1 << (m->dim - 1);

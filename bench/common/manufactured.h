@@ -1,11 +1,12 @@
-/* A motion that is known because its body force is chosen so, in two and three dimensions:
+/* Manufactured solution in two and three dimensions: a motion whose body force is chosen such that it solves the
+ * equations of motion.
  *
  *   u_a = U p_a sin^2(pi t/T) sin(k x_a) prod_{b != a} cos(k x_b),    k = 2 pi/L
  *
- * Normal displacements are odd and tangential ones even about the planes x_a = 0 and L/2: mirrors. Under the elastic
- * operator it keeps its form, (c12 + G) grad div u + G lap u = -A_a u_a/p_a, A_a = k^2 [(c12 + G) sum p + G dim
- * p_a], so the body force is f_a = U [rho p_a 2 pi^2/T^2 + (A_a - 4 pi^2 rho p_a/T^2) sin^2(pi t/T)] times the same
- * modes. */
+ * Normal displacements are odd and tangential ones even about the planes x_a = 0 and L/2, which are therefore mirrors.
+ * The elastic operator maps the field to a multiple of itself, (c12 + G) grad div u + G lap u = -A_a u_a/p_a with A_a =
+ * k^2 [(c12 + G) sum p + G dim p_a]. The body force is thus f_a = U [rho p_a 2 pi^2/T^2 + (A_a - 4 pi^2 rho p_a/T^2)
+ * sin^2(pi t/T)] times the same modes. */
 #ifndef CLEAVE_BENCH_MANUFACTURED
 #define CLEAVE_BENCH_MANUFACTURED
 
@@ -13,6 +14,7 @@
 
 #include "base/base.h"
 
+/* Parameters of the motion. */
 struct manufactured {
     int dim;
     real amplitude, period, length; /* U [m], T [s], L [m] */
@@ -20,14 +22,17 @@ struct manufactured {
     real c12, shear, density;       /* elastic constants of the space [Pa], rho [kg/m^3] */
 };
 
+/* Values of the solution at a point. */
 struct manufactured_values {
     real displacement[DIM_MAX], velocity[DIM_MAX], strain[SYM_MAX]; /* [m] [m/s] [1] */
     real force[DIM_MAX];                                            /* [N/m^3] */
 };
+
+/* Returns the solution at X [m] and time t [s]. */
 struct manufactured_values manufactured_at(const struct manufactured *m, const real *X, real t);
 
-/* The body force as entries of `boundary` in a scene: plane waves in all directions (1, +-1, ..), one part that is
- * steady and one that beats; "  - {..}" line by line. */
+/* Writes the body force as entries of `boundary` in a scene, "  - {..}" line by line: plane waves in all directions (1,
+ * +-1, ..), each with a steady part and a part proportional to sin^2. */
 void manufactured_boundaries(FILE *to, const struct manufactured *m);
 
 #endif

@@ -1,4 +1,4 @@
-/* `cleave bench contact`: collisions beside closed forms, for faces and for pairs. */
+/* `cleave bench contact`: compares collisions with closed forms, for contact of faces and of pairs. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* Bars that meet: equal ones exchange their velocities and part after 2 L/c, under the force rho c v A. */
+/* Bars that collide: equal bars exchange their velocities and separate after 2 L/c, under the force rho c v A. */
 #include <math.h>
 
 #include "contact_bench.h"
@@ -24,8 +24,8 @@ static status bars_make(struct run *e, struct scene *s, const struct contact_cas
                           gap + c->given[1] * D, c->given[3] * CONTACT_WAVE, c->law);
 }
 
-/* Steps to the end: first and last time at which the first body is pushed [s], the largest force [N], the largest
- * energy error. */
+/* Course of a contact: first and last time at which the first body is pushed [s], largest force [N], largest energy
+ * error. */
 struct contact_course {
     double from, until, force, error;
 };
@@ -48,7 +48,7 @@ static status bars_run(struct run *e, struct contact_course *seen)
     return report_end(e);
 }
 
-/* Bars of the same length and opposite velocities. */
+/* Bars of equal length and opposite velocities. */
 status contact_bars(const struct contact_case *c, double *figure)
 {
     struct run e;
@@ -67,7 +67,7 @@ status contact_bars(const struct contact_case *c, double *figure)
     return ran;
 }
 
-/* A bar flies at one of twice its length at rest. */
+/* A bar hits a bar of twice its length at rest. */
 status contact_striker(const struct contact_case *c, double *figure)
 {
     struct run e;
@@ -85,7 +85,7 @@ status contact_striker(const struct contact_case *c, double *figure)
     return ran;
 }
 
-/* A plane bar of given[0] x given[0]/5 particles between two fixed walls, 5 spacings of way each. */
+/* A plane bar of given[0] x given[0]/5 particles moves between two fixed walls with gaps of 5 spacings. */
 status contact_bounces(const struct contact_case *c, double *figure)
 {
     struct run e;

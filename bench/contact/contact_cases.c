@@ -1,11 +1,12 @@
-/* The cases of `cleave bench contact`: what closed forms say, and how near the figures are asked to be. */
+/* Cases of `cleave bench contact`: closed forms and the required ranges around them. */
 #include <math.h>
 
 #include "contact_bench.h"
 
 #define BOTH(...)                                                                                                      \
     {.law = "surface", __VA_ARGS__}, { .law = "pair", __VA_ARGS__ }
-/* Restitution grows with the number of particles; 0.99 is not reached with 200 of them but with softer contact. */
+
+/* Restitution grows with the number of particles: 200 particles with softer contact do not reach 0.99. */
 #define BARS(n, v, least, longest, short_)                                                                             \
     BOTH(.name = "equal bars, " #n " particles, " #v " c", .measure = contact_bars, .given = {n, n, v, -v},            \
          .falls_short = short_,                                                                                        \
@@ -14,8 +15,9 @@
     BOTH(.name = "striker on twice its length, " #n " particles", .measure = contact_striker,                          \
          .given = {n, 2 * n, 1e-3, 0},                                                                                 \
          .asked = {{"striker", -off, off}, {"struck", 0.5 - off, 0.5 + off}, {"energy", 0, 1e-3}})
-/* Cut through and sheared: 0.7 % of the pressure resists, seven times the shear of the whole block. Opened: what is
- * left of vibrations in the mean over time. */
+
+/* A block cut through and sheared: the tangential force is 0.7 % of the pressure, seven times the shear force of the
+ * intact block. An opened cut: the limits allow the residual vibrations in the mean over time. */
 #define BLOCK(what, n, strain, shear, least, most, along)                                                              \
     {                                                                                                                  \
         .name = "cut block, " #n " rows, " what, .measure = contact_block, .given = {n, strain, shear},                \
@@ -42,8 +44,9 @@
             {"energy", 0, 1e-3}                                                                                        \
         }                                                                                                              \
     }
-/* Discs that stick roll like gear wheels: 2/3 of the tangential velocity stay, and a spin of as much. Elastic ones part
- * while the spring along their faces swings, and are up to 0.08 off. */
+
+/* Discs that stick roll on each other: 2/3 of the tangential velocity remain, and a spin of the same size. Elastic
+ * discs separate while the tangential spring oscillates, and differ by up to 0.08. */
 #define STICKING(b, sine, turn)                                                                                        \
     {                                                                                                                  \
         .name = "discs, R 20, 0.01 c, b " #b " R, turn " #turn ", friction 10", .law = "surface, friction: 10",        \
@@ -54,9 +57,10 @@
             {"energy", 0, 5e-3}                                                                                        \
         }                                                                                                              \
     }
-/* Within 10 % of g sin; what stays moves by less than 0.2 spacings. The balance of a block that sticks to a rigid floor
- * scatters with slope and kernels: 0.0067 +- 0.0021 and 0.0103 at most on slopes of 0.6 to 0.8 with two sets; four
- * deviations are allowed. */
+
+/* Acceleration within 10 % of g sin; a block at rest moves by less than 0.2 spacings. The energy balance of a block
+ * that sticks to a rigid floor scatters with slope and kernels: 0.0067 +- 0.0021, at most 0.0103, on slopes of 0.6 to
+ * 0.8 with two kernel sets; the limit allows four standard deviations. */
 #define SLOPE(tan, mu, rigid, on)                                                                                      \
     {                                                                                                                  \
         .name = "block on a " on ", tan " #tan ", friction " #mu, .law = "surface", .measure = contact_slope,          \
@@ -69,7 +73,9 @@
 #define SLOPES(rigid, on)                                                                                              \
     SLOPE(0.2, 0, rigid, on), SLOPE(0.4, 0, rigid, on), SLOPE(0.7, 0, rigid, on), SLOPE(0.2, 0.3, rigid, on),          \
         SLOPE(0.4, 0.3, rigid, on), SLOPE(0.7, 0.3, rigid, on), SLOPE(0.7, 10, rigid, on)
-/* Along the lattice (turn 0), and turned so that velocities are along it. */
+
+/* Discs with velocities along the lattice (turn 0), or with the line of centres rotated such that velocities are along
+ * it. */
 #define DISCS(law_, R, v, b, turn, short_)                                                                             \
     {                                                                                                                  \
         .name = "discs, R " #R ", " #v " c, b " #b " R, turn " #turn, .law = law_, .measure = contact_discs,           \

@@ -1,4 +1,5 @@
-/* Discs that meet obliquely without friction: only the normal part of their velocity may change, nothing may turn. */
+/* Discs that collide obliquely without friction: only the normal component of their velocity may change, and no
+ * rotation may arise. */
 #include <math.h>
 
 #include "contact_bench.h"
@@ -7,7 +8,7 @@
 #include "step/stability.h"
 #include "step/checks.h"
 
-/* Runs to the end; the line of centres when they are closest, which turns while they touch. */
+/* Runs to the end. normal: receives the line of centres at the closest approach; the line rotates during contact. */
 static status discs_run(struct run *e, double *normal)
 {
     double least = INFINITY;
@@ -28,7 +29,7 @@ status contact_discs(const struct contact_case *c, double *figure)
     struct scene s;
     const double D = CONTACT_SPACING, R = c->given[0] * D, v = c->given[1] * CONTACT_WAVE, turn = c->given[3];
     const double angle = asin(0.5 * c->given[2]), gap = 0.3 * D, far = R + 0.5 * gap;
-    /* the line of centres at `turn`, velocities at `turn` - `angle` */
+    /* Line of centres at the angle `turn`, velocities at turn - angle. */
     const double nx = cos(turn), ny = sin(turn), vx = v * cos(turn - angle), vy = v * sin(turn - angle);
     TRY(contact_engine(&e, &s,
                        "name: discs\nspace: plane stress\nthickness: 1 mm\nmethod: pd\nduration: %.9g\n"

@@ -1,5 +1,4 @@
-/* A block that is cut through and squeezed: its faces bear what the whole block bears; and bodies in contact at rest:
- * Hertz. */
+/* A block that is cut through and compressed: its faces transmit the force of the intact block; and Hertz contact. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -9,7 +8,7 @@
 #include "probes/diagnostics.h"
 #include "step/report.h"
 
-/* Mean force of the upper end over the second half of the run, while the ends rest [N]. */
+/* Mean force on the upper end over the second half of the run, while the ends are at rest [N]. */
 struct block_force {
     double normal, along, overlap;
 };
@@ -60,9 +59,9 @@ status contact_block(const struct contact_case *c, double *figure)
 
 /* ---- Hertz ------------------------------------------------------------------------------------------------------- */
 
-/* A ball of given[0] spacings that flies at a fixed plane with given[1] wave speeds: force F = 4/3 E* sqrt(R) d^1.5,
- * E* = E/(1 - nu^2) against a rigid plane; duration 2.87 (m^2/(R E*^2 v))^0.2. The exponent is that of the force over
- * the approach while it grows from a tenth of the largest to the largest. */
+/* A ball of radius given[0] spacings hits a fixed plane at given[1] wave speeds. Hertz: force F = 4/3 E* sqrt(R) d^1.5
+ * with E* = E/(1 - nu^2) for a rigid plane; duration 2.87 (m^2/(R E*^2 v))^0.2. The exponent is measured while the
+ * force grows from a tenth of its largest value to the largest. */
 status contact_hertz_space(const struct contact_case *c, double *figure)
 {
     struct run e;

@@ -1,11 +1,11 @@
-/* A block on a slope, under a weight: it slides with g (sin - mu cos), or stays. */
+/* A block on a slope under its weight: it slides with acceleration g (sin - mu cos), or sticks. */
 #include <math.h>
 
 #include "contact_bench.h"
 #include "probes/diagnostics.h"
 #include "step/report.h"
 
-/* A block of 12 x 8 particles: on a rigid floor, or on a row of a deformable one that is held below. */
+/* Runs a block of 12 x 8 particles on a rigid floor, or on a row of a deformable floor that is held below. */
 status contact_slope(const struct contact_case *c, double *figure)
 {
     struct run e;
