@@ -93,14 +93,14 @@ struct accuracy_problem {
     const char *remark[ACCURACY_REMARKS]; /* remarks on notable results for the overview page */
     int samples;                          /* number of evaluations of crack tips; 0: one */
     double seconds, quick_seconds;        /* predicted duration of all points [s], replaced by measured times */
-    void (*scene)(const struct accuracy_point *p, struct accuracy_scene *s); /* Writes the scene of a point. */
+    /* Writes the scene of a point. */
+    void (*scene)(const struct accuracy_point *p, struct accuracy_scene *s);
     /* Runs a point; NULL: engine_run. */
-    status (*run)(const struct accuracy_point *p, struct run *e); /* NULL: engine_run */
+    status (*run)(const struct accuracy_point *p, struct run *e);
     /* Computes the relative error and its parts of a finished run. */
     status (*measure)(const struct accuracy_point *p, struct run *e, double *error, double *part);
     /* Returns true if a point of the applicable families is possible; NULL: always. */
-    bool (*applies)(
-        const struct accuracy_point *p); /* returns true if a point of these families is possible; NULL: always */
+    bool (*applies)(const struct accuracy_point *p);
 };
 extern const struct accuracy_problem *const accuracy_problem[];
 extern const int accuracy_problems;

@@ -91,10 +91,11 @@ static double angle_at(const struct run *e, double radius, double width)
         const int k = t->label[i] - 1;
         if (k < 0 || k >= t->n || !t->tip[k].from_crack) continue;
         const struct tip *tip = &t->tip[k];
-        const double way[2] = {e->part.X[0][i] - tip->origin[0], e->part.X[1][i] - tip->origin[1]};
-        if (fabs(hypot(way[0], way[1]) - radius) > width) continue;
-        along += e->part.damage[i] * (way[0] * tip->along[0] + way[1] * tip->along[1]);
-        across += e->part.damage[i] * (way[1] * tip->along[0] - way[0] * tip->along[1]) * (tip->origin[1] < 0 ? -1 : 1);
+        const double offset[2] = {e->part.X[0][i] - tip->origin[0], e->part.X[1][i] - tip->origin[1]};
+        if (fabs(hypot(offset[0], offset[1]) - radius) > width) continue;
+        along += e->part.damage[i] * (offset[0] * tip->along[0] + offset[1] * tip->along[1]);
+        across +=
+            e->part.damage[i] * (offset[1] * tip->along[0] - offset[0] * tip->along[1]) * (tip->origin[1] < 0 ? -1 : 1);
     }
     return along != 0 || across != 0 ? atan2(across, along) : NAN;
 }

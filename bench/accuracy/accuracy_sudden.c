@@ -13,7 +13,7 @@
 enum { REST, MOVING };
 
 /* Crack speed [m/s]; stress on the crack plane [Pa]; distance of the initial wave fronts from the crack [m]. */
-static const double speed = 1000, stress = 2e6, way = 20e-3;
+static const double speed = 1000, stress = 2e6, path_length = 20e-3;
 enum { INSTANTS = 6 };
 static const double instant[INSTANTS] = {5.5e-6, 6.2e-6, 6.9e-6, 7.6e-6, 8.3e-6, 9e-6}; /* [s] */
 
@@ -58,7 +58,7 @@ static status accuracy_sudden_run(const struct accuracy_point *p, struct run *e)
         TRY(bench_engine_run(e, until, NULL));
         /* Forces are those at the beginning of the last step. */
         factor[k] = accuracy_figure(e, "sif", "K_I") / slower /
-                    crack_suddenly_loaded(&m, stress, e->clock.t - e->clock.dt - way / m.longitudinal);
+                    crack_suddenly_loaded(&m, stress, e->clock.t - e->clock.dt - path_length / m.longitudinal);
     }
     return OK;
 }

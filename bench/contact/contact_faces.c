@@ -78,12 +78,12 @@ status contact_hertz_space(const struct contact_case *c, double *figure)
                        1.3 * time, E, density, D, R, R, -v));
     double sum[5] = {0}, from = INFINITY, until = 0, largest = 0, start = 0;
     const int64_t steps = e.clock.steps;
-    double *force = NEW("bench.force", steps, double), *way = NEW("bench.way", steps, double);
+    double *force = NEW("bench.force", steps, double), *approach = NEW("bench.way", steps, double);
     status ran = report_start(&e);
     while (ran == OK && e.clock.step < steps) {
         const int64_t n = e.clock.step;
-        way[n] = start - contact_motion_of(&e, 0).x[2];
-        if (n == 0) start = contact_motion_of(&e, 0).x[2], way[n] = 0;
+        approach[n] = start - contact_motion_of(&e, 0).x[2];
+        if (n == 0) start = contact_motion_of(&e, 0).x[2], approach[n] = 0;
         ran = engine_step(&e);
         force[n] = -e.rigid->body[0].force[2];
         if (force[n] > 0) from = fmin(from, e.clock.t), until = e.clock.t;
@@ -91,14 +91,14 @@ status contact_hertz_space(const struct contact_case *c, double *figure)
     }
     for (int64_t n = 0; n < steps && force[n] < largest; n++) {
         if (force[n] < 0.1 * largest) continue;
-        const double x = log(way[n]), y = log(force[n]);
+        const double x = log(approach[n]), y = log(force[n]);
         sum[0]++, sum[1] += x, sum[2] += y, sum[3] += x * x, sum[4] += x * y;
     }
     figure[0] = (sum[0] * sum[4] - sum[1] * sum[2]) / (sum[0] * sum[3] - sum[1] * sum[1]);
     figure[1] = (until - from) / time;
     figure[2] = contact_motion_of(&e, 0).v[2] / v;
     figure[3] = fabs(e.diagnostics->now.balance_error);
-    memory_free(force), memory_free(way);
+    memory_free(force), memory_free(approach);
     bench_engine_free(&e, &s);
     return ran;
 }

@@ -1,31 +1,33 @@
-/* `cleave bench coupling`: what an interface of material points and bonds does to waves and to uniform strain.
- * Here the bar: couplings and widths of the pulse, places of the interface in its cell, cells and transfers. */
+/* `cleave bench coupling`: measures the effect of an interface between material points and bonds on waves and on
+ * uniform strain. This file: the bar, with couplings and widths of the pulse, positions of the interface in its cell,
+ * cells and transfers. */
 #include <math.h>
 #include <string.h>
 
 #include "coupling.h"
 #include "base/memory.h"
 
-const struct coupling_way coupling_way[WAYS] = {
-    [WAY_DAMPED] = {"partial stress", "partial stress", NULL},
-    [WAY_UNDAMPED] = {"partial stress undamped", "partial stress", "0"},
-    [WAY_HANDSHAKE] = {"handshake", "handshake", NULL},
-    [WAY_PM] = {"pm", "pm", NULL},
-    [WAY_PG] = {"pg", "pg", NULL},
-    [WAY_PMG] = {"pmg", "pmg", NULL},
-    [WAY_PGG] = {"pgg", "pgg", NULL},
+const struct coupling_variant coupling_variant[VARIANTS] = {
+    [VARIANT_DAMPED] = {"partial stress", "partial stress", NULL},
+    [VARIANT_UNDAMPED] = {"partial stress undamped", "partial stress", "0"},
+    [VARIANT_HANDSHAKE] = {"handshake", "handshake", NULL},
+    [VARIANT_PM] = {"pm", "pm", NULL},
+    [VARIANT_PG] = {"pg", "pg", NULL},
+    [VARIANT_PMG] = {"pmg", "pmg", NULL},
+    [VARIANT_PGG] = {"pgg", "pgg", NULL},
 };
 
-void coupling_way_override(struct bench_overrides *o, int way)
+void coupling_variant_override(struct bench_overrides *o, int variant)
 {
-    bench_override(o, "coupling", "%s", coupling_way[way].coupling);
-    if (coupling_way[way].damping) bench_override(o, "interface_damping", "%s", coupling_way[way].damping);
+    bench_override(o, "coupling", "%s", coupling_variant[variant].coupling);
+    if (coupling_variant[variant].damping)
+        bench_override(o, "interface_damping", "%s", coupling_variant[variant].damping);
 }
 
 /* ---- runs of the bar --------------------------------------------------------------------------------------------- */
 
-static const double spacing = 1;     /* of the bar's particles, as its file has it [mm] */
-static const double interface = 512; /* [mm] */
+static const double spacing = 1;     /* particle spacing of the bar, as in its file [mm] */
+static const double interface = 512; /* position of the interface [mm] */
 
 static status coupling_bar_measure(struct bar_run *r)
 {
@@ -33,7 +35,7 @@ static status coupling_bar_measure(struct bar_run *r)
     struct bench_figure f[] = {{.probe = "pulse", .quantity = "reflected"},
                                {.probe = "pulse", .quantity = "transmitted"},
                                {.probe = "pulse", .quantity = "energy_change"}};
-    coupling_way_override(&o, r->way);
+    coupling_variant_override(&o, r->variant);
     bench_override(&o, "initial[0].pulse.width", "%g mm", r->width * spacing);
     bench_override(&o, "mpm.cell", "%d", r->cell);
     bench_override(&o, "mpm.origin", "[%g mm]", interface + r->place * r->cell * spacing);
@@ -52,49 +54,50 @@ static status bar_add(struct bar_table *t, struct bar_run r)
     return OK;
 }
 
-/* All couplings and widths, the interface on a node. */
+/* Runs all couplings and pulse widths, with the interface on a node. */
 static status measure_pulses(struct bar_table *t, bool quick)
 {
-    for (int way = 0; way < WAYS; way++)
+    for (int variant = 0; variant < VARIANTS; variant++)
         for (int width = quick ? 32 : 16; width <= (quick ? 64 : 128); width *= 2)
-            TRY(bar_add(t, (struct bar_run){.way = way, .width = width, .cell = 2, .transfer = "flip"}));
+            TRY(bar_add(t, (struct bar_run){.variant = variant, .width = width, .cell = 2, .transfer = "flip"}));
     return OK;
 }
 
 enum { PLACES = 4 };
 
-/* A cell of two spacings moved under the particles. */
+/* Runs with a grid of cells of two spacings, shifted relative to the particles. */
 static status measure_places(struct bar_table *t, bool quick)
 {
-    for (int way = 0; way <= WAY_HANDSHAKE; way++)
+    for (int variant = 0; variant <= VARIANT_HANDSHAKE; variant++)
         for (int width = quick ? 32 : 16; width <= (quick ? 32 : 64); width *= 2)
             for (int place = 0; place < PLACES; place++)
-                TRY(bar_add(
-                    t,
-                    (struct bar_run){
-                        .way = way, .width = width, .cell = 2, .place = (double)place / PLACES, .transfer = "flip"}));
+                TRY(bar_add(t, (struct bar_run){.variant = variant,
+                                                .width = width,
+                                                .cell = 2,
+                                                .place = (double)place / PLACES,
+                                                .transfer = "flip"}));
     return OK;
 }
 
-/* One point in a cell, and APIC; the interface is damped with FLIP only. */
+/* Runs with one point per cell, and with APIC; the interface is damped with FLIP only. */
 static status measure_variants(struct bar_table *t, bool quick)
 {
     static const struct {
         int cell;
         const char *transfer;
-    } variant[] = {{1, "flip"}, {2, "apic"}, {1, "apic"}};
-    for (size_t v = 0; v < (quick ? 2 : COUNT_OF(variant)); v++)
-        for (int way = 0; way <= WAY_HANDSHAKE; way++)
+    } grid[] = {{1, "flip"}, {2, "apic"}, {1, "apic"}};
+    for (size_t v = 0; v < (quick ? 2 : COUNT_OF(grid)); v++)
+        for (int variant = 0; variant <= VARIANT_HANDSHAKE; variant++)
             for (int width = 32; width <= (quick ? 32 : 64); width *= 2) {
-                if (way == WAY_UNDAMPED && v > 0) continue;
-                TRY(bar_add(t,
-                            (struct bar_run){
-                                .way = way, .width = width, .cell = variant[v].cell, .transfer = variant[v].transfer}));
+                if (variant == VARIANT_UNDAMPED && v > 0) continue;
+                TRY(bar_add(
+                    t, (struct bar_run){
+                           .variant = variant, .width = width, .cell = grid[v].cell, .transfer = grid[v].transfer}));
             }
     return OK;
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------------ */
+/* ---- output ------------------------------------------------------------------------------------------------------ */
 
 enum { REFLECTED, TRANSMITTED, ENERGY, SHARES };
 
@@ -103,17 +106,17 @@ static double share_of(const struct pulse_result *r, int share)
     return share == REFLECTED ? r->reflected : share == TRANSMITTED ? r->transmitted : r->energy_change;
 }
 
-/* A line for each coupling, the widths beside each other; they stand one after the other. */
+/* Prints a line for each coupling with the widths side by side; runs of a coupling are consecutive. */
 static void print_pulses(const struct bar_table *t)
 {
     static const char *const format[SHARES] = {" %7.2f", " %7.1f", " %+7.2f"};
-    const int widths = t->n / WAYS;
+    const int widths = t->n / VARIANTS;
     printf("  a pulse in a bar, its width in spacings; against the bar of material points alone [%%]\n"
            "  %-24s   %-*s   %-*s   %-*s\n  %-24s",
            "", 8 * widths, "reflected", 8 * widths, "transmitted", 8 * widths, "change of energy", "coupling");
     for (int k = 0; k < SHARES * widths; k++) printf("%s %7.0f", k % widths ? "" : "   ", t->run[k % widths].width);
     for (int k = 0; k < t->n; k += widths) {
-        printf("\n  %-24s", coupling_way[t->run[k].way].name);
+        printf("\n  %-24s", coupling_variant[t->run[k].variant].name);
         for (int share = 0; share < SHARES; share++) {
             fputs("   ", stdout);
             for (int w = 0; w < widths; w++) printf(format[share], 100 * share_of(&t->run[k + w].result, share));
@@ -130,7 +133,7 @@ static void print_places(const struct bar_table *t)
     printf(" %10s\n", "largest");
     for (int k = 0; k < t->n; k += PLACES) {
         double largest = 0;
-        printf("  %-24s %4.0f D", coupling_way[t->run[k].way].name, t->run[k].width);
+        printf("  %-24s %4.0f D", coupling_variant[t->run[k].variant].name, t->run[k].width);
         for (int place = 0; place < PLACES; place++) {
             largest = fmax(largest, t->run[k + place].result.reflected);
             printf(" %7.2f %%", 100 * t->run[k + place].result.reflected);
@@ -146,7 +149,7 @@ static void print_variants(const struct bar_table *t)
            "reflected", "transmitted", "energy");
     for (int k = 0; k < t->n; k++) {
         const struct bar_run *r = &t->run[k];
-        printf("  %-24s %2d D %5s %4.0f D %9.2f %% %11.2f %% %+7.2f %%\n", coupling_way[r->way].name, r->cell,
+        printf("  %-24s %2d D %5s %4.0f D %9.2f %% %11.2f %% %+7.2f %%\n", coupling_variant[r->variant].name, r->cell,
                r->transfer, r->width, 100 * r->result.reflected, 100 * r->result.transmitted,
                100 * r->result.energy_change);
     }
@@ -170,7 +173,7 @@ static void fill_bars(struct bench_table *rows, const struct bar_table *t, const
                              : "coupling,width_spacings,reflected,transmitted,energy_change");
     for (int k = 0; k < t->n; k++) {
         const struct bar_run *r = &t->run[k];
-        bench_text(rows, coupling_way[r->way].name);
+        bench_text(rows, coupling_variant[r->variant].name);
         bench_number(rows, r->width);
         if (name[0]) {
             bench_number(rows, r->cell);
@@ -200,7 +203,7 @@ static status coupling_measure_all(struct coupling_figures *all, bool quick)
 {
     if (!bench_scene_exists(COUPLING_BAR) || !bench_scene_exists(COUPLING_PLATE))
         return status_set(REFUSED, "bench coupling: its scenes are not here; start it where the folder inputs is");
-    team_make(1); /* a bar is too short to be shared */
+    team_make(1); /* a bar is too short to be divided among threads */
     TRY(measure_pulses(&all->pulses, quick));
     print_pulses(&all->pulses);
     TRY(measure_places(&all->places, quick));

@@ -1,4 +1,4 @@
-/* What the parts of `cleave bench coupling` share. */
+/* `cleave bench coupling`: declarations shared by its files. */
 #ifndef CLEAVE_BENCH_COUPLING
 #define CLEAVE_BENCH_COUPLING
 
@@ -7,16 +7,28 @@
 #define COUPLING_BAR "inputs/bar_pulse.yaml"
 #define COUPLING_PLATE "inputs/plate_pulse.yaml"
 
-/* A coupling, and what is written beside `coupling` in the scene. */
-enum { WAY_DAMPED, WAY_UNDAMPED, WAY_HANDSHAKE, WAY_PM, WAY_PG, WAY_PMG, WAY_PGG, WAYS };
-struct coupling_way {
-    const char *name, *coupling;
-    const char *damping; /* value of interface_damping; NULL: the default */
+/* A coupling: its name, and the values of the scene keys that select it. */
+enum {
+    VARIANT_DAMPED,
+    VARIANT_UNDAMPED,
+    VARIANT_HANDSHAKE,
+    VARIANT_PM,
+    VARIANT_PG,
+    VARIANT_PMG,
+    VARIANT_PGG,
+    VARIANTS
 };
-extern const struct coupling_way coupling_way[WAYS];
-void coupling_way_override(struct bench_overrides *o, int way);
+struct coupling_variant {
+    const char *name, *coupling;
+    const char *damping; /* value of interface_damping; NULL: default */
+};
+extern const struct coupling_variant coupling_variant[VARIANTS];
 
-/* What an interface did to a pulse: shares of the incident amplitude, and of the incident energy [1]. */
+/* Appends the overrides for coupling_variant[variant]. */
+void coupling_variant_override(struct bench_overrides *o, int variant);
+
+/* Effect of an interface on a pulse: reflected and transmitted amplitude over the incident one; change of energy over
+ * the incident energy [1]. */
 struct pulse_result {
     double reflected, transmitted, energy_change;
 };
@@ -25,10 +37,10 @@ struct pulse_result {
 
 /* One run of the bar. */
 struct bar_run {
-    int way;
-    double width; /* [spacings] */
-    int cell;     /* [spacings] */
-    double place; /* of a node of the grid from the interface, in cells */
+    int variant;
+    double width; /* size of the grid cells [spacings] */
+    int cell;     /* size of the grid cells [spacings] */
+    double place; /* distance of the interface from the next grid node [cells] */
     const char *transfer;
     struct pulse_result result;
 };
@@ -41,11 +53,11 @@ struct bar_table {
 
 /* ---- coupling_patch.c: uniform strain across an interface -------------------------------------------------------- */
 
-/* Largest nodal force over stress times cell face: with the interface (its corners, its centre) on a node, and over
- * positions of the grid. */
+/* Largest nodal force over stress times cell face [1]: with a node at the interface (its corner or centre), and over
+ * all positions of the grid. */
 struct patch_row {
     const char *shape, *load, *coupling, *weights;
-    int cell; /* [spacings] */
+    int cell; /* width of the pulse [spacings] */
     double on_node, largest;
 };
 
@@ -54,18 +66,25 @@ struct patch_table {
     int n;
     struct patch_row row[PATCH_ROWS_MAX];
 };
+
+/* Measures the nodal forces and fills the table. quick: fewer positions of the grid. */
 status patch_measure(struct patch_table *t, bool quick);
+
+/* Prints the table. */
 void patch_print(const struct patch_table *t);
+
+/* Copies the table to rows for files. */
 void patch_fill(const struct patch_table *t, struct bench_table *rows);
 
 /* ---- coupling_plane.c: a plane wave meets a flat and an oblique interface ---------------------------------------- */
 
+/* Result of a plane wave at an interface. */
 struct plane_row {
     const char *interface, *weights, *transfer;
-    int way;
+    int variant;
     double width; /* [spacings] */
     struct pulse_result result;
-    double wave; /* reflected share of what the grid can see: of means over 4 x 4 spacings */
+    double wave; /* reflected amplitude resolved by the grid: of means over 4 x 4 spacings */
 };
 
 enum { PLANE_ROWS_MAX = 64 };
@@ -73,19 +92,29 @@ struct plane_table {
     int n;
     struct plane_row row[PLANE_ROWS_MAX];
 };
+
+/* Runs all interfaces, couplings and weights and fills the table. quick: fewer of them. */
 status plane_measure(struct plane_table *t, bool quick);
+
+/* Prints the table. */
 void plane_print(const struct plane_table *t);
+
+/* Copies the table to rows for files. */
 void plane_fill(const struct plane_table *t, struct bench_table *rows);
 
 /* ---- coupling_draw.c: pictures ----------------------------------------------------------------------------------- */
 
+/* All results, drawn in one picture. */
 struct coupling_figures {
     struct bar_table pulses, places, variants;
     struct patch_table patch;
     struct plane_table plane;
 };
+
+/* Writes the commands of the picture to gnuplot. figures: struct coupling_figures. */
 void coupling_draw(FILE *to, const void *figures);
-/* Runs the bar once more with two couplings and draws results/bench/coupling_pulse.png and .svg. */
+
+/* Runs the bar with two couplings and draws results/bench/coupling_pulse.png and .svg. */
 status coupling_pulse_picture(void);
 
 #endif

@@ -1,30 +1,32 @@
-/* The picture of the coupling bench: the bar, the plane wave, the place of the interface in its cell,
- * patch. */
+/* Draws the picture of the coupling bench: bar, plane wave, position of the interface in its cell, uniform strain. */
 #include <math.h>
 #include <string.h>
 
 #include "coupling.h"
 #include "plot/gnuplot.h"
 
-/* ---- house-keeping ----------------------------------------------------------------------------------------------- */
+/* ---- panels ------------------------------------------------------------------------------------------------------ */
 
-static const char *const way_style[WAYS] = {
-    [WAY_DAMPED] = "lw 4.5 pt 7 ps 1.1 lc rgb '#0072b2'",      [WAY_UNDAMPED] = "lw 2 pt 7 ps 0.8 lc rgb '#56b4e9'",
-    [WAY_HANDSHAKE] = "lw 2 pt 5 ps 0.8 lc rgb '#d55e00'",     [WAY_PM] = "lw 2.4 pt 9 ps 1 lc rgb '#009e73'",
-    [WAY_PG] = "lw 2.4 pt 9 ps 1 dt (3,4) lc rgb '#e69f00'",   [WAY_PMG] = "lw 2.4 pt 11 ps 1 lc rgb '#cc79a7'",
-    [WAY_PGG] = "lw 2.4 pt 11 ps 1 dt (3,4) lc rgb '#3d3d3d'",
+static const char *const variant_style[VARIANTS] = {
+    [VARIANT_DAMPED] = "lw 4.5 pt 7 ps 1.1 lc rgb '#0072b2'",
+    [VARIANT_UNDAMPED] = "lw 2 pt 7 ps 0.8 lc rgb '#56b4e9'",
+    [VARIANT_HANDSHAKE] = "lw 2 pt 5 ps 0.8 lc rgb '#d55e00'",
+    [VARIANT_PM] = "lw 2.4 pt 9 ps 1 lc rgb '#009e73'",
+    [VARIANT_PG] = "lw 2.4 pt 9 ps 1 dt (3,4) lc rgb '#e69f00'",
+    [VARIANT_PMG] = "lw 2.4 pt 11 ps 1 lc rgb '#cc79a7'",
+    [VARIANT_PGG] = "lw 2.4 pt 11 ps 1 dt (3,4) lc rgb '#3d3d3d'",
 };
-static const char *const way_title[WAYS] = {
-    [WAY_DAMPED] = "partial stress (default)",
-    [WAY_UNDAMPED] = "  undamped",
-    [WAY_HANDSHAKE] = "handshake",
-    [WAY_PM] = "pm",
-    [WAY_PG] = "pg",
-    [WAY_PMG] = "pmg",
-    [WAY_PGG] = "pgg",
+static const char *const variant_title[VARIANTS] = {
+    [VARIANT_DAMPED] = "partial stress (default)",
+    [VARIANT_UNDAMPED] = "  undamped",
+    [VARIANT_HANDSHAKE] = "handshake",
+    [VARIANT_PM] = "pm",
+    [VARIANT_PG] = "pg",
+    [VARIANT_PMG] = "pmg",
+    [VARIANT_PGG] = "pgg",
 };
 
-/* One of four panels, its key on the right. */
+/* Starts one of four panels, with its key on the right. */
 static void coupling_draw_set_panel(FILE *to, int column, int row, const char *title)
 {
     const double left = 0.055 + 0.5 * column, above = 0.945 - 0.5 * row;
@@ -46,40 +48,43 @@ static void set_logarithmic(FILE *to)
 
 static void draw_pulses(FILE *to, const struct bar_table *t)
 {
-    for (int way = 0; way < WAYS; way++) {
-        fprintf(to, "$bar%d << EOD\n", way);
+    for (int variant = 0; variant < VARIANTS; variant++) {
+        fprintf(to, "$bar%d << EOD\n", variant);
         for (int k = 0; k < t->n; k++)
-            if (t->run[k].way == way) fprintf(to, "%g %.6g\n", t->run[k].width, 100 * t->run[k].result.reflected);
+            if (t->run[k].variant == variant)
+                fprintf(to, "%g %.6g\n", t->run[k].width, 100 * t->run[k].result.reflected);
         fputs("EOD\n", to);
     }
     coupling_draw_set_panel(to, 0, 0, "a pulse in a bar, six couplings");
     set_logarithmic(to);
     fputs("plot ", to);
-    for (int way = WAYS - 1; way >= 0; way--) /* the default on top, first in the key */
-        fprintf(to, "$bar%d using 1:2 with linespoints %s notitle, ", way, way_style[way]);
-    for (int way = 0; way < WAYS; way++)
-        fprintf(to, "%sNaN with linespoints %s title '%s'", way ? ", " : "", way_style[way], way_title[way]);
+    for (int variant = VARIANTS - 1; variant >= 0; variant--) /* the default coupling is drawn last, on top, and is
+                                                               * first in the key */
+        fprintf(to, "$bar%d using 1:2 with linespoints %s notitle, ", variant, variant_style[variant]);
+    for (int variant = 0; variant < VARIANTS; variant++)
+        fprintf(to, "%sNaN with linespoints %s title '%s'", variant ? ", " : "", variant_style[variant],
+                variant_title[variant]);
     fputc('\n', to);
 }
 
 /* ---- the plane wave ---------------------------------------------------------------------------------------------- */
 
 static const struct series {
-    int way;
+    int variant;
     const char *interface, *transfer, *style, *title;
 } series[] = {
-    {WAY_DAMPED, "flat", "flip", "lw 4.5 pt 7 ps 1.1 lc rgb '#0072b2'", "partial stress, flat"},
-    {WAY_DAMPED, "45 degrees", "flip", "lw 4.5 pt 7 ps 1.1 dt (6,4) lc rgb '#0072b2'", "  at 45 degrees"},
-    {WAY_DAMPED, "flat", "apic", "lw 2 pt 9 ps 1 lc rgb '#009e73'", "with APIC, flat"},
-    {WAY_DAMPED, "45 degrees", "apic", "lw 2 pt 9 ps 1 dt (6,4) lc rgb '#009e73'", "  at 45 degrees"},
-    {WAY_HANDSHAKE, "flat", "flip", "lw 2 pt 5 ps 0.8 lc rgb '#d55e00'", "handshake, flat"},
-    {WAY_HANDSHAKE, "45 degrees", "flip", "lw 2 pt 5 ps 0.8 dt (6,4) lc rgb '#d55e00'", "  at 45 degrees"},
+    {VARIANT_DAMPED, "flat", "flip", "lw 4.5 pt 7 ps 1.1 lc rgb '#0072b2'", "partial stress, flat"},
+    {VARIANT_DAMPED, "45 degrees", "flip", "lw 4.5 pt 7 ps 1.1 dt (6,4) lc rgb '#0072b2'", "  at 45 degrees"},
+    {VARIANT_DAMPED, "flat", "apic", "lw 2 pt 9 ps 1 lc rgb '#009e73'", "with APIC, flat"},
+    {VARIANT_DAMPED, "45 degrees", "apic", "lw 2 pt 9 ps 1 dt (6,4) lc rgb '#009e73'", "  at 45 degrees"},
+    {VARIANT_HANDSHAKE, "flat", "flip", "lw 2 pt 5 ps 0.8 lc rgb '#d55e00'", "handshake, flat"},
+    {VARIANT_HANDSHAKE, "45 degrees", "flip", "lw 2 pt 5 ps 0.8 dt (6,4) lc rgb '#d55e00'", "  at 45 degrees"},
 };
 enum { SERIES = COUNT_OF(series) };
 
 static bool of_series(const struct plane_row *r, const struct series *s)
 {
-    return r->way == s->way && !strcmp(r->interface, s->interface) && !strcmp(r->transfer, s->transfer) &&
+    return r->variant == s->variant && !strcmp(r->interface, s->interface) && !strcmp(r->transfer, s->transfer) &&
            !strcmp(r->weights, "isotropic");
 }
 
@@ -107,7 +112,7 @@ static void draw_plane(FILE *to, const struct plane_table *t)
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
-/* Bar `member` of `members` of a group at place `group`: filled up to `largest`, a line at `on_node`. */
+/* Sends the bar number `member` of `members` in a group: filled up to `largest`, with a line at `on_node`. */
 static void put_bar(FILE *to, int group, int member, int members, double on_node, double largest)
 {
     fprintf(to, "%.4f %.6g %.6g\n", group + 0.8 * (member - 0.5 * (members - 1)) / members, largest, on_node);
@@ -126,22 +131,22 @@ static void plot_bars(FILE *to, const char *block, int members, const char *cons
     fputs("NaN notitle\n", to);
 }
 
-/* What the places of the interface in its cell make of it. */
+/* Draws the reflection over positions of the interface in its cell. */
 static void draw_places(FILE *to, const struct bar_table *t)
 {
-    static const int way[] = {WAY_HANDSHAKE, WAY_DAMPED, WAY_UNDAMPED};
+    static const int variant[] = {VARIANT_HANDSHAKE, VARIANT_DAMPED, VARIANT_UNDAMPED};
     static const char *const colour[] = {"#d55e00", "#0072b2", "#56b4e9"};
     static const char *const title[] = {"handshake", "partial stress", "  undamped"};
     int groups = 0;
     fputs("set xtics (", to);
-    for (int k = 0; k < t->n && t->run[k].way == t->run[0].way; k++)
+    for (int k = 0; k < t->n && t->run[k].variant == t->run[0].variant; k++)
         if (t->run[k].place == 0) fprintf(to, "%s'%g' %d", groups ? ", " : "", t->run[k].width, groups), groups++;
     fputs(")\n", to);
     for (int m = 0; m < 3; m++) {
         double largest = 0, on_node = 0;
         fprintf(to, "$place%d << EOD\n", m);
         for (int k = 0, group = 0; k < t->n; k++) {
-            if (t->run[k].way != way[m]) continue;
+            if (t->run[k].variant != variant[m]) continue;
             const double share = 100 * t->run[k].result.reflected;
             if (t->run[k].place == 0) largest = on_node = share;
             largest = fmax(largest, share);
@@ -157,7 +162,7 @@ static void draw_places(FILE *to, const struct bar_table *t)
     plot_bars(to, "place", 3, colour, title);
 }
 
-/* Largest over the loads. */
+/* Draws the largest nodal force over all loads. */
 static void draw_patch(FILE *to, const struct patch_table *t)
 {
     static const char *const shape[] = {"flat", "45 degrees", "circle, r = 8 D", "square, 6 x 6 D"};

@@ -1,12 +1,12 @@
-/* Uniform strain across an interface must leave every node at rest: the largest nodal force of the first step
- * over stress times cell face, for interfaces of several shapes, loads and positions of the grid. */
+/* Patch test: uniform strain across an interface must cause no nodal force. Measures the largest nodal force of the
+ * first step over stress times cell face, for interfaces of several shapes, loads and positions of the grid. */
 #include <math.h>
 #include <string.h>
 
 #include "coupling.h"
 
-/* Every node and every peridynamic particle far from the edges is measured. Strain: bonds stretch by finite
- * geometry, so nothing below 1e-6 is told from zero. */
+/* Scenes. All nodes and peridynamic particles far from the edges are measured. Bonds stretch with finite deformation,
+ * so that the strain used limits the resolution to 1e-6. */
 static const char line_text[] = "space: line\n"
                                 "duration: 1 us\n"
                                 "material: {young: 1e4, density: 1}\n"
@@ -43,7 +43,7 @@ static const struct words shape[] = {
 };
 static const struct words load[] = {
     {"axial", "[[1e-6, 0], [0, 0]]"}, {"biaxial", "[[1e-6, 0], [0, 1e-6]]"}, {"shear", "[[0, 1e-6], [1e-6, 0]]"}};
-static const struct words way[] = {
+static const struct words variant[] = {
     {"handshake", "uniform"}, {"partial stress", "uniform"}, {"partial stress", "isotropic"}};
 
 static status residual_of(const char *text, struct bench_overrides *o, double *value)
@@ -101,17 +101,18 @@ status patch_measure(struct patch_table *t, bool quick)
 {
     for (int w = 0; w < 2; w++)
         for (int cell = 1; cell <= 2; cell++)
-            TRY(measure_line(row_add(t, (struct patch_row){"bar", "axial", way[w].name, way[w].value, cell, 0, 0})));
+            TRY(measure_line(
+                row_add(t, (struct patch_row){"bar", "axial", variant[w].name, variant[w].value, cell, 0, 0})));
     for (size_t s = 0; s < COUNT_OF(shape); s++)
-        for (size_t w = 0; w < COUNT_OF(way); w++)
+        for (size_t w = 0; w < COUNT_OF(variant); w++)
             for (size_t l = 0; l < (quick ? 1 : COUNT_OF(load)); l++) {
-                struct patch_row r = {shape[s].name, load[l].name, way[w].name, way[w].value, 2, 0, 0};
+                struct patch_row r = {shape[s].name, load[l].name, variant[w].name, variant[w].value, 2, 0, 0};
                 TRY(measure_plane(row_add(t, r), shape[s].value, load[l].value, quick ? 2 : 4));
             }
     return OK;
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------------ */
+/* ---- output ------------------------------------------------------------------------------------------------------ */
 
 static bool coupling_patch_same_line(const struct patch_row *a, const struct patch_row *b)
 {
@@ -119,7 +120,7 @@ static bool coupling_patch_same_line(const struct patch_row *a, const struct pat
            a->cell == b->cell;
 }
 
-/* One line for all loads. */
+/* Prints one line for all loads of an interface. */
 void patch_print(const struct patch_table *t)
 {
     printf(
@@ -143,7 +144,8 @@ void patch_fill(const struct patch_table *t, struct bench_table *rows)
     for (int k = 0; k < t->n; k++) {
         const struct patch_row *r = &t->row[k];
         char interface[NAME_MAX_LENGTH];
-        snprintf(interface, sizeof interface, "%.*s", (int)strcspn(r->shape, ","), r->shape); /* commas part columns */
+        snprintf(interface, sizeof interface, "%.*s", (int)strcspn(r->shape, ","), r->shape); /* a comma would end
+                                                                                               * the cell */
         bench_text(rows, interface);
         bench_text(rows, r->load);
         bench_number(rows, r->cell);

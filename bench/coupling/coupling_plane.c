@@ -1,6 +1,7 @@
-/* A plane longitudinal pulse between rollers meets an interface of material points and bonds, flat or at 45
- * degrees. An oblique interface throws what it reflects sideways: the incident pulse and the reflected one, both plane,
- * sweep along it together, and rollers would return the reflected one: the run ends before they reach the lower one. */
+/* A plane longitudinal pulse between roller supports hits an interface of material points and bonds, which is flat or
+ * inclined at 45 degrees. An inclined interface reflects sideways: the incident pulse and the reflected one, both
+ * plane, move along the interface together. The run ends before they reach the lower rollers, which would return the
+ * reflected pulse. */
 #include <math.h>
 #include <string.h>
 
@@ -9,22 +10,22 @@
 #include "probes/probes.h"
 #include "step/step.h"
 
-enum { BLOCK = 4, AWAY = 12 }; /* [spacings] */
+enum { BLOCK = 4, AWAY = 12 }; /* size of blocks; least distance from the interface [spacings] */
 enum { WEIGHTS = 2 };
 
-/* The strip, all in spacings of 1 mm. */
+/* Geometry of the strip, in spacings of 1 mm. */
 struct strip {
-    double length, height, start; /* where the pulse is at t = 0          */
-    double at, normal[2];         /* (at, 0) and the normal: the interface */
-    double path, step;            /* of the pulse until the end; of time: distance a step */
+    double length, height, start; /* centre of the pulse at t = 0 */
+    double at, normal[2];         /* the interface: point (at, 0) and normal */
+    double path, step;            /* distance that the pulse travels; per time step */
 };
 
 static const char *const interface_name[] = {"flat", "45 degrees"};
 enum { FLAT, OBLIQUE, INTERFACES };
 
-/* Flat: the bar's distances, so that figures compare. Oblique: as tall as the reflected wave needs to become plane
- * (at 32 spacings heights of 3 to 6 widths change `wave` by a seventh at most); half a spacing keeps the plane off
- * the particles. */
+/* Returns the geometry of the strip. Flat: distances as in the bar, so that results are comparable. Inclined: high
+ * enough for the reflected wave to become plane (for a pulse of 32 spacings, heights of 3 to 6 widths change `wave` by
+ * at most 1/7); the interface is half a spacing from the particles. */
 static struct strip strip_of(int interface, double width)
 {
     if (interface == FLAT) return (struct strip){1024, 4, 256, 512, {1, 0}, 512, 0.2};
@@ -33,12 +34,12 @@ static struct strip strip_of(int interface, double width)
                           at - 2.75 * width,      0.4};
 }
 
-/* One run; row.way < 0: material points alone. */
+/* Creates a run. row.variant < 0: only material points. */
 static status strip_make(struct run *e, struct scene *scene, const struct strip *s, const struct plane_row *row)
 {
     struct bench_overrides o = {0};
-    if (row->way >= 0)
-        coupling_way_override(&o, row->way);
+    if (row->variant >= 0)
+        coupling_variant_override(&o, row->variant);
     else
         bench_override(&o, "method", "mpm");
     bench_override(&o, "pd.weights", "%s", row->weights);
@@ -49,7 +50,7 @@ static status strip_make(struct run *e, struct scene *scene, const struct strip 
     bench_override(&o, "boundary[1].mirror.at", "%g mm", s->height);
     bench_override(&o, "initial[0].pulse.at", "[%g mm, 0]", s->start);
     bench_override(&o, "initial[0].pulse.width", "%g mm", row->width);
-    bench_override(&o, "duration", "%.9g ms", s->path / 100); /* 100 m/s */
+    bench_override(&o, "duration", "%.9g ms", s->path / 100); /* wave speed 100 m/s */
     bench_override(&o, "time.step", "%g ms", s->step / 100);
     bench_override(&o, "output.samples", "1");
     return bench_engine_make(e, scene, COUPLING_PLATE, NULL, bench_overrides_ready(&o), o.n);
@@ -61,12 +62,13 @@ struct plain {
     real *v[2], energy_change;
 };
 
-/* Particles are made and sorted before any is peridynamic, so all runs number them alike. */
+/* Runs the strip without interface. Particles are created and sorted before any is peridynamic, so that all runs have
+ * the same numbering. */
 static status plain_make(struct plain *b, const struct strip *s, struct plane_row row)
 {
     struct run e;
     struct scene scene;
-    row.way = -1;
+    row.variant = -1;
     TRY(strip_make(&e, &scene, s, &row));
     status ran = engine_run(&e);
     for (int d = 0; d < 2 && ran == OK; d++) {
@@ -83,16 +85,16 @@ static void plain_free(struct plain *b)
     for (int d = 0; d < 2; d++) memory_free(b->v[d]);
 }
 
-/* ---- what the interface did -------------------------------------------------------------------------------------- */
+/* ---- effect of the interface ------------------------------------------------------------------------------------- */
 
-/* Distance of particle i beyond the interface [spacings]. */
+/* Returns the distance of particle i beyond the interface [spacings]. */
 static double beyond(const struct strip *s, const struct particles *p, int64_t i)
 {
     return (1e3 * p->X[0][i] - s->at) * s->normal[0] + 1e3 * p->X[1][i] * s->normal[1];
 }
 
-/* What only single particles show is motion that the grid cannot see; a mean over two cells is what goes on as a wave.
- * Largest mean difference of velocity over whole blocks of particles away from the interface [m/s]. */
+/* Returns the largest mean velocity difference over whole blocks of particles away from the interface [m/s]. Motion of
+ * single particles is not resolved by the grid; a mean over two cells continues as a wave. */
 static double largest_block(const struct strip *s, const struct particles *p, const struct plain *b)
 {
     const int64_t columns = (int64_t)s->length / BLOCK + 1, n = columns * ((int64_t)s->height / BLOCK + 1);
@@ -110,7 +112,8 @@ static double largest_block(const struct strip *s, const struct particles *p, co
     return largest;
 }
 
-/* Close to the interface only where the pulse has passed: where it is, the sides differ by what each makes of it. */
+/* Compares velocities with the run without interface. Near the interface only particles that the pulse has passed are
+ * compared, because inside the pulse the two sides differ by their dispersion. */
 static void coupling_plane_compare(struct plane_row *r, const struct strip *s, const struct run *e,
                                    const struct plain *b)
 {
@@ -140,7 +143,7 @@ static status row_measure(struct plane_row *r, const struct strip *s, const stru
     return ran;
 }
 
-/* All couplings and weights behind one run without interface. */
+/* Runs all couplings and weights, after one run without interface. */
 static status group_measure(struct plane_table *t, int interface, double width, const char *transfer)
 {
     static const char *const weights[WEIGHTS] = {"uniform", "isotropic"};
@@ -149,10 +152,10 @@ static status group_measure(struct plane_table *t, int interface, double width, 
     struct plane_row row = {interface_name[interface], "uniform", transfer, 0, width, {0, 0, 0}, 0};
     struct plain plain = {0};
     status s = plain_make(&plain, &strip, row);
-    for (int way = 0; way <= WAY_HANDSHAKE; way++)
+    for (int variant = 0; variant <= VARIANT_HANDSHAKE; variant++)
         for (int w = 0; w < WEIGHTS && s == OK; w++) {
-            if (way == WAY_UNDAMPED && !flip) continue; /* the interface is damped with FLIP only */
-            row.way = way, row.weights = weights[w];
+            if (variant == VARIANT_UNDAMPED && !flip) continue; /* the interface is damped with FLIP only */
+            row.variant = variant, row.weights = weights[w];
             s = row_measure(&row, &strip, &plain);
             INVARIANT(t->n < PLANE_ROWS_MAX);
             if (s == OK) t->row[t->n++] = row;
@@ -172,12 +175,12 @@ status plane_measure(struct plane_table *t, bool quick)
     return OK;
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------------ */
+/* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* One line for both weights, which stand one after the other. */
+/* Prints one line for both weights, which are consecutive. */
 static void print_pair(const struct plane_row *r)
 {
-    printf("  %-11s %4.0f D %5s  %-24s", r->interface, r->width, r->transfer, coupling_way[r->way].name);
+    printf("  %-11s %4.0f D %5s  %-24s", r->interface, r->width, r->transfer, coupling_variant[r->variant].name);
     for (int w = 0; w < WEIGHTS; w++) printf(" %8.2f %%", 100 * r[w].wave);
     for (int w = 0; w < WEIGHTS; w++) printf(" %8.2f %%", 100 * r[w].result.reflected);
     printf(" %8.2f %% %+8.2f %%\n", 100 * r[1].result.transmitted, 100 * r[1].result.energy_change);
@@ -206,7 +209,7 @@ void plane_fill(const struct plane_table *t, struct bench_table *rows)
         bench_text(rows, r->interface);
         bench_number(rows, r->width);
         bench_text(rows, r->transfer);
-        bench_text(rows, coupling_way[r->way].name);
+        bench_text(rows, coupling_variant[r->variant].name);
         bench_text(rows, r->weights);
         bench_number(rows, r->result.reflected);
         bench_number(rows, r->wave);

@@ -1,5 +1,5 @@
-/* The picture of a pulse that crosses the interface of a bar: velocity along the bar at three times, and what
- * came back, magnified, for two couplings. */
+/* Picture of a pulse that crosses the interface of a bar: velocity along the bar at three times, and the magnified
+ * difference from a bar without interface, for two couplings. */
 #include <math.h>
 
 #include "coupling.h"
@@ -7,12 +7,12 @@
 #include "base/memory.h"
 
 enum { TIMES = 3, COLUMNS = 2, MAGNIFIED = 20, WIDTH = 64 };
-static const int column_way[COLUMNS] = {WAY_HANDSHAKE, WAY_DAMPED};
-static const double time_ms[TIMES] = {1.28, 2.56, 3.84}; /* the pulse is 128 mm before, at and behind the interface */
+static const int column_variant[COLUMNS] = {VARIANT_HANDSHAKE, VARIANT_DAMPED};
+static const double time_ms[TIMES] = {1.28, 2.56, 3.84}; /* pulse 128 mm before, at and 128 mm beyond the interface */
 static const char *const time_name[TIMES] = {"before", "at the interface", "after"};
 static const double from_mm = 272, to_mm = 752, interface_mm = 512;
 
-/* Velocities [mm/s] along the bar, and those against the bar of material points alone. */
+/* Velocities along the bar [mm/s], and their differences from a bar with material points only. */
 struct snapshot {
     double *x, *v, *difference;
 };
@@ -21,11 +21,11 @@ struct pulse_picture {
     struct snapshot shot[COLUMNS][TIMES];
 };
 
-static status pulse_bar_make(struct run *e, struct scene *s, int way)
+static status pulse_bar_make(struct run *e, struct scene *s, int variant)
 {
     struct bench_overrides o = {0};
-    if (way >= 0)
-        coupling_way_override(&o, way);
+    if (variant >= 0)
+        coupling_variant_override(&o, variant);
     else
         bench_override(&o, "method", "mpm");
     bench_override(&o, "initial[0].pulse.width", "%d mm", WIDTH);
@@ -33,7 +33,7 @@ static status pulse_bar_make(struct run *e, struct scene *s, int way)
     return bench_engine_make(e, s, COUPLING_BAR, NULL, bench_overrides_ready(&o), o.n);
 }
 
-/* Particles of both bars are numbered alike. */
+/* Stores a snapshot; the particles of both bars have the same numbering. */
 static void coupling_pulse_take(struct snapshot *shot, const struct particles *p, const struct particles *plain)
 {
     shot->x = NEW("bench.snapshot", p->n, double);
@@ -48,9 +48,9 @@ static void coupling_pulse_take(struct snapshot *shot, const struct particles *p
 
 static status column_run(struct pulse_picture *picture, int column)
 {
-    struct run e[2]; /* coupled; material points alone */
+    struct run e[2]; /* coupled run; run with material points only */
     struct scene s[2];
-    TRY(pulse_bar_make(&e[0], &s[0], column_way[column]));
+    TRY(pulse_bar_make(&e[0], &s[0], column_variant[column]));
     status ran = pulse_bar_make(&e[1], &s[1], -1);
     if (ran != OK) {
         bench_engine_free(&e[0], &s[0]);
@@ -88,7 +88,7 @@ static void coupling_pulse_draw_panel(FILE *to, int column, int k)
         left, left + 0.435, above, above - 0.235, k == TIMES - 1 ? "place along the bar [mm]" : "",
         k == TIMES - 1 ? "%g" : "", column ? "" : "velocity [mm/s]", time_ms[k], time_name[k]);
     fprintf(to, "set label 2 '%s' at graph 0.5, graph 1.1 center font ',16'\n",
-            k == 0 ? coupling_way[column_way[column]].name : "");
+            k == 0 ? coupling_variant[column_variant[column]].name : "");
     fprintf(to, "set label 3 'material points' at graph 0.48, graph 0.06 right tc rgb '#777777'\n"
                 "set label 4 'bonds' at graph 0.52, graph 0.06 left tc rgb '#777777'\n");
     fprintf(to,
@@ -122,7 +122,7 @@ static status coupling_pulse_write_table(const struct pulse_picture *picture)
         for (int k = 0; k < TIMES; k++)
             for (int64_t i = 0; i < picture->n; i++) {
                 const struct snapshot *shot = &picture->shot[column][k];
-                bench_text(&rows, coupling_way[column_way[column]].name);
+                bench_text(&rows, coupling_variant[column_variant[column]].name);
                 bench_number(&rows, 1e-3 * time_ms[k]);
                 bench_number(&rows, 1e-3 * shot->x[i]);
                 bench_number(&rows, 1e-3 * shot->v[i]);

@@ -1,6 +1,7 @@
-/* `cleave bench efficiency`: full peridynamics against the adaptive run, same spacing, same time step, beside
- * Table 1 of Zeng et al. 2022, of bonds: t_r = 1 - t_adaptive / t_PD; and of state-based models, whose bonds cost more.
- * Levers are what an adaptive run may save by. All ways take turns; medians of the loop's time. */
+/* `cleave bench efficiency`: compares full peridynamics with adaptive runs at equal spacing and time step: t_r = 1 -
+ * t_adaptive / t_PD. Bond-based results are compared with Table 1 of Zeng et al. 2022; state-based models have more
+ * expensive bonds. Levers are the options by which an adaptive run saves time. All variants run in turn; medians of the
+ * loop time are used. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,22 +13,22 @@
 #include "fracture/tips.h"
 #include "scene/scene_read.h"
 
-enum { BARS = 5 }; /* ways that have a colour */
+enum { BARS = 5 }; /* number of variants with a colour */
 enum {
     CASES = EFFICIENCY_CASES,
     REPETITIONS = 3,
     SAMPLES = EFFICIENCY_SAMPLES,
-    SHOWN = WAY_FRAME /* whose shares are drawn */
+    SHOWN = VARIANT_FRAME /* its shares are drawn */
 };
 
-/* Parts of a loop. */
+/* Parts of the loop time. */
 enum loop_part { PART_BONDS, PART_POINTS, PART_CONVERSION, PART_SAMPLES, PARTS };
 static const char *const part_name[PARTS] = {"bonds", "points", "conversion", "samples"};
 
-/* One run of one method. Figures of the fracture are the same in every repetition. */
+/* Times of the runs of one variant; results on cracks are equal in every repetition. */
 struct run_times {
     double seconds[REPETITIONS];
-    double part[PARTS][REPETITIONS]; /* of them, time of each part [s] */
+    double part[PARTS][REPETITIONS]; /* part of these, for each section of a step [s] */
     struct crack_ends ends;
     double time[SAMPLES + 1], share[SAMPLES + 1];
 };
@@ -36,14 +37,16 @@ struct result {
     const struct scene_case *scene;
     int64_t particles, steps;
     double dt;
-    struct run_times run[WAYS];
-    double t[WAYS], t_r[WAYS]; /* [s] [1] */
-    double t_r_stepping[WAYS]; /* the same of the steps alone [1] */
-    double t_r_bound[WAYS];    /* the same if conversion were free [1] */
-    double rest_share[WAYS];   /* neither bonds nor points [1] */
-    double part[WAYS][PARTS];  /* time of a part over t_PD [1] */
-    double tip_distance[WAYS], angle_difference[WAYS], start_difference[WAYS]; /* [m] [degree] [s] */
-    double angle[WAYS];                                                        /* of the longest crack [degree] */
+    struct run_times run[VARIANTS];
+    double t[VARIANTS], t_r[VARIANTS]; /* loop time [s], t_r [1] */
+    double t_r_stepping[VARIANTS];     /* t_r of the time steps alone [1] */
+    double t_r_bound[VARIANTS];        /* t_r if conversion took no time [1] */
+    double rest_share[VARIANTS];       /* share of time spent neither on bonds nor on points [1] */
+    double part[VARIANTS][PARTS];      /* time of a part over t_PD [1] */
+    double tip_distance[VARIANTS], angle_difference[VARIANTS], start_difference[VARIANTS]; /* differences from full
+                                                                                            * peridynamics [m]
+                                                                                            * [degree] [s] */
+    double angle[VARIANTS]; /* of the longest crack [degree] */
 };
 
 struct efficiency {
@@ -51,17 +54,17 @@ struct efficiency {
     struct result *result;
 };
 
-static status make(struct run *e, struct scene *s, const struct result *x, int way)
+static status make(struct run *e, struct scene *s, const struct result *x, int variant)
 {
-    return efficiency_make(e, s, x->scene, way, x->dt);
+    return efficiency_make(e, s, x->scene, variant, x->dt);
 }
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
 static double pd_share(const struct run *e) { return (double)e->part.n_of[KIND_PD] / (double)e->part.n; }
 
-/* The loop in SAMPLES pieces: the share is noted at the end of each. Not timed: a loop that ends brings everything
- * up to date. */
+/* Runs the loop in SAMPLES pieces and records the share of peridynamic particles after each. Excluded from the time:
+ * the work at the end of each piece that brings derived data up to date. */
 static status run_pieces(struct run_times *r, struct run *e)
 {
     r->share[0] = pd_share(e);
@@ -72,7 +75,7 @@ static status run_pieces(struct run_times *r, struct run *e)
     return OK;
 }
 
-/* Time of each part of a loop, from its laps. */
+/* Stores the time of each part of a loop, from the timers of the sections. */
 static void parts_keep(struct run_times *r, const double *spent, int repetition)
 {
     r->part[PART_BONDS][repetition] = spent[LAP_BONDS];
@@ -81,12 +84,12 @@ static void parts_keep(struct run_times *r, const double *spent, int repetition)
     r->part[PART_SAMPLES][repetition] = spent[LAP_SAMPLE];
 }
 
-static status efficiency_run_once(struct result *x, int way, int repetition)
+static status efficiency_run_once(struct result *x, int variant, int repetition)
 {
     struct scene s;
     struct run e;
-    TRY(make(&e, &s, x, way));
-    struct run_times *r = &x->run[way];
+    TRY(make(&e, &s, x, variant));
+    struct run_times *r = &x->run[variant];
     status ran = bench_engine_run(&e, e.clock.steps, NULL);
     r->seconds[repetition] = e.report->loop_seconds;
     parts_keep(r, e.laps.spent, repetition);
@@ -96,35 +99,35 @@ static status efficiency_run_once(struct result *x, int way, int repetition)
     return ran;
 }
 
-static status run_shares(struct result *x, int way)
+static status run_shares(struct result *x, int variant)
 {
     struct scene s;
     struct run e;
-    TRY(make(&e, &s, x, way));
-    s.samples = 0; /* none but the last of each piece */
-    status ran = run_pieces(&x->run[way], &e);
+    TRY(make(&e, &s, x, variant));
+    s.samples = 0; /* only the last step of each piece */
+    status ran = run_pieces(&x->run[variant], &e);
     bench_engine_free(&e, &s);
     return ran;
 }
 
-/* ---- figures of a scene ------------------------------------------------------------------------------------------ */
+/* ---- results of a scene ------------------------------------------------------------------------------------------ */
 
-/* The longest crack of full peridynamics and its partner of an adaptive run. */
-static void compare_tips(struct result *x, int way, int dim)
+/* Compares the longest crack of full peridynamics with the corresponding crack of an adaptive run. */
+static void compare_tips(struct result *x, int variant, int dim)
 {
-    const struct crack_ends *pd = &x->run[0].ends, *adaptive = &x->run[way].ends;
-    x->tip_distance[way] = x->angle_difference[way] = x->angle[0] = x->angle[way] = NAN;
-    x->start_difference[way] = adaptive->start - pd->start;
+    const struct crack_ends *pd = &x->run[0].ends, *adaptive = &x->run[variant].ends;
+    x->tip_distance[variant] = x->angle_difference[variant] = x->angle[0] = x->angle[variant] = NAN;
+    x->start_difference[variant] = adaptive->start - pd->start;
     if (pd->longest < 0) return;
     const struct tip *a = &pd->tip[pd->longest], *b = crack_partner(adaptive, a);
     x->angle[0] = tip_angle(a, dim);
     if (!b) return;
-    x->angle[way] = tip_angle(b, dim);
-    x->tip_distance[way] = place_distance(a->place, b->place);
-    x->angle_difference[way] = fabs(x->angle[0] - x->angle[way]);
+    x->angle[variant] = tip_angle(b, dim);
+    x->tip_distance[variant] = place_distance(a->place, b->place);
+    x->angle_difference[variant] = fabs(x->angle[0] - x->angle[variant]);
 }
 
-/* Time of loops less that of a part: of the step's own work, or as if rows and partial cells came for nothing [s]. */
+/* Returns the median loop time without one part [s]: without samples, or without conversion. */
 static double median_without(const struct run_times *r, enum loop_part part, int repetitions)
 {
     double t[REPETITIONS];
@@ -132,7 +135,7 @@ static double median_without(const struct run_times *r, enum loop_part part, int
     return median_of(t, repetitions);
 }
 
-/* Share of loops that is neither bonds nor material points [1]. */
+/* Returns the median share of the loop time spent neither on bonds nor on material points [1]. */
 static double median_rest(const struct run_times *r, int repetitions)
 {
     double t[REPETITIONS];
@@ -149,25 +152,25 @@ static status scene_measure(struct result *x, int repetitions)
     scene_free(&s);
     TRY(efficiency_step(x->scene, &x->dt));
     for (int r = 0; r < repetitions; r++)
-        for (int k = 0; k < WAYS; k++) /* none is always first */
-            if (efficiency_is_run(x->scene, (r + k) % WAYS)) TRY(efficiency_run_once(x, (r + k) % WAYS, r));
+        for (int k = 0; k < VARIANTS; k++) /* the first lever is always none */
+            if (efficiency_is_run(x->scene, (r + k) % VARIANTS)) TRY(efficiency_run_once(x, (r + k) % VARIANTS, r));
     x->t[0] = median_of(x->run[0].seconds, repetitions);
-    for (int way = 1; way < WAYS; way++) {
-        if (!efficiency_is_run(x->scene, way)) continue;
-        TRY(run_shares(x, way));
-        x->t[way] = median_of(x->run[way].seconds, repetitions);
-        x->t_r[way] = 1 - x->t[way] / x->t[0];
-        x->t_r_stepping[way] = 1 - median_without(&x->run[way], PART_SAMPLES, repetitions) /
-                                       median_without(&x->run[0], PART_SAMPLES, repetitions);
-        x->t_r_bound[way] = 1 - median_without(&x->run[way], PART_CONVERSION, repetitions) / x->t[0];
-        x->rest_share[way] = median_rest(&x->run[way], repetitions);
-        for (int k = 0; k < PARTS; k++) x->part[way][k] = median_of(x->run[way].part[k], repetitions) / x->t[0];
-        compare_tips(x, way, dim);
+    for (int variant = 1; variant < VARIANTS; variant++) {
+        if (!efficiency_is_run(x->scene, variant)) continue;
+        TRY(run_shares(x, variant));
+        x->t[variant] = median_of(x->run[variant].seconds, repetitions);
+        x->t_r[variant] = 1 - x->t[variant] / x->t[0];
+        x->t_r_stepping[variant] = 1 - median_without(&x->run[variant], PART_SAMPLES, repetitions) /
+                                           median_without(&x->run[0], PART_SAMPLES, repetitions);
+        x->t_r_bound[variant] = 1 - median_without(&x->run[variant], PART_CONVERSION, repetitions) / x->t[0];
+        x->rest_share[variant] = median_rest(&x->run[variant], repetitions);
+        for (int k = 0; k < PARTS; k++) x->part[variant][k] = median_of(x->run[variant].part[k], repetitions) / x->t[0];
+        compare_tips(x, variant, dim);
     }
     return OK;
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------------ */
+/* ---- output ------------------------------------------------------------------------------------------------------ */
 
 static void efficiency_print_header(int repetitions)
 {
@@ -178,34 +181,35 @@ static void efficiency_print_header(int repetitions)
            "angles", "starts", "PD share", "rest_share", "aim", "in the way");
 }
 
-/* The largest part of an adaptive loop that falls short of its aim, and its time over that of peridynamics. */
-static const char *way_obstacle(const struct result *x, int way, char *text, size_t room)
+/* Describes the largest part of the loop of an adaptive run that misses its aim, with its time over that of
+ * peridynamics. text: capacity `room` [byte]. */
+static const char *variant_obstacle(const struct result *x, int variant, char *text, size_t room)
 {
     int most = 0;
     for (int k = 1; k < PARTS; k++)
-        if (x->part[way][k] > x->part[way][most]) most = k;
-    if (x->t_r[way] >= x->scene->aim || isnan(x->scene->aim)) return "";
-    snprintf(text, room, "%s %.2f", part_name[most], x->part[way][most]);
+        if (x->part[variant][k] > x->part[variant][most]) most = k;
+    if (x->t_r[variant] >= x->scene->aim || isnan(x->scene->aim)) return "";
+    snprintf(text, room, "%s %.2f", part_name[most], x->part[variant][most]);
     return text;
 }
 
-static void print_way(const struct result *x, int way)
+static void print_variant(const struct result *x, int variant)
 {
     char paper[16] = "-", aim[16] = "-", title[48], obstacle[32];
     if (isfinite(x->scene->aim)) snprintf(aim, sizeof aim, "%.2f", x->scene->aim);
     if (isfinite(x->scene->paper_t_r)) snprintf(paper, sizeof paper, "%.3f", x->scene->paper_t_r);
     printf("  %-30s %-6s %-10s %9lld %6lld %10.4f %10.4f %7.3f %8.3f %7.3f %7s %5.2f mm",
-           efficiency_title(x->scene, title, sizeof title), x->scene->model, efficiency_way[way].levers,
-           (long long)x->particles, (long long)x->steps, x->t[0], x->t[way], x->t_r[way], x->t_r_stepping[way],
-           x->t_r_bound[way], paper, 1e3 * x->tip_distance[way]);
-    printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %% %8.1f %% %6s  %s\n", x->angle[0], x->angle[way],
-           1e6 * x->run[0].ends.start, 1e6 * x->run[way].ends.start, 100 * x->run[way].share[0],
-           100 * x->run[way].share[SAMPLES], 100 * x->rest_share[way], aim,
-           way_obstacle(x, way, obstacle, sizeof obstacle));
+           efficiency_title(x->scene, title, sizeof title), x->scene->model, efficiency_variant[variant].levers,
+           (long long)x->particles, (long long)x->steps, x->t[0], x->t[variant], x->t_r[variant],
+           x->t_r_stepping[variant], x->t_r_bound[variant], paper, 1e3 * x->tip_distance[variant]);
+    printf(" %5.1f > %5.1f d %5.2f > %5.2f us %5.1f > %4.1f %% %8.1f %% %6s  %s\n", x->angle[0], x->angle[variant],
+           1e6 * x->run[0].ends.start, 1e6 * x->run[variant].ends.start, 100 * x->run[variant].share[0],
+           100 * x->run[variant].share[SAMPLES], 100 * x->rest_share[variant], aim,
+           variant_obstacle(x, variant, obstacle, sizeof obstacle));
     fflush(stdout);
 }
 
-/* Share at a time, from the nearest note. */
+/* Returns the share of peridynamic particles recorded nearest to time t. */
 static double share_at(const struct run_times *r, double t)
 {
     int best = 0;
@@ -230,39 +234,43 @@ static void print_marks(const struct efficiency *all)
         "searches and samples;\n  in the way, of rows below their aim: the largest part of the loop, over t_PD\n");
 }
 
-/* Rows of one adaptive run in the tables of figures, shares and runs. */
-static void add_way(struct bench_table *table, const struct result *x, int way)
+/* Adds the rows of an adaptive run to the tables of results, shares and runs. */
+static void add_variant(struct bench_table *table, const struct result *x, int variant)
 {
-    const double main[] = {
-        x->t[way], x->t[0], x->t_r[way], x->tip_distance[way], x->angle_difference[way], x->start_difference[way]};
+    const double main[] = {x->t[variant],
+                           x->t[0],
+                           x->t_r[variant],
+                           x->tip_distance[variant],
+                           x->angle_difference[variant],
+                           x->start_difference[variant]};
     const double run[] = {(double)x->particles,
                           (double)x->steps,
                           x->dt,
                           x->scene->paper_t_r,
                           x->run[0].ends.start,
-                          x->run[way].ends.start,
+                          x->run[variant].ends.start,
                           x->angle[0],
-                          x->angle[way],
-                          x->t_r_stepping[way],
-                          x->t_r_bound[way],
-                          x->rest_share[way],
+                          x->angle[variant],
+                          x->t_r_stepping[variant],
+                          x->t_r_bound[variant],
+                          x->rest_share[variant],
                           x->scene->aim,
-                          x->part[way][PART_BONDS],
-                          x->part[way][PART_POINTS],
-                          x->part[way][PART_CONVERSION],
-                          x->part[way][PART_SAMPLES]};
+                          x->part[variant][PART_BONDS],
+                          x->part[variant][PART_POINTS],
+                          x->part[variant][PART_CONVERSION],
+                          x->part[variant][PART_SAMPLES]};
     char title[48];
     efficiency_title(x->scene, title, sizeof title);
     bench_text(&table[0], title), bench_text(&table[0], x->scene->model);
     for (size_t c = 0; c < COUNT_OF(main); c++) bench_number(&table[0], main[c]);
-    bench_text(&table[0], efficiency_way[way].levers);
+    bench_text(&table[0], efficiency_variant[variant].levers);
     bench_text(&table[2], title), bench_text(&table[2], x->scene->model),
-        bench_text(&table[2], efficiency_way[way].levers);
+        bench_text(&table[2], efficiency_variant[variant].levers);
     for (size_t c = 0; c < COUNT_OF(run); c++) bench_number(&table[2], run[c]);
     for (int k = 0; k <= SAMPLES; k++) {
         bench_text(&table[1], title), bench_text(&table[1], x->scene->model);
-        bench_text(&table[1], efficiency_way[way].levers);
-        bench_number(&table[1], x->run[way].time[k]), bench_number(&table[1], x->run[way].share[k]);
+        bench_text(&table[1], efficiency_variant[variant].levers);
+        bench_number(&table[1], x->run[variant].time[k]), bench_number(&table[1], x->run[variant].share[k]);
     }
 }
 
@@ -276,8 +284,8 @@ static status efficiency_write_tables(const struct efficiency *all)
                      "scene,model,levers,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,"
                      "angle_adaptive_deg,t_r_stepping,t_r_bound,rest_share,aim,bonds,points,conversion,samples");
     for (int k = 0; k < all->n; k++)
-        for (int way = 1; way < WAYS; way++)
-            if (efficiency_is_run(all->result[k].scene, way)) add_way(table, &all->result[k], way);
+        for (int variant = 1; variant < VARIANTS; variant++)
+            if (efficiency_is_run(all->result[k].scene, variant)) add_variant(table, &all->result[k], variant);
     status s = bench_write("efficiency", table, COUNT_OF(table));
     for (size_t k = 0; k < COUNT_OF(table); k++) bench_table_free(&table[k]);
     return s;
@@ -285,7 +293,7 @@ static status efficiency_write_tables(const struct efficiency *all)
 
 /* ---- picture ----------------------------------------------------------------------------------------------------- */
 
-/* Bars as wide as a shelf: losses far below -1 would hide the rest. */
+/* Least t_r drawn: losses far below -1 would compress the rest of the picture. */
 #define T_R_LEAST -1.0
 
 static void draw_bars(FILE *to, const struct efficiency *all)
@@ -294,13 +302,13 @@ static void draw_bars(FILE *to, const struct efficiency *all)
     for (int k = 0; k < all->n; k++) {
         const struct result *x = &all->result[k];
         efficiency_tic(to, x->scene);
-        for (int way = 1; way < WAYS; way++)
-            if (!efficiency_way[way].colour)
+        for (int variant = 1; variant < VARIANTS; variant++)
+            if (!efficiency_variant[variant].colour)
                 continue;
-            else if (!efficiency_is_run(x->scene, way))
+            else if (!efficiency_is_run(x->scene, variant))
                 fputs(" NaN NaN", to);
             else
-                fprintf(to, " %.6g %.6g", fmax(x->t_r[way], T_R_LEAST), x->t_r[way]);
+                fprintf(to, " %.6g %.6g", fmax(x->t_r[variant], T_R_LEAST), x->t_r[variant]);
         if (isfinite(x->scene->paper_t_r))
             fprintf(to, " %.6g\n", x->scene->paper_t_r);
         else
@@ -318,21 +326,22 @@ static void draw_bars(FILE *to, const struct efficiency *all)
         "set ylabel 't_r'\nset yrange [-1.25:1.4]\nset xzeroaxis lw 0.8 lc rgb '#555555'\nset key at graph 0.995,0.985 "
         "right top horizontal maxrows 1 font ',9'\n"
         "plot ");
-    for (int way = 1, bar = 0; way < WAYS; way++) {
-        if (!efficiency_way[way].colour) continue;
+    for (int variant = 1, bar = 0; variant < VARIANTS; variant++) {
+        if (!efficiency_variant[variant].colour) continue;
         bar++;
         fprintf(to,
                 "$bars using %d%s lc rgb '%s' title 'levers: %s', '' using ($0%+.2f):%d:(sprintf('%%.2f', $%d)) with "
                 "labels "
                 "font ',6' offset 0, 0.6 notitle, ",
-                2 * bar, bar == 1 ? ":xtic(1)" : "", efficiency_way[way].colour, efficiency_way[way].levers,
-                ((double)bar - 1 - 0.5 * BARS) / (BARS + 2), 2 * bar, 2 * bar + 1);
+                2 * bar, bar == 1 ? ":xtic(1)" : "", efficiency_variant[variant].colour,
+                efficiency_variant[variant].levers, ((double)bar - 1 - 0.5 * BARS) / (BARS + 2), 2 * bar, 2 * bar + 1);
     }
     fprintf(to, "'' using %d lc rgb '%s' title 'Zeng et al. 2022, table 1'\n", 2 * BARS + 2, curve_colour[4]);
     fputs("set yrange [*:*]\n", to);
 }
 
-/* Bonds come first, and the paper has only those: one picture of shares for each of their scenes. */
+/* Returns the number of panels. Bond-based scenes come first and are the only ones in the paper: each has a panel of
+ * shares. */
 static int panels(const struct efficiency *all)
 {
     int n = 0;
@@ -374,7 +383,7 @@ static void efficiency_draw(FILE *to, const void *context)
     fputs("unset multiplot\n", to);
 }
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
+/* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 static status efficiency_measure_all(struct efficiency *all, bool quick)
 {
@@ -385,8 +394,8 @@ static status efficiency_measure_all(struct efficiency *all, bool quick)
         struct result *x = &all->result[all->n];
         x->scene = &efficiency_case[k];
         TRY(scene_measure(x, repetitions));
-        for (int way = 1; way < WAYS; way++)
-            if (efficiency_is_run(x->scene, way)) print_way(x, way);
+        for (int variant = 1; variant < VARIANTS; variant++)
+            if (efficiency_is_run(x->scene, variant)) print_variant(x, variant);
         all->n++;
     }
     if (all->n == 0)

@@ -1,7 +1,8 @@
-/* `cleave bench sensitivity`: cracks choose among paths that are nearly as good, and anything decides: a step a
- * percent longer leads them elsewhere. The scenes of `cleave bench efficiency` with steps from 0.9 to 1.1 of their
- * own, by full peridynamics and adaptively: how far ends of cracks, their angles and starts scatter in each, beside
- * how far the means lie apart. What differs by less than a method scatters is no difference of methods. */
+/* `cleave bench sensitivity`: sensitivity of crack paths to the time step. Cracks select among nearly equivalent paths,
+ * so that a time step 1 % longer may lead to another path. Runs the scenes of `cleave bench efficiency` with time steps
+ * from 0.9 to 1.1 of their own, with full peridynamics and adaptively, and compares the scatter of crack ends, angles
+ * and start times within each method with the difference of the means. Differences smaller than the scatter do not
+ * distinguish the methods. */
 #include <math.h>
 #include <stdio.h>
 
@@ -13,15 +14,15 @@
 
 enum { STEPS = 9, STEPS_QUICK = 3, METHODS = 2 };
 #define STEP_RANGE 0.1
-static const int way_of[METHODS] = {WAY_PD, WAY_FRAME};
+static const int variant_of[METHODS] = {VARIANT_PD, VARIANT_FRAME};
 
-/* The crack that is followed at the end of a run. */
+/* Final state of the observed crack of a run. */
 struct end {
     double dt, start, angle;
     real place[DIM_MAX];
 };
 
-/* Means, and root mean squares of what runs differ from them. */
+/* Means over the runs, and root-mean-square deviations from them. */
 struct spread {
     double start, start_scatter, angle, angle_scatter, place_scatter;
     real place[DIM_MAX];
@@ -40,7 +41,7 @@ struct all_scatters {
     struct scatter *at;
 };
 
-/* Finer scenes in space take minutes a run. */
+/* Returns false for the finer 3D scenes, which take minutes per run. */
 static bool is_short(const struct scene_case *c, int dim) { return !(c->spacing && dim == 3); }
 
 static double factor_of(int run, int runs) { return 1 + STEP_RANGE * (2.0 * run / (runs - 1) - 1); }
@@ -51,7 +52,7 @@ static status sensitivity_run_once(struct scatter *x, int method, double dt, str
 {
     struct scene s;
     struct run e;
-    TRY(efficiency_make(&e, &s, x->scene, way_of[method], dt));
+    TRY(efficiency_make(&e, &s, x->scene, variant_of[method], dt));
     x->spacing = s.spacing;
     status ran = bench_engine_run(&e, e.clock.steps, NULL);
     if (ran == OK) crack_ends_keep(ends, &e);
@@ -59,7 +60,8 @@ static status sensitivity_run_once(struct scatter *x, int method, double dt, str
     return ran;
 }
 
-/* All runs follow the crack that starts where the longest of the first did. */
+/* Runs all time steps. Each run observes the crack that starts nearest to the start of the longest crack of the first
+ * run. */
 static status sensitivity_run_all(struct scatter *x, double dt)
 {
     struct crack_ends *ends = NEW("bench.ends", 2, struct crack_ends);
@@ -82,7 +84,7 @@ static status sensitivity_run_all(struct scatter *x, double dt)
     return ran;
 }
 
-/* ---- figures ----------------------------------------------------------------------------------------------------- */
+/* ---- results ----------------------------------------------------------------------------------------------------- */
 
 static void spread_find(struct spread *s, const struct end *end, int n)
 {
@@ -116,7 +118,7 @@ static void add_names(struct bench_table *t, const struct scatter *x, int method
     char title[48];
     bench_text(t, efficiency_title(x->scene, title, sizeof title));
     bench_text(t, x->scene->model);
-    bench_text(t, efficiency_way[way_of[method]].method);
+    bench_text(t, efficiency_variant[variant_of[method]].method);
 }
 
 static void add_rows(struct bench_table *table, const struct scatter *x)
@@ -151,7 +153,8 @@ static status sensitivity_write_tables(const struct all_scatters *all)
 
 /* ---- picture ----------------------------------------------------------------------------------------------------- */
 
-/* A column for each scene, methods side by side: every run's distance from the mean of full peridynamics. */
+/* Draws a column for each scene with the methods side by side: distance of every run from the mean of full
+ * peridynamics. */
 static void sensitivity_draw(FILE *to, const void *context)
 {
     const struct all_scatters *all = context;
@@ -181,7 +184,7 @@ static void sensitivity_draw(FILE *to, const void *context)
         all->n - 0.4, 1 - STEP_RANGE, 1 + STEP_RANGE, curve_colour[0], curve_colour[4]);
 }
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
+/* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 static status sensitivity_measure(struct scatter *x, bool quick)
 {

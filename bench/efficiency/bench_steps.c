@@ -1,7 +1,7 @@
-/* `cleave bench steps`: what the time step does to a crack. Scenes with steps from 0.05 to 0.8 of the critical one,
- * each nine times (the two smallest, which do not scatter, three times) within a tenth of it, by both methods and all
- * models: start, length, angle and energy of the longest crack. Bonds of full peridynamics also with half of their last
- * force (pd.last_force). What moves with the step is no property of the body. */
+/* `cleave bench steps`: effect of the time step on cracks. Runs scenes with time steps from 0.05 to 0.8 of the critical
+ * one, each with nine steps within +-10 % (three for the two smallest, which scatter little), with both methods and all
+ * models, and measures start, length, angle and energy of the longest crack. Bonds of full peridynamics are also run
+ * with half of their last force (pd.last_force). A result that depends on the step is not a property of the body. */
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>
@@ -27,15 +27,15 @@ static const struct stepped_case cases[] = {
 };
 static const char *const models[] = {"bond", "ospd", "mospd"}, *const methods[] = {"pd", "adaptive"};
 static const char *const rules[] = {"moment", "half"};
-static const double shares[] = {0.05, 0.1, 0.2, 0.4, 0.5, 0.8}; /* of the critical step */
+static const double shares[] = {0.05, 0.1, 0.2, 0.4, 0.5, 0.8}; /* time steps over the critical one */
 enum { RUNS_MOST = 9, RUNS_QUICK = 3, SHARES = COUNT_OF(shares), SMALLEST = 0, DEFAULT = 4, LARGEST = 5 };
-#define AROUND 0.1 /* of a step, to either side */
+#define AROUND 0.1 /* relative range of time steps around each */
 
 enum figure { START, LENGTH, ANGLE, FRACTURE, BALANCE, FIGURES };
 static const char *const key_of[FIGURES] = {"crack.start_time", "crack.length_end", "crack.angle_deg",
                                             "energy.fracture", "energy.balance_error"};
 
-/* Means over the runs of one step, and root mean squares of what they differ by. */
+/* Means over the runs around one time step, and root-mean-square deviations. */
 struct stepped {
     double mean[FIGURES], scatter[FIGURES];
     int runs;
@@ -43,19 +43,19 @@ struct stepped {
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-struct way_of_breaking {
+struct breaking_method {
     const struct stepped_case *scene;
     const char *model, *method, *rule;
 };
 
-static status stepped_start(struct bench_child *child, const struct way_of_breaking *w, double share)
+static status stepped_start(struct bench_child *child, const struct breaking_method *w, double share)
 {
     struct bench_overrides o = {0};
     if (w->scene->key) bench_override(&o, w->scene->key, "%s", w->scene->value);
     bench_override(&o, "model", "%s", w->model);
     bench_override(&o, "method", "%s", w->method);
     bench_override(&o, "pd.last_force", "%s", w->rule);
-    if (strcmp(w->method, "adaptive") == 0) bench_override(&o, "pd.surface", "none"); /* the default there */
+    if (strcmp(w->method, "adaptive") == 0) bench_override(&o, "pd.surface", "none"); /* the default of adaptive runs */
     bench_override(&o, "time.step", "auto");
     bench_override(&o, "time.safety", "%.6g", share);
     bench_override(&o, "output.frames", "0");
@@ -69,8 +69,8 @@ static status stepped_take(struct bench_child *child, double *figure)
     return s;
 }
 
-/* As many runs at once as there are cores. */
-static status stepped_run(const struct way_of_breaking *w, double share, int runs, struct stepped *to)
+/* Runs as many simulations in parallel as there are cores. */
+static status stepped_run(const struct breaking_method *w, double share, int runs, struct stepped *to)
 {
     double figure[RUNS_MOST][FIGURES];
     struct bench_child child[RUNS_MOST] = {{0}};
@@ -93,9 +93,10 @@ static status stepped_run(const struct way_of_breaking *w, double share, int run
     return OK;
 }
 
-/* ---- figures ----------------------------------------------------------------------------------------------------- */
+/* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* What a step changes, beside the smallest: start [%], length [spacings], angle [degrees], energy of fracture [%]. */
+/* Prints the change relative to the smallest time step: start [%], length [spacings], angle [degrees], fracture energy
+ * [%]. */
 static void print_change(const struct stepped *x, double spacing)
 {
     const struct stepped *to = &x[SMALLEST];
@@ -111,7 +112,7 @@ static void print_change(const struct stepped *x, double spacing)
     fflush(stdout);
 }
 
-static void stepped_print(const struct way_of_breaking *w, const struct stepped *x, double spacing)
+static void stepped_print(const struct breaking_method *w, const struct stepped *x, double spacing)
 {
     const struct stepped *to = &x[SMALLEST];
     printf("  %-20s %-5s %-8s %-6s %6.2f %6.2f+-%-4.1f %5.1f+-%-4.1f", w->scene->name, w->model, w->method, w->rule,
@@ -120,7 +121,7 @@ static void stepped_print(const struct way_of_breaking *w, const struct stepped 
     print_change(x, spacing);
 }
 
-static void stepped_add(struct bench_table *t, const struct way_of_breaking *w, const struct stepped *x)
+static void stepped_add(struct bench_table *t, const struct breaking_method *w, const struct stepped *x)
 {
     for (int k = 0; k < SHARES; k++) {
         bench_text(t, w->scene->name);
@@ -133,7 +134,7 @@ static void stepped_add(struct bench_table *t, const struct way_of_breaking *w, 
     }
 }
 
-static status stepped_way(struct bench_table *t, const struct way_of_breaking *w, int runs)
+static status stepped_method(struct bench_table *t, const struct breaking_method *w, int runs)
 {
     struct stepped x[SHARES] = {0};
     struct bench_overrides o = {0};
@@ -148,7 +149,7 @@ static status stepped_way(struct bench_table *t, const struct way_of_breaking *w
     return OK;
 }
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
+/* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 static status stepped_all(struct bench_table *t, bool quick)
 {
@@ -156,10 +157,10 @@ static status stepped_all(struct bench_table *t, bool quick)
     for (size_t c = 0; c < COUNT_OF(cases); c++) {
         if (!bench_scene_exists(cases[c].file) || (quick && !cases[c].quick)) continue;
         for (size_t m = 0; m < (quick ? 1 : COUNT_OF(models)); m++)
-            for (size_t way = 0; way < (quick ? 1 : COUNT_OF(methods)); way++)
-                for (size_t r = 0; r < (m + way == 0 ? COUNT_OF(rules) : 1); r++) {
-                    const struct way_of_breaking w = {&cases[c], models[m], methods[way], rules[r]};
-                    TRY(stepped_way(t, &w, quick ? RUNS_QUICK : RUNS_MOST));
+            for (size_t variant = 0; variant < (quick ? 1 : COUNT_OF(methods)); variant++)
+                for (size_t r = 0; r < (m + variant == 0 ? COUNT_OF(rules) : 1); r++) {
+                    const struct breaking_method w = {&cases[c], models[m], methods[variant], rules[r]};
+                    TRY(stepped_method(t, &w, quick ? RUNS_QUICK : RUNS_MOST));
                     done++;
                 }
     }

@@ -1,22 +1,23 @@
-/* The scenes of `cleave bench efficiency`, which `cleave bench sensitivity` runs at other time steps. */
+/* Scenes of `cleave bench efficiency`, which `cleave bench sensitivity` runs with other time steps. */
 #ifndef CLEAVE_BENCH_EFFICIENCY
 #define CLEAVE_BENCH_EFFICIENCY
 
 #include "bench/common/bench.h"
 #include "fracture/tips.h"
 
-/* What the paper says of the share of peridynamic particles. */
+/* Share of peridynamic particles that the paper states for a time. */
 struct mark {
     double time, share;
 }; /* [s], [1] */
 
+/* A scene with its model, spacing and goals. */
 struct scene_case {
     const char *name, *path, *model;
-    const char *tips;    /* conversion.tips of adaptive runs: horizons */
-    const char *spacing; /* finer than the scene's own; NULL: that */
-    double aim;          /* t_r with all levers; NAN: none */
-    bool quick;          /* short enough for --quick, and the paper's model */
-    double paper_t_r;    /* NAN: none */
+    const char *tips;    /* conversion.tips of adaptive runs [horizons] */
+    const char *spacing; /* particles.spacing; NULL: that of the scene */
+    double aim;          /* required t_r with all levers; NAN: none */
+    bool quick;          /* short enough for --quick; has the paper's model */
+    double paper_t_r;    /* t_r in Table 1 of the paper; NAN: none */
     int marks;
     struct mark mark[2];
 };
@@ -24,38 +25,56 @@ struct scene_case {
 enum { EFFICIENCY_CASES = 22 };
 extern const struct scene_case efficiency_case[EFFICIENCY_CASES];
 
-/* Full peridynamics first, then adaptive runs by what they may save with. */
-struct way {
+/* A variant: full peridynamics first, then adaptive runs with different levers (values of scene keys). */
+struct variant {
     const char *method, *levers, *frame, *rest, *back, *notch;
-    bool coarse;        /* levels of coarse cells: one, two in finer scenes */
-    const char *colour; /* of its bars; NULL: it has none */
+    bool coarse;        /* with levels of coarse cells: one, two in finer scenes */
+    const char *colour; /* colour of its bars; NULL: not drawn */
 };
-enum { WAY_PD = 0, WAY_FRAME = 2, WAY_SLITS = 3, WAY_LEVELS = 4, WAYS = 8, EFFICIENCY_SAMPLES = 100 };
-extern const struct way efficiency_way[WAYS];
+enum {
+    VARIANT_PD = 0,
+    VARIANT_FRAME = 2,
+    VARIANT_SLITS = 3,
+    VARIANT_LEVELS = 4,
+    VARIANTS = 8,
+    EFFICIENCY_SAMPLES = 100
+};
+extern const struct variant efficiency_variant[VARIANTS];
 
-/* Scene and engine of a method; time step 0: its own. The correction of surfaces is for bonds alone: state-based
- * families know what they have left. */
-status efficiency_make(struct run *e, struct scene *s, const struct scene_case *c, int way, double dt);
+/* Creates scene and run of a variant. dt: time step [s]; 0: that of the scene. Surface correction is used for
+ * bond-based models only: state-based ones normalise with the existing family. */
+status efficiency_make(struct run *e, struct scene *s, const struct scene_case *c, int variant, double dt);
+
+/* Returns true if the model of a scene is bond-based. */
 bool efficiency_of_bonds(const struct scene_case *c);
-/* Finer scenes are long, and one way is enough to see what finer means. */
-bool efficiency_is_run(const struct scene_case *c, int way);
-/* The smallest of the own steps of all ways that are run [s]. */
+
+/* Returns true if a variant is run for a scene: finer scenes take long and are run with one lever only. */
+bool efficiency_is_run(const struct scene_case *c, int variant);
+
+/* Returns the smallest of the own time steps of all variants that are run for a scene [s]. */
 status efficiency_step(const struct scene_case *c, double *dt);
-/* `kalthoff_winkler`, `kalthoff_winkler at 0.5 mm`. */
+
+/* Writes a title such as `kalthoff_winkler` or `kalthoff_winkler at 0.5 mm` and returns `text`, capacity `room`
+ * [byte]. */
 const char *efficiency_title(const struct scene_case *c, char *text, size_t room);
 
-/* The same in quotes for a picture: a word a line, model, spacing. */
+/* Writes the title, model and spacing as a quoted label of gnuplot with one word per line. */
 void efficiency_tic(FILE *to, const struct scene_case *scene);
 
-/* Where cracks are at the end of a run. */
+/* Crack tips at the end of a run. */
 struct crack_ends {
     struct tip tip[TIPS_MAX];
-    int tips, longest; /* longest -1: none grew */
-    double start;      /* first cut bond [s] */
+    int tips, longest; /* number of tips; index of the longest crack, -1: none grew */
+    double start;      /* time of the first broken bond [s] */
 };
+
+/* Stores the crack tips of a run. */
 void crack_ends_keep(struct crack_ends *c, const struct run *e);
-/* The tip of the other method that started nearest to where this one did; NULL without. */
+
+/* Returns the tip of another run that started nearest to the start of `tip`; NULL if there is none. */
 const struct tip *crack_partner(const struct crack_ends *other, const struct tip *tip);
+
+/* Returns the distance of two positions [m]. */
 double place_distance(const real *a, const real *b);
 
 #endif

@@ -1,4 +1,4 @@
-/* Scenes that are run by full peridynamics and adaptively, and where their cracks end. */
+/* Scenes that are run with full peridynamics and adaptively, and the ends of their cracks. */
 #include "efficiency.h"
 #include "fracture/fracture_part.h"
 #include "probes/diagnostics.h"
@@ -8,9 +8,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Kalthoff's cracks start with those of peridynamics (1 % instead of 12 % later; in space within 3 % instead of 5 to
- * 8, but for mospd at 2 mm: 5) if three horizons round the notches' ends, in space one, are peridynamic from the
- * start. */
+/* Table of the scenes. In Kalthoff's plate the ends of notches are peridynamic from the start within three horizons
+ * (3D: one): cracks then start 1 % later than with full peridynamics instead of 12 % (3D: within 3 % instead of 5 to 8
+ * %; mospd at 2 mm: 5 %). */
 #define PLATE_CRACK "plate_crack", "inputs/plate_crack.yaml"
 #define PLATE_HOLE "plate_hole", "inputs/plate_hole.yaml"
 #define KALTHOFF "kalthoff_winkler", "inputs/kalthoff_winkler.yaml"
@@ -36,7 +36,7 @@ const struct scene_case efficiency_case[EFFICIENCY_CASES] = {
 };
 /* clang-format on */
 
-const struct way efficiency_way[WAYS] = {
+const struct variant efficiency_variant[VARIANTS] = {
     {"pd", "-", "current", "true", "false", "bonds", false, NULL},
     {"adaptive", "none", "current", "false", "false", "bonds", false, "#b0b0b0"},
     {"adaptive", "frame", "reference", "false", "false", "bonds", false, "#2a6fbb"},
@@ -49,10 +49,10 @@ const struct way efficiency_way[WAYS] = {
 
 bool efficiency_of_bonds(const struct scene_case *c) { return strcmp(c->model, "bond") == 0; }
 
-status efficiency_make(struct run *e, struct scene *s, const struct scene_case *c, int way, double dt)
+status efficiency_make(struct run *e, struct scene *s, const struct scene_case *c, int variant, double dt)
 {
     char step[32], samples[16];
-    const struct way *w = &efficiency_way[way];
+    const struct variant *w = &efficiency_variant[variant];
     struct scene_override override[13] = {
         {"method", w->method},        {"output.samples", samples},
         {"model", c->model},          {"mpm.frame", w->frame},
@@ -60,30 +60,30 @@ status efficiency_make(struct run *e, struct scene *s, const struct scene_case *
     int n = 6;
     snprintf(step, sizeof step, "%.17g", dt);
     snprintf(samples, sizeof samples, "%d", EFFICIENCY_SAMPLES);
-    if (way > 0) override[n++] = (struct scene_override){"conversion.reversion", w->back};
-    if (way > 0) override[n++] = (struct scene_override){"conversion.tips", c->tips};
-    if (way > 0) override[n++] = (struct scene_override){"conversion.notch", w->notch};
+    if (variant > 0) override[n++] = (struct scene_override){"conversion.reversion", w->back};
+    if (variant > 0) override[n++] = (struct scene_override){"conversion.tips", c->tips};
+    if (variant > 0) override[n++] = (struct scene_override){"conversion.notch", w->notch};
     override[n++] = (struct scene_override){"mpm.levels", !w->coarse ? "0" : c->spacing ? "2" : "1"};
-    /* chosen for another surface */
+    /* The scene's mpm.origin is chosen for another surface correction. */
     if (strstr(c->path, "plate_hole")) override[n++] = (struct scene_override){"mpm.origin", ""};
     if (c->spacing) override[n++] = (struct scene_override){"particles.spacing", c->spacing};
     if (dt > 0) override[n++] = (struct scene_override){"time.step", step};
     return bench_engine_make(e, s, c->path, NULL, override, n);
 }
 
-bool efficiency_is_run(const struct scene_case *c, int way)
+bool efficiency_is_run(const struct scene_case *c, int variant)
 {
-    return !c->spacing || way == WAY_PD || (way >= WAY_FRAME && way <= WAY_LEVELS);
+    return !c->spacing || variant == VARIANT_PD || (variant >= VARIANT_FRAME && variant <= VARIANT_LEVELS);
 }
 
 status efficiency_step(const struct scene_case *c, double *dt)
 {
     *dt = INFINITY;
-    for (int way = 0; way < WAYS; way++) {
+    for (int variant = 0; variant < VARIANTS; variant++) {
         struct scene s;
         struct run e;
-        if (!efficiency_is_run(c, way)) continue;
-        TRY(efficiency_make(&e, &s, c, way, 0));
+        if (!efficiency_is_run(c, variant)) continue;
+        TRY(efficiency_make(&e, &s, c, variant, 0));
         *dt = fmin(*dt, e.clock.dt);
         bench_engine_free(&e, &s);
     }

@@ -1,5 +1,5 @@
-/* `cleave bench experiments`: cracks beside what laboratories and other codes have measured, each with its scatter;
- * every figure that is quoted names its source. */
+/* `cleave bench experiments`: compares cracks with experiments and with other codes, including their scatter. Every
+ * quoted value states its source. */
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 #include "output/output_files.h"
 #include "plot/gnuplot.h"
 
-/* ---- figures ----------------------------------------------------------------------------------------------------- */
+/* ---- results ----------------------------------------------------------------------------------------------------- */
 
 static bool experiment_is_asked(const struct experiment_row *r) { return !isnan(r->low); }
 
@@ -104,7 +104,7 @@ static status experiments_write(const struct experiments *x)
     return s;
 }
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
+/* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 static void experiments_free(struct experiments *x)
 {
@@ -116,7 +116,7 @@ static void experiments_free(struct experiments *x)
     memory_free(x);
 }
 
-/* What falls short comes first. */
+/* Prints the results, those outside the required range first. */
 static void experiments_summary(const struct experiments *x)
 {
     int asked = 0, held = 0;

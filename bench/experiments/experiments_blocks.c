@@ -1,4 +1,4 @@
-/* Blocks of concrete and rock: a beam that is hit beside its notch, and a disc that jaws squeeze until it splits. */
+/* Concrete and rock: a notched beam under impact, and a disc split by jaws. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,19 +9,21 @@
 
 /* ---- the beam of John & Shah 1990 -------------------------------------------------------------------------------- */
 
-/* Their notch stands at gamma of half the span from the middle. Beyond a gamma of 0.77 the beam broke in its middle. */
+/* The notch of John & Shah is at gamma times half the span from the middle. For gamma above 0.77 the beam broke in its
+ * middle. */
 #define JOHN_SHAH "John & Shah 1990"
 #define HALF_SPAN 101.6 /* [mm] */
 #define NOTCH_END 19.0  /* [mm] */
 enum { BEAM_BISECTIONS = 6, BEAM_STEPS = 3 };
 
-/* Does the beam crack from below near its middle? */
+/* Determines whether a crack grows from the lower side near the middle of the beam. gamma: position of the notch;
+ * safety: fraction of the critical time step. */
 static status beam_middle(double gamma, double safety, double spacing, bool *middle)
 {
     struct run e;
     struct scene s;
     struct bench_overrides o = {0};
-    /* in the middle between two columns of particles, as in the scene */
+    /* The notch is midway between two columns of particles, as in the scene. */
     const double at = spacing * round(gamma * HALF_SPAN / spacing);
     bench_override(&o, "cracks", "[{from: [%.9g mm, -1 mm], to: [%.9g mm, 19 mm], width: 2 mm}]", at, at);
     bench_override(&o, "particles.spacing", "%.9g mm", spacing);
@@ -37,7 +39,8 @@ static status beam_middle(double gamma, double safety, double spacing, bool *mid
     return ran;
 }
 
-/* The gamma beyond which the middle breaks, between the last two that were tried; NAN: not between 0.6 and 0.98. */
+/* Determines by bisection the gamma above which the beam breaks in its middle; NAN if it is not between 0.6 and
+ * 0.98. */
 static status beam_change(double safety, double spacing, double *gamma)
 {
     double low = 0.6, high = 0.98;
@@ -94,10 +97,11 @@ status experiments_beam(struct experiments *x)
 #define DISC_DIAMETER 50e-3
 #define DISC_THICKNESS 10e-3
 #define DISC_YOUNG 50e9
-#define DISC_TOUGHNESS 20.0 /* [J/m^2] */
+#define DISC_TOUGHNESS 20.0 /* energy release rate G_c [J/m^2] */
 #define DISC_CLOSED "2 P/(pi D t)"
 
-/* Stress across the middle over 2 P/(pi D t), mean from 0.7 of the time of the first break to it. */
+/* Returns the stress across the middle over 2 P/(pi D t), averaged from 0.7 of the time of the first break to that
+ * time. */
 static double disc_stress(const char *folder, double spacing)
 {
     struct history h;
@@ -116,7 +120,7 @@ static double disc_stress(const char *folder, double spacing)
     return n > 0 ? sum / n : NAN;
 }
 
-/* Largest load over pi D t/2 times E s_c, s_c = sqrt(4 pi G_c/(9 E delta)). */
+/* Returns the largest load over pi D t/2 times E s_c, with s_c = sqrt(4 pi G_c/(9 E delta)). */
 static double disc_strength(const char *folder, double spacing)
 {
     struct history h;

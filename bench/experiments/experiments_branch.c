@@ -1,4 +1,4 @@
-/* Where a crack branches, and at which angle, from the damage in the last frame of a run. */
+/* Position and angle of crack branching, from the damage in the last frame of a run. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,14 +7,15 @@
 #include "experiments.h"
 #include "output/output_files.h"
 
-#define BRANCH_APART 3.5  /* damage so far from the next is another branch [spacings] */
-#define BRANCH_LASTS 4e-3 /* that far there are two at nine places of ten [m] */
+#define BRANCH_APART 3.5  /* least distance of branches [spacings] */
+#define BRANCH_LASTS 4e-3 /* length over which 9 of 10 columns must have two branches [m] */
 #define BRANCH_SHARE 0.9
-#define BRANCH_FROM 30e-3 /* all notches here are as long or longer [m] */
-#define ANGLE_FROM 2e-3   /* behind the place of branching [m] */
+#define BRANCH_FROM 30e-3 /* all notches are at least so long: start of the search [m] */
+#define ANGLE_FROM 2e-3   /* distance beyond the branching from which the angle is measured [m] */
 #define ANGLE_TO 10e-3
 
-/* A column of particles across the crack: branches, the lowest and the highest. */
+/* A column of particles across the crack: number of branches, positions of the lowest and the highest damaged
+ * particle. */
 struct branch_column {
     int n, branches;
     double low, high, last;
@@ -30,7 +31,7 @@ static int by_y(const void *a, const void *b)
     return (p->y > q->y) - (p->y < q->y);
 }
 
-/* Columns one spacing wide, from x = 0. */
+/* Returns the columns, one spacing wide, from x = 0; allocated. */
 static struct branch_column *columns_of(const struct frame *f, double spacing, int *columns)
 {
     struct branch_point *point = NEW("bench.branch", f->n, struct branch_point);
@@ -56,7 +57,7 @@ static struct branch_column *columns_of(const struct frame *f, double spacing, i
     return column;
 }
 
-/* Does column k begin a stretch with two branches or more? */
+/* Returns true if the columns from k on have two or more branches over BRANCH_LASTS. */
 static bool branches_from(const struct branch_column *c, int columns, int k, double spacing)
 {
     const int stretch = (int)(BRANCH_LASTS / spacing);
@@ -66,7 +67,7 @@ static bool branches_from(const struct branch_column *c, int columns, int k, dou
     return held >= BRANCH_SHARE * stretch;
 }
 
-/* Slope of the distance of the outermost branches, by least squares. */
+/* Returns the slope of the distance of the outermost branches, by least squares. */
 static double opening_slope(const struct branch_column *c, int first, int end, double spacing)
 {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;

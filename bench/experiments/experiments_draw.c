@@ -1,4 +1,4 @@
-/* The pictures of `cleave bench experiments`: curves beside what was measured, and the paths of all runs. */
+/* Pictures of `cleave bench experiments`: curves with measured values, and the crack paths of all runs. */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 
 /* ---- curves ------------------------------------------------------------------------------------------------------ */
 
-/* A panel: curves of a picture, its axes, and what stands behind them. */
+/* A panel: picture to which it belongs, title, commands for its axes, and plot elements behind the curves. */
 struct experiment_panel {
     const char *picture, *title, *commands, *behind;
 };
@@ -59,7 +59,7 @@ static void experiments_draw_curves(FILE *to, const void *context)
     fputs("unset multiplot\n", to);
 }
 
-/* Where each study branches, over the spacing. */
+/* Adds the position of branching over the spacing for each study. */
 static void experiments_curves(struct experiments *x)
 {
     for (int k = 0; k < x->n && x->curves < EXPERIMENT_CURVES_MOST; k++) {
@@ -72,7 +72,7 @@ static void experiments_curves(struct experiments *x)
     }
 }
 
-enum { PATHS_WIDE = 4 }; /* panels side by side */
+enum { PATHS_WIDE = 4 }; /* panels in a row */
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 

@@ -1,10 +1,10 @@
-/* Plates that crack by themselves: Kalthoff's, whose cracks turn, and notched glass, whose crack branches. */
+/* Plates: Kalthoff's plate, whose cracks turn, and notched glass, whose crack branches. */
 #include <math.h>
 
 #include "experiments.h"
 
-/* The plate of Borden et al. 2012, section 4.1: 100 x 40 mm in plane strain, notched to its middle, pulled by 1 MPa at
- * both long edges. Its c_R is 2125 m/s; the crack there stays well below 0.6 of it. */
+/* Plate of Borden et al. 2012, section 4.1: 100 x 40 mm in plane strain, notched to its middle, under tension of 1 MPa
+ * at both long edges. Its Rayleigh speed c_R is 2125 m/s; the crack in the paper stays well below 0.6 c_R. */
 static const char borden_text[] =
     "name: borden\nspace: plane strain\nthickness: 1 mm\nduration: 80 us\nmodel: ospd\n"
     "material: {young: 32 GPa, poisson: 0.2, density: 2450, energy_release_rate: 3}\n"
@@ -26,7 +26,8 @@ static const char borden_text[] =
             "length", "mm", "crack.length_end", NULL, 1e3, NAN, NAN, ""                                                \
         }                                                                                                              \
     }
-/* Of a crack that branches. */
+
+/* Results for a crack that branches. */
 #define BRANCHES                                                                                                       \
     {"first bond breaks", "us", "crack.start_time", NULL, 1e6, NAN, NAN, ""},                                          \
         {"branches at x", "mm", NULL, branching_place, 1e3, NAN, NAN, ""},                                             \
@@ -49,8 +50,9 @@ static const char borden_text[] =
         }                                                                                                              \
     }
 
-/* Kalthoff's steel by its toughness, 68 MPa m^0.5 (E 190 GPa, rho 8000: Borden et al. 2012, section 4.3, G_c 22.13
- * kJ/m^2), and by the 69 kJ/m^2 of the scene (Zeng et al. 2022), under which the crack hardly runs at these speeds. */
+/* Kalthoff's steel, with its toughness of 68 MPa m^0.5 (E 190 GPa, rho 8000 kg/m^3, G_c 22.13 kJ/m^2: Borden et al.
+ * 2012, section 4.3), and with the 69 kJ/m^2 of the scene (Zeng et al. 2022), for which the crack hardly grows at these
+ * impact speeds. */
 #define STEEL                                                                                                          \
     {"material.energy_release_rate", "22.13 kJ/m^2"}, { "material.density", "8000" }
 #define KALTHOFF_CASE(speed, variant, until, quick, drawn, finest, runs, ...)                                          \

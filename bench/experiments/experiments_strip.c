@@ -1,8 +1,8 @@
-/* A crack through a long strip whose faces are held apart: once it runs steadily, G = E' strain^2 h/2 flows to its tip
- * at any speed (Rice 1968). Its speed, its stress-intensity factor and the energy that breaking takes over the load.
+/* A crack through a long strip whose faces are displaced apart: in steady state the energy release rate is G = E'
+ * strain^2 h/2 at any speed (Rice 1968). Measures speed, stress-intensity factor and fracture energy over the load.
  *
- * The material is about Homalite-100. Bonds alone have no other length and no other time than those of the lattice, so
- * that speeds over c_R and factors over K_c depend on the load over G_c and on Poisson's ratio (1/3) alone. */
+ * The material resembles Homalite-100. The bond-based model has no length or time scale but those of the lattice, so
+ * that speeds over c_R and factors over K_c depend only on the load over G_c and on Poisson's ratio (1/3). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,11 +15,11 @@
 #define STRIP_YOUNG 4.55e9
 #define STRIP_POISSON (1.0 / 3)
 #define STRIP_DENSITY 1230.0
-#define STRIP_TOUGHNESS 40.0 /* G_c [J/m^2] */
-#define STRIP_FREE 16.8e-3   /* between the held faces [m] */
-#define STRIP_GROWN 10e-3    /* growth at which measuring begins [m] */
-#define STRIP_LAST 100e-3    /* and ends, 30 mm before the far end [m] */
-#define STRIP_NOTCH 30e-3    /* [m] */
+#define STRIP_TOUGHNESS 40.0 /* energy release rate G_c [J/m^2] */
+#define STRIP_FREE 16.8e-3   /* height between the displaced faces [m] */
+#define STRIP_GROWN 10e-3    /* growth at the start of the measurement [m] */
+#define STRIP_LAST 100e-3    /* growth at its end, 30 mm before the far end [m] */
+#define STRIP_NOTCH 30e-3    /* length of the notch [m] */
 #define KNAUSS "Ravi-Chandar & Knauss 1984"
 
 static const char strip_text[] =
@@ -32,7 +32,7 @@ static const char strip_text[] =
     "  - {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, -8.4 mm]}}}\n"
     "output: {times: [250 us], samples: 250}\nprobes: [sif: {outer: 8 mm, contours: [7 mm, 8 mm]}]\n";
 
-/* G over G_c of the cases. */
+/* Loads G over G_c. */
 static const double strip_loads[] = {1.1, 1.3, 1.6, 2, 2.5, 3.2, 4, 6};
 enum { STRIP_LOADS = COUNT_OF(strip_loads) };
 
@@ -43,7 +43,7 @@ static struct crack_medium strip_medium(void)
     return crack_medium_of(&m, SPACE_PLANE_STRESS);
 }
 
-/* ---- figures of a run -------------------------------------------------------------------------------------------- */
+/* ---- results of a run -------------------------------------------------------------------------------------------- */
 
 /* Rows of the history while the crack is straight and far from both ends. */
 struct strip_window {
@@ -67,7 +67,7 @@ static bool strip_window_open(struct strip_window *w, const char *folder, double
     return false;
 }
 
-/* Slope of column y over column x in the window. */
+/* Returns the slope of column y_name over column x_name in the window, by least squares. */
 static double strip_slope(const struct strip_window *w, const char *x_name, const char *y_name)
 {
     const int cx = history_column(&w->h, x_name), cy = history_column(&w->h, y_name);
@@ -79,7 +79,7 @@ static double strip_slope(const struct strip_window *w, const char *x_name, cons
     return (n * xy - x * y) / (n * xx - x * x);
 }
 
-/* Speed over c_R. */
+/* Returns the crack speed over c_R. */
 static double strip_speed(const char *folder, double spacing)
 {
     struct strip_window w;
@@ -89,7 +89,7 @@ static double strip_speed(const char *folder, double spacing)
     return v / strip_medium().rayleigh;
 }
 
-/* Energy of the bonds that break, over the new area and G_c; 1 mm thick. */
+/* Returns the energy of broken bonds over the new area and G_c; thickness 1 mm. */
 static double strip_taken(const char *folder, double spacing)
 {
     struct strip_window w;
@@ -99,7 +99,7 @@ static double strip_taken(const char *folder, double spacing)
     return taken;
 }
 
-/* Mean of the stress-intensity factor that the probe finds at the running tip, over K_c = sqrt(G_c E). */
+/* Returns the mean stress-intensity factor of the probe at the running tip over K_c = sqrt(G_c E). */
 static double strip_factor(const char *folder, double spacing)
 {
     struct strip_window w;
@@ -112,7 +112,7 @@ static double strip_factor(const char *folder, double spacing)
     return mean / sqrt(STRIP_TOUGHNESS * STRIP_YOUNG);
 }
 
-/* A_I K^2/E over G_c at the running tip: what flows into it. */
+/* Returns the energy flux into the running tip, A_I K^2/E, over G_c. */
 static double strip_flux(const char *folder, double spacing)
 {
     const struct crack_medium m = strip_medium();
@@ -132,7 +132,7 @@ static double strip_value(const struct experiments *x, const char *variant, cons
     return NAN;
 }
 
-/* What all loads together say: the fastest straight crack, and the curves of the picture. */
+/* Evaluates all loads together: the fastest straight crack, and the curves of the picture. */
 static void strip_curves(struct experiments *x, const char (*variant)[16])
 {
     struct experiment_curve *speed = experiment_curve_begin(x, "speed", "strip");

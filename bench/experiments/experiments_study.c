@@ -1,4 +1,5 @@
-/* The same scene at three spacings, each some times with steps and spacings that change nothing physical. */
+/* Convergence studies: a scene at three spacings, each several times with time steps and spacings whose variation has
+ * no physical meaning. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +10,7 @@
 #include "output/summary_read.h"
 #include "study/convergence_study.h"
 
-#define EXPERIMENT_BUDGET 7200.0 /* of one study: none comes near it [s] */
+#define EXPERIMENT_BUDGET 7200.0 /* allowed duration of one study, never reached in practice [s] */
 
 int experiment_mean(const double *value, int n, double *mean, double *deviation, double *interval)
 {
@@ -28,7 +29,7 @@ int experiment_mean(const double *value, int n, double *mean, double *deviation,
     return held;
 }
 
-/* ---- figures ----------------------------------------------------------------------------------------------------- */
+/* ---- results ----------------------------------------------------------------------------------------------------- */
 
 static double figure_of_run(const struct convergence_study *s, int k, const struct experiment_figure *f)
 {
@@ -43,8 +44,8 @@ static double figure_of_run(const struct convergence_study *s, int k, const stru
     return f->scale * value;
 }
 
-/* Means of the three levels, one by one: a figure that some runs do not have (a crack that does not branch) counts in
- * those that have it. */
+/* Computes the means of the three levels separately: runs without a value (a crack that does not branch) are left
+ * out. */
 static void levels_take(struct experiment_row *row, const struct convergence_study *s, const double *value)
 {
     double own[LEVELS_MOST * RUNS_MOST], mean, deviation, interval;
@@ -133,7 +134,7 @@ status experiment_study(struct experiments *x, const struct experiment_case *c)
                                              .options.quiet = true};
     if (x->quick && !c->quick) return OK;
     if (c->path && !bench_scene_exists(c->path)) return OK;
-    if (!c->path) remove(text.text); /* that of the case before, which this process has read */
+    if (!c->path) remove(text.text); /* written for the previous case, and no longer needed */
     if (!c->path) TRY(file_put(text.text, c->text, strlen(c->text)));
     TRY(convergence_study_run(&s, &wish));
     for (int f = 0; f < EXPERIMENT_FIGURES_MOST && c->figure[f].name; f++) figure_take(x, c, &s, &c->figure[f]);

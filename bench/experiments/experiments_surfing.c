@@ -1,10 +1,10 @@
 /* A crack that follows a moving field ("surfing": Hossain, Hsueh, Bourdin & Bhattacharya 2014): the edge of a plate is
- * moved as the field of a steadily moving crack moves it. What breaking takes over the new area is then measured far
- * from starts and ends.
+ * displaced as in the field of a steadily moving crack. The fracture energy per new area is measured far from start and
+ * end.
  *
- * Scenes cannot move a boundary point by point: the plate's edge is held (`fixed`), and between two steps its particles
- * are put where the field has them. The steps of the engine are called one by one, as its own account of the work of
- * supports knows nothing of that. */
+ * Scenes cannot prescribe a displacement that varies from point to point: the edge of the plate is `fixed`, and between
+ * two steps its particles are moved to the positions of the field. The steps of the engine are called one by one,
+ * because its energy balance does not include the work of this motion. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,23 +14,23 @@
 #include "fracture/sif_fields.h"
 #include "step/report.h"
 
-#define SURF_WIDTH 0.1      /* of the plate, from x = 0 [m] */
-#define SURF_HEIGHT 0.02    /* half of it [m] */
-#define SURF_NOTCH 0.02     /* [m] */
-#define SURF_EDGE 3.1       /* held at each edge [spacings] */
-#define SURF_FROM 0.035     /* measured while the tip goes from here [m] */
-#define SURF_TO 0.075       /* to here [m] */
-#define SURF_TOUGHNESS 40.0 /* [J/m^2] */
-#define SURF_LOAD 1.2       /* A_I K^2/E of the field over G_c: the tip runs where the field has it */
+#define SURF_WIDTH 0.1      /* width of the plate, from x = 0 [m] */
+#define SURF_HEIGHT 0.02    /* half of its height [m] */
+#define SURF_NOTCH 0.02     /* length of the notch [m] */
+#define SURF_EDGE 3.1       /* width of the prescribed layer at each edge [spacings] */
+#define SURF_FROM 0.035     /* tip position at the start of the measurement [m] */
+#define SURF_TO 0.075       /* tip position at its end [m] */
+#define SURF_TOUGHNESS 40.0 /* energy release rate G_c [J/m^2] */
+#define SURF_LOAD 1.2       /* A_I K^2/E of the field over G_c: the tip follows that of the field */
 #define HOSSAIN "Hossain et al. 2014"
-enum { SURF_STEPS = 10 }; /* between two looks */
+enum { SURF_STEPS = 10 }; /* steps between two evaluations of the tip */
 
-/* The field as it is imposed. */
+/* The prescribed field. */
 struct surf {
     struct crack_medium medium;
-    double speed, factor, tip; /* [m/s], K [Pa m^0.5], at t = 0 [m] */
+    double speed, factor, tip; /* speed [m/s], K [Pa m^0.5], position of the tip at t = 0 [m] */
     int64_t held;
-    int32_t *particle; /* [held] */
+    int32_t *particle; /* [held] particles with prescribed displacement */
 };
 
 static void surf_text(FILE *to, double spacing)
@@ -48,7 +48,7 @@ static void surf_text(FILE *to, double spacing)
     fprintf(to, "  - {fixed: all, region: {box: {from: [-inf, %.9g], to: [inf, inf]}}}\n", SURF_HEIGHT - edge);
 }
 
-/* Displacement and velocity of the field at X. */
+/* Computes displacement u and velocity v of the field at the reference position of particle i and time t. */
 static void surf_field(const struct surf *s, const struct particles *p, int64_t i, double t, double *u, double *v)
 {
     const real at[2] = {p->X[0][i] - s->tip - s->speed * t, p->X[1][i]};
@@ -60,7 +60,7 @@ static void surf_field(const struct surf *s, const struct particles *p, int64_t 
     }
 }
 
-/* All particles begin in the field, at its velocity; those of the edge are listed. */
+/* Sets all particles to the displacement and velocity of the field, and lists those of the edge. */
 static void surf_start(struct surf *s, struct run *e)
 {
     struct particles *p = &e->part;
@@ -93,10 +93,10 @@ static double surf_tip(const struct particles *p, double spacing)
     return tip;
 }
 
-/* Broken bonds alone are counted: what flows in at the edge is not the same, as the strain energy of the field in the
- * plate changes while it moves, and waves leave the tip. */
+/* Only broken bonds are counted. The energy that enters at the edge differs, because the strain energy of the field in
+ * the plate changes while the field moves, and waves leave the tip. */
 
-/* A line by least squares. */
+/* Sums of a least-squares line. */
 struct surf_line {
     double n, x, y, xx, xy;
 };
@@ -153,7 +153,7 @@ status surf_run(double spacing, double share, double speed, double safety, struc
     return ran;
 }
 
-/* Runs of one speed of the field, over c_R: spacings [mm], each at steps that differ. */
+/* Runs at one speed of the field over c_R: spacings [mm], each with several time steps. */
 struct surf_case {
     double speed, spacing[3];
     bool quick;
@@ -162,7 +162,7 @@ static const struct surf_case surf_cases[] = {{0.05, {0.5, 0.4, 0}, false},
                                               {0.1, {0.5, 0.4, 0.25}, true},
                                               {0.2, {0.5, 0.4, 0.25}, false},
                                               {0.4, {0.5, 0.4, 0.25}, false}};
-static const double surf_safety[] = {0.45, 0.5, 0.55}; /* shares of the critical step */
+static const double surf_safety[] = {0.45, 0.5, 0.55}; /* fractions of the critical time step */
 enum { SURF_SAFETIES = COUNT_OF(surf_safety), SURF_RUNS = 3 * SURF_SAFETIES };
 
 static void surf_add(struct experiments *x, const struct surf_case *c, const char *figure, const double *value, int n)

@@ -1,8 +1,8 @@
-/* The vortex at several spacings: the order of the error of displacements where the body turns by up to a radian.
+/* The vortex at several spacings: order of the displacement error for rotations up to a radian.
  *
- * At 1 rad the shear reaches 0.84 and bonds are compressed to 0.67 of their length. Errors of bonds then stop falling
- * at a spacing of 12.5 mm, at any step: an error that does not shrink with either. At 0.5 rad they fall with order 2.
- */
+ * At 1 rad the shear reaches 0.84 and bonds are compressed to 0.67 of their length. The error of bonds then stops
+ * decreasing at a spacing of 12.5 mm for any time step: an error that depends on neither. At 0.5 rad it decreases with
+ * order 2. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,18 +15,18 @@
 #include "step/stability.h"
 #include "step/checks.h"
 
-#define VORTEX_PERIOD 0.06 /* two transits of the radius by waves [s] */
-#define VORTEX_HALF 1.2    /* edge of the body: beyond R = 1 nothing moves [m] */
+#define VORTEX_PERIOD 0.06 /* twice the time in which waves travel the radius [s] */
+#define VORTEX_HALF 1.2    /* half edge of the body: nothing moves beyond R = 1 [m] */
 #define VORTEX_REACH 3.015
 #define KAMOJJALA "order 2; Kamojjala et al. 2015"
 
 struct vortex_case {
     const char *name, *lines;
     enum vortex_law law;
-    double turn; /* of the middle, at the end [rad] */
+    double turn; /* rotation of the centre at the end [rad] */
 };
 #define VORTEX_BONDED "method: pd\npd: {weights: uniform, surface: none}\ncontact: {between: none}\n"
-static const struct vortex_case vortex_cases[VORTEX_WAYS] = {
+static const struct vortex_case vortex_cases[VORTEX_METHODS] = {
     [VORTEX_MESH] = {"mesh, 1 rad", "method: mpm\nmpm: {frame: reference, levels: 0}\n", VORTEX_BIOT, 1},
     [VORTEX_PD] = {"pd, 0.5 rad", VORTEX_BONDED, VORTEX_BONDS, 0.5},
     [VORTEX_PD_FAR] = {"pd, 1 rad", VORTEX_BONDED, VORTEX_BONDS, 1},
@@ -34,7 +34,8 @@ static const struct vortex_case vortex_cases[VORTEX_WAYS] = {
 static const double vortex_spacings[] = {0.1, 0.05, 0.025, 0.0125}; /* [m] */
 enum { VORTEX_SPACINGS = COUNT_OF(vortex_spacings) };
 
-/* The load of the scene, one everywhere, gets a share of its own for either component: force times volume. */
+/* Replaces the uniform load of the scene by the body force of the vortex: a share for each component and particle,
+ * force times volume. */
 static void vortex_load(struct run *e, const struct vortex *v)
 {
     struct load *load = &e->loads.load[0];
@@ -50,7 +51,7 @@ static void vortex_load(struct run *e, const struct vortex *v)
     }
 }
 
-/* Root of the mean square of the error of displacements, over that of displacements. */
+/* Returns the root-mean-square error of displacements over the root mean square of displacements. */
 static double vortex_error(struct run *e, const struct vortex *v)
 {
     const struct particles *p = &e->part;
@@ -76,9 +77,9 @@ static status vortex_go(struct run *e, const struct vortex *v)
     return OK;
 }
 
-status vortex_run(enum vortex_way way, double spacing, double *error)
+status vortex_run(enum vortex_method method, double spacing, double *error)
 {
-    const struct vortex_case *c = &vortex_cases[way];
+    const struct vortex_case *c = &vortex_cases[method];
     char text[1024];
     struct run e;
     struct scene scene;
@@ -124,7 +125,7 @@ static void vortex_add(struct experiments *x, const char *variant, const char *f
 
 status experiments_vortex(struct experiments *x)
 {
-    for (enum vortex_way k = 0; k < VORTEX_WAYS; k++) {
+    for (enum vortex_method k = 0; k < VORTEX_METHODS; k++) {
         const struct vortex_case *c = &vortex_cases[k];
         struct experiment_curve *curve = experiment_curve_begin(x, "vortex", "%s", c->name);
         double error[VORTEX_SPACINGS];

@@ -1,15 +1,15 @@
-/* The closed forms of the vortex. */
+/* Closed forms of the vortex. */
 #include "vortex.h"
 
 #include <math.h>
 
-#define VORTEX_DIFFERENCE 1e-3 /* between places of differences [m]: their error is 1e-9 of the stress */
+#define VORTEX_DIFFERENCE 1e-3 /* distance of points for finite differences [m]: their error is 1e-9 of the stress */
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
 static double vortex_growth(const struct vortex *v, double t) { return square(sin(M_PI * t / (2 * v->period))); }
 
-/* alpha, and alpha'/R. */
+/* Returns alpha and stores alpha'/R in *slope. */
 static double vortex_angle(const struct vortex *v, const double *X, double t, double *slope)
 {
     const double rest = 1 - X[0] * X[0] - X[1] * X[1], grown = v->turn * vortex_growth(v, t);
@@ -34,7 +34,7 @@ void vortex_gradient(const struct vortex *v, const double *X, double t, double F
     for (int j = 0; j < 2; j++) F[0][j] = c * G[0][j] - s * G[1][j], F[1][j] = s * G[0][j] + c * G[1][j];
 }
 
-/* ---- laws -------------------------------------------------------------------------------------------------------- */
+/* ---- constitutive laws ------------------------------------------------------------------------------------------- */
 
 void vortex_bonds(struct vortex *v, double reach)
 {
@@ -48,8 +48,8 @@ void vortex_bonds(struct vortex *v, double reach)
             v->xi[v->bonds][0] = i, v->xi[v->bonds][1] = j, v->weight[v->bonds++] = r;
             sum += r;
         }
-    /* Under e times 1 both directions of a bond make a stress of sum r c V e, half of it along each axis: (c11 + c12)
-     * e. */
+    /* Under a uniform expansion e, both directions of a bond cause a stress of sum r c V e, half of it along each axis,
+     * which must equal (c11 + c12) e. */
     for (int k = 0; k < v->bonds; k++) v->weight[k] *= 2 * (v->c11 + v->c12) / sum;
 }
 
@@ -86,7 +86,7 @@ void vortex_stress(const struct vortex *v, double F[2][2], double P[2][2])
 
 /* ---- force ------------------------------------------------------------------------------------------------------- */
 
-/* Adds d P_ab/dX_b, for one b. */
+/* Adds dP_ab/dX_b for one b. */
 static void divergence_add(const struct vortex *v, const double *X, double t, int b, double *sum)
 {
     static const double place[] = {-2, -1, 1, 2}, share[] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};

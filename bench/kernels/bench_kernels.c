@@ -1,5 +1,5 @@
-/* `cleave bench kernels`: every kernel instance beside the machine's own limits, in one thread. Probes and
- * kernels take turns; the fastest repetition counts. */
+/* `cleave bench kernels`: times every kernel instance on one thread and compares it with the limits of the machine.
+ * Measurements of limits and kernels alternate; the fastest repetition counts. */
 #include <math.h>
 #include <string.h>
 
@@ -28,9 +28,9 @@
 static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND_JOBS) DIM_VARIANTS(DIM_JOBS)
                                           SHAPE_VARIANTS(SHAPE_JOBS) SHAPE_VARIANTS(TRANSFER_JOBS)};
 
-/* ---- ground ------------------------------------------------------------------------------------------------------ */
+/* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* About 80,000 particles at 0.5 mm; nothing ever breaks. */
+/* Creates a body of about 80,000 particles with spacing 0.5 mm in which no bond breaks. */
 static status kernels_body_make(struct run *e, struct scene *s, int dim, const char *method, const char *model,
                                 const char *mpm, const char *more, bool yields)
 {
@@ -56,7 +56,7 @@ static status kernels_body_make(struct run *e, struct scene *s, int dim, const c
     return bench_engine_run(e, 1, NULL); /* sorts the points and covers them with a grid */
 }
 
-/* Moves one half of a cut body by 0.02 spacings against the other. */
+/* Displaces one half of a cut body by 0.02 spacings against the other. */
 static void faces_press(struct run *e)
 {
     real low, high;
@@ -82,7 +82,7 @@ static status ground_make(struct ground *g, int dim)
     faces_press(&g->engine[CUT]);
     struct run *points = &g->engine[POINTS];
     points->grid->transfer.dt = points->grid->transfer.dt_velocity =
-        1e-12; /* repeated calls leave the state as it is */
+        1e-12; /* repeated calls then do not change the state */
     g->list = NEW("bench.list", points->part.n, int32_t);
     g->value = NEW("bench.value", points->part.n, real);
     g->field = NEW("bench.field", points->grid->field[0].grid.n, real);
@@ -167,7 +167,7 @@ static void job_call(const struct job *j, struct ground *g)
     }
 }
 
-/* The first call of the two warms the caches. */
+/* Times a kernel; the first of the two calls fills the caches. */
 static void job_time(struct job *j, struct ground *g)
 {
     for (int k = 0; k < 2; k++) {
@@ -201,7 +201,8 @@ static void time_all(struct kernel_bench *b, int repetitions)
 
 /* ---- bytes ------------------------------------------------------------------------------------------------------- */
 
-/* Mean bytes of a column as the kernels read it (bond_column.h); stencils stay in cache. */
+/* Returns the mean number of bytes of a column of bonds as the kernels read it (bond_column.h); stencils remain in
+ * cache. */
 static double column_bytes(const struct bonds *b)
 {
     double sum = 0;
@@ -214,7 +215,7 @@ static double column_bytes(const struct bonds *b)
     return sum / (double)b->columns;
 }
 
-/* Of a particle near a face: its pairs twice, what it feels, its account; its place and force. */
+/* Returns the bytes per particle near a face: its pairs twice, forces, energy; position. */
 static double contact_bytes(const struct run *e)
 {
     const struct contact *c = e->contact;
@@ -222,8 +223,8 @@ static double contact_bytes(const struct run *e)
            3 * sizeof(real) * (double)e->part.dim;
 }
 
-/* Bytes that a kernel must move a particle, counted from the arrays it reads and writes once; nodes shared among the
- * points of their cell. */
+/* Returns the bytes that a kernel must move per particle: each array that it reads or writes counts once; nodes are
+ * shared among the points of their cell. */
 static double job_bytes(const struct job *j, struct ground *g)
 {
     const double mesh_node = sizeof(real) / (double)(1 << j->dim);
@@ -231,7 +232,7 @@ static double job_bytes(const struct job *j, struct ground *g)
     const double r = sizeof(real), dim = j->dim, symmetric = symmetric_count(j->dim);
     const double node = r * (double)e->grid->field[0].grid.n / (double)e->part.n;
     const double stretch = j->shape == SHAPE_CPGIMP ? dim : 0;
-    /* state-based: two sweeps; yielding: two numbers read and written, and the pair of materials */
+    /* State-based: two sweeps; yielding: two numbers read and written, and the pair of materials. */
     const double columns = (double)pd->bonds.columns / (double)pd->part.n;
     const double bond = columns * (column_bytes(&pd->bonds) * (j->model >= PD_OSPD && j->kind == BOND_FORCE ? 2 : 1) +
                                    (j->model == PD_BOND_PLASTIC ? 36 * LANES : 0)),
@@ -265,7 +266,7 @@ static double job_bytes(const struct job *j, struct ground *g)
     case MESH_MOVE:
         return mesh_node * (1 + 5 * dim);
     case CONTACT_SEARCH:
-        return contact_bytes(&g->engine[CUT]) + r * 6 * dim; /* places, cells; reference places of bonds */
+        return contact_bytes(&g->engine[CUT]) + r * 6 * dim; /* positions, cells; reference positions of bonds */
     case CONTACT_FORCE:
         return contact_bytes(&g->engine[CUT]);
     default:
@@ -273,7 +274,7 @@ static double job_bytes(const struct job *j, struct ground *g)
     }
 }
 
-/* The larger of what memory and arithmetic need. */
+/* Computes the lower limits of the times: the larger of those for memory and for arithmetic. */
 static void find_limits(struct kernel_bench *b)
 {
     for (int k = 0; k < b->jobs; k++) {
@@ -285,7 +286,7 @@ static void find_limits(struct kernel_bench *b)
     }
 }
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
+/* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 static status kernels_run(struct kernel_bench *b, bool quick)
 {

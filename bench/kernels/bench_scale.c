@@ -1,6 +1,6 @@
-/* `cleave bench scale`: time and memory per particle from 1e4 particles to 1e7 (2D) and 1e6 (3D), set-up in
- * units of full peridynamic steps, and what output every 100 steps costs. Sizes that the machine does not hold are
- * left out and named. */
+/* `cleave bench scale`: time and memory per particle from 1e4 to 1e7 (2D) and 1e6 (3D) particles, set-up time in units
+ * of steps of full peridynamics, and the cost of output every 100 steps. Sizes that exceed the memory of the machine
+ * are left out and listed. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,15 +16,17 @@
 
 enum { SIZES = 4, DIMS = 2, STEPS_WARM = 2, PIECES = 4, FRAME_EVERY = 100, FRAMES = 6 };
 static const double size_of[SIZES] = {1e4, 1e5, 1e6, 1e7};
-/* Targets: spread over the sizes, set-up [full steps], output [1]. */
+
+/* Goals: spread over the sizes [1], set-up [steps], output [1]. */
 #define SPREAD_ASKED 1.15
 #define SETUP_ASKED 50.0
 #define OUTPUT_ASKED 0.03
 
 struct size_result {
     bool known;
-    double particles, bonds, setup, step, bytes; /* [1] [1] [s] [s] [byte] */
-    double frame, frame_bytes;                   /* a frame holds the loop [s]; its size [byte per particle] */
+    double particles, bonds, setup, step, bytes; /* numbers [1]; set-up, step [s]; memory [byte] */
+    double frame, frame_bytes;                   /* time for which a frame stops the loop [s]; size of a frame [byte
+                                                  * per particle] */
 };
 
 struct scale_bench {
@@ -33,12 +35,11 @@ struct scale_bench {
 
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
 
-/* Lets the process's high-water mark start again from what it holds now, and returns that; NAN where the system
- * cannot. */
+/* Resets the high-water mark of the process's memory and returns the current use [byte]; NAN if the system cannot. */
 static double memory_from_here(void)
 {
 #ifdef __GLIBC__
-    malloc_trim(0); /* what was freed before must not look like memory that is in use */
+    malloc_trim(0); /* returns freed memory to the system */
 #endif
     FILE *f = fopen("/proc/self/clear_refs", "w");
     if (!f) return NAN;
@@ -46,7 +47,7 @@ static double memory_from_here(void)
     return fclose(f) == 0 && put ? (double)memory_peak() : NAN;
 }
 
-/* Bytes of a particle of the hungriest method, and a frame of it on its way. */
+/* Returns true if the memory of the machine suffices for the most expensive method, with a frame being written. */
 static bool machine_holds(const struct bench_block *block, double particles)
 {
     const double each = block->dim == 2 ? 350 : 1000;
@@ -55,8 +56,8 @@ static bool machine_holds(const struct bench_block *block, double particles)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Frames of a run that writes one every FRAME_EVERY steps; what they hold up the loop is its lap of output. The
- * first makes room for the copy that the others write over. */
+/* Times the frames of a run that writes one every FRAME_EVERY steps: the time of its output section. The first frame
+ * allocates the copy that the others reuse and is left out. */
 static status time_frames(struct size_result *r, const struct bench_block *block, double particles)
 {
     struct scene s;
@@ -84,8 +85,8 @@ static double output_share(const struct size_result *r) { return r->frame / (FRA
 
 /* ---- one size ---------------------------------------------------------------------------------------------------- */
 
-/* Times steps of a block of so many particles: `visits` particles times steps in each of PIECES pieces, of which the
- * fastest counts. FAILED if the run is. */
+/* Times steps of a block. visits: particles times steps in each of PIECES pieces, the fastest of which counts. FAILED
+ * if the run fails. */
 static status time_size(struct size_result *r, const struct bench_block *block, double particles, double visits)
 {
     struct scene s;
@@ -107,21 +108,21 @@ static status time_size(struct size_result *r, const struct bench_block *block, 
     return ran;
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------------ */
+/* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Full peridynamics of the same size is the unit of set-up. */
-static double setup_steps(const struct scale_bench *b, int way, int size)
+/* Returns the set-up time in units of steps of full peridynamics of the same size. */
+static double setup_steps(const struct scale_bench *b, int which, int size)
 {
-    int pd = way;
-    while (pd > 0 && bench_blocks[pd - 1].dim == bench_blocks[way].dim) pd--;
-    return b->at[way][size].setup / b->at[pd][size].step;
+    int pd = which;
+    while (pd > 0 && bench_blocks[pd - 1].dim == bench_blocks[which].dim) pd--;
+    return b->at[which][size].setup / b->at[pd][size].step;
 }
 
-static void print_size(const struct scale_bench *b, int way, int size)
+static void print_size(const struct scale_bench *b, int which, int size)
 {
-    const struct size_result *r = &b->at[way][size];
-    printf("  %-20s %dD %9.3g %10.2f %10.0f %12.1f", bench_blocks[way].name, bench_blocks[way].dim, r->particles,
-           1e9 * r->step / r->particles, r->bytes, setup_steps(b, way, size));
+    const struct size_result *r = &b->at[which][size];
+    printf("  %-20s %dD %9.3g %10.2f %10.0f %12.1f", bench_blocks[which].name, bench_blocks[which].dim, r->particles,
+           1e9 * r->step / r->particles, r->bytes, setup_steps(b, which, size));
     if (isfinite(r->frame)) printf(" %10.1f %9.1f %%", 1e3 * r->frame, 100 * output_share(r));
     putchar('\n');
     fflush(stdout);
@@ -132,20 +133,20 @@ static void print_spread(const struct scale_bench *b)
     printf("\n  largest over smallest from 1e4 on (asked %.2f), set-up (asked %.0f steps of pd), output every %d steps "
            "(asked %.0f %%)\n",
            SPREAD_ASKED, SETUP_ASKED, FRAME_EVERY, 100 * OUTPUT_ASKED);
-    for (int way = 0; way < BENCH_BLOCKS; way++) {
+    for (int which = 0; which < BENCH_BLOCKS; which++) {
         double time[2] = {INFINITY, 0}, bytes[2] = {INFINITY, 0}, setup = 0, output = NAN;
         for (int k = 0; k < SIZES; k++) {
-            const struct size_result *r = &b->at[way][k];
+            const struct size_result *r = &b->at[which][k];
             if (!r->known) continue;
             const double each = r->step / r->particles;
             time[0] = fmin(time[0], each), time[1] = fmax(time[1], each);
             bytes[0] = fmin(bytes[0], r->bytes), bytes[1] = fmax(bytes[1], r->bytes);
-            setup = setup_steps(b, way, k);
+            setup = setup_steps(b, which, k);
             if (isfinite(r->frame)) output = output_share(r);
         }
         if (time[1] > 0)
             printf("    %-20s %dD  time %.2f  memory %.2f  set-up of the largest %.1f  output %.1f %%\n",
-                   bench_blocks[way].name, bench_blocks[way].dim, time[1] / time[0], bytes[1] / bytes[0], setup,
+                   bench_blocks[which].name, bench_blocks[which].dim, time[1] / time[0], bytes[1] / bytes[0], setup,
                    100 * output);
     }
 }
@@ -156,22 +157,22 @@ static status scale_write_table(const struct scale_bench *b)
     bench_table_make(&t, "",
                      "method,dim,particles,directed_bonds,step_seconds,ns_per_particle_step,bytes_per_particle,"
                      "setup_seconds,setup_pd_steps,frame_seconds,frame_bytes_per_particle,output_share");
-    for (int way = 0; way < BENCH_BLOCKS; way++)
+    for (int which = 0; which < BENCH_BLOCKS; which++)
         for (int k = 0; k < SIZES; k++) {
-            const struct size_result *r = &b->at[way][k];
+            const struct size_result *r = &b->at[which][k];
             if (!r->known) continue;
-            const double row[] = {bench_blocks[way].dim,
+            const double row[] = {bench_blocks[which].dim,
                                   r->particles,
                                   r->bonds,
                                   r->step,
                                   1e9 * r->step / r->particles,
                                   r->bytes,
                                   r->setup,
-                                  setup_steps(b, way, k),
+                                  setup_steps(b, which, k),
                                   r->frame,
                                   isfinite(r->frame) ? r->frame_bytes : NAN,
                                   output_share(r)};
-            bench_text(&t, bench_blocks[way].name);
+            bench_text(&t, bench_blocks[which].name);
             for (size_t c = 0; c < COUNT_OF(row); c++) bench_number(&t, row[c]);
         }
     status s = bench_write("scale", &t, 1);
@@ -184,10 +185,10 @@ static void scale_draw_panel(FILE *to, int dim, bool memory)
     int colour = 0;
     fprintf(to, "set title '%s, %dD'\nset ylabel '%s'\nplot ", memory ? "memory" : "time", dim,
             memory ? "bytes per particle" : "ns per particle and step");
-    for (int way = 0; way < BENCH_BLOCKS; way++)
-        if (bench_blocks[way].dim == dim)
-            fprintf(to, "%s$w%d using 1:%d with linespoints pt 7 lw 2 lc rgb '%s' title '%s'", colour ? ", " : "", way,
-                    memory ? 3 : 2, curve_colour[colour], bench_blocks[way].name),
+    for (int which = 0; which < BENCH_BLOCKS; which++)
+        if (bench_blocks[which].dim == dim)
+            fprintf(to, "%s$w%d using 1:%d with linespoints pt 7 lw 2 lc rgb '%s' title '%s'", colour ? ", " : "",
+                    which, memory ? 3 : 2, curve_colour[colour], bench_blocks[which].name),
                 colour++;
     fputc('\n', to);
 }
@@ -195,10 +196,10 @@ static void scale_draw_panel(FILE *to, int dim, bool memory)
 static void scale_draw(FILE *to, const void *context)
 {
     const struct scale_bench *b = context;
-    for (int way = 0; way < BENCH_BLOCKS; way++) {
-        fprintf(to, "$w%d << EOD\n", way);
+    for (int which = 0; which < BENCH_BLOCKS; which++) {
+        fprintf(to, "$w%d << EOD\n", which);
         for (int k = 0; k < SIZES; k++) {
-            const struct size_result *r = &b->at[way][k];
+            const struct size_result *r = &b->at[which][k];
             if (r->known) fprintf(to, "%.6g %.6g %.6g\n", r->particles, 1e9 * r->step / r->particles, r->bytes);
         }
         fputs("EOD\n", to);
@@ -212,11 +213,11 @@ static void scale_draw(FILE *to, const void *context)
     fputs("unset multiplot\n", to);
 }
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
+/* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-static status measure_way(struct scale_bench *b, int way, int sizes, bool quick)
+static status measure_block(struct scale_bench *b, int which, int sizes, bool quick)
 {
-    const struct bench_block *block = &bench_blocks[way];
+    const struct bench_block *block = &bench_blocks[which];
     for (int k = 0; k < sizes; k++) {
         const double particles = quick ? 2500 + 5000 * k : size_of[k];
         if (block->dim == 3 && k > (quick ? 0 : 2)) continue;
@@ -225,10 +226,10 @@ static status measure_way(struct scale_bench *b, int way, int sizes, bool quick)
                    block->name, block->dim, particles, 1e-9 * (double)team_memory());
             continue;
         }
-        struct size_result *r = &b->at[way][k];
+        struct size_result *r = &b->at[which][k];
         TRY(time_size(r, block, particles, quick ? 2e4 : 4e5));
         if (k == (quick ? 0 : 2) && block->dim == 2) TRY(time_frames(r, block, particles));
-        print_size(b, way, k);
+        print_size(b, which, k);
     }
     return OK;
 }
@@ -237,7 +238,7 @@ static status scale_measure(struct scale_bench *b, bool quick)
 {
     printf("  %-20s    %9s %10s %10s %12s %10s %11s\n", "", "particles", "ns/step", "bytes", "set-up/step",
            "frame [ms]", "of 100 steps");
-    for (int way = 0; way < BENCH_BLOCKS; way++) TRY(measure_way(b, way, quick ? 2 : SIZES, quick));
+    for (int which = 0; which < BENCH_BLOCKS; which++) TRY(measure_block(b, which, quick ? 2 : SIZES, quick));
     print_spread(b);
     TRY(scale_write_table(b));
     return bench_draw("scale", 1200, 900, scale_draw, b);

@@ -1,5 +1,6 @@
-/* Targets: whole steps of Kalthoff's plate beside the probes, on one thread and on two, and memory.
- * Probes and runs take turns; the fastest repetition counts. Where a step's time goes, by phase. */
+/* Performance targets: whole steps of Kalthoff's plate compared with the limits of the machine, on one and on two
+ * threads, and memory. Measurements of limits and runs alternate; the fastest repetition counts. Also measures the time
+ * of each section of a step. */
 #include <math.h>
 #include <stdio.h>
 
@@ -8,12 +9,12 @@
 
 #define SCENE "inputs/kalthoff_winkler.yaml"
 
-/* A run: some steps to warm up, then pieces on one thread and on two in turn; it ends before the crack starts. */
+/* Steps of a run: warm-up, then pieces on one thread and on two alternately; it ends before the crack starts. */
 enum { STEPS_WARM = 4, STEPS_TIMED = 40, ROUNDS = 3 };
 
-/* A way to run the scene at 0.5 mm, with all of its particles in every step: with an active set the limits of the
- * machine would not apply. `sampled`: with the samples of the scene, else one sample in STEPS_TIMED. */
-struct way {
+/* A run of the scene at 0.5 mm in which every step moves all particles: with an active set the limits of the machine
+ * would not apply. sampled: with the samples of the scene, else one sample in STEPS_TIMED. */
+struct target_run {
     const char *name;
     bool sampled;
     int overrides;
@@ -25,17 +26,17 @@ struct way {
 #define POINTS(SHAPE)                                                                                                  \
     COMMON, {"method", "mpm"}, {"mpm.shape", SHAPE}, { "mpm.transfer", "flip" }
 
-enum { WAY_PD, WAY_POINTS, WAY_GIMP, WAY_ADAPTIVE, WAY_PD_SAMPLED, WAY_ADAPTIVE_SAMPLED, WAYS };
-static const struct way ways[WAYS] = {
-    [WAY_PD] = {"pd", false, 3, {COMMON, {"method", "pd"}}},
-    [WAY_POINTS] = {"mpm linear flip", false, 5, {POINTS("linear")}},
-    [WAY_GIMP] = {"mpm gimp flip", false, 5, {POINTS("gimp")}},
-    [WAY_ADAPTIVE] = {"adaptive", false, 3, {COMMON, {"method", "adaptive"}}},
-    [WAY_PD_SAMPLED] = {"pd sampled as the scene asks", true, 3, {COMMON, {"method", "pd"}}},
-    [WAY_ADAPTIVE_SAMPLED] = {"adaptive sampled as the scene asks", true, 3, {COMMON, {"method", "adaptive"}}},
+enum { RUN_PD, RUN_POINTS, RUN_GIMP, RUN_ADAPTIVE, RUN_PD_SAMPLED, RUN_ADAPTIVE_SAMPLED, RUNS };
+static const struct target_run target_runs[RUNS] = {
+    [RUN_PD] = {"pd", false, 3, {COMMON, {"method", "pd"}}},
+    [RUN_POINTS] = {"mpm linear flip", false, 5, {POINTS("linear")}},
+    [RUN_GIMP] = {"mpm gimp flip", false, 5, {POINTS("gimp")}},
+    [RUN_ADAPTIVE] = {"adaptive", false, 3, {COMMON, {"method", "adaptive"}}},
+    [RUN_PD_SAMPLED] = {"pd sampled as the scene asks", true, 3, {COMMON, {"method", "pd"}}},
+    [RUN_ADAPTIVE_SAMPLED] = {"adaptive sampled as the scene asks", true, 3, {COMMON, {"method", "adaptive"}}},
 };
 
-/* The fastest repetition of a way, by threads - 1. */
+/* Times of the fastest repetition of a run, by threads - 1. */
 struct timing {
     double seconds[TARGET_THREADS];
     struct laps laps[TARGET_THREADS];
@@ -43,8 +44,8 @@ struct timing {
 };
 
 struct targets_bench {
-    int threads; /* 1 or 2 */
-    struct timing way[WAYS];
+    int threads; /* number of threads: 1 or 2 */
+    struct timing run[RUNS];
     double cell_stencil[TARGET_THREADS], points[TARGET_THREADS];
 };
 
@@ -65,15 +66,15 @@ static void keep_fastest(struct timing *t, int threads, const struct laps *spent
     t->laps[threads - 1] = *spent;
 }
 
-static status targets_time_way(struct targets_bench *b, int which)
+static status targets_time_run(struct targets_bench *b, int which)
 {
-    const struct way *w = &ways[which];
-    struct timing *t = &b->way[which];
+    const struct target_run *w = &target_runs[which];
+    struct timing *t = &b->run[which];
     struct scene s;
     struct run e;
     team_make(1);
     TRY(bench_engine_make(&e, &s, SCENE, NULL, w->override, w->overrides));
-    const real rate = w->sampled ? (real)s.samples / (real)e.clock.steps : 0; /* samples a step */
+    const real rate = w->sampled ? (real)s.samples / (real)e.clock.steps : 0; /* samples per step */
     s.samples = 0;
     t->particles = (double)e.part.n, t->bonds = (double)e.bonds.n;
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
@@ -81,7 +82,7 @@ static status targets_time_way(struct targets_bench *b, int which)
         const int threads = 1 + k % b->threads;
         struct laps spent = {0};
         team_make(threads);
-        s.samples = (int)(rate * (real)(e.clock.step + STEPS_TIMED)); /* of the piece, as the engine counts them */
+        s.samples = (int)(rate * (real)(e.clock.step + STEPS_TIMED)); /* in the piece, as the engine counts them */
         ran = bench_engine_run(&e, e.clock.step + STEPS_TIMED, &spent);
         if (ran == OK) keep_fastest(t, threads, &spent);
     }
@@ -107,9 +108,9 @@ static status time_everything(struct targets_bench *b, int repetitions)
     struct microbench_points *points = microbench_points_make();
     status s = OK;
     for (int r = 0; r < repetitions && s == OK; r++)
-        for (int w = 0; w < WAYS && s == OK; w++) {
+        for (int w = 0; w < RUNS && s == OK; w++) {
             time_probes(b, cell_stencil, points);
-            s = targets_time_way(b, w);
+            s = targets_time_run(b, w);
         }
     microbench_lattice_free(cell_stencil);
     microbench_points_free(points);
@@ -117,7 +118,7 @@ static status time_everything(struct targets_bench *b, int repetitions)
     return s;
 }
 
-/* ---- figures ----------------------------------------------------------------------------------------------------- */
+/* ---- results ----------------------------------------------------------------------------------------------------- */
 
 static void add_figure(struct targets *f, struct target_figure figure)
 {
@@ -126,7 +127,7 @@ static void add_figure(struct targets *f, struct target_figure figure)
 
 static void add_speed(struct targets *f, const struct targets_bench *b)
 {
-    const struct timing *pd = &b->way[WAY_PD], *sampled = &b->way[WAY_PD_SAMPLED], *points = &b->way[WAY_POINTS];
+    const struct timing *pd = &b->run[RUN_PD], *sampled = &b->run[RUN_PD_SAMPLED], *points = &b->run[RUN_POINTS];
     add_figure(f, (struct target_figure){"full PD, whole step, per directed bond", "ns", 1e9,
                                          pd->seconds[0] / pd->bonds, b->cell_stencil[0], 2.5, false});
     add_figure(f, (struct target_figure){"the same with all samples of the scene", "ns", 1e9,
@@ -143,10 +144,10 @@ static void add_speed(struct targets *f, const struct targets_bench *b)
 static void add_laps(struct targets *f, const struct targets_bench *b)
 {
     bench_table_make(&f->laps, "laps", "method,threads,bonds_s,scatter_s,grid_s,gather_s,convert_s,watch_s,step_s");
-    for (int w = 0; w < WAYS; w++)
+    for (int w = 0; w < RUNS; w++)
         for (int threads = 1; threads <= b->threads; threads++) {
-            const struct timing *t = &b->way[w];
-            bench_text(&f->laps, ways[w].name);
+            const struct timing *t = &b->run[w];
+            bench_text(&f->laps, target_runs[w].name);
             bench_number(&f->laps, threads);
             for (int k = 0; k < LAP_OUTPUT; k++)
                 bench_number(&f->laps, t->laps[threads - 1].spent[k] / STEPS_TIMED / t->particles);
@@ -160,7 +161,7 @@ status bench_targets_speed(struct targets *f, bool quick)
     if (!path_is_file(SCENE)) return OK;
     for (int k = 0; k < TARGET_THREADS; k++) {
         b.cell_stencil[k] = b.points[k] = INFINITY;
-        for (int w = 0; w < WAYS; w++) b.way[w].seconds[k] = INFINITY;
+        for (int w = 0; w < RUNS; w++) b.run[w].seconds[k] = INFINITY;
     }
     TRY(time_everything(&b, quick ? 1 : 4));
     add_speed(f, &b);
@@ -170,7 +171,7 @@ status bench_targets_speed(struct targets *f, bool quick)
 
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
 
-static status peak_per_particle(const struct way *w, double *peak)
+static status peak_per_particle(const struct target_run *w, double *peak)
 {
     static const char *const key[] = {"memory_peak_bytes", "particles"};
     struct scene_override override[8] = {{"output.frames", "0"}, {"output.samples", "10"}, {"duration", "1us"}};
@@ -184,15 +185,15 @@ static status peak_per_particle(const struct way *w, double *peak)
 status bench_targets_memory(struct targets *f)
 {
     static const struct {
-        int way;
+        int run;
         const char *name;
         double asked;
-    } asked[] = {{WAY_PD, "peak memory per particle, full PD", 1200},
-                 {WAY_POINTS, "peak memory per particle, all MPM", 500}};
+    } asked[] = {{RUN_PD, "peak memory per particle, full PD", 1200},
+                 {RUN_POINTS, "peak memory per particle, all MPM", 500}};
     if (!bench_scene_exists(SCENE)) return OK;
     for (size_t k = 0; k < COUNT_OF(asked); k++) {
         double peak;
-        if (peak_per_particle(&ways[asked[k].way], &peak) != OK)
+        if (peak_per_particle(&target_runs[asked[k].run], &peak) != OK)
             printf("  %s: not measured: %s\n", asked[k].name, status_message());
         else
             add_figure(f, (struct target_figure){asked[k].name, "B", 1, peak, 1, asked[k].asked, false});
@@ -200,7 +201,7 @@ status bench_targets_memory(struct targets *f)
     return OK;
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------------ */
+/* ---- output ------------------------------------------------------------------------------------------------------ */
 
 static bool met(const struct target_figure *a)
 {
@@ -229,7 +230,7 @@ void bench_targets_print(const struct targets *f)
            "", "measured", "limit", "ratio", "asked");
     for (int k = 0; k < f->figures; k++) {
         const struct target_figure *a = &f->figure[k];
-        char beside[32] = ""; /* memory has no limit to stand beside */
+        char beside[32] = ""; /* memory has no limit of the machine */
         if (a->limit != 1)
             snprintf(beside, sizeof beside, "%10.3f %8.3f", a->limit * a->factor, a->measured / a->limit);
         printf("    %-42s %7.3f %-2s %19s  %s %5.4g  %s\n", a->name, a->measured * a->factor, a->unit, beside,
@@ -247,7 +248,7 @@ void bench_targets_table(const struct targets *f, struct bench_table *t)
         const double number[] = {a->measured, a->limit, a->measured / a->limit, a->asked, met(a)};
         char name[NAME_MAX_LENGTH];
         snprintf(name, sizeof name, "%s", a->name);
-        for (char *c = name; *c; c++) *c = *c == ',' ? ';' : *c; /* a csv field */
+        for (char *c = name; *c; c++) *c = *c == ',' ? ';' : *c; /* a comma would end the cell */
         bench_text(t, name);
         for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(t, number[c]);
     }

@@ -1,6 +1,6 @@
-/* `cleave bench threads`: strong scaling (one block on more and more threads) and weak scaling (a block for
- * each thread), beside what the memory gives that many threads. Every team makes the engine that it runs, so that
- * pages lie where they are used; teams take turns, the fastest repetition counts. */
+/* `cleave bench threads`: strong scaling (one block on more and more threads) and weak scaling (a block per thread),
+ * compared with the memory bandwidth of that many threads. Every team creates its own run, so that pages are local to
+ * the threads that use them; teams alternate, the fastest repetition counts. */
 #include <math.h>
 #include <stdio.h>
 
@@ -9,19 +9,19 @@
 #include "base/memory.h"
 #include "step/report.h"
 
-enum { TEAMS_MAX = 24, DIM_OF_WAYS = 2, STEPS_WARM = 3, PIECES = 4, SCALINGS = 2 };
+enum { TEAMS_MAX = 24, DIM_SHOWN = 2, STEPS_WARM = 3, PIECES = 4, SCALINGS = 2 };
 static const char *const scaling_name[SCALINGS] = {"strong", "weak"};
 
 struct threads_bench {
     int teams, team[TEAMS_MAX];
     double triad[TEAMS_MAX];                        /* [byte/s] */
-    double step[BENCH_BLOCKS][SCALINGS][TEAMS_MAX]; /* [s]; fastest */
+    double step[BENCH_BLOCKS][SCALINGS][TEAMS_MAX]; /* time of a step, fastest [s] */
     double particles[BENCH_BLOCKS][SCALINGS][TEAMS_MAX];
 };
 
 static bool power_of_two(int t) { return (t & (t - 1)) == 0; }
 
-/* 1, 2, 3, 4, 6, 8, 12, 16 ... and all cores there are. */
+/* Chooses the numbers of threads: 1, 2, 3, 4, 6, 8, 12, 16 ... and all cores. */
 static void choose_teams(struct threads_bench *b, int cores)
 {
     for (int t = 1; t < cores && b->teams < TEAMS_MAX - 1; t = t == 1 ? 2 : power_of_two(t) ? t / 2 * 3 : t / 3 * 4)
@@ -29,25 +29,25 @@ static void choose_teams(struct threads_bench *b, int cores)
     b->team[b->teams++] = cores;
 }
 
-static double cost(const struct threads_bench *b, int way, int scaling, int t)
+static double cost(const struct threads_bench *b, int which, int scaling, int t)
 {
-    return b->step[way][scaling][t] / b->particles[way][scaling][t];
+    return b->step[which][scaling][t] / b->particles[which][scaling][t];
 }
 
-/* Of `t` threads against one: how much of their number a step gains. */
-static double efficiency(const struct threads_bench *b, int way, int scaling, int t)
+/* Returns the parallel efficiency of team[t] threads: time on one thread over time and number of threads. */
+static double efficiency(const struct threads_bench *b, int which, int scaling, int t)
 {
-    return cost(b, way, scaling, 0) / (b->team[t] * cost(b, way, scaling, t));
+    return cost(b, which, scaling, 0) / (b->team[t] * cost(b, which, scaling, t));
 }
 
-static status time_block(struct threads_bench *b, int way, int scaling, int t, double particles, int64_t steps)
+static status time_block(struct threads_bench *b, int which, int scaling, int t, double particles, int64_t steps)
 {
     struct scene s;
     struct run e;
-    double *best = &b->step[way][scaling][t];
+    double *best = &b->step[which][scaling][t];
     team_make(b->team[t]);
-    TRY(bench_block_make(&e, &s, &bench_blocks[way], particles, STEPS_WARM + PIECES * steps, 0, NULL));
-    b->particles[way][scaling][t] = (double)e.part.n;
+    TRY(bench_block_make(&e, &s, &bench_blocks[which], particles, STEPS_WARM + PIECES * steps, 0, NULL));
+    b->particles[which][scaling][t] = (double)e.part.n;
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
     for (int k = 1; k <= PIECES && ran == OK; k++) {
         const double before = e.report->loop_seconds;
@@ -58,18 +58,18 @@ static status time_block(struct threads_bench *b, int way, int scaling, int t, d
     return ran;
 }
 
-static status threads_time_way(struct threads_bench *b, int way, bool quick)
+static status threads_time_scalings(struct threads_bench *b, int which, bool quick)
 {
     const double whole = quick ? 1e4 : 1e6, each = quick ? 5e3 : 2.5e5;
     for (int r = 0; r < (quick ? 1 : 2); r++)
         for (int t = 0; t < b->teams; t++) {
-            TRY(time_block(b, way, 0, t, whole, quick ? 2 : 5));
-            TRY(time_block(b, way, 1, t, each * b->team[t], quick ? 2 : 10));
+            TRY(time_block(b, which, 0, t, whole, quick ? 2 : 5));
+            TRY(time_block(b, which, 1, t, each * b->team[t], quick ? 2 : 10));
         }
     for (int c = 0; c < SCALINGS; c++) {
-        printf("  %-20s %-7s", bench_blocks[way].name, scaling_name[c]);
+        printf("  %-20s %-7s", bench_blocks[which].name, scaling_name[c]);
         for (int t = 0; t < b->teams; t++)
-            printf("  %9.3f ms %5.2f", 1e3 * b->step[way][c][t], efficiency(b, way, c, t));
+            printf("  %9.3f ms %5.2f", 1e3 * b->step[which][c][t], efficiency(b, which, c, t));
         putchar('\n');
     }
     fflush(stdout);
@@ -90,20 +90,20 @@ static void time_memory(struct threads_bench *b)
     putchar('\n');
 }
 
-static bool is_way(int way) { return bench_blocks[way].dim == DIM_OF_WAYS; }
+static bool is_shown(int which) { return bench_blocks[which].dim == DIM_SHOWN; }
 
 static status threads_write_tables(const struct threads_bench *b)
 {
     struct bench_table table[2];
     bench_table_make(&table[0], "", "method,scaling,threads,particles,step_seconds,ns_per_particle_step,efficiency");
     bench_table_make(&table[1], "memory", "threads,triad_bytes_per_second,efficiency");
-    for (int way = 0; way < BENCH_BLOCKS; way++)
-        for (int c = 0; c < SCALINGS && is_way(way); c++)
+    for (int which = 0; which < BENCH_BLOCKS; which++)
+        for (int c = 0; c < SCALINGS && is_shown(which); c++)
             for (int t = 0; t < b->teams; t++) {
-                bench_text(&table[0], bench_blocks[way].name), bench_text(&table[0], scaling_name[c]);
-                bench_number(&table[0], b->team[t]), bench_number(&table[0], b->particles[way][c][t]);
-                bench_number(&table[0], b->step[way][c][t]), bench_number(&table[0], 1e9 * cost(b, way, c, t));
-                bench_number(&table[0], efficiency(b, way, c, t));
+                bench_text(&table[0], bench_blocks[which].name), bench_text(&table[0], scaling_name[c]);
+                bench_number(&table[0], b->team[t]), bench_number(&table[0], b->particles[which][c][t]);
+                bench_number(&table[0], b->step[which][c][t]), bench_number(&table[0], 1e9 * cost(b, which, c, t));
+                bench_number(&table[0], efficiency(b, which, c, t));
             }
     for (int t = 0; t < b->teams; t++) {
         bench_number(&table[1], b->team[t]), bench_number(&table[1], b->triad[t]);
@@ -121,8 +121,8 @@ static void threads_draw(FILE *to, const void *context)
         fprintf(to, "$d%d << EOD\n", c);
         for (int t = 0; t < b->teams; t++) {
             fprintf(to, "%d %.6g", b->team[t], b->triad[t] / (b->team[t] * b->triad[0]));
-            for (int way = 0; way < BENCH_BLOCKS; way++)
-                if (is_way(way)) fprintf(to, " %.6g", efficiency(b, way, c, t));
+            for (int which = 0; which < BENCH_BLOCKS; which++)
+                if (is_shown(which)) fprintf(to, " %.6g", efficiency(b, which, c, t));
             fputc('\n', to);
         }
         fputs("EOD\n", to);
@@ -137,10 +137,10 @@ static void threads_draw(FILE *to, const void *context)
                 "set title '%s scaling'\nplot 0.8 with lines dt (6,4) lw 1 lc rgb '#888888' notitle, "
                 "$d%d using 1:2 with lines dt (2,3) lw 2 lc rgb '#555555' title 'memory (triad)'",
                 scaling_name[c], c);
-        for (int way = 0, colour = 0; way < BENCH_BLOCKS; way++)
-            if (is_way(way))
+        for (int which = 0, colour = 0; which < BENCH_BLOCKS; which++)
+            if (is_shown(which))
                 fprintf(to, ", $d%d using 1:%d with linespoints pt 7 lw 2 lc rgb '%s' title '%s'", c, column++,
-                        curve_colour[colour++], bench_blocks[way].name);
+                        curve_colour[colour++], bench_blocks[which].name);
         fputc('\n', to);
     }
     fputs("unset multiplot\n", to);
@@ -153,8 +153,8 @@ static status threads_measure(struct threads_bench *b, bool quick)
     printf(" threads; strong: %s particles, weak: %s for each thread\n", quick ? "1e4" : "1e6",
            quick ? "5e3" : "2.5e5");
     time_memory(b);
-    for (int way = 0; way < BENCH_BLOCKS; way++)
-        if (is_way(way)) TRY(threads_time_way(b, way, quick));
+    for (int which = 0; which < BENCH_BLOCKS; which++)
+        if (is_shown(which)) TRY(threads_time_scalings(b, which, quick));
     team_make(0);
     TRY(threads_write_tables(b));
     return bench_draw("threads", 1200, 500, threads_draw, b);
@@ -163,9 +163,9 @@ static status threads_measure(struct threads_bench *b, bool quick)
 status bench_threads(bool quick)
 {
     struct threads_bench *b = NEW("bench.threads", 1, struct threads_bench);
-    for (int way = 0; way < BENCH_BLOCKS; way++)
+    for (int which = 0; which < BENCH_BLOCKS; which++)
         for (int c = 0; c < SCALINGS; c++)
-            for (int t = 0; t < TEAMS_MAX; t++) b->step[way][c][t] = INFINITY;
+            for (int t = 0; t < TEAMS_MAX; t++) b->step[which][c][t] = INFINITY;
     printf("threads\n");
     const int most = team_make(0);
     bench_print_machine(most);

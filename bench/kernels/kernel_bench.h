@@ -1,4 +1,4 @@
-/* What the parts of `cleave bench kernels` share. */
+/* `cleave bench kernels`: declarations shared by its files. */
 #ifndef CLEAVE_BENCH_KERNEL_BENCH
 #define CLEAVE_BENCH_KERNEL_BENCH
 
@@ -7,6 +7,7 @@
 #include "bench/common/bench.h"
 #include "contact/contact.h"
 
+/* Kernels that are timed. */
 enum job_kind {
     BOND_FORCE,
     BOND_ENERGY,
@@ -27,32 +28,34 @@ enum job_kind {
     JOB_KINDS
 };
 
-/* One instance to be timed. */
+/* A kernel instance to be timed. */
 struct job {
     enum job_kind kind;
     int dim;
     enum pd_model model;
     enum shape shape;
     enum transfer transfer;
-    bool finite; /* strain of a mesh */
+    bool finite; /* finite strain in a mesh */
     const char *variant;
-    double seconds;      /* of the fastest call */
-    double bytes, limit; /* moved a particle; least time it would take a particle [s] */
+    double seconds;      /* time of the fastest call [s] */
+    double bytes, limit; /* bytes moved per particle; lower limit of the time per particle [s] */
 };
 
-/* What is timed on, for each dimension; state-based particles not in 1D. */
+/* Bodies on which kernels are timed, for each dimension; there are no state-based particles in 1D. */
 enum { BONDS, POINTS, STATES, MESH, YIELDING, CUT, GROUNDS };
 struct ground {
     struct scene scene[GROUNDS];
     struct run engine[GROUNDS];
     int32_t *list;
-    real *value, *field; /* of spread */
+    real *value, *field; /* arguments of the spread kernel */
 };
 
+/* Limits of the machine. */
 struct limits {
     double cell_stencil[DIM_MAX + 1], triad, points;
 }; /* [s/bond], [B/s], [s/point] */
 
+/* State of the bench. */
 struct kernel_bench {
     struct ground ground[DIM_MAX + 1];
     struct job *job;
@@ -61,23 +64,26 @@ struct kernel_bench {
     struct targets targets;
 };
 
+/* Returns true if the kernel visits bonds. */
 static inline bool on_bonds(const struct job *j) { return j->kind <= BOND_STRESS; }
 
-/* Of contact: those near a face. */
+/* Returns the number of particles that the kernel visits; for contact those near a face. */
 static inline int64_t job_particles(const struct job *j, const struct ground *g)
 {
     if (j->kind >= CONTACT_SEARCH) return g->engine[CUT].contact->rows;
     return g->engine[j->kind >= MESH_CLEAR ? MESH : j->kind > PD_MOVE ? POINTS : BONDS].part.n;
 }
 
-/* Bonds of a particle; NAN where a kernel visits none. */
+/* Returns the number of bonds per particle; NAN if the kernel visits none. */
 static inline double job_bonds(const struct job *j, const struct ground *g)
 {
     return on_bonds(j) ? (double)g->engine[BONDS].bonds.n / (double)g->engine[BONDS].part.n : NAN;
 }
 
-/* What was measured, printed; its tables and its picture (kernels_draw.c). */
+/* Prints the results (kernels_draw.c). */
 void kernels_print(const struct kernel_bench *b);
+
+/* Writes the tables and draws the picture (kernels_draw.c). */
 status kernels_write(const struct kernel_bench *b);
 
 #endif

@@ -1,4 +1,4 @@
-/* What `cleave bench kernels` says: lines, tables and a picture. */
+/* Output of `cleave bench kernels`: lines, tables and a picture. */
 #include <ctype.h>
 #include <math.h>
 
@@ -11,7 +11,7 @@ static const char *const job_name[JOB_KINDS] = {
     "g2p",        "spread",      "grid_clear",     "grid_move",    "grid_remapped", "mesh_clear",
     "mesh_force", "mesh_move",   "contact_search", "contact_force"};
 
-/* ---- what is said ------------------------------------------------------------------------------------------------ */
+/* ---- output ------------------------------------------------------------------------------------------------------ */
 
 static void print_limits(const struct limits *l)
 {
@@ -75,7 +75,7 @@ static status kernels_draw_write_tables(const struct kernel_bench *b)
 
 /* ---- picture ----------------------------------------------------------------------------------------------------- */
 
-/* The first word in small letters, and what else is given, quoted. */
+/* Writes a quoted label: the first word of `variant` in lower case, followed by `more`. */
 static void kernels_draw_put_label(FILE *to, const char *variant, const char *more)
 {
     fputc('"', to);
@@ -83,7 +83,8 @@ static void kernels_draw_put_label(FILE *to, const char *variant, const char *mo
     fprintf(to, "%s\"", more);
 }
 
-/* Blocks $bD (bond kernels, per bond) and $pD (transfers, one row a shape), in ns. */
+/* Sends the data blocks $bD (bond kernels, per bond) and $pD (transfers, one row per shape) for each dimension D
+ * [ns]. */
 static void send_data(FILE *to, const struct kernel_bench *b)
 {
     for (int d = 1; d <= DIM_MAX; d++) {
@@ -120,11 +121,11 @@ static void kernels_draw_set_panel(FILE *to, double left, double right, double b
             left, right, below, above);
 }
 
-/* Measured figures as shares of their targets. */
+/* Draws the measured values over their targets. */
 static void draw_speed_targets(FILE *to, const struct targets *f)
 {
     if (!f->figures) return;
-    const double most = 4; /* longer bars are cut; their figure tells */
+    const double most = 4; /* longer bars are cut; their value is printed */
     fputs("$targets << EOD\n", to);
     for (int k = 0; k < f->figures; k++) {
         const struct target_figure *a = &f->figure[k];

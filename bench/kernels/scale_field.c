@@ -1,11 +1,12 @@
-/* `cleave bench scale=field`: a far field. A crack of 10 mm in the middle of a plate of 0.4 m by 0.4 m, a hundred times
- * the area of the 40 mm by 40 mm round it that matter, is met by a plane pulse of tension from one edge. K_I(t) of runs
- * with coarse cells far from the crack, and of a part of the plate between absorbing faces, beside direct runs: bonds
- * everywhere, and cells of two spacings everywhere. Nothing breaks. Half of the plate is modelled, with a mirror.
+/* `cleave bench scale=field`: coarse cells and absorbing faces in the far field of a crack. A plane tensile pulse from
+ * one edge hits a crack of 10 mm in the middle of a plate of 0.4 m x 0.4 m, a hundred times the area of the 40 mm x 40
+ * mm around the crack. K_I(t) of runs with coarse cells far from the crack, and of a part of the plate between
+ * absorbing faces, is compared with direct runs: bonds everywhere, and cells of two spacings everywhere. No bond
+ * breaks. Half of the plate is modelled, with a mirror.
  *
- * All runs have the same time step, the same samples and one thread; each is a process of its own. The time of its loop
- * is multiplied by the share of a processor that the process had, so that what else the machine does counts little. The
- * part's wave begins nearer: its time is shifted by that way. */
+ * All runs have the same time step, the same samples and one thread; each is a separate process. Loop times are
+ * multiplied by the share of a processor that the process received, to exclude the load of other programs. In the part
+ * the wave starts nearer to the crack, and its time is shifted accordingly. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -19,42 +20,43 @@
 #include "plot/gnuplot.h"
 
 #define SCENE BENCH_FOLDER "/run-field.yaml"
-#define K_AIM 0.02          /* largest difference over the largest K of the direct run */
-#define TIME_AIM 20.0       /* time of the direct run over that of a run */
-#define HALF 200.0          /* of the plate [mm] */
-#define NEAR 40.0           /* from the crack to the faces of the part that absorb [mm] */
-#define WIDE 70.0           /* half width of the part [mm]: what comes back from there is late */
-#define PULSE_SPACINGS 32.0 /* duration of the pulse [us] over the spacing [mm]: 190 spacings long */
+#define K_AIM 0.02          /* largest allowed difference over the largest K of the direct run */
+#define TIME_AIM 20.0       /* required ratio of the loop times of the direct run and a run */
+#define HALF 200.0          /* half edge of the plate [mm] */
+#define NEAR 40.0           /* distance of the absorbing faces from the crack [mm] */
+#define WIDE 70.0           /* half width of the part; reflections from there arrive late [mm] */
+#define PULSE_SPACINGS 32.0 /* duration of the pulse [us] over the spacing [mm]: the pulse is 190 spacings long */
 #define STEP_SPACINGS 0.16  /* time step [us] over the spacing [mm] */
-#define SEEN 0.9            /* of the pulse that a run sees at the crack: before the faces close */
+#define SEEN 0.9            /* share of the pulse that is compared: before the crack closes */
 
 static const double young = 72e9, poisson = 0.25, density = 2440;
 
-static const struct field_way {
+static const struct field_run {
     const char *name, *method;
-    int levels; /* of coarse cells; -1: no cells */
+    int levels; /* levels of coarse cells; -1: no cells */
     bool part;
-} way[] = {{"bonds everywhere", "pd", -1, false},     {"cells of 2 spacings", "adaptive", 0, false},
-           {"cells up to 4", "adaptive", 1, false},   {"cells up to 8", "adaptive", 2, false},
-           {"cells up to 16", "adaptive", 3, false},  {"cells up to 32", "adaptive", 4, false},
-           {"part, cells of 2", "adaptive", 0, true}, {"part, cells up to 8", "adaptive", 2, true}};
-enum { FIELD_WAYS = COUNT_OF(way), DIRECT = 2, FIELD_SAMPLES = 100 };
+} field_runs[] = {{"bonds everywhere", "pd", -1, false},     {"cells of 2 spacings", "adaptive", 0, false},
+                  {"cells up to 4", "adaptive", 1, false},   {"cells up to 8", "adaptive", 2, false},
+                  {"cells up to 16", "adaptive", 3, false},  {"cells up to 32", "adaptive", 4, false},
+                  {"part, cells of 2", "adaptive", 0, true}, {"part, cells up to 8", "adaptive", 2, true}};
+enum { FIELD_RUNS = COUNT_OF(field_runs), DIRECT = 2, FIELD_SAMPLES = 100 };
 
 struct field_row {
     double made, body, bytes, seconds, sampling, lap[LAPS];
     int64_t n;
-    double t[FIELD_SAMPLES + 2], K[FIELD_SAMPLES + 2], peak; /* [s] [Pa m^0.5] */
-    double off[DIRECT];                                      /* from each direct run [1] */
+    double t[FIELD_SAMPLES + 2], K[FIELD_SAMPLES + 2], peak; /* time [s]; K [Pa m^0.5] */
+    double off[DIRECT];                                      /* difference from each direct run [1] */
 };
 
 struct field_bench {
     double spacing, speed, pulse; /* [mm] [m/s] [s] */
-    struct field_row at[FIELD_WAYS];
+    struct field_row at[FIELD_RUNS];
 };
 
 /* ---- scene ------------------------------------------------------------------------------------------------------- */
 
-/* Waves that come through the face of the part are what twice their stress makes on a face that absorbs. */
+/* Writes the scene of the plate or the part. A wave that enters the part through an absorbing face is caused by a load
+ * of twice its stress. */
 static status field_scene_write(const struct field_bench *b, bool part)
 {
     const double high = part ? NEAR : HALF, wide = part ? WIDE : HALF;
@@ -111,11 +113,11 @@ static status field_run(struct field_bench *b, int k)
 {
     struct bench_overrides o = {0};
     struct bench_child c;
-    const double later = way[k].part ? 1e-3 * (HALF - NEAR) / b->speed : 0;
-    TRY(field_scene_write(b, way[k].part));
-    bench_override(&o, "method", "%s", way[k].method);
-    if (way[k].levels >= 0) bench_override(&o, "mpm.levels", "%d", way[k].levels);
-    if (way[k].levels > 0) bench_override(&o, "mpm.fill", "needed");
+    const double later = field_runs[k].part ? 1e-3 * (HALF - NEAR) / b->speed : 0;
+    TRY(field_scene_write(b, field_runs[k].part));
+    bench_override(&o, "method", "%s", field_runs[k].method);
+    if (field_runs[k].levels >= 0) bench_override(&o, "mpm.levels", "%d", field_runs[k].levels);
+    if (field_runs[k].levels > 0) bench_override(&o, "mpm.fill", "needed");
     status ran = bench_child_start(&c, SCENE, bench_overrides_ready(&o), o.n, 1);
     if (ran == OK) ran = bench_child_wait(&c);
     if (ran == OK) ran = field_read(&b->at[k], c.folder, later, c.processor);
@@ -126,7 +128,7 @@ static status field_run(struct field_bench *b, int k)
 
 /* ---- differences ------------------------------------------------------------------------------------------------- */
 
-/* K at a time between two samples. */
+/* Returns K at a time between two samples, by linear interpolation. */
 static double intensity_at(const struct field_row *r, double t)
 {
     int64_t k = 1;
@@ -134,7 +136,7 @@ static double intensity_at(const struct field_row *r, double t)
     return r->K[k - 1] + (r->K[k] - r->K[k - 1]) * (t - r->t[k - 1]) / (r->t[k] - r->t[k - 1]);
 }
 
-/* The largest difference at the samples of `direct` that a run has seen, over the largest K. */
+/* Returns the largest difference at the samples of `direct` that a run covers, over the largest K. */
 static double field_off(const struct field_row *r, const struct field_row *direct)
 {
     double most = 0;
@@ -144,12 +146,12 @@ static double field_off(const struct field_row *r, const struct field_row *direc
     return most / direct->peak;
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------------ */
+/* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Cells in the front of the pulse, half of its length. */
+/* Returns the number of cells in the front of the pulse, half of its length. */
 static double cells_in_front(const struct field_bench *b, int k)
 {
-    return 0.5 * b->pulse * b->speed / (1e-3 * b->spacing * (2 << way[k].levels));
+    return 0.5 * b->pulse * b->speed / (1e-3 * b->spacing * (2 << field_runs[k].levels));
 }
 
 static double steps_of(const struct field_row *r) { return r->seconds - r->lap[LAP_SAMPLE]; }
@@ -158,8 +160,8 @@ static void field_print_row(const struct field_bench *b, int k)
 {
     const struct field_row *r = &b->at[k];
     char cells[16] = "-";
-    if (way[k].levels >= 0) snprintf(cells, sizeof cells, "%.1f", cells_in_front(b, k));
-    printf("  %-20s %9.0f %9.0f %8.1f %8.3f %8.3f %9s %10.4g |", way[k].name, r->made, r->body, 1e-6 * r->bytes,
+    if (field_runs[k].levels >= 0) snprintf(cells, sizeof cells, "%.1f", cells_in_front(b, k));
+    printf("  %-20s %9.0f %9.0f %8.1f %8.3f %8.3f %9s %10.4g |", field_runs[k].name, r->made, r->body, 1e-6 * r->bytes,
            r->seconds, steps_of(r), cells, r->peak);
     for (int d = 0; d < DIRECT && d < k; d++)
         printf("  %6.2f %%  1/%-6.1f 1/%-6.1f", 100 * r->off[d], b->at[d].seconds / r->seconds,
@@ -176,22 +178,22 @@ static enum lap largest_lap(const struct field_row *r)
     return (enum lap)most;
 }
 
-/* Of the runs that are near enough to a direct one the fastest, beside the aim. */
+/* Prints the fastest of the runs that are sufficiently close to a direct run, beside the goal. */
 static void field_print_aim(const struct field_bench *b, int direct, bool part)
 {
     int best = -1;
-    for (int k = DIRECT; k < FIELD_WAYS; k++)
-        if (way[k].part == part && b->at[k].off[direct] <= K_AIM &&
+    for (int k = DIRECT; k < FIELD_RUNS; k++)
+        if (field_runs[k].part == part && b->at[k].off[direct] <= K_AIM &&
             (best < 0 || b->at[k].seconds < b->at[best].seconds))
             best = k;
-    printf("    %s beside %s: ", part ? "a part of the plate" : "coarse cells", way[direct].name);
+    printf("    %s beside %s: ", part ? "a part of the plate" : "coarse cells", field_runs[direct].name);
     if (best < 0) {
         printf("MISSED: none within %.0f %% of K\n", 100 * K_AIM);
         return;
     }
     const struct field_row *r = &b->at[best];
     const double ratio = b->at[direct].seconds / r->seconds;
-    printf("%s, %.2f %% of K in 1/%.1f of the time: ", way[best].name, 100 * r->off[direct], ratio);
+    printf("%s, %.2f %% of K in 1/%.1f of the time: ", field_runs[best].name, 100 * r->off[direct], ratio);
     if (ratio >= TIME_AIM)
         printf("met\n");
     else
@@ -205,13 +207,13 @@ static void field_print_aims(const struct field_bench *b)
     printf("\n  asked: within %.0f %% of K of the direct run in 1/%.0f of its time\n", 100 * K_AIM, TIME_AIM);
     for (int part = 0; part < 2; part++)
         for (int d = 0; d < DIRECT; d++) field_print_aim(b, d, part);
-    for (int k = DIRECT; k < FIELD_WAYS; k++)
-        if (b->at[k].off[1] > K_AIM && way[k].part)
-            printf("    %s: %.1f %% off: scattered waves that are not normal to the faces come back\n", way[k].name,
-                   100 * b->at[k].off[1]);
+    for (int k = DIRECT; k < FIELD_RUNS; k++)
+        if (b->at[k].off[1] > K_AIM && field_runs[k].part)
+            printf("    %s: %.1f %% off: scattered waves that are not normal to the faces come back\n",
+                   field_runs[k].name, 100 * b->at[k].off[1]);
         else if (b->at[k].off[1] > K_AIM)
-            printf("    %s: %.1f %% off: dispersion, as %.1f of its largest cells carry the front\n", way[k].name,
-                   100 * b->at[k].off[1], cells_in_front(b, k));
+            printf("    %s: %.1f %% off: dispersion, as %.1f of its largest cells carry the front\n",
+                   field_runs[k].name, 100 * b->at[k].off[1], cells_in_front(b, k));
 }
 
 static status field_write_table(const struct field_bench *b)
@@ -220,14 +222,14 @@ static status field_write_table(const struct field_bench *b)
     bench_table_make(&t[0], "",
                      "run,levels,part,made,particles,bytes,seconds,steps_seconds,K_peak,off_bonds,off_cells");
     bench_table_make(&t[1], "history", "run,time,K_I");
-    for (int k = 0; k < FIELD_WAYS; k++) {
+    for (int k = 0; k < FIELD_RUNS; k++) {
         const struct field_row *r = &b->at[k];
-        const double row[] = {way[k].levels, way[k].part, r->made, r->body,   r->bytes,
-                              r->seconds,    steps_of(r), r->peak, r->off[0], r->off[1]};
-        bench_text(&t[0], way[k].name);
+        const double row[] = {field_runs[k].levels, field_runs[k].part, r->made, r->body,   r->bytes,
+                              r->seconds,           steps_of(r),        r->peak, r->off[0], r->off[1]};
+        bench_text(&t[0], field_runs[k].name);
         for (size_t c = 0; c < COUNT_OF(row); c++) bench_number(&t[0], row[c]);
         for (int64_t j = 0; j < r->n; j++)
-            bench_text(&t[1], way[k].name), bench_number(&t[1], r->t[j]), bench_number(&t[1], r->K[j]);
+            bench_text(&t[1], field_runs[k].name), bench_number(&t[1], r->t[j]), bench_number(&t[1], r->K[j]);
     }
     status s = bench_write("scale_field", t, COUNT_OF(t));
     for (size_t k = 0; k < COUNT_OF(t); k++) bench_table_free(&t[k]);
@@ -237,7 +239,7 @@ static status field_write_table(const struct field_bench *b)
 static void field_draw(FILE *to, const void *context)
 {
     const struct field_bench *b = context;
-    for (int k = 0; k < FIELD_WAYS; k++) {
+    for (int k = 0; k < FIELD_RUNS; k++) {
         fprintf(to, "$w%d << EOD\n", k);
         for (int64_t j = 0; j < b->at[k].n; j++) fprintf(to, "%.6g %.6g\n", 1e6 * b->at[k].t[j], 1e-3 * b->at[k].K[j]);
         fputs("EOD\n", to);
@@ -246,13 +248,13 @@ static void field_draw(FILE *to, const void *context)
             "set xlabel 'time [us]'\nset ylabel 'K_I [kPa √m]'\nset xrange [%g:*]\nset key inside top left\n"
             "plot ",
             0.98 * 1e3 * HALF / b->speed);
-    for (int k = 0; k < FIELD_WAYS; k++)
+    for (int k = 0; k < FIELD_RUNS; k++)
         fprintf(to, "%s$w%d using 1:2 with lines lw 2 dt %d lc rgb '%s' title '%s'", k ? ", " : "", k,
-                way[k].part ? 2 : 1, curve_colour[k % CURVE_COLOURS], way[k].name);
+                field_runs[k].part ? 2 : 1, curve_colour[k % CURVE_COLOURS], field_runs[k].name);
     fputc('\n', to);
 }
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
+/* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 static status field_measure(struct field_bench *b)
 {
@@ -262,7 +264,7 @@ static status field_measure(struct field_bench *b)
            500 * b->pulse * b->speed / b->spacing, FIELD_SAMPLES);
     printf("  %-20s %9s %9s %8s %8s %8s %9s %10s | %s\n", "", "made", "of body", "peak MB", "loop s", "steps s",
            "in front", "largest K", "beside bonds: K, loop, steps      beside cells of 2: K, loop, steps");
-    for (int k = 0; k < FIELD_WAYS; k++) {
+    for (int k = 0; k < FIELD_RUNS; k++) {
         TRY(field_run(b, k));
         for (int d = 0; d < DIRECT; d++) b->at[k].off[d] = d < k ? field_off(&b->at[k], &b->at[d]) : 0;
         field_print_row(b, k);

@@ -1,13 +1,13 @@
-/* `cleave bench scale=growth`: what a finer spacing costs. Particles, memory and time of Kalthoff's plate, in the plane
- * and in space, as adaptive runs with coarse cells make it, beside full peridynamics where that is cheap. Each run is a
- * process of its own, on one thread: its memory is the high-water mark of that process, its time that of its loop times
- * the share of a processor that the process had, so that what else the machine does counts little; of short loops the
- * least of three.
+/* `cleave bench scale=growth`: growth of cost with resolution. Measures particles, memory and time of Kalthoff's plate
+ * in 2D and 3D, in adaptive runs with coarse cells, and with full peridynamics where that is affordable. Each run is a
+ * separate process on one thread: its memory is the high-water mark of that process, its time that of the loop times
+ * the share of a processor that the process received, to exclude the load of other programs; for short loops the least
+ * of three.
  *
- * Coarse cells have at most 2 mm at any spacing, as mpm.levels: auto chooses in a plate of this size under a sudden
- * load, where it has particles enough. Time steps are in proportion to the spacing. Exponents are per halving of the
- * spacing, by least squares of the logarithms; without coarse cells particles and bytes have the dimension as exponent,
- * time one more. */
+ * Coarse cells are at most 2 mm at any spacing, as `mpm.levels: auto` chooses in a plate of this size under a sudden
+ * load if it has enough particles. Time steps are proportional to the spacing. Exponents are per halving of the
+ * spacing, by least squares of the logarithms; without coarse cells the exponent of particles and bytes is the
+ * dimension, that of time one more. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,17 +19,17 @@
 #include "plot/gnuplot.h"
 
 enum { SPACINGS = 5, LAPS_SHOWN = LAP_OUTPUT, SERIES = 4, AIMS = 3, REPEATED = 3 };
-#define SHORT 3.0          /* [s] */
-#define QUICK_DURATION 6.0 /* [us] */
-#define STEP_PER_MM 0.05   /* [us] at a spacing of 1 mm */
+#define SHORT 3.0          /* loops shorter than this are repeated [s] */
+#define QUICK_DURATION 6.0 /* end of quick runs [us] */
+#define STEP_PER_MM 0.05   /* time step at a spacing of 1 mm [us] */
 
-/* A method on a plate, from coarse to fine. */
+/* A method and a plate at several spacings, from coarse to fine. */
 struct growth_series {
     const char *name, *path, *method;
     int dim;
-    double spacing[SPACINGS]; /* [mm]; 0 ends */
-    int quick, usual;         /* so many of them with --quick, and without the finest */
-    double aim[AIMS];         /* exponents of particles, bytes, time; NAN: none */
+    double spacing[SPACINGS]; /* [mm]; ends with 0 */
+    int quick, usual;         /* number of spacings with --quick, and without the finest */
+    double aim[AIMS];         /* required exponents of particles, bytes, time; NAN: none */
 };
 #define PLATE "inputs/kalthoff_winkler.yaml"
 #define HALF_PLATE "inputs/kalthoff_3d_fine.yaml"
@@ -43,15 +43,16 @@ static const struct growth_series series[SERIES] = {
 struct growth_row {
     bool known;
     double spacing;                                   /* [mm] */
-    double made, body, bonded, bytes, seconds, share; /* share: of the critical step */
+    double made, body, bonded, bytes, seconds, share; /* numbers [1], memory [byte], loop time [s], fraction of the
+                                                       * critical step */
     double lap[LAPS_SHOWN];                           /* [s] */
-    double start, angle;                              /* of the crack [s] [degree] */
+    double start, angle;                              /* start [s] and angle [degree] of the crack */
 };
 
 struct growth_fit {
-    double of[AIMS], last[AIMS];        /* exponents: of all rows, of the last two */
-    enum lap binds;                     /* part of the step that is most beyond the aim for time */
-    double binds_exponent, binds_share; /* its own exponent; its share of the loop of the finest */
+    double of[AIMS], last[AIMS];        /* exponents: over all rows, over the last two */
+    enum lap binds;                     /* section of the step that exceeds the goal for time most */
+    double binds_exponent, binds_share; /* exponent of that section; its share of the loop at the finest spacing */
 };
 
 struct growth_bench {
@@ -61,7 +62,7 @@ struct growth_bench {
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
-/* Levels at which the largest cells have 2 mm. */
+/* Returns the number of levels for which the largest cells are 2 mm. */
 static int levels_of(double spacing)
 {
     int levels = 0;
@@ -69,7 +70,7 @@ static int levels_of(double spacing)
     return levels;
 }
 
-/* until: end of the run [us]; 0: that of the scene. */
+/* Appends the overrides of a run. until: end of the run [us]; 0: that of the scene. */
 static void growth_overrides(struct bench_overrides *o, const struct growth_series *s, double spacing, double until)
 {
     const double width = 3 * spacing;
@@ -107,7 +108,7 @@ static status growth_read(struct growth_row *r, const char *folder, double proce
     for (size_t k = 0; k < COUNT_OF(figure); k++) TRY(summary_number(folder, figure[k].key, figure[k].value));
     r->start = bench_summary_figure(folder, "crack.start_time");
     r->angle = bench_summary_figure(folder, "crack.angle_deg");
-    share = r->seconds < SHORT ? 1 : fmin(1, processor / wall); /* short ones are repeated instead */
+    share = r->seconds < SHORT ? 1 : fmin(1, processor / wall); /* short loops are repeated instead */
     for (int k = 0; k < LAPS_SHOWN; k++) {
         snprintf(key, sizeof key, "laps.%s", lap_name[k]);
         TRY(summary_number(folder, key, &r->lap[k]));
@@ -131,8 +132,8 @@ static status growth_run(struct growth_row *r, const struct growth_series *s, do
     return ran;
 }
 
-/* Measures a run at this spacing [mm] and keeps the one of least time; runs below SHORT are repeated. With `quick` one
- * run of the first microseconds. FAILED if a run is. */
+/* Measures a run at a spacing [mm] and keeps the fastest; runs shorter than SHORT are repeated. quick: one run of the
+ * first microseconds. FAILED if a run fails. */
 static status growth_time(struct growth_row *least, const struct growth_series *s, double spacing, bool quick)
 {
     const int repeated = quick ? 1 : REPEATED;
@@ -146,7 +147,7 @@ static status growth_time(struct growth_row *least, const struct growth_series *
 
 /* ---- exponents --------------------------------------------------------------------------------------------------- */
 
-/* Slope of log2(y) over the number of halvings of the spacing, by least squares, from row `first` on. */
+/* Returns the slope of log2(y) over the number of halvings of the spacing, by least squares from row `first` on. */
 static double exponent_of(const struct growth_row *row, int first, int n, double (*y)(const struct growth_row *, int),
                           int which)
 {
@@ -173,7 +174,8 @@ static int rows_of(const struct growth_row *row)
     return n;
 }
 
-/* What binds time: the part of the step that took most beyond its share of the coarsest run grown as the aim asks. */
+/* Computes the exponents, and the section of the step whose time exceeds most what the goal allows: its time in the
+ * coarsest run, extrapolated with the required exponent. */
 static void growth_fit_make(struct growth_fit *f, const struct growth_row *row, const struct growth_series *s)
 {
     const int n = rows_of(row);
@@ -193,7 +195,7 @@ static void growth_fit_make(struct growth_fit *f, const struct growth_row *row, 
     }
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------------ */
+/* ---- output ------------------------------------------------------------------------------------------------------ */
 
 static void growth_print_header(void)
 {
@@ -266,7 +268,7 @@ static status growth_write_table(const struct growth_bench *b)
     return s;
 }
 
-/* Particles, megabytes and seconds over the spacing, a panel each. */
+/* Draws particles, megabytes and seconds over the spacing, a panel each. */
 static void growth_draw(FILE *to, const void *context)
 {
     static const char *const title[AIMS] = {"particles made", "peak memory [MB]", "loop [s]"};
@@ -294,7 +296,7 @@ static void growth_draw(FILE *to, const void *context)
     fputs("unset multiplot\n", to);
 }
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
+/* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 static status growth_measure(struct growth_bench *b, bool quick, bool finest)
 {

@@ -1,11 +1,11 @@
-/* `cleave bench peers`: a plate and a block by this program and by LAMMPS (peri/pmb, peri/lps), particle by
- * particle, in turn on one core. Both read the same positions, volumes and velocities; the micro-modulus is this
- * program's.
+/* `cleave bench peers`: compares a plate and a block in Cleave and in LAMMPS (peri/pmb, peri/lps), particle by
+ * particle, alternately on one core. Both read the same positions, volumes and velocities; the micro-modulus is that of
+ * Cleave.
  *
- * LAMMPS weighs neighbours near the horizon by a ramp (here `cut-ramp`), influence 1/r for LPS. LPS with K_L = 4
- * k2/9, G_L = 8 G/15 on a planar family is the law of two dimensions. Bonds are taken from the neighbour list of the
- * first `run 0`: pairs that are excluded there, one type for each particle that a crack touches, never become bonds.
- * A second `run 0` lets LPS know its strains before anything moves. */
+ * LAMMPS weights neighbours near the horizon by a ramp (here `cut-ramp`), with influence function 1/r for LPS. LPS with
+ * K_L = 4 k2/9, G_L = 8 G/15 on a planar family is the 2D law. LAMMPS creates bonds from the neighbour list of the
+ * first `run 0`: pairs excluded at that time, by a type for each particle that a crack touches, never become bonds. A
+ * second `run 0` lets LPS compute its strains before anything moves. */
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -29,14 +29,14 @@ extern char **environ;
 enum { STEPS = 200, ROUNDS = 3 };
 #define FOLDER BENCH_FOLDER "/run-peers"
 #define SPACING 5e-4
-/* The usual reach; one that leaves a single shell of neighbours, those at sqrt(8) spacings, on the ramp; and nearest
- * neighbours. */
+/* Reach of bonds [spacings]: the usual one; one for which only the neighbours at sqrt(8) spacings are on the ramp;
+ * nearest neighbours only. */
 #define REACH_USUAL 3.015
 #define REACH_EXACT 2.95342712474619
 #define REACH_NEAREST 1.375
 
 struct peer_case {
-    const char *name, *law;    /* "pmb" or "lps" */
+    const char *name, *law;    /* law: "pmb" or "lps" */
     int dim, edge, edge_quick; /* particles along an edge */
     double reach;              /* [spacings] */
     bool cracked, breaking, timed;
@@ -59,15 +59,15 @@ enum { CASES = COUNT_OF(cases) };
 
 struct peer_result {
     bool known;
-    double particles, bonds, cut; /* directed bonds; bonds cut beforehand */
-    double own, peer;             /* [s] of a step */
-    /* largest |u - u_LAMMPS| over largest |u|; sums of the share of broken bonds */
+    double particles, bonds, cut; /* directed bonds; bonds cut initially */
+    double own, peer;             /* time of a step [s] */
+    /* Largest |u - u_LAMMPS| over largest |u|; sums of the share of broken bonds. */
     double difference, damage, damage_peer;
 };
 
 struct solution {
     double *place[DIM_MAX], *damage;
-}; /* by id */
+}; /* arrays are sorted by id */
 
 static bool is_lps(const struct peer_case *c) { return c->law[0] == 'l'; }
 
@@ -86,7 +86,8 @@ static bool peer_installed(void)
 
 /* ---- the scene --------------------------------------------------------------------------------------------------- */
 
-/* Pulled in x, turned a little so that no direction is special; nothing comes close enough to touch. */
+/* Writes the scene: uniform extension in x, slightly rotated so that no direction is special; no particles come into
+ * contact. */
 static void scene_text(FILE *to, const struct peer_case *c, int edge)
 {
     const double half = 0.5 * edge * SPACING, rate = c->breaking ? 3000 : 300, step = c->dim == 2 ? 4e-8 : 2e-8;
@@ -109,7 +110,7 @@ static void scene_text(FILE *to, const struct peer_case *c, int edge)
                 "body: {box: {from: [%.17g, %.17g, %.17g], to: [%.17g, %.17g, %.17g]}}\n"
                 "initial: [{velocity_gradient: [[%g, %g, 0], [0, %g, %g], [%g, 0, %g]]}]\n",
                 -half, -half, -half, half, half, half, rate, 0.3 * rate, 0.8 * rate, 0.2 * rate, 0.1 * rate, rate);
-    if (c->cracked) /* ends chosen so that no bond passes through them */
+    if (c->cracked) /* no bond passes through the ends of the cracks */
         fprintf(to, "cracks: [{from: [%.17g, %.17g], to: [%.17g, %.17g]}]\n", -0.1123 * edge * SPACING,
                 -0.0312 * edge * SPACING, 0.1123 * edge * SPACING, 0.0357 * edge * SPACING);
 }
@@ -126,7 +127,8 @@ static status peer_engine(struct run *e, struct scene *s, const struct peer_case
 
 /* ---- the input of LAMMPS ----------------------------------------------------------------------------------------- */
 
-/* Bonds that the cracks cut: calls for each pair once. */
+/* Finds the bonds that the cracks cut, each pair once, assigns types to their particles and writes the exclusions.
+ * Returns their number. */
 static int64_t cut_pairs(const struct run *e, int *type, int *types, FILE *exclude)
 {
     const struct particles *p = &e->part;
@@ -242,7 +244,7 @@ static status spawn_peer(void)
     return status_set(FAILED, "bench peers: lmp has failed");
 }
 
-/* What its log says of the STEPS steps [s]. */
+/* Reads the time of STEPS steps from the log of LAMMPS [s]. */
 static status peer_seconds(double *seconds)
 {
     char line[512];
@@ -293,7 +295,7 @@ static void peers_compare(struct peer_result *r, const struct run *e, const stru
             d2 += square(p->x[d][i] - peer->place[d][id]);
         }
         largest = fmax(largest, sqrt(u2)), worst = fmax(worst, sqrt(d2));
-        /* LAMMPS counts only what was a bond; a share of what the crack left */
+        /* LAMMPS counts only existing bonds: the damage here is relative to the bonds that the crack left. */
         if (damage_start[i] < 1) r->damage += (p->damage[i] - damage_start[i]) / (1 - damage_start[i]);
         r->damage_peer += peer->damage[id];
     }
@@ -319,7 +321,7 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
     if (ran == OK) ran = peer_solution(peer, e.part.n);
     if (ran == OK) {
         r->own = fmin(r->own, e.report->loop_seconds / STEPS), r->peer = fmin(r->peer, spent);
-        /* there the last places have broken bonds already */
+        /* In LAMMPS the last positions have already broken bonds. */
         e.kernels.bond_force(&e.bonds, &e.part, &e.source.limit, NULL);
         peers_compare(r, &e, peer, damage);
         r->known = true;
@@ -331,7 +333,7 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
     return ran;
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------------ */
+/* ---- output ------------------------------------------------------------------------------------------------------ */
 
 static void print_result(const struct peer_case *c, const struct peer_result *r)
 {

@@ -1,5 +1,5 @@
-/* `cleave bench sif`: stress-intensity factors beside closed forms and published tables: an edge crack, an
- * inclined one, a crack that waves meet, one that runs, and what growing cracks make of reactions and paths. */
+/* `cleave bench sif`: compares stress-intensity factors with closed forms and published tables: an edge crack, an
+ * inclined crack, cracks under plane waves, stationary and running, and reactions and paths of growing cracks. */
 #include "sif_bench.h"
 
 static const char *const needed[] = {"inputs/edge_crack_k1.yaml", "inputs/inclined_crack.yaml",

@@ -1,37 +1,45 @@
-/* What the parts of `cleave bench sif` share. */
+/* `cleave bench sif`: declarations shared by its files. */
 #ifndef CLEAVE_BENCH_SIF_BENCH
 #define CLEAVE_BENCH_SIF_BENCH
 
 #include "bench/common/bench_goals.h"
 #include "output/history.h"
 
-/* ---- sif_edge.c: an edge crack at rest, finer and finer ---------------------------------------------------------- */
+/* ---- sif_edge.c: a static edge crack at increasing resolution ---------------------------------------------------- */
 
 enum { EDGE_RINGS = 3 };
+
+/* Result of a run. */
 struct edge_row {
-    int model; /* edge_model */
-    int side;  /* particles */
+    int model; /* index in edge_model */
+    int side;  /* particles along an edge */
     bool relaxed;
-    double K, spread, steps, seconds, peak; /* [Pa m^0.5] [1] [1] [s] [bytes] */
-    double ring[EDGE_RINGS];                /* K_I on 30, 50, 70 spacings */
+    double K, spread, steps, seconds, peak; /* K_I [Pa m^0.5], spread of the contours [1], steps [1], time [s], peak
+                                             * memory [byte] */
+    double ring[EDGE_RINGS];                /* K_I on rings of radius 30, 50, 70 spacings [Pa m^0.5] */
 };
 enum { EDGE_ROWS_MAX = 32 };
 struct edge_table {
     int n;
     struct edge_row row[EDGE_ROWS_MAX];
 };
+
+/* Runs all models and resolutions and adds the goals. */
 status edge_bench(struct bench_goals *asked, bool quick);
 
-/* ---- sif_inclined.c: both modes ---------------------------------------------------------------------------------- */
+/* ---- sif_inclined.c: an inclined crack, both modes --------------------------------------------------------------- */
 
+/* Runs the inclined cracks and adds the goals. */
 status inclined_bench(struct bench_goals *asked, bool quick);
 
-/* ---- sif_moving.c: plane waves load a crack at rest or on its way ------------------------------------------------ */
+/* ---- sif_moving.c: plane waves load a stationary or moving crack ------------------------------------------------- */
 
+/* Runs all moving and stationary cracks and adds the goals. */
 status moving_bench(struct bench_goals *asked, bool quick);
 
 /* ---- sif_fading.c: reactions and paths --------------------------------------------------------------------------- */
 
+/* Runs the growing cracks and adds the goals. */
 status cracks_bench(struct bench_goals *asked);
 
 #endif

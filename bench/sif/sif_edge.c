@@ -1,15 +1,14 @@
-/* An edge crack at rest, on finer and finer particles, by every model: K_I against the closed form and beside
- * the tables of the paper on the modified ordinary state-based model (J. Mar. Sci. Appl. 2026, doi
- * 10.1007/s11804-026-00791-z).
- * Its figure 5(b) has no numbers; drawn beside ours are those of its Table 1. */
+/* A static edge crack at increasing resolution, with every model: K_I compared with the closed form and with the tables
+ * of the paper on the modified ordinary state-based model (J. Mar. Sci. Appl. 2026, doi 10.1007/s11804-026-00791-z).
+ * Its figure 5(b) states no numbers; the picture shows those of its Table 1. */
 #include <math.h>
 #include <string.h>
 
 #include "sif_bench.h"
 
-static const double exact = 11.93;             /* a/W = 0.5, H = W (Bowie 1973)                  [MPa mm^0.5] */
+static const double exact = 11.93;             /* K_I for a/W = 0.5, H = W (Bowie 1973) [MPa mm^0.5] */
 static const double unit = 31622.776601683793; /* 1 MPa mm^0.5                               [Pa m^0.5] */
-static const double width = 10;                /* of the plate                                     [mm] */
+static const double width = 10;                /* width of the plate [mm] */
 
 enum { MOSPD, MOSPD_LOCAL, OSPD, OSPD_BULK, BOND, MODELS };
 static const struct edge_model {
@@ -22,7 +21,8 @@ static const struct edge_model {
     [BOND] = {"bond", "bond", NULL, "1/3", "lw 2.4 pt 9 ps 1 lc rgb '#009e73'"},
 };
 
-/* Table 1: K_I [MPa mm^0.5] on 30, 50, 70 spacings at 200 x 200; Table 2: seconds and steps (i9-14900K). */
+/* Table 1 of the paper: K_I on rings of 30, 50, 70 spacings with 200 x 200 particles [MPa mm^0.5]. Table 2: seconds and
+ * steps (i9-14900K). */
 enum { PAPER_OSPD, PAPER_MOSPD, PAPERS };
 static const double paper_radius[EDGE_RINGS] = {30, 50, 70};
 static const double paper_ring[PAPERS][EDGE_RINGS] = {{12.015, 12.048, 12.101}, {11.867, 11.887, 11.935}};
@@ -77,7 +77,7 @@ static status sif_edge_take_row(void *row, const char *folder)
     return OK;
 }
 
-/* Rings in spacings as in Table 1, where they are within the plate. */
+/* Sets the rings of the probes as in Table 1 [spacings], as far as they fit into the plate. */
 static void override_probes(struct bench_overrides *o, int side)
 {
     if (paper_radius[EDGE_RINGS - 1] * width / side > 0.4 * width) return;
@@ -183,7 +183,7 @@ static void panel(FILE *to, int column, const char *title)
             left, left + 0.28, title, left + 0.29);
 }
 
-/* Column `y` over the spacing, one line a model. */
+/* Plots column `y` over the spacing, one line per model. */
 static void plot_models(FILE *to, const struct edge_table *t, const char *y)
 {
     for (int m = 0; m < MODELS; m++)
@@ -239,7 +239,7 @@ static status sif_edge_write_tables(const struct edge_table *t)
     return s == OK ? bench_draw("edge_crack_convergence", 1400, 520, sif_edge_draw, t) : s;
 }
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
+/* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 static void sif_edge_ask(struct bench_goals *asked, const struct edge_table *t)
 {

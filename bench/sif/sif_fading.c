@@ -1,5 +1,5 @@
-/* What fading bonds make of the reaction of a plate whose crack runs slowly (Imachi et al. 2019, section 5.4),
- * and the paths of Kalthoff's cracks, led by stress-intensity factors (section 5.5). */
+/* Gradual release of bonds: reaction of a plate with a slowly growing crack (Imachi et al. 2019, section 5.4), and
+ * paths of Kalthoff's cracks with SIF-driven growth (section 5.5). */
 #include <math.h>
 
 #include "sif_bench.h"
@@ -7,12 +7,13 @@
 
 /* ---- reactions --------------------------------------------------------------------------------------------------- */
 
-/* rms about a parabola that moves along over 5 us, from 22 to 78 us. */
+/* Roughness of the reaction: root-mean-square deviation from a moving parabola over 5 us, evaluated from 22 to 78
+ * us. */
 static const double half = 2.5e-6, judged[2] = {22e-6, 78e-6};
 
 struct reaction_row {
     const char *name, *damping;
-    double rough, last; /* [N] */
+    double rough, last; /* roughness; last value [N] */
     int n;
     double *t, *force; /* [s] [N] */
 };
@@ -21,7 +22,8 @@ struct reaction_table {
     struct reaction_row row[RELEASES];
 };
 
-/* Value at `at` of the parabola that fits the points around best (Savitzky & Golay 1964); they lie evenly. */
+/* Returns the value at index `at` of the parabola that fits the equidistant points within `reach` best (Savitzky &
+ * Golay 1964). */
 static double smooth_at(const struct reaction_row *r, int at, int reach)
 {
     double s[5] = {0}, b[3] = {0};
@@ -119,7 +121,8 @@ static status sif_fading_reactions(struct bench_goals *asked)
 
 struct path_row {
     const char *name, *key, *value;
-    double angle, length, start, ratio, seconds; /* [degree] [m] [s]; rms of K_II/K_I after 2 mm; of the loop [s] */
+    double angle, length, start, ratio, seconds; /* angle [degree], length [m], start [s]; root mean square of
+                                                  * K_II/K_I after 2 mm; loop time [s] */
 };
 enum { PATHS = 6 };
 static const struct path_row path_row[PATHS] = {

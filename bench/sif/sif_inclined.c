@@ -1,13 +1,14 @@
-/* An inclined crack in a plate: K_I and K_II beside boundary collocation and Table 3 of the paper on the
- * modified ordinary state-based model. Deviations are shares of (K_I^2 + K_II^2)^0.5: at 75 degrees K_I is a third of
- * K_II. */
+/* An inclined crack in a plate: K_I and K_II compared with boundary collocation and with Table 3 of the paper on the
+ * modified ordinary state-based model. Deviations are relative to (K_I^2 + K_II^2)^0.5, because at 75 degrees K_I is a
+ * third of K_II. */
 #include <math.h>
 
 #include "sif_bench.h"
 
 enum { INCLINED_MODES = 2, INCLINED_ANGLES = 5 };
-/* Over sigma (pi a)^0.5. Collocation; digits of Table 3 where they are right: its 0.948 at 30 degrees is 0.984 with
- * digits exchanged, its 1.666 at 45 degrees 0.666. */
+
+/* Factors over sigma (pi a)^0.5: from collocation, and from Table 3 with its misprints corrected (0.948 at 30 degrees
+ * is 0.984 with exchanged digits, 1.666 at 45 degrees is 0.666). */
 static const struct inclined_case {
     int angle;
     double exact[INCLINED_MODES], paper_ospd[INCLINED_MODES], paper_mospd[INCLINED_MODES];
@@ -33,7 +34,7 @@ struct inclined_table {
     struct inclined_row row[INCLINED_ANGLES * VARIANTS];
 };
 
-/* Share of the size of both. */
+/* Returns the deviation of a factor relative to the magnitude of both. */
 static double sif_inclined_off(const struct inclined_case *c, const double F[INCLINED_MODES], int mode)
 {
     return (F[mode] - c->exact[mode]) / hypot(c->exact[0], c->exact[1]);
@@ -57,7 +58,7 @@ static status sif_inclined_take_row(void *row, const char *folder)
     return OK;
 }
 
-/* Upper and lower tip at (10, 5) mm +- 3 (sin, cos) mm. */
+/* Adds the results at the upper and lower tip, at (10, 5) mm +- 3 (sin, cos) mm. */
 static status inclined_add(struct inclined_table *t, const struct inclined_case *c, int v, bool quick)
 {
     const double phi = c->angle * 3.14159265358979 / 180, x = 3 * sin(phi), y = 3 * cos(phi);

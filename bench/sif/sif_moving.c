@@ -1,7 +1,7 @@
-/* Plane waves load a semi-infinite crack, at rest or moving: K_I(t) beside Freund's solution, and what the way
- * of releasing bonds, the time step, the horizon, the spacing and irregular particles make of it (Imachi et al. 2019,
- * figures 6, 7 and 9 to 12). Ripple: rms about a parabola over 5 to 9 us, over the mean; also of the whole disc's
- * sum, as the paper takes it: the probe's own leaves out the process zone. */
+/* Plane waves load a semi-infinite crack, stationary or moving: K_I(t) compared with Freund's solution, and the effects
+ * of gradual bond release, time step, horizon, spacing and irregular particles (Imachi et al. 2019, figures 6, 7 and 9
+ * to 12). Ripple is the root-mean-square deviation from a parabola over 5 to 9 us over the mean, of the probe's factor
+ * and of the sum over the whole disc, which the paper uses; the probe leaves out the process zone. */
 #include <math.h>
 #include <string.h>
 
@@ -13,12 +13,13 @@
 
 #define SCENE "inputs/semi_infinite_crack.yaml"
 
-static const double speed = 1000;              /* of the crack [m/s]                       */
-static const double stress = 2e6, way = 20e-3; /* on its plane [Pa]; of the waves to it [m] */
-static const double window[2] = {5e-6, 9e-6};  /* of ripple [s]                            */
-static const double is_current = 5.5e-6;       /* a moving crack is judged from then on [s] */
+static const double speed = 1000;                      /* speed of the crack [m/s] */
+static const double stress = 2e6, path_length = 20e-3; /* stress on the crack plane [Pa]; distance of the wave fronts
+                                                        * from the crack [m] */
+static const double window[2] = {5e-6, 9e-6};          /* times between which ripple is evaluated [s] */
+static const double is_current = 5.5e-6;               /* time from which a moving crack is compared [s] */
 
-/* Figures of the paper. */
+/* Figures of the paper, as bits. */
 enum { LENGTH = 1, EXPONENT = 2, STEP = 4, HORIZON = 8, SPACING = 16, IRREGULAR = 32, OTHER = 64, EACH = 63 };
 static const struct {
     int bit;
@@ -34,7 +35,7 @@ static const struct {
     {                                                                                                                  \
         "growth[0].damping", "0 mm"                                                                                    \
     }
-enum { PAIRS = 4, QUICK = 2 /* rows, the first; one moves */ };
+enum { PAIRS = 4, QUICK = 2 /* number of rows with --quick, from the first; one has a moving crack */ };
 static const struct moving_case {
     const char *name;
     int groups;
@@ -76,15 +77,15 @@ enum { CASES = COUNT_OF(moving_case), SAMPLES = 92 };
 struct moving_row {
     const struct moving_case *at;
     bool moves;
-    double low, high, mean; /* K over the exact one                                     */
-    double ripple[2];       /* of the probe; of the whole disc                          */
+    double low, high, mean; /* K over the exact value */
+    double ripple[2];       /* ripple of the probe's factor; of the sum over the whole disc */
     double seconds;
     int n;
     double t[SAMPLES + 2], K[2][SAMPLES + 2]; /* [s] [Pa m^0.5]                           */
 };
 struct moving_table {
     struct crack_medium medium;
-    double factor, printed; /* k(v): exact, and as printed                              */
+    double factor, printed; /* factor k(v): exact; as printed in the paper */
     struct moving_row row[CASES];
     int n;
 };
@@ -104,12 +105,13 @@ static status closed_form(struct moving_table *t)
 
 static double sif_moving_at_rest(const struct moving_table *t, double time)
 {
-    return crack_suddenly_loaded(&t->medium, stress, time - way / t->medium.longitudinal);
+    return crack_suddenly_loaded(&t->medium, stress, time - path_length / t->medium.longitudinal);
 }
 
 /* ---- ripple ------------------------------------------------------------------------------------------------------ */
 
-/* rms about the parabola that fits n points best, over their mean; by orthogonal polynomials of the points. */
+/* Returns the root-mean-square deviation from the parabola that fits n points best over their mean; by orthogonal
+ * polynomials of the points. */
 static double ripple_of(const double *x, const double *y, int n)
 {
     double basis[3][SAMPLES + 2], rest[SAMPLES + 2], mean = 0, square_sum = 0;
@@ -161,7 +163,7 @@ static void find_figures(struct moving_row *r, const struct moving_table *t)
         r->ripple[p] = end > first ? ripple_of(r->t + first, r->K[p] + first, end - first) : NAN;
 }
 
-static struct moving_table *table; /* of the run that is being read */
+static struct moving_table *table; /* table of the run that is being read */
 
 static status sif_moving_take_row(void *row, const char *folder)
 {
@@ -183,7 +185,8 @@ static struct bench_job job_of(struct moving_row *r, const struct moving_case *c
     return job;
 }
 
-/* As many runs at once as there are threads, each on one: seconds are those of such a run. */
+/* Runs as many simulations in parallel as there are threads, each on one thread, so that times are those of one
+ * thread. */
 static status sif_moving_run_all(struct moving_table *t, bool quick)
 {
     struct bench_job job[CASES];
@@ -238,7 +241,7 @@ static bool is_sudden(const struct moving_case *c)
     return false;
 }
 
-/* K over sigma (pi a)^0.5 with a = 12 mm, as the paper has it; sigma on the crack's plane. */
+/* Sends K over sigma (pi a)^0.5 with a = 12 mm, as in the paper; sigma is the stress on the crack plane. */
 static void put_curves(FILE *to, const struct moving_table *t, int groups)
 {
     const double size = stress * sqrt(3.14159265358979 * 12e-3);
@@ -258,16 +261,16 @@ static void put_curves(FILE *to, const struct moving_table *t, int groups)
     fputs("EOD\n", to);
 }
 
-static bool ways_of_release(int groups) { return groups == LENGTH || groups == EXPONENT; }
+static bool release_methods(int groups) { return groups == LENGTH || groups == EXPONENT; }
 
-/* Where ways of release are compared, both panels show all; else those that fade are above, those released at once
- * below. */
+/* Returns true if a run is drawn in a column: if release methods are compared, both panels show all runs; else gradual
+ * release is above, immediate release below. */
 static bool is_shown(const struct moving_case *c, int groups, int column)
 {
-    return (c->groups & groups) && (ways_of_release(groups) || is_sudden(c) == (column == 2));
+    return (c->groups & groups) && (release_methods(groups) || is_sudden(c) == (column == 2));
 }
 
-/* Column 1, above: the probe's own sum; 2, below: the whole disc's, as the paper has it. */
+/* Draws a panel. Column 1, above: factor of the probe; 2, below: sum over the whole disc, as in the paper. */
 static void sif_moving_draw_panel(FILE *to, const struct moving_table *t, int groups, int column, const char *what)
 {
     const double above = column < 2 ? 0.93 : 0.45;
@@ -303,7 +306,7 @@ static void sif_moving_draw(FILE *to, const void *context)
     snprintf(title, sizeof title, "%s: without the process zone", group[p->group].title);
     sif_moving_draw_panel(to, p->t, groups, 1, title);
     sif_moving_draw_panel(to, p->t, groups, 2,
-                          ways_of_release(groups) ? "the whole disc" : "released at once, the whole disc");
+                          release_methods(groups) ? "the whole disc" : "released at once, the whole disc");
     fputs("unset multiplot\n", to);
 }
 
@@ -322,8 +325,8 @@ static status draw_groups(const struct moving_table *t)
 
 static double farthest(const struct moving_row *r) { return fmax(r->high - 1, 1 - r->low); }
 
-/* What is said of a moving crack holds for spacings of 0.25 mm and less. Bonds that fade over a whole horizon hold the
- * crack back: it starts late. */
+/* Adds the goals. Those for moving cracks apply to spacings of 0.25 mm and less. Bonds that are released over a whole
+ * horizon delay the start of the crack. */
 static void sif_moving_ask(struct bench_goals *asked, const struct moving_table *t)
 {
     double worst = 0, slow = 0;

@@ -1,5 +1,5 @@
-/* `cleave bench slow`: load steps beside linear elastic fracture mechanics, the criterion of the largest hoop stress,
- * finite elements, and a clock. */
+/* `cleave bench slow`: compares load steps with linear elastic fracture mechanics, the criterion of the largest hoop
+ * stress and finite elements, and measures their time. */
 #include "slow.h"
 
 static const char *const needed[] = {"inputs/compact_tension.yaml",   "inputs/edge_crack_grips.yaml",

@@ -1,16 +1,21 @@
-/* What the parts of `cleave bench slow` share. */
+/* `cleave bench slow`: declarations shared by its files. */
 #ifndef CLEAVE_BENCH_SLOW
 #define CLEAVE_BENCH_SLOW
 
 #include "bench/common/bench_goals.h"
 
-enum { SLOW_SPACINGS = 3 }; /* coarse, as the scene is, fine */
+enum { SLOW_SPACINGS = 3 }; /* coarse, as in the scene, fine */
 
-/* slow_specimens.c: loads of specimens beside linear elastic fracture mechanics; draws results/bench/slow_curves. */
+/* Compares loads of specimens with linear elastic fracture mechanics, adds the goals and draws
+ * results/bench/slow_curves (slow_specimens.c). */
 status slow_specimens(struct bench_goals *asked, bool quick);
-/* slow_paths.c: kinks of inclined cracks; the path from a notch beside the middle of a beam. */
+
+/* Compares kinks of inclined cracks, and the path from an eccentric notch of a beam, and adds the goals
+ * (slow_paths.c). */
 status slow_paths(struct bench_goals *asked, bool quick);
-/* slow_speed.c: a hundred load steps of 100,000 particles; one equilibrium beside the other solvers. */
+
+/* Times a hundred load steps of 100,000 particles, and one equilibrium with all solvers, and adds the goals
+ * (slow_speed.c). */
 status slow_speed(struct bench_goals *asked, bool quick);
 
 #endif

@@ -1,5 +1,5 @@
-/* Where load steps lead cracks: the first kink of an inclined crack beside the criterion of the largest hoop stress,
- * and the path from a notch beside the middle of a beam, beside finite elements. */
+/* Crack paths in load steps: the first kink of an inclined crack compared with the criterion of the largest hoop
+ * stress, and the path from an eccentric notch of a beam compared with finite elements. */
 #include <math.h>
 #include <string.h>
 
@@ -9,15 +9,17 @@
 #include "slow.h"
 
 static const double degree = 3.14159265358979323846 / 180;
-static const double half = 10e-3;                  /* of the inclined crack [m] */
-static const double notch[2] = {-31.75e-3, 16e-3}; /* its tip [m] */
+static const double half = 10e-3;                  /* half length of the inclined crack [m] */
+static const double notch[2] = {-31.75e-3, 16e-3}; /* position of the notch tip [m] */
 
 struct path_row {
-    double spacing, angle;         /* [m]; of the crack to the normal of the load [degree], beam: NAN */
-    double found, expected, apart; /* [degree] */
+    double spacing, angle;         /* spacing [m]; angle between crack and normal of the load [degree], NAN for the
+                                    * beam */
+    double found, expected, apart; /* angles found and expected, and their difference [degree] */
 };
 
-/* The place of the crack's farthest tip in the first line, from `from` on, in which it is elsewhere; false: in none. */
+/* Finds the next line from *from on in which the farthest crack tip has moved and stores its position [m]. Returns
+ * false if there is none. */
 static bool path_next(const struct history *h, int64_t *from, double place[2])
 {
     const int x = history_column(h, "path_x"), y = history_column(h, "path_y");
@@ -31,14 +33,15 @@ static bool path_next(const struct history *h, int64_t *from, double place[2])
 
 /* ---- kinks ------------------------------------------------------------------------------------------------------- */
 
-/* Where the tip is before it grows [m]. */
+/* Returns the initial position of the tip [m]. */
 static void path_start(const struct history *h, double place[2])
 {
     place[0] = history_at(h, 1, history_column(h, "path_x"));
     place[1] = history_at(h, 1, history_column(h, "path_y"));
 }
 
-/* In a wide plate K_II/K_I is tan(angle); in this one, five times as wide as the crack is long, within 1 %. */
+/* Evaluates a kink. In a wide plate K_II/K_I is tan(angle); in this plate, five times as wide as the crack is long,
+ * within 1 %. */
 static status kink_take(void *row, const char *folder)
 {
     struct path_row *r = row;
@@ -62,7 +65,7 @@ static status kink_take(void *row, const char *folder)
     return OK;
 }
 
-/* Adds a row to the table, and takes the larger deviation. */
+/* Adds a row to the table and updates the largest deviation. */
 static void path_put(struct bench_table *t, const char *name, const struct path_row *r, double *worst)
 {
     bench_text(t, name);
@@ -93,10 +96,10 @@ static status kinks(struct bench_table *t, struct bench_goals *asked, bool quick
     return OK;
 }
 
-/* ---- a notch beside the middle of a beam ------------------------------------------------------------------------- */
+/* ---- eccentric notch of a beam ----------------------------------------------------------------------------------- */
 
-/* Chords from where the tip begins, which is beside a column of particles that the notch lies on, as far as the finite
- * elements go: the one that is farthest from theirs. */
+/* Evaluates the chords from the initial tip, which is beside a column of particles on the notch, up to the length of
+ * the finite-element results, and keeps the largest difference of their angles. */
 static status bend_take(void *row, const char *folder)
 {
     struct path_row *r = row;

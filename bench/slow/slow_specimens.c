@@ -1,6 +1,5 @@
-/* Specimens whose cracks grow through half of them and more, on finer and finer particles: the largest load, later
- * loads at the crack length of each load step, and the energy that is released, beside linear elastic fracture
- * mechanics. */
+/* Specimens whose cracks grow through half of their width and more, at increasing resolution: largest load, loads at
+ * the crack length of later load steps, and released energy, compared with linear elastic fracture mechanics. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,14 +8,16 @@
 #include "plot/gnuplot.h"
 #include "slow.h"
 
-static const double young = 3e9, toughness = 300; /* of the scenes [Pa], [J/m^2] */
-static const double long_crack = 0.7;             /* a/W up to which loads count: beyond, the formulas are less sure */
+static const double young = 3e9, toughness = 300; /* Young's modulus [Pa] and G_c [J/m^2] of the scenes */
+static const double long_crack = 0.7;             /* a/W up to which loads are compared; beyond, the formulas are
+                                                   * less accurate */
 
 static const struct slow_case {
-    const char *name, *scene, *size, *crack; /* key of the spacing; in place of its pre-crack, NULL: that stays */
+    const char *name, *scene, *size, *crack; /* size: key of the spacing; crack: replaces the pre-crack, NULL: that
+                                              * of the scene */
     struct specimen specimen;
-    double spacing;    /* of the scene [m] */
-    int across, steps; /* spacings of the specimen's width there, load steps */
+    double spacing;    /* spacing of the scene [m] */
+    int across, steps; /* width of the specimen in these spacings; number of load steps */
 } slow_case[] = {{"compact tension",
                   "inputs/compact_tension.yaml",
                   "particles.spacing",
@@ -65,14 +66,14 @@ static const double refined[SLOW_SPACINGS] = {0.5, 1, 2};
 
 struct slow_row {
     const struct slow_case *of;
-    int model;   /* slow_model */
-    double fine; /* spacings across over those of the scene */
+    int model;   /* index in slow_model */
+    double fine; /* resolution over that of the scene */
     double particles, seconds;
-    double peak, mean, farthest, opening; /* load over that of the reference - 1: the largest, later ones; at equal
-                                            opening, cantilevers; NAN: none */
-    double released;                      /* over new area and G_c */
+    double peak, mean, farthest, opening; /* load over the reference load - 1: largest load; later loads, mean and
+                                           * extreme; at equal opening, for cantilevers; NAN: none */
+    double released;                      /* released energy over new area and G_c */
     int n;
-    double crack[POINTS_MOST], load[POINTS_MOST]; /* a/W; over the reference's largest load */
+    double crack[POINTS_MOST], load[POINTS_MOST]; /* crack length a/W; load over the largest reference load */
 };
 struct slow_table {
     int n;
@@ -86,7 +87,8 @@ static double longest_crack(const struct slow_case *c)
     return c->specimen.kind == DOUBLE_CANTILEVER ? INFINITY : long_crack * c->specimen.width;
 }
 
-/* Load over that of cantilevers at the same opening (load and opening at a length follow from each other). */
+/* Returns the load over that of a double cantilever with the same opening (reference load and opening at a crack length
+ * follow from each other). */
 static double cantilever_at_opening(const struct specimen *s, double load, double opening)
 {
     const double unit = specimen_load(s, 0) * 0.673 * s->width; /* load times (a + 0.673 h) */
@@ -94,7 +96,8 @@ static double cantilever_at_opening(const struct specimen *s, double load, doubl
     return load / (unit / sqrt(squared));
 }
 
-/* Cantilevers are opened at their first column of particles, which is half a spacing from their end [m]. */
+/* Returns the distance of the load from the end of a cantilever: its first column of particles is half a spacing from
+ * the end [m]. */
 static double load_offset(const struct slow_row *r)
 {
     return r->of->specimen.kind == DOUBLE_CANTILEVER ? 0.5 * r->of->spacing / r->fine : 0;
@@ -103,7 +106,8 @@ static double load_offset(const struct slow_row *r)
 static void slow_row_read(struct slow_row *r, const struct history *h)
 {
     const struct specimen *s = &r->of->specimen;
-    const int force = history_column(h, "reaction.force_y"), way = history_column(h, "reaction.displacement_y");
+    const int force = history_column(h, "reaction.force_y"),
+              displacement = history_column(h, "reaction.displacement_y");
     const int area = history_column(h, "crack_area"), lost = history_column(h, "released");
     const double crack = s->crack - load_offset(r);
     double sum = 0, largest = 0;
@@ -118,7 +122,7 @@ static void slow_row_read(struct slow_row *r, const struct history *h)
         sum += off, later++;
         if (fabs(off) > fabs(r->farthest)) r->farthest = off;
         if (s->kind != DOUBLE_CANTILEVER) continue;
-        const double apart = cantilever_at_opening(s, load, 2 * fabs(history_at(h, k, way))) - 1;
+        const double apart = cantilever_at_opening(s, load, 2 * fabs(history_at(h, k, displacement))) - 1;
         if (fabs(apart) > fabs(r->opening)) r->opening = apart;
     }
     r->peak = largest / specimen_load(s, crack) - 1;
@@ -185,7 +189,8 @@ static status slow_rows_write(const struct slow_table *t)
     return s;
 }
 
-/* Loads over crack lengths; lines: the reference. Of cantilevers, whose cracks have no width to be measured by, a/h. */
+/* Draws loads over crack lengths, with lines for the reference. Crack lengths of double cantilevers are over the arm
+ * height h instead of the width. */
 static void slow_curves_draw(FILE *to, const void *context)
 {
     const struct slow_table *t = context;
@@ -219,7 +224,7 @@ static void slow_curves_draw(FILE *to, const void *context)
     fputs("unset multiplot\n", to);
 }
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
+/* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 static void slow_ask(struct bench_goals *asked, const struct slow_row *r)
 {

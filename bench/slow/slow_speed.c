@@ -1,5 +1,5 @@
-/* How long load steps take: a hundred of a notched plate of 100,000 particles, on all threads; and one equilibrium of
- * it beside the other solvers. */
+/* Duration of load steps: a hundred steps of a notched plate of 100,000 particles on all threads, and one equilibrium
+ * of it with all solvers. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -41,7 +41,7 @@ static status hundred_steps(struct bench_table *t, struct bench_goals *asked, bo
     return OK;
 }
 
-/* To the tolerance of the scene. */
+/* Computes one equilibrium with each solver to the tolerance of the scene. */
 static status solvers(struct bench_table *t, bool quick)
 {
     static const char *const solver[] = {"static", "cg", "relaxation"};

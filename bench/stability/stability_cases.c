@@ -143,7 +143,7 @@ static status stability_cases_points(const struct taker *t)
 
 static status coupled(const struct taker *t)
 {
-    static const char *const way[] = {"partial stress", "handshake", "pm", "pg", "pmg", "pgg"};
+    static const char *const couplings[] = {"partial stress", "handshake", "pm", "pg", "pmg", "pgg"};
     for (int dim = 1; dim <= (t->quick ? 2 : 3); dim++)
         for (int a = 0; a < 2; a++)
             for (int w = 0; w < 6; w++)
@@ -152,7 +152,7 @@ static status coupled(const struct taker *t)
                     TRY(stability_cases_give(t, (struct stability_case){.group = GROUP_COUPLED,
                                                                         .dim = dim,
                                                                         .method = "adaptive",
-                                                                        .coupling = way[w],
+                                                                        .coupling = couplings[w],
                                                                         .transfer = transfer[a],
                                                                         .cell = cell,
                                                                         .shape = w == 2 || w == 4 ? "linear" : "gimp",
@@ -165,7 +165,7 @@ static status coupled(const struct taker *t)
                                                             .dim = 2,
                                                             .method = "adaptive",
                                                             .model = model[m],
-                                                            .coupling = way[0],
+                                                            .coupling = couplings[0],
                                                             .transfer = "flip",
                                                             .offsets = t->quick ? 1 : 4}));
     for (int m = 0; m < 3; m++)
@@ -173,21 +173,21 @@ static status coupled(const struct taker *t)
                                                             .dim = 2,
                                                             .method = "adaptive",
                                                             .model = model[m],
-                                                            .coupling = way[0],
+                                                            .coupling = couplings[0],
                                                             .transfer = "flip",
                                                             .irregularity = 0.5,
                                                             .note = "irregular 0.5"}));
     TRY(stability_cases_give(t, (struct stability_case){.group = GROUP_COUPLED,
                                                         .dim = 2,
                                                         .method = "adaptive",
-                                                        .coupling = way[0],
+                                                        .coupling = couplings[0],
                                                         .transfer = "flip",
                                                         .heavier = 8,
                                                         .note = "two materials 8:1"}));
     return stability_cases_give(t, (struct stability_case){.group = GROUP_COUPLED,
                                                            .dim = 2,
                                                            .method = "adaptive",
-                                                           .coupling = way[0],
+                                                           .coupling = couplings[0],
                                                            .transfer = "flip",
                                                            .surface = "volume",
                                                            .note = "surface correction"});
