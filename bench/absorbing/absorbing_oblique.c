@@ -3,7 +3,7 @@
  * difference from a body that continues beyond the face; at one frequency it consists of a P and an S wave with known
  * polarisations. */
 #include <complex.h>
-#undef I /* avoids a conflict of complex.h with other headers */
+#undef I /* avoids a conflict of the imaginary unit with other headers */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 /* Reflection from dashpots in closed form (Lysmer & Kuhlemeyer 1969). */
 #include <complex.h>
-#undef I /* avoids a conflict of complex.h with other headers */
+#undef I /* avoids a conflict of the imaginary unit with other headers */
 #include <math.h>
 
 #include "absorbing_bench.h"

@@ -90,7 +90,7 @@ static void time_memory(struct threads_bench *b)
     putchar('\n');
 }
 
-static bool is_shown(int which) { return bench_blocks[which].dim == DIM_SHOWN; }
+static bool has_shown_dim(int which) { return bench_blocks[which].dim == DIM_SHOWN; }
 
 static status threads_write_tables(const struct threads_bench *b)
 {
@@ -98,7 +98,7 @@ static status threads_write_tables(const struct threads_bench *b)
     bench_table_make(&table[0], "", "method,scaling,threads,particles,step_seconds,ns_per_particle_step,efficiency");
     bench_table_make(&table[1], "memory", "threads,triad_bytes_per_second,efficiency");
     for (int which = 0; which < BENCH_BLOCKS; which++)
-        for (int c = 0; c < SCALINGS && is_shown(which); c++)
+        for (int c = 0; c < SCALINGS && has_shown_dim(which); c++)
             for (int t = 0; t < b->teams; t++) {
                 bench_text(&table[0], bench_blocks[which].name), bench_text(&table[0], scaling_name[c]);
                 bench_number(&table[0], b->team[t]), bench_number(&table[0], b->particles[which][c][t]);
@@ -122,7 +122,7 @@ static void threads_draw(FILE *to, const void *context)
         for (int t = 0; t < b->teams; t++) {
             fprintf(to, "%d %.6g", b->team[t], b->triad[t] / (b->team[t] * b->triad[0]));
             for (int which = 0; which < BENCH_BLOCKS; which++)
-                if (is_shown(which)) fprintf(to, " %.6g", efficiency(b, which, c, t));
+                if (has_shown_dim(which)) fprintf(to, " %.6g", efficiency(b, which, c, t));
             fputc('\n', to);
         }
         fputs("EOD\n", to);
@@ -138,7 +138,7 @@ static void threads_draw(FILE *to, const void *context)
                 "$d%d using 1:2 with lines dt (2,3) lw 2 lc rgb '#555555' title 'memory (triad)'",
                 scaling_name[c], c);
         for (int which = 0, colour = 0; which < BENCH_BLOCKS; which++)
-            if (is_shown(which))
+            if (has_shown_dim(which))
                 fprintf(to, ", $d%d using 1:%d with linespoints pt 7 lw 2 lc rgb '%s' title '%s'", c, column++,
                         curve_colour[colour++], bench_blocks[which].name);
         fputc('\n', to);
@@ -154,7 +154,7 @@ static status threads_measure(struct threads_bench *b, bool quick)
            quick ? "5e3" : "2.5e5");
     time_memory(b);
     for (int which = 0; which < BENCH_BLOCKS; which++)
-        if (is_shown(which)) TRY(threads_time_scalings(b, which, quick));
+        if (has_shown_dim(which)) TRY(threads_time_scalings(b, which, quick));
     team_make(0);
     TRY(threads_write_tables(b));
     return bench_draw("threads", 1200, 500, threads_draw, b);

@@ -1,6 +1,5 @@
-/* `cleave bench stability`: the critical time step observed beside the predicted one, for every method;
- * then the scenes in which methods fail (stability_scenes.c), and what becomes of energy in 1e5 steps
- * (energy_drift.c). */
+/* `cleave bench stability`: compares the observed critical time step with the predicted one for every method; then runs
+ * the scenes in which methods fail (stability_scenes.c), and measures energy over 1e5 steps (energy_drift.c). */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +8,7 @@
 
 /* ---- measuring --------------------------------------------------------------------------------------------------- */
 
-enum { STEPS_OF_LINEAR = 1500 }; /* points on nodes grow slowly, by round-off */
+enum { STEPS_OF_LINEAR = 1500 }; /* growth of points on nodes starts from round-off and is slow */
 
 struct measuring {
     struct stability_map *map;
@@ -22,7 +21,7 @@ static bool outside(const struct stability_row *r)
     return !(share >= STABILITY_LEAST && share <= STABILITY_MOST);
 }
 
-/* Cases that hold are progress, on standard error; stability.csv has all. */
+/* Prints a case. Cases that meet the prediction are progress, on standard error; stability.csv has all. */
 static void stability_print_row(const struct stability_row *r)
 {
     static const char *const run[] = {"", "stays", "grows"};

@@ -1,4 +1,4 @@
-/* The long map of `cleave bench stability`: what becomes of the energy of bodies that nothing breaks. */
+/* Long map of `cleave bench stability`: energy of unbreakable bodies over many steps. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -44,7 +44,7 @@ static void energy_drift_put(struct bench_table *t, const struct drift_case *l, 
     bench_text(t, r->why[0] ? r->why : "-");
 }
 
-/* Cases that hold are progress, on standard error; the table has all. */
+/* Prints a case. Cases that keep their energy are progress, on standard error; the table has all. */
 static void print(const struct drift_case *l, const struct lasting *r, const char *label)
 {
     FILE *to = r->refused || drift_holds(l, r) ? stderr : stdout;

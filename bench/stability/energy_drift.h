@@ -1,72 +1,84 @@
-/* What the files of the long map share: bodies that nothing breaks, and what becomes of their energy in 1e5
- * steps at the automatic step. */
+/* Long map: energy of unbreakable bodies over 1e5 automatic time steps. Declarations shared by its files. */
 #ifndef CLEAVE_BENCH_ENERGY_DRIFT
 #define CLEAVE_BENCH_ENERGY_DRIFT
 
 #include "stability.h"
 
+/* Groups of cases. */
 enum drift_group {
-    LASTING_NAMED,  /* scenes in which something grew once (energy_drift_named.c)              */
-    LASTING_BODIES, /* bonds, states or cells of the reference frame alone                     */
+    LASTING_NAMED,  /* scenes in which the energy grew in an earlier version (energy_drift_named.c) */
+    LASTING_BODIES, /* only bonds, only states, or only cells of the reference frame */
     LASTING_REFERENCE,
-    LASTING_CURRENT, /* coupled, by frame                                                       */
-    LASTING_POINTS,  /* material points of the current frame alone                              */
+    LASTING_CURRENT, /* coupled, in the current frame; LASTING_REFERENCE: in the reference frame */
+    LASTING_POINTS,  /* only material points in the current frame */
     LASTING_SUPPORTS,
-    LASTING_PUBLISHED, /* couplings published by others, drawn as what they are                   */
+    LASTING_PUBLISHED, /* couplings from the literature, drawn for comparison */
     LASTING_GROUP
 };
 extern const char *const drift_group_name[LASTING_GROUP];
 
-/* A body, started at random unless `moves`. */
+/* A case: a body that starts with random velocities, unless `moves`. */
 struct drift_case {
     enum drift_group group;
-    const char *name; /* NULL: what drift_label makes of the rest */
+    const char *name; /* label; NULL: composed by drift_label */
     struct stability_case c;
-    bool moves;    /* the scene's own initial state or load moves it */
-    bool converts; /* what counts is that nothing converts */
+    bool moves;    /* moved by the scene's own initial state or load */
+    bool converts; /* the case tests that nothing converts */
 };
 
-/* Energies are what the energy balance has less the work of loads, over the energy at the start, or, where loads
- * gave it, over the largest. */
+/* Result of a case. Energies are those of the energy balance minus the work of loads, relative to the initial energy
+ * or, if loads did the work, to the largest. */
 struct lasting {
-    bool keeps; /* energy is to be kept, not only never to be exceeded: no points in the current frame */
-    bool free;  /* nothing holds it: angular momentum is to be kept */
-    int64_t particles, steps, stopped; /* stopped: the step in which the alarm came, 0: never */
-    double end, largest, least;        /* energy - energy at the start [1] */
-    double loudest;                    /* largest energy with velocities after the step [1] */
-    double rate;                       /* growth of energy per step, fitted to its logarithm over the second half */
-    double turn;      /* largest change of angular momentum over sum m |x| |v| of the start [1]; NAN: not measured */
-    double converted; /* share that became peridynamic */
-    bool inverted;    /* it had a negative energy: of points turned inside out */
-    char why[NAME_MAX_LENGTH]; /* of a stop or a refusal */
+    bool keeps; /* the energy must be constant, not only bounded: no points in the current frame */
+    bool free;  /* no supports: the angular momentum must be constant */
+    int64_t particles, steps, stopped; /* stopped: step at which the run stopped as unstable, 0: never */
+    double end, largest, least;        /* energy minus initial energy: at the end, largest, least [1] */
+    double loudest;                    /* largest energy computed with the velocities after the step [1] */
+    double rate;                       /* growth rate of the energy per step, fitted to its logarithm over the second
+                                        * half */
+    double turn;      /* largest change of angular momentum over the initial sum of m |x| |v| [1]; NAN: not measured */
+    double converted; /* share of particles converted to peridynamics */
+    bool inverted;    /* the energy was negative at times: inverted points */
+    char why[NAME_MAX_LENGTH]; /* reason of a stop or a refusal */
     bool refused;
 };
 
-#define LASTING_ENERGY 0.005 /* what energy may change by, or exceed its start by */
-/* A stable step of a share s of the critical one leaves motions 1/(1 - s^2) times their energy at the most, 2.8 at
- * 0.8. Beyond it what steps conserve is no bound any more: it stays while both its parts grow. */
+#define LASTING_ENERGY 0.005 /* allowed change or excess of the energy */
+/* Allowed peak of the energy. With a stable step of s times the critical one, the conserved quantity allows motions of
+ * up to 1/(1 - s^2) times their energy, 2.8 at s = 0.8. Above the critical step the conserved quantity bounds nothing:
+ * it stays constant while both its parts grow. */
 #define LASTING_LOUDEST 4.0
-#define LASTING_TURN 1e-6 /* of angular momentum, where forces are those of one energy and places are exact */
+/* allowed change of angular momentum, where forces derive from one energy and positions are exact */
+#define LASTING_TURN 1e-6
 enum { LASTING_STEPS = 100000, LASTING_STEPS_QUICK = 10000 };
 
-/* 0.5 % in as many steps as the map takes. */
+/* Growth rate that changes the energy by 0.5 % over the steps of the map. */
 #define LASTING_RATE (LASTING_ENERGY / LASTING_STEPS)
 
-/* Runs it for so many steps on one thread. FAILED where the bench itself fails. */
+/* Runs a case for `steps` steps on one thread. FAILED if the bench itself fails; an unstable run is a result. */
 status drift_run(const struct drift_case *l, int64_t steps, struct lasting *to);
+
+/* Returns true if the result meets the requirements of the case. */
 bool drift_holds(const struct drift_case *l, const struct lasting *r);
+
+/* Composes the label of a case. text: capacity `size` [byte]. */
 void drift_label(const struct drift_case *l, char *text, size_t size);
 
-/* All cases, with `quick` each fourth of them, one after the other (energy_drift_cases.c); those of scenes that once
- * grew (energy_drift_named.c). */
+/* Receives a case. context: argument of drift_cases. */
 typedef status drift_take(void *context, const struct drift_case *l);
+
+/* Calls `take` for all cases, with `quick` for every fourth (energy_drift_cases.c). */
 status drift_cases(bool quick, drift_take *take, void *context);
+
+/* Cases of the group LASTING_NAMED (energy_drift_named.c). */
 extern const struct drift_case drift_named[];
 extern const int drift_named_count;
 
-/* The table, on the screen, in results/bench/stability_lasting.csv and as a picture; `only`: cases in whose name
- * this is, NULL: all (energy_drift.c, energy_drift_draw.c). */
+/* Runs all cases, or those whose name contains `only` (NULL: all). Prints the table and adds it to t for
+ * results/bench/stability_lasting.csv (energy_drift.c). */
 status drift_map(struct bench_table *t, const char *only, bool quick);
+
+/* Draws the picture of the table (energy_drift_draw.c). */
 status drift_draw(const struct bench_table *t);
 
 #endif

@@ -1,4 +1,4 @@
-/* Which couplings, shapes of the peridynamic part, supports, models and ratios the long map shows. */
+/* Cases of the long map: couplings, shapes of the peridynamic region, supports, models and Poisson's ratios. */
 #include <stdio.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@ const char *const drift_group_name[LASTING_GROUP] = {
     [LASTING_POINTS] = "material points, current frame", [LASTING_SUPPORTS] = "supports",
     [LASTING_PUBLISHED] = "couplings by others"};
 
-/* With `quick` every few cases of a group alone. */
+/* Passes cases on; with `quick` only every few cases of a group. */
 struct taker {
     bool quick;
     int given;
@@ -27,7 +27,7 @@ static status energy_drift_cases_give(struct taker *t, enum drift_group group, s
 
 /* ---- laws -------------------------------------------------------------------------------------------------------- */
 
-#define NONE 1e-9 /* 0 would leave it to the scene */
+#define NONE 1e-9 /* 0 would select the value of the scene */
 /* clang-format off */
 static const struct { const char *model, *space; double poisson; } laws[] = {
     {"bond", NULL, 0},         {"bond", "plane strain", 0}, {"ospd", NULL, NONE},
@@ -71,7 +71,7 @@ static status bodies(struct taker *t)
         TRY(energy_drift_cases_give(t, LASTING_BODIES, c));
     }
     TRY(energy_drift_cases_give(t, LASTING_BODIES, (struct stability_case){.dim = 1, .edge = 64, .method = "pd"}));
-    for (int l = 2; l < 9; l++) { /* the ratios of ospd */
+    for (int l = 2; l < 9; l++) { /* Poisson's ratios of ospd */
         struct stability_case c = with_law(cells, l);
         c.model = NULL;
         TRY(energy_drift_cases_give(t, LASTING_BODIES, c));
@@ -82,7 +82,7 @@ static status bodies(struct taker *t)
     return OK;
 }
 
-/* Every law with every shape, hand-shake with every other one. */
+/* Reference frame: every law with every shape of the region, handshake coupling with every other one. */
 static status energy_drift_cases_reference(struct taker *t)
 {
     for (int l = 0; l < LAWS; l++)
@@ -173,7 +173,7 @@ static status current(struct taker *t)
                                              .coupling = coupling[0],
                                              .region = SQUARE,
                                              .model = "bond"};
-            if (!strcmp(shape[k], "linear") && q == 1) continue; /* refused */
+            if (!strcmp(shape[k], "linear") && q == 1) continue; /* refused by the scene reader */
             TRY(energy_drift_cases_give(t, LASTING_CURRENT, c));
         }
     for (int q = 0; q < 2; q++)

@@ -1,4 +1,4 @@
-/* The picture of the long map: growth of energy per step of every case, and scenes that grew once by name. */
+/* Picture of the long map: growth rate of the energy per step for every case, and the named scenes. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 
 /* Columns of the table that are drawn. */
 enum { GROUP = 0, LABEL = 1, STOPPED = 5, END = 6, LARGEST = 7, RATE = 10, VERDICT = 13, COLUMNS = 15 };
-#define LEAST_RATE 1e-12 /* drawn as nothing: what round-off and the fit leave */
+#define LEAST_RATE 1e-12 /* smaller rates, from round-off and the fit, are drawn as zero */
 #define MOST_RATE 10.0
 enum { WIDTH = 1900, LINE_HEIGHT = 22 };
 
@@ -34,14 +34,14 @@ static bool of_group(const struct bench_table *t, int64_t row, int g)
     return !strcmp(energy_drift_draw_text_of(t, row, GROUP), drift_group_name[g]);
 }
 
-/* Decades over the least rate, with the sign. */
+/* Returns the decades of a rate above the least one, with its sign. */
 static double decades(double rate)
 {
     if (!isfinite(rate)) return log10(MOST_RATE / LEAST_RATE);
     return copysign(log10(fmin(MOST_RATE, fmax(fabs(rate), LEAST_RATE)) / LEAST_RATE), rate);
 }
 
-/* Cases of a group side by side: held, failed and stopped ones in blocks of their own. */
+/* Sends the cases of a group side by side: successful, failed and stopped ones as separate blocks. */
 static int put_group(FILE *to, const struct bench_table *t, int g, int at)
 {
     static const char *const verdict[] = {"holds", "fails", "stopped"};
@@ -100,7 +100,7 @@ static void energy_drift_draw_put_label(FILE *to, const char *text, double x, do
     fprintf(to, " at screen %g,%g %s\n", x, y, style);
 }
 
-/* A line for each scene that grew once. */
+/* Sends a line for each named scene. */
 static void put_named(FILE *to, const struct bench_table *t)
 {
     double y = 0.94;

@@ -1,7 +1,7 @@
-/* Scenes in which energy grew once, or which lost themselves: named rows of the long map. */
+/* Named rows of the long map: scenes in which an earlier version gained energy or diverged. */
 #include "energy_drift.h"
 
-/* A strip with a column of bonds in it, pulled along itself by a sine of body force for 60 us. */
+/* A strip with a column of bonds, loaded along its axis by a sine of body force for 60 us. */
 #define STRIP_PULLED(space, more, law, frame, coupling, nu, end)                                                       \
     "space: " space "\n" more "duration: 2 ms\nmethod: adaptive\nmodel: " law "\ncoupling: " coupling "\n"             \
     "mpm: {frame: " frame "}\nmaterial: {young: 200 GPa, poisson: " nu ", density: 7850}\n" end                        \
@@ -23,7 +23,7 @@
     STRIP_PULLED("plane strain", "thickness: 1 mm\n", law, frame, coupling, nu, PLATE_END)
 #define SOLID(law, frame, coupling, nu) STRIP_PULLED("solid", "", law, frame, coupling, nu, SOLID_END)
 
-/* A plate with a square of bonds in its middle, stretched and turned at the start. */
+/* A plate with a square of bonds in its middle, initially stretched and rotating. */
 #define SQUARE_TURNED(transfer, shape, coupling, more)                                                                 \
     "space: plane stress\nthickness: 1 mm\nduration: 5 ms\nmethod: adaptive\ncoupling: " coupling "\n"                 \
     "mpm: {frame: current, transfer: " transfer ", shape: " shape "}\n"                                                \
@@ -40,7 +40,7 @@
     "boundary:\n  - {mirror: {axis: x, at: 0, tangential: held}}\n"                                                    \
     "  - {body_force: [0, 1e4], time: {step: {until: 1.2 ms}}}\noutput: {frames: 0, samples: 1}\n"
 
-/* A slot from the rim of a disc with a bore, once round. */
+/* A disc with a bore and a slot from its rim, one revolution. */
 #define DISC_TURNED(frame, model)                                                                                      \
     "space: plane stress\nthickness: 1 mm\nduration: 2.5133 ms\nmethod: adaptive\nmodel: " model "\n"                  \
     "mpm: {frame: " frame                                                                                              \
@@ -49,7 +49,7 @@
     "particles: {spacing: 0.5 mm}\ncracks:\n  - {from: [20.5 mm, 0], to: [12 mm, 0]}\n"                                \
     "initial: [{velocity_gradient: [[0, -2500], [2500, 0]]}]\noutput: {frames: 0, samples: 1}\n"
 
-/* A disc with a core of bonds turns round four times, 5000 rad/s. */
+/* A disc with a core of bonds, four revolutions at 5000 rad/s. */
 #define CORE_TURNED(transfer, model, coupling)                                                                         \
     "space: plane stress\nthickness: 1 mm\nduration: 5.02655 ms\nmethod: adaptive\nmodel: " model                      \
     "\ncoupling: " coupling "\n"                                                                                       \
@@ -59,7 +59,7 @@
     "conversion: {criteria: none}\ninitial: [{velocity_gradient: [[0, -5000], [5000, 0]]}]\noutput: {frames: 0, "      \
     "samples: 1}\n"
 
-/* The strip, of points alone, with nodes on its border. */
+/* The strip with only material points, with nodes on its border. */
 #define STRIP_OF_POINTS(transfer)                                                                                      \
     "space: plane stress\nthickness: 1 mm\nduration: 2 ms\nmethod: mpm\n"                                              \
     "mpm: {frame: current, transfer: " transfer ", shape: gimp}\n"                                                     \

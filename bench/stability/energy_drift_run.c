@@ -1,4 +1,5 @@
-/* One case of the long map: a small body at the automatic step, its energy, growth and angular momentum. */
+/* Runs a case of the long map: a small body with the automatic time step; measures energy, growth rate and angular
+ * momentum. */
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>
@@ -13,12 +14,12 @@
 #include "step/stability.h"
 #include "step/checks.h"
 
-#define LOUD 1e-4 /* velocities over that of waves: strains of 1e-4, nothing breaks */
+#define LOUD 1e-4 /* velocities over the wave speed: strains of 1e-4, no bond breaks */
 enum { SAMPLES = 400 };
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* What has mass and moves by itself: particles, but those of a mesh, then nodes. */
+/* A mass that moves independently: a particle that is not part of a mesh, or a node. */
 struct mover {
     real m, x[DIM_MAX], *v[DIM_MAX];
 };
@@ -48,10 +49,10 @@ static struct mover mover_at(const struct run *e, int64_t k)
 
 static int turns_of(int dim) { return dim * (dim - 1) / 2; }
 
-/* The axes of turn t: xy, yz, zx. */
+/* Returns the axes of the plane of rotation t = 0, 1, 2: xy, yz, zx. */
 static void turn_axes(int t, int *a, int *b) { *a = t, *b = (t + 1) % DIM_MAX; }
 
-/* Sums of m (x - x0) x v about the axes, and of m |x - x0| |v|; x0 is the centre of mass. */
+/* Computes the sums of m (x - x0) x v about the axes and of m |x - x0| |v|; x0 is the centre of mass. */
 static void angular_momentum(const struct run *e, const real *centre, real *L, real *size)
 {
     for (int t = 0; t < DIM_MAX; t++) L[t] = 0;
@@ -82,8 +83,8 @@ static void centre_of(const struct run *e, real *centre)
     for (int d = 0; d < e->part.dim; d++) centre[d] /= mass;
 }
 
-/* Turns bodies back by the mean of what they turn about each axis: a body that turns on has another energy at small
- * strain. Exact for bodies as symmetric as ours. */
+/* Removes the mean rotation about each axis: a rotating body has another energy with small-strain laws. Exact for
+ * bodies with the symmetry of those used here. */
 static void stop_turning(struct run *e, const real *centre)
 {
     real L[DIM_MAX], size, inertia[DIM_MAX] = {0};
@@ -103,7 +104,7 @@ static void stop_turning(struct run *e, const real *centre)
         }
 }
 
-/* Velocities at random, as seldom moving or turning as a whole as may be. */
+/* Sets random velocities with little mean translation and rotation. */
 static void energy_drift_run_shake(struct run *e, const real *centre)
 {
     uint64_t seed = 1;
@@ -151,9 +152,9 @@ static void earlier_take(struct earlier *b, const struct run *e)
     }
 }
 
-/* 1/2 m v_before . v_after, and in `after` 1/2 m v_after^2. The first is what leap-frog steps conserve beside the
- * energy of places. The energy balance has the same of bonds and cells, but of material points the mean of both
- * squares, which is more: by a quarter of itself where all is noise. */
+/* Returns 1/2 m v_before . v_after, and stores 1/2 m v_after^2 in *after. The first is the part of the energy that
+ * leap-frog integration conserves together with the energy of positions. The energy balance uses it for bonds and
+ * cells, but for material points the mean of both squares, which is larger, by a quarter if the motion is noise. */
 static real kinetic_between(const struct earlier *b, const struct run *e, real *after)
 {
     real sum = 0;
@@ -171,7 +172,7 @@ static real kinetic_between(const struct earlier *b, const struct run *e, real *
 
 /* ---- the run ----------------------------------------------------------------------------------------------------- */
 
-/* So many steps of the automatic step of the scene, with evenly spread samples. */
+/* Creates the run of a case with `steps` automatic time steps and evenly spaced samples. */
 static status energy_drift_body_make(struct run *e, struct scene *s, const struct drift_case *l, int64_t steps)
 {
     struct bench_overrides o = {0};
@@ -187,7 +188,8 @@ static status energy_drift_body_make(struct run *e, struct scene *s, const struc
     return bench_engine_make(e, s, "body", text, bench_overrides_ready(&o), o.n);
 }
 
-/* `energy` is what stable steps keep, `plain` has the squares of velocities after the step in it. */
+/* Energies at the samples. energy: conserved by stable steps; plain: computed with the velocities after the step; work:
+ * of loads. */
 struct course {
     int n;
     double step[SAMPLES + 8], energy[SAMPLES + 8], plain[SAMPLES + 8], work[SAMPLES + 8];
@@ -205,7 +207,7 @@ static void course_add(struct course *c, const struct run *e, const struct earli
     c->work[c->n++] = now->external_work;
 }
 
-/* Slope of the logarithm of the energy over the second half of the samples, by least squares [1/step]. */
+/* Returns the slope of the logarithm of the energy over the second half of the samples, by least squares [1/step]. */
 static double rate_of(const struct course *c, const double *energy)
 {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -234,7 +236,8 @@ static void judge(const struct course *c, struct lasting *to)
     to->rate = rate_of(c, to->loudest > LASTING_LOUDEST ? c->plain : c->energy);
 }
 
-/* A held body's angular momentum goes into its support, and small strain knows no rotations. */
+/* Returns true if angular momentum must be conserved: supports would take it up, and small-strain laws do not describe
+ * rotations. */
 static bool energy_drift_run_is_free(const struct run *e)
 {
     return e->scene->boundaries == 0 && e->part.dim > 1 && !(e->frame->mesh.points > 0 && e->scene->small_strain);
@@ -256,7 +259,7 @@ static status energy_drift_run_body(struct run *e, const struct drift_case *l, s
     earlier_make(&before, e);
     centre_of(e, centre);
     if (!l->moves) energy_drift_run_shake(e, centre);
-    status s = bench_engine_run(e, 1, NULL); /* makes the record of the first sample, of step 0 */
+    status s = bench_engine_run(e, 1, NULL); /* creates the record of the first sample, at step 0 */
     c->energy[c->n] = c->plain[c->n] = e->diagnostics->energy_start, c->n++;
     angular_momentum(e, centre, L, &size);
     to->free = energy_drift_run_is_free(e), to->turn = to->free ? 0 : NAN;

@@ -1,4 +1,4 @@
-/* The table of failing scenes, and how they are made. */
+/* Table of failing scenes, and the creation of their runs. */
 #include "limits_scenes.h"
 
 #include <math.h>
@@ -52,7 +52,9 @@ status limits_make(struct run *e, struct scene *s, const struct limits_row *r, c
     va_start(more, text);
     vsnprintf(whole, sizeof whole, text, more);
     va_end(more);
-    if (!strstr(whole, "frame:")) bench_override(&o, "mpm.frame", "current"); /* rows of the other say so */
+    if (!strstr(whole, "frame:"))
+        bench_override(&o, "mpm.frame", "current"); /* rows for the reference frame set the
+                                                     * key */
     for (const char *const *k = r->set; *k; k += 2) bench_override(&o, k[0], "%s", k[1]);
     return bench_engine_make(e, s, "failing", whole, bench_overrides_ready(&o), o.n);
 }

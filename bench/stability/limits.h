@@ -1,5 +1,5 @@
-/* Scenes in which methods fail, each with its threshold and the remedy: one table for the bench that
- * draws it and the tests that hold it (design sheet of the material point method, 1.2, 1.3, 2, 4g). */
+/* Scenes in which methods fail, with thresholds and remedies. The table is used by the bench that draws it and by the
+ * tests that check it. */
 #ifndef CLEAVE_BENCH_LIMITS
 #define CLEAVE_BENCH_LIMITS
 
@@ -7,41 +7,49 @@
 
 enum { FAILING_FIGURES = 3, FAILING_SET = 11 };
 
-/* What is measured in a scene: a sound method stays at or below the threshold. */
+/* A measured quantity: a correct method stays at or below the threshold. */
 struct limits_figure {
     const char *quantity;
     double threshold;
 };
 
-/* A method in a scene. `known`: where its figures lie, from the sheet, a closed form or as measured. It fails where
- * one is above its threshold: then `remedy` says what to do, and is NULL otherwise. */
+/* A method in a scene. known: expected ranges of the quantities, from a closed form, the literature or a measurement.
+ * The method fails if one is above its threshold; then `remedy` states the advice, else it is NULL. */
 struct limits_row {
     const char *method, *remedy;
-    const char *set[FAILING_SET]; /* keys of the scene and their values, NULL at the end */
-    double given;                 /* what else the scene hangs on */
+    const char *set[FAILING_SET]; /* keys of the scene and their values in turn, terminated by NULL */
+    double given;                 /* parameter of the scene */
     struct {
         double low, high;
     } known[FAILING_FIGURES];
 };
 
+/* A scene in which methods fail. */
 struct limits_scene {
-    const char *name, *given;                     /* how to print what a row gives; NULL: the method says it */
-    struct limits_figure figure[FAILING_FIGURES]; /* quantity NULL: no more */
+    const char *name, *given;                     /* given: printf format of the parameter; NULL: the method states
+                                                   * it */
+    struct limits_figure figure[FAILING_FIGURES]; /* quantity NULL: end of the list */
     const struct limits_row *row;
     int rows;
-    status (*measure)(const struct limits_row *r, double *to);
+    status (*measure)(const struct limits_row *r, double *to); /* Measures a row. */
 };
 
 enum { FAILING_SCENES = 18 };
 extern const struct limits_scene *const limits_scene[FAILING_SCENES];
-/* The figures of a row, on one thread: bodies are small; NAN where it fails. */
+
+/* Measures the quantities of a row on one thread, because bodies are small; NAN if the run fails. */
 status limits_measure(const struct limits_scene *s, const struct limits_row *r, double figure[FAILING_FIGURES]);
-/* Method and what is given. */
+
+/* Composes the label of a row: method and parameter. text: capacity `size` [byte]. */
 void limits_label(const struct limits_scene *s, const struct limits_row *r, char *text, size_t size);
+
+/* Returns the number of quantities of a scene. */
 int limits_figures(const struct limits_scene *s);
+
+/* Returns true if all quantities are at or below their thresholds. */
 bool limits_holds(const struct limits_scene *s, const double *figure);
 
-/* The engine of a scene with what the row sets; `text` as printf writes it. Free with bench_engine_free. */
+/* Creates the run of a scene with the keys of the row. text: format of printf. Release with bench_engine_free. */
 status limits_make(struct run *e, struct scene *s, const struct limits_row *r, const char *text, ...)
     __attribute__((format(printf, 4, 5)));
 

@@ -1,14 +1,14 @@
-/* What bonds do when they are torn, turned inside out, or gone where faces meet. */
+/* Failing scenes of bonds: single particles torn off, inversion, crack faces that close. */
 #include <math.h>
 
 #include "limits_scenes.h"
 #include "probes/diagnostics.h"
 #include "mesh/mesh_part.h"
 
-/* ---- particles that come off ------------------------------------------------------------------------------------- */
+/* ---- single particles -------------------------------------------------------------------------------------------- */
 
-/* A corner torn off: every family it was in has lost it, and its own is empty. Breaking is second order in the step:
- * at a fifth of the critical one bonds leave some percent of this energy too much or too little. */
+/* Tears off a corner particle, whose family becomes empty and which leaves all other families. Breaking is second order
+ * in the time step: at 0.2 of the critical step, bonds leave an energy error of some percent. */
 static status single(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -31,8 +31,9 @@ static status single(const struct limits_row *r, double *to)
 
 #define LAW(law, kind, ...) NAMED_LAW(law " " kind, law, kind, __VA_ARGS__)
 #define NAMED_LAW(name_, law, kind, ...) .method = name_, .set = {"model", law, "method", kind, __VA_ARGS__}
-/* At this speed a bond gains 1.7 times its critical stretch in a step. Energies of whole families that lose most of
- * their bonds in one step are then first order at best: 0.066 at a safety of 0.2, 0.031 at 0.1, 0.014 at 0.025. */
+/* A row for a law. At this speed a bond gains 1.7 times its critical stretch in a step. The energy of whole families
+ * that lose most of their bonds in one step is then at best first order: errors of 0.066 at a safety factor of 0.2,
+ * 0.031 at 0.1, 0.014 at 0.025. */
 #define SINGLE(law, kind)                                                                                              \
     {                                                                                                                  \
         LAW(law, kind, NULL), .known = { {0, 0}, {0, 1e-13}, {0, 0.05} }                                               \
@@ -52,9 +53,9 @@ const struct limits_scene limits_single = {
     ROWS(singles),
     single};
 
-/* ---- compression past inversion ---------------------------------------------------------------------------------- */
+/* ---- compression beyond inversion -------------------------------------------------------------------------------- */
 
-/* Neighbours in a row that have changed sides. */
+/* Returns the number of neighbours in a row that have exchanged their order. */
 static int inverted(const struct particles *p)
 {
     int pairs = 0;
@@ -62,7 +63,7 @@ static int inverted(const struct particles *p)
     return pairs;
 }
 
-/* Halves of a plate meet at +-`given` of the wave speed of a bar. */
+/* Runs two halves of a plate that collide at +-`given` times the wave speed of a bar. */
 static status inversion(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -83,9 +84,9 @@ static status inversion(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* A linear bond of no length has a finite force. Below 0.7 of their length bonds have a repulsion of their own
- * (kernels/pd/bond_core.h): at 0.5 c neighbours stay in their order, which they did not without. Faster bodies throw
- * particles off their free ends faster than waves, and stop. */
+/* Rows for a law. A linear bond has a finite force at zero length. Below 0.7 of their length bonds have an additional
+ * repulsion (kernels/pd/bond_core.h): at 0.5 c neighbours keep their order, which they would not without. Faster bodies
+ * eject particles from their free ends faster than waves, and the run stops. */
 #define INVERSION(law)                                                                                                 \
     {LAW(law, "pd", NULL), .given = 0.2, .known = {{0, 0}, {0, 0.05}}},                                                \
     {                                                                                                                  \
@@ -111,9 +112,9 @@ const struct limits_scene limits_inversion = {"compression past inversion",
                                               ROWS(inversions),
                                               inversion};
 
-/* ---- faces of a crack that close --------------------------------------------------------------------------------- */
+/* ---- crack faces that close -------------------------------------------------------------------------------------- */
 
-/* How far the columns beside the crack have gone into each other, in spacings. */
+/* Returns the largest overlap of the columns beside the crack [spacings]. */
 static double overlap(const struct run *e)
 {
     const struct particles *p = &e->part;
@@ -128,9 +129,9 @@ static double overlap(const struct run *e)
     return left - right + 1;
 }
 
-/* Halves of a plate that is cut through meet at +-0.04 c, c = 106: two bars of 12 spacings that throw each other
- * back until 0.226, or two spacings deep in each other at 0.25. Most overlap of the faces, and the share of their
- * momentum that they keep. */
+/* Runs the halves of a plate that is cut through, which collide at +-0.04 c, c = 106: two bars of 12 spacings in
+ * contact until 0.226, or overlapping by two spacings at 0.25. Measures the largest overlap of the faces and the share
+ * of their momentum that they keep. */
 static status closing(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -152,8 +153,8 @@ static status closing(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Peridynamic particles meet by contact, in adaptive runs too, and sink into each other by 6 v/c over its stiffness of
- * 5 bonds, 0.15 spacings here. Material points meet on the grids of their bodies. */
+/* Rows for a law. Peridynamic particles interact by contact, in adaptive runs too, and overlap by 6 v/c over the
+ * contact stiffness of 5 bonds, 0.15 spacings here. Material points interact on the grids of their bodies. */
 #define CRACK "cracks", "[{from: [12, -1], to: [12, 7]}]"
 #define BONDS_BESIDE "pd.region", "[{box: {from: [6, 0], to: [18, 6]}}]"
 #define CLOSING(law)                                                                                                   \

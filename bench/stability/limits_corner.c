@@ -1,4 +1,4 @@
-/* A front of conversion that runs past a corner of the interface between bonds and material points. */
+/* A front of conversion that passes a corner of the interface between bonds and material points. */
 #include <math.h>
 
 #include "limits_scenes.h"
@@ -6,15 +6,15 @@
 #include "mesh/mesh_part.h"
 #include "probes/diagnostics.h"
 
-/* A plane wave of tension between mirrors, 32 spacings long. Below, bonds reach to x = 50 from the start; above,
- * what the wave tightens to half its peak becomes peridynamic, so that the front comes from x = 30 along the
- * interface y = 20, passes the corner, and goes on to x = 65 with the wave. Nothing moves across it: what does comes
- * from the corner. */
+/* A plane tensile wave, 32 spacings long, between mirrors. In the lower half, bonds initially extend to x = 50. In the
+ * upper half, particles become peridynamic at half the peak stress of the wave, so that the front starts at x = 30,
+ * moves along the interface y = 20, passes the corner, and continues with the wave to x = 65. The exact solution has no
+ * transverse motion: all that occurs is caused by the corner. */
 #define START 30e-3
 #define WIDTH 32e-3
 #define SPEED 0.1
 
-/* `given`: up to where bonds reach at the start [mm]; 40: the interface is flat. */
+/* Measures transverse motion and energy error. given: initial end of the bonds [mm]; 40: the interface is flat. */
 static status corner(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -44,8 +44,9 @@ static status corner(const struct limits_row *r, double *to)
 #define ADAPTIVE(...) .set = {"method", "adaptive", __VA_ARGS__}
 #define APIC "mpm.transfer", "apic"
 #define HANDSHAKE "coupling", "handshake"
-/* In the reference frame energy is kept to 1e-8; 1.1 and 1.4 % are between the sample at t = 0, whose velocities are
- * those given, and all others, whose kinetic energy is that which leap-frog keeps: a quarter of a kick less. */
+/* Rows. In the reference frame the energy is constant to 1e-8. The 1.1 and 1.4 % are between the sample at t = 0, with
+ * the prescribed velocities, and all others, whose kinetic energy is that conserved by leap-frog integration, smaller
+ * by a quarter of a velocity increment. */
 #define CALM "partial stress with apic or frame: reference"
 static const struct limits_row corners[] = {
     {.method = "partial stress, flip, no corner",

@@ -1,4 +1,4 @@
-/* Twins of a scene: rescaled, mirrored, turned and renumbered, which must give the same. */
+/* Invariance: scenes that are scaled, mirrored, rotated or renumbered must give the same result. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,8 +7,8 @@
 #include "limits_scenes.h"
 #include "probes/diagnostics.h"
 
-/* x' = scale (x, y), in the other order if `turned`, x against its axis if `mirrored`; particles from a list in the
- * order of the lattice (1) or shuffled (2). */
+/* A transformation: x' = scale (x, y), with exchanged axes if `turned` and reversed x if `mirrored`. listed: particles
+ * from a list, in the order of the lattice (1) or permuted (2). */
 struct twin {
     double scale;
     bool mirrored, turned;
@@ -31,11 +31,11 @@ static void limits_invariance_put_box(FILE *to, const struct twin *t, double x0,
     fputs("}}", to);
 }
 
-/* Centres of its lattice, in mm. */
+/* Number of particles along the axes, 1 mm apart; the plate has a hole. */
 enum { PLATE_X = 38, PLATE_Y = 26 };
 static bool in_hole(double x, double y) { return hypot(x - 9, y - 5) <= 3.3; }
 
-/* The same as a list of particles; every 383th of 988 in turn is an order that has nothing to do with places. */
+/* Writes the particles as a list. Permuted: every 383rd of 988 in turn, an order unrelated to positions. */
 static void put_list(FILE *to, const struct twin *t)
 {
     const double mm = 1e-3 * t->scale;
@@ -91,7 +91,8 @@ static void put_loads(FILE *to, const struct twin *t)
     fprintf(to, ", width: %.17g, velocity: 3}}\n", 12 * mm);
 }
 
-/* A notched plate with a hole, no symmetry left, pulled at two faces while a pulse runs through it. */
+/* Writes the scene: a notched plate with a hole and without symmetry, under tension at two faces while a pulse crosses
+ * it. */
 static void put_plate(FILE *to, const struct twin *t, const struct limits_row *r, const char *list)
 {
     const double mm = 1e-3 * t->scale;
@@ -105,7 +106,7 @@ static void put_plate(FILE *to, const struct twin *t, const struct limits_row *r
     put_vector(to, t, mm, 0, 0);
     fputs("}\npd: {region: ", to);
     limits_invariance_put_box(to, t, -10, -5, 4, 7);
-    if (strcmp(r->set[1], "pd") == 0) fputs(", surface: moments", to); /* no default of bodies from lists */
+    if (strcmp(r->set[1], "pd") == 0) fputs(", surface: moments", to); /* not the default for bodies from lists */
     fputs("}\nconversion: {criteria: none}\n", to);
 }
 
@@ -122,7 +123,7 @@ static status plate_run(struct run *e, struct scene *s, const struct twin *t, co
     return engine_run(e);
 }
 
-/* The particle of the twin where particle i of the plate would be, -1: none. */
+/* Returns the index of the particle of the transformed scene that corresponds to particle i; -1: none. */
 static int64_t twin_of(const struct particles *p, int64_t i, const struct particles *q, const struct twin *t)
 {
     const double x = t->scale * (t->mirrored ? -p->X[0][i] : p->X[0][i]), y = t->scale * p->X[1][i];
@@ -131,7 +132,7 @@ static int64_t twin_of(const struct particles *p, int64_t i, const struct partic
     return -1;
 }
 
-/* Largest difference of velocities, and of displacements over lengths, of the largest; infinite where bonds broke,
+/* Returns the largest difference of velocities and of displacements over the largest values; infinite if bonds broke,
  * particles are missing or nothing moves. */
 static double difference(const struct run *a, const struct run *b, const struct twin *t)
 {
@@ -176,14 +177,14 @@ static const struct twin plate[] = {{.scale = 1},
                                     {.scale = 1, .listed = 2}};
 enum { ITSELF, LARGER, MIRRORED, TURNED, ALL_OF_IT, LISTED, SHUFFLED };
 
-/* `given`: which twin. */
+/* Measures the difference of a transformation. given: index of the transformation. */
 static status twins(const struct limits_row *r, double *to)
 {
     return limits_invariance_compare(&plate[ITSELF], &plate[(int)r->given], r, to);
 }
 
-/* Sums in another order and lengths that are no binary fractions, over 200 steps; stretches of bonds are multiples
- * of 2^-49, 1e-11 of those here. */
+/* Rows. Sums in another order and lengths that are not binary fractions cause round-off over 200 steps; bond stretches
+ * are stored as multiples of 2^-49, 1e-11 of those here. */
 #define TWIN(kind, law, name, which)                                                                                   \
     {                                                                                                                  \
         .method = kind ", " name, .set = {"method", kind, "model", law}, .given = which, .known = { {0, 1e-10} }       \
@@ -199,7 +200,7 @@ static const struct limits_row twin[] = {TWINS("pd"), TWINS("mpm"), TWINS("adapt
 const struct limits_scene limits_twins = {
     "twins of a plate", NULL, {{"difference before bonds break", 1e-10}}, ROWS(twin), twins};
 
-/* Particles are sorted by place: the same bits. */
+/* Measures the difference for a permuted list: particles are sorted by position, so that results are bitwise equal. */
 static status renumbered(const struct limits_row *r, double *to)
 {
     return limits_invariance_compare(&plate[LISTED], &plate[SHUFFLED], r, to);

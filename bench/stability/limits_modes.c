@@ -1,17 +1,16 @@
-/* Motions of free bodies of bonds that cost nothing though they are not rigid, and the softest that do
- * cost. */
+/* Zero-energy modes of free bodies of bonds, and their lowest elastic frequency. */
 #include <math.h>
 
 #include "limits_scenes.h"
 #include "base/memory.h"
 
-/* M^-1/2 K M^-1/2 of a free body, n by n. */
+/* The matrix M^-1/2 K M^-1/2 of a free body, n x n. */
 struct matrix {
     int64_t n;
     real *at;
 };
 
-/* Column by column; what differs between both halves is the error of differences, 1e-7. */
+/* Computes the matrix column by column from finite differences of forces; the asymmetry is their error, 1e-7. */
 static struct matrix matrix_of(struct run *e)
 {
     struct bond_body body = bond_body_make(&e->bonds, &e->part, e->kernels.bond_force, NULL, e->scene->spacing);
@@ -31,7 +30,7 @@ static struct matrix matrix_of(struct run *e)
     return m;
 }
 
-/* How many eigenvalues lie below x: negative pivots of A - x I (Sylvester 1852). */
+/* Returns the number of eigenvalues below x: the negative pivots of A - x I (Sylvester 1852). */
 static int64_t limits_modes_below(const struct matrix *m, real x)
 {
     const int64_t n = m->n;
@@ -49,7 +48,7 @@ static int64_t limits_modes_below(const struct matrix *m, real x)
     return count;
 }
 
-/* The eigenvalue that has `lower` ones below it, to 1e-4, found below `high`. */
+/* Returns the eigenvalue with `lower` ones below it, by bisection below `high`, with relative error 1e-4. */
 static real eigenvalue(const struct matrix *m, int64_t lower, real high)
 {
     real low = 0;
@@ -63,7 +62,7 @@ static real eigenvalue(const struct matrix *m, int64_t lower, real high)
     return high;
 }
 
-/* Largest sum of a row: above all eigenvalues (Gershgorin). */
+/* Returns an upper bound of the eigenvalues: the largest absolute row sum (Gershgorin). */
 static real bound(const struct matrix *m)
 {
     real most = 0;
@@ -76,7 +75,7 @@ static real bound(const struct matrix *m)
 }
 
 #define SIDE 12
-#define NOTHING 1e-6 /* of the stiffest mode: differences leave 1e-7, the softest elastic one has 1e-2 */
+#define NOTHING 1e-6 /* relative to the stiffest mode: differences leave 1e-7, the softest elastic mode has 1e-2 */
 enum { RIGID = 3 };
 
 static status square_make(struct run *e, struct scene *s, const struct limits_row *r, double poisson)
@@ -89,7 +88,7 @@ static status square_make(struct run *e, struct scene *s, const struct limits_ro
                        poisson, SIDE, SIDE);
 }
 
-/* ---- motions that cost nothing ----------------------------------------------------------------------------------- */
+/* ---- zero-energy modes ------------------------------------------------------------------------------------------- */
 
 static status modes(const struct limits_row *r, double *to)
 {
@@ -103,8 +102,8 @@ static status modes(const struct limits_row *r, double *to)
     return OK;
 }
 
-/* Springs between nearest neighbours of a square lattice hold no angle: 2 n^2 coordinates, 2 n (n - 1) springs in
- * straight rows that depend on nothing else leave 2 n motions, three of them rigid. */
+/* Rows. Springs between nearest neighbours of a square lattice have no shear stiffness: 2 n^2 coordinates and 2 n (n -
+ * 1) independent springs in straight rows leave 2 n modes, three of them rigid. */
 #define LATTICE(law, reach) .method = law ", horizon " reach, .set = {"model", law, "particles.horizon", reach}
 #define CLOUD(law, reach)                                                                                              \
     .method = law ", horizon " reach ", irregular 0.5",                                                                \
@@ -128,10 +127,10 @@ static const struct limits_row costless[] = {
 const struct limits_scene limits_modes_figure = {
     "motions that cost nothing", NULL, {{"zero-energy modes that are not rigid", 0}}, ROWS(costless), modes};
 
-/* ---- the softest elastic motion ---------------------------------------------------------------------------------- */
+/* ---- lowest elastic frequency ------------------------------------------------------------------------------------ */
 
-/* omega L/c_p of the lowest motion in the plane of a free square, nu = 0.3 (Bardell, Langley & Dunsdon 1996, table 2);
- * families that surfaces cut short make it softer or stiffer. */
+/* Exact omega L/c_p of the lowest in-plane mode of a free square, nu = 0.3 (Bardell, Langley & Dunsdon 1996, table 2);
+ * incomplete families at surfaces make it softer or stiffer. */
 #define LOWEST 2.321
 
 static status softest(const struct limits_row *r, double *to)

@@ -1,4 +1,5 @@
-/* Bodies that turn, shear at constant volume and vibrate for long: what should not happen to them. */
+/* Bodies that rotate, shear at constant volume and vibrate for a long time: errors of stress, momentum, frequency and
+ * energy. */
 #include <math.h>
 
 #include "engine/engine.h"
@@ -23,8 +24,8 @@ static struct turning turning_of(const struct particles *p)
     return t;
 }
 
-/* To the end of the scene: shear [MPa], of material points where there are some, and what angular momentum and kinetic
- * energy have changed by. */
+/* Runs to the end of the scene and measures the shear stress [MPa] (of material points if there are any) and the
+ * relative changes of angular momentum and kinetic energy. */
 static status limits_motion_turn(struct run *e, double *to)
 {
     const struct particles *p = &e->part;
@@ -44,7 +45,7 @@ static status limits_motion_turn(struct run *e, double *to)
         {"shear stress [MPa]", 15}, {"change of angular momentum", 1e-4}, { "change of kinetic energy", threshold }    \
     }
 
-/* Corners at `given` m/s, a tenth of a turn at 10 m/s, a whole one at 100 m/s. */
+/* Rotating square whose corners move at `given` m/s: a tenth of a revolution at 10 m/s, a whole one at 100 m/s. */
 static status spin(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -62,9 +63,9 @@ static status spin(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* FLIP with points in groups (data/turning.h) 0.2 MPa, 1e-7 and 2e-6 at 10 m/s, where FLIP alone has 110 MPa, 1.5 and
- * 1.4 % and 1 GPa, 3.8 and 5 % at 100 m/s; APIC 0.1 MPa, 1e-6 and 2e-5; 10 MPa, 3e-5 and 0.25 %; bonds 1e-15 and 2e-4.
- * In the reference frame the body grows with its centrifugal stress. */
+/* Rows, with measured values at 10 m/s and 100 m/s. FLIP with points in groups (data/turning.h): 0.2 MPa, 1e-7 and 2e-6
+ * at 10 m/s; FLIP alone: 110 MPa, 1.5 and 1.4 %, and 1 GPa, 3.8 and 5 % at 100 m/s. APIC: 0.1 MPa, 1e-6 and 2e-5; 10
+ * MPa, 3e-5 and 0.25 %. Bonds: 1e-15 and 2e-4. In the reference frame the body expands under its centrifugal stress. */
 #define POINTS(shape, transfer) .set = {"method", "mpm", "mpm.shape", shape, "mpm.transfer", transfer}
 #define REFERENCE .set = {"method", "mpm", "mpm.frame", "reference"}
 static const struct limits_row spins[] = {
@@ -84,7 +85,7 @@ static const struct limits_row spins[] = {
 };
 const struct limits_scene limits_spin = {"rigid spin of a square", "%g m/s", TURNING(5e-3), ROWS(spins), spin};
 
-/* Radius 10 mm, edge at 100 m/s, one turn, peridynamic within 4 mm. */
+/* Rotating disc of radius 10 mm, rim at 100 m/s, one revolution, peridynamic within 4 mm. */
 static status disc(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -100,8 +101,8 @@ static status disc(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* The sheet: 110 MPa, 7e-6, 0.23 %, of points that grow by the square of a step's angle while bonds do not
- * (kernels/mpm/stress.h). */
+/* Rows. Without the correction of kernels/mpm/stress.h: 110 MPa, 7e-6 and 0.23 %, because points expand by the square
+ * of the rotation per step while bonds do not. */
 static const struct limits_row discs[] = {
     {.method = "partial stress, flip",
      .set = {"mpm.frame", "current", "mpm.transfer", "flip"},
@@ -115,8 +116,8 @@ const struct limits_scene limits_disc = {"a coupled disc turns", NULL, TURNING(6
 
 /* ---- shear at constant volume ------------------------------------------------------------------------------------ */
 
-/* Lame's mode of a free square of edge L: v = (cos kx sin ky, -sin kx cos ky), k = pi/L, free of dilatation and of
- * traction, with omega = sqrt(2) k c_s whatever Poisson's ratio (Lame 1852). A method that locks is too fast. */
+/* Lame's mode of a free square of edge L: v = (cos kx sin ky, -sin kx cos ky), k = pi/L, without dilatation and
+ * traction, with omega = sqrt(2) k c_s for any Poisson's ratio (Lame 1852). A method that locks oscillates too fast. */
 #define EDGE 32e-3
 
 static void lame(const void *context, const real *X, real *v)
@@ -127,7 +128,7 @@ static void lame(const void *context, const real *X, real *v)
     v[1] = -1e-3 * sin(k * X[0]) * cos(k * X[1]);
 }
 
-/* Momentum of the body in this mode. */
+/* Returns the projection of the momentum on this mode. */
 static double projection(struct run *e)
 {
     double sum = 0;
@@ -141,8 +142,8 @@ static double projection(struct run *e)
     return sum;
 }
 
-/* Steps of four and a quarter periods, when the mode stands still for the ninth time; velocities are half a step
- * behind. */
+/* Number of velocity zeros of the mode in the run: the ninth is after four and a quarter periods; velocities lag by
+ * half a step. */
 enum { STANDS = 9 };
 
 static status periods(struct run *e, double *steps)
@@ -150,7 +151,7 @@ static status periods(struct run *e, double *steps)
     double before = projection(e);
     int times = 0;
     *steps = NAN;
-    TRY(bench_engine_run(e, 1, NULL)); /* makes the record of the first sample */
+    TRY(bench_engine_run(e, 1, NULL)); /* creates the record of the first sample */
     for (double now; times < STANDS && e->clock.step < e->clock.steps - 1; before = now) {
         TRY(engine_step(e));
         now = projection(e);
@@ -161,7 +162,7 @@ static status periods(struct run *e, double *steps)
     return OK;
 }
 
-/* `given`: Poisson's ratio. */
+/* Measures the frequency. given: Poisson's ratio. */
 static status shear(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -180,9 +181,9 @@ static status shear(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* 32 spacings a side. Linear cells, and shapes with one strain a cell, lock near 1/2, smooth shapes and bonds do
- * not. On its lattice a horizon of 1 has C12 = 0 and C11 = E/(1 - nu): sqrt(2) too fast; of 1.5 and 2.015 it is as
- * anisotropic as its few bonds. */
+/* Rows, for 32 spacings per edge. Linear cells, and shapes with one strain per cell, lock near nu = 1/2; smooth shapes
+ * and bonds do not. On a lattice, bonds with horizon 1 have C12 = 0 and C11 = E/(1 - nu): too fast by sqrt(2); with 1.5
+ * and 2.015 the few bonds are anisotropic. */
 #define STATE(model) .method = model, .set = {"method", "pd", "model", model}
 #define BOND(horizon, more, ...)                                                                                       \
     .method = "bonds, horizon " horizon more, .given = 1.0 / 3,                                                        \
@@ -231,8 +232,8 @@ static double energy_of(struct run *e)
            diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial);
 }
 
-/* A million steps of a free vibrating plate: what its energy changes by, mean of the last fiftieth over that of the
- * first. */
+/* Measures the relative change of the energy of a free vibrating plate over a million steps: mean of the last fiftieth
+ * over that of the first. */
 static status million_steps(struct run *e, double *to)
 {
     double mean[2] = {0};
@@ -260,7 +261,7 @@ static status million(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* What material points lose is all that is no rigid rotation: most of this energy. */
+/* Rows. Material points dissipate all motion but rigid rotation: most of this energy. */
 static const struct limits_row millions[] = {
     {.method = "bonds", .known = {{0, 5e-4}}},
     {.method = "gimp flip", POINTS("gimp", "flip"), .known = {{0.5, 0.97}}, .remedy = "bonds, or frame: reference"},
@@ -270,14 +271,14 @@ static const struct limits_row millions[] = {
 const struct limits_scene limits_million = {
     "a million steps of a free plate", NULL, {{"change of energy", 1e-3}}, ROWS(millions), million};
 
-/* A bar of 64 spacings in its first free mode. */
+/* Sets the velocities of the first free mode of a bar of 64 spacings. */
 static void first_mode(const void *context, const real *X, real *v)
 {
     (void)context;
     v[0] = 0.01 * cos(M_PI * X[0] / 0.64);
 }
 
-/* Ten periods: share of its energy that is lost. Peaks fall between samples: 1e-3. */
+/* Measures the relative energy loss over ten periods; peaks between samples limit the accuracy to 1e-3. */
 static status vibration(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -300,7 +301,7 @@ static status vibration(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* APIC loses 0.04 % with GIMP or less, 0.3 % with quadratic shapes. */
+/* Rows. APIC loses 0.04 % or less with GIMP, 0.3 % with quadratic shapes. */
 static const struct limits_row vibrations[] = {
     {.method = "bonds", .set = {"method", "pd"}, .known = {{0, 1e-3}}},
     {.method = "gimp flip", POINTS("gimp", "flip"), .known = {{0, 1e-3}}},

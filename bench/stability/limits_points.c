@@ -1,4 +1,5 @@
-/* Where material points fail: stretched over their cells, unseen by the grid, on the faces of cells. */
+/* Failing scenes of material points: extension beyond the cell size, modes invisible to the grid, points on faces of
+ * cells. */
 #include <math.h>
 
 #include "limits_scenes.h"
@@ -9,9 +10,9 @@
 #define BAR                                                                                                            \
     "space: line\nmaterial: {young: 1e4, density: 1}\nparticles: {spacing: 0.01}\noutput: {frames: 0, samples: 1}\n"
 
-/* ---- uniform stress in a body that has been stretched ------------------------------------------------------------ */
+/* ---- uniform stress in an extended body -------------------------------------------------------------------------- */
 
-/* Points of unit stress, stretched by lambda, so many h from where they were. */
+/* Sets points with unit stress to positions extended by lambda and shifted by `shift` cells. */
 static void stretch(struct particles *p, double lambda, double shift)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -21,7 +22,8 @@ static void stretch(struct particles *p, double lambda, double shift)
     }
 }
 
-/* Largest force on an inner node over stress and section, at the worst of 64 places of the points in their cells. */
+/* Measures the largest force on an inner node over stress and cross section, for the worst of 64 positions of the
+ * points in their cells. */
 static status crossing(const struct limits_row *r, double *to)
 {
     const double lambda = r->given;
@@ -48,9 +50,9 @@ static status crossing(const struct limits_row *r, double *to)
     return done;
 }
 
-/* The sheet's table; worst places fall between those tried: 0.02. Forces where there should be none tear the body:
- * numerical fracture beyond a stretch of cell over spacing, 2. Points that stretch along put it off until they are
- * two cells wide. */
+/* Rows. The worst position may lie between those tried: tolerance 0.02. Spurious forces tear the body: numerical
+ * fracture when the extension exceeds cell over spacing, 2. Shapes that extend with the points delay it until the
+ * points are two cells wide. */
 #define STRETCHED "cpgimp, frame: reference, or bonds"
 #define SHAPE(name) .method = name, .set = {"mpm.shape", name}
 static const struct limits_row crossings[] = {
@@ -82,10 +84,10 @@ const struct limits_scene limits_crossing = {"uniform stress, stretched",
                                              ROWS(crossings),
                                              crossing};
 
-/* ---- homologous stretch ------------------------------------------------------------------------------------------ */
+/* ---- homogeneous extension --------------------------------------------------------------------------------------- */
 
-/* v = a X until a strain is reached, in 100 D/c: largest error of the stress in the middle, which the ends do not
- * reach. Rates of stress add up to E ln lambda, the strain of the reference frame is lambda - 1. */
+/* Measures the largest stress error in the middle, which waves from the ends do not reach, for v = a X until a given
+ * strain after 100 D/c. Exact: stress rates add up to E ln lambda; the strain of the reference frame is lambda - 1. */
 static status homologous(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -105,7 +107,7 @@ static status homologous(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Of the sheet: linear 1.8 and 2.4, uGIMP 0.06 and 0.54, quadratic 0.05 and 0.39. */
+/* Rows. Published errors: linear 1.8 and 2.4, uGIMP 0.06 and 0.54, quadratic 0.05 and 0.39. */
 #define HOMOLOGOUS "cpgimp or frame: reference"
 static const struct limits_row stretches[] = {
     {SHAPE("linear"), .given = 0.05, .known = {{1, 2.5}}, .remedy = "gimp, cpgimp, quadratic, cubic"},
@@ -122,10 +124,10 @@ static const struct limits_row stretches[] = {
 const struct limits_scene limits_homologous = {
     "homologous stretch", "strain %g", {{"error of the stress", 0.065}}, ROWS(stretches), homologous};
 
-/* ---- what the grid cannot see ------------------------------------------------------------------------------------ */
+/* ---- modes invisible to the grid --------------------------------------------------------------------------------- */
 
-/* Two points a cell, at h/4 and 3h/4, with +-v: nodes see nothing. Share of the energy that is left after some
- * steps. */
+/* Measures the share of the energy that remains after some steps, for two points per cell at h/4 and 3h/4 with
+ * velocities +-v: the node velocities vanish. */
 static status null_mode(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -139,7 +141,7 @@ static status null_mode(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* After `given` steps; what APIC leaves is at the ends. */
+/* Rows. given: number of steps. The energy that APIC leaves is at the ends of the body. */
 static const struct limits_row null_modes[] = {
     {.method = "flip",
      .set = {"mpm.transfer", "flip"},
@@ -154,10 +156,10 @@ const struct limits_scene limits_null_mode = {"null mode +-v",
                                               ROWS(null_modes),
                                               null_mode};
 
-/* ---- places in the cells ----------------------------------------------------------------------------------------- */
+/* ---- positions in the cells -------------------------------------------------------------------------------------- */
 
-/* Points on the faces of cells, or beside them where nodes beyond the edge have a mass of 1e-9 or less, in a body
- * that moves as it is: largest stress over rho c v, after 300 s at c = 1 m/s. */
+/* Measures the largest stress over rho c v after 300 s, c = 1 m/s, in a body in rigid translation, with points on faces
+ * of cells or beside them, where nodes beyond the edge have a mass of 1e-9 or less. */
 static status on_faces(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -177,7 +179,7 @@ static status on_faces(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Round-off. */
+/* Rows; the limit is round-off. */
 #define FACES(shape, transfer, at)                                                                                     \
     {                                                                                                                  \
         .method = shape " " transfer, .set = {"mpm.shape", shape, "mpm.transfer", transfer}, .given = at, .known = {   \

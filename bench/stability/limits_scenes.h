@@ -1,4 +1,4 @@
-/* What the files of failing scenes share: their names, in the order of the map. */
+/* Failing scenes in the order of the picture, shared by the files that define them. */
 #ifndef CLEAVE_BENCH_LIMITS_SCENES
 #define CLEAVE_BENCH_LIMITS_SCENES
 
@@ -6,19 +6,25 @@
 
 #define ROWS(array) (array), COUNT_OF(array)
 
-/* limits_points.c */
+/* Defined in limits_points.c. */
 extern const struct limits_scene limits_crossing, limits_homologous, limits_null_mode, limits_faces;
-/* limits_motion.c */
+
+/* Defined in limits_motion.c. */
 extern const struct limits_scene limits_spin, limits_disc, limits_vibration, limits_million, limits_shear;
-/* limits_bonds.c */
+
+/* Defined in limits_bonds.c. */
 extern const struct limits_scene limits_single, limits_inversion, limits_closing;
-/* limits_modes.c */
+
+/* Defined in limits_modes.c. */
 extern const struct limits_scene limits_modes_figure, limits_softest;
-/* limits_corner.c */
+
+/* Defined in limits_corner.c. */
 extern const struct limits_scene limits_corner_figure;
-/* limits_invariance.c */
+
+/* Defined in limits_invariance.c. */
 extern const struct limits_scene limits_twins, limits_renumbered;
-/* limits_time_step.c */
+
+/* Defined in limits_time_step.c. */
 extern const struct limits_scene limits_beyond;
 
 #endif

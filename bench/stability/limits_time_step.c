@@ -1,4 +1,4 @@
-/* Steps beyond the limit must be caught, with place, step and remedy. */
+/* Time steps beyond the stability limit must stop the run, with position, step and remedy. */
 #include <math.h>
 #include <string.h>
 
@@ -35,7 +35,7 @@ status stability_caught(const struct stability_case *c, double times, double *st
     return OK;
 }
 
-/* ---- on the map -------------------------------------------------------------------------------------------------- */
+/* ---- row of the table -------------------------------------------------------------------------------------------- */
 
 static const struct stability_case beyond[] = {
     {.dim = 2, .method = "pd"},
@@ -46,7 +46,7 @@ static const struct stability_case beyond[] = {
     {.dim = 2, .method = "mpm", .frame = "reference"},
 };
 
-/* `given`: which of them. */
+/* Measures the number of steps until the run stops. given: index of the case. */
 static status caught(const struct limits_row *r, double *to)
 {
     return stability_caught(&beyond[(int)r->given], 1.2, to);

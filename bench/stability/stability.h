@@ -1,4 +1,4 @@
-/* What the files of the stability bench share: its cases, and the limits that are observed. */
+/* Stability bench: cases and observed limits. Declarations shared by its files. */
 #ifndef CLEAVE_BENCH_STABILITY
 #define CLEAVE_BENCH_STABILITY
 
@@ -7,23 +7,25 @@
 enum stability_group { GROUP_PD, GROUP_SHEET, GROUP_POINTS, GROUP_COUPLED, GROUP_REFERENCE, STABILITY_GROUP };
 extern const char *const stability_group_name[STABILITY_GROUP];
 
-/* A free block of one method: what its scene says; NULL or 0: the scene's default. */
+/* A free block with one method: values of scene keys; NULL or 0: the default of the scene. */
 struct stability_case {
     enum stability_group group;
-    const char *note; /* what is particular about it */
+    const char *note; /* special property of the case, for labels */
     int dim;
-    const char *space; /* NULL: line, plane stress, solid by dim */
+    const char *space; /* value of the key; NULL: line, plane stress or solid, by dim */
     const char *method, *model, *coupling, *shape, *transfer, *frame, *surface, *weights, *normalisation, *calibration;
     double cell;   /* points per cell and direction */
-    double offset; /* of the nodes against the lattice's lower border [cells] */
-    int offsets;   /* how many are tried between 0 and 1, 0: `offset` alone */
+    double offset; /* position of the nodes relative to the lower border of the lattice [cells] */
+    int offsets;   /* number of offsets tried between 0 and 1; 0: only `offset` */
     double horizon, poisson, irregularity;
-    bool contact;   /* faces of cracks meet */
-    double heavier; /* density of the other half over that of the first; 0: one material */
+    bool contact;   /* contact between crack faces */
+    double heavier; /* density of one half over that of the other; 0: one material */
+    /* Peridynamic region of adaptive cases: one half; all but scattered balls; these balls; the middle half; the middle
+     * half along each axis; a ball; the lower half along each axis; three quarters of the middle half, with a crack up
+     * to the middle. */
     enum stability_region { HALF, ISLANDS, SPOTS, STRIP, SQUARE, DISC, CORNER, NOTCH } region;
-    /* peridynamic (adaptive): one half; all but scattered balls; these balls; the middle
-     * half; of each axis the middle half; a ball; the lower half of each axis; three
-     * quarters of the middle half, with a crack up to the middle */
+    /* Supports: none; symmetry plane at x = 0, at y = 0, both; clamp at x = 0, at y = 0; clamp at x = 0 and symmetry
+     * plane at y = 0; two rows at the far end in x fixed; these driven along x for a time, then fixed. */
     enum stability_support {
         FREE,
         MIRROR,
@@ -35,67 +37,78 @@ struct stability_case {
         FIXED,
         DRIVEN
     } support;
-    /* nothing; a plane of symmetry at x = 0, at y = 0, both; the same clamped; a clamp at x
-     * = 0 and a symmetry at y = 0; two rows of the far end in x held; moved along x for a
-     * while, then held */
-    const char *strain, *constants; /* of the reference frame */
-    int edge;                       /* particles along it; 0: few */
-    const char *text;               /* another scene than this block, at rest: the rest is not looked at; NULL: none */
-    double quoted_low, quoted_high; /* limit of the design sheets in the case's unit, 0: none */
+    const char *strain, *constants; /* values of the keys of the reference frame */
+    int edge;                       /* particles along an edge; 0: few */
+    const char *text;               /* text of another scene, at rest, instead of the block; NULL: none */
+    double quoted_low, quoted_high; /* published limit in the unit of the case, 0: none */
 };
 
-/* What came of it; steps in seconds. */
+/* Limits of a case; time steps in seconds. */
 struct stability_limits {
-    double automatic, critical; /* step that Cleave takes, and the one it calls critical */
-    double observed, offset;    /* limit of growth, the least over the offsets, and where */
-    double largest;             /* over the offsets */
-    double gershgorin, silling; /* bounds of bonds: block-Gershgorin; Silling & Askari 2005 */
-    double unit;                /* D/c of peridynamics and coupled bodies, h/c of points */
-    enum { RUN_NONE, RUN_STAYS, RUN_GROWS } automatic_run, below, above; /* real runs at these steps */
+    double automatic, critical; /* automatic time step; critical one predicted by Cleave */
+    double observed, offset;    /* observed limit of growth, least over the offsets; its offset */
+    double largest;             /* largest over the offsets */
+    double gershgorin, silling; /* estimates for bonds: block-Gershgorin; Silling & Askari 2005 */
+    double unit;                /* D/c for peridynamics and coupled bodies, h/c for points [s] */
+    /* Outcome of full runs at the automatic step, below and above the limit. */
+    enum { RUN_NONE, RUN_STAYS, RUN_GROWS } automatic_run, below, above;
 };
 
-/* Finds them; `steps` of a growth run, `long_steps` of the three real runs (0: none). REFUSED with the reason where the
- * scene is. */
+/* Determines the limits of a case. steps: length of a growth run; long_steps: length of the three full runs, 0: none.
+ * REFUSED, with the reason, if the scene is. */
 status stability_observe(const struct stability_case *c, int steps, int long_steps, struct stability_limits *to);
-/* Does a body at rest, shaken at random and carried along at shares of the wave speed, stay bounded for so many
- * steps of dt [s]? 0: the automatic step. */
+
+/* Initial motion: random velocities `speed` and translation `drift`, both over the wave speed; number of steps. */
 struct stability_shake {
     double speed, drift;
     int steps;
 };
+
+/* Determines whether a body at rest with this initial motion remains bounded with the time step dt [s]; 0: the
+ * automatic step. */
 status stability_stays(const struct stability_case *c, double dt, struct stability_shake how, bool *stays);
-/* Steps until a run at so many times the observed limit was stopped with place, step and remedy; infinite if it went
- * on for 1000 or said less (limits_time_step.c). */
+
+/* Determines the number of steps after which a run with `times` the observed limit stops with position, step and
+ * remedy; infinite if it runs 1000 steps or the message is incomplete (limits_time_step.c). */
 status stability_caught(const struct stability_case *c, double times, double *step);
-/* Text of the case's scene: its own, or that of its block (stability_scene.c). */
+
+/* Writes the scene of a case: its own text, or that of its block (stability_scene.c). text: capacity `size` [byte]. */
 void stability_text(const struct stability_case *c, char *text, size_t size);
-/* Line that names it. */
+
+/* Composes the label of a case. text: capacity `size` [byte]. */
 void stability_label(const struct stability_case *c, char *text, size_t size);
 
-/* All cases, one after the other (stability_cases.c). */
+/* Receives a case. context: argument of stability_cases. */
 typedef status stability_take(void *context, const struct stability_case *c);
+
+/* Calls `take` for all cases (stability_cases.c). quick: fewer of them. */
 status stability_cases(bool quick, stability_take *take, void *context);
 
 /* A row of the map. */
 struct stability_row {
     struct stability_case c;
     struct stability_limits l;
-    char label[128], refusal[NAME_MAX_LENGTH]; /* "": not refused */
+    char label[128], refusal[NAME_MAX_LENGTH]; /* refusal: reason; "": not refused */
 };
 enum { STABILITY_ROWS_MAX = 400 };
+
+/* All rows. */
 struct stability_map {
     int n;
     struct stability_row row[STABILITY_ROWS_MAX];
 };
 
-#define STABILITY_LEAST 0.6 /* what the automatic step may be of the observed limit */
+/* Required range of the automatic time step over the observed limit. */
+#define STABILITY_LEAST 0.6
 #define STABILITY_MOST 0.95
 
-/* Its picture (stability_draw.c). */
+/* Draws the map. map: struct stability_map (stability_draw.c). */
 void stability_draw(FILE *to, const void *map);
 
-/* Scenes in which methods fail (limits.h), measured, printed and put into a table; its picture (stability_scenes.c). */
+/* Measures and prints the scenes in which methods fail (limits.h) and adds them to a table (stability_scenes.c). */
 status stability_scenes(struct bench_table *t);
+
+/* Draws the picture of this table (stability_scenes.c). */
 status stability_scenes_draw(const struct bench_table *t);
 
 #endif

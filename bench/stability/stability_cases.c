@@ -1,4 +1,4 @@
-/* Which methods, dimensions, shape functions, points a cell, horizons and couplings the map shows. */
+/* Cases of the stability map: methods, dimensions, shape functions, points per cell, horizons and couplings. */
 #include <string.h>
 
 #include "stability.h"
@@ -57,7 +57,8 @@ static status variants(const struct taker *t)
     return OK;
 }
 
-/* What the sheets quote: whole neighbours of large lattices, moduli of the continuum, no correction of surfaces. */
+/* Adds cases with published limits: complete families in large lattices, moduli of the continuum, no surface
+ * correction. */
 static status stability_cases_published(const struct taker *t)
 {
     static const struct stability_case row[] = {
@@ -80,7 +81,7 @@ static status stability_cases_published(const struct taker *t)
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* The sheet's table of the linearised step in one dimension. */
+/* Sets the published limit of the linearised step in one dimension. */
 static void quote(struct stability_case *c)
 {
     static const struct {
@@ -97,8 +98,8 @@ static void quote(struct stability_case *c)
             c->quoted_low = sheet[k].low[(int)c->cell - 1], c->quoted_high = sheet[k].high[(int)c->cell - 1];
 }
 
-/* Offsets that a body meets: in eighths or, of three and six points, twelfths of a cell, so that points come to
- * stand on nodes, where linear shapes are worst. */
+/* Returns the number of offsets: in eighths of a cell or, for three and six points per cell, twelfths, so that points
+ * coincide with nodes, the worst position for linear shapes. */
 static int offsets_of(const struct taker *t, double cell, int dim)
 {
     const bool thirds = cell == 3 || cell == 1.5 || cell == 6;
@@ -139,7 +140,7 @@ static status stability_cases_points(const struct taker *t)
     return OK;
 }
 
-/* ---- both -------------------------------------------------------------------------------------------------------- */
+/* ---- coupled bodies ---------------------------------------------------------------------------------------------- */
 
 static status coupled(const struct taker *t)
 {
@@ -193,7 +194,8 @@ static status coupled(const struct taker *t)
                                                            .note = "surface correction"});
 }
 
-/* Borders inside cells, and what conversion may leave: material points and peridynamic particles here and there. */
+/* Adds cases of the reference frame: borders inside cells, and scattered material points and peridynamic particles as
+ * conversion may leave them. */
 static status stability_cases_reference(const struct taker *t)
 {
     static const struct stability_case row[] = {

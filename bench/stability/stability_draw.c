@@ -1,12 +1,12 @@
-/* The picture of the stability map: limits over horizon and points a cell, and every case as a share of its
- * limit. */
+/* Picture of the stability map: limits over the horizon and over points per cell, and the automatic step of every case
+ * over its limit. */
 #include <math.h>
 #include <string.h>
 
 #include "plot/gnuplot.h"
 #include "stability.h"
 
-/* One of four panels, its key on the right. */
+/* Starts one of four panels, with its key on the right. */
 static void stability_draw_set_panel(FILE *to, int column, int row, const char *title)
 {
     const double left = 0.052 + 0.5 * column, above = 0.95 - 0.5 * row;

@@ -1,9 +1,8 @@
-/* The observed critical step: growth of the largest mode under the engine's own step, and real runs beside
- * it.
+/* Observed critical time step: from the growth of the largest mode under the engine's own step, and from full runs.
  *
- * The step is applied to a body at rest with velocities of 1e-8 c at random: that is the linearised step applied to
- * a vector that has a part in every mode. Below the limit the velocities stay as large as they are, but for modes
- * that do not grow or grow with the number of steps; a hair above it they grow by a factor each step. */
+ * The step is applied to a body at rest with random velocities of 1e-8 c, which is the linearised step applied to a
+ * vector with a component in every mode. Below the limit the velocities stay at their size, except for modes that grow
+ * with the number of steps; slightly above it they grow by a constant factor per step. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,15 +13,16 @@
 #include "grid/grid_part.h"
 #include "probes/diagnostics.h"
 
-#define QUIET 1e-8   /* over c: linear, and round-off is 1e-8 of it                */
-#define LOUD 1e-4    /* over c, of a real run that nothing breaks or converts      */
-#define DRIFT 3e-4   /* over c: carries points through cells in a real run         */
-#define GROWN 1e3    /* of velocities: more than modes that grow with the number of steps reach */
-#define WITHIN 0.004 /* of the limit                                               */
+#define QUIET 1e-8 /* velocity over c: linear, and round-off is 1e-8 of it */
+#define LOUD 1e-4  /* velocity over c in a full run, in which nothing breaks or converts */
+#define DRIFT 3e-4 /* translation over c, which moves points through cells in a full run */
+/* growth of velocities that counts as unstable: more than modes that grow with the number of steps reach */
+#define GROWN 1e3
+#define WITHIN 0.004 /* relative accuracy of the limit */
 
-/* ---- a shaken body ----------------------------------------------------------------------------------------------- */
+/* ---- initial motion ---------------------------------------------------------------------------------------------- */
 
-/* Velocities at random, without the mean that would carry the body away, and then one that does. */
+/* Sets random velocities with zero mean, plus a uniform translation. */
 static void stability_limit_shake(struct run *e, double speed, double drift)
 {
     struct particles *p = &e->part;
@@ -38,13 +38,13 @@ static void stability_limit_shake(struct run *e, double speed, double drift)
     }
 }
 
-/* Kinetic energy in motion against the drift. */
+/* Returns the kinetic energy relative to the translation [J]. */
 static double motion(const struct run *e, double drift)
 {
     return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh) - 0.5 * e->mass * e->part.dim * drift * drift;
 }
 
-/* Long enough that its only sample is the first step. */
+/* Creates the run of a case, so long that its only sample is at the first step. */
 static status limit_block_make(struct run *e, struct scene *s, const struct stability_case *c, double dt)
 {
     struct bench_overrides o = {0};
@@ -65,7 +65,7 @@ status stability_stays(const struct stability_case *c, double dt, struct stabili
     const double drift = how.drift * e.tables.wave_speed;
     stability_limit_shake(&e, how.speed * e.tables.wave_speed, drift);
     const double first = motion(&e, drift);
-    *stays = bench_engine_run(&e, 1, NULL) == OK; /* makes the record of the first sample */
+    *stays = bench_engine_run(&e, 1, NULL) == OK; /* creates the record of the first sample */
     while (*stays && e.clock.step < how.steps) {
         if (engine_step(&e) != OK)
             *stays = false;
@@ -78,7 +78,8 @@ status stability_stays(const struct stability_case *c, double dt, struct stabili
 
 /* ---- limits ------------------------------------------------------------------------------------------------------ */
 
-/* Between steps at which it stays bounded and does not, from the one called critical. */
+/* Finds the limit by bisection between a bounded and an unbounded step, starting from the critical step that Cleave
+ * predicts. */
 static status limit_of(const struct stability_case *c, double critical, int steps, double *limit)
 {
     const struct stability_shake quietly = {QUIET, 0, steps};
@@ -98,7 +99,7 @@ static status limit_of(const struct stability_case *c, double critical, int step
     return OK;
 }
 
-/* sqrt(2 rho/sum c V/xi) of the stiffest row (Silling & Askari 2005). */
+/* Returns the time step sqrt(2 rho/sum c V/xi) of the stiffest row (Silling & Askari 2005). */
 static double silling_step(const struct run *e)
 {
     const struct bonds *b = &e->bonds;
@@ -134,9 +135,9 @@ static status real_run(const struct stability_case *c, double dt, double drift, 
     return OK;
 }
 
-/* With APIC limits are least where the body ends a little beyond a node, on this or that side: nearer still the node
- * beyond it follows others (grid_move.c). */
-#define BEYOND 0.01 /* cells */
+/* Distance from a node at which the body ends: with APIC the limit is least slightly beyond or before a node; closer to
+ * the node, the node beyond the edge follows its neighbours (grid_move.c). */
+#define BEYOND 0.01 /* [cells] */
 
 status stability_observe(const struct stability_case *given, int steps, int long_steps, struct stability_limits *to)
 {

@@ -1,4 +1,4 @@
-/* Scenes of the stability bench: free blocks of 1 mm lattice that nothing loads, breaks or converts. */
+/* Scenes of the stability bench: free blocks on a lattice of 1 mm without loads, breaking or conversion. */
 #include <stdio.h>
 #include <string.h>
 
@@ -14,7 +14,7 @@ static bool stability_scene_is(const char *word, const char *other) { return wor
 
 /* ---- pieces of text ---------------------------------------------------------------------------------------------- */
 
-/* A mapping in one line: entries as they come, none without any. */
+/* A mapping written in one line; nothing is written if it has no entries. */
 struct mapping {
     FILE *to;
     const char *name;
@@ -98,7 +98,7 @@ static void put_bodies(FILE *to, const struct stability_case *c, double edge)
     }
 }
 
-/* Balls of one to some particles, at odd places of the block. */
+/* Writes balls of one or more particles at irregular positions of the block. */
 static void put_balls(FILE *to, const struct stability_case *c, double edge, const char *before, const char *after)
 {
     static const double place[][DIM_MAX] = {
@@ -114,7 +114,7 @@ static void put_balls(FILE *to, const struct stability_case *c, double edge, con
     }
 }
 
-/* A box from and until shares of the edge, along x and along the other axes. */
+/* Writes a box whose edges are shares of the edge of the block, along x and along the other axes. */
 static void put_shares(FILE *to, const struct stability_case *c, double edge, const double (*share)[2])
 {
     for (int end = 0; end < 2; end++) {
@@ -225,7 +225,7 @@ void stability_text(const struct stability_case *c, char *text, size_t size)
     fclose(to);
 }
 
-/* ---- its name ---------------------------------------------------------------------------------------------------- */
+/* ---- label ------------------------------------------------------------------------------------------------------- */
 
 void stability_label(const struct stability_case *c, char *text, size_t size)
 {

@@ -1,5 +1,5 @@
-/* The second half of `cleave bench stability`: scenes in which methods fail, what they show beside their
- * thresholds, and the remedies. */
+/* Second part of `cleave bench stability`: scenes in which methods fail, with measured quantities, thresholds and
+ * remedies. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,7 +14,7 @@
 enum { SCENE, METHOD, QUANTITY, THRESHOLD, MEASURED, VERDICT, REMEDY, COLUMNS };
 static const char header[] = "scene,method,quantity,threshold,measured,verdict,remedy";
 
-/* A line for each figure: what a method fails at has the remedy, what it holds has none. */
+/* Adds a row for each quantity: a failing one has a remedy, others have none. */
 static status stability_scenes_take(struct bench_table *t, const struct limits_scene *s, const struct limits_row *r)
 {
     double figure[FAILING_FIGURES];
@@ -54,7 +54,7 @@ status stability_scenes(struct bench_table *t)
 
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
-#define LEAST 1e-4 /* of the threshold; what is less is drawn there */
+#define LEAST 1e-4 /* relative to the threshold; smaller values are drawn there */
 #define MOST 1e4
 enum { LINE_HEIGHT = 19, WIDTH = 1900 };
 
@@ -76,7 +76,7 @@ static bool fails(const struct bench_table *t, int64_t row)
     return !strcmp(stability_scenes_text_of(t, row, VERDICT), "fails");
 }
 
-/* A scene begins with this row. */
+/* Returns true if this row is the first of a scene. */
 static bool begins(const struct bench_table *t, int64_t row)
 {
     return row == 0 || strcmp(stability_scenes_text_of(t, row, SCENE), stability_scenes_text_of(t, row - 1, SCENE));
@@ -90,7 +90,8 @@ static double share(const struct bench_table *t, int64_t row)
     return threshold > 0 ? fmax(LEAST, measured / threshold) : LEAST;
 }
 
-/* A line for each scene, with all that holds in it, and one under it for each figure that fails. */
+/* Returns the number of lines: one for each scene with its number of met thresholds, and one for each failing
+ * quantity. */
 static int lines_of(const struct bench_table *t)
 {
     int n = 0;
@@ -105,7 +106,7 @@ static void stability_scenes_put_label(FILE *to, const char *text, double x, int
     fprintf(to, " at screen %g, first %d %s\n", x, -line, style);
 }
 
-/* What fails: method, figure, remedy. */
+/* Writes a failure: method, quantity, remedy. */
 static void put_failure(FILE *to, const struct bench_table *t, int64_t r, int line)
 {
     char text[256];
@@ -118,7 +119,7 @@ static void put_failure(FILE *to, const struct bench_table *t, int64_t r, int li
     stability_scenes_put_label(to, stability_scenes_text_of(t, r, REMEDY), 0.745, line, "left textcolor rgb '#1b6b3a'");
 }
 
-/* How many figures of the scene hold, on its line. */
+/* Writes the number of quantities of a scene that meet their thresholds. */
 static void put_scene(FILE *to, const struct bench_table *t, int64_t r, int line)
 {
     char text[128];

@@ -1,5 +1,5 @@
-/* `cleave bench pilot`: does `method: auto` keep its word? Scenes with known answers, each asked for one figure within
- * some percent, by pilot runs and the run that they choose. */
+/* `cleave bench pilot`: tests whether `method: auto` reaches the requested accuracy. Each scene has one figure in
+ * closed form, which is requested within some percent; pilot runs choose the run. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,15 +13,14 @@
 #include "uncertainty.h"
 
 enum { TEXT_ROOM = 2048 };
-#define BUDGET 30.0 /* of the pilot runs of one scene [s] */
+#define BUDGET 30.0 /* allowed duration of the pilot runs of a scene [s] */
 
 struct pilot_tally {
     int asked, answered, kept;
     struct bench_table *table;
 };
 
-/* ---- one scene ------------------------------------------------------------------------------------------------------
- */
+/* ---- one scene --------------------------------------------------------------------------------------------------- */
 
 static status pilot_scene_write(const char *path, const struct pilot_scene *k, double within)
 {
@@ -30,11 +29,11 @@ static status pilot_scene_write(const char *path, const struct pilot_scene *k, d
         snprintf(text, sizeof text, "method: auto\naccuracy: {of: %s, within: %g, budget: %g}\n%soutput: {frames: 0}\n",
                  k->figure, within, BUDGET, k->text);
     INVARIANT(length < TEXT_ROOM);
-    remove(path); /* that of the study before, which this process has read */
+    remove(path); /* written for the previous study, and no longer needed */
     return file_put(path, text, (size_t)length);
 }
 
-/* The run that was chosen, as a study of one case. */
+/* Makes the chosen run as a study with one case, and reads the figure. */
 static status chosen_run(const struct pilot *p, const char *scene, const char *folder, double *value,
                          const char *figure)
 {
@@ -55,7 +54,7 @@ static const char *chosen_value(const struct pilot *p, const char *key)
     return "";
 }
 
-/* Prints and keeps one line. A scene that is refused is counted, with the reason. */
+/* Makes the runs of a scene and prints a line. A refused scene is counted, with the reason. */
 static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene *k, double within, const char *folder)
 {
     const struct path scene = path_join(folder, "scene.yaml.in"), into = path_join(folder, "run");
@@ -89,7 +88,7 @@ static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene 
     bench_folder_remove(path_join(folder, "run_pilot").text);
 }
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
+/* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 status bench_pilot(bool quick)
 {

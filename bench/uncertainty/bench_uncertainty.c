@@ -1,6 +1,6 @@
-/* `cleave bench uncertainty`: are the error bars of `cleave converge` true? Scenes with known answers, each by several
- * methods and at several spacings: how often the interval of a nominal share holds the answer, and how wide it is
- * beside the true error. */
+/* `cleave bench uncertainty`: tests the error bars of `cleave converge`. Scenes with known results are studied with
+ * several methods and spacings: how often the interval of a nominal probability contains the exact value, and its width
+ * over the true error. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@
 #include "uncertainty.h"
 
 enum { ROWS_MOST = 512, RUNS = 5, RUNS_QUICK = 3, TEXT_ROOM = 2048 };
-#define BUDGET 600.0 /* of one study; none comes near it [s] */
+#define BUDGET 600.0 /* allowed duration of a study, never reached in practice [s] */
 
 struct known_row {
     const struct known_scene *scene;
@@ -34,7 +34,7 @@ enum { SHARES = COUNT_OF(share) };
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 
-/* Lines of the variant; behind an @ stands a horizon. */
+/* Writes the scene with the keys of a variant; a number after @ is the horizon. */
 static status scene_text_write(const char *path, const struct known_scene *k, const char *variant, const char *spacing)
 {
     char text[TEXT_ROOM];
@@ -44,7 +44,7 @@ static status scene_text_write(const char *path, const struct known_scene *k, co
         snprintf(text, sizeof text, "%s%.*sparticles: {spacing: %s%s%s}\noutput: {frames: 0, samples: 20}\n", k->text,
                  lines, variant, spacing, at ? ", horizon: " : "", at ? at + 1 : "");
     INVARIANT(length < TEXT_ROOM);
-    remove(path); /* that of the study before, which this process has read */
+    remove(path); /* written for the previous study, and no longer needed */
     return file_put(path, text, (size_t)length);
 }
 
@@ -76,11 +76,11 @@ static status study_of(struct known_rows *rows, const struct known_scene *k, con
     return OK;
 }
 
-/* ---- figures ----------------------------------------------------------------------------------------------------- */
+/* ---- results ----------------------------------------------------------------------------------------------------- */
 
 static double true_error(const struct known_row *r) { return fabs(r->c.level[0].mean - r->exact); }
 
-/* Share of the rows whose interval of a nominal share holds the answer. */
+/* Returns the share of the rows whose interval of a nominal probability contains the exact value. */
 static double covered(const struct known_rows *rows, double nominal)
 {
     int held = 0;
@@ -91,7 +91,7 @@ static double covered(const struct known_rows *rows, double nominal)
     return (double)held / rows->n;
 }
 
-/* Median of the half-width over the true error. */
+/* Returns the median of the half-width over the true error. */
 static double width_median(const struct known_rows *rows)
 {
     double ratio[ROWS_MOST];
@@ -142,7 +142,8 @@ static status rows_write(const struct known_rows *rows)
     return s;
 }
 
-/* Left: nominal against covered. Right: half-width against true error, both in shares of the figure. */
+/* Draws the observed over the nominal probability (left) and the half-width over the true error, both relative to the
+ * figure (right). */
 static void uncertainty_draw(FILE *to, const void *context)
 {
     const struct known_rows *rows = context;
@@ -168,7 +169,7 @@ static void uncertainty_draw(FILE *to, const void *context)
             rows->n, curve_colour[0], curve_colour[0]);
 }
 
-/* ---- all --------------------------------------------------------------------------------------------------------- */
+/* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 static status known_scene_measure(struct known_rows *rows, const struct known_scene *k, const char *folder, bool quick)
 {

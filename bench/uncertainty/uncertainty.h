@@ -1,4 +1,4 @@
-/* What the files of `cleave bench uncertainty` share: scenes with figures whose true values are known. */
+/* Scenes with figures whose exact values are known, for `cleave bench uncertainty` and `cleave bench pilot`. */
 #ifndef CLEAVE_UNCERTAINTY_BENCH
 #define CLEAVE_UNCERTAINTY_BENCH
 
@@ -6,23 +6,22 @@
 
 enum { KNOWN_FIGURES_MOST = 3, KNOWN_VARIANTS_MOST = 6, KNOWN_SPACINGS_MOST = 3 };
 
-/* A figure of summary.json and its true value, from the closed form that the scene's comment names. */
+/* A figure of summary.json and its exact value, from the closed form stated at the scene. */
 struct known_figure {
     const char *name;
     double exact;
 };
 
-/* A scene of known answers: its text, the ways in which it is computed (lines of keys), spacings as numbers with
- * units. */
+/* A scene with known results: its text, numerical variants and spacings with units. */
 struct known_scene {
     const char *name, *text;
     struct known_figure figure[KNOWN_FIGURES_MOST];
-    const char *variant[KNOWN_VARIANTS_MOST][2]; /* name, lines */
+    const char *variant[KNOWN_VARIANTS_MOST][2]; /* name, and scene keys as lines */
     const char *spacing[KNOWN_SPACINGS_MOST];
     bool quick;
 };
 
-/* A scene for pilot runs (pilot_scenes.c). */
+/* A scene for pilot runs (pilot_scenes.c), with a figure and its exact value. */
 struct pilot_scene {
     const char *name, *text, *figure;
     double exact;
