@@ -1,22 +1,25 @@
-/* The kick of a dashpot: force -k (v_before + v_after)/2 within a leap-frog step. All other forces are known, so that
- * the velocity after it has a closed form, for any step: the mean of both is (v_before + change/2)/(1 + k dt/(2 m)),
- * `change` by the other forces. The work of the impulse is -k dt mean^2, which is never a gain. */
+/* Velocity change by a dashpot: force -k (v_old + v_new)/2 within a leap-frog step, v_old and v_new being the
+ * velocities at the ends of the step. All other forces are known, so the mean velocity has a closed form for any step
+ * size: (v_old + change/2)/(1 + k dt/(2 m)), `change` due to the other forces. The work of its impulse, -k dt mean^2,
+ * is never positive. */
 #ifndef CLEAVE_KERNELS_DASHPOT
 #define CLEAVE_KERNELS_DASHPOT
 
 #include "data/grid.h"
 
-/* Impulse of component d on a mass [N s], with its account; rate_dt: k dt [kg]. */
+/* Returns the impulse of component d on a mass [N s] and adds it, with energy and kick, to *a. rate_dt: k dt [kg];
+ * before: velocity v_old; change: velocity change by other forces [m/s]. */
 static inline real dashpot_kick(struct absorbed *a, int d, real rate_dt, real mass, real before, real change)
 {
     const real mean = (before + 0.5 * change) / (1 + 0.5 * rate_dt / mass), impulse = -rate_dt * mean;
     a->energy += rate_dt * mean * mean;
-    a->kick += 0.5 * impulse * (mean - before); /* after - before = 2 (mean - before) */
+    a->kick += 0.5 * impulse * (mean - before); /* v_new - v_old = 2 (mean - v_old) */
     a->impulse[d] += impulse;
     return impulse;
 }
 
-/* Corrects the account of an impulse whose velocity after it is larger by `more`. */
+/* Corrects energy and kick in *a for an impulse [N s] after which the velocity was changed by a further `more`
+ * [m/s]. */
 static inline void dashpot_correct(struct absorbed *a, real impulse, real more)
 {
     a->energy -= 0.5 * impulse * more;

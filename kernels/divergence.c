@@ -1,9 +1,10 @@
-/* True if one of many particles has diverged, in every step; diagnostics.c finds which one when the run ends for it.
+/* Tests in every step whether any particle has diverged; diagnostics.c finds the particle when the run stops for it.
  * Reads 32 bytes per particle in 2D. */
 #include "divergence.h"
 #include "kernels.h"
 #include "kernels/simd/variants.h"
 
+/* Returns the mask of diverged particles among eight listed ones; limit2: squared speed limit. */
 static ALWAYS_INLINE lanes_mask eight_diverged(const struct particles *p, const int32_t *list, real limit2,
                                                const int dim)
 {
@@ -17,6 +18,7 @@ static ALWAYS_INLINE lanes_mask eight_diverged(const struct particles *p, const 
     return has_diverged(speed2, place, limit2);
 }
 
+/* Returns true if any of n listed particles has diverged. */
 static ALWAYS_INLINE bool any_diverged(const struct particles *p, const int32_t *list, int64_t n, real limit2,
                                        const int dim)
 {

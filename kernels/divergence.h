@@ -1,4 +1,4 @@
-/* The test for diverged particles. */
+/* Test for diverged particles. */
 #ifndef CLEAVE_KERNELS_DIVERGENCE
 #define CLEAVE_KERNELS_DIVERGENCE
 
@@ -6,8 +6,8 @@
 
 #include "kernels/simd/lanes.h"
 
-/* Of eight particles, by the squares of their speeds and what the sizes of their places' components add up to.
- * Comparisons are written so that a number that is none is caught. */
+/* Returns the mask of diverged particles among eight. speed2: squared speeds [m^2/s^2]; place: sums of |x_d| [m];
+ * limit2: squared speed limit. The comparisons are written such that NaN counts as diverged. */
 static ALWAYS_INLINE lanes_mask has_diverged(lanes speed2, lanes place, real limit2)
 {
     return ~((speed2 <= limit2) & (place <= DBL_MAX));

@@ -1,4 +1,4 @@
-/* The choice of kernels, once, before the loop; and all that a set has. */
+/* Selection of the kernels of a run, once, at set-up; and the table of a set of kernels. */
 #include "kernels/simd/set.h"
 
 void kernels_choose(struct kernels *k, int dim, enum pd_model model, enum shape shape, enum transfer transfer)

@@ -59,8 +59,8 @@ struct particles {
     real *plastic_strain;              /* accumulated, equivalent; only where a material yields [1] */
     real *out_of_plane;                /* sigma_zz - nu (sigma_xx + sigma_yy), only with WITH_OUT_OF_PLANE [Pa] */
     /* of points of a mesh: what flow has taken off the stress C : strain, in the axes of their cell; only with
-     * WITH_RELIEF [Pa] */
-    real *relief[SYM_MAX];
+     * WITH_PLASTIC_CORRECTION [Pa] */
+    real *plastic_correction[SYM_MAX];
     /* material points at the end of state-based bonds: what their cells add to the mean strain S of their family,
      * and ... [1] */
     real *end_strain;
@@ -132,7 +132,7 @@ enum {
     WITH_ENDS = 32,
     WITH_ROTATIONS = 64,
     WITH_STRENGTH = 128,
-    WITH_RELIEF = 256,
+    WITH_PLASTIC_CORRECTION = 256,
     WITH_EVERYTHING = 511
 };
 

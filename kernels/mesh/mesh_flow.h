@@ -15,7 +15,7 @@
 #include "mesh_law.h"
 #include "mesh_point.h"
 
-static ALWAYS_INLINE bool mesh_flows(const struct particles *p) { return p && p->relief[0]; }
+static ALWAYS_INLINE bool mesh_flows(const struct particles *p) { return p && p->plastic_correction[0]; }
 
 /* Point i flows from the stress s = C : e - r [symmetric, Pa], which becomes that on the yield surface. */
 static ALWAYS_INLINE void point_flow(const struct particles *p, const struct elastic *m, int64_t i, real *s,
@@ -26,7 +26,7 @@ static ALWAYS_INLINE void point_flow(const struct particles *p, const struct ela
     const real more = plastic_return(m, s, p->plastic_strain[i], &zz);
     if (more == 0) return;
     p->plastic_strain[i] += more;
-    for (int k = 0; k < symmetric_count(dim); k++) p->relief[k][i] += trial[k] - s[k];
+    for (int k = 0; k < symmetric_count(dim); k++) p->plastic_correction[k][i] += trial[k] - s[k];
     if (p->out_of_plane) p->out_of_plane[i] = zz;
 }
 
@@ -35,7 +35,7 @@ static ALWAYS_INLINE void point_stress(const struct particles *p, const struct e
                                        real *s, const int dim, const bool flows)
 {
     mesh_point_stress(m, e, s, dim);
-    for (int k = 0; k < symmetric_count(dim); k++) s[k] -= p->relief[k][i];
+    for (int k = 0; k < symmetric_count(dim); k++) s[k] -= p->plastic_correction[k][i];
     if (flows && m->yield > 0) point_flow(p, m, i, s, dim);
 }
 

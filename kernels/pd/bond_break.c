@@ -1,5 +1,5 @@
-/* The rule of breaking, scalar and exact: a bond whose stretch is larger than its critical stretch is broken
- * for ever; equality keeps it. Its energy is booked half at each end. */
+/* Breaking of bonds, scalar and exact: a bond whose stretch exceeds its critical stretch breaks for ever; at equality
+ * it stays. Its energy is booked half in each of its two rows. */
 #include <math.h>
 
 #include "bond_laws.h"
@@ -9,11 +9,11 @@
 #include "state_last.h"
 #include "state_laws.h"
 
-#define LIMIT_MARGIN 1e-9 /* the vector test is this much below a limit, for round-off; the scalar rule decides */
-#define ROUND_OFF 1e-14   /* of a squared elongation: the margin where limits are close to 0 */
+#define LIMIT_MARGIN 1e-9 /* relative tolerance, for round-off, of the vector test before the exact scalar one */
+#define ROUND_OFF 1e-14   /* relative round-off of a squared elongation; matters where limits are close to 0 */
 
-/* Flags are set by the owner of a row and read by its neighbours' owners at the same time; the bit they read does not
- * change, the atomics only say so. */
+/* Flags are set by the thread of a row and read by threads of neighbouring rows at the same time. The bit that is read
+ * does not change; the atomic access only makes this well-defined C. */
 static bool is_driven(const struct particles *p, int32_t i)
 {
     return __atomic_load_n(&p->flag[i], __ATOMIC_RELAXED) & FLAG_DRIVEN;
@@ -24,13 +24,14 @@ static void set_flag(struct particles *p, int32_t i, int flag)
     __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
 }
 
-/* Half the energy of a bond [J]; bond-based models only. State-based rows lose a difference of state_row_energy. */
+/* Returns half the energy of bond q at a stretch [J]; bond-based models only. State-based rows lose a difference of
+ * state_row_energy. */
 static real half_energy(const struct bonds *b, int64_t q, real stretch)
 {
     return 0.25 * b->stiffness * b->w[q] * square(bond_elastic_one(b, q, stretch)) / fabs(b->inverse_length[q]);
 }
 
-/* Sets the weight of a bond to 0, for ever; its energy must be booked before. */
+/* Sets the weight of a bond to 0 for ever and updates damage, counts and flags. The caller books its energy first. */
 static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j)
 {
     b->w[q] = 0;
@@ -42,15 +43,16 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
     if (p->kind[i] == KIND_PD) p->damage[i] = b->broken_volume[row] / b->family_volume[row];
 }
 
-/* After a change of weights of a row. */
+/* Updates the weighted volume of a row after a change of its weights, where families are normalised locally. */
 static void row_changed(struct bonds *b, int64_t row)
 {
     if (b->state.modulus && b->state.local && b->whole[row]) b->state.weighted[row] = state_weight_left(b, row);
 }
 
-/* ---- the last force ---------------------------------------------------------------------------------------------- */
+/* ---- force of a breaking bond
+ * -------------------------------------------------------------------------------------- */
 
-/* Leaves in the force on i the share of a bond that ends, in place of what the sweep has given it. */
+/* Replaces the force of a breaking bond on particle i, as the sweep added it, by its `share` [1]. */
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];
@@ -59,7 +61,7 @@ static void last_force(const struct bonds *b, struct particles *p, const struct 
     for (int d = 0; d < p->dim; d++) p->f[d][i] += share * f[d] - given[d];
 }
 
-/* Ends bond q of a row and books its energy. */
+/* Breaks bond q of a row and books its energy. */
 static void bond_break(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
@@ -67,12 +69,12 @@ static void bond_break(struct bonds *b, struct particles *p, const struct bond_l
     const struct bond bond = {q, j, b->inverse_length[q], b->w[q]};
     const bool state = b->state.modulus != NULL;
     last_force(b, p, &bond, i, last.share);
-    b->fracture_energy[row] += state ? state_row_energy(b, p, row, last.ago)
-                                     : half_energy(b, q, stretch_ago(p, b->inverse_length[q], i, j, last.ago));
+    b->fracture_energy[row] += state ? state_row_energy(b, p, row, last.lag)
+                                     : half_energy(b, q, bond_stretch_earlier(p, b->inverse_length[q], i, j, last.lag));
     if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_work_of(b, &bond);
     bond_end(b, p, row, q, i, j);
     row_changed(b, row);
-    if (state) b->fracture_energy[row] -= state_row_energy(b, p, row, last.ago);
+    if (state) b->fracture_energy[row] -= state_row_energy(b, p, row, last.lag);
 }
 
 /* ---- rows -------------------------------------------------------------------------------------------------------- */
@@ -81,7 +83,7 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
     const bool state = b->state.modulus != NULL;
-    const real stretch = stretch_ago(p, b->inverse_length[q], i, j, 0);
+    const real stretch = bond_stretch_earlier(p, b->inverse_length[q], i, j, 0);
     const real before = state ? state_row_energy(b, p, row, 0) : half_energy(b, q, stretch);
     if (w > 0)
         b->w[q] = w;
@@ -94,13 +96,13 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
     b->fracture_energy[row] += 0.5 * (before - (state ? state_row_energy(b, p, row, 0) : half_energy(b, q, stretch)));
 }
 
-void bond_part(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
+void bond_break_entry(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
     if (__atomic_load_n(&b->implicit[row / LANES], __ATOMIC_ACQUIRE)) row_block_expand(b, row / LANES);
     bond_break(b, p, limit, row, q);
 }
 
-void bond_mend(struct bonds *b, struct particles *p, int64_t row, int64_t q, real w)
+void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64_t q, real w)
 {
     INVARIANT(b->w[q] == 0 && b->inverse_length[q] < 0);
     b->w[q] = w;
@@ -111,7 +113,7 @@ void bond_mend(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
     row_changed(b, row);
 }
 
-/* The rule of breaking on one row. */
+/* Breaks the bonds of one row that exceed their limit. Returns how many. */
 static int64_t break_row(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row)
 {
     const int32_t i = b->particle[row];
@@ -120,14 +122,15 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
         const int64_t q = bond_to_write(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
         const int32_t j = b->nbr[q];
-        if (!(stretch_ago(p, b->inverse_length[q], i, j, 0) > stretch_limit(p, limit, i, j))) continue;
+        if (!(bond_stretch_earlier(p, b->inverse_length[q], i, j, 0) > stretch_limit(p, limit, i, j))) continue;
         bond_break(b, p, limit, row, q);
         broken++;
     }
     return broken;
 }
 
-/* No bond breaks below this stretch, less a margin for the vectors' round-off. */
+/* Returns the smallest critical stretch of all pairs of materials, less a tolerance for the round-off of vectors
+ * [1]. */
 static real least_limit(const struct bond_limit *limit)
 {
     real least = limit->critical_stretch[0];
@@ -135,8 +138,8 @@ static real least_limit(const struct bond_limit *limit)
     return least * (1 - LIMIT_MARGIN);
 }
 
-/* The larger of each row's squared elongation so far and that of its bond in a column: no root. Broken bonds have a
- * negative one. */
+/* Returns the larger of `largest` and the squared elongation |y|^2/|xi|^2 of the bonds of a column [1], lane by lane,
+ * without a root. Broken bonds have negative values. */
 static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct particles *p, const lanes *x,
                                                  const struct column s, const int dim)
 {
@@ -149,7 +152,7 @@ static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct par
     return column_largest(s, largest, distance2 * (inverse * lanes_size(inverse)));
 }
 
-/* The largest of all bonds, row by row. */
+/* Returns the largest squared elongation in each row of row block g [1]. */
 static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct particles *p, int64_t g, const int dim)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -161,7 +164,7 @@ static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct part
     return largest;
 }
 
-/* Which rows of a row block have a bond beyond this stretch, row by row. */
+/* Returns the mask of rows of row block g with a bond beyond the stretch `least` [1], up to round-off. */
 static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, lanes least,
                                           const int dim)
 {
@@ -178,7 +181,7 @@ real bond_row_block_stretch(const struct bonds *b, const struct particles *p, in
     return sqrt(most) * (1 + ROUND_OFF) - 1 + LIMIT_MARGIN;
 }
 
-/* The same in the body's dimension. */
+/* Returns the mask of rows of row block g with a bond that may be beyond its limit, in the body's dimension. */
 static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     const lanes least = p->strength ? lanes_load(b->trigger + g * LANES) : lanes_of(least_limit(limit));

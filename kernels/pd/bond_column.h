@@ -1,28 +1,30 @@
-/* Reading the eight bonds of a column, in as few bytes as they allow. All kinds give the same bits. */
+/* Reads the eight bonds of a column with as few bytes as the kind of column allows. All kinds give equal bits. */
 #ifndef CLEAVE_KERNELS_BOND_COLUMN
 #define CLEAVE_KERNELS_BOND_COLUMN
 
 #include "bonds/bonds.h"
 #include "kernels/simd/lanes.h"
 
-enum { COLUMNS_AHEAD = 40 }; /* prefetched this far ahead: about 200 ns                */
+enum { COLUMNS_AHEAD = 40 }; /* prefetch distance in columns: about 200 ns ahead */
 
-/* What a column's bonds share: nothing; neighbours in a row, with lengths of the lattice; their weight too; all but
- * the weight with other row blocks; all with other row blocks; and that weight is one, as it is inside a body: 5 to 7 %
- * less time for forces, energy and stress of bonds in the plane. Table in bonds/bond_storage.h. */
+/* Kinds of columns, by what their bonds have in common (table in bonds/bond_storage.h). FREE: nothing; SHELL:
+ * consecutive neighbours, lengths of one lattice shell; ALIKE: in addition one weight; STENCIL: all but the weights as
+ * in other row blocks; WHOLE: weights too; UNIT: weight 1, as inside a body, which saves 5 to 7 % of the time of
+ * forces, energy and stress of bonds in 2D. */
 enum column_kind { COLUMN_FREE, COLUMN_SHELL, COLUMN_ALIKE, COLUMN_STENCIL, COLUMN_WHOLE, COLUMN_UNIT };
 
-/* Eight bonds, entries number LANES on of what bonds store. Its kind is a constant wherever it is visited. */
+/* One column: eight bonds, entries number * LANES on. `kind` is a compile-time constant wherever a column is
+ * visited. */
 struct column {
     const struct bonds *b;
     int64_t number;
-    int64_t first;                        /* neighbour of lane 0; COLUMN_FREE: maybe < 0 */
-    const struct stencil_column *stencil; /* of COLUMN_STENCIL and on */
-    const real *w;                        /* of COLUMN_STENCIL: of the lanes */
+    int64_t first; /* particle number of the neighbour of lane 0; COLUMN_FREE: may be < 0 (not consecutive) */
+    const struct stencil_column *stencil; /* COLUMN_STENCIL, WHOLE, UNIT only */
+    const real *w;                        /* COLUMN_STENCIL: weights of the lanes [1] */
     enum column_kind kind;
 };
 
-/* A stored column; prefetches the columns COLUMNS_AHEAD further on. */
+/* Returns stored column `number`; prefetches the columns COLUMNS_AHEAD further on. */
 static ALWAYS_INLINE struct column column_stored(const struct bonds *b, int64_t number, const enum column_kind kind)
 {
     const int64_t q = (number + COLUMNS_AHEAD) * LANES;
@@ -32,7 +34,8 @@ static ALWAYS_INLINE struct column column_stored(const struct bonds *b, int64_t 
     return (struct column){b, number, b->common[number].first, NULL, NULL, kind};
 }
 
-/* Column k of a row block that follows a stencil and begins with particle `own`; column `number` of all. */
+/* Returns column k of a row block that follows a stencil. own: first particle of the row block; number: index of the
+ * column among all columns. */
 static ALWAYS_INLINE struct column column_of(const struct bonds *b, int64_t number, const struct stencil *stencil,
                                              int64_t k, int64_t own, const enum column_kind kind)
 {
@@ -40,7 +43,7 @@ static ALWAYS_INLINE struct column column_of(const struct bonds *b, int64_t numb
     return (struct column){b, number, own + column->offset, column, kind >= COLUMN_WHOLE ? NULL : stencil->w[k], kind};
 }
 
-/* Calls VISIT(column) for the columns of a row block that have an intact bond: one body, an instance for each kind. */
+/* Calls VISIT(column) for every column of a row block that has an intact bond, as one instance per kind of column. */
 #define FOR_COLUMNS(B, ROW_BLOCK, VISIT)                                                                               \
     do {                                                                                                               \
         const struct stencil *stencil_ = (B)->stencil[ROW_BLOCK];                                                      \
@@ -67,25 +70,25 @@ static ALWAYS_INLINE struct column column_of(const struct bonds *b, int64_t numb
                 VISIT(column_of(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL));                                   \
     } while (0)
 
-/* Values of `from` at the eight neighbours. */
+/* Loads the values of `from` at the eight neighbours. */
 static ALWAYS_INLINE lanes column_at(const struct column s, const real *from)
 {
     return s.kind ? lanes_load(from + s.first) : lanes_at(from, (int32_t)s.first, s.b->nbr + s.number * LANES);
 }
 
-/* Component d of X_j - X_i, with X of the rows [m]. */
+/* Returns component d of X_j - X_i of the eight bonds [m]; X: component d of the rows' particles [m]. */
 static ALWAYS_INLINE lanes column_reference(const struct column s, const struct particles *p, int d, lanes X)
 {
     return s.stencil ? lanes_of(s.stencil->xi[d]) : column_at(s, p->X[d]) - X;
 }
 
-/* The same, by weight [m]. */
+/* Returns w (X_j - X_i) of the eight bonds, component d [m]. */
 static ALWAYS_INLINE lanes column_weighted_reference(const struct column s, int d, lanes w, lanes xi)
 {
     return s.kind == COLUMN_WHOLE ? lanes_of(s.stencil->w_xi[d]) : s.kind == COLUMN_UNIT ? xi : w * xi;
 }
 
-/* 1/|X_j - X_i| [1/m]; of broken bonds maybe the negative of it. */
+/* Returns 1/|X_j - X_i| [1/m]; may be negative for broken bonds. */
 static ALWAYS_INLINE lanes column_inverse_length(const struct column s)
 {
     if (s.stencil) return lanes_of(s.stencil->inverse_length);
@@ -94,12 +97,13 @@ static ALWAYS_INLINE lanes column_inverse_length(const struct column s)
                   : lanes_load(s.b->inverse_length + s.number * LANES);
 }
 
-/* Lanes with an intact bond. */
+/* Returns the lanes that have an intact bond, one bit each. */
 static ALWAYS_INLINE uint8_t column_intact(const struct column s)
 {
     return s.stencil ? s.stencil->intact : s.b->common[s.number].intact;
 }
 
+/* Returns the weights of the eight bonds [1]. */
 static ALWAYS_INLINE lanes column_weight(const struct column s)
 {
     if (s.kind == COLUMN_UNIT) return lanes_of(1);
@@ -109,29 +113,30 @@ static ALWAYS_INLINE lanes column_weight(const struct column s)
     return s.kind == COLUMN_ALIKE ? lanes_keep(c->intact, lanes_of(c->w)) : lanes_load(s.b->w + s.number * LANES);
 }
 
-/* Stretch |y|/|xi| - 1, of broken bonds maybe -|y|/|xi| - 1: rounded to a multiple of 2^-49 by passing between 8 and
- * 16, so that it is 0 to the last bit where nothing has moved. Round-off there is below half of that, 8 units of
- * 2^-53: 3.5 for the stored inverse (three squares, root, division), 1.5 for three squares, 2.1 for the root and 2
- * for products, if all of them were at their worst, and on one side, in one bond. Such a bond would pull, and its
- * rows would not rest (active_set.h). Far below what the last bit of a position makes, 1e-14 in a body of 100
- * spacings. */
+/* Stretch |y|/|xi| - 1 (broken bonds: possibly -|y|/|xi| - 1), rounded to a multiple of 2^-49 by passing through the
+ * range 8 to 16, so that it is exactly 0 where nothing has moved. Half of that, 8 units of 2^-53, exceeds the
+ * round-off: 3.5 units for the stored inverse (three squares, root, division), 1.5 for three squares, 2.1 for the root
+ * and 2 for products, if all were at their worst with one sign in one bond. Without rounding such a bond would have a
+ * force, and its rows would not stay at rest (active_set.h). The last bit of a position causes far more, 1e-14 in a
+ * body of 100 spacings. */
 #define STRETCH_OF(LENGTH, INVERSE_LENGTH) (((LENGTH) * (INVERSE_LENGTH) + 8.0) - 9.0)
 
-/* a, or of intact bonds what is larger. Where lengths are read as stored those of broken ones are negative and tell by
- * themselves. */
+/* Returns the larger of a and `other`, lane by lane, where the bond is intact, else a. In FREE columns broken bonds
+ * have negative lengths, hence values below a. */
 static ALWAYS_INLINE lanes column_largest(const struct column s, lanes a, lanes other)
 {
     return s.kind == COLUMN_FREE || s.kind >= COLUMN_WHOLE ? lanes_max(a, other)
                                                            : lanes_max_kept(column_intact(s), a, other);
 }
 
-/* a, or of intact bonds what is smaller. */
+/* Returns the smaller of a and `other`, lane by lane, where the bond is intact, else a. */
 static ALWAYS_INLINE lanes column_smallest(const struct column s, lanes a, lanes other)
 {
     return s.kind >= COLUMN_WHOLE ? lanes_min(a, other) : lanes_min_kept(column_intact(s), a, other);
 }
 
-/* Values of a row block's particles. */
+/* Stores the eight values of a row block at its particles; rows: how many of the eight exist; aligned: particles are
+ * consecutive. */
 static ALWAYS_INLINE void rows_store(real *to, const int32_t *row, int rows, bool aligned, lanes value)
 {
     if (aligned)

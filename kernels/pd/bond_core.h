@@ -1,16 +1,16 @@
-/* What keeps bonds from turning inside out. The force of a linear bond is finite where its length is nothing, and
- * particles pass through each other: half the wave speed is enough. Below CORE_FROM of its length a bond therefore has
- * a repulsion of its own, whatever the model of the families; above it nothing changes, to the last bit. With l =
- * |y|/|xi| and K the force of the bond per stretch:
+/* Repulsive core of bonds, which prevents their inversion. The force of a linear bond stays finite as its length goes
+ * to 0, so particles pass through each other at speeds above half the wave speed. Below CORE_FROM of its length a bond
+ * therefore has an additional repulsion, in every model; above it nothing changes, to the last bit. With l = |y|/|xi|
+ * and K the force of the bond per stretch:
  *
  *     force   -K a (CORE_FROM - l)
  *     energy   1/2 K |xi| a (CORE_FROM - l)^2
  *
- * a = 3 (CORE_STIFFNESS), or what the step bears: bonds and cores together have sqrt(1 + a) times the frequency of
- * bonds alone, so a is (critical step/step)^2 - 1 at the most: 3 at 0.5 of the critical step, which bonds that break
- * have, 0.56 at 0.8. With 3 the halves of a plate that meet at half the wave speed each stay in their order; what meets
- * faster may not. Rare: the hot loops look for the most compressed bond of a row block, and only then visit the row
- * block again. */
+ * a = 3 (CORE_STIFFNESS), reduced where the time step requires it: bonds with cores have sqrt(1 + a) times the
+ * frequency of bonds alone, so a <= (critical step/step)^2 - 1: 3 at 0.5 of the critical step (bonds that may break),
+ * 0.56 at 0.8. With a = 3 the halves of a plate that collide at half the wave speed each keep their order (measured);
+ * faster collisions may not. Rare: the hot loops find the most compressed bond of a row block, and visit the row block
+ * again only if it is in its core. */
 #ifndef CLEAVE_KERNELS_BOND_CORE
 #define CLEAVE_KERNELS_BOND_CORE
 
@@ -19,13 +19,16 @@
 #include "bonds/bonds.h"
 
 #define RARE static __attribute__((noinline, unused))
+
+/* y|/|xi| below which the core acts [1]; empirical */
 #define CORE_FROM 0.7
 
-/* A bond within its core: |y|/|xi|, 1 where it is not; K [N]; from i to j [m]. */
+/* A bond within its core: ratio |y|/|xi| (1 outside the core), K [N], y from i to j [m] and distance |y| [m]. */
 struct core {
     real ratio, K, y[DIM_MAX], distance;
 };
 
+/* Computes the core of a bond in the row of particle i; ratio = 1 if the bond is broken or not within its core. */
 static inline struct core core_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     struct core c = {.ratio = 1};
@@ -40,7 +43,7 @@ static inline struct core core_of(const struct bonds *b, const struct particles 
     return c;
 }
 
-/* Adds the forces on the particles of a row block. */
+/* Adds the core forces on the particles of row block g. */
 RARE void core_row_block(const struct bonds *b, struct particles *p, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
@@ -53,7 +56,7 @@ RARE void core_row_block(const struct bonds *b, struct particles *p, int64_t g)
     }
 }
 
-/* Half the energy of the bonds of a row block: each has two rows [J]. */
+/* Returns half the core energy of the bonds of row block g [J]; the other half belongs to the bonds' other rows. */
 RARE real core_row_block_energy(const struct bonds *b, const struct particles *p, int64_t g)
 {
     real sum = 0;

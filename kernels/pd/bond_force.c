@@ -1,10 +1,11 @@
-/* Force of all intact bonds on the particles of their rows, and the breaking of what is stretched too far.
+/* Forces of all intact bonds on the particles of their rows (Silling & Askari 2005), and the breaking of bonds
+ * stretched beyond their limit.
  *
  *     s = |x_j - x_i| / |X_j - X_i| - 1,   f_i = sum_j stiffness w_ij law(s) (x_j - x_i)/|x_j - x_i|
  *
- * Eight rows at a time, column by column; a row is written by its own lane only, so no second writer exists and the
- * result does not depend on threads. Both ends compute the same stretch from the same numbers with the same
- * operations (a difference and its negative), so both rows break a bond in the same step without communication. */
+ * Eight rows at a time, column by column; each row is written by its own lane only, so the result does not depend on
+ * the number of threads. Both rows of a bond compute its stretch from equal numbers with equal operations (a difference
+ * and its negative), so they break it in one step without communication. */
 #include <math.h>
 
 #include "bond_laws.h"
@@ -17,13 +18,14 @@
 
 #define TINY 1e-300 /* keeps the root of a padding lane's zero distance finite */
 
-/* A row block while its columns are visited; `stretch` is the largest, `press` the smallest. */
+/* Positions and force sums of a row block while its columns are visited; stretch, press: largest, smallest stretch
+ * [1]. */
 struct bond_sums {
     lanes x0, x1, x2, f0, f1, f2, stretch, press;
 };
 
-/* Adds the forces of a column. The difference of the inverse lengths would be the stretch over the length, and
- * cheaper; a body in free fall then gathers three times the round-off. */
+/* Adds the forces of a column. Computing the stretch over the length as a difference of inverse lengths would be
+ * cheaper, but gives a body in free fall three times the round-off. */
 static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, const struct particles *p,
                                                         const struct column s, const int dim, const enum pd_model model)
 {
@@ -44,8 +46,8 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     return sum;
 }
 
-/* Force of one row block, all but cores; returns whether a bond may have passed its limit, *pressed: whether it has
- * cores. */
+/* Computes the forces of one row block, without cores. Returns true if a bond may be beyond its limit; sets *pressed if
+ * a bond is within its core. */
 static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                const enum pd_model model, bool *pressed)
 {
@@ -72,7 +74,7 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     return lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
 }
 
-/* Force of one row block and the breaking of its bonds; returns how many broke. */
+/* Computes the forces of one row block and breaks its bonds. Returns the number of bonds broken. */
 static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                   int64_t g, const int dim, const enum pd_model model)
 {

@@ -1,4 +1,4 @@
-/* When, within a step, a bond passes its limit, and what its force still does in that step. */
+/* The time within a step at which a bond passes its limit, and the force that it exerts in that step. */
 #ifndef CLEAVE_KERNELS_BOND_LAST
 #define CLEAVE_KERNELS_BOND_LAST
 
@@ -6,54 +6,56 @@
 
 #include "kernels/kernels.h"
 
-/* Component d of x_j - x_i, `ago` before the present places [m]. */
-static inline real apart_ago(const struct particles *p, int32_t i, int32_t j, int d, real ago)
+/* Returns component d of x_j - x_i a time `lag` before the present positions [m]. lag [s]. */
+static inline real bond_vector_earlier(const struct particles *p, int32_t i, int32_t j, int d, real lag)
 {
     const real y = p->x[d][j] - p->x[d][i];
-    return ago == 0 ? y : y - ago * (p->v[d][j] - p->v[d][i]);
+    return lag == 0 ? y : y - lag * (p->v[d][j] - p->v[d][i]);
 }
 
-/* Stretch of a bond between i and j [1], `ago` before the present places [s]; broken ones may have a negative inverse
- * length. */
-static inline real stretch_ago(const struct particles *p, real inverse_length, int32_t i, int32_t j, real ago)
+/* Returns the stretch [1] of the bond i-j a time `lag` before the present positions [s]. inverse_length: 1/|xi| [1/m],
+ * may be negative (broken bonds). */
+static inline real bond_stretch_earlier(const struct particles *p, real inverse_length, int32_t i, int32_t j, real lag)
 {
     real distance2 = 0;
-    for (int d = 0; d < p->dim; d++) distance2 += square(apart_ago(p, i, j, d, ago));
+    for (int d = 0; d < p->dim; d++) distance2 += square(bond_vector_earlier(p, i, j, d, lag));
     return sqrt(distance2) * fabs(inverse_length) - 1;
 }
 
+/* Returns the stretch at which the bond i-j breaks [1]: critical stretch of its materials times its strength. */
 static inline real stretch_limit(const struct particles *p, const struct bond_limit *limit, int32_t i, int32_t j)
 {
     return limit->critical_stretch[p->material[i] * limit->materials + p->material[j]] * bond_strength(p, i, j);
 }
 
-/* When a bond ends: so long before the present places [s], and the share of its force in this step's kick [1]. */
+/* When a bond breaks: `lag`, time before the present positions [s], and `share`, the share of its force that acts in
+ * this step's kick [1]. */
 struct bond_last {
-    real ago, share;
+    real lag, share;
 };
 
-/* The end of a bond beyond its limit, of which `plastic` stretch has no force. Both rows find the same from the same
- * numbers.
+/* Computes lag and share of a bond beyond its limit. plastic: plastic stretch of the bond [1]. Both rows compute equal
+ * results from equal numbers.
  *
- * In the last step places went from x - dt v to x, and the bond passed its limit s_c at the moment t*. The kick by the
- * forces at x lasts from half a step before x to half a step after. A bond that is gone at t* has in it, by impulse, a
- * share of (t* - t)/dt + 1/2, negative where the kick before was too long. By energy: what a leap-frog step loses when
- * a bond of energy W and force F ends with a share S is, but for terms of the kick squared,
+ * In the last step positions moved from x - dt v to x, and the bond passed its limit s_c at time t*. The kick by the
+ * forces at x lasts from half a step before x to half a step after. A bond that breaks at t* contributes to this kick,
+ * by impulse, a share of (t* - t)/dt + 1/2, negative where the previous kick was too long. By energy: if a bond of
+ * energy W and force F breaks with a share S, a leap-frog step loses, up to terms of the kick squared,
  *
  *     W(s) - (1/2 - S) F(s) (|y(t)| - |y(t - dt)|)
  *
- * which is W(s_c), what the bond has at t*, with
+ * This equals W(s_c), the energy of the bond at t*, if
  *
  *     S = 1/2 - (W(s) - W(s_c))/(F(s) (|y(t)| - |y(t - dt)|)) = 1/2 - (t - t*)/dt (1 + e_c/e)/2,     e = s - s_p
  *
- * for a force linear in e. The two agree to first order in dt, so that impulse and energy of breaking are both of
- * second order. */
+ * for a force linear in e. Both shares agree to first order in dt, so impulse and energy of breaking are of second
+ * order. */
 static inline struct bond_last bond_last_of(const struct particles *p, const struct bond_limit *limit,
                                             real inverse_length, real plastic, int32_t i, int32_t j)
 {
     const real most = stretch_limit(p, limit, i, j);
-    const real now = stretch_ago(p, inverse_length, i, j, 0);
-    const real before = stretch_ago(p, inverse_length, i, j, limit->dt);
+    const real now = bond_stretch_earlier(p, inverse_length, i, j, 0);
+    const real before = bond_stretch_earlier(p, inverse_length, i, j, limit->dt);
     switch (limit->last_force) {
     case LAST_FORCE_HALF:
         return (struct bond_last){0, 0.5};
@@ -64,12 +66,13 @@ static inline struct bond_last bond_last_of(const struct particles *p, const str
     case LAST_FORCE_MOMENT:
         break;
     }
-    if (!(before <= most && most < now)) return (struct bond_last){0, 0}; /* beyond before it was watched */
-    const real ago = (now - most) / (now - before), part = most > plastic ? (most - plastic) / (now - plastic) : 0;
-    return (struct bond_last){ago * limit->dt, 0.5 - 0.5 * ago * (1 + part)};
+    if (!(before <= most && most < now))
+        return (struct bond_last){0, 0}; /* already beyond the limit when first evaluated */
+    const real lag = (now - most) / (now - before), part = most > plastic ? (most - plastic) / (now - plastic) : 0;
+    return (struct bond_last){lag * limit->dt, 0.5 - 0.5 * lag * (1 + part)};
 }
 
-/* Entry q of a row, as stored. */
+/* Computes lag and share of entry q of a row, with length and plastic stretch as stored. */
 static inline struct bond_last bond_last_stored(const struct bonds *b, const struct particles *p,
                                                 const struct bond_limit *limit, int64_t q, int32_t i, int32_t j)
 {

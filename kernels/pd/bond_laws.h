@@ -1,6 +1,6 @@
-/* The laws of single bonds. A law maps what a bond measures to the force of a unit weight; how bonds are
- * visited is not its business. To add one: write it here, add its name to enum pd_model, a case below, and one line a
- * dimension in variants.h. */
+/* The laws of single bonds: a law maps the stretch of a bond to the force of a bond of unit weight; the loops over
+ * bonds are elsewhere (bond_force.c, bond_measure.c). To add a law: write it here, add its name to enum pd_model, a
+ * case below, and one line per dimension in simd/variants.h. */
 #ifndef CLEAVE_KERNELS_BOND_LAWS
 #define CLEAVE_KERNELS_BOND_LAWS
 
@@ -9,10 +9,11 @@
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
-/* Return mapping of eight bonds from entry q on, those with `intact` set; returns what they are stretched elastically.
- * Isotropic linear hardening, with f over the bond's stiffness:
+/* Applies the return mapping of plasticity to the eight bonds from entry q on, those with `intact` set, and returns
+ * their elastic stretch [1]. Isotropic linear hardening, f being the force over the stiffness of the bond:
  *     phi = |s - s_p| - (s_y + H alpha),   phi > 0:  g = phi/(1 + H),  s_p += g sign(s - s_p),  alpha += g
- * A plain cap on the force (Zeng et al. 2021, eq. 18) has no unloading; this is the same in monotonic loading. */
+ * Equals the capped force of Zeng et al. 2021, eq. 18, in monotonic loading; adds elastic unloading, which eq. 18
+ * lacks. */
 static ALWAYS_INLINE lanes bond_yields(const struct bonds *b, int64_t q, lanes stretch, lanes_mask intact)
 {
     const lanes yield = lanes_gather(b->yield.stretch, b->pair + q);
@@ -28,30 +29,31 @@ static ALWAYS_INLINE lanes bond_yields(const struct bonds *b, int64_t q, lanes s
     return stretch - plastic;
 }
 
-/* Force over stiffness and weight [1] of eight bonds from entry q on: f = c s n (Silling & Askari 2005; Zeng et al.
- * 2022, eqs. 17, 29), of the elastic part of the stretch where bonds yield. Updates what yielding does to them. */
+/* Returns the force over stiffness and weight [1] of the eight bonds from entry q on: f = c s n (Silling & Askari 2005;
+ * Zeng et al. 2022, eqs. 17, 29), with the elastic part of the stretch where bonds yield. Updates the plastic state. */
 static ALWAYS_INLINE lanes bond_law(const enum pd_model model, const struct bonds *b, int64_t q, lanes stretch, lanes w)
 {
     return model == PD_BOND_PLASTIC ? bond_yields(b, q, stretch, w > 0.0) : stretch;
 }
 
-/* The elastic part of the stretch, nothing updated; eight bonds and one. */
+/* Returns the elastic part of the stretch of the eight bonds from entry q on [1]; updates nothing. */
 static ALWAYS_INLINE lanes bond_elastic(const enum pd_model model, const struct bonds *b, int64_t q, lanes stretch)
 {
     return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + q) : stretch;
 }
 
+/* Returns the elastic part of the stretch of the bond at entry q [1]. */
 static inline real bond_elastic_one(const struct bonds *b, int64_t q, real stretch)
 {
     return b->plastic_stretch ? stretch - b->plastic_stretch[q] : stretch;
 }
 
-/* Elastic energy over stiffness, weight and reference length [1]. */
+/* Returns the elastic energy over stiffness, weight and reference length [1]. */
 static ALWAYS_INLINE lanes bond_law_energy(lanes elastic) { return 0.5 * elastic * elastic; }
 
-/* ---- one bond, for what is visited at samples and frames only --------------------------------------------- */
+/* ---- one bond, for samples and frames ---------------------------------------------------------------------- */
 
-/* Elastic part of the stretch of entry q of the row of particle i [1]. */
+/* Returns the elastic part of the stretch of a bond in the row of particle i [1]. */
 static inline real bond_elastic_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     real distance2 = 0;
@@ -59,13 +61,13 @@ static inline real bond_elastic_of(const struct bonds *b, const struct particles
     return bond_elastic_one(b, bond->entry, sqrt(distance2) * bond->inverse_length - 1);
 }
 
-/* Its force as the force kernel makes it; tension is positive [N]. */
+/* Returns the force of a bond in the row of particle i [N], equal to the force kernel's; tension is positive. */
 static inline real bond_force_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_elastic_of(b, p, bond, i);
 }
 
-/* The same on i as a vector [N]. */
+/* Stores the force of a bond on particle i as a vector in f[dim] [N]. */
 static inline void bond_pair_force(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i,
                                    real *f)
 {
@@ -75,14 +77,14 @@ static inline void bond_pair_force(const struct bonds *b, const struct particles
     for (int d = 0; d < p->dim; d++) f[d] *= force;
 }
 
-/* Its elastic energy [J]. */
+/* Returns the elastic energy of a bond in the row of particle i [J]. */
 static inline real bond_energy_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     if (bond->w == 0) return 0;
     return 0.5 * b->stiffness * bond->w * square(bond_elastic_of(b, p, bond, i)) / bond->inverse_length;
 }
 
-/* Its plastic work [J]: closed form, since hardening is linear and the path only grows. */
+/* Returns the plastic work of a bond [J]: closed form, since hardening is linear and the path only grows. */
 static inline real bond_work_of(const struct bonds *b, const struct bond *bond)
 {
     const int64_t q = bond->entry;

@@ -1,4 +1,4 @@
-/* What bonds hold: their elastic energy, and the stress they amount to. Visited at samples and frames only. */
+/* Elastic energy, plastic work and stress (bond virial) of bond-based rows, for samples and frames. */
 #include <math.h>
 
 #include "bond_laws.h"
@@ -10,7 +10,8 @@
 
 #define TINY 1e-300 /* keeps the root of a padding lane's zero distance finite */
 
-/* 1/|y|, and the stretch of the bonds of a column from rows at x to neighbours at x + y. */
+/* Returns 1/|y| [1/m] of the eight bonds of a column from rows at x to neighbours at x + y; stores y [dim] [m] and the
+ * stretch [1]. */
 static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struct particles *p, const lanes *x,
                                               lanes *y, lanes *stretch, const int dim)
 {
@@ -24,7 +25,7 @@ static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struc
     return inverse;
 }
 
-/* Energy of a column over half the stiffness; *press: the smallest stretch. */
+/* Returns the energies of the bonds of a column over half the stiffness; *press: the smallest stretch, updated. */
 static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struct particles *p, const lanes *x,
                                               lanes *press, const int dim, const enum pd_model model)
 {
@@ -37,7 +38,7 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struc
     return lanes_choose(w > 0.0, w * bond_law_energy(elastic) * length, lanes_of(0));
 }
 
-/* Energy over half the stiffness (each bond has two rows) of the eight rows of a row block. */
+/* Returns the energy of the rows of row block g over half the stiffness (each bond has two rows). */
 static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 const int dim, const enum pd_model model)
 {
@@ -52,7 +53,7 @@ static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const str
     return total;
 }
 
-/* Adds sum_j F_ij (x) (x_j - x_i) over the stiffness, of a column. */
+/* Adds sum_j F_ij (x) (x_j - x_i) over the stiffness of the bonds of a column to the symmetric components sum[]. */
 static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, const struct particles *p,
                                              const lanes *x, const int dim, const enum pd_model model)
 {
@@ -64,8 +65,8 @@ static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, 
     if (dim > 2) sum[4] += share * y[1] * y[2], sum[5] += share * y[2] * y[0];
 }
 
-/* sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i), F the force on i, of the peridynamic particles among the eight rows of a
- * row block. */
+/* Computes sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i), F_ij the force on i, for the peridynamic particles of row block
+ * g (virial stress; Silling & Askari 2005). */
 static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                 const enum pd_model model)
 {
@@ -106,7 +107,7 @@ real bond_plastic_work(const struct bonds *b)
     return b->plastic_path ? team_sum(b->rows, bond_measure_plastic_term, b) : 0;
 }
 
-/* Row blocks are added in blocks of fixed size, the blocks in their order: the same bits on any number of threads. */
+/* Row blocks are summed in blocks of fixed size, and the blocks in order: equal bits on any number of threads. */
 enum { ROW_BLOCK_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
 
 #define INSTANCE(D, M)                                                                                                 \

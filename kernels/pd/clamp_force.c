@@ -1,16 +1,16 @@
-/* What bonds across clamped planes do to the sources of their images.
+/* Reactions of bonds across clamped planes on the sources of the images.
  *
- * The image g of a source j in a clamped plane is where the plane reflects j, x_g = X_g + P u_j with P = -1 (by
- * component where a plane of symmetry has a part in it). The lattice is its own image, a displacement turned round
- * is not: the bond from i to g(j) pulls along n, that from j to g(i) along R n, and the forces that sweeps find for
- * i and j come from no energy. The energy is
+ * The image g of a source j in a clamped plane is where the plane reflects j: x_g = X_g + P u_j with P = -1 (by
+ * component where a plane of symmetry is involved too). The lattice is symmetric under reflection, such a displacement
+ * is not: the bond from i to g(j) pulls along n, that from j to g(i) along R n, and the forces that sweeps compute for
+ * i and j derive from no energy. The energy is
  *
  *     E(u) = sum of the energies W_i of the body's own rows, images following their sources,
  *     f_i += T_ig,   f_j -= P^T T_ig    for every image g of j in the row of i
  *
- * with T_ig what W_i alone gives. In a bond-based model half of a bond's force comes from either end: half of
- * what the sweep gave i belongs to the row that the image does not have. In a state-based model clamped images have no
- * state, so the sweep gave T_ig. */
+ * with T_ig the force that W_i alone gives. Bond-based models: half of a bond's force comes from each of its rows, so
+ * half of the force that the sweep gave i belongs to the row that the image does not have. State-based models: clamped
+ * images have no state, so the sweep gave T_ig. */
 #include "bond_last.h"
 #include "bond_laws.h"
 #include "kernels/kernels.h"
@@ -18,13 +18,15 @@
 #include "state_last.h"
 #include "state_laws.h"
 
-enum { MANY = 4096 }; /* bonds from which on a team pays */
+enum { MANY = 4096 }; /* smallest number of bonds for which a thread team pays; empirical */
 
-/* Eight bonds: where they lead, and 1/|Y| and the stretch. */
+/* Eight bonds to clamped images: y from row particle to image [m], weight, 1/|xi|, inverse = 1/|y| [1/m], stretch
+ * [1]. */
 struct across {
     lanes y[DIM_MAX], w, inverse_length, inverse, stretch;
 };
 
+/* Loads and measures the eight bonds from entry k on. */
 static ALWAYS_INLINE struct across across_of(const struct clamped *c, const struct particles *p, int64_t k,
                                              const int dim)
 {
@@ -39,7 +41,7 @@ static ALWAYS_INLINE struct across across_of(const struct clamped *c, const stru
     return a;
 }
 
-/* Minus the half of the force that the sweep gave the row. */
+/* Stores the reactions of eight bonds from k on: minus half of the force that the sweep gave the row (bond-based). */
 static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim)
 {
     const struct clamped *c = &b->clamped;
@@ -51,7 +53,7 @@ static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct par
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, share * a.y[d]);
 }
 
-/* Minus the own force state of the row (state_laws.h). */
+/* Stores the reactions of eight bonds from k on: minus the force state of the row (state_laws.h). */
 static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim,
                                           const bool rotates)
 {
@@ -71,6 +73,7 @@ static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct pa
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, -a.w * (along * a.inverse * a.y[d] + effective[d]));
 }
 
+/* Stores the reactions of eight bonds from k on, in any model. */
 static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const struct particles *p, int64_t k,
                                                 const int dim)
 {
@@ -82,6 +85,7 @@ static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const str
         state_reactions(b, p, k, dim, false);
 }
 
+/* Adds the reactions on the h-th particle that has any, as listed in c->end, to its force. */
 static void clamp_force_give(const struct clamped *c, struct particles *p, int64_t h)
 {
     for (int d = 0; d < p->dim; d++) {
@@ -92,14 +96,15 @@ static void clamp_force_give(const struct clamped *c, struct particles *p, int64
     }
 }
 
+/* Copies the weights of the bonds to clamped images from the rows. */
 static void weights_follow(struct bonds *b)
 {
     struct clamped *c = &b->clamped;
     for (int64_t k = 0; k < c->n; k++) c->w[k] = b->w[c->entry[k]];
 }
 
-/* Of bonds that the sweep broke: by the share of their force, and the states, with which they act there
- * (bond_last.h). Weights of before the sweep tell which these are. */
+/* Replaces the reactions of bonds that the sweep broke by those of the last force: with the share and the states of
+ * bond_last.h. The weights copied before the sweep show which bonds broke. */
 static void reactions_last(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     const struct clamped *c = &b->clamped;
@@ -121,7 +126,7 @@ int64_t bond_forces(bond_force_fn *sweep, struct bonds *b, struct particles *p, 
     INVARIANT(p->dim > 1 && (!motion || motion->loaded));
     if (c->stale) weights_follow(b);
     c->stale = false;
-    const int64_t broken = sweep(b, p, limit, motion); /* stale, if one of these bonds is among them */
+    const int64_t broken = sweep(b, p, limit, motion); /* sets c->stale if one of these bonds changes */
     TEAM_LOOP(c->n > MANY, for (int64_t k = 0; k < c->n; k += LANES) if (p->dim == 2) clamp_force_reactions(b, p, k, 2);
               else clamp_force_reactions(b, p, k, 3););
     if (c->stale) reactions_last(b, p, limit);

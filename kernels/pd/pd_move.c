@@ -1,5 +1,5 @@
-/* The leap-frog step of peridynamic particles. Moves 72 bytes a particle in 2D: x, v read and written, f
- * and m read. */
+/* The leap-frog step of peridynamic particles as a kernel of its own. Moves 72 bytes per particle in 2D: x, v read and
+ * written, f and m read. */
 #include "pd_move.h"
 #include "kernels/simd/variants.h"
 

@@ -5,7 +5,8 @@
 #include "kernels/divergence.h"
 #include "kernels/kernels.h"
 
-/* Which of the first n of eight particles move, a bit each: neither the grid moves them, nor do they wait for loads. */
+/* Returns which of the first n of eight particles move now, one bit each: those that are not on the grid and not
+ * `loaded` [n, NULL: none]. */
 static ALWAYS_INLINE unsigned pd_movers(const struct particles *p, const int32_t *list, int n, const uint8_t *loaded)
 {
     const int32_t first = list[0];
@@ -17,6 +18,7 @@ static ALWAYS_INLINE unsigned pd_movers(const struct particles *p, const int32_t
     return bits;
 }
 
+/* Stores a[l] in to[list[l]] for the movers; together: all eight move and are consecutive. */
 static ALWAYS_INLINE void pd_store(real *to, const int32_t *list, bool together, unsigned movers, lanes a)
 {
     if (together)
@@ -26,8 +28,8 @@ static ALWAYS_INLINE void pd_store(real *to, const int32_t *list, bool together,
             if (movers >> l & 1) to[list[l]] = a[l];
 }
 
-/* v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21) of those of eight particles that move; `together`: all,
- * and they are consecutive. Is one of them diverged? */
+/* Moves eight particles: v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21), stored for `movers` only;
+ * together: all eight move and are consecutive. Returns true if one of the movers has diverged. */
 static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsigned movers, const struct pd_motion *m,
                                   const int dim, const bool together)
 {
@@ -49,8 +51,8 @@ static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsi
     return any;
 }
 
-/* The same of the first n of eight particles, in ascending order from a 32-byte boundary on, but for those that do
- * not move. */
+/* Moves those of the first n of eight listed particles that may move now (pd_movers). list: ascending, aligned to 32
+ * bytes. Returns true if one of them has diverged. */
 static ALWAYS_INLINE bool pd_move_eight(struct particles *p, const int32_t *list, int n, const uint8_t *loaded,
                                         const struct pd_motion *m, const int dim)
 {

@@ -1,4 +1,5 @@
-/* The rotation R nearest to a matrix M: R maximises R : M, that is M = R U with U symmetric and positive. */
+/* Polar rotation: the rotation R nearest to a matrix M. R maximises R : M, i.e. M = R U with U symmetric and positive
+ * definite. Matrices are row major, dim x dim. */
 #ifndef CLEAVE_KERNELS_POLAR
 #define CLEAVE_KERNELS_POLAR
 
@@ -6,7 +7,7 @@
 
 #include "base/base.h"
 
-/* In the plane: the angle of (M11 + M22, M21 - M12). */
+/* Computes R in 2D: its angle is that of the vector (M11 + M22, M21 - M12). */
 static inline void polar_rotation_2d(const real *M, real *R)
 {
     const real c = M[0] + M[3], s = M[2] - M[1], size = sqrt(c * c + s * s);
@@ -15,8 +16,8 @@ static inline void polar_rotation_2d(const real *M, real *R)
     R[1] = -R[2];
 }
 
-/* Newton's iteration R <- (R + R^-T)/2 (Higham 1986), from M over its size; cut families may leave M singular or turned
- * inside out: then the rotation is none. */
+/* Computes R in 3D by Newton's iteration R <- (R + R^-T)/2 (Higham 1986) from M scaled to unit size. Returns the
+ * identity if M is singular or inverted (determinant <= 0), as cut families may be. */
 static inline void polar_rotation_3d(const real *M, real *R)
 {
     real size = 0;
@@ -42,6 +43,7 @@ static inline void polar_rotation_3d(const real *M, real *R)
     }
 }
 
+/* Computes the rotation nearest to M in dimension 2 or 3. */
 static inline void polar_rotation(const real *M, real *R, const int dim)
 {
     if (dim == 2)

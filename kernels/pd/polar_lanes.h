@@ -1,12 +1,13 @@
-/* polar.h for eight matrices at once: entry c of lane l is M[c][l]. */
+/* Polar rotation (polar.h) of eight matrices at once: entry c of lane l is M[c][l]. */
 #ifndef CLEAVE_KERNELS_POLAR_LANES
 #define CLEAVE_KERNELS_POLAR_LANES
 
 #include "kernels/simd/lanes.h"
 #include "polar.h"
 
-#define POLAR_TINY 1e-300 /* keeps the root of nothing finite */
+#define POLAR_TINY 1e-300 /* keeps the root of a zero matrix finite */
 
+/* Computes R in 2D as polar_rotation_2d. */
 static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
 {
     const lanes c = M[0] + M[3], s = M[2] - M[1], size2 = c * c + s * s;
@@ -16,8 +17,8 @@ static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
     R[1] = -R[2];
 }
 
-/* One step of R <- (R + R^-T)/2; lanes that are singular or inside out lose their bit of `sound`. Returns the
- * determinant that R had. */
+/* Does one step of R <- (R + R^-T)/2 (Higham 1986) and clears `sound` in lanes whose R is singular or inverted. Returns
+ * the determinant of R before the step. */
 static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *sound)
 {
     const lanes cofactor[9] = {R[4] * R[8] - R[5] * R[7], R[5] * R[6] - R[3] * R[8], R[3] * R[7] - R[4] * R[6],
@@ -30,8 +31,9 @@ static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *sound)
     return determinant;
 }
 
-/* After a step no singular value is below 1, since (s + 1/s)/2 is not, and their product bounds how far each is
- * above. A step squares that and halves it: from 1e-8 what is left is below round-off. */
+/* Computes R in 3D as polar_rotation_3d. Stopping criterion: after a step all singular values s are at least 1, since
+ * (s + 1/s)/2 is, so the determinant bounds the excess of each; a step squares the excess and halves it, so from 1e-8
+ * the next excess is below round-off. */
 static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
 {
     lanes size2 = lanes_of(POLAR_TINY);
@@ -44,6 +46,7 @@ static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
     for (int c = 0; c < 9; c++) R[c] = lanes_choose(sound, R[c], lanes_of(c % 4 == 0));
 }
 
+/* Computes the rotation nearest to M in dimension 2 or 3. */
 static ALWAYS_INLINE void polar_rotation_lanes(const lanes *M, lanes *R, const int dim)
 {
     if (dim == 2)

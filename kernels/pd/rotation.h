@@ -1,22 +1,21 @@
-/* Rotations of particles as state-based sweeps keep and apply them, eight at once: R - 1, times the spring
- * g.
+/* Storage of particle rotations in state-based sweeps, eight at once: R - 1 times the spring g of the family.
  *
- * In space four numbers, not nine: with the quaternion (q, q0) of R, and (a, s) = sqrt(2 g) (q, q0),
+ * In 3D four numbers replace nine: with the unit quaternion (q, q0) of R, and (a, s) = sqrt(2 g) (q, q0),
  *
  *     g (R - 1) v = 2 g [q0 q x v + q x (q x v)] = a x (s v + a x v)
  *
- * Neighbours are read at any place, and seven of eight such loads touch two cache lines: they cost more than
- * products do. Where R is 1 to the last bit, so is a 0, and nothing comes of it. */
+ * Fewer loads pay: neighbours are read at unaligned addresses, and seven of eight such loads touch two cache lines.
+ * Where R is exactly 1, a is exactly 0, and so is the product. */
 #ifndef CLEAVE_KERNELS_ROTATION
 #define CLEAVE_KERNELS_ROTATION
 
 #include "bonds/bonds.h"
 #include "kernels/simd/lanes.h"
 
-#define TURN_TINY 1e-300 /* keeps the root of nothing finite */
+#define TURN_TINY 1e-300 /* keeps the root of zero finite */
 
-/* A row of the matrix 4 (q, q0) (q, q0)^T, that with the largest diagonal: never by a small component (Shepperd
- * 1978). */
+/* Computes the row of the matrix 4 (q, q0) (q, q0)^T with the largest diagonal entry, so that no division by a small
+ * component follows (Shepperd 1978). Returns that diagonal entry. R: row major. */
 static ALWAYS_INLINE lanes quaternion_row(const lanes *R, lanes *row)
 {
     const lanes odd[3] = {R[7] - R[5], R[2] - R[6], R[3] - R[1]}, even[3] = {R[1] + R[3], R[5] + R[7], R[6] + R[2]};
@@ -34,7 +33,7 @@ static ALWAYS_INLINE lanes quaternion_row(const lanes *R, lanes *row)
     return largest;
 }
 
-/* What is kept of R, row major, and g. */
+/* Computes the stored form of rotation R (row major) with spring g [N/m]. */
 static ALWAYS_INLINE void rotation_make(lanes *rotation, const lanes *R, lanes spring, const int dim)
 {
     if (dim == 2) {
@@ -46,7 +45,7 @@ static ALWAYS_INLINE void rotation_make(lanes *rotation, const lanes *R, lanes s
     for (int c = 0; c < ROTATION; c++) rotation[c] *= scale;
 }
 
-/* f less g (R - 1) arm. The matrix in the plane is (a, -c; c, a). */
+/* Subtracts g (R - 1) arm from f, both [dim]. In 2D the matrix is (a, -c; c, a). */
 static ALWAYS_INLINE void rotate_back(lanes *f, const lanes *rotation, const lanes *arm, const int dim)
 {
     if (dim == 2) {
@@ -65,11 +64,11 @@ static ALWAYS_INLINE void rotate_back(lanes *f, const lanes *rotation, const lan
     }
 }
 
-/* Is entry c read by rotate_back? */
+/* Returns true if rotate_back reads entry c. */
 static ALWAYS_INLINE bool rotation_reads(int c, const int dim) { return dim > 2 || c % 2 == 0; }
 
-/* Does entry c change its sign in a mirror normal to an axis? A rotation's own axis is not turned round by a mirror
- * across it, but all others are. */
+/* Returns true if entry c changes sign under a reflection normal to `axis` (-1: none): all components of a rotation
+ * vector change sign but the one along the axis. */
 static inline bool rotation_antisymmetric(int c, int axis, int dim)
 {
     return axis >= 0 && (dim == 2 ? c == 1 || c == 2 : c < 3 && c != axis);

@@ -1,6 +1,6 @@
-/* Forces of state-based peridynamics: a sweep over the rows for the states of families (pressure, spring,
- * rotation), one over their bonds for the forces (state_laws.h). Owner computes in both; the same bits on any number of
- * threads. */
+/* Forces of state-based peridynamics (state_laws.h): a sweep over the rows for the states of families (pressure,
+ * spring, rotation), then a sweep over their bonds for the forces. In both each row is written by one thread: equal
+ * bits on any number of threads. */
 #include <math.h>
 #include <string.h>
 
@@ -16,8 +16,9 @@
 
 /* ---- first sweep: states of families ----------------------------------------------------------------------------- */
 
-/* Sums over the families of a row block; `stretch` is the largest, `press` the smallest [1], `moved` has bits where a
- * particle has left its reference place: an undeformed family has no rotation, to the last bit. */
+/* Sums over the families of a row block. stretch, press: largest and smallest bond stretch [1]; moved: nonzero where a
+ * bond vector differs from its reference, so that an undeformed family has exactly no rotation; moment: sum w Y (x)
+ * xi. */
 struct family_sums {
     lanes extension, stretch, press, moment[DIM_MAX * DIM_MAX];
     lanes_mask moved;
@@ -38,12 +39,12 @@ static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struc
     for (int c = 0; c < dim; c++) {
         const lanes weighted = column_weighted_reference(column, c, w, s.xi[c]);
         const lanes_mask moved = (lanes_mask)s.y[c] ^ (lanes_mask)s.xi[c];
-        sum->moved |= column.kind >= COLUMN_WHOLE ? moved : moved & (w > 0.0); /* padding may point at any particle */
+        sum->moved |= column.kind >= COLUMN_WHOLE ? moved : moved & (w > 0.0); /* padding may point to any particle */
         for (int d = 0; d < dim; d++) sum->moment[d * dim + c] += weighted * s.y[d];
     }
 }
 
-/* The rotation nearest to the moment; none, to the last bit, where no particle has moved. */
+/* Computes the stored rotation of families from their moments; exactly none where no particle has moved. */
 static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, lanes_mask moved, lanes spring,
                                           const int dim)
 {
@@ -53,11 +54,12 @@ static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, 
     rotation_make(rotation, R, spring, dim);
 }
 
-/* Moduli of eight rows, 1/Q and V/Q (of a full family, if moduli are); nothing where a family has nothing left. */
+/* Moduli A and B, 1/Q and V/Q of eight rows (V/Q of a full family if the moduli are); 0 where a family has no bonds. */
 struct own_family {
     lanes A, B, inverse, share;
-}; /* [Pa], [Pa], [1/m^2], [m] */
+}; /* A, B [Pa], inverse [1/m^2], share [m] */
 
+/* Computes the moduli and weighted volumes of row block g. */
 static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -72,11 +74,12 @@ static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, cons
     return f;
 }
 
+/* Pressure P, spring g and stored rotation (rotation.h) of eight families. */
 struct family_state {
     lanes pressure, spring, rotation[ROTATION];
 };
 
-/* Stores the states of a row block. */
+/* Stores the states of row block g. */
 static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const struct family_state *k,
                                            const enum pd_model model)
 {
@@ -89,9 +92,10 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
         rows_store(t->rotation[c], row, rows, b->aligned[g], k->rotation[c]);
 }
 
-/* ---- material points at the end of bonds ------------------------------------------------------------------------- */
+/* ---- bonded material points
+ * ------------------------------------------------------------------------------------------ */
 
-/* Rows of a row block that are material points. */
+/* Returns the mask of rows of row block g that are material points. */
 static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     lanes_mask end;
@@ -99,7 +103,7 @@ static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct part
     return end;
 }
 
-/* Rotations of their cells with the spring g, as rotation.h keeps them; `back`: the inverse ones. */
+/* Computes the stored form (rotation.h) of the rotations of the cells with spring g; back: of the inverse rotations. */
 static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *row, int32_t own, lanes spring,
                                       const bool back, lanes *rotation, const int dim)
 {
@@ -113,28 +117,30 @@ static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *
     for (int c = 0; c < ROTATION; c++) rotation[c] = (c < 3 ? axis : scale) * lanes_at(p->end_rotation[c], own, row);
 }
 
-/* Moment about them, axial: of component ji less ij of g R^T M, M = sum w Y (x) xi. */
+/* Stores the moment of the bonds about bonded points, an axial vector: component ji less ij of g R^T M with M = sum w Y
+ * (x) xi. */
 static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, int rows, int32_t own, lanes_mask end,
                                       const struct family_sums *sum, lanes spring, const int dim)
 {
     lanes N[DIM_MAX][DIM_MAX], rotation[ROTATION], turned = lanes_of(0);
     ends_rotate(p, row, own, spring, true, rotation, dim);
     for (int c = 0; c < ROTATION; c++) turned += dim == 2 || c < 3 ? rotation[c] * rotation[c] : lanes_of(0);
-    for (int c = 0; c < dim; c++) { /* less g (R^T - 1) of a column of M, and g times that column */
+    for (int c = 0; c < dim;
+         c++) { /* N = g R^T M column by column: g times the column plus g (R^T - 1) times the column */
         lanes less[DIM_MAX], column[DIM_MAX];
         for (int d = 0; d < dim; d++) column[d] = sum->moment[d * dim + c], less[d] = lanes_of(0);
         rotate_back(less, rotation, column, dim);
         for (int d = 0; d < dim; d++) N[d][c] = spring * column[d] - less[d];
     }
-    const lanes_mask any = end & ((sum->moved != 0) | (turned != 0.0)); /* of nothing there is none, to the last bit */
+    const lanes_mask any = end & ((sum->moved != 0) | (turned != 0.0)); /* exactly zero where nothing has moved */
     for (int k = dim == 2 ? 2 : 0, c = 0; k < 3; k++, c++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         rows_store(p->end_moment[c], row, rows, own >= 0, lanes_choose(any, N[j][i] - N[i][j], lanes_of(0)));
     }
 }
 
-/* A material point has a family like all others, measured by its bonds in part and by its cells for the rest: S is the
- * sum of both. */
+/* Updates the states of bonded material points in row block g: the cell adds its share to S, and gives the rotation.
+ * Stores the conjugate reactions end_pull and end_moment. */
 static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t g,
                                                   const struct own_family *f, const struct family_sums *sum,
                                                   struct family_state *k, const int dim, const enum pd_model model)
@@ -154,7 +160,7 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-/* States of a row block from its sums. */
+/* Computes the states of a row block from its sums. */
 static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles *p, int64_t g,
                                                const struct family_sums *sum, const int dim, const enum pd_model model)
 {
@@ -163,7 +169,8 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
     k.pressure = f.A * sum->extension * f.inverse * f.share, k.spring = f.B * f.share;
     if (state_rotates(model)) family_rotation(k.rotation, sum->moment, sum->moved, k.spring, dim);
     if (__builtin_expect(p->end_strain && !row_block_whole(b, g), 0)) {
-        const struct family_sums seen = *sum; /* what is called elsewhere takes copies: all others stay in registers */
+        const struct family_sums seen =
+            *sum; /* copies for a function that is not inlined: the originals stay in registers */
         const struct own_family own = f;
         struct family_state both = k;
         ends_update(b, p, g, &own, &seen, &both, dim, model);
@@ -172,7 +179,8 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
     precompute_store(b, g, &k, model);
 }
 
-/* Rows of one row block. */
+/* First sweep over one row block: sums, flags of bonds beyond limits or in cores, states, and mixed states of families
+ * that lose bonds. */
 static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                int64_t g, const int dim, const enum pd_model model)
 {
@@ -196,8 +204,8 @@ static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles
     if (b->state.past[g]) state_last(b, p, limit, g);
 }
 
-/* Mirror images take the state of their source; a plane of symmetry reverses rotations. Images in clamped planes have
- * no state: clamp_force.c brings their reaction back to the source. */
+/* Sets the states of mirror images to those of their sources, with rotations reflected at planes of symmetry. Images in
+ * clamped planes have no state: clamp_force.c adds their reaction to the source. */
 static void state_of_images(struct bonds *b, const struct particles *p, int dim, bool rotates)
 {
     for (int64_t g = p->n; g < p->n_all; g++) {
@@ -215,16 +223,16 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
 
 /* ---- second sweep: forces ---------------------------------------------------------------------------------------- */
 
-/* A row block while its columns are visited; `arm` is sum w xi, which turns with the rotation of the row's own
- * particle. */
+/* A row block while its columns are visited; arm = sum w xi, to which the rotation of the row's own particle is applied
+ * at the end. */
 struct state_sums {
     lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], arm[DIM_MAX], pressure, spring;
 };
 
-/* Adds the forces of a column. With the share q = e/|Y| that e has in |Y|, r/|Y| is 1 - q, and w (r P + e g)/|Y| is
- * w [P + (g - P) q]: two products less than with the stretch. The effective displacement Y - R xi is (Y - xi) - (R -
- * 1) xi: exactly 0 where nothing has moved. What the rows' own rotations add follows from the sum of arms
- * (force_row_block). */
+/* Adds the forces of a column. Ordinary model: with q = e/|Y|, r/|Y| = 1 - q, so w (r P + e g)/|Y| = w [P + (g - P) q],
+ * two products fewer than with the stretch. Modified model: the effective displacement Y - R xi is computed as (Y - xi)
+ * - (R - 1) xi, exactly 0 where nothing has moved; the row's own rotation is applied to the sum of arms in
+ * force_row_block. */
 static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct particles *p, const struct column column,
                                        const int dim, const enum pd_model model)
 {
@@ -251,10 +259,11 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
         f[d] = along * s.y[d] + weighted * (s.y[d] - s.xi[d]);
     }
     rotate_back(f, rotation, arm, dim);
-    for (int d = 0; d < dim; d++) sum->f[d] += f[d]; /* one addition a column: the chain is as short as can be */
+    for (int d = 0; d < dim; d++)
+        sum->f[d] += f[d]; /* one addition per column: shortest chain of dependent additions */
 }
 
-/* Force of one row block. */
+/* Computes the forces on the particles of one row block. */
 static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                           const enum pd_model model)
 {
@@ -279,7 +288,7 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
     for (int d = 0; d < dim; d++) rows_store(p->f[d], row, rows, own >= 0, sum.f[d]);
 }
 
-/* Force of one row block and the breaking of its bonds; returns how many broke. */
+/* Computes the forces of one row block and breaks its bonds. Returns the number of bonds broken. */
 static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                              int64_t g, const int dim, const enum pd_model model)
 {

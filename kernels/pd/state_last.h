@@ -1,6 +1,6 @@
-/* Families in the step in which they lose bonds. Bonds that end act with the states of the whole families, as long as
- * they are there (bond_last.h). Forces of the other bonds rest on the same families: for them pressure, spring and
- * rotation act in the last kick with the share of the bonds that end, and with the rest as they are without them. */
+/* Families in the step in which they lose bonds. A breaking bond acts with the states (pressure, spring, rotation) of
+ * the whole families (bond_last.h). The forces of the remaining bonds depend on these families too: in the last kick
+ * they use a mixture, `share` times the state with the breaking bonds plus (1 - share) times the state without. */
 #ifndef CLEAVE_KERNELS_STATE_LAST
 #define CLEAVE_KERNELS_STATE_LAST
 
@@ -10,12 +10,14 @@
 #include "polar.h"
 #include "rotation.h"
 
-/* What a row keeps: sum w r e, sum w r^2, sum w Y (x) xi; and the mean share of those that end. */
+/* Sums over the remaining bonds of a row, sum w r e, sum w r^2, sum w Y (x) xi, and the mean share (struct bond_last)
+ * of the breaking bonds. */
 struct family_left {
     real extension, weighted, moment[DIM_MAX * DIM_MAX], share;
     int64_t ended;
 };
 
+/* Computes the sums over the bonds of a row that stay below their limit, and counts the breaking bonds in `ended`. */
 static inline struct family_left family_left_of(const struct bonds *b, const struct particles *p,
                                                 const struct bond_limit *limit, int64_t row)
 {
@@ -25,7 +27,7 @@ static inline struct family_left family_left_of(const struct bonds *b, const str
         const int32_t j = it.bond.nbr;
         const real w = it.bond.w, inverse = it.bond.inverse_length;
         if (w == 0) continue;
-        const real stretch = stretch_ago(p, inverse, i, j, 0);
+        const real stretch = bond_stretch_earlier(p, inverse, i, j, 0);
         if (stretch > stretch_limit(p, limit, i, j)) {
             left.share += bond_last_of(p, limit, inverse, 0, i, j).share;
             left.ended++;
@@ -40,23 +42,24 @@ static inline struct family_left family_left_of(const struct bonds *b, const str
     return left;
 }
 
+/* Replaces *value by the mixture share * *value + (1 - share) * left. */
 static inline void state_mix(real *value, real left, real share) { *value = share * *value + (1 - share) * left; }
 
-/* Mixes the rotation of a particle with that of what its family keeps. */
+/* Mixes the stored rotation of particle i with the rotation of its remaining family. spring: g of the family [N/m]. */
 static inline void rotation_mix(struct state *t, int32_t i, const struct family_left *left, real spring, int dim)
 {
     real R[DIM_MAX * DIM_MAX], along = 0;
-    lanes eight[DIM_MAX * DIM_MAX] = {{0}}, kept[ROTATION]; /* eight times the same */
+    lanes eight[DIM_MAX * DIM_MAX] = {{0}}, kept[ROTATION]; /* eight equal lanes */
     polar_rotation(left->moment, R, dim);
     for (int c = 0; c < dim * dim; c++) eight[c] = lanes_of(R[c]);
     rotation_make(kept, eight, lanes_of(spring), dim);
     for (int c = 0; c < ROTATION; c++) along += t->rotation[c][i] * kept[c][0];
-    const real sign = dim == 3 && along < 0 ? -1 : 1; /* a quaternion and its negative are one */
+    const real sign = dim == 3 && along < 0 ? -1 : 1; /* a quaternion and its negative are one rotation */
     for (int c = 0; c < ROTATION; c++) state_mix(&t->rotation[c][i], sign * kept[c][0], left->share);
 }
 
-/* A row that the first sweep found to have bonds beyond their limit. Material points at the end of bonds keep their
- * state: their cells have a part in it. */
+/* Mixes the state of one row with that of its remaining family, if bonds of it are breaking. Bonded material points
+ * keep their state, since their cells contribute to it. */
 static inline void state_mix_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                  int64_t row)
 {
@@ -73,8 +76,8 @@ static inline void state_mix_row(struct bonds *b, const struct particles *p, con
     state_mix(&b->state.spring[i], spring, left.share);
 }
 
-/* A row block with bonds beyond their limit: keeps the states of whole families, and mixes those that other bonds
- * read. */
+/* Stores the states of a row block with bonds beyond their limit in state.before, for the breaking bonds, then mixes
+ * the states that the remaining bonds use. */
 static inline void state_last(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                               int64_t row_block)
 {
@@ -87,10 +90,12 @@ static inline void state_last(struct bonds *b, const struct particles *p, const 
     }
 }
 
-/* ---- force of a bond that ends ----------------------------------------------------------------------------------- */
+/* ---- force of a breaking bond
+ * -------------------------------------------------------------------------------------- */
 
-/* State c of the family of particle i before it lost bonds; of an image that of its source, as state_of_images has it:
- * the bond from the source to an image of the other end, which breaks with this one, reads the same. */
+/* Returns component c of the state (0 pressure, 1 spring, 2 .. rotation) of the family of particle i before it lost
+ * bonds. For an image: the state of its source, reflected as in state_of_images, because the bond from the source to
+ * the image of the other particle breaks in the same step and must use equal numbers. */
 static inline real state_before(const struct bonds *b, const struct particles *p, int c, int64_t i)
 {
     const struct state *t = &b->state;
@@ -105,7 +110,8 @@ static inline real state_before(const struct bonds *b, const struct particles *p
     return sign * (c == 0 ? t->pressure[i] : c == 1 ? t->spring[i] : t->rotation[c - 2][i]);
 }
 
-/* Force of a bond between i and j on i [N] by the states of both ends, `now` or as they were before bonds ended. */
+/* Computes the force of the bond i-j on i, f[dim] [N], from the states of both particles. now: present states if true,
+ * states before bonds broke if false. */
 static inline void state_pair_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                     int32_t i, bool now, real *f, const int dim)
 {
@@ -114,7 +120,7 @@ static inline void state_pair_force(const struct bonds *b, const struct particle
     const bool rotates = t->rotation[0];
     const real r = fabs(1 / bond->inverse_length);
     real y[DIM_MAX], xi[DIM_MAX], y2 = 0, pressure = 0, spring = 0;
-    lanes turned[DIM_MAX], arm[DIM_MAX]; /* eight times the same */
+    lanes turned[DIM_MAX], arm[DIM_MAX]; /* eight equal lanes */
     for (int d = 0; d < dim; d++) {
         y[d] = p->x[d][j] - p->x[d][i], xi[d] = p->X[d][j] - p->X[d][i];
         y2 += square(y[d]);
@@ -133,7 +139,7 @@ static inline void state_pair_force(const struct bonds *b, const struct particle
         f[d] = bond->w * (along * y[d] / length + (rotates ? spring * (y[d] - xi[d]) + turned[d][0] : 0));
 }
 
-/* The same by any model. */
+/* Computes the force of a bond on i, f[dim] [N], in any model; now: as in state_pair_force. */
 static inline void pair_force(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i,
                               bool now, real *f)
 {

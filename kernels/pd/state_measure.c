@@ -1,8 +1,7 @@
-/* What state-based bonds hold: their elastic energy, and the stress they amount to. Visited at samples and
- * frames only, from what the last sweep over the families left in b->state.
- *     energy of row i   1/2 sum_j (own force state of i) . (effective displacement):  its sum over j is V_i W_i
- *     stress            sigma_i = (1/V_i) sum_j T_ij V_j (x) y_ij, made symmetric (own force state only);
- *                       places y, not xi: the stress turns with the body */
+/* Elastic energy and stress of state-based rows, for samples and frames, from the states in b->state.
+ *     energy of row i   1/2 sum_j (force state of i) . (effective displacement); its sum over j is V_i W_i
+ *     stress            sigma_i = (1/V_i) sum_j T_ij V_j (x) y_ij, symmetrised, T_ij the force state of i alone;
+ *                       deformed vectors y, not xi: the stress rotates with the body */
 #include <math.h>
 
 #include "bond_core.h"
@@ -14,11 +13,12 @@
 #include "base/team.h"
 #include "kernels/simd/variants.h"
 
-/* What a row block's own force states rest on. */
+/* Positions and states of the eight particles of a row block. */
 struct own_state {
     lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, rotation[ROTATION];
 };
 
+/* Loads the positions and states of row block g. */
 static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t g,
                                                    const int dim, const bool rotates)
 {
@@ -31,7 +31,8 @@ static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const 
     return s;
 }
 
-/* state_own_force of the eight bonds of a column; broken ones have none. */
+/* Computes the force states T of the row particles in the eight bonds of a column, and the bond vectors y [m]; 0 for
+ * broken bonds. Returns the bonds' elastic energies [J]. */
 static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const struct column column,
                                             const struct particles *p, lanes *T, lanes *y, const int dim,
                                             const bool rotates)
@@ -52,12 +53,13 @@ static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const str
     for (int d = 0; d < dim; d++) effective[d] = s->spring * (y[d] - xi[d]);
     if (rotates) rotate_back(effective, s->rotation, xi, dim);
     for (int d = 0; rotates && d < dim; d++) T[d] += effective[d], effective2 += effective[d] * effective[d];
-    /* last: a weight that is known to be one leaves the sums as they are */
+    /* w last: a weight of exactly one leaves the sums unchanged */
     for (int d = 0; d < dim; d++) T[d] = w * T[d];
     if (rotates) energy += effective2 / s->spring;
     return lanes_choose(w > 0.0, 0.5 * w * energy, lanes_of(0));
 }
 
+/* Returns the elastic energy of the rows of row block g [J]. */
 static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
                                            const enum pd_model model)
 {
@@ -72,6 +74,7 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
     return total;
 }
 
+/* Adds T (x) y of the bonds of a column, symmetrised, to the components sum[]. */
 static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, const struct column column,
                                         const struct particles *p, const int dim, const enum pd_model model)
 {
@@ -82,6 +85,7 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
     if (dim > 2) sum[4] += 0.5 * (T[1] * y[2] + T[2] * y[1]), sum[5] += 0.5 * (T[2] * y[0] + T[0] * y[2]);
 }
 
+/* Computes the stress of the peridynamic particles of row block g. */
 static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                            const enum pd_model model)
 {
@@ -126,7 +130,7 @@ bond_stress_fn *const state_stress_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIAN
 
 /* ---- a row whose weights change ---------------------------------------------------------------------------------- */
 
-/* Rotation of a material point at the end of bonds, row major. */
+/* Computes the rotation R of a bonded material point, row major, from particles.end_rotation. */
 static void end_rotation(const struct particles *p, int32_t i, real *R)
 {
     if (p->dim == 2) {
@@ -142,8 +146,9 @@ static void end_rotation(const struct particles *p, int32_t i, real *R)
     }
 }
 
-/* w |Y - R xi|^2 over a row, with the rotation from its present weights, or that of a point's cell [m^2]. */
-static real row_effective(const struct bonds *b, const struct particles *p, int64_t row, real ago)
+/* Returns sum w |Y - R xi|^2 over a row [m^2] at a time `lag` before the present positions [s]; R from the row's
+ * present weights, or, for a bonded point, of its cell. */
+static real row_effective(const struct bonds *b, const struct particles *p, int64_t row, real lag)
 {
     const int32_t i = b->particle[row];
     const int dim = p->dim;
@@ -154,7 +159,7 @@ static real row_effective(const struct bonds *b, const struct particles *p, int6
             const real w = it.bond.w;
             if (w == 0) continue;
             for (int d = 0; d < dim; d++) {
-                real effective = apart_ago(p, i, j, d, ago);
+                real effective = bond_vector_earlier(p, i, j, d, lag);
                 for (int c = 0; c < dim && pass == 0; c++) M[d * dim + c] += w * effective * (p->X[c][j] - p->X[c][i]);
                 for (int c = 0; c < dim && pass == 1; c++) effective -= R[d * dim + c] * (p->X[c][j] - p->X[c][i]);
                 if (pass == 1) sum += w * square(effective);
@@ -166,7 +171,7 @@ static real row_effective(const struct bonds *b, const struct particles *p, int6
     return sum;
 }
 
-real state_row_energy(const struct bonds *b, const struct particles *p, int64_t row, real ago)
+real state_row_energy(const struct bonds *b, const struct particles *p, int64_t row, real lag)
 {
     const int32_t i = b->particle[row];
     const struct state_modulus *m = &b->state.modulus[p->material[i]];
@@ -175,13 +180,13 @@ real state_row_energy(const struct bonds *b, const struct particles *p, int64_t 
         const real w = it.bond.w, r = fabs(1 / it.bond.inverse_length);
         real y2 = 0;
         if (w == 0) continue;
-        for (int d = 0; d < p->dim; d++) y2 += square(apart_ago(p, i, it.bond.nbr, d, ago));
+        for (int d = 0; d < p->dim; d++) y2 += square(bond_vector_earlier(p, i, it.bond.nbr, d, lag));
         const real e = sqrt(y2) - r;
         Q += w * r * r, S += w * r * e, e2 += w * e * e;
     }
     if (!b->state.local || !b->whole[row]) Q = b->state.weighted[row];
     if (!(Q > 0)) return 0;
-    if (b->state.rotation[0]) e2 = row_effective(b, p, row, ago);
+    if (b->state.rotation[0]) e2 = row_effective(b, p, row, lag);
     const real mean = S / Q + (p->kind[i] == KIND_PD ? 0 : p->end_strain[i]);
     const real share = b->state.share > 0 ? b->state.share : p->volume0[i] / Q;
     return 0.5 * share * (m->A * Q * square(mean) + m->B * e2);

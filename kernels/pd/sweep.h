@@ -1,8 +1,7 @@
-/* A sweep over the active row blocks in which particles move as soon as no row still to come reads their places.
- * Rows reach at most b->reach row blocks away, so a row block moves when the sweep has come so far beyond it: its
- * data are still in the nearest cache, and neither places, velocities nor forces travel to memory twice per step.
- * Row blocks near the ends of a thread's part move after a barrier. The bits are those of all forces first, then all
- * motion. */
+/* A sweep over the active row blocks in which particles move as soon as no later row reads their positions. Bonds reach
+ * at most b->reach row blocks, so a row block moves once the sweep is that far beyond it: its data are still in the
+ * nearest cache, and positions, velocities and forces travel to memory once per step. Row blocks near the ends of a
+ * thread's part move after a barrier. Bits equal those of all forces first, then all motion. */
 #ifndef CLEAVE_KERNELS_SWEEP
 #define CLEAVE_KERNELS_SWEEP
 
@@ -11,20 +10,22 @@
 #include "pd_move.h"
 
 enum {
-    PIECE = 64,       /* row blocks whose forces are computed in a row, and that move in a row */
-    AHEAD = 16,       /* row blocks of prefetch distance: about a microsecond                      */
-    FETCHED = 1 << 15 /* row blocks from which on that pays: caches hold less. Then 15 % of a step, else -2 % */
+    PIECE = 64,       /* row blocks between two calls of sweep_follow */
+    AHEAD = 16,       /* prefetch distance in row blocks: about a microsecond */
+    FETCHED = 1 << 15 /* smallest number of row blocks for prefetching (smaller bodies fit in caches): saves 15 % of a
+                         step there, costs 2 % below */
 };
 
-/* A thread's part of the list of row blocks. */
+/* One thread's part of the list of active row blocks. */
 struct sweep {
     const int32_t *row_block; /* active row blocks, ascending */
-    int64_t first, end, all;  /* its part; of all */
-    int64_t early, next;      /* the first that may move before the others are done; that moves next */
+    int64_t first, end, all;  /* entries first .. end-1 of `all` entries are this thread's */
+    int64_t early,
+        next; /* first entry that may move before other threads have finished their forces; next entry to move */
     bool diverged;
 };
 
-/* The part that a static schedule would give it. */
+/* Returns the calling thread's part, as schedule(static) would divide the list. */
 static ALWAYS_INLINE struct sweep sweep_make(const struct bonds *b)
 {
     const int64_t threads = omp_get_num_threads(), t = omp_get_thread_num(), all = b->active.active;
@@ -37,6 +38,7 @@ static ALWAYS_INLINE struct sweep sweep_make(const struct bonds *b)
     return s;
 }
 
+/* Moves the particles of the k-th row block of the list. */
 static ALWAYS_INLINE void sweep_move(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k,
                                      const struct pd_motion *m, const int dim)
 {
@@ -44,8 +46,8 @@ static ALWAYS_INLINE void sweep_move(struct sweep *s, const struct bonds *b, str
     s->diverged |= pd_move_eight(p, b->particle + g * LANES, eight_at(g * LANES, b->rows), m->loaded, m, dim);
 }
 
-/* Prefetches what the sweep will touch first: places at its reach, forces, velocities of the row block that moves
- * next. The processor does so by itself within a page, but a sweep has a dozen arrays. */
+/* Prefetches the data needed next: positions at the reach of the sweep, forces, and velocities of the row block that
+ * moves next. Hardware prefetching covers consecutive lines within a page, but not the dozen arrays of a sweep. */
 static ALWAYS_INLINE void sweep_fetch(const struct sweep *s, const struct bonds *b, const struct particles *p,
                                       int64_t k, const int dim)
 {
@@ -63,7 +65,7 @@ static ALWAYS_INLINE void sweep_fetch(const struct sweep *s, const struct bonds 
     }
 }
 
-/* The k-th row block and all before it have their forces: moves those that are far enough behind. */
+/* Moves the row blocks that no later row reads; the k-th row block and all before it have their forces. */
 static ALWAYS_INLINE void sweep_follow(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k,
                                        const struct pd_motion *m, const int dim)
 {
@@ -71,7 +73,7 @@ static ALWAYS_INLINE void sweep_follow(struct sweep *s, const struct bonds *b, s
     for (; s->next <= k && s->row_block[s->next] < until; s->next++) sweep_move(s, b, p, s->next, m, dim);
 }
 
-/* All threads have the forces of their parts: moves the rest. */
+/* Moves the remaining row blocks; all threads have finished their forces. */
 static ALWAYS_INLINE void sweep_finish(struct sweep *s, const struct bonds *b, struct particles *p,
                                        const struct pd_motion *m, const int dim)
 {
@@ -79,8 +81,8 @@ static ALWAYS_INLINE void sweep_finish(struct sweep *s, const struct bonds *b, s
     for (; s->next < s->end; s->next++) sweep_move(s, b, p, s->next, m, dim);
 }
 
-/* The body of a kernel: FORCE computes the forces of `row block` and returns how many bonds broke; M NULL: nothing
- * moves. */
+/* Body of a force kernel: FORCE computes the forces of `row_block` and returns the number of bonds broken. M: motion,
+ * or NULL if no particle moves. Returns the number of broken bonds. */
 #define SWEEP(B, P, M, D, FORCE)                                                                                       \
     int64_t broken = 0, diverged = 0;                                                                                  \
     _Pragma("omp parallel reduction(+ : broken, diverged)")                                                            \

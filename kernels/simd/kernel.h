@@ -1,10 +1,10 @@
-/* How a kernel is declared. The files of kernels/ are compiled once for each set of vector instructions
- * (Makefile), all into one program; src/simd/simd.c takes a set at start.
+/* How kernels are declared. The files of kernels/ are compiled once for each set of vector instructions (Makefile), all
+ * into one program; src/simd/simd.c selects a set at start-up.
  *
- * Inside a set (SIMD_SET is its name) this declares a function whose symbol ends in that name, so that no set calls
- * another's and the linker refuses one that was forgotten. Everywhere else the same line declares a pointer to what
- * the set in use has (set.h), which is called alike. Functions in headers are static: sets compiled differently
- * share none. */
+ * Inside a set (SIMD_SET is its name) KERNEL declares a function whose symbol ends in that name, so no set calls a
+ * function of another, and a missing function fails at link time. Everywhere else KERNEL declares a pointer to the
+ * function of the selected set (set.h), with the call syntax of a function. Functions in headers are static, so that
+ * sets compiled differently share none. */
 #ifndef CLEAVE_KERNELS_KERNEL
 #define CLEAVE_KERNELS_KERNEL
 

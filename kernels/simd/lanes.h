@@ -1,7 +1,6 @@
-/* Eight doubles as one value. Written with the compiler's vector extension, so the same source becomes
- * AVX-512, AVX2 or SSE code. Where AVX-512 has one instruction for what is several elsewhere, it is named, beside a
- * version for narrower vectors. Those work with signs and bits: comparisons of eight doubles become eight
- * comparisons there. */
+/* Eight doubles as one value. Uses the compiler's vector extension, so one source becomes AVX-512, AVX2 or SSE code.
+ * Where one AVX-512 instruction replaces several, its intrinsic is used, beside a version for narrower vectors. That
+ * version works on sign bits, because comparing eight doubles takes eight comparisons there. */
 #ifndef CLEAVE_KERNELS_LANES
 #define CLEAVE_KERNELS_LANES
 
@@ -33,8 +32,8 @@ static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
 #endif
 }
 
-/* Eight of a list of n from the k-th on; the last ones of all are copied to `room`, and filled up with the first of
- * them: fewer than eight never look consecutive. */
+/* Returns a pointer to eight entries of a list of n from the k-th on. At the end of the list the remaining ones are
+ * copied to `room` and filled up with entry k, so that fewer than eight never count as consecutive (list_together). */
 static ALWAYS_INLINE const int32_t *list_eight(const int32_t *list, int64_t k, int64_t n, int32_t room[LANES])
 {
     if (k + LANES <= n) return list + k;
@@ -42,24 +41,25 @@ static ALWAYS_INLINE const int32_t *list_eight(const int32_t *list, int64_t k, i
     return room;
 }
 
-/* Are eight of an ascending list consecutive? */
+/* Returns true if eight entries of an ascending list are consecutive numbers. */
 static ALWAYS_INLINE bool list_together(const int32_t *list) { return list[LANES - 1] - list[0] == LANES - 1; }
 
-/* Eight values: consecutive from `first` on, or where that is negative those of `index`. */
+/* Loads eight values of `from`: consecutive from `first` on, or, if first < 0, at index[0 .. 7]. */
 static ALWAYS_INLINE lanes lanes_at(const real *from, int32_t first, const int32_t *index)
 {
     return first >= 0 ? lanes_load(from + first) : lanes_gather(from, index);
 }
 
-/* a where the mask is set, else b. */
+/* Returns a where the mask is set, else b. */
 static ALWAYS_INLINE lanes lanes_choose(lanes_mask mask, lanes a, lanes b)
 {
     return (lanes)((mask & (lanes_mask)a) | (~mask & (lanes_mask)b));
 }
 
-/* Lanes with a sign. */
+/* Returns the mask of lanes whose sign bit is set. */
 static ALWAYS_INLINE lanes_mask lanes_negative(lanes a) { return (lanes_mask) - ((lanes_bits)a >> 63); }
 
+/* Returns the mask of lanes where a < b. */
 static ALWAYS_INLINE lanes_mask lanes_less(lanes a, lanes b)
 {
 #ifdef __AVX512F__
@@ -69,6 +69,7 @@ static ALWAYS_INLINE lanes_mask lanes_less(lanes a, lanes b)
 #endif
 }
 
+/* Returns the larger of a and b in each lane. */
 static ALWAYS_INLINE lanes lanes_max(lanes a, lanes b)
 {
 #ifdef __AVX512F__
@@ -78,6 +79,7 @@ static ALWAYS_INLINE lanes lanes_max(lanes a, lanes b)
 #endif
 }
 
+/* Returns the smaller of a and b in each lane. */
 static ALWAYS_INLINE lanes lanes_min(lanes a, lanes b)
 {
 #ifdef __AVX512F__
@@ -87,20 +89,21 @@ static ALWAYS_INLINE lanes lanes_min(lanes a, lanes b)
 #endif
 }
 
+/* Returns |a|. */
 static ALWAYS_INLINE lanes lanes_size(lanes a)
 {
     const lanes_mask digits = (lanes_mask){0} + INT64_MAX;
     return (lanes)((lanes_mask)a & digits);
 }
 
-/* Lanes with a bit. */
+/* Returns the mask of the lanes whose bit is set. */
 static ALWAYS_INLINE lanes_mask lanes_of_bits(uint8_t bits)
 {
     const uint64_t a = bits;
     return (lanes_mask) - (-((lanes_bits){a, a, a, a, a, a, a, a} & (lanes_bits){1, 2, 4, 8, 16, 32, 64, 128}) >> 63);
 }
 
-/* a where the lane has a bit, else 0. */
+/* Returns a in lanes whose bit is set, else 0. */
 static ALWAYS_INLINE lanes lanes_keep(uint8_t bits, lanes a)
 {
 #ifdef __AVX512F__
@@ -110,7 +113,7 @@ static ALWAYS_INLINE lanes lanes_keep(uint8_t bits, lanes a)
 #endif
 }
 
-/* The larger where the lane has a bit, else a. */
+/* Returns the larger of a and b in lanes whose bit is set, else a. */
 static ALWAYS_INLINE lanes lanes_max_kept(uint8_t bits, lanes a, lanes b)
 {
 #ifdef __AVX512F__
@@ -120,7 +123,7 @@ static ALWAYS_INLINE lanes lanes_max_kept(uint8_t bits, lanes a, lanes b)
 #endif
 }
 
-/* The smaller where the lane has a bit, else a. */
+/* Returns the smaller of a and b in lanes whose bit is set, else a. */
 static ALWAYS_INLINE lanes lanes_min_kept(uint8_t bits, lanes a, lanes b)
 {
 #ifdef __AVX512F__
@@ -130,7 +133,7 @@ static ALWAYS_INLINE lanes lanes_min_kept(uint8_t bits, lanes a, lanes b)
 #endif
 }
 
-/* a, and so many units of its last place more. Eight at a 16-byte boundary. */
+/* Returns a plus units[l] units in the last place in lane l; units: aligned to 16 bytes. */
 static ALWAYS_INLINE lanes lanes_excess(real a, const int16_t *units)
 {
 #ifdef __AVX512F__
@@ -141,6 +144,7 @@ static ALWAYS_INLINE lanes lanes_excess(real a, const int16_t *units)
     return (lanes)((lanes_mask)lanes_of(a) + more);
 }
 
+/* Returns true if any lane of the mask is set. */
 static ALWAYS_INLINE bool lanes_any(lanes_mask mask)
 {
 #ifdef __AVX512F__
@@ -154,8 +158,9 @@ static ALWAYS_INLINE bool lanes_any(lanes_mask mask)
 
 #if defined __AVX512F__ || defined __FMA__
 
-/* 1/sqrt(a), roughly. Halving the exponent with the bits behind it and turning it round is right to 3.5 % for any
- * normal number (the constant makes the largest error least); one round of the series below leaves 6e-6. */
+/* Estimates 1/sqrt(a). Without AVX-512: halving the exponent and mantissa bits and subtracting from a constant is
+ * accurate to 3.5 % for normal numbers (the constant minimises the largest error); one step of the series below leaves
+ * 6e-6. */
 static ALWAYS_INLINE lanes lanes_estimate(lanes a)
 {
 #ifdef __AVX512F__
@@ -166,16 +171,16 @@ static ALWAYS_INLINE lanes lanes_estimate(lanes a)
 #endif
 }
 
-/* 1/sqrt(a) of normal numbers to full double precision, from an estimate y of 14 bits: with c = 1 - a y^2 below
- * 2^-13 the series y (1 + c/2 + 3c^2/8 + 5c^3/16) leaves 35 c^4/128 < 2^-53. A third of a root and a division, and
- * shorter than two steps of Newton. */
+/* Returns 1/sqrt(a) of normal numbers to full double precision, from an estimate y of 14 bits: with c = 1 - a y^2 below
+ * 2^-13 the series y (1 + c/2 + 3c^2/8 + 5c^3/16) leaves 35 c^4/128 < 2^-53. Takes a third of the time of a root and a
+ * division, and is shorter than two Newton steps. */
 static ALWAYS_INLINE lanes lanes_inverse_root(lanes a)
 {
     const lanes y = lanes_estimate(a), c = 1.0 - (a * y) * y;
     return y + (y * c) * (0.5 + c * (0.375 + c * 0.3125));
 }
 
-/* sqrt(a), in the same way. */
+/* Returns sqrt(a) of normal numbers to full double precision, from the series of lanes_inverse_root. */
 static ALWAYS_INLINE lanes lanes_root(lanes a)
 {
     const lanes y = lanes_estimate(a), root = a * y, c = 1.0 - root * y;
@@ -184,7 +189,7 @@ static ALWAYS_INLINE lanes lanes_root(lanes a)
 
 #else
 
-/* With vectors of two, roots and divisions are no slower. */
+/* Returns sqrt(a); with vectors of two doubles, roots and divisions are as fast as the series. */
 static ALWAYS_INLINE lanes lanes_root(lanes a)
 {
     lanes y;

@@ -1,4 +1,5 @@
-/* What every set of kernels has (kernel.h): all that kernels.h, plastic.h and microbench.h declare. */
+/* List of the functions and tables in a set of kernels (kernel.h): all that kernels.h, plastic.h and microbench.h
+ * declare. */
 #ifndef CLEAVE_KERNELS_SET
 #define CLEAVE_KERNELS_SET
 
@@ -9,8 +10,8 @@
 /* clang-format off */
 #define KERNELS(X)                                                                                                     \
     X(bond_force_table) X(bond_energy_table) X(bond_stress_table) X(state_force_table) X(state_energy_table)           \
-    X(state_stress_table) X(state_precompute_table) X(bond_forces) X(bond_break_row_block) X(bond_fade) X(bond_mend)   \
-    X(bond_part) X(bond_row_block_stretch) X(state_row_energy)                                                         \
+    X(state_stress_table) X(state_precompute_table) X(bond_forces) X(bond_break_row_block) X(bond_fade)                \
+    X(bond_restore_entry) X(bond_break_entry) X(bond_row_block_stretch) X(state_row_energy)                            \
     X(bond_plastic_work) X(pd_move_table) X(kernels_choose) X(particles_diverged)                                      \
     X(p2g_table) X(remap_table) X(turn_gather_table) X(turn_scatter_table) X(g2p_table) X(spread_table)                \
     X(plastic_return) X(grid_clear) X(grid_advance)                                                                    \
@@ -24,7 +25,7 @@
     X(microbench_points_free)
 /* clang-format on */
 
-/* A pointer to each, tables to their first row. */
+/* Member of struct kernel_set: pointer to a function, or to the first row of a table. */
 #define KERNEL_POINTER(name) __typeof__(&*name) name;
 struct kernel_set {
     KERNELS(KERNEL_POINTER)

@@ -1,5 +1,4 @@
-/* The list of kernel instances. One line here makes the instance, its table entry, its test and its
- * timing. */
+/* The list of kernel instances. A line here creates the instance, its table entry, its test and its benchmark. */
 #ifndef CLEAVE_KERNELS_VARIANTS
 #define CLEAVE_KERNELS_VARIANTS
 
@@ -17,7 +16,7 @@
     X(2, LINEAR) X(2, GIMP) X(2, CPGIMP) X(2, QUADRATIC) X(2, CUBIC)            \
     X(3, LINEAR) X(3, GIMP) X(3, CPGIMP) X(3, QUADRATIC) X(3, CUBIC)
 
-/* Those in which bodies can turn. */
+/* Instances for bodies that may rotate (2D, 3D) */
 #define SHAPE_VARIANTS_TURNING(X)                                              \
     X(2, LINEAR) X(2, GIMP) X(2, CPGIMP) X(2, QUADRATIC) X(2, CUBIC)            \
     X(3, LINEAR) X(3, GIMP) X(3, CPGIMP) X(3, QUADRATIC) X(3, CUBIC)

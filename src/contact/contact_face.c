@@ -156,14 +156,14 @@ static real face_pull(const struct contact *c, int64_t k, int64_t l)
     return face->push - face->lift * (c->rise[l] - face->mean);
 }
 
-struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real ago)
+struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real lag)
 {
     struct contact_weight w = {0};
     const int32_t i = c->particle[k], j = c->particle[l];
     real reach, r2 = 0;
     const real share = field_share(c, p->dim, k, l, &reach);
     for (int d = 0; d < p->dim; d++) {
-        w.apart[d] = p->x[d][i] - p->x[d][j] - ago * (p->v[d][i] - p->v[d][j]);
+        w.apart[d] = p->x[d][i] - p->x[d][j] - lag * (p->v[d][i] - p->v[d][j]);
         r2 += square(w.apart[d]);
     }
     const real r = sqrt(r2);

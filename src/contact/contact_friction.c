@@ -60,12 +60,12 @@ struct contact_partner {
     real slip[DIM_MAX];                   /* [m/s] */
 };
 
-/* Computes the normal force, density, mean position and mean velocity at the positions x - ago v. */
-static struct contact_partner partner_mean(const struct contact *c, const struct particles *p, int64_t row, real ago)
+/* Computes the normal force, density, mean position and mean velocity at the positions x - lag v. */
+static struct contact_partner partner_mean(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner sum = {.density = 0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const struct contact_weight w = contact_weight(c, p, row, c->other[q], ago);
+        const struct contact_weight w = contact_weight(c, p, row, c->other[q], lag);
         const int32_t j = c->particle[c->other[q]];
         if (w.weight == 0) continue;
         sum.density += w.weight;
@@ -113,11 +113,11 @@ static void partner_invert(struct contact_partner *to, const real *inertia, cons
 
 /* Computes the pseudo-inverse of I and omega from the means [1/s]. */
 static void partner_turn(struct contact_partner *to, const struct contact *c, const struct particles *p, int64_t row,
-                         real ago, real *omega)
+                         real lag, real *omega)
 {
     real inertia[6] = {0}, squares[6] = {0}, momentum[DIM_MAX] = {0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const struct contact_weight w = contact_weight(c, p, row, c->other[q], ago);
+        const struct contact_weight w = contact_weight(c, p, row, c->other[q], lag);
         const int32_t j = c->particle[c->other[q]];
         const real share = w.weight / to->density;
         real r[DIM_MAX] = {0}, v[DIM_MAX] = {0}, turning[DIM_MAX];
@@ -132,12 +132,12 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
     for (int d = 0; d < DIM_MAX; d++) omega[d] = dot(to->inverse[d], momentum, DIM_MAX);
 }
 
-/* Computes all that contact_partner holds at the positions x - ago v. */
-static struct contact_partner partner_at(const struct contact *c, const struct particles *p, int64_t row, real ago)
+/* Computes all that contact_partner holds at the positions x - lag v. */
+static struct contact_partner partner_at(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
-    struct contact_partner partner = partner_mean(c, p, row, ago);
+    struct contact_partner partner = partner_mean(c, p, row, lag);
     real omega[DIM_MAX] = {0}, turning[DIM_MAX];
-    if (p->dim > 1 && partner.density > 0) partner_turn(&partner, c, p, row, ago, omega);
+    if (p->dim > 1 && partner.density > 0) partner_turn(&partner, c, p, row, lag, omega);
     vector_product(omega, partner.arm, turning);
     for (int d = 0; d < p->dim; d++) partner.slip[d] = p->v[d][c->particle[row]] - partner.velocity[d] - turning[d];
     return partner;

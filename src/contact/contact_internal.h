@@ -117,9 +117,9 @@ struct contact_balance contact_balance_begin(const struct contact_balance *befor
 struct contact_weight {
     real weight, pull, apart[DIM_MAX];
 };
-/* Computes these for the positions x - ago v [s]; the energy is the present one. */
+/* Computes these for the positions x - lag v [s]; the energy is the present one. */
 struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
-                                     real ago);
+                                     real lag);
 
 /* A step of a spring: its face has the normal `normal` (0: left), the particle went `way` past it [m]; k [N/m]; most:
  * at which it gives way [N], 0 where both have parted. */

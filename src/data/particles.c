@@ -20,15 +20,19 @@ static int if_ends(int dim, int optional) { return (void)dim, optional & WITH_EN
 static int if_rotates(int dim, int optional) { return optional & WITH_ROTATIONS ? (dim > 2 ? ROTATION : 2) : 0; }
 static int if_moment(int dim, int optional) { return optional & WITH_ROTATIONS ? (dim > 2 ? 3 : 1) : 0; }
 static int if_strength(int dim, int optional) { return (void)dim, optional & WITH_STRENGTH ? 1 : 0; }
-static int if_relief(int dim, int optional) { return optional & WITH_RELIEF ? symmetric_count(dim) : 0; }
+static int if_plastic_correction(int dim, int optional)
+{
+    return optional & WITH_PLASTIC_CORRECTION ? symmetric_count(dim) : 0;
+}
 static int if_return(int dim, int optional) { return (void)dim, optional & WITH_REVERSION ? 1 : 0; }
 
-#define ROW(member, type, count, unit, meaning, in_trials)                                                             \
+/* `name`: name of the array in checkpoints. */
+#define ROW(name, member, type, count, unit, meaning, in_trials)                                                       \
     {                                                                                                                  \
-#member, unit, meaning, offsetof(struct particles, member), sizeof(type), count, in_trials                     \
+        name, unit, meaning, offsetof(struct particles, member), sizeof(type), count, in_trials                        \
     }
-#define FIELD(member, type, count, unit, meaning) ROW(member, type, count, unit, meaning, false)
-#define TRIAL(member, type, count, unit, meaning) ROW(member, type, count, unit, meaning, true)
+#define FIELD(member, type, count, unit, meaning) ROW(#member, member, type, count, unit, meaning, false)
+#define TRIAL(member, type, count, unit, meaning) ROW(#member, member, type, count, unit, meaning, true)
 
 const struct particle_field particle_fields[] = {
     FIELD(X, real, vector, "m", "reference position"),
@@ -43,7 +47,8 @@ const struct particle_field particle_fields[] = {
     FIELD(stretch, real, if_stretch, "1", "axial stretch"),
     TRIAL(plastic_strain, real, if_plastic, "1", "accumulated equivalent plastic strain"),
     TRIAL(out_of_plane, real, if_out_of_plane, "Pa", "sigma_zz - nu (sigma_xx + sigma_yy)"),
-    TRIAL(relief, real, if_relief, "Pa", "what flow has taken off the elastic stress of points of a mesh"),
+    ROW("relief", plastic_correction, real, if_plastic_correction, "Pa",
+        "plastic stress correction: elastic stress less stress, of points of a mesh", true),
     FIELD(end_strain, real, if_ends, "1", "what cells add to the mean strain of a point at the end of bonds"),
     FIELD(end_rotation, real, if_rotates, "1", "rotation of a point at the end of bonds"),
     FIELD(end_pull, real, if_ends, "J", "derivative of its family's energy by that strain"),

@@ -277,7 +277,8 @@ static int optional_arrays(const struct scene *s)
 {
     int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
     for (int m = 0; m < s->materials && s->method != METHOD_PD; m++)
-        if (material_yields(&s->material[m])) optional |= WITH_PLASTIC | (scene_in_steps(s) ? WITH_RELIEF : 0);
+        if (material_yields(&s->material[m]))
+            optional |= WITH_PLASTIC | (scene_in_steps(s) ? WITH_PLASTIC_CORRECTION : 0);
     if (optional & WITH_PLASTIC && s->space == SPACE_PLANE_STRAIN) optional |= WITH_OUT_OF_PLANE;
     if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) optional |= WITH_REVERSION;
     if (s->method != METHOD_MPM && scene_scatters(s)) optional |= WITH_STRENGTH;

@@ -128,11 +128,11 @@ static real account_end(struct account *a, struct run *e, real *const *before)
 static bool lost_book(struct run *e, real lost, real range, bool touches)
 {
     real *now = &e->statics->balance.lost;
-    real uneven = e->part.relief[0] || touches ? real_min(*now - lost, range) : 0;
-    if (touches && !e->part.relief[0]) uneven = real_max(uneven, -range);
+    real uneven = e->part.plastic_correction[0] || touches ? real_min(*now - lost, range) : 0;
+    if (touches && !e->part.plastic_correction[0]) uneven = real_max(uneven, -range);
     e->loads.work -= uneven, *now -= uneven;
     e->damped += *now - lost;
-    return touches && !e->part.relief[0] && lost - *now > GAIN_MOST * range;
+    return touches && !e->part.plastic_correction[0] && lost - *now > GAIN_MOST * range;
 }
 
 /* ---- equilibrium ------------------------------------------------------------------------------------------------- */
@@ -149,7 +149,8 @@ static status unbalanced(const struct run *e)
                       "loads are what the body bears, or choose %ssteps.control energy, more steps, or a larger "
                       "solver_tolerance",
                       (long long)e->clock.step + 1, e->statics->t, s->balance.residual, e->scene->solver_tolerance,
-                      X[0], X[1], X[2], e->part.relief[0] ? "a yield_tangent of a thousandth of young, " : "");
+                      X[0], X[1], X[2],
+                      e->part.plastic_correction[0] ? "a yield_tangent of a thousandth of young, " : "");
 }
 
 /* *crossed: faces have gone through each other. */
@@ -205,7 +206,8 @@ static status solve_whole(struct run *e, real t)
     const real from = e->statics->t;
     int strides = statics_strides(e, t);
     bool crossed = false;
-    if (!statics_meets(e) || e->part.relief[0] || e->bonds.plastic_stretch) return solve_in(e, t, strides, &crossed);
+    if (!statics_meets(e) || e->part.plastic_correction[0] || e->bonds.plastic_stretch)
+        return solve_in(e, t, strides, &crossed);
     for (int k = 0; k < TRIES_MOST; k++, strides *= MORE_STRIDES) {
         struct memory_archive saved;
         trial_begin(e, &saved);

@@ -302,7 +302,8 @@ static void say_flowed(struct run *e)
 {
     real most = 0;
     char text[200];
-    for (int64_t i = 0; i < e->part.n && e->part.relief[0]; i++) most = real_max(most, e->part.plastic_strain[i]);
+    for (int64_t i = 0; i < e->part.n && e->part.plastic_correction[0]; i++)
+        most = real_max(most, e->part.plastic_strain[i]);
     snprintf(text, sizeof text,
              "points have flowed by a plastic strain of %.2g, and load steps know that of a few per cent: see whether "
              "the body bears its loads, or choose smaller ones, or solver explicit",

@@ -14,7 +14,7 @@
 static real overload_of(const struct particles *part, const struct bond_source *source, const struct bond *bond,
                         int32_t i)
 {
-    const real stretch = stretch_ago(part, bond->inverse_length, i, bond->nbr, 0);
+    const real stretch = bond_stretch_earlier(part, bond->inverse_length, i, bond->nbr, 0);
     return stretch / stretch_limit(part, &source->limit, i, bond->nbr);
 }
 
@@ -146,7 +146,7 @@ static void record_break(struct run *e, const struct broken_bond *record)
 {
     struct bond_limit limit = e->source.limit;
     limit.last_force = LAST_FORCE_NONE;
-    bond_part(&e->bonds, &e->part, &limit, record->row, record->entry);
+    bond_break_entry(&e->bonds, &e->part, &limit, record->row, record->entry);
 }
 
 /* State-based bonds have no energy of their own: in a linear body, what a break takes is what it takes at the limit
@@ -196,7 +196,7 @@ void statics_mend(struct run *e, const struct break_list *l)
 {
     for (int64_t k = l->n; k-- > 0;) {
         const struct broken_bond *record = &l->bond[k];
-        bond_mend(&e->bonds, &e->part, record->row, record->entry, record->w);
+        bond_restore_entry(&e->bonds, &e->part, record->row, record->entry, record->w);
         e->bonds.fracture_energy[record->row] = record->fracture;
         e->bonds.broken_volume[record->row] = record->volume;
         if (e->bonds.plastic_stretch) e->bonds.plastic_work[record->row] = record->plastic;

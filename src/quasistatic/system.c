@@ -120,7 +120,7 @@ void statics_unknowns_make(struct run *e)
                                       .tolerance = e->scene->solver_tolerance,
                                       .length = e->scene->spacing,
                                       .unit_energy = energy_at_unit_strain(&e->part, e->scene->material),
-                                      .kinked = e->part.relief[0] != NULL,
+                                      .kinked = e->part.plastic_correction[0] != NULL,
                                       .forces = kept.forces,
                                       .directions = kept.directions,
                                       .lost = kept.lost,

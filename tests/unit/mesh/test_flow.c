@@ -4,7 +4,7 @@
 
 #include "data/material.h"
 
-enum { FLOWS = WITH_PLASTIC | WITH_OUT_OF_PLANE | WITH_RELIEF };
+enum { FLOWS = WITH_PLASTIC | WITH_OUT_OF_PLANE | WITH_PLASTIC_CORRECTION };
 enum { STATES = 2 + SYM_MAX };
 static const enum space flow_spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
 
@@ -27,7 +27,7 @@ static int states_of(const struct block *b, real *array[STATES])
     int n = 0;
     array[n++] = b->c.p.plastic_strain;
     if (b->c.p.out_of_plane) array[n++] = b->c.p.out_of_plane;
-    for (int k = 0; k < symmetric_count(b->c.p.dim); k++) array[n++] = b->c.p.relief[k];
+    for (int k = 0; k < symmetric_count(b->c.p.dim); k++) array[n++] = b->c.p.plastic_correction[k];
     return n;
 }
 
