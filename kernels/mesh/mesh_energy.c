@@ -5,7 +5,7 @@
 #include "mesh_run.h"
 #include "base/team.h"
 
-/* Have nodes first .. end - 1 no mass? Coarse cells leave most of level 0 so. */
+/* Returns true if nodes first .. end - 1 have no mass; true of most level 0 nodes where cells are coarse. */
 static bool none_moves(const real *mass, int64_t first, int64_t end)
 {
     enum { PIECE = 64 };
@@ -19,7 +19,7 @@ static bool none_moves(const real *mass, int64_t first, int64_t end)
     return true;
 }
 
-/* Adds 1/2 m v^2 of nodes first .. end - 1 [J]; of coarse cells half their momentum times their velocity. */
+/* Adds 1/2 m v^2 of nodes first .. end - 1 [J]; for coarse cells half the product of momentum and velocity. */
 static void mesh_energy_kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
@@ -41,7 +41,7 @@ real mesh_kinetic(const struct mesh *mesh)
     return sum;
 }
 
-/* Adds 1/4 f^2/m of nodes first .. end - 1, the kick energy over dt^2 [J/s^2]; of coarse cells with their inertia. */
+/* Adds 1/4 f^2/m of nodes first .. end - 1, the kick energy over dt^2 [J/s^2]; for coarse cells with blended mass. */
 static void mesh_energy_kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
@@ -77,6 +77,7 @@ struct strain_sum {
     bool finite;
 };
 
+/* Returns the sum of the eight values. */
 static ALWAYS_INLINE real lanes_sum(lanes a)
 {
     real all = 0;
@@ -84,7 +85,7 @@ static ALWAYS_INLINE real lanes_sum(lanes a)
     return all;
 }
 
-/* Elastic energy of a group of partial cells [J]; lanes beyond the last cell have no stiffness. */
+/* Returns the elastic energy of a group of partial cells [J]; lanes beyond the last cell have no stiffness. */
 static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t group, const int dim, const bool finite)
 {
     const struct mesh *mesh = s->mesh;
@@ -101,7 +102,7 @@ static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t gro
     return lanes_sum(cell_energy(&cell, mesh->volume * (1 << dim), dim));
 }
 
-/* Elastic energy of a run, eight cells at a time [J]; cells beyond its end contribute 0. */
+/* Returns the elastic energy of a run, eight cells at a time [J]; lanes beyond its end contribute 0. */
 static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct mesh_run *run, const int dim,
                                      const bool finite)
 {

@@ -1,13 +1,13 @@
-/* Cells of points that yield, point by point (plastic.h), as part of one incremental energy.
+/* Cells whose points yield, point by point (mpm/plastic.h), from one incremental energy.
  *
- * With a, r as they were at the last equilibrium, the strain e of a point has the energy per volume
+ * With the plastic state a, r of the last equilibrium, the strain e of a point has the energy per volume
  *
  *     w(e) = min over dp, da >= |dp|_eq of  1/2 s : C^-1 : s + (sigma_y + H a) da + H da^2/2,   s = C : (e - dp) - r
  *
- * (Ortiz & Stainier 1999, rate independent), whose derivative by e is the stress that return mapping leaves: s at the
- * end of the step. r, the relief, is what flow has taken off C : e, in the axes of the cell, where Biot's strain is
- * split into parts that add. Sums over points take the place of the closed forms of mesh_law.h; the moment of the
- * stresses is balanced as there. */
+ * (Ortiz & Stainier 1999, rate independent). Its derivative by e is the stress s at the end of the step, as left by
+ * return mapping. r, the plastic stress correction, is the elastic stress C : e less the stress, in the axes of the
+ * cell, where Biot's strain splits additively. Sums over points replace the closed forms of mesh_law.h; the moment of
+ * the stresses is balanced as there. */
 #ifndef CLEAVE_KERNELS_MESH_FLOW
 #define CLEAVE_KERNELS_MESH_FLOW
 
@@ -15,9 +15,11 @@
 #include "mesh_law.h"
 #include "mesh_point.h"
 
+/* Returns true if points of the mesh yield in load steps, i.e. have a plastic stress correction. */
 static ALWAYS_INLINE bool mesh_flows(const struct particles *p) { return p && p->plastic_correction[0]; }
 
-/* Point i flows from the stress s = C : e - r [symmetric, Pa], which becomes that on the yield surface. */
+/* Maps the trial stress s = C : e - r of point i [symmetric, Pa] to the yield surface, in place, and updates its
+ * plastic state. */
 static ALWAYS_INLINE void point_flow(const struct particles *p, const struct elastic *m, int64_t i, real *s,
                                      const int dim)
 {
@@ -30,7 +32,8 @@ static ALWAYS_INLINE void point_flow(const struct particles *p, const struct ela
     if (p->out_of_plane) p->out_of_plane[i] = zz;
 }
 
-/* Stress s [symmetric, Pa] of point i at the strain e [row major]; `flows`: it yields, and its state moves on. */
+/* Computes the stress s [symmetric, Pa] of point i at the strain e [row major]. flows: true applies return mapping and
+ * updates the plastic state, false keeps the state. */
 static ALWAYS_INLINE void point_stress(const struct particles *p, const struct elastic *m, int64_t i, const real *e,
                                        real *s, const int dim, const bool flows)
 {
@@ -39,8 +42,8 @@ static ALWAYS_INLINE void point_stress(const struct particles *p, const struct e
     if (flows && m->yield > 0) point_flow(p, m, i, s, dim);
 }
 
-/* Elastic energy per volume of a point under the stress s, and in plane strain under the stress sigma_zz - nu
- * (sigma_xx + sigma_yy) across it [J/m^3]. */
+/* Returns the elastic energy per volume of point i under the stress s [J/m^3]; in plane strain including the
+ * out-of-plane stress sigma_zz - nu (sigma_xx + sigma_yy). */
 static ALWAYS_INLINE real point_energy_of(const struct particles *p, const struct elastic *m, int64_t i, const real *s,
                                           const int dim)
 {
@@ -53,8 +56,8 @@ static ALWAYS_INLINE real point_energy_of(const struct particles *p, const struc
            (across != 0 ? across * across / (4 * m->shear * (1 + m->poisson)) : 0);
 }
 
-/* Stresses [symmetric, Pa] of the points at place q of eight cells, -1: none; as of now, or if it `flows` after the
- * state has moved on. Returns their elastic energy per volume of a point if it does not [J/m^3]. */
+/* Computes the stresses [symmetric, Pa] of the points at place q of eight cells (cell < 0: none). flows: as in
+ * point_stress. Returns the sum of their elastic energies per volume [J/m^3] if not `flows`, else 0. */
 static ALWAYS_INLINE real place_stress(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                        const int32_t *cell, const struct mesh_cell *s, const int q, lanes *stress,
                                        const int dim, const bool flows)
@@ -76,8 +79,8 @@ static ALWAYS_INLINE real place_stress(const struct mesh *mesh, const struct par
     return sum;
 }
 
-/* Adds the stresses [symmetric] of the points at place q to sums over places: of stresses, and of their parts in the
- * bending modes. */
+/* Adds the stresses [symmetric] of the points at place q to the sums over places: stress of the mean strain s->P, and
+ * forces on the bending modes s->force. */
 static ALWAYS_INLINE void place_stress_add(struct mesh_cell *s, const lanes *stress, const int q, const int dim)
 {
     for (int k = 0; k < symmetric_count(dim); k++) {
@@ -93,7 +96,8 @@ static ALWAYS_INLINE void place_stress_add(struct mesh_cell *s, const lanes *str
     }
 }
 
-/* Stress of the mean strain and forces on the bending modes of eight cells [Pa], -1: none, whose points yield. */
+/* Computes the stress of the mean strain and the forces on the bending modes of eight cells whose points yield [Pa]
+ * (cell < 0: none); updates the plastic state of the points. */
 static ALWAYS_INLINE void cells_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                      const int32_t *cell, struct mesh_cell *s, const int dim)
 {
@@ -110,7 +114,7 @@ static ALWAYS_INLINE void cells_flow(const struct mesh *mesh, const struct parti
     }
 }
 
-/* Elastic energy of eight cells at the state that their points have [J]. */
+/* Returns the elastic energy of eight cells at the present plastic state of their points [J]. */
 static ALWAYS_INLINE real cells_flow_energy(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                             const int32_t *cell, const struct mesh_cell *s, const int dim)
 {
@@ -120,11 +124,13 @@ static ALWAYS_INLINE real cells_flow_energy(const struct mesh *mesh, const struc
     return sum * mesh->volume;
 }
 
-/* The eight cells of a run from its k-th on; of a group of partial cells. */
+/* Lists eight cells of a run from the k-th on; -1 beyond its end. */
 static ALWAYS_INLINE void run_cells(const struct mesh_run *run, int64_t k, int32_t *cell)
 {
     for (int l = 0; l < LANES; l++) cell[l] = k + l < run->cells ? (int32_t)(run->cell + k + l) : -1;
 }
+
+/* Lists the eight cells of a group of partial cells; -1 beyond the last. */
 static ALWAYS_INLINE void group_cells(const struct mesh *mesh, int64_t group, int32_t *cell)
 {
     for (int64_t l = 0; l < LANES; l++)

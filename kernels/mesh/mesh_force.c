@@ -1,7 +1,8 @@
-/* Internal forces of the mesh on its nodes: whole cells in runs, eight at a time; partial cells by their own stiffness.
+/* Internal forces of the mesh on its nodes: whole cells in runs, eight at a time; partial cells with their own
+ * stiffness.
  *
- * A run adds to the nodes of its cells, layer by layer. Layers are grouped in bands, and bands of one parity share no
- * node: two colours give the same bits on any number of threads. */
+ * A run adds to the nodes of its cells, layer by layer. Layers are grouped in bands, and bands of equal parity share no
+ * node: two colours give equal bits on any number of threads. */
 #include <string.h>
 
 #include "mesh_flow.h"
@@ -10,12 +11,13 @@
 
 /* ---- whole cells ------------------------------------------------------------------------------------------------- */
 
-/* {before[7], now[0], .., now[6]} */
+/* Returns {before[7], now[0], .., now[6]}. */
 static ALWAYS_INLINE lanes shifted(lanes before, lanes now)
 {
     return VECTOR_PICK(lanes_mask, before, now, 7, 8, 9, 10, 11, 12, 13, 14);
 }
 
+/* Not inlined: return mapping point by point (mesh_flow.h) would take registers from elastic cells. */
 #define FLOW(D)                                                                                                        \
     static NEVER_INLINE void cells_flow_##D(const struct mesh *mesh, const struct particles *p,                        \
                                             const struct elastic *m, const int32_t *cell, struct mesh_cell *s)         \
@@ -26,13 +28,14 @@ FLOW(1)
 FLOW(2)
 FLOW(3)
 
+/* Computes stresses and bending forces of eight cells whose points yield, in dimension dim. */
 static ALWAYS_INLINE void cells_flow_of(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                         const int32_t *cell, struct mesh_cell *s, const int dim)
 {
     (dim == 1 ? cells_flow_1 : dim == 2 ? cells_flow_2 : cells_flow_3)(mesh, p, m, cell, s);
 }
 
-/* Forces f [N] on the corners of eight cells of a run, from its k-th on, whose points yield. */
+/* Computes the forces f [N] on the corners of eight cells, from the k-th of a run on, whose points yield. */
 static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                    const struct mesh_run *run, int64_t k, lanes u[CORNERS_MAX][3],
                                    lanes f[CORNERS_MAX][3], const int dim, const bool finite)
@@ -47,9 +50,9 @@ static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particl
     cell_corners(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
 }
 
-/* Adds the forces of a run to the nodes, and sets run->stressed. Cells side by side share nodes: the forces of a vector
- * of cells on their upper corners along x are shifted by one lane and joined with those on the lower corners of the
- * next cells, so that each node of the row is added to once. */
+/* Adds the forces of a run to the nodes, and sets run->stressed. Cells next to each other share nodes: the forces of a
+ * vector of cells on their upper corners along x are shifted by one lane and added to those on the lower corners of the
+ * next cells, so that each node of the row is written once. */
 static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct particles *p, struct mesh_run *run,
                                     const struct elastic *all, const int dim, const bool finite, const bool flows)
 {
@@ -86,8 +89,8 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
     for (int l = 0; l < LANES; l++) run->stressed |= tension[l] > m->trigger;
 }
 
-/* Forces of the runs of a band, and of all bands, in two colours, which share the code of a band. Runs that flow have
- * their own: what elastic ones keep in registers suffers from it. The parallel region is inside each instance,
+/* Instances: the forces of the runs of a band, and of all bands in two colours. Runs whose points yield have a function
+ * of their own, since its code would take registers from elastic runs. The parallel region is inside each instance,
  * where dimension and strain measure are literals. */
 #define BANDS(D, FINITE)                                                                                               \
     static NEVER_INLINE void run_flow_##D##_##FINITE(const struct mesh *mesh, const struct particles *p,               \
@@ -117,7 +120,7 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
 
 /* ---- partial cells ----------------------------------------------------------------------------------------------- */
 
-/* Are all cells of a group of partial cells inactive? */
+/* Returns true if all cells of a group of partial cells are inactive. */
 static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t group)
 {
     uint8_t level = 0;
@@ -126,7 +129,7 @@ static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t grou
     return level == 0;
 }
 
-/* Sets partial_stressed of the cells of a group that may have a point past its trigger. */
+/* Sets partial_stressed of the cells of a group in which a point may be past its trigger. */
 static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *m, int64_t group,
                                        const struct mesh_cell *s, const int dim)
 {
@@ -141,7 +144,7 @@ static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *
     }
 }
 
-/* Forces of a group of partial cells on their corners, into mesh->partial_force [N]. */
+/* Computes the forces of a group of partial cells on their corners, into mesh->partial_force [N]. */
 static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                         int64_t group, const int dim, const bool finite)
 {
@@ -191,7 +194,7 @@ static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
     }
 }
 
-enum { FEW = 16 }; /* groups that one thread computes in less time than a team */
+enum { FEW = 16 }; /* groups that one thread computes in less time than a thread team; empirical */
 
 #define CUTS(D, FINITE)                                                                                                \
     static NEVER_INLINE void cut_force_##D##_##FINITE(struct mesh *mesh, const struct particles *p,                    \

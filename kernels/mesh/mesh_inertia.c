@@ -1,19 +1,22 @@
-/* Velocities of the nodes of coarse cells from their momenta (mesh_inertia.h). */
+/* Computes the velocities of the nodes of coarse cells from their momenta (mesh_inertia.h). */
 #include "mesh_inertia.h"
 
 #include "kernels/simd/lanes.h"
 
-/* w - S w along x, y and z at eight nodes of which all cells are matched, S = (1, 4, 1)/6 along each axis. */
+/* Returns (1, 4, 1) w along x: six times the smoothing of consistent mass, without the factor 1/6. */
 static ALWAYS_INLINE lanes line_smooth(const real *w)
 {
     return (lanes_load(w - 1) + lanes_load(w + 1)) + 4.0 * lanes_load(w);
 }
 
+/* Returns 36 times the smoothing S = (1, 4, 1)/6 along x and y. */
 static ALWAYS_INLINE lanes plane_smooth(const real *w, int64_t row)
 {
     return (line_smooth(w - row) + line_smooth(w + row)) + 4.0 * line_smooth(w);
 }
 
+/* Returns S w, with S = (1, 4, 1)/6 along each axis, at eight nodes all of whose cells are matched. row, layer: index
+ * distances of neighbours along y and z. */
 static ALWAYS_INLINE lanes smooth(const real *w, int64_t row, int64_t layer, const int dim)
 {
     if (dim == 1) return line_smooth(w) * (1.0 / 6);
@@ -21,7 +24,7 @@ static ALWAYS_INLINE lanes smooth(const real *w, int64_t row, int64_t layer, con
     return ((plane_smooth(w - layer, row) + plane_smooth(w + layer, row)) + 4.0 * plane_smooth(w, row)) * (1.0 / 216);
 }
 
-/* Velocity of node I of which some cells are matched. */
+/* Returns the velocity of node I, some of whose cells are matched, from w = momentum over mass [m/s]. */
 static ALWAYS_INLINE real node_velocity(const struct mesh *mesh, const real *w, int64_t I, const int dim)
 {
     const int corners = 1 << dim;
@@ -36,7 +39,7 @@ static ALWAYS_INLINE real node_velocity(const struct mesh *mesh, const real *w, 
     return w[I] + mesh->match * mesh->inverse_mass[I] * sum;
 }
 
-/* Velocities of the nodes of a row, eight at a time. */
+/* Computes the velocities v of the nodes of row r from w = momentum over mass [m/s], eight at a time. */
 static ALWAYS_INLINE void row_velocity(const struct mesh *mesh, int64_t r, const real *w, real *v, const int dim)
 {
     const int64_t row = dim > 1 ? mesh->corner[2] : 0, layer = dim > 2 ? mesh->corner[4] : 0,

@@ -1,19 +1,22 @@
-/* Inertia of coarse cells that disperses waves as bonds do.
+/* Inertia of coarse cells, matched so that waves disperse as in the lattice of bonds.
  *
- * A lumped cell of edge h lets short waves run too slowly, by (kappa h)^2/24; a consistent mass matrix lets them run
- * too fast by as much. Coarse cells mix both: the momentum of their nodes is p, its velocity v = B p with
+ * A lumped mass lets waves of wave number kappa run too slowly, by (kappa h)^2/24 for cell edge h; a consistent mass
+ * lets them run too fast by an equal amount. Coarse cells blend both: the momentum of their nodes is p, the velocity v
+ * = B p with
  *
  *     B = m^-1 + m^-1 [sum over matched cells of alpha (L - C)] m^-1        L: lumped, C: consistent mass of a cell
  *
- * B is symmetric and positive, rows of L - C sum to 0: momentum is exact and the kinetic energy is p . v/2. alpha
- * makes the dispersion that of the bonds' lattice (match_share in src/mesh/levels_build.c). Cells beside cells of
- * other sizes, faces and held nodes are not matched: B is then the inverse of the lumped mass at these nodes. */
+ * B is symmetric and positive, and the rows of L - C sum to 0: momentum is exact, and the kinetic energy is p . v/2.
+ * alpha makes the dispersion equal to that of the bonds' lattice (match_share in src/mesh/levels_build.c). Cells next
+ * to cells of another size, at faces and with held nodes are not matched: B is then the inverse of the lumped mass at
+ * these nodes. */
 #ifndef CLEAVE_KERNELS_MESH_INERTIA
 #define CLEAVE_KERNELS_MESH_INERTIA
 
 #include "kernels/kernels.h"
 
-/* Entry of C/M of a cell for corners c and k: a factor 1/3 for each axis along which they agree, else 1/6. */
+/* Returns entry (c, k) of C/M of a cell [1]: the product of 1/3 for each axis along which corners c and k agree, and
+ * 1/6 for each other axis. */
 static ALWAYS_INLINE real mesh_consistent(int dim, int c, int k)
 {
     real share = 1;
@@ -21,11 +24,12 @@ static ALWAYS_INLINE real mesh_consistent(int dim, int c, int k)
     return share;
 }
 
-/* a . alpha (L - C) a over the corners of matched cell I with a = f/m, summed over components. Sums and differences
- * along the axes diagonalise both: along one, a . L a = (s^2 + d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
+/* Returns a . alpha (L - C) a over the corners of matched cell I with a = f/m, summed over components [N^2/kg]. Sums
+ * and differences along the axes diagonalise both matrices: along one axis a . L a = (s^2 + d^2)/4 and a . C a = (s^2 +
+ * d^2/3)/4. */
 static inline real mesh_matched_form(const struct mesh *mesh, int64_t I)
 {
-    static const real less[DIM_MAX + 1] = {0, 2.0 / 3, 8.0 / 9, 26.0 / 27}; /* 1 - 3^-n, n differences */
+    static const real less[DIM_MAX + 1] = {0, 2.0 / 3, 8.0 / 9, 26.0 / 27}; /* 1 - 3^-n for n differences */
     const int dim = mesh->grid.dim, corners = 1 << dim;
     real sum = 0;
     for (int d = 0; d < dim; d++) {

@@ -4,22 +4,22 @@
  *
  *     mode_M = 2^-(dim - |M|)/h  sum_c (prod_{d in M} s_c,d) u_c        M: a set of axes
  *
- * |M| = 1 is the mean gradient g; larger sets are bending modes. Bending mode M adds to the gradient at a point mode_M
+ * M| = 1 is the mean gradient g; larger sets are bending modes. Bending mode M adds to the gradient at a point mode_M
  * times the coordinates (+-1/4) of the point along all axes of M except the axis of differentiation. Sums over the
  * points are then closed forms, equal to sums point by point up to round-off: <x^2> = 1/16, <x^2 y^2> = 1/256.
  *
  * At finite strain the axes rotate with the cell: R is the rotation of its mean gradient F = 1 + g = R U, and the law
- * is linear in the strain of Biot, P = R C : (sym R^T F_p - 1), as the force of a bond is linear in its stretch. Since
- * R depends on F, the exact gradient of that energy has one more term: the antisymmetric part that balances the moment
- * M = sum V s U_p^T of the rotated stresses,  P += R w x,  (tr U - U) w = axial(M - M^T)/V. It vanishes for isotropic
- * constants in the plane; with it energy and angular momentum are exact (tests/unit/mesh/test_mesh.c). */
+ * is linear in Biot's strain, P = R C : (sym R^T F_p - 1), as the force of a bond is linear in its stretch. Since R
+ * depends on F, the exact gradient of that energy has one more term: an antisymmetric part that balances the moment M =
+ * sum V s U_p^T of the rotated stresses,  P += R w x,  (tr U - U) w = axial(M - M^T)/V. It vanishes for isotropic
+ * constants in 2D; with it energy and angular momentum are exact (tests/unit/mesh/test_mesh.c). */
 #ifndef CLEAVE_KERNELS_MESH_LAW
 #define CLEAVE_KERNELS_MESH_LAW
 
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
-/* Modes, strain and stress of eight cells, in axes that rotate with the cell where it rotates. */
+/* Modes, strain and stress of eight cells; in axes that rotate with the cells at finite strain. */
 struct mesh_cell {
     /* mode: by set of axes and component [1]; force: derivative of the energy per volume by a bending mode [Pa] */
     lanes mode[CORNERS_MAX][3], force[CORNERS_MAX][3];
@@ -31,7 +31,7 @@ struct mesh_cell {
 
 /* ---- modes ------------------------------------------------------------------------------------------------------- */
 
-/* v[M] = sum_c sign v[c], in place. */
+/* Replaces corner values by modes: v[M] = sum_c sign v[c], in place. */
 static ALWAYS_INLINE void modes_of_corners(lanes *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -42,7 +42,7 @@ static ALWAYS_INLINE void modes_of_corners(lanes *v, const int dim)
             }
 }
 
-/* v[c] = sum_M sign v[M], in place: the transpose. */
+/* Replaces modes by corner values, the transpose of modes_of_corners: v[c] = sum_M sign v[M], in place. */
 static ALWAYS_INLINE void corners_of_modes(lanes *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -55,7 +55,7 @@ static ALWAYS_INLINE void corners_of_modes(lanes *v, const int dim)
 
 /* ---- rotation ---------------------------------------------------------------------------------------------------- */
 
-/* R and e = R^T F - 1 of F = 1 + g in the plane. cos - 1 is computed from the sine, to resolve strains far below the
+/* Computes R and e = R^T F - 1 of F = 1 + g in 2D. cos - 1 is computed from the sine, to resolve strains far below the
  * round-off of the rotation. */
 static ALWAYS_INLINE void cell_rotation_2d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
 {
@@ -69,6 +69,7 @@ static ALWAYS_INLINE void cell_rotation_2d(const lanes g[3][3], lanes R[3][3], l
     e[0][1] = e[1][0] = c * g[0][1] + s * g[1][1] + s;
 }
 
+/* Computes the matrix C of cofactors of A. */
 static ALWAYS_INLINE void cofactors_3d(const lanes A[3][3], lanes C[3][3])
 {
     for (int a = 0; a < 3; a++)
@@ -78,8 +79,8 @@ static ALWAYS_INLINE void cofactors_3d(const lanes A[3][3], lanes C[3][3])
         }
 }
 
-/* R and the symmetric part of e = R^T F - 1 of F = 1 + g in space, by Newton's iteration R <- (R + R^-T)/2 (Higham
- * 1986); cells are far from flat, so that few steps are enough. */
+/* Computes R and the symmetric part of e = R^T F - 1 of F = 1 + g in 3D, by Newton's iteration R <- (R + R^-T)/2
+ * (Higham 1986). Cells are far from singular, so few steps are enough. */
 static ALWAYS_INLINE void cell_rotation_3d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
 {
     for (int a = 0; a < 3; a++)
@@ -105,7 +106,7 @@ static ALWAYS_INLINE void cell_rotation_3d(const lanes g[3][3], lanes R[3][3], l
         for (int b = 0; b < a; b++) e[a][b] = e[b][a] = 0.5 * (e[a][b] + e[b][a]);
 }
 
-/* v <- R v if `back`, else R^T v; v [dim] are the components of a vector. */
+/* Replaces vector v [dim] by R v if `back`, else by R^T v. */
 static ALWAYS_INLINE void rotate_vector(const lanes R[3][3], lanes *v, const bool back, const int dim)
 {
     lanes old[3];
@@ -116,7 +117,7 @@ static ALWAYS_INLINE void rotate_vector(const lanes R[3][3], lanes *v, const boo
     }
 }
 
-/* Adds to P the antisymmetric part that balances the moment m[k] (axial, per volume) [Pa]. */
+/* Adds to P the antisymmetric part that balances the moment m[axis] per volume (axial vector) [Pa]. */
 static ALWAYS_INLINE void add_skew(lanes P[3][3], const lanes e[3][3], const lanes *m, const int dim)
 {
     if (dim == 2) {
@@ -132,14 +133,14 @@ static ALWAYS_INLINE void add_skew(lanes P[3][3], const lanes e[3][3], const lan
     const lanes inverse = 1.0 / (A[0][0] * C[0][0] + A[0][1] * C[0][1] + A[0][2] * C[0][2]);
     for (int a = 0; a < 3; a++) w[a] = inverse * (C[a][0] * m[0] + C[a][1] * m[1] + C[a][2] * m[2]);
     for (int k = 0; k < 3; k++) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3; /* axial k: component ji - ij */
+        const int i = (k + 1) % 3, j = (k + 2) % 3; /* component k of an axial vector: entry ji less entry ij */
         P[j][i] -= w[k], P[i][j] += w[k];
     }
 }
 
 /* ---- constitutive law -------------------------------------------------------------------------------------------- */
 
-/* Stress P [Pa] of the symmetric strain e. */
+/* Computes the stress P [Pa] of the symmetric strain e. */
 static ALWAYS_INLINE void stress_of(const struct elastic *m, const lanes e[3][3], lanes P[3][3], const int dim)
 {
     for (int a = 0; a < dim; a++) {
@@ -149,9 +150,9 @@ static ALWAYS_INLINE void stress_of(const struct elastic *m, const lanes e[3][3]
     }
 }
 
-/* Derivative of the energy per volume by bending mode M of component i, in the axes of the cell [Pa]. The gradient d_j
- * u_i contains mode {j, l} of component i times the coordinate along l, and mode {1, 2, 3} of component i times the two
- * other coordinates. */
+/* Returns the derivative of the energy per volume by component i of bending mode M, in the axes of the cell [Pa]. The
+ * gradient d_j u_i contains mode {j, l} of component i times the coordinate along l, and mode {1, 2, 3} of component i
+ * times the two other coordinates. */
 static ALWAYS_INLINE lanes bend(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M, const int i,
                                 const int dim)
 {
@@ -165,7 +166,7 @@ static ALWAYS_INLINE lanes bend(const struct elastic *m, lanes mode[CORNERS_MAX]
     return (mode[M][i] * (m->c11 + m->shear) + mode[7 & ~(1 << i)][k] * m->c12) * (1.0 / 16);
 }
 
-/* Strain and modes of the displacements u[c][i] of the corners [m]. */
+/* Computes strain and modes from the displacements u[c][i] of the corners [m]. */
 static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNERS_MAX][3], const int dim,
                                       const bool rotates)
 {
@@ -190,15 +191,15 @@ static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNE
     SETS for (int M = 1; M < corners && rotates; M++) if (M & (M - 1)) rotate_vector(s->R, s->mode[M], false, dim);
 }
 
-/* Product of the coordinates of place q along the axes of a set, +-1/4 each [1]. */
+/* Returns the product of the coordinates of place q along the axes of a set, +-1/4 each [1]. */
 static ALWAYS_INLINE real place_along(const int set, const int q)
 {
     const int axes = __builtin_popcount(set), below = __builtin_popcount(set & ~q);
     return (below & 1 ? -1.0 : 1.0) / (1 << 2 * axes);
 }
 
-/* Strain of eight cells at place q: the mean strain, plus the bending modes times the coordinates +-1/4 of the
- * place. */
+/* Computes the strain e of eight cells at place q: the mean strain plus the bending modes times the coordinates +-1/4
+ * of the place. */
 static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q, lanes e[3][3], const int dim)
 {
     for (int i = 0; i < dim; i++)
@@ -211,7 +212,7 @@ static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q
         }
 }
 
-/* Stress and forces on the bending modes of whole cells [Pa]. */
+/* Computes the stress of the mean strain and the forces on the bending modes of whole cells [Pa]. */
 static ALWAYS_INLINE void cell_law(const struct elastic *m, struct mesh_cell *s, const int dim)
 {
     stress_of(m, s->e, s->P, dim);
@@ -219,8 +220,8 @@ static ALWAYS_INLINE void cell_law(const struct elastic *m, struct mesh_cell *s,
         bend(m, s->mode, M, i, dim);
 }
 
-/* Bound of the largest principal stress at the points of cells [Pa]: of the mean stress P the largest normal stress and
- * all shear stresses (Gershgorin), plus the sum of all bending modes. */
+/* Returns an upper bound of the largest principal stress at the points of cells [Pa]: for the mean stress P the largest
+ * normal stress plus all shear stresses (Gershgorin), plus the sum of all bending modes. */
 static ALWAYS_INLINE lanes cell_tension(const struct elastic *m, const struct mesh_cell *s, const lanes P[3][3],
                                         const int dim)
 {
@@ -233,7 +234,7 @@ static ALWAYS_INLINE lanes cell_tension(const struct elastic *m, const struct me
     return bound + largest * ((m->c11 + m->shear) * 0.25);
 }
 
-/* Elastic energy of the cells [J]. */
+/* Returns the elastic energy of the cells [J]. */
 static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, const int dim)
 {
     lanes energy = lanes_of(0);
@@ -244,9 +245,8 @@ static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, c
     return energy * (0.5 * volume);
 }
 
-/* Adds to P the antisymmetric part that balances the moment of the stresses, axial parts of sum P U^T over all modes
- * with U = 1 + e of the mean strain, and the moment already in `moment` [Pa], of bonds whose ends rotate with the
- * cell. */
+/* Adds to P the antisymmetric part that balances the moment of the stresses: axial part of sum P U^T over all modes,
+ * with U = 1 + e of the mean strain, plus `moment` [Pa], of bonds to points that rotate with the cell. */
 static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, lanes *moment, const int dim)
 {
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
@@ -258,7 +258,8 @@ static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, lanes *moment, const
     add_skew(s->P, s->e, moment, dim);
 }
 
-/* Balances the moments of bonds alone, at small strain: the rotation is the antisymmetric part of the gradient. */
+/* Adds to P the antisymmetric part that balances the moments of bonds alone, at small strain: the rotation is then the
+ * antisymmetric part of the gradient. */
 static ALWAYS_INLINE void cell_skew(struct mesh_cell *s, const lanes *moment, const int dim)
 {
     lanes none[3][3];
@@ -267,7 +268,7 @@ static ALWAYS_INLINE void cell_skew(struct mesh_cell *s, const lanes *moment, co
     add_skew(s->P, none, moment, dim);
 }
 
-/* Forces f [N] on the corners, rotated back from the axes of the cell. */
+/* Computes the forces f [N] on the corners, rotated back from the axes of the cell. volume: of a cell [m^3]. */
 static ALWAYS_INLINE void cell_corners(struct mesh_cell *s, real h, real volume, lanes f[CORNERS_MAX][3], const int dim,
                                        const bool rotates)
 {

@@ -1,4 +1,4 @@
-/* Motion of the nodes of the mesh: velocities and displacements, walls, and mirror nodes. */
+/* Motion of the nodes of the mesh: velocities and displacements, walls, dashpots and mirror nodes. */
 #include <math.h>
 
 #include "kernels/dashpot.h"
@@ -29,7 +29,7 @@ static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MA
     }
 }
 
-/* Adds the forces of dashpots to the nodes; a node that mirror nodes follow has their dashpots, as it has their masses
+/* Adds the forces of dashpots to the nodes. The dashpots of mirror nodes are listed at their image nodes, like masses
  * and forces. */
 static void dashpots_force(struct mesh *mesh, real dt_velocity)
 {
@@ -46,10 +46,10 @@ static void dashpots_force(struct mesh *mesh, real dt_velocity)
     }
 }
 
-#define OFF_PLACE 1e-6 /* a node so much beside its place is not there by round-off [cells] */
+#define OFF_PLACE 1e-6 /* largest deviation of a node from its prescribed place by round-off [cells]; empirical */
 
-/* Sets constrained components to the prescribed velocity exactly: removes what round-off left in velocity and
- * displacement. What is displaced takes its place, unless it has begun elsewhere. */
+/* Sets constrained components to the prescribed velocity exactly, removing round-off from velocity and displacement.
+ * Nodes with a prescribed displacement are set to it, unless they started from another displacement. */
 static void walls_move(struct mesh *mesh, real dt)
 {
     const struct grid *g = &mesh->grid;
@@ -57,7 +57,7 @@ static void walls_move(struct mesh *mesh, real dt)
         const struct wall *w = &g->wall[k];
         real *velocity = &g->velocity[w->component][w->node], *u = &mesh->displacement[w->component][w->node];
         *u += dt * (w->velocity - *velocity);
-        if (fabs(*u - w->place) <= OFF_PLACE * g->h) *u = w->place; /* never where it is none */
+        if (fabs(*u - w->place) <= OFF_PLACE * g->h) *u = w->place; /* false if `place` is NAN */
         *velocity = w->velocity;
         if (mesh->matched) g->momentum[w->component][w->node] = w->velocity; /* no matched cell has held nodes */
     }
@@ -98,7 +98,7 @@ static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
     return isfinite(all) ? largest : INFINITY;
 }
 
-/* A node beyond a mirror plane that lies half-way between two nodes moves as its image (grid_move.c): for the step the
+/* A node beyond a mirror plane that is midway between two nodes moves as its image (grid_move.c): during the step the
  * image has the mass and the force of both. Mirror nodes are few and several may share an image: one thread, in
  * order. */
 static void mesh_mirror_nodes_gather(struct mesh *mesh, real dt_velocity)
@@ -143,7 +143,7 @@ static void mesh_mirror_nodes_spread(struct mesh *mesh, real impulse[DIM_MAX])
     }
 }
 
-/* Momentum over mass of the nodes of a mesh of coarse cells, and their velocities. */
+/* Updates momentum over mass of the nodes of a mesh of coarse cells, and computes their velocities from it. */
 static void momentum_move(struct mesh *mesh, real dt_velocity)
 {
 #pragma omp parallel for schedule(static)
@@ -164,7 +164,7 @@ real mesh_move(struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MA
     mesh_mirror_nodes_gather(mesh, dt_velocity);
     dashpots_force(mesh, dt_velocity);
     walls_force(mesh, dt_velocity, impulse, work);
-    if (mesh->matched) momentum_move(mesh, dt_velocity), dt_velocity = 0; /* velocities are those of the momentum */
+    if (mesh->matched) momentum_move(mesh, dt_velocity), dt_velocity = 0; /* velocities follow from the momentum */
 #pragma omp parallel for schedule(static) reduction(max : most)
     for (int64_t r = 0; r < mesh->rows; r++) most = real_max(most, row_move(mesh, r, dt, dt_velocity));
     walls_move(mesh, dt);

@@ -1,15 +1,15 @@
-/* Eight partial cells at once: each responds by a stiffness of its own, which follows from the points it has left.
+/* Eight partial cells at once, each with its own stiffness, which follows from the points that it still has.
  *
  * The energy of a cell depends on its mean strain and its bending modes (mesh_law.h), not on translation and rotation:
- * in 3D on 18 modes instead of 24 displacements. The stiffness is that of these modes, eight cells side by side, and
- * symmetric: one half is stored, 171 numbers in 3D and 15 in the plane. Shear strains are angles (twice the tensor
- * component), so that their conjugate forces are stresses. */
+ * in 3D on 18 modes instead of 24 displacements. The stiffness acts on these modes and is symmetric: one half is
+ * stored, 171 numbers in 3D and 15 in 2D. Shear strains are angles (twice the tensor component), so their conjugate
+ * forces are stresses. */
 #ifndef CLEAVE_KERNELS_MESH_PARTIAL
 #define CLEAVE_KERNELS_MESH_PARTIAL
 
 #include "mesh_law.h"
 
-/* Displacements of the corners of the eight partial cells of a group [m]. */
+/* Loads the displacements u of the corners of the eight partial cells of a group [m]. */
 static ALWAYS_INLINE void mesh_partial_load(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3],
                                             const int dim)
 {
@@ -22,7 +22,7 @@ static ALWAYS_INLINE void mesh_partial_load(const struct mesh *mesh, int64_t gro
         for (int i = 0; i < dim; i++) u[c][i] = lanes_at(mesh->displacement[i] + mesh->corner[c], first, cell);
 }
 
-/* The modes as one vector: symmetric components of the mean strain, then the bending modes, set by set [1]. */
+/* Stores the modes as one vector v [1]: symmetric components of the mean strain, then the bending modes, set by set. */
 static ALWAYS_INLINE void partial_modes(const struct mesh_cell *s, lanes *v, const int dim)
 {
     int n = symmetric_count(dim);
@@ -34,7 +34,7 @@ static ALWAYS_INLINE void partial_modes(const struct mesh_cell *s, lanes *v, con
     SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) v[n++] = s->mode[M][i];
 }
 
-/* f = K v with a symmetric K, half of which is stored, row by row from the diagonal on. */
+/* Computes f = K v for a symmetric matrix K of which one half is stored, row by row from the diagonal on. */
 static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, const int n)
 {
     for (int a = 0; a < n; a++) f[a] = lanes_of(0);
@@ -47,8 +47,8 @@ static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, co
     }
 }
 
-/* Adds the forces on the modes of the cells of a group by points that are ends of bonds (struct mesh_end): f += share^T
- * pull [Pa]. */
+/* Adds the forces of state-based bonds on the modes of the cells of a group: f += share^T pull for each bonded point
+ * (struct mesh_end) [Pa]. */
 static ALWAYS_INLINE void partial_add_ends(const struct mesh *mesh, const struct particles *p, int64_t group, lanes *f,
                                            const int dim)
 {
@@ -62,7 +62,7 @@ static ALWAYS_INLINE void partial_add_ends(const struct mesh *mesh, const struct
     }
 }
 
-/* Adds the moments of bonds about the points at their ends, per volume of the cell [Pa]. */
+/* Adds the moments of bonds about the bonded points of a group, per volume of the cell, to moment[axis] [Pa]. */
 static ALWAYS_INLINE void partial_add_moments(const struct mesh *mesh, const struct particles *p, int64_t group,
                                               lanes *moment, const int dim)
 {
@@ -73,7 +73,7 @@ static ALWAYS_INLINE void partial_add_moments(const struct mesh *mesh, const str
             moment[k][end->lane] += p->end_moment[c][end->point] * inverse;
 }
 
-/* Stress of the mean strain and forces on the bending modes of a group of partial cells [Pa]. */
+/* Computes the stress of the mean strain and the forces on the bending modes of a group of partial cells [Pa]. */
 static ALWAYS_INLINE void partial_law(const struct mesh *mesh, const struct particles *p, int64_t group,
                                       struct mesh_cell *s, const int dim)
 {

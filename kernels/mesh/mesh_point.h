@@ -1,9 +1,10 @@
 /* Displacement gradient, strain and stress at each material point of one cell of a mesh, point by point; mesh_law.h has
  * the sums over the points in closed form.
  *
- * Points lie at a quarter and three quarters along every axis. Values are interpolated from corners to points, and
- * distributed from points to corners, along one axis after the other, near + (far - near)/4. The factor 1/4 is exact,
- * so that mesh_places and mesh_place_value give the same bits. */
+ * Points are at a quarter and three quarters along every axis. Values are interpolated from corners to points, and
+ * distributed from points to corners, along one axis after the other, as near + (far - near)/4. The factor 1/4 is
+ * exact, so mesh_places and mesh_place_value give equal bits. Place q of a cell is the position of the point next to
+ * corner q. */
 #ifndef CLEAVE_KERNELS_MESH_POINT
 #define CLEAVE_KERNELS_MESH_POINT
 
@@ -11,7 +12,7 @@
 #include "kernels/pd/polar.h"
 #include "kernels/mpm/stress.h"
 
-/* Replaces the values at both ends of an edge by those at a quarter and at three quarters. */
+/* Replaces the values at the two ends of an edge by the values at a quarter and at three quarters. */
 static ALWAYS_INLINE void mesh_quarter(real *low, real *high)
 {
     const real by = 0.25 * (*high - *low), near = *low + by;
@@ -28,7 +29,7 @@ static ALWAYS_INLINE void mesh_places(real *v, const int dim)
             if (!(c >> d & 1)) mesh_quarter(&v[c], &v[c | 1 << d]);
 }
 
-/* Value at place q alone from the values v [2^dim] at the corners; overwrites v. */
+/* Returns the value at place q alone, from the values v [2^dim] at the corners; overwrites v. */
 static ALWAYS_INLINE real mesh_place_value(real *v, int q, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -40,14 +41,14 @@ static ALWAYS_INLINE real mesh_place_value(real *v, int q, const int dim)
     return v[0];
 }
 
-/* Values of a nodal field at the corners of cell I. */
+/* Loads the values v [2^dim] of a nodal field at the corners of cell I. */
 static ALWAYS_INLINE void mesh_corners(const struct mesh *mesh, const real *field, int64_t I, real *v, const int dim)
 {
     const int32_t *own = mesh_own_corners(mesh, I);
     for (int c = 0; c < 1 << dim; c++) v[c] = field[own ? own[c] : I + mesh->corner[c]];
 }
 
-/* Gradients of the displacement at the places of cell I, row major [1]. */
+/* Computes the displacement gradients at the places of cell I, row major [1]. */
 static ALWAYS_INLINE void mesh_gradients(const struct mesh *mesh, int64_t I, real g[CORNERS_MAX][DIM_MAX * DIM_MAX],
                                          const int dim)
 {
@@ -67,8 +68,8 @@ static ALWAYS_INLINE void mesh_gradients(const struct mesh *mesh, int64_t I, rea
     }
 }
 
-/* e = R^T F_p - 1 at the places of cell I, R the rotation of its mean gradient (the identity at small strain). Row
- * major; only the symmetric part is strain. */
+/* Computes e = R^T F_p - 1 at the places of cell I, with R the rotation of its mean gradient (the identity if not
+ * `finite`). Row major; only the symmetric part is strain. */
 static ALWAYS_INLINE void mesh_strains(const struct mesh *mesh, int64_t I, real *R,
                                        real e[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim, bool finite)
 {
@@ -94,7 +95,7 @@ static ALWAYS_INLINE void mesh_strains(const struct mesh *mesh, int64_t I, real 
             }
 }
 
-/* Stress C : sym e, symmetric components [Pa]. */
+/* Computes the stress C : sym e, symmetric components s [Pa]. */
 static ALWAYS_INLINE void mesh_point_stress(const struct elastic *m, const real *e, real *s, const int dim)
 {
     for (int a = 0; a < dim; a++) {

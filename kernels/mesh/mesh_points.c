@@ -1,4 +1,4 @@
-/* The material points of a mesh: their motion, their stress, and the mark for conversion. */
+/* The material points of a mesh: their motion, their stress, and their marks for conversion. */
 #include "mesh_flow.h"
 #include "mesh_partial.h"
 #include "mesh_point.h"
@@ -8,12 +8,13 @@
 /* One body for all dimensions; the parallel region is inside each instance. */
 #define DIMENSIONS(X) X(1) X(2) X(3)
 
-/* Cells that may have points: all of them, or those of a list. */
+/* Returns the number of cells that may have points: all cells, or those of the list filled_cell. */
 static ALWAYS_INLINE int64_t cells_of_points(const struct mesh *mesh)
 {
     return mesh->absent ? mesh->filled_cells : mesh->grid.n;
 }
 
+/* Returns the k-th cell that may have points. */
 static ALWAYS_INLINE int64_t cell_of_points(const struct mesh *mesh, int64_t k)
 {
     return mesh->absent ? mesh->filled_cell[k] : k;
@@ -21,8 +22,7 @@ static ALWAYS_INLINE int64_t cell_of_points(const struct mesh *mesh, int64_t k)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Moves the points of cell I whose places are set in `places`: u_p = sum N u_I, v_p = sum N v_I with constant
- * weights. */
+/* Moves the points of cell I whose bits are set in `places`: u_p = sum N u_I, v_p = sum N v_I with constant weights. */
 static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p, int64_t I, unsigned places,
                                     const int dim)
 {
@@ -56,7 +56,7 @@ static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *
     }
 }
 
-enum { FEW = 128 }; /* cells whose points one thread moves in less time than a team */
+enum { FEW = 128 }; /* cells whose points one thread moves in less time than a thread team; empirical */
 
 #define MOVE(D)                                                                                                        \
     static void all_move_##D(const struct mesh *mesh, struct particles *p)                                             \
@@ -107,10 +107,11 @@ void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_
         points_move_3(mesh, p, list, n);
 }
 
-/* ---- points at the ends of bonds --------------------------------------------------------------------------------- */
+/* ---- bonded points
+ * ------------------------------------------------------------------------------------------------- */
 
-/* Rotations of the cells of a group, in the layout of particles.end_rotation; at small strain by the antisymmetric part
- * of the gradient. */
+/* Computes the rotations of the cells of a group, in the layout of particles.end_rotation. rotates: from the finite
+ * rotation, else from the antisymmetric part of the gradient. */
 static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotation, const int dim, const bool rotates)
 {
     lanes R[DIM_MAX * DIM_MAX], w[3], square = lanes_of(0);
@@ -118,7 +119,9 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
         for (int b = 0; b < dim; b++) R[a * dim + b] = s->R[a][b];
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        w[k] = 0.25 * (s->mode[1 << i][j] - s->mode[1 << j][i]); /* half the angle */
+        w[k] = 0.25 *
+               (s->mode[1 << i][j] -
+                s->mode[1 << j][i]); /* a quarter of the curl: half of the rotation angle, halved for the quaternion */
         square += w[k] * w[k];
     }
     if (dim == 2) {
@@ -134,7 +137,7 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
     for (int k = 0; k < 3; k++) rotation[k] = w[k] * rotation[3];
 }
 
-/* Sets end_strain and end_rotation of the points at the ends of bonds in a group of partial cells. */
+/* Sets end_strain and end_rotation of the bonded points in a group of partial cells. */
 static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct particles *p, int64_t group, const int dim,
                                             const bool finite)
 {
@@ -181,7 +184,7 @@ void mesh_ends_update(const struct mesh *mesh, struct particles *p, bool finite)
 
 /* ---- forces of points -------------------------------------------------------------------------------------------- */
 
-/* Adds the forces of the points of cell I whose places are set in `places` to its nodes. */
+/* Adds the forces of the points of cell I whose bits are set in `places` to its nodes. */
 static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p, int64_t I, unsigned places,
                                     const int dim)
 {
@@ -250,6 +253,7 @@ static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct e
     p->volume[i] = p->volume0[i] * det;
 }
 
+/* Stores the Cauchy stresses of the points of cell I. */
 static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                       const int dim, bool finite)
 {
@@ -280,6 +284,7 @@ void mesh_points_stress(const struct mesh *mesh, struct particles *p, const stru
         stress_3(mesh, p, m, finite);
 }
 
+/* Stores the displacement gradients of the points of cell I in to[a dim + b]. */
 static ALWAYS_INLINE void cell_gradient(const struct mesh *mesh, int64_t I, real *const *to, const int dim)
 {
     real g[CORNERS_MAX][DIM_MAX * DIM_MAX];
@@ -311,7 +316,7 @@ void mesh_points_gradient(const struct mesh *mesh, real *const *to)
 
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
-/* Marks the points of a cell whose largest principal stress passes the trigger. */
+/* Sets FLAG_STRESSED for the points of cell I whose largest principal stress exceeds the trigger. */
 static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                            int64_t I, const int dim, bool finite)
 {
@@ -346,8 +351,8 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
         cell_mark_3(mesh, p, m, I, finite);
 }
 
-/* Bound of the largest principal stress [Pa], closer than that of mesh_force: place by place, where `there` is set
- * (NULL: at all places). */
+/* Returns an upper bound of the largest principal stress of eight cells [Pa], closer than the bound of mesh_force:
+ * place by place, at places whose lane of `there` is set (NULL: at all places). */
 static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                           const int dim)
 {
@@ -381,7 +386,7 @@ static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct m
                       : cells_tension_3(m, s, there);
 }
 
-/* Does cell I hold points of another material than `material`? */
+/* Returns true if cell I has a point of a material other than `material`. */
 static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct particles *p, int64_t I, uint8_t material,
                                      const int dim)
 {
@@ -392,7 +397,7 @@ static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct parti
     return false;
 }
 
-/* That bound for eight cells of a run, from its k-th on [Pa]. */
+/* Returns the bound of places_tension for eight cells, from the k-th of a run on [Pa]. */
 static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
                                        int64_t k, const int dim, const bool finite)
 {
@@ -415,7 +420,7 @@ static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p,
     }
 }
 
-/* Marks the cells of a run of which a point may be beyond `share` of the trigger. */
+/* Sets mark[cell] = 1 for the cells of a run in which a point may be beyond `share` [1] of the trigger. */
 static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
                                          real share, uint8_t *mark, const int dim, const bool finite)
 {
@@ -427,8 +432,8 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
     }
 }
 
-/* Marks the points past their trigger in a group of partial cells; a bound by the material of the cell decides which
- * cells are tested point by point, and mixed cells always are. */
+/* Marks the points past their trigger in a group of partial cells. Cells are tested point by point where a bound, with
+ * the material of the cell, exceeds the trigger, and always where a cell has several materials. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                      int64_t group, const int dim, const bool finite)
 {
@@ -451,6 +456,7 @@ static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *
     }
 }
 
+/* Returns true if a cell of the group may have a point past its trigger. */
 static inline bool group_stressed(const struct mesh *mesh, int64_t group)
 {
     bool any = false;

@@ -4,8 +4,8 @@
 
 #include "mesh_law.h"
 
-/* Displacements of the corners of eight cells of a run from its k-th cell on [m]; 0 beyond its end, whatever is stored
- * there. */
+/* Loads the displacements u of the corners of eight cells, from the k-th of a run on [m]; lanes beyond the end of the
+ * run are set to 0. */
 static ALWAYS_INLINE void mesh_run_load(const struct mesh *mesh, const struct mesh_run *run, int64_t k,
                                         lanes u[CORNERS_MAX][3], const int dim)
 {
@@ -18,15 +18,16 @@ static ALWAYS_INLINE void mesh_run_load(const struct mesh *mesh, const struct me
         for (int i = 0; i < dim; i++) u[c][i] *= inside;
 }
 
-/* True in the plane for isotropic constants: the stresses of the mean strain and of the bending modes then have no
- * moment, and cell_balance has nothing to balance. */
+/* Returns true in 2D for isotropic constants: the stresses of the mean strain and of the bending modes then have no
+ * moment, and cell_balance is not needed. */
 static ALWAYS_INLINE bool mesh_balanced(const struct elastic *m, const int dim)
 {
     return dim == 2 && fabs(m->c11 - m->c12 - 2 * m->shear) <= 1e-14 * m->c11;
 }
 
-/* Forces f [N] on the corners of eight cells with displacements u [m], both by corner and component. Raises `tension`
- * to a bound of the largest principal stress at their points [Pa]. */
+/* Computes the forces f [N] on the corners of eight cells from their displacements u [m], both by corner and component.
+ * Raises `tension` to an upper bound of the largest principal stress at their points [Pa]. volume: of a cell [m^3];
+ * balanced: result of mesh_balanced. */
 static ALWAYS_INLINE void mesh_run_force(const struct elastic *m, real h, real volume, lanes u[CORNERS_MAX][3],
                                          lanes f[CORNERS_MAX][3], lanes *tension, const int dim, const bool finite,
                                          const bool balanced)

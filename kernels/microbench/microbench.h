@@ -1,33 +1,49 @@
 /* Limits of the machine, as references for the benches: plain loops that use nothing of the engine. They are compiled
- * with the kernels, since only code with the same vector instructions is a valid reference. */
+ * with the kernels, since only code with equal vector instructions is a valid reference. */
 #ifndef CLEAVE_KERNELS_MICROBENCH
 #define CLEAVE_KERNELS_MICROBENCH
 
 #include "base/base.h"
 #include "kernels/simd/kernel.h"
 
-/* ---- microbench_machine.c: the machine's own limits -------------------------------------------------------------- */
+/* ---- microbench_machine.c: limits of the machine
+ * ------------------------------------------------------------------- */
 
-/* Lattice stencil of the bond law: contiguous loads, no bond data, positions in cache. */
+/* Data of the lattice benchmark: the bond law with contiguous loads, no bond data, positions in cache. */
 struct microbench_lattice;
-/* About 80,000 particles in `dim` dimensions, neighbours within 3.015 spacings. */
+/* Creates about 80,000 particles in `dim` dimensions with neighbours within 3.015 spacings. Release with
+ * microbench_lattice_free. */
 KERNEL(struct microbench_lattice *, microbench_lattice_make, (int dim));
-/* One sweep over all bonds: seconds per directed bond. */
+/* Sweeps once over all bonds. Returns seconds per directed bond. */
 KERNEL(double, microbench_lattice_run, (struct microbench_lattice *s));
+
+/* Releases the data of the lattice benchmark. */
 KERNEL(void, microbench_lattice_free, (struct microbench_lattice *s));
 
-/* STREAM triad a = b + q c over arrays larger than any cache: bytes per second, counted as 24 bytes an entry. */
+/* Data of the STREAM triad a = b + q c over arrays larger than any cache. */
 struct microbench_triad;
+
+/* Allocates the arrays of the triad. Release with microbench_triad_free. */
 KERNEL(struct microbench_triad *, microbench_triad_make, (void));
+
+/* Runs the triad once. Returns bytes per second, counted as 24 bytes per entry. */
 KERNEL(double, microbench_triad_run, (struct microbench_triad *t));
+
+/* Releases the arrays of the triad. */
 KERNEL(void, microbench_triad_free, (struct microbench_triad *t));
 
 /* ---- microbench_points.c: the plain material point method -------------------------------------------------------- */
 
-/* 2D linear MUSL FLIP, 80,000 points sorted by cell, four a cell: seconds per point and step. */
+/* Data of a plain material point method: 2D linear MUSL FLIP, 80,000 points sorted by cell, four per cell. */
 struct microbench_points;
+
+/* Creates the points. Release with microbench_points_free. */
 KERNEL(struct microbench_points *, microbench_points_make, (void));
+
+/* Runs one step. Returns seconds per point and step. */
 KERNEL(double, microbench_points_run, (struct microbench_points *m));
+
+/* Releases the points. */
 KERNEL(void, microbench_points_free, (struct microbench_points *m));
 
 #endif

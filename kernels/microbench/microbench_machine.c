@@ -25,7 +25,7 @@ struct microbench_lattice {
     real *x[DIM_MAX], *f[DIM_MAX];
 };
 
-/* Eight particles from index i on. */
+/* Computes the forces on eight particles from index i on. */
 static ALWAYS_INLINE void stencil_row_block(const struct microbench_lattice *s, int64_t i, const int dim)
 {
     const lanes x0 = lanes_load(s->x[0] + i), x1 = dim > 1 ? lanes_load(s->x[1] + i) : x0;
@@ -65,7 +65,7 @@ DIM_VARIANTS(SWEEP)
 #define SWEEP_ENTRY(D) [D] = stencil_sweep_##D##d,
 static void (*const stencil_sweep[DIM_MAX + 1])(struct microbench_lattice *) = {DIM_VARIANTS(SWEEP_ENTRY)};
 
-/* Index distances and inverse lengths of all neighbours within 3.015 spacings. */
+/* Computes index distances and inverse lengths of all neighbours within 3.015 spacings. */
 static void find_neighbours(struct microbench_lattice *s)
 {
     const int reach[DIM_MAX] = {MARGIN, s->dim > 1 ? MARGIN : 0, s->dim > 2 ? MARGIN : 0};
@@ -135,7 +135,7 @@ struct microbench_triad {
     real *a, *b, *c;
 };
 
-/* Each array twice the last-level cache, at least 64 MB. */
+/* Allocates arrays of twice the last-level cache each, at least 64 MB. */
 struct microbench_triad *microbench_triad_make(void)
 {
     struct microbench_triad *t = NEW("bench.triad", 1, struct microbench_triad);

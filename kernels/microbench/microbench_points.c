@@ -40,7 +40,7 @@ static void add_corners(real *field, int cx, int cy, const real *sum)
     for (int k = 0; k < CORNERS; k++) field[corner_node(cx, cy, k)] += sum[k];
 }
 
-/* First map of one cell: mass, momentum and force to its nodes. */
+/* Maps mass, momentum and force of the points of one cell to its nodes (first map). */
 static void cell_scatter(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -60,8 +60,8 @@ static void cell_scatter(struct microbench_points *p, int cx, int cy)
     add_corners(p->fx, cx, cy, fx), add_corners(p->fy, cx, cy, fy);
 }
 
-/* Second map of one cell: velocities receive the change of the nodal velocities (in fx, fy), and the momentum of the
- * points is mapped back to the nodes. */
+/* Adds the change of the nodal velocities (in fx, fy) to the points of one cell and maps their momentum back to the
+ * nodes (second map). */
 static void cell_remap(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -86,7 +86,7 @@ static ALWAYS_INLINE void microbench_point_stress(struct microbench_points *p, i
     p->volume[i] *= 1 + xx + yy;
 }
 
-/* Last map of one cell: motion and stress of its points. */
+/* Updates motion and stress of the points of one cell. */
 static void cell_gather(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -107,7 +107,7 @@ static void cell_gather(struct microbench_points *p, int cx, int cy)
     }
 }
 
-/* One map over all cells: even rows, then odd rows. */
+/* Runs one map over all cells: even rows, then odd rows. */
 #define MAP(NAME)                                                                                                      \
     static void map_##NAME(struct microbench_points *p)                                                                \
     {                                                                                                                  \
@@ -157,7 +157,8 @@ double microbench_points_run(struct microbench_points *p)
     return (team_clock() - start) / (double)p->n;
 }
 
-/* Steel, spacing 0.5 mm; a weak wave, so that points stay in their cells during the measurement. */
+/* Places points of steel, spacing 0.5 mm, with a weak wave, so that points stay in their cells during the
+ * measurement. */
 static void place_points(struct microbench_points *p)
 {
     for (int c = 0; c < CELLS_X * CELLS_Y; c++) {

@@ -1,8 +1,8 @@
 /* Grid to particles (G2P): position, velocity gradient, stress and volume of the material points at the end of the
  * step, and FLAG_STRESSED where the largest principal stress exceeds the trigger (Zeng et al. 2022, eqs. 32, 40, 43-49,
- * corrected: L from the second map, rotation W sigma - sigma W).
+ * corrected: L from the second map, rotation W sigma - sigma W; APIC: Jiang et al. 2015).
  *     FLIP (MUSL)    x += dt sum N v_I,   L = sum v2_I (x) grad N   with the velocity v2 of the second map
- *       with bonds   x += dt sum N v2_I   for points at which bonds end, and for those that turn (data/turning.h)
+ *       with bonds   x += dt sum N v2_I   for points with bonds, and for points that rotate (data/turning.h)
  *     APIC           v = sum N v_I,   x += dt v,   L = sum v_I (x) grad N
  * Eq. 40 moves all points with v_I. Bond forces act on points through N M^-1 N^T, whose adjoint in the mass is the
  * second map. Where bonds depend on the positions of points, motion with v2 makes the linear step the leap-frog scheme
@@ -17,8 +17,8 @@
 #include "stress.h"
 #include "kernels/simd/variants.h"
 
-/* Elastic constants of the points in a vector [Pa]. Usually all points have one material; other materials are filled in
- * lane by lane. */
+/* Returns the elastic constants of the points in a vector [Pa]. Usually all points have one material; other materials
+ * are filled in lane by lane. */
 static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p, const struct transfer_data *t,
                                                       const int32_t *point, const int dim)
 {
@@ -62,7 +62,7 @@ static ALWAYS_INLINE void points_strain(struct particles *p, const struct transf
     }
 }
 
-/* Rotates particles.end_rotation, of points that may be ends of bonds, by the spin of the step (Cayley transform). */
+/* Rotates particles.end_rotation of the points by the spin of the step (Cayley transform). */
 static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *point, const row_of_points *L, real dt,
                                         const int dim)
 {
@@ -90,7 +90,7 @@ static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *poin
     for (int c = 0; c < ROTATION; c++) points_store(p->end_rotation[c], point, next[c], dim);
 }
 
-/* Return mapping of point i: the part of the trial stress beyond the yield surface becomes plastic strain.
+/* Applies the return mapping to point i: the part of the trial stress beyond the yield surface becomes plastic strain.
  * FLAG_STRESSED is cleared where the returned stress does not exceed the trigger. Runs last and on stored values, so
  * that points that cannot yield keep their values in registers. */
 static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic *m, int64_t i, const int dim)
@@ -121,7 +121,8 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     return points_signs((row_of_points)~inside);
 }
 
-/* -1 for points at which bonds end, with momentum_only and second_map for all points; 1 for all other points. */
+/* Returns -1 for points that move with the second map (points with bonds; with momentum_only or second_map all points),
+ * 1 for all others. */
 static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
 {
     const bool all = t->momentum_only || t->second_map;
@@ -130,8 +131,8 @@ static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, 
     return bonded;
 }
 
-/* Velocity [m/s] and velocity gradient L [1/s] at the points. The nodes of a row are added first, since they share the
- * weight of the directions across the row. */
+/* Computes velocity [m/s] and velocity gradient L [1/s] at the points. The nodes of a row are added first, since they
+ * share the weight of the directions across the row. */
 static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell *c, const struct cell_stencil *s,
                                         const row_of_points bonded, row_of_points *velocity, row_of_points *L,
                                         const int dim, const enum shape shape, const enum transfer transfer)
@@ -186,7 +187,7 @@ static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, 
     return __builtin_popcount(moved & ((1 << n) - 1));
 }
 
-/* Prefetches what g2p_points reads of the point ORDER_AHEAD places after place k of the list. */
+/* Prefetches the data that g2p_points reads of the point ORDER_AHEAD entries after entry k of the list. */
 static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
 {
     int64_t i;

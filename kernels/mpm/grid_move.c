@@ -83,18 +83,18 @@ static void grid_mirror_nodes_spread(struct grid *g, enum transfer transfer, rea
 
 /* ---- light nodes -------------------------------------------------------------------------------------------------
  *
- * Where a body ends at a node, its points reach into the next cell by a share u of it and give a node there a mass ~
- * u^2 and a force ~ u. The acceleration of that node, ~ 1/u, strains the points by as much however small u is, and not
- * at all for u <= 0: a stiffness that switches on and off with the motion, from which a beam with APIC gains 8 % of
- * energy in a millisecond. The acceleration of such a light node I is therefore extrapolated from a heavier neighbour J
- * and the node K behind it,
+ * Where the edge of a body is close to a node, its points reach into the next cell by a share u of it and give the node
+ * there a mass ~ u^2 and a force ~ u. The acceleration of that node, ~ 1/u, strains the points equally however small u
+ * is, and not at all for u <= 0: a stiffness that switches on and off with the motion, from which a beam with APIC
+ * gains 8 % of energy in a millisecond. The acceleration of such a light node I is therefore extrapolated from a
+ * heavier neighbour J and the node K behind it,
  *     a_I = 2 a_J - a_K,   f_J += 2 f_I,   f_K -= f_I,   and for the accelerations m_J += 2 m_I,   m_K -= m_I,
  * so that the map from forces to accelerations stays symmetric and bodies can rotate. The velocity of a light node has
- * no weight in the balance and is that of its points. Wall nodes neither lead nor follow. FLIP gains no energy from
+ * no weight in the balance and equals that of its points. Wall nodes neither lead nor follow. FLIP gains no energy from
  * light nodes. Followers are few and processed in order. */
 
-/* The heaviest of the nearest nodes of node I with more mass than g->light_mass: neighbours along axes come before
- * those along diagonals. -1: there is none. */
+/* Returns the heaviest of the nearest nodes of node I with more mass than g->light_mass, neighbours along axes before
+ * neighbours along diagonals; -1 if no such node exists. */
 static int64_t leader_of(const struct grid *g, int64_t I)
 {
     int64_t leader = -1;
@@ -122,7 +122,7 @@ static int by_node(const void *a, const void *b)
     return (p->node > q->node) - (p->node < q->node);
 }
 
-/* Lists the light nodes of this step with their leaders and the nodes behind these, ascending. */
+/* Lists the light nodes of this step (struct follower) in ascending order. */
 static void followers_find(struct grid *g, real smallest_mass)
 {
     int64_t n = 0;
@@ -143,7 +143,8 @@ static void followers_find(struct grid *g, real smallest_mass)
     array_sort(g->follower, n, sizeof *g->follower, by_node);
 }
 
-/* Adds `times` the force and the mass of node I to node J, for its acceleration; the velocity of J stays. */
+/* Adds `times` the force and the mass of node I to node J for the computation of its acceleration; keeps the velocity
+ * of J. */
 static void lend(struct grid *g, int64_t I, int64_t J, real times)
 {
     const real more = times * g->mass[I] / g->mass[J];
@@ -154,7 +155,7 @@ static void lend(struct grid *g, int64_t I, int64_t J, real times)
     g->mass[J] += times * g->mass[I];
 }
 
-/* Before the velocities are computed: finds the followers (APIC only) and passes their force and mass on. */
+/* Finds the followers (APIC only) and transfers their force and mass; called before velocities are computed. */
 static void followers_in(struct grid *g, enum transfer transfer, real smallest_mass)
 {
     g->followers = 0;
@@ -170,7 +171,7 @@ static void followers_in(struct grid *g, enum transfer transfer, real smallest_m
     }
 }
 
-/* After the velocities are computed: extrapolates the change of velocity of the followers [m/s] and adds it. */
+/* Extrapolates the change of velocity of the followers [m/s] and adds it; called after velocities are computed. */
 static void followers_out(struct grid *g)
 {
     for (int64_t k = 0; k < g->followers; k++)
@@ -181,8 +182,8 @@ static void followers_out(struct grid *g)
         }
 }
 
-/* Dashpots change the velocities that the forces have given. Nodes of no mass to speak of have no share of a face.
- * Few; a serial loop keeps sums independent of the threads. */
+/* Applies dashpots to the velocities that the forces have given. Nodes lighter than light_mass or smallest_mass are
+ * left out. Few; a serial loop keeps sums independent of the threads. */
 static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
 {
     const real least = smallest_mass > g->light_mass ? smallest_mass : g->light_mass;
@@ -200,8 +201,7 @@ static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
     }
 }
 
-/* With FLIP the velocity of points, and what strains them, is that of the second map: the account of dashpots goes by
- * it. */
+/* Corrects the energy of dashpots to the velocities of the second map, which points take in FLIP. */
 static void grid_absorb_again(struct grid *g)
 {
     for (int64_t k = 0; k < g->dashpots; k++)

@@ -1,10 +1,10 @@
 /* Particles to grid (P2G), the first map: mass, momentum and force of material points to the nodes, scattered block by
- * block, colour by colour (struct transfer_order), so that a node has one writer at a time and always the same order of
- * terms.
+ * block, colour by colour (struct transfer_order), so that a node has one writer at a time and a fixed order of terms.
  *
  *     m_I = sum m N,   P_I = sum m v N,   f_I = sum (N f - V sigma_given . grad N)
  *
- * with v + L (x_I - x_p) in place of v for APIC and for points that turn, whose L is turn_slope (turn.h).
+ * with v + L (x_I - x_p) in place of v for APIC (Jiang et al. 2015) and for points that rotate, whose L is turn_slope
+ * (turn.h).
  *
  * Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point. Reads about 120 bytes per point in 2D; the nodes
  * of a block stay in cache. */
@@ -20,14 +20,14 @@
 /* Sums over the points of a cell, by rows of its nodes: mass, momentum, force. */
 typedef row_of_nodes cell_sums[1 + 2 * DIM_MAX][ROWS_MAX];
 
-/* Index of sigma_ab among the components of a symmetric tensor. */
+/* Returns the index of sigma_ab among the components of a symmetric tensor. */
 static ALWAYS_INLINE int symmetric_place(int a, int b, const int dim)
 {
     return a == b ? a : dim == 2 ? 2 : a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
 }
 
-/* Adds the force of the antisymmetric part of the stress, f_a = -V sum_b skew_ab grad_b. Only points at the ends of
- * state-based bonds have one (partial_stress.c). */
+/* Adds the force of the antisymmetric part of the stress, f_a = -V sum_b skew_ab grad_b. Only bonded points of
+ * state-based models have one (partial_stress.c). */
 static ALWAYS_INLINE void p2g_skew(cell_sums sum, const struct particles *p, const struct transfer_data *t,
                                    const struct cell_stencil *s, const struct touch *row, int at, const int dim,
                                    const enum shape shape)
@@ -50,13 +50,13 @@ static ALWAYS_INLINE void p2g_skew(cell_sums sum, const struct particles *p, con
     }
 }
 
-/* Do points give nodes their velocity continued to the place of the node? */
+/* Returns true if points extrapolate their velocity to the positions of the nodes. */
 static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim, const enum transfer transfer)
 {
     return transfer == TRANSFER_APIC || (dim > 1 && t->turn[2] && !t->momentum_only);
 }
 
-/* Slope of component d along e by which point i does so [1/s]. */
+/* Returns the slope of velocity component d along e with which point i extrapolates [1/s]. */
 static ALWAYS_INLINE real slope_given(const struct particles *p, const struct transfer_data *t, int64_t i, int d, int e,
                                       const int dim, const enum transfer transfer)
 {
@@ -64,8 +64,8 @@ static ALWAYS_INLINE real slope_given(const struct particles *p, const struct tr
     return turn_slope(t, i, d, e, 0.5, dim);
 }
 
-/* Adds mass, momentum and force of point `at` to the sums of its cell. Factors of the directions along a row, which all
- * rows share, are computed once. */
+/* Adds mass, momentum and force of point `at` to the sums of its cell. Factors of the directions along a row, equal for
+ * all rows, are computed once. */
 static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, const struct particles *p,
                                        const struct transfer_data *t, const struct cell_stencil *s, int at,
                                        const int dim, const enum shape shape, const enum transfer transfer)
@@ -114,7 +114,7 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
     if (__builtin_expect(p->end_moment[0] != NULL, 0)) p2g_skew(sum, p, t, s, &row, at, dim, shape);
 }
 
-/* Prefetches what p2g_particle reads of the point ORDER_AHEAD places after place k of the list. */
+/* Prefetches the data that p2g_particle reads of the point ORDER_AHEAD entries after entry k of the list. */
 static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const int32_t *list, int k, const int dim,
                                     const enum transfer transfer)
 {

@@ -1,14 +1,15 @@
-/* Return mappings of the four spaces. Below, `bound` is the yield stress before the step, sigma_y + H a. */
+/* Return mappings of the four spaces (Simo & Hughes 1998). `bound` is the yield stress before the step, sigma_y + H
+ * a. */
 #include "plastic.h"
 
 #include <math.h>
 
-/* Newton's method for plane stress ends at this share of the stress, a few roundings. For trial stresses from 1e-4 to
+/* Relative residual at which Newton's method for plane stress stops, a few round-offs. For trial stresses from 1e-4 to
  * 1e5 yield stresses beyond the surface it takes two to four steps; RETURN_STEPS is never reached. */
 #define RETURN_CLOSE 1e-15
 enum { RETURN_STEPS = 40 };
 
-/* Uniaxial: |sigma| - E da = bound + H da. */
+/* Maps back a uniaxial stress: |sigma| - E da = bound + H da. Returns da. */
 static real return_line(const struct elastic *m, real *s, real bound)
 {
     const real excess = fabs(s[0]) - bound;
@@ -18,7 +19,8 @@ static real return_line(const struct elastic *m, real *s, real bound)
     return more;
 }
 
-/* Radial return: q - 3 G da = bound + H da; `left` is the share of the deviator that stays. */
+/* Computes radial return: q - 3 G da = bound + H da. q2: q^2 of the trial stress. Returns da, and in *left the factor
+ * on the deviator. */
 static real return_radial(const struct elastic *m, real q2, real bound, real *left)
 {
     if (!(q2 > bound * bound)) return 0;
@@ -27,7 +29,7 @@ static real return_radial(const struct elastic *m, real q2, real bound, real *le
     return more;
 }
 
-/* Radial return in space. */
+/* Maps back a 3D stress radially. Returns da. */
 static real return_solid(const struct elastic *m, real *s, real bound)
 {
     const real mean = (s[0] + s[1] + s[2]) / 3, a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
@@ -40,8 +42,8 @@ static real return_solid(const struct elastic *m, real *s, real bound)
     return more;
 }
 
-/* Radial return with sigma_zz, which eps_zz = 0 determines: nu (sigma_xx + sigma_yy) plus what plastic flow adds to
- * it. */
+/* Maps back a plane-strain stress radially, with sigma_zz from eps_zz = 0: nu (sigma_xx + sigma_yy) plus the plastic
+ * part *out_of_plane, which is updated. Returns da. */
 static real return_plane_strain(const struct elastic *m, real *s, real bound, real *out_of_plane)
 {
     const real zz = m->poisson * (s[0] + s[1]) + *out_of_plane, mean = (s[0] + s[1] + zz) / 3;
@@ -54,11 +56,12 @@ static real return_plane_strain(const struct elastic *m, real *s, real bound, re
     return more;
 }
 
-/* Return projected onto sigma_zz = 0 (Simo & Hughes 1998, section 3.4): with p = xx + yy and d = xx - yy
+/* Maps back a plane-stress stress, projected onto sigma_zz = 0 (Simo & Hughes 1998, section 3.4): with p = xx + yy and
+ * d = xx - yy
  *     q^2 = p^2/4 + 3 d^2/4 + 3 xy^2,   p = p_trial/(1 + A t),   d, xy = trial/(1 + 3 G t),   A = E/(2 (1 - nu))
  * and t = da/q from q (1 - H t) = bound. Written as 1 - H t - bound/q(t) = 0 the left side is decreasing and convex,
  * since 1/q is a power mean of two linear functions, which is concave: Newton's method from t = 0 increases to the
- * root. */
+ * root. Returns da. */
 static real return_plane_stress(const struct elastic *m, real *s, real bound)
 {
     const real p = s[0] + s[1], d = s[0] - s[1], even = 0.25 * p * p, odd = 0.75 * d * d + 3 * s[2] * s[2];

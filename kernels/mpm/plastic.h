@@ -7,9 +7,10 @@
 
 #include "kernels/kernels.h"
 
-/* Returns a trial stress [Pa] beyond the yield surface at `strain` = a to that surface, in place. The result is the
- * increment of a [1], 0 for an elastic step. Plane strain only: out_of_plane is sigma_zz - nu (sigma_xx + sigma_yy)
- * [Pa], which elastic steps leave unchanged. Not inlined, so that the code for elastic points contains none of it. */
+/* Maps a trial stress [Pa] beyond the yield surface, at the accumulated plastic strain a = `strain`, back to that
+ * surface, in place. Returns the increment of a [1], 0 for an elastic step. out_of_plane, in plane strain only:
+ * sigma_zz - nu (sigma_xx + sigma_yy) [Pa], unchanged in elastic steps. Not inlined, so that the code for elastic
+ * points contains none of it. */
 KERNEL(real, plastic_return, (const struct elastic *m, real *stress, real strain, real *out_of_plane));
 
 #endif

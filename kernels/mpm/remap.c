@@ -8,7 +8,7 @@
 /* Sums of momentum by rows of the nodes of a cell [kg m/s]. */
 typedef row_of_nodes cell_rows[DIM_MAX][ROWS_MAX];
 
-/* Adds the change of the nodal velocities to the points; `momentum` is their momentum afterwards [kg m/s]. */
+/* Adds the change of the nodal velocities to the velocities of the points; `momentum`: their new momentum [kg m/s]. */
 static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct cell_stencil *s, const struct grid *g,
                                        const struct cell *c, struct particles *p, const int dim, const enum shape shape)
 {
@@ -32,7 +32,7 @@ static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct cel
     }
 }
 
-/* Prefetches what remap_gather reads of the point ORDER_AHEAD places after place k of the list. */
+/* Prefetches the data that remap_gather reads of the point ORDER_AHEAD entries after entry k of the list. */
 static ALWAYS_INLINE void remap_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
 {
     int64_t i;
@@ -41,7 +41,7 @@ static ALWAYS_INLINE void remap_fetch(const struct particles *p, const int32_t *
     for (int d = 0; d < dim; d++) fetch(p->x[d] + i), fetch(p->v[d] + i);
 }
 
-/* Both halves of the map for the n listed points, at most AT_ONCE, of cell c; adds to the sums of the cell. */
+/* Applies both halves of the map to the n listed points (n <= AT_ONCE) of cell c; adds to the sums of the cell. */
 static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, const struct cell *c, struct particles *p,
                                        const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                        const enum shape shape)
@@ -64,7 +64,7 @@ static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, cons
     }
 }
 
-/* Both halves of the map for the n points of one cell. */
+/* Applies both halves of the map to the n points of one cell. */
 static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                      const int32_t *list, int n, const int dim, const enum shape shape)
 {

@@ -1,22 +1,23 @@
-/* The second map of MUSL for points that turn (data/turning.h), in two halves, since what the points of a group have
- * gained is shared out between them: points receive the change of the nodal velocities and what of its angular momentum
- * they lack; then nodes receive the velocity of the points, continued to the place of the node as a rotation. */
+/* The second map of MUSL for points that rotate (data/turning.h), in two halves, because the angular momentum gained by
+ * the points of a group is distributed among them in between: points receive the change of the nodal velocities, and
+ * the angular momentum that they lack is recorded; then nodes receive the velocity of the points, extrapolated to the
+ * node as a rotation. */
 #include "kernels/kernels.h"
 #include "scatter.h"
 #include "shape.h"
 #include "turn.h"
 #include "kernels/simd/variants.h"
 
-/* Component c of a vector product has the terms a b - b a of these. */
+/* Component c of a vector product a x b is a_FIRST b_SECOND - a_SECOND b_FIRST. */
 #define FIRST(c) (((c) + 1) % 3)
 #define SECOND(c) (((c) + 2) % 3)
-/* Components of a spin: z alone in the plane. */
+/* First component of a spin: in 2D z alone. */
 #define SPIN_FROM(dim) ((dim) == 2 ? 2 : 0)
 
 /* ---- nodes to points --------------------------------------------------------------------------------------------- */
 
-/* Adds the change of the nodal velocities to the n listed points, at most AT_ONCE, of cell c; turn becomes the angular
- * momentum m sum N (x_I - x_p) x dv_I that a point cannot take [kg m^2/s]. */
+/* Adds the change of the nodal velocities to the n listed points (n <= AT_ONCE) of cell c. Stores in t->turn the
+ * angular momentum m sum N (x_I - x_p) x dv_I, which a point cannot take [kg m^2/s]. */
 static ALWAYS_INLINE void turn_gather_points(const struct grid *g, const struct cell *c, struct particles *p,
                                              const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                              const enum shape shape)
@@ -72,7 +73,7 @@ SHAPE_VARIANTS_TURNING(GATHER)
 /* Sums of momentum by rows of the nodes of a cell [kg m/s]. */
 typedef row_of_nodes cell_rows[DIM_MAX][ROWS_MAX];
 
-/* Adds the momentum m N (v + w x (x_I - x_p)) of point `at`, w the spin of its group (turn). */
+/* Adds the momentum m N (v + w x (x_I - x_p)) of point `at` to the sums; w: spin of its group (t->turn) [1/s]. */
 static ALWAYS_INLINE void turn_scatter_point(cell_rows sum, const struct grid *g, const struct particles *p,
                                              const struct transfer_data *t, const struct cell_stencil *s, int at,
                                              const int dim, const enum shape shape)
@@ -101,6 +102,7 @@ static ALWAYS_INLINE void turn_scatter_point(cell_rows sum, const struct grid *g
     }
 }
 
+/* Maps the momentum of the n points of one cell to its nodes. */
 static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct particles *p,
                                             const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                             const enum shape shape)

@@ -23,7 +23,7 @@ typedef int64_t points_mask __attribute__((vector_size(POINTS * sizeof(int64_t))
 static ALWAYS_INLINE row_of_nodes row_of(real a) { return (row_of_nodes){a, a, a, a}; }
 static ALWAYS_INLINE row_of_points points_of(real a) { return a - (row_of_points){0}; }
 
-/* a where `sign` is negative, else b. */
+/* Returns a in lanes where `sign` is negative, else b. */
 static ALWAYS_INLINE row_of_points points_choose(row_of_points sign, row_of_points a, row_of_points b)
 {
 #ifdef __AVX__
@@ -34,6 +34,7 @@ static ALWAYS_INLINE row_of_points points_choose(row_of_points sign, row_of_poin
 #endif
 }
 
+/* Returns the larger of a and b in each lane. */
 static ALWAYS_INLINE row_of_points points_max(row_of_points a, row_of_points b)
 {
 #ifdef __AVX__
@@ -43,6 +44,7 @@ static ALWAYS_INLINE row_of_points points_max(row_of_points a, row_of_points b)
 #endif
 }
 
+/* Returns the smaller of a and b in each lane. */
 static ALWAYS_INLINE row_of_points points_min(row_of_points a, row_of_points b)
 {
 #ifdef __AVX__
@@ -52,14 +54,14 @@ static ALWAYS_INLINE row_of_points points_min(row_of_points a, row_of_points b)
 #endif
 }
 
-/* Absolute values. */
+/* Returns |a|. */
 static ALWAYS_INLINE row_of_points points_size(row_of_points a)
 {
     const points_mask digits = (points_mask){0} + INT64_MAX;
     return (row_of_points)((points_mask)a & digits);
 }
 
-/* Bit mask: bit k is set where lane k is negative. */
+/* Returns a bit mask: bit k is set where lane k is negative. */
 static ALWAYS_INLINE int points_signs(row_of_points a)
 {
 #ifdef __AVX__
@@ -70,20 +72,22 @@ static ALWAYS_INLINE int points_signs(row_of_points a)
 #endif
 }
 
-/* Points processed at once: as many as a cell usually holds; two in 1D. The lanes beyond are copies. */
+/* Points processed at once: the usual number per cell, two in 1D. Further lanes are copies. */
 #define AT_ONCE(dim) ((dim) == 1 ? 2 : POINTS)
 
 static ALWAYS_INLINE int smaller(int a, int b) { return a < b ? a : b; }
+
+/* Returns how many of `left` remaining points are processed at once. */
 static ALWAYS_INLINE int at_once(int left, const int dim) { return smaller(left, AT_ONCE(dim)); }
 
-/* Are all lanes one point? The branch pays where cells hold one point, and costs nothing where they hold four. */
+/* Returns true if all lanes are one point. The branch saves time where cells have one point, and costs none where they
+ * have four. */
 static ALWAYS_INLINE bool points_alone(const int32_t *point, const int dim)
 {
     return dim > 1 && point[0] == point[POINTS - 1];
 }
 
-/* Loads and stores the entries of an array for a few points, at any indices. In a store, lanes of one point must hold
- * equal values. */
+/* Loads the entries of an array for a few points, at any indices. */
 static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *point, const int dim)
 {
     if (points_alone(point, dim)) return points_of(from[point[0]]);
@@ -92,6 +96,7 @@ static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *
     return a;
 }
 
+/* Stores the entries of an array for a few points, at any indices; lanes of one point must have equal values. */
 static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_points a, const int dim)
 {
     to[point[0]] = a[0];

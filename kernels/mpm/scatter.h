@@ -5,15 +5,16 @@
 
 #include "kernels/kernels.h"
 
-/* Is it time to prefetch the cache lines of the point ORDER_AHEAD places after place k of the list, which becomes *i?
- * True once per line. The cells of a row read two (in 3D four) lines of many arrays side by side, more than the
- * hardware prefetcher follows. */
+/* Returns true, once per cache line, when the line of the point ORDER_AHEAD entries after entry k of the list should be
+ * prefetched; *i: that point. The cells of a row read two (in 3D four) lines of many arrays, more than the hardware
+ * prefetcher follows. */
 static ALWAYS_INLINE bool fetch_now(const int32_t *list, int k, int64_t *i)
 {
     *i = list[k + ORDER_AHEAD];
     return *i % LANES == 0;
 }
 
+/* Prefetches the cache line of *at for reading. */
 static ALWAYS_INLINE void fetch(const real *at) { __builtin_prefetch(at, 0, 3); }
 
 /* Body of an instance for dimension D: evaluates CALL, an expression in `nodes`, `points`, `data`, `list` and `n`, for

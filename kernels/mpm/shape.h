@@ -15,7 +15,7 @@
  *
  * Weights are computed for a few points of a cell at once, one point per lane, so that no sum runs across lanes. */
 
-/* Hat functions: 1 - t, t. */
+/* Computes hat functions: 1 - t, t. */
 static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
 {
     N[0] = N[3] = dN[0] = dN[3] = points_of(0);
@@ -23,14 +23,14 @@ static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], ro
     dN[1] = points_of(-1), dN[2] = points_of(1);
 }
 
-/* Mean of the hat functions over the particle's width 2l <= 2. The hats of the two nodes of the cell continue as
- * straight lines beyond it. A particle that extends over the lower end of the cell by b = (l - t)_+ gives the node
- * below the weight b^2/4l, and the kink of both hats at that end changes their means by multiples of it; the upper end
- * is treated alike. So a node that the particle just touches gets a weight of the correct size, never below 0: such a
- * node may have no other weight, and what a node without mass receives is lost. GIMP keeps 2l <= 1 and has three nodes.
- * A stretched particle (cpGIMP) reaches into the cells beside its own, whose nodes are the four of its row; contiguous
- * particles then divide every hat without gap or overlap, and a uniform stress leaves no residual (contiguous
- * particles: Bardenhagen & Kober 2004). */
+/* Computes GIMP functions: means of the hat functions over the particle's width 2l <= 2. The hats of the two nodes of
+ * the cell continue as straight lines beyond it. A particle that extends over the lower end of the cell by b = (l -
+ * t)_+ gives the node below the weight b^2/4l, and the kink of both hats at that end changes their means by multiples
+ * of b^2/4l; the upper end is treated alike. So a node that the particle just touches gets a weight of the correct
+ * size, never below 0: such a node may have no other weight, and momentum that a node without mass receives is lost.
+ * GIMP keeps 2l <= 1 and has three nodes. A stretched particle (cpGIMP) reaches into the neighbouring cells, whose
+ * nodes are the four of its row; contiguous particles then divide every hat without gap or overlap, and a uniform
+ * stress leaves no residual (contiguous particles: Bardenhagen & Kober 2004). */
 static ALWAYS_INLINE void shape_gimp(row_of_points t, row_of_points l, row_of_points inverse_width,
                                      row_of_points N[ROW], row_of_points dN[ROW])
 {
@@ -42,7 +42,7 @@ static ALWAYS_INLINE void shape_gimp(row_of_points t, row_of_points l, row_of_po
     dN[1] = dN[3] - 2 * dN[0] - 1, dN[2] = dN[0] - 2 * dN[3] + 1;
 }
 
-/* Cubic B-spline: t^3/6 and 2/3 - t^2 + t^3/2, from either end. */
+/* Computes the cubic B-spline: t^3/6 and 2/3 - t^2 + t^3/2, from either end. */
 static ALWAYS_INLINE void shape_cubic(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
 {
     const row_of_points rest = 1 - t, t2 = t * t, rest2 = rest * rest;
@@ -62,7 +62,8 @@ static ALWAYS_INLINE void whole(row_of_points t, row_of_points N[ROW])
     N[2] += points_choose(t - 0.5, points_of(0), missing);
 }
 
-/* Weights and slopes of any shape. The quadratic B-spline is the mean of a hat over a whole cell: GIMP with l = 1/2. */
+/* Computes the weights and slopes of any shape. The quadratic B-spline is the mean of a hat over a whole cell, i.e.
+ * GIMP with l = 1/2. */
 static ALWAYS_INLINE void shape_row(const enum shape shape, row_of_points t, row_of_points l,
                                     row_of_points inverse_width, row_of_points N[ROW], row_of_points dN[ROW])
 {
@@ -121,12 +122,13 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 /* Index of row k1, k2 in the arrays of a patch. */
 #define PATCH(dim, shape) (k2 * ROWS_Y(dim, shape) + k1)
 
+/* Position of a cell in the grid. */
 struct cell {
     int64_t node;        /* index of the patch's lowest node */
     real place[DIM_MAX]; /* lower corner of the cell, in node distances from the anchor */
 };
 
-/* The cell of point i. */
+/* Returns the cell of point i. */
 static ALWAYS_INLINE struct cell cell_make(const struct grid *g, const struct particles *p, int64_t i, const int dim,
                                            const enum shape shape)
 {
@@ -139,13 +141,13 @@ static ALWAYS_INLINE struct cell cell_make(const struct grid *g, const struct pa
     return c;
 }
 
-/* Index of the first node of row k1, k2. */
+/* Returns the index of the first node of row k1, k2 of the patch of cell c. */
 static ALWAYS_INLINE int64_t cell_row(const struct cell *c, const struct grid *g, int k1, int k2, const int dim)
 {
     return c->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
 }
 
-/* Node k of a row, counted from its first. */
+/* Returns the index of node k of a row, relative to the first node of the row. */
 static ALWAYS_INLINE int64_t row_node(const struct grid *g, int k, const int dim, const enum shape shape)
 {
     return IS_FACE(dim, shape) ? k % 2 + k / 2 * g->stride[1] : k;
@@ -165,6 +167,7 @@ static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes
 
 /* ---- weights of a few points of a cell --------------------------------------------------------------------------- */
 
+/* Weights and slopes of the shape functions of a few points of a cell, one point per lane. */
 struct cell_stencil {
     int32_t point[POINTS];           /* padded with the last point */
     row_of_points x[DIM_MAX];        /* position [m] */
@@ -173,7 +176,7 @@ struct cell_stencil {
     row_of_nodes from_N[POINTS], from_D[POINTS]; /* N and D by point, of maps to nodes */
     /* factors of the rows by direction across: weights [1], slopes [1/m] */
     row_of_points A[DIM_MAX][ACROSS], B[DIM_MAX][ACROSS];
-    int low[DIM_MAX][POINTS];          /* first row that each point touches (three nodes) */
+    int low[DIM_MAX][POINTS];          /* first row that each point touches (shapes with three nodes) */
     int lowest[DIM_MAX], end[DIM_MAX]; /* first row that any point touches; one past the last */
 };
 
@@ -186,7 +189,7 @@ struct touch {
  * keeps this width, and numerical fracture starts: at a stretch of 4 with two particles per cell. */
 #define HALF_WIDTH_MOST 1
 
-/* Weights and slopes of the corners of a face: products of two hats. */
+/* Computes weights and slopes of the corners of a face, products of two hats. */
 static ALWAYS_INLINE void stencil_face(struct cell_stencil *s, real inverse, const int dim)
 {
     const row_of_points X[2] = {1 - s->t[0], s->t[0]}, Y[2] = {1 - s->t[1], s->t[1]};
@@ -200,9 +203,9 @@ static ALWAYS_INLINE void stencil_face(struct cell_stencil *s, real inverse, con
     s->B[2][0] = points_of(-inverse), s->B[2][1] = points_of(inverse);
 }
 
-/* Finds the rows that points of a shape with three nodes touch in direction d: for t < l the node above the cell is
- * excluded, else the node below. The code has no branch: on a lattice t = l but for round-off, and the outcome is as
- * good as random. */
+/* Finds the rows that the points touch in direction d, for shapes with three nodes: for t < l the node above the cell
+ * is excluded, else the node below. Without branches: on a lattice t = l up to round-off, so the outcome is
+ * unpredictable. */
 static ALWAYS_INLINE void stencil_touched(struct cell_stencil *s, row_of_points l, int d)
 {
     const int all = (1 << POINTS) - 1, upper = ~points_signs(s->t[d] - l) & all;
@@ -210,7 +213,7 @@ static ALWAYS_INLINE void stencil_touched(struct cell_stencil *s, row_of_points 
     s->lowest[d] = upper == all, s->end[d] = 3 + (upper > 0);
 }
 
-/* Weights and slopes of the points of a stencil in direction d. */
+/* Computes weights and slopes of the points of a stencil in direction d. */
 static ALWAYS_INLINE void stencil_direction(struct cell_stencil *s, const struct particles *p, real inverse,
                                             real half_width, int d, const int dim, const enum shape shape)
 {
@@ -230,7 +233,7 @@ static ALWAYS_INLINE void stencil_direction(struct cell_stencil *s, const struct
     if (SKIPS(dim, shape) && d > 0) stencil_touched(s, shape == SHAPE_GIMP ? l : points_of(0.5), d);
 }
 
-/* Weights and slopes of the n listed points, at most AT_ONCE, of cell c. half_width: l_p [m]. */
+/* Computes weights and slopes of the n listed points (n <= AT_ONCE) of cell c. half_width: l_p [m]. */
 static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct grid *g, const struct cell *c,
                                             const struct particles *p, const int32_t *list, int n, real half_width,
                                             const int dim, const enum shape shape)
@@ -255,7 +258,7 @@ static ALWAYS_INLINE void stencil_transpose(struct cell_stencil *s, const int di
     rows_transpose(s->D[0], s->from_D);
 }
 
-/* Weights and slopes of a row at point `at`. For the corners of a face a new computation is cheaper than
+/* Returns weights and slopes of a row at point `at`. For the corners of a face a new computation is cheaper than
  * transposing. */
 static ALWAYS_INLINE struct touch stencil_touch(const struct cell_stencil *s, int at, real h, const int dim,
                                                 const enum shape shape)
@@ -267,7 +270,7 @@ static ALWAYS_INLINE struct touch stencil_touch(const struct cell_stencil *s, in
     return (struct touch){X * Y, {Y * (right * (1 / h)), X * (up * (1 / h))}};
 }
 
-/* Factor that the directions across a row give to the weights of row k1, k2, one lane per point [1]. */
+/* Returns the factor of the weights of row k1, k2 due to the directions across the row, one lane per point [1]. */
 static ALWAYS_INLINE row_of_points stencil_rows(const struct cell_stencil *s, int k1, int k2, const int dim,
                                                 const enum shape shape)
 {
@@ -277,7 +280,7 @@ static ALWAYS_INLINE row_of_points stencil_rows(const struct cell_stencil *s, in
     return weight;
 }
 
-/* Derivative of that factor in direction d across the row, one lane per point [1/m]. */
+/* Returns the derivative of the factor stencil_rows in direction d across the row, one lane per point [1/m]. */
 static ALWAYS_INLINE row_of_points stencil_slopes(const struct cell_stencil *s, int k1, int k2, int d, const int dim,
                                                   const enum shape shape)
 {
@@ -287,7 +290,7 @@ static ALWAYS_INLINE row_of_points stencil_slopes(const struct cell_stencil *s, 
     return slope;
 }
 
-/* stencil_rows and stencil_slopes of point `at` alone. */
+/* Returns the factor stencil_rows of point `at` alone [1]. */
 static ALWAYS_INLINE real stencil_row(const struct cell_stencil *s, int at, int k1, int k2, const int dim,
                                       const enum shape shape)
 {
@@ -297,6 +300,7 @@ static ALWAYS_INLINE real stencil_row(const struct cell_stencil *s, int at, int 
     return weight;
 }
 
+/* Returns the derivative stencil_slopes of point `at` alone [1/m]. */
 static ALWAYS_INLINE real stencil_slope(const struct cell_stencil *s, int at, int k1, int k2, int d, const int dim,
                                         const enum shape shape)
 {
@@ -306,8 +310,7 @@ static ALWAYS_INLINE real stencil_slope(const struct cell_stencil *s, int at, in
     return slope;
 }
 
-/* Distances in direction d from point `at`: to the nodes of a row, for d along it, and to row k, for d across it
- * [m]. */
+/* Returns the distances in direction d, along the row, from point `at` to the nodes of a row [m]. */
 static ALWAYS_INLINE row_of_nodes stencil_along(const struct cell_stencil *s, int at, real h, int d, const int dim,
                                                 const enum shape shape)
 {
@@ -317,7 +320,7 @@ static ALWAYS_INLINE row_of_nodes stencil_along(const struct cell_stencil *s, in
     return (nodes - s->t[d][at]) * h;
 }
 
-/* The same for all points of a stencil, one lane each, to node or row k. */
+/* Returns the distances in direction d from all points of a stencil, one lane each, to node or row k [m]. */
 static ALWAYS_INLINE row_of_points stencil_lanes(const struct cell_stencil *s, int k, real h, int d, const int dim,
                                                  const enum shape shape)
 {
@@ -325,6 +328,7 @@ static ALWAYS_INLINE row_of_points stencil_lanes(const struct cell_stencil *s, i
     return (node - s->t[d]) * h;
 }
 
+/* Returns the distance in direction d, across the rows, from point `at` to row k [m]. */
 static ALWAYS_INLINE real stencil_across(const struct cell_stencil *s, int at, real h, int d, int k, const int dim,
                                          const enum shape shape)
 {

@@ -13,14 +13,14 @@
 #include "kernels/kernels.h"
 #include "row.h"
 
-/* Rotation angle of a step above which the exact rotation replaces the one by two terms, whose error is a sixth of the
- * cube of the angle [rad]. */
+/* Rotation angle of a step above which the exact rotation replaces the two-term one, whose error is a sixth of the cube
+ * of the angle [rad]. */
 #define SPIN_SMALL 1e-3
 /* Rotation angle of a step below which one term is enough [rad]: stresses grow by the square of the angle, 1e-4 in 1e5
  * steps. */
 #define SPIN_NONE 3e-5
 
-/* R s R^T with the rotation by the angle -w of x towards y (w = W_xy). */
+/* Replaces s by R s R^T with the rotation by the angle -w from x to y (w = W_xy). */
 static inline void stress_rotate_2d(real *s, real w)
 {
     const real c = cos(2 * w), n = sin(2 * w), mean = 0.5 * (s[0] + s[1]), half = 0.5 * (s[0] - s[1]);
@@ -29,14 +29,14 @@ static inline void stress_rotate_2d(real *s, real w)
     s[0] = mean + turned, s[1] = mean - turned;
 }
 
-/* c = a b, 3x3. */
+/* Computes c = a b, 3x3. */
 static ALWAYS_INLINE void product_3d(const real a[3][3], const real b[3][3], real c[3][3])
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
 }
 
-/* R s R^T with R = exp W (Rodrigues); W by its components W_xy, W_yz, W_zx. */
+/* Replaces s by R s R^T with R = exp W (Rodrigues' formula). W is given by its components W_xy, W_yz, W_zx. */
 static inline void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
 {
     const real S[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
@@ -54,7 +54,7 @@ static inline void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
     s[3] = turned[0][1], s[4] = turned[1][2], s[5] = turned[2][0];
 }
 
-/* W s - s W = W s + (W s)^T of the stress of a few points; w: W_xy, in 3D W_yz and W_zx too. */
+/* Computes W s - s W = W s + (W s)^T for the stress of a few points; w: W_xy, in 3D also W_yz and W_zx. */
 static ALWAYS_INLINE void stress_spin(const row_of_points *s, const row_of_points *w, row_of_points *more,
                                       const int dim)
 {
@@ -96,12 +96,13 @@ static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w
     for (int c = 0; c < n; c++) s[c] += more[c];
 }
 
-/* struct elastic of a few points. */
+/* Elastic constants (struct elastic) of a few points. */
 struct elastic_points {
     row_of_points c11, c12, shear, trigger, yield;
 }; /* [Pa] */
 
-/* Updates s by the velocity gradient L[a dim + b] = dv_a/dx_b; returns the trace of the strain increment. */
+/* Updates the stresses s by the velocity gradient L[a dim + b] = dv_a/dx_b. Returns the trace of the strain increment
+ * [1]. */
 static ALWAYS_INLINE row_of_points stress_update(row_of_points *s, const row_of_points *L,
                                                  const struct elastic_points *m, real dt, const int dim)
 {
@@ -133,7 +134,7 @@ static ALWAYS_INLINE row_of_points stress_update(row_of_points *s, const row_of_
     return trace;
 }
 
-/* Largest principal stress; in 3D by the trigonometric solution of the cubic. */
+/* Returns the largest principal stress; in 3D by the trigonometric solution of the cubic equation. */
 static ALWAYS_INLINE real stress_principal(const real *s, const int dim)
 {
     if (dim == 1) return s[0];
@@ -148,8 +149,8 @@ static ALWAYS_INLINE real stress_principal(const real *s, const int dim)
     return mean + 2 * sqrt(j2 / 3) * cos(acos(cosine) / 3);
 }
 
-/* Upper bound of the principal stresses. It is cheap: the largest principal stress is computed only where the bound
- * exceeds the trigger. */
+/* Returns an upper bound of the principal stresses. Cheap: the largest principal stress is computed only where the
+ * bound exceeds the trigger. */
 static ALWAYS_INLINE real stress_bound(const real *s, const int dim)
 {
     if (dim == 1) return s[0];
@@ -159,7 +160,7 @@ static ALWAYS_INLINE real stress_bound(const real *s, const int dim)
     return most + 2 * (fabs(s[3]) + fabs(s[4]) + fabs(s[5]));
 }
 
-/* Upper bound of the principal stresses of a few points. */
+/* Returns an upper bound of the principal stresses of a few points. */
 static ALWAYS_INLINE row_of_points stress_bounds(const row_of_points *s, const int dim)
 {
     if (dim == 1) return s[0];
@@ -167,8 +168,8 @@ static ALWAYS_INLINE row_of_points stress_bounds(const row_of_points *s, const i
     return points_max(points_max(s[0], s[1]), s[2]) + 2 * (points_size(s[3]) + points_size(s[4]) + points_size(s[5]));
 }
 
-/* Stress that point i gives to the grid [Pa]: all of its stress, or the part that the crossing bonds leave
- * (src/coupling/partial_stress.c). */
+/* Computes the stress that point i transmits to the grid [Pa]: all of its stress, or the part that PD-MPM bonds do not
+ * carry (partial stress, src/coupling/partial_stress.c). */
 static ALWAYS_INLINE void stress_given(const struct particles *p, const struct partial_stress *partial, int64_t i,
                                        real *stress, const int dim)
 {
@@ -201,8 +202,8 @@ static inline void rotate_by(const real *q, real *v)
     }
 }
 
-/* Antisymmetric part of the stress that a point at the end of state-based bonds gives to the grid [Pa], components
- * sigma_ab in the order xy, yz, zx: it balances the moment of the bonds. False: there is none. */
+/* Computes the antisymmetric part of the stress that a bonded point of a state-based model transmits to the grid [Pa],
+ * components sigma_ab in the order xy, yz, zx; it balances the moment of the bonds. Returns false if there is none. */
 static ALWAYS_INLINE bool stress_given_skew(const struct particles *p, const struct partial_stress *partial, int64_t i,
                                             real *skew, const int dim)
 {

@@ -1,13 +1,13 @@
-/* How points that turn (data/turning.h) continue their velocity to nodes. */
+/* Velocity gradient by which rotating points (data/turning.h) extrapolate their velocity to nodes. */
 #ifndef CLEAVE_KERNELS_TURN
 #define CLEAVE_KERNELS_TURN
 
 #include "kernels/kernels.h"
 
-/* Slope of velocity component d along e about point i [1/s]: of the spin w of its group, and of the chord that a step
- * is of the circle. Leap-frog's v = (x' - x)/dt is w x r - share dt w x (w x r), share 1/2 for r from the place x' at
- * the end of the step, -1/2 for that at its begin. Without this part of second order, faces of bodies that turn shrink:
- * of a square by 0.2 % a turn at 4000 1/s. */
+/* Returns the slope of velocity component d along e about point i [1/s], from the spin w of its group. Leap-frog's
+ * velocity v = (x' - x)/dt is that along a chord of the circle: v = w x r - share dt w x (w x r), with share = 1/2 for
+ * r at the position x' at the end of the step, -1/2 at its start. Without the second-order term rotating bodies shrink:
+ * a square by 0.2 % per turn at 4000 1/s. */
 static ALWAYS_INLINE real turn_slope(const struct transfer_data *t, int64_t i, int d, int e, const real share,
                                      const int dim)
 {
