@@ -1,208 +1,218 @@
-/* How bonds are stored. Only src/bonds and kernels/pd use the members of these structures (tests/house.sh); all other
- * files read bonds through the iterator of bonds.h.
+/* Storage of bonds. Only src/bonds and kernels/pd use the members of these structures (tests/house.sh); all other files
+ * read bonds through the iterator of bonds.h.
  *
- * Rows exist only for peridynamic particles (whole family) and bonded material points (their peridynamic
- * neighbours), in ascending particle order: memory and time follow the crack, not the body. Eight consecutive rows
- * form a row block; a row block stores its bonds column by column, lane l of a column being a bond of row l. Shorter
- * rows are padded. Kinds of columns (enum column_kind of kernels/pd/bond_column.h), and what a hot loop reads of each:
+ * Rows exist only for peridynamic particles (whole family) and bonded material points (their peridynamic neighbours),
+ * in ascending particle order: memory and time follow the crack, not the body. Eight consecutive rows form a row block;
+ * a row block stores its bonds column by column, lane l of a column being a bond of row l, and shorter rows are padded
+ * (SELL-C layout with C = 8, Kreutzer et al. 2014). Kinds of columns (enum column_kind of kernels/pd/bond_column.h),
+ * and the data that a hot loop reads of each:
  *
  *     row block   kind      the eight bonds                                          nbr  1/r  w   common  stencil
  *     stores      FREE      any neighbours, or consecutive ones from first on         x    x   x    first
- *     stores      SHELL     consecutive, lengths of shell k but for round-off                  x     x
- *     stores      ALIKE     so, and intact ones of one weight: four bytes a bond                     x
- *     implicit    STENCIL   as in other row blocks, each lane its own weight                                  x
- *     implicit    WHOLE     so, all lanes there, one weight                                                   x
- *     implicit    UNIT      so, and that weight is 1                                                          x
+ *     stores      SHELL     consecutive, lengths of shell k up to round-off                  x     x
+ *     stores      ALIKE     as SHELL, intact ones of one weight: four bytes per bond               x
+ *     implicit    STENCIL   as in other row blocks, each lane with its own weight                          x
+ *     implicit    WHOLE     as STENCIL, all lanes present, one weight                                      x
+ *     implicit    UNIT      as WHOLE, with weight 1                                                        x
  *
- * Where a row block stores, `nbr`, `inverse_length` and `w` are whole, and `common` is made from them by bonds_share.
- * All kinds give the same bits. Where the rows of a row block see neighbours at the same index distances (a lattice), a
- * column holds one distance, and its eight neighbours are consecutive.
+ * In row blocks that store columns, `nbr`, `inverse_length` and `w` are complete, and `common` is derived from them by
+ * bonds_share. All kinds give equal bits. Where the rows of a row block have neighbours at equal index distances (a
+ * lattice), a column has one distance, and its eight neighbours are consecutive.
  *
- * Most row blocks of a lattice have, index distance by index distance, the bonds that others have. They follow one
- * stencil, read from the nearest cache, and store nothing of their own (they are implicit) until one of their bonds
- * is written. Room for all columns is kept, but only what is written takes memory.
+ * Most row blocks of a lattice have equal bonds at equal index distances. They follow one stencil, read from the
+ * nearest cache, and store nothing of their own (they are implicit) until one of their bonds is written. Address space
+ * is reserved for all columns, but only written columns take memory.
  *
- * Rows made anew leave row blocks that have not changed where they are stored, and put others into the holes that row
- * blocks have left which are no more, or behind all that is stored.
+ * When rows are rebuilt, unchanged row blocks keep their columns; others are placed in the holes of removed row blocks,
+ * or behind all stored columns.
  *
- * Invariants (bonds_fault, which builds with -DCLEAVE_ASSERT call whenever rows are made):
+ * Invariants (bonds_fault, called by builds with -DCLEAVE_ASSERT whenever rows are made):
  *     rows ascend by particle, and row_of is the inverse of `particle`;
- *     an implicit row block follows a stencil, has as many columns as it, and no broken bond;
+ *     an implicit row block follows a stencil, has as many columns as its stencil, and no broken bond;
  *     a bond with w != 0 has inverse_length > 0, and its neighbour, if it has a row, is within `reach` row blocks;
  *     a lane without a bond (inverse_length 0) has w = 0;
  *     first >= 0 means that the neighbours of the lanes with a bond are first + lane;
- *     common has the intact lanes, and first, of what is stored. */
+ *     common has the intact lanes, and first, of the stored columns. */
 #ifndef CLEAVE_BOND_STORAGE
 #define CLEAVE_BOND_STORAGE
 
 #include "bonds/family.h"
 #include "data/active_set.h"
 
-#define CORE_STIFFNESS 3.0 /* largest of cores (kernels/pd/bond_core.h), in those of bonds */
+/* Largest stiffness of the repulsive cores (kernels/pd/bond_core.h) over that of the bonds [1]. */
+#define CORE_STIFFNESS 3.0
 
-/* What yielding has done to a bond: stretch without force, and the way it was yielded back and forth. */
+/* Plastic state of a bond: stretch without force, and accumulated plastic stretch [1]. */
 struct bond_plasticity {
     real stretch, path;
 };
 
-/* Where a mirror image comes from, and the axis that its mirror turns round (-1: none, a clamped plane). */
+/* Origin of a mirror image: its source, and the axis normal to its plane of symmetry (-1: clamped plane). */
 struct state_image {
     int32_t source;
     int axis;
 };
 
-/* Bonds from rows to images in clamped planes (of an image, too). The displacement of such an image is that of its
- * source turned round, P u, while its place is reflected: no symmetry gives the force on the image, so it is brought
- * back to the source (kernels/pd/clamp_force.c). */
+/* Share of a bond's reaction that acts on one particle: index of the bond, and a sign for each component. */
 struct clamp_end {
     int32_t bond;
     int8_t sign[DIM_MAX];
-}; /* what a bond's reaction gives to a particle, by component */
+};
+
+/* Bonds from rows to images in clamped planes (images of images included). The displacement of such an image is P u,
+ * that of its source reversed, while its position is reflected: symmetry does not give the force on the image, so the
+ * reaction is added to the source (kernels/pd/clamp_force.c). */
 struct clamped {
-    int64_t n;                /* arrays have room for LANES more, which weigh nothing */
-    int64_t *entry;           /* [n] of what bonds store */
-    int32_t *from, *to;       /* [n] particle of the row, image */
-    real *inverse_length, *w; /* [n] as stored; before the last sweep [1/m], [1] */
-    bool stale;               /* weights have changed since then */
-    real *reaction[DIM_MAX];  /* [n] on the image, of the energy that the row counts [N] */
-    int64_t held;             /* particles at the ends of such bonds, and for each the ends that pull at it: */
-    int32_t *particle;        /* [held] ascending */
-    int64_t *first;           /* [held + 1] */
+    int64_t n;                /* number of bonds; arrays have LANES more entries, of weight 0 */
+    int64_t *entry;           /* [n] entry of the bond in the bond arrays */
+    int32_t *from, *to;       /* [n] particle of the row; image */
+    real *inverse_length, *w; /* [n] as stored, before the last sweep [1/m], [1] */
+    bool stale;               /* weights have changed since they were copied */
+    real *reaction[DIM_MAX];  /* [n] force on the image, from the energy of the row alone [N] */
+    int64_t held;             /* particles that receive reactions */
+    int32_t *particle;        /* [held] these particles, ascending */
+    int64_t *first;           /* [held + 1] range of `end` for each of them */
+    /* [first[held]] reactions on the particles, particle by particle */
     struct clamp_end *end;
 };
 
-/* State of families; only state-based models have it. Material points with rows then have
- * particles.end_*. */
-enum { STATE_NUMBERS = 2 + ROTATION }; /* P, g, R */
+/* State of the families; state-based models only. Material points with rows then have particles.end_*. */
+enum { STATE_NUMBERS = 2 + ROTATION }; /* P, g and the entries of R */
 struct state {
-    const struct state_modulus *modulus; /* [materials]; NULL: bond-based */
-    bool local;                          /* Q of what a family still has, not of a full one */
-    real *weighted;                      /* [row blocks 8] Q [m^2] */
-    real share;                          /* V/Q of a full family, where moduli are of that; 0: of each family [m] */
-    uint8_t *past;                       /* [row blocks] 1: a bond may have passed its limit in the last sweep */
+    const struct state_modulus *modulus; /* [materials]; NULL: bond-based model */
+    bool local;                          /* Q is summed over the present family, not over a full one */
+    real *weighted;                      /* [row blocks 8] weighted volume Q [m^2] */
+    real share;                          /* V/Q of a full family, where moduli refer to it; 0: V/Q of each family [m] */
+    uint8_t *past;                       /* [row blocks] 1: a bond may have exceeded its limit in the last sweep */
     uint8_t *pressed;                    /* [row blocks] 1: a bond is within its core (kernels/pd/bond_core.h) */
-    real *pressure, *spring;             /* [n_all] P and g [N/m^2], [N/m] */
-    /* [n_all] rotation R and g (kernels/pd/rotation.h); only models with rotations: g (R - 1), row major, in the
-     * plane [N/m]; sqrt(2 g) times the quaternion of R, its scalar last, in space [(N/m)^1/2] */
+    real *pressure, *spring;             /* [n_all] pressure P [N/m^2] and spring g [N/m] */
+    /* [n_all] rotation R with spring g (kernels/pd/rotation.h), only in models with rotations. 2D: g (R - 1), row major
+     * [N/m]; 3D: sqrt(2 g) times the quaternion of R, its scalar last [(N/m)^1/2] */
     real *rotation[ROTATION];
-    real *before[STATE_NUMBERS]; /* [n_all] the same three in row blocks that are past: before bonds end */
-    struct state_image *image;   /* [n_all - n] */
+    real *before[STATE_NUMBERS]; /* [n_all] P, g and R before bonds broke, in row blocks that are `past` */
+    struct state_image *image;   /* [n_all - n] origins of the mirror images */
 };
 
-/* Lengths of a lattice: those of shell k are spacing sqrt(k). */
+/* Bond lengths of a lattice: shell k has the length spacing sqrt(k). */
 enum { BOND_SHELLS = 256 };
 struct bond_length {
     real inverse, length, square;
-}; /* [1/m], [m], [m^2] */
+}; /* 1/r [1/m], r [m], r^2 [m^2] */
 
-/* What the eight bonds of a column have in common; a copy of what first, w and inverse_length say, made by
- * bonds_share: all that the hot loops read of a column on a lattice, four bytes a bond. */
+/* Common properties of the eight bonds of a column, derived from first, w and inverse_length by bonds_share: on a
+ * lattice the hot loops read only these, four bytes per bond. */
 struct bond_column {
-    int16_t excess[LANES]; /* |inverse_length| over the shell's, in units of the last place: positions
-                              are rounded; the sum is exact */
-    real w;                /* of its intact bonds if alike [1] */
-    int32_t first;         /* as below */
+    int16_t excess[LANES]; /* |inverse_length| less that of the shell, in units of the last place: positions are
+                              rounded; the sum is exact */
+    real w;                /* weight of the intact bonds, if `alike` [1] */
+    int32_t first;         /* copy of bonds.first */
     uint8_t intact;        /* bit l: the bond of lane l is intact */
-    uint8_t shell;         /* k: consecutive neighbours, lengths those of shell_length[k] up to the
-                              round-off of positions; 0: other lengths, or not consecutive */
-    uint8_t alike;         /* 1: shell > 0, and intact bonds have one weight */
-    uint8_t unused;        /* two of them in a cache line */
+    uint8_t shell;  /* k: consecutive neighbours, with the lengths of shell_length[k] up to the round-off of positions;
+                       0: other lengths, or not consecutive */
+    uint8_t alike;  /* true: shell > 0, and intact bonds have one weight */
+    uint8_t unused; /* makes the size half a cache line */
 };
 
-/* A column in every row block of a stencil. */
+/* One column, common to all row blocks that follow a stencil. */
 struct stencil_column {
-    int32_t offset;                  /* from the particles of the rows to their neighbours, by number */
-    uint8_t intact, shell;           /* as above */
-    uint16_t unused;                 /* stencils are compared byte by byte */
-    real inverse_length, w;          /* [1/m]; of a bond [1] */
+    int32_t offset;                  /* index of the neighbours less index of the particles of the rows */
+    uint8_t intact, shell;           /* as in struct bond_column */
+    uint16_t unused;                 /* always 0, since stencils are compared byte by byte */
+    real inverse_length, w;          /* 1/r [1/m]; weight of one intact bond [1] */
     real length;                     /* 1/inverse_length [m] */
-    real weighted, squared;          /* w |xi| and w |xi|^2 of the lattice's |xi| [m], [m^2] */
-    real xi[DIM_MAX], w_xi[DIM_MAX]; /* X_j - X_i, and w times that [m] */
+    real weighted, squared;          /* w |xi| [m] and w |xi|^2 [m^2] with |xi| of the lattice */
+    real xi[DIM_MAX], w_xi[DIM_MAX]; /* X_j - X_i, and w times X_j - X_i [m] */
 };
 
-/* Row blocks of eight particles in a row that have the same neighbours at the same distances with the same weights,
- * nothing broken: most of a lattice. They read one list of columns, which stays in the nearest cache, and bonds cost
- * their arithmetic. Their own columns are written only when a bond is read by index (row_block_expand). */
+/* Bonds that row blocks of eight consecutive particles share: equal neighbours at equal distances with equal weights,
+ * no bond broken. Most row blocks of a lattice follow one of few stencils, whose columns stay in the nearest cache.
+ * Columns of such row blocks are written only when a bond is accessed by index (row_block_expand). */
 struct stencil {
     int columns;
-    bool whole;                    /* all lanes have all bonds, of one weight */
-    bool unit;                     /* which is 1 */
-    int32_t next;                  /* with the same hash, -1: none */
+    bool whole;                    /* all lanes have all bonds, with one weight */
+    bool unit;                     /* all weights are 1 */
+    int32_t next;                  /* next stencil with equal hash, -1: none */
     struct stencil_column *column; /* [columns] */
-    real (*w)[LANES];              /* [columns] of the lanes, 0: no bond [1] */
+    real (*w)[LANES];              /* [columns] weights of the lanes, 0: no bond [1] */
 };
-struct stencils; /* all of them (bonds_stencils.c) */
+struct stencils; /* all stencils (bonds_stencils.c) */
 struct site_map; /* particle at each site of a lattice (bonds_site_map.c) */
 
-/* Columns of row blocks that are no more: room for others when rows are made anew. */
+/* Columns of a removed row block, free for others when rows are rebuilt. */
 struct bond_hole {
     int64_t column;
     int32_t columns;
 };
+
+/* All holes. */
 struct bond_holes {
     int64_t n;
     struct bond_hole *hole;
 };
 
+/* The bonds of a body. All arrays are owned. */
 struct bonds {
     int64_t rows, row_blocks, columns;
-    int64_t used, room;               /* columns of which something is or was stored; that there is room for */
-    int64_t n;                        /* directed bonds in the rows, broken ones included */
-    int32_t reach;                    /* row blocks: no bond leads to a row farther on */
-    int32_t *particle;                /* [row blocks 8] particle of a row; padding rows repeat the last */
-    int32_t *row_of;                  /* [n_all] row of a particle, -1 without */
-    int32_t *no_rows;                 /* [n_all] -1: what row_of begins as when rows are made anew; or NULL */
-    int64_t *column;                  /* [row blocks] first column of a row block */
-    int32_t *column_count;            /* [row blocks] its columns */
-    uint8_t *whole;                   /* [row blocks 8] the row of a peridynamic particle: the whole family */
-    int32_t *made;                    /* [row blocks] directed bonds of the row block, broken ones included */
-    uint8_t *aligned;                 /* [row blocks] the eight particles are consecutive */
-    int32_t *first;                   /* [columns] neighbour of lane 0 where the eight are consecutive, else -1 */
-    int32_t *nbr;                     /* [columns 8] neighbour */
-    real *inverse_length;             /* [columns 8] 1/|X_j - X_i|; negative: broken, so that its stretch is below
-                                         -1 and never exceeds a limit; 0: padding [1/m] */
-    real *w;                          /* [columns 8] symmetric weight: beta x surface x V_i V_j c_ij over
-                                         stiffness; 0: broken, cut or padding [1] */
+    int64_t used, room;    /* columns that are or were in use; capacity */
+    int64_t n;             /* directed bonds in the rows, broken ones included */
+    int32_t reach;         /* largest distance of a bond's neighbour, in row blocks */
+    int32_t *particle;     /* [row blocks 8] particle of a row; padding rows repeat the last */
+    int32_t *row_of;       /* [n_all] row of a particle, -1: none */
+    int32_t *no_rows;      /* [n_all] all -1: spare array for the next row_of; NULL: none */
+    int64_t *column;       /* [row blocks] first column of a row block */
+    int32_t *column_count; /* [row blocks] number of columns */
+    uint8_t *whole;        /* [row blocks 8] 1: row of a peridynamic particle, with the whole family */
+    int32_t *made;         /* [row blocks] directed bonds of the row block, broken ones included */
+    uint8_t *aligned;      /* [row blocks] 1: the eight particles are consecutive */
+    int32_t *first;        /* [columns] neighbour of lane 0 if the eight are consecutive, else -1 */
+    int32_t *nbr;          /* [columns 8] neighbour */
+    real *inverse_length; /* [columns 8] 1/|X_j - X_i|; negative: broken, so that the stretch is below -1 and exceeds no
+                             limit; 0: padding [1/m] */
+    real *w; /* [columns 8] symmetric weight: beta x surface x V_i V_j c_ij over stiffness; 0: broken, cut or padding
+                [1] */
     struct bond_column *common;       /* [columns] */
     struct bond_length *shell_length; /* [BOND_SHELLS] */
-    const struct stencil **stencil;   /* [row blocks] what a row block follows, NULL: nothing */
-    uint8_t *implicit;                /* [row blocks] its columns are not written */
-    uint8_t *changed;                 /* [row blocks] weights are not those it was made with: no stencil */
+    const struct stencil **stencil;   /* [row blocks] stencil that a row block follows, NULL: none */
+    uint8_t *implicit;                /* [row blocks] 1: the columns are not written */
+    uint8_t *changed; /* [row blocks] 1: weights have changed since the row block was made; it follows no stencil */
     struct bond_holes holes;
     struct stencils *stencils;
-    struct site_map *site_map;            /* kept where there are material points; else NULL */
-    real *plastic_stretch, *plastic_path; /* [columns 8] s_p and alpha of a bond; NULL where none yields [1] */
-    int32_t *pair;                        /* [columns 8] entry of `yield`; NULL where none yields */
+    struct site_map *site_map;            /* kept while there are material points; else NULL */
+    real *plastic_stretch, *plastic_path; /* [columns 8] s_p and alpha of a bond; NULL if no bond yields [1] */
+    int32_t *pair;                        /* [columns 8] index in `yield`; NULL if no bond yields */
     struct bond_yield yield;
-    real *trigger;         /* [row blocks 8] no bond of the row breaks below this stretch */
-    float *family_volume;  /* [row blocks 8] sum V_j of the whole initial family [m^3] */
-    float *broken_volume;  /* [row blocks 8] of its broken bonds [m^3] */
-    real *fracture_energy; /* [row blocks 8] half of each broken bond's energy [J] */
-    real *plastic_work;    /* [row blocks 8] half of what its broken bonds had dissipated [J] */
+    real *trigger;         /* [row blocks 8] lower bound of the breaking stretches of the row [1] */
+    float *family_volume;  /* [row blocks 8] sum of V_j over the whole initial family [m^3] */
+    float *broken_volume;  /* [row blocks 8] sum of V_j over the broken bonds [m^3] */
+    real *fracture_energy; /* [row blocks 8] half of the energy of each broken bond [J] */
+    real *plastic_work;    /* [row blocks 8] half of the plastic work of the broken bonds [J] */
     int32_t *broken;       /* [row blocks 8] bonds broken by load since the start */
     struct state state;
     struct clamped clamped;
-    struct active_set active; /* of blocks of rows */
-    real core;                /* stiffness of cores (kernels/pd/bond_core.h), in those of bonds */
+    struct active_set active; /* of row blocks */
+    real core;                /* stiffness of the cores (kernels/pd/bond_core.h) over that of the bonds [1] */
     real stiffness;           /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };
 
-/* Are all eight rows of a row block there and peridynamic? */
+/* Returns true if all eight rows of a row block exist and belong to peridynamic particles. */
 static inline bool row_block_whole(const struct bonds *b, int64_t row_block)
 {
     return eight_bytes(b->whole + row_block * LANES) == EIGHT_TIMES(1);
 }
 
-/* Updates what the bonds of a column share, from their weights and lengths. To be called after a change of w or of
- * the sign of inverse_length, mostly through bonds_changed. Shared and unshared columns give the same bits. */
+/* Updates the common properties of a stored column from its weights and lengths. Required after a change of w or of the
+ * sign of inverse_length, usually through bonds_changed. */
 void bonds_share(const struct bonds *b, int64_t column);
-/* The weight of bond q of a row has changed: its row block follows no stencil any more. */
+
+/* Updates the common properties of the column of bond q after a change of its weight. The row block of `row` no longer
+ * follows a stencil. */
 void bonds_changed(struct bonds *b, int64_t row, int64_t q);
-/* Writes the columns of an implicit row block from its stencil; thread-safe. */
+
+/* Writes the columns of an implicit row block from its stencil. Thread-safe. */
 void row_block_expand(struct bonds *b, int64_t row_block);
 
-/* Place of bond k of a row block, lane l, in the arrays of bonds, for writers: the row block is expanded first. After a
- * change of w or of the sign of inverse_length follows bonds_changed. */
+/* Returns the index of bond k of a row block, lane l, in the bond arrays, for writing; expands the row block first.
+ * After a change of w or of the sign of inverse_length the caller calls bonds_changed. */
 static inline int64_t bond_to_write(struct bonds *b, int64_t row_block, int64_t k, int lane)
 {
     if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) row_block_expand(b, row_block);

@@ -3,33 +3,45 @@
 
 #include "bonds/bonds.h"
 
-/* Sites of a lattice that all particles and images stand on (bonds_site_map.c). */
+/* Row of lattice sites within the cutoff: index of its middle site relative to the particle's, and half its length in
+ * sites. */
 struct stencil_row {
     int64_t site;
     int half;
-}; /* its middle from a site; bonds reach that far either side */
+};
+
+/* Map of the sites of a lattice to particles and images (bonds_site_map.c). */
 struct site_map {
-    int32_t *at; /* [sites] particle + 1, 0 without; NULL: no lattice */
+    int32_t *at; /* [sites] particle + 1, 0: none; NULL: particles are not on a lattice */
     real low[DIM_MAX], spacing;
     int64_t stride[DIM_MAX];
     struct stencil_row *row;
-    int reach, rows, most; /* most bonds that eight particles in a row can have columns for */
-    int users;             /* of one that is kept: rows, and rows made anew from them */
-    bool uniform;          /* exact places, one volume, mass and material: bonds follow from sites */
+    int reach, rows, most; /* largest number of bonds of eight consecutive particles, in columns */
+    int users;             /* rows that share the map */
+    bool uniform;          /* exact positions, one volume, mass and material: bonds follow from sites */
 };
-/* Of particle i, -1 where it stands on none. */
+
+/* Returns the site of particle i, -1 if it is not at a site. */
 int64_t site_of(const struct site_map *l, const struct particles *p, int64_t i);
-/* False, and nothing to free, where particles do not stand on one. */
+
+/* Creates the map. Returns false, with nothing to release, if the particles are not on a lattice. */
 bool site_map_make(struct site_map *l, const struct bond_source *s, const struct particles *p);
+
+/* Releases the map. */
 void site_map_free(struct site_map *l);
-/* A map that rows hand on to those made anew from them, the one that there is or a new one; and back. */
+
+/* Returns the site map that rows share when they are rebuilt: `of` if it is not NULL, else a new one. Release with
+ * site_map_leave. */
 struct site_map *site_map_keep(struct site_map *of, const struct bond_source *s, const struct particles *p);
+
+/* Releases a shared site map; the last user frees it. NULL: does nothing. */
 void site_map_leave(struct site_map *l);
-/* Particles and images of the body of particle i within the cutoff, ascending, by the map. Returns how many there are;
- * -1: an image is among them, which would come out of order. */
+
+/* Lists the particles and images of the body of particle i within the cutoff, ascending, from the map. Returns their
+ * number, or -1 if an image is among them, which would break the order. */
 int site_map_family(const struct site_map *l, const struct particles *p, int32_t i, int32_t *found);
 
-/* Can a crack cut any bond of particle i? */
+/* Returns true if a crack may cut a bond of particle i. */
 bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i);
 
 #endif

@@ -1,43 +1,47 @@
-/* Weights of bonds near faces, such that bodies of bonds and families bend, twist and stretch as the continuum does.
+/* Weights of bonds near faces, chosen such that bodies of bonds and families bend, twist and stretch like the
+ * continuum.
  *
- * In a field of linear strain the stretch of a bond is n.eps.n at its middle. With w the weight, r the length and n
- * the direction of a bond, the force on particle i is then (sum w nnn):eps_i + (sum w r nnnn)::grad eps/2. Such a
- * field, if it is one of equilibrium, stays so where
+ * In a field of linear strain the stretch of a bond is n.eps.n at its middle. With w the weight, r the length and n the
+ * direction of a bond, the force on particle i is then (sum w nnn):eps_i + (sum w r nnnn)::grad eps/2. A field in
+ * equilibrium stays in equilibrium if
  *
  *     sum w nnn = -M A_i/2        A_i: outward area of the cell of i [spacing^(dim - 1)]
- *     sum w r nnnn = (1 + tau_i) M     M: of a full family of the lattice
+ *     sum w r nnnn = (1 + tau_i) M     M: sum of a full family of the lattice
  *
- * for the strains that a free face can bear: those whose stress leaves no traction on it. The energy of membranes is
- * exact if tau adds up to nothing; that of bending needs, for every face, tau of moment alpha = 1/24 + <d^2>/8, d being
- * the distance between the middle of a bond and its particle, normal to the face: what the cell's own inertia of area
- * and the bonds' lengths take from the strain that varies across them. The factors nearest to 1 within bounds
- * that meet both in the mean square are found once, when bonds are first made (surface_fit.c). They are positive: so is
- * the energy. Particles with alike surroundings have alike factors. */
+ * for the strains that a free face can have: those whose stress has no traction on it. The energy of membranes is exact
+ * if tau sums to zero; that of bending requires, for every face, tau with the moment alpha = 1/24 + <d^2>/8, d being
+ * the distance between the middle of a bond and its particle, normal to the face: the contributions of the cell's
+ * second moment of area and of the bonds' lengths where strain varies across them. The factors nearest to 1 within
+ * bounds that satisfy both in the mean square are computed once, when bonds are first made (surface_fit.c). They are
+ * positive, and so is the energy. Particles with equal surroundings have equal factors. */
 #ifndef CLEAVE_SURFACE
 #define CLEAVE_SURFACE
 
 #include "bonds/family.h"
 
+/* Factors of the weights of bonds near faces, by class of particle and offset. */
 struct surface_weights {
-    real spacing;               /* of the lattice [m] */
-    int reach, dim;             /* of bonds, in spacings; axes */
-    int offsets, *offset_at;    /* neighbours of a full family; number of one, by its place in a box of them */
-    int32_t classes, *class_of; /* [n] of a particle: alike surroundings; 0: no face nearby */
-    uint8_t *mirrors;           /* [n] in which it looks like its class: a bit for each axis */
-    real *factor;               /* [classes offsets] on the weight of a bond [1] */
+    real spacing;            /* of the lattice [m] */
+    int reach, dim;          /* largest component of a bond vector [spacings]; dimension */
+    int offsets, *offset_at; /* neighbours of a full family; index of an offset by its position in a box of offsets */
+    int32_t classes, *class_of; /* [n] class of equal surroundings of a particle; 0: no face nearby */
+    uint8_t *mirrors;           /* [n] mirrors in which the particle looks like its class, one bit per axis */
+    real *factor;               /* [classes offsets] factor on the weight of a bond [1] */
     real *weighted;             /* [classes] sum w r^2 of the family, of reference particles [m^2] */
-    int64_t apart[2];           /* where REFUSED: a particle, and the first neighbour or image of one that is
-                                   not whole spacings away */
+    int64_t apart[2]; /* if REFUSED: a particle, and its first neighbour or image that is not a whole number of spacings
+                         away */
 };
 
-/* Finds them for particles of a lattice (REFUSED: they are on none, as to->apart shows). Models with rotations
- * (`rotates`) have another alpha: their neighbours' rotations differ where strain is not uniform, and that takes energy
- * of its own. */
+/* Computes the factors for particles on a lattice. REFUSED if they are not on one, with an example in to->apart.
+ * rotates: model with rotations, which has another alpha, because differences between neighbours' rotations store
+ * energy where strain is not uniform. Release with surface_free. */
 status surface_make(struct surface_weights *to, const struct particles *p, const struct bond_source *s, bool rotates);
+
+/* Releases all arrays. */
 void surface_free(struct surface_weights *w);
 
-/* Factor on the weight of the bond of particle i < n with the components xi [m], 1 if that is out of reach; the same
- * bits from both ends. */
+/* Returns the factor on the weight of the bond of particle i < n with components xi [m], 1 if xi is out of reach; equal
+ * bits from both particles of a bond. */
 static inline real surface_factor(const struct surface_weights *w, int64_t i, const real *xi)
 {
     int at = 0;

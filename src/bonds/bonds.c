@@ -1,4 +1,4 @@
-/* Makes bond rows: which particles have one, and their row blocks of eight. */
+/* Makes bond rows: selects the particles that have rows, forms row blocks of eight and fills their columns. */
 #include "bonds_parts.h"
 
 #include <math.h>
@@ -12,13 +12,14 @@
 static const real never[UINT8_MAX + 1] = {[0 ... UINT8_MAX] = INFINITY};
 const struct bond_limit bond_limit_never = {.critical_stretch = never};
 
+/* Returns true if particle i, or the source of image i, already had a row with its whole family. */
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
     i = image_root(p, s->image, i);
     return old->row_of[i] >= 0 && old->whole[old->row_of[i]];
 }
 
-/* Rows made before can be taken over if no particle with a whole row has become a material point again. */
+/* Returns true if the previous rows can be reused: no particle with a whole row has become a material point again. */
 static bool rows_reusable(const struct bonds *old, const struct particles *p)
 {
     if (!old) return false;
@@ -27,7 +28,7 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
     return true;
 }
 
-/* Marks the rows of one peridynamic particle or image: its own and those of all within its reach. */
+/* Marks the rows of peridynamic particle or image i: its own and those of all particles within the cutoff. */
 static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
                         int32_t *found, int room, uint8_t *wanted, uint8_t *fresh)
 {
@@ -37,11 +38,10 @@ static void mark_family(const struct bond_source *s, const struct particles *p, 
         if (found[k] < p->n) wanted[found[k] / LANES] = fresh[found[k]] = 1;
 }
 
-/* Rows: peridynamic particles, and material points with a peridynamic neighbour. Eight particles of consecutive numbers
- * have rows together: a row block holds the same eight particles for as long as it exists, is written as whole vectors,
- * and on a lattice its neighbours are consecutive, too. Rows that were not marked have no bonds. Marks eights in
- * `wanted`; `fresh` marks those to be searched anew: particles that have become peridynamic and all within their
- * reach. */
+/* Marks in `wanted` the groups of eight consecutive particles that get rows: peridynamic particles, and material points
+ * with a peridynamic neighbour. A row block keeps its eight particles for as long as it exists, is written as whole
+ * vectors, and on a lattice its neighbours are consecutive. Rows of unmarked particles in a group have no bonds. Marks
+ * in `fresh` [n] the particles to be searched again: those that have become peridynamic and all within their cutoff. */
 static void mark_rows(const struct bond_source *s, const struct particles *p, const struct bonds *old,
                       const struct site_map *map, int room, uint8_t *wanted, uint8_t *fresh)
 {
@@ -69,7 +69,7 @@ struct pair_table pairs_make(const struct bond_source *s)
     struct pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
     real *c = NEW("bonds.moduli", s->materials, real);
     for (int m = 0; m < s->materials; m++) c[m] = family_micro_modulus(&s->family, &s->material[m]);
-    /* springs in series across a material interface; of equal ones no round-off */
+    /* springs in series across a material interface; equal ones without round-off */
     for (int a = 0; a < s->materials; a++)
         for (int b = 0; b < s->materials; b++)
             t.ratio[a * s->materials + b] =
@@ -78,7 +78,7 @@ struct pair_table pairs_make(const struct bond_source *s)
     return t;
 }
 
-/* Row of each particle, -1: none. */
+/* Returns an array [n] of -1, for the row of each particle; reuses the spare array of the previous rows. */
 static int32_t *row_of_make(struct bonds *old, int64_t n)
 {
     int32_t *row_of = old ? old->no_rows : NULL;
@@ -91,7 +91,7 @@ static int32_t *row_of_make(struct bonds *old, int64_t n)
     return row_of;
 }
 
-/* All of eight particles that are marked, or none. */
+/* Lists the particles of all marked groups of eight as rows. */
 static void rows_list(struct bonds *b, struct bonds *old, const struct particles *p, const uint8_t *wanted)
 {
     const int64_t eights = (p->n + LANES - 1) / LANES;
@@ -107,6 +107,7 @@ static void rows_list(struct bonds *b, struct bonds *old, const struct particles
     for (int64_t r = b->rows; r < b->row_blocks * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
 }
 
+/* Allocates all arrays but the columns. */
 static void rows_arrays(struct bonds *b)
 {
     int64_t padded = b->row_blocks * LANES;
@@ -127,16 +128,16 @@ static void rows_arrays(struct bonds *b)
     active_set_make(&b->active, b->row_blocks);
 }
 
-/* Does the two passes over the row blocks. */
+/* Inputs and results of the two passes over the row blocks. */
 struct rows_pass {
     struct bonds *b;
     struct row_maker maker;
-    struct row_block_found **found; /* [row blocks] of those that are searched, NULL: not kept   */
-    int64_t *kept; /* [row blocks] of old rows whose row block is taken over, -1: made; NULL: all are */
-    bool count;    /* the first pass: columns are counted                     */
+    struct row_block_found **found; /* [row blocks] neighbours found by search in the first pass, NULL: not kept */
+    int64_t *kept; /* [row blocks] previous row block that is taken over, -1: rebuilt; NULL: all are built */
+    bool count;    /* first pass: columns are only counted */
 };
 
-/* True if one of the rows was in a row block that had changed. */
+/* Returns true if one of the rows was in a previous row block with changed weights. */
 static bool row_block_inherits(const struct bonds *old, const int32_t *particle, int rows)
 {
     bool changed = false;
@@ -147,7 +148,7 @@ static bool row_block_inherits(const struct bonds *old, const int32_t *particle,
     return changed;
 }
 
-/* Are its bonds those that its place on the lattice tells, as new? */
+/* Returns true if the bonds of row block g follow from the site map and none has changed. */
 static bool is_regular(const struct rows_pass *pass, struct row_block_room *room, int64_t g)
 {
     const struct row_maker *m = &pass->maker;
@@ -157,12 +158,13 @@ static bool is_regular(const struct rows_pass *pass, struct row_block_room *room
            row_block_regular(m->map, m->source, m->p, particle[0], &room->regular);
 }
 
+/* Raises *reach to |distance|. */
 static void reach_widen(int32_t *reach, int32_t distance)
 {
     if (abs(distance) > *reach) *reach = abs(distance);
 }
 
-/* How far in the list of particles a row block's rows reach; images have no rows. */
+/* Raises room->reach to the largest index distance of a bond of row block g, without images (they have no rows). */
 static void note_reach(const struct rows_pass *pass, struct row_block_room *room, int64_t g, bool regular)
 {
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
@@ -173,7 +175,7 @@ static void note_reach(const struct rows_pass *pass, struct row_block_room *room
             if (room->row[l].nbr[k] < n) reach_widen(&room->reach, room->row[l].nbr[k] - particle[l]);
 }
 
-/* Counts the columns of a row block, or fills them; returns its bonds. */
+/* Counts the columns of row block g (first pass) or fills them (second pass). Returns the number of its bonds. */
 static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_room *room, int64_t g)
 {
     struct bonds *b = pass->b;
@@ -205,8 +207,8 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_roo
     return made;
 }
 
-/* Bonds go to memory in the second of two equal passes, the first only counts: a list of all bonds never exists twice.
- * Returns how many there are. */
+/* Visits all row blocks; called twice, first to count columns, then to fill them, so that a list of all bonds never
+ * exists twice. Returns the number of directed bonds. */
 static int64_t rows_pass(const struct rows_pass *pass)
 {
     const struct row_maker *m = &pass->maker;
@@ -236,7 +238,8 @@ static int64_t rows_pass(const struct rows_pass *pass)
     return made;
 }
 
-/* With old rows few row blocks change, and what is searched for them is kept. */
+/* Fills all row blocks. If previous rows exist, few row blocks change, and the neighbours found while counting are
+ * kept. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
     struct pair_table pairs = pairs_make(maker.source);
@@ -256,6 +259,7 @@ static void bonds_rows_make(struct bonds *b, struct row_maker maker)
     memory_free(pairs.ratio);
 }
 
+/* Copies energies and counts of the previous rows. */
 static void rows_inherit(struct bonds *b, const struct bonds *old)
 {
     for (int64_t r = 0; r < b->rows; r++) {
@@ -270,7 +274,7 @@ static void rows_inherit(struct bonds *b, const struct bonds *old)
 void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const struct bond_source *s)
 {
     memset(b, 0, sizeof *b);
-    if (old) b->reach = old->reach; /* rows that are kept were looked at then */
+    if (old) b->reach = old->reach; /* covers the row blocks that are kept */
     b->stencils = stencils_make(old ? old->stencils : NULL);
     struct site_map *map = site_map_keep(old ? old->site_map : NULL, s, p);
     int most = bonds_room(s);
@@ -323,7 +327,7 @@ void bonds_renew(struct bonds *b, struct particles *p, const struct bond_source 
         for (int d = 0; d < p->dim && b->row_of[i] < 0; d++) p->f[d][i] = 0;
         old.row_of[i] = -1;
     }
-    b->no_rows = old.row_of, old.row_of = NULL; /* the next rows need no other */
+    b->no_rows = old.row_of, old.row_of = NULL; /* spare array for the next rows */
     bonds_free(&old);
 }
 

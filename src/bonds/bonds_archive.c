@@ -1,12 +1,12 @@
-/* What of the bonds survives a restart. */
+/* Saves and restores the state of bonds that rows made from the scene do not have. */
 #include <math.h>
 #include <string.h>
 
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Weights of the row blocks that have changed, side by side, there or back; the others have those that they are made
- * with. */
+/* Copies the weights of changed row blocks to w (saving) or from w; other row blocks have the weights of their
+ * making. */
 static void changed_weights(struct bonds *b, real *w, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) {
@@ -23,6 +23,7 @@ static void changed_weights(struct bonds *b, real *w, bool saving)
     }
 }
 
+/* Saves or restores the marks and weights of changed row blocks. */
 static status weights_archive(struct bonds *b, struct archive *a)
 {
     int64_t columns = 0;

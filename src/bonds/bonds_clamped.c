@@ -1,11 +1,12 @@
-/* Bonds to images in clamped planes, and the particles that they pull at: made with the rows. */
+/* Lists the bonds to images in clamped planes, and the particles that receive their reactions. */
 #include "bonds_parts.h"
 
 #include <string.h>
 
 #include "base/memory.h"
 
-/* P of an image: how the displacement of its root turns round on the way. True if a clamped plane is on it. */
+/* Computes the signs P by which the displacement of image j follows from that of its root. Returns true if a clamped
+ * plane is among its mirrors. */
 static bool image_rotates(const struct bond_source *s, const struct particles *p, int64_t j, int8_t *sign)
 {
     bool clamp = false;
@@ -19,7 +20,8 @@ static bool image_rotates(const struct bond_source *s, const struct particles *p
     return clamp;
 }
 
-/* Images in clamped planes: 1, others: 0; NULL: there is none. */
+/* Returns an array with 1 for images in clamped planes, 0 for others; NULL if there are none. Release with
+ * memory_free. */
 static uint8_t *clamped_images(const struct bond_source *s, const struct particles *p)
 {
     bool any = false;
@@ -32,7 +34,7 @@ static uint8_t *clamped_images(const struct bond_source *s, const struct particl
     return NULL;
 }
 
-/* Counts the intact bonds of column k of a row block to such images, or notes them. */
+/* Counts the intact bonds of column k of row block g to clamped images; stores them too, once c->entry is allocated. */
 static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g,
                         int64_t k)
 {
@@ -48,7 +50,8 @@ static void column_note(struct clamped *c, struct bonds *b, const struct particl
     }
 }
 
-/* Images come behind the body: of most columns one look tells that they have none. */
+/* Counts or stores all such bonds. Images have numbers behind the body, so most columns are excluded by one
+ * comparison. */
 static void bonds_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is)
 {
     c->n = 0;
@@ -61,7 +64,7 @@ static void bonds_note(struct clamped *c, struct bonds *b, const struct particle
         }
 }
 
-/* Sorts ends by particle, those of a particle in the order of the bonds. */
+/* Sorts n reactions by particle; reactions on one particle stay in the order of the bonds. of: [n] particle of each. */
 static void ends_sort(struct clamped *c, const struct clamp_end *end, const int32_t *of, int64_t n, int64_t particles)
 {
     int64_t *next = NEW("clamped.next", particles + 1, int64_t);
@@ -79,8 +82,9 @@ static void ends_sort(struct clamped *c, const struct clamp_end *end, const int3
     memory_free(next);
 }
 
-/* Bond-based: a row holds the force of both ends of a bond, and the half that belongs to the row of the image leaves
- * it. State-based: the row holds its own half only (clamped images have no state), and the source nothing yet. */
+/* Lists the reactions on particles. Bond-based: a row holds the force of both rows of a bond, and the half that belongs
+ * to the image's row is subtracted. State-based: the row holds its own half only (clamped images have no state), and
+ * the reaction is added to the source. */
 static void bonds_clamped_ends_make(struct clamped *c, const struct particles *p, const struct bond_source *s)
 {
     const int each = s->modulus ? 1 : 2;

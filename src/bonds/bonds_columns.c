@@ -1,18 +1,18 @@
-/* Where the columns of row blocks are stored when rows are made anew: those of row blocks that stay are where they
- * were; others take the holes that row blocks have left which are no more, or come behind all that is stored. Memory
- * that has been touched is used again, and columns are never copied. */
+/* Storage of columns when rows are rebuilt: columns of unchanged row blocks stay in place; others are placed in the
+ * holes of removed row blocks, or behind all stored columns. Touched memory is reused, and columns are never copied. */
 #include "bonds_parts.h"
 #include "base/memory.h"
 
 /* ---- holes ------------------------------------------------------------------------------------------------------- */
 
-/* Lists of the holes by their size. */
+/* Linked lists of the holes, one for each size. */
 struct holes_by_size {
     struct bond_holes *all;
     int32_t *first, *next;
     int32_t most;
 };
 
+/* Inserts hole k in the list of its size. */
 static void hole_list(struct holes_by_size *s, int64_t k)
 {
     const int32_t size = s->all->hole[k].columns;
@@ -20,6 +20,7 @@ static void hole_list(struct holes_by_size *s, int64_t k)
     s->first[size] = (int32_t)k;
 }
 
+/* Sorts all holes by size. */
 static struct holes_by_size holes_sort(struct bond_holes *all)
 {
     struct holes_by_size s = {.all = all};
@@ -31,7 +32,8 @@ static struct holes_by_size holes_sort(struct bond_holes *all)
     return s;
 }
 
-/* Columns in the smallest hole that has room for so many, -1: there is none. What is left stays a hole. */
+/* Returns the first column of the smallest hole with at least `columns` columns, -1 if there is none. The rest of the
+ * hole remains a hole. */
 static int64_t hole_take(struct holes_by_size *s, int32_t columns)
 {
     int32_t size = columns;
@@ -46,7 +48,7 @@ static int64_t hole_take(struct holes_by_size *s, int32_t columns)
     return at;
 }
 
-/* Holes that are used up leave the list. */
+/* Removes used holes from the list and frees the lists. */
 static void holes_close(struct holes_by_size *s)
 {
     int64_t n = 0;
@@ -57,7 +59,8 @@ static void holes_close(struct holes_by_size *s)
     memory_free(s->next);
 }
 
-/* What the old row blocks that are not kept have stored: holes from the next time on, as they are still read. */
+/* Adds the columns of previous row blocks that are not kept to the holes, for the next rebuilding: they are still read
+ * in this one. */
 static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *kept)
 {
     struct bond_holes *holes = &b->holes;
@@ -72,9 +75,11 @@ static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *k
     memory_free(stays);
 }
 
-/* ---- places ------------------------------------------------------------------------------------------------------ */
+/* ---- positions of columns
+ * ------------------------------------------------------------------------------------------ */
 
-/* Row blocks write all of their columns, padding included, or none: on a lattice most. */
+/* Allocates the column arrays. sparse: address space without memory until written, since on a lattice most row blocks
+ * write no column. */
 static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sparse)
 {
     void *(*make)(const char *, int64_t, size_t) = sparse ? memory_sparse : memory_bare;
@@ -90,7 +95,7 @@ static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sp
     b->pair = NEW("bonds.pair", b->room * LANES, int32_t);
 }
 
-/* More room for what is stored. */
+/* Extends the column arrays to `room` columns. */
 static void columns_extend(struct bonds *b, int64_t room)
 {
     const int64_t had = b->room, each = LANES;
@@ -103,7 +108,7 @@ static void columns_extend(struct bonds *b, int64_t room)
     b->room = room;
 }
 
-/* Places row blocks in the columns of old ones. */
+/* Assigns columns to row blocks in the arrays of the previous rows. */
 static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     struct holes_by_size holes = holes_sort(&old->holes);
@@ -116,7 +121,7 @@ static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
     if (b->used > old->room) columns_extend(old, 2 * b->used);
 }
 
-/* Until old rows are left they and the new ones share what is stored. */
+/* Makes b use the arrays of the previous rows, until columns_leave detaches them. */
 static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     b->room = old->room;
@@ -127,7 +132,8 @@ static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kep
     holes_add(b, old, kept);
 }
 
-/* Plastic strain stays in the order of its row blocks (bonds_archive.c): all columns are stored anew. */
+/* Rows with plastic bonds store all columns anew, because their plastic state is archived in the order of the row
+ * blocks (bonds_archive.c). */
 void columns_place(struct bonds *b, const struct row_maker *m, const int64_t *kept)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) b->columns += b->column_count[g];

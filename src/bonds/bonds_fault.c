@@ -3,7 +3,7 @@
 
 #include "bonds_parts.h"
 
-/* Rows and particles: each row has its own, ascending, and row_of leads back. */
+/* Checks rows and particles: rows ascend by particle, and row_of is the inverse. */
 static const char *rows_fault(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++) {
@@ -15,7 +15,7 @@ static const char *rows_fault(const struct bonds *b)
     return NULL;
 }
 
-/* A row block that stores nothing of its own. */
+/* Checks an implicit row block. */
 static const char *implicit_fault(const struct bonds *b, int64_t g)
 {
     if (!b->stencil[g]) return "an implicit row block follows no stencil";
@@ -25,7 +25,7 @@ static const char *implicit_fault(const struct bonds *b, int64_t g)
     return NULL;
 }
 
-/* A stored column against what its bonds share. */
+/* Checks a stored column against the common properties of its bonds. */
 static const char *column_fault(const struct bonds *b, int64_t column)
 {
     const struct bond_column *common = &b->common[column];
@@ -41,7 +41,7 @@ static const char *column_fault(const struct bonds *b, int64_t column)
     return NULL;
 }
 
-/* Intact bonds of a row lead no farther than `reach` row blocks. */
+/* Checks that the intact bonds of a row are within `reach` row blocks. */
 static const char *reach_fault(const struct bonds *b, int64_t row)
 {
     for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {

@@ -1,5 +1,4 @@
-/* What rows made anew take over as it is: row blocks in which nothing has changed, and what was found while
- * counting. */
+/* Takes over unchanged row blocks of the previous rows, and neighbours found while counting. */
 #include <string.h>
 
 #include "bonds_parts.h"
@@ -16,7 +15,7 @@ int64_t row_block_kept(const struct bonds *b, const struct row_maker *m, int64_t
     return first / LANES;
 }
 
-/* Numbers of `each` bytes of the columns of a row block. */
+/* Copies `each` bytes per column from row block `of` of the previous rows to row block g. */
 static void columns_copy(void *to, const void *from, size_t each, const struct bonds *b, const struct bonds *old,
                          int64_t g, int64_t of)
 {
@@ -24,6 +23,7 @@ static void columns_copy(void *to, const void *from, size_t each, const struct b
                b->column_count[g], each);
 }
 
+/* Copies all columns of row block `from` to row block g. */
 static void columns_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
 {
     columns_copy(b->first, old->first, sizeof *b->first, b, old, g, from);

@@ -1,4 +1,4 @@
-/* One row of bonds while it is made: search, weigh, carry over what load has done to it. */
+/* One row of bonds under construction: search, weights, and the state carried over from the previous row. */
 #include "bonds_parts.h"
 
 #include <math.h>
@@ -6,12 +6,13 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-/* The vector test finds bonds above their limit less this share, for round-off; the scalar rule decides. */
+/* Relative tolerance by which the vector test for breaking is below the limit, for round-off; the scalar test is
+ * exact. */
 #define TRIGGER_MARGIN 1e-9
 
 void row_room_make(struct row *row, int room)
 {
-    row->nbr = BARE("bonds.row", room + 1, int32_t); /* row_copy writes one too many */
+    row->nbr = BARE("bonds.row", room + 1, int32_t); /* room for one more: row_copy may write it */
     row->inverse_length = BARE("bonds.row", room + 1, real);
     row->w = BARE("bonds.row", room + 1, real);
     row->plastic = BARE("bonds.row", room + 1, struct bond_plasticity);
@@ -27,8 +28,8 @@ void row_room_free(struct row *row)
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-/* Particles and images of the body of particle i within the cutoff, ascending. Returns how many there are; more than
- * `room` are not written. */
+/* Lists the particles and images of the body of particle i within the cutoff, ascending. Returns their number; if it
+ * exceeds `room`, the list is incomplete. */
 static int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
 {
     real X[DIM_MAX];
@@ -40,7 +41,7 @@ static int family_search(const struct bond_source *s, const struct particles *p,
     return kept;
 }
 
-/* Takes out of a list of n neighbours of particle i those that voids hide. Returns how many stay. */
+/* Removes the neighbours that voids hide from a list of n neighbours of particle i. Returns how many remain. */
 static int family_seen(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int n)
 {
     int kept = 0;
@@ -90,10 +91,11 @@ bool cuts_near(const struct bond_source *s, const struct particles *p, int64_t i
 
 /* ---- one row ----------------------------------------------------------------------------------------------------- */
 
+/* Returns the weight of the bond i-j with components xi [m] and length r [m] [1]. */
 static real bond_weight(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                         int32_t i, int32_t j, const real *xi, real r)
 {
-    /* Written so that i and j may be exchanged without changing a bit. */
+    /* written such that exchanging i and j changes no bit */
     real weight = family_weight(&s->family, xi, r) * ((p->volume0[i] * p->volume0[j]) / square(s->family.cell_volume));
     weight *= pairs->ratio[p->material[i] * pairs->materials + p->material[j]];
     if (s->neighbour_volume) /* volume method, Le & Bobaru 2018 */
@@ -102,7 +104,8 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
     return weight;
 }
 
-/* Neighbours of row i: the whole family of a peridynamic particle, the peridynamic neighbours of a material point. */
+/* Finds the neighbours in row i: the whole family of a peridynamic particle, the peridynamic neighbours of a material
+ * point. */
 static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
                        const struct particles *p, int32_t i, int room)
 {
@@ -115,7 +118,7 @@ static void row_search(struct row *row, const struct site_map *map, const struct
     row->n = kept;
 }
 
-/* Elastic strain C^-1 sigma of material point i along e. */
+/* Returns the elastic strain C^-1 sigma of material point i along the unit vector e [1]. */
 static real elastic_strain_along(const struct particles *p, const struct material *m, int64_t i, const real *e)
 {
     const int dim = p->dim, n = symmetric_count(dim);
@@ -131,12 +134,13 @@ static real elastic_strain_along(const struct particles *p, const struct materia
     return sum;
 }
 
-/* A bond between material points that have yielded starts with the stretch that their stress does not explain, and with
- * their plastic strain: in a bar it then carries their stress to the last digit. Alike from both ends. */
+/* Returns the initial plastic state of a bond between material points that have yielded: the part of the stretch that
+ * their stress does not explain, and their mean plastic strain. A bar then carries the stress of its points to the last
+ * digit. Symmetric in i and j. */
 static struct bond_plasticity plasticity_of_points(const struct bond_source *s, const struct particles *p, int32_t i,
                                                    int32_t j, real r)
 {
-    const int32_t other = j < p->n ? j : i; /* an image holds no stress of its own */
+    const int32_t other = j < p->n ? j : i; /* an image has no stress of its own */
     real e[DIM_MAX], length2 = 0;
     if (!p->plastic_strain || p->plastic_strain[i] + p->plastic_strain[other] <= 0)
         return (struct bond_plasticity){0, 0};
@@ -148,14 +152,14 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
                                     0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
-/* Stretch above which the vector test finds a bond: its limit less a margin. */
+/* The stretch above which the vector test reports a bond: its limit less a tolerance. */
 real row_trigger(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
 {
     return s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]] * bond_strength(p, i, j) *
            (1 - TRIGGER_MARGIN);
 }
 
-/* Lengths, weights and what cracks cut, of the bonds that row_search has found. */
+/* Computes lengths, weights and cuts by cracks of the bonds found by row_search. */
 static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
                       const struct pair_table *pairs, int32_t i)
 {
@@ -175,18 +179,19 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
     }
 }
 
+/* Returns the plastic state of bond k of a row block, lane l. */
 static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t row_block, int64_t k, int lane)
 {
     const int64_t q = (b->column[row_block] + k) * LANES + lane;
     return (struct bond_plasticity){b->plastic_stretch[q], b->plastic_path[q]};
 }
 
-/* What load had done to the bonds of the row before stays: broken ones stay broken, yielded ones yielded. */
+/* Carries over broken and yielded bonds from the previous row. */
 static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
 {
     int64_t row_block = old_row / LANES;
     int lane = (int)(old_row % LANES);
-    int m = 0; /* neighbours ascend in both */
+    int m = 0; /* neighbours ascend in both rows */
     for (int64_t k = 0; k < old->column_count[row_block]; k++) {
         const struct bond bond = bond_read(old, row_block, k, lane);
         if (bond.inverse_length == 0) continue;
@@ -199,17 +204,19 @@ static void row_inherit(struct row *row, const struct particles *p, const struct
     }
 }
 
+/* Copies the neighbours of an unchanged row. */
 static void row_copy_neighbours(struct row *row, const struct bonds *old, int64_t old_row)
 {
     const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];
     row->n = 0;
-    for (int64_t k = 0; k < columns; k++) { /* padding is written over */
+    for (int64_t k = 0; k < columns; k++) { /* padding is overwritten */
         const struct bond bond = bond_read(old, row_block, k, (int)(old_row % LANES));
         row->nbr[row->n] = bond.nbr;
         row->n += bond.inverse_length != 0;
     }
 }
 
+/* Copies lengths, weights and plastic state of an unchanged row. */
 static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 {
     const int64_t row_block = old_row / LANES, columns = old->column_count[row_block];

@@ -1,10 +1,10 @@
-/* Eight rows become a row block: which neighbours share a column, and what is stored of them. */
+/* Combines eight rows to a row block: selects the bonds of each column, and stores columns or a stencil. */
 #include <string.h>
 
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Are these the index distances of a row? */
+/* Returns true if the index distances of a row equal offset[n]. */
 static bool offsets_are(const int32_t *offset, int n, const struct row *row, int32_t particle)
 {
     int32_t other = 0;
@@ -13,7 +13,7 @@ static bool offsets_are(const int32_t *offset, int n, const struct row *row, int
     return other == 0;
 }
 
-/* Distinct index distances of the row block's bonds, ascending. */
+/* Lists the distinct index distances of the bonds of a row block, ascending, in g->offset. Returns their number. */
 static int row_block_offsets(struct row_block_room *g, const int32_t *particle, int rows)
 {
     int n = g->row[0].n;
@@ -30,8 +30,7 @@ static int row_block_offsets(struct row_block_room *g, const int32_t *particle, 
     return n;
 }
 
-/* Columns the row block needs; `by_offset` tells whether a column holds one index distance (a lattice) or the rows are
- * simply packed (an irregular cloud, where distances differ and columns by distance would be mostly padding). */
+/* Packed rows are for irregular clouds, where columns by distance would be mostly padding. */
 int row_block_columns(struct row_block_room *g, const int32_t *particle, int rows, bool *by_offset)
 {
     int longest = 0;
@@ -42,11 +41,13 @@ int row_block_columns(struct row_block_room *g, const int32_t *particle, int row
     return *by_offset ? offsets : longest;
 }
 
+/* Returns the index of a pair of materials in b->yield. */
 static int32_t pair_of(const struct bonds *b, const struct particles *p, int32_t i, int32_t j)
 {
     return p->material[i] * b->yield.materials + p->material[j];
 }
 
+/* Stores the plastic state of the bond at entry q. */
 static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plastic, int32_t pair)
 {
     b->plastic_stretch[q] = plastic.stretch;
@@ -54,7 +55,7 @@ static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plast
     b->pair[q] = pair;
 }
 
-/* What is known of the rows of a row block. */
+/* Stores trigger, volumes and alignment of row block g. */
 static void row_block_note(struct bonds *b, const struct row_block_room *room, int64_t g, int rows)
 {
     bool aligned = rows == LANES;
@@ -69,7 +70,8 @@ static void row_block_note(struct bonds *b, const struct row_block_room *room, i
     for (int l = rows; l < LANES; l++) b->trigger[g * LANES + l] = INFINITY;
 }
 
-/* Has row l bond number `used` at the index distance of column k? Packed rows take whatever comes next. */
+/* Returns true if bond number `used` of row l belongs in column k: it has the index distance of column k, or rows are
+ * packed. */
 static bool row_has(const struct row_block_room *room, const int32_t *particle, int l, int used, bool by_offset, int k)
 {
     const struct row *row = &room->row[l];
@@ -86,7 +88,7 @@ void row_block_fill(struct bonds *b, struct row_block_room *room, int64_t g, int
         for (int l = 0; l < LANES; l++) {
             const struct row *row = &room->row[l];
             const int64_t other = by_offset ? particle[l] + (l < rows ? room->offset[k] : 0) : particle[l];
-            /* padding may point at any particle */
+            /* padding may point to any particle */
             column->nbr[l] = other < 0 || other >= p->n_all ? particle[l] : (int32_t)other;
             column->inverse_length[l] = column->w[l] = 0;
             if (l >= rows || !row_has(room, particle, l, used[l], by_offset, k)) continue;
@@ -104,7 +106,7 @@ void row_block_fill(struct bonds *b, struct row_block_room *room, int64_t g, int
     row_block_store(b, room, g, p);
 }
 
-/* What the columns in a row block's room would follow; false: they have something of their own. */
+/* Makes the stencil of the columns in `room`. Returns false if the row block must store its columns. */
 static bool stencil_of(const struct bonds *b, struct row_block_room *room, int64_t g, const struct particles *p)
 {
     const int columns = b->column_count[g];
@@ -123,7 +125,7 @@ void row_block_store(struct bonds *b, struct row_block_room *room, int64_t g, co
     for (int k = 0; k < b->column_count[g] && !b->implicit[g]; k++) column_write(b, b->column[g] + k, &room->column[k]);
 }
 
-/* Which of eight particles in a row are peridynamic: bit by bit. */
+/* Returns which of the particles i .. i + 7 are peridynamic, one bit each. */
 static uint8_t peridynamic(const struct particles *p, int64_t i)
 {
     unsigned bits = 0;
@@ -167,7 +169,7 @@ int row_block_regular_bonds(const struct regular_bonds *bonds)
     return sum;
 }
 
-/* The column of bonds to the particles at one index distance. */
+/* Fills a column with the bonds to the particles at one index distance. bonds: lanes that have the bond. */
 static void fill_column(struct column_copy *column, const struct row_maker *m, int32_t i, int32_t j, unsigned bonds)
 {
     const struct bond_source *s = m->source;
@@ -179,7 +181,7 @@ static void fill_column(struct column_copy *column, const struct row_maker *m, i
     }
 }
 
-/* The least stretch at which a bond of each of eight particles in a row breaks. */
+/* Computes the smallest breaking stretch of the bonds of particles i .. i + 7. */
 static void regular_triggers(real trigger[LANES], const struct regular_bonds *bonds, const struct row_maker *m,
                              int32_t i)
 {
@@ -192,7 +194,7 @@ static void regular_triggers(real trigger[LANES], const struct regular_bonds *bo
     }
 }
 
-/* True if all eight particles have bonds to all particles within reach, as peridynamic particles have. */
+/* Returns true if all eight particles have bonds to all particles within the cutoff, as peridynamic particles have. */
 static bool whole_families(const struct regular_bonds *bonds)
 {
     unsigned without = 0;
@@ -200,7 +202,7 @@ static bool whole_families(const struct regular_bonds *bonds)
     return without == 0;
 }
 
-/* row_block_fill on a lattice. */
+/* On a lattice columns are computed without rows. */
 void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_t g, const struct row_maker *m)
 {
     const struct regular_bonds *bonds = &room->regular;
@@ -221,7 +223,7 @@ void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_
     row_block_store(b, room, g, m->p);
 }
 
-/* Room for the worst case, of which little is ever touched: none of it is made zero. */
+/* Room for the worst case, of which little is ever touched: the arrays are not cleared. */
 void row_block_room_make(struct row_block_room *g, int room, const struct site_map *map)
 {
     g->room = room;

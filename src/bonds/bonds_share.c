@@ -1,11 +1,12 @@
-/* What the eight bonds of a column have in common, so that the hot loops need not read it eight times. */
+/* Derives the common properties of the eight bonds of a column, so that the hot loops need not read them eight
+ * times. */
 #include <math.h>
 #include <string.h>
 
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Numbers of one sign are ordered as their bits are: neighbours differ by 1. */
+/* Returns the bits of a as an integer: adjacent numbers of one sign differ by 1. */
 static int64_t bits_of(real a)
 {
     int64_t bits;

@@ -1,6 +1,6 @@
-/* Rows of bonds of particles that stand on a lattice: a map of its sites tells the neighbours of eight
- * consecutive particles at once, without a search, and their lengths and weights are worked out side by side. The
- * same bits as row by row; what is not that regular (an end of a row, a crack nearby, images) is left to the search. */
+/* Rows of bonds of particles on a lattice: a map of its sites gives the neighbours of eight consecutive particles
+ * without a search, and their lengths and weights are computed side by side. Bits equal those of single rows; irregular
+ * places (ends of lattice rows, cracks, images) are left to the search. */
 #include "bonds_parts.h"
 
 #include <math.h>
@@ -9,11 +9,11 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-/* No site's distance may be as near to the cutoff [spacings]: particles may be LATTICE_NEAR from their sites,
- * round-off then decides nothing, and horizons of whole spacings (tolerance 1e-7) still pass. */
+/* Smallest difference between cutoff and the distance of a site [spacings]: particles may be LATTICE_NEAR from their
+ * sites, so round-off decides nothing; horizons of whole spacings (tolerance 1e-7) still pass. */
 #define BAND (4 * LATTICE_NEAR)
 enum { HALF_MOST = 16 };
-/* Sites for each particle at the most: where few particles of a body are made, few pages of the map are written. */
+/* Largest number of sites per particle: where few particles of a body are made, few pages of the map are written. */
 #define SPARSE_MOST 256.0
 
 /* ---- the map of sites -------------------------------------------------------------------------------------------- */
@@ -29,7 +29,7 @@ int64_t site_of(const struct site_map *l, const struct particles *p, int64_t i)
     return site;
 }
 
-/* Box of all sites, with a margin that the stencil may read. */
+/* Computes the box of all sites, with a margin for the stencil. Returns the number of sites, 0 if it is too large. */
 static int64_t box_sites(struct site_map *l, const struct particles *p)
 {
     real site_map = 1;
@@ -43,7 +43,7 @@ static int64_t box_sites(struct site_map *l, const struct particles *p)
     return (int64_t)site_map;
 }
 
-/* Rows of the lattice within the cutoff, ascending. False if round-off would decide membership. */
+/* Lists the lattice rows within the cutoff, ascending. Returns false if round-off would decide membership. */
 static bool site_offsets_make(struct site_map *l, const struct family *f, int dim)
 {
     const int high = dim > 2 ? l->reach : 0, wide = dim > 1 ? l->reach : 0;
@@ -63,7 +63,8 @@ static bool site_offsets_make(struct site_map *l, const struct family *f, int di
     return true;
 }
 
-/* Particles in the order of their sites, one each. */
+/* Enters all particles and images in the map. Returns false if particles are not in the order of their sites, one
+ * each. */
 static bool sites_fill(struct site_map *l, const struct particles *p)
 {
     bool regular = true;
@@ -81,8 +82,8 @@ static bool sites_fill(struct site_map *l, const struct particles *p)
     return regular;
 }
 
-/* Are the places along an axis, measured in its farthest one's unit of the last place, whole multiples of one step?
- * Then neighbours are at exactly the same distances everywhere. */
+/* Returns true if the positions along an axis, in units of the last place of the largest, are whole multiples of one
+ * step: neighbours then have exactly equal distances everywhere. */
 static bool axis_exact(const struct site_map *l, const struct particles *p, int d)
 {
     real low, high;
@@ -101,6 +102,7 @@ static bool axis_exact(const struct site_map *l, const struct particles *p, int 
     return exact;
 }
 
+/* Returns true if all particles have one volume, mass and material, and exact positions. */
 static bool is_uniform(const struct site_map *l, const struct particles *p)
 {
     bool same = true;
@@ -167,7 +169,8 @@ int site_map_family(const struct site_map *l, const struct particles *p, int32_t
 
 /* ---- eight particles --------------------------------------------------------------------------------------------- */
 
-/* Bonds along one row of the lattice; false if what stands there is not consecutive. */
+/* Appends the bonds of particles i .. i + 7 along one lattice row. Returns false if the particles there are not
+ * consecutive. */
 static bool row_bonds(const struct site_map *l, const struct particles *p, int64_t site, const struct stencil_row *row,
                       int64_t i, struct regular_bonds *to)
 {
@@ -188,6 +191,7 @@ static bool row_bonds(const struct site_map *l, const struct particles *p, int64
     return true;
 }
 
+/* Returns true if every lane has a neighbour at every distance. */
 static bool is_full(const struct regular_bonds *b)
 {
     unsigned other = 0;
@@ -229,7 +233,7 @@ void regular_bonds_free(struct regular_bonds *to)
     stencil_cache_free(to->stencil_cache);
 }
 
-/* 1/r and weight of the bonds from i + lane to j + lane, as row_weigh has them. */
+/* Computes 1/r and weight of the bonds from i + lane to j + lane, as row_weigh does. */
 static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                                 int64_t i, int64_t j, real *inverse, real *w, const int dim)
 {
@@ -241,7 +245,7 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
         w[l] = f->shell_weight[0];
         for (int d = 0; d < dim; d++) xi[d][l] = p->X[d][j + l] - p->X[d][i + l], same &= xi[d][l] == xi[d][0];
     }
-    for (int l = 0; l < LANES; l++) { /* on a lattice of exact places one root will do, and one weight */
+    for (int l = 0; l < LANES; l++) { /* with exact positions one root and one weight serve all lanes */
         real r2 = 0;
         for (int d = 0; d < dim; d++) r2 += square(xi[d][l]);
         r[l] = same && l > 0 ? r[0] : sqrt(r2);

@@ -1,4 +1,4 @@
-/* What state-based models keep beside their bonds: made with the rows. */
+/* Arrays of state-based models that are made with the rows. */
 #include "bonds_parts.h"
 
 #include "base/memory.h"
@@ -12,8 +12,8 @@ real state_weight_left(const struct bonds *b, int64_t row)
     return Q;
 }
 
-/* Q of the rows of a row block: of all bonds they have, of those that they had when they were whole, or of a full
- * family on the lattice [m^2]. */
+/* Computes Q of the rows of row block g [m^2]: of the present bonds (`local`, whole rows), else of a full family on the
+ * lattice, or of the class of a particle near faces. */
 static void row_block_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s, int64_t g)
 {
     const struct family *f = &s->family;
@@ -41,7 +41,7 @@ void state_weigh(struct bonds *b, const struct particles *p, const struct bond_s
     for (int64_t g = 0; g < b->row_blocks; g++) row_block_weigh(b, p, s, g);
 }
 
-/* Row blocks that rows made anew have taken over keep their Q; those of others are still 0. */
+/* Computes Q of rebuilt row blocks, where it is still 0; row blocks that were taken over keep their Q. */
 static void state_weigh_new(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
 #pragma omp parallel for schedule(static)

@@ -1,12 +1,15 @@
-/* On a uniform lattice most row blocks of eight have the same surroundings as one shortly before them, and
- * what has been worked out for that one holds for them to the last bit. */
+/* Cache of the last row blocks of a lattice. On a uniform lattice most row blocks have the surroundings of a recent
+ * one, and its stencil, weights and sums are equal to the last bit. */
 #include <string.h>
 
 #include "bonds_parts.h"
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-enum { REMEMBERED = 32 }; /* kinds of row blocks in some rows of a block: inside, and at its ends */
+enum {
+    REMEMBERED = 32
+}; /* number of remembered row blocks: enough for the kinds in a few lattice rows, inside and at their ends; empirical
+    */
 
 struct stencil_cache {
     const struct site_map *map;
@@ -34,14 +37,15 @@ void stencil_cache_free(struct stencil_cache *t)
     memory_free(t);
 }
 
+/* Returns true if two groups of eight have neighbours at equal index distances in equal lanes. */
 static bool same_sites(const struct regular_bonds *a, const struct regular_bonds *b)
 {
     return a->n == b->n && arrays_equal(a->offset, b->offset, a->n, sizeof *a->offset) &&
            arrays_equal(a->from, b->from, a->n, 1) && arrays_equal(a->to, b->to, a->n, 1);
 }
 
-/* Are the entries of all neighbours of i .. i + 7 those of the neighbours of j .. j + 7? Index distances come in
- * runs. */
+/* Returns true if the entries of `around` are equal at i .. i + 7 and j .. j + 7 and at all their neighbours. Index
+ * distances come in runs, which are compared at once. */
 static bool same_around(const real *around, const struct regular_bonds *b, int64_t i, int64_t j)
 {
     if (memcmp(around + i, around + j, LANES * sizeof *around) != 0) return false;
@@ -53,6 +57,7 @@ static bool same_around(const real *around, const struct regular_bonds *b, int64
     return true;
 }
 
+/* Stores the bonds of particles i .. i + 7 in place of the oldest. */
 static void remember(struct stencil_cache *t, const struct regular_bonds *b, int64_t i)
 {
     struct cached *to = &t->cached[t->next];
@@ -70,7 +75,7 @@ static void remember(struct stencil_cache *t, const struct regular_bonds *b, int
     t->next = (t->next + 1) % REMEMBERED;
 }
 
-/* Do weights follow from what is the same beside i .. i + 7 and beside j .. j + 7? */
+/* Returns true if the inputs of the weights are equal around i .. i + 7 and j .. j + 7. */
 static bool same_weights(const struct bond_source *s, const struct regular_bonds *b, int64_t i, int64_t j)
 {
     if (s->neighbour_volume && !same_around(s->neighbour_volume, b, i, j)) return false;

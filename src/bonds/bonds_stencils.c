@@ -1,4 +1,4 @@
-/* Row blocks that have the same bonds as others read one list of columns, their stencil. */
+/* Stencils: lists of columns that row blocks with equal bonds share. */
 #include <string.h>
 
 #include "bonds_parts.h"
@@ -7,9 +7,9 @@
 enum { STENCILS_MOST = 2048, HASHES = 4096 };
 
 struct stencils {
-    int n, users; /* users: rows and rows made anew from them */
+    int n, users; /* users: sets of rows that share the stencils */
     struct stencil stencil[STENCILS_MOST];
-    int32_t first[HASHES]; /* of a hash, + 1; 0: none */
+    int32_t first[HASHES]; /* first stencil with this hash, + 1; 0: none */
 };
 
 struct stencils *stencils_make(struct stencils *of)
@@ -39,9 +39,10 @@ void stencil_free(struct stencil *p)
     memory_free(p->w);
 }
 
-/* ---- what a row block would follow ------------------------------------------------------------------------------- */
+/* ---- stencil of one row block
+ * -------------------------------------------------------------------------------------- */
 
-/* Do all bonds of a column have the same components to the last bit? Then they are stored. */
+/* Stores the components of the bonds of a column. Returns false if they are not equal to the last bit. */
 static bool reference_of(const struct particles *p, int64_t i, int64_t j, struct stencil_column *to)
 {
     int one = 0, same = 1;
@@ -84,13 +85,14 @@ bool stencil_add(struct stencil *to, const struct bonds *b, const struct particl
 
 /* ---- all stencils ------------------------------------------------------------------------------------------------ */
 
+/* Returns true if two stencils are equal byte by byte. */
 static bool stencils_equal(const struct stencil *a, const struct stencil *b)
 {
     return a->columns == b->columns && arrays_equal(a->column, b->column, a->columns, sizeof *a->column) &&
            arrays_equal(a->w, b->w, a->columns, sizeof *a->w);
 }
 
-/* The hash of Fowler, Noll and Vo over words, of what distinguishes most stencils: neighbours and weights. */
+/* Returns the hash of Fowler, Noll and Vo over neighbours and weights, which distinguish most stencils. */
 static int hash_of(const struct stencil *p)
 {
     const uint64_t prime = UINT64_C(0x100000001b3);
@@ -105,6 +107,7 @@ static int hash_of(const struct stencil *p)
     return (int)((hash ^ hash >> 32) % HASHES);
 }
 
+/* Returns the stored stencil equal to `stencil`, and stores it if it is new; NULL if the table is full. */
 static const struct stencil *stencil_store(struct stencils *all, const struct stencil *stencil)
 {
     const int hash = hash_of(stencil);
@@ -184,6 +187,7 @@ void column_write(const struct bonds *b, int64_t column, const struct column_cop
     bonds_share(b, column);
 }
 
+/* Writes the columns of a row block from its stencil. */
 static void expand(struct bonds *b, int64_t row_block)
 {
     struct column_copy copy;
@@ -207,5 +211,5 @@ void bonds_changed(struct bonds *b, int64_t row, int64_t q)
     b->stencil[row / LANES] = NULL;
     b->changed[row / LANES] = 1;
     bonds_share(b, q / LANES);
-    __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED); /* rows break their bonds side by side */
+    __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED); /* several threads may break bonds */
 }

@@ -1,4 +1,4 @@
-/* Sums over the bonds of all particles as if all were peridynamic: volumes of neighbours, and the critical
+/* Sums over the bonds of all particles as if all were peridynamic: volumes of neighbours, and the critical time
  * step. */
 #include "bonds_parts.h"
 
@@ -7,9 +7,10 @@
 
 #include "base/memory.h"
 
-#define WHOLE 1e-12 /* of a volume: sums of up to some hundred terms in other orders      */
+/* relative difference of volumes that counts as round-off: sums of some hundred terms in different order */
+#define WHOLE 1e-12
 
-/* Volume of the neighbours of particle i. */
+/* Returns the sum of V_j beta over the neighbours of particle i [m^3]. */
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
                         const struct site_map *map, int64_t i, int32_t *found, int room)
 {
@@ -23,7 +24,8 @@ static real volume_near(const struct particles *p, const struct bond_source *s, 
     return volume;
 }
 
-/* Of particles i .. i + 7 whose bonds the map of sites knows, where all neighbours count as much. */
+/* Computes the sums of V_j beta of particles i .. i + 7 whose bonds the site map gives, with equal `weight` of all
+ * neighbours [m^3]. */
 static void volumes_near(real *volume, const struct particles *p, const struct regular_bonds *bonds, real weight,
                          int64_t i)
 {
@@ -34,8 +36,8 @@ static void volumes_near(real *volume, const struct particles *p, const struct r
     for (int l = 0; l < LANES; l++) volume[i + l] = sum[l];
 }
 
-/* Whole families have the volume of the lattice's to the last bit, in whatever order it was added up: inside a body
- * weights are 1 then, and columns need none (kernels/pd/bond_column.h). */
+/* Sets the volume of complete families to that of the lattice exactly, whatever the order of summation: weights inside
+ * a body are then 1, and columns need none (kernels/pd/bond_column.h). */
 static void whole_volumes(real *volume, int64_t n, real full)
 {
 #pragma omp parallel for schedule(static)
@@ -46,7 +48,7 @@ static void whole_volumes(real *volume, int64_t n, real full)
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s)
 {
     const int most = bonds_room(s);
-    struct family plain = s->family; /* shells are normalised as a whole; the surface correction counts volumes */
+    struct family plain = s->family; /* shell weights are left out: the surface correction counts volumes */
     struct site_map map = {0};
     plain.shell_weight[0] = plain.shell_weight[1] = 1;
     plain.influence = INFLUENCE_ONE;
@@ -79,7 +81,7 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
     for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
 }
 
-/* omega^2 m of one particle [N/m]. */
+/* Returns the bound of omega^2 m of one particle [N/m]. */
 static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
 {
     struct spring_bound bound = {{{0}}, 0};
@@ -105,12 +107,12 @@ real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t r
     return spring_bound_of(&bound, p->dim);
 }
 
-/* The same of eight consecutive particles side by side: springs to eight consecutive others, of those there are none
- * where w = 0. Zeros added leave the bits alone. */
+/* Bounds of eight consecutive particles, side by side. */
 struct eight_bounds {
     real block[DIM_MAX][DIM_MAX][LANES], total[LANES];
 };
 
+/* Adds springs from particles i .. i + 7 to j .. j + 7; w = 0: no spring (adding zeros changes no bit). */
 static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                                      const real *inverse, const real *w, real stiffness, const int dim)
 {
@@ -124,6 +126,7 @@ static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct pa
     for (int l = 0; l < LANES; l++) bound->total[l] += K[l];
 }
 
+/* Adds such springs in the dimension of the particles. */
 static void bounds_add_any(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                            const real *inverse, const real *w, real stiffness)
 {
@@ -140,7 +143,7 @@ static void bounds_add_any(struct eight_bounds *bound, const struct particles *p
     }
 }
 
-/* Largest omega^2 of particles i .. i + 7. */
+/* Returns the largest omega^2 of particles i .. i + 7 [1/s^2]. */
 static real bounds_frequency(const struct eight_bounds *bounds, const struct particles *p, int64_t i)
 {
     real largest = 0;
@@ -153,7 +156,7 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
     return largest;
 }
 
-/* Of a regular row block whose rows are not made. */
+/* Returns the largest omega^2 in a regular row block whose rows are not made [1/s^2]. */
 static real row_block_frequency(const struct regular_bonds *bonds, const struct bond_source *s,
                                 const struct particles *p, const struct pair_table *pairs, int64_t i, real stiffness)
 {
@@ -168,7 +171,7 @@ static real row_block_frequency(const struct regular_bonds *bonds, const struct 
     return bounds_frequency(&bounds, p, i);
 }
 
-/* Of row block g, as it is made. */
+/* Returns the largest omega^2 in row block g from its stored bonds [1/s^2]. */
 static real row_block_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int64_t columns = b->column_count[g];
@@ -197,8 +200,8 @@ real bonds_critical_step_made(const struct bonds *b, const struct particles *p)
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;
 }
 
-/* Stiffnesses of bonds between materials over that of material 0, to be freed by the caller. Those of state-based
- * models are means, because each end answers with its own modulus. */
+/* Returns the stiffnesses of bonds between materials over that of material 0; state-based models: mean of both
+ * materials, because each row of a bond responds with its own modulus. Release `ratio` with memory_free. */
 static struct pair_table pairs_of_bound(const struct bond_source *s)
 {
     struct pair_table pairs = pairs_make(s);
@@ -231,7 +234,7 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n; first += LANES) {
             if (map.at && first + LANES <= p->n && row_block_regular(&map, s, &all, first, &regular)) {
-                /* that of an equal row block is in `largest` */
+                /* an equal row block is already in `largest` */
                 if (stencil_cache_find_row(&regular, s, first) < 0)
                     largest = real_max(largest, row_block_frequency(&regular, s, p, &pairs, first, stiffness));
                 continue;
@@ -253,7 +256,7 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 
 real bonds_fracture_energy(const struct bonds *b)
 {
-    real sum = 0; /* few rows have any; a serial sum is the same on any number of threads */
+    real sum = 0; /* few rows have any; a serial sum is equal on any number of threads */
     for (int64_t r = 0; r < b->rows; r++) sum += b->fracture_energy[r];
     return sum;
 }

@@ -1,9 +1,9 @@
-/* What load has broken, from rows of the same body with other particles made (data/hollow.h). */
+/* Copies bonds broken by load from rows of a body of which other particles are made (data/hollow.h). */
 #include <math.h>
 
 #include "bonds_parts.h"
 
-/* Bond of a row to a particle that is broken as one of another set of rows is. */
+/* Breaks the bond of a row to particle nbr, if it exists and is intact. */
 static void bond_take(struct bonds *b, int64_t row, int32_t nbr)
 {
     const int lane = (int)(row % LANES);

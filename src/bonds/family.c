@@ -1,5 +1,5 @@
-/* The family of a peridynamic particle: members, weights, and the sums over a full family on the lattice that
- * calibrate the micro-modulus (Silling & Askari 2005; partial volumes: Seleson 2014). */
+/* The family of a peridynamic particle: members, weights, and the sums over a full family on the lattice that calibrate
+ * the micro-modulus (Silling & Askari 2005; partial volumes: Seleson 2014). */
 #include <math.h>
 #include <string.h>
 
@@ -8,17 +8,19 @@
 
 #define DISTANCE_TOLERANCE 1e-7 /* relative: lattice points at exactly the horizon belong to the family */
 
+/* Returns the volume share of the linear ramp at distance r [1]. */
 static real ramp(const struct family *f, real r)
 {
-    /* Distances equal on paper must weigh the same: round-off of 1e-16 must not reach the single-precision weight. */
+    /* rounded, so that distances equal on paper have equal weights */
     real share = (f->horizon + 0.5 * f->spacing - r) / f->spacing;
     share = nearbyint(share * 1e9) * 1e-9;
     return share > 1 ? 1 : share < 0 ? 0 : share;
 }
 
-/* Volume share beta of a neighbour at distance r [1]. */
+/* Returns the volume share beta of a neighbour at distance r [1] (Seleson 2014). */
 static real family_beta(const struct family *f, real r) { return f->volume == VOLUME_WHOLE ? 1 : ramp(f, r); }
 
+/* Returns the influence function omega at distance r [1]. */
 static real influence(const struct family *f, real r)
 {
     switch (f->influence) {
@@ -35,8 +37,8 @@ static real influence(const struct family *f, real r)
     }
 }
 
-/* Neighbours on a lattice have the length that they would have without the round-off of positions: like bonds weigh
- * alike, to the last bit. */
+/* Returns r without the round-off of positions if it is a distance of the lattice: equal bonds then have equal weights
+ * to the last bit. */
 static real true_length(const struct family *f, real r)
 {
     const real squares = square(r / f->spacing), whole = floor(squares + 0.5);
@@ -50,7 +52,7 @@ real family_weight(const struct family *f, const real *xi, real r)
     if (family_plain(f)) return f->shell_weight[0];
     r = true_length(f, r);
     for (int d = 0; d < dim; d++) fourth += square(square(xi[d] / r));
-    /* mean of n1^4 + .. over all directions: 1, 3/4, 3/5 */
+    /* mean of n1^4 + n2^4 + n3^4 over all directions: 1, 3/4, 3/5 */
     bool axial = fourth > 3.0 / (dim + 2) + 1e-9;
     return family_beta(f, r) * influence(f, r) * f->shell_weight[axial ? 0 : 1];
 }
@@ -58,11 +60,12 @@ real family_weight(const struct family *f, const real *xi, real r)
 /* Sums over the lattice points of a full family. */
 struct lattice_sums {
     real volume;             /* sum V beta                    */
-    real sigma;              /* sum r V beta shell            */
-    real weighted;           /* sum r^2 of the weights as bonds store them */
-    real axial[2], mixed[2]; /* sum r V beta n1^4, n1^2 n2^2, by class of direction */
+    real sigma;              /* sum r V beta times shell weight */
+    real weighted;           /* sum of r^2 times the weights as bonds store them */
+    real axial[2], mixed[2]; /* sums of r V beta n1^4 and of r V beta n1^2 n2^2, by class of direction */
 };
 
+/* Adds the lattice point xi [m] to the sums. */
 static void sum_point(const struct family *f, const real *xi, int dim, struct lattice_sums *s)
 {
     real r = sqrt(dot(xi, xi, dim)), V = f->cell_volume;
@@ -77,6 +80,7 @@ static void sum_point(const struct family *f, const real *xi, int dim, struct la
     s->mixed[class] += dim > 1 ? r * V * beta * (1 - fourth) / (dim * (dim - 1)) : 0;
 }
 
+/* Returns the sums over a full family. */
 static struct lattice_sums lattice_sums(const struct family *f)
 {
     struct lattice_sums s = {0};
@@ -92,14 +96,15 @@ static struct lattice_sums lattice_sums(const struct family *f)
     return s;
 }
 
-/* Two weights, for bonds nearer the axes and nearer the diagonals, such that sum r n1^4 = 3 sum r n1^2 n2^2: C11 =
- * C12 + 2 C44 with C12 = C44, an isotropic solid. Their scale leaves sum r V unchanged. */
+/* Computes weights for bonds nearer the axes and nearer the diagonals such that sum r n1^4 = 3 sum r n1^2 n2^2: C11 =
+ * C12 + 2 C44 with C12 = C44, an isotropic solid. Their scale keeps sum r V unchanged. */
 static void shells_isotropic(struct family *f)
 {
     if (space_dim(f->space) == 1) return;
     struct lattice_sums s = lattice_sums(f);
-    real ratio = -(s.axial[1] - 3 * s.mixed[1]) / (s.axial[0] - 3 * s.mixed[0]); /* axial over diagonal */
-    if (!(ratio > 0 && isfinite(ratio))) return; /* horizon of one spacing: no diagonal bonds to weigh */
+    real ratio = -(s.axial[1] - 3 * s.mixed[1]) /
+                 (s.axial[0] - 3 * s.mixed[0]);  /* weight near the axes over weight near the diagonals */
+    if (!(ratio > 0 && isfinite(ratio))) return; /* horizon of one spacing: there are no diagonal bonds */
     f->shell_weight[0] = ratio, f->shell_weight[1] = 1;
     real scale = s.sigma / lattice_sums(f).sigma;
     f->shell_weight[0] *= scale, f->shell_weight[1] *= scale;

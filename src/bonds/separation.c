@@ -1,32 +1,34 @@
-/* The work that separates a lattice, and the critical stretch that makes it the energy release rate.
+/* Work of separation of a lattice, which relates critical stretch and energy release rate.
  *
- * Both halves of a full lattice move apart, normal to a plane between two of its layers. A bond that crosses the
- * plane with the part z of its length r normal to it has the extension e = D z/r at the opening D and breaks at D =
- * s_c r^2/z. With the energy density W of a particle (kernels/pd/state_laws.h, no rotation: the halves stay
- * straight) the work per area is
+ * Both halves of a full lattice move apart, normal to a plane between two layers. A bond across the plane whose
+ * component normal to it is z and whose length is r has the extension e = D z/r at the opening D and breaks at D = s_c
+ * r^2/z. With the energy density W of a particle (kernels/pd/state_laws.h, without rotation: the halves stay straight)
+ * the work per area is
  *     G = 2 sum_layers h int (dW/dD) dD = K s_c^2,   W = [A S^2 + B/Q sum w |eta|^2]/2,  S = sum w r e/Q,  eta: D
- * exactly, as W is quadratic in D between two breaks. Bonds that resist by eta, not by e, store the more the more
- * oblique they are, before they are as long as s_c allows: their G grows with the logarithm of the horizon over the
- * spacing and has no continuum limit, and the count of crossing bonds that are all stretched by s_c (Madenci &
- * Oterkus 2014, right for e) misses it: 1.7 of that in the plane, 2.7 in space at m = 3.015, omega = delta/r. */
+ * exactly, as W is quadratic in D between two breaks. Bonds that resist eta, not e, store more energy the more oblique
+ * they are before they reach s_c: G of the model with rotations grows with the logarithm of horizon over spacing and
+ * has no continuum limit. Counting crossing bonds that are all stretched by s_c (Madenci & Oterkus 2014, right for e)
+ * underestimates it by factors of 1.7 in 2D and 2.7 in 3D at m = 3.015, omega = delta/r. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "bonds/bonds.h"
 #include "base/memory.h"
 
-/* A bond that crosses: opening at which it breaks over s_c [m], and what it adds at unit opening. */
+/* A crossing bond: opening at which it breaks over s_c [m], and its contributions to Q and, at unit opening, to sum w r
+ * e and sum w |eta|^2. */
 struct crossing {
     real breaks, weighted, sum, energy;
 };
 
+/* Orders bonds by opening, the last to break first. */
 static int later(const void *a, const void *b)
 {
     const struct crossing *x = a, *y = b;
     return (x->breaks < y->breaks) - (x->breaks > y->breaks);
 }
 
-/* Bonds of a particle at height `height` above the plane that cross it; the rest of Q stays. */
+/* Lists the bonds of a particle at `height` [m] above the plane that cross the plane. Returns their number. */
 static int crossings(const struct family *f, real height, struct crossing *c)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing), depth = dim > 2 ? reach : 0;
@@ -43,7 +45,7 @@ static int crossings(const struct family *f, real height, struct crossing *c)
     return n;
 }
 
-/* int dW of one layer for s_c = 1, from the last break back to the first. */
+/* Returns int dW of one layer for s_c = 1, summed from the last break back to the first. */
 static real layer_work(const struct state_modulus *m, const struct family *f, real height, bool local,
                        struct crossing *c)
 {
@@ -71,7 +73,7 @@ real family_separation(const struct family *f, const struct state_modulus *m, bo
     return 2 * f->spacing * work;
 }
 
-/* A bond vector whose part normal to the plane is n spacings stands across it n times in each column of the lattice. */
+/* Each column of the lattice has n parallel bonds across the plane if their normal component is n spacings. */
 real family_crossing_energy(const struct family *f, const struct material *m)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing);

@@ -1,4 +1,4 @@
-/* Weights of bonds near faces, of all particles (surface.h). */
+/* Factors of bonds near faces, for all particles (surface.h). */
 #include "bonds/surface.h"
 
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "surface_parts.h"
 
-/* Factors of the offsets of all classes, and what their families weigh. */
+/* Fills the factors by class and offset, and the weighted volumes of the classes. */
 static void tables_make(struct surface_weights *to, const struct near_faces *b, const struct alike *a,
                         const struct family *f, const real *factor)
 {

@@ -1,9 +1,9 @@
-/* Classes of particles with alike surroundings, and groups of bonds that are to have one factor.
+/* Classes of particles with equal surroundings, and groups of bonds that share one factor.
  *
- * A particle's surroundings are which neighbours it has, and theirs: RADIUS families deep, as they look in those
- * mirrors across the axes in which they come first. The two directions of a bond, and a bond and its mirror image,
- * share a group; so a factor is a function of a particle's class and of the offset in its mirrors, and the same from
- * both ends. Most bodies have few classes: the cost of the fit follows shape, not size. */
+ * The surroundings of a particle are its neighbours and theirs, RADIUS families deep, seen through the mirrors across
+ * the axes that give the smallest hash. Both directions of a bond, and a bond and its mirror image, are in one group;
+ * so a factor is a function of a particle's class and of the offset in its mirrors, and equal from both particles. Most
+ * bodies have few classes: the cost of the fit depends on shape, not on size. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -11,7 +11,7 @@
 
 enum { RADIUS = 2 };
 
-/* The hash of Fowler, Noll and Vo over words. */
+/* Returns the hash of Fowler, Noll and Vo extended by a word. */
 static uint64_t mixed(uint64_t hash, uint64_t word)
 {
     hash = (hash ^ word) * UINT64_C(0x100000001b3);
@@ -19,8 +19,8 @@ static uint64_t mixed(uint64_t hash, uint64_t word)
 }
 #define HASH_START UINT64_C(0xcbf29ce484222325)
 
-/* Colour of a neighbour as seen in `mirrors`; colours of a particle stand side by side, one for each of the 2^dim ways
- * to look at it. */
+/* Returns the colour (hash of the surroundings) of neighbour j seen in `mirrors`. Each particle has 2^dim consecutive
+ * colours, one for each set of mirrors. */
 static uint64_t colour_seen(const struct near_faces *b, const uint64_t *colour, int32_t j, int mirrors)
 {
     if (j < 0) return 1;
@@ -29,6 +29,7 @@ static uint64_t colour_seen(const struct near_faces *b, const uint64_t *colour, 
     return t < 0 ? 2 : colour[(t << b->offset.dim) + (mirrors ^ seen.mirrors)];
 }
 
+/* Computes the colours of all particles near faces, in all mirrors. */
 static void colours(const struct near_faces *b, uint64_t *colour)
 {
     const struct offsets *o = &b->offset;
@@ -51,7 +52,7 @@ static void colours(const struct near_faces *b, uint64_t *colour)
     memory_free(before);
 }
 
-/* Mirrors in which a particle has its least colour: the first, or another one from `from` on, -1: there is none. */
+/* Returns the first set of mirrors >= `from` in which particle t has its smallest colour, -1 if there is none. */
 static int mirrors_of(const struct near_faces *b, const uint64_t *colour, int64_t t, int from)
 {
     const uint64_t *own = colour + (t << b->offset.dim);
@@ -63,7 +64,7 @@ static int mirrors_of(const struct near_faces *b, const uint64_t *colour, int64_
     return -1;
 }
 
-/* Numbers of colours in the order in which they first come. */
+/* Numbers the classes in the order of their first particle. */
 static void classes_make(struct alike *a, const struct near_faces *b, const uint64_t *colour)
 {
     const int dim = b->offset.dim;
@@ -88,13 +89,14 @@ static void classes_make(struct alike *a, const struct near_faces *b, const uint
     memory_free(slot);
 }
 
+/* Returns the root of k in a union-find forest, with path halving. */
 static int64_t root_of(int64_t *parent, int64_t k)
 {
     while (parent[k] != k) k = parent[k] = parent[parent[k]];
     return k;
 }
 
-/* Two entries are of one group. */
+/* Joins the groups of two entries. */
 static void groups_join(int64_t *parent, int64_t one, int64_t other)
 {
     if (parent[one] < 0) parent[one] = one;
@@ -106,12 +108,13 @@ static void groups_join(int64_t *parent, int64_t one, int64_t other)
         parent[x] = y;
 }
 
+/* Returns the entry (class, offset in its mirrors) of bond k of particle t. */
 static int64_t entry_of(const struct alike *a, const struct near_faces *b, int64_t t, int k)
 {
     return (int64_t)a->class_of[t] * b->offset.n + b->offset.mirrored[a->mirrors[t] * b->offset.n + k];
 }
 
-/* The entries of every bond that may change, at both of its ends. */
+/* Joins the entries of both directions of every bond that may change. */
 static void bonds_join(const struct alike *a, const struct near_faces *b, int64_t *parent)
 {
     for (int64_t t = 0; t < b->n; t++)
@@ -124,7 +127,7 @@ static void bonds_join(const struct alike *a, const struct near_faces *b, int64_
         }
 }
 
-/* Bonds that a class has twice, as it is its own mirror image. */
+/* Joins bonds that are mirror images of each other within a class. */
 static void twins_join(const struct alike *a, const struct near_faces *b, int64_t *parent)
 {
     const struct offsets *o = &b->offset;
@@ -136,6 +139,7 @@ static void twins_join(const struct alike *a, const struct near_faces *b, int64_
             }
 }
 
+/* Finds the mirrors under which each class is its own image. */
 static void symmetries_find(struct alike *a, const struct near_faces *b, const uint64_t *colour)
 {
     a->symmetry = NEW("surface.symmetry", a->classes, uint8_t);
@@ -159,7 +163,7 @@ void alike_make(struct alike *a, const struct near_faces *b)
     bonds_join(a, b, a->group_of);
     twins_join(a, b, a->group_of);
     memory_free(colour);
-    for (int64_t k = 0; k < entries; k++) { /* a root comes before all that it is the root of */
+    for (int64_t k = 0; k < entries; k++) { /* a root precedes its members */
         if (a->group_of[k] < 0) continue;
         a->group_of[k] = a->group_of[k] == k ? a->groups++ : a->group_of[a->group_of[k]];
     }

@@ -1,4 +1,4 @@
-/* Which particles have a face nearby, and their neighbours on the lattice. */
+/* Finds the particles near faces and their neighbours on the lattice. */
 #include <math.h>
 #include <string.h>
 
@@ -8,6 +8,7 @@
 
 /* ---- offsets of a full family ------------------------------------------------------------------------------------ */
 
+/* Adds the offset at[dim] [spacings] if it is within the cutoff. states: state-based weights. */
 static void offset_add(struct offsets *o, const struct family *f, bool states, const int *at)
 {
     real xi[DIM_MAX], length2 = 0;
@@ -27,6 +28,7 @@ static void offset_add(struct offsets *o, const struct family *f, bool states, c
     o->weight[o->n] = o->share[o->n] * (states ? length : 1), o->n++;
 }
 
+/* Lists the offsets of a full family. */
 static void offsets_make(struct offsets *o, const struct family *f, bool states)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing), side = 2 * reach + 1;
@@ -63,7 +65,7 @@ static void offsets_free(struct offsets *o)
     memory_free(o->mirrored);
 }
 
-/* Number of the offset from i to j, -1: they do not stand on one lattice. */
+/* Returns the index of the offset from i to j, -1 if they are not on one lattice. */
 static int offset_between(const struct offsets *o, const struct particles *p, real spacing, int64_t i, int64_t j)
 {
     int place = 0;
@@ -100,14 +102,15 @@ int twin_offset(const struct near_faces *b, const struct seen *to, int k)
     return b->offset.n - 1 - b->offset.mirrored[to->mirrors * b->offset.n + k];
 }
 
-/* A thread's room for a search. */
+/* Working memory of one thread for a search. */
 struct search {
     const struct site_map *map;
     int32_t *found;
     int room;
 };
 
-/* Neighbours of a particle by offset (NULL: none are kept); how many there are, -1: they are on no lattice. */
+/* Finds the neighbours of particle i by offset (to [offsets], NULL: only counted). Returns their number, -1 if one is
+ * not on the lattice. */
 static int neighbours_find(const struct near_faces *b, const struct search *search, int64_t i, int32_t *to)
 {
     const struct bond_source *s = b->source;
@@ -126,7 +129,7 @@ static int neighbours_find(const struct near_faces *b, const struct search *sear
     return kept;
 }
 
-/* Does the map of sites say that eight particles have whole families? */
+/* Returns true if the site map shows that eight particles have whole families. */
 static bool eight_whole(const struct near_faces *b, const struct site_map *map, struct regular_bonds *regular,
                         int64_t first)
 {
@@ -136,7 +139,7 @@ static bool eight_whole(const struct near_faces *b, const struct site_map *map, 
     return !near;
 }
 
-/* Marks whole families; false: a particle stands on no lattice. */
+/* Marks whole families. Returns false if a particle is not on the lattice. */
 static bool whole_mark(struct near_faces *b, const struct site_map *map)
 {
     const int room = bonds_room(b->source);
@@ -160,14 +163,14 @@ static bool whole_mark(struct near_faces *b, const struct site_map *map)
     return lattice;
 }
 
-/* Lists the particles that have a face nearby; false: one stands on no lattice. */
+/* Lists the particles near faces. Returns false if one is not on the lattice. */
 static bool near_list(struct near_faces *b, const struct site_map *map)
 {
     const struct particles *p = b->p;
     const int room = bonds_room(b->source);
     uint8_t *near = NEW("surface.near", p->n, uint8_t);
     struct search search = {map, NEW("surface.found", room, int32_t), room};
-    for (int64_t i = 0; i < p->n_all; i++) { /* images, too: their families reach into the body */
+    for (int64_t i = 0; i < p->n_all; i++) { /* images too: their families reach into the body */
         if (is_whole(b, i)) continue;
         if (i < p->n) near[i] = 1;
         const int n = family_of(map, b->source, p, (int32_t)i, search.found, room);
@@ -196,7 +199,7 @@ static bool near_list(struct near_faces *b, const struct site_map *map)
     return lattice;
 }
 
-/* Finds the first particle with a neighbour, not beyond a pre-crack, that is not whole spacings away, and that. */
+/* Finds the first particle with a neighbour, not behind a pre-crack, that is not a whole number of spacings away. */
 static void apart_find(const struct near_faces *b, const struct site_map *map, int64_t apart[2])
 {
     const struct bond_source *s = b->source;

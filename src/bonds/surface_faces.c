@@ -1,39 +1,42 @@
-/* Faces of a body of lattice particles: outward areas, and the normals that staircases have on the scale of a family.
+/* Faces of a body of lattice particles: outward areas, and normals that average the steps of a staircase over a family.
  *
  * A particle without its nearest neighbour up or down an axis, or cut from it by a crack, has a face of area 1 there.
- * Faces within a family that bonds join and that look the same way are one face with the normal N of their mean, as far
- * as they lie in one plane: within `FLAT` spacings of variance along N wholly, from `ROUGH` not at all. */
+ * Faces within a family that bonds connect and whose normals are less than 90 degrees apart form one face with their
+ * mean normal N, as far as they are in one plane: completely if their variance along N is below `FLAT` spacings
+ * squared, not at all above `ROUGH`. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "surface_parts.h"
 
-#define FLAT 0.2 /* a staircase of any slope has at most 1/12 + 1/12 */
+#define FLAT 0.2 /* variance [spacings^2]; a staircase of any slope has at most 1/12 + 1/12 */
 #define ROUGH 0.4
-/* Strains that load a face count little at it (surface_fit.c), and more with this power of what faces are nearby over a
- * plane of them: with 0 particles ahead of a crack are soft as well, and K is 1 % larger at 100 particles. With
- * rotations K hardly changes, and frequencies of beams of 20 layers are 1 % lower: there it is 0. */
+/* Exponent by which strains that load a face gain weight where fewer faces are nearby than at a plane face
+ * (surface_fit.c). With 0, particles ahead of a crack are soft as well, and K is 1 % larger at 100 particles. In models
+ * with rotations K hardly changes, and frequencies of beams of 20 layers are 1 % lower: there 0 is used. Empirical. */
 #define NEAR 3
 
-enum { CHAIN = 3 }; /* layers over which a face's area and dipole are spread */
+enum { CHAIN = 3 }; /* layers over which area and dipole of a face are distributed */
 
-/* A face's own area and place, as another particle sees them through mirrors. */
+/* Area vector, centre [spacings] and size of a particle's face, as seen from another particle through mirrors. */
 struct face {
     real area[DIM_MAX], centre[DIM_MAX], size;
 };
 
-/* Faces of single particles: sum of unit areas. */
+/* Faces of single particles: sums of unit areas. */
 struct raw_faces {
     const struct near_faces *body;
     real (*area)[DIM_MAX];
 };
 
+/* Returns true if particle t has no neighbour up or down an axis. */
 static bool lacks(const struct near_faces *b, int64_t t, int axis, int up)
 {
     return neighbour_of(b, t, b->offset.axis[axis][up]) < 0;
 }
 
+/* Returns the face of particle or image j. */
 static struct face face_seen(const struct raw_faces *raw, int64_t j)
 {
     const struct near_faces *b = raw->body;
@@ -50,14 +53,16 @@ static struct face face_seen(const struct raw_faces *raw, int64_t j)
     return f;
 }
 
-/* Weight of what is seen over a bond, falling to 0 one spacing beyond the lattice steps that hold the family. */
+/* Returns the weight of a neighbour at offset k, falling linearly to 0 one spacing beyond the largest component [1]. */
 static real nearness(const struct offsets *o, int k) { return fmax(1 - o->length[k] / (o->reach + 1), 0); }
 
-/* Means over the faces that look the same way as that of a particle: normal, and variance of places along it. */
+/* Mean over the faces whose normals are less than 90 degrees from that of a particle: normal, and variance of their
+ * positions along it [spacings^2]. */
 struct mean_face {
     real normal[DIM_MAX], variance;
 };
 
+/* Adds a face to the sums of areas and moments about the point `from`. */
 static void mean_add(const struct face *f, const real *from, real weight, int dim, real *area, real *sums)
 {
     real x[DIM_MAX];
@@ -69,6 +74,7 @@ static void mean_add(const struct face *f, const real *from, real weight, int di
     }
 }
 
+/* Computes the mean face around particle t. */
 static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
 {
     const struct near_faces *b = raw->body;
@@ -92,11 +98,12 @@ static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
     return mean;
 }
 
-/* Of each particle with a face: what areas are projected by, and its part in N (x) N. */
+/* For each particle with a face: projection of areas, and contribution to N (x) N. */
 struct smooth {
     real project[DIM_MAX][DIM_MAX], square[DIM_MAX][DIM_MAX];
 };
 
+/* Computes projection and contribution of particle t. */
 static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t t)
 {
     const int dim = raw->body->p->dim;
@@ -116,7 +123,7 @@ static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t 
         }
 }
 
-/* What the faces of a plane amount to for a particle in it. */
+/* Returns the sum of weights of the faces of a plane as seen from a particle in it. */
 static real plane_of_faces(const struct offsets *o)
 {
     real sum = 1;
@@ -124,7 +131,7 @@ static real plane_of_faces(const struct offsets *o)
     return sum;
 }
 
-/* Mean of N (x) N, less the farther a face is. */
+/* Computes the mean of N (x) N of particle t, weighted by nearness. */
 static void normals_gather(struct faces *f, const struct near_faces *b, const struct smooth *smooth, real plane,
                            bool rotates, int64_t t)
 {
@@ -147,16 +154,15 @@ static void normals_gather(struct faces *f, const struct near_faces *b, const st
         for (int c = 0; c < dim; c++) f->normal2[t][a][c] = trace > 1e-12 ? near * sum[a][c] / trace : 0;
 }
 
-/* Spreads the face of particle t at one end of an axis over the layers behind it. The area is extrapolated from the
- * layers' middles to the face; `dipole` has the moment 1 and no sum (with rotations no first moment of its own,
- * either). */
+/* Distributes the face of particle t at one end of an axis over the layers behind it. The area is extrapolated from the
+ * middles of the layers to the face; the dipole has first moment 1 and sum 0 (with rotations a second difference). */
 static void face_spread(struct faces *f, const struct near_faces *b, const struct smooth *smooth, int64_t t, int axis,
                         int up, bool rotates)
 {
     static const real area[2][2] = {{1}, {1.5, -0.5}}, first[2] = {1, -1}, second[CHAIN] = {2, -3, 1};
     struct seen chain[CHAIN] = {{b->particle[t], 0}};
     int length = 1;
-    while (length < CHAIN) { /* through mirrors, too */
+    while (length < CHAIN) { /* through mirrors too */
         const struct seen next = seen_beyond(b, &chain[length - 1], b->offset.axis[axis][!up]);
         if (next.particle < 0 || b->place[next.particle] < 0) break;
         chain[length++] = next;
@@ -172,7 +178,7 @@ static void face_spread(struct faces *f, const struct near_faces *b, const struc
         for (int k = 0; k < 2; k++) f->dipole[b->place[chain[k].particle]] += first[k];
 }
 
-/* Layers from face to face along an axis, counted to `most`. */
+/* Returns the number of layers from face to face along an axis, at most `most`. */
 static int layers(const struct near_faces *b, int64_t t, int axis, int most)
 {
     int n = 1;
@@ -182,7 +188,7 @@ static int layers(const struct near_faces *b, int64_t t, int axis, int most)
             at = seen_beyond(b, &at, b->offset.axis[axis][up]);
             if (at.particle < 0) break;
             n++;
-            if (b->place[at.particle] < 0) return most; /* away from all faces */
+            if (b->place[at.particle] < 0) return most; /* not near any face */
         }
     }
     return n;

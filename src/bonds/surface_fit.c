@@ -4,8 +4,8 @@
  *
  *     sum_classes members [ |M4 - (1 + tau) M|^2 + |M3 + M A/2|^2 ] + PRIOR sum_bonds (f - 1)^2,   LEAST <= f <= MOST
  *
- * where |T|^2 = sum_k (T:B_k) P (T:B_k) over a basis B of strains, and P = (1 + STIFF Q)^-1 weighs strains by the
- * traction that they leave on faces nearby, Q(e, e') = (M:e) : N (x) N : (M:e'). */
+ * where |T|^2 = sum_k (T:B_k) P (T:B_k) over a basis B of strains, and P = (1 + STIFF Q)^-1 reduces the weight of
+ * strains by the traction that they cause on faces nearby, Q(e, e') = (M:e) : N (x) N : (M:e'). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,17 +15,18 @@
 #include "bonds_parts.h"
 #include "surface_parts.h"
 
-#define STIFF 1000.0   /* strains that load a face count 1/STIFF */
+#define STIFF 1000.0   /* weight of a strain that loads a face: 1/STIFF; empirical */
 #define ROTATIONS -0.2 /* alpha of models with rotations: fitted to bending */
-/* Over the mean square of a bond in its moments: with a twentieth of it frequencies of beams of 10 layers are nearer by
- * 0.1 %, and steps shorter by a fifth. So with wider bounds. */
+/* Weight of (f - 1)^2 relative to the mean square of a bond in its moments; empirical: with a twentieth of it,
+ * frequencies of beams of 10 layers are closer by 0.1 %, and time steps shorter by a fifth; wider bounds act
+ * likewise. */
 #define PRIOR 2e-2
 #define LEAST 0.2
 #define MOST 3.0
-#define CLOSE 1e-12   /* share of the gradient that is left */
-#define PRODUCTS 1000 /* at most; in space 800 are enough, in the plane 250 */
-#define WORK 5e10     /* multiplications at most: 10 s of two cores */
-/* Moments of a bond side by side: third, then fourth, then nothing. */
+#define CLOSE 1e-12   /* relative reduction of the gradient at which the solver stops */
+#define PRODUCTS 1000 /* largest number of products; in 3D 800 are enough, in 2D 250 */
+#define WORK 5e10     /* largest number of multiplications: 10 s on two cores */
+/* Moments of a bond, in this order: third, then fourth, then padding. */
 enum { STRAINS = 6, THIRDS = 10, FOURTHS = 15, MOMENTS_2D = 16, MOMENTS = 32 };
 
 /* Components of symmetric tensors of rank `rank`: axes in ascending order. */
@@ -46,7 +47,7 @@ static void components_make(struct components *c, int rank, int dim)
     }
 }
 
-/* Number of the component with these axes in any order. */
+/* Returns the index of the component with these axes in any order. */
 static int component_of(const struct components *c, const int *any)
 {
     int axis[4];
@@ -61,6 +62,7 @@ static int component_of(const struct components *c, const int *any)
     return -1;
 }
 
+/* Returns the component k of the product of unit vectors n. */
 static real component_value(const struct components *c, int k, const real *n)
 {
     real value = 1;
@@ -68,23 +70,25 @@ static real component_value(const struct components *c, int k, const real *n)
     return value;
 }
 
-/* What all classes share. */
+/* Moments that all classes share. */
 struct moments {
     int dim, strains;
     struct components third, fourth;
-    int width;          /* of what a bond adds: MOMENTS_2D or MOMENTS */
-    real *of;           /* [offsets width] that, over M_1111 */
+    int width;          /* moments per bond: MOMENTS_2D or MOMENTS */
+    real *of;           /* [offsets width] moments of the bonds, over M_1111 */
     real full[FOURTHS]; /* M over M_1111 */
     real strain[STRAINS][DIM_MAX][DIM_MAX], stress[STRAINS][DIM_MAX][DIM_MAX]; /* B_k, M:B_k */
-    real fourth_by[STRAINS][STRAINS][FOURTHS];                                 /* B_k:T:B_l of T by component */
-    real third_by[DIM_MAX][STRAINS][THIRDS];                                   /* n_p.T:B_l */
+    real fourth_by[STRAINS][STRAINS][FOURTHS]; /* coefficients of B_k:T:B_l by component of T */
+    real third_by[DIM_MAX][STRAINS][THIRDS];   /* coefficients of n_p.T:B_l by component of T */
 };
 
+/* Returns M_abcd over M_1111. */
 static real full_of(const struct moments *m, int a, int b, int c, int d)
 {
     return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
 }
 
+/* Computes the basis of strains, its stresses and the coefficients. */
 static void strains_make(struct moments *m)
 {
     const int dim = m->dim;
@@ -106,6 +110,7 @@ static void strains_make(struct moments *m)
                     }
 }
 
+/* Computes the moments of all offsets. */
 static void moments_make(struct moments *m, const struct offsets *o)
 {
     real sum[FOURTHS] = {0};
@@ -128,8 +133,8 @@ static void moments_make(struct moments *m, const struct offsets *o)
     strains_make(m);
 }
 
-/* alpha of bonds: that of a plane face along which the body is pulled; in an isotropic family that of shear along it is
- * the same. */
+/* Returns alpha of bonds for a plane face along which the body is stretched; for shear along the face it is equal in an
+ * isotropic family. */
 static real face_moment(const struct moments *m, const struct offsets *o)
 {
     const real c11 = m->full[0], c12 = full_of(m, 0, 0, 1, 1), across = c12 / (c11 + (m->dim - 2) * c12);
@@ -145,12 +150,12 @@ static real face_moment(const struct moments *m, const struct offsets *o)
 
 /* ---- a class ----------------------------------------------------------------------------------------------------- */
 
-/* Weights of the squares of its moments, times its members, and what the bonds that may change ought to add to them. */
+/* Quadratic form of the moments of a class, times its members, and the target of the moments of its variable bonds. */
 struct class_fit {
     real third[THIRDS][THIRDS], fourth[FOURTHS][FOURTHS], goal[MOMENTS];
 };
 
-/* Inverse of a symmetric positive matrix, in place, by Gauss and Jordan. */
+/* Inverts a symmetric positive definite matrix in place by Gauss-Jordan elimination. */
 static void invert(real (*a)[STRAINS], int n)
 {
     for (int k = 0; k < n; k++) {
@@ -166,7 +171,7 @@ static void invert(real (*a)[STRAINS], int n)
     }
 }
 
-/* P of a mean N (x) N. */
+/* Computes P of a mean N (x) N. */
 static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], real (*P)[STRAINS])
 {
     const int dim = m->dim;
@@ -181,7 +186,7 @@ static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], re
     invert(P, m->strains);
 }
 
-/* to = sum_k by_k^T P by_k. */
+/* Adds sum_k by_k^T P by_k to `to`. */
 static void quadratic(const real *by, int rows, int strains, int n, int room, real (*P)[STRAINS], real *to)
 {
     for (int k = 0; k < rows; k++)
@@ -194,12 +199,13 @@ static void quadratic(const real *by, int rows, int strains, int n, int room, re
         }
 }
 
-/* Means over the members of a class of what faces ask for, in all mirrors in which it looks alike: beyond the
- * surroundings that make a class, members may differ, and sides of a member. */
+/* Mean targets of the members of a class, over all mirrors under which it is its own image: beyond the surroundings
+ * that define a class, members and their sides may differ. */
 struct class_goal {
     real area[DIM_MAX], dipole, normal2[DIM_MAX][DIM_MAX];
 };
 
+/* Adds the targets of particle t, reflected by `mirrors`, with weight `share`. */
 static void class_goal_add(struct class_goal *to, int dim, const struct faces *f, int64_t t, int mirrors, real share)
 {
     to->dipole += share * f->dipole[t];
@@ -210,6 +216,7 @@ static void class_goal_add(struct class_goal *to, int dim, const struct faces *f
     }
 }
 
+/* Computes the mean targets of all classes. */
 static void class_goals(struct class_goal *goal, int dim, const struct near_faces *b, const struct faces *f,
                         const struct alike *a)
 {
@@ -222,6 +229,7 @@ static void class_goals(struct class_goal *goal, int dim, const struct near_face
     }
 }
 
+/* Computes quadratic form and target of a class. */
 static void class_make(struct class_fit *c, const struct moments *m, const struct near_faces *b,
                        struct class_goal *goal, const struct alike *a, int32_t class, real alpha)
 {
@@ -240,13 +248,13 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
             c->goal[x] -= 0.5 * full_of(m, axis[0], axis[1], axis[2], d) * goal->area[d];
         }
     for (int x = 0; x < m->fourth.n; x++) c->goal[m->third.n + x] = (1 + alpha * goal->dipole) * m->full[x];
-    for (int k = 0; k < b->offset.n; k++) { /* less those that stay */
+    for (int k = 0; k < b->offset.n; k++) { /* less the bonds that do not change */
         if (alike_neighbour(a, b, class, k) < 0 || a->group_of[(int64_t) class * b->offset.n + k] >= 0) continue;
         for (int x = 0; x < m->width; x++) c->goal[x] -= m->of[(int64_t)k * m->width + x];
     }
 }
 
-/* to = the squares' weights of a class times its moments. */
+/* Computes to = quadratic form of a class times `moment`. */
 static void class_weigh(const struct moments *m, const struct class_fit *c, const real *moment, real *to)
 {
     const int thirds = m->third.n, fourths = m->fourth.n;
@@ -259,17 +267,19 @@ static void class_weigh(const struct moments *m, const struct class_fit *c, cons
 
 /* ---- the problem ------------------------------------------------------------------------------------------------- */
 
+/* The least-squares problem. */
 struct problem {
     const struct alike *alike;
     int offsets;
     struct moments moments;
     struct class_fit *class;
-    int64_t *first, *entry;       /* [groups + 1], entries of a group */
-    real *bonds;                  /* [groups] its bonds: half of what its entries count */
-    real *diagonal, *goal, prior; /* [groups] of the matrix; the right side; times bonds */
-    real *value;                  /* [entries] room */
+    int64_t *first, *entry;       /* [groups + 1] range of `entry`; entries sorted by group */
+    real *bonds;                  /* [groups] number of bonds: half of the members of its entries */
+    real *diagonal, *goal, prior; /* [groups] diagonal of the matrix; right side; weight of the prior per bond */
+    real *value;                  /* [entries] working memory */
 };
 
+/* Sorts the entries by group. */
 static void group_entries(struct problem *q)
 {
     const struct alike *a = q->alike;
@@ -290,7 +300,7 @@ static void group_entries(struct problem *q)
     memory_free(next);
 }
 
-/* to_g = sum over the entries of g of `value`. */
+/* Computes to[group] = sum of `value` over its entries. */
 static void group_sums(const struct problem *q, real *to)
 {
 #pragma omp parallel for schedule(static)
@@ -301,7 +311,7 @@ static void group_sums(const struct problem *q, real *to)
     }
 }
 
-/* Values of the entries of a class from its moments. */
+/* Computes `value` of the entries of a class from its moments. */
 static ALWAYS_INLINE void class_back(const struct problem *q, int32_t class, const real *moment, const int width)
 {
     real by[MOMENTS];
@@ -316,6 +326,7 @@ static ALWAYS_INLINE void class_back(const struct problem *q, int32_t class, con
     }
 }
 
+/* Computes `value` of the entries of a class from the factors x. */
 static ALWAYS_INLINE void class_product(const struct problem *q, int32_t class, const real *x, const int width)
 {
     const int64_t *group = q->alike->group_of + (int64_t) class * q->offsets;
@@ -328,7 +339,7 @@ static ALWAYS_INLINE void class_product(const struct problem *q, int32_t class, 
     class_back(q, class, moment, width);
 }
 
-/* y = H x. */
+/* Computes y = H x, the product with the matrix of the problem. */
 static void fit_product(void *context, const real *x, real *y)
 {
     const struct problem *q = context;
@@ -344,7 +355,7 @@ static void fit_product(void *context, const real *x, real *y)
     for (int64_t g = 0; g < q->alike->groups; g++) y[g] += q->prior * q->bonds[g] * x[g];
 }
 
-/* Diagonal of the matrix, prior and right side. */
+/* Computes diagonal, prior and right side. */
 static void diagonal_make(struct problem *q)
 {
     const struct moments *m = &q->moments;
@@ -371,7 +382,7 @@ static void diagonal_make(struct problem *q)
     for (int64_t g = 0; g < groups; g++) q->goal[g] += q->prior * q->bonds[g];
 }
 
-/* Factors from where they are; `fixed` ones stay. */
+/* Solves for the factors, starting from their present values; `fixed` ones do not change. */
 static void solve(struct problem *q, real *factor, const uint8_t *fixed)
 {
     const int64_t n = q->alike->groups;
@@ -384,7 +395,8 @@ static void solve(struct problem *q, real *factor, const uint8_t *fixed)
     memory_free(high);
 }
 
-/* Is the particle beside the end of a crack or of a narrow void: cut from one that a neighbour of its still reaches? */
+/* Returns true if particle t is at the end of a crack or of a narrow void: a neighbour's neighbour within its family is
+ * cut from it. */
 static bool at_crack_end(const struct near_faces *b, int64_t t)
 {
     const struct offsets *o = &b->offset;
@@ -410,6 +422,7 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
     return false;
 }
 
+/* Returns the number of neighbours of particle t. */
 static int neighbours(const struct near_faces *b, int64_t t)
 {
     int n = 0;
@@ -417,6 +430,7 @@ static int neighbours(const struct near_faces *b, int64_t t)
     return n;
 }
 
+/* Returns true if bonds of any pair of materials may break. */
 static bool may_break(const struct bond_limit *limit)
 {
     bool breaks = false;
@@ -424,9 +438,9 @@ static bool may_break(const struct bond_limit *limit)
     return breaks;
 }
 
-/* Bonds of thin parts, for which there are too few layers, and at the ends of cracks take the factor of the volume
- * method (Le & Bobaru 2018), in models with rotations none. Where bonds may break those at the ends of cracks are next:
- * they keep their weights, for which G_c is calibrated (else Kalthoff's crack turns to 61 degrees at 1 mm). */
+/* Fixes the factors of bonds in thin parts, which have too few layers, and at crack ends: factor of the volume method
+ * (Le & Bobaru 2018), in models with rotations 1. If bonds may break, bonds at crack ends break next and get factor 1,
+ * for which G_c is calibrated (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). */
 static void plain_parts(real *x, uint8_t *fixed, const struct near_faces *b, const struct faces *f,
                         const struct alike *a, bool rotates)
 {
