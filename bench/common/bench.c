@@ -60,16 +60,16 @@ static status bench_mark(const char *word, bool *asked)
                       word);
 }
 
-/* Runs a bench; with `readme` its output is also written to bench/README.md. */
+/* One bench; with `readme` its figures go to bench/results, too. */
 static status bench_call(const struct bench *b, bool quick, bool readme)
 {
-    struct bench_readme r;
-    char files[64]; /* name of the files: for a part of a bench that of the whole bench */
+    struct bench_results r;
+    char files[64]; /* name of its files: of a part of a bench that of the whole */
     snprintf(files, sizeof files, "%.*s", (int)strcspn(b->name, "="), b->name);
     TRY(bench_guard(files)); /* before minutes of measurement */
     if (!readme) return b->call(quick);
-    TRY(bench_readme_begin(&r, b->name));
-    return bench_readme_end(&r, b->name, quick, b->call(quick));
+    TRY(bench_results_begin(&r, b->name, quick));
+    return bench_results_end(&r, b->name, b->call(quick));
 }
 
 status command_bench(int argc, char **argv)

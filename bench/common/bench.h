@@ -59,21 +59,21 @@ status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to
 /* Prints a line about the processor and one about the program. */
 void bench_print_machine(int threads);
 
-/* ---- bench_readme.c: figures in bench/README.md ------------------------------------------------------------------ */
+/* ---- bench_results.c: figures in bench/results ------------------------------------------------------------------- */
 
-/* Standard output while it is recorded. */
-struct bench_readme {
+/* Standard output while it is kept, and the lines that precede results. */
+struct bench_results {
     FILE *printed;
     int output;
+    char head[1024];
 };
-
-/* Starts to record standard output for a bench. REFUSED, before anything is measured, if bench/README.md or the marks
- * of the bench are missing. */
-status bench_readme_begin(struct bench_readme *r, const char *name);
-
-/* Ends recording and prints the output. If `measured` (status of the bench) is OK, replaces the text between the marks
- * of the bench in bench/README.md by it. */
-status bench_readme_end(struct bench_readme *r, const char *name, bool quick, status measured);
+/* Starts to keep what is printed and the tables that are written. Makes the folder bench/results. REFUSED outside a
+ * source tree. */
+status bench_results_begin(struct bench_results *r, const char *name, bool quick);
+/* Prints what was kept; writes it to bench/results/NAME.txt if the bench succeeded (`measured` is OK). */
+status bench_results_end(struct bench_results *r, const char *name, status measured);
+/* Writes a table (CSV of at most 250 lines) to bench/results/FILE as well, while results are kept. */
+status bench_results_table(const char *file, const char *text);
 
 /* ---- bench_scene.c: runs for timing ------------------------------------------------------------------------------ */
 

@@ -162,6 +162,7 @@ static status write_file(const char *path, const char *json, const struct bench_
         put_csv(to, table);
     bool whole = fclose(to) == 0;
     status s = whole ? file_put(path, text, length) : status_set(FAILED, "cannot write %s: out of memory", path);
+    if (s == OK && !json) s = bench_results_table(strrchr(path, '/') + 1, text);
     free(text);
     return s;
 }

@@ -97,9 +97,10 @@ static void scene_text(FILE *to, const struct peer_case *c, int edge)
     fprintf(to, "material: {young: 192e9, %sdensity: 8000, critical_stretch: %g}\n", is_lps(c) ? "poisson: 0.3, " : "",
             c->breaking ? 0.02 : 10.0);
     fprintf(to, "particles: {spacing: %.17g, horizon: %.17g}\n", SPACING, c->reach);
-    fputs("pd: {volume: cut-ramp, calibration: lattice, surface: none, last_force: whole}\noutput: {frames: 0, "
-          "samples: 1}\n",
-          to);
+    fprintf(to,
+            "pd: {volume: cut-ramp, weights: uniform, calibration: lattice, surface: none, last_force: whole}\n"
+            "contact: {%s}\noutput: {frames: 0, samples: 1}\n",
+            is_lps(c) ? "between: none" : "law: pair, distance: lammps");
     if (c->dim == 2)
         fprintf(to,
                 "body: {box: {from: [%.17g, %.17g], to: [%.17g, %.17g]}}\n"
@@ -416,9 +417,9 @@ static status peers_measure(struct peer_result *result, bool quick)
     }
     bench_child_free(&folder);
     TRY(s);
-    printf("  bonds break by pd.last_force: whole, as they do there; there families keep the weight (lps) that they "
-           "had whole, and parts that\n"
-           "  meet push each other, so lps differs once bonds break, and pmb once faces have come together\n");
+    printf("  bonds break by pd.last_force: whole, as in LAMMPS; peri/lps keeps the weighted volume of intact "
+           "families, so\n"
+           "  results of lps differ once bonds break\n");
     TRY(peers_write_table(result));
     return bench_draw("peers", 800, 500, peers_draw, result);
 }

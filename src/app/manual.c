@@ -64,7 +64,7 @@ static const struct entry options[] = {
     {"--style peri", "peri: pair_style peri of every LAMMPS; bpm: bond_style bpm/peri of 2026.", NULL},
     {"--allow-different", "exports what differs in LAMMPS, too; README.txt there says in what.", NULL},
     {"--quick", "smaller cases.", NULL},
-    {"--readme", "writes the figures to bench/README.md.", NULL},
+    {"--readme", "writes what is printed and tables to bench/results/ of the source tree.", NULL},
     {"--help", "after any command: what it takes.", NULL},
 };
 static const struct entry exit_status[] = {

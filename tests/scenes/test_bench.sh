@@ -49,17 +49,17 @@ for file in efficiency.json efficiency.png efficiency.svg efficiency_share.csv; 
 cd ../..
 
 # Three runs of each method at other steps: means and scatter are what the runs say, to the nine digits written.
-# What is printed goes between the marks of the bench in bench/README.md, and nothing else there changes.
+# --readme: what is printed and the tables are written to bench/results as well, below lines that tell where they come from.
+"$cleave" bench sensitivity --readme >out 2>err && fail "--readme outside a source tree"
+grep -q "top of the source tree" err || fail "--readme outside a source tree: $(cat err)"
 mkdir bench
-{ echo before; echo "<!-- cleave bench sensitivity -->"; echo old; echo "<!-- end of sensitivity -->"; echo after; } >bench/README.md
-cp bench/README.md same
-"$cleave" bench coupling --readme >out 2>err && fail "--readme without marks"
-grep -q "the marks of bench coupling are missing" err && cmp -s bench/README.md same || fail "--readme without marks: $(cat err)"
 "$cleave" bench sensitivity --quick --readme >out 2>err || fail "scatter failed"
-[ "$(sed -n '1p;$p' bench/README.md | tr '\n' ' ')" = "before after " ] || fail "--readme changed what is outside its marks"
-grep -q "^old$" bench/README.md && fail "--readme kept the old figures"
-sed -n '/^```text$/,/^```$/p' bench/README.md | sed '1d;$d' | cmp -s - out || fail "--readme: the block is not what was printed"
-grep -q "^.cleave bench sensitivity --quick., 20[0-9-]*:$" bench/README.md || fail "--readme: command and date"
+[ "$(sed -n 's/^# \([a-z]*\): .*/\1/p' bench/results/sensitivity.txt | tr '\n' ' ')" = "command date commit processor compiler " ] ||
+    fail "--readme: head of the results: $(head -6 bench/results/sensitivity.txt)"
+[ "$(head -1 bench/results/sensitivity.txt)" = "# command: cleave bench sensitivity --quick" ] || fail "--readme: command"
+grep -q "^# date: 20[0-9-]*$" bench/results/sensitivity.txt || fail "--readme: date"
+grep -v "^#" bench/results/sensitivity.txt | cmp -s - out || fail "--readme: the text is not what was printed"
+grep -v "^#" bench/results/sensitivity.csv | cmp -s - results/bench/sensitivity.csv || fail "--readme: the table is another"
 cd results/bench
 [ "$(head -1 sensitivity.csv)" = \
     scene,model,method,runs,start,start_scatter,angle_deg,angle_scatter_deg,x,y,z,place_scatter,spacing ] || fail "columns of sensitivity.csv"
@@ -101,6 +101,10 @@ awk -F, 'NR > 1 { near = $10 < 0.02 && $11 < 0.02 }
     ($2 < 3 && NR > 1 && !near) || ($2 == 4 && near) || ($2 > 0 && $3 == 0 && $4 > 0.1 * $5) || ($9 < 1.2e5 && NR > 1) { bad = 1 }
     END { exit bad }' scale_field.csv || fail "figures of scale_field.csv"
 cd ../..
+# Beside LAMMPS, particle by particle, where it is installed.
+if command -v lmp >/dev/null; then
+    awk -F, 'NR > 1 && !($11 < 1e-9) { bad = 1 } END { exit bad || NR != 13 }' results/bench/peers.csv || fail "beside LAMMPS: $(cat results/bench/peers.csv)"
+fi
 
 # Growth over the spacing, of the plate in space: of two rows the exponents are those of their ratios.
 cp "$inputs/kalthoff_3d_fine.yaml" inputs

@@ -1,0 +1,136 @@
+/* `cleave bench NAME --readme`: writes what a bench prints to bench/results/NAME.txt and its tables to
+ * bench/results/TABLE.csv. Lines that begin with # tell command, date, commit, processor and compiler. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "bench.h"
+#include "base/memory_stream.h"
+#include "output/output_files.h"
+#include "simd/simd.h"
+
+#define RESULTS "bench/results"
+
+#ifdef __clang__
+#define COMPILER __VERSION__
+#else
+#define COMPILER "gcc " __VERSION__
+#endif
+
+/* Longest table that is kept [lines]. */
+enum { LINES_MAX = 250 };
+
+/* ---- head -------------------------------------------------------------------------------------------------------- */
+
+/* Asks git for the commit of the working folder, with `-dirty` if files differ from it; "unknown" without git. */
+static void commit_name(char *name, size_t size)
+{
+    FILE *git = popen("git describe --always --dirty --abbrev=10 --exclude='*' 2>/dev/null", "r");
+    if (!git || !fgets(name, (int)size, git)) snprintf(name, size, "unknown");
+    if (git) pclose(git);
+    name[strcspn(name, "\n")] = '\0';
+}
+
+/* Composes the lines that precede results: command, date, commit, processor, compiler, kernels. */
+static void results_head(char *head, size_t size, const char *name, bool quick)
+{
+    const struct machine m = team_machine();
+    const time_t now = time(NULL);
+    char date[16], commit[64];
+    int model = (int)strlen(m.model);
+    while (model > 0 && m.model[model - 1] == ' ') model--;
+    strftime(date, sizeof date, "%Y-%m-%d", localtime(&now));
+    commit_name(commit, sizeof commit);
+    snprintf(head, size,
+             "# command: cleave bench %s%s\n# date: %s\n# commit: %s\n# processor: %.*s, %d cores\n"
+             "# compiler: %s; kernels %s\n",
+             name, quick ? " --quick" : "", date, commit, model, m.model, m.cores, COMPILER, simd_in_use()->name);
+}
+
+/* ---- files ------------------------------------------------------------------------------------------------------- */
+
+/* Reads all bytes of an open file from its start and ends them by 0. Returns NULL if the file cannot be read; free the
+ * text with free. */
+static char *text_of(FILE *from)
+{
+    if (fseek(from, 0, SEEK_END) != 0) return NULL;
+    const long length = ftell(from);
+    char *text = length < 0 ? NULL : malloc((size_t)length + 1);
+    rewind(from);
+    if (!text) return NULL;
+    text[fread(text, 1, (size_t)length, from)] = '\0';
+    return text;
+}
+
+/* Writes bench/results/FILE: head and text. The file is written aside and renamed. */
+static status results_put(const char *file, const char *head, const char *text)
+{
+    char path[256], *whole = NULL;
+    size_t length = 0;
+    snprintf(path, sizeof path, RESULTS "/%s", file);
+    FILE *to = memory_stream_open(&whole, &length);
+    if (!to) return status_set(FAILED, "cannot write %s: out of memory", path);
+    fprintf(to, "%s%s", head, text);
+    const status s =
+        fclose(to) == 0 ? file_put(path, whole, length) : status_set(FAILED, "cannot write %s: out of memory", path);
+    free(whole);
+    return s;
+}
+
+/* Writes the printed text to bench/results/NAME.txt; an equals sign in the name becomes an underscore. */
+static status printed_put(const struct bench_results *r, const char *name, const char *printed)
+{
+    char file[64], *equals;
+    snprintf(file, sizeof file, "%s.txt", name);
+    equals = strchr(file, '=');
+    if (equals) *equals = '_';
+    return results_put(file, r->head, printed);
+}
+
+/* ---- tables ------------------------------------------------------------------------------------------------------ */
+
+/* The head of tables that are kept, or "" while none is kept. */
+static char table_head[1024];
+
+status bench_results_table(const char *file, const char *text)
+{
+    int lines = 0;
+    if (!table_head[0]) return OK;
+    for (const char *c = text; *c; c++) lines += *c == '\n';
+    return lines > LINES_MAX ? OK : results_put(file, table_head, text);
+}
+
+/* ---- standard output --------------------------------------------------------------------------------------------- */
+
+status bench_results_begin(struct bench_results *r, const char *name, bool quick)
+{
+    if (!path_exists("bench"))
+        return status_set(REFUSED, "bench: no such folder; --readme is for the top of the source tree");
+    if (mkdir(RESULTS, 0777) != 0 && errno != EEXIST) return file_fault(RESULTS, errno);
+    fprintf(stderr, "bench %s: its figures go to " RESULTS "\n", name);
+    results_head(r->head, sizeof r->head, name, quick);
+    snprintf(table_head, sizeof table_head, "%s", r->head);
+    fflush(stdout);
+    r->printed = tmpfile();
+    r->output = dup(STDOUT_FILENO);
+    if (r->printed && r->output >= 0 && dup2(fileno(r->printed), STDOUT_FILENO) >= 0) return OK;
+    return status_set(FAILED, "no room for what bench %s prints (a temporary file)", name);
+}
+
+status bench_results_end(struct bench_results *r, const char *name, status measured)
+{
+    fflush(stdout);
+    dup2(r->output, STDOUT_FILENO);
+    close(r->output);
+    table_head[0] = '\0';
+    char *printed = text_of(r->printed);
+    fclose(r->printed);
+    if (printed) fputs(printed, stdout);
+    if (measured == OK) measured = printed ? printed_put(r, name, printed) : status_set(FAILED, "nothing was printed");
+    free(printed);
+    return measured;
+}
