@@ -1,0 +1,20 @@
+#!/bin/sh
+# Figures that documents state, by bench/claims.csv: scenes and benches of minutes still give them (test_claims.sh has the quick ones).
+# Takes half an hour on two cores.
+test_name=long_claims
+. tests/support/summary.sh
+. tests/support/claims.sh
+
+measure long
+
+# Benches, from the top of a tree of their own.
+mkdir "$work/tree" "$work/tree/bench"
+cp -r inputs "$work/tree"
+for bench in $(awk -F, 'NR > 1 && $4 == "long" && $5 ~ /^cleave bench / && !seen[$5]++ { print substr($5, 14) }' "$claims"); do
+    if [ "$bench" = peers ] && ! command -v lmp >/dev/null; then lammps=missing; continue; fi
+    (cd "$work/tree" && "$cleave" bench "$bench" --readme) >"$work/log" 2>&1 || fail "bench $bench: $(tail -n 1 "$work/log")"
+done
+[ "${lammps:-}" != missing ] || cp bench/results/peers.txt "$work/tree/bench/results"
+said=$(compare "$work/tree/bench/results" 1) || fail "$said"
+holds "benches are compared" [ "${said%% *}" -gt 100 ]
+finish

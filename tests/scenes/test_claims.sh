@@ -1,0 +1,29 @@
+#!/bin/sh
+# Figures that documents state, by bench/claims.csv: documents and kept results of benches say what the table has, every number in the
+# tables of results is in it, and scenes that run in seconds still give it.
+# Takes a minute on a quiet machine.
+test_name=test_claims
+. tests/support/summary.sh
+. tests/support/claims.sh
+
+said=$(compare bench/results 0 "bench/README.md") || fail "$said"
+holds "claims.csv is compared" [ "${said%% *}" -gt 500 ]
+
+# Negative control: another number in a document, in a kept result or in the table itself is seen.
+mkdir -p "$work/copy"
+cp -r --parents README.md inputs/*.md inputs/*.yaml bench/README.md bench/results bench/claims.csv "$work/copy"
+altered()
+{
+    cp "$work/copy/$1" "$work/kept"
+    sed "$2" "$work/kept" >"$work/copy/$1"
+    cmp -s "$work/kept" "$work/copy/$1" && fail "negative control: $1 has no place for $2"
+    if (cd "$work/copy" && awk -v results=bench/results -v tables="bench/README.md" -f "$root/tests/support/claims.awk" bench/claims.csv) >/dev/null
+    then fail "$1 with $2 is not seen"; else pass; fi
+    cp "$work/kept" "$work/copy/$1"
+}
+altered bench/README.md 's/0\.578 ns/0.587 ns/'
+altered bench/results/kernels.txt 's/ 0\.578 / 0.678 /'
+altered bench/claims.csv 's/,0\.578,/,0.579,/'
+
+measure quick
+finish
