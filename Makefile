@@ -6,7 +6,7 @@ DEBUG    ?= -g1
 PREFIX   ?= /usr/local
 BUILD    ?= build
 THREADS  ?= 2
-VERSION  := 0.1.0
+VERSION  := 0.2.0
 
 # Options, if the compiler knows them all; a linker, if it is there.
 known = $(shell $(CC) -Werror $(1) -x c -c -o /dev/null /dev/null 2>/dev/null && echo '$(1)')
@@ -49,7 +49,7 @@ PROGRAMS := $(TESTS:%.c=$(BUILD)/%)
 SCRIPTS  := tests/house.sh $(sort $(shell find tests -name 'test_*.sh'))
 LONG     := $(sort $(shell find tests -name 'long_*.sh'))
 
-.PHONY: all run test test-long mutants fuzz bench install uninstall dist deb help packages packages-tests clean always
+.PHONY: all run test test-long mutants fuzz lint bench install uninstall dist deb help packages packages-tests clean always
 .SECONDARY:
 .DEFAULT_GOAL := all
 
@@ -60,8 +60,9 @@ help:
 	@echo 'make mutants    puts small faults into copies of the program and tells which tests see them (MUTANTS=LIST: others)'
 	@echo 'make bench      measures kernels and efficiency (all: build/cleave bench --help)'
 	@echo 'make fuzz       feeds scenes and files of all kinds to the readers'
-	@echo 'make install    below PREFIX ($(PREFIX)): program, manual page, Python module, completion; uninstall removes them'
-	@echo 'make dist deb   a tarball, a Debian package; inputs/packaging has recipes for Docker and Spack'
+	@echo 'make lint       searches the sources for faults by cppcheck and clang-tidy 14 (LINT=FILES: in these alone)'
+	@echo 'make install    below PREFIX ($(PREFIX)): program, manual, scenes, Python module, completion; uninstall removes them'
+	@echo 'make dist deb   a tarball, a Debian package'
 	@echo 'make clean      removes build'
 
 all: $(BUILD)/cleave $(BUILD)/cleave.schema.json
@@ -90,6 +91,12 @@ $(BUILD)/parts.h: always
 	@mkdir -p $(@D)
 	@printf '#define %s\n' $(PARTS) > $@.new; cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 $(foreach path,$(BUILD) $(BUILD)/fuzz,$(path)/src/simd/simd.o $(path)/src/app/commands.o): $(BUILD)/parts.h
+
+# The commit, for `cleave --version`: no object that tests link reads it, so that a commit rebuilds one file and the program.
+$(BUILD)/commit.h: always
+	@mkdir -p $(@D)
+	@sh src/app/commit.sh $@
+$(BUILD)/src/app/main.o: $(BUILD)/commit.h
 
 # Scenes that `cleave new` writes: rows of a table of C, each a kind, what it is (its second line) and its text.
 $(BUILD)/new_scenes.h: $(wildcard inputs/new/*.yaml) Makefile
@@ -151,13 +158,18 @@ mutants: packages-tests
 fuzz: all
 	@BUILD=$(BUILD) CC="$(CC)" sh tests/robustness/long_fuzz.sh $(FUZZ_SECONDS)
 
+# Faults that can be seen without a run: cppcheck over all files at once, clang-tidy (.clang-tidy) over one file after the other.
+LINT     ?= $(SOURCES) $(KERNELS)
+lint: $(BUILD)/commit.h $(BUILD)/parts.h $(BUILD)/new_scenes.h $(BUILD)/new_part.h
+	@BUILD=$(BUILD) LIBFLAGS="$(LIBFLAGS)" sh tests/support/lint.sh $(LINT)
+
 bench: all
 	$(BUILD)/cleave bench kernels efficiency
 
 # What `make install` lays below PREFIX, for `make uninstall`, too.
 SHARE     = $(DESTDIR)$(PREFIX)/share
 INSTALLED = $(DESTDIR)$(PREFIX)/bin/cleave $(SHARE)/man/man1/cleave.1 $(SHARE)/bash-completion/completions/cleave \
-            $(SHARE)/zsh/site-functions/_cleave $(SHARE)/cleave/cleave.schema.json $(MODULES)/cleave.py $(MODULES)/__pycache__/cleave.*.pyc
+            $(SHARE)/zsh/site-functions/_cleave $(SHARE)/cleave $(SHARE)/doc/cleave $(MODULES)/cleave.py $(MODULES)/__pycache__/cleave.*.pyc
 # Where Python looks for modules below PREFIX; else a folder that PYTHONPATH has to name.
 SEEN      = $(shell python3 -c 'import sys; print(next((p for p in sys.path if p.startswith("$(PREFIX)/") and p.endswith("-packages")), ""))' 2>/dev/null)
 MODULES   = $(DESTDIR)$(or $(SEEN),$(PREFIX)/lib/python3/dist-packages)
@@ -173,10 +185,11 @@ install: all
 	install -D -m 644 $(BUILD)/cleave.zsh $(SHARE)/zsh/site-functions/_cleave
 	install -D -m 644 $(BUILD)/cleave.schema.json $(SHARE)/cleave/cleave.schema.json
 	install -D -m 644 src/python/cleave.py $(MODULES)/cleave.py
+	@sh src/app/install_documents.sh $(SHARE)/doc/cleave
 	@$(if $(DESTDIR)$(SEEN),:,echo "for import cleave: export PYTHONPATH=$(MODULES)")
 
 uninstall:
-	rm -f $(INSTALLED)
+	rm -rf $(INSTALLED)
 
 # A tarball that builds without git; of what is committed where git is there, else of what lies here.
 DIST     := cleave-$(VERSION)
@@ -185,11 +198,12 @@ dist:
 	@if git rev-parse --git-dir >/dev/null 2>&1; then git archive --prefix=$(DIST)/ HEAD; \
 	else tar -c --transform='s|^|$(DIST)/|' $(DISTRIBUTED); fi | gzip -n9 > $(BUILD)/$(DIST).tar.gz
 	@echo $(BUILD)/$(DIST).tar.gz
-DISTRIBUTED := Makefile README.md src include kernels bench tests inputs
+DISTRIBUTED := Makefile README.md LICENSE CITATION.cff CHANGELOG.md .clang-format .clang-tidy .editorconfig .ci .github \
+               src include kernels bench tests inputs
 
 # A package for Debian and its like: build/cleave_VERSION_ARCHITECTURE.deb.
 deb: all
-	@sh inputs/packaging/deb.sh $(BUILD) $(VERSION)
+	@sh src/app/deb.sh $(BUILD) $(VERSION)
 
 clean:
 	rm -rf $(BUILD)

@@ -50,6 +50,14 @@ status command_find(const char *name, const struct command **found);
  * once. */
 const volatile sig_atomic_t *stop_signals(void);
 
+/* Sets the commit of the source tree that `cleave --version` and `cleave info` print; "" (the initial value): none is
+ * printed. `name` is kept by reference. Only the program's main file knows the commit, so that no test is linked anew
+ * when it changes. */
+void version_commit(const char *name);
+
+/* Prints one line: version and commit. */
+void version_print(FILE *out);
+
 /* `cleave --help` and `cleave COMMAND --help`. */
 void usage_print(FILE *out);
 void usage_print_of(FILE *out, const struct command *c);

@@ -15,22 +15,13 @@ gzip -n9 "$root/usr/share/man/man1/cleave.1"
 [ ! -d "$root/usr/share/zsh/site-functions" ] || mv "$root/usr/share/zsh/site-functions" "$root/usr/share/zsh/vendor-completions"
 
 documents=$root/usr/share/doc/cleave
-mkdir -p "$documents/examples" "$root/DEBIAN" "$build/deb/debian"
-cp README.md "$documents/README.md"
-cp inputs/*.md inputs/*.yaml "$documents/examples/"
-sed -i '1s|=\.\./build/|=../../../cleave/|' "$documents/examples/"*.yaml        # the schema for editors
-printf 'cleave (%s) unstable; urgency=low\n\n  * Release %s.\n\n -- Cleave maintainers <maintainers@cleave.example>  %s\n' \
-    "$version" "$version" "$(date -R -r Makefile)" | gzip -n9 >"$documents/changelog.gz"
-cat >"$documents/copyright" <<END
-Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
-Upstream-Name: Cleave
-Comment: This version states no licence; ask its owner before you pass it on.
-
-Files: *
-Copyright: the owner of Cleave
-License: none-stated
- No licence is stated in this version.
-END
+mkdir -p "$root/DEBIAN" "$build/deb/debian"
+gzip -n9c CHANGELOG.md >"$documents/changelog.gz"
+{
+    printf 'Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\nUpstream-Name: Cleave\n\n'
+    printf 'Files: *\n%s\nLicense: BSD-3-Clause\n' "$(sed -n 's/^Copyright (c)/Copyright:/p' LICENSE)"
+    sed -n '/^Redistribution/,$ { s/^$/./; s/^/ /; p; }' LICENSE
+} >"$documents/copyright"
 
 # The libraries by the program's own list of them.
 printf 'Source: cleave\n\nPackage: cleave\nArchitecture: any\n' >"$build/deb/debian/control"
@@ -40,7 +31,7 @@ cat >"$root/DEBIAN/control" <<END
 Package: cleave
 Version: $version
 Architecture: $architecture
-Maintainer: Cleave maintainers <maintainers@cleave.example>
+Maintainer: Cleave developers <maintainers@cleave.example>
 Installed-Size: $(du -sk "$root/usr" | cut -f 1)
 Depends: $libraries, python3:any
 Recommends: gnuplot-nox, python3-h5py, python3-numpy

@@ -10,6 +10,15 @@
 #include "simd/simd.h"
 #include "base/team.h"
 
+static const char *commit = "";
+
+void version_commit(const char *name) { commit = name; }
+
+void version_print(FILE *out)
+{
+    fprintf(out, *commit ? "cleave %s (commit %s)\n" : "cleave %s\n", CLEAVE_VERSION, commit);
+}
+
 static const char *compiler(void)
 {
 #if defined __clang__
@@ -47,6 +56,7 @@ static void print_build(void)
     unsigned major, minor, release, hwloc = hwloc_get_api_version();
     H5get_libversion(&major, &minor, &release);
     printf("%-18s %s\n", "cleave", CLEAVE_VERSION);
+    if (*commit) printf("%-18s %s\n", "commit", commit);
     printf("%-18s %s\n", "compiler", compiler());
     printf("%-18s %s, %s precision\n", "build", build_flags(), sizeof(real) == sizeof(double) ? "double" : "single");
     printf("%-18s OpenMP %d, HDF5 %u.%u.%u, libyaml %s, hwloc interface %u.%u\n", "libraries", _OPENMP, major, minor,

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "commit.h"
 #include "base/harmless.h"
 #include "base/last_words.h"
 #include "output/output.h"
@@ -33,7 +34,7 @@ static status call(int argc, char **argv)
     output_start();
     TRY(simd_start());
     if (wants_help(argv[1])) return usage_print(stdout), OK;
-    if (!strcmp(argv[1], "--version")) argv[1] = "info";
+    if (!strcmp(argv[1], "--version")) return version_print(stdout), OK;
     TRY(command_find(argv[1], &c));
     if (asks_help(argc, argv)) return usage_print_of(stdout, c), OK;
     return c->call(argc - 1, argv + 1);
@@ -71,6 +72,7 @@ int main(int argc, char **argv)
     limit_spin(argv);
     last_words_start();
     harmless_output_start();
+    version_commit(CLEAVE_COMMIT);
     status result = call(argc, argv);
     const bool lost = fflush(stdout) != 0 || ferror(stdout);
     if (lost && reader_gone()) LEAVE(FAILED); /* `cleave help | head` */

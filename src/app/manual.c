@@ -107,6 +107,15 @@ static const struct entry scene_form[] = {
      "are written with dots; items of lists have the keys below the list.",
      NULL},
 };
+static const struct entry documents[] = {
+    {NULL,
+     "Manual and scenes lie in share/doc/cleave beside the folder bin of the program: README.md, inputs/README.md.",
+     NULL},
+};
+static const struct entry copyright[] = {
+    {NULL, "Copyright (c) 2026, the Cleave developers. Licence: BSD-3-Clause; its text is in share/doc/cleave/LICENSE.",
+     NULL},
+};
 #define SECTION(title, entries, of_run)                                                                                \
     {                                                                                                                  \
         title, entries, COUNT_OF(entries), of_run                                                                      \
@@ -115,7 +124,8 @@ static const struct section sections[] = {
     SECTION("DESCRIPTION", description, false), SECTION("OPTIONS", options, true),
     SECTION("EXIT STATUS", exit_status, true),  SECTION("ENVIRONMENT", environment, true),
     SECTION("SIGNALS", signals, true),          SECTION("FILES", files, true),
-    SECTION("SCENE", scene_form, false),
+    SECTION("SCENE", scene_form, false),        SECTION("SEE ALSO", documents, false),
+    SECTION("COPYRIGHT", copyright, false),
 };
 
 /* Words in lines of at most 100 characters that begin with `indent` blanks. */

@@ -18,8 +18,8 @@ src/base/base.c @ no such text @ x @ test_ground
 src/base/base.c @ return @ exit @ test_ground
 src/base/none.c @ a @ b @ test_ground
 include/base/rise.h @ CLEAVE_BASE_RISE @ @ test_ground
-Makefile @ VERSION  := 0.1.0 @ VERSION  := 0.1.1 @ test_none
-Makefile @ VERSION  := 0.1.0 @ VERSION  := 0.1.1 @ test_ground tests/unit/mesh/test_mesh.c test_contact.sh test_bar
+Makefile @ VERSION  := 0.2.0 @ VERSION  := 0.2.1 @ test_none
+Makefile @ VERSION  := 0.2.0 @ VERSION  := 0.2.1 @ test_ground tests/unit/mesh/test_mesh.c test_contact.sh test_bar
 END
 awk -f tests/robustness/mutants/list.awk "$work/list" >"$work/said"
 is "lines with a fault that is none" "$(sed "s|^$work/||; s|:.*||" "$work/said" | sort -u)" "list"

@@ -29,15 +29,52 @@ if command -v bash >/dev/null; then
 fi
 holds "the completion of zsh names a command" grep -q "sweep" "$prefix/share/zsh/site-functions/_cleave"
 
+# ---- documents -------------------------------------------------------------------------------------------------------
+
+documents=$prefix/share/doc/cleave
+for file in LICENSE CITATION.cff CHANGELOG.md README.md inputs/README.md inputs/blade.stl inputs/new/bar.yaml; do
+    holds "$file is installed" test -s "$documents/$file"
+done
+# Each link of README and manual leads to a file that is installed.
+(cd "$documents" && for page in README.md inputs/*.md; do
+    { grep -o '](\([^)]*\))' "$page" | sed 's/^](//; s/)$//'; grep -o 'src="[^"]*"' "$page" | sed 's/src="//; s/"$//'; } |
+        sed 's/#.*//' | grep -v '^https:' | sort -u | while read -r link; do
+        [ -z "$link" ] || [ -e "$(dirname "$page")/$link" ] || echo "$page: $link"
+    done
+done) >"$work/list"
+is "links of installed documents that lead nowhere" "$(cat "$work/list")" ""
+holds "an installed scene is sound" "$prefix/bin/cleave" check --no-trial "$documents/inputs/plate_crack.yaml" >/dev/null 2>&1
+schema=$(sed -n '1s/.*schema=//p' "$documents/inputs/plate_crack.yaml")
+holds "and names the installed schema" test -s "$documents/inputs/$schema"
+schema=$(sed -n '1s/.*schema=//p' "$documents/inputs/new/bar.yaml")
+holds "so does one of cleave new" test -s "$documents/inputs/new/$schema"
+
+# ---- version ---------------------------------------------------------------------------------------------------------
+
+version=$(sed -n 's/^VERSION *:= *//p' Makefile)
+is "version" "$("$cleave" --version | cut -d ' ' -f 1-2)" "cleave $version"
+for file in CITATION.cff CHANGELOG.md; do holds "$file names version $version" grep -q "$version" $file; done
+# The commit is written anew only where it changes, and is empty where the tree is in no git repository of its own.
+mkdir "$work/none"
+(cd "$work/none" && sh "$OLDPWD/src/app/commit.sh" commit.h && touch -d 2001-01-01 commit.h && sh "$OLDPWD/src/app/commit.sh" commit.h)
+is "without git" "$(cat "$work/none/commit.h")" '#define CLEAVE_COMMIT ""'
+holds "an equal commit is left as it is" test "$(date -r "$work/none/commit.h" +%Y)" = 2001
+if command -v git >/dev/null; then
+    (cd "$work/none" && git init -q . && git -c user.name=x -c user.email=x@example.org commit -q --allow-empty -m x &&
+        sh "$OLDPWD/src/app/commit.sh" commit.h)
+    holds "with git" grep -qE '^#define CLEAVE_COMMIT "[0-9a-f]{10}\+?"$' "$work/none/commit.h"
+fi
+
 make -s uninstall BUILD="$build" PREFIX="$prefix" >"$work/log" 2>&1 || fail "make uninstall: $(cat "$work/log")"
-is "files that uninstall leaves" "$(find "$prefix" -type f)" ""
+is "files that uninstall leaves" "$(find "$prefix" ! -type d)" ""
 
 # ---- tarball ---------------------------------------------------------------------------------------------------------
 
-mkdir "$work/here" && cp -r Makefile README.md src include kernels bench tests inputs "$work/here/"
+mkdir "$work/here" && tar -c --exclude='./.git' --exclude='./build*' --exclude='./results' . | tar -x -C "$work/here"
 (cd "$work/here" && make -s dist BUILD="$work/dist") >"$work/log" 2>&1 || fail "make dist: $(cat "$work/log")"
 tar -tzf "$work/dist/"cleave-*.tar.gz >"$work/list" || fail "the tarball cannot be read"
-for file in Makefile README.md src/app/main.c kernels/kernels.h tests/house.sh inputs/kalthoff_winkler.yaml; do
+for file in Makefile README.md LICENSE CITATION.cff CHANGELOG.md .clang-format .clang-tidy .editorconfig .github/CONTRIBUTING.md \
+    src/app/main.c kernels/kernels.h tests/house.sh inputs/kalthoff_winkler.yaml; do
     holds "the tarball has $file" grep -q "^cleave-[0-9.]*/$file\$" "$work/list"
 done
 

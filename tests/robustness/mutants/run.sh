@@ -34,7 +34,8 @@ export OMP_NUM_THREADS=1 GOMP_SPINCOUNT=0 KMP_BLOCKTIME=0
 
 tree=$work/tree
 mkdir -p "$tree/build" "$work/jobs" "$work/first"
-cp -a Makefile README.md src include kernels bench tests inputs "$tree"
+cp -a Makefile README.md LICENSE CITATION.cff CHANGELOG.md .clang-format .clang-tidy .editorconfig .ci .github \
+    src include kernels bench tests inputs "$tree"
 # Objects that are there, of the usual build: what is up to date is not compiled again.
 if [ "${BUILD:-build}" = build ] && [ -d build ]; then
     (cd build && find . -name '*.[odh]' ! -path './fuzz/*' -exec cp -a --parents -t "$tree/build" {} +)

@@ -1,0 +1,24 @@
+#!/bin/sh
+# lint.sh FILES: searches C files for faults without running them (`make lint`). cppcheck reads all files together, clang-tidy 14 each
+# alone, with the checks of .clang-tidy. Prints what is found; status 1 if there is anything.
+#
+# cppcheck leaves out two of its own checks: uninitvar takes arrays of fixed length for unset that a loop fills (the compiler and
+# valgrind see those that are), and arrayIndexOutOfBoundsCond takes a test of one bound for one of both.
+set -u
+for tool in cppcheck clang-tidy-14; do
+    command -v $tool >/dev/null || { echo "$tool is missing: apt-get install cppcheck clang-tidy-14" >&2; exit 1; }
+done
+build=${BUILD:-build}
+found=$(mktemp)
+trap 'rm -f "$found"' EXIT
+jobs=$(getconf _NPROCESSORS_ONLN)
+defined="-D_GNU_SOURCE -DCLEAVE_VERSION=\"\" -DSIMD_SET=\"portable\""
+
+cppcheck --std=c11 --enable=warning,performance,portability --inline-suppr --quiet -j "$jobs" --template='{file}:{line}: {message} [{id}]' \
+    --suppress=uninitvar --suppress=arrayIndexOutOfBoundsCond --suppress=normalCheckLevelMaxBranches \
+    -I. -Iinclude -I"$build" -D__x86_64__ $defined "$@" 2>>"$found"
+printf '%s\n' "$@" | xargs -P "$jobs" -n 8 sh -c 'clang-tidy-14 --quiet "$@" -- -std=c11 -fopenmp -I. -Iinclude -I"$0" '"'$(echo "$defined" | sed "s/ /' '/g")'"' \
+    $LIBFLAGS 2>/dev/null' "$build" | grep -E '(warning|error): ' | sed "s|^$PWD/||" | sort -u >>"$found"
+cat "$found"
+[ ! -s "$found" ] || { echo "lint: $(wc -l <"$found") findings"; exit 1; }
+echo "lint: nothing found"
