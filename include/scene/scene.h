@@ -299,4 +299,8 @@ void scene_help_expressions(FILE *out);
 void scene_manual_keys(FILE *out);
 void scene_override_keys(FILE *out);
 
+/* Writes the reference of all keys as a page of Markdown (inputs/keys.md): a table for each key of the scene that has
+ * keys of its own, after one for those that have none. */
+void scene_reference(FILE *out);
+
 #endif

@@ -40,6 +40,7 @@ status command_help(int argc, char **argv)
     if (!strcmp(word, "--completion")) return completion_print(stdout, argc == 3 ? argv[2] : "");
     if (!strcmp(word, "--schema")) return scene_schema(stdout);
     if (!strcmp(word, "--manual")) return manual_print(stdout);
+    if (!strcmp(word, "--reference")) return scene_reference(stdout), OK;
     if (!strcmp(word, "units")) return scene_help_units(stdout), OK;
     if (!strcmp(word, "expression") || !strcmp(word, "expressions")) return scene_help_expressions(stdout), OK;
     if (!strcmp(word, "run")) return manual_run_print(stdout);

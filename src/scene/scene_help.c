@@ -85,8 +85,7 @@ static void default_text(const struct key *k, char *text, size_t room)
     if (strcmp(text, "-") == 0) *text = '\0';
 }
 
-/* All facts about a key but its path, in one line. */
-static void facts_text(const struct key *k, char *text, size_t room)
+void key_facts(const struct key *k, char *text, size_t room)
 {
     char range[400], fallback[96]; /* all fields of frames are 270 */
     range_text(k, range, sizeof range);
@@ -100,7 +99,7 @@ static void facts_text(const struct key *k, char *text, size_t room)
 void key_description(const struct key *k, char *text, size_t room)
 {
     char facts[640];
-    facts_text(k, facts, sizeof facts);
+    key_facts(k, facts, sizeof facts);
     snprintf(text, room, "%s (%s)", k->help, facts);
 }
 
@@ -170,7 +169,7 @@ status scene_help(FILE *out, const char *key)
         if (!is_below(&keys[k], path)) continue;
         bool top = !strchr(keys[k].path, '.'), has_keys = keys[k].type >= KEY_MAP;
         if (top && has_keys && !key) fputc('\n', out);
-        facts_text(&keys[k], facts, sizeof facts);
+        key_facts(&keys[k], facts, sizeof facts);
         fprintf(out, "%-30s %s\n%-30s   %s\n", keys[k].path, facts, "", keys[k].help);
     }
     return OK;
@@ -197,7 +196,7 @@ void scene_manual_keys(FILE *out)
 {
     char facts[640];
     for (int k = 0; k < keys_count; k++) {
-        facts_text(&keys[k], facts, sizeof facts);
+        key_facts(&keys[k], facts, sizeof facts);
         fputs(".TP\n.B ", out);
         troff(out, keys[k].path);
         fputs("\n", out);

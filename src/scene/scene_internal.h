@@ -196,6 +196,8 @@ extern const int keys_count;
 const char *key_leaf(const struct key *k);
 /* What a key is for, its type, range and default (scene_help.c). */
 void key_description(const struct key *k, char *text, size_t room);
+/* Writes type, SI unit, range or words, and default of k to text[room], in one line. */
+void key_facts(const struct key *k, char *text, size_t room);
 /* True if k is directly below `group` ("" for the top). */
 bool key_in(const struct key *k, const char *group);
 const struct key *key_find(const char *group, const char *leaf);
