@@ -2,6 +2,7 @@
 #ifndef CLEAVE_LOAD_STEPS
 #define CLEAVE_LOAD_STEPS
 
+#include "quasistatic/statics.h"
 #include "run/run.h"
 
 /* Solves for the equilibrium of bonds or of a grid (`solver: cg, relaxation`) and ends the run. Returns INTERRUPTED as
@@ -29,18 +30,15 @@ status engine_overload_worst(struct run *e, real first, real *at, real *overload
 /* Returns the size of the loads and prescribed displacements at load time t [s], a number that scales with them. */
 real engine_load_size(const struct run *e, real t);
 
-/* Returns why the tips of pre-cracks do not follow their stress-intensity factors (steps.path), or NULL if they do. */
-const char *engine_led_fault(const struct run *e);
+/* Returns why the tips of pre-cracks do not follow their stress-intensity factors (steps.path), or NULL if they do;
+ * then *plane is the plane in which they move. */
+const char *led_fault(const struct run *e, struct led_plane *plane);
 
 /* Returns REFUSED where a scene in space asks for tips that follow their factors, and they cannot. */
 status led_check(const struct run *e);
 
 /* Saves or restores the state between two load steps; in a trial, the equilibrium alone. */
 status statics_archive(struct run *e, struct archive *a);
-
-/* Returns the energy per area that a crack in a material takes [J/m^2]: of bonds at their limits, in state-based models
- * G_c as given. */
-real toughness_of(const struct run *e, const struct material *m);
 
 /* Frees what equilibrium works on; the tips stay (led_free). */
 void statics_free(struct run *e);

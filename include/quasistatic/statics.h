@@ -7,6 +7,8 @@
 
 #include "base/memory_archive.h"
 #include "data/region.h"
+#include "bonds/family.h"
+#include "scene/scene.h"
 #include "solver/equilibrium.h"
 
 /* A directed bond that was broken on trial, and what its row and its particle had. */
@@ -52,10 +54,14 @@ struct led_tip {
  * straight, parallel, and go through the body (led_plane.c). */
 struct led_plane {
     bool made;
+    int dim;                               /* of the body */
+    real spacing, section;                 /* [m]; thickness of a plane body [m] */
     real axis[2][DIM_MAX], front[DIM_MAX]; /* unit vectors: of the plane; along the fronts, 0 in a plane body */
     real middle;                           /* of a front, along it [m] */
     int mirrors;
     struct mirror_plane mirror[2 * DIM_MAX]; /* of the body, by axes of the plane */
+    int body_mirrors;
+    const struct mirror_plane *body_mirror; /* of the body, by axes of space; borrowed */
 };
 enum { LED_MAX = 64 };
 struct led_stretch {
@@ -63,6 +69,8 @@ struct led_stretch {
     int tip;
 };
 struct led {
+    const struct scene *scene; /* borrowed, as the source, from which cracks and bonds are made */
+    const struct bond_source *source;
     struct led_plane plane;
     const char *fault; /* why there is none; NULL: there is */
     bool known;        /* tips have been looked for */

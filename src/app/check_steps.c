@@ -27,7 +27,10 @@ static int tips_of_cracks(const struct fracture_state *fracture)
     return n;
 }
 
-static bool is_led(const struct run *e) { return tips_of_cracks(e->fracture) > 0 && engine_led_fault(e) == NULL; }
+static bool is_led(const struct run *e)
+{
+    return tips_of_cracks(e->fracture) > 0 && led_fault(e, &(struct led_plane){0}) == NULL;
+}
 
 /* How far bodies go on from a tip, straight ahead (side 1) or back (-1) [m]; 0 where they are lists of particles. */
 static real way_within(const struct scene *s, const struct particles *part, const struct tip *tip, int side)
@@ -76,7 +79,7 @@ void say_load_steps(const struct run *e)
     else
         printf("cracks         grow by their most overloaded bonds, some 2 spacings in an advance%s%s\n",
                tips == 0 ? "; there is no pre-crack whose load theory knows" : "; they are not led: ",
-               tips == 0 ? "" : engine_led_fault(e));
+               tips == 0 ? "" : led_fault(e, &(struct led_plane){0}));
 }
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */

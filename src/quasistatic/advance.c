@@ -188,7 +188,7 @@ int64_t statics_advance_break(struct run *e)
     struct statics *s = e->statics;
     const int64_t broken = s->next.n;
     statics_break_listed(e, &s->next);
-    led_advance(e);
+    led_advance(&s->led, &e->part);
     s->behind = s->ahead, s->ahead = (struct advance){0};
     s->next.n = 0;
     return broken;

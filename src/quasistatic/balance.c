@@ -231,7 +231,7 @@ status statics_go(struct run *e, real t)
         return status_set(INTERRUPTED, "interrupted in load step %lld of %lld; go on with --resume",
                           (long long)e->clock.step + 1, (long long)e->clock.steps);
     TRY(solve_whole(e, t));
-    e->statics->overload = statics_overload(e);
+    e->statics->overload = statics_overload(&e->bonds, &e->part, &e->source.limit);
     return OK;
 }
 

@@ -8,11 +8,10 @@
 #include <string.h>
 
 #include "led.h"
+#include "toughness.h"
 
 #include "base/memory.h"
-#include "contact/contact.h"
 #include "fracture/tip_fit.h"
-#include "quasistatic/load_steps.h"
 
 #define INNER 1.0     /* of the ring of the fit [horizons] */
 #define WIDTH 7.0     /* of the ring [spacings] */
@@ -27,41 +26,39 @@
 
 enum { ADVANCE_SPACINGS = 2 };
 
-bool led_along_mirror(const struct run *e, const struct led_tip *tip)
+bool led_along_mirror(const struct led_plane *plane, const struct led_tip *tip)
 {
     real ahead[2];
-    led_ahead(tip->place, e->scene->spacing, tip->last, ahead);
-    return led_on_mirror(e, &e->statics->led.plane, tip->place, ahead);
+    led_ahead(tip->place, plane->spacing, tip->last, ahead);
+    return led_on_mirror(plane, tip->place, ahead);
 }
 
 /* ---- factors ----------------------------------------------------------------------------------------------------- */
 
-static const struct material *material_at(const struct run *e, const struct led_tip *tip)
+static const struct material *material_at(const struct led *l, const struct particles *p, const struct led_tip *tip)
 {
-    const struct particles *p = &e->part;
     int64_t nearest = 0;
     real least = INFINITY, X[2];
     for (int64_t i = 0; i < p->n; i++) {
         if (p->body[i] != tip->body) continue;
-        led_project_particle(e, i, X);
+        led_project_particle(&l->plane, p, i, X);
         if (led_distance(X, tip->place) < least) least = led_distance(X, tip->place), nearest = i;
     }
-    return &e->scene->material[p->material[nearest]];
+    return &l->scene->material[p->material[nearest]];
 }
 
 /* Pre-cracks, and what tips have cut, in the plane of the tips; cracks_now_free frees the list. */
-static struct crack *cracks_now(const struct run *e, int *n)
+static struct crack *cracks_now(const struct led *l, int *n)
 {
-    const struct led *l = &e->statics->led;
-    const struct crack_list *before = &e->tables.cracks;
-    struct crack *crack = NEW("led.cracks", before->n + l->stretches + 1, struct crack);
-    real(*corner)[DIM_MAX] = memory_new("led.corners", 2 * (before->n + 1), sizeof *corner);
-    for (int k = 0; k < before->n; k++) {
-        led_segment(&l->plane, &before->crack[k], e->part.dim, corner + 2 * k);
+    const int given = l->source->cracks;
+    struct crack *crack = NEW("led.cracks", given + l->stretches + 1, struct crack);
+    real(*corner)[DIM_MAX] = memory_new("led.corners", 2 * (given + 1), sizeof *corner);
+    for (int k = 0; k < given; k++) {
+        led_segment(&l->plane, &l->source->crack[k], corner + 2 * k);
         crack[k] = (struct crack){.n = 2, .corner = corner + 2 * k};
     }
-    for (int64_t k = 0; k < l->stretches; k++) crack[before->n + k] = (struct crack){.n = 2, .corner = l->path[k].at};
-    *n = before->n + (int)l->stretches;
+    for (int64_t k = 0; k < l->stretches; k++) crack[given + k] = (struct crack){.n = 2, .corner = l->path[k].at};
+    *n = given + (int)l->stretches;
     crack[*n].corner = corner;
     return crack;
 }
@@ -74,40 +71,40 @@ static void cracks_now_free(struct crack *crack, int n)
 
 /* The medium round a tip. In space, at a radius of half of the thickness and more, sides have let the stress along the
  * front go (Nakamura & Parks 1988), which a ring's mean radius decides. */
-static struct crack_medium medium_at(const struct run *e, const struct led_tip *tip, real radius)
+static struct crack_medium medium_at(const struct led *l, const struct particles *p, const struct led_tip *tip,
+                                     real radius)
 {
-    enum space space = e->scene->space;
-    if (e->part.dim == 3) {
+    enum space space = l->scene->space;
+    if (p->dim == 3) {
         real ahead[2];
-        led_ahead(tip->place, e->scene->spacing, tip->last, ahead);
-        const bool thin = led_width(e, &e->statics->led.plane, tip->place, ahead) < 2 * radius;
+        led_ahead(tip->place, l->plane.spacing, tip->last, ahead);
+        const bool thin = led_width(&l->plane, p, tip->place, ahead) < 2 * radius;
         space = thin ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN;
     }
-    return crack_medium_of(material_at(e, tip), space);
+    return crack_medium_of(material_at(l, p, tip), space);
 }
 
-bool led_measure(const struct run *e, const struct led_tip *tip, real K[MODES])
+bool led_measure(const struct led *l, const struct particles *p, const struct led_tip *tip, bool closed, real K[MODES])
 {
-    const real h = e->scene->spacing, inner = real_max(3 * h, INNER * e->source.family.horizon);
+    const real h = l->plane.spacing, inner = real_max(3 * h, INNER * l->source->family.horizon);
     struct tip_view view = {.inner = inner, .outer = inner + WIDTH * h, .body = tip->body};
     for (int d = 0; d < 2; d++)
         view.place[d] = tip->place[d], view.along[d] = tip->along[d], view.last[d] = tip->last[d];
-    memcpy(view.axis, e->statics->led.plane.axis, sizeof view.axis);
+    memcpy(view.axis, l->plane.axis, sizeof view.axis);
     view.outer = real_min(view.outer, real_max(tip->sees, LEAST * h));
-    view.medium = medium_at(e, tip, 0.5 * (view.inner + view.outer));
-    struct crack *crack = cracks_now(e, &view.cracks);
+    view.medium = medium_at(l, p, tip, 0.5 * (view.inner + view.outer));
+    struct crack *crack = cracks_now(l, &view.cracks);
     view.crack = crack;
-    const bool seen = tip_fit(&view, &e->part, K);
+    const bool seen = tip_fit(&view, p, K);
     cracks_now_free(crack, view.cracks);
-    if (led_along_mirror(e, tip)) K[MODE_II] = 0;
-    const bool meets = e->contact->law.between == CONTACT_ALL && e->contact->touching > 0;
-    if (meets) K[MODE_I] = real_max(K[MODE_I], 0); /* closed: the forces between its faces show */
+    if (led_along_mirror(&l->plane, tip)) K[MODE_II] = 0;
+    if (closed) K[MODE_I] = real_max(K[MODE_I], 0); /* the forces between its faces show */
     return seen;
 }
 
-void led_turn(const struct run *e, struct led_tip *tip)
+void led_turn(const struct led *l, const struct particles *p, bool closed, struct led_tip *tip)
 {
-    if (tip->hold > AHEAD * e->scene->spacing || !led_measure(e, tip, tip->K)) {
+    if (tip->hold > AHEAD * l->plane.spacing || !led_measure(l, p, tip, closed, tip->K)) {
         for (int d = 0; d < 2; d++) tip->heading[d] = tip->last[d];
         return;
     }
@@ -126,17 +123,17 @@ static const struct led_tip *tip_farthest(const struct led *l, bool on)
     return first;
 }
 
-void led_factors(const struct run *e, real K[MODES])
+void led_factors(const struct led *l, const struct particles *p, bool closed, real K[MODES])
 {
-    const struct led_tip *first = tip_farthest(&e->statics->led, true);
+    const struct led_tip *first = tip_farthest(l, true);
     K[MODE_I] = K[MODE_II] = NAN;
-    if (first) led_measure(e, first, K);
+    if (first) led_measure(l, p, first, closed, K);
 }
 
-void led_place(const struct run *e, real place[DIM_MAX])
+void led_place(const struct led *l, real place[DIM_MAX])
 {
-    const struct led_plane *plane = &e->statics->led.plane;
-    const struct led_tip *first = tip_farthest(&e->statics->led, false);
+    const struct led_plane *plane = &l->plane;
+    const struct led_tip *first = tip_farthest(l, false);
     for (int d = 0; d < DIM_MAX; d++)
         place[d] = first ? first->place[0] * plane->axis[0][d] + first->place[1] * plane->axis[1][d] +
                                plane->middle * plane->front[d]
@@ -163,18 +160,15 @@ static bool ends_here(const struct crack *c, const struct led_tip *tip, real wit
     return led_distance(c->corner[0], tip->place) <= within || led_distance(c->corner[1], tip->place) <= within;
 }
 
-void led_next_place(const struct run *e, const struct led_tip *tip, real place[2])
+void led_next_place(const struct led *l, const struct particles *p, const struct led_tip *tip, real place[2])
 {
-    const struct scene *s = e->scene;
-    const real h = s->spacing;
+    const real h = l->plane.spacing, energy = l->scene->steps.energy;
     real from[2], to[2], way = ADVANCE_SPACINGS * h, share = 1;
     int cracks;
     led_ahead(tip->place, AHEAD * h, tip->heading, from);
     led_ahead(tip->place, h, tip->heading, to);
-    if (s->steps.energy > 0)
-        way = s->steps.energy /
-              (led_toughness(e, tip) * real_max(h, led_width(e, &e->statics->led.plane, tip->place, to)));
-    struct crack *crack = cracks_now(e, &cracks);
+    if (energy > 0) way = energy / (led_toughness(l, p, tip) * real_max(h, led_width(&l->plane, p, tip->place, to)));
+    struct crack *crack = cracks_now(l, &cracks);
     led_ahead(tip->place, way, tip->heading, to);
     for (int k = 0; k < cracks; k++)
         if (!ends_here(&crack[k], tip, AHEAD * h)) share = real_min(share, meeting_share(&crack[k], from, to));
@@ -182,20 +176,22 @@ void led_next_place(const struct run *e, const struct led_tip *tip, real place[2
     cracks_now_free(crack, cracks);
 }
 
-real led_toughness(const struct run *e, const struct led_tip *tip) { return toughness_of(e, material_at(e, tip)); }
+real led_toughness(const struct led *l, const struct particles *p, const struct led_tip *tip)
+{
+    return toughness_of(&l->source->family, l->scene->model, material_at(l, p, tip));
+}
 
 /* Can the crack go on? */
-static bool body_is_ahead(const struct run *e, const struct led_tip *tip)
+static bool body_is_ahead(const struct led *l, const struct particles *p, const struct led_tip *tip)
 {
-    const struct particles *p = &e->part;
-    const real h = e->scene->spacing;
+    const real h = l->plane.spacing;
     real ahead[2];
     led_ahead(tip->place, h, tip->heading, ahead);
-    const real wide = p->dim == 2 ? 1 : led_width(e, &e->statics->led.plane, tip->place, ahead) / h;
+    const real wide = p->dim == 2 ? 1 : led_width(&l->plane, p, tip->place, ahead) / h;
     int free_ones = 0;
     for (int64_t i = 0; i < p->n_all; i++) {
         real X[2];
-        led_project_particle(e, i, X);
+        led_project_particle(&l->plane, p, i, X);
         free_ones += p->body[i] == tip->body && !(p->flag[i] & FLAG_DRIVEN) && led_distance(X, ahead) <= REACH * h;
     }
     return wide > 0 && free_ones >= 2 * floor(wide);
@@ -223,24 +219,24 @@ static void turned_frame(struct led_tip *tip, real way, real h)
     tip->hold = real_max(0, tip->hold - way);
 }
 
-void led_move(struct run *e, int k)
+void led_move(struct led *l, const struct particles *p, int k)
 {
-    struct led_tip *tip = &e->statics->led.tip[k];
-    const real h = e->scene->spacing;
+    struct led_tip *tip = &l->tip[k];
+    const real h = l->plane.spacing;
     real to[2];
-    led_next_place(e, tip, to);
+    led_next_place(l, p, tip, to);
     const real way = led_distance(to, tip->place);
-    led_path_add(&e->statics->led, k, to);
+    led_path_add(l, k, to);
     turned_frame(tip, way, h);
     for (int d = 0; d < 2; d++) tip->last[d] = tip->heading[d], tip->place[d] = to[d];
     tip->grown += way, tip->sees += way;
-    led_next_place(e, tip, to);
-    tip->ended = !body_is_ahead(e, tip) || led_distance(to, tip->place) < REST * h;
+    led_next_place(l, p, tip, to);
+    tip->ended = !body_is_ahead(l, p, tip) || led_distance(to, tip->place) < REST * h;
 }
 
-void led_lose(struct run *e)
+void led_lose(struct led *l)
 {
-    for (int k = 0; k < e->statics->led.n; k++) e->statics->led.tip[k].ended = true;
+    for (int k = 0; k < l->n; k++) l->tip[k].ended = true;
 }
 
 void led_free(struct led *l)

@@ -5,6 +5,7 @@
 #include "balance.h"
 #include "load_size.h"
 #include "overload.h"
+#include "touch.h"
 #include "trial.h"
 
 #include "base/memory.h"
@@ -20,72 +21,76 @@ enum { CLAIMS_MOST = 4 };
 /* ---- bonds that a stretch cuts ----------------------------------------------------------------------------------- */
 
 /* Adds the bonds of a row that one of the ways cuts. */
-static void cut_row(const struct run *e, const struct crack_list *ways, int64_t r, struct break_list *l)
+static void cut_row(const struct led *l, const struct bonds *b, const struct particles *p, int64_t r,
+                    const struct crack_list *ways, struct break_list *list)
 {
     real X[DIM_MAX] = {0}, Y[DIM_MAX] = {0};
     bool close = false;
-    led_project_particle(e, e->bonds.particle[r], X);
-    for (int w = 0; w < ways->n; w++) close |= crack_near(&ways->crack[w], X, e->source.family.cutoff, 2);
-    for (struct bond_iterator it = bonds_of_row(&e->bonds, r); close && bond_next(&it);) {
+    led_project_particle(&l->plane, p, b->particle[r], X);
+    for (int w = 0; w < ways->n; w++) close |= crack_near(&ways->crack[w], X, l->source->family.cutoff, 2);
+    for (struct bond_iterator it = bonds_of_row(b, r); close && bond_next(&it);) {
         bool cut = false;
         if (it.bond.w == 0) continue;
-        led_project_particle(e, it.bond.nbr, Y);
+        led_project_particle(&l->plane, p, it.bond.nbr, Y);
         for (int w = 0; w < ways->n; w++) cut |= crack_cuts(&ways->crack[w], X, Y, 2);
         if (!cut) continue;
-        const struct broken_bond record = statics_bond_record(e, &it.bond, r);
-        break_list_add(l, &record);
+        const struct broken_bond record = statics_bond_record(b, p, &l->source->limit, &it.bond, r);
+        break_list_add(list, &record);
     }
 }
 
 /* A stretch of a tip's way, and its images in planes of symmetry. */
-static void ways_of(const struct run *e, const struct led_tip *tip, const real from[2], const real to[2],
+static void ways_of(const struct led *l, const struct led_tip *tip, const real from[2], const real to[2],
                     struct crack_list *ways)
 {
     real corner[2][DIM_MAX] = {{0}};
-    const real beyond = BEYOND * e->scene->spacing;
+    const real beyond = BEYOND * l->plane.spacing;
     for (int d = 0; d < 2; d++)
         corner[tip->reversed][d] = from[d], corner[!tip->reversed][d] = to[d] + beyond * tip->heading[d];
     const struct crack path = {.n = 2, .corner = corner};
-    cracks_mirrored(ways, &path, 1, e->statics->led.plane.mirror, e->statics->led.plane.mirrors,
-                    e->source.family.cutoff, ON_SURFACE * e->scene->spacing);
+    cracks_mirrored(ways, &path, 1, l->plane.mirror, l->plane.mirrors, l->source->family.cutoff,
+                    ON_SURFACE * l->plane.spacing);
 }
 
 /* What the bonds of a stretch cost is that of its area [J]: state-based bonds have no energy of their own, and in space
  * those of the sides of a body have weights of faces, and some at the tip of a pre-crack have been cut with it. */
-static void stretch_price(const struct run *e, const struct led_tip *tip, struct break_list *l)
+static void stretch_price(const struct led *l, const struct particles *p, const struct led_tip *tip,
+                          struct break_list *list)
 {
-    const bool state_based = e->scene->model != MODEL_BOND;
+    const bool state_based = l->scene->model != MODEL_BOND;
     real to[2], sum = 0;
-    led_next_place(e, tip, to);
-    const real whole = led_face_area(e, tip->place, to) * led_toughness(e, tip);
-    for (int64_t k = 0; k < l->n; k++) sum += l->bond[k].held;
-    for (int64_t k = 0; k < l->n; k++)
-        l->bond[k].held = state_based ? whole / (real)l->n : l->bond[k].held * whole / sum;
+    led_next_place(l, p, tip, to);
+    const real whole = led_face_area(&l->plane, p, tip->place, to) * led_toughness(l, p, tip);
+    for (int64_t k = 0; k < list->n; k++) sum += list->bond[k].held;
+    for (int64_t k = 0; k < list->n; k++)
+        list->bond[k].held = state_based ? whole / (real)list->n : list->bond[k].held * whole / sum;
 }
 
 /* All of what the next stretch of a tip cuts; returns what it costs [J]. */
-static real stretch_list(const struct run *e, const struct led_tip *tip, struct break_list *l)
+static real stretch_list(const struct led *l, const struct bonds *b, const struct particles *p,
+                         const struct led_tip *tip, struct break_list *list)
 {
     struct crack_list ways;
     real cost = 0, to[2];
-    led_next_place(e, tip, to);
-    ways_of(e, tip, tip->place, to, &ways);
-    for (int64_t r = 0; r < e->bonds.rows; r++) cut_row(e, &ways, r, l);
+    led_next_place(l, p, tip, to);
+    ways_of(l, tip, tip->place, to, &ways);
+    for (int64_t r = 0; r < b->rows; r++) cut_row(l, b, p, r, &ways, list);
     crack_list_free(&ways);
-    if (e->scene->model != MODEL_BOND || e->part.dim == 3) stretch_price(e, tip, l);
-    for (int64_t k = 0; k < l->n; k++) cost += l->bond[k].held;
+    if (l->scene->model != MODEL_BOND || p->dim == 3) stretch_price(l, p, tip, list);
+    for (int64_t k = 0; k < list->n; k++) cost += list->bond[k].held;
     return cost;
 }
 
 void led_free_behind(struct run *e, const struct led_tip *tip)
 {
+    const struct led *l = &e->statics->led;
     const real length = real_min(tip->sees, e->source.family.cutoff + 2 * e->scene->spacing);
     struct break_list list = {0};
     struct crack_list ways;
     real from[2];
     for (int d = 0; d < 2; d++) from[d] = tip->place[d] - length * tip->along[d];
-    ways_of(e, tip, from, tip->place, &ways);
-    for (int64_t r = 0; r < e->bonds.rows; r++) cut_row(e, &ways, r, &list);
+    ways_of(l, tip, from, tip->place, &ways);
+    for (int64_t r = 0; r < e->bonds.rows; r++) cut_row(l, &e->bonds, &e->part, r, &ways, &list);
     crack_list_free(&ways);
     for (int64_t k = 0; k < list.n; k++) list.bond[k].held = 0;
     statics_break_listed(e, &list);
@@ -95,17 +100,16 @@ void led_free_behind(struct run *e, const struct led_tip *tip)
 /* ---- trials ------------------------------------------------------------------------------------------------------ */
 
 /* Marks material points round the next stretch for conversion, since cracks need bonds. Returns their number. */
-static int64_t stretch_claim(struct run *e, const struct led_tip *tip)
+static int64_t stretch_claim(const struct led *l, struct particles *p, const struct led_tip *tip)
 {
-    struct particles *p = &e->part;
     real to[DIM_MAX] = {0}, from[DIM_MAX] = {tip->place[0], tip->place[1]};
     int64_t claimed = 0;
-    led_next_place(e, tip, to);
+    led_next_place(l, p, tip, to);
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX] = {0};
         if (p->kind[i] != KIND_MPM || p->body[i] != tip->body) continue;
-        led_project_particle(e, i, X);
-        if (segment_distance(from, to, X, 2) > e->source.family.cutoff) continue;
+        led_project_particle(&l->plane, p, i, X);
+        if (segment_distance(from, to, X, 2) > l->source->family.cutoff) continue;
         p->flag[i] |= FLAG_LOST_BOND;
         claimed++;
     }
@@ -118,9 +122,11 @@ static status tips_turn(struct run *e)
     struct led *l = &e->statics->led;
     int64_t claimed = 1;
     for (int round = 0; round < CLAIMS_MOST && claimed > 0; round++) {
+        const bool closed = statics_faces_closed(e->contact);
         claimed = 0;
         for (int k = 0; k < l->n; k++)
-            if (!l->tip[k].ended) led_turn(e, &l->tip[k]), claimed += stretch_claim(e, &l->tip[k]);
+            if (!l->tip[k].ended)
+                led_turn(l, &e->part, closed, &l->tip[k]), claimed += stretch_claim(l, &e->part, &l->tip[k]);
         if (claimed > 0) TRY(statics_convert(e, 0));
     }
     return OK;
@@ -144,11 +150,11 @@ static status behind_first_find(struct run *e, struct led_tip *tip)
     struct break_list list = {0};
     struct advance second = {0};
     status tried = OK;
-    led_next_place(e, tip, beyond.place);
-    second.cost = stretch_list(e, &beyond, &list);
+    led_next_place(&e->statics->led, &e->part, tip, beyond.place);
+    second.cost = stretch_list(&e->statics->led, &e->bonds, &e->part, &beyond, &list);
     if (list.n > 0) {
         tried = list_try(e, &list, &second);
-        statics_mend(e, &list);
+        statics_mend(e->statics, &e->bonds, &e->part, &list);
         tip->behind = advance_before(&tip->ahead, &second);
     }
     memory_free(list.bond);
@@ -218,7 +224,7 @@ static status tip_try(struct run *e, struct led_tip *tip, struct break_list *lis
 {
     tip->ahead = (struct advance){0}, tip->due = INFINITY;
     if (tip->ended || !(tip->K[0] >= 0)) return OK;
-    tip->ahead.cost = stretch_list(e, tip, list);
+    tip->ahead.cost = stretch_list(&e->statics->led, &e->bonds, &e->part, tip, list);
     tip->ended = list->n == 0;
     if (tip->ended) return OK;
     TRY(stretch_try(e, tip, list));
@@ -243,13 +249,12 @@ status led_look_ahead(struct run *e)
     return tried;
 }
 
-void led_advance(struct run *e)
+void led_advance(struct led *l, const struct particles *p)
 {
-    struct led *l = &e->statics->led;
     for (int k = 0; k < l->n; k++) {
         struct led_tip *tip = &l->tip[k];
         tip->behind = tip->comes ? tip->ahead : (struct advance){0};
-        if (tip->comes) led_move(e, k);
+        if (tip->comes) led_move(l, p, k);
         tip->comes = false;
     }
 }

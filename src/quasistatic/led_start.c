@@ -13,11 +13,12 @@
 enum { ROW_LEAST = 4 };
 
 /* Length of the longest pre-crack that ends at the tip, and whether one begins there. */
-static void cracks_behind(const struct scene *s, const struct statics *statics, struct led_tip *tip)
+static void cracks_behind(const struct led *l, struct led_tip *tip)
 {
+    const struct scene *s = l->scene;
     for (int k = 0; k < s->cracks; k++) {
         real at[2][DIM_MAX] = {{0}};
-        led_segment(&statics->led.plane, &s->crack[k], s->dim, at);
+        led_segment(&l->plane, &s->crack[k], at);
         for (int end = 0; end < 2; end++) {
             if (led_distance(at[end], tip->place) > HERE * s->spacing) continue;
             tip->sees = real_max(tip->sees, led_distance(at[0], at[1]));
@@ -28,25 +29,25 @@ static void cracks_behind(const struct scene *s, const struct statics *statics, 
 
 /* Rows of a lattice lie on one face of a crack that goes along them, as crack_cuts counts them. The tip begins halfway
  * to the next row, where bonds have been cut, and stays clear of what round-off would say of the row. */
-static void leave_row(struct run *e, struct led_tip *tip)
+static bool leave_row(const struct led_plane *plane, const struct particles *p, struct led_tip *tip)
 {
-    const real h = e->scene->spacing, *along = tip->along;
+    const real h = plane->spacing, *along = tip->along;
     real next = h;
     int64_t on = 0;
-    for (int64_t i = 0; i < e->part.n; i++) {
+    for (int64_t i = 0; i < p->n; i++) {
         real X[2];
-        led_project_particle(e, i, X);
+        led_project_particle(plane, p, i, X);
         for (int d = 0; d < 2; d++) X[d] -= tip->place[d];
         const real ahead = dot(along, X, 2), aside = fabs(along[0] * X[1] - along[1] * X[0]);
-        if (e->part.body[i] != tip->body || !(ahead > 0 && ahead < ROW_SEEN * h)) continue;
+        if (p->body[i] != tip->body || !(ahead > 0 && ahead < ROW_SEEN * h)) continue;
         on += aside < ON_ROW * h;
         next = aside < ON_ROW * h ? next : real_min(next, aside);
     }
     const real below = (tip->reversed ? 0.5 : -0.5) * next;
-    if (on < ROW_LEAST || next < ROWS_APART * h || led_along_mirror(e, tip)) return;
+    if (on < ROW_LEAST || next < ROWS_APART * h || led_along_mirror(plane, tip)) return false;
     tip->place[0] -= below * along[1], tip->place[1] += below * along[0];
     memcpy(tip->start, tip->place, sizeof tip->start);
-    led_free_behind(e, tip);
+    return true;
 }
 
 static void led_start(struct run *e)
@@ -60,34 +61,36 @@ static void led_start(struct run *e)
         if (!from->from_crack) continue;
         struct led_tip *tip = &l->tip[l->n++];
         *tip = (struct led_tip){.body = from->body};
-        led_project(&l->plane, from->origin, e->part.dim, place);
-        led_project(&l->plane, from->along, e->part.dim, along);
+        led_project(&l->plane, from->origin, place);
+        led_project(&l->plane, from->along, along);
         for (int d = 0; d < 2; d++) {
             tip->start[d] = tip->place[d] = place[d];
             tip->along[d] = tip->heading[d] = tip->last[d] = along[d];
         }
-        cracks_behind(e->scene, e->statics, tip);
-        leave_row(e, tip);
+        cracks_behind(l, tip);
+        if (leave_row(&l->plane, &e->part, tip)) led_free_behind(e, tip);
     }
 }
 
-/* Why no tip is led, else NULL. */
-static const char *led_fault(const struct run *e, struct led_plane *plane)
+const char *led_fault(const struct run *e, struct led_plane *plane)
 {
     const struct scene *s = e->scene;
     const bool one = s->bodies == 1 && s->materials == 1; /* hoop stress knows no toughness */
-    *plane = (struct led_plane){.made = true};
+    *plane = (struct led_plane){.made = true,
+                                .dim = e->part.dim,
+                                .spacing = s->spacing,
+                                .section = scene_section(s),
+                                .body_mirrors = e->source.mirrors,
+                                .body_mirror = e->source.mirror};
     if (s->steps.path == PATH_BONDS) return "steps.path is bonds";
-    return s->steps.path == PATH_AUTO && !one ? "there are several bodies or materials" : led_plane_find(e, plane);
+    if (s->steps.path == PATH_AUTO && !one) return "there are several bodies or materials";
+    return led_plane_find(plane, &e->fracture->tips, &e->tables.cracks, &e->part);
 }
-
-const char *engine_led_fault(const struct run *e) { return led_fault(e, &(struct led_plane){0}); }
 
 status led_check(const struct run *e)
 {
-    const char *fault = NULL;
     if (!scene_in_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
-    fault = engine_led_fault(e);
+    const char *fault = led_fault(e, &(struct led_plane){0});
     return fault ? status_set(REFUSED,
                               "steps.path: hoop leads straight fronts that go through the body, and %s; bonds, or "
                               "auto, is expected",
@@ -98,6 +101,7 @@ status led_check(const struct run *e)
 bool led_leads(struct run *e)
 {
     struct led *l = &e->statics->led;
+    l->scene = e->scene, l->source = &e->source;
     if (!l->plane.made) l->fault = led_fault(e, &l->plane);
     if (l->fault) return false;
     if (!l->known) led_start(e);

@@ -288,7 +288,7 @@ status statics_check(const struct run *e)
 static void say_closed(struct run *e)
 {
     real K[MODES];
-    led_factors(e, K);
+    led_factors(&e->statics->led, &e->part, statics_faces_closed(e->contact), K);
     if (K[MODE_I] < 0 && e->contact->law.between == CONTACT_NONE)
         warnings_say(&e->warnings,
                      "K_I of a crack is negative: its faces are pressed together, and pass through each other without "

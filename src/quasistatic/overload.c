@@ -11,17 +11,15 @@
 #define ALIKE 1e-7 /* bonds whose loads differ by less break together: round-off decides no order */
 
 /* Stretch of a bond over its limit. A limit of 0 or less is passed by any stretch above it. */
-static real overload_of(const struct particles *part, const struct bond_source *source, const struct bond *bond,
-                        int32_t i)
+static real overload_of(const struct particles *p, const struct bond_limit *limit, const struct bond *bond, int32_t i)
 {
-    const real stretch = bond_stretch_earlier(part, bond->inverse_length, i, bond->nbr, 0);
-    return stretch / stretch_limit(part, &source->limit, i, bond->nbr);
+    const real stretch = bond_stretch_earlier(p, bond->inverse_length, i, bond->nbr, 0);
+    return stretch / stretch_limit(p, limit, i, bond->nbr);
 }
 
 /* No bond stands below this stretch at its limit. */
-static real limit_least(const struct bond_source *source, const struct particles *part)
+static real limit_least(const struct bond_limit *limit, const struct particles *part)
 {
-    const struct bond_limit *limit = &source->limit;
     real least = INFINITY, weakest = 1;
     for (int k = 0; k < limit->materials * limit->materials; k++) least = real_min(least, limit->critical_stretch[k]);
     for (int64_t i = 0; part->strength && i < part->n; i++) weakest = real_min(weakest, part->strength[i]);
@@ -29,22 +27,22 @@ static real limit_least(const struct bond_source *source, const struct particles
 }
 
 /* The larger of `most` and the largest of a row block. */
-static real row_block_overload(const struct run *e, int64_t g, real weakest, real most)
+static real row_block_overload(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                               int64_t g, real weakest, real most)
 {
-    if (bond_row_block_stretch(&e->bonds, &e->part, g) <= most * weakest) return most;
-    for (int64_t r = g * LANES; r < (g + 1) * LANES && r < e->bonds.rows; r++)
-        for (struct bond_iterator it = bonds_of_row(&e->bonds, r); bond_next(&it);)
-            if (it.bond.w != 0)
-                most = real_max(most, overload_of(&e->part, &e->source, &it.bond, e->bonds.particle[r]));
+    if (bond_row_block_stretch(b, p, g) <= most * weakest) return most;
+    for (int64_t r = g * LANES; r < (g + 1) * LANES && r < b->rows; r++)
+        for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);)
+            if (it.bond.w != 0) most = real_max(most, overload_of(p, limit, &it.bond, b->particle[r]));
     return most;
 }
 
-real statics_overload(const struct run *e)
+real statics_overload(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
-    const real weakest = limit_least(&e->source, &e->part);
+    const real weakest = limit_least(limit, p);
     real most = 0;
 #pragma omp parallel for schedule(static) reduction(max : most)
-    for (int64_t g = 0; g < e->bonds.row_blocks; g++) most = row_block_overload(e, g, weakest, most);
+    for (int64_t g = 0; g < b->row_blocks; g++) most = row_block_overload(b, p, limit, g, weakest, most);
     return most;
 }
 
@@ -56,13 +54,13 @@ static int descending(const void *a, const void *b)
 
 /* Half of what a bond of particle i takes to its limit from where it bears nothing: what it holds, and the work that is
  * left to be done on it [J]. Of one that yields, what it has dissipated before is gone and costs no more. */
-static real half_to_limit(const struct run *e, const struct bond *bond, int32_t i)
+static real half_to_limit(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                          const struct bond *bond, int32_t i)
 {
-    const struct bonds *b = &e->bonds;
-    const real limit = stretch_limit(&e->part, &e->source.limit, i, bond->nbr);
-    real elastic = limit, yield = INFINITY, hardening = 0;
+    const real most = stretch_limit(p, limit, i, bond->nbr);
+    real elastic = most, yield = INFINITY, hardening = 0;
     if (b->plastic_stretch) {
-        elastic = limit - b->plastic_stretch[bond->entry];
+        elastic = most - b->plastic_stretch[bond->entry];
         hardening = b->yield.hardening[b->pair[bond->entry]];
         yield = b->yield.stretch[b->pair[bond->entry]] + hardening * b->plastic_path[bond->entry];
     }
@@ -70,9 +68,9 @@ static real half_to_limit(const struct run *e, const struct bond *bond, int32_t 
     return 0.5 * b->stiffness * bond->w * work / bond->inverse_length;
 }
 
-struct broken_bond statics_bond_record(const struct run *e, const struct bond *bond, int64_t row)
+struct broken_bond statics_bond_record(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                       const struct bond *bond, int64_t row)
 {
-    const struct bonds *b = &e->bonds;
     const int32_t i = b->particle[row];
     return (struct broken_bond){.i = i,
                                 .j = bond->nbr,
@@ -80,11 +78,11 @@ struct broken_bond statics_bond_record(const struct run *e, const struct bond *b
                                 .entry = bond->entry,
                                 .w = bond->w,
                                 .fracture = b->fracture_energy[row],
-                                .damage = e->part.damage[i],
+                                .damage = p->damage[i],
                                 .plastic = b->plastic_stretch ? b->plastic_work[row] : 0,
                                 .volume = b->broken_volume[row],
-                                .held = half_to_limit(e, bond, i),
-                                .flag = e->part.flag[i]};
+                                .held = half_to_limit(b, p, limit, bond, i),
+                                .flag = p->flag[i]};
 }
 
 /* Overloaded directed bonds: their overloads, and records of them. */
@@ -94,21 +92,24 @@ struct overloads {
     struct broken_bond *record;
 };
 
-static void overloads_add(struct overloads *o, const struct run *e, const struct bond *bond, int64_t r, real over)
+static void overloads_add(struct overloads *o, real over, const struct broken_bond *record)
 {
     GROW("statics.overloads", o->load, o->n + 1);
     GROW("statics.records", o->record, o->n + 1);
     o->load[o->n] = over;
-    o->record[o->n++] = statics_bond_record(e, bond, r);
+    o->record[o->n++] = *record;
 }
 
 /* Adds those of a row block whose overload is above `least`, in the order of rows. */
-static void row_block_overloads(struct overloads *o, const struct run *e, int64_t g, real least)
+static void row_block_overloads(struct overloads *o, const struct bonds *b, const struct particles *p,
+                                const struct bond_limit *limit, int64_t g, real least)
 {
-    for (int64_t r = g * LANES; r < (g + 1) * LANES && r < e->bonds.rows; r++)
-        for (struct bond_iterator it = bonds_of_row(&e->bonds, r); bond_next(&it);) {
-            const real over = it.bond.w == 0 ? 0 : overload_of(&e->part, &e->source, &it.bond, e->bonds.particle[r]);
-            if (over > least) overloads_add(o, e, &it.bond, r, over);
+    for (int64_t r = g * LANES; r < (g + 1) * LANES && r < b->rows; r++)
+        for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);) {
+            const real over = it.bond.w == 0 ? 0 : overload_of(p, limit, &it.bond, b->particle[r]);
+            if (!(over > least)) continue;
+            const struct broken_bond record = statics_bond_record(b, p, limit, &it.bond, r);
+            overloads_add(o, over, &record);
         }
 }
 
@@ -142,11 +143,11 @@ static real broken_add(struct break_list *l, const real *load, const struct brok
 }
 
 /* Breaks the bond of a record, half of whose energy its row books. */
-static void record_break(struct run *e, const struct broken_bond *record)
+static void record_break(struct bonds *b, struct particles *p, struct bond_limit limit,
+                         const struct broken_bond *record)
 {
-    struct bond_limit limit = e->source.limit;
     limit.last_force = LAST_FORCE_NONE;
-    bond_break_entry(&e->bonds, &e->part, &limit, record->row, record->entry);
+    bond_break_entry(b, p, &limit, record->row, record->entry);
 }
 
 /* State-based bonds have no energy of their own: in a linear body, what a break takes is what it takes at the limit
@@ -155,20 +156,21 @@ int64_t statics_break(struct run *e, real share, int64_t most, real *cost, real 
 {
     struct break_list *l = &e->statics->next;
     const real least = e->statics->overload * (1 - real_max(share, ALIKE)), before = bonds_fracture_energy(&e->bonds);
-    const real weakest = limit_least(&e->source, &e->part);
+    const real weakest = limit_least(&e->source.limit, &e->part);
     struct overloads o = {0};
     for (int64_t g = 0; g < e->bonds.row_blocks; g++)
-        if (bond_row_block_stretch(&e->bonds, &e->part, g) > least * weakest) row_block_overloads(&o, e, g, least);
+        if (bond_row_block_stretch(&e->bonds, &e->part, g) > least * weakest)
+            row_block_overloads(&o, &e->bonds, &e->part, &e->source.limit, g, least);
     const real down_to = least_to_break(o.load, o.n, least, most);
     const int64_t had = l->n;
     const real square_mean = broken_add(l, o.load, o.record, o.n, down_to);
-    for (int64_t k = had; k < l->n; k++) record_break(e, &l->bond[k]);
+    for (int64_t k = had; k < l->n; k++) record_break(&e->bonds, &e->part, e->source.limit, &l->bond[k]);
     e->statics->stale = e->statics->parted = true;
     const real held = (bonds_fracture_energy(&e->bonds) - before) / square_mean;
     for (int64_t k = had; k < l->n && e->scene->model != MODEL_BOND; k++) l->bond[k].held = held / (real)(l->n - had);
     for (int64_t k = had; k < l->n; k++) {
         *cost += l->bond[k].held;
-        *area += l->bond[k].held / toughness_between(e, l->bond[k].i, l->bond[k].j);
+        *area += l->bond[k].held / toughness_between(e->scene, &e->source, &e->part, l->bond[k].i, l->bond[k].j);
     }
     memory_free(o.load);
     memory_free(o.record);
@@ -183,24 +185,25 @@ void statics_break_listed(struct run *e, const struct break_list *l)
         const struct broken_bond *record = &l->bond[k];
         real *booked = &e->bonds.fracture_energy[record->row];
         const real before = *booked;
-        record_break(e, record);
+        record_break(&e->bonds, &e->part, e->source.limit, record);
         more += *booked - before - record->held;
-        e->statics->record.broken += record->held / toughness_between(e, record->i, record->j);
+        e->statics->record.broken +=
+            record->held / toughness_between(e->scene, &e->source, &e->part, record->i, record->j);
         *booked = before + record->held;
     }
     e->statics->balance.lost += more, e->damped += more;
     e->statics->stale = e->statics->parted = true;
 }
 
-void statics_mend(struct run *e, const struct break_list *l)
+void statics_mend(struct statics *s, struct bonds *b, struct particles *p, const struct break_list *l)
 {
     for (int64_t k = l->n; k-- > 0;) {
         const struct broken_bond *record = &l->bond[k];
-        bond_restore_entry(&e->bonds, &e->part, record->row, record->entry, record->w);
-        e->bonds.fracture_energy[record->row] = record->fracture;
-        e->bonds.broken_volume[record->row] = record->volume;
-        if (e->bonds.plastic_stretch) e->bonds.plastic_work[record->row] = record->plastic;
-        e->part.damage[record->i] = record->damage, e->part.flag[record->i] = record->flag;
+        bond_restore_entry(b, p, record->row, record->entry, record->w);
+        b->fracture_energy[record->row] = record->fracture;
+        b->broken_volume[record->row] = record->volume;
+        if (b->plastic_stretch) b->plastic_work[record->row] = record->plastic;
+        p->damage[record->i] = record->damage, p->flag[record->i] = record->flag;
     }
-    if (l->n > 0) e->statics->stale = e->statics->parted = true;
+    if (l->n > 0) s->stale = s->parted = true;
 }

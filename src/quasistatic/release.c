@@ -133,7 +133,7 @@ status statics_release(struct run *e)
     rigids_hold(e->scene, e->rigid, false);
     velocities_scale(e, 0);
     TRY(moved);
-    if (more > 0) led_lose(e);
+    if (more > 0) led_lose(&s->led);
     const real lost = before - energy_held(e);
     s->balance.lost += lost, e->damped = damped + lost;
     statics_precondition_free(e);

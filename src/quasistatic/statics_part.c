@@ -3,6 +3,7 @@
 
 #include "led.h"
 #include "steps_record.h"
+#include "toughness.h"
 
 #include "quasistatic/load_steps.h"
 #include "run/part.h"
@@ -19,7 +20,7 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
             warnings_add(to,
                          "bonds of %s yield before they break: the work that separates it is %.3g J/m^2; elastic "
                          "ones would take %.3g",
-                         s->material[m].name, toughness_of(e, &s->material[m]),
+                         s->material[m].name, toughness_of(&e->source.family, s->model, &s->material[m]),
                          family_crossing_energy(&e->source.family, &s->material[m]));
     if (!scene_at_rest(s)) return;
     for (int k = 0; k < s->initials; k++)

@@ -5,6 +5,7 @@
 #include "steps_record.h"
 #include "led.h"
 #include "load_size.h"
+#include "touch.h"
 
 #include "fracture/fracture_part.h"
 #include "probes/diagnostics.h"
@@ -54,11 +55,10 @@ static real damage_beside_cut(const struct scene *s)
 }
 
 /* Area of the paths of tips that are led [m^2]. */
-static real led_paths_area(const struct run *e)
+static real led_paths_area(const struct led *l, const struct particles *p)
 {
-    const struct led *l = &e->statics->led;
     real area = 0;
-    for (int64_t k = 0; k < l->stretches; k++) area += led_face_area(e, l->path[k].at[0], l->path[k].at[1]);
+    for (int64_t k = 0; k < l->stretches; k++) area += led_face_area(&l->plane, p, l->path[k].at[0], l->path[k].at[1]);
     return area;
 }
 
@@ -71,7 +71,7 @@ static void measure(struct run *e)
     struct steps_record *r = &e->statics->record;
     const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, scene_section(e->scene),
                                             0.5 * damage_beside_cut(e->scene)};
-    const real led = led_paths_area(e), spacing = growth_by_spacing(e->fracture, e->scene);
+    const real led = led_paths_area(&e->statics->led, &e->part), spacing = growth_by_spacing(e->fracture, e->scene);
     const bool solid = e->part.dim == 3 && led == 0;
     const real damaged = solid ? r->broken : tips_area(&e->fracture->tips, &e->part, &around);
     const bool by_paths = led > 0 && damaged <= led + 1.5 * spacing;
@@ -101,8 +101,8 @@ void statics_record(struct run *e, real *record)
                                                          (real)(s->balance.directions - s->record.directions),
                                                          (real)(s->solutions - s->record.solutions)};
     memcpy(record, own, sizeof own);
-    led_factors(e, record + COUNT_OF(own));
-    led_place(e, place);
+    led_factors(&s->led, &e->part, statics_faces_closed(e->contact), record + COUNT_OF(own));
+    led_place(&s->led, place);
     array_copy(record + COUNT_OF(own) + MODES, place, e->part.dim < 3 ? 2 : 3, sizeof *place);
 }
 

@@ -21,6 +21,8 @@ enum { STRIDES_MOST = 10000 };
 
 bool statics_meets(const struct run *e) { return e->contact->law.between != CONTACT_NONE || e->scene->rigids > 0; }
 
+bool statics_faces_closed(const struct contact *c) { return c->law.between == CONTACT_ALL && c->touching > 0; }
+
 /* Free motions of all pieces. */
 static int free_motions(const struct statics *statics)
 {

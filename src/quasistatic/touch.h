@@ -7,6 +7,9 @@
 /* Returns true if the scene has contact or rigid bodies. */
 bool statics_meets(const struct run *e);
 
+/* Returns true if faces of cracks can be in contact, and something is. */
+bool statics_faces_closed(const struct contact *c);
+
 /* Returns true if anything was in contact at the beginning of the solution, or is now. */
 bool statics_touched(const struct run *e);
 

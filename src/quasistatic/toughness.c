@@ -11,11 +11,11 @@ real stretch_work(real elastic, real yield, real hardening)
 
 /* Energy per area that the bonds across a plane of the lattice take to their limits; of state-based models, whose bonds
  * have no energy of their own, G_c as given [J/m^2]. */
-real toughness_of(const struct run *e, const struct material *m)
+real toughness_of(const struct family *family, enum model model, const struct material *m)
 {
-    const bool given = e->scene->model != MODEL_BOND && !isnan(m->energy_release_rate);
+    const bool given = model != MODEL_BOND && !isnan(m->energy_release_rate);
     if (given) return m->energy_release_rate;
-    const real elastic = family_crossing_energy(&e->source.family, m), limit = m->critical_stretch;
+    const real elastic = family_crossing_energy(family, m), limit = m->critical_stretch;
     if (!material_yields(m) || !isfinite(limit)) return elastic;
     const real taken = stretch_work(limit, m->yield_stress / m->young, m->yield_hardening / m->young);
     return elastic * taken / (0.5 * square(limit));
@@ -23,25 +23,25 @@ real toughness_of(const struct run *e, const struct material *m)
 
 /* Of bonds between materials a and b: of an interface as given, in state-based models of the weaker material; of bonds
  * with energies of their own, these at their limit. */
-static real toughness_of_pair(const struct run *e, int a, int b)
+static real toughness_of_pair(const struct scene *s, const struct bond_source *source, int a, int b)
 {
-    const struct scene *s = e->scene;
+    const struct family *family = &source->family;
     const struct material *one = &s->material[a], *other = &s->material[b];
-    const real least = real_min(toughness_of(e, one), toughness_of(e, other));
+    const real least = real_min(toughness_of(family, s->model, one), toughness_of(family, s->model, other));
     for (int k = 0; k < s->interfaces && s->model != MODEL_BOND; k++) {
         const struct scene_interface *face = &s->interface[k];
         const int m = s->body[face->body[0]].material, n = s->body[face->body[1]].material;
         if (face->energy_release_rate > 0 && ((m == a && n == b) || (m == b && n == a)))
             return face->energy_release_rate;
     }
-    const real limit = e->tables.pair_stretch[a * s->materials + b];
+    const real limit = source->limit.critical_stretch[a * s->materials + b];
     if (a == b || s->model != MODEL_BOND || material_yields(one) || material_yields(other)) return least;
-    const real c = family_micro_modulus(&e->source.family, one), d = family_micro_modulus(&e->source.family, other);
-    return family_crossing_energy(&e->source.family, one) * 2 * d / (c + d) * square(limit / one->critical_stretch);
+    const real c = family_micro_modulus(family, one), d = family_micro_modulus(family, other);
+    return family_crossing_energy(family, one) * 2 * d / (c + d) * square(limit / one->critical_stretch);
 }
 
-real toughness_between(const struct run *e, int64_t i, int64_t j)
+real toughness_between(const struct scene *s, const struct bond_source *source, const struct particles *p, int64_t i,
+                       int64_t j)
 {
-    const struct particles *p = &e->part;
-    return toughness_of_pair(e, p->material[i], p->material[j]) * square(bond_strength(p, i, j));
+    return toughness_of_pair(s, source, p->material[i], p->material[j]) * square(bond_strength(p, i, j));
 }

@@ -31,7 +31,7 @@ void trial_begin(struct run *e, struct memory_archive *m)
 
 void trial_undo(struct run *e, struct memory_archive *m, const struct break_list *broken)
 {
-    if (broken) statics_mend(e, broken);
+    if (broken) statics_mend(e->statics, &e->bonds, &e->part, broken);
     memory_archive_rewind(m);
     const status restored = trial_archive(e, &m->archive);
     INVARIANT(restored == OK);

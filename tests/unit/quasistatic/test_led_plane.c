@@ -49,7 +49,7 @@ static void field_set(struct run *e, const struct led_tip *tip, enum space space
     const real *a = tip->along;
     for (int64_t i = 0; i < p->n; i++) {
         real X[2], u[2] = {0, 0};
-        led_project_particle(e, i, X);
+        led_project_particle(&e->statics->led.plane, &e->part, i, X);
         for (int d = 0; d < 2; d++) X[d] -= tip->place[d];
         for (int mode = 0; mode < MODES; mode++) {
             struct crack_field f;
@@ -85,7 +85,7 @@ static void test_plane_state(void **state)
                  thickness[k], thickness[k] + 1, thickness[k] + 1);
         const struct led_tip *tip = solution_begin(&a, text);
         field_set(&a.e, tip, k == 0 ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN, K);
-        assert_true(led_measure(&a.e, tip, found));
+        assert_true(led_measure(&a.e.statics->led, &a.e.part, tip, false, found));
         for (int mode = 0; mode < MODES; mode++) /* round-off, and equations of nine terms */
             if (!(fabs(found[mode] / K[mode] - 1) < 1e-4)) fail_msg("%d mm: K %g", thickness[k], found[mode]);
         solution_free(&a);
@@ -111,7 +111,8 @@ static void test_face_area(void **state)
         snprintf(text, sizeof text, half, k ? 4.0 : 0.0, k ? 4.0 : 0.0);
         const struct led_tip *tip = solution_begin(&a, text);
         led_ahead(tip->place, 2.3e-3, tip->last, ahead);
-        const real area = led_face_area(&a.e, tip->place, ahead), whole = 2.3e-3 * 0.37e-3;
+        const real area = led_face_area(&a.e.statics->led.plane, &a.e.part, tip->place, ahead),
+                   whole = 2.3e-3 * 0.37e-3;
         if (!(fabs(area / (k ? whole : 0.5 * whole) - 1) < 1e-9)) fail_msg("crack %d: %g of its area", k, area / whole);
         solution_free(&a);
     }
@@ -138,7 +139,7 @@ static void test_width(void **state)
         snprintf(text, sizeof text, block, from, from + 4);
         const struct led_tip *tip = solution_begin(&a, text);
         led_ahead(tip->place, 2.3e-3, tip->last, ahead);
-        const real area = led_face_area(&a.e, tip->place, ahead);
+        const real area = led_face_area(&a.e.statics->led.plane, &a.e.part, tip->place, ahead);
         if (!(fabs(area / (2.3e-3 * wide) - 1) < 1e-9)) fail_msg("from %g mm: %g m wide", from, area / 2.3e-3);
         solution_free(&a);
     }
