@@ -2,8 +2,10 @@
 #ifndef CLEAVE_LOAD_STEPS
 #define CLEAVE_LOAD_STEPS
 
-#include "quasistatic/statics.h"
 #include "run/run.h"
+
+struct led_plane;
+struct statics;
 
 /* Solves for the equilibrium of bonds or of a grid (`solver: cg, relaxation`) and ends the run. Returns INTERRUPTED as
  * engine_run does. */
@@ -27,8 +29,9 @@ status engine_equilibrium_try(struct run *e, real t);
  * scaled; where loads turn back or others join them, the equilibria are found. Returns FAILED where there is none. */
 status engine_overload_worst(struct run *e, real first, real *at, real *overload);
 
-/* Returns the size of the loads and prescribed displacements at load time t [s], a number that scales with them. */
-real engine_load_size(const struct run *e, real t);
+/* Returns the size of the loads at pseudo-time t [s]: root of the sum of squares of prescribed displacements [m] or, if
+ * all of them are 0, of applied forces [N]. */
+real statics_load_size(const struct run *e, real t);
 
 /* Returns why the tips of pre-cracks do not follow their stress-intensity factors (steps.path), or NULL if they do;
  * then *plane is the plane in which they move. */
@@ -41,6 +44,6 @@ status led_check(const struct run *e);
 status statics_archive(struct run *e, struct archive *a);
 
 /* Frees what equilibrium works on; the tips stay (led_free). */
-void statics_free(struct run *e);
+void statics_free(struct statics *s);
 
 #endif

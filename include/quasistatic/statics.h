@@ -101,6 +101,7 @@ struct free_piece {
     int32_t *node;
     int motions;
     real *motion;
+    real middle[DIM_MAX]; /* reference position of a node in the middle of the list [m] */
 };
 
 /* State of a body between two load steps, and what equilibrium works on. Nodes of the unknowns are the peridynamic
@@ -124,6 +125,7 @@ struct statics {
     struct break_list next;        /* bonds of the next advance; none: it has not been looked for */
     struct advance ahead, behind;  /* the next advance, and the last; cost 0: none */
     real due;                      /* size of the loads at which the next one comes, INFINITY: at none */
+    bool meets;                    /* the scene has contact or rigid bodies */
     bool advances;                 /* the next load step begins with it */
     bool severs;                   /* the next advance would leave a piece that nothing holds: it does not come */
     bool stale;                    /* bonds have broken since the preconditioner was made */

@@ -27,10 +27,7 @@ static int tips_of_cracks(const struct fracture_state *fracture)
     return n;
 }
 
-static bool is_led(const struct run *e)
-{
-    return tips_of_cracks(e->fracture) > 0 && led_fault(e, &(struct led_plane){0}) == NULL;
-}
+static bool is_led(const struct run *e) { return tips_of_cracks(e->fracture) > 0 && led_fault(e, NULL) == NULL; }
 
 /* How far bodies go on from a tip, straight ahead (side 1) or back (-1) [m]; 0 where they are lists of particles. */
 static real way_within(const struct scene *s, const struct particles *part, const struct tip *tip, int side)
@@ -79,7 +76,7 @@ void say_load_steps(const struct run *e)
     else
         printf("cracks         grow by their most overloaded bonds, some 2 spacings in an advance%s%s\n",
                tips == 0 ? "; there is no pre-crack whose load theory knows" : "; they are not led: ",
-               tips == 0 ? "" : led_fault(e, &(struct led_plane){0}));
+               tips == 0 ? "" : led_fault(e, NULL));
 }
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
@@ -90,11 +87,11 @@ static void advise_growth(const struct run *e, FILE *out)
     const struct scene *s = e->scene;
     real most = 0, before = 0, falls = NAN;
     for (int k = 0; k <= LOADS_LOOKS; k++) {
-        const real t = s->duration * k / LOADS_LOOKS, now = engine_load_size(e, t);
+        const real t = s->duration * k / LOADS_LOOKS, now = statics_load_size(e, t);
         if (isnan(falls) && now < before - FALLS * most) falls = t;
         most = real_max(most, now), before = now;
     }
-    const real first = engine_load_size(e, 0);
+    const real first = statics_load_size(e, 0);
     if (most > 0 && first > AT_ONCE * most)
         fprintf(out,
                 "unresolved: %.3g %% of the largest loads are there before the first load step: loads of load steps "

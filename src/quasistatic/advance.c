@@ -36,9 +36,8 @@ enum { ADVANCE_SPACINGS = 2, LOOKS_MOST = 6 };
 
 /* Share of the area of cracks that the body has: half where they all run along planes of symmetry, across axis d (-1:
  * any). */
-static real advance_share(const struct fracture_state *fracture, const struct bond_source *source, int d)
+static real advance_share(const struct tips *t, const struct bond_source *source, int d)
 {
-    const struct tips *t = &fracture->tips;
     bool on = t->n > 0;
     for (int k = 0; k < t->n && on; k++) {
         bool any = false;
@@ -51,33 +50,32 @@ static real advance_share(const struct fracture_state *fracture, const struct bo
 
 /* Length of the front of a crack in space [m]: of the edges of pre-cracks in the body, no more than the body's shortest
  * side, of which a plane of symmetry along the crack leaves half, and no less than a spacing; 1 in the plane. */
-static real front_length(const struct run *e)
+static real front_length(const struct tips *t, const struct bond_source *source, const struct particles *p)
 {
-    const struct tips *t = &e->fracture->tips;
+    const real h = source->family.spacing;
     real length = INFINITY, edges = 0, low, high;
-    if (e->part.dim < 3) return 1;
+    if (p->dim < 3) return 1;
     for (int d = 0; d < 3; d++) {
-        particles_extent(&e->part, e->part.n, d, &low, &high);
-        length = real_min(length, (high - low + e->scene->spacing) / advance_share(e->fracture, &e->source, d));
+        particles_extent(p, p->n, d, &low, &high);
+        length = real_min(length, (high - low + h) / advance_share(t, source, d));
     }
     for (int k = 0; k < t->n; k++)
         if (t->tip[k].from_crack) edges += 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, 3));
-    return edges > 0 ? real_min(length, real_max(edges, e->scene->spacing)) : length;
+    return edges > 0 ? real_min(length, real_max(edges, h)) : length;
 }
 
-/* Area of an advance [m^2]. */
-static real advance_area(const struct run *e)
+/* Area of an advance [m^2]. front: its length [m]. */
+static real advance_area(const struct scene *s, const struct tips *t, const struct bond_source *source, real front)
 {
-    const struct scene *s = e->scene;
     const real ahead = ADVANCE_SPACINGS * (s->dim > 1 ? s->spacing : 1);
-    return advance_share(e->fracture, &e->source, -1) * ahead * scene_section(s) * front_length(e);
+    return advance_share(t, source, -1) * ahead * scene_section(s) * front;
 }
 
-/* Pairs of bonds that may break between two equilibria: along a front, of each spacing of it. */
-static int64_t breaks_most(const struct run *e)
+/* Pairs of bonds that may break between two equilibria: of each spacing along a front of this length [m]. */
+static int64_t breaks_most(const struct scene *s, real front)
 {
-    const real along = e->part.dim < 3 ? 1 : front_length(e) / e->scene->spacing;
-    return (int64_t)(e->scene->steps.breaks * real_max(1, along));
+    const real along = s->dim < 3 ? 1 : front / s->spacing;
+    return (int64_t)(s->steps.breaks * real_max(1, along));
 }
 
 /* ---- advances ---------------------------------------------------------------------------------------------------- */
@@ -87,9 +85,11 @@ static int64_t breaks_most(const struct run *e)
 static status advance_try(struct run *e, struct advance *a)
 {
     struct statics *s = e->statics;
-    const real before = statics_released(e), given = e->scene->steps.energy;
-    const real cost = given > 0 ? given * (1 - 1e-3) : INFINITY, wide = advance_area(e) * (1 - 1e-3);
-    const int64_t most = breaks_most(e);
+    const struct tips *t = &e->fracture->tips;
+    const real before = statics_released(s, &e->bonds), given = e->scene->steps.energy;
+    const real cost = given > 0 ? given * (1 - 1e-3) : INFINITY, front = front_length(t, &e->source, &e->part);
+    const real wide = advance_area(e->scene, t, &e->source, front) * (1 - 1e-3);
+    const int64_t most = breaks_most(e->scene, front);
     const bool remnant = e->part.dim == 3 && s->led.stretches > 0;
     const real within = remnant ? real_max(REMNANT, e->scene->steps.within) : e->scene->steps.within;
     real area = 0;
@@ -98,20 +98,20 @@ static status advance_try(struct run *e, struct advance *a)
         if (statics_break(e, within, most, &a->cost, &area) == 0) break;
         if (e->scene->steps.control == CONTROL_ENERGY) {
             statics_pieces_make(e);
-            s->severs = statics_unheld(e) != OK;
+            s->severs = statics_unheld(s, &e->part, e->clock.step + 1) != OK;
             if (s->severs) break;
         }
         TRY(statics_go(e, s->t));
     }
-    a->release = (statics_released(e) - before) / square(statics_load_size(e, s->t));
+    a->release = (statics_released(s, &e->bonds) - before) / square(statics_load_size(e, s->t));
     return OK;
 }
 
 /* Has nothing advanced yet, and is there a pre-crack? */
-static bool pre_crack_stands(const struct fracture_state *fracture, const struct statics *statics)
+static bool pre_crack_stands(const struct tips *t, const struct statics *statics)
 {
     bool stands = false;
-    for (int k = 0; k < fracture->tips.n; k++) stands |= fracture->tips.tip[k].from_crack;
+    for (int k = 0; k < t->n; k++) stands |= t->tip[k].from_crack;
     return stands && statics->behind.cost == 0;
 }
 
@@ -130,7 +130,7 @@ static status look_here(struct run *e)
     s->next.n = 0;
     status tried = advance_try(e, &s->ahead);
     const int64_t bonds = s->next.n;
-    if (tried == OK && bonds > 0 && pre_crack_stands(e->fracture, e->statics)) {
+    if (tried == OK && bonds > 0 && pre_crack_stands(&e->fracture->tips, s)) {
         tried = advance_try(e, &second);
         if (second.cost > 0) s->behind = advance_before(&s->ahead, &second);
     }

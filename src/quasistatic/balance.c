@@ -37,25 +37,25 @@ static real growth_to(const struct statics *s, const struct particles *part, rea
 
 /* The way to pseudo-time t: of supports what is prescribed, of the rest what a linear body does under proportional
  * loads. `before`: the applied forces until now. */
-static void way_make(struct run *e, real t, real *const *before)
+static void way_make(struct statics *s, const struct particles *p, const struct mesh *mesh, const struct loads *loads,
+                     real t, real *const *before)
 {
-    struct statics *s = e->statics;
     struct displacing by[BOUNDARIES_MAX];
-    for (int b = 0; b < e->loads.n; b++) by[b] = displacing_make(e->loads.load[b].boundary, e->part.dim, t);
+    for (int b = 0; b < loads->n; b++) by[b] = displacing_make(loads->load[b].boundary, p->dim, t);
     for (int64_t k = 0; k < s->balance.n; k++) {
         real X[DIM_MAX] = {0};
-        if (s->balance.held[k]) statics_node_place(e, k, X);
-        for (int d = 0; d < e->part.dim; d++) {
+        if (s->balance.held[k]) unknown_position(s, p, mesh, k, X);
+        for (int d = 0; d < p->dim; d++) {
             const int load = s->load[k * DIM_MAX + d];
             const real u = s->balance.u.of[d][k];
             if (s->balance.held[k] >> d & 1) s->way.of[d][k] = (load < 0 ? 0 : displacing_at(&by[load], X, d)) - u;
         }
     }
-    const real growth = growth_to(e->statics, &e->part, t, before);
-    for (int d = 0; d < e->part.dim; d++)
+    const real growth = growth_to(s, p, t, before);
+    for (int d = 0; d < p->dim; d++)
         for (int64_t k = 0; k < s->balance.n; k++)
             if (!(s->balance.held[k] >> d & 1)) s->way.of[d][k] = growth * s->balance.u.of[d][k];
-    statics_pieces_hold(e, &s->way);
+    statics_pieces_hold(s, &s->way);
 }
 
 /* Norm of the forces that the round-off of positions makes, with a margin of ten [N]. */
@@ -96,21 +96,21 @@ static void account_begin(struct account *a, const struct statics *s, const stru
 /* Work of supports and of applied forces over the step, each by the mean of its forces at both ends, and what the bend
  * of the way adds; *before holds where loaded particles were. Returns how far that is from the work of loads that are
  * there as in the end, or as in the beginning, on the whole way [J]. */
-static real account_end(struct account *a, struct run *e, real *const *before)
+static real account_end(struct account *a, const struct statics *s, const struct particles *p, struct loads *loads,
+                        bool touched, real *const *before)
 {
-    struct statics *s = e->statics;
     real range[2] = {0};
-    if (!statics_touched(e)) e->loads.work += s->balance.bent; /* else forces change on the way by what touches */
-    for (int d = 0; d < e->part.dim; d++) {
+    if (!touched) loads->work += s->balance.bent; /* else forces change on the way by what touches */
+    for (int d = 0; d < p->dim; d++) {
         for (int64_t k = 0; k < s->balance.n; k++) {
             const real way = s->balance.u.of[d][k] - a->u.of[d][k], now = s->balance.f.of[d][k], was = a->f.of[d][k];
             if (!(s->balance.held[k] >> d & 1)) continue;
-            e->loads.constraint_work -= 0.5 * (was + now) * way;
+            loads->constraint_work -= 0.5 * (was + now) * way;
             range[0] += 0.5 * (now - was) * way;
         }
-        for (int64_t i = 0; i < e->part.n; i++) {
-            const real way = e->part.x[d][i] - before[d][i], now = s->applied[d][i], was = a->applied[d][i];
-            e->loads.work += 0.5 * (was + now) * way;
+        for (int64_t i = 0; i < p->n; i++) {
+            const real way = p->x[d][i] - before[d][i], now = s->applied[d][i], was = a->applied[d][i];
+            loads->work += 0.5 * (was + now) * way;
             range[1] += 0.5 * (now - was) * way;
         }
         memory_free(a->u.of[d]);
@@ -125,32 +125,28 @@ static real account_end(struct account *a, struct run *e, real *const *before)
  * where faces touch by as much at the most, as forces grow. Only what is beyond is lost, or comes from nowhere: faces
  * have gone through each other on the way, and hold the body in a state that loads cannot have led to. Returns whether
  * that is so. */
-static bool lost_book(struct run *e, real lost, real range, bool touches)
+static bool lost_book(struct equilibrium *q, struct loads *loads, real lost, real range, bool touches, bool yields)
 {
-    real *now = &e->statics->balance.lost;
-    real uneven = e->part.plastic_correction[0] || touches ? real_min(*now - lost, range) : 0;
-    if (touches && !e->part.plastic_correction[0]) uneven = real_max(uneven, -range);
-    e->loads.work -= uneven, *now -= uneven;
-    e->damped += *now - lost;
-    return touches && !e->part.plastic_correction[0] && lost - *now > GAIN_MOST * range;
+    real uneven = yields || touches ? real_min(q->lost - lost, range) : 0;
+    if (touches && !yields) uneven = real_max(uneven, -range);
+    loads->work -= uneven, q->lost -= uneven;
+    return touches && !yields && lost - q->lost > GAIN_MOST * range;
 }
 
 /* ---- equilibrium ------------------------------------------------------------------------------------------------- */
 
 /* FAILED, with the place of the largest residual and what helps. */
-static status unbalanced(const struct run *e)
+static status unbalanced(const struct statics *s, const struct particles *p, const struct mesh *mesh, int64_t step)
 {
-    const struct statics *s = e->statics;
     real X[DIM_MAX] = {0};
-    if (s->balance.n > 0) statics_node_place(e, s->balance.worst, X);
+    if (s->balance.n > 0) unknown_position(s, p, mesh, s->balance.worst, X);
     return status_set(FAILED,
                       "load step %lld, t = %.6g s: no equilibrium, the residual stays at %.3g of the load (%.3g is "
                       "wanted), most of it near x = %.6g, y = %.6g, z = %.6g m; see whether every part is held and "
                       "loads are what the body bears, or choose %ssteps.control energy, more steps, or a larger "
                       "solver_tolerance",
-                      (long long)e->clock.step + 1, e->statics->t, s->balance.residual, e->scene->solver_tolerance,
-                      X[0], X[1], X[2],
-                      e->part.plastic_correction[0] ? "a yield_tangent of a thousandth of young, " : "");
+                      (long long)step, s->t, s->balance.residual, s->balance.tolerance, X[0], X[1], X[2],
+                      p->relief[0] ? "a yield_tangent of a thousandth of young, " : "");
 }
 
 /* *crossed: faces have gone through each other. */
@@ -163,30 +159,33 @@ static status solve_at(struct run *e, real t, bool *crossed)
     const real lost = s->balance.lost;
     TRY(loads_finite(&e->loads, &e->part, t));
     statics_touch_begin(e, t);
-    account_begin(&account, e->statics, &e->part);
+    account_begin(&account, s, &e->part);
     for (int d = 0; d < e->part.dim; d++) {
         before[d] = BARE("statics.before", e->part.n, real);
         array_copy(before[d], e->part.x[d], e->part.n, sizeof(real));
     }
-    statics_applied_make(e, t);
+    applied_forces_make(s, &e->part, &e->loads, t);
     if (s->parted) statics_pieces_make(e);
-    way_make(e, t, account.applied);
-    s->balance.applied = statics_applied_norm(e);
+    way_make(s, &e->part, &e->frame->mesh, &e->loads, t, account.applied);
+    s->balance.applied = applied_forces_norm(s, &e->part, e->contact);
     if (!s->precondition) s->balance.noise = round_off_of(&e->bonds, &e->part);
     const status found = equilibrium_find(&s->balance, &s->way, t != s->t);
     statics_flow(e);
     frame_sync(e);
     loads_mirror(&e->loads, &e->part);
-    e->statics->t = t;
-    const real worked = e->loads.work + e->loads.constraint_work, range = account_end(&account, e, before);
-    const bool touched = statics_touched(e);
+    s->t = t;
+    const bool touched = statics_touched(s, e->contact);
+    const real worked = e->loads.work + e->loads.constraint_work,
+               range = account_end(&account, s, &e->part, &e->loads, touched, before);
     const real rigids = statics_touch_end(e, e->loads.work + e->loads.constraint_work - worked, lost);
-    *crossed = lost_book(e, lost, range + rigids, touched || s->touches);
+    *crossed =
+        lost_book(&s->balance, &e->loads, lost, range + rigids, touched || s->touches, e->part.relief[0] != NULL);
+    e->damped += s->balance.lost - lost;
     for (int d = 0; d < e->part.dim; d++) memory_free(before[d]);
-    statics_react(e);
+    reactions_store(s, &e->part, &e->loads);
     s->solutions++;
-    statics_precondition_watch(e, s->balance.directions - asked);
-    return found == OK ? OK : unbalanced(e);
+    statics_precondition_watch(s, s->balance.directions - asked);
+    return found == OK ? OK : unbalanced(s, &e->part, &e->frame->mesh, e->clock.step + 1);
 }
 
 /* The way to t in strides. */
@@ -204,10 +203,9 @@ static status solve_in(struct run *e, real t, int strides, bool *crossed)
 static status solve_whole(struct run *e, real t)
 {
     const real from = e->statics->t;
-    int strides = statics_strides(e, t);
+    int strides = statics_strides(e->scene, e->rigid, t);
     bool crossed = false;
-    if (!statics_meets(e) || e->part.plastic_correction[0] || e->bonds.plastic_stretch)
-        return solve_in(e, t, strides, &crossed);
+    if (!e->statics->meets || e->part.relief[0] || e->bonds.plastic_stretch) return solve_in(e, t, strides, &crossed);
     for (int k = 0; k < TRIES_MOST; k++, strides *= MORE_STRIDES) {
         struct memory_archive saved;
         trial_begin(e, &saved);
@@ -239,8 +237,8 @@ status statics_convert(struct run *e, int64_t broken)
 {
     while (step_convert(e, broken)) {
         broken = 0;
-        statics_precondition_free(e);
-        statics_unknowns_free(e);
+        statics_precondition_free(e->statics);
+        statics_unknowns_free(e->statics);
         statics_unknowns_make(e);
         e->statics->next.n = 0;
         TRY(statics_go(e, e->statics->t));

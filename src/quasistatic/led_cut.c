@@ -135,10 +135,10 @@ static status tips_turn(struct run *e)
 /* Breaks bonds, and says what the body releases by it. */
 static status list_try(struct run *e, const struct break_list *l, struct advance *a)
 {
-    const real before = statics_released(e);
+    const real before = statics_released(e->statics, &e->bonds);
     statics_break_listed(e, l);
     const status tried = statics_go(e, e->statics->t);
-    a->release = (statics_released(e) - before) / square(statics_load_size(e, e->statics->t));
+    a->release = (statics_released(e->statics, &e->bonds) - before) / square(statics_load_size(e, e->statics->t));
     return tried;
 }
 

@@ -75,7 +75,9 @@ static void led_start(struct run *e)
 const char *led_fault(const struct run *e, struct led_plane *plane)
 {
     const struct scene *s = e->scene;
+    struct led_plane unused;
     const bool one = s->bodies == 1 && s->materials == 1; /* hoop stress knows no toughness */
+    if (!plane) plane = &unused;
     *plane = (struct led_plane){.made = true,
                                 .dim = e->part.dim,
                                 .spacing = s->spacing,
@@ -90,7 +92,7 @@ const char *led_fault(const struct run *e, struct led_plane *plane)
 status led_check(const struct run *e)
 {
     if (!scene_in_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
-    const char *fault = led_fault(e, &(struct led_plane){0});
+    const char *fault = led_fault(e, NULL);
     return fault ? status_set(REFUSED,
                               "steps.path: hoop leads straight fronts that go through the body, and %s; bonds, or "
                               "auto, is expected",

@@ -51,11 +51,12 @@ real statics_time_of_size(const struct run *e, real size)
     return t;
 }
 
-real engine_load_size(const struct run *e, real t) { return statics_load_size(e, t); }
-
 /* ---- crack increments -------------------------------------------------------------------------------------------- */
 
-real statics_released(const struct run *e) { return bonds_fracture_energy(&e->bonds) + e->statics->balance.lost; }
+real statics_released(const struct statics *s, const struct bonds *b)
+{
+    return bonds_fracture_energy(b) + s->balance.lost;
+}
 
 real size_of_balance(const struct advance *a, const struct advance *b)
 {

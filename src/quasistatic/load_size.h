@@ -2,12 +2,9 @@
 #ifndef CLEAVE_LOAD_SIZE
 #define CLEAVE_LOAD_SIZE
 
+#include "quasistatic/load_steps.h"
 #include "quasistatic/statics.h"
 #include "run/run.h"
-
-/* Returns the size of the loads at pseudo-time t [s]: root of the sum of squares of prescribed displacements [m] or, if
- * all of them are 0, of applied forces [N]. */
-real statics_load_size(const struct run *e, real t);
 
 /* Returns the pseudo-time near the present one at which the loads have this size [s]. */
 real statics_time_of_size(const struct run *e, real size);
@@ -23,6 +20,6 @@ real size_of_advance(const struct advance *a);
 struct advance advance_before(const struct advance *first, const struct advance *second);
 
 /* Returns the energy released so far: taken by broken bonds, or lost in solutions [J]. */
-real statics_released(const struct run *e);
+real statics_released(const struct statics *s, const struct bonds *b);
 
 #endif

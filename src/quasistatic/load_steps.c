@@ -211,8 +211,8 @@ static void load_step_begin(struct run *e)
 {
     struct statics *s = e->statics;
     statics_pieces_make(e);
-    if (s->stale || statics_meets(e))
-        statics_precondition_free(e);
+    if (s->stale || s->meets)
+        statics_precondition_free(s);
     else if (s->kept && !s->precondition)
         statics_precondition_make(e);
     s->kept = false;
@@ -285,12 +285,10 @@ status statics_check(const struct run *e)
 }
 
 /* Says that a crack has been pressed shut. */
-static void say_closed(struct run *e)
+static void say_closed(struct warnings *to, real K_I, const struct contact *c)
 {
-    real K[MODES];
-    led_factors(&e->statics->led, &e->part, statics_faces_closed(e->contact), K);
-    if (K[MODE_I] < 0 && e->contact->law.between == CONTACT_NONE)
-        warnings_say(&e->warnings,
+    if (K_I < 0 && c->law.between == CONTACT_NONE)
+        warnings_say(to,
                      "K_I of a crack is negative: its faces are pressed together, and pass through each other without "
                      "contact.between: all");
 }
@@ -298,38 +296,38 @@ static void say_closed(struct run *e)
 #define FLOW_LARGE 0.1 /* plastic strain beyond which strains are no small ones */
 
 /* Says that points have flowed farther than strains that add up describe: without hardening, beyond a limit load. */
-static void say_flowed(struct run *e)
+static void say_flowed(struct warnings *to, const struct particles *p)
 {
     real most = 0;
     char text[200];
-    for (int64_t i = 0; i < e->part.n && e->part.plastic_correction[0]; i++)
-        most = real_max(most, e->part.plastic_strain[i]);
+    for (int64_t i = 0; i < p->n && p->relief[0]; i++) most = real_max(most, p->plastic_strain[i]);
     snprintf(text, sizeof text,
              "points have flowed by a plastic strain of %.2g, and load steps know that of a few per cent: see whether "
              "the body bears its loads, or choose smaller ones, or solver explicit",
              most);
-    if (most > FLOW_LARGE) warnings_say(&e->warnings, text);
+    if (most > FLOW_LARGE) warnings_say(to, text);
 }
 
 /* Says that a rigid body has gone its way and pushed nothing: past the body, or a body that nothing holds before it. */
-static void say_missed(struct run *e)
+static void say_missed(struct warnings *to, const struct rigid_body *body, int n, real largest)
 {
-    for (int k = 0; k < e->scene->rigids; k++) {
-        const struct rigid_body *r = &e->rigid->body[k];
+    for (int k = 0; k < n; k++) {
+        const struct rigid_body *r = &body[k];
         char text[160];
         snprintf(text, sizeof text,
                  "rigid body %.60s went its way and pushed nothing: see whether it meets a body, and what holds that",
                  r->name);
-        if (r->motion == RIGID_DRIVEN && r->force_most <= ROUND_OFF * e->statics->balance.largest)
-            warnings_say(&e->warnings, text);
+        if (r->motion == RIGID_DRIVEN && r->force_most <= ROUND_OFF * largest) warnings_say(to, text);
     }
 }
 
 static void say_at_end(struct run *e)
 {
-    say_closed(e);
-    say_flowed(e);
-    say_missed(e);
+    real K[MODES];
+    led_factors(&e->statics->led, &e->part, statics_faces_closed(e->contact), K);
+    say_closed(&e->warnings, K[MODE_I], e->contact);
+    say_flowed(&e->warnings, &e->part);
+    say_missed(&e->warnings, e->rigid->body, e->scene->rigids, e->statics->balance.largest);
 }
 
 /* FAILED if loads carry a piece away. Where a crack goes through under control energy, they have gone back as far as
@@ -337,7 +335,7 @@ static void say_at_end(struct run *e)
 static status check_held(struct run *e, bool *apart)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics->bonds_broken > 0;
-    const status held = statics_unheld(e);
+    const status held = statics_unheld(e->statics, &e->part, e->clock.step + 1);
     *apart = parts && (held != OK || e->statics->severs);
     if (*apart)
         warnings_say(&e->warnings,
@@ -366,8 +364,8 @@ status engine_steps(struct run *e)
         if (apart) e->clock.steps = e->clock.step;
         e->clock.t = e->clock.dt * (real)e->clock.step;
         state_note(e);
-        sample_rest(e);
-        statics_record_keep(e);
+        sample_equilibrium(e);
+        statics_record_keep(e->statics);
         if (e->statics->t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
         lap(&e->laps, LAP_BONDS);
         if (e->clock.step == e->clock.steps) say_at_end(e);
@@ -375,6 +373,6 @@ status engine_steps(struct run *e)
                  (long long)e->statics->solutions);
         TRY(report_step(e));
     }
-    statics_free(e);
+    statics_free(e->statics);
     return report_end(e);
 }

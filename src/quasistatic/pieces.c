@@ -36,68 +36,96 @@ static void nodes_join(int32_t *parent, int32_t a, int32_t b)
     if (y < x) parent[x] = y;
 }
 
-/* Numbers of the unknowns of particles and of nodes of the mesh; -1: none. Points of the mesh have that of a corner. */
-struct numbers {
-    int32_t *particle, *node;
+/* The search for pieces: what it reads (borrowed), and what it has found. */
+struct search {
+    const struct statics *statics;
+    const struct particles *part;
+    const struct mesh *mesh;
+    const struct loads *loads;
+    int32_t *particle, *node; /* unknown of each particle and of each node of the mesh, -1: none */
+    struct field x;           /* [unknowns] present positions [m] */
+    int32_t *parent, *piece;  /* [unknowns] in the forest of joined unknowns; number of the piece */
+    int64_t n;                /* pieces */
+    struct candidate *of;     /* [n] */
 };
 
-static void cells_join(const struct reference_frame *frame, const struct particles *part, int32_t *parent,
-                       const struct numbers *number)
+static void cells_join(const struct search *s)
 {
-    const struct mesh *mesh = &frame->mesh;
+    const struct mesh *mesh = s->mesh;
     for (int64_t I = 0; I < mesh->grid.n && mesh->points > 0; I++) {
         int32_t first = -1;
         if (!mesh_cell_holds(mesh, I)) continue;
-        for (int c = 0; c < 1 << part->dim; c++) {
-            const int32_t k = number->node[mesh_node(mesh, I, c)];
+        for (int c = 0; c < 1 << s->part->dim; c++) {
+            const int32_t k = s->node[mesh_node(mesh, I, c)];
             if (k < 0) continue;
             if (first < 0) first = k;
-            nodes_join(parent, first, k);
+            nodes_join(s->parent, first, k);
         }
     }
 }
 
-static int32_t number_of(const struct run *e, const struct numbers *number, int64_t i)
+/* Returns the unknown of particle i, of a point of the mesh that of a corner of its cell; -1: none. */
+static int32_t number_of(const struct search *s, int64_t i)
 {
-    const struct mesh *mesh = &e->frame->mesh;
-    if (number->particle[i] >= 0 || mesh->points == 0 || mesh->place[i] < 0) return number->particle[i];
-    for (int c = 0; c < 1 << e->part.dim; c++) {
-        const int32_t k = number->node[mesh_node(mesh, mesh->place[i] >> e->part.dim, c)];
+    const struct mesh *mesh = s->mesh;
+    const int dim = s->part->dim;
+    if (s->particle[i] >= 0 || mesh->points == 0 || mesh->place[i] < 0) return s->particle[i];
+    for (int c = 0; c < 1 << dim; c++) {
+        const int32_t k = s->node[mesh_node(mesh, mesh->place[i] >> dim, c)];
         if (k >= 0) return k;
     }
     return -1;
 }
 
-static void bonded_join(const struct run *e, int32_t *parent, const struct numbers *number)
+static void bonded_join(const struct search *s, const struct bonds *bonds)
 {
-    for (int64_t r = 0; r < e->bonds.rows; r++) {
-        const int32_t a = number_of(e, number, e->bonds.particle[r]);
-        for (struct bond_iterator it = bonds_of_row(&e->bonds, r); bond_next(&it);) {
-            if (it.bond.w == 0 || it.bond.nbr >= e->part.n || it.bond.nbr < e->bonds.particle[r]) continue;
-            const int32_t b = number_of(e, number, it.bond.nbr);
-            if (a >= 0 && b >= 0) nodes_join(parent, a, b);
+    for (int64_t r = 0; r < bonds->rows; r++) {
+        const int32_t a = number_of(s, bonds->particle[r]);
+        for (struct bond_iterator it = bonds_of_row(bonds, r); bond_next(&it);) {
+            if (it.bond.w == 0 || it.bond.nbr >= s->part->n || it.bond.nbr < bonds->particle[r]) continue;
+            const int32_t b = number_of(s, it.bond.nbr);
+            if (a >= 0 && b >= 0) nodes_join(s->parent, a, b);
         }
     }
 }
 
-static struct numbers unknowns_number(const struct run *e)
+static void unknowns_number(struct search *s)
 {
-    const struct statics *s = e->statics;
-    const struct mesh *mesh = &e->frame->mesh;
-    const int64_t places = mesh->points > 0 ? mesh->grid.n : 0;
-    struct numbers n = {BARE("pieces.particle", e->part.n, int32_t), BARE("pieces.node", places, int32_t)};
-    array_fill_bytes(n.particle, -1, e->part.n, sizeof *n.particle);
-    array_fill_bytes(n.node, -1, places, sizeof *n.node);
-    for (int64_t k = 0; k < s->balance.n; k++) (k < s->particles ? n.particle : n.node)[s->node[k]] = (int32_t)k;
+    const struct statics *statics = s->statics;
+    const struct mesh *mesh = s->mesh;
+    const int64_t places = mesh->points > 0 ? mesh->grid.n : 0, n = s->part->n;
+    s->particle = BARE("pieces.particle", n, int32_t), s->node = BARE("pieces.node", places, int32_t);
+    array_fill_bytes(s->particle, -1, n, sizeof *s->particle);
+    array_fill_bytes(s->node, -1, places, sizeof *s->node);
+    for (int64_t k = 0; k < statics->balance.n; k++)
+        (k < statics->particles ? s->particle : s->node)[statics->node[k]] = (int32_t)k;
     for (int64_t k = 0; k < places && k < mesh->grid.mirror_nodes; k++)
-        n.node[mesh->grid.mirror_node[k].node] = n.node[mesh->grid.mirror_node[k].image];
-    return n;
+        s->node[mesh->grid.mirror_node[k].node] = s->node[mesh->grid.mirror_node[k].image];
 }
 
-static void unknowns_number_free(struct numbers *n)
+static void pieces_search_begin(struct search *s)
 {
-    memory_free(n->particle);
-    memory_free(n->node);
+    const int64_t n = s->statics->balance.n;
+    unknowns_number(s);
+    s->parent = BARE("pieces.parent", n, int32_t);
+    s->piece = BARE("pieces.piece", n, int32_t);
+    for (int d = 0; d < s->part->dim; d++) s->x.of[d] = BARE("pieces.x", n, real);
+    for (int64_t k = 0; k < n; k++) {
+        real X[DIM_MAX];
+        unknown_position(s->statics, s->part, s->mesh, k, X);
+        for (int d = 0; d < s->part->dim; d++) s->x.of[d][k] = X[d] + s->statics->balance.u.of[d][k];
+        s->parent[k] = (int32_t)k;
+    }
+}
+
+static void pieces_search_end(struct search *s)
+{
+    for (int d = 0; d < s->part->dim; d++) memory_free(s->x.of[d]);
+    memory_free(s->of);
+    memory_free(s->parent);
+    memory_free(s->piece);
+    memory_free(s->particle);
+    memory_free(s->node);
 }
 
 /* ---- what holds a piece ------------------------------------------------------------------------------------------ */
@@ -121,10 +149,9 @@ static void motion_at(const struct candidate *c, int dim, int k, const real *x, 
     u[b] = (x[a] - c->centre[a]) / c->radius;
 }
 
-static void node_now(const struct run *e, int64_t k, real *x)
+static void node_now(const struct search *s, int64_t k, real *x)
 {
-    statics_node_place(e, k, x);
-    for (int d = 0; d < e->part.dim; d++) x[d] += e->statics->balance.u.of[d][k];
+    for (int d = 0; d < s->part->dim; d++) x[d] = s->x.of[d][k];
 }
 
 /* One direction n.u in which the motions of a piece are held: adds its share to their resistance. */
@@ -134,31 +161,33 @@ static void resist(struct candidate *c, int m, const real *along)
         for (int b = 0; b < m; b++) c->resistance[a][b] += along[a] * along[b];
 }
 
-static void supports_resist(const struct run *e, struct candidate *of, const int32_t *piece)
+static void supports_resist(const struct search *s)
 {
-    const int dim = e->part.dim, m = motions(dim);
-    for (int64_t k = 0; k < e->statics->balance.n; k++) {
+    const struct equilibrium *q = &s->statics->balance;
+    const int dim = s->part->dim, m = motions(dim);
+    for (int64_t k = 0; k < q->n; k++) {
         real x[DIM_MAX], u[MODES_MOST][DIM_MAX], along[MODES_MOST];
-        if (!e->statics->balance.held[k]) continue;
-        node_now(e, k, x);
-        for (int a = 0; a < m; a++) motion_at(&of[piece[k]], dim, a, x, u[a]);
+        struct candidate *c = &s->of[s->piece[k]];
+        if (!q->held[k]) continue;
+        node_now(s, k, x);
+        for (int a = 0; a < m; a++) motion_at(c, dim, a, x, u[a]);
         for (int d = 0; d < dim; d++) {
-            if (!(e->statics->balance.held[k] >> d & 1)) continue;
+            if (!(q->held[k] >> d & 1)) continue;
             for (int a = 0; a < m; a++) along[a] = u[a][d];
-            resist(&of[piece[k]], m, along);
+            resist(c, m, along);
         }
     }
 }
 
 /* A bond to an image resists what lengthens it. */
-static void image_resists(const struct run *e, struct candidate *c, int64_t i, int64_t image)
+static void image_resists(const struct search *s, struct candidate *c, int64_t i, int64_t image)
 {
-    const struct particles *p = &e->part;
+    const struct particles *p = s->part;
     const int dim = p->dim, m = motions(dim);
-    const int64_t j = image_root(p, e->loads.image, image);
+    const int64_t j = image_root(p, s->loads->image, image);
     real sign[DIM_MAX], x[DIM_MAX], y[DIM_MAX], u[DIM_MAX], v[DIM_MAX], along[MODES_MOST] = {0}, length2 = 0;
     for (int d = 0; d < dim; d++) x[d] = p->x[d][i], y[d] = p->x[d][j], length2 += square(p->x[d][image] - p->x[d][i]);
-    statics_image_signs(e, image, sign);
+    image_signs(p, s->loads, image, sign);
     for (int a = 0; a < m; a++) {
         motion_at(c, dim, a, x, u);
         motion_at(c, dim, a, y, v);
@@ -168,24 +197,23 @@ static void image_resists(const struct run *e, struct candidate *c, int64_t i, i
     resist(c, m, along);
 }
 
-static void images_resist(const struct run *e, struct candidate *of, const int32_t *piece, const struct numbers *number)
+static void images_resist(const struct search *s, const struct bonds *bonds)
 {
-    for (int64_t r = 0; r < e->bonds.rows && e->loads.images > 0; r++) {
-        const int32_t i = e->bonds.particle[r], k = number_of(e, number, i);
-        for (struct bond_iterator it = bonds_of_row(&e->bonds, r); bond_next(&it) && k >= 0;)
-            if (it.bond.w != 0 && it.bond.nbr >= e->part.n) image_resists(e, &of[piece[k]], i, it.bond.nbr);
+    for (int64_t r = 0; r < bonds->rows && s->loads->images > 0; r++) {
+        const int32_t i = bonds->particle[r], k = number_of(s, i);
+        for (struct bond_iterator it = bonds_of_row(bonds, r); bond_next(&it) && k >= 0;)
+            if (it.bond.w != 0 && it.bond.nbr >= s->part->n) image_resists(s, &s->of[s->piece[k]], i, it.bond.nbr);
     }
 }
 
 /* A node beyond a plane of symmetry moves as its image does, and with the cells that it is a corner of. */
-static void mirror_nodes_resist(const struct reference_frame *frame, const struct particles *part, struct candidate *of,
-                                const int32_t *piece, const struct numbers *number)
+static void mirror_nodes_resist(const struct search *s)
 {
-    const struct mesh *mesh = &frame->mesh;
-    const int dim = part->dim, m = motions(dim);
+    const struct mesh *mesh = s->mesh;
+    const int dim = s->part->dim, m = motions(dim);
     for (int64_t q = 0; mesh->points > 0 && q < mesh->grid.mirror_nodes; q++) {
         const struct mirror_node *node = &mesh->grid.mirror_node[q];
-        const int32_t k = number->node[node->image];
+        const int32_t k = s->node[node->image];
         real x[DIM_MAX], y[DIM_MAX], u[DIM_MAX], v[DIM_MAX], along[DIM_MAX][MODES_MOST];
         if (k < 0 || !(mesh->grid.mass[node->node] > 0)) continue;
         for (int d = 0; d < dim; d++) {
@@ -194,39 +222,32 @@ static void mirror_nodes_resist(const struct reference_frame *frame, const struc
             y[d] = grid_position(&mesh->grid, d, node->image / stride % count) + mesh->displacement[d][node->image];
         }
         for (int a = 0; a < m; a++) {
-            motion_at(&of[piece[k]], dim, a, x, u);
-            motion_at(&of[piece[k]], dim, a, y, v);
+            motion_at(&s->of[s->piece[k]], dim, a, x, u);
+            motion_at(&s->of[s->piece[k]], dim, a, y, v);
             for (int d = 0; d < dim; d++) along[d][a] = u[d] - node->sign[d] * v[d];
         }
-        for (int d = 0; d < dim; d++) resist(&of[piece[k]], m, along[d]);
+        for (int d = 0; d < dim; d++) resist(&s->of[s->piece[k]], m, along[d]);
     }
 }
 
-struct touched {
-    const struct run *e;
-    struct candidate *of;
-    const int32_t *piece;
-    const struct numbers *number;
-};
-
 /* The piece of a particle or an image, -1: of none. */
-static int32_t piece_of(const struct touched *s, int32_t particle)
+static int32_t piece_of(const struct search *s, int32_t particle)
 {
-    const int32_t k = number_of(s->e, s->number, image_root(&s->e->part, s->e->loads.image, particle));
+    const int32_t k = number_of(s, image_root(s->part, s->loads->image, particle));
     return k < 0 ? -1 : s->piece[k];
 }
 
 /* How motion a of a piece changes the gap of a contact: by those of its particles that belong to it. */
-static real gap_rate(const struct touched *s, const struct contact_term *t, int32_t which, int a)
+static real gap_rate(const struct search *s, const struct contact_term *t, int32_t which, int a)
 {
-    const struct particles *p = &s->e->part;
+    const struct particles *p = s->part;
     real rate = 0;
     for (int q = 0; q < t->n; q++) {
-        const int64_t i = image_root(p, s->e->loads.image, t->particle[q]);
+        const int64_t i = image_root(p, s->loads->image, t->particle[q]);
         real sign[DIM_MAX], x[DIM_MAX], u[DIM_MAX];
         if (piece_of(s, t->particle[q]) != which) continue;
         for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
-        statics_image_signs(s->e, t->particle[q], sign);
+        image_signs(p, s->loads, t->particle[q], sign);
         motion_at(&s->of[which], p->dim, a, x, u);
         for (int d = 0; d < p->dim; d++) rate += sign[d] * t->along[q][d] * u[d];
     }
@@ -236,8 +257,8 @@ static real gap_rate(const struct touched *s, const struct contact_term *t, int3
 /* A contact resists what changes its gap: each of the pieces that it is of as if the other were held. */
 static void contact_resists(void *context, const struct contact_term *t)
 {
-    const struct touched *s = context;
-    const int dim = s->e->part.dim, m = motions(dim);
+    const struct search *s = context;
+    const int dim = s->part->dim, m = motions(dim);
     real length2 = 0, along[MODES_MOST];
     for (int q = 0; q < t->n; q++) length2 += dot(t->along[q], t->along[q], dim);
     for (int q = 0; q < t->n && length2 > 0; q++) {
@@ -311,99 +332,89 @@ static void motions_orthonormal(struct free_piece *f, int dim)
 }
 
 /* Motions of the nodes of a piece that nothing holds in `count` of them. */
-static void free_piece_make(const struct run *e, struct free_piece *f, const struct candidate *c, int64_t which,
-                            const int32_t *piece, real free[MODES_MOST][MODES_MOST], int count)
+static void free_piece_make(const struct search *s, struct free_piece *f, int64_t which,
+                            real free[MODES_MOST][MODES_MOST], int count)
 {
-    const int dim = e->part.dim, m = motions(dim);
+    const struct candidate *c = &s->of[which];
+    const int dim = s->part->dim, m = motions(dim);
     *f = (struct free_piece){.n = 0, .motions = count};
     f->node = BARE("pieces.node", c->n, int32_t);
     f->motion = NEW("pieces.motion", c->n * dim * MODES_MOST, real);
-    for (int64_t k = 0; k < e->statics->balance.n; k++) {
+    for (int64_t k = 0; k < s->statics->balance.n; k++) {
         real x[DIM_MAX], u[DIM_MAX];
-        if (piece[k] != which) continue;
-        node_now(e, k, x);
+        if (s->piece[k] != which) continue;
+        node_now(s, k, x);
         for (int a = 0; a < m; a++) {
             motion_at(c, dim, a, x, u);
             for (int b = 0; b < count; b++)
                 for (int d = 0; d < dim; d++)
-                    if (!(e->statics->balance.held[k] >> d & 1))
+                    if (!(s->statics->balance.held[k] >> d & 1))
                         f->motion[(f->n * dim + d) * MODES_MOST + b] += free[b][a] * u[d];
         }
         f->node[f->n++] = (int32_t)k;
     }
     motions_orthonormal(f, dim);
+    unknown_position(s->statics, s->part, s->mesh, f->node[f->n / 2], f->middle);
 }
 
 /* Pieces in the order of their first nodes: their numbers by node, and where they are. */
-static struct candidate *candidates_make(const struct run *e, int32_t *parent, int32_t *piece, int64_t *n)
+static void candidates_make(struct search *s)
 {
-    const int64_t nodes = e->statics->balance.n;
-    int64_t count = 0;
+    const int64_t nodes = s->statics->balance.n;
+    const int dim = s->part->dim;
     for (int64_t k = 0; k < nodes; k++) /* a root comes before what hangs on it */
-        piece[k] = parent[k] == k ? (int32_t)count++ : piece[root_node(parent, (int32_t)k)];
-    struct candidate *c = NEW("pieces.candidates", count, struct candidate);
+        s->piece[k] = s->parent[k] == k ? (int32_t)s->n++ : s->piece[root_node(s->parent, (int32_t)k)];
+    s->of = NEW("pieces.candidates", s->n, struct candidate);
     for (int64_t k = 0; k < nodes; k++) {
-        real x[DIM_MAX];
-        node_now(e, k, x);
-        c[piece[k]].n++;
-        for (int d = 0; d < e->part.dim; d++) c[piece[k]].centre[d] += x[d];
+        struct candidate *c = &s->of[s->piece[k]];
+        c->n++;
+        for (int d = 0; d < dim; d++) c->centre[d] += s->x.of[d][k];
     }
-    for (int64_t q = 0; q < count; q++)
-        for (int d = 0; d < e->part.dim; d++) c[q].centre[d] /= (real)c[q].n;
+    for (int64_t q = 0; q < s->n; q++)
+        for (int d = 0; d < dim; d++) s->of[q].centre[d] /= (real)s->of[q].n;
     for (int64_t k = 0; k < nodes; k++) {
-        real x[DIM_MAX];
-        node_now(e, k, x);
-        for (int d = 0; d < e->part.dim; d++) c[piece[k]].radius += square(x[d] - c[piece[k]].centre[d]);
+        struct candidate *c = &s->of[s->piece[k]];
+        for (int d = 0; d < dim; d++) c->radius += square(s->x.of[d][k] - c->centre[d]);
     }
-    for (int64_t q = 0; q < count; q++) c[q].radius = sqrt(c[q].radius / (real)c[q].n);
-    *n = count;
-    return c;
+    for (int64_t q = 0; q < s->n; q++) s->of[q].radius = sqrt(s->of[q].radius / (real)s->of[q].n);
 }
 
 void statics_pieces_make(struct run *e)
 {
     struct statics *s = e->statics;
     const int m = motions(e->part.dim);
-    struct numbers number = unknowns_number(e);
-    int32_t *parent = BARE("pieces.parent", s->balance.n, int32_t);
-    int32_t *piece = BARE("pieces.piece", s->balance.n, int32_t);
-    int64_t n;
+    struct search search = {.statics = s, .part = &e->part, .mesh = &e->frame->mesh, .loads = &e->loads};
     real free[MODES_MOST][MODES_MOST];
-    statics_pieces_free(e);
+    statics_pieces_free(s);
     s->parted = false;
-    for (int64_t k = 0; k < s->balance.n; k++) parent[k] = (int32_t)k;
-    cells_join(e->frame, &e->part, parent, &number);
-    bonded_join(e, parent, &number);
-    struct candidate *c = candidates_make(e, parent, piece, &n);
-    supports_resist(e, c, piece);
-    images_resist(e, c, piece, &number);
-    mirror_nodes_resist(e->frame, &e->part, c, piece, &number);
-    contact_terms(e->contact, &e->part, contact_resists, &(struct touched){e, c, piece, &number});
-    for (int64_t q = 0; q < n; q++) s->pieces += motions_free(&c[q], m, free) > 0;
+    pieces_search_begin(&search);
+    cells_join(&search);
+    bonded_join(&search, &e->bonds);
+    candidates_make(&search);
+    supports_resist(&search);
+    images_resist(&search, &e->bonds);
+    mirror_nodes_resist(&search);
+    contact_terms(e->contact, &e->part, contact_resists, &search);
+    for (int64_t q = 0; q < search.n; q++) s->pieces += motions_free(&search.of[q], m, free) > 0;
     s->piece = NEW("pieces.free", s->pieces, struct free_piece);
     s->pieces = 0;
-    for (int64_t q = 0; q < n; q++) {
-        const int count = motions_free(&c[q], m, free);
-        if (count > 0) free_piece_make(e, &s->piece[s->pieces++], &c[q], q, piece, free, count);
+    for (int64_t q = 0; q < search.n; q++) {
+        const int count = motions_free(&search.of[q], m, free);
+        if (count > 0) free_piece_make(&search, &s->piece[s->pieces++], q, free, count);
     }
-    memory_free(c);
-    memory_free(parent);
-    memory_free(piece);
-    unknowns_number_free(&number);
+    pieces_search_end(&search);
 }
 
-void statics_pieces_free(struct run *e)
+void statics_pieces_free(struct statics *s)
 {
-    struct statics *s = e->statics;
     for (int64_t q = 0; q < s->pieces; q++) memory_free(s->piece[q].node), memory_free(s->piece[q].motion);
     memory_free(s->piece);
     s->piece = NULL, s->pieces = 0;
 }
 
-void statics_pieces_hold(const struct run *e, struct field *v)
+void statics_pieces_hold(const struct statics *s, struct field *v)
 {
-    const struct statics *s = e->statics;
-    const int dim = e->part.dim;
+    const int dim = s->balance.dim;
 #pragma omp parallel for schedule(dynamic)
     for (int64_t q = 0; q < s->pieces; q++) {
         const struct free_piece *f = &s->piece[q];
@@ -448,21 +459,19 @@ static real applied_sum(const struct particles *part, const struct statics *stat
     return sum / sqrt((real)nodes);
 }
 
-status statics_unheld(const struct run *e)
+status statics_unheld(const struct statics *s, const struct particles *p, int64_t step)
 {
-    const struct statics *s = e->statics;
     for (int64_t q = 0; q < s->pieces && s->applied[0]; q++) {
         const struct free_piece *f = &s->piece[q];
-        real size, X[DIM_MAX] = {0};
-        const real share = unheld_share(e->statics, &e->part, f, &size);
-        if (share <= UNHELD_MOST || size <= UNHELD_SMALL * applied_sum(&e->part, e->statics, f->n)) continue;
-        statics_node_place(e, f->node[f->n / 2], X);
+        real size;
+        const real share = unheld_share(s, p, f, &size);
+        if (share <= UNHELD_MOST || size <= UNHELD_SMALL * applied_sum(p, s, f->n)) continue;
         return status_set(FAILED,
                           "load step %lld, t = %.6g s: nothing holds %s (%.3g %% of it, round x = %.6g, y = %.6g, "
                           "z = %.6g m): %.0f %% of the loads on it are not balanced; hold it there, balance its "
                           "loads, or choose steps.control energy, which goes back with the loads while a crack runs",
-                          (long long)e->clock.step + 1, s->t, f->n == s->balance.n ? "the body" : "a piece of the body",
-                          100 * (real)f->n / (real)s->balance.n, X[0], X[1], X[2], 100 * share);
+                          (long long)step, s->t, f->n == s->balance.n ? "the body" : "a piece of the body",
+                          100 * (real)f->n / (real)s->balance.n, f->middle[0], f->middle[1], f->middle[2], 100 * share);
     }
     return OK;
 }

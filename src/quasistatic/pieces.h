@@ -2,19 +2,19 @@
 #ifndef CLEAVE_PIECES
 #define CLEAVE_PIECES
 
+#include "quasistatic/statics.h"
 #include "run/run.h"
-#include "solver/field.h"
 
 /* Finds the pieces and their free rigid motions, by the present bonds, supports and contacts. */
 void statics_pieces_make(struct run *e);
 
 /* Frees the list of pieces. */
-void statics_pieces_free(struct run *e);
+void statics_pieces_free(struct statics *s);
 
-/* Returns FAILED if applied forces would move a piece as a whole. */
-status statics_unheld(const struct run *e);
+/* Returns FAILED if applied forces would move a piece as a whole. step: number of the load step, for the message. */
+status statics_unheld(const struct statics *s, const struct particles *p, int64_t step);
 
 /* Removes the free rigid motions of the pieces from v, a field of forces or displacements. */
-void statics_pieces_hold(const struct run *e, struct field *v);
+void statics_pieces_hold(const struct statics *s, struct field *v);
 
 #endif

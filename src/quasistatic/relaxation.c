@@ -13,11 +13,7 @@
 #define ESTIMATE_STEPS 10 /* steps between estimates of damping and residual */
 #define MOTION_SMALL 1e-6 /* kinetic over strain energy of a body at rest */
 
-real grid_relaxation_ramp(const struct run *e)
-{
-    const real twice = 2 * (particles_longest(&e->part) + e->scene->spacing);
-    return ceil(twice / (e->tables.wave_speed * e->clock.dt)) * e->clock.dt;
-}
+real grid_relaxation_ramp(real length, real wave_speed, real dt) { return ceil(2 * length / (wave_speed * dt)) * dt; }
 
 /* sum m u^2 and sum m v^2. */
 static void motion_block(const void *context, int64_t first, int64_t end, real *sum)
@@ -76,12 +72,11 @@ static void estimate(struct run *e, bool *done)
             0.5 * motion[1] <= MOTION_SMALL * strain;
 }
 
-/* Damps the velocities, and their gradients (APIC), by one step. */
-static void damp_velocities(struct run *e)
+/* Damps the velocities, and their gradients (APIC), by one step. gradients: components of a gradient, 0 without.
+ * damping: of a step [1]. */
+static void damp_velocities(struct particles *p, const struct loads *loads, int gradients, real damping)
 {
-    struct particles *p = &e->part;
-    const real keep = (2 - e->solver->damping) / (2 + e->solver->damping);
-    const int gradients = e->optional & WITH_GRADIENT ? p->dim * p->dim : 0;
+    const real keep = (2 - damping) / (2 + damping);
     for (int d = 0; d < p->dim; d++) {
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] *= keep;
@@ -90,7 +85,7 @@ static void damp_velocities(struct run *e)
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++) p->gradient[k][i] *= keep;
     }
-    loads_mirror(&e->loads, p);
+    loads_mirror(loads, p);
 }
 
 status grid_relaxation_step(struct run *e, bool *done)
@@ -98,6 +93,7 @@ status grid_relaxation_step(struct run *e, bool *done)
     TRY(step(e));
     TRY(stability_check(e));
     if (e->clock.step % ESTIMATE_STEPS == 0) estimate(e, done);
-    damp_velocities(e);
+    damp_velocities(&e->part, &e->loads, e->optional & WITH_GRADIENT ? e->part.dim * e->part.dim : 0,
+                    e->solver->damping);
     return OK;
 }

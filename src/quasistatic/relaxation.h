@@ -4,8 +4,9 @@
 
 #include "run/run.h"
 
-/* Time in which loads grow [s]: whole steps in which a wave crosses the body twice. */
-real grid_relaxation_ramp(const struct run *e);
+/* Returns the time in which loads grow [s]: whole steps dt [s] in which a wave of this speed [m/s] travels twice the
+ * length of the body [m]. */
+real grid_relaxation_ramp(real length, real wave_speed, real dt);
 
 /* A step in time; *done at equilibrium. */
 status grid_relaxation_step(struct run *e, bool *done);

@@ -62,15 +62,14 @@ static void rigids_hold(const struct scene *scene, struct rigid_set *rigid, bool
 }
 
 /* All that moves keeps this share of its velocity. */
-static void velocities_scale(struct run *e, real share)
+static void velocities_scale(struct particles *p, struct mesh *mesh, const struct loads *loads, real share)
 {
-    struct particles *p = &e->part;
-    const struct grid *g = &e->frame->mesh.grid;
+    const struct grid *g = &mesh->grid;
     for (int d = 0; d < p->dim; d++) {
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] *= share;
-        for (int64_t I = 0; e->frame->mesh.points > 0 && I < g->n; I++) g->velocity[d][I] *= share;
+        for (int64_t I = 0; mesh->points > 0 && I < g->n; I++) g->velocity[d][I] *= share;
     }
-    loads_mirror(&e->loads, p);
+    loads_mirror(loads, p);
 }
 
 static real motion_now(const struct particles *part, const struct reference_frame *frame)
@@ -78,18 +77,13 @@ static real motion_now(const struct particles *part, const struct reference_fram
     return diagnostics_kinetic(part) + frame_kinetic(frame);
 }
 
-/* Time that waves need across the body [s]. */
-static real crossing_time(const struct run *e)
-{
-    return (particles_longest(&e->part) + e->scene->spacing) / e->tables.wave_speed;
-}
-
 /* Steps in time until the body is at rest. Its clock is that of the release. */
 static status steps_in_time(struct run *e, int64_t *broken)
 {
-    const real quiet = CROSSINGS_QUIET * crossing_time(e), damping = 2 / crossing_time(e);
-    const int64_t most = (int64_t)ceil(CROSSINGS_MOST * crossing_time(e) / e->clock.dt);
-    const int64_t damped_most = (int64_t)ceil(CROSSINGS_DAMPED * crossing_time(e) / e->clock.dt);
+    const real crossing = (particles_longest(&e->part) + e->scene->spacing) / e->tables.wave_speed; /* by waves [s] */
+    const real quiet = CROSSINGS_QUIET * crossing, damping = 2 / crossing;
+    const int64_t most = (int64_t)ceil(CROSSINGS_MOST * crossing / e->clock.dt);
+    const int64_t damped_most = (int64_t)ceil(CROSSINGS_DAMPED * crossing / e->clock.dt);
     int64_t last = 0, damped = 0, had = e->diagnostics->bonds_broken;
     *broken = 0;
     for (int64_t k = 0; k < most && damped < damped_most; k++) {
@@ -98,7 +92,7 @@ static status steps_in_time(struct run *e, int64_t *broken)
         if (e->diagnostics->bonds_broken > had) *broken += e->diagnostics->bonds_broken - had, last = k, damped = 0;
         had = e->diagnostics->bonds_broken;
         if ((real)(k - last) * e->clock.dt < quiet) continue;
-        velocities_scale(e, 1 - damping * e->clock.dt);
+        velocities_scale(&e->part, &e->frame->mesh, &e->loads, 1 - damping * e->clock.dt);
         damped++;
         if (k % LOOK_STEPS == 0 && motion_now(&e->part, e->frame) <= MOTION_SMALL * sample_strain(e)) break;
     }
@@ -108,8 +102,8 @@ static status steps_in_time(struct run *e, int64_t *broken)
 /* Energy that the body has and that bonds have taken, less the work of loads [J]. */
 static real energy_held(struct run *e)
 {
-    return sample_strain(e) + contact_energy(e->contact, &e->part) + bonds_fracture_energy(&e->bonds) - e->loads.work -
-           e->loads.constraint_work;
+    const real held = sample_strain(e) + contact_energy(e->contact, &e->part) + bonds_fracture_energy(&e->bonds);
+    return held - e->loads.work - e->loads.constraint_work;
 }
 
 status statics_release(struct run *e)
@@ -119,7 +113,7 @@ status statics_release(struct run *e)
     const real before = energy_held(e), damped = e->damped;
     const int64_t broken = statics_advance_break(e);
     int64_t more;
-    velocities_scale(e, 0);
+    velocities_scale(&e->part, &e->frame->mesh, &e->loads, 0);
     boundaries_hold(e->scene, e->boundary, s->t);
     rigids_hold(e->scene, e->rigid, true);
     contact_unmark(e->contact);
@@ -131,13 +125,13 @@ status statics_release(struct run *e)
     e->clock = clock;
     boundaries_follow(e->boundary, e->scene);
     rigids_hold(e->scene, e->rigid, false);
-    velocities_scale(e, 0);
+    velocities_scale(&e->part, &e->frame->mesh, &e->loads, 0);
     TRY(moved);
     if (more > 0) led_lose(&s->led);
     const real lost = before - energy_held(e);
     s->balance.lost += lost, e->damped = damped + lost;
-    statics_precondition_free(e);
-    statics_unknowns_free(e);
+    statics_precondition_free(s);
+    statics_unknowns_free(s);
     statics_unknowns_make(e);
     return statics_advance_settle(e, broken + more);
 }

@@ -28,7 +28,9 @@ status engine_solver_make(struct run *e)
 {
     const struct scene *s = e->scene;
     const struct static_body body = static_body_of(e);
-    const real ramp_time = s->method == METHOD_PD ? 1 : grid_relaxation_ramp(e);
+    const real ramp_time = s->method == METHOD_PD ? 1
+                                                  : grid_relaxation_ramp(particles_longest(&e->part) + s->spacing,
+                                                                         e->tables.wave_speed, e->clock.dt);
     loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
     TRY(solver_make(e->solver, &body, ramp_time));
     if (s->method == METHOD_PD)
@@ -39,55 +41,53 @@ status engine_solver_make(struct run *e)
     return OK;
 }
 
-/* Intact bonds beyond the stretch at which a run in time would break them. */
-static int64_t bonds_past_limit(const struct run *e)
+/* Intact bonds beyond the stretch at which a run in time would break them. limit: of a run in time, not of a static
+ * solution, in which no bond breaks. */
+static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
-    const struct bonds *b = &e->bonds;
-    const struct particles *p = &e->part;
     int64_t past = 0;
     for (int64_t r = 0; r < b->rows; r++)
         for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);) {
             const int32_t i = b->particle[r], j = it.bond.nbr;
-            const real limit =
-                e->tables.pair_stretch[p->material[i] * e->scene->materials + p->material[j]] * bond_strength(p, i, j);
-            past += it.bond.w != 0 && j > i && bond_elastic_of(b, p, &it.bond, i) > limit;
+            const real most =
+                limit->critical_stretch[p->material[i] * limit->materials + p->material[j]] * bond_strength(p, i, j);
+            past += it.bond.w != 0 && j > i && bond_elastic_of(b, p, &it.bond, i) > most;
         }
     return past;
 }
 
-static void say_past_limit(struct run *e)
+static void say_past_limit(struct warnings *to, int64_t past)
 {
     char text[160];
     snprintf(text, sizeof text,
              "%lld bonds are beyond their critical stretch in the solution, and none broke: smaller loads, or "
              "solver explicit",
-             (long long)e->solver->past_limit);
-    if (e->solver->past_limit > 0) warnings_say(&e->warnings, text);
+             (long long)past);
+    if (past > 0) warnings_say(to, text);
 }
 
 #define STRAIN_LARGE 0.1 /* beyond it neither straight bonds nor Hooke's law describe a solid */
 
 /* Warns of stresses that no solid bears: Hooke's law has an equilibrium under any load. */
-static void say_large_strain(struct run *e)
+static void say_large_strain(struct warnings *to, const struct particles *p, const struct material *material)
 {
-    const struct particles *p = &e->part;
     real most = 0;
     char text[200];
-    run_stress(e);
     for (int64_t i = 0; i < p->n; i++)
         for (int k = 0; k < symmetric_count(p->dim); k++)
-            most = real_max(most, fabs(p->stress[k][i]) / e->scene->material[p->material[i]].young);
+            most = real_max(most, fabs(p->stress[k][i]) / material[p->material[i]].young);
     snprintf(text, sizeof text,
              "stresses of the solution reach %.2g times Young's modulus: no solid bears that, and elasticity of small "
              "strains does not describe it; see whether loads are meant, and in which unit",
              most);
-    if (!(most <= STRAIN_LARGE)) warnings_say(&e->warnings, text);
+    if (!(most <= STRAIN_LARGE)) warnings_say(to, text);
 }
 
 /* Completes a solution: the body at rest at the end of the duration. */
 static void solver_finish(struct run *e)
 {
     struct particles *p = &e->part;
+    const struct bond_limit limit = {.critical_stretch = e->tables.pair_stretch, .materials = e->scene->materials};
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->v[d], 0, p->n_all, sizeof(real));
     for (int k = 0; k < p->dim * p->dim && (e->optional & WITH_GRADIENT); k++)
         array_fill_bytes(p->gradient[k], 0, p->n_all, sizeof(real));
@@ -99,29 +99,29 @@ static void solver_finish(struct run *e)
     e->report->sampling.due = false;
     e->report->sampling.kinetic = 0, e->report->sampling.constraint_work = e->loads.constraint_work;
     sample_probes(e);
-    e->solver->past_limit = bonds_past_limit(e);
-    say_past_limit(e);
-    say_large_strain(e);
+    e->solver->past_limit = bonds_past_limit(&e->bonds, p, &limit);
+    say_past_limit(&e->warnings, e->solver->past_limit);
+    run_stress(e);
+    say_large_strain(&e->warnings, p, e->scene->material);
 }
 
 /* FAILED with the reason why no equilibrium was found. */
-static status not_converged(const struct run *e)
+static status not_converged(const struct solver *s, real tolerance, int64_t step)
 {
-    const struct solver *s = e->solver;
     if (!(s->residual < INFINITY))
         return status_set(FAILED,
                           "the solver diverged at step %lld; smaller loads are expected, or solver relaxation in "
                           "place of cg, or explicit",
-                          (long long)e->clock.step);
+                          (long long)step);
     if (s->residual * s->scale <= s->noise)
         return status_set(FAILED,
                           "the residual stays at %.3g of the load, %.3g is wanted: strains are so small that the "
                           "round-off of positions shows; a larger solver_tolerance is expected",
-                          s->residual, e->scene->solver_tolerance);
+                          s->residual, tolerance);
     return status_set(FAILED,
                       "no equilibrium after %lld steps: the residual is %.3g of the load, %.3g is wanted; raise "
                       "solver_steps, or see whether every part of the body is held and its loads are balanced",
-                      (long long)e->clock.step, s->residual, e->scene->solver_tolerance);
+                      (long long)step, s->residual, tolerance);
 }
 
 /* One step: of an iteration of bonds, or in time on the grid. */
@@ -135,26 +135,25 @@ static status solve_step(struct run *e, bool *done)
     return OK;
 }
 
-/* The sample of the start, and the forces before the first step, from which relaxation takes differences. */
-static void solve_start(struct run *e)
+/* The forces before the first step, from which relaxation takes differences. */
+static void solve_start(struct solver *s, const struct particles *p)
 {
-    if (e->scene->method != METHOD_PD) return;
-    if (e->clock.step == 0) sample_rest(e);
-    for (int d = 0; d < e->part.dim; d++) array_copy(e->solver->before.of[d], e->part.f[d], e->part.n, sizeof(real));
+    for (int d = 0; d < p->dim; d++) array_copy(s->before.of[d], p->f[d], p->n, sizeof(real));
 }
 
 status engine_solve(struct run *e)
 {
     TRY(report_start(e));
     laps_start(&e->laps);
-    solve_start(e);
+    if (e->scene->method == METHOD_PD && e->clock.step == 0) sample_rest(e);
+    if (e->scene->method == METHOD_PD) solve_start(e->solver, &e->part);
     while (e->clock.step < e->clock.steps) {
         bool done = false;
         TRY(solve_step(e, &done));
         if (done)
             solver_finish(e);
         else if (e->clock.step >= e->clock.steps || isnan(e->solver->residual))
-            return not_converged(e);
+            return not_converged(e->solver, e->scene->solver_tolerance, e->clock.step);
         TRY(report_step(e));
     }
     return report_end(e);

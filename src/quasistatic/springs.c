@@ -61,7 +61,7 @@ static struct movers movers_list(const struct springs *s, int64_t i)
 /* What moves a particle or an image, and the signs of its components against theirs. */
 static struct movers movers_of_end(const struct springs *s, int64_t i, real sign[DIM_MAX])
 {
-    statics_image_signs(s->e, i, sign);
+    image_signs(&s->e->part, &s->e->loads, i, sign);
     return movers_list(s, image_root(&s->e->part, s->e->loads.image, i));
 }
 
@@ -254,9 +254,8 @@ static struct block_matrix *matrix_make(const struct run *e)
 
 /* ---- the preconditioner ------------------------------------------------------------------------------------------ */
 
-void statics_precondition_free(struct run *e)
+void statics_precondition_free(struct statics *s)
 {
-    struct statics *s = e->statics;
     if (s->precondition) multigrid_free(s->precondition);
     s->precondition = NULL;
     if (!s->matrix) return;
@@ -275,7 +274,7 @@ void statics_precondition_make(struct run *e)
     for (int d = 0; d < e->part.dim; d++) place[d] = BARE("springs.place", s->balance.n, real);
     for (int64_t k = 0; k < s->balance.n; k++) {
         real X[DIM_MAX];
-        statics_node_place(e, k, X);
+        unknown_position(s, &e->part, &e->frame->mesh, k, X);
         for (int d = 0; d < e->part.dim; d++) place[d][k] = X[d];
     }
     multigrid_make(&s->precondition, s->matrix, place, s->balance.held);
@@ -288,17 +287,16 @@ void statics_precondition(void *engine, const struct field *r, struct field *z)
     struct run *e = engine;
     if (!e->statics->precondition) statics_precondition_make(e);
     multigrid_apply(e->statics->precondition, r->of, z->of);
-    statics_pieces_hold(e, z);
+    statics_pieces_hold(e->statics, z);
 }
 
 /* Bonds that have broken since are in it still: it is made anew once a solution takes half as many directions again as
  * the first one with it, and eight more. */
-void statics_precondition_watch(struct run *e, int64_t directions)
+void statics_precondition_watch(struct statics *s, int64_t directions)
 {
-    struct statics *s = e->statics;
     if (!s->precondition) return;
     if (s->directions == 0)
         s->directions = directions;
     else if (2 * directions > 3 * s->directions + 16)
-        statics_precondition_free(e);
+        statics_precondition_free(s);
 }

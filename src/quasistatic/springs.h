@@ -2,8 +2,8 @@
 #ifndef CLEAVE_SPRINGS
 #define CLEAVE_SPRINGS
 
+#include "quasistatic/statics.h"
 #include "run/run.h"
-#include "solver/field.h"
 
 /* Computes z = M^-1 r (solver/equilibrium.h); makes the preconditioner if there is none. `engine`: struct run. */
 void statics_precondition(void *engine, const struct field *r, struct field *z);
@@ -13,9 +13,9 @@ void statics_precondition_make(struct run *e);
 
 /* Frees the preconditioner if the last solution took many more search directions than the first one with it did.
  * directions: of the last solution. */
-void statics_precondition_watch(struct run *e, int64_t directions);
+void statics_precondition_watch(struct statics *s, int64_t directions);
 
 /* Frees the preconditioner, if there is one. */
-void statics_precondition_free(struct run *e);
+void statics_precondition_free(struct statics *s);
 
 #endif

@@ -17,9 +17,8 @@ static void list_find(const struct bonds *bonds, struct break_list *l)
     }
 }
 
-static status statics_list_archive(struct statics *statics, struct bonds *bonds, struct archive *a)
+static status statics_list_archive(struct break_list *l, const struct bonds *bonds, struct archive *a)
 {
-    struct break_list *l = &statics->next;
     ARCHIVE_VALUE(a, "statics/next", l->n);
     if (!a->saving) memory_free(l->bond), l->bond = BARE("statics.broken", l->n, struct broken_bond);
     if (l->n > 0) TRY(a->exchange(a, "statics/bonds", l->bond, (size_t)l->n * sizeof *l->bond));
@@ -27,9 +26,8 @@ static status statics_list_archive(struct statics *statics, struct bonds *bonds,
     return OK;
 }
 
-static status led_archive(struct statics *statics, struct archive *a)
+static status led_archive(struct led *l, struct archive *a)
 {
-    struct led *l = &statics->led;
     ARCHIVE_VALUE(a, "statics/led", l->known);
     ARCHIVE_VALUE(a, "statics/led_n", l->n);
     ARCHIVE_VALUE(a, "statics/led_tips", l->tip);
@@ -43,16 +41,15 @@ static status led_archive(struct statics *statics, struct archive *a)
 }
 
 /* The next crack increment, and the tips. */
-static status increment_archive(struct run *e, struct archive *a)
+static status increment_archive(struct statics *s, struct bonds *b, struct archive *a)
 {
-    struct statics *s = e->statics;
     ARCHIVE_VALUE(a, "statics/released_time", s->released_time);
     ARCHIVE_VALUE(a, "statics/due", s->due);
     ARCHIVE_VALUE(a, "statics/advances", s->advances);
     ARCHIVE_VALUE(a, "statics/ahead", s->ahead);
     ARCHIVE_VALUE(a, "statics/behind", s->behind);
-    TRY(statics_list_archive(e->statics, &e->bonds, a));
-    return led_archive(e->statics, a);
+    TRY(statics_list_archive(&s->next, b, a));
+    return led_archive(&s->led, a);
 }
 
 /* What the solver has found out about the body, counters, and what the next record goes on from. */
@@ -78,7 +75,7 @@ status statics_archive(struct run *e, struct archive *a)
     struct equilibrium *q = &s->balance;
     const bool whole = a->scope == ARCHIVE_ALL;
     if (!scene_in_steps(e->scene)) return OK;
-    if (whole && (!a->saving || !s->node)) statics_unknowns_free(e), statics_unknowns_make(e);
+    if (whole && (!a->saving || !s->node)) statics_unknowns_free(s), statics_unknowns_make(e);
     for (int d = 0; d < e->part.dim; d++) {
         char name[48];
         snprintf(name, sizeof name, "statics/u%d", d);
@@ -89,10 +86,10 @@ status statics_archive(struct run *e, struct archive *a)
     ARCHIVE_VALUE(a, "statics/t", s->t);
     ARCHIVE_VALUE(a, "statics/touches", s->touches);
     ARCHIVE_VALUE(a, "statics/overload", s->overload);
-    if (whole) TRY(increment_archive(e, a));
+    if (whole) TRY(increment_archive(s, &e->bonds, a));
     ARCHIVE_VALUE(a, "statics/lost", q->lost);
-    if (whole) TRY(search_archive(e->statics, &e->clock, a));
-    if (!a->saving) statics_applied_make(e, s->t);
+    if (whole) TRY(search_archive(s, &e->clock, a));
+    if (!a->saving) applied_forces_make(s, &e->part, &e->loads, s->t);
     if (!a->saving && whole) statics_plastic_keep(e);
     return OK;
 }

@@ -10,7 +10,7 @@
 #include "probes/diagnostics.h"
 #include "solver/solver.h"
 
-static void statics_free_all(struct run *e) { statics_free(e), led_free(&e->statics->led); }
+static void statics_free_all(struct run *e) { statics_free(e->statics), led_free(&e->statics->led); }
 
 static void warn_of_solver(const struct run *e, struct warnings *to)
 {

@@ -28,10 +28,8 @@ int statics_columns(const struct run *e, struct column *column)
 
 /* Area by which the cracks grow over a spacing: as wide as all fronts of pre-cracks, else as one spacing [m^2]; in line
  * the section. */
-static real growth_by_spacing(const struct fracture_state *fracture, const struct scene *scene)
+static real growth_by_spacing(const struct tips *t, real section)
 {
-    const struct tips *t = &fracture->tips;
-    const real section = scene_section(scene);
     real wide = 0;
     if (t->dim == 1) return section;
     for (int k = 0; k < t->n; k++)
@@ -68,15 +66,17 @@ static real led_paths_area(const struct led *l, const struct particles *p)
  * spacing, a growth is some spacings. A load step without growth changes no rate. */
 static void measure(struct run *e)
 {
+    const struct statics *s = e->statics;
     struct steps_record *r = &e->statics->record;
     const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, scene_section(e->scene),
                                             0.5 * damage_beside_cut(e->scene)};
-    const real led = led_paths_area(&e->statics->led, &e->part), spacing = growth_by_spacing(e->fracture, e->scene);
+    const real led = led_paths_area(&s->led, &e->part),
+               spacing = growth_by_spacing(&e->fracture->tips, scene_section(e->scene));
     const bool solid = e->part.dim == 3 && led == 0;
     const real damaged = solid ? r->broken : tips_area(&e->fracture->tips, &e->part, &around);
     const bool by_paths = led > 0 && damaged <= led + 1.5 * spacing;
     const real area = by_paths ? led : damaged, growth = by_paths || solid ? 0 : GROWTH * spacing;
-    r->released = statics_released(e);
+    r->released = statics_released(s, &e->bonds);
     if (!(area > r->area)) return;
     r->area = area;
     r->rate = (r->released - r->mark[0].released) / (area - r->mark[0].area);
@@ -106,8 +106,7 @@ void statics_record(struct run *e, real *record)
     array_copy(record + COUNT_OF(own) + MODES, place, e->part.dim < 3 ? 2 : 3, sizeof *place);
 }
 
-void statics_record_keep(struct run *e)
+void statics_record_keep(struct statics *s)
 {
-    struct statics *s = e->statics;
     s->record.directions = s->balance.directions, s->record.solutions = s->solutions;
 }

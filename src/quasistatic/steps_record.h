@@ -3,6 +3,7 @@
 #define CLEAVE_STEPS_RECORD
 
 #include "output/column.h"
+#include "quasistatic/statics.h"
 #include "run/run.h"
 
 /* Describes the columns (column NULL: none is stored). Returns their number. */
@@ -12,6 +13,6 @@ int statics_columns(const struct run *e, struct column *column);
 void statics_record(struct run *e, real *record);
 
 /* Sets the counters from which the next record counts. */
-void statics_record_keep(struct run *e);
+void statics_record_keep(struct statics *s);
 
 #endif

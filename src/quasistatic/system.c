@@ -13,10 +13,10 @@
 
 /* ---- plastic state ----------------------------------------------------------------------------------------------- */
 
-status plastic_archive(struct run *e, struct archive *a)
+status plastic_archive(struct bonds *b, struct particles *p, int optional, struct archive *a)
 {
-    TRY(bonds_archive(&e->bonds, &e->part, a));
-    return particles_archive(&e->part, e->optional, a);
+    TRY(bonds_archive(b, p, a));
+    return particles_archive(p, optional, a);
 }
 
 void statics_plastic_keep(struct run *e)
@@ -24,7 +24,7 @@ void statics_plastic_keep(struct run *e)
     struct memory_archive *m = &e->statics->plastic;
     memory_archive_free(m);
     memory_archive_make(m, ARCHIVE_TRIAL);
-    const status kept = plastic_archive(e, &m->archive);
+    const status kept = plastic_archive(&e->bonds, &e->part, e->optional, &m->archive);
     INVARIANT(kept == OK);
 }
 
@@ -33,7 +33,7 @@ void statics_plastic_restore(struct run *e)
     struct memory_archive *m = &e->statics->plastic;
     if (m->n == 0) return;
     memory_archive_rewind(m);
-    const status restored = plastic_archive(e, &m->archive);
+    const status restored = plastic_archive(&e->bonds, &e->part, e->optional, &m->archive);
     INVARIANT(restored == OK);
 }
 
@@ -49,14 +49,13 @@ static void mirror_nodes_give(struct mesh *mesh)
     }
 }
 
-static void applied_add(struct run *e)
+static void applied_add(const struct statics *s, const struct loads *loads, struct particles *p)
 {
-    struct particles *p = &e->part;
-    for (int b = 0; b < e->loads.n && e->statics->applied[0]; b++) {
-        const struct load *l = &e->loads.load[b];
+    for (int b = 0; b < loads->n && s->applied[0]; b++) {
+        const struct load *l = &loads->load[b];
         if (!boundary_is_force(l->boundary) || l->leader != b) continue;
         for (int d = 0; d < p->dim; d++)
-            for (int64_t k = 0; k < l->n; k++) p->f[d][l->particle[k]] += e->statics->applied[d][l->particle[k]];
+            for (int64_t k = 0; k < l->n; k++) p->f[d][l->particle[k]] += s->applied[d][l->particle[k]];
     }
 }
 
@@ -73,7 +72,7 @@ static void forces_here(struct run *e)
     statics_plastic_restore(e); /* whatever has been tried since the last equilibrium */
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_force(e->contact, &e->part, 0);
-    applied_add(e);
+    applied_add(e->statics, &e->loads, &e->part);
     if (has_mesh) frame_force(e), mirror_nodes_give(&e->frame->mesh);
 }
 
@@ -81,7 +80,7 @@ static void statics_forces(void *context, const struct field *u, struct field *f
 {
     struct run *e = context;
     const struct statics *s = e->statics;
-    statics_place(e, u);
+    unknowns_move(s, &e->part, &e->frame->mesh, u);
     forces_here(e);
     for (int d = 0; d < e->part.dim; d++) {
         const real *part = e->part.f[d], *node = e->frame->mesh.grid.force[d];
@@ -89,12 +88,12 @@ static void statics_forces(void *context, const struct field *u, struct field *f
         for (int64_t k = 0; k < s->balance.n; k++)
             f->of[d][k] = k < s->particles ? s->weight[k] * part[s->node[k]] : node[s->node[k]];
     }
-    statics_pieces_hold(e, f);
+    statics_pieces_hold(s, f);
 }
 
 void statics_flow(struct run *e)
 {
-    statics_place(e, &e->statics->balance.u);
+    unknowns_move(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
     if (e->statics->plastic.n > 0) forces_here(e);
 }
 
@@ -125,26 +124,25 @@ void statics_unknowns_make(struct run *e)
                                       .directions = kept.directions,
                                       .lost = kept.lost,
                                       .largest = kept.largest};
-    unknowns_list(e);
+    s->meets = e->contact->law.between != CONTACT_NONE || e->scene->rigids > 0;
+    unknowns_list(s, &e->part, &e->frame->mesh, &e->loads);
     statics_pieces_make(e);
     statics_plastic_keep(e);
 }
 
-void statics_unknowns_free(struct run *e)
+void statics_unknowns_free(struct statics *s)
 {
-    struct statics *s = e->statics;
     const struct equilibrium kept = s->balance;
-    statics_pieces_free(e);
-    unknowns_unlist(e);
+    statics_pieces_free(s);
+    unknowns_unlist(s);
     s->balance.forces = kept.forces, s->balance.directions = kept.directions, s->balance.lost = kept.lost;
     s->balance.largest = kept.largest;
 }
 
-void statics_free(struct run *e)
+void statics_free(struct statics *s)
 {
-    struct statics *s = e->statics;
-    statics_precondition_free(e);
-    statics_unknowns_free(e);
+    statics_precondition_free(s);
+    statics_unknowns_free(s);
     for (int d = 0; d < DIM_MAX; d++) memory_free(s->applied[d]), s->applied[d] = NULL;
     memory_archive_free(&s->plastic);
     memory_free(s->next.bond);

@@ -12,6 +12,7 @@
 #include "unknowns.h"
 
 #include "contact/contact.h"
+#include "mesh/mesh_part.h"
 #include "rigid/rigid_part.h"
 #include "step/sample.h"
 
@@ -19,15 +20,13 @@
 #define STRIDE_MOST 0.2 /* way of a rigid body between two equilibria [spacings] */
 enum { STRIDES_MOST = 10000 };
 
-bool statics_meets(const struct run *e) { return e->contact->law.between != CONTACT_NONE || e->scene->rigids > 0; }
-
 bool statics_faces_closed(const struct contact *c) { return c->law.between == CONTACT_ALL && c->touching > 0; }
 
 /* Free motions of all pieces. */
-static int free_motions(const struct statics *statics)
+static int free_motions(const struct statics *s)
 {
     int n = 0;
-    for (int64_t q = 0; q < statics->pieces; q++) n += statics->piece[q].motions;
+    for (int64_t q = 0; q < s->pieces; q++) n += s->piece[q].motions;
     return n;
 }
 
@@ -36,7 +35,7 @@ static void pieces_follow(struct run *e)
 {
     const int before = free_motions(e->statics);
     statics_pieces_make(e);
-    if (free_motions(e->statics) != before) statics_precondition_free(e);
+    if (free_motions(e->statics) != before) statics_precondition_free(e->statics);
 }
 
 static int64_t touch_search(struct run *e, real close)
@@ -46,22 +45,22 @@ static int64_t touch_search(struct run *e, real close)
 
 void statics_touch_start(struct run *e)
 {
-    if (!statics_meets(e)) return;
+    if (!e->statics->meets) return;
     e->contact->marked = true;
     loads_mirror(&e->loads, &e->part);
     if (!e->contact->made || !e->contact->touch) touch_search(e, CARRIED);
 }
 
-int statics_strides(const struct run *e, real t)
+int statics_strides(const struct scene *s, const struct rigid_set *rigid, real t)
 {
     real most = 0;
-    for (int k = 0; k < e->scene->rigids; k++) {
-        const struct rigid_body *r = &e->rigid->body[k];
+    for (int k = 0; k < s->rigids; k++) {
+        const struct rigid_body *r = &rigid->body[k];
         real way[DIM_MAX];
         rigid_shift(r, t, way);
         for (int d = 0; d < r->dim; d++) most = real_max(most, fabs(r->centre[d] + way[d] - r->x[d]));
     }
-    return (int)real_min(STRIDES_MOST, real_max(1, ceil(most / (STRIDE_MOST * e->scene->spacing))));
+    return (int)real_min(STRIDES_MOST, real_max(1, ceil(most / (STRIDE_MOST * s->spacing))));
 }
 
 /* Energy of the body and of contact, and what plastic bonds have taken, where forces have just been asked for [J]. */
@@ -70,7 +69,7 @@ static real energy_here(struct run *e)
     return sample_strain(e) + contact_energy(e->contact, &e->part) + bond_plastic_work(&e->bonds);
 }
 
-bool statics_touched(const struct run *e) { return e->statics->touches || e->contact->touching > 0; }
+bool statics_touched(const struct statics *s, const struct contact *c) { return s->touches || c->touching > 0; }
 
 /* What touches has its energies before the solution; where nothing does, no piece is held by it either. */
 void statics_touch_begin(struct run *e, real t)
@@ -79,7 +78,7 @@ void statics_touch_begin(struct run *e, real t)
     struct equilibrium *q = &s->balance;
     const bool touched = s->touches;
     s->touches = false, q->reach = 0;
-    if (!statics_meets(e)) return;
+    if (!e->statics->meets) return;
     statics_touch_start(e);
     q->force(e, &q->u, &q->f);
     s->energy = energy_here(e) - (touched ? 0 : contact_energy(e->contact, &e->part));
@@ -98,11 +97,11 @@ bool statics_touch_settle(void *engine)
     struct run *e = engine;
     struct statics *s = e->statics;
     struct contact *c = e->contact;
-    if (!statics_meets(e)) return true;
-    statics_place(e, &s->balance.u);
+    if (!e->statics->meets) return true;
+    unknowns_move(s, &e->part, &e->frame->mesh, &s->balance.u);
     loads_mirror(&e->loads, &e->part);
     const int64_t changed = contact_has_come(c, &e->part) ? 1 + touch_search(e, 0) : contact_mark(c, &e->part, 0);
-    s->balance.applied = statics_applied_norm(e);
+    s->balance.applied = applied_forces_norm(s, &e->part, c);
     s->balance.largest = s->largest;
     if (changed > 0) pieces_follow(e);
     return changed == 0;
@@ -111,7 +110,7 @@ bool statics_touch_settle(void *engine)
 void statics_touch_laws(void *engine, bool settled)
 {
     struct run *e = engine;
-    if (statics_meets(e)) contact_marks_use(e->contact, settled);
+    if (e->statics->meets) contact_marks_use(e->contact, settled);
 }
 
 real statics_touch_end(struct run *e, real work, real lost)
@@ -119,7 +118,7 @@ real statics_touch_end(struct run *e, real work, real lost)
     struct statics *s = e->statics;
     struct equilibrium *q = &s->balance;
     real range = 0;
-    if (!statics_meets(e)) return 0;
+    if (!e->statics->meets) return 0;
     if (s->touches || e->contact->touching > 0) q->force(e, &q->u, &q->f);
     for (int k = 0; k < e->scene->rigids; k++) {
         const real before = e->rigid->body[k].work;
@@ -129,7 +128,7 @@ real statics_touch_end(struct run *e, real work, real lost)
         rigid_book(&e->rigid->body[k]);
         work += e->rigid->body[k].work - before;
     }
-    if (statics_touched(e)) q->lost = lost + work - (energy_here(e) - s->energy);
+    if (statics_touched(s, e->contact)) q->lost = lost + work - (energy_here(e) - s->energy);
     s->touches = e->contact->touching > 0;
     return range;
 }

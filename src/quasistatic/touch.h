@@ -2,23 +2,24 @@
 #ifndef CLEAVE_TOUCH
 #define CLEAVE_TOUCH
 
+#include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Returns true if the scene has contact or rigid bodies. */
-bool statics_meets(const struct run *e);
+struct contact;
+struct rigid_set;
 
 /* Returns true if faces of cracks can be in contact, and something is. */
 bool statics_faces_closed(const struct contact *c);
 
 /* Returns true if anything was in contact at the beginning of the solution, or is now. */
-bool statics_touched(const struct run *e);
+bool statics_touched(const struct statics *s, const struct contact *c);
 
 /* Searches for contact before the first solution. */
 void statics_touch_start(struct run *e);
 
 /* Returns the number of solutions into which the increment to pseudo-time t [s] is divided, so that no rigid body moves
  * too far in one. */
-int statics_strides(const struct run *e, real t);
+int statics_strides(const struct scene *s, const struct rigid_set *rigid, real t);
 
 /* Before a solution: moves rigid bodies to pseudo-time t [s] and marks what is in contact there. */
 void statics_touch_begin(struct run *e, real t);

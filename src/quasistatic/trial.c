@@ -17,7 +17,7 @@ static status trial_archive(struct run *e, struct archive *a)
     TRY(loads_archive(&e->loads, a));
     ARCHIVE_VALUE(a, "engine/damped", e->damped);
     ARCHIVE_VALUE(a, "statics/broken", e->statics->record.broken);
-    TRY(plastic_archive(e, a));
+    TRY(plastic_archive(&e->bonds, &e->part, e->optional, a));
     return statics_archive(e, a);
 }
 
@@ -37,8 +37,8 @@ void trial_undo(struct run *e, struct memory_archive *m, const struct break_list
     INVARIANT(restored == OK);
     memory_archive_free(m);
     statics_plastic_keep(e); /* as the start of the next solutions: a trial within may have kept its own */
-    statics_place(e, &e->statics->balance.u);
+    unknowns_move(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
     frame_sync(e);
     loads_mirror(&e->loads, &e->part); /* bonds to images break by where these are */
-    statics_react(e);
+    reactions_store(e->statics, &e->part, &e->loads);
 }

@@ -2,33 +2,37 @@
 #ifndef CLEAVE_UNKNOWNS
 #define CLEAVE_UNKNOWNS
 
+#include "data/mesh.h"
+#include "loads/loads.h"
 #include "quasistatic/statics.h"
-#include "run/run.h"
+
+struct contact;
 
 /* Lists the unknowns with their weights, the boundaries that hold components of them, and their present displacements.
- * Allocates the fields of the balance. */
-void unknowns_list(struct run *e);
+ * Allocates the fields of the balance, whose `length` is set. Release with unknowns_unlist. */
+void unknowns_list(struct statics *s, const struct particles *p, const struct mesh *mesh, const struct loads *loads);
 
 /* Frees what unknowns_list has allocated. */
-void unknowns_unlist(struct run *e);
+void unknowns_unlist(struct statics *s);
 
 /* Stores the reference position of unknown k in X [m]. */
-void statics_node_place(const struct run *e, int64_t k, real *X);
+void unknown_position(const struct statics *s, const struct particles *p, const struct mesh *mesh, int64_t k, real *X);
 
 /* Moves particles, nodes and the mirror images of nodes to the displacements u [unknowns, m]. */
-void statics_place(struct run *e, const struct field *u);
+void unknowns_move(const struct statics *s, struct particles *p, struct mesh *mesh, const struct field *u);
 
 /* Stores the signs by which the components of an image's motion follow those of its source particle (image_root); +1
  * for a particle that is no image. */
-void statics_image_signs(const struct run *e, int64_t i, real sign[DIM_MAX]);
+void image_signs(const struct particles *p, const struct loads *loads, int64_t i, real sign[DIM_MAX]);
 
-/* Computes the applied forces at pseudo-time t [s] as the forces that act. */
-void statics_applied_make(struct run *e, real t);
+/* Stores the applied forces at pseudo-time t [s] in `applied` [dim][particles of the body, N]. */
+void applied_forces_make(struct statics *s, const struct particles *p, const struct loads *loads, real t);
 
-/* Returns the norm of the applied forces on free components, and of the forces of rigid bodies [N]. */
-real statics_applied_norm(const struct run *e);
+/* Returns the norm of the applied forces on free components of particles and on points of the mesh that no boundary
+ * drives, and of the contact forces of rigid bodies [N]. */
+real applied_forces_norm(const struct statics *s, const struct particles *p, const struct contact *c);
 
 /* Stores reactions and mean displacements of supports, and sums of applied forces, at the present equilibrium. */
-void statics_react(struct run *e);
+void reactions_store(const struct statics *s, const struct particles *p, struct loads *loads);
 
 #endif

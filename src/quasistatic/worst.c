@@ -5,6 +5,8 @@
 #include "pieces.h"
 #include "system.h"
 
+#include "base/memory.h"
+#include "quasistatic/load_steps.h"
 #include "quasistatic/statics.h"
 #include "rigid/rigid_part.h"
 
@@ -47,53 +49,66 @@ struct worst {
     real largest, back, beside;
 };
 
-/* Looks at a load time. found: products of the largest, and of what is found so far beyond it. */
-struct search {
-    real largest[SORTS], back[SORTS], beside[SORTS];
+/* The products so far: of the largest loads, and of what is found beyond them. */
+struct found {
+    real largest, back, beside;
 };
 
-static void largest_try(const struct run *e, real t, struct worst *worst, struct search *found)
+static void largest_try(real t, real own, struct worst *worst, struct found *found)
 {
-    real own[SORTS];
-    products(e, t, t, own);
-    for (int c = 0; c < SORTS; c++)
-        if (own[c] > found->largest[c] * (1 + 1e-9)) found->largest[c] = own[c], worst[c].largest = t;
+    if (own > found->largest * (1 + 1e-9)) found->largest = own, worst->largest = t;
 }
 
-static void others_try(const struct run *e, real t, struct worst *worst, struct search *found)
+/* own: product of the loads at t with themselves; with: with the largest ones. */
+static void others_try(real t, real own, real with, struct worst *worst, struct found *found)
 {
-    for (int c = 0; c < SORTS; c++) {
-        real own[SORTS], with[SORTS];
-        const real size = found->largest[c];
-        if (!(size > 0)) continue;
-        products(e, t, t, own);
-        products(e, t, worst[c].largest, with);
-        const real back = -with[c], beside = own[c] - square(with[c]) / size;
-        if (back > real_max(found->back[c], SIDEWAYS * size)) found->back[c] = back, worst[c].back = t;
-        if (beside > real_max(found->beside[c], square(SIDEWAYS) * size))
-            found->beside[c] = beside, worst[c].beside = t;
-    }
+    const real size = found->largest, back = -with, beside = own - square(with) / size;
+    if (back > real_max(found->back, SIDEWAYS * size)) found->back = back, worst->back = t;
+    if (beside > real_max(found->beside, square(SIDEWAYS) * size)) found->beside = beside, worst->beside = t;
 }
 
-typedef void look_fn(const struct run *e, real t, struct worst *worst, struct search *found);
-
-/* Looks at load times that are evenly spread, and at those of tables. */
-static void look_all(const struct run *e, look_fn *look, struct worst *worst, struct search *found)
+/* Lists load times that are evenly spread, and those of tables [s] (t NULL: none is stored). Returns their number. */
+static int64_t look_times(const struct loads *loads, real end, real *t)
 {
-    const real end = e->scene->duration;
-    for (int k = 1; k <= LOOKS; k++) look(e, end * k / LOOKS, worst, found);
-    for (int b = 0; b < e->loads.n; b++) {
-        const struct time_function *f = &e->loads.load[b].boundary->time;
-        for (int k = 0; k < f->n; k++)
-            if (f->t[k] > 0 && f->t[k] < end) look(e, f->t[k], worst, found);
+    int64_t n = 0;
+    for (int k = 1; k <= LOOKS; k++, n++)
+        if (t) t[n] = end * k / LOOKS;
+    for (int b = 0; b < loads->n; b++) {
+        const struct time_function *f = &loads->load[b].boundary->time;
+        for (int k = 0; k < f->n; k++) {
+            if (!(f->t[k] > 0 && f->t[k] < end)) continue;
+            if (t) t[n] = f->t[k];
+            n++;
+        }
     }
+    return n;
+}
+
+static void worst_find(const struct run *e, struct worst *worst, struct found *found)
+{
+    const int64_t n = look_times(&e->loads, e->scene->duration, NULL);
+    real *t = BARE("worst.times", n, real), own[SORTS], with[SORTS];
+    look_times(&e->loads, e->scene->duration, t);
+    for (int64_t k = 0; k < n; k++) {
+        products(e, t[k], t[k], own);
+        for (int c = 0; c < SORTS; c++) largest_try(t[k], own[c], &worst[c], &found[c]);
+    }
+    for (int64_t k = 0; k < n; k++) {
+        products(e, t[k], t[k], own);
+        for (int c = 0; c < SORTS; c++) {
+            if (!(found[c].largest > 0)) continue;
+            products(e, t[k], worst[c].largest, with);
+            others_try(t[k], own[c], with[c], &worst[c], &found[c]);
+        }
+    }
+    memory_free(t);
 }
 
 status engine_equilibrium_try(struct run *e, real t)
 {
     statics_unknowns_make(e);
     TRY(statics_go(e, t));
-    return statics_unheld(e);
+    return statics_unheld(e->statics, &e->part, e->clock.step + 1);
 }
 
 /* The equilibrium at load time t: keeps it if bonds are nearer to their limits than so far. */
@@ -108,16 +123,15 @@ static status worst_try(struct run *e, real t, real *at, real *overload)
 status engine_overload_worst(struct run *e, real first, real *at, real *overload)
 {
     struct worst worst[SORTS] = {{NAN, NAN, NAN}, {NAN, NAN, NAN}};
-    struct search found = {{0}, {0}, {0}};
+    struct found found[SORTS] = {{0}};
     real before[SORTS];
-    look_all(e, largest_try, worst, &found);
-    look_all(e, others_try, worst, &found);
+    worst_find(e, worst, found);
     products(e, first, first, before);
     *overload = 0, *at = e->scene->duration;
-    const int sort = found.largest[WAYS] > 0 ? WAYS : FORCES;
-    const bool alone = !(found.largest[WAYS] > 0 && found.largest[FORCES] > 0);
+    const int sort = found[WAYS].largest > 0 ? WAYS : FORCES;
+    const bool alone = !(found[WAYS].largest > 0 && found[FORCES].largest > 0);
     if (alone && isnan(worst[sort].back) && isnan(worst[sort].beside) && before[sort] > 0) { /* they only grow */
-        *overload = e->statics->overload * sqrt(found.largest[sort] / before[sort]), *at = worst[sort].largest;
+        *overload = e->statics->overload * sqrt(found[sort].largest / before[sort]), *at = worst[sort].largest;
         return OK;
     }
     for (int c = 0; c < SORTS; c++) {

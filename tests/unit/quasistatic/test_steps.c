@@ -184,7 +184,7 @@ static void test_motions(void **state)
         statics_unknowns_make(&a.e);
         assert_int_equal(a.e.statics->pieces, body[k].pieces);
         if (body[k].pieces > 0) assert_int_equal(a.e.statics->piece[0].motions, body[k].motions);
-        statics_free(&a.e);
+        statics_free(a.e.statics);
         solution_free(&a);
     }
 }
@@ -258,7 +258,7 @@ static void test_trial(void **state)
         assert_int_equal(before.size, after.size);
         assert_memory_equal(before.data, after.data, before.size);
         free(before.data), free(after.data);
-        statics_free(&a.e);
+        statics_free(a.e.statics);
         solution_free(&a);
     }
 }
@@ -296,7 +296,7 @@ static void test_let_go(void **state)
     near_to("contact", contact_energy(a.e.contact, p), rests, 1e-4);
     near_to("lost", a.e.statics->balance.lost - lost, pushed - rests - force * push, 1e-5);
     near_to("damped", a.e.damped - damped, pushed - rests - force * push, 1e-5);
-    statics_free(&a.e);
+    statics_free(a.e.statics);
     solution_free(&a);
 }
 
