@@ -146,7 +146,7 @@ static status unbalanced(const struct statics *s, const struct particles *p, con
                       "loads are what the body bears, or choose %ssteps.control energy, more steps, or a larger "
                       "solver_tolerance",
                       (long long)step, s->t, s->balance.residual, s->balance.tolerance, X[0], X[1], X[2],
-                      p->relief[0] ? "a yield_tangent of a thousandth of young, " : "");
+                      p->plastic_correction[0] ? "a yield_tangent of a thousandth of young, " : "");
 }
 
 /* *crossed: faces have gone through each other. */
@@ -178,8 +178,8 @@ static status solve_at(struct run *e, real t, bool *crossed)
     const real worked = e->loads.work + e->loads.constraint_work,
                range = account_end(&account, s, &e->part, &e->loads, touched, before);
     const real rigids = statics_touch_end(e, e->loads.work + e->loads.constraint_work - worked, lost);
-    *crossed =
-        lost_book(&s->balance, &e->loads, lost, range + rigids, touched || s->touches, e->part.relief[0] != NULL);
+    *crossed = lost_book(&s->balance, &e->loads, lost, range + rigids, touched || s->touches,
+                         e->part.plastic_correction[0] != NULL);
     e->damped += s->balance.lost - lost;
     for (int d = 0; d < e->part.dim; d++) memory_free(before[d]);
     reactions_store(s, &e->part, &e->loads);
@@ -205,7 +205,8 @@ static status solve_whole(struct run *e, real t)
     const real from = e->statics->t;
     int strides = statics_strides(e->scene, e->rigid, t);
     bool crossed = false;
-    if (!e->statics->meets || e->part.relief[0] || e->bonds.plastic_stretch) return solve_in(e, t, strides, &crossed);
+    if (!e->statics->meets || e->part.plastic_correction[0] || e->bonds.plastic_stretch)
+        return solve_in(e, t, strides, &crossed);
     for (int k = 0; k < TRIES_MOST; k++, strides *= MORE_STRIDES) {
         struct memory_archive saved;
         trial_begin(e, &saved);

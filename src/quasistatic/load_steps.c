@@ -300,7 +300,7 @@ static void say_flowed(struct warnings *to, const struct particles *p)
 {
     real most = 0;
     char text[200];
-    for (int64_t i = 0; i < p->n && p->relief[0]; i++) most = real_max(most, p->plastic_strain[i]);
+    for (int64_t i = 0; i < p->n && p->plastic_correction[0]; i++) most = real_max(most, p->plastic_strain[i]);
     snprintf(text, sizeof text,
              "points have flowed by a plastic strain of %.2g, and load steps know that of a few per cent: see whether "
              "the body bears its loads, or choose smaller ones, or solver explicit",
@@ -364,7 +364,7 @@ status engine_steps(struct run *e)
         if (apart) e->clock.steps = e->clock.step;
         e->clock.t = e->clock.dt * (real)e->clock.step;
         state_note(e);
-        sample_equilibrium(e);
+        sample_rest(e);
         statics_record_keep(e->statics);
         if (e->statics->t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
         lap(&e->laps, LAP_BONDS);
