@@ -49,7 +49,7 @@ static void put_rigid(const struct run *e, struct json *j)
     for (int k = 0; k < e->scene->rigids; k++) {
         const struct rigid_body *r = &e->rigid->body[k];
         real v[DIM_MAX];
-        rigids_velocity(e, k, v);
+        rigids_velocity(e->rigid, k, e->clock.t, e->clock.dt, v);
         json_open(j, NULL, '{');
         json_text(j, "name", r->name);
         json_point(j, "", r->x, r->dim);

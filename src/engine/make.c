@@ -362,8 +362,8 @@ static status make_forces(struct run *e, struct predecessor *before)
     cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;
     TRY(make_bonds(e, before));
-    TRY(rigids_make(e));
-    TRY(rigids_check(e));
+    TRY(rigids_make(e->rigid, s));
+    TRY(rigids_check(e->rigid, s, &e->part));
     TRY(named(s, joined_check(e)));
     TRY(named(s, statics_check(e)));
     make_contact(e->contact, s, &e->source, e->rigid);

@@ -6,47 +6,48 @@
 #include "base/memory.h"
 #include "rigid/rigid_part.h"
 
-status rigids_make(struct run *e)
+status rigids_make(struct rigid_set *rigid, const struct scene *s)
 {
-    const struct scene *s = e->scene;
-    e->rigid->shape = NEW("engine.shape", s->bodies, const struct region *);
-    for (int b = 0; b < s->bodies; b++) e->rigid->shape[b] = s->body[b].file ? NULL : &s->body[b].shape;
+    rigid->n = s->rigids, rigid->dim = s->dim, rigid->moves = scene_moves(s);
+    rigid->shape = NEW("engine.shape", s->bodies, const struct region *);
+    for (int b = 0; b < s->bodies; b++) rigid->shape[b] = s->body[b].file ? NULL : &s->body[b].shape;
     for (int b = 0; b < s->bodies; b++) /* of several solids side by side nobody knows the surface */
-        if (s->body[b].joined != b) e->rigid->shape[s->body[b].joined] = NULL;
-    e->rigid->body = NEW("engine.rigid", s->rigids, struct rigid_body);
+        if (s->body[b].joined != b) rigid->shape[s->body[b].joined] = NULL;
+    rigid->body = NEW("engine.rigid", s->rigids, struct rigid_body);
     for (int k = 0; k < s->rigids; k++) {
         const struct scene_body *b = &s->body[s->bodies + k];
-        memcpy(e->rigid->body[k].name, b->name, sizeof b->name);
-        TRY(status_at(b->place, rigid_make(&e->rigid->body[k], &b->shape, s->dim, b->mass, b->velocity, s->spacing)));
-        e->rigid->body[k].ramp = b->ramp;
-        for (int d = 0; d < s->dim; d++) e->rigid->body[k].weight[d] = b->force[d] + b->mass * s->gravity[d];
+        struct rigid_body *r = &rigid->body[k];
+        memcpy(r->name, b->name, sizeof b->name);
+        TRY(status_at(b->place, rigid_make(r, &b->shape, s->dim, b->mass, b->velocity, s->spacing)));
+        r->ramp = b->ramp;
+        for (int d = 0; d < s->dim; d++) r->weight[d] = b->force[d] + b->mass * s->gravity[d];
     }
     return OK;
 }
 
 /* Their forces on particles are loads to the balance of momentum. */
-void rigids_book(struct run *e, real dt_velocity)
+void rigids_book(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX])
 {
-    for (int k = 0; k < e->scene->rigids; k++) {
-        rigid_book(&e->rigid->body[k]);
-        rigid_note(&e->rigid->body[k]);
-        for (int d = 0; d < e->part.dim; d++) e->loads.impulse[d] -= e->rigid->body[k].force[d] * dt_velocity;
+    for (int k = 0; k < rigid->n; k++) {
+        rigid_book(&rigid->body[k]);
+        rigid_note(&rigid->body[k]);
+        for (int d = 0; d < rigid->dim; d++) impulse[d] -= rigid->body[k].force[d] * dt_velocity;
     }
 }
 
-void rigids_move(struct run *e, real middle, real dt_velocity)
+void rigids_move(struct rigid_set *rigid, real middle, real dt, real dt_velocity)
 {
-    for (int k = 0; k < e->scene->rigids; k++) rigid_move(&e->rigid->body[k], middle, e->clock.dt, dt_velocity);
+    for (int k = 0; k < rigid->n; k++) rigid_move(&rigid->body[k], middle, dt, dt_velocity);
 }
 
-struct rigid_energy rigids_energy(const struct run *e)
+struct rigid_energy rigids_energy(const struct rigid_set *rigid, real dt)
 {
     struct rigid_energy sum = {0};
-    for (int k = 0; k < e->scene->rigids; k++) {
-        const struct rigid_body *r = &e->rigid->body[k];
+    for (int k = 0; k < rigid->n; k++) {
+        const struct rigid_body *r = &rigid->body[k];
         sum.before += rigid_kinetic(r);
         sum.step += r->kinetic;
-        sum.last += rigid_kinetic(r) + rigid_kick(r, e->clock.dt);
+        sum.last += rigid_kinetic(r) + rigid_kick(r, dt);
         sum.work += rigid_work(r);
     }
     return sum;
@@ -68,9 +69,9 @@ int rigids_columns(const struct run *e, struct column *column)
     static const char *const force[] = {"force_x", "force_y", "force_z"}, *const place[] = {"x", "y", "z"};
     static const char *const moment[] = {"moment_x", "moment_y", "moment_z"};
     static const char *const velocity[] = {"velocity_x", "velocity_y", "velocity_z"};
-    const int dim = e->part.dim;
+    const int dim = e->rigid->dim;
     int n = 0;
-    for (int k = 0; k < e->scene->rigids; k++) {
+    for (int k = 0; k < e->rigid->n; k++) {
         const char *name = e->rigid->body[k].name;
         for (int d = 0; d < dim; d++) n = add_column(column, n, name, force[d], "N");
         for (int d = dim == 2 ? 2 : 0; d < 3 && dim > 1; d++) n = add_column(column, n, name, moment[d], "N m");
@@ -80,45 +81,45 @@ int rigids_columns(const struct run *e, struct column *column)
     return n;
 }
 
-void rigids_keep(struct run *e)
+void rigids_keep(struct rigid_set *rigid, real t)
 {
-    if (!e->rigid->motion) e->rigid->motion = NEW("rigid.motion", 2 * DIM_MAX * e->scene->rigids, real);
-    for (int k = 0; k < e->scene->rigids; k++) {
-        const struct rigid_body *r = &e->rigid->body[k];
-        real *x = e->rigid->motion + 2 * DIM_MAX * k, *v = x + DIM_MAX;
+    if (!rigid->motion) rigid->motion = NEW("rigid.motion", 2 * DIM_MAX * rigid->n, real);
+    for (int k = 0; k < rigid->n; k++) {
+        const struct rigid_body *r = &rigid->body[k];
+        real *x = rigid->motion + 2 * DIM_MAX * k, *v = x + DIM_MAX;
         array_copy(x, r->x, DIM_MAX, sizeof *x);
         array_copy(v, r->v, DIM_MAX, sizeof *v);
-        if (r->motion == RIGID_DRIVEN && scene_moves(e->scene)) rigid_driven_velocity(r, e->clock.t, v);
+        if (r->motion == RIGID_DRIVEN && rigid->moves) rigid_driven_velocity(r, t, v);
     }
 }
 
-void rigids_mean(struct run *e)
+void rigids_mean(struct rigid_set *rigid)
 {
-    for (int k = 0; k < e->scene->rigids; k++) {
-        real *v = e->rigid->motion + 2 * DIM_MAX * k + DIM_MAX;
-        for (int d = 0; d < DIM_MAX && e->rigid->body[k].motion == RIGID_FREE; d++)
-            v[d] = 0.5 * (v[d] + e->rigid->body[k].v[d]);
+    for (int k = 0; k < rigid->n; k++) {
+        real *v = rigid->motion + 2 * DIM_MAX * k + DIM_MAX;
+        for (int d = 0; d < DIM_MAX && rigid->body[k].motion == RIGID_FREE; d++)
+            v[d] = 0.5 * (v[d] + rigid->body[k].v[d]);
     }
 }
 
-void rigids_velocity(const struct run *e, int k, real *v)
+void rigids_velocity(const struct rigid_set *rigid, int k, real t, real dt, real *v)
 {
-    const struct rigid_body *r = &e->rigid->body[k];
+    const struct rigid_body *r = &rigid->body[k];
     array_copy(v, r->v, DIM_MAX, sizeof *v);
-    if (r->motion == RIGID_DRIVEN && scene_moves(e->scene)) rigid_driven_velocity(r, e->clock.t, v);
-    for (int d = 0; d < DIM_MAX && r->motion == RIGID_FREE && scene_moves(e->scene); d++)
-        v[d] += 0.5 * e->clock.dt * (r->force[d] + r->weight[d]) / r->mass;
+    if (r->motion == RIGID_DRIVEN && rigid->moves) rigid_driven_velocity(r, t, v);
+    for (int d = 0; d < DIM_MAX && r->motion == RIGID_FREE && rigid->moves; d++)
+        v[d] += 0.5 * dt * (r->force[d] + r->weight[d]) / r->mass;
 }
 
-void rigids_kick(struct run *e)
+void rigids_kick(struct rigid_set *rigid, real t, real dt)
 {
-    for (int k = 0; k < e->scene->rigids; k++) rigids_velocity(e, k, e->rigid->motion + 2 * DIM_MAX * k + DIM_MAX);
+    for (int k = 0; k < rigid->n; k++) rigids_velocity(rigid, k, t, dt, rigid->motion + 2 * DIM_MAX * k + DIM_MAX);
 }
 
 void rigids_record(struct run *e, real *record)
 {
-    const int dim = e->part.dim;
-    for (int k = 0; k < e->scene->rigids; k++) {
+    const int dim = e->rigid->dim;
+    for (int k = 0; k < e->rigid->n; k++) {
         const struct rigid_body *r = &e->rigid->body[k];
         const real *x = e->rigid->motion + 2 * DIM_MAX * k, *v = x + DIM_MAX;
         for (int d = 0; d < dim; d++) *record++ = r->force[d];

@@ -206,7 +206,7 @@ static void sample_state(struct run *e)
     const struct grid *nodes[LEVELS_MAX + 1];
     const int grids = meshes(e->frame, nodes);
     if (wants_stress(e->scene)) run_stress(e);
-    rigids_keep(e);
+    rigids_keep(e->rigid, e->clock.t);
     diagnostics_momentum(e->diagnostics, &e->part, nodes, grids, e->loads.impulse);
     if (is_free(e->scene, e->frame))
         diagnostics_spin(e->diagnostics, &e->part, e->frame->mesh.points > 0 ? &e->frame->mesh : NULL,
@@ -289,7 +289,7 @@ void sample_begin(struct run *e)
     if (!sampling->due && e->clock.step < e->clock.steps - 1) return;
     if (wants_motion(e->scene)) frame_sync(e);
     if (sampling->due)
-        sample_state(e), rigids_meet(e);
+        sample_state(e), rigids_meet(e->rigid, e->scene->spacing, e->clock.t, &e->warnings);
     else if (wants_stress(e->scene))
         run_stress(e);
     struct observed o = run_observed(e);
@@ -298,14 +298,14 @@ void sample_begin(struct run *e)
     sampling->t_velocity = o.t_velocity;
     momentum_now(&e->part, e->frame, sampling->momentum);
     sampling->kinetic = kinetic_now(&e->part, e->frame);
-    sampling->rigid = rigids_energy(e).before;
+    sampling->rigid = rigids_energy(e->rigid, e->clock.dt).before;
 }
 
 void sample_energy(struct run *e)
 {
     if (!e->report->sampling.due) return;
     sample_energies(e);
-    e->report->sampling.rigid_work = rigids_energy(e).work;
+    e->report->sampling.rigid_work = rigids_energy(e->rigid, e->clock.dt).work;
 }
 
 /* True if a boundary drives particles at a speed, so that velocities jump in the first step. */
@@ -342,8 +342,8 @@ void sample_end(struct run *e)
     real kinetic = 0.5 * (sampling->kinetic + kinetic_now(&e->part, e->frame)) - kick_now(e);
     sampling->energy.damped += e->grid->contact.begun;
     sampling->energy.absorbed = 0.5 * (sampling->absorbed + e->loads.absorbing.energy);
-    const struct rigid_energy rigid = rigids_energy(e);
-    rigids_mean(e);
+    const struct rigid_energy rigid = rigids_energy(e->rigid, e->clock.dt);
+    rigids_mean(e->rigid);
     sample_write(e, &now, kinetic / share + rigid.step,
                  sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
 }
@@ -353,7 +353,7 @@ void sample_rest(struct run *e)
     sample_state(e);
     sample_energies(e);
     sample_write(e, &(struct velocity_time){e->clock.t, 1}, 0,
-                 e->loads.work + e->loads.constraint_work + rigids_energy(e).work);
+                 e->loads.work + e->loads.constraint_work + rigids_energy(e->rigid, e->clock.dt).work);
 }
 
 /* Sum of v . f of particles that bonds move and of nodes in the reference frame [W]; serial, as calls are few. */
@@ -449,9 +449,9 @@ void sample_last(struct run *e)
     if (scene_moves(e->scene)) kinetic += 0.5 * kick * power_last(e, &held);
     if (e->clock.step > 0) e->report->sampling.energy.damped += damping_last(decay, before, kinetic);
     e->report->sampling.energy.damped += e->grid->contact.begun;
-    const struct rigid_energy rigid = rigids_energy(e);
+    const struct rigid_energy rigid = rigids_energy(e->rigid, e->clock.dt);
     const struct velocity_time now = {e->clock.t - 0.5 * e->clock.dt, 1 / square(share)};
-    rigids_kick(e);
+    rigids_kick(e->rigid, e->clock.t, e->clock.dt);
     sample_write(e, &now, kinetic / share + rigid.last,
                  e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);
 }

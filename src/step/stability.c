@@ -308,7 +308,7 @@ status stability_check(struct run *e)
     TRY(divergence_check(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, e->frame));
     TRY(contact_overlap_check(e));
-    TRY(rigids_speed_check(e));
+    TRY(rigids_speed_check(e->rigid, e->scene, &e->clock));
     if (e->clock.step % RISE_STRIDE == 0)
         rise_note(&e->stability->speed, e->clock.step, square(fastest_now(&e->part, e->frame)));
     return OK;

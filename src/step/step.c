@@ -201,15 +201,15 @@ status step(struct run *e)
     push_bonds(e, &now); /* 2, 5 */
     viscosity_push(e);
     push_contact(e);
-    rigids_book(e, now.dt_velocity);
+    rigids_book(e->rigid, now.dt_velocity, e->loads.impulse);
     loads_apply(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
     lap(&e->laps, LAP_BONDS);
     sample_energy(e);
     now.broken += cracks_grow(e);
     lap(&e->laps, LAP_SAMPLE);
 
-    move_peridynamic(e, &now.motion);                        /* 4 */
-    rigids_move(e, now.middle, now.dt_velocity / now.share); /* rigid bodies are not damped */
+    move_peridynamic(e, &now.motion);                                            /* 4 */
+    rigids_move(e->rigid, now.middle, e->clock.dt, now.dt_velocity / now.share); /* rigid bodies are not damped */
     lap(&e->laps, LAP_BONDS);
     move_grid(e, &now);  /* 1, 3, 4, 6, 7 */
     move_frame(e, &now); /* 3, 4, 7 */

@@ -220,17 +220,16 @@ static void test_record(void **state)
         }
     }
     static struct run e;
-    struct scene scene = {.rigids = 2};
-    struct rigid_set rigid = {.body = body};
-    e.scene = &scene, e.rigid = &rigid, e.clock.dt = 0.03;
+    struct rigid_set rigid = {.n = 2, .moves = true, .body = body};
+    e.rigid = &rigid;
     for (int dim = 1; dim <= 3; dim++) {
         struct column column[24];
         real record[24], kinetic = 0, kick = 0;
         int wanted = 0;
-        e.part.dim = body[0].dim = body[1].dim = dim;
+        rigid.dim = body[0].dim = body[1].dim = dim;
         const int n = rigids_columns(&e, NULL);
         assert_int_equal(rigids_columns(&e, column), n);
-        rigids_keep(&e);
+        rigids_keep(&rigid, 0);
         rigids_record(&e, record);
         for (int b = 0; b < 2; b++) {
             const real *const from[] = {body[b].force, body[b].moment, body[b].x, body[b].v};
@@ -246,7 +245,7 @@ static void test_record(void **state)
                 }
         }
         assert_int_equal(n, wanted);
-        const struct rigid_energy sum = rigids_energy(&e);
+        const struct rigid_energy sum = rigids_energy(&rigid, 0.03);
         assert_close(sum.before, kinetic, 1e-14);
         assert_close(sum.last, kinetic + kick, 1e-14);
         assert_close(sum.step, 0.9 + 2.6, 1e-14);
