@@ -1,10 +1,10 @@
-/* The active set: what no wave has reached is not computed, and no bit of a run changes.
+/* The active set: regions still at rest are not computed, without changing any bit of a run.
  *
- * Forces follow from places. A block whose particles stand where forces were last computed, came out as 0, and which no
- * load moves would get the same forces again: it is inactive. It becomes active when a particle within its reach
- * moves, and stays active from then on.
+ * Forces follow from positions. A block is inactive while its particles have the positions at which their forces were
+ * last computed, these forces are 0, and no load moves them: its forces would be 0 again. It becomes active when a
+ * particle within its reach moves, and stays active.
  *
- * A block is what the hot loops visit at once: a row block of eight rows of bonds, or eight nodes of a mesh along x.
+ * A block is the unit of the hot loops: a row block of eight rows of bonds, or eight nodes of a mesh along x.
  *
  *     level 0        inactive: neither forces nor motion
  *           1        active: its forces are computed, it moves
@@ -15,25 +15,28 @@
 #include "base/archive.h"
 
 struct active_set {
-    bool is_current;               /* levels have been found; before, all blocks are active */
-    int64_t blocks, active, empty; /* in all; active; without particles */
-    uint8_t *level, *moved;        /* [blocks]; scratch */
+    bool is_current;               /* levels are up to date; until then all blocks are active */
+    int64_t blocks, active, empty; /* all; active; without particles */
+    uint8_t *level, *moved;        /* [blocks]; working memory */
     int32_t *list;                 /* [active] ascending: the blocks that the hot loops visit */
-    bool resumed;                  /* all blocks are visited, in the first step after a restart */
+    bool resumed;                  /* all blocks are visited in the first step after a restart */
     bool over;                     /* of rows: all active blocks have moved, so no other will become active */
 };
 
-/* All blocks active. */
+/* Allocates the set with all blocks active. Release with active_set_free. */
 void active_set_make(struct active_set *r, int64_t blocks);
+
+/* Releases all arrays. */
 void active_set_free(struct active_set *r);
-/* Makes the list of active blocks from the levels. */
+
+/* Rebuilds the list of active blocks from the levels. */
 void active_set_list(struct active_set *r);
 
-/* Levels under this name. Once restored all blocks are visited in the next step, for the forces of inactive blocks
- * are not in the checkpoint. */
+/* Saves or restores the levels under `name`. After restoring all blocks are visited in the next step, because the
+ * forces of inactive blocks are not in the checkpoint. */
 status active_set_archive(struct active_set *r, const char *name, struct archive *a);
 
-/* Share of the blocks that is inactive [1]. */
+/* Returns the share of the blocks that is inactive [1]. */
 static inline real inactive_share(const struct active_set *r)
 {
     const int64_t blocks = r->blocks - r->empty;

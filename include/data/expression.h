@@ -1,16 +1,16 @@
-/* An expression of x, y, z, t, compiled: steps that a small stack works through. Scenes compile them and check their
- * units (scene_expression.c); loads and fields ask for values. */
+/* A compiled expression of x, y, z, t: steps evaluated with a small stack. Scenes compile expressions and check their
+ * units (scene_expression.c); loads and fields evaluate them. */
 #ifndef CLEAVE_EXPRESSION
 #define CLEAVE_EXPRESSION
 
 #include "base/base.h"
 
 enum expression_op {
-    EXPRESSION_NUMBER, /* puts its value on the stack       */
+    EXPRESSION_NUMBER, /* push a number */
     EXPRESSION_X,
     EXPRESSION_Y,
     EXPRESSION_Z,
-    EXPRESSION_T, /* puts a component of X, or t there */
+    EXPRESSION_T, /* push a component of X, or t */
     EXPRESSION_MINUS,
     EXPRESSION_SQUARE,
     EXPRESSION_SIN,
@@ -30,7 +30,7 @@ enum expression_op {
     EXPRESSION_SIGN,
     EXPRESSION_STEP,
     EXPRESSION_RAMP,
-    EXPRESSION_PULSE, /* replaces the topmost              */
+    EXPRESSION_PULSE, /* replace the topmost value */
     EXPRESSION_ADD,
     EXPRESSION_SUBTRACT,
     EXPRESSION_TIMES,
@@ -38,38 +38,46 @@ enum expression_op {
     EXPRESSION_POWER,
     EXPRESSION_ATAN2,
     EXPRESSION_MIN,
-    EXPRESSION_MAX /* replaces the two topmost          */
+    EXPRESSION_MAX /* replace the two topmost values */
 };
 
-enum { EXPRESSION_STACK = 32, EXPRESSION_STEPS = 400 }; /* the most of both */
+enum { EXPRESSION_STACK = 32, EXPRESSION_STEPS = 400 }; /* largest stack and largest number of steps */
 
+/* One step of an expression. */
 struct expression_step {
     enum expression_op op;
     real value;
-}; /* value [SI] of a NUMBER */
+}; /* value of a NUMBER [SI] */
 
-/* No step: no expression. Its text is in SI units and units of the scene, without variables of the scene: what it
- * reads back from is what it was. */
+/* An expression; n = 0: none. `text` has SI units and units of the scene, without variables of the scene: parsing it
+ * gives an equal expression. */
 struct expression {
     int n;
     struct expression_step *step;
     char *text;
-    bool in_space, in_time; /* it contains x, y or z; it contains t */
+    bool in_space, in_time; /* contains x, y or z; contains t */
 };
 
-/* Takes over a copy of the steps and the text. */
+/* Creates an expression from copies of n steps and the text. Release with expression_free. */
 void expression_make(struct expression *e, const struct expression_step *step, int n, const char *text);
-/* A number for an expression, with its text. */
+
+/* Creates an expression that is a number, with its text. Release with expression_free. */
 void expression_constant(struct expression *e, real value, const char *text);
+
+/* Releases steps and text. */
 void expression_free(struct expression *e);
 
-/* Value [SI] at X, [dim, m], and t [s]. X may be NULL if it is not in space. Pure; values may be infinite or no number
- * where the formula is. */
+/* Returns the value [SI] at X [dim] [m] and t [s]. X may be NULL if the expression is not in space. May be infinite or
+ * NaN where the formula is. */
 real expression_at(const struct expression *e, const real *X, int dim, real t);
 
-/* What an operation makes of one operand a, or of two [SI]. Not for those that put a value on the stack. */
+/* Returns the result of an operation on operand a, or on a and b [SI]. Not for operations that push a value. */
 real expression_operate(enum expression_op op, real a, real b);
+
+/* Returns true if the operation pushes a value. */
 static inline bool expression_is_leaf(enum expression_op op) { return op <= EXPRESSION_T; }
+
+/* Returns true if the operation has two operands. */
 static inline bool expression_has_two(enum expression_op op) { return op >= EXPRESSION_ADD; }
 
 #endif

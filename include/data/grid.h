@@ -1,111 +1,120 @@
-/* The background grid of the material point method: a box of nodes round the material points. Nodes
- * are counted from an anchor fixed for the whole run, so a grid that grows keeps its node positions exactly. */
+/* The background grid of the material point method: a box of nodes around the material points. Nodes are counted from
+ * an anchor fixed for the whole run, so that a growing grid keeps its node positions exactly. */
 #ifndef CLEAVE_GRID
 #define CLEAVE_GRID
 
 #include "base/base.h"
 
-/* Dashpots on a node: force over velocity by component; 0: none, or a wall holds it [kg/s]. */
+/* Dashpots on a node: force over velocity by component [kg/s]; 0: none, or a wall prescribes the component. */
 struct dashpot {
     int32_t node;
     real rate[DIM_MAX];
-    real impulse[DIM_MAX]; /* of this step, on the body [N s] */
+    real impulse[DIM_MAX]; /* impulse on the body in this step [N s] */
 };
 
-/* What dashpots did in a step: energy that they took, a quarter of their impulse times the change of velocity [J];
- * their impulse on the body [N s]. */
+/* Effect of all dashpots in a step: dissipated energy [J]; kick, a quarter of their impulse times the change of
+ * velocity [J]; impulse on the body [N s]. */
 struct absorbed {
     real energy, kick, impulse[DIM_MAX];
 };
 
+/* The grid. All arrays are owned. */
 struct grid {
     int dim;
-    int body;                  /* 1 + the only body whose points are on it; 0: any */
+    int body;                  /* 1 + the only body whose points are on it; 0: any body */
     real h;                    /* node distance [m] */
     real anchor[DIM_MAX];      /* position of node 0 [m] */
     int64_t first[DIM_MAX];    /* lowest node of the box, counted from the anchor */
     int64_t count[DIM_MAX], n; /* nodes per direction, in all */
-    int64_t stride[DIM_MAX];   /* of the node index; stride[0] = 1 */
+    int64_t stride[DIM_MAX];   /* of the node index along each axis; stride[0] = 1 */
     real *mass;                /* nodal mass [kg] */
-    real *momentum[DIM_MAX];   /* nodal momentum; after grid_remapped the velocity
-                                  of the second map                        [kg m/s], [m/s] */
-    real *force[DIM_MAX];      /* nodal force; after grid_move the change of velocity [N], [m/s] */
+    real *momentum[DIM_MAX];   /* nodal momentum [kg m/s]; after grid_remapped the velocity of the second map [m/s] */
+    real *force[DIM_MAX];      /* nodal force [N]; after grid_move the change of velocity [m/s] */
     real *velocity[DIM_MAX];   /* nodal velocity at the end of the step [m/s] */
     int64_t walls;
     struct wall *wall; /* prescribed velocities of this step, in order */
     int64_t mirror_nodes;
     struct mirror_node *mirror_node; /* nodes beyond planes of symmetry, for this box */
-    real light_mass;                 /* nodes below this follow a neighbour (grid_move.c); 0: none [kg] */
+    real light_mass;                 /* nodes lighter than this follow a neighbour (grid_move.c); 0: none [kg] */
     int64_t followers;
-    struct follower *follower; /* [n] those of this step, ascending */
-    uint8_t *held;             /* [n] not 0: a wall holds it; only while followers are found or bodies meet */
+    struct follower *follower; /* [n] followers of this step, ascending */
+    uint8_t *held; /* [n] not 0: a wall prescribes it; set only while followers are searched or bodies meet */
     int64_t dashpots;
-    struct dashpot *dashpot;  /* of absorbing faces in this step, ascending by node */
-    struct absorbed absorbed; /* what they took in it */
+    struct dashpot *dashpot;  /* dashpots of absorbing faces in this step, ascending by node */
+    struct absorbed absorbed; /* their effect in this step */
 };
 
-/* A node that points have hardly reached, its neighbour and the one behind that, from which its acceleration is
- * extrapolated; where none is behind, the neighbour itself. */
+/* A light node; its heavier neighbour `leader`; the node `behind` the leader. The acceleration of the light node is
+ * extrapolated from both; if no node is behind, behind = leader. */
 struct follower {
     int32_t node, leader, behind;
 };
 
-/* A node beyond a plane of symmetry: it moves as the mirror image of a node on the body's side, which takes what points
- * give to either. */
+/* A node beyond a plane of symmetry. It moves as the mirror image of a node on the body's side, which receives the
+ * contributions of points to both. */
 struct mirror_node {
-    int32_t node, image;            /* beyond the plane; on the body's side */
-    int8_t sign[DIM_MAX];           /* -1: this component turns round */
-    uint8_t load;                   /* whose plane it is */
-    real mass, taken[DIM_MAX];      /* of the node itself in this step [kg], [N s] */
-    real image_mass, image_inverse; /* of the image alone (frame reference) [kg], [1/kg] */
+    int32_t node, image;            /* node beyond the plane; node on the body's side */
+    int8_t sign[DIM_MAX];           /* sign of each component of the image: -1 or 1 */
+    uint8_t load;                   /* load whose plane it is */
+    real mass, taken[DIM_MAX];      /* mass and impulse of points on the node itself in this step [kg], [N s] */
+    real image_mass, image_inverse; /* of the image node alone (reference frame) [kg], [1/kg] */
     real reaction[DIM_MAX];         /* impulse of the plane on the body in this step [N s] */
 };
 
-/* One held component of one node; its force is replaced by what the prescribed motion needs. */
+/* One prescribed component of one node; its force is replaced by the force that the prescribed motion needs. */
 struct wall {
     int32_t node;
-    int16_t component, load; /* load: the boundary condition that constrains it */
-    real velocity, change;   /* in this step; since the step before [m/s] */
-    real place;              /* displacement at the end of the step, NAN: what the velocity makes [m] */
-    real reaction;           /* impulse of this step, without that of the prescribed change [N s] */
+    int16_t component, load; /* load: index of the boundary condition */
+    real velocity, change;   /* prescribed velocity; its change since the previous step [m/s] */
+    real place;              /* displacement at the end of the step, NAN: integral of the velocity [m] */
+    real reaction;           /* impulse in this step, without that of the prescribed change [N s] */
 };
 
-/* Sets the box to cover positions from..to with a margin of three cells, rounded outwards to whole steps;
- * grows and never shrinks. Returns true if the box changed (all nodal values are then zero). Fails if it would
- * need more than `most` nodes. */
+/* Extends the box to cover positions from .. to [m] with a margin of three cells, rounded outwards to whole steps; it
+ * never shrinks. *changed: the box changed, all nodal values are then zero. Fails if it would need more than `most`
+ * nodes. */
 status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed);
+
+/* Releases all arrays. */
 void grid_free(struct grid *g);
+
+/* Appends a wall (copied). */
 void grid_add_wall(struct grid *g, const struct wall *wall);
+
+/* Appends a mirror node (copied). */
 void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node);
+
+/* Appends a dashpot (copied). */
 void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot);
-/* Nothing is on the grid in this step: no node is constrained. */
+
+/* Removes all constraints of the step, for a step without points on the grid. */
 void grid_idle(struct grid *g);
 
-/* Nodes lighter than this share of a full one are left at rest. 1e-9 is usual; but such a node may carry a force,
- * and what it carries would be lost: momentum is kept to 1e-12 only if just empty nodes are left out, and with the
- * re-map light nodes do no harm (their velocity is that of their particle). */
+/* Nodes lighter than this share of a full node are left at rest. 1e-9 is usual; but such a node may have a force, whose
+ * impulse would be lost: momentum is exact to 1e-12 only if just empty nodes are left out, and with the re-map light
+ * nodes do no harm (their velocity is that of their particle). */
 #define GRID_MASS_SMALLEST 1e-30
 
-/* Nodes lighter than this share of a full one follow a neighbour: below 1e-6 motions of a hundredth of a spacing
- * reach across, above 1e-3 bodies that turn gain more than 1e-3 in four turns. */
+/* Nodes lighter than this share of a full node follow a neighbour. Empirical: below 1e-6 motions of a hundredth of a
+ * spacing reach across; above 1e-3 rotating bodies gain more than 1e-3 of their energy in four turns. */
 #define GRID_MASS_LIGHT 1e-5
 
-/* The same for static solutions, in which the balance of a node that the edge of a point has just reached would set the
- * stress of the point to zero. Left at rest, such nodes hold the body: a cantilever of 15 times its depth bent by a
- * quarter. */
+/* GRID_MASS_LIGHT for static solutions, in which the balance of a node just reached by the edge of a point would set
+ * the stress of the point to zero. If such nodes were left at rest, they would support the body: a cantilever of 15
+ * times its depth bent by a quarter. */
 #define GRID_MASS_STATIC 1e-3
 
-/* Place of node k of the box in direction d [m]. */
+/* Returns the position of node k of the box in direction d [m]. */
 static inline real grid_position(const struct grid *g, int d, int64_t k)
 {
     return g->anchor[d] + g->h * (real)(g->first[d] + k);
 }
 
-/* Place of x in direction d, in node distances from the anchor; its floor is the cell. One function, so that all
- * callers round alike. */
+/* Returns the coordinate of x in direction d, in node distances from the anchor; its floor is the cell. One function,
+ * so that all callers round alike. */
 static inline real grid_place(const struct grid *g, int d, real x) { return (x - g->anchor[d]) * (1 / g->h); }
 
-/* Its floor, without a call of the library. */
+/* Returns the floor of grid_place, i.e. the cell of x in direction d, without a library call. */
 static ALWAYS_INLINE int64_t grid_cell(const struct grid *g, int d, real x)
 {
     const real place = grid_place(g, d, x);
@@ -113,13 +122,15 @@ static ALWAYS_INLINE int64_t grid_cell(const struct grid *g, int d, real x)
     return k - (place < (real)k);
 }
 
-/* Place along d of the particle next to corner c of cell I, of 2^dim particles at quarters of its edges [m]. */
+/* Returns the position along d of the particle next to corner c of cell I, with 2^dim particles at quarters of its
+ * edges [m]. */
 static inline real grid_quarter(const struct grid *g, int64_t I, int corner, int d)
 {
     return grid_position(g, d, I / g->stride[d] % g->count[d]) + (corner >> d & 1 ? 0.75 : 0.25) * g->h;
 }
 
-/* Number in the box `to` of cell I of the box `from` with nodes at the same places; -1: it is not in that box. */
+/* Returns the index in box `to` of cell I of box `from`, whose nodes have equal positions; -1 if it is not in that
+ * box. */
 static inline int64_t grid_same_cell(const struct grid *from, int64_t I, const struct grid *to)
 {
     int64_t J = 0;
@@ -131,8 +142,8 @@ static inline int64_t grid_same_cell(const struct grid *from, int64_t I, const s
     return J;
 }
 
-/* The box of cells round from..to [m], and a node more, for dim, h and anchor as they are; no nodal arrays. False: more
- * than `most` nodes. */
+/* Computes the box of cells around from .. to [m], plus one node, for dim, h and anchor as set; no nodal arrays.
+ * Returns false if it has more than `most` nodes. */
 bool grid_box(struct grid *g, const real *from, const real *to, int64_t most);
 
 #endif

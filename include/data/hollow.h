@@ -1,21 +1,23 @@
-/* Cells of two spacings of which the particles are not made: they lie wholly in the body and are part of coarse cells
+/* Cells of two spacings whose particles are not made: they are wholly inside the body and part of coarse cells
  * (mesh/levels.h), far from bonds, loads and faces of pre-cracks. */
 #ifndef CLEAVE_HOLLOW
 #define CLEAVE_HOLLOW
 
 #include "data/grid.h"
 
+/* Marks of hollow cells. */
 struct hollow {
-    struct grid box; /* its cells, those of the mesh; it has no nodal arrays */
-    uint8_t *whole;  /* [box.n] 1: it may lack its particles: all would be in the body, and no load,
-                      * probe or pre-crack needs them; NULL: nothing is known */
-    uint8_t *absent; /* [box.n] 1: its particles are not made; NULL: all are */
-    bool restored;   /* as a checkpoint has it, whatever the start wants */
+    struct grid box; /* its cells, equal to those of the mesh; no nodal arrays */
+    uint8_t *whole;  /* [box.n] 1: the particles are dispensable: all are in the body, and no load, probe or pre-crack
+                        needs them; NULL: unknown */
+    uint8_t *absent; /* [box.n] 1: the particles are not made; NULL: all are made */
+    bool restored;   /* restored from a checkpoint, which overrides the start */
 };
 
+/* Releases the marks. */
 void hollow_free(struct hollow *h);
 
-/* Is the particle at X [m] not made? h NULL: all are. */
+/* Returns true if the particle at X [m] is not made. h NULL: all are made. */
 static inline bool hollow_absent(const struct hollow *h, const real *X)
 {
     int64_t cell = 0;

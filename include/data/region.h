@@ -1,5 +1,5 @@
-/* Sets of points by constructive geometry, functions of time, and cracks: the plain words that a
- * scene is made of and that set-up, loads and probes share. Coordinates are reference positions [m]. */
+/* Sets of points by constructive geometry, functions of time, cracks and waves: the terms of a scene that set-up, loads
+ * and probes share. Coordinates are reference positions [m]. */
 #ifndef CLEAVE_REGION
 #define CLEAVE_REGION
 
@@ -8,31 +8,40 @@
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* Points this close to a surface count as on it, and so inside [spacings]. */
+/* Distance from a surface below which points count as on it, and so inside [spacings]. */
 #define ON_SURFACE 1e-8
 
-/* Closed set, grown by `tolerance` [m] (shrunk where negative). */
+/* Returns true if X is in the closed set grown by `tolerance` [m] (shrunk if negative). */
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance);
-/* region_contains holds where this is no more than the tolerance [m]. */
+
+/* Returns the least tolerance at which region_contains is true [m]. */
 real region_level(const struct region *r, const real *X, int dim);
 
-/* Box round it, the smallest but for what intersections and differences cut off; returns false if it is unbounded. */
+/* Computes the bounding box from .. to [m], not reduced by intersections and differences. Returns false if it is
+ * unbounded. */
 bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[DIM_MAX]);
-/* Signed distance of X from the surface, negative inside [m]: exact outside each of its solids and beside flat faces,
- * of several solids the nearest; and the unit normal that leads away. All sides of boxes are finite. */
+
+/* Returns the signed distance of X from the surface, negative inside [m], and its unit normal: exact outside each of
+ * its solids and beside flat faces, for several solids the nearest. All sides of boxes must be finite. */
 real region_distance(const struct region *r, const real *X, int dim, real *normal);
-/* Is a side of one of its boxes infinite? Such boxes have no distance. */
+
+/* Returns true if a side of one of its boxes is infinite; such boxes have no distance. */
 bool region_has_endless_box(const struct region *r, int dim);
-/* max over its points of X . along, at most [m]. */
+
+/* Returns an upper bound of the maximum over its points of X . along [m]. */
 real region_support(const struct region *r, const real *along, int dim);
-/* Volume in the box from..to [m^dim] by evenly spread points: within about 0.1 % of the box. */
+
+/* Returns the volume within the box from .. to [m^dim] by quasi-random sampling, to about 0.1 % of the box. */
 real region_volume(const struct region *r, int dim, const real *from, const real *to);
-/* Makes an index of a long list, by which a point is compared with what is near it only: the same results, to the last
- * bit. The list stays as it is from then on. */
+
+/* Builds an index of a long list, so that a point is compared with solids near it only, with bitwise equal results. The
+ * list must not change afterwards. */
 void region_index(struct region *r, int dim);
+
+/* Releases all solids and the index. */
 void region_free(struct region *r);
 
-/* Ascending numbers. */
+/* List of ascending numbers. */
 struct number_list {
     int n;
     real *value;
@@ -42,12 +51,12 @@ struct number_list {
 
 enum time_kind { TIME_CONSTANT, TIME_STEP, TIME_PULSE, TIME_RAMP, TIME_TABLE };
 
-/* A dimensionless factor:
+/* A dimensionless factor of time:
  *   CONSTANT  1
  *   STEP      1 for from <= t < until, else 0
  *   PULSE     sin^2(pi (t - from) / (until - from)) inside, 0 outside
  *   RAMP      0 before from, linear to 1 at until, 1 after
- *   TABLE     piecewise linear through (t[k], value[k]); the end values are held */
+ *   TABLE     piecewise linear through (t[k], value[k]); constant outside */
 struct time_function {
     enum time_kind kind;
     real from, until; /* [s] */
@@ -55,10 +64,13 @@ struct time_function {
     real *t, *value; /* [s], [1] */
 };
 
+/* Returns the factor at t [s]. */
 real time_function_at(const struct time_function *f, real t);
-/* Its integral from 0 to t >= 0 [s]. */
+
+/* Returns the integral of the factor from 0 to t >= 0 [s]. */
 real time_function_integral(const struct time_function *f, real t);
-/* Its largest slope between 0 and t, INFINITY where it jumps there [1/s]. */
+
+/* Returns the largest slope of the factor between 0 and t, INFINITY if it jumps there [1/s]. */
 real time_function_steepest(const struct time_function *f, real t);
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
@@ -67,66 +79,71 @@ real time_function_steepest(const struct time_function *f, real t);
 struct crack {
     int n;                   /* corners */
     real (*corner)[DIM_MAX]; /* [m] */
-    real width;              /* of a notch: its faces meet once they are so much nearer [m] */
+    real width;              /* width of a notch: its faces touch once their distance has decreased by this [m] */
 };
 
-/* Does the crack cut the bond between two reference positions? Symmetric in a and b to the last bit. A
- * particle closer to the crack's plane than 1e-9 lengths counts as on its positive side; a bond that passes
- * exactly through a crack's end is cut. */
+/* Returns true if the crack cuts the bond between reference positions a and b. Symmetric in a and b to the last bit. A
+ * particle closer to the crack's plane than 1e-9 crack lengths counts as on its positive side; a bond that passes
+ * exactly through the crack's end is cut. */
 bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim);
-/* False: it cuts no bond of a particle at X that is no longer than `reach` [m]. Quick, for the many that are far
- * away. */
+
+/* Returns false if the crack cuts no bond of a particle at X that is at most `reach` long [m]. Quick, for far
+ * particles. */
 bool crack_near(const struct crack *c, const real *X, real reach, int dim);
 
-/* Area of a crack in space as a vector along its normal: half of the sum of the cross products of the ways to its
- * corners from the first one (Newell) [m^2]. */
+/* Computes the area of a crack in 3D as a vector along its normal [m^2]: half of the sum of cross products of
+ * consecutive vectors from its first corner to the others (Newell). */
 void crack_area_vector(const struct crack *c, real area[DIM_MAX]);
 
-/* A plane of symmetry; the body is on one side of it. */
+/* A plane of symmetry; the body is on one side. */
 struct mirror_plane {
     int axis, outside; /* of its normal; side without body, -1 or +1 */
-    real at;           /* [m] */
+    /* position [m] */
+    real at; /* [m] */
 };
 
-/* Does the crack come from inside to X on a plane of symmetry, to the tolerance [m], or beyond it? There it goes on as
- * its image: that is no end of it. */
+/* Returns true if the crack reaches X on or beyond a plane of symmetry (within `tolerance` [m]) from inside: it
+ * continues there as its image, so X is not a crack end. */
 bool mirrors_continue(const struct mirror_plane *m, int mirrors, const struct crack *c, const real *X, real tolerance);
 
-/* Cracks and, for each, the number of the crack that it is or is an image of. */
+/* Cracks; of[k]: index of the crack of which crack k is a part or an image. */
 struct crack_list {
     int n;
     struct crack *crack;
     int *of;
 };
 
-/* What of the cracks lies in a body with planes of symmetry, and behind it the mirror images of what is within `reach`
- * [m] of them: a bond across a plane and its own image are then cut alike. */
+/* Computes the parts of the cracks within a body with planes of symmetry, and their mirror images within `reach` [m] of
+ * these planes, so that a bond across a plane and its image are cut alike. Release with crack_list_free. */
 void cracks_mirrored(struct crack_list *to, const struct crack *crack, int cracks, const struct mirror_plane *m,
                      int mirrors, real reach, real tolerance);
+
+/* Releases the cracks. */
 void crack_list_free(struct crack_list *l);
 
-/* Distance of X from the segment from..to [m]. */
+/* Returns the distance of X from the segment from .. to [m]. */
 real segment_distance(const real *from, const real *to, const real *X, int dim);
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
 /* A plane wave: at t = 0 v = velocity exp(-(xi/r)^2) along `polarisation`, xi = (X - at) . direction, r a quarter of
- * the width. It moves along `direction` into material at rest and leaves displaced material behind. Its particles
- * move along or across its direction: a longitudinal or a transverse wave. */
+ * the width. It travels along `direction` into material at rest and leaves displaced material behind. Polarisation
+ * along the direction: longitudinal wave; across it: transverse wave. */
 struct wave_pulse {
     real at[DIM_MAX];           /* centre [m] */
     real direction[DIM_MAX];    /* unit vector */
     real width;                 /* four radii r [m] */
-    real velocity;              /* of particles, largest [m/s] */
+    real velocity;              /* largest particle velocity [m/s] */
     real polarisation[DIM_MAX]; /* unit vector */
     bool transverse;
 };
 
-/* Velocity along the polarisation [m/s], displacement along it [m] and its slope du/dxi [1] at X, in material of
- * wave speed c [m/s]: v = -c du/dxi. */
+/* Velocity [m/s] and displacement [m] along the polarisation, and strain du/dxi [1], with v = -c du/dxi. */
 struct wave_state {
     real velocity, displacement, strain;
 };
+
+/* Returns the state of the wave at X at t = 0, in material of wave speed c [m/s]. */
 struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim);
 
 #endif

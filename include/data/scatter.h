@@ -1,13 +1,13 @@
-/* Strength that scatters from place to place: a random field over reference positions.
+/* Random field of strength over reference positions.
  *
  * A Gaussian field g of mean 0, variance 1 and correlation exp(-(r/length)^2): white noise on a lattice of half a
  * length, smoothed by exp(-2 (r/length)^2) (a moving average; Vanmarcke 1983). The noise of a node is a hash of seed
- * and node: the field is a function of the place alone, the same for every spacing, order and number of threads.
- * A factor W of mean 1 follows through the distribution's quantiles, W = F^-1(Phi(g)), with Weibull's (1951)
+ * and node: the field is a function of the position alone, independent of spacing, order and number of threads. A
+ * factor W of mean 1 follows through the quantiles of the distribution, W = F^-1(Phi(g)), with Weibull's (1951)
  *
  *     F(W) = 1 - exp(-(W Gamma(1 + 1/m))^m)
  *
- * or the lognormal one. Without a length every particle has a factor of its own. */
+ * or the lognormal distribution. Without a length every particle has an independent factor. */
 #ifndef CLEAVE_SCATTER
 #define CLEAVE_SCATTER
 
@@ -16,21 +16,24 @@
 enum scatter_of { SCATTER_STRENGTH, SCATTER_STRETCH, SCATTER_TOUGHNESS, SCATTER_ENERGY };
 enum scatter_form { SCATTER_WEIBULL, SCATTER_LOGNORMAL };
 
+/* Parameters of the random field. */
 struct strength_scatter {
     bool given;
-    enum scatter_of of; /* what has the distribution: G_c goes with the square of the others */
+    enum scatter_of of; /* quantity with this distribution; G_c is proportional to the square of the others */
     enum scatter_form form;
     real modulus;   /* m of Weibull's distribution [1] */
-    real variation; /* of the lognormal one: standard deviation over mean [1] */
-    real length;    /* 0: each particle by itself [m] */
+    real variation; /* lognormal: standard deviation over mean [1] */
+    real length;    /* correlation length, 0: independent particles [m] */
     uint64_t seed;
 };
 
-/* g at X [m]; `id` numbers particles where there is no length. */
+/* Returns g at X [m]. id: number of the particle, used if there is no length. */
 real scatter_gaussian(const struct strength_scatter *s, const real *X, int dim, int64_t id);
-/* Factor on the critical stretch there; 1 where nothing scatters. */
+
+/* Returns the factor on the critical stretch at X [m] [1]; 1 if nothing scatters. id: as scatter_gaussian. */
 real scatter_factor(const struct strength_scatter *s, const real *X, int dim, int64_t id);
-/* Number below which a standard normal one lies with probability u, 0 < u < 1. */
+
+/* Returns the u-quantile of the standard normal distribution, 0 < u < 1. */
 real normal_quantile(real u);
 
 #endif

@@ -1,17 +1,17 @@
-/* Material points that turn together: FLIP that keeps angular momentum.
+/* Groups of material points that rotate together: FLIP with conservation of angular momentum.
  *
- * FLIP hands the change dv_I of a node to points round the centre of mass c_I of what the node has of them, while the
- * force acted at the node: at faces and interfaces, where c_I is not x_I, the angular momentum m_I (x_I - c_I) x dv_I
- * is lost, and the second map gives the node the velocity of c_I, so that a body that turns strains at its faces. Two
- * blocks that a collision turned lost 43 % of it in 400 us. Point by point the loss is
+ * FLIP transfers the change dv_I of a node to points around the centre of mass c_I of their contributions to the node,
+ * while the force acted at the node: at faces and interfaces, where c_I is not x_I, the angular momentum m_I (x_I -
+ * c_I) x dv_I is lost, and the second map gives the node the velocity of c_I, so that a rotating body strains at its
+ * faces. Two blocks set rotating by a collision lost 43 % of it in 400 us. The loss of point p is
  *     lack_p = m_p sum_I N (x_I - x_p) x dv_I.
- * Points are therefore taken in groups of some 6 by 6 (by 6) neighbours of the reference configuration. A group
- * receives what its points lack as a rotation about its centre of mass, and its points give nodes their velocity
- * continued by the spin w of the group; one is the adjoint of the other in the mass, so that energies balance:
+ * Points are therefore grouped by about 6 by 6 (by 6) neighbours of the reference configuration. A group receives the
+ * lack of its points as a rotation about its centre of mass, and its points extrapolate their velocity to nodes with
+ * the spin w of the group; one is the adjoint of the other in the mass, so that energies balance:
  *     v_p += (J^-1 sum lack) x r_p,   w = J^-1 sum m r x v,   P_I = sum m N (v_p + w x (x_I - x_p))
- * Momentum and angular momentum are kept, and no rotation of a group strains it. Groups of fewer than TURNING_FEW
- * points join a neighbour: they have too little inertia J. Points move with the velocities of the second map, but in
- * hand-shake. */
+ * Momentum and angular momentum are conserved, and no rotation of a group strains it. Groups of fewer than TURNING_FEW
+ * points join a neighbour: their inertia J is too small. Points move with the velocities of the second map, except for
+ * the coupling `handshake`. */
 #ifndef CLEAVE_TURNING
 #define CLEAVE_TURNING
 
@@ -19,37 +19,43 @@
 
 enum { TURNING_EDGE = 6, TURNING_FEW = 12, TURNING_NEAR = 26 };
 
+/* One group of particles. */
 struct turning_group {
-    int64_t place[DIM_MAX];     /* in group edges */
-    int32_t body, points;       /* points: on the grid now */
-    int32_t off;                /* how far it is from the middle, along all axes [half edges] */
+    int64_t place[DIM_MAX];     /* position of the group [group edges] */
+    int32_t body, points;       /* body; points on the grid now */
+    int32_t off;                /* distance from the middle, summed over the axes [half edges] */
     int64_t first, end;         /* its particles: member[first] .. member[end - 1] */
-    int32_t near[TURNING_NEAR]; /* neighbours of its body, along axes first; -1: none */
-    int32_t root;               /* the group that it is part of now */
-    bool held;                  /* a support holds points of its body, which is left as FLIP has it */
-    real mass, moment[DIM_MAX]; /* [kg], [kg m]; of a root of all its groups, moment then the centre [m] */
+    int32_t near[TURNING_NEAR]; /* neighbours in its body, first along axes; -1: none */
+    int32_t root;               /* the group that it has joined, itself if none */
+    bool held;                  /* a support acts on points of its body, which then moves as in plain FLIP */
+    real mass, moment[DIM_MAX]; /* [kg], [kg m]; of a root: of all its groups, with moment replaced by the centre [m] */
     real inertia[3][3];         /* about the centre [kg m^2] */
-    real sum[3];                /* what it lacks, then its angular momentum [kg m^2/s] */
-    real spin[3];               /* what it gains, then has [1/s] */
+    real sum[3];                /* lack of its points, then its angular momentum [kg m^2/s] */
+    real spin[3];               /* gain of spin, then its spin [1/s] */
 };
 
+/* All groups. All arrays are owned. */
 struct turning_groups {
-    int32_t groups;              /* number of them; 0: points do not turn in groups */
-    struct turning_group *group; /* ascending by body and place */
-    int32_t *member;             /* [n] particles, in a group by their places */
-    real *turn[3];               /* [n] what a point lacks [kg m^2/s], then its group's spin [1/s]; 2D: last */
+    int32_t groups;              /* number of groups; 0: points do not rotate in groups */
+    struct turning_group *group; /* ascending by body and position */
+    int32_t *member;             /* [n] particles, within a group by position */
+    real *turn[3]; /* [n] lack of a point [kg m^2/s], then the spin of its group [1/s]; 2D: only turn[2] */
 };
 
-/* Groups of all particles, whether they are on the grid now or not. middle: where groups are counted from [m]; one:
- * [bodies] the first body that is one with this one; held: [bodies] supports hold it. */
+/* Creates groups of all particles, on the grid or not. middle: origin of the groups [m]; one: [bodies] first body that
+ * is joined to this body; held: [bodies] supports act on it. Release with turning_free. */
 void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const real *middle, const int *one,
                   const bool *held);
+
+/* Releases all arrays. */
 void turning_free(struct turning_groups *t);
 
-/* Before a step on the grid: finds centres and inertias, and sets turn to the spin of each point's group. */
+/* Computes centres, inertias and spins of the groups before a step on the grid; stores the spin of each point's group
+ * in turn. */
 void turning_begin(struct turning_groups *t, struct particles *p, real spacing);
-/* Gives the points of each group what they lack (turn), and sets turn to their spin again; positions are those of
- * turning_begin. */
+
+/* Adds the rotation that the points of each group lack (turn) to their velocities, then stores their spin in turn.
+ * Positions must be those of turning_begin. */
 void turning_share(struct turning_groups *t, struct particles *p);
 
 #endif

@@ -1,12 +1,13 @@
-/* Grey values on a grid of pixels or voxels, and the places whose grey values are of a kind. */
+/* Grey values on a grid of pixels or voxels, and the solid made of certain grey values. */
 #ifndef CLEAVE_VOXELS
 #define CLEAVE_VOXELS
 
 #include "base/base.h"
 
+/* Grey values. The array is owned. */
 struct voxels {
     int dim;
-    int64_t n[DIM_MAX]; /* voxels along x, y, z; 1 where there is no such direction */
+    int64_t n[DIM_MAX]; /* voxels along x, y, z; 1 in absent directions */
     real size[DIM_MAX]; /* of a voxel [m] */
     real from[DIM_MAX]; /* lower corner of the first [m] */
     uint16_t *grey;     /* x fastest */
@@ -14,11 +15,13 @@ struct voxels {
 
 enum { GREY_MAX = UINT16_MAX, VOXELS_MAX = INT32_MAX };
 
+/* Releases the array. */
 void voxels_free(struct voxels *v);
-/* Grey value at X; -1 outside. A place between voxels belongs to the upper one, also where round-off moved it. */
+
+/* Returns the grey value at X [m], -1 outside. A point between voxels belongs to the upper one, up to round-off. */
 int voxels_grey(const struct voxels *v, const real *X);
 
-/* Grey values low..high, ends included. */
+/* Range of grey values low .. high, inclusive. */
 struct grey_range {
     int low, high;
 };
@@ -29,15 +32,18 @@ struct voxel_part {
     const struct voxels *of;
     int ranges;
     struct grey_range range[GREY_RANGES_MAX];
-    int64_t voxels; /* how many there are */
-    float *level;   /* signed distance of their centres from the surface, negative inside [m] */
+    int64_t voxels; /* number of voxels */
+    float *level;   /* signed distance of voxel centres from the surface, negative inside [m] */
 };
 
-/* Finds its voxels and their distances; of and the ranges are given. */
+/* Finds the voxels and their distances; `of` and the ranges must be set. Release with voxel_part_free. */
 void voxel_part_make(struct voxel_part *p);
+
+/* Releases the distances. */
 void voxel_part_free(struct voxel_part *p);
-/* Signed distance, negative inside [m]: its sign is exact, its value that of the centre of the voxel. normal (may be
- * NULL): away from the surface. */
+
+/* Returns the signed distance, negative inside [m]: exact in sign, in value that of the centre of the voxel. normal:
+ * NULL, or the unit vector away from the surface. */
 real voxel_part_distance(const struct voxel_part *p, const real *X, real *normal);
 
 #endif

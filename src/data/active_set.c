@@ -1,4 +1,4 @@
-/* The active set: levels of blocks, the list of active blocks, and what a checkpoint holds of them. */
+/* The active set: levels of blocks, the list of active blocks, and their state in checkpoints. */
 #include "data/active_set.h"
 
 #include <stdio.h>
@@ -30,6 +30,7 @@ void active_set_list(struct active_set *r)
         if (r->level[k] > 0) r->list[r->active++] = (int32_t)k;
 }
 
+/* Lists all blocks as active. */
 static void list_all(struct active_set *r)
 {
     for (int64_t k = 0; k < r->blocks; k++) r->list[k] = (int32_t)k;

@@ -1,4 +1,4 @@
-/* Boxes halved by their middles, again and again. */
+/* Builds a tree of boxes by halving at the median of their middles, and searches it. */
 #include "data/box_tree.h"
 
 #include <math.h>
@@ -6,12 +6,13 @@
 
 #include "base/memory.h"
 
-/* A box while the tree is made, and the middle by which its node is halved now; 0 of one without end. */
+/* A box during construction, and the coordinate of its middle along the present axis, 0 if infinite. */
 struct boxed {
     real middle;
     int32_t item;
 };
 
+/* Orders boxes by middle, then by number. */
 static int boxed_order(const void *a, const void *b)
 {
     const struct boxed *p = a, *q = b;
@@ -19,13 +20,14 @@ static int boxed_order(const void *a, const void *b)
     return (p->item > q->item) - (p->item < q->item);
 }
 
+/* Returns the middle of a box along d, 0 if it is infinite. */
 static real middle_of(const struct bounds *box, int d)
 {
     const real middle = 0.5 * (box->low[d] + box->high[d]);
     return isfinite(middle) ? middle : 0;
 }
 
-/* The direction along which the middles are spread most. */
+/* Returns the direction along which the middles differ most. */
 static int widest_spread(const struct boxed *list, int n, const struct bounds *box, int dim)
 {
     int widest = 0;
@@ -41,7 +43,7 @@ static int widest_spread(const struct boxed *list, int n, const struct bounds *b
     return widest;
 }
 
-/* Makes node `at` of the boxes list[0 .. n - 1]; `nodes`: how many there are so far. */
+/* Builds node `at` from the boxes list[0 .. n - 1], and its children. *nodes: number of nodes so far. */
 static void boxes_halve(struct box_tree *t, int32_t at, int32_t *nodes, struct boxed *list, int n,
                         const struct bounds *box, int dim)
 {
@@ -80,6 +82,7 @@ void box_tree_free(struct box_tree *t)
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
+/* Adds a node to the nodes to be visited. */
 static void box_wait(struct box_search *q, int32_t node)
 {
     const struct bounds *box = &q->tree->node[node].box;

@@ -1,4 +1,4 @@
-/* Linked cells over reference positions. */
+/* Search for near particles with linked cells over reference positions. */
 #include "data/cells.h"
 
 #include <math.h>
@@ -8,6 +8,7 @@
 
 /* ---- reference search -------------------------------------------------------------------------------------------- */
 
+/* Returns the cell of X; positions outside the box belong to the nearest cell. */
 static int64_t cells_cell_of(const struct cells *c, const real *X)
 {
     int64_t index = 0;
@@ -20,11 +21,12 @@ static int64_t cells_cell_of(const struct cells *c, const real *X)
     return index;
 }
 
-/* Cells an edge is cut into: at the usual horizon they are rows of the lattice, so that particles are found in their
- * order, and the squares round a point hold fewer that are too far. */
+/* Cells per search radius: at the usual horizon cells are rows of the lattice, so that particles are found in ascending
+ * order, and the cells around a point contain fewer particles beyond the radius. */
 enum { CELLS_ACROSS = 3 };
 
-/* A box far larger than its particles would need more cells than particles: coarser cells search as well. */
+/* Chooses origin, size and number of cells. A box far larger than its particles would need more cells than particles:
+ * larger cells are used then. */
 static void cells_shape(struct cells *c, const struct particles *p, real edge)
 {
     real low[DIM_MAX], high[DIM_MAX];
@@ -69,7 +71,7 @@ void cells_free(struct cells *c)
     memset(c, 0, sizeof *c);
 }
 
-/* What is found row by row is in order but for images, which come last of all. */
+/* Sorts a list that is ascending except for images at its end (insertion sort). */
 static void sort_ascending(int32_t *found, int n)
 {
     for (int k = 1; k < n; k++) {
@@ -80,7 +82,7 @@ static void sort_ascending(int32_t *found, int n)
     }
 }
 
-/* What a search looks for and what it has found. */
+/* Parameters and results of a search. */
 struct search {
     const struct cells *c;
     const real *X;
@@ -90,6 +92,7 @@ struct search {
     bool ascending, any_order;
 };
 
+/* Appends the particles within the radius in the cells first .. last. */
 static inline void near_in_row(struct search *s, const struct particles *p, int64_t first, int64_t last, const int dim)
 {
     const int32_t *order = s->c->order;
@@ -106,14 +109,14 @@ static inline void near_in_row(struct search *s, const struct particles *p, int6
     }
 }
 
-/* How far X is from the cells of index k in direction d, a little less for round-off [m]. */
+/* Returns the distance of X from cells of index k in direction d, slightly reduced for round-off [m]. */
 static inline real gap(const struct cells *c, const real *X, int d, int64_t k)
 {
     const real low = c->origin[d] + (real)k * c->width;
     return real_max(0, real_max(low - X[d], X[d] - low - c->width) - 1e-9 * c->width - 1e-15 * fabs(X[d]));
 }
 
-/* Cells of direction d within `reach` of X: none if low > high. */
+/* Computes the range of cells in direction d within `reach` of X; low > high if there are none. */
 static inline void cells_within(const struct cells *c, const real *X, int d, real reach, int64_t *low, int64_t *high)
 {
     reach = reach * (1 + 1e-12) + 1e-15 * fabs(X[d]); /* round-off of the distance */
@@ -123,6 +126,7 @@ static inline void cells_within(const struct cells *c, const real *X, int d, rea
     if (*high >= c->count[d]) *high = c->count[d] - 1;
 }
 
+/* Searches all cells within the radius. Returns the number of particles found. */
 static inline int near(struct search *s, const struct particles *p, const int dim)
 {
     const struct cells *c = s->c;
@@ -146,6 +150,7 @@ static inline int near(struct search *s, const struct particles *p, const int di
     return s->n;
 }
 
+/* Searches in the dimension of the cells. */
 static int search(struct search *s, const struct particles *p)
 {
     switch (s->c->dim) {
@@ -165,7 +170,7 @@ int cells_near(const struct cells *c, const struct particles *p, const real *X, 
     return search(&s, p);
 }
 
-/* Particles in the cells round a cell, those at most `reach` cells away. */
+/* Returns the number of particles in the cells at most `reach` cells away from a cell. */
 static int64_t around(const struct cells *c, int64_t cell, int64_t reach)
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, sum = 0;
@@ -197,6 +202,7 @@ int cells_most(const struct cells *c, real radius)
     return (int)most;
 }
 
+/* Lists the particles near particle i, growing the list as needed. */
 static void cells_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
                        bool itself, bool any_order)
 {

@@ -1,11 +1,11 @@
-/* Cracks of a body with planes of symmetry: what of them lies in the body, and its mirror images. */
+/* Cracks of a body with planes of symmetry: their parts in the body, and their mirror images. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "data/region.h"
 
-/* Height of X above the plane on the body's side [m]. */
+/* Returns the height of X above the plane on the body's side [m]. */
 static real inner_height(const struct mirror_plane *m, const real *X)
 {
     return (real)-m->outside * (X[m->axis] - m->at);
@@ -19,16 +19,15 @@ bool mirrors_continue(const struct mirror_plane *m, int mirrors, const struct cr
     return false;
 }
 
-/* Where the line from a to b meets the plane. */
-static void meeting_place(const struct mirror_plane *m, const real *a, const real *b, real *X)
+/* Computes the intersection X of the segment a-b with the plane. */
+static void plane_intersection(const struct mirror_plane *m, const real *a, const real *b, real *X)
 {
     const real share = inner_height(m, a) / (inner_height(m, a) - inner_height(m, b));
     for (int d = 0; d < DIM_MAX; d++) X[d] = a[d] + share * (b[d] - a[d]);
     X[m->axis] = m->at;
 }
 
-/* Leaves of a crack what is on the body's side of the plane: of a polygon with one corner more at the most, for which
- * there is room. */
+/* Clips a crack to the body's side of the plane; a polygon may gain one corner, for which there must be room. */
 static void crack_clip(struct crack *c, const struct mirror_plane *m, real tolerance)
 {
     real(*corner)[DIM_MAX] = memory_new("crack.clip", c->n + 1, sizeof *corner);
@@ -37,14 +36,14 @@ static void crack_clip(struct crack *c, const struct mirror_plane *m, real toler
         const real *a = c->corner[k], *b = c->corner[(k + 1) % c->n];
         const bool inside = inner_height(m, a) >= -tolerance, next = inner_height(m, b) >= -tolerance;
         if (inside) memcpy(corner[n++], a, sizeof *corner);
-        if (inside != next && (c->n > 2 || k == 0)) meeting_place(m, a, b, corner[n++]);
+        if (inside != next && (c->n > 2 || k == 0)) plane_intersection(m, a, b, corner[n++]);
     }
     array_copy(c->corner, corner, n, sizeof *corner);
     c->n = n;
     memory_free(corner);
 }
 
-/* Adds a copy with room for corners to come. */
+/* Appends a copy of crack c with room for `more` corners; of: index of the original. */
 static struct crack *crack_add(struct crack_list *to, const struct crack *c, int of, int more)
 {
     GROW("crack.images", to->crack, to->n + 1);
@@ -57,8 +56,8 @@ static struct crack *crack_add(struct crack_list *to, const struct crack *c, int
     return new;
 }
 
-/* Adds the image of crack k, with its corners in reverse: particles in its plane count as on the same face of it. None
- * of a crack in the plane, or one too far from it for bonds. */
+/* Appends the image of crack k, with its corners in reverse order, so that particles in its plane count as on the same
+ * side. Omitted if the crack lies in the plane, or too far from it for bonds. */
 static void image_add(struct crack_list *to, int k, const struct mirror_plane *m, real reach, real tolerance)
 {
     const struct crack c = to->crack[k];
@@ -84,7 +83,7 @@ void cracks_mirrored(struct crack_list *to, const struct crack *crack, int crack
         for (int b = 0; b < mirrors && c->n > 0; b++) crack_clip(c, &m[b], tolerance);
         if (c->n == 0) memory_free(to->crack[--to->n].corner);
     }
-    for (int b = 0; b < mirrors; b++) /* images of images, too: for corners */
+    for (int b = 0; b < mirrors; b++) /* including images of images, at corners */
         for (int k = 0, n = to->n; k < n; k++) image_add(to, k, &m[b], reach, tolerance);
 }
 

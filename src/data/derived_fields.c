@@ -1,11 +1,11 @@
-/* Invariants and principal values of symmetric tensors, and the table of fields that follow from another one. */
+/* Invariants and principal values of symmetric tensors, and the table of derived fields. */
 #include "data/derived_fields.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { XX, YY, ZZ, XY, YZ, XZ };
-enum { SWEEPS = 12 }; /* Jacobi's sweeps at the most; they converge quadratically, five do */
+enum { SWEEPS = 12 }; /* largest number of Jacobi sweeps; they converge quadratically, five suffice */
 
 real tensor_mises(const real s[6])
 {
@@ -19,7 +19,7 @@ real tensor_determinant(const real s[6])
            s[XZ] * (s[XY] * s[YZ] - s[YY] * s[XZ]);
 }
 
-/* Turns axes p and q of a so that a[p][q] becomes 0; rows of v are the axes (Golub & Van Loan, section 8.5). */
+/* Rotates axes p and q of a such that a[p][q] becomes 0; rows of v are the axes (Golub & Van Loan, section 8.5). */
 static void axes_turn(real a[3][3], real v[3][3], int p, int q)
 {
     if (a[p][q] == 0) return;
@@ -37,7 +37,7 @@ static void axes_turn(real a[3][3], real v[3][3], int p, int q)
     a[p][q] = a[q][p] = 0;
 }
 
-/* The unit vector with its largest component positive. */
+/* Copies a unit vector, with the sign that makes its largest component positive. */
 static void axis_put(const real *axis, real *to)
 {
     int most = 0;

@@ -1,4 +1,4 @@
-/* Values of compiled expressions. */
+/* Evaluation of compiled expressions. */
 #include "data/expression.h"
 
 #include <math.h>
@@ -7,11 +7,13 @@
 
 static const real pi = 3.14159265358979323846;
 
+/* Returns a, limited to 0 .. 1. */
 static real ramp_of(real a) { return a <= 0 ? 0 : a >= 1 ? 1 : a; }
 
-/* sin^2(pi a) for 0 < a < 1: a load that rises and falls smoothly. */
+/* Returns sin^2(pi a) for 0 < a < 1, else 0: a load that rises and falls smoothly. */
 static real pulse_at(real a) { return a > 0 && a < 1 ? square(sin(pi * a)) : 0; }
 
+/* Returns the result of an operation with one operand. */
 static real one_operand(enum expression_op op, real a)
 {
     switch (op) {
@@ -82,6 +84,7 @@ real expression_operate(enum expression_op op, real a, real b)
     }
 }
 
+/* Returns the value that a step pushes. */
 static real leaf(const struct expression_step *step, const real *X, int dim, real t)
 {
     if (step->op == EXPRESSION_NUMBER) return step->value;

@@ -6,9 +6,9 @@
 
 #include "base/memory.h"
 
-/* Nodes beyond the outermost point: reach of the widest shape and one cell of motion. */
+/* Nodes beyond the outermost point: reach of the widest shape function, and one cell of motion. */
 enum { MARGIN = 3 };
-#define NODE_FARTHEST 1e15 /* cells: farther, an index is no whole number of a double any more */
+#define NODE_FARTHEST 1e15 /* cells; farther away an index is no longer exact in a double */
 
 static void grid_arrays_free(struct grid *g)
 {

@@ -1,4 +1,4 @@
-/* Surfaces from faces: what cancels, what is open, which way is out. */
+/* Surfaces from faces: cancels inner faces, finds open edges and components, orients normals outwards. */
 #include "data/hull.h"
 
 #include <math.h>
@@ -8,12 +8,14 @@
 
 /* ---- faces and their sides ------------------------------------------------------------------------------------- */
 
-/* A face, or a side of one, by its corners in ascending order; turn: +1 or -1, whether sorting them turned it over. */
+/* A face, or an edge of one, with its corners in ascending order; turn: +1 or -1, -1 if sorting reversed its
+ * orientation. */
 struct piece {
     int32_t corner[DIM_MAX], of;
     int turn;
 };
 
+/* Orders pieces by corners, then by origin. */
 static int piece_order(const void *a, const void *b)
 {
     const struct piece *p = a, *q = b;
@@ -22,12 +24,13 @@ static int piece_order(const void *a, const void *b)
     return (p->of > q->of) - (p->of < q->of);
 }
 
+/* Returns true if two pieces have equal corners. */
 static bool piece_same(const struct piece *p, const struct piece *q)
 {
     return memcmp(p->corner, q->corner, sizeof p->corner) == 0;
 }
 
-/* Sorts the first n corners; each exchange turns the piece over. */
+/* Sorts the first n corners; each exchange reverses the orientation. */
 static void piece_sort(struct piece *p, int n)
 {
     for (int round = 1; round < n; round++)
@@ -38,12 +41,13 @@ static void piece_sort(struct piece *p, int n)
         }
 }
 
+/* Returns true if a face has two equal corners. */
 static bool face_degenerate(const struct hull *s, const int32_t *face)
 {
     return face[0] == face[1] || (s->dim == 3 && (face[1] == face[2] || face[2] == face[0]));
 }
 
-/* Keeps of equal faces one, or none if as many look one way as the other: where two elements meet. */
+/* Keeps one of several equal faces, or none if both orientations are equally frequent, as where two elements meet. */
 static void faces_cancel(struct hull *s)
 {
     struct piece *piece = NEW("hull.pieces", s->faces, struct piece);
@@ -69,8 +73,10 @@ static void faces_cancel(struct hull *s)
     memory_free(piece);
 }
 
-/* ---- what is open, and how many shells ------------------------------------------------------------------------- */
+/* ---- open edges and components
+ * ------------------------------------------------------------------------------------- */
 
+/* Lists the edges (2D: end points) of all faces, sorted. Returns their number. */
 static int64_t sides_make(const struct hull *s, struct piece *side)
 {
     int64_t n = 0;
@@ -86,7 +92,7 @@ static int64_t sides_make(const struct hull *s, struct piece *side)
     return n;
 }
 
-/* Sides that the faces beside them run through in one direction more often than in the other. */
+/* Finds the edges that adjacent faces traverse in one direction more often than in the other. */
 static void find_open(struct hull *s)
 {
     struct piece *side = NEW("hull.pieces", s->faces * s->dim, struct piece);
@@ -102,13 +108,14 @@ static void find_open(struct hull *s)
     memory_free(side);
 }
 
-/* The lowest corner that is connected with this one, as far as is known; shortens the way to it. */
+/* Returns the lowest corner known to be connected with this one (union-find with path halving). */
 static int32_t shell_root(int32_t *up, int32_t corner)
 {
     while (up[corner] != corner) corner = up[corner] = up[up[corner]];
     return corner;
 }
 
+/* Returns the number of connected components. */
 static int64_t count_shells(const struct hull *s)
 {
     int32_t *up = NEW("hull.shells", s->corners, int32_t);
@@ -119,7 +126,7 @@ static int64_t count_shells(const struct hull *s)
             const int32_t a = shell_root(up, s->face[k][0]), b = shell_root(up, s->face[k][c]);
             up[a > b ? a : b] = a > b ? b : a;
         }
-    /* a shell is counted at its lowest corner; corners of no face are none */
+    /* a component is counted at its lowest corner; corners of no face are not counted */
     bool *met = NEW("hull.shells", s->corners, bool);
     for (int64_t k = 0; k < s->faces; k++) met[shell_root(up, s->face[k][0])] = true;
     for (int64_t k = 0; k < s->corners; k++) shells += met[k];
@@ -144,7 +151,8 @@ void hull_area(const struct hull *s, int64_t k, real area[DIM_MAX])
     }
 }
 
-/* Integral of div X / dim over the body: the sum of (X - X0) . area / dim, X0 a corner, which keeps digits. */
+/* Returns the integral of div X / dim over the body: the sum of (X - X0) . area / dim; X0 is a corner, to keep
+ * digits. */
 static real volume_of(const struct hull *s)
 {
     real sum = 0;
@@ -165,6 +173,7 @@ real hull_support(const struct hull *s, const real *along)
     return most;
 }
 
+/* Reverses the orientation of all faces. */
 static void faces_reverse(struct hull *s)
 {
     for (int64_t k = 0; k < s->faces; k++) {
@@ -173,6 +182,7 @@ static void faces_reverse(struct hull *s)
     }
 }
 
+/* Initialises a surface with its corners and faces. */
 static void hull_take(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
                       int32_t (*face)[DIM_MAX])
 {

@@ -1,23 +1,24 @@
-/* A tree of boxes over the faces of a surface; winding numbers and distances by it. */
+/* A tree of boxes over the faces of a surface, for winding numbers and distances. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "data/hull.h"
 
-enum { LEAF = 8, DEEPEST = 64 }; /* faces of a leaf; nodes that wait */
-#define FAR 3.0                  /* radii of a node at which its dipole stands for its faces */
+enum { LEAF = 8, DEEPEST = 64 }; /* largest number of faces in a leaf; of waiting nodes */
+#define FAR 3.0                  /* distance, in radii of a node, from which its dipole replaces its faces */
 
 static const real pi = 3.14159265358979323846;
 
 /* ---- making --------------------------------------------------------------------------------------------------- */
 
-/* A face while the tree is made: its middle, by which nodes are halved. */
+/* A face during construction, and its middle, by which nodes are halved. */
 struct leaflet {
     real middle[DIM_MAX];
     int32_t face;
 };
 
+/* Orders faces by their middles along an axis, then by number. */
 static int leaflet_order(const struct leaflet *a, const struct leaflet *b, int axis)
 {
     const real x = a->middle[axis], y = b->middle[axis];
@@ -27,7 +28,7 @@ static int order_x(const void *a, const void *b) { return leaflet_order(a, b, 0)
 static int order_y(const void *a, const void *b) { return leaflet_order(a, b, 1); }
 static int order_z(const void *a, const void *b) { return leaflet_order(a, b, 2); }
 
-/* Box, dipole and its place, from the faces of a node. */
+/* Computes box, dipole moment and centre of a node from its faces. */
 static void node_measure(const struct hull *s, struct hull_node *n, const struct leaflet *leaf)
 {
     real weight = 0;
@@ -49,7 +50,7 @@ static void node_measure(const struct hull *s, struct hull_node *n, const struct
     for (int d = 0; d < s->dim; d++) n->centre[d] = weight > 0 ? n->centre[d] / weight : 0.5 * (n->low[d] + n->high[d]);
 }
 
-/* Halves a node at the middle face of the longest edge of its box, and so on; leaves hold LEAF faces at the most. */
+/* Halves a node at the median face along the longest edge of its box, recursively, down to LEAF faces. */
 static void node_split(struct hull *s, int32_t at, struct leaflet *leaf)
 {
     static int (*const order[])(const void *, const void *) = {order_x, order_y, order_z};
@@ -73,7 +74,8 @@ void hull_tree_make(struct hull *s)
 {
     struct leaflet *leaf = NEW("hull.tree", s->faces, struct leaflet);
     int32_t(*sorted)[DIM_MAX] = memory_new("hull.faces", s->faces, sizeof *sorted);
-    s->node = NEW("hull.tree", 1 + s->faces, struct hull_node); /* halves of 9 and more: leaves of 4 and more */
+    s->node =
+        NEW("hull.tree", 1 + s->faces, struct hull_node); /* nodes of 9 and more are halved: leaves have 4 and more */
     for (int64_t k = 0; k < s->faces; k++) {
         leaf[k].face = (int32_t)k;
         for (int c = 0; c < s->dim; c++)
@@ -90,7 +92,8 @@ void hull_tree_make(struct hull *s)
 
 /* ---- winding number ------------------------------------------------------------------------------------------- */
 
-/* Solid angle of a triangle (van Oosterom, Strackee 1983, eq. 8) over 4 pi; of a segment its angle over 2 pi. */
+/* Returns the solid angle of a triangle (van Oosterom, Strackee 1983, eq. 8) over 4 pi; of a segment its angle over 2
+ * pi. */
 static real face_winding(const struct hull *s, const int32_t *face, const real *X)
 {
     real arm[DIM_MAX][DIM_MAX], length[DIM_MAX];
@@ -107,7 +110,8 @@ static real face_winding(const struct hull *s, const int32_t *face, const real *
     return atan2(triple, below) / (2 * pi);
 }
 
-/* The dipole of a node at X, if X is FAR from it (Barill et al. 2018, first order). */
+/* Adds the winding number of a node's dipole to *sum if X is FAR from it (Barill et al. 2018, first order). Returns
+ * false if it is not. */
 static bool node_winding(const struct hull *s, const struct hull_node *n, const real *X, real *sum)
 {
     real r2 = 0, radius2 = 0, along = 0;
@@ -155,7 +159,7 @@ real hull_doubt(const struct hull *s)
 
 /* ---- distance ------------------------------------------------------------------------------------------------- */
 
-/* Nearest point of a segment. */
+/* Computes the point of segment a-b nearest to X. */
 static void segment_nearest(const real *a, const real *b, const real *X, int dim, real *nearest)
 {
     real along = 0, length2 = 0;
@@ -164,6 +168,7 @@ static void segment_nearest(const real *a, const real *b, const real *X, int dim
     for (int d = 0; d < dim; d++) nearest[d] = a[d] + share * (b[d] - a[d]);
 }
 
+/* Returns the squared distance of a and b. */
 static real apart2(const real *a, const real *b, int dim)
 {
     real sum = 0;
@@ -171,7 +176,8 @@ static real apart2(const real *a, const real *b, int dim)
     return sum;
 }
 
-/* Nearest point of a triangle: the foot of X on its plane if that lies inside, else the nearest of its sides. */
+/* Computes the point of a triangle nearest to X: the foot of X on its plane if inside, else the nearest point of its
+ * edges. */
 static void triangle_nearest(const real *corner[DIM_MAX], const real *area, const real *X, real *nearest)
 {
     const real area2 = dot(area, area, 3);
@@ -197,6 +203,7 @@ static void triangle_nearest(const real *corner[DIM_MAX], const real *area, cons
     }
 }
 
+/* Computes the point of face k nearest to X. */
 static void face_nearest(const struct hull *s, int64_t k, const real *X, real *nearest)
 {
     const real *corner[DIM_MAX];
@@ -210,7 +217,7 @@ static void face_nearest(const struct hull *s, int64_t k, const real *X, real *n
     triangle_nearest(corner, area, X, nearest);
 }
 
-/* Square of the distance from the box of a node [m^2]. */
+/* Returns the squared distance of X from the box of a node [m^2]. */
 static real box_apart2(const struct hull_node *n, const real *X, int dim)
 {
     real sum = 0;
@@ -218,7 +225,8 @@ static real box_apart2(const struct hull_node *n, const real *X, int dim)
     return sum;
 }
 
-/* The face nearest to X of those whose squared distance is below *r2, which it becomes, and its point there [m^2]. */
+/* Returns the face nearest to X among those with a squared distance below *r2, which is updated [m^2], and its nearest
+ * point. */
 static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, real *r2)
 {
     int32_t wait[DEEPEST], found = 0;
@@ -241,12 +249,13 @@ static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, 
     return found;
 }
 
+/* Returns true if X is outside the surface. */
 static bool hull_outside(const struct hull *s, const real *X)
 {
     return s->open || box_apart2(&s->node[0], X, s->dim) > 0 || hull_winding(s, X) < 0.5;
 }
 
-/* A surface beyond what is asked for leaves only the question of the side. */
+/* If the surface is farther away than `most`, only the side has to be found. */
 bool hull_within(const struct hull *s, const real *X, real most)
 {
     real size = 0, point[DIM_MAX];

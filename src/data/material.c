@@ -1,4 +1,4 @@
-/* Elastic constants of a material in its space, and what bond-based peridynamics makes of them. */
+/* Elastic constants of a material in its space, and the constants of bond-based peridynamics. */
 #include "data/material.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ real material_bond_poisson(enum space space)
     return poisson[space];
 }
 
-/* Energy of a uniform expansion s: bonds 1/4 c s^2 Sigma; classical 1/2 E s^2, 2 k2 s^2, 9/2 K s^2. */
+/* Energy density of a uniform expansion s: bonds 1/4 c s^2 sigma; continuum 1/2 E s^2, 2 k2 s^2, 9/2 K s^2. */
 real material_micro_modulus(const struct material *m, enum space space, real sigma)
 {
     static const real factor[DIM_MAX + 1] = {[1] = 2, [2] = 8, [3] = 18};
@@ -20,7 +20,7 @@ real material_micro_modulus(const struct material *m, enum space space, real sig
     return factor[space_dim(space)] * m->bulk / sigma;
 }
 
-/* The same with the integral of r over the horizon in place of the sum. */
+/* Energy match as in material_micro_modulus, with the integral of r over the horizon in place of the sum. */
 real material_micro_modulus_continuum(const struct material *m, enum space space, real horizon, real section)
 {
     switch (space_dim(space)) {
@@ -33,7 +33,8 @@ real material_micro_modulus_continuum(const struct material *m, enum space space
     }
 }
 
-/* The energy of all bonds across a unit area at s_c is G_c; the thickness cancels. */
+/* Returns the critical stretch of bond-based models: the energy of all bonds across a unit area at s_c equals G_c
+ * (Silling & Askari 2005); the thickness cancels. */
 static real critical_bond(const struct material *m, enum space space, real horizon)
 {
     real ratio = m->energy_release_rate / (m->bulk * horizon);
@@ -56,14 +57,14 @@ real material_critical_stretch(const struct material *m, enum space space, real 
     return sqrt(m->energy_release_rate / (horizon * stiffness));
 }
 
-/* Rayleigh's function D(v) = 4 a_d a_s - (1 + a_s^2)^2, positive below the Rayleigh speed (Freund 1990). */
+/* Returns Rayleigh's function D(v) = 4 a_d a_s - (1 + a_s^2)^2, positive below the Rayleigh speed (Freund 1990). */
 static real rayleigh_function(real v, real longitudinal, real shear)
 {
     real d2 = 1 - square(v / longitudinal), s2 = 1 - square(v / shear);
     return 4 * sqrt(d2 * s2) - square(1 + s2);
 }
 
-/* Its root lies between 0.68 (nu = -1) and 0.96 (nu = 1/2) of the shear speed; v = 0 is a second, trivial root. */
+/* Returns its root, between 0.68 (nu = -1) and 0.96 (nu = 1/2) of the shear speed; v = 0 is a second, trivial root. */
 static real rayleigh_speed(real longitudinal, real shear)
 {
     real low = 0.5 * shear, high = shear;
@@ -104,7 +105,8 @@ void material_derive(struct material *m, enum space space)
     m->rayleigh_speed = rayleigh_speed(m->wave_speed, m->shear_speed);
 }
 
-/* Isotropic: `diagonal` and `off` between normal components, `shear` on the diagonal of the others. */
+/* Fills an isotropic matrix: `diagonal` and `off` between normal components, `shear` on the diagonal of shear
+ * components. */
 static void isotropic_matrix(int dim, real diagonal, real off, real shear, real *matrix)
 {
     int n = symmetric_count(dim);

@@ -1,4 +1,4 @@
-/* The table of the particles' arrays, and the loops over it that make, grow, sort and free them. */
+/* The table of the particles' arrays, and the loops over it that allocate, grow, sort and free them. */
 #include "data/particles.h"
 
 #include <math.h>
@@ -135,13 +135,15 @@ void particles_take(struct particles *p, const struct particles *old, const int3
 
 /* ---- sorting ----------------------------------------------------------------------------------------------------- */
 
-/* Where a particle stands: layer (z) and row (y) in steps of the spacing, place along x, and what breaks ties. */
+/* Sort key of a particle: layer (z) and row (y) in steps of the spacing, position along x, then id and index for
+ * ties. */
 struct place {
     int64_t layer, row;
     real along;
     int32_t id, index;
 };
 
+/* Orders sort keys. */
 static int compare_places(const void *left, const void *right)
 {
     const struct place *a = left, *b = right;
@@ -187,8 +189,8 @@ real particles_longest(const struct particles *p)
     return longest;
 }
 
-/* Rows start a quarter below the first particle: no row of a lattice lies near a boundary between rows, so
- * round-off cannot split it. */
+/* Computes the sort keys. Rows start a quarter below the first particle: no row of a lattice is near a boundary between
+ * rows, so round-off cannot split it. */
 static void find_places(const struct particles *p, real spacing, struct place *place)
 {
     real low[DIM_MAX] = {0}, high;
@@ -201,7 +203,7 @@ static void find_places(const struct particles *p, real spacing, struct place *p
     }
 }
 
-/* array[i] = old array[place[i].index] */
+/* Permutes an array: array[i] = old array[place[i].index]. */
 static void permute(char *array, size_t size, const struct place *place, int64_t n, char *scratch)
 {
 #pragma omp parallel for schedule(static)
@@ -209,6 +211,7 @@ static void permute(char *array, size_t size, const struct place *place, int64_t
     array_copy(array, scratch, n, size);
 }
 
+/* Returns true if the keys are ascending. */
 static bool in_order(const struct place *place, int64_t n)
 {
     bool sorted = true;
@@ -222,7 +225,7 @@ void particles_sort(struct particles *p, real spacing, int optional)
     INVARIANT(p->n_all == p->n && spacing > 0);
     struct place *place = NEW("particles.place", p->n, struct place);
     find_places(p, spacing, place);
-    if (in_order(place, p->n)) { /* one lattice is made in this order */
+    if (in_order(place, p->n)) { /* a single lattice is created in this order */
         memory_free(place);
         particles_list(p);
         return;
@@ -236,14 +239,14 @@ void particles_sort(struct particles *p, real spacing, int optional)
     particles_list(p);
 }
 
-/* Are the eight particles from i on of one kind, and all moved by nodes or none? */
+/* Returns true if the eight particles from i on have one kind and are all, or none, points of the mesh. */
 static bool eight_alike(const struct particles *p, int64_t i)
 {
     const uint64_t meshed = eight_bytes(p->flag + i) & EIGHT_TIMES(FLAG_MESHED);
     return eight_same(p->kind + i) && (meshed == 0 || meshed == EIGHT_TIMES(FLAG_MESHED));
 }
 
-/* Particles i .. i + more - 1, to the end of a list of n. */
+/* Appends the particles i .. i + more - 1 to a list of *n. */
 static void list_append(int32_t *list, int64_t *n, int64_t i, int more)
 {
     for (int l = 0; l < more; l++) list[*n + l] = (int32_t)i + l;
@@ -263,7 +266,7 @@ void particles_list(struct particles *p)
     }
 }
 
-/* Eight particles at a time; entries beyond the body are images, which never have these flags. */
+/* Tests eight particles at a time; entries beyond the body are images, which never have these flags. */
 bool convert_due(const struct particles *p)
 {
     uint64_t any = 0;

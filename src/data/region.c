@@ -1,4 +1,4 @@
-/* Constructive geometry by signed distances, functions of time, and which bonds a crack cuts. */
+/* Constructive geometry by signed distances, functions of time, and the bonds that a crack cuts. */
 #include "data/region.h"
 
 #include <math.h>
@@ -7,6 +7,7 @@
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
+/* Returns the distance of a and b. */
 static real distance_to(const real *a, const real *b, int dim)
 {
     real sum = 0;
@@ -14,7 +15,7 @@ static real distance_to(const real *a, const real *b, int dim)
     return sqrt(sum);
 }
 
-/* Unit vector and length of b - a; a length of 0 leaves the vector 0. */
+/* Computes the unit vector of b - a and returns its length; a length of 0 gives the vector 0. */
 static real direction(const real *a, const real *b, int dim, real unit[DIM_MAX])
 {
     real length = distance_to(a, b, dim), divisor = length > 0 ? length : INFINITY;
@@ -46,7 +47,8 @@ bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[
     return bounded;
 }
 
-/* By the sequence of Kronecker whose shares of 1 are powers of the root of g^(dim + 1) = g + 1 (Roberts 2018). */
+/* Uses Kronecker's quasi-random sequence whose increments are powers of the root of g^(dim + 1) = g + 1 (Roberts
+ * 2018). */
 real region_volume(const struct region *r, int dim, const real *from, const real *to)
 {
     static const real root[] = {0, 1.61803398874989485, 1.32471795724474602, 1.22074408460575947};
@@ -78,7 +80,7 @@ void region_free(struct region *r)
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* Bisects for the first time after t: tables from files have thousands. */
+/* Returns the value of a table at t, by bisection: tables from files have thousands of entries. */
 static real table_at(const struct time_function *f, real t)
 {
     int low = 0, k = f->n - 1;
@@ -115,14 +117,14 @@ real time_function_at(const struct time_function *f, real t)
     }
 }
 
-/* Integral of a table over 0 .. t: piece by piece, and constant outside. */
+/* Returns the integral of a table over 0 .. t: piece by piece, constant outside. */
 static real table_integral(const struct time_function *f, real t)
 {
     real sum = 0, from = 0;
     for (int k = 0; k <= f->n && from < t; k++) {
         const real to = k < f->n ? real_min(f->t[k], t) : t;
         if (to <= from) continue;
-        /* a jump is a pair of equal times: the middle of the piece tells its mean */
+        /* a jump is a pair of equal times: the value at the middle of a piece is its mean */
         sum += (to - from) * table_at(f, 0.5 * (from + to));
         from = to;
     }
@@ -149,7 +151,7 @@ real time_function_integral(const struct time_function *f, real t)
     }
 }
 
-/* Of the pieces of a table that begin before t and end after 0. */
+/* Returns the largest slope of the pieces of a table that begin before t and end after 0. */
 static real table_steepest(const struct time_function *f, real t)
 {
     real most = 0;
@@ -179,10 +181,10 @@ real time_function_steepest(const struct time_function *f, real t)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* What counts as touching, in lengths of the crack. */
+/* Tolerance for touching, relative to the size of the crack. */
 static const real touch = 1e-9;
 
-/* Line (2D) or plane (3D) of a crack: unit normal, and the size that tolerances refer to. */
+/* Line (2D) or plane (3D) of a crack: unit normal, and the length that tolerances refer to. */
 struct crack_plane {
     real normal[DIM_MAX], length;
 };
@@ -201,6 +203,7 @@ void crack_area_vector(const struct crack *c, real area[DIM_MAX])
     }
 }
 
+/* Computes the plane of a polygon. Returns false if it has no area. */
 static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
 {
     real area[DIM_MAX], zero[DIM_MAX] = {0};
@@ -210,7 +213,7 @@ static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
     return direction(zero, area, 3, plane->normal) > 0;
 }
 
-/* False: not a crack (no extent). */
+/* Computes the line or plane of a crack. Returns false if the crack has no extent. */
 static bool crack_plane(const struct crack *c, const real *a, const real *b, int dim, struct crack_plane *plane)
 {
     real along[DIM_MAX];
@@ -229,7 +232,7 @@ static bool crack_plane(const struct crack *c, const real *a, const real *b, int
     }
 }
 
-/* Is a point of the plane inside the closed polygon? On the inner side of every edge. */
+/* Returns true if point P of the plane is inside the closed polygon, i.e. on the inner side of every edge. */
 static bool polygon_holds(const struct crack *c, const struct crack_plane *plane, const real *P)
 {
     for (int k = 0; k < c->n; k++) {
@@ -243,6 +246,7 @@ static bool polygon_holds(const struct crack *c, const struct crack_plane *plane
     return true;
 }
 
+/* Returns true if point P of the line is inside the closed segment. */
 static bool segment_holds(const struct crack *c, const struct crack_plane *plane, const real *P)
 {
     real along[DIM_MAX];
@@ -251,7 +255,7 @@ static bool segment_holds(const struct crack *c, const struct crack_plane *plane
     return place >= -touch * plane->length && place <= (1 + touch) * plane->length;
 }
 
-/* Height above the crack's plane [m]. */
+/* Returns the height of X above the crack's plane [m]. */
 static real region_height(const struct crack *c, const struct crack_plane *plane, const real *X, int dim)
 {
     real sum = 0;
@@ -259,7 +263,7 @@ static real region_height(const struct crack *c, const struct crack_plane *plane
     return sum;
 }
 
-/* Do the boxes round the crack and round a bond stay apart, by far more than what counts as touching? */
+/* Returns true if the bounding boxes of the crack and a bond are apart by far more than the tolerance for touching. */
 static bool far_apart(const struct crack *c, const real *a, const real *b, int dim)
 {
     real low[DIM_MAX], high[DIM_MAX], size = 0;
@@ -281,7 +285,7 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
     if (far_apart(c, a, b, dim)) return false;
     while (d < dim && a[d] == b[d]) d++;
     if (d == dim) return false;
-    if (a[d] > b[d]) { /* one order of the ends, so both directions give the same bits */
+    if (a[d] > b[d]) { /* one order of the ends, so that both directions give equal bits */
         const real *other = a;
         a = b, b = other;
     }
@@ -290,14 +294,15 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
          snap = touch * plane.length;
     if ((above_a >= -snap) == (above_b >= -snap)) return false;
     if (dim == 1) return true;
-    real share = real_min(1, real_max(0, above_a / (above_a - above_b))), P[DIM_MAX]; /* snapped ends: stay between */
+    real share = real_min(1, real_max(0, above_a / (above_a - above_b))), P[DIM_MAX]; /* clamped to the bond */
     for (d = 0; d < dim; d++) P[d] = a[d] + share * (b[d] - a[d]);
     return dim == 2 ? segment_holds(c, &plane, P) : polygon_holds(c, &plane, P);
 }
 
 bool crack_near(const struct crack *c, const real *X, real reach, int dim)
 {
-    real far = -INFINITY, size = 0; /* from the box round its corners; no tolerance above is larger than size/1e9 */
+    real far = -INFINITY,
+         size = 0; /* distance from the bounding box of its corners; all tolerances are below size/1e9 */
     for (int d = 0; d < dim; d++) {
         real low = INFINITY, high = -INFINITY;
         for (int k = 0; k < c->n; k++) low = real_min(low, c->corner[k][d]), high = real_max(high, c->corner[k][d]);

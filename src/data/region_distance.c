@@ -1,5 +1,5 @@
-/* Which points lie in regions, how far they are from them, and the direction of their surfaces: by the solids of the
- * list in turn, or of long runs of them that are added, or taken away, by those near the point. */
+/* Membership, distance and normal for regions: evaluates the solids of the list in turn, or, in long runs of added or
+ * subtracted solids, only those near the point. */
 #include <float.h>
 #include <math.h>
 
@@ -8,9 +8,9 @@
 
 /* ---- index ------------------------------------------------------------------------------------------------------- */
 
-enum { RUN_LEAST = 8 }; /* solids with which a tree is quicker */
+enum { RUN_LEAST = 8 }; /* smallest number of solids for which a tree is faster */
 
-/* Solids from `first` on that do the same as that. */
+/* Returns the number of consecutive solids from `first` on with one operation, 1 if too few for a tree. */
 static int run_length(const struct region *r, int first)
 {
     const struct solid *s = &r->solid[first];
@@ -37,9 +37,10 @@ void region_index(struct region *r, int dim)
     }
 }
 
+/* Returns the number of runs. */
 static int region_runs(const struct region *r) { return r->run ? r->runs : r->n; }
 
-/* Its solid or solids, for a loop over j < region_runs. */
+/* Returns run j, for a loop over j < region_runs. */
 static struct region_run region_run(const struct region *r, int j)
 {
     return r->run ? r->run[j] : (struct region_run){.first = j, .count = 1};
@@ -47,7 +48,7 @@ static struct region_run region_run(const struct region *r, int j)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Solids are asked as if all were added. */
+/* Returns true if a solid of the run has a level of at most `most` at X, as if all were added. */
 static bool run_within(const struct solid *s, const struct region_run *run, const real *X, int dim, real most)
 {
     struct box_search near;
@@ -59,6 +60,7 @@ static bool run_within(const struct solid *s, const struct region_run *run, cons
     return within;
 }
 
+/* Returns the smallest level of the solids of the run at X. */
 static real run_level(const struct solid *s, const struct region_run *run, const real *X, int dim)
 {
     struct box_search near;
@@ -70,7 +72,7 @@ static real run_level(const struct solid *s, const struct region_run *run, const
     return nearest;
 }
 
-/* Of solids that are equally near the first counts. */
+/* Returns the distance of the nearest solid of the run and its normal; of equally near solids the first. */
 static real run_distance(const struct solid *s, const struct region_run *run, const real *X, int dim, real *normal)
 {
     struct box_search near;
@@ -90,15 +92,15 @@ static real run_distance(const struct solid *s, const struct region_run *run, co
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* The number before this one; of 0 the first that processors do not take for 0 (base/team.h). */
+/* Returns the next smaller number; for 0 the first one that processors do not flush to 0 (base/team.h). */
 static real number_before(real x)
 {
     const real before = nextafter(x, -INFINITY);
     return fabs(before) < DBL_MIN ? -DBL_MIN : before;
 }
 
-/* What is taken away loses its surface to the region, which stays closed; growing the region shrinks it: it lies where
- * the level is below -tolerance. */
+/* A subtracted solid loses its surface to the region, which stays closed; growing the region shrinks it: it consists of
+ * points with a level below -tolerance. */
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance)
 {
     bool inside = r->n == 0 || r->solid[0].intersect;

@@ -1,9 +1,9 @@
-/* A random field of strength as a function of the place. */
+/* A random field of strength as a function of position. */
 #include "data/scatter.h"
 
 #include <math.h>
 
-/* Wichura 1988, algorithm AS 241 (PPND7): seven digits. */
+/* Algorithm AS 241 (PPND7) of Wichura 1988: seven digits. */
 real normal_quantile(real u)
 {
     const real q = u - 0.5;
@@ -25,7 +25,7 @@ real normal_quantile(real u)
     return q < 0 ? -x : x;
 }
 
-/* Splitmix64 (Steele, Lea, Flood 2014): one step of its counter and its finaliser. */
+/* Returns the hash of z extended by a word, by one step of Splitmix64 (Steele, Lea, Flood 2014). */
 static uint64_t hashed(uint64_t z, uint64_t with)
 {
     z += (with + 1) * 0x9E3779B97F4A7C15u;
@@ -34,15 +34,14 @@ static uint64_t hashed(uint64_t z, uint64_t with)
     return z ^ z >> 31;
 }
 
-/* A standard normal number of a hash. */
+/* Returns a standard normal number from a hash. */
 static real noise_of(uint64_t hash) { return normal_quantile(((real)(hash >> 11) + 0.5) * 0x1p-53); }
 
 enum {
     NODES = 8
-}; /* along each direction, of a lattice of length/2: what is left out weighs
-    * exp(-8) of the largest */
+}; /* nodes along each direction, of a lattice of length/2; omitted nodes have weights below exp(-8) of the largest */
 
-/* Nodes around a coordinate [lengths/2]: the first one, and their weights. */
+/* Computes the weights of the nodes around a coordinate [lengths/2]. Returns the first node. */
 static int64_t weights_along(real place, real weight[NODES])
 {
     const int64_t first = (int64_t)floor(place) - NODES / 2 + 1;
@@ -70,14 +69,14 @@ real scatter_gaussian(const struct strength_scatter *s, const real *X, int dim, 
     return sum / sqrt(squares);
 }
 
-/* F^-1(Phi(g)) of Weibull's distribution of mean 1: (-ln(1 - Phi(g)))^(1/m)/Gamma(1 + 1/m). */
+/* Returns F^-1(Phi(g)) of Weibull's distribution of mean 1: (-ln(1 - Phi(g)))^(1/m)/Gamma(1 + 1/m). */
 static real weibull_of(real g, real m)
 {
     const real beyond = g > 0 ? -log(0.5 * erfc(g * M_SQRT1_2)) : -log1p(-0.5 * erfc(-g * M_SQRT1_2));
     return pow(beyond, 1 / m) / tgamma(1 + 1 / m);
 }
 
-/* The same of the lognormal one. */
+/* Returns F^-1(Phi(g)) of the lognormal distribution of mean 1. */
 static real lognormal_of(real g, real variation)
 {
     const real spread2 = log1p(square(variation));

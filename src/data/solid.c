@@ -1,4 +1,4 @@
-/* Kinds of solids: how far a point is from each, and how far each reaches. */
+/* Kinds of solids: distance, level and support of each. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -7,7 +7,7 @@
 
 /* ---- boxes, balls, half-spaces ----------------------------------------------------------------------------------- */
 
-/* Of a point `at` from a box about the origin, `half` its half edges. */
+/* Returns the distance of a point `at` from a box about the origin with half edges `half`, and the normal. */
 static real box_surface(const real *at, const real *half, int dim, real *normal)
 {
     real out2 = 0, nearest = -INFINITY, beyond[DIM_MAX];
@@ -44,11 +44,11 @@ static real box_support(const struct solid *s, const real *along, int dim)
 {
     real sum = 0;
     for (int d = 0; d < dim; d++)
-        if (along[d] != 0) sum += along[d] * (along[d] > 0 ? s->to[d] : s->from[d]); /* 0 times inf is none */
+        if (along[d] != 0) sum += along[d] * (along[d] > 0 ? s->to[d] : s->from[d]); /* avoids 0 times infinity */
     return sum;
 }
 
-/* Distance of X from the centre, and the direction from there. */
+/* Returns the distance of X from the centre, and the unit vector from there. */
 static real centre_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     real r2 = 0;
@@ -93,7 +93,7 @@ static real half_space_level(const struct solid *s, const real *X, int dim)
     return length > 0 ? above / length : INFINITY;
 }
 
-/* Bounded along its normal only, to round-off. */
+/* Bounded only along its normal, up to round-off. */
 static real half_space_support(const struct solid *s, const real *along, int dim)
 {
     const real length = sqrt(dot(s->normal, s->normal, dim)), size = sqrt(dot(along, along, dim));
@@ -102,8 +102,10 @@ static real half_space_support(const struct solid *s, const real *along, int dim
     return off2 < 1e-28 ? dot(s->point, along, dim) : INFINITY;
 }
 
-/* ---- round an axis ----------------------------------------------------------------------------------------------- */
+/* ---- bodies of revolution
+ * ------------------------------------------------------------------------------------------ */
 
+/* Computes the coordinates of X relative to the axis from .. to. */
 static struct axis_place axis_place_of(const struct solid *s, const real *X)
 {
     struct axis_place p = {0};
@@ -121,7 +123,7 @@ static struct axis_place axis_place_of(const struct solid *s, const real *X)
     p.across = sqrt(r2);
     for (int d = 0; d < DIM_MAX && p.across > 0; d++) p.out[d] /= p.across;
     if (p.across > 0) return p;
-    int least = 0; /* on the axis: any direction across it */
+    int least = 0; /* on the axis: any direction normal to it */
     for (int d = 1; d < DIM_MAX; d++)
         if (fabs(p.axis[d]) < fabs(p.axis[least])) least = d;
     for (int d = 0; d < DIM_MAX; d++) p.out[d] = (d == least) - p.axis[least] * p.axis[d];
@@ -130,14 +132,14 @@ static struct axis_place axis_place_of(const struct solid *s, const real *X)
     return p;
 }
 
-/* Takes a normal in that half plane to space. */
+/* Converts a normal in the half plane of axis and radius to 3D. */
 static void axis_normal(const struct axis_place *p, const real in_plane[2], real *normal)
 {
     for (int d = 0; d < DIM_MAX; d++) normal[d] = in_plane[0] * p->axis[d] + in_plane[1] * p->out[d];
 }
 
-/* A box in the half plane of the axis and the radius through the point: from the inner to the outer radius, where the
- * inner one of a cylinder is the mirror image of the outer. */
+/* Returns the distance from a box in the half plane of axis and radius: from the inner to the outer radius; for a
+ * cylinder the inner one is the mirror image of the outer. */
 static real pipe_from(const struct solid *s, const real *X, real inner, real *normal)
 {
     const struct axis_place p = axis_place_of(s, X);
@@ -161,7 +163,7 @@ static real tube_from(const struct solid *s, const real *X, int dim, real *norma
     return pipe_from(s, X, s->inner, normal);
 }
 
-/* Unit vector and length of b - a; a length of 0 leaves the vector 0. */
+/* Computes the unit vector of b - a and returns its length; a length of 0 gives the vector 0. */
 static real solid_direction(const real *a, const real *b, int dim, real unit[DIM_MAX])
 {
     real sum = 0;
@@ -180,7 +182,7 @@ static real cylinder_level(const struct solid *s, const real *X, int dim)
     return real_max(sqrt(across) - s->radius, real_max(-along, along - length));
 }
 
-/* Of a disc across the axis from..to of the solid. */
+/* Returns the support of a disc normal to the axis from .. to of the solid. */
 static real end_support(const struct solid *s, const real *centre, real radius, const real *along)
 {
     real axis[DIM_MAX];
@@ -195,7 +197,7 @@ static real cylinder_support(const struct solid *s, const real *along, int dim)
     return real_max(end_support(s, s->from, s->radius, along), end_support(s, s->to, s->radius, along));
 }
 
-/* Its section through the axis is a trapezoid, or a triangle where it ends in a point. */
+/* The section through the axis of a cone is a trapezoid, or a triangle if it ends in a point. */
 static real cone_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
@@ -219,7 +221,7 @@ static real cone_support(const struct solid *s, const real *along, int dim)
     return real_max(end_support(s, s->from, s->radius, along), end_support(s, s->to, s->inner, along));
 }
 
-/* A ring of radius `radius` about the axis `normal`, of round section. */
+/* A torus: a ring of radius `radius` about the axis `normal`, with round section. */
 static real torus_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     struct solid line = {0};
@@ -263,7 +265,7 @@ static real ellipsoid_support(const struct solid *s, const real *along, int dim)
     return dot(s->centre, along, dim) + sqrt(sum);
 }
 
-/* The two axes of the plane of an extrusion, in order. */
+/* Computes the two axes of the plane of an extrusion, in order. */
 static void plane_axes(const struct solid *s, int axes[2])
 {
     axes[0] = s->axis == 0 ? 1 : 0;
@@ -361,7 +363,7 @@ static real voxels_level(const struct solid *s, const real *X, int dim)
     return voxel_part_distance(s->voxels, X, NULL);
 }
 
-/* Of the whole image. */
+/* Returns the support of the whole image. */
 static real voxels_reach(const struct solid *s, const real *along, int dim)
 {
     const struct voxels *v = s->voxels->of;
@@ -370,7 +372,7 @@ static real voxels_reach(const struct solid *s, const real *along, int dim)
     return sum;
 }
 
-/* Everywhere. */
+/* The solid that is everywhere. */
 static real all_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)s, (void)X;

@@ -1,4 +1,4 @@
-/* Copies of solids: moved, turned, mirrored, repeated; distances over all of them. */
+/* Copies of solids: moved, rotated, mirrored, repeated; distances over all copies. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 /* ---- motions ----------------------------------------------------------------------------------------------------- */
 
-/* Sine and cosine, exact where the angle is a whole number of quarter turns to round-off. */
+/* Computes sine and cosine, exact where the angle is a whole number of quarter turns up to round-off. */
 static void sine_cosine(real angle, real *sine, real *cosine)
 {
     const real quarter = 1.57079632679489661923, turns = nearbyint(angle / quarter);
@@ -20,7 +20,7 @@ static void sine_cosine(real angle, real *sine, real *cosine)
     *sine = sines[at], *cosine = cosines[at];
 }
 
-/* Rotation about an axis: Rodrigues; in the plane from x to y. */
+/* Computes the rotation matrix about the axis (Rodrigues' formula); in 2D from x to y. */
 static void solid_rotation(const struct solid_motion *m, real angle, int dim, real R[DIM_MAX][DIM_MAX])
 {
     real k[DIM_MAX] = {0, 0, 1}, s, c;
@@ -32,6 +32,7 @@ static void solid_rotation(const struct solid_motion *m, real angle, int dim, re
         for (int b = 0; b < DIM_MAX; b++) R[a][b] = (a == b) * c + s * cross[a][b] + (1 - c) * k[a] * k[b];
 }
 
+/* Computes the reflection matrix about the plane normal to the axis. */
 static void solid_reflection(const struct solid_motion *m, int dim, real R[DIM_MAX][DIM_MAX])
 {
     const real length2 = dot(m->axis, m->axis, dim);
@@ -40,7 +41,7 @@ static void solid_reflection(const struct solid_motion *m, int dim, real R[DIM_M
             R[a][b] = (a == b) - (a < dim && b < dim ? 2 * m->axis[a] * m->axis[b] / length2 : 0);
 }
 
-/* What `from` becomes by R about a point. */
+/* Returns the placement `from` transformed by R about a point. */
 static struct placement image_turned(const struct placement *from, real R[DIM_MAX][DIM_MAX], const real *about, int dim)
 {
     struct placement to = {0};
@@ -53,7 +54,7 @@ static struct placement image_turned(const struct placement *from, real R[DIM_MA
     return to;
 }
 
-/* Copy number k of one image by a motion. */
+/* Returns copy k that a motion makes of placement `from`. */
 static struct placement image_made(const struct placement *from, const struct solid_motion *m, int k, int dim)
 {
     struct placement to = *from;
@@ -74,6 +75,7 @@ static struct placement image_made(const struct placement *from, const struct so
     return stays ? to : image_turned(from, R, m->about, dim);
 }
 
+/* Returns the number of copies that a motion makes of one. */
 static real motion_count(const struct solid_motion *m, int dim)
 {
     real count = 1;
@@ -84,7 +86,7 @@ static real motion_count(const struct solid_motion *m, int dim)
 
 /* ---- one copy ---------------------------------------------------------------------------------------------------- */
 
-/* to = turn^T b: a direction as the solid itself sees it. */
+/* Computes to = turn^T b: a direction in the coordinates of the solid as described. */
 static void turn_back(const struct placement *i, const real *b, int dim, real *to)
 {
     for (int c = 0; c < dim; c++) {
@@ -93,6 +95,7 @@ static void turn_back(const struct placement *i, const real *b, int dim, real *t
     }
 }
 
+/* Returns the support of one copy. */
 static real image_support(const struct solid *s, const struct placement *i, const real *along, int dim)
 {
     real own[DIM_MAX] = {0};
@@ -100,7 +103,7 @@ static real image_support(const struct solid *s, const struct placement *i, cons
     return solid_types[s->kind].support(s, own, dim) + dot(i->shift, along, dim);
 }
 
-/* X as the solid itself sees it. */
+/* Computes X in the coordinates of the solid as described. */
 static void place_back(const struct placement *i, const real *X, int dim, real *to)
 {
     real off[DIM_MAX];
@@ -108,8 +111,8 @@ static void place_back(const struct placement *i, const real *X, int dim, real *
     turn_back(i, off, dim, to);
 }
 
-/* How far its levels may be below what its box says, which for all others are no deeper in a solid than in its box:
- * those of pixels are of their middles, and a surface with holes in it may be far from what it holds. */
+/* Returns how far levels may be below those that the box implies [m]. Other solids are no deeper inside than their box;
+ * levels of voxels are those of their centres, and a surface with holes may be far from points inside it. */
 static real box_slack(const struct solid *s, int dim)
 {
     real slack = 0;
@@ -119,7 +122,7 @@ static real box_slack(const struct solid *s, int dim)
     return slack;
 }
 
-/* Of a copy, or of all of them (i = NULL); larger by more than round-off. */
+/* Computes the box of a copy, or of all copies (i = NULL), larger by more than round-off. */
 static void placement_box(const struct solid *s, const struct placement *i, int dim, struct bounds *box)
 {
     const real slack = box_slack(s, s->kind == SOLID_EXTRUSION ? 2 : dim);
@@ -137,7 +140,7 @@ static void placement_box(const struct solid *s, const struct placement *i, int 
 
 void solid_box(const struct solid *s, int dim, struct bounds *box) { placement_box(s, NULL, dim, box); }
 
-/* The copies anew, and the tree over their boxes. */
+/* Rebuilds the tree over the boxes of all copies. */
 static void images_index(struct solid *s, int dim)
 {
     struct bounds *box = NEW("solids.box", s->images, struct bounds);
@@ -166,7 +169,7 @@ bool solid_move(struct solid *s, const struct solid_motion *m, int dim)
 
 /* ---- all copies -------------------------------------------------------------------------------------------------- */
 
-/* Of copies that are equally near the first counts. */
+/* Of equally near copies the first counts. */
 real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
 {
     real nearest = INFINITY, own[DIM_MAX], at[DIM_MAX];
@@ -189,6 +192,7 @@ real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
     return nearest;
 }
 
+/* Returns the level of the solid as described. */
 static real image_level(const struct solid *s, const real *X, int dim)
 {
     const struct solid_type *type = &solid_types[s->kind];
@@ -209,6 +213,7 @@ real solid_level(const struct solid *s, const real *X, int dim)
     return nearest;
 }
 
+/* Returns true if the level of the solid as described is at most `most`. */
 static bool image_within(const struct solid *s, const real *X, int dim, real most)
 {
     const struct solid_type *type = &solid_types[s->kind];

@@ -5,8 +5,10 @@
 #include "base/memory.h"
 #include "solid_kinds.h"
 
+/* Returns the z component of a x b. */
 static real cross2(const real *a, const real *b) { return a[0] * b[1] - a[1] * b[0]; }
 
+/* Computes a - b. */
 static void minus2(const real *a, const real *b, real to[2])
 {
     to[0] = a[0] - b[0];
@@ -15,15 +17,15 @@ static void minus2(const real *a, const real *b, real to[2])
 
 /* ---- distances --------------------------------------------------------------------------------------------------- */
 
-/* The nearest piece of the outline found so far: how far, and the normal that leads out of the polygon there, but at a
- * corner. */
+/* The nearest part of the outline so far: squared distance, foot, and outward normal of its edge or arc (not at a
+ * corner). */
 struct nearest {
     real r2, foot[2], normal[2];
     bool at_corner;
 };
 
-/* Edge from a to b; corners go round in this sense. */
-static void edge_look(struct nearest *n, const real *a, const real *b, real sense, const real *X)
+/* Updates the nearest part with the edge a-b; sense as in struct polygon. */
+static void edge_nearest(struct nearest *n, const real *a, const real *b, real sense, const real *X)
 {
     real along[2], arm[2], foot[2];
     minus2(b, a, along);
@@ -39,7 +41,7 @@ static void edge_look(struct nearest *n, const real *a, const real *b, real sens
         r2, {foot[0], foot[1]}, {sense * along[1] / length, -sense * along[0] / length}, within != share};
 }
 
-/* Is a round corner one where the polygon is convex? */
+/* Returns true if the polygon is convex at a round corner. */
 static bool bend_convex(const struct bend *b, const real *corner, real sense)
 {
     real in[2], out[2];
@@ -48,9 +50,9 @@ static bool bend_convex(const struct bend *b, const real *corner, real sense)
     return sense * cross2(in, out) > 0;
 }
 
-/* Is a direction from the centre of a bend between those of its ends, which are less than half a turn apart? None is
- * where a corner has no bend, as its edges go straight on. */
-static bool bend_faces(const struct bend *b, const real *arm)
+/* Returns true if a direction from the centre of an arc is between those of its ends, which are less than half a turn
+ * apart; false if the corner has no arc because its edges are collinear. */
+static bool bend_contains(const struct bend *b, const real *arm)
 {
     real from[2], to[2];
     minus2(b->from, b->centre, from);
@@ -59,13 +61,14 @@ static bool bend_faces(const struct bend *b, const real *arm)
     return turn != 0 && turn * cross2(from, arm) >= 0 && turn * cross2(arm, to) >= 0;
 }
 
-static void bend_look(struct nearest *n, const struct polygon *p, int k, const real *X)
+/* Updates the nearest part with the arc of corner k. */
+static void bend_nearest(struct nearest *n, const struct polygon *p, int k, const real *X)
 {
     real arm[2];
     const struct bend *b = &p->bend[k];
     minus2(X, b->centre, arm);
     const real r = sqrt(dot(arm, arm, 2)), off = r - p->round;
-    if (!(r > 0) || !(square(off) < n->r2) || !bend_faces(b, arm)) return;
+    if (!(r > 0) || !(square(off) < n->r2) || !bend_contains(b, arm)) return;
     const real out = bend_convex(b, p->corner[k], p->sense) ? 1 : -1;
     *n = (struct nearest){square(off),
                           {b->centre[0] + arm[0] / r * p->round, b->centre[1] + arm[1] / r * p->round},
@@ -73,16 +76,16 @@ static void bend_look(struct nearest *n, const struct polygon *p, int k, const r
                           false};
 }
 
-/* Between a corner and its bend, where the polygons with sharp and with round corners differ? */
+/* Returns true if X is between corner k and its arc, where polygons with sharp and round corners differ. */
 static bool bend_cuts(const struct polygon *p, int k, const real *X)
 {
     real arm[2];
     const struct bend *b = &p->bend[k];
     minus2(X, b->centre, arm);
-    if (dot(arm, arm, 2) <= square(p->round) || !bend_faces(b, arm)) return false;
+    if (dot(arm, arm, 2) <= square(p->round) || !bend_contains(b, arm)) return false;
     const real *corner[] = {b->from, p->corner[k], b->to};
     real first = 0;
-    for (int j = 0; j < 2; j++) { /* inside both edges: towards the centre of them */
+    for (int j = 0; j < 2; j++) { /* on the inner side of both edges, i.e. towards the centre */
         real edge[2], off[2], to_centre[2];
         minus2(corner[j + 1], corner[j], edge);
         minus2(X, corner[j], off);
@@ -93,7 +96,7 @@ static bool bend_cuts(const struct polygon *p, int k, const real *X)
     return true;
 }
 
-/* Does a ray from X along x cross the edge? */
+/* Returns true if a ray from X along x crosses the edge a-b. */
 static bool edge_crossed(const real *a, const real *b, const real *X)
 {
     if ((a[1] > X[1]) == (b[1] > X[1])) return false;
@@ -107,12 +110,12 @@ real polygon_distance(const struct polygon *p, const real *X, real *normal)
     for (int k = 0; k < p->n; k++) {
         const int next = (k + 1) % p->n;
         inside ^= edge_crossed(p->corner[k], p->corner[next], X);
-        edge_look(&n, p->bend ? p->bend[k].to : p->corner[k], p->bend ? p->bend[next].from : p->corner[next], p->sense,
-                  X);
+        edge_nearest(&n, p->bend ? p->bend[k].to : p->corner[k], p->bend ? p->bend[next].from : p->corner[next],
+                     p->sense, X);
     }
     for (int k = 0; k < p->n && p->bend; k++) {
         if (bend_cuts(p, k, X)) inside = !bend_convex(&p->bend[k], p->corner[k], p->sense);
-        bend_look(&n, p, k, X);
+        bend_nearest(&n, p, k, X);
     }
     const real r = sqrt(n.r2), sign = inside ? -1 : 1;
     memcpy(normal, n.normal, sizeof n.normal);
@@ -130,7 +133,7 @@ real polygon_support(const struct polygon *p, const real *along)
         }
         const struct bend *b = &p->bend[k];
         most = real_max(most, real_max(dot(b->from, along, 2), dot(b->to, along, 2)));
-        if (bend_convex(b, p->corner[k], p->sense) && bend_faces(b, along))
+        if (bend_convex(b, p->corner[k], p->sense) && bend_contains(b, along))
             most = real_max(most, dot(b->centre, along, 2) + p->round * sqrt(dot(along, along, 2)));
     }
     return most;
@@ -138,7 +141,7 @@ real polygon_support(const struct polygon *p, const real *along)
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
-/* Do the edges a..b and c..d have a point in common? */
+/* Returns true if the edges a-b and c-d have a common point. */
 static bool edges_meet(const real *a, const real *b, const real *c, const real *d)
 {
     real ab[2], cd[2], ac[2], ad[2], ca[2], cb[2];
@@ -153,7 +156,7 @@ static bool edges_meet(const real *a, const real *b, const real *c, const real *
     return left * right <= 0 && under * over <= 0;
 }
 
-/* Edges that do not follow one another must not meet; those that do must not fold back. */
+/* Checks that edges that are not adjacent do not meet, and that adjacent edges do not fold back. */
 static enum polygon_fault polygon_check(const struct polygon *p, int *corner)
 {
     real(*c)[2] = p->corner, one[2], two[2];
@@ -175,7 +178,7 @@ static enum polygon_fault polygon_check(const struct polygon *p, int *corner)
     return POLYGON_FINE;
 }
 
-/* The bend of corner k; returns how much of both edges it takes [m]. */
+/* Computes the arc of corner k. Returns the length that it takes from both edges [m]. */
 static real bend_make(struct polygon *p, int k)
 {
     const real *at = p->corner[k], *before = p->corner[(k + p->n - 1) % p->n], *after = p->corner[(k + 1) % p->n];
@@ -195,7 +198,7 @@ static real bend_make(struct polygon *p, int k)
     return take;
 }
 
-/* Is corner k no corner, as its edges go straight on? Then it cannot be rounded. */
+/* Returns true if the edges at corner k are collinear, so that it cannot be rounded. */
 static bool is_straight(const struct polygon *p, int k)
 {
     real in[2], out[2];
@@ -204,6 +207,7 @@ static bool is_straight(const struct polygon *p, int k)
     return fabs(cross2(in, out)) <= 1e-9 * sqrt(dot(in, in, 2) * dot(out, out, 2));
 }
 
+/* Computes all arcs; POLYGON_TIGHT if two arcs overlap on an edge. */
 static enum polygon_fault bends_make(struct polygon *p, int *corner)
 {
     p->bend = NEW("solids.bend", p->n, struct bend);
@@ -246,7 +250,7 @@ enum polygon_fault polygon_make(struct polygon *p, int *corner)
 
 enum { STEPS = 200 };
 
-/* F(t) = sum (e y / (t + e^2))^2 - 1 and its slope; y >= 0. */
+/* Returns F(t) = sum (e y / (t + e^2))^2 - 1 and its slope; y >= 0. */
 static real ellipsoid_excess(const real *e, const real *y, int dim, real t, real *slope)
 {
     real sum = -1;
@@ -260,9 +264,9 @@ static real ellipsoid_excess(const real *e, const real *y, int dim, real t, real
     return sum;
 }
 
-/* The point x of the surface that is nearest to y >= 0: x = e^2 y / (t + e^2) at the root of F beyond -e_min^2, where F
- * falls and is convex (Eberly 2013): Newton's steps from the left do not pass it. On the plane across the least axis
- * there may be none: then x leaves that plane. */
+/* Computes the point x of the surface nearest to y >= 0: x = e^2 y / (t + e^2) at the root of F beyond -e_min^2, where
+ * F is decreasing and convex (Eberly 2013), so that Newton's steps from the left do not pass the root. On the plane
+ * normal to the least axis there may be no root: then x is not in that plane. */
 static void ellipsoid_foot(const real *e, const real *y, int dim, real *x)
 {
     int least = 0;

@@ -1,4 +1,4 @@
-/* The coloured order of transfers. */
+/* Sorts points for transfers: by coloured block, then by cell. */
 #include "data/transfer_order.h"
 
 #include <omp.h>
@@ -8,16 +8,17 @@
 
 /* ---- blocks ------------------------------------------------------------------------------------------------------ */
 
-/* Block of cell k in a direction where blocks are `edge` cells long. */
+/* Returns the block of cell k in a direction where blocks are `edge` cells long. */
 static ALWAYS_INLINE int64_t block_of(int64_t k, const int64_t edge) { return (k >= 0 ? k : k - edge + 1) / edge; }
 
-/* The blocks that a grid's box touches. */
+/* The blocks that overlap the box of a grid. */
 struct block_shape {
-    int64_t first[DIM_MAX], blocks[DIM_MAX]; /* in blocks, counted from node 0 */
+    int64_t first[DIM_MAX], blocks[DIM_MAX]; /* first block, counted from node 0; number of blocks */
     int dim;
     int64_t cells_in_block, n;
 };
 
+/* Computes the blocks of a grid. */
 static struct block_shape block_shape_of(const struct grid *g)
 {
     struct block_shape s = {.dim = g->dim, .cells_in_block = 1, .n = 1};
@@ -30,6 +31,7 @@ static struct block_shape block_shape_of(const struct grid *g)
     return s;
 }
 
+/* Returns the colour of a block. */
 static int block_colour(const struct block_shape *s, int64_t block)
 {
     int colour = 0;
@@ -40,7 +42,7 @@ static int block_colour(const struct block_shape *s, int64_t block)
     return colour;
 }
 
-/* Ranks blocks: colour by colour, and in their order within one. */
+/* Ranks the blocks: by colour, then by number. */
 static void rank_blocks(struct transfer_order *o, const struct block_shape *s, int32_t *rank)
 {
     int32_t next = 0;
@@ -54,7 +56,7 @@ static void rank_blocks(struct transfer_order *o, const struct block_shape *s, i
 
 /* ---- room -------------------------------------------------------------------------------------------------------- */
 
-/* Cells are known last, and grow little from time to time. */
+/* Reserves room for cells; their number is known last and grows slowly. */
 static void cells_room(struct transfer_order *o, int32_t cells)
 {
     if (o->cells_room >= cells + 1) return;
@@ -79,8 +81,8 @@ void transfer_order_room(struct transfer_order *o, int64_t n, int64_t blocks, in
 
 /* ---- sorting ----------------------------------------------------------------------------------------------------- */
 
-/* A counting sort by the ranks of blocks, each thread its chunk of the list, then by cell inside each block. Points
- * of a cell keep the order of the list, so that how many chunks there are shows nowhere. */
+/* Working memory of a counting sort by the ranks of blocks, each thread on its chunk of the list, then by cell inside
+ * each block. Points of a cell keep the order of the list, so the result does not depend on the number of chunks. */
 struct sorting {
     const struct particles *p;
     const struct grid *g;
@@ -88,15 +90,16 @@ struct sorting {
     const int32_t *list;
     int64_t n;
     int chunks;
-    int32_t *rank;             /* [blocks]                                                 */
-    int32_t *fill;             /* [chunks][blocks] how many; then where the next one goes  */
-    int32_t *key, *bucket;     /* [n] rank of a point's block; points by that              */
-    uint16_t *inside, *sorted; /* [n] cell in the block; the same by rank                  */
+    int32_t *rank;             /* [blocks] */
+    int32_t *fill;             /* [chunks][blocks] number of points; then index of the next point */
+    int32_t *key, *bucket;     /* [n] rank of a point's block; points sorted by rank */
+    uint16_t *inside, *sorted; /* [n] cell in the block; sorted by rank */
 };
 
+/* Returns the first entry of a chunk. */
 static int64_t chunk_start(const struct sorting *s, int chunk) { return s->n * chunk / s->chunks; }
 
-/* Rank of the block of point i, and its cell there. */
+/* Returns the rank of the block of point i; *inside: its cell in the block. */
 static ALWAYS_INLINE int32_t find_block(const struct sorting *s, int32_t i, uint16_t *inside, const int dim)
 {
     int64_t block = 0, cell = 0;
@@ -110,8 +113,8 @@ static ALWAYS_INLINE int32_t find_block(const struct sorting *s, int32_t i, uint
     return s->rank[block];
 }
 
-/* Blocks and cells of a chunk's points, and how many there are of each block: those that follow one another in one
- * block are counted before they are added. */
+/* Finds blocks and cells of a chunk's points and counts the points of each block; consecutive points of one block are
+ * counted before they are added. */
 static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const int dim)
 {
     int32_t *count = s->fill + chunk * s->shape.n, key = 0;
@@ -126,6 +129,7 @@ static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const 
     count[key] += (int32_t)(chunk_start(s, chunk + 1) - from);
 }
 
+/* Calls find_blocks in the dimension of the grid. */
 static void find_blocks_of(const struct sorting *s, int chunk)
 {
     switch (s->shape.dim) {
@@ -140,7 +144,7 @@ static void find_blocks_of(const struct sorting *s, int chunk)
     }
 }
 
-/* Where blocks begin, and in them the points of each chunk. */
+/* Computes the first entry of each block and, within it, of the points of each chunk. */
 static void add_up(const struct sorting *s, int32_t *block_start)
 {
     int32_t next = 0;
@@ -154,6 +158,7 @@ static void add_up(const struct sorting *s, int32_t *block_start)
     block_start[s->shape.n] = next;
 }
 
+/* Distributes the points of a chunk to the blocks. */
 static void put_in_blocks(const struct sorting *s, int chunk)
 {
     int32_t *fill = s->fill + chunk * s->shape.n, key = 0, at = fill[0];
@@ -168,8 +173,7 @@ static void put_in_blocks(const struct sorting *s, int chunk)
 
 enum { CELLS_IN_BLOCK_MOST = BLOCK_LENGTH * BLOCK_EDGE * BLOCK_EDGE };
 
-/* Counting sort of the n particles of a block by their cell; equal cells keep their order. Returns how many cells hold
- * any. */
+/* Sorts the n particles of a block by cell (counting sort, stable). Returns the number of cells with particles. */
 static int32_t sort_in_block(int32_t *particle, uint16_t *inside, int32_t n, int32_t *particle_to, uint16_t *inside_to,
                              int64_t cells_in_block)
 {
@@ -189,7 +193,7 @@ static int32_t sort_in_block(int32_t *particle, uint16_t *inside, int32_t n, int
     return cells;
 }
 
-/* Where cells begin; block_cell[b+1] comes as the number of cells of block b. */
+/* Computes the first entry of each cell; on entry block_cell[b+1] is the number of cells of block b. */
 static void find_cells(struct transfer_order *o, const uint16_t *inside)
 {
     o->block_cell[0] = 0;
@@ -205,7 +209,8 @@ static void find_cells(struct transfer_order *o, const uint16_t *inside)
     o->cell_start[o->cells] = (int32_t)o->n;
 }
 
-/* All of it is written before it is read. A grid without nodes has no block, and so no chunk that counts points. */
+/* Arrays are not cleared, since all entries are written before they are read. A grid without nodes has no block and no
+ * chunk. */
 static void sorting_make(struct sorting *s)
 {
     s->chunks = s->shape.n > 0 ? omp_get_max_threads() : 0;

@@ -1,5 +1,5 @@
-/* Material points that turn together. A group's sums are added by one thread in the order of its members, and those of
- * groups in their order, so that the bits do not depend on the number of threads. */
+/* Groups of material points that rotate together. The sums of a group are added by one thread in the order of its
+ * members, and those of groups in their order, so that bits do not depend on the number of threads. */
 #include "data/turning.h"
 
 #include <math.h>
@@ -7,17 +7,19 @@
 
 #include "base/memory.h"
 
-#define LEAST_ARM 0.05 /* least radius of inertia of a group [spacings]: of single points and, in space, of lines */
+/* smallest radius of inertia of a group [spacings], for single points and, in 3D, lines; empirical */
+#define LEAST_ARM 0.05
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
-/* A particle and its group. */
+/* A particle and the position of its group. */
 struct member {
     real X[DIM_MAX];
     int64_t place[DIM_MAX];
     int32_t body, particle, off;
 };
 
+/* Orders groups by body, then by position. */
 static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int body_b)
 {
     if (body_a != body_b) return body_a < body_b ? -1 : 1;
@@ -26,6 +28,7 @@ static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int b
     return 0;
 }
 
+/* Orders particles by group, then by position, then by number. */
 static int by_member(const void *a, const void *b)
 {
     const struct member *p = a, *q = b;
@@ -35,24 +38,25 @@ static int by_member(const void *a, const void *b)
     return order ? order : (p->particle > q->particle) - (p->particle < q->particle);
 }
 
+/* Orders groups. */
 static int by_group(const void *a, const void *b)
 {
     const struct turning_group *p = a, *q = b;
     return order_of_places(p->place, p->body, q->place, q->body);
 }
 
-/* Group of a place u spacings from the middle; odd: the middle is that of a group. */
+/* Returns the position of the group at u spacings from the middle; odd: a group is centred on the middle. */
 static int64_t group_place(real u, bool odd)
 {
     const real far = floor((fabs(u) + (odd ? (TURNING_EDGE - 1) / 2.0 : TURNING_EDGE)) / TURNING_EDGE);
     return (int64_t)(u < 0 ? -far : far - !odd);
 }
 
-/* The particles in the order of groups, and in these of places: those of bodies that are one may have any numbers. */
+/* Returns the particles sorted by group and position; particle numbers may be arbitrary. Release with memory_free. */
 static struct member *members_sorted(const struct particles *p, real spacing, const real *middle, const int *one)
 {
     struct member *all = NEW("turning.sorted", p->n, struct member);
-    bool odd[DIM_MAX] = {false}; /* a row of particles lies on the middle */
+    bool odd[DIM_MAX] = {false}; /* a row of particles is on the middle */
     for (int d = 0; d < p->dim; d++) {
         real low, high;
         particles_extent(p, p->n, d, &low, &high);
@@ -118,7 +122,7 @@ void turning_free(struct turning_groups *t)
 
 /* ---- sums of a group --------------------------------------------------------------------------------------------- */
 
-/* Is particle i a point of the grid, not of the mesh? */
+/* Returns true if particle i is a point of the grid, not of the mesh. */
 static bool on_grid(const struct particles *p, int32_t i)
 {
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED);
@@ -129,6 +133,7 @@ static bool on_grid(const struct particles *p, int32_t i)
     for (int64_t m = (g)->first; m < (g)->end; m++)                                                                    \
         for (int32_t i = (t)->member[m], once = on_grid(p, i); once; once = 0)
 
+/* Sums points, mass and first moment of group g. */
 static void sum_mass(const struct turning_groups *t, struct turning_group *g, const struct particles *p)
 {
     g->points = 0, g->mass = 0;
@@ -140,6 +145,7 @@ static void sum_mass(const struct turning_groups *t, struct turning_group *g, co
     }
 }
 
+/* Sums the lack of the points of group g. */
 static void sum_lack(const struct turning_groups *t, struct turning_group *g, const struct particles *p)
 {
     memset(g->sum, 0, sizeof g->sum);
@@ -147,12 +153,13 @@ static void sum_lack(const struct turning_groups *t, struct turning_group *g, co
     for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) g->sum[c] += t->turn[c][i];
 }
 
+/* Computes the arm r of point i about the centre of the root. */
 static void arm_of(const struct particles *p, int32_t i, const struct turning_group *root, real *r)
 {
     for (int d = 0; d < DIM_MAX; d++) r[d] = d < p->dim ? p->x[d][i] - root->moment[d] : 0;
 }
 
-/* Adds the angular momentum of point i with the arm r. */
+/* Adds the angular momentum of point i with arm r to `sum`. */
 static void spin_add(const struct particles *p, int32_t i, const real *r, real *sum)
 {
     for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) {
@@ -161,7 +168,7 @@ static void spin_add(const struct particles *p, int32_t i, const real *r, real *
     }
 }
 
-/* Inertia and angular momentum about the centre of the root. */
+/* Sums inertia and angular momentum of group g about the centre of its root. */
 static void sum_inertia(const struct turning_groups *t, struct turning_group *g, const struct particles *p)
 {
     const struct turning_group *root = &t->group[g->root];
@@ -177,8 +184,9 @@ static void sum_inertia(const struct turning_groups *t, struct turning_group *g,
     memcpy(g->inertia, sum, sizeof sum);
 }
 
-/* Members gain the spin of their root, and the group's sum is their angular momentum about the root's centre. */
-static void gain(const struct turning_groups *t, struct turning_group *g, struct particles *p)
+/* Adds the rotation of the root to the velocities of group g, and sums their angular momentum about the root's
+ * centre. */
+static void spin_apply(const struct turning_groups *t, struct turning_group *g, struct particles *p)
 {
     const struct turning_group *root = &t->group[g->root];
     real r[DIM_MAX];
@@ -192,7 +200,8 @@ static void gain(const struct turning_groups *t, struct turning_group *g, struct
     }
 }
 
-static void tell(struct turning_groups *t, const struct turning_group *g, const struct particles *p)
+/* Stores the spin of the root for all points of group g. */
+static void spins_store(struct turning_groups *t, const struct turning_group *g, const struct particles *p)
 {
     const struct turning_group *root = &t->group[g->root];
     FOR_POINTS(t, g, p, i)
@@ -201,16 +210,17 @@ static void tell(struct turning_groups *t, const struct turning_group *g, const 
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
+/* Returns the root of group g. */
 static int32_t group_root(const struct turning_groups *t, int32_t g)
 {
     while (t->group[g].root != g) g = t->group[g].root;
     return g;
 }
 
-/* Along how many axes neighbour k of a group lies off it. */
+/* Returns the number of axes along which neighbour k of a group is displaced. */
 static int axes_of_near(int k) { return k < 6 ? 1 : k < 18 ? 2 : 3; }
 
-/* Groups of few points become part of the neighbour that has most; of equal ones, of one along an axis and near the
+/* Joins groups of few points to the neighbour with the most points; of equal ones to one along an axis and near the
  * middle. */
 static void few_join(struct turning_groups *t)
 {
@@ -231,14 +241,14 @@ static void few_join(struct turning_groups *t)
     for (int32_t g = 0; g < t->groups; g++) t->group[g].root = group_root(t, g);
 }
 
-/* Of a symmetric tensor whose lower half is given. */
+/* Returns the determinant of a symmetric tensor given by its lower half. */
 static real inertia_determinant(const real J[3][3])
 {
     const real d = J[1][0], e = J[2][0], f = J[2][1];
     return J[0][0] * (J[1][1] * J[2][2] - f * f) + d * (e * f - d * J[2][2]) + e * (d * f - J[1][1] * e);
 }
 
-/* Solves J w = sum for such a tensor. */
+/* Solves J w = sum for a symmetric tensor J given by its lower half. */
 static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
 {
     if (dim == 2) {
@@ -252,7 +262,7 @@ static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
     w[2] = (C * sum[0] + D * sum[1] + (a * b - d * d) * sum[2]) / all;
 }
 
-/* Spins of roots by the sums of their groups. */
+/* Computes the spins of roots from the sums of their groups. */
 static void spins_find(struct turning_groups *t, int dim)
 {
     for (int32_t g = 0; g < t->groups; g++) {
@@ -266,7 +276,7 @@ static void spins_find(struct turning_groups *t, int dim)
     }
 }
 
-/* Centres of roots. */
+/* Computes mass and centre of the roots. */
 static void centres_find(struct turning_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) {
@@ -280,7 +290,7 @@ static void centres_find(struct turning_groups *t)
         for (int d = 0; d < DIM_MAX && t->group[g].mass > 0; d++) t->group[g].moment[d] /= t->group[g].mass;
 }
 
-/* Inertia of roots; where it has next to none about some axis, with that of LEAST_ARM. */
+/* Computes the inertia of the roots; increased by that of LEAST_ARM if it nearly vanishes about some axis. */
 static void inertias_find(struct turning_groups *t, real spacing, int dim)
 {
     for (int32_t g = 0; g < t->groups; g++) {
@@ -306,14 +316,14 @@ void turning_begin(struct turning_groups *t, struct particles *p, real spacing)
     EACH_GROUP(sum_inertia(t, &t->group[g], p));
     inertias_find(t, spacing, p->dim);
     spins_find(t, p->dim);
-    EACH_GROUP(tell(t, &t->group[g], p));
+    EACH_GROUP(spins_store(t, &t->group[g], p));
 }
 
 void turning_share(struct turning_groups *t, struct particles *p)
 {
     EACH_GROUP(sum_lack(t, &t->group[g], p));
-    spins_find(t, p->dim); /* what they gain */
-    EACH_GROUP(gain(t, &t->group[g], p));
-    spins_find(t, p->dim); /* what they have */
-    EACH_GROUP(tell(t, &t->group[g], p));
+    spins_find(t, p->dim); /* gain of spin */
+    EACH_GROUP(spin_apply(t, &t->group[g], p));
+    spins_find(t, p->dim); /* spin */
+    EACH_GROUP(spins_store(t, &t->group[g], p));
 }

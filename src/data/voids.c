@@ -1,13 +1,13 @@
-/* Which particles of a body see each other, along the straight line through its shape. */
+/* Finds pairs of particles of a body whose connecting segment leaves its shape. */
 #include "data/voids.h"
 
 #include <math.h>
 
 #include "base/memory.h"
 
-#define SEAM 1e-5        /* half the width of the widest gap that counts as closed [spacings] */
-#define STEP_FINE 1e-6   /* least step along a line, as a share of its length, of the first steps ... */
-#define STEP_COARSE 1e-3 /* ... and of later ones: lines along faces inside the shape */
+#define SEAM 1e-5        /* half of the widest gap that counts as closed [spacings]; empirical */
+#define STEP_FINE 1e-6   /* smallest step along a segment, as a share of its length, in the first FINE_STEPS steps */
+#define STEP_COARSE 1e-3 /* and in later ones, for segments along faces inside the shape */
 enum { FINE_STEPS = 400 };
 
 bool region_has_image(const struct region *r)
@@ -17,6 +17,7 @@ bool region_has_image(const struct region *r)
     return image;
 }
 
+/* Returns true if a solid is known to be convex. */
 static bool solid_convex(const struct solid *s)
 {
     switch (s->kind) {
@@ -41,8 +42,8 @@ bool region_has_voids(const struct region *r)
 
 /* ---- along a line ------------------------------------------------------------------------------------------------ */
 
-/* How far X is from the surface of a body, negative inside, never more than the distance there [m]; -INFINITY: v does
- * not know the body, which hides nothing. */
+/* Returns a lower bound of the signed distance of X from the surface of a body, negative inside [m]; -INFINITY if the
+ * body has no shape, so that it hides nothing. */
 static real void_level(const struct voids *v, int body, const real *X)
 {
     real at[DIM_MAX] = {0}, level = INFINITY;
@@ -56,33 +57,34 @@ static real void_level(const struct voids *v, int body, const real *X)
     return level < INFINITY ? level : -INFINITY;
 }
 
-/* A line from a place of a body on: `way` [m] along unit vector `along`. */
+/* A segment: from a point of a body, `length` long [m], along the unit vector `along`. */
 struct void_line {
     const real *from;
-    real along[DIM_MAX], way;
+    real along[DIM_MAX], length;
 };
 
+/* Computes the point at distance `at` from the start of a segment. */
 static void line_place(const struct voids *v, const struct void_line *l, real at, real *X)
 {
     for (int d = 0; d < v->dim; d++) X[d] = l->from[d] + at * l->along[d];
 }
 
-/* How far a line stays in the body [m]; l->way: to its end. The surface is nowhere nearer than the level says, so steps
- * of that length pass over nothing. */
+/* Returns the length of the first part of a segment that is inside the body [m], l->length if it ends inside. Steps
+ * have the length of the level, a lower bound of the distance, so that no surface is skipped (sphere tracing). */
 static real line_inside(const struct voids *v, int body, const struct void_line *l)
 {
     real at = 0;
-    for (int k = 0; at < l->way; k++) {
+    for (int k = 0; at < l->length; k++) {
         real X[DIM_MAX];
         line_place(v, l, at, X);
         const real level = void_level(v, body, X);
         if (level > SEAM * v->spacing) return at;
-        at += real_max(-level, (k < FINE_STEPS ? STEP_FINE : STEP_COARSE) * l->way);
+        at += real_max(-level, (k < FINE_STEPS ? STEP_FINE : STEP_COARSE) * l->length);
     }
-    return l->way;
+    return l->length;
 }
 
-/* Direction in which the body ends fastest at a place of a line, by differences. */
+/* Computes the direction in which the level increases fastest at a point of a segment, by differences. */
 static void line_normal(const struct voids *v, int body, const struct void_line *l, real at, real *normal)
 {
     const real step = 1e-4 * v->spacing;
@@ -103,12 +105,12 @@ bool voids_between(const struct voids *v, int body, const real *a, const real *b
     int first = 0;
     while (first < dim && a[first] == b[first]) first++;
     if (first == dim) return false;
-    if (a[first] > b[first]) return voids_between(v, body, b, a, across); /* the same bits both ways */
-    for (int d = 0; d < dim; d++) there.way += square(b[d] - a[d]);
-    there.way = back.way = sqrt(there.way);
-    for (int d = 0; d < dim; d++) there.along[d] = (b[d] - a[d]) / there.way, back.along[d] = -there.along[d];
+    if (a[first] > b[first]) return voids_between(v, body, b, a, across); /* equal bits in both directions */
+    for (int d = 0; d < dim; d++) there.length += square(b[d] - a[d]);
+    there.length = back.length = sqrt(there.length);
+    for (int d = 0; d < dim; d++) there.along[d] = (b[d] - a[d]) / there.length, back.along[d] = -there.along[d];
     const real out = line_inside(v, body, &there);
-    if (out >= there.way) return false;
+    if (out >= there.length) return false;
     if (!across) return true;
     real normal[DIM_MAX], other[DIM_MAX];
     line_normal(v, body, &there, out, normal);
@@ -135,8 +137,8 @@ real voids_depth(const struct voids *v, const struct particles *p, int64_t i)
     return real_max(0, -void_level(v, p->body[i], X));
 }
 
-/* Bits of particle i. `depth` [p->n_all]: how far particles are from the surface at least [m]: a line that lies in the
- * balls of that size about its ends is inside. */
+/* Returns the marks of particle i. depth: [p->n_all] lower bounds of the particles' distances from the surface [m]: a
+ * segment covered by the balls of these radii around its ends is inside. */
 static uint8_t void_search(const struct voids *v, const struct particles *p, const real *depth, int64_t i,
                            const struct near *near)
 {
@@ -145,12 +147,12 @@ static uint8_t void_search(const struct voids *v, const struct particles *p, con
     particle_place(p, i, a);
     for (int k = 0; k < near->n; k++) {
         const int32_t j = near->at[k];
-        real b[DIM_MAX] = {0}, way2 = 0;
+        real b[DIM_MAX] = {0}, length2 = 0;
         bool across = false;
         if (p->body[j] != p->body[i]) continue;
         particle_place(p, j, b);
-        for (int d = 0; d < p->dim; d++) way2 += square(b[d] - a[d]);
-        if (square(depth[i] + depth[j]) >= way2 || !voids_between(v, p->body[i], a, b, &across)) continue;
+        for (int d = 0; d < p->dim; d++) length2 += square(b[d] - a[d]);
+        if (square(depth[i] + depth[j]) >= length2 || !voids_between(v, p->body[i], a, b, &across)) continue;
         bits |= VOID_NEAR | (across ? VOID_ACROSS : 0);
     }
     return bits;

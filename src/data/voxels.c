@@ -1,11 +1,11 @@
-/* Voxels: grey values at places, and distances from the surface of those of a kind. */
+/* Voxels: grey values at points, and signed distances from the surface of the voxels with certain grey values. */
 #include "data/voxels.h"
 
 #include <math.h>
 
 #include "base/memory.h"
 
-/* Part of a voxel by which a place is taken for a higher one: places on the border of two would fall to either side. */
+/* Part of a voxel by which a point counts as higher: points on the border between voxels would fall to either side. */
 #define BORDER 1e-6
 
 void voxels_free(struct voxels *v)
@@ -14,7 +14,7 @@ void voxels_free(struct voxels *v)
     *v = (struct voxels){0};
 }
 
-/* The voxel along one direction; far ones are kept within the integers. */
+/* Returns the voxel of X along direction d; limited to -1 .. n, so that it fits an integer. */
 static int64_t voxel_along(const struct voxels *v, const real *X, int d)
 {
     const real at = floor((X[d] - v->from[d]) / v->size[d] + BORDER);
@@ -34,8 +34,9 @@ int voxels_grey(const struct voxels *v, const real *X)
 
 /* ---- distances --------------------------------------------------------------------------------------------------- */
 
-/* Squares of distances along one line: least over q of (size (p - q))^2 + f[q], the lower envelope of parabolas
- * (Felzenszwalb, Huttenlocher 2012). f, to: `stride` apart. room: 3 n + 1 numbers. */
+/* Replaces f by squared distances along one line: minimum over q of (size (p - q))^2 + f[q], the lower envelope of
+ * parabolas (Felzenszwalb, Huttenlocher 2012). f: n entries, `stride` apart; room: 3 n + 1 numbers of working
+ * memory. */
 static void line_distances(float *f, int64_t n, int64_t stride, real size, real *room)
 {
     real *border = room, *value = room + n + 1, *foot = value + n;
@@ -60,7 +61,7 @@ static void line_distances(float *f, int64_t n, int64_t stride, real size, real 
     }
 }
 
-/* The grid with one more voxel on each side. */
+/* Computes the numbers n of voxels with one more on each side. Returns their product. */
 static int64_t padded(const struct voxels *v, int64_t n[DIM_MAX])
 {
     int64_t all = 1;
@@ -68,7 +69,7 @@ static int64_t padded(const struct voxels *v, int64_t n[DIM_MAX])
     return all;
 }
 
-/* Distances from voxels where f is 0 to all others; f is infinite there before. */
+/* Computes squared distances of all voxels from those with f = 0; on entry all others are infinite. */
 static void grid_distances(const struct voxels *v, float *f)
 {
     int64_t n[DIM_MAX], stride = 1, all = padded(v, n);
@@ -86,6 +87,7 @@ static void grid_distances(const struct voxels *v, float *f)
     }
 }
 
+/* Returns true if a grey value is in one of the ranges. */
 static bool grey_in(const struct voxel_part *p, int grey)
 {
     bool in = false;
@@ -124,7 +126,7 @@ void voxel_part_free(struct voxel_part *p)
     p->level = NULL;
 }
 
-/* Index in the padded grid of the voxel next to X, moved by `step` along a direction. */
+/* Returns the index in the padded grid of the voxel at X, moved by `step` along `direction` (-1: none). */
 static int64_t level_index(const struct voxels *v, const real *X, int direction, int step)
 {
     int64_t n[DIM_MAX], at = 0;
@@ -137,7 +139,7 @@ static int64_t level_index(const struct voxels *v, const real *X, int direction,
     return at;
 }
 
-/* Distance from the box of the image [m]. */
+/* Returns the distance of X from the box of the image [m]. */
 static real box_beyond(const struct voxels *v, const real *X)
 {
     real sum = 0;
