@@ -1,37 +1,39 @@
-/* State that must survive a restart, described once for both directions. A module lists its state in one
- * function `x_archive(x, a)`; the same function saves and restores. checkpoint.c gives the archive its file. */
+/* State that must survive a restart, described once for saving and restoring. A module lists its state in one function
+ * `x_archive(x, a)`; the same function saves and restores. checkpoint.c connects the archive to a file. */
 #ifndef CLEAVE_ARCHIVE
 #define CLEAVE_ARCHIVE
 
 #include "base.h"
 
-/* Which state an archive holds. A function of state whose part is not concerned exchanges nothing. */
+/* State in an archive. A state function without state of a scope exchanges nothing in it. */
 enum archive_scope {
-    ARCHIVE_ALL,      /* all that a resumed run needs */
-    ARCHIVE_REBUILD,  /* what a run passes on to one with other particles of the same body, but for particles, bonds,
-                       * nodes and files, which change hands without a copy */
-    ARCHIVE_TRIAL,    /* what a trial equilibrium of load steps changes, but for the bonds that it breaks */
-    ARCHIVE_ACCOUNTS, /* sums since the start: forces may be computed that no step follows */
+    ARCHIVE_ALL,      /* everything that a resumed run needs */
+    ARCHIVE_REBUILD,  /* state passed on when a body is rebuilt with other particles, except particles, bonds, nodes and
+                         files, which are handed over without a copy */
+    ARCHIVE_TRIAL,    /* state changed by a trial equilibrium of load steps, except the bonds that it breaks */
+    ARCHIVE_ACCOUNTS, /* sums since the start, saved before forces are computed that no step follows */
 };
 
+/* An archive, open for saving or restoring. */
 struct archive {
     bool saving;
-    /* Saves or restores `size` bytes under a name that is unique in the archive ('/' and letters). Restoring
-     * FAILS if the stored size differs. */
+    /* Saves or restores `size` bytes under a name that is unique in the archive ('/' and letters). Restoring fails if
+     * the stored size differs. */
     status (*exchange)(struct archive *a, const char *name, void *data, size_t size);
-    /* Size of a stored entry [byte], -1 if there is none; for arrays that must be allocated before. */
+    /* Returns the size of a stored entry [byte], -1 if there is none; for arrays that must be allocated first. */
     int64_t (*stored_size)(struct archive *a, const char *name);
     void *file; /* belongs to checkpoint.c */
     enum archive_scope scope;
-    /* Restoring into a run with other particles: [stored particles and images] their indices there, -1 if they are
-     * absent. NULL: the particles are the same. */
+    /* Restoring into a run with other particles: [stored particles and images] new index of each, -1: absent. NULL:
+     * equal particles. */
     const int32_t *now;
 };
 
+/* Saves or restores a variable; returns from the calling function on failure. */
 #define ARCHIVE_VALUE(a, name, variable) TRY((a)->exchange((a), (name), &(variable), sizeof(variable)))
 
-/* Saves or restores an array of n elements, one a particle (and image), of `size` bytes each. Where archive->now is
- * set, elements are restored to the new indices of their particles; those of particles that were absent keep their
+/* Saves or restores an array of n elements of `size` bytes, one per particle (and image). If archive->now is set,
+ * elements are restored to the new indices of their particles; elements of particles that were absent keep their
  * value. */
 status archive_by_particle(struct archive *a, const char *name, void *array, int64_t n, size_t size);
 

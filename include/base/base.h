@@ -1,13 +1,13 @@
-/* Room `base`: numbers, status, memory, threads, archives, warnings. It knows nothing of solids, and everybody may call
- * it.
+/* Room `base`: numbers, status, memory, threads, archives, warnings. It contains no mechanics and uses no other room;
+ * every room may call it.
  *
- * Number types, status, and the conventions every file shares.
+ * Number types, status, and the conventions of every file.
  *
  * Units: SI everywhere inside the program (m, kg, s, Pa, J); units of the scene are converted when it is read.
- * Components: arrays of components are `real *x[DIM_MAX]`; only the first `dim` are allocated and used.
- * Symmetric tensors keep dim (dim + 1) / 2 components in the order
+ * Components: arrays of components are `real *x[DIM_MAX]`; only the first `dim` are allocated and used. Symmetric
+ * tensors store dim (dim + 1) / 2 components in the order
  *     1D: xx      2D: xx yy xy      3D: xx yy zz xy yz zx
- * with tensor (not engineering) shear where a strain is meant. */
+ * with tensor (not engineering) shear for strains. */
 #ifndef CLEAVE_BASE
 #define CLEAVE_BASE
 
@@ -23,76 +23,86 @@ typedef double real;
 enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 
 #define ALWAYS_INLINE inline __attribute__((always_inline))
-#define NEVER_INLINE __attribute__((noinline)) /* large and called from several places: compiled once */
+#define NEVER_INLINE __attribute__((noinline)) /* for large functions called from several places: compiled once */
 #define COUNT_OF(a) (sizeof(a) / sizeof((a)[0]))
 
-/* Shuffle of the entries of vectors a and b of n entries; indices from n on refer to b. MASK: the integer vector type
- * of n entries. */
+/* Shuffles the entries of vectors a and b of n entries; indices from n on refer to b. MASK: the integer vector type of
+ * n entries. */
 #ifdef __clang__
 #define VECTOR_PICK(MASK, a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #else
 #define VECTOR_PICK(MASK, a, b, ...) __builtin_shuffle(a, b, (MASK){__VA_ARGS__})
 #endif
 
+/* Returns the number of components of a symmetric tensor. */
 static inline int symmetric_count(int dim) { return dim * (dim + 1) / 2; }
-/* Row and column of symmetric component s. */
+
+/* Computes row and column of component s of a symmetric tensor. */
 static inline void symmetric_axes(int dim, int s, int *row, int *column)
 {
     *row = s < dim ? s : s == dim ? 0 : s == dim + 1 ? 1 : 2;
     *column = s < dim ? s : (*row + 1) % DIM_MAX;
 }
 
-/* What a function that can fail returns; the values are the exit statuses of the program. */
+/* Result of a function that can fail; the values are the exit statuses of the program. */
 typedef enum { OK = 0, FAILED = 1, REFUSED = 2, INTERRUPTED = 130 } status;
 
-/* Composes the one line that a person will read, keeps it for `status_message`, and returns `s`.
- * Called once, where the fault is seen; callers above only TRY(). The message is the program's one
- * hidden variable, as errno is the C library's. */
+/* Composes the message of a failure (one line), stores it for `status_message`, and returns `s`. Called once, where the
+ * fault is found; callers only use TRY(). The message is kept per thread, like errno of the C library. */
 status status_set(status s, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Returns the message of the last failure in this thread. */
 const char *status_message(void);
-/* Where a scene asks for something, as a message begins: `file:line:column: key: `. "": unknown. */
+
+/* Length of a position in a scene as it begins a message: `file:line:column: key: `; "": unknown. */
 enum { PLACE_LENGTH = 512 };
-/* Puts `place` in front of the message of a refusal that has none yet; returns `s`. */
+
+/* Prepends `place` to the message of a refusal that has no position yet. Returns `s`. */
 status status_at(const char *place, status s);
 
-/* Ends the program by invariant_broken if `condition` is false. For what holds in every run of a program without
- * faults; unlike assert of C it is in every build. What a scene, a file or the system can cause is a status instead. */
+/* Ends the program by invariant_broken if `condition` is false. For conditions that hold in every run of a correct
+ * program; unlike assert of C it is part of every build. What a scene, a file or the system can cause is a status
+ * instead. */
 #define INVARIANT(condition) ((condition) ? (void)0 : invariant_broken(#condition, __FILE__, __LINE__, __func__))
 
 /* Ends the program: prints one line on standard error with the version, the source location and the text of the
- * condition, and what to report; calls the function that invariant_clean_up has set; exit status 1. Any thread may call
- * it; of several threads the first one reports. Builds under sanitizers abort instead of exiting: fuzzers tell
- * such an end from a refusal. */
+ * condition, and what to report; calls the function set by invariant_clean_up; exit status 1. Any thread may call it;
+ * of several threads the first one reports. Builds with sanitizers abort instead of exiting, so that fuzzers
+ * distinguish such an end from a refusal. */
 _Noreturn void invariant_broken(const char *condition, const char *file, int line, const char *function);
 
-/* Sets the function that invariant_broken calls before the program ends, in the thread that has found the fault: it
- * removes half-written files. NULL: none is called. */
+/* Sets the function that invariant_broken calls before the program ends, in the thread that has found the fault; it
+ * removes half-written files. NULL: none. */
 void invariant_clean_up(void (*remove)(void));
 
-/* Makes text from outside (names of files, columns, scenes) harmless to a terminal: `?` in place of every control
- * character. */
+/* Replaces every control character of a text from outside (names of files, columns, scenes) by `?`, so that a terminal
+ * does not act on it. */
 void text_harmless(char *text);
-/* The same for `length` bytes, which may have zeros among them. */
+
+/* Replaces control characters as text_harmless in `length` bytes, which may include zeros. */
 void bytes_harmless(char *text, size_t length);
-/* A name to print, harmless, and cut if it is very long: `shown_name(folder).text`, good until the end of the
- * statement. */
+
+/* A name for printing, without control characters, cut if it is very long: `shown_name(folder).text`, valid until the
+ * end of the statement. */
 struct shown_name {
     char text[512];
 };
+
+/* Returns a name for printing. */
 struct shown_name shown_name(const char *name);
 
-/* Sorts n > 0 numbers; the middle one, of an even number the upper. */
+/* Sorts n > 0 numbers in place and returns the median; for even n the upper of the two middle ones. */
 double median_of(double *value, int64_t n);
 
-/* Hands a fault to the caller as it came. */
+/* Returns from the calling function with the status of `call` if it is not OK. */
 #define TRY(call)                                                                                                      \
     do {                                                                                                               \
         status try_status_ = (call);                                                                                   \
         if (try_status_ != OK) return try_status_;                                                                     \
     } while (0)
 
-/* A loop of independent rounds by the team, or by the calling thread alone where they are so few that calling a
- * team, even of one, takes longer (0.3 to 0.5 us). */
+/* Runs a loop of independent iterations in parallel if MANY, else in the calling thread: starting a team, even of one
+ * thread, takes 0.3 to 0.5 us (measured). */
 #define TEAM_LOOP(MANY, LOOP)                                                                                          \
     do {                                                                                                               \
         if (MANY) {                                                                                                    \
@@ -101,18 +111,27 @@ double median_of(double *value, int64_t n);
             LOOP                                                                                                       \
     } while (0)
 
+/* Returns the smaller of a and b. */
 static inline real real_min(real a, real b) { return a < b ? a : b; }
+
+/* Returns the larger of a and b. */
 static inline real real_max(real a, real b) { return a > b ? a : b; }
-/* To the last bit: 0 and -0 differ. */
+
+/* Returns true if a and b are equal to the last bit: 0 and -0 differ. */
 static inline bool bits_equal(real a, real b) { return memcmp(&a, &b, sizeof a) == 0; }
+
+/* Returns a^2. */
 static inline real square(real a) { return a * a; }
+
+/* Returns the scalar product of a and b [dim]. */
 static inline real dot(const real *a, const real *b, int dim)
 {
     real sum = 0;
     for (int d = 0; d < dim; d++) sum += a[d] * b[d];
     return sum;
 }
-/* to = a x b, of three components each; `to` is neither of them. */
+
+/* Computes to = a x b, of three components each; `to` must be neither a nor b. */
 static inline void vector_product(const real *a, const real *b, real *to)
 {
     for (int d = 0; d < 3; d++) to[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];

@@ -1,11 +1,11 @@
-/* What the program prints never acts on a terminal. */
+/* Protection of the terminal from control characters in the program's output. */
 #ifndef CLEAVE_HARMLESS
 #define CLEAVE_HARMLESS
 
-/* Makes standard output and standard error print `?` in place of control characters and of marks that turn the
- * direction of writing, wherever they come from: headers of tables, names in scenes, words of the command line. Line
- * feeds and tabs stay; so do, on standard error, the carriage return and the erasing of a line by which progress is
- * shown. Call this once, before anything is printed. */
+/* Makes standard output and standard error print `?` in place of control characters and of characters that change the
+ * direction of writing, whatever their source: headers of tables, names in scenes, words of the command line. Line
+ * feeds and tabs are kept; on standard error also the carriage return and the erasing of a line, which the progress
+ * line needs. Call once, before anything is printed. */
 void harmless_output_start(void);
 
 #endif

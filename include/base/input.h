@@ -1,5 +1,5 @@
 /* Files that a command reads as its input: scenes, lists of particles, tables, meshes, images. All of them are opened
- * or remembered here, so that no command waits at a pipe or writes over what it reads. */
+ * or registered here, so that no command waits at a pipe or overwrites its input. */
 #ifndef CLEAVE_INPUT
 #define CLEAVE_INPUT
 
@@ -7,17 +7,16 @@
 
 #include "base.h"
 
-/* Opens a regular file for reading and remembers it as an input of this command. The caller closes *file. expected:
- * what the file should be, for the message; NULL: the message says no more. REFUSED with `PATH: cause; EXPECTED is
- * expected` if the file cannot be opened or is a folder, pipe, socket or device, but for a pipe that is open already
- * (/dev/stdin, /dev/fd/N). */
+/* Opens a regular file for reading and registers it as an input of this command. The caller closes *file. expected:
+ * what the file should be, for the message; NULL: left out. REFUSED with `PATH: cause; EXPECTED is expected` if the
+ * file cannot be opened or is a folder, pipe, socket or device, except for a pipe that is already open (/dev/stdin,
+ * /dev/fd/N). */
 status input_open(FILE **file, const char *path, const char *expected);
 
-/* Remembers the file at `path`, which a library opens, as an input of this command.
- * A missing file is not remembered. */
+/* Registers the file at `path`, which a library opens, as an input of this command. A missing file is ignored. */
 void input_remember(const char *path);
 
-/* Returns true if `path` leads to a file that this command has read as an input, also by a link or a second name. */
+/* Returns true if `path` is a file that this command has read as an input, also through a link or a second name. */
 bool input_was_read(const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-/* Temporary files and helping programs that must not outlive a process that a signal ends. */
+/* Temporary files and child processes that must not outlive a process ended by a signal. */
 #ifndef CLEAVE_LEAVINGS
 #define CLEAVE_LEAVINGS
 
@@ -6,17 +6,17 @@
 
 enum leaving { LEAVING_PICTURE, LEAVING_FRAME, LEAVING_FILM, LEAVINGS };
 
-/* Sets a file that is removed, and a child process that is killed before with all that it started, if SIGINT, SIGTERM
- * or SIGHUP ends this process. path is copied; NULL: no file. process: 0: no child. Signals that are ignored or have a
- * handler keep it. */
+/* Sets a file to be removed, and a child process to be killed before with all processes it started, when SIGINT,
+ * SIGTERM or SIGHUP ends this process. path is copied; NULL: no file. process: 0: no child. Signals that are ignored or
+ * have a handler are left alone. */
 void leaving_set(enum leaving which, const char *path, int process);
 
-/* Keeps those signals waiting (true) while a file or a child is made that leaving_set does not know yet, and lets them
- * come (false). A child starts with what its parent had. */
+/* Blocks these signals (hold true) while a file or child exists that leaving_set does not know yet, and unblocks them
+ * (false). A child inherits the state of its parent. */
 void leavings_hold(bool hold);
 
-/* For a child between fork and exec: a process group of its own, so that what it starts is killed with it, and no
- * signal kept waiting. */
+/* For a child between fork and exec: creates a process group, so that the processes it starts are killed with it, and
+ * unblocks the signals. */
 void leavings_child(void);
 
 #endif

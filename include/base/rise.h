@@ -1,9 +1,9 @@
-/* Growth of a quantity that a stable run bounds: a few of its values, and from them the time of the last tenfold
- * rise.
+/* Growth of a quantity that is bounded in a stable run: records some of its values, and computes from them the duration
+ * of the last tenfold increase.
  *
  * A mode of a leap-frog step dt above its limit dt_c is multiplied by -r in every step, r + 1/r = 4 (dt/dt_c)^2 - 2:
- * its square grows tenfold in RISE_STEPS steps where dt is 1.7e-5 of dt_c above that, and faster beyond. Slower
- * growth is not caused by the time step. */
+ * its square grows tenfold in RISE_STEPS steps if dt exceeds dt_c by 1.7e-5 dt_c, and faster beyond. Slower growth is
+ * not caused by the time step. */
 #ifndef CLEAVE_RISE
 #define CLEAVE_RISE
 
@@ -11,26 +11,29 @@
 
 enum {
     RISE_STEPS = 100,
-    RISE_STRIDE = 64,  /* steps between two records of values that no sample has      */
-    RISE_CLOSEST = 16, /* steps between two values: what comes sooner is left out     */
+    RISE_STRIDE = 64,  /* steps between two records of values that no sample has */
+    RISE_CLOSEST = 16, /* smallest number of steps between two records; earlier values are omitted */
     RISE_VALUES = 64
 };
 
+/* The last RISE_VALUES records; record n is at[n % RISE_VALUES]. */
 struct rise {
     int64_t n;
     struct {
         int64_t step;
         real value;
     } at[RISE_VALUES];
-}; /* value n is at[n % RISE_VALUES] */
+};
 
+/* Growth rates: tenfold within RISE_STEPS, slower, or undecided. */
 enum rise_rate { RISE_FAST, RISE_SLOW, RISE_UNSURE };
 
+/* Records a value, unless the last record is less than RISE_CLOSEST steps old. */
 void rise_note(struct rise *r, int64_t step, real value);
 
-/* Rate of the last tenfold rise, to `value` > 0 at `step`, and about how long it took [steps]; INFINITY: longer than
- * the record. FAST: within RISE_STEPS, where growth between two records is taken for exponential. SLOW: a value
- * above a tenth of `value` is older than that, or one near a tenth is older by more than that. */
+/* Returns the rate of the last tenfold increase, to `value` > 0 at `step`; *steps: its approximate duration [steps],
+ * INFINITY if it is longer than the record. FAST: within RISE_STEPS, assuming exponential growth between two records.
+ * SLOW: a value above a tenth of `value` is older than RISE_STEPS, or one near a tenth is older by more than that. */
 enum rise_rate rise_rate(const struct rise *r, int64_t step, real value, real *steps);
 
 #endif

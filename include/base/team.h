@@ -4,48 +4,70 @@
 
 #include "base.h"
 
+/* The machine as far as this process may use it. */
 struct machine {
     int cores, threads_allowed; /* physical cores; hardware threads in the process's mask */
-    int64_t cache[4];           /* bytes of one L1d, L2, L3 cache (1..3), 0 if unknown */
-    int64_t memory;             /* bytes that the process may use, 0 if unknown */
-    char model[128];            /* the processor's name */
+    int64_t cache[4];           /* size of one L1d, L2, L3 cache (index 1 .. 3), 0 if unknown [byte] */
+    int64_t memory;             /* memory that the process may use, 0 if unknown [byte] */
+    char model[128];            /* name of the processor */
 };
 
-/* Sets the number of threads: `threads` if > 0, else OMP_NUM_THREADS, else the physical cores in the mask. Binds
- * helper thread k >= 1 to the k-th core of the mask, if there is one for each, unless the user set OMP_PROC_BIND or
- * OMP_PLACES; the calling thread goes to the first core and keeps the mask. Returns the number in use. */
+/* Sets the number of threads: `threads` if > 0, else OMP_NUM_THREADS, else the physical cores in the mask. Binds helper
+ * thread k >= 1 to the k-th core of the mask, if there are enough, unless the user set OMP_PROC_BIND or OMP_PLACES; the
+ * calling thread moves to the first core and keeps the mask. Returns the number of threads. */
 int team_make(int threads);
-struct machine team_machine(void);
-int64_t team_memory(void);           /* of the machine, or what limits leave of it [byte]; read by team_make */
-const char *team_memory_limit(void); /* what sets it: "memory of the machine", "ulimit -v", ... */
 
-/* Physical cores that the process may use. */
+/* Returns the properties of the machine. */
+struct machine team_machine(void);
+
+/* Returns the memory of the machine, or what limits leave of it [byte]; read by team_make. */
+int64_t team_memory(void);
+
+/* Returns the name of the limit that team_memory reports: "memory of the machine", "ulimit -v", ... */
+const char *team_memory_limit(void);
+
+/* Returns the number of physical cores that the process may use. */
 int team_cores(void);
-/* The cores in equal shares, for processes that run side by side; NULL where there are too few for a share each. A
- * share is taken by the calling thread, from which processes inherit it; -1 gives back what it had. */
+
+/* Divides the cores into equal shares, for processes that run side by side. Returns NULL if there are too few. Release
+ * with core_shares_free. */
 struct core_shares *core_shares_make(int shares);
+
+/* Binds the calling thread, and processes that it starts, to a share; share -1 restores its previous binding. s NULL:
+ * does nothing. */
 void core_share_take(const struct core_shares *s, int share);
+
+/* Releases the shares. */
 void core_shares_free(struct core_shares *s);
 
-/* Wall clock [s]. */
+/* Returns the wall clock [s]. */
 double team_clock(void);
 
-/* Adds `n` terms in fixed blocks of SUM_BLOCK and the blocks in their order: the same bits on any number
- * of threads. `term(context, i)` must not write. */
+/* Terms per block of a sum, and largest number of sums in one pass. */
 enum { SUM_BLOCK = 1024, TERMS_MAX = 8 };
+
+/* Returns the sum of n terms, added in fixed blocks of SUM_BLOCK, and the blocks in order: equal bits on any number of
+ * threads. term(context, i) must not write. */
 real team_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context);
 
-/* Several sums in one pass: `block` adds the terms of first .. end-1 to the `terms` <= TERMS_MAX sums it is handed. */
+/* Computes several sums in one pass, as team_sum: `block` adds the terms first .. end-1 to the `terms` <= TERMS_MAX
+ * sums that it is given. */
 void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                const void *context, real *sum);
 
-/* Where the time of a step goes. */
+/* Timed sections of a step (laps of a stop watch). */
 enum lap { LAP_BONDS, LAP_SCATTER, LAP_GRID, LAP_GATHER, LAP_CONVERT, LAP_SAMPLE, LAP_OUTPUT, LAPS };
 extern const char *const lap_name[LAPS];
+
+/* Time spent in each section, and the time of the last booking [s]. */
 struct laps {
     double last, spent[LAPS];
-}; /* [s] */
+};
+
+/* Starts the stop watch and clears all sections. */
 void laps_start(struct laps *l);
-void lap(struct laps *l, enum lap which); /* books the time since the last lap (or start) on `which` */
+
+/* Books the time since the last call (or start) on section `which`. */
+void lap(struct laps *l, enum lap which);
 
 #endif

@@ -149,11 +149,10 @@ enum {
 
 /* Description of one array. The table allocates, frees, sorts, archives and restores. */
 struct particle_field {
-    const char *name, *unit, *meaning;
-    size_t offset, size; /* of the (first) array pointer in struct particles; of one entry [bytes] */
-    /* number of component arrays in dimension dim */
-    int (*count)(int dim, int optional);
-    bool in_trials; /* belongs to ARCHIVE_TRIAL: plastic state */
+    const char *name, *unit, *meaning;   /* name in checkpoints; unit; description */
+    size_t offset, size;                 /* of the (first) array pointer in struct particles; of one entry [byte] */
+    int (*count)(int dim, int optional); /* number of component arrays in dimension dim */
+    bool in_trials;                      /* belongs to ARCHIVE_TRIAL: plastic state */
 };
 extern const struct particle_field particle_fields[];
 extern const int particle_fields_count;

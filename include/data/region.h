@@ -97,9 +97,8 @@ void crack_area_vector(const struct crack *c, real area[DIM_MAX]);
 
 /* A plane of symmetry; the body is on one side. */
 struct mirror_plane {
-    int axis, outside; /* of its normal; side without body, -1 or +1 */
-    /* position [m] */
-    real at; /* [m] */
+    int axis, outside; /* axis of its normal; side without body, -1 or +1 */
+    real at;           /* position along the axis [m] */
 };
 
 /* Returns true if the crack reaches X on or beyond a plane of symmetry (within `tolerance` [m]) from inside: it

@@ -1,31 +1,32 @@
-/* Room `simd`: which set of kernels is in use. It knows `base` and the kernels; the engine, commands and output call
- * it.
+/* Room `simd`: the set of kernels in use. It uses `base` and the kernels; the engine, commands and output call it.
  *
- * The sets of kernels in this program (kernels/simd/kernel.h), by the vector instructions that they are
- * compiled for, and the one in use. Before main the widest one that the processor runs is taken, or what CLEAVE_SIMD
- * names. */
+ * Sets of kernels in this program (kernels/simd/kernel.h), one for each set of vector instructions. Before main the
+ * widest set that the processor supports is selected, or the one named by CLEAVE_SIMD. */
 #ifndef CLEAVE_SIMD
 #define CLEAVE_SIMD
 
 #include "base/base.h"
 
+/* A set of kernels. */
 struct simd_set {
-    const char *name; /* as CLEAVE_SIMD says it */
-    const char *meaning;
-    bool (*runs)(void); /* does the processor have them? */
+    const char *name;    /* name in CLEAVE_SIMD */
+    const char *meaning; /* the instructions, in words */
+    bool (*runs)(void);  /* returns true if the processor supports the instructions */
     const struct kernel_set *kernels;
 };
 
-/* The widest first. */
+/* All sets, the widest first. */
 extern const struct simd_set simd_sets[];
 extern const int simd_set_count;
 
-/* Takes a set that runs here. Not while kernels run. */
+/* Selects a set that the processor supports. Must not be called while kernels run. */
 void simd_use(const struct simd_set *set);
+
+/* Returns the set in use. */
 const struct simd_set *simd_in_use(void);
 
-/* Takes the set that CLEAVE_SIMD names, else the widest that runs. REFUSED: there is no such set, or it cannot run
- * here. */
+/* Selects the set named by CLEAVE_SIMD, else the widest supported one. REFUSED if there is no such set or the processor
+ * does not support it. */
 status simd_start(void);
 
 #endif

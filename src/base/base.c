@@ -1,4 +1,4 @@
-/* The one message that goes with a status. */
+/* Status messages, harmless texts, median. */
 #include "base/base.h"
 
 #include <stdarg.h>
@@ -7,9 +7,9 @@
 
 enum { MESSAGE_LENGTH = 1024 };
 
-/* As errno: each thread has its own, so that a worker's fault never mixes with another's. */
+/* per thread, so that a worker's message never mixes with another's */
 static _Thread_local char message[MESSAGE_LENGTH];
-static _Thread_local bool placed; /* by status_at */
+static _Thread_local bool placed; /* set by status_at */
 
 status status_set(status s, const char *format, ...)
 {
@@ -36,8 +36,8 @@ const char *status_message(void) { return message; }
 
 /* Returns the number of bytes of a character that a terminal acts on instead of showing it; 0: it shows it. left: bytes
  * from c on, at least 1. Control characters: a byte below a blank, 127, and U+0080 to U+009F, in UTF-8 C2 80 to C2 9F.
- * What turns the direction of writing or ends lines: U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069, in UTF-8
- * E2 80 8E, and so on. */
+ * Characters that change the direction of writing or end lines: U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069,
+ * in UTF-8 E2 80 8E, and so on. */
 static int harmful_bytes(const unsigned char *c, size_t left)
 {
     if (*c < ' ' || *c == 127) return 1;

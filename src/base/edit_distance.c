@@ -1,4 +1,4 @@
-/* How far two words are apart. */
+/* Edit distance of two words. */
 #include "base/edit_distance.h"
 
 #include <stdbool.h>

@@ -7,16 +7,17 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-#define STATIONARY 1e-3 /* what the last iterations may add                          */
-#define EXHAUSTED 1e-12 /* of the eigenvalue: the vectors found span all there is    */
+#define STATIONARY 1e-3 /* relative increase in the last ITERATIONS_SEEN iterations at which the iteration stops */
+#define EXHAUSTED 1e-12 /* residual over eigenvalue below which the vectors found span an invariant space */
 enum { ITERATIONS_LEAST = 16, ITERATIONS_MOST = 200, ITERATIONS_SEEN = 8 };
 
-/* The next vector w, the newest v and the one before it. */
+/* The next vector w, the newest one v and the previous one. */
 struct lanczos {
     int64_t n;
     real *v, *before, *w;
 };
 
+/* Adds v . w and w . w of the entries first .. end - 1. */
 static void overlap_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct lanczos *l = context;
@@ -26,6 +27,7 @@ static void overlap_block(const void *context, int64_t first, int64_t end, real 
     }
 }
 
+/* Sets v to a fixed pseudo-random unit vector. */
 static void eigenvalue_start(struct lanczos *l)
 {
     uint64_t seed = 1;
@@ -39,7 +41,8 @@ static void eigenvalue_start(struct lanczos *l)
     for (int64_t k = 0; k < l->n; k++) l->v[k] = l->w[k] / sqrt(sum[1]);
 }
 
-/* w = A v less its parts along v and the one before; returns its length, and the part along v. */
+/* Computes w = A v less its components along v and the previous vector. Returns the length of w; *diagonal: component
+ * of A v along v. */
 static real next(struct lanczos *l, operator_fn *apply, void *context, real last, real *diagonal)
 {
     real sum[2];
@@ -52,7 +55,7 @@ static real next(struct lanczos *l, operator_fn *apply, void *context, real last
     return sqrt(sum[1]);
 }
 
-/* The newest vector becomes the one before, and w of length `size` the newest. */
+/* Makes v the previous vector, and w, of length `size`, the newest. */
 static void eigenvalue_turn(struct lanczos *l, real size)
 {
     real *spare = l->before;
@@ -61,7 +64,8 @@ static void eigenvalue_turn(struct lanczos *l, real size)
     for (int64_t k = 0; k < l->n; k++) l->v[k] /= size;
 }
 
-/* Is x above all eigenvalues of the symmetric tridiagonal matrix (Sturm)? b[k] stands between a[k] and a[k + 1]. */
+/* Returns true if x is above all eigenvalues of the symmetric tridiagonal matrix (Sturm); b[k] is between a[k] and a[k
+ * + 1]. */
 static bool above_all(const real *a, const real *b, int n, real x)
 {
     real pivot = x - a[0];

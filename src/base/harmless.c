@@ -1,5 +1,5 @@
-/* Standard output and error as streams of the C library whose writer replaces what a terminal would act on. Where the
- * library has no such streams (neither glibc nor that of BSD) messages are harmless as far as status_set makes them. */
+/* Standard output and error as streams of the C library with a writer that replaces control characters. Where the
+ * library has no such streams (neither glibc nor BSD), only messages of status_set are protected. */
 #include "base/harmless.h"
 
 #include <errno.h>
@@ -13,7 +13,7 @@ enum { CHUNK = 4096 };
 
 static const char erase_line[] = "\033[K";
 
-/* Makes bytes harmless but for what the program itself sends to a terminal. */
+/* Replaces control characters, except those that the program itself sends to a terminal. */
 static void chunk_harmless(char *to, const char *from, size_t length, bool first)
 {
     memcpy(to, from, length);
@@ -25,7 +25,7 @@ static void chunk_harmless(char *to, const char *from, size_t length, bool first
             memcpy(to + k, erase_line, sizeof erase_line - 1);
 }
 
-/* Writes all bytes to a descriptor; returns how many were written. */
+/* Writes all bytes to a descriptor. Returns the number of bytes written. */
 static size_t harmless_write(int fd, const char *bytes, size_t length)
 {
     char text[CHUNK];

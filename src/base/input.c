@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Identity of a file. A file that is written later may have the number of one that was removed, but not its time. */
+/* Identity of a file. A file written later may have the number of a removed one, but not its time. */
 struct identity {
     dev_t device;
     ino_t number;
@@ -36,7 +36,8 @@ static bool identity_is_known(const struct identity *one)
     return known;
 }
 
-/* Adds a file to the list of inputs. Without memory the file stays unknown; the next allocation ends the program. */
+/* Adds a file to the list of inputs. Without memory the file is not registered; the next allocation ends the
+ * program. */
 static void input_add(const struct stat *s)
 {
     const struct identity one = identity_of(s);
@@ -65,15 +66,15 @@ bool input_was_read(const char *path)
     return identity_is_known(&one);
 }
 
-/* Returns true for the names of descriptors of this process: a pipe behind one is open already and keeps nobody
- * waiting to open it. */
+/* Returns true for the names of descriptors of this process: a pipe behind one is already open, so opening it does not
+ * wait. */
 static bool is_descriptor(const char *path)
 {
     return strcmp(path, "/dev/stdin") == 0 || strncmp(path, "/dev/fd/", 8) == 0 ||
            strncmp(path, "/proc/self/fd/", 14) == 0;
 }
 
-/* Returns why the open file `fd` (-1: it was not opened) cannot be read as an input; NULL: it can. */
+/* Returns the reason why the open file `fd` (-1: it was not opened) cannot be read as an input, or NULL. */
 static const char *input_fault(int fd, const char *path, struct stat *s)
 {
     const int cause = errno;
@@ -87,7 +88,7 @@ static const char *input_fault(int fd, const char *path, struct stat *s)
 status input_open(FILE **file, const char *path, const char *expected)
 {
     struct stat s;
-    /* a pipe would keep a blocking call waiting for its writer */
+    /* a pipe would block until a writer opens it */
     const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     const char *fault = input_fault(fd, path, &s);
     *file = fault ? NULL : fdopen(fd, "rb");

@@ -1,4 +1,4 @@
-/* The end of a program whose invariant is broken: one line for its developers. */
+/* The end of a program with a broken invariant: one line for its developers. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__ || defined SANITIZED
 #define LEAVE_BROKEN() abort()
 #else
-#define LEAVE_BROKEN() _exit(FAILED) /* no exit handlers: other threads are at work */
+#define LEAVE_BROKEN() _exit(FAILED) /* no exit handlers: other threads are running */
 #endif
 
 static void (*remove_half_written)(void);

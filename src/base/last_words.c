@@ -1,5 +1,5 @@
-/* Last words of a process that a library ends. HDF5 without memory leaves by exit(-1), or reads through a
- * pointer to nothing, and so it does with some damaged files; it says nothing. */
+/* Messages for crashes inside libraries. HDF5 without memory calls exit(-1) or reads through a NULL pointer, as with
+ * some damaged files; it prints nothing. */
 #include "base/last_words.h"
 
 #include "base/base.h"
@@ -18,7 +18,7 @@ static const char out_of_memory[] =
 
 static const char out_of_stack[] = "out of stack: its limit is below 1 MB; ulimit -s 8192 is the usual one\n";
 
-/* The file that HDF5 reads, harmless to a terminal; "": none. */
+/* The file that HDF5 reads, without control characters; "": none. */
 static char reading[512];
 
 void last_words_reading(const char *path)
@@ -27,7 +27,7 @@ void last_words_reading(const char *path)
     memcpy(reading, shown.text, sizeof reading);
 }
 
-/* What a signal handler may do: no more than write and leave. */
+/* Writes a text on standard error; safe in a signal handler. */
 static void say(const char *text)
 {
     for (size_t done = 0, length = strlen(text); done < length;) {
@@ -37,12 +37,14 @@ static void say(const char *text)
     }
 }
 
+/* Writes a text on standard error and exits. */
 static _Noreturn void say_and_leave(const char *text)
 {
     say(text);
     _exit(FAILED);
 }
 
+/* Reports the file being read as damaged and exits. */
 static _Noreturn void say_damaged_and_leave(void)
 {
     say("cannot read ");
@@ -50,7 +52,7 @@ static _Noreturn void say_damaged_and_leave(void)
     say_and_leave(": the HDF5 library crashed over it; it is damaged, or not what it seems\n");
 }
 
-/* Is so little left that an array of a library may not have found room? */
+/* Returns true if so little memory is left that a library's allocation may have failed. */
 static bool memory_is_tight(void)
 {
     enum { PLENTY = 256 << 20 };
@@ -60,6 +62,7 @@ static bool memory_is_tight(void)
     return false;
 }
 
+/* Returns true if the stack limit is below 1 MB. */
 static bool stack_is_tight(void)
 {
     enum { ENOUGH = 1 << 20 };
@@ -67,15 +70,16 @@ static bool stack_is_tight(void)
     return getrlimit(RLIMIT_STACK, &l) == 0 && l.rlim_cur < ENOUGH;
 }
 
+/* Handles a crash: reports the likely cause, or lets the signal end the process. */
 static void on_crash(int number)
 {
     if (stack_is_tight()) say_and_leave(out_of_stack);
     if (memory_is_tight()) say_and_leave(out_of_memory);
     if (reading[0]) say_damaged_and_leave();
-    signal(number, SIG_DFL); /* the fault comes again, and ends the process as it should */
+    signal(number, SIG_DFL); /* the fault recurs, and ends the process as usual */
 }
 
-/* This program leaves by _exit: only a library calls exit, and -1 is HDF5 without memory. */
+/* This program ends by _exit: only a library calls exit, with -1 if HDF5 has no memory. */
 #ifdef __GLIBC__
 static void on_library_exit(int result, void *unused)
 {
@@ -86,7 +90,7 @@ static void on_library_exit(int result, void *unused)
 
 void last_words_start(void)
 {
-    static char room[1 << 16]; /* a stack that finds no memory to grow cannot hold the handler */
+    static char room[1 << 16]; /* the handler needs a stack of its own if the stack cannot grow */
     const stack_t apart = {.ss_sp = room, .ss_size = sizeof room};
     const struct sigaction action = {.sa_handler = on_crash, .sa_flags = SA_ONSTACK};
     sigaltstack(&apart, NULL);

@@ -1,4 +1,4 @@
-/* What a process that a signal ends takes with it. */
+/* Removes temporary files and ends children when a signal ends the process. */
 #include "base/leavings.h"
 
 #include <pthread.h>
@@ -18,9 +18,9 @@ static struct {
 
 static pthread_t maker; /* the thread that makes files and children */
 
-/* Only calls that a signal handler may make. A thread that makes no files hands the signal on: the other one would go
- * on making them meanwhile (it blocks signals while it starts a child). The child is waited for, since it could make
- * its file once more. */
+/* Signal handler; uses only calls that are safe there. A thread that makes no files forwards the signal, since the
+ * other one would go on making files meanwhile (it blocks signals while it starts a child). Waits for the child, which
+ * could create its file once more. */
 static void on_end(int number)
 {
     if (!pthread_equal(pthread_self(), maker)) {
@@ -38,7 +38,7 @@ static void on_end(int number)
 
 static const int ends[] = {SIGINT, SIGTERM, SIGHUP};
 
-/* Sets the handler where a signal would end the process. */
+/* Installs the handler for signals that would end the process. */
 static void leavings_watch(void)
 {
     static bool watched;
@@ -56,7 +56,7 @@ void leaving_set(enum leaving which, const char *path, int process)
     leavings[which].process = 0;
     leavings[which].path[0] = '\0';
     if (path && strlen(path) < PATH_LONGEST) strcpy(leavings[which].path, path);
-    if (process > 0) setpgid(process, process); /* as leavings_child, whichever comes first */
+    if (process > 0) setpgid(process, process); /* as leavings_child, whichever is first */
     leavings[which].process = process;
 }
 

@@ -1,4 +1,4 @@
-/* Aligned arrays, touched first by their threads; the end of the run where there is no memory. */
+/* Aligned arrays, first written by the threads that use them; the end of the run when memory is exhausted. */
 #include "base/memory.h"
 
 #include <malloc.h>
@@ -9,32 +9,33 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-/* A cache line and the widest vector [byte]; the pieces in which pages are touched; a page, a large one, and the
- * arrays that lie on such. */
+/* Cache line and widest vector [byte]; pieces in which pages are first touched; page; large page; smallest array on
+ * large pages. */
 enum { ALIGNMENT = 64, PIECE = 65536, PAGE = 4096, LARGE_PAGE = 2 << 20, LARGE_ARRAY = 4 << 20 };
 
-/* Pages of its own: where the system gives them, and not under the address sanitizer, which sees the heap alone. */
+/* Pages from mmap are used where the system has it, but not under the address sanitizer, which watches the heap
+ * only. */
 #if defined __SANITIZE_ADDRESS__
 enum { HEAP_ALONE = 1 };
 #else
 enum { HEAP_ALONE = 0 };
 #endif
 
-/* From this size on an array has pages of its own: reused pages would lie in the memory of the processor whose
- * threads touched them first; and new pages are zero, so that they need not be written twice. */
+/* Arrays from this size on have pages of their own: reused heap pages would be in the memory of the processor whose
+ * threads touched them first, and new pages are zero, so that they need not be written twice. */
 enum { OWN_PAGES = 1 << 20 };
-/* On request some freed blocks wait for an array of about their size, mostly the same array made anew: the system
- * takes longer to give a page than it takes to write one. */
+/* On request some released blocks are kept for an array of similar size, mostly the rebuilt array: the system takes
+ * longer to provide a page than to write one. */
 enum { KEPT = 64, KEPT_LEAST = 1 << 17, KEPT_MOST = 16 << 20, KEPT_ALL = 128 << 20 };
 
-/* Elements that the first growth of an array makes. */
+/* Elements allocated by the first growth of an array. */
 enum { GROWN_FIRST = 16 };
 
-/* Stands before the array. */
+/* Header before each array. */
 struct block {
-    void *whole;   /* to be freed */
-    size_t mapped; /* its bytes if it has its own pages, else 0 */
-    size_t length; /* of the array [byte] */
+    void *whole;   /* address to be released */
+    size_t mapped; /* length of its own pages, 0: heap [byte] */
+    size_t length; /* length of the array [byte] */
 };
 _Static_assert(sizeof(struct block) <= ALIGNMENT, "there is room for it");
 
@@ -45,8 +46,8 @@ static _Noreturn void out_of_memory(const char *label, int64_t count, size_t siz
     _exit(FAILED);
 }
 
-/* Writes zeros piece by piece in the static partition of the loops that will use the array, so that a page
- * lies in the memory of the processor whose thread works on it; of fresh pages only a byte each. */
+/* Writes zeros piece by piece in the static partition of the loops that will use the array, so that a page is in the
+ * memory of the processor whose thread uses it; of fresh pages, which are zero, only one byte each. */
 static void zero(char *bytes, size_t length, bool fresh)
 {
     int64_t pieces = (int64_t)((length + PIECE - 1) / PIECE);
@@ -62,10 +63,10 @@ static void zero(char *bytes, size_t length, bool fresh)
     }
 }
 
-/* Large blocks all begin at the same place of a page, and a cache has room for eight or twelve lines of one place:
- * loops that read twenty arrays side by side would push out their own. So each array begins some lines further on
- * than the last. Measured on two cores against all at one place: material points of the current frame take 6 % less
- * time in the plane (160,000) and 16 % less in space (512,000); bonds the same. */
+/* Returns an offset for the start of an array. Large blocks begin at equal addresses within a page, and a cache set has
+ * room for eight or twelve lines: loops over twenty arrays would evict their own lines. Each array therefore begins
+ * some lines further on than the previous one. Measured on two cores against no offsets: material points of the current
+ * frame take 6 % less time in 2D (160,000) and 16 % less in 3D (512,000); bonds equal time. */
 static size_t offset(size_t length)
 {
     static unsigned arrays;
@@ -79,8 +80,8 @@ static int waiting_longest;
 static size_t waiting_bytes;
 static bool reusing;
 
-/* Sizes come in steps of a quarter at most, and with half as much again where blocks wait for others, so that what
- * has grown a little finds its old place; pages beyond an array are never touched. */
+/* Returns the size of pages for `length` bytes, in steps of at most a quarter, so that a slightly larger array finds
+ * its old block; pages beyond an array are never touched. */
 static size_t room_of(size_t length)
 {
     size_t step = OWN_PAGES / 4;
@@ -88,7 +89,8 @@ static size_t room_of(size_t length)
     return (length + step - 1) / step * step;
 }
 
-/* The smallest block that waits and holds so many bytes, but not far too many; `whole` NULL: none does. */
+/* Takes the smallest kept block of at least `least` bytes, and at most four times as many; `whole` NULL: there is
+ * none. */
 static struct block take_kept(size_t least)
 {
     struct block block = {NULL, 0, 0};
@@ -104,7 +106,7 @@ static struct block take_kept(size_t least)
     return block;
 }
 
-/* Lets a block wait in place of the one that has done so longest, and of more if all are too many bytes. */
+/* Keeps a block in place of the oldest one, and releases more if all exceed KEPT_ALL. */
 static void memory_keep(struct block block)
 {
     if (!reusing || block.mapped > KEPT_MOST) {
@@ -134,8 +136,8 @@ static void keep_none(void)
 }
 #endif
 
-/* `length` bytes from an alignment on; `whole` NULL: there are none. `fresh`: they are zero, which `anew` wants where
- * pages are given. */
+/* Returns `length` bytes at a multiple of `alignment`, NULL if there are none. anew: new pages are wanted, no kept
+ * block. *fresh: the bytes are zero. */
 static char *memory_block_make(struct block *block, size_t length, size_t alignment, bool anew, bool *fresh)
 {
     *block = (struct block){NULL, 0, 0}, *fresh = false;
@@ -164,7 +166,7 @@ static void *array_make(const char *label, int64_t count, size_t size, enum cont
     struct block block;
     if (count < 0 || __builtin_mul_overflow((size_t)count, size, &length) || length > PTRDIFF_MAX - 2 * LARGE_PAGE)
         out_of_memory(label, count, size);
-    /* also for count 0 */
+    /* +1: also for count 0 */
     const size_t ahead = ALIGNMENT + offset(length), rounded = (length / ALIGNMENT + 1) * ALIGNMENT;
     const bool sparse = content == MOSTLY_UNWRITTEN || content == MOSTLY_ZERO;
     const bool large = rounded >= LARGE_ARRAY && !sparse;
@@ -173,7 +175,7 @@ static void *array_make(const char *label, int64_t count, size_t size, enum cont
         memory_block_make(&block, ahead + rounded, large ? LARGE_PAGE : ALIGNMENT, content == MOSTLY_ZERO, &fresh);
     if (!block.whole) out_of_memory(label, count, size);
 #ifdef MADV_HUGEPAGE
-    if (large) madvise(from, ahead + rounded, MADV_HUGEPAGE); /* a wish: fewer faults and misses of the page table */
+    if (large) madvise(from, ahead + rounded, MADV_HUGEPAGE); /* advisory: fewer page faults and TLB misses */
     if (sparse && block.mapped > 0) madvise(block.whole, block.mapped, MADV_NOHUGEPAGE);
 #endif
     char *pointer = from + ahead;
@@ -217,7 +219,7 @@ void *memory_grow(const char *label, void *pointer, int64_t count, size_t size)
     return count <= room ? pointer : memory_resize(label, pointer, room, count > more ? count : more, size);
 }
 
-/* The system gives the pages of large arrays another place: nothing is copied, and what was never written stays so. */
+/* Extends the pages of a large array, possibly moving them: nothing is copied, and unwritten pages stay unwritten. */
 static bool pages_extend(struct block *block, char **pointer, size_t length)
 {
 #ifdef MREMAP_MAYMOVE
@@ -270,7 +272,7 @@ void memory_free(void *pointer)
 
 void memory_reuse(bool reuse)
 {
-#ifdef __GLIBC__ /* nor does the heap give back pages, or merge small pieces whenever a large one is freed */
+#ifdef __GLIBC__ /* the heap neither gives back pages nor merges small pieces whenever a large one is released */
     if (reuse) mallopt(M_TRIM_THRESHOLD, KEPT_ALL), mallopt(M_MXFAST, 0);
 #endif
 #ifdef MAP_ANONYMOUS
@@ -281,7 +283,7 @@ void memory_reuse(bool reuse)
 #endif
 }
 
-/* VmHWM is of this program alone; ru_maxrss remembers the program that started it. */
+/* VmHWM belongs to this program alone; ru_maxrss includes the program that started it. */
 static int64_t peak_of_program(void)
 {
     FILE *f = fopen("/proc/self/status", "r");

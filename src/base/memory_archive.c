@@ -1,4 +1,4 @@
-/* State in memory. */
+/* An archive in memory. */
 #include "base/memory_archive.h"
 
 #include "base/arrays.h"

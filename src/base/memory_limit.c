@@ -1,5 +1,5 @@
-/* How much memory this process may take: its own limits, and those of the control groups it is in
- * (containers, batch systems). */
+/* The memory that this process may take: its own limits, and those of its control groups (containers, batch
+ * systems). */
 #include "base/memory.h"
 
 #include <stdio.h>
@@ -12,7 +12,7 @@ static int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
 
 /* ---- control groups ---------------------------------------------------------------------------------------------- */
 
-/* The number in a file; INT64_MAX where there is none: no such file, or `max`. */
+/* Returns the number in a file, INT64_MAX if there is no file or it contains `max`. */
 static int64_t number_in(const char *path)
 {
     FILE *f = fopen(path, "r");
@@ -22,7 +22,8 @@ static int64_t number_in(const char *path)
     return found ? number : INT64_MAX;
 }
 
-/* Of a group and all above it; a container sees its own as the highest. */
+/* Returns the tightest limit of a control group and all groups above it; a container sees its own group as the
+ * highest. */
 static int64_t group_and_above(const char *base, char *group, const char *file)
 {
     int64_t limit = INT64_MAX;
@@ -36,7 +37,8 @@ static int64_t group_and_above(const char *base, char *group, const char *file)
     }
 }
 
-/* /proc/self/cgroup has lines `number:controllers:group`, of version 2 `0::group`. */
+/* Returns the tightest limit of all groups of the process. /proc/self/cgroup has lines `number:controllers:group`, in
+ * version 2 `0::group`. */
 static int64_t groups_limit(void)
 {
     FILE *f = fopen("/proc/self/cgroup", "r");
@@ -58,7 +60,7 @@ static int64_t groups_limit(void)
 
 /* ---- limits of the process --------------------------------------------------------------------------------------- */
 
-/* What a limit leaves beside what is taken already [pages]. */
+/* Returns what a limit leaves beyond the memory already taken [byte]; taken: [pages]. */
 static int64_t left_of(int resource, long long taken)
 {
     struct rlimit l;

@@ -1,4 +1,4 @@
-/* Texts in memory. */
+/* Streams into memory. */
 #include "base/memory_stream.h"
 
 #include <errno.h>
@@ -9,14 +9,14 @@
 
 #ifdef __linux__
 
-/* What a stream has collected; lost: a part of it found no memory. */
+/* The collected output of a stream; lost: a part of it could not be stored. */
 struct collected {
     char **text;
     size_t *length, room;
     bool lost;
 };
 
-/* Makes room for `more` bytes and a NUL. Returns false if there is no memory. */
+/* Ensures room for `more` bytes and a NUL. Returns false if there is no memory. */
 static bool collected_room(struct collected *c, size_t more)
 {
     const size_t least = *c->length + more + 1, room = least < 2 * c->room ? 2 * c->room : least;
@@ -27,7 +27,7 @@ static bool collected_room(struct collected *c, size_t more)
     return true;
 }
 
-/* fopencookie: returns 0 where bytes are lost. */
+/* Writer of fopencookie: returns 0 if bytes are lost. */
 static ssize_t collected_write(void *context, const char *bytes, size_t n)
 {
     struct collected *c = context;

@@ -1,6 +1,6 @@
-/* Modified proportioning with reduced gradient projections (Dostal & Schoeberl 2005): conjugate gradients among the
- * unknowns away from bounds, until those at bounds pull harder; a step into a bound goes on along the projected
- * gradient. */
+/* Modified proportioning with reduced gradient projections (MPRGP, Dostal & Schoeberl 2005): conjugate gradients over
+ * the unknowns away from bounds, until the gradient at bounds dominates; a step into a bound continues along the
+ * projected gradient. */
 #include "base/quadratic.h"
 
 #include <math.h>
@@ -19,15 +19,17 @@ static real pair_term(const void *context, int64_t k)
 }
 static real inner(int64_t n, const real *a, const real *b) { return team_sum(n, pair_term, &(struct pair){a, b}); }
 
-/* In unknowns times `scale`. */
+/* State of the minimisation, in unknowns scaled by `scale`. */
 struct descent {
     const struct quadratic *of;
     int64_t n;
     real *x, *low, *high, *scale;
-    real *gradient, *free, *chopped, *direction, *image, *room; /* chopped: of bounds that an unknown would leave */
-    real reach; /* a step along the gradient that is safe: 1 over the largest eigenvalue */
+    real *gradient, *free, *chopped, *direction, *image,
+        *room;  /* chopped: gradient of unknowns that would leave their bound */
+    real reach; /* safe length of a step along the gradient: 1 over the largest eigenvalue */
 };
 
+/* Computes y = H x in scaled unknowns. */
 static void scaled_product(void *context, const real *x, real *y)
 {
     const struct descent *d = context;
@@ -36,8 +38,8 @@ static void scaled_product(void *context, const real *x, real *y)
     for (int64_t k = 0; k < d->n; k++) y[k] /= d->scale[k];
 }
 
-/* Splits the gradient into that of free unknowns and that of unknowns which would leave their bound; returns the
- * squares of both, the first one by what bounds leave of it. */
+/* Splits the gradient into `free`, of unknowns away from bounds, and `chopped`, of unknowns that would leave their
+ * bound. *proportional: free . (free as limited by bounds); *chopped2: chopped . chopped. */
 static void gradient_split(struct descent *d, real *proportional, real *chopped2)
 {
     for (int64_t k = 0; k < d->n; k++) {
@@ -50,7 +52,7 @@ static void gradient_split(struct descent *d, real *proportional, real *chopped2
     *proportional = inner(d->n, d->room, d->free), *chopped2 = inner(d->n, d->chopped, d->chopped);
 }
 
-/* The longest step against the direction that stays within bounds. */
+/* Returns the longest step against `direction` within bounds. */
 static real longest_step(const struct descent *d, const real *direction)
 {
     real length = INFINITY;
@@ -60,6 +62,7 @@ static real longest_step(const struct descent *d, const real *direction)
     return length;
 }
 
+/* Moves x by -length `direction` within bounds and updates the gradient. */
 static void step_against(struct descent *d, const real *direction, real length)
 {
     for (int64_t k = 0; k < d->n; k++) {
@@ -68,7 +71,7 @@ static void step_against(struct descent *d, const real *direction, real length)
     }
 }
 
-/* A step along the free gradient, cut off at bounds. */
+/* Moves x along the free gradient, projected to the bounds. */
 static void step_projected(struct descent *d)
 {
     for (int64_t k = 0; k < d->n; k++)
@@ -78,6 +81,7 @@ static void step_projected(struct descent *d)
     for (int64_t k = 0; k < d->n; k++) d->gradient[k] -= d->of->goal[k] / d->scale[k];
 }
 
+/* Minimises with at most `most` products. Returns the number of products. */
 static int descend(struct descent *d, real close, int most)
 {
     real proportional, chopped2, first = -1;

@@ -1,10 +1,11 @@
-/* How long the last tenfold rise of something took. */
+/* Duration of the last tenfold increase of a quantity. */
 #include "base/rise.h"
 
 #include <math.h>
 
-#define NOTHING 1e-30  /* of a value: what was zero or less counts as that                   */
-#define SOMETHING 0.03 /* of a value: no mere background on which something faster has grown */
+#define NOTHING 1e-30 /* relative to the value: smaller records, also negative ones, count as this */
+/* relative to the value: larger records are no mere background of something that grows faster; empirical */
+#define SOMETHING 0.03
 
 void rise_note(struct rise *r, int64_t step, real value)
 {

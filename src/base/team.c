@@ -1,4 +1,4 @@
-/* The team of threads on the machine's cores, sums that do not depend on it, and clocks. */
+/* The team of threads on the machine's cores, sums independent of its size, and clocks. */
 #include "base/team.h"
 
 #include <hwloc.h>
@@ -18,15 +18,15 @@
 
 /* ---- the machine ------------------------------------------------------------------------------------------------- */
 
-/* What hwloc says of the machine and what this process may use of it. */
+/* The machine according to hwloc, and the part that this process may use. */
 struct place {
     hwloc_topology_t topology;
     hwloc_bitmap_t mask; /* hardware threads the process may run on */
 };
 
-/* The machine's memory, or what this process may take of it, found once: the search takes some 6 ms, a
- * hundred steps of a small scene. In a container hwloc may not see it, in a virtual machine only what it began with:
- * the system supplies the rest. */
+/* The memory of the machine, or the tightest limit of it, read once: that takes about 6 ms, a hundred steps of a small
+ * scene. In a container hwloc may not see the memory, in a virtual machine only its initial part: then the system's
+ * figure counts. */
 static struct memory_limit memory;
 
 static void note_memory(hwloc_topology_t topology)
@@ -38,7 +38,7 @@ static void note_memory(hwloc_topology_t topology)
     memory = limit.bytes < all ? limit : (struct memory_limit){all, "memory of the machine"};
 }
 
-/* The k-th physical core of the mask; NULL past the last. */
+/* Returns the k-th physical core of the mask; NULL past the last. */
 static hwloc_obj_t core_at(const struct place *place, int k)
 {
     hwloc_obj_t core = NULL;
@@ -47,8 +47,9 @@ static hwloc_obj_t core_at(const struct place *place, int k)
     return NULL;
 }
 
-/* Looking takes the calling thread to every core in turn and leaves it on the last, where it would share a helper's
- * core for some 20 ms, until the scheduler sees it: it goes to the first, and may go wherever it might. */
+/* Moves the calling thread to the first core, then allows it the whole mask again: reading the topology visits every
+ * core and leaves the thread on the last one, where it would share a helper's core for about 20 ms, until the scheduler
+ * moves it. */
 static void rebind_main(const struct place *place)
 {
     const hwloc_obj_t core = core_at(place, 0);
@@ -63,7 +64,7 @@ static void rebind_main(const struct place *place)
 static bool place_make(struct place *place)
 {
     setenv("HWLOC_HIDE_ERRORS", "2", 0); /* a machine that hides its topology is no fault of the run */
-    /* plugins search for graphics and the like: 3 MB and up to 60 ms for nothing needed here */
+    /* plugins search for graphics cards and the like: 3 MB and up to 60 ms for nothing needed here */
     setenv("HWLOC_PLUGINS_PATH", "", 0);
     note_memory(NULL);
     if (hwloc_topology_init(&place->topology) != 0) return false;
@@ -88,7 +89,7 @@ static void place_free(struct place *place)
     hwloc_topology_destroy(place->topology);
 }
 
-/* Physical cores of the mask; where hwloc sees none (some virtual machines), its hardware threads. */
+/* Returns the number of physical cores of the mask; if hwloc sees none (some virtual machines), of hardware threads. */
 static int core_count(const struct place *place)
 {
     int cores = 0;
@@ -138,9 +139,9 @@ const char *team_memory_limit(void)
 
 /* ---- the team ---------------------------------------------------------------------------------------------------- */
 
-/* Each helper to a core of its own, or back to the whole mask where there are not enough cores. The calling
- * thread stays free: its mask is what tells the next call (another team size) what the process may use, and the
- * programs it starts inherit it. */
+/* Binds each helper to a core of its own, or to the whole mask if there are too few cores. The calling thread stays
+ * free: its mask shows the next call (another team size) what the process may use, and programs that it starts inherit
+ * it. */
 static void bind_helpers(const struct place *place, int threads)
 {
     bool apart = core_at(place, threads - 1) != NULL;
@@ -149,14 +150,14 @@ static void bind_helpers(const struct place *place, int threads)
         int k = omp_get_thread_num();
         hwloc_bitmap_t mine = hwloc_bitmap_dup(place->mask);
         if (apart) hwloc_bitmap_and(mine, mine, core_at(place, k)->cpuset);
-        if (k > 0) hwloc_set_cpubind(place->topology, mine, HWLOC_CPUBIND_THREAD); /* a wish: refusal does no harm */
+        if (k > 0) hwloc_set_cpubind(place->topology, mine, HWLOC_CPUBIND_THREAD); /* advisory: refusal does no harm */
         hwloc_bitmap_free(mine);
     }
 }
 
 static bool user_binds(void) { return getenv("OMP_PROC_BIND") != NULL || getenv("OMP_PLACES") != NULL; }
 
-/* As many as the user's places hold, no more than OpenMP would take. */
+/* Returns the number of hardware threads in the user's OMP_PLACES, at most that of OpenMP. */
 static int bound_threads(void)
 {
     int held = 0, most = omp_get_max_threads();
@@ -164,8 +165,8 @@ static int bound_threads(void)
     return held > 0 && held < most ? held : most;
 }
 
-/* Numbers too small to be normal count as 0, in every thread alike: ahead of a wave what is mapped from node to node
- * falls below 1e-308 within some steps, and such numbers would cost a hundred times an ordinary one. */
+/* Sets denormal numbers to 0 in every thread: ahead of a wave values mapped from node to node fall below 1e-308 within
+ * some steps, and operations on denormal numbers take a hundred times as long. */
 static void flush_tiny_numbers(int threads)
 {
 #ifdef __SSE__
@@ -183,9 +184,10 @@ static void *wait_for(void *mutex)
     return NULL;
 }
 
-enum { LIBRARY_ROOM = 16 << 20 }; /* what OpenMP's library may take besides stacks [byte] */
+enum { LIBRARY_ROOM = 16 << 20 }; /* memory that the OpenMP library may take besides stacks [byte] */
 
-/* Can so many be had at once? OpenMP's library ends the process where they cannot, and not in one line. */
+/* Returns true if so many threads can exist at once; otherwise the OpenMP library would end the process with several
+ * lines. */
 static bool threads_start(int threads)
 {
     void *room =
@@ -208,7 +210,7 @@ int team_make(int threads)
     struct place place;
     bool known = place_make(&place);
     if (threads <= 0) {
-        /* a bound process has left this thread one place of many: the mask does not say how many threads are meant */
+        /* a process bound to places sees only one of them in its mask: count threads by places */
         if (getenv("OMP_NUM_THREADS") != NULL)
             threads = omp_get_max_threads();
         else if (user_binds())
@@ -223,7 +225,7 @@ int team_make(int threads)
             threads);
         _exit(FAILED);
     }
-    omp_set_dynamic(0); /* always this many: partitions must not change between loops */
+    omp_set_dynamic(0); /* a fixed number: partitions must not change between loops */
     omp_set_num_threads(threads);
     flush_tiny_numbers(threads);
     if (known) {
@@ -283,7 +285,9 @@ void core_shares_free(struct core_shares *s)
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
-enum { FEW_BLOCKS = 16 }; /* sums without memory of their own: steps need short ones several times         */
+enum {
+    FEW_BLOCKS = 16
+}; /* largest number of blocks of a sum without allocation: steps need short sums several times */
 
 static void sum_block(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                       const void *context, int64_t b, real *part)

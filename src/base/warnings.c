@@ -1,4 +1,4 @@
-/* What a run has to say that is no error. */
+/* The list of warnings of a run. */
 #include "base/warnings.h"
 
 #include <stdarg.h>
@@ -45,7 +45,7 @@ void warnings_say(struct warnings *w, const char *text)
     if (warnings_add(w, "%s", text)) warnings_print_new(w, w->n - 1);
 }
 
-/* All in one text, each with its end. */
+/* Stores all warnings as one text, each with its terminating zero. */
 status warnings_archive(struct warnings *w, struct archive *a)
 {
     int64_t length = 0;

@@ -1,4 +1,4 @@
-/* The choice among the sets of kernels. */
+/* Selection of a set of kernels. */
 #include "simd/simd.h"
 
 #include <stdio.h>
@@ -18,14 +18,14 @@ extern const struct kernel_set kernel_set_portable;
 #ifdef __x86_64__
 extern const struct kernel_set kernel_set_avx512, kernel_set_avx2;
 
-/* Bits of the third register that the processor answers a question (a leaf of cpuid) with. */
+/* Returns true if the processor reports all `bits` in register ecx of cpuid leaf `leaf`. */
 static inline bool responses(unsigned leaf, unsigned bits)
 {
     unsigned a, b, c, d;
     return __get_cpuid(leaf, &a, &b, &c, &d) && (c & bits) == bits;
 }
 
-/* The levels of x86-64 by what they consist of: not every compiler knows them by name, or all of their parts. */
+/* Levels of x86-64 by their parts, since not every compiler knows their names, or all of the parts. */
 static inline bool runs_avx2(void)
 {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
@@ -40,7 +40,7 @@ static inline bool runs_avx512(void)
 }
 #endif
 
-/* The Makefile defines KERNELS_... for each set that it builds, as the build lists them. */
+/* The Makefile defines KERNELS_... for each set that it builds. */
 const struct simd_set simd_sets[] = {
 #ifdef KERNELS_avx512
     {"avx512", "AVX-512 (x86-64-v4), 8 doubles a vector", runs_avx512, &kernel_set_avx512},
@@ -58,8 +58,8 @@ const struct simd_set simd_sets[] = {
 };
 const int simd_set_count = COUNT_OF(simd_sets);
 
-/* The kernels in use, under their own names. With simd_in_use the program's one choice that is kept outside of a
- * run. */
+/* The kernels in use, under their own names. With simd_in_use the only selection of the program that is stored outside
+ * of a run. */
 #define DEFINE(name) __typeof__(&*name) name;
 KERNELS(DEFINE)
 static const struct simd_set *in_use;
@@ -74,7 +74,7 @@ void simd_use(const struct simd_set *set)
 
 const struct simd_set *simd_in_use(void) { return in_use; }
 
-/* "avx2, portable": the sets, or those that run here. */
+/* Lists the names of all sets, or of the supported ones (running), as in "avx2, portable". Returns text. */
 static const char *names(bool running, char *text, size_t size)
 {
     size_t length = 0;
@@ -106,5 +106,5 @@ status simd_start(void)
                       names(true, text, sizeof text));
 }
 
-/* Kernels are chosen before anything runs; main checks again, and reports a fault. */
+/* Kernels are selected before anything runs; main checks again, and reports a failure. */
 __attribute__((constructor)) static void simd_start_set(void) { (void)simd_start(); }
