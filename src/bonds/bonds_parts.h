@@ -92,7 +92,6 @@ real row_trigger(const struct bond_source *s, const struct particles *p, int32_t
 static inline bool columns_by_offset(int offsets, int longest) { return offsets <= longest + longest / 3; }
 
 /* Families of eight consecutive particles on a lattice, by index distance in ascending order. */
-/* Families of eight consecutive particles on a lattice, by index distance in ascending order. */
 struct regular_bonds {
     int n;              /* number of index distances */
     bool full;          /* every lane has a neighbour at every distance */
